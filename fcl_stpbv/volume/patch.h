@@ -1,0 +1,82 @@
+// One formula for the three patches of an STP-BV's surface: small sphere, torus part, big sphere.
+#pragma once
+
+#include <Eigen/Core>
+#include <cmath>
+
+namespace fcl_stpbv {
+
+enum class PatchKind { vertex, edge, face };
+
+/// A piece of the surface, written as the offset of a point or of a circle (paper III; docs/theory.md, 2).
+///
+/// Every patch is the set `I - kappa w + c n` over its unit normals `n`, `w` the unit part of `n` across `u`.
+/// `R` is 10 m and more while answers are micrometres, so only the lengths near the body are stored: an
+/// anchor point among the vertices and, for a face, the unit normal there. Lengths in m, body frame.
+struct Patch {
+  Eigen::Vector3d anchor;  ///< vertex: p; edge: its middle I; face: one of its vertices
+  Eigen::Vector3d axis;    ///< vertex: 0; edge: unit u from its first to its second vertex; face: (anchor - C)/rho
+  double kappa;            ///< radius of the circle of centres, sqrt(rho^2 - l^2/4) for an edge, else 0
+  double sag;              ///< edge: rho - kappa, height of the core's arc over the edge's middle, else 0
+};
+
+/// The radii all patches of one body share.
+struct Radii {
+  double r;    ///< small radius, the margin (m)
+  double R;    ///< big radius (m)
+  double rho;  ///< R - r, radius of the balls whose intersection is the core (m)
+};
+
+/// Height of the patch's supporting plane with unit normal `n` above its anchor, margin included (m).
+/// Free of cancellation for any R (docs/theory.md, 2).
+inline double supportAboveAnchor(const Patch& patch, PatchKind kind, const Radii& radii,
+                                 const Eigen::Vector3d& n) {
+  switch (kind) {
+    case PatchKind::edge: {
+      const double v = n.dot(patch.axis);
+      const double v2 = std::min(v * v, 1.0);
+      return radii.r + patch.sag + patch.kappa * v2 / (1.0 + std::sqrt(1.0 - v2));
+    }
+    case PatchKind::face: return radii.r + 0.5 * radii.rho * (n - patch.axis).squaredNorm();
+    case PatchKind::vertex: break;
+  }
+  return radii.r;
+}
+
+/// Support value h(n) of the patch continued over the whole sphere, relative to the body's origin (m).
+inline double support(const Patch& patch, PatchKind kind, const Radii& radii, const Eigen::Vector3d& n) {
+  return n.dot(patch.anchor) + supportAboveAnchor(patch, kind, radii, n);
+}
+
+/// The patch's point with outward unit normal `n` on the core, the body without its margin `r` (m).
+inline Eigen::Vector3d corePoint(const Patch& patch, PatchKind kind, const Radii& radii,
+                                 const Eigen::Vector3d& n) {
+  switch (kind) {
+    case PatchKind::edge: {
+      // rho n - kappa w = rho v u + (rho c - kappa) w with c = sqrt(1 - v^2); the bracket without cancellation,
+      // half being the edge's half length.
+      const double v = n.dot(patch.axis);
+      const double c = std::sqrt(std::max(0.0, 1.0 - v * v));
+      const double half2 = patch.sag * (radii.rho + patch.kappa);
+      const double across = (half2 - radii.rho * radii.rho * v * v) / (radii.rho * c + patch.kappa);
+      const Eigen::Vector3d w = c > 0.0 ? Eigen::Vector3d((n - v * patch.axis) / c) : Eigen::Vector3d(0, 0, 0);
+      return patch.anchor + radii.rho * v * patch.axis + across * w;
+    }
+    case PatchKind::face: return patch.anchor + radii.rho * (n - patch.axis);
+    case PatchKind::vertex: break;
+  }
+  return patch.anchor;
+}
+
+/// Centre of the patch's point or circle, `I` of docs/theory.md, 2 (m).
+inline Eigen::Vector3d centre(const Patch& patch, PatchKind kind, const Radii& radii) {
+  if (kind == PatchKind::face) return patch.anchor - radii.rho * patch.axis;
+  return patch.anchor;
+}
+
+/// Offset `c` of the patch: r for a vertex, R for an edge or a face (m).
+inline double offset(PatchKind kind, const Radii& radii) {
+  return kind == PatchKind::vertex ? radii.r : radii.R;
+}
+
+}  // namespace fcl_stpbv

@@ -1,0 +1,120 @@
+// The sphere-torus-patch bounding volume: what it is and what can be asked of it.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "fcl_stpbv/error.h"
+#include "fcl_stpbv/volume/patch.h"
+
+namespace fcl_stpbv {
+
+/// Radii to build a volume with (paper III).
+struct StpBvOptions {
+  double r = 0.01;  ///< radius of the small spheres, the least margin around the points (m), >= 0
+  double R = 10.0;  ///< radius of the big spheres (m); R - r must exceed the minimum enclosing ball's radius
+};
+
+/// Strictly convex, C1 body around a cloud of points: a small sphere on each vertex, a part of a torus on
+/// each edge, a part of a big sphere on each face (paper III).
+///
+/// Immutable; any number of threads may query one. All points, normals and directions are in the body's own
+/// frame, lengths in metres, normals unit and outward. Queries never throw and never allocate.
+class StpBv {
+ public:
+  using Ptr = std::shared_ptr<const StpBv>;
+  using Ring = std::vector<int>;  ///< a face's vertices, counter-clockwise seen from outside
+
+  /// An edge's two vertices and the faces on its two sides; faces are -1 on a spindle (two vertices, one edge
+  /// patch all the way round). `face[0]` runs from `vertex[0]` to `vertex[1]`.
+  struct Edge {
+    std::array<int, 2> vertex;
+    std::array<int, 2> face;
+  };
+
+  /// One side of a patch's region of normals: `n` is inside iff `n.normal <= limit`; past it lies `neighbour`.
+  struct Seam {
+    Eigen::Vector3d normal;
+    double limit;
+    int neighbour;
+  };
+
+  /// Rolls a ball of radius `R - r` over the cloud (paper IV.A, Algorithm 1). Points that it cannot touch are
+  /// inside and drop out; cospherical ones share one k-gon face.
+  /// @throws Error for an empty cloud, a coordinate that is not finite, r < 0, R <= r, or R below the smallest
+  ///   usable one, which the message states.
+  static Ptr build(const std::vector<Eigen::Vector3d>& points, const StpBvOptions& options = {});
+
+  /// Puts a volume together from its own vertices and faces, as a file holds them.
+  /// @throws Error where they are not an STP-BV's for these radii.
+  static Ptr assemble(std::vector<Eigen::Vector3d> vertices, std::vector<Ring> faces, const StpBvOptions& options);
+
+  const Radii& radii() const { return radii_; }
+  const std::vector<Eigen::Vector3d>& vertices() const { return vertices_; }
+  const std::vector<Edge>& edges() const { return edges_; }
+  const std::vector<Ring>& faces() const { return faces_; }
+
+  int vertexCount() const { return static_cast<int>(vertices_.size()); }
+  int edgeCount() const { return static_cast<int>(edges_.size()); }
+  int faceCount() const { return static_cast<int>(faces_.size()); }
+
+  /// Patches are numbered vertices first, then edges, then faces.
+  int patchCount() const { return static_cast<int>(patches_.size()); }
+  int edgePatch(int edge) const { return vertexCount() + edge; }
+  int facePatch(int face) const { return vertexCount() + edgeCount() + face; }
+  PatchKind kind(int patch) const {
+    return patch < vertexCount()                 ? PatchKind::vertex
+           : patch < vertexCount() + edgeCount() ? PatchKind::edge
+                                                 : PatchKind::face;
+  }
+  const Patch& patch(int index) const { return patches_[static_cast<std::size_t>(index)]; }
+
+  /// The seams around a patch's region of normals (paper III.D).
+  const Seam* seamsBegin(int patch) const { return seams_.data() + seamStart_[static_cast<std::size_t>(patch)]; }
+  const Seam* seamsEnd(int patch) const { return seams_.data() + seamStart_[static_cast<std::size_t>(patch) + 1]; }
+
+  /// How far `n` lies outside the patch's region: the largest `n.normal - limit`, <= 0 inside.
+  double outside(int patch, const Eigen::Vector3d& n) const;
+
+  /// The patch whose region holds the unit normal `n`, found by walking over the seams from `hint` (any patch),
+  /// or from a direction table when `hint` is negative.
+  int owner(const Eigen::Vector3d& n, int hint = -1) const;
+
+  /// Support function h(n) = max over the body of x.n, for unit `n` (m).
+  double support(const Eigen::Vector3d& n, int hint = -1) const;
+
+  /// The surface point whose outward normal is the unit vector `n` (m).
+  Eigen::Vector3d surfacePoint(const Eigen::Vector3d& n, int hint = -1) const;
+
+  /// A point well inside, the centre of the vertices' minimum enclosing ball, and that ball's radius (m): every
+  /// surface point is within `enclosingRadius()` of `centre()`.
+  const Eigen::Vector3d& centre() const { return centre_; }
+  double enclosingRadius() const { return enclosingRadius_; }
+
+  /// Memory this volume holds, in bytes.
+  std::size_t memory() const;
+
+ private:
+  StpBv() = default;
+  void makePatches();
+  void makeSeams();
+  void makeTable();
+  int walk(const Eigen::Vector3d& n, int from) const;
+
+  Radii radii_{};
+  std::vector<Eigen::Vector3d> vertices_;
+  std::vector<Edge> edges_;
+  std::vector<Ring> faces_;
+  std::vector<Patch> patches_;
+  std::vector<Seam> seams_;
+  std::vector<std::int32_t> seamStart_;
+  std::vector<std::int32_t> table_;  // patch owning the middle of each cell of a cube map of directions
+  int cells_ = 1;                    // cells along a cube's side in table_
+  Eigen::Vector3d centre_{0, 0, 0};
+  double enclosingRadius_ = 0;
+};
+
+}  // namespace fcl_stpbv
