@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
 
 namespace fcl_stpbv {
@@ -15,9 +16,10 @@ enum class PatchKind { vertex, edge, face };
 /// anchor point among the vertices and, for a face, the unit normal there. Lengths in m, body frame.
 struct Patch {
   Eigen::Vector3d anchor;  ///< vertex: p; edge: its middle I; face: one of its vertices
-  Eigen::Vector3d axis;    ///< vertex: 0; edge: unit u from its first to its second vertex; face: (anchor - C)/rho
-  double kappa;            ///< radius of the circle of centres, sqrt(rho^2 - l^2/4) for an edge, else 0
-  double sag;              ///< edge: rho - kappa, height of the core's arc over the edge's middle, else 0
+  Eigen::Vector3d
+      axis;      ///< vertex: 0; edge: unit u from its first to its second vertex; face: (anchor - C)/rho
+  double kappa;  ///< radius of the circle of centres, sqrt(rho^2 - l^2/4) for an edge, else 0
+  double sag;    ///< edge: rho - kappa, height of the core's arc over the edge's middle, else 0
 };
 
 /// The radii all patches of one body share.
@@ -37,8 +39,10 @@ inline double supportAboveAnchor(const Patch& patch, PatchKind kind, const Radii
       const double v2 = std::min(v * v, 1.0);
       return radii.r + patch.sag + patch.kappa * v2 / (1.0 + std::sqrt(1.0 - v2));
     }
-    case PatchKind::face: return radii.r + 0.5 * radii.rho * (n - patch.axis).squaredNorm();
-    case PatchKind::vertex: break;
+    case PatchKind::face:
+      return radii.r + 0.5 * radii.rho * (n - patch.axis).squaredNorm();
+    case PatchKind::vertex:
+      break;
   }
   return radii.r;
 }
@@ -53,17 +57,25 @@ inline Eigen::Vector3d corePoint(const Patch& patch, PatchKind kind, const Radii
                                  const Eigen::Vector3d& n) {
   switch (kind) {
     case PatchKind::edge: {
-      // rho n - kappa w = rho v u + (rho c - kappa) w with c = sqrt(1 - v^2); the bracket without cancellation,
-      // half being the edge's half length.
+      // rho n - kappa w = rho v u + (rho c - kappa) w with c = |n - v u| = sqrt(1 - v^2). For large rho the
+      // bracket is the small difference of large numbers and is written with the edge's half length h
+      // instead, rho^2 - kappa^2 = h^2; near the smallest R kappa is small and that form would divide by
+      // little.
       const double v = n.dot(patch.axis);
-      const double c = std::sqrt(std::max(0.0, 1.0 - v * v));
-      const double half2 = patch.sag * (radii.rho + patch.kappa);
-      const double across = (half2 - radii.rho * radii.rho * v * v) / (radii.rho * c + patch.kappa);
-      const Eigen::Vector3d w = c > 0.0 ? Eigen::Vector3d((n - v * patch.axis) / c) : Eigen::Vector3d(0, 0, 0);
-      return patch.anchor + radii.rho * v * patch.axis + across * w;
+      const Eigen::Vector3d side = n - v * patch.axis;
+      const double c = side.norm();
+      if (!(c > 0.0)) return patch.anchor + radii.rho * v * patch.axis;
+      double across = radii.rho * c - patch.kappa;
+      if (patch.kappa > 0.5 * radii.rho) {
+        const double h2 = patch.sag * (radii.rho + patch.kappa), t = radii.rho * v;
+        across = (h2 - t * t) / (radii.rho * c + patch.kappa);
+      }
+      return patch.anchor + radii.rho * v * patch.axis + (across / c) * side;
     }
-    case PatchKind::face: return patch.anchor + radii.rho * (n - patch.axis);
-    case PatchKind::vertex: break;
+    case PatchKind::face:
+      return patch.anchor + radii.rho * (n - patch.axis);
+    case PatchKind::vertex:
+      break;
   }
   return patch.anchor;
 }

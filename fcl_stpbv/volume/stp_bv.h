@@ -29,13 +29,17 @@ class StpBv {
   using Ring = std::vector<int>;  ///< a face's vertices, counter-clockwise seen from outside
 
   /// An edge's two vertices and the faces on its two sides; faces are -1 on a spindle (two vertices, one edge
-  /// patch all the way round). `face[0]` runs from `vertex[0]` to `vertex[1]`.
+  /// patch all the way round). `face[0]` runs from `vertex[0]` to `vertex[1]`; `turn` is the angle about the
+  /// edge from its normals to those of `face[1]`, below 2 pi, and 2 pi on a spindle. Two vertices may be
+  /// joined by several edges.
   struct Edge {
     std::array<int, 2> vertex;
     std::array<int, 2> face;
+    double turn;
   };
 
-  /// One side of a patch's region of normals: `n` is inside iff `n.normal <= limit`; past it lies `neighbour`.
+  /// One side of a patch's region of normals: `n` is inside iff `n.normal <= limit`; past it lies
+  /// `neighbour`.
   struct Seam {
     Eigen::Vector3d normal;
     double limit;
@@ -44,43 +48,55 @@ class StpBv {
 
   /// Rolls a ball of radius `R - r` over the cloud (paper IV.A, Algorithm 1). Points that it cannot touch are
   /// inside and drop out; cospherical ones share one k-gon face.
-  /// @throws Error for an empty cloud, a coordinate that is not finite, r < 0, R <= r, or R below the smallest
+  /// @throws Error for an empty cloud, a coordinate that is not finite, r < 0, R <= r, or R below the
+  /// smallest
   ///   usable one, which the message states.
   static Ptr build(const std::vector<Eigen::Vector3d>& points, const StpBvOptions& options = {});
 
   /// Puts a volume together from its own vertices and faces, as a file holds them.
-  /// @throws Error where they are not an STP-BV's for these radii.
-  static Ptr assemble(std::vector<Eigen::Vector3d> vertices, std::vector<Ring> faces, const StpBvOptions& options);
+  /// @throws Error where they are not an STP-BV's for these radii: an index out of range, faces that do not
+  /// close, or a
+  ///   vertex outside a face's ball.
+  static Ptr assemble(std::vector<Eigen::Vector3d> vertices, std::vector<Ring> faces,
+                      const StpBvOptions& options);
 
   const Radii& radii() const { return radii_; }
   const std::vector<Eigen::Vector3d>& vertices() const { return vertices_; }
   const std::vector<Edge>& edges() const { return edges_; }
   const std::vector<Ring>& faces() const { return faces_; }
 
+  /// Unit outward normal of a face's big sphere at one of the face's vertices: a corner where regions meet.
+  Eigen::Vector3d corner(int face, int vertex) const;
+
   int vertexCount() const { return static_cast<int>(vertices_.size()); }
   int edgeCount() const { return static_cast<int>(edges_.size()); }
   int faceCount() const { return static_cast<int>(faces_.size()); }
 
-  /// Patches are numbered vertices first, then edges, then faces.
+  /// Patches are numbered vertices first, then edges, then faces, then the further parts of edges that turn
+  /// by more than half a turn: each patch's region of normals is the intersection of its seams' sides.
   int patchCount() const { return static_cast<int>(patches_.size()); }
   int edgePatch(int edge) const { return vertexCount() + edge; }
   int facePatch(int face) const { return vertexCount() + edgeCount() + face; }
   PatchKind kind(int patch) const {
-    return patch < vertexCount()                 ? PatchKind::vertex
-           : patch < vertexCount() + edgeCount() ? PatchKind::edge
-                                                 : PatchKind::face;
+    return patch < vertexCount()                                     ? PatchKind::vertex
+           : patch < facePatch(0) || patch >= facePatch(faceCount()) ? PatchKind::edge
+                                                                     : PatchKind::face;
   }
   const Patch& patch(int index) const { return patches_[static_cast<std::size_t>(index)]; }
 
   /// The seams around a patch's region of normals (paper III.D).
-  const Seam* seamsBegin(int patch) const { return seams_.data() + seamStart_[static_cast<std::size_t>(patch)]; }
-  const Seam* seamsEnd(int patch) const { return seams_.data() + seamStart_[static_cast<std::size_t>(patch) + 1]; }
+  const Seam* seamsBegin(int patch) const {
+    return seams_.data() + seamStart_[static_cast<std::size_t>(patch)];
+  }
+  const Seam* seamsEnd(int patch) const {
+    return seams_.data() + seamStart_[static_cast<std::size_t>(patch) + 1];
+  }
 
   /// How far `n` lies outside the patch's region: the largest `n.normal - limit`, <= 0 inside.
   double outside(int patch, const Eigen::Vector3d& n) const;
 
-  /// The patch whose region holds the unit normal `n`, found by walking over the seams from `hint` (any patch),
-  /// or from a direction table when `hint` is negative.
+  /// The patch whose region holds the unit normal `n`, found by walking over the seams from `hint` (any
+  /// patch), or from a direction table when `hint` is negative.
   int owner(const Eigen::Vector3d& n, int hint = -1) const;
 
   /// Support function h(n) = max over the body of x.n, for unit `n` (m).
@@ -89,25 +105,32 @@ class StpBv {
   /// The surface point whose outward normal is the unit vector `n` (m).
   Eigen::Vector3d surfacePoint(const Eigen::Vector3d& n, int hint = -1) const;
 
-  /// A point well inside, the centre of the vertices' minimum enclosing ball, and that ball's radius (m): every
-  /// surface point is within `enclosingRadius()` of `centre()`.
+  /// A point well inside, the centre of the vertices' minimum enclosing ball, and that ball's radius (m):
+  /// every surface point is within `enclosingRadius()` of `centre()`.
   const Eigen::Vector3d& centre() const { return centre_; }
   double enclosingRadius() const { return enclosingRadius_; }
 
   /// Memory this volume holds, in bytes.
   std::size_t memory() const;
 
+  /// Smallest big radius for these points and this margin (m); build() takes any R above it.
+  static double smallestR(const std::vector<Eigen::Vector3d>& points, double r);
+
  private:
   StpBv() = default;
+  static Ptr make(std::vector<Eigen::Vector3d> vertices, std::vector<Ring> faces,
+                  const StpBvOptions& options);
+  void makeEdges();
   void makePatches();
   void makeSeams();
   void makeTable();
-  int walk(const Eigen::Vector3d& n, int from) const;
+  std::size_t cell(const Eigen::Vector3d& n) const;
 
   Radii radii_{};
   std::vector<Eigen::Vector3d> vertices_;
   std::vector<Edge> edges_;
   std::vector<Ring> faces_;
+  std::vector<Eigen::Vector3d> faceNormals_;  // unit, at each ring's first vertex
   std::vector<Patch> patches_;
   std::vector<Seam> seams_;
   std::vector<std::int32_t> seamStart_;

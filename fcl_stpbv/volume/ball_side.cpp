@@ -1,0 +1,151 @@
+#include "fcl_stpbv/volume/ball_side.h"
+
+#include <cmath>
+#include <limits>
+
+namespace fcl_stpbv {
+namespace {
+
+#ifdef __SIZEOF_FLOAT128__
+__extension__ typedef __float128 Quad;
+#else
+using Quad = long double;  // already 113 bits on the platforms without __float128
+#endif
+
+constexpr double kQuadEpsilon = 1e-33;  // 2^-112 = 1.9e-34, with room
+constexpr double kLongEpsilon =
+    std::numeric_limits<long double>::epsilon() * 8;  // a dozen roundings a formula
+
+template <class T>
+struct Vec {
+  T x, y, z;
+};
+template <class T>
+Vec<T> difference(const Eigen::Vector3d& p, const Eigen::Vector3d& q) {
+  return {T(p.x()) - T(q.x()), T(p.y()) - T(q.y()), T(p.z()) - T(q.z())};
+}
+template <class T>
+T dot(const Vec<T>& a, const Vec<T>& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+template <class T>
+Vec<T> cross(const Vec<T>& a, const Vec<T>& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+template <class T>
+Vec<T> combine(T s, const Vec<T>& a, T t, const Vec<T>& b) {
+  return {s * a.x + t * b.x, s * a.y + t * b.y, s * a.z + t * b.z};
+}
+
+long double squareRoot(long double x) { return std::sqrt(x); }
+#ifdef __SIZEOF_FLOAT128__
+Quad squareRoot(Quad x) {
+  if (x <= 0) return 0;
+  Quad y = std::sqrt(static_cast<long double>(x));
+  y = (y + x / y) / 2;  // 64 bits become 113 in one Newton step
+  return (y + x / y) / 2;
+}
+#endif
+
+// Outward normal at a of the ball through a, a+u, a+v; `condition` tells how much it magnifies rounding.
+// With N = u x v and O the circumcentre relative to a: m = -kappa O + sqrt(1 - kappa^2 O^2) N/|N|.
+template <class T>
+bool ballNormal(const Vec<T>& u, const Vec<T>& v, T kappa, Vec<T>* m, double* condition) {
+  const Vec<T> n = cross(u, v);
+  const T n2 = dot(n, n), u2 = dot(u, u), v2 = dot(v, v);
+  const double sine = std::sqrt(static_cast<double>(n2 / (u2 * v2)));  // NaN for coinciding points
+  if (!(sine > 1e-15)) return false;                                   // on a line to double precision
+  const T length = squareRoot(n2);
+  const Vec<T> towards = combine(u2, cross(v, n), v2, cross(n, u));
+  const T scale = kappa / (2 * n2);
+  const Vec<T> o{scale * towards.x, scale * towards.y, scale * towards.z};
+  const T rest = 1 - dot(o, o);
+  // A circumradius equal to the radius to within rounding still touches.
+  if (static_cast<double>(rest) < -1e-17 / (sine * sine)) return false;
+  const T root = rest > 0 ? squareRoot(rest) : T(0);
+  *m = combine(T(-1), o, root / length, n);
+  *condition = (1 + 1 / (static_cast<double>(root) + 1e-9)) / sine;
+  return true;
+}
+
+}  // namespace
+
+struct TouchingBall::Exact {
+  Quad kappa;
+  Vec<Quad> m;
+};
+
+TouchingBall::TouchingBall(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c,
+                           double radius)
+    : anchor_(a), b_(b), c_(c), radius_(radius) {
+  kappa_ = std::isinf(radius) ? 0.0L : 1.0L / static_cast<long double>(radius);
+  Vec<long double> m{};
+  valid_ = ballNormal(difference<long double>(b, a), difference<long double>(c, a), kappa_, &m, &condition_);
+  if (!valid_) return;
+  double error = kLongEpsilon * condition_;
+  if (error > 1e-17) {
+    const Vec<Quad>& e = exact().m;
+    m = {static_cast<long double>(e.x), static_cast<long double>(e.y), static_cast<long double>(e.z)};
+    error = kLongEpsilon + kQuadEpsilon * condition_;
+  }
+  m_[0] = m.x, m_[1] = m.y, m_[2] = m.z;
+  normal_ = {static_cast<double>(m.x), static_cast<double>(m.y), static_cast<double>(m.z)};
+  normalError_ = error;
+}
+
+const TouchingBall::Exact& TouchingBall::exact() const {
+  if (!exact_) {
+    auto e = std::make_shared<Exact>();
+    e->kappa = std::isinf(radius_) ? Quad(0) : Quad(1) / Quad(radius_);
+    double unused = 0;
+    ballNormal(difference<Quad>(b_, anchor_), difference<Quad>(c_, anchor_), e->kappa, &e->m, &unused);
+    exact_ = std::move(e);
+  }
+  return *exact_;
+}
+
+Eigen::Vector3d TouchingBall::normalAt(const Eigen::Vector3d& p) const {
+  const Vec<long double> q = difference<long double>(p, anchor_);
+  const Eigen::Vector3d m(static_cast<double>(m_[0] + kappa_ * q.x),
+                          static_cast<double>(m_[1] + kappa_ * q.y),
+                          static_cast<double>(m_[2] + kappa_ * q.z));
+  return m.normalized();
+}
+
+long double TouchingBall::height(const Eigen::Vector3d& p) const {
+  const Vec<long double> q = difference<long double>(p, anchor_);
+  return kappa_ * dot(q, q) / 2 + (q.x * m_[0] + q.y * m_[1] + q.z * m_[2]);
+}
+
+int TouchingBall::side(const Eigen::Vector3d& p) const {
+  const double length = (p - anchor_).norm();
+  const long double rough = height(p);
+  const long double certain = (kLongEpsilon + normalError_) * length;
+  if (rough > certain) return 1;
+  if (rough < -certain) return -1;
+  const Exact& e = exact();
+  const Vec<Quad> q = difference<Quad>(p, anchor_);
+  const double value = static_cast<double>(e.kappa * dot(q, q) / 2 + dot(q, e.m));
+  const double zero = 64 * kQuadEpsilon * condition_ * length;
+  return value > zero ? 1 : value < -zero ? -1 : 0;
+}
+
+int TouchingBall::turn(const Eigen::Vector3d& p, const Eigen::Vector3d& q, const Eigen::Vector3d& s) const {
+  const double size = (q - p).norm() * (s - p).norm();
+  {
+    const Vec<long double> o = difference<long double>(p, anchor_);
+    const Vec<long double> m{m_[0] + kappa_ * o.x, m_[1] + kappa_ * o.y, m_[2] + kappa_ * o.z};
+    const long double d = dot(m, cross(difference<long double>(q, p), difference<long double>(s, p)));
+    const double certain = (kLongEpsilon + normalError_) * size;
+    if (d > certain) return 1;
+    if (d < -certain) return -1;
+  }
+  const Exact& e = exact();
+  const Vec<Quad> o = difference<Quad>(p, anchor_);
+  const Vec<Quad> m{e.m.x + e.kappa * o.x, e.m.y + e.kappa * o.y, e.m.z + e.kappa * o.z};
+  const double d = static_cast<double>(dot(m, cross(difference<Quad>(q, p), difference<Quad>(s, p))));
+  const double zero = 64 * kQuadEpsilon * condition_ * size;
+  return d > zero ? 1 : d < -zero ? -1 : 0;
+}
+
+}  // namespace fcl_stpbv

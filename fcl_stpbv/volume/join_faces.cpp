@@ -1,0 +1,139 @@
+#include "fcl_stpbv/volume/join_faces.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <set>
+
+#include "fcl_stpbv/volume/ball_side.h"
+#include "fcl_stpbv/volume/rolling_ball.h"
+
+namespace fcl_stpbv {
+namespace {
+
+using Eigen::Vector3d;
+using Ring = std::vector<int>;
+
+// The single loop around a group of faces; empty where there is none (a ring, a pinch) and the group must
+// stay apart.
+Ring boundary(const std::vector<Ring>& faces, const std::vector<HalfEdge>& halfEdges,
+              const std::vector<int>& first, const std::vector<int>& group,
+              const std::vector<std::size_t>& members) {
+  const int own = group[members[0]];
+  const auto next = [&](int h) {
+    const HalfEdge& e = halfEdges[static_cast<std::size_t>(h)];
+    const int corners = static_cast<int>(faces[static_cast<std::size_t>(e.face)].size());
+    return first[static_cast<std::size_t>(e.face)] + (e.corner + 1) % corners;
+  };
+  const auto isOuter = [&](int h) {
+    const int twin = halfEdges[static_cast<std::size_t>(h)].twin;
+    return group[static_cast<std::size_t>(halfEdges[static_cast<std::size_t>(twin)].face)] != own;
+  };
+  int start = -1, outer = 0;
+  for (const std::size_t f : members)
+    for (int k = 0; k < static_cast<int>(faces[f].size()); ++k)
+      if (isOuter(first[f] + k)) start = first[f] + k, ++outer;
+  if (start < 0) return {};
+  Ring ring;
+  int h = start;
+  do {
+    const HalfEdge& e = halfEdges[static_cast<std::size_t>(h)];
+    ring.push_back(faces[static_cast<std::size_t>(e.face)][static_cast<std::size_t>(e.corner)]);
+    h = next(h);
+    while (!isOuter(h)) h = next(halfEdges[static_cast<std::size_t>(h)].twin);
+  } while (h != start && static_cast<int>(ring.size()) <= outer);
+  const bool isLoop =
+      static_cast<int>(ring.size()) == outer && std::set<int>(ring.begin(), ring.end()).size() == ring.size();
+  if (!isLoop || ring.size() < 3) return {};
+  return ring;
+}
+
+// On a convex hull a vertex with two faces lies inside an edge, extreme by rounding alone.
+void dropFlatVertices(std::vector<Ring>* faces) {
+  for (bool again = true; again;) {
+    again = false;
+    std::vector<int> uses;
+    for (const Ring& ring : *faces)
+      for (const int i : ring) {
+        if (static_cast<std::size_t>(i) >= uses.size()) uses.resize(static_cast<std::size_t>(i) + 1, 0);
+        ++uses[static_cast<std::size_t>(i)];
+      }
+    for (Ring& ring : *faces) {
+      const std::size_t before = ring.size();
+      for (std::size_t k = 0; k < ring.size() && ring.size() > 3;)
+        if (uses[static_cast<std::size_t>(ring[k])] == 2)
+          ring.erase(ring.begin() + static_cast<std::ptrdiff_t>(k));
+        else
+          ++k;
+      again = again || ring.size() != before;
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<Ring> joinFaces(const std::vector<Vector3d>& points, std::vector<Ring> faces, double radius) {
+  if (faces.size() < 3) return faces;
+  const auto at = [&](int i) -> const Vector3d& { return points[static_cast<std::size_t>(i)]; };
+  const long double tolerance = touchTolerance(points);
+  const std::size_t count = faces.size();
+
+  std::vector<TouchingBall> balls;
+  std::vector<Vector3d> normals;
+  std::vector<double> area;
+  std::vector<int> first;
+  int total = 0;
+  for (const Ring& ring : faces) {
+    const std::array<int, 3> t = wideTriangle(points, ring);
+    balls.emplace_back(at(t[0]), at(t[1]), at(t[2]), radius);
+    normals.push_back(balls.back().normalAt(at(ring[0])));
+    area.push_back((at(t[1]) - at(t[0])).cross(at(t[2]) - at(t[0])).squaredNorm());
+    first.push_back(total);
+    total += static_cast<int>(ring.size());
+  }
+  const std::vector<HalfEdge> halfEdges = pairHalfEdges(points, faces, normals, radius);
+
+  std::vector<std::size_t> order(count);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t i, std::size_t j) { return area[i] > area[j]; });
+  std::vector<int> group(count, -1);
+  std::vector<std::vector<std::size_t>> groups;
+  for (const std::size_t seed : order) {
+    if (group[seed] >= 0) continue;
+    std::vector<std::size_t> members{seed};
+    group[seed] = static_cast<int>(seed);
+    for (std::size_t done = 0; done < members.size(); ++done) {
+      const std::size_t f = members[done];
+      for (std::size_t k = 0; k < faces[f].size(); ++k) {
+        const int twin = halfEdges[static_cast<std::size_t>(first[f]) + k].twin;
+        const std::size_t g = static_cast<std::size_t>(halfEdges[static_cast<std::size_t>(twin)].face);
+        if (group[g] >= 0) continue;
+        // Back to back faces of a flat cloud have all vertices in common but face opposite ways.
+        const bool touches =
+            std::all_of(faces[g].begin(), faces[g].end(),
+                        [&](int i) { return std::abs(balls[seed].height(at(i))) <= tolerance; }) &&
+            halfEdges[static_cast<std::size_t>(first[f]) + k].turn < 1.5;
+        if (touches) group[g] = static_cast<int>(seed), members.push_back(g);
+      }
+    }
+    groups.push_back(std::move(members));
+  }
+
+  std::vector<Ring> joined;
+  for (const std::vector<std::size_t>& members : groups) {
+    Ring ring = members.size() > 1 ? boundary(faces, halfEdges, first, group, members) : Ring();
+    if (!ring.empty())
+      joined.push_back(std::move(ring));
+    else
+      for (const std::size_t f : members) joined.push_back(faces[f]);
+  }
+  if (std::isinf(radius)) dropFlatVertices(&joined);
+  for (Ring& ring : joined) std::rotate(ring.begin(), std::min_element(ring.begin(), ring.end()), ring.end());
+  std::sort(joined.begin(), joined.end());
+  return joined;
+}
+
+}  // namespace fcl_stpbv

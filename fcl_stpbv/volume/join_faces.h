@@ -1,0 +1,16 @@
+// Joins neighbouring faces that lie on one ball to rounding into k-gons.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace fcl_stpbv {
+
+/// Faces of a rolled hull with those on one ball joined. Points on one ball (each face of every box) give
+/// triangles with edges of no width between them where rounding has put them off it; a join grows from the
+/// face with the largest triangle and takes in a neighbour whose vertices all lie on that ball within
+/// touchTolerance().
+std::vector<std::vector<int>> joinFaces(const std::vector<Eigen::Vector3d>& points,
+                                        std::vector<std::vector<int>> faces, double radius);
+
+}  // namespace fcl_stpbv

@@ -1,0 +1,80 @@
+// An LP-type problem: at most four points hold the ball. While a point sticks out, the farthest one enters
+// and the smallest ball of the at most five points involved is found by trying their subsets.
+#include "fcl_stpbv/volume/minimum_ball.h"
+
+#include <Eigen/Dense>
+#include <cmath>
+
+namespace fcl_stpbv {
+namespace {
+
+using Vector = Eigen::Matrix<long double, 3, 1>;
+
+struct Candidate {
+  Vector centre = Vector::Zero();
+  long double radius2 = -1;
+};
+
+// Smallest ball through all of the given one to four points, or none where they are dependent.
+Candidate ballThrough(const std::vector<Vector>& p) {
+  Candidate ball;
+  const Eigen::Index k = static_cast<Eigen::Index>(p.size()) - 1;
+  Vector offset = Vector::Zero();
+  if (k > 0) {
+    Eigen::Matrix<long double, 3, Eigen::Dynamic, 0, 3, 3> edges(3, k);
+    for (Eigen::Index j = 0; j < k; ++j) edges.col(j) = p[static_cast<std::size_t>(j) + 1] - p[0];
+    const Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic, 0, 3, 3> gram =
+        edges.transpose() * edges;
+    const Eigen::FullPivLU<Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic, 0, 3, 3>> lu(gram);
+    if (lu.rank() < k) return ball;
+    offset = edges * lu.solve(gram.diagonal() / 2);
+  }
+  ball.centre = p[0] + offset;
+  ball.radius2 = offset.squaredNorm();
+  return ball;
+}
+
+}  // namespace
+
+Ball minimumEnclosingBall(const std::vector<Eigen::Vector3d>& points) {
+  const Eigen::Vector3d origin = points.front();
+  std::vector<Vector> held{Vector::Zero()};
+  Candidate ball = ballThrough(held);
+  // Each round the radius grows; a few rounds do for any cloud, the bound only stops rounding from cycling.
+  for (int round = 0; round < 1000; ++round) {
+    const Eigen::Vector3d centre = origin + ball.centre.cast<double>();
+    std::size_t farthest = 0;
+    double farthest2 = -1;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const double d2 = (points[i] - centre).squaredNorm();
+      if (d2 > farthest2) farthest2 = d2, farthest = i;
+    }
+    const Vector p = (points[farthest] - origin).cast<long double>();
+    if ((p - ball.centre).squaredNorm() <= ball.radius2 * (1 + 1e-15L)) break;
+    held.push_back(p);
+    Candidate best;
+    std::vector<Vector> bestHeld;
+    const unsigned all = 1u << held.size();
+    for (unsigned subset = 1; subset < all; ++subset) {
+      std::vector<Vector> trial;
+      for (std::size_t i = 0; i < held.size(); ++i)
+        if (subset >> i & 1u) trial.push_back(held[i]);
+      if (trial.size() > 4) continue;
+      const Candidate c = ballThrough(trial);
+      if (c.radius2 < 0 || (best.radius2 >= 0 && c.radius2 >= best.radius2)) continue;
+      bool holdsAll = true;
+      for (const Vector& h : held)
+        holdsAll = holdsAll && (h - c.centre).squaredNorm() <= c.radius2 * (1 + 1e-15L);
+      if (holdsAll) best = c, bestHeld = trial;
+    }
+    if (best.radius2 <= ball.radius2) break;  // no progress: rounding
+    ball = best;
+    held = bestHeld;
+  }
+  Ball result;
+  result.centre = origin + ball.centre.cast<double>();
+  for (const Eigen::Vector3d& p : points) result.radius = std::max(result.radius, (p - result.centre).norm());
+  return result;
+}
+
+}  // namespace fcl_stpbv

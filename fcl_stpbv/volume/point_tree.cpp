@@ -1,0 +1,125 @@
+#include "fcl_stpbv/volume/point_tree.h"
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+
+namespace fcl_stpbv {
+namespace {
+
+constexpr int kLeaf = 8;    // points a leaf: scanning eight costs about as much as one more level of boxes
+constexpr int kStack = 96;  // deeper than any balanced tree of 2^31 points needs
+
+}  // namespace
+
+PointTree::PointTree(const std::vector<Eigen::Vector3d>& points)
+    : points_(points), order_(points.size()), removed_(points.size(), 0) {
+  std::iota(order_.begin(), order_.end(), 0);
+  nodes_.reserve(points.size() / (kLeaf / 4) + 1);
+  if (!points.empty()) makeNode(0, static_cast<int>(points.size()));
+  sorted_.reserve(points.size());
+  for (const int i : order_) sorted_.push_back(points[static_cast<std::size_t>(i)]);
+}
+
+int PointTree::makeNode(int begin, int end) {
+  Node node{points_[static_cast<std::size_t>(order_[static_cast<std::size_t>(begin)])], {}, begin, end, -1};
+  node.high = node.low;
+  for (int i = begin + 1; i < end; ++i) {
+    const Eigen::Vector3d& p = points_[static_cast<std::size_t>(order_[static_cast<std::size_t>(i)])];
+    node.low = node.low.cwiseMin(p);
+    node.high = node.high.cwiseMax(p);
+  }
+  const int index = static_cast<int>(nodes_.size());
+  nodes_.push_back(node);
+  if (end - begin > kLeaf) {
+    int axis = 0;
+    (node.high - node.low).maxCoeff(&axis);
+    const int middle = begin + (end - begin) / 2;
+    std::nth_element(
+        order_.begin() + begin, order_.begin() + middle, order_.begin() + end, [&](int i, int j) {
+          return points_[static_cast<std::size_t>(i)][axis] < points_[static_cast<std::size_t>(j)][axis];
+        });
+    makeNode(begin, middle);
+    const int right = makeNode(middle, end);
+    nodes_[static_cast<std::size_t>(index)].right = right;
+  }
+  return index;
+}
+
+PointTree::Highest PointTree::highest(const Eigen::Vector3d& anchor, const Eigen::Vector3d& normal,
+                                      double curvature, double tolerance, std::vector<int>* near) const {
+  near->clear();
+  Highest best;
+  best.height = -std::numeric_limits<double>::infinity();
+  if (nodes_.empty()) return best;
+
+  // The height is a sum over the coordinates of convex functions, so over a box each takes its largest value
+  // at one of its two ends.
+  const auto bound = [&](const Node& node) {
+    double sum = 0;
+    for (int k = 0; k < 3; ++k) {
+      const double l = node.low[k] - anchor[k], h = node.high[k] - anchor[k];
+      sum += std::max(l * (0.5 * curvature * l + normal[k]), h * (0.5 * curvature * h + normal[k]));
+    }
+    return sum;
+  };
+  struct Waiting {
+    double bound;
+    int node;
+  };
+  std::array<Waiting, kStack> stack;
+  int waiting = 0;
+  stack[static_cast<std::size_t>(waiting++)] = {bound(nodes_[0]), 0};
+  while (waiting > 0) {
+    const Waiting top = stack[static_cast<std::size_t>(--waiting)];
+    // Bound and height may differ by rounding: a node is left out only when it is lower by more than that.
+    const double wanted = best.height > tolerance ? best.height : -2 * tolerance;
+    if (top.bound < wanted) continue;
+    const Node& node = nodes_[static_cast<std::size_t>(top.node)];
+    if (node.right < 0) {
+      for (int i = node.begin; i < node.end; ++i) {
+        const Eigen::Vector3d q = sorted_[static_cast<std::size_t>(i)] - anchor;
+        const double height = 0.5 * curvature * q.squaredNorm() + normal.dot(q);
+        if (height < -tolerance && height <= best.height) continue;
+        const int index = order_[static_cast<std::size_t>(i)];
+        if (isRemoved(index)) continue;
+        if (height > best.height) best = {index, height};
+        if (best.height <= tolerance && height >= -tolerance) near->push_back(index);
+      }
+      continue;
+    }
+    Waiting a{bound(nodes_[static_cast<std::size_t>(top.node) + 1]), top.node + 1};
+    Waiting b{bound(nodes_[static_cast<std::size_t>(node.right)]), node.right};
+    if (a.bound > b.bound) std::swap(a, b);
+    stack[static_cast<std::size_t>(waiting++)] = a;  // the higher one is looked at first
+    stack[static_cast<std::size_t>(waiting++)] = b;
+  }
+  return best;
+}
+
+void PointTree::within(const Eigen::Vector3d& centre, double radius, std::vector<int>* found) const {
+  found->clear();
+  if (nodes_.empty()) return;
+  const double radius2 = radius * radius;
+  std::array<int, kStack> stack;
+  int waiting = 0;
+  stack[static_cast<std::size_t>(waiting++)] = 0;
+  while (waiting > 0) {
+    const int current = stack[static_cast<std::size_t>(--waiting)];
+    const Node& node = nodes_[static_cast<std::size_t>(current)];
+    const Eigen::Vector3d closest = centre.cwiseMax(node.low).cwiseMin(node.high);
+    if ((closest - centre).squaredNorm() > radius2) continue;
+    if (node.right < 0) {
+      for (int i = node.begin; i < node.end; ++i) {
+        const int index = order_[static_cast<std::size_t>(i)];
+        if ((sorted_[static_cast<std::size_t>(i)] - centre).squaredNorm() <= radius2 && !isRemoved(index))
+          found->push_back(index);
+      }
+      continue;
+    }
+    stack[static_cast<std::size_t>(waiting++)] = current + 1;
+    stack[static_cast<std::size_t>(waiting++)] = node.right;
+  }
+}
+
+}  // namespace fcl_stpbv

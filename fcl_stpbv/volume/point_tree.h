@@ -1,0 +1,46 @@
+// A tree of boxes over a cloud: which point rises highest over a ball, and which points are near another.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace fcl_stpbv {
+
+class PointTree {
+ public:
+  explicit PointTree(const std::vector<Eigen::Vector3d>& points);
+
+  struct Highest {
+    int index = -1;
+    double height = 0;
+  };
+
+  /// The point with the largest height `curvature |q|^2 / 2 + normal.q`, `q = p - anchor`, over a ball's
+  /// surface. Where that is at most `tolerance`, `near` gets all points higher than `-tolerance`; else `near`
+  /// is meaningless.
+  Highest highest(const Eigen::Vector3d& anchor, const Eigen::Vector3d& normal, double curvature,
+                  double tolerance, std::vector<int>* near) const;
+
+  /// All points closer to `centre` than `radius`.
+  void within(const Eigen::Vector3d& centre, double radius, std::vector<int>* found) const;
+
+  /// Makes a point invisible to every later query.
+  void remove(int index) { removed_[static_cast<std::size_t>(index)] = 1; }
+  bool isRemoved(int index) const { return removed_[static_cast<std::size_t>(index)] != 0; }
+
+ private:
+  struct Node {
+    Eigen::Vector3d low, high;
+    int begin, end;  // range of order_
+    int right;       // second child; the first one follows its parent; -1 for a leaf
+  };
+  int makeNode(int begin, int end);
+
+  const std::vector<Eigen::Vector3d>& points_;
+  std::vector<int> order_;
+  std::vector<Eigen::Vector3d> sorted_;  // points in the order of order_
+  std::vector<Node> nodes_;
+  std::vector<char> removed_;
+};
+
+}  // namespace fcl_stpbv

@@ -1,0 +1,451 @@
+// The rolling itself. Every decision is the sign of one exact predicate (ball_side.h), so that faces found
+// from different sides agree; faces on one ball to rounding are joined afterwards (join_faces.cpp).
+#include "fcl_stpbv/volume/rolling_ball.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <optional>
+
+#include "fcl_stpbv/error.h"
+#include "fcl_stpbv/volume/ball_side.h"
+#include "fcl_stpbv/volume/join_faces.h"
+#include "fcl_stpbv/volume/minimum_ball.h"
+#include "fcl_stpbv/volume/point_tree.h"
+
+namespace fcl_stpbv {
+namespace {
+
+using Eigen::Vector3d;
+using Ring = std::vector<int>;
+
+constexpr double kTwoPi = 6.283185307179586476925;
+
+class Roller {
+ public:
+  Roller(const std::vector<Vector3d>& points, double radius)
+      : points_(points), radius_(radius), curvature_(std::isinf(radius) ? 0 : 1 / radius), tree_(points) {
+    Vector3d low = points[0], high = points[0];
+    for (const Vector3d& p : points) low = low.cwiseMin(p), high = high.cwiseMax(p);
+    extent_ = (high - low).norm();
+    same_ = touchTolerance(points);
+    isVertex_.assign(points.size(), 0);
+  }
+
+  void roll();
+  std::vector<Ring> faces;
+  std::vector<int> loneVertices;  // one or two points that carry no face
+
+ private:
+  const Vector3d& at(int i) const { return points_[static_cast<std::size_t>(i)]; }
+
+  // The ball resting on one point, on two, and on three: the start of the roll.
+  int touchFirst(const Vector3d& direction, Vector3d* normal) const;
+  int touchSecond(int a, const Vector3d& normal) const;
+  int touchThird(int a, int b, const Vector3d& across) const;
+
+  // Angle by which the ball, resting on a and b with its normal turned towards `across`, rolls until it
+  // leaves p; negative where it never does.
+  double leavingAngle(int a, int b, const Vector3d& across, int p) const;
+  Ring pivot(int a, int b, const Vector3d& across, int candidate);
+  Ring ringOf(const TouchingBall& ball, int from, int to, std::vector<int> touched);
+  bool claim(const Ring& ring);
+  int leftOnTheWay(int a, int b, const Vector3d& across, const std::vector<int>& aside, double rest);
+  void removeTwins(int i);
+  bool nearEdge(int a, int b, std::vector<int>* found) const;
+  bool start();
+  int addFace(Ring ring);
+  Vector3d normalAt(int face, int vertex) const {
+    return balls_[static_cast<std::size_t>(face)].normalAt(at(vertex));
+  }
+
+  const std::vector<Vector3d>& points_;
+  double radius_, curvature_, extent_ = 0, same_ = 0;
+  PointTree tree_;
+  std::vector<char> isVertex_;
+  std::vector<TouchingBall> balls_;
+  std::map<std::array<int, 3>, int> known_;  // faces by their first three vertices from the smallest one on
+  std::vector<std::vector<char>> matched_;   // per face and corner: the other side is known
+  struct Open {
+    int face, corner;
+  };
+  std::multimap<std::pair<int, int>, Open>
+      open_;  // half-edges by (from, to) whose other side is not known yet
+  std::vector<Open> waiting_;
+  mutable std::vector<int> near_;
+};
+
+// Moves the ball, holding all points, against `direction` from around them until one stops it; `normal`
+// becomes the ball's normal there. With q = p - centre, split into q.d along the direction d and a vector t
+// across it, the point p stops it at depth q.d + kappa t^2 / (1 + sqrt(1 - kappa^2 t^2)) below the farthest
+// place: no large number in it.
+int Roller::touchFirst(const Vector3d& direction, Vector3d* normal) const {
+  const Vector3d centre = minimumEnclosingBall(points_).centre;
+  int best = -1;
+  double deepest = 0;
+  for (int i = 0; i < static_cast<int>(points_.size()); ++i) {
+    if (tree_.isRemoved(i)) continue;
+    const Vector3d q = at(i) - centre, across = q - q.dot(direction) * direction;
+    const double t = curvature_ * across.norm(), root = std::sqrt(std::max(0.0, 1 - t * t));
+    const double depth = q.dot(direction) + across.norm() * t / (1 + root);
+    if (best >= 0 && depth <= deepest) continue;
+    best = i, deepest = depth;
+    *normal = curvature_ * across + root * direction;
+  }
+  return best;
+}
+
+// Tilts the ball about `a` in some direction; returns the point that stops it, the farther one of two.
+int Roller::touchSecond(int a, const Vector3d& normal) const {
+  const Vector3d aside = normal.unitOrthogonal();
+  int best = -1;
+  double bestAngle = 0, bestLength = 0;
+  for (int i = 0; i < static_cast<int>(points_.size()); ++i) {
+    if (i == a || tree_.isRemoved(i)) continue;
+    const Vector3d q = at(i) - at(a);
+    const double x = q.dot(normal), y = q.dot(aside), s = std::hypot(x, y), length = q.norm();
+    if (s == 0) continue;
+    double angle = std::atan2(y, x) - std::acos(std::max(-1.0, -0.5 * curvature_ * length * length / s));
+    while (angle < 0) angle += kTwoPi;
+    const bool tie = best >= 0 && std::abs(angle - bestAngle) < 1e-14;
+    if (best < 0 || (tie ? length > bestLength : angle < bestAngle))
+      best = i, bestAngle = angle, bestLength = length;
+  }
+  return best;
+}
+
+double Roller::leavingAngle(int a, int b, const Vector3d& across, int p) const {
+  // In long double: near the smallest radius the arc cosine loses half of its digits.
+  using Vector = Eigen::Matrix<long double, 3, 1>;
+  const Vector edge = (at(b) - at(a)).cast<long double>(), q = (at(p) - at(a)).cast<long double>();
+  const Vector w = across.cast<long double>();
+  const long double length = edge.norm(), curvature = curvature_, half = curvature * length / 2;
+  const Vector u = edge / length;
+  const long double constant = curvature / 2 * (q.squaredNorm() - length * q.dot(u));
+  const long double scale = std::sqrt(std::max(0.0L, 1 - half * half));
+  const long double x = scale * q.dot(w), y = scale * q.dot(u.cross(w)), s = std::hypot(x, y);
+  if (s <= std::abs(constant) || s < 1e-14L * length) return -1;
+  double angle = static_cast<double>(std::atan2(y, x) - std::acos(-constant / s));
+  while (angle < 0) angle += kTwoPi;
+  // A point that leaves at once may come out a rounding behind; none stays for a whole turn but a rounding.
+  return angle > kTwoPi - 1e-8 ? 0 : angle;
+}
+
+int Roller::touchThird(int a, int b, const Vector3d& across) const {
+  int best = -1;
+  double bestAngle = 0;
+  for (int i = 0; i < static_cast<int>(points_.size()); ++i) {
+    if (i == a || i == b || tree_.isRemoved(i)) continue;
+    const double angle = leavingAngle(a, b, across, i);
+    if (angle < 0 || (best >= 0 && angle >= bestAngle)) continue;
+    if (!TouchingBall(at(b), at(a), at(i), radius_).valid()) continue;
+    best = i, bestAngle = angle;
+  }
+  return best;
+}
+
+// Points in the ball over the edge as diameter: only they can leave the rolling ball and come back into it
+// within one turn, and only then can two vertices be joined by two edges.
+bool Roller::nearEdge(int a, int b, std::vector<int>* found) const {
+  found->clear();
+  if (curvature_ == 0) return false;
+  tree_.within(0.5 * (at(a) + at(b)), 0.5 * (at(b) - at(a)).norm() * (1 + 1e-9), found);
+  found->erase(std::remove_if(found->begin(), found->end(), [&](int i) { return i == a || i == b; }),
+               found->end());
+  return !found->empty();
+}
+
+// A point that the ball leaves before it has rolled by `rest` and that is back inside by then; -1 where there
+// is none. Such a point is out for less than the whole roll: if for less than half a turn it is one of those
+// `aside` of the edge, else it is out after half a turn.
+int Roller::leftOnTheWay(int a, int b, const Vector3d& across, const std::vector<int>& aside, double rest) {
+  int left = -1;
+  double first = rest - 1e-8;  // later ones are still outside at the end
+  for (const int i : aside) {
+    const double angle = leavingAngle(a, b, across, i);
+    if (angle >= 0 && angle < first) left = i, first = angle;
+  }
+  if (left >= 0 || rest < 0.5 * kTwoPi) return left;
+  const Vector3d edge = at(b) - at(a);
+  const double half = 0.5 * curvature_ * edge.norm();
+  const Vector3d opposite = -half * edge.normalized() - std::sqrt(std::max(0.0, 1 - half * half)) * across;
+  const double tolerance = 4e-15 * extent_;
+  const PointTree::Highest top = tree_.highest(at(a), opposite, curvature_, tolerance, &near_);
+  return top.height > tolerance ? top.index : -1;
+}
+
+// Rolls over the edge a -> b away from the face on its left and returns the face where the ball comes to
+// rest. `across` is the unit part of the ball's normal across the edge, `candidate` any point it may come to
+// rest on.
+Ring Roller::pivot(int a, int b, const Vector3d& across, int candidate) {
+  std::vector<int> aside;
+  nearEdge(a, b, &aside);
+  for (int round = 0; round < 10000; ++round) {
+    const TouchingBall ball(at(b), at(a), at(candidate), radius_);
+    if (!ball.valid()) break;
+    // What double precision can get wrong in a height over this ball.
+    const double tolerance = extent_ * (2e-15 + 4 * ball.normalError());
+    const PointTree::Highest top = tree_.highest(at(b), ball.normal(), curvature_, tolerance, &near_);
+    if (top.height > tolerance) {
+      candidate = top.index;  // it leaves the ball before the present candidate does
+      continue;
+    }
+    int outside = -1;
+    long double height = 0;
+    std::vector<int> touched{b, a, candidate};
+    for (const int i : near_) {
+      if (i == a || i == b || i == candidate) continue;
+      const int side = ball.side(at(i));
+      if (side == 0) touched.push_back(i);
+      if (side > 0 && (outside < 0 || ball.height(at(i)) > height)) outside = i, height = ball.height(at(i));
+    }
+    if (outside < 0 && !aside.empty())
+      outside = leftOnTheWay(a, b, across, aside, leavingAngle(a, b, across, candidate));
+    if (outside >= 0) {
+      candidate = outside;
+      continue;
+    }
+    Ring ring = ringOf(ball, b, a, touched);
+    if (claim(ring)) return ring;
+    const auto alive = std::find_if(ring.begin() + 2, ring.end(), [&](int i) { return !tree_.isRemoved(i); });
+    if (alive == ring.end()) break;
+    candidate = *alive;
+  }
+  throw Error(
+      "the rolling ball found no rest: the cloud's coordinates are too close to degenerate for double "
+      "precision");
+}
+
+// Orders the touched points into the boundary of their spherical hull; from -> to is known to be one of its
+// sides.
+Ring Roller::ringOf(const TouchingBall& ball, int from, int to, std::vector<int> touched) {
+  touched.erase(std::remove_if(touched.begin(), touched.end(),
+                               [&](int i) { return i == from || i == to || tree_.isRemoved(i); }),
+                touched.end());
+  std::sort(touched.begin(), touched.end(), [&](int i, int j) {
+    const int turn = ball.turn(at(from), at(i), at(j));
+    if (turn != 0) return turn > 0;
+    return (at(i) - at(from)).squaredNorm() < (at(j) - at(from)).squaredNorm();
+  });
+  Ring ring{from, to};
+  for (const int i : touched) {
+    while (ring.size() > 2 && ball.turn(at(ring[ring.size() - 2]), at(ring.back()), at(i)) <= 0)
+      ring.pop_back();
+    ring.push_back(i);
+  }
+  while (ring.size() > 3 && ball.turn(at(ring[ring.size() - 2]), at(ring.back()), at(from)) <= 0)
+    ring.pop_back();
+  return ring;
+}
+
+// Points closer to i than rounding vanish into it.
+void Roller::removeTwins(int i) {
+  std::vector<int> twins;
+  tree_.within(at(i), same_, &twins);
+  for (const int j : twins)
+    if (j != i) tree_.remove(j);
+}
+
+// Makes the ring's points vertices. False where one of them has vanished into another.
+bool Roller::claim(const Ring& ring) {
+  for (const int i : ring) {
+    if (tree_.isRemoved(i)) return false;
+    if (isVertex_[static_cast<std::size_t>(i)]) continue;
+    removeTwins(i);
+    isVertex_[static_cast<std::size_t>(i)] = 1;
+  }
+  return true;
+}
+
+int Roller::addFace(Ring ring) {
+  std::rotate(ring.begin(), std::min_element(ring.begin(), ring.end()), ring.end());
+  const auto [found, isNew] =
+      known_.emplace(std::array<int, 3>{ring[0], ring[1], ring[2]}, static_cast<int>(faces.size()));
+  if (!isNew) return found->second;
+  const std::array<int, 3> t = wideTriangle(points_, ring);
+  const int face = static_cast<int>(faces.size());
+  balls_.emplace_back(at(t[0]), at(t[1]), at(t[2]), radius_);
+  const int corners = static_cast<int>(ring.size());
+  for (int k = 0; k < corners; ++k) {
+    const int next = ring[static_cast<std::size_t>((k + 1) % corners)];
+    open_.insert({{ring[static_cast<std::size_t>(k)], next}, {face, k}});
+    waiting_.push_back({face, k});
+  }
+  matched_.emplace_back(ring.size(), 0);
+  faces.push_back(std::move(ring));
+  return face;
+}
+
+// Finds a first face; false where the cloud has none (one point, two points, or collinear ones).
+bool Roller::start() {
+  // Directions of no special relation to any cloud made by hand, so that no two points tie.
+  const Vector3d directions[] = {{0.5270462766947299, -0.3713906763541037, 0.7643977126843163},
+                                 {-0.2113248654051871, 0.6317811293741526, 0.7457841219436127},
+                                 {0.8191520442889918, 0.4067366430758002, -0.4039724532302116}};
+  for (const Vector3d& d : directions) {
+    Vector3d normal;
+    const int a = touchFirst(d.normalized(), &normal);
+    removeTwins(a);
+    const int b = touchSecond(a, normal);
+    if (b < 0) {
+      loneVertices = {a};
+      return false;
+    }
+    removeTwins(b);
+    // Where the ball rests once it has been tilted from a onto b.
+    const Vector3d edge = at(b) - at(a), u = edge.normalized(), aside = normal.unitOrthogonal();
+    const double x = edge.dot(normal), y = edge.dot(aside), s = std::hypot(x, y);
+    const double angle =
+        std::atan2(y, x) - std::acos(std::max(-1.0, -0.5 * curvature_ * edge.squaredNorm() / s));
+    const Vector3d tilted = std::cos(angle) * normal + std::sin(angle) * aside;
+    const Vector3d across = (tilted - tilted.dot(u) * u).normalized();
+    const int c = touchThird(a, b, across);
+    if (c < 0) {
+      loneVertices = {a, b};
+      return false;
+    }
+    try {
+      addFace(pivot(a, b, across, c));
+      return true;
+    } catch (const Error&) {  // two points tied for the first touch: come from elsewhere
+    }
+  }
+  throw Error(
+      "no first face found: the cloud's coordinates are too close to degenerate for double precision");
+}
+
+void Roller::roll() {
+  if (!start()) return;
+  std::vector<int> aside;
+  while (!waiting_.empty()) {
+    const Open h = waiting_.back();
+    waiting_.pop_back();
+    auto& isMatched = matched_[static_cast<std::size_t>(h.face)][static_cast<std::size_t>(h.corner)];
+    if (isMatched) continue;
+    const Ring ring = faces[static_cast<std::size_t>(h.face)];
+    const std::size_t k = static_cast<std::size_t>(h.corner);
+    const int a = ring[k], b = ring[(k + 1) % ring.size()], c = ring[(k + 2) % ring.size()];
+
+    int face = -1;
+    if (!nearEdge(a, b, &aside)) {  // only one edge can join a and b
+      const auto other = open_.find({b, a});
+      if (other != open_.end()) face = other->second.face;
+    }
+    if (face < 0) {
+      const Vector3d u = (at(b) - at(a)).normalized(), m = normalAt(h.face, a);
+      face = addFace(pivot(a, b, (m - m.dot(u) * u).normalized(), c));
+    }
+    const auto close = [&](std::pair<int, int> key, int owner) {
+      const auto range = open_.equal_range(key);
+      for (auto it = range.first; it != range.second; ++it) {
+        if (it->second.face != owner) continue;
+        matched_[static_cast<std::size_t>(owner)][static_cast<std::size_t>(it->second.corner)] = 1;
+        open_.erase(it);
+        return true;
+      }
+      return false;
+    };
+    if (!close({b, a}, face) || !close({a, b}, h.face) || faces.size() > 2 * points_.size() + 4)
+      throw Error(
+          "the rolling ball's faces do not close: the cloud's coordinates are too close to degenerate for "
+          "double precision");
+  }
+}
+
+}  // namespace
+
+double touchTolerance(const std::vector<Vector3d>& points) {
+  Vector3d low = points[0], high = points[0];
+  double largest = 0;
+  for (const Vector3d& p : points) {
+    low = low.cwiseMin(p), high = high.cwiseMax(p);
+    largest = std::max(largest, p.cwiseAbs().maxCoeff());
+  }
+  // Coordinates that were rounded after a rotation or a change of units are off by about one unit in their
+  // last place; eight of those cover a product of three such steps.
+  return 8 * std::numeric_limits<double>::epsilon() * std::max(largest, 0.5 * (high - low).maxCoeff());
+}
+
+std::array<int, 3> wideTriangle(const std::vector<Vector3d>& points, const std::vector<int>& ring) {
+  const auto at = [&](std::size_t k) -> const Vector3d& { return points[static_cast<std::size_t>(ring[k])]; };
+  std::size_t second = 1, third = 2;
+  if (ring.size() > 3) {
+    for (std::size_t k = 1; k < ring.size(); ++k)
+      if ((at(k) - at(0)).squaredNorm() > (at(second) - at(0)).squaredNorm()) second = k;
+    double area = -1;
+    for (std::size_t k = 1; k < ring.size(); ++k) {
+      const double a = (at(second) - at(0)).cross(at(k) - at(0)).squaredNorm();
+      if (a > area) area = a, third = k;
+    }
+  }
+  if (second > third) std::swap(second, third);
+  return {ring[0], ring[second], ring[third]};
+}
+
+std::vector<HalfEdge> pairHalfEdges(const std::vector<Vector3d>& points, const std::vector<Ring>& faces,
+                                    const std::vector<Vector3d>& normals, double radius) {
+  const double curvature = std::isinf(radius) ? 0 : 1 / radius;
+  const auto at = [&](int i) -> const Vector3d& { return points[static_cast<std::size_t>(i)]; };
+  std::vector<HalfEdge> halfEdges;
+  std::multimap<std::pair<int, int>, int> byEnds;
+  for (std::size_t f = 0; f < faces.size(); ++f)
+    for (std::size_t k = 0; k < faces[f].size(); ++k) {
+      byEnds.insert({{faces[f][k], faces[f][(k + 1) % faces[f].size()]}, static_cast<int>(halfEdges.size())});
+      halfEdges.push_back({static_cast<int>(f), static_cast<int>(k)});
+    }
+  for (std::size_t h = 0; h < halfEdges.size(); ++h) {
+    HalfEdge& edge = halfEdges[h];
+    const Ring& ring = faces[static_cast<std::size_t>(edge.face)];
+    const std::size_t k = static_cast<std::size_t>(edge.corner);
+    const int a = ring[k], b = ring[(k + 1) % ring.size()];
+    const Vector3d u = (at(b) - at(a)).normalized();
+    const auto across = [&](int face) {
+      const int first = faces[static_cast<std::size_t>(face)][0];
+      const Vector3d m = normals[static_cast<std::size_t>(face)] + curvature * (at(a) - at(first));
+      return Vector3d(m - m.dot(u) * u);
+    };
+    // A vertex beside the edge, inside the ball over it as diameter, lets the ball turn by more than half a
+    // turn.
+    const auto wide = [&](int face) {
+      const Ring& r = faces[static_cast<std::size_t>(face)];
+      return std::any_of(r.begin(), r.end(),
+                         [&](int i) { return i != a && i != b && (at(i) - at(a)).dot(at(i) - at(b)) < 0; });
+    };
+    const Vector3d from = across(edge.face), side = u.cross(from);
+    const auto range = byEnds.equal_range({b, a});
+    for (auto it = range.first; it != range.second; ++it) {
+      const int face = halfEdges[static_cast<std::size_t>(it->second)].face;
+      const Vector3d to = across(face);
+      double turn = std::atan2(to.dot(side), to.dot(from));
+      // A turn of nothing may come out as slightly negative; it is a whole one only where a vertex allows
+      // that.
+      if (turn < 0) turn = turn > -1e-6 && !(wide(edge.face) && wide(face)) ? 0 : turn + kTwoPi;
+      if (edge.twin < 0 || turn < edge.turn) edge.twin = it->second, edge.turn = turn;
+    }
+    if (edge.twin < 0)
+      throw Error("the faces do not close: the edge from vertex " + std::to_string(a) + " to vertex " +
+                  std::to_string(b) + " of face " + std::to_string(edge.face) +
+                  " has no face on its other side");
+  }
+  for (std::size_t h = 0; h < halfEdges.size(); ++h)
+    if (halfEdges[static_cast<std::size_t>(halfEdges[h].twin)].twin != static_cast<int>(h))
+      throw Error("the faces do not close: an edge of face " + std::to_string(halfEdges[h].face) +
+                  " is shared by more than two");
+  return halfEdges;
+}
+
+RolledHull rollBall(const std::vector<Vector3d>& points, double radius) {
+  Roller roller(points, radius);
+  roller.roll();
+  RolledHull hull;
+  hull.faces = joinFaces(points, std::move(roller.faces), radius);
+  hull.vertices = roller.loneVertices;
+  for (const Ring& ring : hull.faces) hull.vertices.insert(hull.vertices.end(), ring.begin(), ring.end());
+  std::sort(hull.vertices.begin(), hull.vertices.end());
+  hull.vertices.erase(std::unique(hull.vertices.begin(), hull.vertices.end()), hull.vertices.end());
+  return hull;
+}
+
+}  // namespace fcl_stpbv

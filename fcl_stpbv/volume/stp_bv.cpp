@@ -1,0 +1,187 @@
+// Building by rolling ball, and the queries.
+#include "fcl_stpbv/volume/stp_bv.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+#include "fcl_stpbv/volume/minimum_ball.h"
+#include "fcl_stpbv/volume/point_tree.h"
+#include "fcl_stpbv/volume/rolling_ball.h"
+
+namespace fcl_stpbv {
+namespace {
+
+using Eigen::Vector3d;
+
+// A normal this far past a seam still counts as inside: the rounding of one dot product of unit vectors.
+constexpr double kSeamRounding = 4 * std::numeric_limits<double>::epsilon();
+
+std::string number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.9g", value);
+  return text;
+}
+
+void checkInput(const std::vector<Vector3d>& points, const StpBvOptions& options) {
+  if (points.empty()) throw Error("cannot build an STP-BV from no points: give at least one");
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (!points[i].allFinite())
+      throw Error("point " + std::to_string(i) + " is not finite: every coordinate must be a number");
+  if (!std::isfinite(options.r) || options.r < 0)
+    throw Error("r = " + number(options.r) +
+                " is not usable: the small radius must be a finite number of metres, 0 or more");
+  if (!std::isfinite(options.R) || options.R <= options.r)
+    throw Error("R = " + number(options.R) + " is not usable with r = " + number(options.r) +
+                ": the big radius must be a finite number of metres, larger than r");
+}
+
+// The ball that rolls must hold all points with room to move, or its centre has nowhere to go.
+Ball checkRadius(const std::vector<Vector3d>& points, const StpBvOptions& options) {
+  const Ball ball = minimumEnclosingBall(points);
+  const double rho = options.R - options.r;
+  if (points.size() > 1 && rho <= ball.radius) {
+    const double smallest = options.r + ball.radius;
+    throw Error("R = " + number(options.R) +
+                " m is too small: the smallest usable R for these points with r = " + number(options.r) +
+                " m is just above " + number(smallest * (1 + 1e-9)) + " m");
+  }
+  return ball;
+}
+
+}  // namespace
+
+double StpBv::smallestR(const std::vector<Vector3d>& points, double r) {
+  checkInput(points, {r, std::numeric_limits<double>::max()});
+  return r + minimumEnclosingBall(points).radius;
+}
+
+StpBv::Ptr StpBv::build(const std::vector<Vector3d>& points, const StpBvOptions& options) {
+  checkInput(points, options);
+  checkRadius(points, options);
+  RolledHull hull = rollBall(points, options.R - options.r);
+  std::vector<int> newIndex(points.size(), -1);
+  std::vector<Vector3d> vertices;
+  for (const int i : hull.vertices) {
+    newIndex[static_cast<std::size_t>(i)] = static_cast<int>(vertices.size());
+    vertices.push_back(points[static_cast<std::size_t>(i)]);
+  }
+  for (Ring& ring : hull.faces)
+    for (int& i : ring) i = newIndex[static_cast<std::size_t>(i)];
+  return make(std::move(vertices), std::move(hull.faces), options);
+}
+
+StpBv::Ptr StpBv::assemble(std::vector<Vector3d> vertices, std::vector<Ring> faces,
+                           const StpBvOptions& options) {
+  checkInput(vertices, options);
+  checkRadius(vertices, options);
+  std::vector<char> used(vertices.size(), 0);
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    if (faces[f].size() < 3) throw Error("face " + std::to_string(f) + " has fewer than three vertices");
+    std::vector<int> sorted = faces[f];
+    std::sort(sorted.begin(), sorted.end());
+    if (sorted.front() < 0 || sorted.back() >= static_cast<int>(vertices.size()))
+      throw Error("face " + std::to_string(f) + " names a vertex that does not exist: there are " +
+                  std::to_string(vertices.size()));
+    if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end())
+      throw Error("face " + std::to_string(f) + " names a vertex twice");
+    for (const int i : sorted) used[static_cast<std::size_t>(i)] = 1;
+  }
+  if (faces.empty() ? vertices.size() > 2 : std::count(used.begin(), used.end(), 0) > 0)
+    throw Error("vertex " + std::to_string(std::find(used.begin(), used.end(), 0) - used.begin()) +
+                " belongs to no face");
+
+  const Ptr volume = make(std::move(vertices), std::move(faces), options);
+  const PointTree tree(volume->vertices_);
+  std::vector<int> near;
+  const double tolerance = 4 * touchTolerance(volume->vertices_);
+  for (int f = 0; f < volume->faceCount(); ++f) {
+    const Patch& face = volume->patch(volume->facePatch(f));
+    const auto top = tree.highest(face.anchor, face.axis, 1 / volume->radii_.rho, tolerance, &near);
+    if (top.height > tolerance)
+      throw Error("vertex " + std::to_string(top.index) + " lies " + number(top.height) +
+                  " m outside the ball of face " + std::to_string(f));
+    for (const int i : volume->faces_[static_cast<std::size_t>(f)])
+      if (std::find(near.begin(), near.end(), i) == near.end())
+        throw Error("vertex " + std::to_string(i) + " of face " + std::to_string(f) +
+                    " does not lie on the face's ball");
+  }
+  const int euler = volume->vertexCount() - volume->edgeCount() + volume->faceCount();
+  if (volume->faceCount() > 0 && euler != 2)
+    throw Error("the faces are not one closed surface: vertices - edges + faces is " + std::to_string(euler) +
+                ", not 2");
+  return volume;
+}
+
+double StpBv::outside(int patch, const Vector3d& n) const {
+  double worst = -2;
+  for (const Seam* seam = seamsBegin(patch); seam != seamsEnd(patch); ++seam)
+    worst = std::max(worst, n.dot(seam->normal) - seam->limit);
+  return worst;
+}
+
+std::size_t StpBv::cell(const Vector3d& n) const {
+  int axis = 0;
+  const double largest = n.cwiseAbs().maxCoeff(&axis);
+  const auto slot = [&](double x) {
+    const int k = static_cast<int>((x / largest + 1) * 0.5 * cells_);
+    return static_cast<std::size_t>(std::clamp(k, 0, cells_ - 1));
+  };
+  const std::size_t side = static_cast<std::size_t>(2 * axis) + (n[axis] < 0 ? 1 : 0);
+  const std::size_t cells = static_cast<std::size_t>(cells_);
+  return (side * cells + slot(n[(axis + 1) % 3])) * cells + slot(n[(axis + 2) % 3]);
+}
+
+int StpBv::owner(const Vector3d& n, int hint) const {
+  if (!(n.squaredNorm() > 0)) return 0;  // zero or NaN: no direction, any patch
+  int current = hint >= 0 ? hint : table_[cell(n)];
+  int best = current;
+  double least = std::numeric_limits<double>::infinity();
+  // The step over the worst seam goes down the height n.C over the core's admissible centres C, so it does
+  // not come back; the bound only stops a walk among regions narrower than rounding.
+  for (int step = 0; step < 64 + patchCount(); ++step) {
+    const Seam* over = nullptr;
+    double worst = kSeamRounding;
+    for (const Seam* seam = seamsBegin(current); seam != seamsEnd(current); ++seam) {
+      const double past = n.dot(seam->normal) - seam->limit;
+      if (past > worst) worst = past, over = seam;
+    }
+    if (over == nullptr) return current;
+    if (worst < least) least = worst, best = current;
+    current = over->neighbour;
+  }
+  for (int patch = 0; patch < patchCount(); ++patch) {
+    const double past = outside(patch, n);
+    if (past < least) least = past, best = patch;
+  }
+  return best;
+}
+
+double StpBv::support(const Vector3d& n, int hint) const {
+  const int index = owner(n, hint);
+  return fcl_stpbv::support(patch(index), kind(index), radii_, n);
+}
+
+Vector3d StpBv::surfacePoint(const Vector3d& n, int hint) const {
+  const int index = owner(n, hint);
+  return corePoint(patch(index), kind(index), radii_, n) + radii_.r * n;
+}
+
+Vector3d StpBv::corner(int face, int vertex) const {
+  const std::size_t f = static_cast<std::size_t>(face);
+  const Vector3d& first = vertices_[static_cast<std::size_t>(faces_[f][0])];
+  return (faceNormals_[f] + (vertices_[static_cast<std::size_t>(vertex)] - first) / radii_.rho).normalized();
+}
+
+std::size_t StpBv::memory() const {
+  std::size_t bytes = sizeof *this + vertices_.capacity() * sizeof(Vector3d) +
+                      edges_.capacity() * sizeof(Edge) + faces_.capacity() * sizeof(Ring) +
+                      faceNormals_.capacity() * sizeof(Vector3d) + patches_.capacity() * sizeof(Patch) +
+                      seams_.capacity() * sizeof(Seam) + seamStart_.capacity() * sizeof(std::int32_t) +
+                      table_.capacity() * sizeof(std::int32_t);
+  for (const Ring& ring : faces_) bytes += ring.capacity() * sizeof(int);
+  return bytes;
+}
+
+}  // namespace fcl_stpbv

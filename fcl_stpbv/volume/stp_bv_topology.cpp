@@ -1,0 +1,162 @@
+// From vertices and rings to edges, patches, seams and the direction table (paper III.A, III.B, III.D).
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "fcl_stpbv/volume/ball_side.h"
+#include "fcl_stpbv/volume/minimum_ball.h"
+#include "fcl_stpbv/volume/rolling_ball.h"
+#include "fcl_stpbv/volume/stp_bv.h"
+
+namespace fcl_stpbv {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kTwoPi = 6.283185307179586476925;
+
+// An edge that turns by more is cut into parts: the seams of a region past half a turn do not intersect in
+// it. A flat plate's rim turns by nearly half a turn and should stay whole.
+constexpr double kWidestPart = 3.15;
+
+int partsOf(const StpBv::Edge& edge) {
+  return edge.face[0] < 0 || edge.turn <= kWidestPart ? 1 : static_cast<int>(std::ceil(edge.turn / 2.2));
+}
+
+}  // namespace
+
+StpBv::Ptr StpBv::make(std::vector<Vector3d> vertices, std::vector<Ring> faces, const StpBvOptions& options) {
+  const std::shared_ptr<StpBv> volume(new StpBv);
+  volume->radii_ = {options.r, options.R, options.R - options.r};
+  volume->vertices_ = std::move(vertices);
+  volume->faces_ = std::move(faces);
+  volume->vertices_.shrink_to_fit();
+  volume->faces_.shrink_to_fit();
+  const Ball ball = minimumEnclosingBall(volume->vertices_);
+  volume->centre_ = ball.centre;
+  // A ball smaller than rho is itself an intersection of balls of radius rho, so it holds the core with the
+  // vertices.
+  volume->enclosingRadius_ = ball.radius + options.r;
+  volume->makeEdges();
+  volume->makePatches();
+  volume->makeSeams();
+  volume->makeTable();
+  return volume;
+}
+
+void StpBv::makeEdges() {
+  const auto at = [&](int i) -> const Vector3d& { return vertices_[static_cast<std::size_t>(i)]; };
+  for (const Ring& ring : faces_) {
+    const std::array<int, 3> t = wideTriangle(vertices_, ring);
+    const TouchingBall ball(at(t[0]), at(t[1]), at(t[2]), radii_.rho);
+    if (!ball.valid())
+      throw Error("a face's vertices lie on a line or too far apart for R = " + std::to_string(radii_.R));
+    faceNormals_.push_back(ball.normalAt(at(ring[0])));
+  }
+  faceNormals_.shrink_to_fit();
+  if (faces_.empty()) {
+    if (vertexCount() == 2) edges_.push_back({{0, 1}, {-1, -1}, kTwoPi});
+    return;
+  }
+  const std::vector<HalfEdge> halfEdges = pairHalfEdges(vertices_, faces_, faceNormals_, radii_.rho);
+  edges_.reserve(halfEdges.size() / 2);
+  for (std::size_t h = 0; h < halfEdges.size(); ++h) {
+    const HalfEdge& e = halfEdges[h];
+    if (static_cast<std::size_t>(e.twin) < h) continue;
+    const Ring& ring = faces_[static_cast<std::size_t>(e.face)];
+    const std::size_t k = static_cast<std::size_t>(e.corner);
+    edges_.push_back({{ring[k], ring[(k + 1) % ring.size()]},
+                      {e.face, halfEdges[static_cast<std::size_t>(e.twin)].face},
+                      e.turn});
+  }
+}
+
+void StpBv::makePatches() {
+  const auto at = [&](int i) -> const Vector3d& { return vertices_[static_cast<std::size_t>(i)]; };
+  const auto edgePatchOf = [&](const Edge& edge) {
+    // kappa = sqrt(rho^2 - l^2/4) (paper, Theorem 3.1), as a product and in long double: near the smallest R
+    // half of the digits cancel.
+    using Vector = Eigen::Matrix<long double, 3, 1>;
+    const Vector along = at(edge.vertex[1]).cast<long double>() - at(edge.vertex[0]).cast<long double>();
+    const long double half = along.norm() / 2, rho = radii_.rho;
+    const long double kappa = std::sqrt(std::max(0.0L, (rho - half) * (rho + half)));
+    const Vector middle = at(edge.vertex[0]).cast<long double>() + along / 2;
+    return Patch{middle.cast<double>(), along.normalized().cast<double>(), static_cast<double>(kappa),
+                 static_cast<double>(half * half / (rho + kappa))};
+  };
+  std::size_t further = 0;
+  for (const Edge& edge : edges_) further += static_cast<std::size_t>(partsOf(edge) - 1);
+  patches_.reserve(vertices_.size() + edges_.size() + faces_.size() + further);
+  for (const Vector3d& p : vertices_) patches_.push_back({p, Vector3d::Zero(), 0, 0});
+  for (const Edge& edge : edges_) patches_.push_back(edgePatchOf(edge));
+  for (std::size_t f = 0; f < faces_.size(); ++f)
+    patches_.push_back({at(faces_[f][0]), faceNormals_[f], 0, 0});
+  for (const Edge& edge : edges_)
+    for (int part = 1; part < partsOf(edge); ++part) patches_.push_back(edgePatchOf(edge));
+}
+
+void StpBv::makeSeams() {
+  std::vector<std::pair<int, Seam>> all;  // (patch, seam)
+  const auto at = [&](int i) -> const Vector3d& { return vertices_[static_cast<std::size_t>(i)]; };
+  int further = facePatch(faceCount());
+  for (int e = 0; e < edgeCount(); ++e) {
+    const Edge& edge = edges_[static_cast<std::size_t>(e)];
+    const Vector3d along = at(edge.vertex[1]) - at(edge.vertex[0]), u = along.normalized();
+    const double sine = 0.5 * along.norm() / radii_.rho;  // of the cone's half angle (docs/theory.md, 3)
+    std::vector<int> parts{edgePatch(e)};
+    for (int k = 1; k < partsOf(edge); ++k) parts.push_back(further++);
+
+    all.push_back({edge.vertex[0], {u, -sine, parts.front()}});
+    all.push_back({edge.vertex[1], {-u, -sine, parts.back()}});
+    for (const int part : parts) {
+      all.push_back({part, {u, sine, edge.vertex[1]}});
+      all.push_back({part, {-u, sine, edge.vertex[0]}});
+    }
+    if (edge.face[0] < 0) continue;
+
+    // Planes through the edge and the two faces' ball centres, their normals pointing out of the faces.
+    const Vector3d leave = along.cross(corner(edge.face[0], edge.vertex[0])).normalized();
+    const Vector3d arrive = -along.cross(corner(edge.face[1], edge.vertex[0])).normalized();
+    all.push_back({facePatch(edge.face[0]), {leave, 0, parts.front()}});
+    all.push_back({facePatch(edge.face[1]), {arrive, 0, parts.back()}});
+    all.push_back({parts.front(), {-leave, 0, facePatch(edge.face[0])}});
+    all.push_back({parts.back(), {-arrive, 0, facePatch(edge.face[1])}});
+    const Vector3d start = leave.cross(u);
+    for (std::size_t k = 1; k < parts.size(); ++k) {
+      const double angle = edge.turn * static_cast<double>(k) / static_cast<double>(parts.size());
+      const Vector3d forward = std::cos(angle) * leave - std::sin(angle) * start;
+      all.push_back({parts[k - 1], {forward, 0, parts[k]}});
+      all.push_back({parts[k], {-forward, 0, parts[k - 1]}});
+    }
+  }
+  seamStart_.assign(patches_.size() + 1, 0);
+  for (const auto& [patch, seam] : all) ++seamStart_[static_cast<std::size_t>(patch) + 1];
+  for (std::size_t i = 0; i < patches_.size(); ++i) seamStart_[i + 1] += seamStart_[i];
+  seams_.resize(all.size());
+  std::vector<std::int32_t> next(seamStart_.begin(), seamStart_.end() - 1);
+  for (const auto& [patch, seam] : all)
+    seams_[static_cast<std::size_t>(next[static_cast<std::size_t>(patch)]++)] = seam;
+}
+
+void StpBv::makeTable() {
+  // About four patches a cell: a walk from there crosses one or two seams, and the table stays in the
+  // first-level cache.
+  cells_ = std::clamp(static_cast<int>(std::sqrt(patchCount() / 4.0)), 1, 64);
+  const std::size_t cells = static_cast<std::size_t>(cells_);
+  table_.reserve(6 * cells * cells);
+  int last = 0;
+  for (std::size_t side = 0; side < 6; ++side)
+    for (std::size_t i = 0; i < cells; ++i)
+      for (std::size_t j = 0; j < cells; ++j) {
+        const int axis = static_cast<int>(side / 2);
+        Vector3d n;
+        n[axis] = side % 2 == 0 ? 1 : -1;
+        n[(axis + 1) % 3] = (2 * static_cast<double>(i) + 1) / static_cast<double>(cells) - 1;
+        n[(axis + 2) % 3] = (2 * static_cast<double>(j) + 1) / static_cast<double>(cells) - 1;
+        last = owner(n.normalized(), last);
+        table_.push_back(last);
+      }
+}
+
+}  // namespace fcl_stpbv

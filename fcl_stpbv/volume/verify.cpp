@@ -1,0 +1,151 @@
+#include "fcl_stpbv/volume/verify.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "fcl_stpbv/volume/minimum_ball.h"
+#include "fcl_stpbv/volume/point_tree.h"
+#include "fcl_stpbv/volume/rolling_ball.h"
+
+namespace fcl_stpbv {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kPi = 3.14159265358979323846;
+
+// Angle by which a walk along unit direction a must turn left, about the outward normal n, to follow b: (-pi,
+// pi].
+double exteriorAngle(const Vector3d& n, const Vector3d& a, const Vector3d& b) {
+  return std::atan2(n.dot(a.cross(b)), a.dot(b));
+}
+
+Vector3d at(const StpBv& volume, int vertex) { return volume.vertices()[static_cast<std::size_t>(vertex)]; }
+
+double containmentOf(const StpBv& volume, const std::vector<Vector3d>& points) {
+  double worst = -std::numeric_limits<double>::infinity();
+  const PointTree tree(points);
+  std::vector<int> near;
+  const double rho = volume.radii().rho;
+  for (int f = 0; f < volume.faceCount(); ++f) {
+    const Patch& face = volume.patch(volume.facePatch(f));
+    worst = std::max(worst, tree.highest(face.anchor, face.axis, 1 / rho, 0, &near).height);
+  }
+  if (volume.faceCount() > 0) return worst;
+  // A sphere or a spindle: the core is the point, or the arc of radius rho turned about the two points' line.
+  for (const Vector3d& p : points) {
+    const Vector3d q = p - volume.patch(0).anchor;
+    if (volume.vertexCount() == 1) {
+      worst = std::max(worst, q.norm());
+      continue;
+    }
+    const Patch& edge = volume.patch(volume.edgePatch(0));
+    const Vector3d d = p - edge.anchor;
+    const double along = d.dot(edge.axis), across = (d - along * edge.axis).norm();
+    const double half2 = edge.sag * (rho + edge.kappa);
+    // |(across + kappa, along)| <= rho, written without the large squares.
+    worst = std::max(worst, (across * (across + 2 * edge.kappa) + along * along - half2) / (2 * rho));
+  }
+  return worst;
+}
+
+double seamGapOf(const StpBv& volume) {
+  double worst = 0;
+  const auto gap = [&](int a, int b, const Vector3d& n) {
+    worst = std::max(worst, (corePoint(volume.patch(a), volume.kind(a), volume.radii(), n) -
+                             corePoint(volume.patch(b), volume.kind(b), volume.radii(), n))
+                                .norm());
+  };
+  for (int e = 0; e < volume.edgeCount(); ++e) {
+    const StpBv::Edge& edge = volume.edges()[static_cast<std::size_t>(e)];
+    const Vector3d along = at(volume, edge.vertex[1]) - at(volume, edge.vertex[0]), u = along.normalized();
+    const double sine = 0.5 * along.norm() / volume.radii().rho;
+    const double cosine = volume.patch(volume.edgePatch(e)).kappa / volume.radii().rho;
+    const Vector3d m = edge.face[0] < 0 ? u.unitOrthogonal() : volume.corner(edge.face[0], edge.vertex[0]);
+    const Vector3d start = (m - m.dot(u) * u).normalized(), side = u.cross(start);
+    for (int k = 0; k <= 8; ++k) {
+      const double angle = edge.turn * k / 8;
+      const Vector3d w = std::cos(angle) * start + std::sin(angle) * side;
+      gap(volume.edgePatch(e), edge.vertex[0], cosine * w - sine * u);
+      gap(volume.edgePatch(e), edge.vertex[1], cosine * w + sine * u);
+    }
+    if (edge.face[0] < 0) continue;
+    for (const int face : edge.face) {
+      const Vector3d a = volume.corner(face, edge.vertex[0]), b = volume.corner(face, edge.vertex[1]);
+      for (int k = 0; k <= 4; ++k)
+        gap(volume.edgePatch(e), volume.facePatch(face), ((1 - k / 4.0) * a + k / 4.0 * b).normalized());
+    }
+  }
+  return worst;
+}
+
+}  // namespace
+
+std::vector<double> solidAngles(const StpBv& volume) {
+  std::vector<double> angles(static_cast<std::size_t>(volume.patchCount()), 0.0);
+  if (volume.edgeCount() == 0) {
+    angles[0] = 4 * kPi;
+    return angles;
+  }
+  // By Gauss-Bonnet: 2 pi minus the boundary's turning. Faces turn at their corners only; a vertex region is
+  // bounded by the cones of its edges, small circles, which turn along the way too.
+  for (int v = 0; v < volume.vertexCount(); ++v) angles[static_cast<std::size_t>(v)] = 2 * kPi;
+  for (int e = 0; e < volume.edgeCount(); ++e) {
+    const StpBv::Edge& edge = volume.edges()[static_cast<std::size_t>(e)];
+    const double sine =
+        0.5 * (at(volume, edge.vertex[1]) - at(volume, edge.vertex[0])).norm() / volume.radii().rho;
+    angles[static_cast<std::size_t>(volume.edgePatch(e))] = 2 * sine * edge.turn;
+    for (const int v : edge.vertex) angles[static_cast<std::size_t>(v)] -= sine * edge.turn;
+  }
+  for (int f = 0; f < volume.faceCount(); ++f) {
+    const StpBv::Ring& ring = volume.faces()[static_cast<std::size_t>(f)];
+    double& area = angles[static_cast<std::size_t>(volume.facePatch(f))];
+    area = 2 * kPi;
+    for (std::size_t k = 0; k < ring.size(); ++k) {
+      const int before = ring[(k + ring.size() - 1) % ring.size()], here = ring[k],
+                after = ring[(k + 1) % ring.size()];
+      const Vector3d n = volume.corner(f, here);
+      const Vector3d arrive = at(volume, here) - at(volume, before),
+                     leave = at(volume, after) - at(volume, here);
+      const double turn =
+          exteriorAngle(n, n.cross(arrive.cross(n)).normalized(), n.cross(leave.cross(n)).normalized());
+      area -= turn;
+      // At the same corner the vertex region turns between the cones of the two edges.
+      angles[static_cast<std::size_t>(here)] -=
+          exteriorAngle(n, leave.cross(n).normalized(), arrive.cross(n).normalized()) + kPi;
+    }
+  }
+  return angles;
+}
+
+Verification verify(const StpBv& volume, const std::vector<Vector3d>& points) {
+  Verification result;
+  std::vector<Vector3d> all = volume.vertices();
+  all.insert(all.end(), points.begin(), points.end());
+  result.containment = containmentOf(volume, all);
+  double sum = 0, least = 0;
+  for (const double angle : solidAngles(volume)) sum += angle, least = std::min(least, angle);
+  result.solidAngleError = sum - 4 * kPi;
+  result.seamGap = seamGapOf(volume);
+
+  // Heights and seams: a few roundings of lengths up to the body's size and, for normals, of rho times their
+  // rounding.
+  const double length = touchTolerance(all) + 8 * std::numeric_limits<double>::epsilon() * volume.radii().rho;
+  // Angles: each corner is rounded by a few units, more where an edge is short and its direction rounded.
+  const double angle = 1e-13 * (16 + volume.edgeCount());
+  if (!(result.containment <= length))
+    result.message = "a point lies " + std::to_string(result.containment) + " m outside a big ball";
+  else if (!(std::abs(result.solidAngleError) <= angle) || !(least >= -angle))
+    result.message = "the regions of normals do not tile the sphere: off by " +
+                     std::to_string(result.solidAngleError) + " sr";
+  else if (!(result.seamGap <= 4 * length))
+    result.message = "neighbouring patches part by " + std::to_string(result.seamGap) + " m at their seam";
+  else
+    result.message = "ok";
+  result.ok = result.message == "ok";
+  return result;
+}
+
+}  // namespace fcl_stpbv
