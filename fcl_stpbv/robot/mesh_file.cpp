@@ -1,0 +1,150 @@
+// Reading; see mesh_file.h.
+#include "fcl_stpbv/robot/mesh_file.h"
+
+#include <assimp/config.h>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+
+#include <algorithm>
+#include <assimp/Importer.hpp>
+#include <cctype>
+#include <filesystem>
+#include <optional>
+#include <unordered_map>
+#include <utility>
+
+#include "fcl_stpbv/error.h"
+#include "fcl_stpbv/volume/qhull_file.h"
+#include "fcl_stpbv/volume/text_scanner.h"
+
+namespace fcl_stpbv {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr const char* kReadable =
+    "STL, OBJ, DAE, PLY, glTF, GLB, OFF, or a polyhedron of qhull's (*-ch.txt, *.otp)";
+
+struct HashVector {
+  std::size_t operator()(const Vector3d& v) const {
+    std::size_t seed = 0;
+    for (double x : v) seed = seed * 1000003u ^ std::hash<double>()(x);
+    return seed;
+  }
+};
+
+// Gathers triangles, each distinct point once.
+class Gatherer {
+ public:
+  Gatherer(const std::string& path, const Vector3d& scale) : path_(path), scale_(scale) {}
+
+  void add(const aiMesh& mesh, const aiMatrix4x4& transform) {
+    std::vector<int> index;
+    index.reserve(mesh.mNumVertices);
+    for (unsigned v = 0; v < mesh.mNumVertices; ++v) {
+      const aiVector3D p = transform * mesh.mVertices[v];
+      index.push_back(
+          add(Vector3d(static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z))));
+    }
+    for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
+      const aiFace& face = mesh.mFaces[f];
+      if (face.mNumIndices != 3) continue;  // lone points and lines
+      std::array<int, 3> triangle{};
+      for (unsigned k = 0; k < 3; ++k) {
+        if (face.mIndices[k] >= mesh.mNumVertices)
+          throw Error(path_ + ": a face names a vertex that does not exist");
+        triangle[k] = index[face.mIndices[k]];
+      }
+      mesh_.triangles.push_back(triangle);
+    }
+  }
+
+  TriangleMesh take() { return std::move(mesh_); }
+
+ private:
+  int add(Vector3d point) {
+    if (!point.allFinite()) {
+      throw Error(path_ + ": a vertex has a coordinate that is not a finite number; export the mesh again");
+    }
+    // Adding zero makes -0 a 0, so that both have one hash.
+    point = point.cwiseProduct(scale_) + Vector3d::Zero();
+    const auto [place, isNew] = index_.try_emplace(point, static_cast<int>(mesh_.vertices.size()));
+    if (isNew) mesh_.vertices.push_back(point);
+    return place->second;
+  }
+
+  const std::string& path_;
+  Vector3d scale_;
+  TriangleMesh mesh_;
+  std::unordered_map<Vector3d, int, HashVector> index_;
+};
+
+void checkReadable(const std::string& path, const Vector3d& scale) {
+  if (!scale.allFinite() || (scale.array() == 0).any()) {
+    throw Error(path +
+                ": a scale of 0 or one that is not finite leaves no body; give a finite number other than 0");
+  }
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored)) throw Error(path + ": is a folder, expected a file");
+  if (!std::filesystem::exists(path, ignored)) throw Error(path + ": no such file");
+}
+
+const aiScene* read(Assimp::Importer& importer, const std::string& path) {
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
+  const aiScene* scene = importer.ReadFile(path, aiProcess_Triangulate);
+  if (scene == nullptr || scene->mRootNode == nullptr) {
+    throw Error(path + ": cannot be read as a mesh (" + importer.GetErrorString() +
+                "); give a whole file of " + kReadable);
+  }
+  return scene;
+}
+
+std::string lowerExtension(const std::string& path) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
+}
+
+// The text of a qhull file, or nothing where the file is a mesh for assimp. The names that robots give to
+// such files say little, so a name without a known ending is decided by its content.
+std::optional<std::string> qhullText(const std::string& path) {
+  const std::string extension = lowerExtension(path);
+  const bool named = extension == ".txt" || extension == ".otp";
+  if (!named && !extension.empty()) return std::nullopt;
+  std::string text = readText(path);
+  if (!named && !looksLikeQhull(text)) return std::nullopt;
+  return text;
+}
+
+}  // namespace
+
+TriangleMesh loadMesh(const std::string& path, const Vector3d& scale) {
+  checkReadable(path, scale);
+  Assimp::Importer importer;
+  const aiScene* scene = read(importer, path);
+  Gatherer gatherer(path, scale);
+  std::vector<std::pair<const aiNode*, aiMatrix4x4>> open{{scene->mRootNode, aiMatrix4x4()}};
+  while (!open.empty()) {
+    const auto [node, above] = open.back();
+    open.pop_back();
+    const aiMatrix4x4 transform = above * node->mTransformation;
+    for (unsigned m = 0; m < node->mNumMeshes; ++m)
+      gatherer.add(*scene->mMeshes[node->mMeshes[m]], transform);
+    for (unsigned c = node->mNumChildren; c-- > 0;) open.push_back({node->mChildren[c], transform});
+  }
+  TriangleMesh mesh = gatherer.take();
+  if (mesh.vertices.empty()) throw Error(path + ": holds no vertices; give a file with at least one mesh");
+  return mesh;
+}
+
+std::vector<Vector3d> loadPoints(const std::string& path, const Vector3d& scale) {
+  checkReadable(path, scale);
+  const std::optional<std::string> text = qhullText(path);
+  if (!text) return loadMesh(path, scale).vertices;
+  std::vector<Vector3d> points = parseQhullPoints(*text, path);
+  for (Vector3d& point : points) point = point.cwiseProduct(scale);
+  return points;
+}
+
+}  // namespace fcl_stpbv

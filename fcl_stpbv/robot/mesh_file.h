@@ -1,0 +1,35 @@
+// Triangle meshes and clouds of points from the files that robots ship, and meshes to files for a look at
+// them.
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "fcl_stpbv/volume/tessellate.h"
+
+namespace fcl_stpbv {
+
+/// Reads all meshes of a file (STL, OBJ, COLLADA, PLY, glTF, OFF and what else assimp knows) as one, with the
+/// transforms of its nodes applied, then `scale` along each axis. Vertices with equal coordinates become one.
+///
+/// Coordinates are taken as rviz, MoveIt and the other readers of URDF take them: COLLADA's `unit` is
+/// applied, so lengths are in metres, and its `up_axis` is not, so a point's x stays x. Other formats state
+/// no unit and are taken as metres. assimp stores single precision: a coordinate of 1 m is good to 0.06 um.
+/// @throws Error naming the file and what would work.
+TriangleMesh loadMesh(const std::string& path, const Eigen::Vector3d& scale = {1, 1, 1});
+
+/// The points of a mesh file, or those of a qhull polyhedron or point file (`*-ch.txt`, `*.otp`; double
+/// precision and as many as the file holds), told apart by their content.
+/// @throws Error naming the file and what would work.
+std::vector<Eigen::Vector3d> loadPoints(const std::string& path, const Eigen::Vector3d& scale = {1, 1, 1});
+
+/// Whether saveMesh() knows a format for this name: it ends in .obj, .stl, .ply or .glb.
+bool canSaveMesh(const std::string& path);
+
+/// Writes a mesh in the format its name ends in, coordinates as they are, in single precision. A failed or
+/// interrupted write leaves an old file as it was.
+/// @throws Error naming the file and what would work.
+void saveMesh(const std::string& path, const TriangleMesh& mesh);
+
+}  // namespace fcl_stpbv

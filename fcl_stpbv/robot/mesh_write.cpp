@@ -1,0 +1,87 @@
+// Writing; see mesh_file.h.
+#include <assimp/cexport.h>
+#include <assimp/scene.h>
+
+#include <algorithm>
+#include <array>
+#include <assimp/Exporter.hpp>
+#include <cctype>
+#include <filesystem>
+#include <memory>
+#include <string_view>
+
+#include "fcl_stpbv/error.h"
+#include "fcl_stpbv/robot/mesh_file.h"
+#include "fcl_stpbv/volume/atomic_write.h"
+
+namespace fcl_stpbv {
+namespace {
+
+struct Format {
+  const char* extension;
+  const char* assimpId;
+};
+
+// OBJ without its second file of materials: one preview is one file.
+constexpr std::array<Format, 4> kFormats{
+    {{".obj", "objnomtl"}, {".stl", "stlb"}, {".ply", "plyb"}, {".glb", "glb2"}}};
+
+const Format* formatOf(const std::string& path) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const auto found = std::find_if(kFormats.begin(), kFormats.end(),
+                                  [&](const Format& f) { return extension == f.extension; });
+  return found == kFormats.end() ? nullptr : found;
+}
+
+// assimp's structures own what they point to through plain arrays and free them in their destructors.
+std::unique_ptr<aiMesh> toAssimp(const TriangleMesh& mesh) {
+  auto out = std::make_unique<aiMesh>();
+  out->mName = "stpbv";
+  out->mPrimitiveTypes = aiPrimitiveType_TRIANGLE;
+  out->mNumVertices = static_cast<unsigned>(mesh.vertices.size());
+  out->mVertices = new aiVector3D[mesh.vertices.size()];
+  std::transform(mesh.vertices.begin(), mesh.vertices.end(), out->mVertices, [](const Eigen::Vector3d& v) {
+    return aiVector3D(static_cast<ai_real>(v.x()), static_cast<ai_real>(v.y()), static_cast<ai_real>(v.z()));
+  });
+  out->mNumFaces = static_cast<unsigned>(mesh.triangles.size());
+  out->mFaces = new aiFace[mesh.triangles.size()];
+  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+    aiFace& face = out->mFaces[f];
+    face.mNumIndices = 3;
+    face.mIndices = new unsigned[3];
+    std::transform(mesh.triangles[f].begin(), mesh.triangles[f].end(), face.mIndices,
+                   [](int index) { return static_cast<unsigned>(index); });
+  }
+  return out;
+}
+
+std::unique_ptr<aiScene> sceneOf(const TriangleMesh& mesh) {
+  auto scene = std::make_unique<aiScene>();
+  scene->mNumMaterials = 1;
+  scene->mMaterials = new aiMaterial* [1] { new aiMaterial };
+  scene->mNumMeshes = 1;
+  scene->mMeshes = new aiMesh* [1] { toAssimp(mesh).release() };
+  scene->mRootNode = new aiNode("stpbv");
+  scene->mRootNode->mNumMeshes = 1;
+  scene->mRootNode->mMeshes = new unsigned[1]{0};
+  return scene;
+}
+
+}  // namespace
+
+bool canSaveMesh(const std::string& path) { return formatOf(path) != nullptr; }
+
+void saveMesh(const std::string& path, const TriangleMesh& mesh) {
+  const Format* format = formatOf(path);
+  if (format == nullptr) throw Error(path + ": no mesh format of this name; use .obj, .stl, .ply or .glb");
+  if (mesh.triangles.empty()) throw Error(path + ": not written, the mesh has no triangles");
+  const std::unique_ptr<aiScene> scene = sceneOf(mesh);
+  Assimp::Exporter exporter;
+  const aiExportDataBlob* blob = exporter.ExportToBlob(scene.get(), format->assimpId);
+  if (blob == nullptr) throw Error(path + ": cannot be written (" + exporter.GetErrorString() + ")");
+  atomicWrite(path, std::string_view(static_cast<const char*>(blob->data), blob->size));
+}
+
+}  // namespace fcl_stpbv

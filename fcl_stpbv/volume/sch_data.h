@@ -1,0 +1,65 @@
+// What a file in sch-core's format says, field by field, before anything of it is believed.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace fcl_stpbv::sch {
+
+/// A cone or plane that bounds a patch's region of normals, and the patch past it.
+struct Border {
+  int id;
+  double cosine;  ///< 0 for a plane
+  Eigen::Vector3d axis;
+};
+
+struct Vertex {
+  int line;
+  double radius;
+  Eigen::Vector3d centre;
+  std::vector<Border> tori;
+};
+
+struct Face {
+  int line;
+  double radius;
+  Eigen::Vector3d centre;
+  std::array<Eigen::Vector3d, 3> corner;
+  std::array<Border, 3> side;  ///< sides 12, 23, 31
+};
+
+struct Torus {
+  int line;
+  bool real;  ///< false where both face spheres coincide: the inner edge of a k-gon's fan
+  double circle, tube;
+  Eigen::Vector3d middle, axis;
+  std::array<Border, 2> cone;   ///< towards vertices i and j
+  std::array<Border, 2> plane;  ///< towards faces f1 and f2
+};
+
+/// Ids: vertices first, then faces, then the real tori in file order.
+struct File {
+  std::string name;
+  double r, R;
+  std::vector<Vertex> vertices;
+  std::vector<Face> faces;
+  std::vector<Torus> tori;
+  int digits;  ///< most significant digits of any number in it
+
+  int firstFace() const { return static_cast<int>(vertices.size()); }
+  int firstTorus() const { return firstFace() + static_cast<int>(faces.size()); }
+  /// Relative error of a number printed with that many digits.
+  double rounding() const;
+  [[noreturn]] void fail(int line, const std::string& message) const;
+};
+
+File parse(std::string_view text, const std::string& name);
+
+/// Compares everything that the file says twice. Returns the vertices of each triangle.
+/// @throws Error at the first disagreement.
+std::vector<std::array<int, 3>> check(const File& file);
+
+}  // namespace fcl_stpbv::sch

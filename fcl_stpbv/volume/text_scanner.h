@@ -1,0 +1,67 @@
+// Reads a text file token by token and remembers the line, so that a damaged file is refused with the place
+// and the field that is wrong. Independent of the locale.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <iosfwd>
+#include <string>
+#include <string_view>
+
+namespace fcl_stpbv {
+
+/// The whole text of a file. @throws Error naming the file when it cannot be read.
+std::string readText(const std::string& path);
+
+/// The rest of a stream; `name` stands for it in messages. @throws Error when reading fails.
+std::string readText(std::istream& in, const std::string& name);
+
+/// Appends the shortest decimal that reads back as exactly this double.
+void appendNumber(std::string& text, double value);
+
+/// Appends three numbers, separated by blanks.
+void appendVector(std::string& text, const Eigen::Vector3d& v);
+
+/// Walks over whitespace-separated tokens. Every failure throws Error "name:line: got ..., expected ...".
+class TextScanner {
+ public:
+  /// `text` must outlive the scanner.
+  TextScanner(std::string_view text, std::string name) : text_(text), name_(std::move(name)) {}
+
+  /// The next token; `what` names the field for the message at the end of the file.
+  std::string_view token(std::string_view what);
+  /// A finite number.
+  double number(std::string_view what);
+  Eigen::Vector3d vector(std::string_view what);
+  /// A whole number within [least, most].
+  long integer(std::string_view what, long least, long most);
+  /// The number of items that follow, each taking at least `bytesEach` bytes. A count that the rest of the
+  /// file cannot hold is refused here, before anything is allocated for it.
+  int count(std::string_view what, int least, std::size_t bytesEach);
+  /// A fixed word.
+  void keyword(std::string_view word);
+  /// Nothing but blanks may follow.
+  void end();
+  /// The rest of the current line, the line break taken.
+  std::string_view restOfLine();
+
+  bool atEnd();
+  int line() const { return line_; }
+  const std::string& name() const { return name_; }
+  /// Most significant digits seen in a number so far: how exact the file's writer was.
+  int digits() const { return digits_; }
+
+  /// Refuses the file at the line of the token read last.
+  [[noreturn]] void fail(const std::string& message) const;
+
+ private:
+  void skipBlanks();
+
+  std::string_view text_;
+  std::string name_;
+  std::size_t at_ = 0;
+  int line_ = 1;
+  int digits_ = 0;
+};
+
+}  // namespace fcl_stpbv
