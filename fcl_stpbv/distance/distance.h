@@ -11,8 +11,8 @@ namespace fcl_stpbv {
 
 /// How good an answer is.
 enum class DistanceStatus {
-  exact,    ///< the signed distance to rounding: separated, touching, or penetrating by at most r1 + r2
-  local,    ///< deeper: a local best separating translation; `distance` is a lower bound of the signed distance
+  exact,  ///< the signed distance to rounding: separated, touching, or penetrating by at most r1 + r2
+  local,  ///< deeper: a local best separating translation; `distance` is a lower bound of the signed distance
   bounded,  ///< not solved to rounding; the true value lies in [lower, upper]
   invalid,  ///< a pose or argument is not finite; bounds are infinite and everything else is zero
 };
@@ -24,17 +24,18 @@ using TwistGradient = Eigen::Matrix<double, 6, 1, Eigen::DontAlign>;
 /// Answer to one query. World frame, metres.
 struct Distance {
   DistanceStatus status = DistanceStatus::invalid;
-  double distance = 0;                 ///< signed: negative where the bodies overlap
-  double lower = 0;                    ///< certified: the gap between the two supporting planes of `normal`
-  double upper = 0;                    ///< certified: from the distance of the two cores' points
-  Eigen::Vector3d normal{0, 0, 0};     ///< unit, from body 1 to body 2
-  std::array<Eigen::Vector3d, 2> point{Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(0, 0, 0)};  ///< witness points, on the smooth surfaces
-  std::array<int, 2> patch{-1, -1};    ///< patches the witness points lie on
-  int patchPairs = 0;                  ///< patch pairs solved, the work done
-  int patchSteps = 0;                  ///< seams crossed on the two Gauss maps
+  double distance = 0;              ///< signed: negative where the bodies overlap
+  double lower = 0;                 ///< certified: the gap between the two supporting planes of `normal`
+  double upper = 0;                 ///< certified: from the distance of the two cores' points
+  Eigen::Vector3d normal{0, 0, 0};  ///< unit, from body 1 to body 2
+  std::array<Eigen::Vector3d, 2> point{Eigen::Vector3d(0, 0, 0),
+                                       Eigen::Vector3d(0, 0, 0)};  ///< witness points, on the smooth surfaces
+  std::array<int, 2> patch{-1, -1};                                ///< patches the witness points lie on
+  int patchPairs = 0;                                              ///< patch pairs solved, the work done
+  int patchSteps = 0;                                              ///< seams crossed on the two Gauss maps
 
-  /// Derivative of the distance with respect to the twist of body `which` (0 or 1) about `origin`, the position
-  /// of that body's frame (paper eq. 2; docs/theory.md, 6).
+  /// Derivative of the distance with respect to the twist of body `which` (0 or 1) about `origin`, the
+  /// position of that body's frame (paper eq. 2; docs/theory.md, 6).
   TwistGradient gradient(int which, const Eigen::Vector3d& origin) const {
     const Eigen::Vector3d n = which == 0 ? Eigen::Vector3d(-normal) : normal;
     TwistGradient g;
@@ -43,15 +44,17 @@ struct Distance {
   }
 };
 
-/// What a pair remembers between queries to start the next one near its answer; the adapter fills one from FCL's
-/// polyhedral witness. Owned by the caller; optional; never changes an answer, only how soon it is found.
+/// What a pair remembers between queries to start the next one near its answer; the adapter fills one from
+/// FCL's polyhedral witness. Owned by the caller; optional; never changes an answer, only how soon it is
+/// found.
 struct PairCache {
   Eigen::Vector3d normal{0, 0, 0};   ///< last normal, world frame; zero: none
   std::array<int, 2> patch{-1, -1};  ///< last patches; -1: none
 };
 
-/// Signed distance between `a` placed at `poseA` and `b` placed at `poseB`. Never throws, allocates or returns NaN.
-Distance distance(const StpBv& a, const Eigen::Isometry3d& poseA, const StpBv& b, const Eigen::Isometry3d& poseB,
-                  PairCache* cache = nullptr);
+/// Signed distance between `a` placed at `poseA` and `b` placed at `poseB`. Never throws, allocates or
+/// returns NaN.
+Distance distance(const StpBv& a, const Eigen::Isometry3d& poseA, const StpBv& b,
+                  const Eigen::Isometry3d& poseB, PairCache* cache = nullptr);
 
 }  // namespace fcl_stpbv

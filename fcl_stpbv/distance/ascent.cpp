@@ -1,0 +1,111 @@
+#include "fcl_stpbv/distance/ascent.h"
+
+#include <cmath>
+
+namespace fcl_stpbv {
+
+using Eigen::Vector3d;
+
+namespace {
+
+/// A normal this far past a seam still counts as inside: it is rounded to 2e-16 itself, as is the dot product
+/// that tells, and both patches agree there to the second order.
+constexpr double kOnSeam = 1e-15;
+
+constexpr int kMaxPairs =
+    40;  // two to four are usual; see docs/theory.md, 5 for what follows when they do not do
+
+/// Slope of the gap at `m` along the great circle with this pole.
+double slopeAlong(const Sample& m, const Vector3d& pole) { return m.across.dot(pole.cross(m.n)); }
+
+/// A normal on the arc from `x` towards `to` where the gap has grown and its slope along the arc is about
+/// zero. The slope is continuous, so a bracket of its sign always shrinks on a maximum; `x` itself when the
+/// gap cannot grow.
+Sample climbArc(const BodyPair& pair, const Sample& x, const Vector3d& to, const Sample* atEnd, Work& work) {
+  constexpr int kTrials = 60;     // bisection alone would go from 1 rad to an ulp
+  constexpr double kFlat = 0.05;  // of the slope at the start; the next patch pair does the rest exactly
+  const Vector3d cross = x.n.cross(to);
+  const double sine = cross.norm();
+  if (sine < 1e-16) return x;
+  const Vector3d pole = cross / sine;
+
+  const double startSlope = slopeAlong(x, pole);
+  if (!(startSlope > 0.0)) return x;
+  Sample low = x, high = atEnd ? *atEnd : pair.sampleFrom(to, x.patch, work.steps);
+  double lowAt = 0.0, highAt = 1.0;
+  double lowSlope = startSlope, highSlope = slopeAlong(high, pole);
+  if (high.core > x.core && highSlope >= 0.0) return high;
+  double lowWeight = lowSlope, highWeight = highSlope;  // Illinois: halved at the end that stays
+  int lastSide = 0;
+  for (int i = 0; i < kTrials; ++i) {
+    double at = 0.5 * (lowAt + highAt);
+    if (highSlope < 0.0 && i % 4 != 3) at = lowAt + (highAt - lowAt) * lowWeight / (lowWeight - highWeight);
+    if (!(at > lowAt && at < highAt)) break;
+    const Vector3d m = ((1.0 - at) * x.n + at * to).normalized();
+    const Sample mid = pair.sampleFrom(m, low.patch, work.steps);
+    const double slope = slopeAlong(mid, pole);
+    const bool grew = mid.core > x.core;
+    if (grew && std::abs(slope) <= kFlat * startSlope) return mid;
+    if (grew && slope > 0.0) {
+      low = mid;
+      lowAt = at;
+      lowSlope = lowWeight = slope;
+      if (lastSide == 1) highWeight *= 0.5;
+      lastSide = 1;
+    } else {
+      high = mid;
+      highAt = at;
+      highSlope = highWeight = slope;
+      if (lastSide == -1) lowWeight *= 0.5;
+      lastSide = -1;
+    }
+  }
+  return high.core > low.core ? high : low;
+}
+
+}  // namespace
+
+bool settle(const BodyPair& pair, Sample& x, Vector3d& next, Work& work) {
+  const PosedPatch a = pair.patchA(x.patch[0]), b = pair.patchB(x.patch[1]);
+  next = widestNormal(a, b, x.n);
+  ++work.pairs;
+  if (pair.a().outside(x.patch[0], next) > kOnSeam) return false;
+  if (pair.b().outside(x.patch[1], pair.opposite(next)) > kOnSeam) return false;
+  Sample there = pair.sample(next, x.patch);
+  const double flat2 = pair.acrossRounding() * pair.acrossRounding();
+  if (there.across.squaredNorm() > flat2) {  // two tori: one more step takes it to rounding
+    next = widestNormal(a, b, there.n);
+    there = pair.sample(next, x.patch);
+  }
+  // Deep inside each other the pair's other maximum may lie in the same regions; it must not be a step down.
+  if (there.core < x.core - pair.gapRounding()) return false;
+  x = there;
+  return true;
+}
+
+bool ascend(const BodyPair& pair, Sample& x, Work& work) {
+  const double flat2 = pair.acrossRounding() * pair.acrossRounding();
+  for (int i = 0; i < kMaxPairs; ++i) {
+    Vector3d next;
+    if (settle(pair, x, next, work)) return true;
+    if (x.across.squaredNorm() <= flat2) return true;  // on a seam, to rounding
+
+    Sample y;
+    if (next.dot(x.n) > 0.1) {
+      const Sample atEnd = pair.sampleFrom(next, x.patch, work.steps);
+      y = climbArc(pair, x, next, &atEnd, work);
+    } else {
+      y = x;
+    }
+    if (!(y.core > x.core)) {
+      // Only deep inside each other, or at rounding: the pair's maximum is not uphill; follow the gradient
+      // instead.
+      y = climbArc(pair, x, (x.n + x.across.normalized()).normalized(), nullptr, work);
+      if (!(y.core > x.core)) return false;
+    }
+    x = y;
+  }
+  return false;
+}
+
+}  // namespace fcl_stpbv

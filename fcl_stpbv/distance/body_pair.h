@@ -1,0 +1,70 @@
+// Two bodies placed relative to each other, and the gap between them along one normal.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <array>
+
+#include "fcl_stpbv/distance/patch_pair.h"
+#include "fcl_stpbv/volume/stp_bv.h"
+
+namespace fcl_stpbv {
+
+/// What the two bodies look like along one normal: the exact gap there and its gradient. Frame of the first
+/// body.
+struct Sample {
+  Eigen::Vector3d n;         ///< unit, from the first body to the second
+  std::array<int, 2> patch;  ///< patches owning `n` and `-n`
+  double core;               ///< gap between the cores' supporting planes, s(n) + r_A + r_B (m)
+  Eigen::Vector3d across;    ///< gradient of the gap on the sphere: core points' difference across `n` (m)
+};
+
+/// Both bodies in the first one's frame: however far the pair is from the world's origin, only the bodies'
+/// own coordinates and their mutual distance enter.
+class BodyPair {
+ public:
+  /// `rotation` and `translation` place the second body in the first one's frame; `rotation` is orthonormal.
+  BodyPair(const StpBv& a, const StpBv& b, const Eigen::Matrix3d& rotation,
+           const Eigen::Vector3d& translation)
+      : a_(a), b_(b), rotation_(rotation), translation_(translation) {}
+
+  const StpBv& a() const { return a_; }
+  const StpBv& b() const { return b_; }
+  const Eigen::Matrix3d& rotation() const { return rotation_; }
+  const Eigen::Vector3d& translation() const { return translation_; }
+
+  /// The second body's outward normal, in its own frame, where the first body's is `n`.
+  Eigen::Vector3d opposite(const Eigen::Vector3d& n) const { return -(rotation_.transpose() * n); }
+
+  PosedPatch patchA(int patch) const { return {a_.patch(patch), a_.kind(patch), a_.radii()}; }
+  PosedPatch patchB(int patch) const {
+    const Patch& p = b_.patch(patch);
+    return {{rotation_ * p.anchor + translation_, rotation_ * p.axis, p.kappa, p.sag},
+            b_.kind(patch),
+            b_.radii()};
+  }
+
+  /// The gap along `n` when these two patches own it.
+  Sample sample(const Eigen::Vector3d& n, const std::array<int, 2>& patch) const;
+
+  /// The gap along `n`; the owners are looked for from `hint`. Adds the patches that changed to `steps`.
+  Sample sampleFrom(const Eigen::Vector3d& n, const std::array<int, 2>& hint, int& steps) const;
+
+  /// Sum of the radii beyond the cores (m).
+  double margins() const { return a_.radii().r + b_.radii().r; }
+
+  /// Rounding of a gap: coordinates up to the bodies' extents and mutual distance, a dozen operations (m).
+  double gapRounding() const;
+
+  /// Rounding of `Sample::across`: a unit normal is only good to an ulp, and a face's point moves `rho` times
+  /// as far (m).
+  double acrossRounding() const;
+
+ private:
+  const StpBv& a_;
+  const StpBv& b_;
+  Eigen::Matrix3d rotation_;
+  Eigen::Vector3d translation_;
+};
+
+}  // namespace fcl_stpbv

@@ -1,0 +1,128 @@
+#include "fcl_stpbv/distance/distance.h"
+
+#include <cmath>
+#include <limits>
+
+#include "fcl_stpbv/distance/ascent.h"
+#include "fcl_stpbv/distance/body_pair.h"
+#include "fcl_stpbv/distance/penetration.h"
+#include "fcl_stpbv/distance/separation.h"
+
+namespace fcl_stpbv {
+
+using Eigen::Isometry3d;
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+namespace {
+
+/// Makes a nearly orthonormal matrix orthonormal: poses come from integrated joints, files and single
+/// precision. False for a matrix that is not finite or no rotation.
+bool orthonormalize(Matrix3d& q) {
+  constexpr double kFine = 1e-15, kRotation = 0.1;
+  for (int i = 0; i < 5; ++i) {
+    const Matrix3d excess = q.transpose() * q - Matrix3d::Identity();
+    const double off = excess.cwiseAbs().maxCoeff();
+    if (!(off < kRotation) || !excess.allFinite()) return false;
+    if (off <= kFine) break;
+    q -= 0.5 * q * excess;  // Newton for the polar factor; the error squares each time
+  }
+  return true;
+}
+
+bool finite(const Isometry3d& pose) { return pose.matrix().topRows<3>().allFinite(); }
+
+/// The first guess when nothing is remembered: from centre to centre.
+Vector3d centreLine(const BodyPair& pair) {
+  const Vector3d d = pair.rotation() * pair.b().centre() + pair.translation() - pair.a().centre();
+  const double length = d.norm();
+  return length > 0.0 ? Vector3d(d / length) : Vector3d::UnitX();
+}
+
+struct Found {
+  Sample at;
+  DistanceStatus status;
+};
+
+/// From any start along which the cores are apart: the widest gap.
+Found climb(const BodyPair& pair, Sample x, Work& work) {
+  if (!ascend(pair, x, work)) bisectToWidest(pair, x, work);
+  const bool flat = x.across.norm() <= pair.acrossRounding();
+  return {x, flat ? DistanceStatus::exact : DistanceStatus::bounded};
+}
+
+Found solveCold(const BodyPair& pair, Work& work) {
+  Sample x = pair.sampleFrom(centreLine(pair), {-1, -1}, work.steps);
+  switch (separateCores(pair, x, work)) {
+    case CoreContact::apart:
+      return climb(pair, x, work);
+    case CoreContact::touching:
+      return {x, DistanceStatus::exact};
+    case CoreContact::overlap:
+      break;
+  }
+  leastPenetration(pair, x, work);
+  return {x, DistanceStatus::local};
+}
+
+/// The start a cache offers: the better of the remembered normal and of the remembered patches' own.
+bool warmStart(const BodyPair& pair, const Vector3d& normal, std::array<int, 2> patch, Sample& x,
+               Work& work) {
+  if (patch[0] >= pair.a().patchCount() || patch[1] >= pair.b().patchCount()) return false;
+  const double length = normal.norm();
+  if (!(length > 0.5 && length < 2.0)) return false;
+  const Vector3d n = normal / length;
+  x = pair.sampleFrom(n, patch, work.steps);
+  if (patch[0] >= 0 && patch[1] >= 0) {
+    const Vector3d reposed = widestNormal(pair.patchA(patch[0]), pair.patchB(patch[1]), n);
+    ++work.pairs;
+    const Sample y = pair.sampleFrom(reposed, patch, work.steps);
+    if (y.core > x.core) x = y;
+  }
+  return x.core > 0.0;
+}
+
+}  // namespace
+
+Distance distance(const StpBv& a, const Isometry3d& poseA, const StpBv& b, const Isometry3d& poseB,
+                  PairCache* cache) {
+  Distance result;
+  result.lower = -std::numeric_limits<double>::infinity();
+  result.upper = std::numeric_limits<double>::infinity();
+  if (!finite(poseA) || !finite(poseB)) return result;
+  Matrix3d rotation = poseA.linear().transpose() * poseB.linear();
+  const Vector3d translation = poseA.linear().transpose() * (poseB.translation() - poseA.translation());
+  if (!orthonormalize(rotation) || !translation.allFinite()) return result;
+
+  const BodyPair pair(a, b, rotation, translation);
+  Work work;
+  Sample start;
+  Found found;
+  if (cache && warmStart(pair, poseA.linear().transpose() * cache->normal, cache->patch, start, work))
+    found = climb(pair, start, work);
+  else
+    found = solveCold(pair, work);
+
+  const Sample& x = found.at;
+  result.status = found.status;
+  result.lower = x.core - pair.margins();
+  result.upper =
+      (found.status == DistanceStatus::local ? 0.0 : std::hypot(x.core, x.across.norm())) - pair.margins();
+  result.distance = result.lower;
+  result.patch = x.patch;
+  result.normal = (poseA.linear() * x.n).normalized();
+  const Vector3d nB = pair.opposite(x.n);
+  result.point[0] = poseA * Vector3d(corePoint(a.patch(x.patch[0]), a.kind(x.patch[0]), a.radii(), x.n) +
+                                     a.radii().r * x.n);
+  result.point[1] =
+      poseB * Vector3d(corePoint(b.patch(x.patch[1]), b.kind(x.patch[1]), b.radii(), nB) + b.radii().r * nB);
+  result.patchPairs = work.pairs;
+  result.patchSteps = work.steps;
+  if (cache) {
+    cache->normal = result.normal;
+    cache->patch = result.patch;
+  }
+  return result;
+}
+
+}  // namespace fcl_stpbv
