@@ -1,0 +1,159 @@
+#include "fcl_stpbv/volume/measure.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "fcl_stpbv/volume/regions.h"
+#include "fcl_stpbv/volume/verify.h"
+
+namespace fcl_stpbv {
+namespace {
+
+using Eigen::Vector3d;
+
+// Gauss-Legendre points and weights on [0, 1], ten points: exact for polynomials of degree 19.
+constexpr std::array<std::array<double, 2>, 10> kGauss{{{0.013046735741414, 0.033335672154344},
+                                                        {0.067468316655508, 0.074725674575290},
+                                                        {0.160295215850488, 0.109543181257991},
+                                                        {0.283302302935376, 0.134633359654998},
+                                                        {0.425562830509184, 0.147762112357376},
+                                                        {0.574437169490816, 0.147762112357376},
+                                                        {0.716697697064624, 0.134633359654998},
+                                                        {0.839704784149512, 0.109543181257991},
+                                                        {0.932531683344492, 0.074725674575290},
+                                                        {0.986953264258586, 0.033335672154344}}};
+
+// Integral of n over a region of the unit sphere, half the integral of n x dn along its boundary.
+Vector3d vectorArea(const Region& region) {
+  Vector3d sum = Vector3d::Zero();
+  for (const Arc& arc : region.boundary) {
+    const double along = arc.axis.dot(arc.start), across2 = 1 - along * along;
+    const Vector3d chord = arc.at(1) - arc.start;
+    sum += across2 * arc.turn * arc.axis + along * arc.axis.cross(chord);
+  }
+  return 0.5 * sum;
+}
+
+double faceVolume(const StpBv& volume, const Region& region) {
+  double sum = 0;
+  const Patch& patch = volume.patch(region.patch);
+  const Vector3d anchor = patch.anchor - volume.centre();
+  for (const Arc& arc : region.boundary) {
+    const int pieces = std::max(1, static_cast<int>(std::ceil(arc.turn / 0.5)));
+    for (int piece = 0; piece < pieces; ++piece)
+      for (const auto& [t, wt] : kGauss) {
+        const Vector3d b = arc.at((piece + t) / pieces), rate = arc.turn / pieces * arc.axis.cross(b);
+        const double det = region.centre.cross(b - region.centre).dot(rate);
+        for (const auto& [out, wo] : kGauss) {
+          const Vector3d g = region.centre + out * (b - region.centre);
+          const double length = g.norm();
+          const Vector3d n = g / length;
+          const double height = n.dot(anchor) + supportAboveAnchor(patch, PatchKind::face, volume.radii(), n);
+          sum += wt * wo * out * det / (length * length * length) * height;
+        }
+      }
+  }
+  return sum * volume.radii().R * volume.radii().R / 3;
+}
+
+// With n = cos(a) w + sin(a) u the surface element is R (R cos a - kappa) da dphi and h = n.I + R - kappa cos
+// a.
+double edgeVolume(const StpBv& volume, int edge) {
+  const Patch& patch = volume.patch(volume.edgePatch(edge));
+  const Radii& radii = volume.radii();
+  const Arc arc = edgeArc(volume, edge);
+  const Vector3d middle = patch.anchor - volume.centre();
+  const Vector3d sumOfW = arc.axis.cross(arc.start - arc.at(1));
+  const double half2 = patch.sag * (radii.rho + patch.kappa);
+  const double limit = std::asin(std::min(1.0, std::sqrt(half2) / radii.rho));
+  double sum = 0;
+  for (const auto& [t, weight] : kGauss) {
+    const double a = limit * (2 * t - 1), c = std::cos(a), s = std::sin(a);
+    // rho c - kappa without cancellation.
+    const double over = (half2 - radii.rho * radii.rho * s * s) / (radii.rho * c + patch.kappa);
+    const double height =
+        arc.turn * (s * arc.axis.dot(middle) + radii.r + patch.sag + patch.kappa * s * s / (1 + c)) +
+        c * sumOfW.dot(middle);
+    sum += weight * 2 * limit * (radii.r * c + over) * height;
+  }
+  return sum * radii.R / 3;
+}
+
+// A direction across the edge that its patch owns.
+Vector3d acrossEdge(const StpBv& volume, int patch) {
+  Vector3d sum = Vector3d::Zero(), last = Vector3d::Zero();
+  for (const StpBv::Seam* seam = volume.seamsBegin(patch); seam != volume.seamsEnd(patch); ++seam)
+    if (seam->limit == 0) sum -= seam->normal, last = seam->normal;
+  const Vector3d& u = volume.patch(patch).axis;
+  if (sum.norm() > 1e-6) return sum.normalized();
+  return last.norm() > 0 ? Vector3d(u.cross(last)) : Vector3d(u.unitOrthogonal());
+}
+
+// The normal at the patch's point farthest along n.p - h(n): towards p from the farthest centre. Where all
+// normals of a point, or all directions across an edge, serve alike, one that the patch owns.
+Vector3d stationaryNormal(const StpBv& volume, int index, const Vector3d& p) {
+  const Patch& patch = volume.patch(index);
+  const PatchKind kind = volume.kind(index);
+  Vector3d g = p - centre(patch, kind, volume.radii());
+  if (kind == PatchKind::edge) {
+    const double along = g.dot(patch.axis);
+    const Vector3d side = g - along * patch.axis;
+    const double length = side.norm();
+    g = along * patch.axis +
+        (length + patch.kappa) * (length > 0 ? Vector3d(side / length) : acrossEdge(volume, index));
+  }
+  const double length = g.norm();
+  if (length > 0) return g / length;
+  if (kind == PatchKind::face) return patch.axis;
+  Vector3d inside = Vector3d::Zero();
+  for (const StpBv::Seam* seam = volume.seamsBegin(index); seam != volume.seamsEnd(index); ++seam)
+    inside -= seam->normal;
+  return inside.norm() > 0 ? Vector3d(inside.normalized()) : Vector3d(Vector3d::UnitZ());
+}
+
+}  // namespace
+
+double overCoverBound(const Radii& radii, double longestEdge) {
+  const double a2 = longestEdge * longestEdge / 3;
+  return radii.r + a2 / (radii.rho + std::sqrt(std::max(0.0, radii.rho * radii.rho - a2)));
+}
+
+double enclosedVolume(const StpBv& volume) {
+  const std::vector<double> angles = solidAngles(volume);
+  const double r = volume.radii().r;
+  double sum = 0;
+  for (const Region& region : regions(volume)) {
+    if (volume.kind(region.patch) == PatchKind::face) {
+      sum += faceVolume(volume, region);
+      continue;
+    }
+    const Vector3d p = volume.patch(region.patch).anchor - volume.centre();
+    const double share = volume.edgeCount() == 0 ? 0.5 : 1;  // a lone sphere comes as two halves
+    sum +=
+        r * r / 3 * (p.dot(vectorArea(region)) + r * share * angles[static_cast<std::size_t>(region.patch)]);
+  }
+  for (int e = 0; e < volume.edgeCount(); ++e) sum += edgeVolume(volume, e);
+  return sum;
+}
+
+double signedDistance(const StpBv& volume, const Vector3d& point) {
+  // The largest value lies on the patch that owns its normal; a normal this close to a seam belongs to both
+  // sides.
+  constexpr double kSeam = 1e-12;
+  double best = -2 * volume.radii().R;
+  for (int index = 0; index < volume.patchCount(); ++index) {
+    const Patch& patch = volume.patch(index);
+    const Vector3d n = stationaryNormal(volume, index, point);
+    if (volume.outside(index, n) > kSeam) continue;
+    best = std::max(
+        best, n.dot(point - patch.anchor) - supportAboveAnchor(patch, volume.kind(index), volume.radii(), n));
+  }
+  return best;
+}
+
+bool contains(const StpBv& volume, const Vector3d& point) { return signedDistance(volume, point) <= 0; }
+
+}  // namespace fcl_stpbv

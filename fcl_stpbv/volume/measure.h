@@ -1,0 +1,34 @@
+// How large a volume is, how far it exceeds the convex hull it covers, and where a point lies against it.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "fcl_stpbv/volume/stp_bv.h"
+
+namespace fcl_stpbv {
+
+/// Excess over the convex hull of the volume's vertices (m).
+struct OverCover {
+  double max;   ///< largest distance of a surface point from the hull: the largest difference of the support
+                ///< functions
+  double mean;  ///< mean height of the surface over the hull's faces, by area (along a segment, or of a
+                ///< point, likewise)
+};
+OverCover overCover(const StpBv& volume);
+
+/// Bound on the over-cover for a body whose faces are acute and whose longest edge is `a` (m): R - sqrt(rho^2
+/// - a^2/3). The paper (III.C) prints a^2/12, which is the inradius of an equilateral face and too small;
+/// docs/theory.md, 4.
+double overCoverBound(const Radii& radii, double longestEdge);
+
+/// Volume enclosed (m^3).
+double enclosedVolume(const StpBv& volume);
+
+/// Signed distance of a point from the surface, negative inside (m): the largest of n.p - h(n) over the
+/// normals n. Exact at any depth; looks at every patch.
+double signedDistance(const StpBv& volume, const Eigen::Vector3d& point);
+
+/// True where the point lies inside or on the surface.
+bool contains(const StpBv& volume, const Eigen::Vector3d& point);
+
+}  // namespace fcl_stpbv

@@ -1,0 +1,197 @@
+// How far the surface exceeds the convex hull of the volume's vertices.
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "fcl_stpbv/volume/ball_side.h"
+#include "fcl_stpbv/volume/measure.h"
+#include "fcl_stpbv/volume/rolling_ball.h"
+
+namespace fcl_stpbv {
+namespace {
+
+using Eigen::Vector3d;
+
+// Height above y, along the unit direction d, at which a ray from inside leaves the patch continued over the
+// whole sphere: |q + t d - I| = c for a point, the circle's farthest point likewise.
+double exitHeight(const Patch& patch, PatchKind kind, const Radii& radii, const Vector3d& y,
+                  const Vector3d& d) {
+  const Vector3d q = y - patch.anchor;
+  if (kind != PatchKind::edge) {
+    // |q + t d + rho m|^2 = R^2 for a face, |q + t d|^2 = r^2 for a vertex; the constant term holds no large
+    // square.
+    const double rho = kind == PatchKind::face ? radii.rho : 0;
+    const double half = d.dot(q + rho * patch.axis);
+    const double constant =
+        q.squaredNorm() + 2 * rho * q.dot(patch.axis) - radii.r * (offset(kind, radii) + rho);
+    if (half * half <= constant)
+      return -half;  // past it: the nearest place on the ray tells which way to go on
+    const double root = std::sqrt(half * half - constant);
+    return half > 0 ? -constant / (half + root) : root - half;
+  }
+  // The distance to the circle's farthest point is convex along the ray: Newton from beyond comes down
+  // monotonically.
+  const double half2 = patch.sag * (radii.rho + patch.kappa);
+  const double rest = radii.r * (radii.R + radii.rho) + half2;  // R^2 - kappa^2
+  double t = 2 * (radii.r + patch.sag) + q.norm();
+  for (int round = 0; round < 60; ++round) {
+    const Vector3d x = q + t * d;
+    const double along = x.dot(patch.axis);
+    const Vector3d side = x - along * patch.axis;
+    const double across = side.norm();
+    const double value = across * (across + 2 * patch.kappa) + along * along - rest;
+    const double slope =
+        2 * (along * d.dot(patch.axis) + (across > 0 ? (1 + patch.kappa / across) * side.dot(d) : 0));
+    if (!(slope > 0)) break;
+    const double step = value / slope;
+    t -= step;
+    if (!(step > 1e-16 * (1 + std::abs(t)))) break;
+  }
+  return t;
+}
+
+// Height of the surface over the point y of the hull, along the unit direction d out of it. Goes from patch
+// to patch over the seam that the exit's normal is farthest past.
+double heightOver(const StpBv& volume, const Vector3d& y, const Vector3d& d, int* patch) {
+  constexpr int kSteps = 100;  // a face away from the right one is common, more than a few are not
+  for (int step = 0; step < kSteps; ++step) {
+    const Patch& p = volume.patch(*patch);
+    const PatchKind kind = volume.kind(*patch);
+    const double height = exitHeight(p, kind, volume.radii(), y, d);
+    Vector3d n = y + height * d - centre(p, kind, volume.radii());
+    if (kind == PatchKind::edge) {
+      const Vector3d side = n - n.dot(p.axis) * p.axis;
+      if (side.norm() > 0) n += p.kappa * side.normalized();
+    }
+    n.normalize();
+    const StpBv::Seam* over = nullptr;
+    double worst = 1e-12;
+    for (const StpBv::Seam* seam = volume.seamsBegin(*patch); seam != volume.seamsEnd(*patch); ++seam) {
+      const double past = n.dot(seam->normal) - seam->limit;
+      if (past > worst) worst = past, over = seam;
+    }
+    if (over == nullptr) return height;
+    *patch = over->neighbour;
+  }
+  // Between regions narrower than rounding the steps may go round in circles; halving the ray always ends.
+  double low = 0, high = 2 * volume.enclosingRadius() + 2 * volume.radii().r;
+  for (int round = 0; round < 60; ++round) {
+    const double middle = 0.5 * (low + high);
+    (contains(volume, y + middle * d) ? low : high) = middle;
+  }
+  return low;
+}
+
+// Largest difference of the support functions over the normals of one hull edge: an arc about the edge, where
+// the hull's is that of the edge's points. The difference grows where the surface point lies ahead of the
+// edge.
+double largestOverEdge(const StpBv& volume, const Vector3d& p, const Vector3d& u, const Vector3d& start,
+                       double turn) {
+  const Vector3d side = u.cross(start);
+  int patch = -1;
+  const auto normal = [&](double angle) {
+    return Vector3d(std::cos(angle) * start + std::sin(angle) * side);
+  };
+  const auto excess = [&](double angle) {
+    const Vector3d n = normal(angle);
+    patch = volume.owner(n, patch);
+    return n.dot(volume.patch(patch).anchor - p) +
+           supportAboveAnchor(volume.patch(patch), volume.kind(patch), volume.radii(), n);
+  };
+  const auto ahead = [&](double angle) {
+    const Vector3d n = normal(angle);
+    patch = volume.owner(n, patch);
+    const Vector3d x = corePoint(volume.patch(patch), volume.kind(patch), volume.radii(), n);
+    return (x - p).dot(u.cross(n));
+  };
+  constexpr int kPieces = 8;
+  double best = std::max(excess(0), excess(turn));
+  for (int k = 0; k < kPieces; ++k) {
+    double low = turn * k / kPieces, high = turn * (k + 1) / kPieces;
+    best = std::max(best, excess(high));
+    if (!(ahead(low) > 0 && ahead(high) < 0)) continue;
+    for (int round = 0; round < 50; ++round) {
+      const double middle = 0.5 * (low + high);
+      (ahead(middle) > 0 ? low : high) = middle;
+    }
+    best = std::max(best, excess(low));
+  }
+  return best;
+}
+
+// Degree five on a triangle: seven points with their weights, in barycentric coordinates.
+struct TrianglePoint {
+  double a, b, c, weight;
+};
+constexpr double kA1 = 0.059715871789770, kB1 = 0.470142064105115, kA2 = 0.797426985353087,
+                 kB2 = 0.101286507323456;
+constexpr double kW0 = 0.225, kW1 = 0.132394152788506, kW2 = 0.125939180544827;
+constexpr std::array<TrianglePoint, 7> kTriangle{{{1.0 / 3, 1.0 / 3, 1.0 / 3, kW0},
+                                                  {kA1, kB1, kB1, kW1},
+                                                  {kB1, kA1, kB1, kW1},
+                                                  {kB1, kB1, kA1, kW1},
+                                                  {kA2, kB2, kB2, kW2},
+                                                  {kB2, kA2, kB2, kW2},
+                                                  {kB2, kB2, kA2, kW2}}};
+
+// One or two points: the surface's height over a point is r, over a segment that of an arc of radius R.
+OverCover overCoverOfLine(const StpBv& volume) {
+  const Radii& radii = volume.radii();
+  if (volume.edgeCount() == 0) return {radii.r, radii.r};
+  const Patch& patch = volume.patch(volume.edgePatch(0));
+  const double half = std::sqrt(patch.sag * (radii.rho + patch.kappa)), top = radii.r + patch.sag;
+  constexpr int kPieces = 1000;
+  double sum = 0;
+  for (int k = 0; k < kPieces; ++k) {
+    const double s = half * (2 * (k + 0.5) / kPieces - 1);
+    sum += top - s * s / (radii.R + std::sqrt(radii.R * radii.R - s * s));
+  }
+  return {top, sum / kPieces};
+}
+
+}  // namespace
+
+OverCover overCover(const StpBv& volume) {
+  if (volume.vertexCount() < 3) return overCoverOfLine(volume);
+  const std::vector<Vector3d>& points = volume.vertices();
+  const auto at = [&](int i) -> const Vector3d& { return points[static_cast<std::size_t>(i)]; };
+  const RolledHull hull = rollBall(points);
+
+  OverCover result{volume.radii().r, 0};
+  double area = 0, sum = 0;
+  std::vector<Vector3d> normals;
+  for (const std::vector<int>& ring : hull.faces) {
+    const std::array<int, 3> wide = wideTriangle(points, ring);
+    const Vector3d n = (at(wide[1]) - at(wide[0])).cross(at(wide[2]) - at(wide[0])).normalized();
+    normals.push_back(n);
+    int patch = volume.owner(n);
+    result.max = std::max(result.max,
+                          n.dot(volume.patch(patch).anchor - at(ring[0])) +
+                              supportAboveAnchor(volume.patch(patch), volume.kind(patch), volume.radii(), n));
+    for (std::size_t k = 1; k + 1 < ring.size(); ++k) {
+      const Vector3d a = at(ring[0]), b = at(ring[k]), c = at(ring[k + 1]);
+      const double size = 0.5 * (b - a).cross(c - a).norm();
+      area += size;
+      for (const TrianglePoint& t : kTriangle)
+        sum += size * t.weight * heightOver(volume, t.a * a + t.b * b + t.c * c, n, &patch);
+    }
+  }
+  result.mean = area > 0 ? sum / area : volume.radii().r;
+
+  const std::vector<HalfEdge> halfEdges =
+      pairHalfEdges(points, hull.faces, normals, std::numeric_limits<double>::infinity());
+  for (std::size_t h = 0; h < halfEdges.size(); ++h) {
+    const HalfEdge& edge = halfEdges[h];
+    if (edge.twin < static_cast<int>(h)) continue;
+    const std::vector<int>& ring = hull.faces[static_cast<std::size_t>(edge.face)];
+    const Vector3d& a = at(ring[static_cast<std::size_t>(edge.corner)]);
+    const Vector3d& b = at(ring[(static_cast<std::size_t>(edge.corner) + 1) % ring.size()]);
+    const Vector3d u = (b - a).normalized(), n = normals[static_cast<std::size_t>(edge.face)];
+    result.max =
+        std::max(result.max, largestOverEdge(volume, a, u, (n - n.dot(u) * u).normalized(), edge.turn));
+  }
+  return result;
+}
+
+}  // namespace fcl_stpbv

@@ -1,0 +1,82 @@
+#include "fcl_stpbv/volume/regions.h"
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+namespace fcl_stpbv {
+namespace {
+
+using Eigen::Vector3d;
+
+const Vector3d& at(const StpBv& volume, int vertex) {
+  return volume.vertices()[static_cast<std::size_t>(vertex)];
+}
+
+void setCentre(Region* region) {
+  Vector3d sum = Vector3d::Zero();
+  for (const Arc& arc : region->boundary)
+    for (int k = 0; k < 8; ++k) sum += std::max(arc.turn, 1e-12) * arc.at((k + 0.5) / 8);
+  region->centre = sum.normalized();
+}
+
+}  // namespace
+
+Vector3d Arc::at(double part) const {
+  const double angle = turn * part;
+  const Vector3d along = axis.dot(start) * axis, across = start - along;
+  return along + std::cos(angle) * across + std::sin(angle) * axis.cross(across);
+}
+
+Vector3d Region::normal(std::size_t arc, double part, double out) const {
+  return (centre + out * (boundary[arc].at(part) - centre)).normalized();
+}
+
+Arc edgeArc(const StpBv& volume, int edge) {
+  const StpBv::Edge& e = volume.edges()[static_cast<std::size_t>(edge)];
+  const Vector3d u = volume.patch(volume.edgePatch(edge)).axis;
+  Vector3d start = u.unitOrthogonal();
+  if (e.face[0] >= 0) {
+    const Vector3d m = volume.corner(e.face[0], e.vertex[0]);
+    start = (m - m.dot(u) * u).normalized();
+  }
+  return {start, u, e.turn};
+}
+
+std::vector<Region> regions(const StpBv& volume) {
+  std::vector<Region> all(static_cast<std::size_t>(volume.vertexCount()));
+  for (int v = 0; v < volume.vertexCount(); ++v) all[static_cast<std::size_t>(v)].patch = v;
+  if (volume.edgeCount() == 0) {
+    constexpr double kTwoPi = 6.283185307179586476925;
+    const Vector3d z = Vector3d::UnitZ();
+    return {{0, z, {{Vector3d::UnitX(), z, kTwoPi}}}, {0, -z, {{Vector3d::UnitX(), -z, kTwoPi}}}};
+  }
+  for (int e = 0; e < volume.edgeCount(); ++e) {
+    const StpBv::Edge& edge = volume.edges()[static_cast<std::size_t>(e)];
+    const Arc middle = edgeArc(volume, e);
+    const double sine =
+        0.5 * (at(volume, edge.vertex[1]) - at(volume, edge.vertex[0])).norm() / volume.radii().rho;
+    const double cosine = volume.patch(volume.edgePatch(e)).kappa / volume.radii().rho;
+    // The second vertex lies ahead of the edge's turn on its left, the first one on its right.
+    const Vector3d u = middle.axis;
+    all[static_cast<std::size_t>(edge.vertex[1])].boundary.push_back(
+        {cosine * middle.start + sine * u, u, edge.turn});
+    all[static_cast<std::size_t>(edge.vertex[0])].boundary.push_back(
+        {cosine * middle.at(1) - sine * u, -u, edge.turn});
+  }
+  for (int f = 0; f < volume.faceCount(); ++f) {
+    const StpBv::Ring& ring = volume.faces()[static_cast<std::size_t>(f)];
+    Region region{volume.facePatch(f), Vector3d::Zero(), {}};
+    for (std::size_t k = 0; k < ring.size(); ++k) {
+      const int i = ring[k], j = ring[(k + 1) % ring.size()];
+      const Vector3d from = volume.corner(f, i), to = volume.corner(f, j);
+      // Both normals are offsets of the two points from the ball's centre, so their plane holds the edge.
+      const Vector3d axis = from.cross(at(volume, j) - at(volume, i)).normalized();
+      region.boundary.push_back({from, axis, std::atan2(axis.dot(from.cross(to)), from.dot(to))});
+    }
+    all.push_back(std::move(region));
+  }
+  for (Region& region : all) setCentre(&region);
+  return all;
+}
+
+}  // namespace fcl_stpbv

@@ -1,0 +1,36 @@
+// The regions of normals of vertices and faces as areas bounded by arcs, for viewing and for measuring.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "fcl_stpbv/volume/stp_bv.h"
+
+namespace fcl_stpbv {
+
+/// Part of a circle on the unit sphere: `start` turned about the unit `axis` by up to `turn` (rad).
+struct Arc {
+  Eigen::Vector3d start, axis;
+  double turn;
+  Eigen::Vector3d at(double part) const;  ///< part in [0, 1]
+};
+
+/// A region with its boundary, counter-clockwise, and a normal inside it from which all of the boundary is in
+/// sight.
+struct Region {
+  int patch;
+  Eigen::Vector3d centre;
+  std::vector<Arc> boundary;
+
+  /// Normal at a share `out` of the way from the centre to `boundary[arc].at(part)`.
+  Eigen::Vector3d normal(std::size_t arc, double part, double out) const;
+};
+
+/// Regions of all vertices, then of all faces (paper III.D). A single point's sphere comes as two halves.
+std::vector<Region> regions(const StpBv& volume);
+
+/// The arc of an edge's normals halfway between its ends, from its first face to its second; a spindle's is a
+/// circle.
+Arc edgeArc(const StpBv& volume, int edge);
+
+}  // namespace fcl_stpbv
