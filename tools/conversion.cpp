@@ -1,0 +1,141 @@
+// See conversion.h.
+#include "tools/conversion.h"
+
+#include <algorithm>
+#include <cctype>
+#include <chrono>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "fcl_stpbv/error.h"
+#include "fcl_stpbv/robot/mesh_file.h"
+#include "fcl_stpbv/volume/qhull_file.h"
+#include "fcl_stpbv/volume/sch_file.h"
+#include "fcl_stpbv/volume/stpbv_file.h"
+#include "fcl_stpbv/volume/tessellate.h"
+#include "fcl_stpbv/volume/text_scanner.h"
+#include "fcl_stpbv/volume/verify.h"
+
+namespace fcl_stpbv::tools {
+namespace {
+
+using Points = std::vector<Eigen::Vector3d>;
+
+std::string lowerExtension(const std::string& path) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
+}
+
+// The volume that a file holds, or null where it is a mesh or a cloud of points.
+StpBv::Ptr loadVolume(const std::string& path) {
+  const std::string extension = lowerExtension(path);
+  if (extension == ".stpbv") return loadStpBv(path);
+  if (extension != ".txt" && extension != ".otp" && !extension.empty()) return nullptr;
+  const std::string text = readText(path);
+  if (looksLikeStpBv(text)) return loadStpBv(path);
+  return !looksLikeQhull(text) && looksLikeSch(text) ? loadSch(path) : nullptr;
+}
+
+// A volume has lost the points that its own radii left inside, so it cannot become that of other radii.
+void checkSameRadii(const std::string& input, const Radii& radii, const ConversionOptions& options) {
+  const bool same = options.r.value_or(radii.r) == radii.r && options.R.value_or(radii.R) == radii.R;
+  if (same && options.scale == 1) return;
+  std::string values = "r = ";
+  appendNumber(values, radii.r);
+  values += " and R = ";
+  appendNumber(values, radii.R);
+  throw Error(input + ": is an STP-BV already, made with " + values +
+              "; leave out -r, -R and --scale to convert its format, or give the mesh it was made from");
+}
+
+StpBv::Ptr build(const std::string& input, const Points& points, const ConversionOptions& options) {
+  StpBvOptions radii;
+  radii.r = options.r.value_or(radii.r);
+  radii.R = options.R.value_or(radii.R);
+  try {
+    return StpBv::build(points, radii);
+  } catch (const Error& error) {
+    throw Error(input + ": " + error.what());
+  }
+}
+
+std::string number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4g", value);
+  return text;
+}
+
+}  // namespace
+
+Report convert(const std::string& input, const ConversionOptions& options) {
+  Report report;
+  report.input = input;
+  report.volume = loadVolume(input);
+  Points points;
+  if (report.volume) {
+    checkSameRadii(input, report.volume->radii(), options);
+    points = report.volume->vertices();
+  } else {
+    points = loadPoints(input, Eigen::Vector3d::Constant(options.scale));
+    const auto start = std::chrono::steady_clock::now();
+    report.volume = build(input, points, options);
+    report.buildSeconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  }
+  report.points = points.size();
+  if (options.verify) {
+    const Verification verification = verify(*report.volume, points);
+    report.verified = verification.ok;
+    report.verification = verification.message;
+  }
+  if (options.measure) {
+    report.overCover = overCover(*report.volume);
+    report.cubicMetres = enclosedVolume(*report.volume);
+  }
+  return report;
+}
+
+void write(const Report& report, const ConversionOptions& options) {
+  if (options.format == Format::sch) {
+    saveSch(report.output, *report.volume);
+  } else {
+    saveStpBv(report.output, *report.volume);
+  }
+  if (!options.preview.empty()) saveMesh(options.preview, tessellate(*report.volume));
+}
+
+std::string toText(const Report& report) {
+  const StpBv& body = *report.volume;
+  std::string text = report.input + ": " + std::to_string(report.points) + " points in -> " +
+                     std::to_string(body.vertexCount()) + " vertices used, " +
+                     std::to_string(body.edgeCount()) + " edges, " + std::to_string(body.faceCount()) +
+                     " faces; volume " + number(report.cubicMetres) + " m^3; over-cover max " +
+                     number(report.overCover.max) + " m, mean " + number(report.overCover.mean) +
+                     " m; built in " + number(report.buildSeconds) + " s";
+  if (report.verified == true) text += "; verified";
+  return text + " -> " + report.output;
+}
+
+std::string toJson(const Report& report) {
+  const StpBv& body = *report.volume;
+  nlohmann::ordered_json json;
+  json["input"] = report.input;
+  json["points"] = report.points;
+  json["vertices"] = body.vertexCount();
+  json["edges"] = body.edgeCount();
+  json["faces"] = body.faceCount();
+  json["r"] = body.radii().r;
+  json["R"] = body.radii().R;
+  json["over_cover_max"] = report.overCover.max;
+  json["over_cover_mean"] = report.overCover.mean;
+  json["volume"] = report.cubicMetres;
+  json["build_seconds"] = report.buildSeconds;
+  json["verified"] =
+      report.verified ? nlohmann::ordered_json(*report.verified) : nlohmann::ordered_json(nullptr);
+  // A file's name may hold bytes that are no UTF-8.
+  return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
+
+}  // namespace fcl_stpbv::tools

@@ -1,0 +1,48 @@
+// One input to one STP-BV: what mesh_to_stpbv does with each of its inputs.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "fcl_stpbv/volume/measure.h"
+#include "fcl_stpbv/volume/stp_bv.h"
+
+namespace fcl_stpbv::tools {
+
+enum class Format { stpbv, sch };
+
+struct ConversionOptions {
+  std::optional<double> r, R;  ///< StpBvOptions' values where not given
+  double scale = 1;
+  Format format = Format::stpbv;
+  std::string preview;  ///< mesh to write for a look, none if empty
+  bool verify = false;
+  bool measure = true;  ///< compute over-cover and volume for the report
+};
+
+/// What is reported of one input. Lengths in m.
+struct Report {
+  std::string input, output;
+  std::size_t points = 0;  ///< read from the input
+  StpBv::Ptr volume;
+  OverCover overCover{};
+  double cubicMetres = 0;
+  double buildSeconds = 0;
+  std::optional<bool> verified;  ///< set where it was asked for
+  std::string verification;      ///< what is wrong with a volume that is not verified
+};
+
+/// Reads a mesh, a cloud of points or a volume and makes the STP-BV of it. Writes nothing.
+/// @throws Error naming the input and what would work.
+Report convert(const std::string& input, const ConversionOptions& options);
+
+/// Writes what convert() made: the volume and, if asked for, its preview.
+void write(const Report& report, const ConversionOptions& options);
+
+/// A line for people to read.
+std::string toText(const Report& report);
+
+/// A line of JSON for programs to read.
+std::string toJson(const Report& report);
+
+}  // namespace fcl_stpbv::tools

@@ -1,0 +1,126 @@
+// See output_plan.h.
+#include "tools/output_plan.h"
+
+#include <cmath>
+#include <filesystem>
+#include <map>
+
+#include "fcl_stpbv/robot/mesh_file.h"
+
+namespace fcl_stpbv::tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Asked of names that may not exist or not be reachable; then the answer is no.
+bool isFolder(const fs::path& path) {
+  std::error_code ignored;
+  return fs::is_directory(path, ignored);
+}
+bool isFile(const fs::path& path) {
+  std::error_code ignored;
+  return fs::exists(path, ignored) && !fs::is_directory(path, ignored);
+}
+bool isRegular(const fs::path& path) {
+  std::error_code ignored;
+  return fs::is_regular_file(path, ignored);
+}
+bool sameFile(const fs::path& a, const fs::path& b) {
+  std::error_code ignored;
+  return fs::equivalent(a, b, ignored) ||
+         fs::weakly_canonical(a, ignored) == fs::weakly_canonical(b, ignored);
+}
+
+void checkValues(const ConversionOptions& options) {
+  const StpBvOptions defaults;
+  const double r = options.r.value_or(defaults.r), R = options.R.value_or(defaults.R);
+  if (!std::isfinite(r) || r < 0)
+    throw UsageError("-r: the small radius must be a finite number of metres, 0 or more");
+  if (!std::isfinite(R) || R <= r) {
+    throw UsageError("-R: the big radius must be a finite number of metres, larger than the small radius r");
+  }
+  if (!std::isfinite(options.scale) || options.scale <= 0) {
+    throw UsageError(
+        "--scale: must be a finite number larger than 0, such as 0.001 for a mesh in millimetres");
+  }
+}
+
+void checkPreview(const std::vector<std::string>& inputs, const std::string& preview) {
+  if (preview.empty()) return;
+  if (inputs.size() > 1) throw UsageError("--preview " + preview + ": is one file, give one input with it");
+  if (!canSaveMesh(preview))
+    throw UsageError("--preview " + preview + ": end the name in .obj, .stl, .ply or .glb");
+}
+
+void checkTarget(const std::string& target, const std::vector<std::string>& inputs, bool force) {
+  if (isFolder(target)) throw UsageError(target + ": is a folder, expected the name of a file to write");
+  for (const std::string& input : inputs) {
+    if (isRegular(target) && sameFile(target, input)) {
+      throw UsageError(target + ": is an input, and writing would replace it; give -o another name");
+    }
+  }
+  if (isRegular(target) && !force)
+    throw UsageError(target + ": exists already; give --force to replace it, or another name");
+  const fs::path parent = fs::path(target).parent_path();
+  if (isFile(parent)) throw UsageError(parent.string() + ": is a file, expected a folder to write to");
+}
+
+std::vector<Job> jobsInto(const std::string& folder, const std::vector<std::string>& inputs, Format format) {
+  std::vector<Job> jobs;
+  std::map<std::string, std::string> taken;  // output, its input
+  for (const std::string& input : inputs) {
+    const std::string name = fs::path(input).stem().string() + (format == Format::sch ? ".txt" : ".stpbv");
+    const std::string target = (fs::path(folder) / name).string();
+    const auto [other, isNew] = taken.emplace(target, input);
+    if (!isNew) {
+      throw UsageError(other->second + " and " + input + ": would both be written to " + target +
+                       "; convert them into different folders");
+    }
+    jobs.push_back({input, target});
+  }
+  return jobs;
+}
+
+}  // namespace
+
+Plan plan(const std::vector<std::string>& inputs, const std::string& output, const ConversionOptions& options,
+          bool force) {
+  if (inputs.empty()) throw UsageError("INPUT: give at least one file");
+  if (output.empty())
+    throw UsageError("-o: give the name of a file to write, or of a folder for several inputs");
+  checkValues(options);
+  checkPreview(inputs, options.preview);
+
+  Plan plan;
+  if (inputs.size() > 1 || isFolder(output) || output.back() == '/') {
+    if (isFile(output)) {
+      throw UsageError("-o " + output + ": is a file, but " + std::to_string(inputs.size()) +
+                       " inputs need a folder; name a folder");
+    }
+    plan.folder = output;
+    plan.jobs = jobsInto(output, inputs, options.format);
+  } else {
+    plan.jobs = {{inputs[0], output}};
+  }
+  for (const Job& job : plan.jobs) checkTarget(job.output, inputs, force);
+
+  std::vector<std::string> named;
+  if (plan.folder.empty()) named.push_back(output);
+  if (!options.preview.empty()) {
+    checkTarget(options.preview, inputs, force);
+    if (sameFile(options.preview, plan.jobs[0].output)) {
+      throw UsageError("--preview " + options.preview +
+                       ": is the name of the volume itself; give another name");
+    }
+    named.push_back(options.preview);
+  }
+  for (const std::string& name : named) {
+    const fs::path parent = fs::path(name).parent_path();
+    if (!parent.empty() && !isFolder(parent)) {
+      throw UsageError(name + ": the folder " + parent.string() + " does not exist; make it first");
+    }
+  }
+  return plan;
+}
+
+}  // namespace fcl_stpbv::tools
