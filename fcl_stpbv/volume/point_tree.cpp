@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <numeric>
 
 namespace fcl_stpbv {
@@ -18,7 +19,11 @@ PointTree::PointTree(const std::vector<Eigen::Vector3d>& points)
   nodes_.reserve(points.size() / (kLeaf / 4) + 1);
   if (!points.empty()) makeNode(0, static_cast<int>(points.size()));
   sorted_.reserve(points.size());
-  for (const int i : order_) sorted_.push_back(points[static_cast<std::size_t>(i)]);
+  place_.resize(points.size());
+  for (const int i : order_) {
+    place_[static_cast<std::size_t>(i)] = static_cast<int>(sorted_.size());
+    sorted_.push_back(points[static_cast<std::size_t>(i)]);
+  }
 }
 
 int PointTree::makeNode(int begin, int end) {
@@ -97,14 +102,32 @@ PointTree::Highest PointTree::highest(const Eigen::Vector3d& anchor, const Eigen
   return best;
 }
 
-void PointTree::within(const Eigen::Vector3d& centre, double radius, std::vector<int>* found) const {
+PointTree::Highest PointTree::highestBeside(int beside, const Eigen::Vector3d& anchor,
+                                            const Eigen::Vector3d& normal, double curvature) const {
+  constexpr int kReach = 3 * kLeaf;  // three leaves to either side
+  const int place = place_[static_cast<std::size_t>(beside)];
+  const int begin = std::max(0, place - kReach),
+            end = std::min(static_cast<int>(sorted_.size()), place + kReach);
+  Highest best{-1, -std::numeric_limits<double>::infinity()};
+  for (int i = begin; i < end; ++i) {
+    const Eigen::Vector3d q = sorted_[static_cast<std::size_t>(i)] - anchor;
+    const double height = 0.5 * curvature * q.squaredNorm() + normal.dot(q);
+    if (height <= best.height) continue;
+    const int index = order_[static_cast<std::size_t>(i)];
+    if (!isRemoved(index)) best = {index, height};
+  }
+  return best;
+}
+
+void PointTree::within(const Eigen::Vector3d& centre, double radius, std::vector<int>* found,
+                       std::size_t atMost) const {
   found->clear();
   if (nodes_.empty()) return;
   const double radius2 = radius * radius;
   std::array<int, kStack> stack;
   int waiting = 0;
   stack[static_cast<std::size_t>(waiting++)] = 0;
-  while (waiting > 0) {
+  while (waiting > 0 && found->size() < atMost) {
     const int current = stack[static_cast<std::size_t>(--waiting)];
     const Node& node = nodes_[static_cast<std::size_t>(current)];
     const Eigen::Vector3d closest = centre.cwiseMax(node.low).cwiseMin(node.high);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 #include <vector>
 
 namespace fcl_stpbv {
@@ -21,8 +22,13 @@ class PointTree {
   Highest highest(const Eigen::Vector3d& anchor, const Eigen::Vector3d& normal, double curvature,
                   double tolerance, std::vector<int>* near) const;
 
-  /// All points closer to `centre` than `radius`.
-  void within(const Eigen::Vector3d& centre, double radius, std::vector<int>* found) const;
+  /// The same among the few points that the tree keeps beside point `beside`; a guess where to look.
+  Highest highestBeside(int beside, const Eigen::Vector3d& anchor, const Eigen::Vector3d& normal,
+                        double curvature) const;
+
+  /// The points closer to `centre` than `radius`: all, or the first `atMost` met.
+  void within(const Eigen::Vector3d& centre, double radius, std::vector<int>* found,
+              std::size_t atMost = std::numeric_limits<std::size_t>::max()) const;
 
   /// Makes a point invisible to every later query.
   void remove(int index) { removed_[static_cast<std::size_t>(index)] = 1; }
@@ -39,6 +45,7 @@ class PointTree {
   const std::vector<Eigen::Vector3d>& points_;
   std::vector<int> order_;
   std::vector<Eigen::Vector3d> sorted_;  // points in the order of order_
+  std::vector<int> place_;               // where in order_ each point stands
   std::vector<Node> nodes_;
   std::vector<char> removed_;
 };

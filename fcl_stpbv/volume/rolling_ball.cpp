@@ -22,6 +22,7 @@ using Eigen::Vector3d;
 using Ring = std::vector<int>;
 
 constexpr double kTwoPi = 6.283185307179586476925;
+constexpr double kDiametral = 1 + 1e-9;  // the edge's own ends must not fall out by rounding
 
 class Roller {
  public:
@@ -52,9 +53,9 @@ class Roller {
   Ring pivot(int a, int b, const Vector3d& across, int candidate);
   Ring ringOf(const TouchingBall& ball, int from, int to, std::vector<int> touched);
   bool claim(const Ring& ring);
-  int leftOnTheWay(int a, int b, const Vector3d& across, const std::vector<int>& aside, double rest);
+  int leftOnTheWay(int a, int b, const Vector3d& across, double rest);
   void removeTwins(int i);
-  bool nearEdge(int a, int b, std::vector<int>* found) const;
+  bool isLone(int a, int b) const;
   bool start();
   int addFace(Ring ring);
   Vector3d normalAt(int face, int vertex) const {
@@ -146,31 +147,36 @@ int Roller::touchThird(int a, int b, const Vector3d& across) const {
   return best;
 }
 
-// Points in the ball over the edge as diameter: only they can leave the rolling ball and come back into it
-// within one turn, and only then can two vertices be joined by two edges.
-bool Roller::nearEdge(int a, int b, std::vector<int>* found) const {
-  found->clear();
-  if (curvature_ == 0) return false;
-  tree_.within(0.5 * (at(a) + at(b)), 0.5 * (at(b) - at(a)).norm() * (1 + 1e-9), found);
-  found->erase(std::remove_if(found->begin(), found->end(), [&](int i) { return i == a || i == b; }),
-               found->end());
-  return !found->empty();
+// Whether a point lies in the ball over the edge as diameter. Only such points can leave the rolling ball and
+// come back into it within half a turn, and only where there is one can two vertices be joined by two edges.
+bool Roller::isLone(int a, int b) const {
+  if (curvature_ == 0) return true;
+  std::vector<int> found;
+  tree_.within(0.5 * (at(a) + at(b)), 0.5 * (at(b) - at(a)).norm() * kDiametral, &found, 3);
+  return found.size() <= 2;
 }
 
 // A point that the ball leaves before it has rolled by `rest` and that is back inside by then; -1 where there
 // is none. Such a point is out for less than the whole roll: if for less than half a turn it is one of those
 // `aside` of the edge, else it is out after half a turn.
-int Roller::leftOnTheWay(int a, int b, const Vector3d& across, const std::vector<int>& aside, double rest) {
+int Roller::leftOnTheWay(int a, int b, const Vector3d& across, double rest) {
+  const Vector3d edge = at(b) - at(a), u = edge.normalized(), side = u.cross(across);
+  std::vector<int> aside;
+  tree_.within(at(a) + 0.5 * edge, 0.5 * edge.norm() * kDiametral, &aside);
   int left = -1;
   double first = rest - 1e-8;  // later ones are still outside at the end
   for (const int i : aside) {
+    if (i == a || i == b) continue;
+    // A point is highest over the ball when the normal points at it across the edge; most points do not lie
+    // in the wedge that the normal sweeps.
+    const double x = (at(i) - at(a)).dot(across), y = (at(i) - at(a)).dot(side), margin = 1e-9 * edge.norm();
+    if (rest < 3 && (y < -margin || x * std::sin(rest) - y * std::cos(rest) < -margin)) continue;
     const double angle = leavingAngle(a, b, across, i);
     if (angle >= 0 && angle < first) left = i, first = angle;
   }
   if (left >= 0 || rest < 0.5 * kTwoPi) return left;
-  const Vector3d edge = at(b) - at(a);
   const double half = 0.5 * curvature_ * edge.norm();
-  const Vector3d opposite = -half * edge.normalized() - std::sqrt(std::max(0.0, 1 - half * half)) * across;
+  const Vector3d opposite = -half * u - std::sqrt(std::max(0.0, 1 - half * half)) * across;
   const double tolerance = 4e-15 * extent_;
   const PointTree::Highest top = tree_.highest(at(a), opposite, curvature_, tolerance, &near_);
   return top.height > tolerance ? top.index : -1;
@@ -180,16 +186,17 @@ int Roller::leftOnTheWay(int a, int b, const Vector3d& across, const std::vector
 // rest. `across` is the unit part of the ball's normal across the edge, `candidate` any point it may come to
 // rest on.
 Ring Roller::pivot(int a, int b, const Vector3d& across, int candidate) {
-  std::vector<int> aside;
-  nearEdge(a, b, &aside);
+  const bool lone = isLone(a, b);
   for (int round = 0; round < 10000; ++round) {
     const TouchingBall ball(at(b), at(a), at(candidate), radius_);
     if (!ball.valid()) break;
     // What double precision can get wrong in a height over this ball.
     const double tolerance = extent_ * (2e-15 + 4 * ball.normalError());
-    const PointTree::Highest top = tree_.highest(at(b), ball.normal(), curvature_, tolerance, &near_);
+    // Any point outside leaves the ball before the present candidate does; one close by is quickly found.
+    PointTree::Highest top = tree_.highestBeside(round % 2 == 0 ? a : b, at(b), ball.normal(), curvature_);
+    if (top.height <= tolerance) top = tree_.highest(at(b), ball.normal(), curvature_, tolerance, &near_);
     if (top.height > tolerance) {
-      candidate = top.index;  // it leaves the ball before the present candidate does
+      candidate = top.index;
       continue;
     }
     int outside = -1;
@@ -201,8 +208,7 @@ Ring Roller::pivot(int a, int b, const Vector3d& across, int candidate) {
       if (side == 0) touched.push_back(i);
       if (side > 0 && (outside < 0 || ball.height(at(i)) > height)) outside = i, height = ball.height(at(i));
     }
-    if (outside < 0 && !aside.empty())
-      outside = leftOnTheWay(a, b, across, aside, leavingAngle(a, b, across, candidate));
+    if (outside < 0 && !lone) outside = leftOnTheWay(a, b, across, leavingAngle(a, b, across, candidate));
     if (outside >= 0) {
       candidate = outside;
       continue;
@@ -318,7 +324,6 @@ bool Roller::start() {
 
 void Roller::roll() {
   if (!start()) return;
-  std::vector<int> aside;
   while (!waiting_.empty()) {
     const Open h = waiting_.back();
     waiting_.pop_back();
@@ -329,7 +334,7 @@ void Roller::roll() {
     const int a = ring[k], b = ring[(k + 1) % ring.size()], c = ring[(k + 2) % ring.size()];
 
     int face = -1;
-    if (!nearEdge(a, b, &aside)) {  // only one edge can join a and b
+    if (isLone(a, b)) {  // only one edge can join a and b
       const auto other = open_.find({b, a});
       if (other != open_.end()) face = other->second.face;
     }
