@@ -43,11 +43,8 @@ StpBv::Ptr loadVolume(const std::string& path) {
 void checkSameRadii(const std::string& input, const Radii& radii, const ConversionOptions& options) {
   const bool same = options.r.value_or(radii.r) == radii.r && options.R.value_or(radii.R) == radii.R;
   if (same && options.scale == 1) return;
-  std::string values = "r = ";
-  appendNumber(values, radii.r);
-  values += " and R = ";
-  appendNumber(values, radii.R);
-  throw Error(input + ": is an STP-BV already, made with " + values +
+  throw Error(input + ": is an STP-BV already, made with r = " + toDecimal(radii.r) +
+              " and R = " + toDecimal(radii.R) +
               "; leave out -r, -R and --scale to convert its format, or give the mesh it was made from");
 }
 

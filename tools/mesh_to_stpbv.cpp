@@ -4,7 +4,6 @@
 #include <exception>
 #include <filesystem>
 #include <iostream>
-#include <map>
 #include <string>
 #include <vector>
 
@@ -44,9 +43,10 @@ struct Arguments {
 };
 
 void describe(CLI::App& app, Arguments& arguments) {
-  static const std::map<std::string, Format> kFormats{{"stpbv", Format::stpbv}, {"sch", Format::sch}};
   ConversionOptions& conversion = arguments.conversion;
-  app.add_option("INPUT", arguments.inputs, "Meshes, clouds of points or volumes")->required();
+  app.add_option("INPUT", arguments.inputs, "Meshes, clouds of points or volumes")
+      ->required()
+      ->type_name("FILE");
   app.add_option("-o,--output", arguments.output,
                  "File to write; for several inputs a folder, made if missing")
       ->required()
@@ -55,10 +55,12 @@ void describe(CLI::App& app, Arguments& arguments) {
   app.add_option("-R", conversion.R, "Radius of the big spheres [10 m]");
   app.add_option("--scale", conversion.scale, "Factor on the input's coordinates, 0.001 for millimetres")
       ->capture_default_str();
-  app.add_option("--format", conversion.format,
-                 "Format to write: stpbv, this library's own, or sch, sch-core's text [stpbv]")
-      ->transform(CLI::CheckedTransformer(kFormats))
-      ->type_name("stpbv|sch");
+  app.add_option_function<std::string>(
+         "--format",
+         [&](const std::string& name) { conversion.format = name == "sch" ? Format::sch : Format::stpbv; },
+         "Format to write: stpbv, this library's own, or sch, sch-core's text [stpbv]")
+      ->check(CLI::IsMember({"stpbv", "sch"}))
+      ->type_name("");
   app.add_option("--preview", conversion.preview,
                  "Also write the surface as a mesh: .obj, .stl, .ply or .glb")
       ->type_name("FILE");

@@ -12,6 +12,7 @@
 
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/volume/sch_data.h"
+#include "fcl_stpbv/volume/text_scanner.h"
 
 namespace fcl_stpbv::sch {
 namespace {
@@ -81,13 +82,13 @@ class Checker {
 
   void checkSphere(int line, const char* what, double radius, double expected) const {
     require(std::abs(radius - expected) <= eps_ * expected, line,
-            std::string("the ") + what + " sphere's radius is " + std::to_string(radius) +
-                ", expected that of line 1, " + std::to_string(expected));
+            std::string("the ") + what + " sphere's radius is " + toDecimal(radius) +
+                ", expected that of line 1, " + toDecimal(expected));
   }
 
   void checkUnit(int line, const Vector3d& axis) const {
     require(std::abs(axis.norm() - 1) <= eps_, line,
-            "an axis of length " + std::to_string(axis.norm()) + ", expected a unit vector");
+            "an axis of length " + toDecimal(axis.norm()) + ", expected a unit vector");
   }
 
   // Faces repeat their vertices' coordinates instead of their ids.
@@ -128,7 +129,7 @@ class Checker {
       const Vector3d& p = face.corner[k];
       const double off = (p - face.centre).norm() - rho_;
       require(std::abs(off) <= sphereError(p, face.centre), face.line,
-              "vertex " + std::to_string(k + 1) + " of the face is " + std::to_string(off) +
+              "vertex " + std::to_string(k + 1) + " of the face is " + toDecimal(off) +
                   " m off the ball of radius R - r around the face's centre");
       size = std::max(size, p.norm());
     }
@@ -171,8 +172,7 @@ class Checker {
     // Rc depends on l through l / (4 Rc): steep only near the smallest R.
     const double circleError = eps_ * (file_.R + fromOrigin * length / std::max(circle, eps_ * rho_));
     require(std::abs(torus.circle - circle) <= circleError, torus.line,
-            "the torus's circle has radius " + std::to_string(torus.circle) + ", expected " +
-                std::to_string(circle));
+            "the torus's circle has radius " + toDecimal(torus.circle) + ", expected " + toDecimal(circle));
     require((torus.middle - 0.5 * (vertex(i) + vertex(j))).norm() <= eps_ * fromOrigin, torus.line,
             "the torus's centre is not the edge's middle");
     checkUnit(torus.line, torus.axis);
@@ -216,8 +216,8 @@ class Checker {
     require(std::abs(cone.cosine - cosine) <=
                 eps_ * (cosine + (fromOrigin + length * file_.R / rho_) / (2 * rho_)),
             line,
-            "the cosine of a cone is " + std::to_string(cone.cosine) +
-                ", expected l / (2 rho) = " + std::to_string(cosine));
+            "the cosine of a cone is " + toDecimal(cone.cosine) +
+                ", expected l / (2 rho) = " + toDecimal(cosine));
   }
 
   // Side k of a face runs from its corner k to the next; it and what it names must name each other.

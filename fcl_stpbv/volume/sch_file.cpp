@@ -96,7 +96,7 @@ void compare(const sch::File& file, const StpBv& volume) {
         kSlack * file.rounding() * (face.centre.norm() + face.radius + face.corner[0].norm());
     const double off = volume.support(n) - claimed;
     if (std::abs(off) > tolerance) {
-      file.fail(face.line, "the volume of the file's vertices is " + std::to_string(off) +
+      file.fail(face.line, "the volume of the file's vertices is " + toDecimal(off) +
                                " m off this face's sphere; a vertex is missing or damaged");
     }
   }

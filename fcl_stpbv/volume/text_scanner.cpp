@@ -59,6 +59,12 @@ void appendNumber(std::string& text, double value) {
   text.append(buffer, result.ptr);
 }
 
+std::string toDecimal(double value) {
+  std::string text;
+  appendNumber(text, value);
+  return text;
+}
+
 void appendVector(std::string& text, const Eigen::Vector3d& v) {
   appendNumber(text, v.x());
   text += ' ';

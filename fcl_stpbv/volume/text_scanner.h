@@ -19,6 +19,9 @@ std::string readText(std::istream& in, const std::string& name);
 /// Appends the shortest decimal that reads back as exactly this double.
 void appendNumber(std::string& text, double value);
 
+/// The same for a message.
+std::string toDecimal(double value);
+
 /// Appends three numbers, separated by blanks.
 void appendVector(std::string& text, const Eigen::Vector3d& v);
 
