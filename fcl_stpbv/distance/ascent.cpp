@@ -67,20 +67,22 @@ Sample climbArc(const BodyPair& pair, const Sample& x, const Vector3d& to, const
 
 bool settle(const BodyPair& pair, Sample& x, Vector3d& next, Work& work) {
   const PosedPatch a = pair.patchA(x.patch[0]), b = pair.patchB(x.patch[1]);
-  next = widestNormal(a, b, x.n);
-  ++work.pairs;
-  if (pair.a().outside(x.patch[0], next) > kOnSeam) return false;
-  if (pair.b().outside(x.patch[1], pair.opposite(next)) > kOnSeam) return false;
-  Sample there = pair.sample(next, x.patch);
   const double flat2 = pair.acrossRounding() * pair.acrossRounding();
-  if (there.across.squaredNorm() > flat2) {  // two tori: one more step takes it to rounding
-    next = widestNormal(a, b, there.n);
-    there = pair.sample(next, x.patch);
+  Vector3d n = x.n;
+  ++work.pairs;
+  for (int attempt = 0; attempt < 2; ++attempt) {  // two tori may need a second go for the last digits
+    next = n = widestNormal(a, b, n);
+    if (pair.a().outside(x.patch[0], n) > kOnSeam) return false;
+    if (pair.b().outside(x.patch[1], pair.opposite(n)) > kOnSeam) return false;
+    const Sample there = pair.sample(n, x.patch);
+    // Deep inside each other the pair's other maximum may lie in the same regions; it must not be a step down.
+    if (there.core < x.core - pair.gapRounding()) return false;
+    if (there.across.squaredNorm() <= flat2) {
+      x = there;
+      return true;
+    }
   }
-  // Deep inside each other the pair's other maximum may lie in the same regions; it must not be a step down.
-  if (there.core < x.core - pair.gapRounding()) return false;
-  x = there;
-  return true;
+  return false;
 }
 
 bool ascend(const BodyPair& pair, Sample& x, Work& work) {
