@@ -75,7 +75,8 @@ bool settle(const BodyPair& pair, Sample& x, Vector3d& next, Work& work) {
     if (pair.a().outside(x.patch[0], n) > kOnSeam) return false;
     if (pair.b().outside(x.patch[1], pair.opposite(n)) > kOnSeam) return false;
     const Sample there = pair.sample(n, x.patch);
-    // Deep inside each other the pair's other maximum may lie in the same regions; it must not be a step down.
+    // Deep inside each other the pair's other maximum may lie in the same regions; it must not be a step
+    // down.
     if (there.core < x.core - pair.gapRounding()) return false;
     if (there.across.squaredNorm() <= flat2) {
       x = there;

@@ -6,6 +6,7 @@
 #include "fcl_stpbv/distance/ascent.h"
 #include "fcl_stpbv/distance/body_pair.h"
 #include "fcl_stpbv/distance/penetration.h"
+#include "fcl_stpbv/distance/polytope_search.h"
 #include "fcl_stpbv/distance/separation.h"
 
 namespace fcl_stpbv {
@@ -51,8 +52,21 @@ Found climb(const BodyPair& pair, Sample x, Work& work) {
   return {x, flat ? DistanceStatus::exact : DistanceStatus::bounded};
 }
 
+/// From the polyhedra's closest features to the smooth ones (paper IV.B).
+bool polyhedralStart(const BodyPair& pair, Vector3d n, const std::array<int, 2>& patch, Sample& x,
+                     Work& work) {
+  VertexPair vertex{vertexOf(pair.a(), patch[0]), vertexOf(pair.b(), patch[1])};
+  if (!searchVertices(pair, n, vertex)) return false;
+  x = pair.sampleFrom(n, {vertex.a, vertex.b}, work.steps);
+  return x.core > 0.0;
+}
+
 Found solveCold(const BodyPair& pair, Work& work) {
-  Sample x = pair.sampleFrom(centreLine(pair), {-1, -1}, work.steps);
+  const Vector3d n = centreLine(pair);
+  Sample x;
+  if (polyhedralStart(pair, n, {pair.a().owner(n), pair.b().owner(pair.opposite(n))}, x, work))
+    return climb(pair, x, work);
+  x = pair.sampleFrom(n, {-1, -1}, work.steps);
   switch (separateCores(pair, x, work)) {
     case CoreContact::apart:
       return climb(pair, x, work);
@@ -65,21 +79,28 @@ Found solveCold(const BodyPair& pair, Work& work) {
   return {x, DistanceStatus::local};
 }
 
-/// The start a cache offers: the better of the remembered normal and of the remembered patches' own.
-bool warmStart(const BodyPair& pair, const Vector3d& normal, std::array<int, 2> patch, Sample& x,
+/// From what the last query left: first its patch pair, which most small motions keep, then its normal.
+bool solveWarm(const BodyPair& pair, const Vector3d& normal, const std::array<int, 2>& patch, Found& found,
                Work& work) {
   if (patch[0] >= pair.a().patchCount() || patch[1] >= pair.b().patchCount()) return false;
   const double length = normal.norm();
   if (!(length > 0.5 && length < 2.0)) return false;
-  const Vector3d n = normal / length;
-  x = pair.sampleFrom(n, patch, work.steps);
+  Sample x;
+  x.n = normal / length;
+  x.patch = patch;
+  x.core = 0.0;
   if (patch[0] >= 0 && patch[1] >= 0) {
-    const Vector3d reposed = widestNormal(pair.patchA(patch[0]), pair.patchB(patch[1]), n);
-    ++work.pairs;
-    const Sample y = pair.sampleFrom(reposed, patch, work.steps);
-    if (y.core > x.core) x = y;
+    Vector3d reposed;
+    if (settle(pair, x, reposed, work) && x.core > 0.0) {
+      found = {x, DistanceStatus::exact};
+      return true;
+    }
+  } else {
+    x.patch = {pair.a().owner(x.n, patch[0]), pair.b().owner(pair.opposite(x.n), patch[1])};
   }
-  return x.core > 0.0;
+  if (!polyhedralStart(pair, x.n, x.patch, x, work)) return false;
+  found = climb(pair, x, work);
+  return true;
 }
 
 }  // namespace
@@ -96,11 +117,8 @@ Distance distance(const StpBv& a, const Isometry3d& poseA, const StpBv& b, const
 
   const BodyPair pair(a, b, rotation, translation);
   Work work;
-  Sample start;
   Found found;
-  if (cache && warmStart(pair, poseA.linear().transpose() * cache->normal, cache->patch, start, work))
-    found = climb(pair, start, work);
-  else
+  if (!cache || !solveWarm(pair, poseA.linear().transpose() * cache->normal, cache->patch, found, work))
     found = solveCold(pair, work);
 
   const Sample& x = found.at;

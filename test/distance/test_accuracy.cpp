@@ -78,8 +78,6 @@ TEST_CASE(
     CHECK((d.point[1] - d.point[0] - d.distance * d.normal).norm() < 1e-13 * std::max(1.0, R));
   }
   CAPTURE(R, worstDistance, worstNormal, worstPoint);
-  WARN("R " << R << ": distance " << worstDistance << " m, normal " << worstNormal << " rad, point "
-            << worstPoint << " m");
   CHECK(worstDistance < 1e-13);
   CHECK(worstNormal < 1e-10);
   CHECK(worstPoint <

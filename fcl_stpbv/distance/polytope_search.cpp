@@ -1,0 +1,176 @@
+#include "fcl_stpbv/distance/polytope_search.h"
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+namespace fcl_stpbv {
+
+using Eigen::Vector3d;
+
+namespace {
+
+/// Climbs the vertex graph to the vertex furthest along `direction`, along the steepest edge of each.
+int climb(const StpBv& body, const Vector3d& direction, int vertex) {
+  const int firstFace = body.facePatch(0), firstEdge = body.edgePatch(0);
+  for (int step = 0; step < body.vertexCount(); ++step) {
+    double steepest = 0.0;
+    int over = -1;
+    for (const StpBv::Seam* seam = body.seamsBegin(vertex); seam != body.seamsEnd(vertex); ++seam) {
+      const double rise = direction.dot(seam->normal);
+      if (rise > steepest) {
+        steepest = rise;
+        over = seam->neighbour;
+      }
+    }
+    if (over < firstEdge || over >= firstFace) break;
+    const auto& ends = body.edges()[static_cast<std::size_t>(over - firstEdge)].vertex;
+    vertex = ends[0] == vertex ? ends[1] : ends[0];
+  }
+  return vertex;
+}
+
+/// Up to four points of the difference of the two bodies, reduced to those that span the point nearest the
+/// origin.
+class Simplex {
+ public:
+  int count = 0;
+  std::array<Vector3d, 4> w{Vector3d(0, 0, 0), Vector3d(0, 0, 0), Vector3d(0, 0, 0), Vector3d(0, 0, 0)};
+
+  bool holds(const Vector3d& p) const {
+    for (int i = 0; i < count; ++i)
+      if (w[static_cast<std::size_t>(i)] == p) return true;
+    return false;
+  }
+
+  /// Nearest point to the origin; false when the points surround it.
+  bool nearest(Vector3d& v) {
+    switch (count) {
+      case 1:
+        v = w[0];
+        return true;
+      case 2:
+        v = segment(w[0], w[1]);
+        return true;
+      case 3:
+        v = triangle(w[0], w[1], w[2]);
+        return true;
+      default:
+        return tetrahedron(v);
+    }
+  }
+
+ private:
+  void set(const Vector3d& p) {
+    w[0] = p;
+    count = 1;
+  }
+  void set(const Vector3d& p, const Vector3d& q) {
+    w[0] = p;
+    w[1] = q;
+    count = 2;
+  }
+
+  // Points by value: they may be those of `w`, which is overwritten.
+  Vector3d segment(Vector3d p, Vector3d q) {
+    const Vector3d e = q - p;
+    const double t = -p.dot(e), length2 = e.squaredNorm();
+    if (t <= 0.0 || !(length2 > 0.0)) {
+      set(p);
+      return p;
+    }
+    if (t >= length2) {
+      set(q);
+      return q;
+    }
+    set(p, q);
+    return p + (t / length2) * e;
+  }
+
+  /// Regions of a triangle by the signs of its barycentric coordinates (Ericson, Real-Time Collision
+  /// Detection, 5.1.5).
+  Vector3d triangle(Vector3d a, Vector3d b, Vector3d c) {
+    const Vector3d ab = b - a, ac = c - a;
+    const double d1 = -ab.dot(a), d2 = -ac.dot(a);
+    if (d1 <= 0.0 && d2 <= 0.0) return set(a), a;
+    const double d3 = -ab.dot(b), d4 = -ac.dot(b);
+    if (d3 >= 0.0 && d4 <= d3) return set(b), b;
+    const double vc = d1 * d4 - d3 * d2;
+    if (vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0) return set(a, b), a + d1 / (d1 - d3) * ab;
+    const double d5 = -ab.dot(c), d6 = -ac.dot(c);
+    if (d6 >= 0.0 && d5 <= d6) return set(c), c;
+    const double vb = d5 * d2 - d1 * d6;
+    if (vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0) return set(a, c), a + d2 / (d2 - d6) * ac;
+    const double va = d3 * d6 - d5 * d4;
+    if (va <= 0.0 && d4 - d3 >= 0.0 && d5 - d6 >= 0.0)
+      return set(b, c), b + (d4 - d3) / ((d4 - d3) + (d5 - d6)) * (c - b);
+    w[0] = a;
+    w[1] = b;
+    w[2] = c;
+    count = 3;
+    const Vector3d normal = ab.cross(ac);  // better conditioned than the sum of three terms
+    return normal * (normal.dot(a) / normal.squaredNorm());
+  }
+
+  /// The last point is the new one, so the nearest point lies on one of the three faces with it.
+  bool tetrahedron(Vector3d& v) {
+    const Vector3d first = w[0], second = w[1], third = w[2], last = w[3];
+    Simplex best;
+    double least = -1.0;
+    const auto face = [&](const Vector3d& p, const Vector3d& q, const Vector3d& opposite) {
+      const Vector3d normal = (p - last).cross(q - last);
+      if (-normal.dot(last) * normal.dot(opposite - last) > 0.0) return;  // the origin is on the inner side
+      const Vector3d candidate = triangle(p, q, last);
+      const double length2 = candidate.squaredNorm();
+      if (least >= 0.0 && length2 >= least) return;
+      least = length2;
+      v = candidate;
+      best = *this;
+    };
+    face(first, second, third);
+    face(second, third, first);
+    face(third, first, second);
+    if (least < 0.0) return false;
+    *this = best;
+    return true;
+  }
+};
+
+}  // namespace
+
+int vertexOf(const StpBv& body, int patch) {
+  if (patch < body.vertexCount()) return patch;
+  if (patch < body.facePatch(0))
+    return body.edges()[static_cast<std::size_t>(patch - body.edgePatch(0))].vertex[0];
+  if (patch < body.facePatch(body.faceCount()))
+    return body.faces()[static_cast<std::size_t>(patch - body.facePatch(0))][0];
+  return body.seamsBegin(patch)->neighbour;  // a further part of an edge; its first seams lead to its ends
+}
+
+bool searchVertices(const BodyPair& pair, Vector3d& n, VertexPair& vertex) {
+  constexpr int kIterations = 20;
+  constexpr double kGap =
+      1e-5;  // relative; which features face each other is settled long before their distance
+  const StpBv &a = pair.a(), &b = pair.b();
+  Simplex simplex;
+  Vector3d v = n;
+  for (int i = 0; i < kIterations; ++i) {
+    vertex.a = climb(a, v, vertex.a);
+    vertex.b = climb(b, pair.opposite(v), vertex.b);
+    const Vector3d w = pair.rotation() * b.vertices()[static_cast<std::size_t>(vertex.b)] +
+                       pair.translation() - a.vertices()[static_cast<std::size_t>(vertex.a)];
+    if (i > 0) {
+      const double v2 = v.squaredNorm();
+      if (v2 - v.dot(w) <= kGap * v2 || simplex.holds(w)) {
+        n = v / std::sqrt(v2);
+        return true;
+      }
+    }
+    simplex.w[static_cast<std::size_t>(simplex.count++)] = w;
+    if (!simplex.nearest(v)) return false;
+    if (!(v.squaredNorm() > 1e-24)) return false;
+  }
+  n = v.normalized();
+  return true;
+}
+
+}  // namespace fcl_stpbv
