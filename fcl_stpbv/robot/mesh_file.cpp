@@ -89,14 +89,35 @@ void checkReadable(const std::string& path, const Vector3d& scale) {
   if (!std::filesystem::exists(path, ignored)) throw Error(path + ": no such file");
 }
 
-const aiScene* read(Assimp::Importer& importer, const std::string& path) {
+// assimp's readers let faces without vertices and with wrong ones through, and its triangulation ends the
+// process over them, so this stands between the two.
+void checkFaces(const aiScene& scene, const std::string& path) {
+  for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
+    const aiMesh& mesh = *scene.mMeshes[m];
+    for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
+      const aiFace& face = mesh.mFaces[f];
+      const bool good =
+          face.mNumIndices > 0 && std::all_of(face.mIndices, face.mIndices + face.mNumIndices,
+                                              [&](unsigned v) { return v < mesh.mNumVertices; });
+      if (!good)
+        throw Error(path + ": face " + std::to_string(f) +
+                    " has no vertices or names one that does not exist; the file is damaged");
+    }
+  }
+}
+
+const aiScene& read(Assimp::Importer& importer, const std::string& path) {
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
-  const aiScene* scene = importer.ReadFile(path, aiProcess_Triangulate);
+  const aiScene* scene = importer.ReadFile(path, 0);
+  if (scene != nullptr) {
+    checkFaces(*scene, path);
+    scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
+  }
   if (scene == nullptr || scene->mRootNode == nullptr) {
     throw Error(path + ": cannot be read as a mesh (" + importer.GetErrorString() +
                 "); give a whole file of " + kReadable);
   }
-  return scene;
+  return *scene;
 }
 
 std::string lowerExtension(const std::string& path) {
@@ -122,15 +143,14 @@ std::optional<std::string> qhullText(const std::string& path) {
 TriangleMesh loadMesh(const std::string& path, const Vector3d& scale) {
   checkReadable(path, scale);
   Assimp::Importer importer;
-  const aiScene* scene = read(importer, path);
+  const aiScene& scene = read(importer, path);
   Gatherer gatherer(path, scale);
-  std::vector<std::pair<const aiNode*, aiMatrix4x4>> open{{scene->mRootNode, aiMatrix4x4()}};
+  std::vector<std::pair<const aiNode*, aiMatrix4x4>> open{{scene.mRootNode, aiMatrix4x4()}};
   while (!open.empty()) {
     const auto [node, above] = open.back();
     open.pop_back();
     const aiMatrix4x4 transform = above * node->mTransformation;
-    for (unsigned m = 0; m < node->mNumMeshes; ++m)
-      gatherer.add(*scene->mMeshes[node->mMeshes[m]], transform);
+    for (unsigned m = 0; m < node->mNumMeshes; ++m) gatherer.add(*scene.mMeshes[node->mMeshes[m]], transform);
     for (unsigned c = node->mNumChildren; c-- > 0;) open.push_back({node->mChildren[c], transform});
   }
   TriangleMesh mesh = gatherer.take();
