@@ -1,0 +1,30 @@
+#include "fcl_stpbv/adapter/distance_callback.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace fcl_stpbv {
+
+bool distanceCallback(fcl::CollisionObjectd* object1, fcl::CollisionObjectd* object2, void* data,
+                      double& dist) {
+  DistanceData& query = *static_cast<DistanceData*>(data);
+  if (!query.done) {
+    ++query.pairs;
+    QueryContext context;
+    context.mapping = &query.mapping;
+    if (query.caches) context.cache = &query.caches->of(object1, object2);
+    const DistanceAnswer answer = distance(*object1, *object2, context);
+    if (answer.status == DistanceStatus::invalid)
+      ++query.invalid;
+    else if (answer.distance < query.result.distance)
+      query.result = answer;
+  }
+  // Above 0, so that pairs of overlapping boxes are still asked (their distance is 0, and FCL prunes by `<`).
+  // Below the largest double, at which the sweeping managers begin and which they would take for "not called"
+  // for ever.
+  dist = std::clamp(query.result.distance, std::numeric_limits<double>::min(),
+                    0.5 * std::numeric_limits<double>::max());
+  return query.done || (query.stopAtContact && query.result.distance <= 0);
+}
+
+}  // namespace fcl_stpbv

@@ -1,0 +1,70 @@
+// Callback for FCL's broadphase managers: the closest, or the deepest, pair of a scene.
+#pragma once
+
+#include <fcl/narrowphase/collision_object.h>
+#include <fcl/narrowphase/distance_request.h>
+
+#include <cstddef>
+#include <functional>
+#include <unordered_map>
+#include <utility>
+
+#include "fcl_stpbv/adapter/fcl_distance.h"
+
+namespace fcl_stpbv {
+
+/// What each pair of objects remembers between queries. Allocates when it sees a pair for the first time. One
+/// thread at a time may use it.
+class PairCaches {
+ public:
+  PairCache& of(const fcl::CollisionObjectd* object1, const fcl::CollisionObjectd* object2) {
+    return caches_[{object1, object2}];
+  }
+  std::size_t size() const { return caches_.size(); }
+  /// To be called when objects go away: their addresses may come back as others'.
+  void clear() { caches_.clear(); }
+
+ private:
+  using Key = std::pair<const fcl::CollisionObjectd*, const fcl::CollisionObjectd*>;
+  struct Hash {
+    std::size_t operator()(const Key& key) const {
+      const std::hash<const void*> hash;
+      return hash(key.first) * 31 + hash(key.second);
+    }
+  };
+  std::unordered_map<Key, PairCache, Hash> caches_;
+};
+
+/// What `distanceCallback` reads and writes; pass its address to a manager's `distance`.
+///
+/// The result accumulates over calls, as FCL's own callback data does: give each query fresh data, or
+/// `clear()` it.
+struct DistanceData {
+  fcl::DistanceRequestd
+      request;            ///< for code that shares FCL's callback data; nothing in it changes the answer
+  DistanceAnswer result;  ///< the closest pair so far; `distance` is the largest double before the first
+  bool done = false;      ///< set it to stop the search
+  /// Stop at the first pair in contact, as FCL's own callback does; else the deepest pair is found.
+  bool stopAtContact = false;
+  PairCaches* caches = nullptr;  ///< optional: makes repeated queries of a slowly moving scene faster
+  MappingCounts mapping;         ///< how good FCL's features were as starts
+  std::size_t pairs = 0;         ///< pairs asked
+  std::size_t invalid = 0;       ///< of these, pairs without an answer, left out of the result
+
+  /// Forgets everything found, keeps the settings and caches.
+  void clear() {
+    result = {};
+    done = false;
+    mapping = {};
+    pairs = invalid = 0;
+  }
+};
+
+/// For `manager.distance(&data, fcl_stpbv::distanceCallback)` with `data` a DistanceData.
+///
+/// FCL's managers prune by the distance of bounding boxes, which is 0 at overlap, against `dist`. So that
+/// pruning does not hide a deeper pair behind the first contact, `dist` stays above 0.
+bool distanceCallback(fcl::CollisionObjectd* object1, fcl::CollisionObjectd* object2, void* data,
+                      double& dist);
+
+}  // namespace fcl_stpbv

@@ -1,0 +1,95 @@
+#include "fcl_stpbv/adapter/fcl_distance.h"
+
+#include "fcl_stpbv/adapter/fcl_fallback.h"
+#include "fcl_stpbv/adapter/polyhedral_witness.h"
+
+namespace fcl_stpbv {
+namespace {
+
+using fcl::CollisionGeometryd;
+using fcl::Transform3d;
+
+/// Two STP-BVs: from the last answer if there is one, else from FCL's polyhedral witness (paper IV.B).
+Distance smoothDistance(const StpBvGeometry& a, const Transform3d& poseA, const StpBvGeometry& b,
+                        const Transform3d& poseB, const QueryContext& context) {
+  if (context.cache && context.cache->normal.squaredNorm() > 0)
+    return distance(a.volume(), poseA, b.volume(), poseB, context.cache);
+
+  const PolyhedralWitness witness = polyhedralWitness(a.hull(), poseA, b.hull(), poseB);
+  const std::array<int, 2> mapped = mapFeatures(a, poseA, b, poseB, witness);
+  PairCache start{witness.direction, mapped};
+  const Distance found = distance(a.volume(), poseA, b.volume(), poseB, &start);
+  if (context.mapping) countMapping(a.volume(), poseA, b.volume(), poseB, mapped, found, *context.mapping);
+  if (context.cache) *context.cache = start;
+  return found;
+}
+
+DistanceAnswer inFclTerms(const Distance& found, const Transform3d& pose1, const Transform3d& pose2) {
+  DistanceAnswer answer;
+  answer.status = found.status;
+  if (found.status == DistanceStatus::invalid) return answer;
+  answer.distance = found.distance;
+  answer.lower = found.lower;
+  answer.upper = found.upper;
+  answer.normal = found.normal;
+  answer.points = found.point;
+  answer.patch = found.patch;
+  answer.gradient = {found.gradient(0, pose1.translation()), found.gradient(1, pose2.translation())};
+  answer.continuous = true;
+  return answer;
+}
+
+bool finite(const Transform3d& pose) { return pose.matrix().topRows<3>().allFinite(); }
+
+}  // namespace
+
+DistanceAnswer distance(const CollisionGeometryd& geometry1, const Transform3d& pose1,
+                        const CollisionGeometryd& geometry2, const Transform3d& pose2,
+                        const QueryContext& context) {
+  DistanceAnswer answer;
+  const StpBvGeometry* a = asStpBv(&geometry1);
+  const StpBvGeometry* b = asStpBv(&geometry2);
+  if (a && b)
+    answer = inFclTerms(smoothDistance(*a, pose1, *b, pose2, context), pose1, pose2);
+  else if (finite(pose1) && finite(pose2))  // FCL may loop or assert on anything else
+    answer = fallbackDistance(geometry1, pose1, geometry2, pose2);
+  answer.geometry = {&geometry1, &geometry2};
+  return answer;
+}
+
+DistanceAnswer distance(const fcl::CollisionObjectd& object1, const fcl::CollisionObjectd& object2,
+                        const QueryContext& context) {
+  DistanceAnswer answer = distance(*object1.collisionGeometry(), object1.getTransform(),
+                                   *object2.collisionGeometry(), object2.getTransform(), context);
+  answer.object = {&object1, &object2};
+  return answer;
+}
+
+fcl::DistanceResultd toFclResult(const DistanceAnswer& answer) {
+  fcl::DistanceResultd result;
+  const bool known = answer.status != DistanceStatus::invalid && (answer.continuous || answer.distance > 0);
+  result.min_distance = known ? answer.distance : -1;
+  result.nearest_points[0] = answer.points[0];
+  result.nearest_points[1] = answer.points[1];
+  result.o1 = answer.geometry[0];
+  result.o2 = answer.geometry[1];
+  result.b1 = result.b2 = fcl::DistanceResultd::NONE;
+  return result;
+}
+
+// The request's flags say how FCL should compute and what it may leave out; here all of it is exact and at
+// hand.
+double distance(const fcl::CollisionObjectd* object1, const fcl::CollisionObjectd* object2,
+                const fcl::DistanceRequestd& /*request*/, fcl::DistanceResultd& result) {
+  result = toFclResult(distance(*object1, *object2));
+  return result.min_distance;
+}
+
+double distance(const CollisionGeometryd* geometry1, const Transform3d& pose1,
+                const CollisionGeometryd* geometry2, const Transform3d& pose2,
+                const fcl::DistanceRequestd& /*request*/, fcl::DistanceResultd& result) {
+  result = toFclResult(distance(*geometry1, pose1, *geometry2, pose2));
+  return result.min_distance;
+}
+
+}  // namespace fcl_stpbv

@@ -1,0 +1,73 @@
+// The drop-in for fcl::distance: exact, C1 distance where both geometries are STP-BVs, FCL's own for the
+// rest.
+#pragma once
+
+#include <fcl/narrowphase/collision_object.h>
+#include <fcl/narrowphase/distance_request.h>
+#include <fcl/narrowphase/distance_result.h>
+
+#include <array>
+#include <limits>
+
+#include "fcl_stpbv/adapter/feature_map.h"
+#include "fcl_stpbv/adapter/stp_bv_geometry.h"
+#include "fcl_stpbv/distance/distance.h"
+
+namespace fcl_stpbv {
+
+/// Answer about two FCL geometries. World frame, metres.
+struct DistanceAnswer {
+  DistanceStatus status = DistanceStatus::invalid;
+  double distance = std::numeric_limits<double>::max();  ///< signed; in [lower, upper]
+  double lower = -std::numeric_limits<double>::infinity();
+  double upper = std::numeric_limits<double>::infinity();
+  Eigen::Vector3d normal{0, 0, 0};  ///< unit, from geometry 1 to 2; zero where it is not known
+  std::array<Eigen::Vector3d, 2> points{Eigen::Vector3d(0, 0, 0),
+                                        Eigen::Vector3d(0, 0, 0)};  ///< witness points
+  /// Derivatives with respect to the twist [linear; angular] of each body about its frame's origin, world
+  /// axes.
+  std::array<TwistGradient, 2> gradient{TwistGradient::Zero(), TwistGradient::Zero()};
+  std::array<int, 2> patch{-1, -1};  ///< of the STP-BVs; -1 for any other geometry
+  /// Whether distance and gradient are continuous over motions: true for pairs of STP-BVs, false where FCL
+  /// answered.
+  bool continuous = false;
+  std::array<const fcl::CollisionGeometryd*, 2> geometry{nullptr, nullptr};
+  std::array<const fcl::CollisionObjectd*, 2> object{nullptr,
+                                                     nullptr};  ///< null if asked by geometry and pose
+};
+
+/// What a query may remember and report; all optional, all owned by the caller.
+struct QueryContext {
+  PairCache* cache = nullptr;        ///< starts the query near the pair's last answer instead of asking FCL
+  MappingCounts* mapping = nullptr;  ///< gets the outcome of the feature mapping, for queries that ask FCL
+};
+
+/// Distance between two geometries. Never throws; allocates nothing where both are STP-BVs.
+///
+/// Two STP-BVs: exact and signed, with status, bounds and derivatives. Any other pair: `fcl::distance`,
+/// unsigned, with tolerance 1e-10, exceptions caught; status `bounded`, `continuous` false, 0 for touching or
+/// overlapping geometries.
+DistanceAnswer distance(const fcl::CollisionGeometryd& geometry1, const fcl::Transform3d& pose1,
+                        const fcl::CollisionGeometryd& geometry2, const fcl::Transform3d& pose2,
+                        const QueryContext& context = {});
+
+/// The same for two collision objects.
+DistanceAnswer distance(const fcl::CollisionObjectd& object1, const fcl::CollisionObjectd& object2,
+                        const QueryContext& context = {});
+
+/// In the shape of `fcl::distance`: returns the distance and fills `result` afresh, nearest points always
+/// included.
+///
+/// Differs from FCL where FCL sets traps (docs/fcl.md): `result` holds this pair and no earlier one, the
+/// distance of two STP-BVs is always signed, no field is left uninitialised. Overlap of other geometries, and
+/// a query that has no answer, is -1, FCL's own value for them.
+double distance(const fcl::CollisionObjectd* object1, const fcl::CollisionObjectd* object2,
+                const fcl::DistanceRequestd& request, fcl::DistanceResultd& result);
+double distance(const fcl::CollisionGeometryd* geometry1, const fcl::Transform3d& pose1,
+                const fcl::CollisionGeometryd* geometry2, const fcl::Transform3d& pose2,
+                const fcl::DistanceRequestd& request, fcl::DistanceResultd& result);
+
+/// An answer in FCL's words.
+fcl::DistanceResultd toFclResult(const DistanceAnswer& answer);
+
+}  // namespace fcl_stpbv

@@ -1,0 +1,125 @@
+#include "fcl_stpbv/adapter/feature_map.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fcl_stpbv {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+// A normal this far past a seam is on it: both patches agree there, and neither mapping is wrong.
+constexpr double kOnSeam = 1e-12;
+
+/// Direction from the patch's point or circle of centres to `x`: the normal at the patch's point nearest to
+/// `x` (docs/theory.md, 5, one circle). Not unit.
+Vector3d towards(const StpBv& volume, int index, const Vector3d& x) {
+  const Patch& patch = volume.patch(index);
+  switch (volume.kind(index)) {
+    case PatchKind::edge: {
+      const Vector3d d = x - patch.anchor;
+      const double along = d.dot(patch.axis);
+      const Vector3d across = d - along * patch.axis;
+      const double length = across.norm();
+      return length > 0 ? Vector3d(along * patch.axis + (1 + patch.kappa / length) * across) : d;
+    }
+    case PatchKind::face:
+      return x - patch.anchor + volume.radii().rho * patch.axis;
+    case PatchKind::vertex:
+      break;
+  }
+  return x - patch.anchor;
+}
+
+/// One step from a patch to the neighbour on whose side `x` lies, if `x` is outside the patch's Voronoi
+/// region.
+int chooseNeighbour(const StpBv& volume, int patch, const Vector3d& x) {
+  const Vector3d d = towards(volume, patch, x);
+  const double length = d.norm();
+  int choice = patch;
+  double most = kOnSeam * length;
+  for (const StpBv::Seam* s = volume.seamsBegin(patch); s != volume.seamsEnd(patch); ++s) {
+    const double outside = d.dot(s->normal) - s->limit * length;
+    if (outside > most) most = outside, choice = s->neighbour;
+  }
+  return choice;
+}
+
+/// The core's point nearest to `x` as far as this patch knows.
+Vector3d nearestCorePoint(const StpBv& volume, int patch, const Vector3d& x) {
+  const Vector3d d = towards(volume, patch, x);
+  const double length = d.norm();
+  if (!(length > 0)) return x;
+  return corePoint(volume.patch(patch), volume.kind(patch), volume.radii(), d / length);
+}
+
+bool contains(const StpBv::Ring& ring, int v) { return std::find(ring.begin(), ring.end(), v) != ring.end(); }
+
+/// Whether two patches share a seam, or are a face and one of its vertices, whose regions share a corner.
+bool areNeighbours(const StpBv& volume, int p, int q) {
+  for (const StpBv::Seam* s = volume.seamsBegin(p); s != volume.seamsEnd(p); ++s)
+    if (s->neighbour == q) return true;
+  if (volume.kind(p) == PatchKind::face) std::swap(p, q);
+  if (volume.kind(p) != PatchKind::vertex || volume.kind(q) != PatchKind::face) return false;
+  return contains(volume.faces()[static_cast<std::size_t>(q - volume.facePatch(0))], p);
+}
+
+/// 0: the mapped patch owns the normal; 1: a neighbour does; 2: a farther one.
+int stepsAway(const StpBv& volume, int mapped, int answer, const Vector3d& normal) {
+  if (mapped == answer || volume.outside(mapped, normal) <= kOnSeam) return 0;
+  return areNeighbours(volume, mapped, answer) ? 1 : 2;
+}
+
+}  // namespace
+
+MappingCounts& MappingCounts::operator+=(const MappingCounts& other) {
+  right += other.right;
+  neighbour += other.neighbour;
+  farther += other.farther;
+  unmapped += other.unmapped;
+  return *this;
+}
+
+std::array<int, 2> mapFeatures(const StpBvGeometry& a, const Isometry3d& poseA, const StpBvGeometry& b,
+                               const Isometry3d& poseB, const PolyhedralWitness& witness) {
+  if (witness.verdict != PolyhedralWitness::Verdict::separated) return {-1, -1};
+  const Matrix3d toB = poseB.linear().transpose() * poseA.linear();
+  const Vector3d offset = poseB.linear().transpose() * (poseA.translation() - poseB.translation());
+  const Vector3d bInA = poseA.linear().transpose() * (witness.point[1] - poseA.translation());
+  const Vector3d aInB = poseB.linear().transpose() * (witness.point[0] - poseB.translation());
+  const int p = chooseNeighbour(a.volume(), a.patchOf(witness.feature[0]), bInA);
+  const int q = chooseNeighbour(b.volume(), b.patchOf(witness.feature[1]), aInB);
+  // The same test once more with the smooth points these patches give in place of the polyhedral ones: it
+  // halves the wrong choices near contact, and far from it leaves one in ten of them (docs/fcl.md).
+  const Vector3d smoothA = nearestCorePoint(a.volume(), p, bInA),
+                 smoothB = nearestCorePoint(b.volume(), q, aInB);
+  return {chooseNeighbour(a.volume(), p, toB.transpose() * (smoothB - offset)),
+          chooseNeighbour(b.volume(), q, toB * smoothA + offset)};
+}
+
+void countMapping(const StpBv& a, const Isometry3d& poseA, const StpBv& b, const Isometry3d& poseB,
+                  const std::array<int, 2>& mapped, const Distance& answer, MappingCounts& counts) {
+  if (answer.status == DistanceStatus::invalid) return;
+  if (mapped[0] < 0 || mapped[1] < 0) {
+    ++counts.unmapped;
+    return;
+  }
+  const Vector3d nA = poseA.linear().transpose() * answer.normal;
+  const Vector3d nB = -(poseB.linear().transpose() * answer.normal);
+  switch (
+      std::max(stepsAway(a, mapped[0], answer.patch[0], nA), stepsAway(b, mapped[1], answer.patch[1], nB))) {
+    case 0:
+      ++counts.right;
+      break;
+    case 1:
+      ++counts.neighbour;
+      break;
+    default:
+      ++counts.farther;
+      break;
+  }
+}
+
+}  // namespace fcl_stpbv

@@ -1,0 +1,98 @@
+// The convex hull of a volume's vertices as a graph to climb: the polyhedron that FCL sees.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "fcl_stpbv/volume/patch.h"
+
+namespace fcl_stpbv {
+
+/// A feature of the convex hull: vertex, edge or face, by its number there.
+struct HullFeature {
+  PatchKind kind = PatchKind::vertex;
+  int index = -1;  ///< -1: none
+};
+
+/// Convex hull of a cloud: strictly extreme vertices only, coplanar faces merged. Immutable.
+///
+/// Hill climbing needs exactly that: from a vertex inside a face that is flat to rounding it can stop at the
+/// minimum. Points are kept relative to `centre()`, so that a cloud far from its frame's origin loses no
+/// digits.
+class HullGraph {
+ public:
+  using Ring = std::vector<int>;
+
+  /// @throws Error for a cloud that is empty or not finite.
+  explicit HullGraph(const std::vector<Eigen::Vector3d>& cloud);
+
+  int vertexCount() const { return static_cast<int>(points_.size()); }
+  int edgeCount() const { return static_cast<int>(edges_.size()); }
+  int faceCount() const { return static_cast<int>(faces_.size()); }
+
+  /// Vertex `v` relative to `centre()` (m).
+  const Eigen::Vector3d& point(int v) const { return points_[static_cast<std::size_t>(v)]; }
+  /// Middle of the points' bounding box, and how far the farthest vertex is from it (m).
+  const Eigen::Vector3d& centre() const { return centre_; }
+  double radius() const { return radius_; }
+  /// The cloud's point that vertex `v` is.
+  int cloudIndex(int v) const { return cloudIndex_[static_cast<std::size_t>(v)]; }
+
+  const std::vector<std::array<int, 2>>& edges() const { return edges_; }
+  const std::vector<Ring>& faces() const { return faces_; }
+  const std::vector<std::array<int, 2>>& edgeFaces() const { return edgeFaces_; }  ///< -1 on a bare segment
+  /// Unit outward normal of a face.
+  const Eigen::Vector3d& faceNormal(int f) const { return normals_[static_cast<std::size_t>(f)]; }
+
+  /// Vertices joined to `v` by an edge.
+  const std::int32_t* neighboursBegin(int v) const {
+    return neighbours_.data() + start_[static_cast<std::size_t>(v)];
+  }
+  const std::int32_t* neighboursEnd(int v) const {
+    return neighbours_.data() + start_[static_cast<std::size_t>(v) + 1];
+  }
+
+  /// The vertex farthest along `direction` (any length), climbing from `from`, or from a table of directions
+  /// where `from` is negative. Allocates nothing.
+  int extremeVertex(const Eigen::Vector3d& direction, int from) const;
+
+  /// The smallest feature that holds all the given vertices (one to three, distinct); a vertex alone if none
+  /// does.
+  HullFeature featureOf(const int* vertices, int count) const;
+
+ private:
+  /// Eight vertices side by side, so that their heights along a direction are computed at once; a short chunk
+  /// repeats its first.
+  struct Chunk {
+    using Eight = Eigen::Array<double, 8, 1, Eigen::DontAlign>;
+    Eight x, y, z;
+    std::array<std::int32_t, 8> vertex;
+  };
+
+  void makeEdges();
+  void makeChunks();
+  void makeTable();
+  void addChunks(const std::int32_t* begin, const std::int32_t* end);
+  bool higherIn(std::int32_t firstChunk, std::int32_t lastChunk, const Eigen::Vector3d& direction,
+                double& height, int& vertex) const;
+  int climb(const Eigen::Vector3d& direction, int from) const;
+  std::size_t cellOf(const Eigen::Vector3d& direction) const;
+
+  Eigen::Vector3d centre_{0, 0, 0};
+  double radius_ = 0;
+  std::vector<Eigen::Vector3d> points_;
+  std::vector<int> cloudIndex_;
+  std::vector<Ring> faces_;
+  std::vector<Eigen::Vector3d> normals_;
+  std::vector<std::array<int, 2>> edges_, edgeFaces_;
+  std::vector<std::int32_t> start_, neighbours_, neighbourEdges_;  // by vertex
+  std::vector<std::int32_t> faceStart_, vertexFaces_;              // faces around each vertex, ascending
+  std::vector<Chunk> chunks_;             // all vertices of a small hull, else the neighbours of each vertex
+  std::vector<std::int32_t> chunkStart_;  // by vertex
+  std::vector<std::int32_t> table_;  // extreme vertex for the middle of each cell of a cube map of directions
+  int cells_ = 1;                    // cells along a cube's side in table_
+};
+
+}  // namespace fcl_stpbv

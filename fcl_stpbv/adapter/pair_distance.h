@@ -1,0 +1,34 @@
+// One pair of geometries asked again and again.
+#pragma once
+
+#include <memory>
+#include <utility>
+
+#include "fcl_stpbv/adapter/fcl_distance.h"
+
+namespace fcl_stpbv {
+
+/// Distance of a fixed pair of geometries over many poses; each query starts from the last answer. One thread
+/// at a time may use one; any number of them may share geometries.
+class PairDistance {
+ public:
+  using Geometry = std::shared_ptr<const fcl::CollisionGeometryd>;
+
+  PairDistance(Geometry geometry1, Geometry geometry2)
+      : geometry1_(std::move(geometry1)), geometry2_(std::move(geometry2)) {}
+
+  DistanceAnswer operator()(const fcl::Transform3d& pose1, const fcl::Transform3d& pose2) {
+    return distance(*geometry1_, pose1, *geometry2_, pose2, {&cache_, &mapping_});
+  }
+
+  /// Makes the next query start from FCL's witness again.
+  void forget() { cache_ = {}; }
+  const MappingCounts& mapping() const { return mapping_; }
+
+ private:
+  Geometry geometry1_, geometry2_;
+  PairCache cache_;
+  MappingCounts mapping_;
+};
+
+}  // namespace fcl_stpbv

@@ -1,0 +1,145 @@
+#include "fcl_stpbv/adapter/polyhedral_witness.h"
+
+#include <fcl/narrowphase/detail/convexity_based_algorithm/gjk_libccd.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "fcl_stpbv/adapter/posed_hulls.h"
+#include "fcl_stpbv/adapter/simplex.h"
+
+namespace fcl_stpbv {
+namespace {
+
+using Eigen::Vector3d;
+
+// GJK on polytopes ends after finitely many steps, in practice some ten; a hundred means rounding has won.
+constexpr int kMaxSteps = 100;
+// Stop where the gap is at the rounding of support points of about 1, a few times 2.2e-16.
+constexpr double kGapTolerance = 1e-15;
+// A corner of smaller weight does not hold the witness point: it is the rounding of a point on a smaller
+// feature.
+constexpr double kMinWeight = 1e-12;
+
+/// FCL's intersection test from the first direction; its simplex with the vertices behind each corner.
+Simplex runFclGjk(PosedHulls& pair) {
+  ccd_t ccd;
+  CCD_INIT(&ccd);
+  ccd.support1 = &PosedHulls::ccdSupportA;
+  ccd.support2 = &PosedHulls::ccdSupportB;
+  ccd.first_dir = &PosedHulls::ccdFirstDirection;
+  ccd.max_iterations = kMaxSteps / 2;
+  ccd_simplex_t found;
+  // The verdict it returns rests on absolute tolerances; the caller's own loop decides from the simplex.
+  fcl::detail::libccd_extension::__ccdGJK(&pair, &pair, &ccd, &found);
+
+  Simplex simplex;
+  for (int i = 0; i < ccdSimplexSize(&found); ++i) {
+    const ccd_support_t* corner = ccdSimplexPoint(&found, i);
+    const int va = pair.loggedVertexA(corner->v1), vb = pair.loggedVertexB(corner->v2);
+    simplex.add({pair.pointA(va) - pair.pointB(vb), va, vb});
+  }
+  return simplex;
+}
+
+bool holds(const Simplex& s, const SimplexCorner& c) {
+  for (int i = 0; i < s.size; ++i) {
+    const SimplexCorner& other = s.corner[static_cast<std::size_t>(i)];
+    if (other.vertexA == c.vertexA && other.vertexB == c.vertexB) return true;
+  }
+  return false;
+}
+
+/// The distinct vertices of one body in the simplex, heaviest first.
+int verticesOf(const Simplex& s, int SimplexCorner::*vertex, std::array<int, 3>& out) {
+  std::array<double, 4> weight{};
+  std::array<int, 4> id{};
+  int count = 0;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(s.size); ++i) {
+    const int v = s.corner[i].*vertex;
+    const auto k = static_cast<std::size_t>(std::find(id.begin(), id.begin() + count, v) - id.begin());
+    if (static_cast<int>(k) == count) id[k] = v, ++count;
+    weight[k] += s.weight[i];
+  }
+  int kept = 0;
+  out = {-1, -1, -1};
+  for (int n = 0; n < std::min(count, 3); ++n) {
+    const auto k =
+        static_cast<std::size_t>(std::max_element(weight.begin(), weight.begin() + count) - weight.begin());
+    if (weight[k] < kMinWeight) break;
+    out[static_cast<std::size_t>(kept++)] = id[k];
+    weight[k] = -1;
+  }
+  return kept;
+}
+
+}  // namespace
+
+PolyhedralWitness polyhedralWitness(const HullGraph& a, const Eigen::Isometry3d& poseA, const HullGraph& b,
+                                    const Eigen::Isometry3d& poseB, const WitnessStart& start) {
+  using Verdict = PolyhedralWitness::Verdict;
+  PolyhedralWitness result;
+  result.vertices = {{{-1, -1, -1}, {-1, -1, -1}}};
+  PosedHulls pair(a, poseA, b, poseB, start.vertex);
+  if (!pair.usable() || !start.direction.allFinite()) return result;
+
+  const bool remembered = start.direction.squaredNorm() > 0;
+  Vector3d n = remembered ? Vector3d(poseA.linear().transpose() * start.direction) : pair.offset();
+  if (!(n.squaredNorm() > 0)) n = Vector3d(1, 0, 0);
+  n.normalize();
+  pair.setFirstDirection(n);
+
+  // The distance loop of GJK on A - B: v the simplex's point nearest to the origin, n = -v/|v| the direction
+  // from A to B. Any n gives the lower bound, any v the upper; they meet at the answer (docs/theory.md, 5,
+  // for a polytope).
+  Simplex simplex, best;
+  Vector3d v(0, 0, 0);
+  double lower = -std::numeric_limits<double>::infinity(), upper = std::numeric_limits<double>::infinity();
+  simplex.add(pair.support(n));
+  lower = -simplex.corner[0].point.dot(n);
+  // Where the first plane separates the hulls already, FCL's intersection test would end at that same point.
+  if (!(lower > 0)) simplex = runFclGjk(pair);
+  best = simplex;
+  bool inside = false;
+  for (int step = 0; step < kMaxSteps; ++step) {
+    const NearestPoint near = reduceToNearest(simplex);
+    inside = near.inside;
+    const double length = near.point.norm();
+    if (inside || !(length < upper)) break;  // no progress: rounding
+    upper = length;
+    v = near.point;
+    best = simplex;
+    n = -v / length;
+    const SimplexCorner next = pair.support(n);
+    lower = std::max(lower, -next.point.dot(n));
+    if (upper - lower <= kGapTolerance * (1 + upper) || holds(simplex, next)) break;
+    simplex.add(next);
+  }
+
+  result.supports = pair.supports();
+  result.direction = poseA.linear() * n;
+  if (inside || !std::isfinite(upper)) {
+    if (inside) result.verdict = Verdict::overlapping;
+    return result;
+  }
+  const double metres = 1 / pair.scale();
+  result.lower = std::max(0.0, std::min(lower, upper)) * metres;
+  result.upper = upper * metres;
+  result.verdict = lower > 0        ? Verdict::separated
+                   : upper <= 1e-12 ? Verdict::overlapping  // touching to rounding
+                                    : Verdict::failed;
+  Vector3d pa(0, 0, 0), pb(0, 0, 0);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(best.size); ++i) {
+    pa += best.weight[i] * pair.pointA(best.corner[i].vertexA);
+    pb += best.weight[i] * pair.pointB(best.corner[i].vertexB);
+  }
+  const Vector3d centre = poseA * a.centre();
+  result.point = {centre + poseA.linear() * (metres * pa), centre + poseA.linear() * (metres * pb)};
+  const int countA = verticesOf(best, &SimplexCorner::vertexA, result.vertices[0]);
+  const int countB = verticesOf(best, &SimplexCorner::vertexB, result.vertices[1]);
+  result.feature = {a.featureOf(result.vertices[0].data(), countA),
+                    b.featureOf(result.vertices[1].data(), countB)};
+  return result;
+}
+
+}  // namespace fcl_stpbv

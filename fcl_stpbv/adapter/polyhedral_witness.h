@@ -1,0 +1,45 @@
+// Closest features of two convex hulls by FCL's GJK, with a stop that proves convergence.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <array>
+
+#include "fcl_stpbv/adapter/hull_graph.h"
+
+namespace fcl_stpbv {
+
+/// Where to begin: what an earlier witness of the same pair returned, or nothing.
+struct WitnessStart {
+  Eigen::Vector3d direction{0, 0, 0};  ///< from A to B, world frame; zero: centre to centre
+  std::array<int, 2> vertex{-1, -1};   ///< hull vertices to climb from; -1: from the table of directions
+};
+
+/// Closest points of two convex hulls and the features that hold them. World frame, metres.
+struct PolyhedralWitness {
+  enum class Verdict {
+    separated,    ///< a plane between the hulls was found; everything below is filled
+    overlapping,  ///< the hulls touch or overlap: distance 0, and only `direction` says something, as a guess
+    failed,       ///< not finite, or not decided within the cap on iterations; `lower` and `upper` still hold
+  };
+  Verdict verdict = Verdict::failed;
+  double lower = 0;                    ///< certified: the gap between two supporting planes
+  double upper = 0;                    ///< certified: the distance of two points
+  Eigen::Vector3d direction{0, 0, 0};  ///< unit, from A to B
+  std::array<Eigen::Vector3d, 2> point{Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(0, 0, 0)};
+  std::array<HullFeature, 2> feature;          ///< what each point lies on
+  std::array<std::array<int, 3>, 2> vertices;  ///< hull vertices holding it, heaviest first; -1 past the last
+  int supports = 0;                            ///< support points computed, the work done
+
+  WitnessStart start() const { return {direction, {vertices[0][0], vertices[1][0]}}; }
+};
+
+/// Closest points of hull `a` at `poseA` and `b` at `poseB`. Never throws, never allocates.
+///
+/// The intersection test is FCL's own GJK, on a support function that climbs from the last vertex, in
+/// coordinates relative to A and scaled to about 1 because libccd's tolerances are absolute. Its distance
+/// loop is replaced: FCL stops where two norms agree, which is no proof of convergence (docs/fcl.md); here
+/// the duality gap decides.
+PolyhedralWitness polyhedralWitness(const HullGraph& a, const Eigen::Isometry3d& poseA, const HullGraph& b,
+                                    const Eigen::Isometry3d& poseB, const WitnessStart& start = {});
+
+}  // namespace fcl_stpbv

@@ -1,0 +1,134 @@
+#include "fcl_stpbv/adapter/stp_bv_geometry.h"
+
+#include <algorithm>
+#include <map>
+
+#include "fcl_stpbv/error.h"
+
+namespace fcl_stpbv {
+namespace {
+
+using Eigen::Vector3d;
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+const std::vector<Vector3d>& verticesOf(const StpBv::Ptr& volume) {
+  if (!volume) throw Error("StpBvGeometry: the volume is null; build or load one first");
+  return volume->vertices();
+}
+
+// The volume's own coordinates, not the hull's relative ones: FCL must see the points unrounded.
+std::shared_ptr<const std::vector<fcl::Vector3d>> fclVertices(const StpBv& volume, const HullGraph& hull) {
+  auto vertices = std::make_shared<std::vector<fcl::Vector3d>>();
+  for (int v = 0; v < hull.vertexCount(); ++v) vertices->push_back(volume.vertices()[at(hull.cloudIndex(v))]);
+  return vertices;
+}
+
+// FCL's format: each face as its number of vertices followed by them, counter-clockwise from outside.
+std::shared_ptr<const std::vector<int>> fclFaces(const HullGraph& hull) {
+  auto faces = std::make_shared<std::vector<int>>();
+  for (const HullGraph::Ring& ring : hull.faces()) {
+    faces->push_back(static_cast<int>(ring.size()));
+    faces->insert(faces->end(), ring.begin(), ring.end());
+  }
+  return faces;
+}
+
+}  // namespace
+
+StpBvGeometry::StpBvGeometry(StpBv::Ptr volume) : StpBvGeometry(volume, HullGraph(verticesOf(volume))) {}
+
+// FCL's check of the mesh would throw on degenerate volumes, and everything else it checks holds by
+// construction.
+StpBvGeometry::StpBvGeometry(StpBv::Ptr volume, HullGraph hull)
+    : fcl::Convexd(fclVertices(*volume, hull), hull.faceCount(), fclFaces(hull), /*throw_if_invalid=*/false),
+      volume_(std::move(volume)),
+      hull_(std::move(hull)) {
+  nameFaces();
+  nameEdges();
+  computeLocalAABB();
+}
+
+void StpBvGeometry::nameFaces() {
+  std::map<std::vector<int>, int> patches;  // by a face's vertices, sorted
+  for (int f = 0; f < volume_->faceCount(); ++f) {
+    std::vector<int> ring = volume_->faces()[at(f)];
+    std::sort(ring.begin(), ring.end());
+    patches[ring] = volume_->facePatch(f);
+  }
+  for (int f = 0; f < hull_.faceCount(); ++f) {
+    std::vector<int> ring;
+    for (const int v : hull_.faces()[at(f)]) ring.push_back(hull_.cloudIndex(v));
+    std::sort(ring.begin(), ring.end());
+    const auto named = patches.find(ring);
+    // The two sides of a flat body share one name: the normal tells them apart.
+    const bool same = named != patches.end() && hull_.faceCount() > 2;
+    facePatch_.push_back(same ? named->second : volume_->owner(hull_.faceNormal(f)));
+  }
+}
+
+void StpBvGeometry::nameEdges() {
+  std::multimap<std::array<int, 2>, int>
+      patches;  // by an edge's ends, ascending; two ends may have several edges
+  for (int e = 0; e < volume_->edgeCount(); ++e) {
+    const auto [a, b] = volume_->edges()[at(e)].vertex;
+    patches.emplace(std::array<int, 2>{std::min(a, b), std::max(a, b)}, volume_->edgePatch(e));
+  }
+  for (int e = 0; e < hull_.edgeCount(); ++e) {
+    const int a = hull_.cloudIndex(hull_.edges()[at(e)][0]), b = hull_.cloudIndex(hull_.edges()[at(e)][1]);
+    const auto [begin, end] = patches.equal_range({std::min(a, b), std::max(a, b)});
+    const std::array<int, 2>& sides = hull_.edgeFaces()[at(e)];
+    if (sides[0] < 0) {  // a bare segment: any of its edge patches
+      edgePatch_.push_back(begin != end ? begin->second : a);
+      continue;
+    }
+    Vector3d middle = hull_.faceNormal(sides[0]) + hull_.faceNormal(sides[1]);
+    if (!(middle.squaredNorm() > 1e-12)) {
+      // The rim of a flat body: its normals point away from the body's centre, across the edge.
+      const Vector3d p = hull_.point(hull_.edges()[at(e)][0]), u = hull_.point(hull_.edges()[at(e)][1]) - p;
+      middle = u.cross(hull_.faceNormal(sides[0]));
+      if (middle.dot(p) < 0) middle = -middle;
+    }
+    middle.normalize();
+    int best = -1;
+    double least = 0;
+    for (auto it = begin; it != end; ++it) {
+      const double outside = volume_->outside(it->second, middle);
+      if (best < 0 || outside < least) best = it->second, least = outside;
+    }
+    edgePatch_.push_back(best >= 0 ? best : volume_->owner(middle));
+  }
+}
+
+int StpBvGeometry::patchOf(const HullFeature& feature) const {
+  if (feature.index < 0) return -1;
+  switch (feature.kind) {
+    case PatchKind::edge:
+      return edgePatch_[at(feature.index)];
+    case PatchKind::face:
+      return facePatch_[at(feature.index)];
+    case PatchKind::vertex:
+      break;
+  }
+  return hull_.cloudIndex(feature.index);  // vertex patches have their vertices' numbers
+}
+
+void StpBvGeometry::computeLocalAABB() {
+  if (!volume_) return;  // called by FCL's base constructor in some versions
+  for (int axis = 0; axis < 3; ++axis) {
+    const Vector3d n = Vector3d::Unit(axis);
+    aabb_local.max_[axis] = volume_->support(n);
+    aabb_local.min_[axis] = -volume_->support(-n);
+  }
+  aabb_center = aabb_local.center();
+  // FCL turns the box into this sphere for a rotated object: the tighter of two that hold the surface.
+  const double corner = (aabb_local.max_ - aabb_center).norm();
+  const double ball = (volume_->centre() - aabb_center).norm() + volume_->enclosingRadius();
+  aabb_radius = std::min(corner, ball);
+}
+
+const StpBvGeometry* asStpBv(const fcl::CollisionGeometryd* geometry) {
+  return geometry ? dynamic_cast<const StpBvGeometry*>(geometry) : nullptr;
+}
+
+}  // namespace fcl_stpbv
