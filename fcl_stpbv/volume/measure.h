@@ -2,19 +2,24 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <vector>
 
 #include "fcl_stpbv/volume/stp_bv.h"
 
 namespace fcl_stpbv {
 
-/// Excess over the convex hull of the volume's vertices (m).
+/// Excess over a convex hull inside the volume (m).
 struct OverCover {
   double max;   ///< largest distance of a surface point from the hull: the largest difference of the support
                 ///< functions
   double mean;  ///< mean height of the surface over the hull's faces, by area (along a segment, or of a
                 ///< point, likewise)
 };
+
+/// Excess over the convex hull of the volume's vertices, or of the cloud it was built from: with a small R
+/// points of the hull lie inside and drop out.
 OverCover overCover(const StpBv& volume);
+OverCover overCover(const StpBv& volume, const std::vector<Eigen::Vector3d>& cloud);
 
 /// Bound on the over-cover for a body whose faces are acute and whose longest edge is `a` (m): R - sqrt(rho^2
 /// - a^2/3). The paper (III.C) prints a^2/12, which is the inradius of an equilateral face and too small;

@@ -135,10 +135,9 @@ constexpr std::array<TrianglePoint, 7> kTriangle{{{1.0 / 3, 1.0 / 3, 1.0 / 3, kW
                                                   {kB2, kA2, kB2, kW2},
                                                   {kB2, kB2, kA2, kW2}}};
 
-// One or two points: the surface's height over a point is r, over a segment that of an arc of radius R.
+// Over a segment the surface is an arc of radius R.
 OverCover overCoverOfLine(const StpBv& volume) {
   const Radii& radii = volume.radii();
-  if (volume.edgeCount() == 0) return {radii.r, radii.r};
   const Patch& patch = volume.patch(volume.edgePatch(0));
   const double half = std::sqrt(patch.sag * (radii.rho + patch.kappa)), top = radii.r + patch.sag;
   constexpr int kPieces = 1000;
@@ -152,11 +151,13 @@ OverCover overCoverOfLine(const StpBv& volume) {
 
 }  // namespace
 
-OverCover overCover(const StpBv& volume) {
-  if (volume.vertexCount() < 3) return overCoverOfLine(volume);
-  const std::vector<Vector3d>& points = volume.vertices();
+OverCover overCover(const StpBv& volume) { return overCover(volume, volume.vertices()); }
+
+OverCover overCover(const StpBv& volume, const std::vector<Vector3d>& points) {
+  if (volume.vertexCount() == 1) return {volume.radii().r, volume.radii().r};
   const auto at = [&](int i) -> const Vector3d& { return points[static_cast<std::size_t>(i)]; };
   const RolledHull hull = rollBall(points);
+  if (hull.faces.empty()) return overCoverOfLine(volume);
 
   OverCover result{volume.radii().r, 0};
   double area = 0, sum = 0;

@@ -368,9 +368,9 @@ double touchTolerance(const std::vector<Vector3d>& points) {
     low = low.cwiseMin(p), high = high.cwiseMax(p);
     largest = std::max(largest, p.cwiseAbs().maxCoeff());
   }
-  // Coordinates that were rounded after a rotation or a change of units are off by about one unit in their
-  // last place; eight of those cover a product of three such steps.
-  return 8 * std::numeric_limits<double>::epsilon() * std::max(largest, 0.5 * (high - low).maxCoeff());
+  // Coordinates that were turned and shifted are off by two or three units in their last place, and a face's
+  // ball, fixed by three of them, may tilt so that the face's other points are off by several times as much.
+  return 32 * std::numeric_limits<double>::epsilon() * std::max(largest, 0.5 * (high - low).maxCoeff());
 }
 
 std::array<int, 3> wideTriangle(const std::vector<Vector3d>& points, const std::vector<int>& ring) {
@@ -411,22 +411,19 @@ std::vector<HalfEdge> pairHalfEdges(const std::vector<Vector3d>& points, const s
       const Vector3d m = normals[static_cast<std::size_t>(face)] + curvature * (at(a) - at(first));
       return Vector3d(m - m.dot(u) * u);
     };
-    // A vertex beside the edge, inside the ball over it as diameter, lets the ball turn by more than half a
-    // turn.
-    const auto wide = [&](int face) {
-      const Ring& r = faces[static_cast<std::size_t>(face)];
-      return std::any_of(r.begin(), r.end(),
-                         [&](int i) { return i != a && i != b && (at(i) - at(a)).dot(at(i) - at(b)) < 0; });
-    };
     const Vector3d from = across(edge.face), side = u.cross(from);
+    // Nearly a whole turn is possible only where the face's other vertices hardly rise over the arc that the
+    // ball rolls on: straight ahead of its normal, seen along the edge.
+    const bool isSpindle = std::any_of(ring.begin(), ring.end(), [&](int i) {
+      const Vector3d q = (at(i) - at(a)) - (at(i) - at(a)).dot(u) * u;
+      return i != a && i != b && q.dot(from) > 0.99 * q.norm() * from.norm();
+    });
     const auto range = byEnds.equal_range({b, a});
     for (auto it = range.first; it != range.second; ++it) {
       const int face = halfEdges[static_cast<std::size_t>(it->second)].face;
       const Vector3d to = across(face);
       double turn = std::atan2(to.dot(side), to.dot(from));
-      // A turn of nothing may come out as slightly negative; it is a whole one only where a vertex allows
-      // that.
-      if (turn < 0) turn = turn > -1e-6 && !(wide(edge.face) && wide(face)) ? 0 : turn + kTwoPi;
+      if (turn < 0) turn = turn > -1e-6 && !isSpindle ? 0 : turn + kTwoPi;  // a turn of nothing, rounded
       if (edge.twin < 0 || turn < edge.turn) edge.twin = it->second, edge.turn = turn;
     }
     if (edge.twin < 0)

@@ -31,7 +31,7 @@ class Tessellator {
     const Vector3d x =
         corePoint(volume_.patch(patch), volume_.kind(patch), volume_.radii(), n) + volume_.radii().r * n;
     // What rounding can part at a seam: a few units of the coordinates and of rho times the normal.
-    const double grid = 2e-14 * (volume_.enclosingRadius() + volume_.radii().rho);
+    const double grid = 2e-14 * (volume_.enclosingRadius() + volume_.radii().rho + volume_.centre().norm());
     const auto key = [&](double c) { return static_cast<long long>(std::llround(c / grid)); };
     const Vector3d local = x - volume_.centre();
     // A point near a cell's border may have been filed in the next cell.

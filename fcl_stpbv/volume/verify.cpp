@@ -2,11 +2,14 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 
 #include "fcl_stpbv/volume/minimum_ball.h"
 #include "fcl_stpbv/volume/point_tree.h"
+#include "fcl_stpbv/volume/regions.h"
 #include "fcl_stpbv/volume/rolling_ball.h"
 
 namespace fcl_stpbv {
@@ -23,6 +26,12 @@ double exteriorAngle(const Vector3d& n, const Vector3d& a, const Vector3d& b) {
 }
 
 Vector3d at(const StpBv& volume, int vertex) { return volume.vertices()[static_cast<std::size_t>(vertex)]; }
+
+std::string number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", value);
+  return text;
+}
 
 double containmentOf(const StpBv& volume, const std::vector<Vector3d>& points) {
   double worst = -std::numeric_limits<double>::infinity();
@@ -51,34 +60,57 @@ double containmentOf(const StpBv& volume, const std::vector<Vector3d>& points) {
   return worst;
 }
 
-double seamGapOf(const StpBv& volume) {
-  double worst = 0;
-  const auto gap = [&](int a, int b, const Vector3d& n) {
-    worst = std::max(worst, (corePoint(volume.patch(a), volume.kind(a), volume.radii(), n) -
-                             corePoint(volume.patch(b), volume.kind(b), volume.radii(), n))
-                                .norm());
+// How far a face's ball may be tilted by points that lie on it to rounding only, as the shift of its core
+// points (m): a height e over a face of width w tilts it by e/w, which a large rho magnifies.
+double tiltOf(const StpBv& volume, int f) {
+  const StpBv::Ring& ring = volume.faces()[static_cast<std::size_t>(f)];
+  const Patch& face = volume.patch(volume.facePatch(f));
+  double height = 0;
+  for (const int i : ring) {
+    const Vector3d q = at(volume, i) - face.anchor;
+    height = std::max(height, std::abs(q.squaredNorm() / (2 * volume.radii().rho) + q.dot(face.axis)));
+  }
+  const std::array<int, 3> t = wideTriangle(volume.vertices(), ring);
+  const Vector3d a = at(volume, t[1]) - at(volume, t[0]), b = at(volume, t[2]) - at(volume, t[0]);
+  const double longest = std::sqrt(std::max({a.squaredNorm(), b.squaredNorm(), (a - b).squaredNorm()}));
+  return height * volume.radii().rho * longest / a.cross(b).norm();
+}
+
+struct SeamGap {
+  double largest = 0;
+  bool ok = true;
+};
+
+SeamGap seamGapOf(const StpBv& volume, double rounding) {
+  SeamGap result;
+  const auto compare = [&](int a, int b, const Vector3d& n, double allowed) {
+    const double gap = (corePoint(volume.patch(a), volume.kind(a), volume.radii(), n) -
+                        corePoint(volume.patch(b), volume.kind(b), volume.radii(), n))
+                           .norm();
+    result.largest = std::max(result.largest, gap);
+    result.ok = result.ok && gap <= allowed;
   };
   for (int e = 0; e < volume.edgeCount(); ++e) {
     const StpBv::Edge& edge = volume.edges()[static_cast<std::size_t>(e)];
-    const Vector3d along = at(volume, edge.vertex[1]) - at(volume, edge.vertex[0]), u = along.normalized();
-    const double sine = 0.5 * along.norm() / volume.radii().rho;
+    const double sine =
+        0.5 * (at(volume, edge.vertex[1]) - at(volume, edge.vertex[0])).norm() / volume.radii().rho;
     const double cosine = volume.patch(volume.edgePatch(e)).kappa / volume.radii().rho;
-    const Vector3d m = edge.face[0] < 0 ? u.unitOrthogonal() : volume.corner(edge.face[0], edge.vertex[0]);
-    const Vector3d start = (m - m.dot(u) * u).normalized(), side = u.cross(start);
+    const Arc arc = edgeArc(volume, e);
     for (int k = 0; k <= 8; ++k) {
-      const double angle = edge.turn * k / 8;
-      const Vector3d w = std::cos(angle) * start + std::sin(angle) * side;
-      gap(volume.edgePatch(e), edge.vertex[0], cosine * w - sine * u);
-      gap(volume.edgePatch(e), edge.vertex[1], cosine * w + sine * u);
+      const Vector3d w = arc.at(k / 8.0);
+      compare(volume.edgePatch(e), edge.vertex[0], cosine * w - sine * arc.axis, rounding);
+      compare(volume.edgePatch(e), edge.vertex[1], cosine * w + sine * arc.axis, rounding);
     }
     if (edge.face[0] < 0) continue;
     for (const int face : edge.face) {
       const Vector3d a = volume.corner(face, edge.vertex[0]), b = volume.corner(face, edge.vertex[1]);
+      const double allowed = rounding + 4 * tiltOf(volume, face);
       for (int k = 0; k <= 4; ++k)
-        gap(volume.edgePatch(e), volume.facePatch(face), ((1 - k / 4.0) * a + k / 4.0 * b).normalized());
+        compare(volume.edgePatch(e), volume.facePatch(face), ((1 - k / 4.0) * a + k / 4.0 * b).normalized(),
+                allowed);
     }
   }
-  return worst;
+  return result;
 }
 
 }  // namespace
@@ -128,20 +160,21 @@ Verification verify(const StpBv& volume, const std::vector<Vector3d>& points) {
   double sum = 0, least = 0;
   for (const double angle : solidAngles(volume)) sum += angle, least = std::min(least, angle);
   result.solidAngleError = sum - 4 * kPi;
-  result.seamGap = seamGapOf(volume);
 
   // Heights and seams: a few roundings of lengths up to the body's size and, for normals, of rho times their
   // rounding.
   const double length = touchTolerance(all) + 8 * std::numeric_limits<double>::epsilon() * volume.radii().rho;
+  const SeamGap seams = seamGapOf(volume, 4 * length);
+  result.seamGap = seams.largest;
   // Angles: each corner is rounded by a few units, more where an edge is short and its direction rounded.
   const double angle = 1e-13 * (16 + volume.edgeCount());
   if (!(result.containment <= length))
-    result.message = "a point lies " + std::to_string(result.containment) + " m outside a big ball";
+    result.message = "a point lies " + number(result.containment) + " m outside a big ball";
   else if (!(std::abs(result.solidAngleError) <= angle) || !(least >= -angle))
-    result.message = "the regions of normals do not tile the sphere: off by " +
-                     std::to_string(result.solidAngleError) + " sr";
-  else if (!(result.seamGap <= 4 * length))
-    result.message = "neighbouring patches part by " + std::to_string(result.seamGap) + " m at their seam";
+    result.message =
+        "the regions of normals do not tile the sphere: off by " + number(result.solidAngleError) + " sr";
+  else if (!seams.ok)
+    result.message = "neighbouring patches part by " + number(result.seamGap) + " m at their seam";
   else
     result.message = "ok";
   result.ok = result.message == "ok";

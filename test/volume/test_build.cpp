@@ -1,0 +1,243 @@
+// What a built volume is: its features, its surface, and what the builder refuses.
+#include <Eigen/Geometry>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
+
+#include "fcl_stpbv/volume/stp_bv.h"
+#include "fcl_stpbv/volume/verify.h"
+#include "test/shapes.h"
+#include "test/volume/brute_support.h"
+
+using namespace fcl_stpbv;
+using namespace fcl_stpbv::test;
+using Eigen::Vector3d;
+
+namespace {
+
+struct Counts {
+  int vertices, edges, faces;
+  bool operator==(const Counts& o) const {
+    return vertices == o.vertices && edges == o.edges && faces == o.faces;
+  }
+};
+std::ostream& operator<<(std::ostream& out, const Counts& c) {
+  return out << c.vertices << " vertices, " << c.edges << " edges, " << c.faces << " faces";
+}
+Counts countsOf(const StpBv& v) { return {v.vertexCount(), v.edgeCount(), v.faceCount()}; }
+
+Cloud disc(double radius, int sides) {
+  Cloud points;
+  for (const Vector3d& p : cylinder(radius, 1, sides))
+    if (p.z() > 0) points.push_back({p.x(), p.y(), 0});
+  return points;
+}
+
+struct Named {
+  const char* name;
+  Cloud points;
+};
+
+// Small enough for the brute-force reference.
+std::vector<Named> smallClouds() {
+  Cloud flat = randomHull(14, {0.3, 0.2, 0.1}, 5);
+  for (Vector3d& p : flat) p.z() = 0;
+  Cloud line;
+  for (int i = 0; i < 7; ++i) line.push_back(Vector3d(0.1, 0.2, -0.3) * (i / 6.0));
+  Cloud doubled = box(0.2, 0.3, 0.4);
+  Random random(11);
+  for (int i = 0; i < 8; ++i)
+    doubled.push_back(doubled[static_cast<std::size_t>(i)] + 1e-9 * random.direction());
+  return {{"one point", {{1, 2, 3}}},
+          {"two points", {{0, 0, 0}, {0.3, 0, 0}}},
+          {"three points", {{0, 0, 0}, {0.3, 0, 0}, {0.1, 0.05, 0}}},
+          {"collinear points", line},
+          {"flat points", flat},
+          {"disc", disc(0.1, 12)},
+          {"box", box(0.2, 0.4, 0.6)},
+          {"plate", plate(0.3, 0.2)},
+          {"needle", needle(0.5)},
+          {"prism", cylinder(0.1, 0.3, 7)},
+          {"icosahedron", geodesicSphere(0.2, 0)},
+          {"random points", randomHull(20, {0.1, 0.2, 0.3}, 3)},
+          {"duplicates 1e-9 apart", doubled}};
+}
+
+}  // namespace
+
+TEST_CASE("The support function equals the definition by all pairs and triples of points") {
+  for (const Named& cloud : smallClouds()) {
+    const double smallest = StpBv::smallestR(cloud.points, 0.01);
+    for (const double R : {smallest * 1.001, smallest * 1.1, 0.6, 1.0, 10.0, 100.0}) {
+      if (R <= smallest) continue;
+      INFO(cloud.name << " at R = " << R);
+      const StpBv::Ptr volume = StpBv::build(cloud.points, {0.01, R});
+      Random random(7);
+      double worst = 0;
+      for (int k = 0; k < 60; ++k) {
+        const Vector3d n = random.direction();
+        const long double expected = bruteSupport(cloud.points, 0.01, R, n);
+        worst = std::max(worst, static_cast<double>(std::abs(volume->support(n) - expected)));
+      }
+      // Ours rounds coordinates of up to 4 m; the reference's slack of 1e-17 rho^2 moves its centres by 1e-17
+      // rho, more by the ratio of rho to a face's size.
+      CHECK(worst <= 2e-15 * (1 + R));
+    }
+  }
+}
+
+TEST_CASE("A built volume verifies itself from the smallest radius to a million metres") {
+  std::vector<Named> clouds = smallClouds();
+  clouds.push_back({"32-gon disc", disc(0.1, 32)});
+  clouds.push_back({"32-gon cylinder", cylinder(0.1, 0.3)});
+  clouds.push_back({"geodesic sphere", geodesicSphere(0.2, 2)});
+  clouds.push_back({"random cloud", randomHull(400, {0.3, 0.2, 0.1}, 9)});
+  for (const Named& cloud : clouds) {
+    const double smallest = StpBv::smallestR(cloud.points, 0.01);
+    for (const double R : {smallest * (1 + 1e-9), smallest * (1 + 1e-6), smallest * 1.001, smallest * 1.3,
+                           1.0, 10.0, 1e4, 1e6}) {
+      if (R <= smallest) continue;
+      INFO(cloud.name << " at R = " << R);
+      const Verification check = verify(*StpBv::build(cloud.points, {0.01, R}), cloud.points);
+      INFO(check.message);
+      CHECK(check.ok);
+    }
+  }
+}
+
+TEST_CASE("Cospherical points share one k-gon face in any orientation") {
+  Random random(3);
+  const auto turned = [&](Cloud points) {
+    const Eigen::Matrix3d rotation = random.rotation();
+    const Vector3d shift = random.direction();
+    for (Vector3d& p : points) p = rotation * p + shift;
+    return points;
+  };
+  for (int k = 0; k < 50; ++k) {
+    CHECK(countsOf(*StpBv::build(turned(box(0.2, 0.4, 0.6)))) == Counts{8, 12, 6});
+    CHECK(countsOf(*StpBv::build(turned(plate(0.3, 0.2)))) == Counts{8, 12, 6});
+    CHECK(countsOf(*StpBv::build(turned(cylinder(0.1, 0.3)))) == Counts{64, 96, 34});
+    CHECK(countsOf(*StpBv::build(turned(disc(0.1, 32)))) == Counts{32, 32, 2});
+  }
+  CHECK(countsOf(*StpBv::build(geodesicSphere(0.2, 2))) == Counts{162, 480, 320});
+}
+
+TEST_CASE("Clouds of fewer than three dimensions give a sphere, a spindle and a lens") {
+  CHECK(countsOf(*StpBv::build({{1, 2, 3}})) == Counts{1, 0, 0});
+  CHECK(countsOf(*StpBv::build({{0, 0, 0}, {0.3, 0, 0}})) == Counts{2, 1, 0});
+  CHECK(countsOf(*StpBv::build({{0, 0, 0}, {0.1, 0, 0}, {0.2, 0, 0}, {0.3, 0, 0}})) == Counts{2, 1, 0});
+  CHECK(countsOf(*StpBv::build({{0, 0, 0}, {0.3, 0, 0}, {0.1, 0.2, 0}})) == Counts{3, 3, 2});
+}
+
+TEST_CASE("Two vertices may be joined by two edges near the smallest radius") {
+  // The spindle of the two far points is bitten on two opposite sides only.
+  const Cloud points{{-1, 0, 0}, {1, 0, 0}, {0, 0.8, 0}, {0, -0.8, 0}};
+  const StpBv::Ptr volume = StpBv::build(points, {0, 1.05});
+  CHECK(countsOf(*volume) == Counts{4, 6, 4});
+  int joining = 0;
+  for (const StpBv::Edge& edge : volume->edges()) joining += edge.vertex[0] + edge.vertex[1] == 1;
+  CHECK(joining == 2);
+  CHECK(verify(*volume, points).ok);
+  Random random(2);
+  for (int k = 0; k < 200; ++k) {
+    const Vector3d n = random.direction();
+    CHECK(std::abs(volume->support(n) - static_cast<double>(bruteSupport(points, 0, 1.05, n))) <= 4e-15);
+  }
+}
+
+TEST_CASE("Points inside and points closer than rounding drop out") {
+  Cloud points = box(0.2, 0.4, 0.6);
+  Random random(4);
+  for (int i = 0; i < 2000; ++i)
+    points.push_back({random.uniform(-0.1, 0.1), random.uniform(-0.2, 0.2), random.uniform(-0.3, 0.3)});
+  for (int i = 0; i < 8; ++i)
+    points.push_back(points[static_cast<std::size_t>(i)] + 1e-17 * random.direction());
+  for (int i = 0; i <= 10; ++i)  // a subdivided face, its inner points off the plane by rounding
+    for (int j = 0; j <= 10; ++j)
+      points.push_back({-0.1 + 0.02 * i, -0.2 + 0.04 * j, 0.3 + 1e-17 * random.normal()});
+  for (const double R : {0.6, 10.0, 1e4})
+    CHECK(countsOf(*StpBv::build(points, {0.01, R})) == Counts{8, 12, 6});
+}
+
+TEST_CASE("Cospherical points perturbed from rounding to micrometres build volumes that verify") {
+  Random random(8);
+  for (int power = -17; power <= -6; ++power)
+    for (int k = 0; k < 20; ++k) {
+      Cloud points = k % 2 == 0 ? box(0.2, 0.4, 0.6) : cylinder(0.1, 0.3, 16);
+      for (Vector3d& p : points) p += std::pow(10.0, power) * random.direction();
+      for (const double R : {0.5, 10.0, 1e4}) {
+        const Verification check = verify(*StpBv::build(points, {0.01, R}), points);
+        INFO("perturbed by 1e" << power << ", R = " << R << ": " << check.message);
+        CHECK(check.ok);
+      }
+    }
+}
+
+TEST_CASE("The builder says what is wrong with its input and what would work") {
+  const Cloud good = box(0.2, 0.4, 0.6);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  CHECK_THROWS_WITH(StpBv::build({}), Catch::Contains("no points"));
+  CHECK_THROWS_WITH(StpBv::build({{0, 0, 0}, {nan, 0, 0}}), Catch::Contains("point 1 is not finite"));
+  CHECK_THROWS_WITH(StpBv::build(good, {-0.01, 10}), Catch::Contains("r = -0.01"));
+  CHECK_THROWS_WITH(StpBv::build(good, {nan, 10}), Catch::Contains("small radius"));
+  CHECK_THROWS_WITH(StpBv::build(good, {0.5, 0.5}), Catch::Contains("larger than r"));
+  CHECK_THROWS_WITH(StpBv::build(good, {0.01, nan}), Catch::Contains("big radius"));
+  CHECK_THROWS_WITH(StpBv::build(good, {0.01, 0.3}),
+                    Catch::Contains("smallest usable R") && Catch::Contains("0.3841657"));
+}
+
+TEST_CASE("The smallest usable radius is the minimum enclosing ball's and the one stated works") {
+  for (const Named& cloud : smallClouds()) {
+    if (cloud.points.size() < 2) continue;
+    const double smallest = StpBv::smallestR(cloud.points, 0.01);
+    INFO(cloud.name);
+    CHECK_THROWS_AS(StpBv::build(cloud.points, {0.01, smallest * (1 - 1e-9)}), Error);
+    CHECK_NOTHROW(StpBv::build(cloud.points, {0.01, smallest * (1 + 1e-9)}));
+  }
+}
+
+TEST_CASE("Every normal belongs to one region and every walk finds it") {
+  for (const Named& cloud : smallClouds()) {
+    for (const double R : {StpBv::smallestR(cloud.points, 0.01) * 1.01, 10.0}) {
+      const StpBv::Ptr volume = StpBv::build(cloud.points, {0.01, R});
+      INFO(cloud.name << " at R = " << R);
+      Random random(6);
+      for (int k = 0; k < 300; ++k) {
+        const Vector3d n = random.direction();
+        int owners = 0, owner = -1;
+        for (int p = 0; p < volume->patchCount(); ++p)
+          if (volume->outside(p, n) <= 0) ++owners, owner = p;
+        REQUIRE(owners == 1);  // a random normal lies on a seam with probability zero
+        CHECK(volume->owner(n) == owner);
+        CHECK(volume->owner(n, random.below(volume->patchCount())) == owner);
+      }
+    }
+  }
+}
+
+TEST_CASE("A volume takes at most 2 kB of memory a vertex") {
+  for (const int subdivisions : {1, 2, 4}) {
+    const StpBv::Ptr volume = StpBv::build(geodesicSphere(0.2, subdivisions));
+    CHECK(volume->memory() <= 2048 * static_cast<std::size_t>(volume->vertexCount()));
+  }
+}
+
+TEST_CASE("A volume assembled from its own parts is the same and damaged parts are refused") {
+  const StpBv::Ptr volume = StpBv::build(geodesicSphere(0.2, 1));
+  const StpBv::Ptr again = StpBv::assemble(volume->vertices(), volume->faces(), {0.01, 10});
+  Random random(1);
+  for (int k = 0; k < 100; ++k) {
+    const Vector3d n = random.direction();
+    CHECK(again->support(n) == volume->support(n));
+  }
+  std::vector<StpBv::Ring> faces = volume->faces();
+  faces.pop_back();
+  CHECK_THROWS_WITH(StpBv::assemble(volume->vertices(), faces, {0.01, 10}), Catch::Contains("do not close"));
+  faces = volume->faces();
+  faces[3][1] = 99;
+  CHECK_THROWS_WITH(StpBv::assemble(volume->vertices(), faces, {0.01, 10}), Catch::Contains("face 3"));
+  Cloud moved = volume->vertices();
+  moved[5] *= 0.5;
+  CHECK_THROWS_WITH(StpBv::assemble(moved, volume->faces(), {0.01, 10}),
+                    Catch::Contains("outside the ball of face"));
+}

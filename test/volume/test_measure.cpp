@@ -1,0 +1,180 @@
+// Over-cover, volume, signed distance and tessellation against closed forms, sampling and each other.
+#include <Eigen/Geometry>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <map>
+
+#include "fcl_stpbv/volume/measure.h"
+#include "fcl_stpbv/volume/stp_bv.h"
+#include "fcl_stpbv/volume/tessellate.h"
+#include "test/shapes.h"
+
+using namespace fcl_stpbv;
+using namespace fcl_stpbv::test;
+using Eigen::Vector3d;
+
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+double meshVolume(const TriangleMesh& mesh, const Vector3d& centre) {
+  double sum = 0;
+  const auto at = [&](int i) { return Vector3d(mesh.vertices[static_cast<std::size_t>(i)] - centre); };
+  for (const auto& t : mesh.triangles) sum += at(t[0]).dot(at(t[1]).cross(at(t[2]))) / 6;
+  return sum;
+}
+
+bool isClosed(const TriangleMesh& mesh) {
+  std::map<std::pair<int, int>, int> sides;
+  for (const auto& t : mesh.triangles)
+    for (std::size_t k = 0; k < 3; ++k) ++sides[{t[k], t[(k + 1) % 3]}];
+  for (const auto& [side, count] : sides)
+    if (count != 1 || sides.count({side.second, side.first}) != 1) return false;
+  return true;
+}
+
+std::vector<Cloud> clouds() {
+  Cloud flat = randomHull(30, {0.3, 0.2, 0.1}, 5);
+  for (Vector3d& p : flat) p.z() = 0;
+  return {{{1, 2, 3}},
+          {{0, 0, 0}, {0.3, 0, 0}},
+          {{0, 0, 0}, {0.3, 0, 0}, {0.1, 0.05, 0}},
+          flat,
+          box(0.2, 0.4, 0.6),
+          plate(0.3, 0.2),
+          cylinder(0.1, 0.3),
+          geodesicSphere(0.2, 1),
+          randomHull(60, {0.3, 0.2, 0.1}, 2)};
+}
+
+}  // namespace
+
+TEST_CASE(
+    "The over-cover of an equilateral face is the corrected bound and exceeds the paper's printed one") {
+  const double a = 0.1, r = 0.01, R = 10;
+  const StpBv::Ptr volume = StpBv::build({{0, 0, 0}, {a, 0, 0}, {a / 2, a * std::sqrt(3.0) / 2, 0}}, {r, R});
+  const double bound = overCoverBound(volume->radii(), a);
+  const double printed = R - std::sqrt((R - r) * (R - r) - a * a / 12);
+  CHECK(bound == Approx(0.0101668).margin(1e-7));
+  CHECK(printed == Approx(0.0100417).margin(1e-7));
+  double highest = 0;  // a sampled surface point over the middle
+  for (int i = 0; i <= 40; ++i)
+    for (int j = 0; j <= 40; ++j) {
+      const Vector3d n = Vector3d((i - 20) * 1e-4, (j - 20) * 1e-4, 1).normalized();
+      highest = std::max(highest, volume->surfacePoint(n).z());
+    }
+  CHECK(highest > printed + 1e-4);
+  CHECK(highest <= bound + 1e-15);
+  CHECK(overCover(*volume).max == Approx(bound).epsilon(1e-13));
+}
+
+TEST_CASE("The largest over-cover is the largest difference of the support functions") {
+  for (const Cloud& cloud : clouds())
+    for (const double R : {StpBv::smallestR(cloud, 0.01) * 1.05, 1.0, 10.0}) {
+      const StpBv::Ptr volume = StpBv::build(cloud, {0.01, R});
+      const OverCover cover = overCover(*volume, cloud);
+      const auto excess = [&](const Vector3d& n) {
+        double hull = -1e9;
+        for (const Vector3d& p : cloud) hull = std::max(hull, n.dot(p));
+        return volume->support(n) - hull;
+      };
+      Random random(3);
+      Vector3d best = random.direction();
+      for (int k = 0; k < 20000; ++k) {
+        const Vector3d n = random.direction();
+        if (excess(n) > excess(best)) best = n;
+      }
+      for (const Vector3d& a :
+           cloud)  // the normals of all planes through three points, the hull's faces among them
+        for (const Vector3d& b : cloud)
+          for (const Vector3d& c : cloud) {
+            const Vector3d n = (b - a).cross(c - a);
+            if (n.norm() > 1e-9 && excess(n.normalized()) > excess(best)) best = n.normalized();
+          }
+      double step = 0.1;  // polished by ever smaller random steps: the maximum is a ridge or a corner
+      for (int k = 0; k < 6000; ++k, step *= 0.998) {
+        const Vector3d n = (best + step * random.direction()).normalized();
+        if (excess(n) > excess(best)) best = n;
+      }
+      const double sampled = excess(best);
+      INFO(cloud.size() << " points, R = " << R);
+      CHECK(sampled <= cover.max + 1e-14);
+      CHECK(cover.max - sampled <= 1e-3 * cover.max);
+      CHECK(cover.mean <= cover.max);
+      CHECK(cover.mean >= 0.01 - 1e-14);
+    }
+}
+
+TEST_CASE("The enclosed volume agrees with closed forms") {
+  CHECK(enclosedVolume(*StpBv::build({{1, 2, 3}}, {0.05, 1})) ==
+        Approx(4 * kPi / 3 * 0.05 * 0.05 * 0.05).epsilon(1e-13));
+  // A huge R makes the box a box rounded by r: Steiner's formula. What R adds is its over-cover times the
+  // area.
+  const double a = 0.2, b = 0.4, c = 0.6, r = 0.01;
+  const double steiner =
+      a * b * c + 2 * r * (a * b + b * c + c * a) + kPi * r * r * (a + b + c) + 4 * kPi / 3 * r * r * r;
+  const StpBv::Ptr volume = StpBv::build(box(a, b, c), {r, 1e6});
+  CHECK(enclosedVolume(*volume) ==
+        Approx(steiner).margin(1.1 * (overCover(*volume).max - r) * 2 * (a * b + b * c + c * a)));
+  // A spindle is a solid of revolution.
+  const double half = 0.15, R = 1, rho = R - r, kappa = std::sqrt(rho * rho - half * half);
+  const StpBv::Ptr spindle = StpBv::build({{-half, 0, 0}, {half, 0, 0}}, {r, R});
+  const int slices = 400000;
+  double sum = 0;
+  for (int k = 0; k < slices; ++k) {
+    const double x = -(half + r) + 2 * (half + r) * (k + 0.5) / slices;
+    const bool isTorus = std::abs(x) <= half * R / rho;
+    const double d = std::abs(x) - half;
+    const double height =
+        isTorus ? std::sqrt(R * R - x * x) - kappa : std::sqrt(std::max(0.0, r * r - d * d));
+    sum += kPi * height * height;
+  }
+  CHECK(enclosedVolume(*spindle) ==
+        Approx(sum * 2 * (half + r) / slices).epsilon(1e-9));  // the midpoint rule's own error
+}
+
+TEST_CASE("The tessellation is closed, lies on the surface and closes in on the volume") {
+  for (const Cloud& cloud : clouds())
+    for (const double R : {StpBv::smallestR(cloud, 0.01) * 1.05, 1.0, 1e4}) {
+      const StpBv::Ptr volume = StpBv::build(cloud, {0.01, R});
+      const TriangleMesh coarse = tessellate(*volume, 0.2), fine = tessellate(*volume, 0.1);
+      INFO(cloud.size() << " points, R = " << R);
+      CHECK(isClosed(coarse));
+      CHECK(isClosed(fine));
+      double off = 0;
+      for (const Vector3d& x : coarse.vertices) off = std::max(off, std::abs(signedDistance(*volume, x)));
+      CHECK(off <= 1e-15 * (10 + R));
+      const double exact = enclosedVolume(*volume), rough = meshVolume(coarse, volume->centre());
+      const double smooth = meshVolume(fine, volume->centre());
+      CHECK(rough <= exact * (1 + 1e-12));
+      CHECK(smooth >= rough * (1 - 1e-12));
+      CHECK(smooth <= exact * (1 + 1e-12));
+    }
+}
+
+TEST_CASE("The signed distance of a point agrees with steps along normals and with dense directions") {
+  for (const Cloud& cloud : clouds())
+    for (const double R : {StpBv::smallestR(cloud, 0.01) * 1.05, 10.0}) {
+      const StpBv::Ptr volume = StpBv::build(cloud, {0.01, R});
+      Random random(9);
+      for (int k = 0; k < 200; ++k) {
+        const Vector3d n = random.direction(), x = volume->surfacePoint(n);
+        CHECK(std::abs(signedDistance(*volume, x + 0.3 * n) - 0.3) <= 1e-14);
+        CHECK(std::abs(signedDistance(*volume, x - 0.005 * n) + 0.005) <= 1e-14);
+        CHECK(contains(*volume, x - 1e-6 * n));
+        CHECK_FALSE(contains(*volume, x + 1e-6 * n));
+      }
+      for (int k = 0; k < 20; ++k) {
+        const Vector3d p =
+            volume->centre() + 0.6 * volume->enclosingRadius() * random.uniform(0, 1) * random.direction();
+        const double exact = signedDistance(*volume, p);
+        double sampled = -1e9;
+        for (int i = 0; i < 5000; ++i) {
+          const Vector3d n = random.direction();
+          sampled = std::max(sampled, n.dot(p) - volume->support(n));
+        }
+        CHECK(sampled <= exact + 1e-14);
+        CHECK(exact - sampled <= 0.05 * (std::abs(exact) + volume->enclosingRadius()));
+      }
+    }
+}

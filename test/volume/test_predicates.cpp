@@ -1,0 +1,93 @@
+// The builder's parts: the ball through three points, the minimum enclosing ball, the tree, the convex hull.
+#include <Eigen/Geometry>
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "fcl_stpbv/volume/ball_side.h"
+#include "fcl_stpbv/volume/minimum_ball.h"
+#include "fcl_stpbv/volume/point_tree.h"
+#include "fcl_stpbv/volume/rolling_ball.h"
+#include "test/shapes.h"
+
+using namespace fcl_stpbv;
+using namespace fcl_stpbv::test;
+using Eigen::Vector3d;
+
+TEST_CASE("A point a millionth of rounding off the ball is told apart from one on it") {
+  // Four corners of a rectangle lie on one ball exactly; one unit in the last place decides.
+  const TouchingBall ball({0.1, 0.2, 0.3}, {-0.1, 0.2, 0.3}, {-0.1, -0.2, 0.3}, 10);
+  REQUIRE(ball.valid());
+  CHECK(ball.side({0.1, -0.2, 0.3}) == 0);
+  CHECK(ball.side({0.1, -0.2, std::nextafter(0.3, 1)}) == 1);
+  CHECK(ball.side({0.1, -0.2, std::nextafter(0.3, 0)}) == -1);
+  CHECK(ball.side({std::nextafter(0.1, 1), -0.2, 0.3}) == 1);
+  CHECK(ball.side({std::nextafter(0.1, 0), -0.2, 0.3}) == -1);
+}
+
+TEST_CASE("An infinite radius makes the ball the plane through its points") {
+  const TouchingBall plane({0, 0, 1}, {1, 0, 1}, {0, 1, 1}, std::numeric_limits<double>::infinity());
+  CHECK((plane.normal() - Vector3d(0, 0, 1)).norm() == 0);
+  CHECK(plane.side({5, 7, 1}) == 0);
+  CHECK(plane.side({5, 7, std::nextafter(1.0, 2)}) == 1);
+  CHECK(plane.turn({0, 0, 1}, {1, 0, 1}, {0, 1, 1}) == 1);
+  CHECK(plane.turn({0, 0, 1}, {1, 0, 1}, {2, 0, 1}) == 0);
+}
+
+TEST_CASE("The minimum enclosing ball is held by its points and no smaller one holds them") {
+  Random random(5);
+  for (int k = 0; k < 200; ++k) {
+    const Cloud points = randomHull(1 + random.below(60), {0.3, 0.2, 0.1 * random.below(2)},
+                                    static_cast<std::uint64_t>(k + 1));
+    const Ball ball = minimumEnclosingBall(points);
+    std::vector<Vector3d> held;
+    for (const Vector3d& p : points) {
+      CHECK((p - ball.centre).norm() <= ball.radius);
+      if ((p - ball.centre).norm() > ball.radius * (1 - 1e-12)) held.push_back(p);
+    }
+    // Moving the centre in any direction must push some holding point away: the centre is in their convex
+    // hull.
+    for (int d = 0; d < 100; ++d) {
+      const Vector3d step = 1e-3 * random.direction();
+      double farthest = 0;
+      for (const Vector3d& p : held) farthest = std::max(farthest, (p - ball.centre - step).norm());
+      CHECK(farthest > ball.radius - 1e-13);
+    }
+  }
+}
+
+TEST_CASE("The tree finds the highest point over a ball and all points in a range") {
+  const Cloud points = randomHull(3000, {0.3, 0.2, 0.1}, 4);
+  PointTree tree(points);
+  Random random(12);
+  std::vector<int> found;
+  for (int k = 0; k < 200; ++k) {
+    const Vector3d anchor = points[static_cast<std::size_t>(random.below(3000))], n = random.direction();
+    const double curvature = k % 3 == 0 ? 0 : random.uniform(0, 3);
+    const PointTree::Highest top = tree.highest(anchor, n, curvature, 1e-15, &found);
+    double best = -1e9;
+    for (const Vector3d& p : points)
+      best = std::max(best, 0.5 * curvature * (p - anchor).squaredNorm() + n.dot(p - anchor));
+    CHECK(top.height == Approx(best).margin(1e-15));
+    const double radius = random.uniform(0, 0.1);
+    tree.within(anchor, radius, &found);
+    std::size_t expected = 0;
+    for (const Vector3d& p : points) expected += (p - anchor).norm() <= radius;
+    CHECK(found.size() == expected);
+  }
+}
+
+TEST_CASE("The rolled convex hull is convex, closed and holds all points") {
+  for (const Cloud& points : {box(0.2, 0.4, 0.6), cylinder(0.1, 0.3), geodesicSphere(0.2, 2),
+                              randomHull(300, {0.3, 0.2, 0.1}, 6)}) {
+    const RolledHull hull = rollBall(points);
+    std::size_t sides = 0;
+    for (const std::vector<int>& ring : hull.faces) {
+      sides += ring.size();
+      const auto t = wideTriangle(points, ring);
+      const auto at = [&](int i) { return points[static_cast<std::size_t>(i)]; };
+      const Vector3d n = (at(t[1]) - at(t[0])).cross(at(t[2]) - at(t[0])).normalized();
+      for (const Vector3d& p : points) CHECK(n.dot(p - at(t[0])) <= 1e-15);
+    }
+    CHECK(hull.vertices.size() + hull.faces.size() == sides / 2 + 2);
+  }
+}
