@@ -14,8 +14,8 @@ import robot_table
 from links import link_parts
 from shapes import merged
 
-PIXELS_PER_MM = 0.41
-VIEW_WIDTH, VIEW_HEIGHT = 360, 690  # pixels of each view
+PIXELS_PER_MM = 0.4
+VIEW_WIDTH, VIEW_HEIGHT = 380, 680  # pixels of each view
 OVERSAMPLING = 2
 BACKGROUND = (255, 255, 255)
 LIGHT = (0.35, -0.45, 0.82)  # in view coordinates: toward the viewer, to the right, up

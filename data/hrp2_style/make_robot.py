@@ -178,8 +178,10 @@ def print_tables():
         print(f"| {link} | {table.MASSES[table.left_name(link)]:.1f} | {len(parts)} | {len(mesh.points)} "
               f"| {len(mesh.triangles)} | {file_name} | {style} | {numbers(scale)} |")
     print()
-    print("| joint | parent | child | origin [mm] | axis | lower [deg] | upper [deg] | effort [N m] | velocity [deg/s] |")
-    print("|---|---|---|---|---|---|---|---|---|")
+    columns = ("joint", "parent", "child", "origin [mm]", "axis", "lower [deg]", "upper [deg]", "effort [N m]",
+               "velocity [deg/s]")
+    print("| " + " | ".join(columns) + " |")
+    print("|" + "---|" * len(columns))
     for j in table.joints():
         print(f"| {j.name} | {j.parent} | {j.child} | {numbers(j.origin)} | {j.axis} | {j.lower} | {j.upper} "
               f"| {j.effort} | {j.velocity} |")
