@@ -15,6 +15,12 @@ constexpr double kOnSeam = 1e-15;
 constexpr int kMaxPairs =
     40;  // two to four are usual; see docs/theory.md, 5 for what follows when they do not do
 
+bool owns(const StpBv& body, int patch, const Vector3d& n) {
+  for (const StpBv::Seam* seam = body.seamsBegin(patch); seam != body.seamsEnd(patch); ++seam)
+    if (n.dot(seam->normal) - seam->limit > kOnSeam) return false;
+  return true;
+}
+
 /// Slope of the gap at `m` along the great circle with this pole.
 double slopeAlong(const Sample& m, const Vector3d& pole) { return m.across.dot(pole.cross(m.n)); }
 
@@ -72,9 +78,8 @@ bool settle(const BodyPair& pair, Sample& x, Vector3d& next, Work& work) {
   ++work.pairs;
   for (int attempt = 0; attempt < 2; ++attempt) {  // two tori may need a second go for the last digits
     next = n = widestNormal(a, b, n);
-    if (pair.a().outside(x.patch[0], n) > kOnSeam) return false;
-    if (pair.b().outside(x.patch[1], pair.opposite(n)) > kOnSeam) return false;
-    const Sample there = pair.sample(n, x.patch);
+    if (!owns(pair.a(), x.patch[0], n) || !owns(pair.b(), x.patch[1], pair.opposite(n))) return false;
+    const Sample there = BodyPair::sample(n, x.patch, a, b);
     // Deep inside each other the pair's other maximum may lie in the same regions; it must not be a step
     // down.
     if (there.core < x.core - pair.gapRounding()) return false;

@@ -4,32 +4,26 @@
 
 namespace fcl_stpbv {
 
+using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 namespace {
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
-double extent(const StpBv& body) { return body.centre().norm() + body.enclosingRadius(); }
+/// Bound on a body's coordinates; the sum of absolute values spares the root.
+double extent(const StpBv& body) { return body.centre().lpNorm<1>() + body.enclosingRadius(); }
 }  // namespace
 
-Sample BodyPair::sample(const Vector3d& n, const std::array<int, 2>& patch) const {
-  const PosedPatch a = patchA(patch[0]), b = patchB(patch[1]);
-  const Vector3d y = coreDifference(a, b, n);
-  return {n, patch, coreGap(a, b, n), y - y.dot(n) * n};
+BodyPair::BodyPair(const StpBv& a, const StpBv& b, const Matrix3d& rotation, const Vector3d& translation)
+    : a_(a), b_(b), rotation_(rotation), translation_(translation) {
+  gapRounding_ = 8.0 * kEpsilon * (extent(a) + extent(b) + translation.lpNorm<1>());
+  acrossRounding_ = gapRounding_ + 8.0 * kEpsilon * (a.radii().rho + b.radii().rho);
 }
 
 Sample BodyPair::sampleFrom(const Vector3d& n, const std::array<int, 2>& hint, int& steps) const {
   const std::array<int, 2> patch{a_.owner(n, hint[0]), b_.owner(opposite(n), hint[1])};
   steps += (patch[0] != hint[0]) + (patch[1] != hint[1]);
   return sample(n, patch);
-}
-
-double BodyPair::gapRounding() const {
-  return 8.0 * kEpsilon * (extent(a_) + extent(b_) + translation_.norm());
-}
-
-double BodyPair::acrossRounding() const {
-  return gapRounding() + 8.0 * kEpsilon * (a_.radii().rho + b_.radii().rho);
 }
 
 }  // namespace fcl_stpbv

@@ -25,8 +25,7 @@ class BodyPair {
  public:
   /// `rotation` and `translation` place the second body in the first one's frame; `rotation` is orthonormal.
   BodyPair(const StpBv& a, const StpBv& b, const Eigen::Matrix3d& rotation,
-           const Eigen::Vector3d& translation)
-      : a_(a), b_(b), rotation_(rotation), translation_(translation) {}
+           const Eigen::Vector3d& translation);
 
   const StpBv& a() const { return a_; }
   const StpBv& b() const { return b_; }
@@ -44,8 +43,15 @@ class BodyPair {
             b_.radii()};
   }
 
-  /// The gap along `n` when these two patches own it.
-  Sample sample(const Eigen::Vector3d& n, const std::array<int, 2>& patch) const;
+  /// The gap along `n` when these two patches own it; the second form for patches already posed.
+  Sample sample(const Eigen::Vector3d& n, const std::array<int, 2>& patch) const {
+    return sample(n, patch, patchA(patch[0]), patchB(patch[1]));
+  }
+  static Sample sample(const Eigen::Vector3d& n, const std::array<int, 2>& patch, const PosedPatch& a,
+                       const PosedPatch& b) {
+    const CoreGap gap = coreGap(a, b, n);
+    return {n, patch, gap.value, gap.across(n)};
+  }
 
   /// The gap along `n`; the owners are looked for from `hint`. Adds the patches that changed to `steps`.
   Sample sampleFrom(const Eigen::Vector3d& n, const std::array<int, 2>& hint, int& steps) const;
@@ -54,17 +60,19 @@ class BodyPair {
   double margins() const { return a_.radii().r + b_.radii().r; }
 
   /// Rounding of a gap: coordinates up to the bodies' extents and mutual distance, a dozen operations (m).
-  double gapRounding() const;
+  double gapRounding() const { return gapRounding_; }
 
   /// Rounding of `Sample::across`: a unit normal is only good to an ulp, and a face's point moves `rho` times
   /// as far (m).
-  double acrossRounding() const;
+  double acrossRounding() const { return acrossRounding_; }
 
  private:
   const StpBv& a_;
   const StpBv& b_;
   Eigen::Matrix3d rotation_;
   Eigen::Vector3d translation_;
+  double gapRounding_;
+  double acrossRounding_;
 };
 
 }  // namespace fcl_stpbv

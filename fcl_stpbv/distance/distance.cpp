@@ -20,18 +20,28 @@ namespace {
 /// Makes a nearly orthonormal matrix orthonormal: poses come from integrated joints, files and single
 /// precision. False for a matrix that is not finite or no rotation.
 bool orthonormalize(Matrix3d& q) {
-  constexpr double kFine = 1e-15, kRotation = 0.1;
+  constexpr double kFine = 2e-15, kOneStep = 1e-8, kRotation = 0.1;
   for (int i = 0; i < 5; ++i) {
-    const Matrix3d excess = q.transpose() * q - Matrix3d::Identity();
-    const double off = excess.cwiseAbs().maxCoeff();
-    if (!(off < kRotation) || !excess.allFinite()) return false;
-    if (off <= kFine) break;
-    q -= 0.5 * q * excess;  // Newton for the polar factor; the error squares each time
+    const Vector3d x = q.col(0), y = q.col(1), z = q.col(2);
+    const double xx = x.dot(x) - 1.0, yy = y.dot(y) - 1.0, zz = z.dot(z) - 1.0;
+    const double xy = x.dot(y), yz = y.dot(z), zx = z.dot(x);
+    const double off2 = xx * xx + yy * yy + zz * zz + 2.0 * (xy * xy + yz * yz + zx * zx);
+    if (!(off2 < kRotation * kRotation)) return false;  // also what is not a number
+    if (off2 <= kFine * kFine) return true;
+    // Newton for the polar factor, q (3 - q^T q) / 2: the error squares.
+    q.col(0) -= 0.5 * (xx * x + xy * y + zx * z);
+    q.col(1) -= 0.5 * (xy * x + yy * y + yz * z);
+    q.col(2) -= 0.5 * (zx * x + yz * y + zz * z);
+    if (off2 <= kOneStep * kOneStep) return true;
   }
   return true;
 }
 
-bool finite(const Isometry3d& pose) { return pose.matrix().topRows<3>().allFinite(); }
+/// `n` of unit length, without the root where it is already close.
+Vector3d renormalized(const Vector3d& n) {
+  const double length2 = n.squaredNorm();
+  return std::abs(length2 - 1.0) < 1e-8 ? Vector3d((1.5 - 0.5 * length2) * n) : n.normalized();
+}
 
 /// The first guess when nothing is remembered: from centre to centre.
 Vector3d centreLine(const BodyPair& pair) {
@@ -48,7 +58,7 @@ struct Found {
 /// From any start along which the cores are apart: the widest gap.
 Found climb(const BodyPair& pair, Sample x, Work& work) {
   if (!ascend(pair, x, work)) bisectToWidest(pair, x, work);
-  const bool flat = x.across.norm() <= pair.acrossRounding();
+  const bool flat = x.across.squaredNorm() <= pair.acrossRounding() * pair.acrossRounding();
   return {x, flat ? DistanceStatus::exact : DistanceStatus::bounded};
 }
 
@@ -83,10 +93,10 @@ Found solveCold(const BodyPair& pair, Work& work) {
 bool solveWarm(const BodyPair& pair, const Vector3d& normal, const std::array<int, 2>& patch, Found& found,
                Work& work) {
   if (patch[0] >= pair.a().patchCount() || patch[1] >= pair.b().patchCount()) return false;
-  const double length = normal.norm();
-  if (!(length > 0.5 && length < 2.0)) return false;
+  const double length2 = normal.squaredNorm();
+  if (!(length2 > 0.25 && length2 < 4.0)) return false;
   Sample x;
-  x.n = normal / length;
+  x.n = renormalized(normal);
   x.patch = patch;
   x.core = 0.0;
   if (patch[0] >= 0 && patch[1] >= 0) {
@@ -107,13 +117,13 @@ bool solveWarm(const BodyPair& pair, const Vector3d& normal, const std::array<in
 
 Distance distance(const StpBv& a, const Isometry3d& poseA, const StpBv& b, const Isometry3d& poseB,
                   PairCache* cache) {
+  constexpr double kHuge = 1e300;  // squares must not overflow
   Distance result;
   result.lower = -std::numeric_limits<double>::infinity();
   result.upper = std::numeric_limits<double>::infinity();
-  if (!finite(poseA) || !finite(poseB)) return result;
   Matrix3d rotation = poseA.linear().transpose() * poseB.linear();
   const Vector3d translation = poseA.linear().transpose() * (poseB.translation() - poseA.translation());
-  if (!orthonormalize(rotation) || !translation.allFinite()) return result;
+  if (!orthonormalize(rotation) || !(translation.squaredNorm() < kHuge)) return result;
 
   const BodyPair pair(a, b, rotation, translation);
   Work work;
@@ -125,10 +135,11 @@ Distance distance(const StpBv& a, const Isometry3d& poseA, const StpBv& b, const
   result.status = found.status;
   result.lower = x.core - pair.margins();
   result.upper =
-      (found.status == DistanceStatus::local ? 0.0 : std::hypot(x.core, x.across.norm())) - pair.margins();
+      (found.status == DistanceStatus::local ? 0.0 : std::sqrt(x.core * x.core + x.across.squaredNorm())) -
+      pair.margins();
   result.distance = result.lower;
   result.patch = x.patch;
-  result.normal = (poseA.linear() * x.n).normalized();
+  result.normal = renormalized(poseA.linear() * x.n);
   const Vector3d nB = pair.opposite(x.n);
   result.point[0] = poseA * Vector3d(corePoint(a.patch(x.patch[0]), a.kind(x.patch[0]), a.radii(), x.n) +
                                      a.radii().r * x.n);

@@ -10,19 +10,50 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// Radius of curvature of an edge's core around its axis where the normal leans by `v` along it, and the
-/// pair's other ingredients there. `rho - kappa / |P n|` is a centimetre against tens of metres, hence the
-/// form with the sag.
-struct Lean {
-  double v;       // n.u
-  double c;       // |P n|
-  double around;  // rho - kappa / c
+/// An edge's core seen along a normal that leans by `v` along the edge.
+struct EdgeView {
+  double v;         // n.u
+  double c;         // sqrt(1 - v^2)
+  Vector3d side;    // n - v u, of length c
+  double around;    // radius of curvature around the edge, rho - kappa / c
+  double rise;      // height of the supporting plane above the edge's middle
+  Vector3d offset;  // core point, from the edge's middle
 };
 
-Lean lean(const PosedPatch& edge, const Vector3d& n) {
-  const double v = n.dot(edge.patch.axis);
-  const double c = std::sqrt(std::max(1.0 - v * v, 1e-30));
-  return {v, c, (edge.patch.sag - edge.radii.rho * v * v / (1.0 + c)) / c};
+/// The lengths of docs/theory.md, 2 without their cancellation: `rho c - kappa` is a centimetre against tens
+/// of metres, so it is written with the half length h, h^2 = rho^2 - kappa^2 = sag (rho + kappa). Near the
+/// smallest R kappa is small, and that form would divide by little.
+EdgeView viewEdge(const PosedPatch& edge, const Vector3d& n) {
+  const double rho = edge.radii.rho, kappa = edge.patch.kappa, sag = edge.patch.sag;
+  EdgeView e;
+  e.v = n.dot(edge.patch.axis);
+  e.c = std::sqrt(std::max(1.0 - e.v * e.v, 1e-30));
+  e.side = n - e.v * edge.patch.axis;
+  const double along = rho * e.v;
+  const double across =
+      kappa > 0.5 * rho ? (sag * (rho + kappa) - along * along) / (rho * e.c + kappa) : rho * e.c - kappa;
+  e.around = across / e.c;
+  e.rise = sag + kappa * e.v * e.v / (1.0 + e.c);
+  e.offset = along * edge.patch.axis + e.around * e.side;
+  return e;
+}
+
+/// Height of the core's supporting plane above the patch's anchor, and its point from there.
+struct CoreView {
+  double rise = 0.0;
+  Vector3d offset{0, 0, 0};
+};
+
+CoreView viewCore(const PosedPatch& p, const Vector3d& n) {
+  if (p.kind == PatchKind::edge) {
+    const EdgeView e = viewEdge(p, n);
+    return {e.rise, e.offset};
+  }
+  if (p.kind == PatchKind::face) {
+    const Vector3d d = n - p.patch.axis;
+    return {0.5 * p.radii.rho * d.squaredNorm(), p.radii.rho * d};
+  }
+  return {};
 }
 
 Vector3d normalizedOr(const Vector3d& d, const Vector3d& otherwise) {
@@ -40,12 +71,24 @@ Vector3d pointPoint(const PosedPatch& a, const PosedPatch& b, const Vector3d& n)
 /// two the circle belongs to does not matter, since it only enters through `kappa |P n|`.
 Vector3d circlePoint(const Patch& circle, const Vector3d& d, const Vector3d& n) {
   const double along = d.dot(circle.axis);
-  const Vector3d across = d - along * circle.axis;
-  const Vector3d fallback = normalizedOr(n - n.dot(circle.axis) * circle.axis, n);
-  Vector3d e = normalizedOr(across, fallback);
-  // A point near the axis' line leaves rounding along it in `across`, which the large `kappa` would magnify.
-  e = normalizedOr(e - e.dot(circle.axis) * circle.axis, fallback);
-  return (along * circle.axis + (across.norm() + circle.kappa) * e).normalized();
+  // A point near the axis' line leaves rounding along it in `across`, which the large `kappa` would magnify:
+  // hence the second projection.
+  Vector3d across = d - along * circle.axis;
+  across -= across.dot(circle.axis) * circle.axis;
+  const double distance2 = across.squaredNorm();
+  if (!(distance2 >
+        1e-30 * d.squaredNorm())) {  // on the axis: any direction across is as good, so the last one
+    const Vector3d e = normalizedOr(n - n.dot(circle.axis) * circle.axis, n);
+    return normalizedOr(along * circle.axis + circle.kappa * e, n);
+  }
+  const double stretch = 1.0 + circle.kappa / std::sqrt(distance2);
+  return (along * circle.axis + stretch * across).normalized();
+}
+
+/// Whether `n` lies between the two cones that end an edge's region (docs/theory.md, 3).
+bool withinBand(const PosedPatch& edge, const Vector3d& n) {
+  const double rho = edge.radii.rho, v = n.dot(edge.patch.axis);
+  return rho * rho * v * v <= edge.patch.sag * (rho + edge.patch.kappa);
 }
 
 /// Two circles (torus against torus): Newton on the sphere. In the tangent basis e1 = v_A, e2 = n x v_A the
@@ -54,64 +97,74 @@ Vector3d circlePoint(const Patch& circle, const Vector3d& d, const Vector3d& n) 
 /// A Newton step that does not raise the gap is replaced by `n = g / |g|`, which cannot lower it: it is the
 /// best normal for the two circle points at hand, and those are the best points for the old normal.
 Vector3d circleCircle(const PosedPatch& a, const PosedPatch& b, Vector3d n) {
-  constexpr int kIterations = 30;       // three are usual; far starts near parallel axes take ten
-  constexpr double kConverged = 1e-15;  // predicted next step, in rad: below the rounding of a unit vector
-  const double rhoSum = a.radii.rho + b.radii.rho;
+  constexpr int kIterations = 30;       // two or three are usual; far starts near parallel axes take ten
+  constexpr double kConverged = 2e-16;  // predicted next step, in rad: the rounding of a unit vector
+  constexpr double kSmall = 1e-15;      // square of a last step
+  constexpr double kCrossing = 0.1;  // sine between the axes from which their common normal is a good start
+  const double rhoA = a.radii.rho, rhoB = b.radii.rho;
+  const Vector3d middles = b.patch.anchor - a.patch.anchor;
+
+  // Regions of edges are narrow bands around the planes across them; crossing bands meet at the axes' common
+  // normal, a better start than one from outside either band.
+  if (!withinBand(a, n) || !withinBand(b, n)) {
+    const Vector3d common = a.patch.axis.cross(b.patch.axis);
+    const double sine2 = common.squaredNorm(), cosine = common.dot(n);
+    if (sine2 > kCrossing * kCrossing && cosine * cosine > 0.25 * sine2)
+      n = common / (cosine > 0.0 ? std::sqrt(sine2) : -std::sqrt(sine2));
+  }
 
   Vector3d best = n, bestPull = n;
   double bestGap = -std::numeric_limits<double>::infinity();
-  double lastStep2 = 1.0;
+  constexpr double kUnknown = 1e-9;  // nothing to predict from: a first step of 1e-8 rad would do
+  double lastStep2 = kUnknown;
   for (int i = 0; i < kIterations; ++i) {
-    const double core = coreGap(a, b, n);
+    const EdgeView va = viewEdge(a, n), vb = viewEdge(b, -n);
+    const double core = n.dot(middles) - va.rise - vb.rise;
     if (core < bestGap && lastStep2 > 1e-14) {  // shorter steps differ by rounding only
       n = normalizedOr(bestPull, best);
       bestGap = -std::numeric_limits<double>::infinity();
-      lastStep2 = 1.0;
+      lastStep2 = kUnknown;
       continue;
     }
-    const Vector3d y = coreDifference(a, b, n);
-    bestPull = y + rhoSum * n;
+    const Vector3d y = middles + vb.offset - va.offset;
+    bestPull = y + (rhoA + rhoB) * n;
     best = n;
     bestGap = core;
 
-    const Lean la = lean(a, n), lb = lean(b, n);
-    const Vector3d e1 = a.patch.axis.cross(n) / la.c;
+    const Vector3d e1 = a.patch.axis.cross(n) / va.c;
     const Vector3d e2 = n.cross(e1);
-    const Vector3d vb = b.patch.axis.cross(n) / lb.c;
-    const double cos = vb.dot(e1), sin = vb.dot(e2);
-    const double rhoA = a.radii.rho, rhoB = b.radii.rho;
-    const double m11 = la.around + lb.around * cos * cos + rhoB * sin * sin + core;
-    const double m22 = rhoA + lb.around * sin * sin + rhoB * cos * cos + core;
-    const double m12 = (lb.around - rhoB) * cos * sin;
+    const Vector3d f1 = b.patch.axis.cross(n) / vb.c;
+    const double cos = f1.dot(e1), sin = f1.dot(e2);
+    const double m11 = va.around + vb.around * cos * cos + rhoB * sin * sin + core;
+    const double m22 = rhoA + vb.around * sin * sin + rhoB * cos * cos + core;
+    const double m12 = (vb.around - rhoB) * cos * sin;
     const double g1 = y.dot(e1), g2 = y.dot(e2);
     const double det = m11 * m22 - m12 * m12;
     if (!(det > 0.0 && m22 > 0.0)) {
       const Vector3d next = normalizedOr(bestPull, n);
-      lastStep2 = std::min(1.0, (next - n).squaredNorm());
+      const bool still = (next - n).squaredNorm() < 1e-30;
       n = next;
-      if (lastStep2 < 1e-30) break;
+      if (still) break;
+      lastStep2 = kUnknown;
       continue;
     }
     const double x1 = (m22 * g1 - m12 * g2) / det, x2 = (m11 * g2 - m12 * g1) / det;
     n = (n + x1 * e1 + x2 * e2).normalized();
-    // Quadratic convergence: after steps p, q the next is about q^3 / p^2.
+    // Quadratic convergence: after steps p, q the next is about q^3 / p^2, or q^2 should p have been a lucky
+    // one.
     const double step2 = x1 * x1 + x2 * x2;
-    if (step2 * step2 * step2 <= kConverged * kConverged * lastStep2 * lastStep2) return n;
-    lastStep2 = std::min(1.0, step2);
+    if (step2 < kSmall && step2 * step2 * step2 <= kConverged * kConverged * lastStep2 * lastStep2) return n;
+    lastStep2 = step2;
   }
   return n;
 }
 
 }  // namespace
 
-double coreGap(const PosedPatch& a, const PosedPatch& b, const Vector3d& n) {
-  return n.dot(b.patch.anchor - a.patch.anchor) -
-         (supportAboveAnchor(a.patch, a.kind, a.radii, n) - a.radii.r) -
-         (supportAboveAnchor(b.patch, b.kind, b.radii, -n) - b.radii.r);
-}
-
-Vector3d coreDifference(const PosedPatch& a, const PosedPatch& b, const Vector3d& n) {
-  return corePoint(b.patch, b.kind, b.radii, -n) - corePoint(a.patch, a.kind, a.radii, n);
+CoreGap coreGap(const PosedPatch& a, const PosedPatch& b, const Vector3d& n) {
+  const CoreView viewA = viewCore(a, n), viewB = viewCore(b, -n);
+  const Vector3d anchors = b.patch.anchor - a.patch.anchor;
+  return {n.dot(anchors) - viewA.rise - viewB.rise, anchors + viewB.offset - viewA.offset};
 }
 
 Vector3d widestNormal(const PosedPatch& a, const PosedPatch& b, const Vector3d& n) {

@@ -14,17 +14,22 @@ struct PosedPatch {
   Radii radii;
 };
 
-/// The pair's gap without the two margins, `s(n) + r_A + r_B` for the patches continued over the whole sphere
-/// of normals (docs/theory.md, 5); `n` is unit and points from `a` to `b` (m).
-double coreGap(const PosedPatch& a, const PosedPatch& b, const Eigen::Vector3d& n);
+/// The gap between two patches along one normal, without their margins.
+struct CoreGap {
+  double value;                ///< between the supporting planes, `s(n) + r_A + r_B` (m)
+  Eigen::Vector3d difference;  ///< between the points, second minus first (m)
 
-/// Core point of `b` with normal `-n` minus core point of `a` with normal `n`: the gradient of `coreGap` is
-/// its part across `n` (m).
-Eigen::Vector3d coreDifference(const PosedPatch& a, const PosedPatch& b, const Eigen::Vector3d& n);
+  /// Gradient of the gap over the sphere of normals: what of the points' difference lies across `n` (m).
+  Eigen::Vector3d across(const Eigen::Vector3d& n) const { return difference - difference.dot(n) * n; }
+};
 
-/// The unit normal at which `coreGap` is largest, seen from `n`: closed form for spheres and one torus,
-/// Newton on the sphere for two tori (docs/theory.md, 5). Where every normal is as good (coincident centres),
-/// `n` itself.
+/// The gap along the unit normal `n` from `a` to `b`, the patches continued over the whole sphere of normals
+/// (docs/theory.md, 5).
+CoreGap coreGap(const PosedPatch& a, const PosedPatch& b, const Eigen::Vector3d& n);
+
+/// The unit normal at which the gap is widest, seen from `n`: closed form for spheres and one torus, Newton
+/// on the sphere for two tori (docs/theory.md, 5). Where every normal is as good (coincident centres), `n`
+/// itself.
 Eigen::Vector3d widestNormal(const PosedPatch& a, const PosedPatch& b, const Eigen::Vector3d& n);
 
 }  // namespace fcl_stpbv
