@@ -15,12 +15,6 @@ constexpr double kOnSeam = 1e-15;
 constexpr int kMaxPairs =
     40;  // two to four are usual; see docs/theory.md, 5 for what follows when they do not do
 
-bool owns(const StpBv& body, int patch, const Vector3d& n) {
-  for (const StpBv::Seam* seam = body.seamsBegin(patch); seam != body.seamsEnd(patch); ++seam)
-    if (n.dot(seam->normal) - seam->limit > kOnSeam) return false;
-  return true;
-}
-
 /// Slope of the gap at `m` along the great circle with this pole.
 double slopeAlong(const Sample& m, const Vector3d& pole) { return m.across.dot(pole.cross(m.n)); }
 
@@ -71,6 +65,12 @@ Sample climbArc(const BodyPair& pair, const Sample& x, const Vector3d& to, const
 
 }  // namespace
 
+bool nearRegion(const StpBv& body, int patch, const Vector3d& n, double slack) {
+  for (const StpBv::Seam* seam = body.seamsBegin(patch); seam != body.seamsEnd(patch); ++seam)
+    if (n.dot(seam->normal) - seam->limit > slack) return false;
+  return true;
+}
+
 bool settle(const BodyPair& pair, Sample& x, Vector3d& next, Work& work) {
   const PosedPatch a = pair.patchA(x.patch[0]), b = pair.patchB(x.patch[1]);
   const double flat2 = pair.acrossRounding() * pair.acrossRounding();
@@ -78,7 +78,9 @@ bool settle(const BodyPair& pair, Sample& x, Vector3d& next, Work& work) {
   ++work.pairs;
   for (int attempt = 0; attempt < 2; ++attempt) {  // two tori may need a second go for the last digits
     next = n = widestNormal(a, b, n);
-    if (!owns(pair.a(), x.patch[0], n) || !owns(pair.b(), x.patch[1], pair.opposite(n))) return false;
+    if (!nearRegion(pair.a(), x.patch[0], n, kOnSeam) ||
+        !nearRegion(pair.b(), x.patch[1], pair.opposite(n), kOnSeam))
+      return false;
     const Sample there = BodyPair::sample(n, x.patch, a, b);
     // Deep inside each other the pair's other maximum may lie in the same regions; it must not be a step
     // down.

@@ -11,6 +11,9 @@ struct Work {
   int steps = 0;  ///< patches changed
 };
 
+/// Whether `n` lies in the patch's region of normals or at most `slack` (rad) past one of its seams.
+bool nearRegion(const StpBv& body, int patch, const Eigen::Vector3d& n, double slack);
+
 /// True when the widest normal of the sample's own patch pair stays in the regions of both: then it is a
 /// maximum of the gap. On success `x` is moved there; otherwise `next` is that normal.
 bool settle(const BodyPair& pair, Sample& x, Eigen::Vector3d& next, Work& work);

@@ -55,6 +55,11 @@ struct Found {
   DistanceStatus status;
 };
 
+/// A start for `settle` that asks nothing but a gap between the cores.
+Sample unevaluated(const Vector3d& n, const std::array<int, 2>& patch) {
+  return {n, patch, 0.0, Vector3d(0, 0, 0)};
+}
+
 /// From any start along which the cores are apart: the widest gap.
 Found climb(const BodyPair& pair, Sample x, Work& work) {
   if (!ascend(pair, x, work)) bisectToWidest(pair, x, work);
@@ -62,21 +67,30 @@ Found climb(const BodyPair& pair, Sample x, Work& work) {
   return {x, flat ? DistanceStatus::exact : DistanceStatus::bounded};
 }
 
-/// From the polyhedra's closest features to the smooth ones (paper IV.B).
-bool polyhedralStart(const BodyPair& pair, Vector3d n, const std::array<int, 2>& patch, Sample& x,
-                     Work& work) {
-  VertexPair vertex{vertexOf(pair.a(), patch[0]), vertexOf(pair.b(), patch[1])};
-  if (!searchVertices(pair, n, vertex)) return false;
-  x = pair.sampleFrom(n, {vertex.a, vertex.b}, work.steps);
-  return x.core > 0.0;
+/// From the polyhedra's closest features to the smooth ones (paper IV.B), and on from there.
+bool polyhedralStart(const BodyPair& pair, Vector3d n, const std::array<int, 2>& patch, bool repose,
+                     Found& found, Work& work) {
+  VertexPair vertex;
+  if (!searchVertices(pair, n, patch, repose, vertex)) return false;
+  Sample x = unevaluated(n, {pair.a().owner(n, vertex.a), pair.b().owner(pair.opposite(n), vertex.b)});
+  work.steps += (x.patch[0] != vertex.a) + (x.patch[1] != vertex.b);
+  Vector3d ignored;
+  if (settle(pair, x, ignored, work) && x.core > 0.0) {
+    found = {x, DistanceStatus::exact};
+    return true;
+  }
+  x = pair.sample(n, x.patch);
+  if (!(x.core > 0.0)) return false;
+  found = climb(pair, x, work);
+  return true;
 }
 
 Found solveCold(const BodyPair& pair, Work& work) {
   const Vector3d n = centreLine(pair);
-  Sample x;
-  if (polyhedralStart(pair, n, {pair.a().owner(n), pair.b().owner(pair.opposite(n))}, x, work))
-    return climb(pair, x, work);
-  x = pair.sampleFrom(n, {-1, -1}, work.steps);
+  const std::array<int, 2> patch{pair.a().owner(n), pair.b().owner(pair.opposite(n))};
+  Found found;
+  if (polyhedralStart(pair, n, patch, false, found, work)) return found;
+  Sample x = pair.sample(n, patch);
   switch (separateCores(pair, x, work)) {
     case CoreContact::apart:
       return climb(pair, x, work);
@@ -95,22 +109,25 @@ bool solveWarm(const BodyPair& pair, const Vector3d& normal, const std::array<in
   if (patch[0] >= pair.a().patchCount() || patch[1] >= pair.b().patchCount()) return false;
   const double length2 = normal.squaredNorm();
   if (!(length2 > 0.25 && length2 < 4.0)) return false;
-  Sample x;
-  x.n = renormalized(normal);
-  x.patch = patch;
-  x.core = 0.0;
-  if (patch[0] >= 0 && patch[1] >= 0) {
-    Vector3d reposed;
-    if (settle(pair, x, reposed, work) && x.core > 0.0) {
+  const Vector3d n = renormalized(normal);
+  if (patch[0] < 0 || patch[1] < 0)
+    return polyhedralStart(pair, n, {pair.a().owner(n, patch[0]), pair.b().owner(pair.opposite(n), patch[1])},
+                           false, found, work);
+  // In a small motion the bodies carry their patches along; in a large one the world's normal is the better
+  // memory.
+  constexpr double kSmallMotion =
+      0.1;  // rad from the last normal to the region of the patch, which has moved
+  const bool small = nearRegion(pair.a(), patch[0], n, kSmallMotion) &&
+                     nearRegion(pair.b(), patch[1], pair.opposite(n), kSmallMotion);
+  if (small) {
+    Sample x = unevaluated(n, patch);
+    Vector3d ignored;
+    if (settle(pair, x, ignored, work) && x.core > 0.0) {
       found = {x, DistanceStatus::exact};
       return true;
     }
-  } else {
-    x.patch = {pair.a().owner(x.n, patch[0]), pair.b().owner(pair.opposite(x.n), patch[1])};
   }
-  if (!polyhedralStart(pair, x.n, x.patch, x, work)) return false;
-  found = climb(pair, x, work);
-  return true;
+  return polyhedralStart(pair, n, patch, small, found, work);
 }
 
 }  // namespace

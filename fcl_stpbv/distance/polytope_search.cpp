@@ -1,6 +1,7 @@
 #include "fcl_stpbv/distance/polytope_search.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 
 namespace fcl_stpbv {
@@ -17,10 +18,8 @@ int climb(const StpBv& body, const Vector3d& direction, int vertex) {
     int over = -1;
     for (const StpBv::Seam* seam = body.seamsBegin(vertex); seam != body.seamsEnd(vertex); ++seam) {
       const double rise = direction.dot(seam->normal);
-      if (rise > steepest) {
-        steepest = rise;
-        over = seam->neighbour;
-      }
+      over = rise > steepest ? seam->neighbour : over;  // as selections: the branch would be mispredicted
+      steepest = std::max(steepest, rise);
     }
     if (over < firstEdge || over >= firstFace) break;
     const auto& ends = body.edges()[static_cast<std::size_t>(over - firstEdge)].vertex;
@@ -29,12 +28,37 @@ int climb(const StpBv& body, const Vector3d& direction, int vertex) {
   return vertex;
 }
 
+/// Up to three vertices of a patch: its point, its edge's ends, or three of its face's.
+struct Corners {
+  int count = 1;
+  std::array<int, 3> vertex{0, 0, 0};
+
+  Corners(const StpBv& body, int patch) {
+    if (patch < body.vertexCount()) {
+      vertex[0] = patch;
+    } else if (patch < body.facePatch(0)) {
+      const auto& ends = body.edges()[static_cast<std::size_t>(patch - body.edgePatch(0))].vertex;
+      vertex = {ends[0], ends[1], 0};
+      count = 2;
+    } else if (patch < body.facePatch(body.faceCount())) {
+      const auto& ring = body.faces()[static_cast<std::size_t>(patch - body.facePatch(0))];
+      vertex = {ring[0], ring[ring.size() / 3], ring[2 * ring.size() / 3]};
+      count = 3;
+    } else {
+      vertex[0] =
+          body.seamsBegin(patch)->neighbour;  // a further part of an edge: its first seam leads to an end
+    }
+  }
+};
+
 /// Up to four points of the difference of the two bodies, reduced to those that span the point nearest the
 /// origin.
 class Simplex {
  public:
   int count = 0;
   std::array<Vector3d, 4> w{Vector3d(0, 0, 0), Vector3d(0, 0, 0), Vector3d(0, 0, 0), Vector3d(0, 0, 0)};
+
+  void add(const Vector3d& p) { w[static_cast<std::size_t>(count++)] = p; }
 
   bool holds(const Vector3d& p) const {
     for (int i = 0; i < count; ++i)
@@ -137,37 +161,39 @@ class Simplex {
 
 }  // namespace
 
-int vertexOf(const StpBv& body, int patch) {
-  if (patch < body.vertexCount()) return patch;
-  if (patch < body.facePatch(0))
-    return body.edges()[static_cast<std::size_t>(patch - body.edgePatch(0))].vertex[0];
-  if (patch < body.facePatch(body.faceCount()))
-    return body.faces()[static_cast<std::size_t>(patch - body.facePatch(0))][0];
-  return body.seamsBegin(patch)->neighbour;  // a further part of an edge; its first seams lead to its ends
-}
-
-bool searchVertices(const BodyPair& pair, Vector3d& n, VertexPair& vertex) {
+bool searchVertices(const BodyPair& pair, Vector3d& n, const std::array<int, 2>& patch, bool repose,
+                    VertexPair& vertex) {
   constexpr int kIterations = 20;
   constexpr double kGap =
       1e-5;  // relative; which features face each other is settled long before their distance
   const StpBv &a = pair.a(), &b = pair.b();
+  const auto difference = [&](int i, int j) -> Vector3d {
+    return pair.rotation() * b.vertices()[static_cast<std::size_t>(j)] + pair.translation() -
+           a.vertices()[static_cast<std::size_t>(i)];
+  };
+  const Corners cornersA(a, patch[0]), cornersB(b, patch[1]);
+  vertex = {cornersA.vertex[0], cornersB.vertex[0]};
   Simplex simplex;
   Vector3d v = n;
+  if (repose) {
+    for (int i = 0; i < cornersA.count && simplex.count < 3; ++i)
+      simplex.add(difference(cornersA.vertex[static_cast<std::size_t>(i)], vertex.b));
+    for (int j = 1; j < cornersB.count && simplex.count < 3; ++j)
+      simplex.add(difference(vertex.a, cornersB.vertex[static_cast<std::size_t>(j)]));
+    simplex.nearest(v);
+  }
   for (int i = 0; i < kIterations; ++i) {
+    const double v2 = v.squaredNorm();
+    if (!(v2 > 1e-24)) return false;
     vertex.a = climb(a, v, vertex.a);
     vertex.b = climb(b, pair.opposite(v), vertex.b);
-    const Vector3d w = pair.rotation() * b.vertices()[static_cast<std::size_t>(vertex.b)] +
-                       pair.translation() - a.vertices()[static_cast<std::size_t>(vertex.a)];
-    if (i > 0) {
-      const double v2 = v.squaredNorm();
-      if (v2 - v.dot(w) <= kGap * v2 || simplex.holds(w)) {
-        n = v / std::sqrt(v2);
-        return true;
-      }
+    const Vector3d w = difference(vertex.a, vertex.b);
+    if (simplex.count > 0 && (v2 - v.dot(w) <= kGap * v2 || simplex.holds(w))) {
+      n = v / std::sqrt(v2);
+      return true;
     }
-    simplex.w[static_cast<std::size_t>(simplex.count++)] = w;
+    simplex.add(w);
     if (!simplex.nearest(v)) return false;
-    if (!(v.squaredNorm() > 1e-24)) return false;
   }
   n = v.normalized();
   return true;
