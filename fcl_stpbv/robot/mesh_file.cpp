@@ -9,11 +9,14 @@
 #include <assimp/Importer.hpp>
 #include <cctype>
 #include <filesystem>
+#include <fstream>
 #include <optional>
+#include <string_view>
 #include <unordered_map>
 #include <utility>
 
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/robot/ply_check.h"
 #include "fcl_stpbv/volume/qhull_file.h"
 #include "fcl_stpbv/volume/text_scanner.h"
 
@@ -89,6 +92,20 @@ void checkReadable(const std::string& path, const Vector3d& scale) {
   if (!std::filesystem::exists(path, ignored)) throw Error(path + ": no such file");
 }
 
+std::string lowerExtension(const std::string& path) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
+}
+
+// By its content, as assimp decides where the name says nothing.
+bool isPly(const std::string& path) {
+  char magic[3] = {};
+  std::ifstream in(path, std::ios::binary);
+  return in.read(magic, sizeof magic) && std::string_view(magic, sizeof magic) == "ply";
+}
+
 // assimp's readers let faces without vertices and with wrong ones through, and its triangulation ends the
 // process over them, so this stands between the two.
 void checkFaces(const aiScene& scene, const std::string& path) {
@@ -107,6 +124,7 @@ void checkFaces(const aiScene& scene, const std::string& path) {
 }
 
 const aiScene& read(Assimp::Importer& importer, const std::string& path) {
+  if (isPly(path)) checkPly(readText(path), path);
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
   const aiScene* scene = importer.ReadFile(path, 0);
   if (scene != nullptr) {
@@ -118,13 +136,6 @@ const aiScene& read(Assimp::Importer& importer, const std::string& path) {
                 "); give a whole file of " + kReadable);
   }
   return *scene;
-}
-
-std::string lowerExtension(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
 }
 
 // The text of a qhull file, or nothing where the file is a mesh for assimp. The names that robots give to

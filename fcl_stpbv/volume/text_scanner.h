@@ -49,6 +49,8 @@ class TextScanner {
   std::string_view restOfLine();
 
   bool atEnd();
+  /// Bytes taken so far.
+  std::size_t position() const { return at_; }
   int line() const { return line_; }
   const std::string& name() const { return name_; }
   /// Most significant digits seen in a number so far: how exact the file's writer was.

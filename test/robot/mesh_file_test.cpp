@@ -192,6 +192,29 @@ TEST_CASE("files that hold no mesh are refused by name") {
           "");
 }
 
+TEST_CASE("a PLY file cut off or with flipped bits is refused or read, in text and in binary") {
+  const TemporaryFolder folder;
+  saveMesh(folder / "b.ply", tessellate(*StpBv::build(box(0.2, 0.3, 0.5)), 1));
+  Random random(9);
+  for (const std::string& whole : {contentOf(folder / "b.ply"), ply()}) {
+    const auto read = [&](const std::string& content) {
+      put(folder / "d.ply", content);
+      return refusal([](const std::string& path) { loadPoints(path); }, folder / "d.ply");
+    };
+    CHECK(read(whole).empty());
+    for (int i = 0; i < 200; ++i) {
+      const int size = static_cast<int>(whole.size());
+      CHECK(read(whole.substr(0, static_cast<std::size_t>(random.below(size - 1)))).find(folder / "d.ply") ==
+            0);
+      std::string flipped = whole;
+      char& c = flipped[static_cast<std::size_t>(random.below(i % 2 == 0 ? size : std::min(size, 300)))];
+      c = static_cast<char>(c ^ (1 << random.below(8)));
+      const std::string message = read(flipped);
+      CHECK((message.empty() || message.find(folder / "d.ply") == 0));
+    }
+  }
+}
+
 TEST_CASE("the humanoid's meshes and their polyhedra are the same bodies") {
   const std::string robot = sharedFolder("robots/jvrc_description");
   if (robot.empty()) {

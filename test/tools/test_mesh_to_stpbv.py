@@ -1,0 +1,239 @@
+#!/usr/bin/env python3
+"""mesh_to_stpbv as its users run it: exit codes, reports, and files whole or not at all.
+
+usage: test_mesh_to_stpbv.py PROGRAM SOURCE_FOLDER
+"""
+import json
+import os
+import pty
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+PROGRAM = SHARED = ""
+KEYS = ["input", "points", "vertices", "edges", "faces", "r", "R", "over_cover_max", "over_cover_mean", "volume",
+        "build_seconds", "verified"]
+CUBE = [(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)]
+
+
+def write(path, text):
+    with open(path, "w") as out:
+        out.write(text)
+
+
+def read(path):
+    with open(path, "rb") as file:
+        return file.read()
+
+
+def points_file(points):
+    return "3\n%d\n" % len(points) + "".join("%r %r %r\n" % p for p in points)
+
+
+class MeshToStpbv(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        write(self.at("cube.txt"), points_file(CUBE))
+        write(self.at("other.txt"), points_file([(x, 2 * y, z) for x, y, z in CUBE]))
+        write(self.at("broken.txt"), points_file(CUBE)[:40])
+
+    def at(self, name):
+        return os.path.join(self.folder.name, name)
+
+    def names(self, folder=""):
+        return sorted(os.listdir(self.at(folder)))
+
+    def run_tool(self, *arguments, code=0):
+        done = subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, cwd=self.folder.name, timeout=60)
+        self.assertEqual(done.returncode, code, done.stderr + done.stdout)
+        return done
+
+    def refused(self, *arguments, says, code=2):
+        before = {name: os.path.isfile(self.at(name)) and read(self.at(name)) for name in self.names()}
+        done = self.run_tool(*arguments, code=code)
+        for words in says:
+            self.assertIn(words, done.stderr)
+        self.assertEqual(done.stdout, "")
+        after = {name: os.path.isfile(self.at(name)) and read(self.at(name)) for name in self.names()}
+        self.assertEqual(before, after)
+
+    def test_one_input_is_written_to_the_named_file(self):
+        done = self.run_tool("cube.txt", "-o", "cube.stpbv")
+        self.assertTrue(read(self.at("cube.stpbv")).startswith(b"stpbv 1\nr 0.01\nR 10\nvertices 8\n"))
+        for words in ("8 points in", "8 vertices", "12 edges", "6 faces", "volume", "over-cover max", "mean", " s"):
+            self.assertIn(words, done.stdout)
+        self.assertEqual(done.stderr, "")
+
+    def test_the_same_input_gives_the_same_bytes(self):
+        self.run_tool("cube.txt", "-o", "a.stpbv")
+        self.run_tool("cube.txt", "-o", "b.stpbv")
+        self.assertEqual(read(self.at("a.stpbv")), read(self.at("b.stpbv")))
+
+    def test_several_inputs_go_into_a_folder(self):
+        done = self.run_tool("cube.txt", "other.txt", "-o", "out/deep")
+        self.assertEqual(self.names("out/deep"), ["cube.stpbv", "other.stpbv"])
+        self.assertEqual(len(done.stdout.splitlines()), 2)
+        self.assertEqual(done.stderr, "")
+
+    def test_one_input_goes_into_a_folder_that_exists(self):
+        os.mkdir(self.at("out"))
+        self.run_tool("cube.txt", "-o", "out")
+        self.run_tool("cube.txt", "-o", "new/")
+        self.assertEqual(self.names("out") + self.names("new"), ["cube.stpbv", "cube.stpbv"])
+
+    def test_json_has_exactly_the_documented_keys(self):
+        report = json.loads(self.run_tool("cube.txt", "-o", "a.stpbv", "--json", "-r", "0.02", "-R", "5").stdout)
+        self.assertEqual(list(report), KEYS)
+        self.assertEqual([report[key] for key in KEYS[:7]], ["cube.txt", 8, 8, 12, 6, 0.02, 5])
+        self.assertIsNone(report["verified"])
+        self.assertGreater(report["over_cover_max"], report["over_cover_mean"])
+        self.assertGreater(report["over_cover_mean"], 0.02)
+        self.assertGreater(report["volume"], 1)
+        report = json.loads(self.run_tool("cube.txt", "-o", "b.stpbv", "--json", "-q", "--verify").stdout)
+        self.assertIs(report["verified"], True)
+
+    def test_json_of_several_inputs_is_one_object_a_line(self):
+        done = self.run_tool("cube.txt", "broken.txt", "other.txt", "-o", "out", "--json", code=1)
+        reports = [json.loads(line) for line in done.stdout.splitlines()]
+        self.assertEqual([report["input"] for report in reports], ["cube.txt", "other.txt"])
+
+    def test_quiet_says_nothing(self):
+        done = self.run_tool("cube.txt", "-o", "a.stpbv", "-q")
+        self.assertEqual(done.stdout + done.stderr, "")
+
+    def test_an_input_that_fails_does_not_stop_the_others(self):
+        done = self.run_tool("broken.txt", "missing.stl", "cube.txt", "-o", "out", code=1)
+        self.assertEqual(self.names("out"), ["cube.stpbv"])
+        self.assertIn("broken.txt:", done.stderr)
+        self.assertIn("missing.stl: no such file", done.stderr)
+        self.assertIn("2 of 3 inputs failed", done.stderr)
+
+    def test_a_radius_too_small_states_the_one_that_works(self):
+        self.refused("cube.txt", "-o", "a.stpbv", "-R", "0.5", says=["cube.txt: ", "smallest usable R", "0.876"], code=1)
+
+    def test_usage_errors_exit_with_2_and_change_nothing(self):
+        write(self.at("old.stpbv"), "old")
+        os.mkdir(self.at("twin"))
+        write(self.at("twin/cube.txt"), points_file(CUBE))
+        for arguments, says in [
+                (["cube.txt"], ["-o"]),
+                ([], ["INPUT"]),
+                (["cube.txt", "-o"], ["-o"]),
+                (["cube.txt", "-o", "old.stpbv"], ["old.stpbv: exists", "--force"]),
+                (["cube.txt", "other.txt", "-o", "old.stpbv"], ["-o old.stpbv: is a file", "folder"]),
+                (["cube.txt", "other.txt", "-o", "old.stpbv", "--force"], ["-o old.stpbv: is a file", "folder"]),
+                (["cube.txt", "twin/cube.txt", "-o", "out"], ["cube.txt and twin/cube.txt", "out/cube.stpbv"]),
+                (["cube.txt", "cube.txt", "-o", "out"], ["cube.txt and cube.txt"]),
+                (["cube.txt", "-o", "none/a.stpbv"], ["none/a.stpbv", "does not exist"]),
+                (["cube.txt", "-o", "old.stpbv/"], ["old.stpbv"]),
+                (["cube.txt", "-o", "cube.txt", "--force"], ["cube.txt: is an input"]),
+                (["cube.txt", "other.txt", "-o", ".", "--format", "sch", "--force"], ["cube.txt: is an input"]),
+                (["cube.txt", "-o", "a.stpbv", "-r", "x"], ["-r", "x"]),
+                (["cube.txt", "-o", "a.stpbv", "-r=-1"], ["-r"]),
+                (["cube.txt", "-o", "a.stpbv", "-r", "nan"], ["-r"]),
+                (["cube.txt", "-o", "a.stpbv", "-r", "1", "-R", "1"], ["-R"]),
+                (["cube.txt", "-o", "a.stpbv", "--scale", "0"], ["--scale"]),
+                (["cube.txt", "-o", "a.stpbv", "--format", "step"], ["--format", "stpbv", "sch"]),
+                (["cube.txt", "-o", "a.stpbv", "--preview", "a.doc"], ["--preview a.doc", ".glb"]),
+                (["cube.txt", "other.txt", "-o", "out", "--preview", "a.obj"], ["--preview a.obj", "one input"]),
+                (["cube.txt", "-o", "a.obj", "--preview", "a.obj"], ["--preview a.obj"]),
+                (["cube.txt", "-o", "a.stpbv", "--preview", "none/a.obj"], ["none/a.obj"]),
+                (["cube.txt", "-o", "a.stpbv", "--nonsense"], ["--nonsense"])]:
+            with self.subTest(arguments=arguments):
+                self.refused(*arguments, says=says)
+
+    def test_force_replaces_a_file(self):
+        write(self.at("a.stpbv"), "old")
+        self.run_tool("cube.txt", "-o", "a.stpbv", "--force")
+        self.assertTrue(read(self.at("a.stpbv")).startswith(b"stpbv 1"))
+
+    def test_a_failure_keeps_the_old_file_under_force(self):
+        write(self.at("a.stpbv"), "old")
+        self.run_tool("broken.txt", "-o", "a.stpbv", "--force", code=1)
+        self.assertEqual(read(self.at("a.stpbv")), b"old")
+
+    def test_help_has_every_option_and_examples(self):
+        text = self.run_tool("--help").stdout
+        for words in ("-o", "-r", "-R", "--scale", "--format", "--preview", "--verify", "--json", "--force", "-q",
+                      "Examples:", "Exit status:"):
+            self.assertIn(words, text)
+
+    def test_scale_and_radii_act(self):
+        self.run_tool("cube.txt", "-o", "a.stpbv", "--scale", "0.5", "-r", "0.25", "-R", "3")
+        text = read(self.at("a.stpbv")).decode()
+        self.assertIn("r 0.25\nR 3\n", text)
+        self.assertIn("0.5 0.5 0.5", text)
+
+    def test_volumes_are_converted_between_formats(self):
+        self.run_tool("cube.txt", "-o", "a.stpbv", "-q")
+        self.run_tool("a.stpbv", "-o", "a_sch.txt", "--format", "sch", "-q")
+        self.run_tool("a_sch.txt", "-o", "b.stpbv", "-q", "--verify")
+        self.assertEqual(read(self.at("a.stpbv")), read(self.at("b.stpbv")))
+        self.refused("a.stpbv", "-o", "c.stpbv", "-R", "20", says=["a.stpbv: is an STP-BV already", "R = 10"], code=1)
+        self.run_tool("a.stpbv", "-o", "d.stpbv", "-R", "10", "-q")
+
+    def test_what_sch_core_cannot_hold_is_said(self):
+        write(self.at("two.txt"), points_file(CUBE[:2]))
+        self.refused("two.txt", "-o", "a.txt", "--format", "sch", says=["a.txt", "one or two vertices", "stpbv"], code=1)
+
+    def test_previews_are_written_and_read_back(self):
+        for kind in ("obj", "stl", "ply", "glb"):
+            self.run_tool("cube.txt", "-o", kind + ".stpbv", "--preview", "p." + kind)
+            report = json.loads(self.run_tool("p." + kind, "-o", "back_" + kind, "--json", "-r", "0", "-R", "20").stdout)
+            self.assertGreater(report["points"], 100)
+        self.refused("cube.txt", "-o", "new.stpbv", "--preview", "p.obj", says=["p.obj: exists", "--force"])
+
+    def test_no_bar_and_no_escape_codes_away_from_a_terminal(self):
+        done = self.run_tool("cube.txt", "other.txt", "-o", "out")
+        self.assertEqual(done.stderr, "")
+        self.assertNotIn("\033", done.stdout)
+
+    def test_a_bar_on_a_terminal(self):
+        for quiet, expected in (([], True), (["-q"], False)):
+            ours, theirs = pty.openpty()
+            process = subprocess.run([PROGRAM, "cube.txt", "other.txt", "-o", "out", "--force", *quiet], stderr=theirs,
+                                     stdout=subprocess.DEVNULL, cwd=self.folder.name, timeout=60)
+            os.write(theirs, b"end")
+            shown = os.read(ours, 65536)
+            os.close(ours)
+            os.close(theirs)
+            self.assertEqual(process.returncode, 0)
+            self.assertEqual(b"1/2" in shown, expected)
+
+    def test_an_interrupted_run_leaves_whole_files_only(self):
+        inputs = []
+        for i in range(300):
+            inputs.append("p%d.txt" % i)
+            write(self.at(inputs[-1]), points_file([(x + 0.001 * i, y, z) for x, y, z in CUBE]))
+        for wait, end in ((0.02, signal.SIGINT), (0.05, signal.SIGTERM), (0.1, signal.SIGINT)):
+            process = subprocess.Popen([PROGRAM, *inputs, "-o", "out", "-q", "--force"], cwd=self.folder.name)
+            time.sleep(wait)
+            process.send_signal(end)
+            process.wait(60)
+            written = self.names("out") if os.path.isdir(self.at("out")) else []
+            for name in written:
+                self.assertTrue(name.endswith(".stpbv"), name)
+                self.assertTrue(read(self.at("out/" + name)).endswith(b"\nend\n"), name)
+
+    def test_the_humanoid_converts(self):
+        folder = os.path.join(SHARED, "robots/jvrc_description/convex/jvrc1")
+        if not os.path.isdir(folder):
+            self.skipTest("skipped: ../shared/robots is missing")
+        inputs = [os.path.join(folder, name) for name in sorted(os.listdir(folder))]
+        self.assertEqual(len(inputs), 35)
+        for form in ("stpbv", "sch"):
+            done = self.run_tool(*inputs, "-o", form, "--json", "--verify", "--format", form)
+            reports = [json.loads(line) for line in done.stdout.splitlines()]
+            self.assertEqual(len(reports), 35)
+            self.assertTrue(all(report["verified"] for report in reports))
+            self.assertEqual(len(self.names(form)), 35)
+
+
+if __name__ == "__main__":
+    PROGRAM = os.path.abspath(sys.argv[1])
+    SHARED = os.path.join(os.path.dirname(os.path.abspath(sys.argv[2])), "shared")
+    unittest.main(argv=sys.argv[:1] + sys.argv[3:])
