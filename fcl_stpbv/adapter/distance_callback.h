@@ -40,8 +40,8 @@ class PairCaches {
 /// The result accumulates over calls, as FCL's own callback data does: give each query fresh data, or
 /// `clear()` it.
 struct DistanceData {
-  fcl::DistanceRequestd
-      request;            ///< for code that shares FCL's callback data; nothing in it changes the answer
+  /// For code that shares FCL's callback data; nothing in it changes the answer.
+  fcl::DistanceRequestd request = fcl::DistanceRequestd(true);
   DistanceAnswer result;  ///< the closest pair so far; `distance` is the largest double before the first
   bool done = false;      ///< set it to stop the search
   /// Stop at the first pair in contact, as FCL's own callback does; else the deepest pair is found.

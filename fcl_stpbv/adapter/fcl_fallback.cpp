@@ -1,6 +1,11 @@
 #include "fcl_stpbv/adapter/fcl_fallback.h"
 
+#include <fcl/config.h>
+#include <fcl/geometry/bvh/BVH_model.h>
 #include <fcl/narrowphase/distance.h>
+#if FCL_HAVE_OCTOMAP
+#include <fcl/geometry/octree/octree.h>
+#endif
 
 #include <cmath>
 #include <utility>
@@ -12,6 +17,38 @@ namespace {
 constexpr double kTolerance = 1e-10;
 // Witness points that do not span the distance to this part of it are not witness points.
 constexpr double kConsistent = 1e-6;
+
+template <typename BV>
+bool hasTriangles(const fcl::CollisionGeometryd& geometry) {
+  return static_cast<const fcl::BVHModel<BV>&>(geometry).getNumBVs() > 0;
+}
+
+/// FCL dereferences null for half of its types: it has no support function for planes and half spaces, and no
+/// root for empty meshes and trees. Of meshes it measures these three.
+bool fclSurvives(const fcl::CollisionGeometryd& geometry) {
+  switch (geometry.getNodeType()) {
+    case fcl::GEOM_BOX:
+    case fcl::GEOM_SPHERE:
+    case fcl::GEOM_ELLIPSOID:
+    case fcl::GEOM_CAPSULE:
+    case fcl::GEOM_CONE:
+    case fcl::GEOM_CYLINDER:
+    case fcl::GEOM_CONVEX:
+      return true;
+    case fcl::BV_RSS:
+      return hasTriangles<fcl::RSSd>(geometry);
+    case fcl::BV_kIOS:
+      return hasTriangles<fcl::kIOSd>(geometry);
+    case fcl::BV_OBBRSS:
+      return hasTriangles<fcl::OBBRSSd>(geometry);
+#if FCL_HAVE_OCTOMAP
+    case fcl::GEOM_OCTREE:
+      return static_cast<const fcl::OcTreed&>(geometry).getRoot() != nullptr;
+#endif
+    default:
+      return false;
+  }
+}
 
 /// Derivative of the distance for a body that carries the witness point `x` along `n` (paper eq. 2).
 TwistGradient twistGradient(const Eigen::Vector3d& n, const Eigen::Vector3d& x,
@@ -27,6 +64,7 @@ DistanceAnswer fallbackDistance(const fcl::CollisionGeometryd& geometry1, const 
                                 const fcl::CollisionGeometryd& geometry2, const fcl::Transform3d& pose2) {
   DistanceAnswer answer;
   answer.geometry = {&geometry1, &geometry2};
+  if (!fclSurvives(geometry1) || !fclSurvives(geometry2)) return answer;
 
   // Never signed: FCL's asserts would end the process on a part of the overlapping pairs. Never the caller's
   // result: a reused one only gets smaller.

@@ -1,0 +1,48 @@
+// Hulls and their mirror images in mirrored poses, as many as asked for: how often FCL and this library are
+// wrong. Usage: mirrored_soak [queries] [seed]
+#include <fcl/narrowphase/distance.h>
+
+#include <cstdio>
+#include <cstdlib>
+
+#include "fcl_stpbv/adapter/fcl_distance.h"
+#include "test/adapter/mirrored_pairs.h"
+
+using namespace fcl_stpbv;
+
+int main(int argc, char** argv) {
+  const long queries = argc > 1 ? std::atol(argv[1]) : 300000;
+  test::MirroredPairs pairs(argc > 2 ? static_cast<std::uint64_t>(std::atoll(argv[2])) : 1);
+  long apart = 0, fclWrong = 0, witnessOpen = 0, answerOpen = 0;
+  double fclWorst = 0, witnessWorst = 0, answerWorst = 0;
+  for (long i = 0; i < queries; ++i) {
+    if (i % 1000 == 0) pairs.nextShape();
+    pairs.nextPose();
+    const PolyhedralWitness w =
+        polyhedralWitness(pairs.hull(), pairs.pose(), pairs.mirrorHull(), pairs.mirrorPose());
+    if (w.verdict == PolyhedralWitness::Verdict::overlapping) continue;
+    ++apart;
+    witnessWorst = std::max(witnessWorst, w.upper - w.lower);
+    if (!(w.upper - w.lower <= 1e-12)) ++witnessOpen;
+
+    const DistanceAnswer d = distance(pairs.geometry(), pairs.pose(), pairs.mirror(), pairs.mirrorPose());
+    answerWorst = std::max(answerWorst, d.upper - d.lower);
+    if (d.status != DistanceStatus::exact || !(d.upper - d.lower <= 1e-12)) ++answerOpen;
+
+    fcl::DistanceRequestd request(true, false, 0, 0, 1e-10);
+    fcl::DistanceResultd result;
+    const double f =
+        fcl::distance(&pairs.geometry(), pairs.pose(), &pairs.mirror(), pairs.mirrorPose(), request, result);
+    if (!(std::abs(f - w.upper) <= 1e-6)) ++fclWrong;
+    fclWorst = std::max(fclWorst, std::abs(f - w.upper));
+  }
+  const double n = static_cast<double>(apart);
+  std::printf("%ld mirrored pairs apart of %ld\n", apart, queries);
+  std::printf("  fcl::distance, tolerance 1e-10   %5.2f %% off by more than 1e-6 m, worst %.3g m\n",
+              100 * static_cast<double>(fclWrong) / n, fclWorst);
+  std::printf("  polyhedral witness               %ld with a gap above 1e-12 m, widest %.2g m\n", witnessOpen,
+              witnessWorst);
+  std::printf("  fcl_stpbv::distance              %ld not exact to 1e-12 m, widest %.2g m\n", answerOpen,
+              answerWorst);
+  return witnessOpen + answerOpen == 0 ? 0 : 1;
+}

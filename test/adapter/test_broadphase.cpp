@@ -1,0 +1,179 @@
+#include <fcl/broadphase/broadphase_SSaP.h>
+#include <fcl/broadphase/broadphase_SaP.h>
+#include <fcl/broadphase/broadphase_bruteforce.h>
+#include <fcl/broadphase/broadphase_dynamic_AABB_tree.h>
+#include <fcl/broadphase/broadphase_dynamic_AABB_tree_array.h>
+#include <fcl/broadphase/broadphase_interval_tree.h>
+#include <fcl/broadphase/broadphase_spatialhash.h>
+#include <fcl/geometry/shape/sphere.h>
+
+#include <catch2/catch.hpp>
+#include <map>
+#include <memory>
+#include <string>
+
+#include "fcl_stpbv/adapter/distance_callback.h"
+#include "test/shapes.h"
+
+using namespace fcl_stpbv;
+using namespace fcl_stpbv::test;
+using Eigen::Vector3d;
+
+namespace {
+
+using Manager = fcl::BroadPhaseCollisionManagerd;
+using Scene = std::vector<std::shared_ptr<fcl::CollisionObjectd>>;
+
+std::map<std::string, std::unique_ptr<Manager>> allManagers() {
+  using Hash =
+      fcl::detail::SparseHashTable<fcl::AABBd, fcl::CollisionObjectd*, fcl::detail::SpatialHash<double>>;
+  std::map<std::string, std::unique_ptr<Manager>> managers;
+  managers["DynamicAABBTree"] = std::make_unique<fcl::DynamicAABBTreeCollisionManagerd>();
+  managers["DynamicAABBTreeArray"] = std::make_unique<fcl::DynamicAABBTreeCollisionManager_Arrayd>();
+  managers["IntervalTree"] = std::make_unique<fcl::IntervalTreeCollisionManagerd>();
+  managers["Naive"] = std::make_unique<fcl::NaiveCollisionManagerd>();
+  managers["SaP"] = std::make_unique<fcl::SaPCollisionManagerd>();
+  managers["SSaP"] = std::make_unique<fcl::SSaPCollisionManagerd>();
+  managers["SpatialHash"] = std::make_unique<fcl::SpatialHashingCollisionManager<double, Hash>>(
+      0.5, Vector3d::Constant(-3), Vector3d::Constant(3), 1000);
+  return managers;
+}
+
+/// `count` bodies at random in a cube with this half side.
+Scene randomScene(int count, double half, std::uint64_t seed) {
+  Random random(seed);
+  std::vector<std::shared_ptr<StpBvGeometry>> kinds;
+  for (const Cloud& cloud :
+       {box(0.1, 0.15, 0.2), geodesicSphere(0.1, 1), cylinder(0.05, 0.3, 12), plate(0.2, 0.1)})
+    kinds.push_back(std::make_shared<StpBvGeometry>(StpBv::build(cloud, {0.01, 5})));
+  Scene scene;
+  for (int i = 0; i < count; ++i) {
+    const Vector3d t(random.uniform(-half, half), random.uniform(-half, half), random.uniform(-half, half));
+    scene.push_back(std::make_shared<fcl::CollisionObjectd>(kinds[static_cast<std::size_t>(i) % kinds.size()],
+                                                            pose(random.rotation(), t)));
+  }
+  return scene;
+}
+
+double bruteForce(const Scene& scene) {
+  double least = std::numeric_limits<double>::max();
+  for (std::size_t i = 0; i < scene.size(); ++i)
+    for (std::size_t j = i + 1; j < scene.size(); ++j)
+      least = std::min(least, distance(*scene[i], *scene[j]).distance);
+  return least;
+}
+
+DistanceData ask(Manager& manager, const Scene& scene, DistanceData data = {}) {
+  for (const auto& object : scene) manager.registerObject(object.get());
+  manager.setup();
+  manager.distance(&data, distanceCallback);
+  manager.clear();
+  return data;
+}
+
+}  // namespace
+
+TEST_CASE("every manager finds the closest pair of a separated scene") {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const Scene scene = randomScene(15, 2.0, seed);
+    const double expected = bruteForce(scene);
+    for (auto& [name, manager] : allManagers()) {
+      CAPTURE(name, seed);
+      const DistanceData data = ask(*manager, scene);
+      CHECK(std::abs(data.result.distance - expected) <= 1e-13);
+      CHECK(data.result.continuous);
+      REQUIRE(data.result.object[0] != nullptr);
+      CHECK(std::abs(distance(*data.result.object[0], *data.result.object[1]).distance - expected) <= 1e-13);
+    }
+  }
+}
+
+TEST_CASE("every manager finds the deepest pair of a crowded scene") {
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    const Scene scene = randomScene(40, 0.5, seed);
+    const double expected = bruteForce(scene);
+    REQUIRE(expected < -0.02);
+    for (auto& [name, manager] : allManagers()) {
+      CAPTURE(name, seed);
+      CHECK(std::abs(ask(*manager, scene).result.distance - expected) <= 1e-13);
+    }
+  }
+}
+
+TEST_CASE("stopping at contact asks no more pairs than needed to find one") {
+  const Scene scene = randomScene(40, 0.5, 3);
+  for (auto& [name, manager] : allManagers()) {
+    CAPTURE(name);
+    DistanceData data;
+    data.stopAtContact = true;
+    const DistanceData stopped = ask(*manager, scene, data), full = ask(*manager, scene);
+    CHECK(stopped.result.distance <= 0);
+    CHECK(stopped.pairs <= full.pairs);
+  }
+}
+
+TEST_CASE("data that is done is left alone") {
+  const Scene scene = randomScene(10, 2.0, 5);
+  DistanceData data;
+  data.done = true;
+  fcl::NaiveCollisionManagerd manager;
+  data = ask(manager, scene, data);
+  CHECK(data.pairs == 0);
+  CHECK(data.result.distance == std::numeric_limits<double>::max());
+}
+
+TEST_CASE("data accumulates over queries until it is cleared") {
+  fcl::NaiveCollisionManagerd manager;
+  DistanceData data = ask(manager, randomScene(10, 1.0, 7));
+  const double first = data.result.distance;
+  data = ask(manager, randomScene(10, 20.0, 8), data);
+  CHECK(data.result.distance == first);
+  data.clear();
+  data = ask(manager, randomScene(10, 20.0, 8), data);
+  CHECK(data.result.distance > first);
+}
+
+TEST_CASE("pair caches change the work of a manager's query, not its answer") {
+  const Scene scene = randomScene(15, 1.5, 9);
+  PairCaches caches;
+  fcl::NaiveCollisionManagerd manager;
+  DistanceData data;
+  data.caches = &caches;
+  const DistanceData cold = ask(manager, scene, data);
+  const DistanceData warm = ask(manager, scene, data);
+  CHECK(cold.mapping.total() > 0);
+  CHECK(warm.mapping.total() == 0);
+  CHECK(caches.size() == cold.pairs);
+  CHECK(std::abs(warm.result.distance - cold.result.distance) <= 1e-14);
+}
+
+TEST_CASE("other geometries in the scene are answered by FCL and marked") {
+  Scene scene = randomScene(8, 1.5, 11);
+  const auto ball = std::make_shared<fcl::Sphered>(0.1);
+  scene.push_back(
+      std::make_shared<fcl::CollisionObjectd>(ball, pose(Eigen::Matrix3d::Identity(), {5, 0, 0})));
+  scene.push_back(
+      std::make_shared<fcl::CollisionObjectd>(ball, pose(Eigen::Matrix3d::Identity(), {5.201, 0, 0})));
+  for (auto& [name, manager] : allManagers()) {
+    CAPTURE(name);
+    const DistanceData data = ask(*manager, scene);
+    CHECK(data.result.distance == Approx(0.001).margin(1e-9));
+    CHECK_FALSE(data.result.continuous);
+  }
+}
+
+TEST_CASE("pairs without an answer are counted and left out") {
+  const auto cube = std::make_shared<StpBvGeometry>(StpBv::build(box(0.2, 0.2, 0.2)));
+  fcl::CollisionObjectd a(cube), b(cube, pose(Eigen::Matrix3d::Identity(), {0.5, 0, 0})), broken(cube);
+  Eigen::Isometry3d nowhere = Eigen::Isometry3d::Identity();
+  nowhere.translation()[1] = std::nan("");
+  broken.setTransform(nowhere);
+  DistanceData data;
+  double dist = std::numeric_limits<double>::max();
+  CHECK_FALSE(distanceCallback(&a, &broken, &data, dist));
+  CHECK(data.invalid == 1);
+  CHECK(dist < std::numeric_limits<double>::max());
+  CHECK_FALSE(distanceCallback(&a, &b, &data, dist));
+  CHECK(dist == data.result.distance);
+  CHECK(data.pairs == 2);
+}
