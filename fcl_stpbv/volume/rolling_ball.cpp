@@ -163,14 +163,16 @@ int Roller::leftOnTheWay(int a, int b, const Vector3d& across, double rest) {
   const Vector3d edge = at(b) - at(a), u = edge.normalized(), side = u.cross(across);
   std::vector<int> aside;
   tree_.within(at(a) + 0.5 * edge, 0.5 * edge.norm() * kDiametral, &aside);
+  const double sine = std::sin(rest), cosine = std::cos(rest), margin = 1e-9 * edge.norm();
   int left = -1;
   double first = rest - 1e-8;  // later ones are still outside at the end
   for (const int i : aside) {
     if (i == a || i == b) continue;
-    // A point is highest over the ball when the normal points at it across the edge; most points do not lie
-    // in the wedge that the normal sweeps.
-    const double x = (at(i) - at(a)).dot(across), y = (at(i) - at(a)).dot(side), margin = 1e-9 * edge.norm();
-    if (rest < 3 && (y < -margin || x * std::sin(rest) - y * std::cos(rest) < -margin)) continue;
+    // A point is highest over the ball when the normal points at it across the edge; most points do not lie in the
+    // wedge that the normal sweeps.
+    const Vector3d q = at(i) - at(a);
+    const double x = q.dot(across), y = q.dot(side);
+    if (rest < 3 && (y < -margin || x * sine - y * cosine < -margin)) continue;
     const double angle = leavingAngle(a, b, across, i);
     if (angle >= 0 && angle < first) left = i, first = angle;
   }
