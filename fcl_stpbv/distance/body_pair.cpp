@@ -22,7 +22,7 @@ BodyPair::BodyPair(const StpBv& a, const StpBv& b, const Matrix3d& rotation, con
 
 Sample BodyPair::sampleFrom(const Vector3d& n, const std::array<int, 2>& hint, int& steps) const {
   const std::array<int, 2> patch{a_.owner(n, hint[0]), b_.owner(opposite(n), hint[1])};
-  steps += (patch[0] != hint[0]) + (patch[1] != hint[1]);
+  steps += (hint[0] >= 0 && patch[0] != hint[0]) + (hint[1] >= 0 && patch[1] != hint[1]);
   return sample(n, patch);
 }
 

@@ -5,6 +5,7 @@
 
 #include "fcl_stpbv/distance/ascent.h"
 #include "fcl_stpbv/distance/body_pair.h"
+#include "fcl_stpbv/distance/expanding_polytope.h"
 #include "fcl_stpbv/distance/penetration.h"
 #include "fcl_stpbv/distance/polytope_search.h"
 #include "fcl_stpbv/distance/separation.h"
@@ -53,6 +54,7 @@ Vector3d centreLine(const BodyPair& pair) {
 struct Found {
   Sample at;
   DistanceStatus status;
+  double bound = 0.0;  ///< for cores that overlap: along no normal is their gap wider (m)
 };
 
 /// A start for `settle` that asks nothing but a gap between the cores.
@@ -68,12 +70,14 @@ Found climb(const BodyPair& pair, Sample x, Work& work) {
 }
 
 /// From the polyhedra's closest features to the smooth ones (paper IV.B), and on from there.
-bool polyhedralStart(const BodyPair& pair, Vector3d n, const std::array<int, 2>& patch, bool repose,
-                     Found& found, Work& work) {
-  VertexPair vertex;
-  if (!searchVertices(pair, n, patch, repose, vertex)) return false;
-  Sample x = unevaluated(n, {pair.a().owner(n, vertex.a), pair.b().owner(pair.opposite(n), vertex.b)});
-  work.steps += (x.patch[0] != vertex.a) + (x.patch[1] != vertex.b);
+bool polyhedralStart(const BodyPair& pair, const Vector3d& start, const std::array<int, 2>& patch,
+                     bool repose, VertexSearch& search, Found& found, Work& work) {
+  searchVertices(pair, start, patch, repose, search);
+  if (!search.apart) return false;
+  const Vector3d& n = search.n;
+  Sample x = unevaluated(
+      n, {pair.a().owner(n, search.vertex[0]), pair.b().owner(pair.opposite(n), search.vertex[1])});
+  work.steps += (x.patch[0] != search.vertex[0]) + (x.patch[1] != search.vertex[1]);
   Vector3d ignored;
   if (settle(pair, x, ignored, work) && x.core > 0.0) {
     found = {x, DistanceStatus::exact};
@@ -85,12 +89,22 @@ bool polyhedralStart(const BodyPair& pair, Vector3d n, const std::array<int, 2>&
   return true;
 }
 
+/// From the line of centres, whatever was remembered: what it finds for cores that overlap is a function of
+/// the poses.
 Found solveCold(const BodyPair& pair, Work& work) {
   const Vector3d n = centreLine(pair);
   const std::array<int, 2> patch{pair.a().owner(n), pair.b().owner(pair.opposite(n))};
   Found found;
-  if (polyhedralStart(pair, n, patch, false, found, work)) return found;
+  VertexSearch search;
+  if (polyhedralStart(pair, n, patch, false, search, found, work)) return found;
   Sample x = pair.sample(n, patch);
+  if (search.surrounded) {
+    double bound = 0.0;
+    const bool solved = expandPolytope(pair, search.corner, x, bound, work);
+    if (!solved) leastPenetration(pair, x, work);
+    ascend(pair, x, work);
+    return {x, DistanceStatus::local, bound};
+  }
   switch (separateCores(pair, x, work)) {
     case CoreContact::apart:
       return climb(pair, x, work);
@@ -110,9 +124,10 @@ bool solveWarm(const BodyPair& pair, const Vector3d& normal, const std::array<in
   const double length2 = normal.squaredNorm();
   if (!(length2 > 0.25 && length2 < 4.0)) return false;
   const Vector3d n = renormalized(normal);
+  VertexSearch search;
   if (patch[0] < 0 || patch[1] < 0)
     return polyhedralStart(pair, n, {pair.a().owner(n, patch[0]), pair.b().owner(pair.opposite(n), patch[1])},
-                           false, found, work);
+                           false, search, found, work);
   // In a small motion the bodies carry their patches along; in a large one the world's normal is the better
   // memory.
   constexpr double kSmallMotion =
@@ -127,7 +142,7 @@ bool solveWarm(const BodyPair& pair, const Vector3d& normal, const std::array<in
       return true;
     }
   }
-  return polyhedralStart(pair, n, patch, small, found, work);
+  return polyhedralStart(pair, n, patch, small, search, found, work);
 }
 
 }  // namespace
@@ -152,7 +167,8 @@ Distance distance(const StpBv& a, const Isometry3d& poseA, const StpBv& b, const
   result.status = found.status;
   result.lower = x.core - pair.margins();
   result.upper =
-      (found.status == DistanceStatus::local ? 0.0 : std::sqrt(x.core * x.core + x.across.squaredNorm())) -
+      (found.status == DistanceStatus::local ? found.bound
+                                             : std::sqrt(x.core * x.core + x.across.squaredNorm())) -
       pair.margins();
   result.distance = result.lower;
   result.patch = x.patch;

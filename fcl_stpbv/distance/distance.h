@@ -11,10 +11,10 @@ namespace fcl_stpbv {
 
 /// How good an answer is.
 enum class DistanceStatus {
-  exact,  ///< the signed distance to rounding: separated, touching, or penetrating by at most r1 + r2
-  local,  ///< deeper: a local best separating translation; `distance` is a lower bound of the signed distance
+  exact,    ///< the signed distance to rounding: separated, touching, or penetrating by at most r1 + r2
+  local,    ///< deeper: a locally best separating translation; the true value lies in [lower, upper]
   bounded,  ///< not solved to rounding; the true value lies in [lower, upper]
-  invalid,  ///< a pose or argument is not finite; bounds are infinite and everything else is zero
+  invalid,  ///< a pose is not a finite rotation and translation; bounds are infinite, everything else is zero
 };
 
 /// [linear; angular] derivative with respect to a body's twist about the body's origin, world axes.
@@ -24,9 +24,9 @@ using TwistGradient = Eigen::Matrix<double, 6, 1, Eigen::DontAlign>;
 /// Answer to one query. World frame, metres.
 struct Distance {
   DistanceStatus status = DistanceStatus::invalid;
-  double distance = 0;              ///< signed: negative where the bodies overlap
-  double lower = 0;                 ///< certified: the gap between the two supporting planes of `normal`
-  double upper = 0;                 ///< certified: from the distance of the two cores' points
+  double distance = 0;  ///< signed: negative where the bodies overlap
+  double lower = 0;     ///< certified: the gap between the two supporting planes of `normal`
+  double upper = 0;     ///< certified: from the distance of the cores' points, or how deep they are at least
   Eigen::Vector3d normal{0, 0, 0};  ///< unit, from body 1 to body 2
   std::array<Eigen::Vector3d, 2> point{Eigen::Vector3d(0, 0, 0),
                                        Eigen::Vector3d(0, 0, 0)};  ///< witness points, on the smooth surfaces

@@ -161,8 +161,8 @@ class Simplex {
 
 }  // namespace
 
-bool searchVertices(const BodyPair& pair, Vector3d& n, const std::array<int, 2>& patch, bool repose,
-                    VertexPair& vertex) {
+void searchVertices(const BodyPair& pair, const Vector3d& n, const std::array<int, 2>& patch, bool repose,
+                    VertexSearch& result) {
   constexpr int kIterations = 20;
   constexpr double kGap =
       1e-5;  // relative; which features face each other is settled long before their distance
@@ -172,31 +172,34 @@ bool searchVertices(const BodyPair& pair, Vector3d& n, const std::array<int, 2>&
            a.vertices()[static_cast<std::size_t>(i)];
   };
   const Corners cornersA(a, patch[0]), cornersB(b, patch[1]);
-  vertex = {cornersA.vertex[0], cornersB.vertex[0]};
+  int &i = result.vertex[0], &j = result.vertex[1];
+  i = cornersA.vertex[0];
+  j = cornersB.vertex[0];
   Simplex simplex;
   Vector3d v = n;
   if (repose) {
-    for (int i = 0; i < cornersA.count && simplex.count < 3; ++i)
-      simplex.add(difference(cornersA.vertex[static_cast<std::size_t>(i)], vertex.b));
-    for (int j = 1; j < cornersB.count && simplex.count < 3; ++j)
-      simplex.add(difference(vertex.a, cornersB.vertex[static_cast<std::size_t>(j)]));
+    for (int k = 0; k < cornersA.count && simplex.count < 3; ++k)
+      simplex.add(difference(cornersA.vertex[static_cast<std::size_t>(k)], j));
+    for (int k = 1; k < cornersB.count && simplex.count < 3; ++k)
+      simplex.add(difference(i, cornersB.vertex[static_cast<std::size_t>(k)]));
     simplex.nearest(v);
   }
-  for (int i = 0; i < kIterations; ++i) {
+  for (int iteration = 0; iteration < kIterations; ++iteration) {
     const double v2 = v.squaredNorm();
-    if (!(v2 > 1e-24)) return false;
-    vertex.a = climb(a, v, vertex.a);
-    vertex.b = climb(b, pair.opposite(v), vertex.b);
-    const Vector3d w = difference(vertex.a, vertex.b);
-    if (simplex.count > 0 && (v2 - v.dot(w) <= kGap * v2 || simplex.holds(w))) {
-      n = v / std::sqrt(v2);
-      return true;
-    }
+    if (!(v2 > 1e-24)) return;
+    i = climb(a, v, i);
+    j = climb(b, pair.opposite(v), j);
+    const Vector3d w = difference(i, j);
+    if (simplex.count > 0 && (v2 - v.dot(w) <= kGap * v2 || simplex.holds(w))) break;
     simplex.add(w);
-    if (!simplex.nearest(v)) return false;
+    if (!simplex.nearest(v)) {
+      result.surrounded = true;
+      result.corner = simplex.w;
+      return;
+    }
   }
-  n = v.normalized();
-  return true;
+  result.apart = true;
+  result.n = v.normalized();
 }
 
 }  // namespace fcl_stpbv

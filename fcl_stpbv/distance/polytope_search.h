@@ -5,21 +5,24 @@
 
 namespace fcl_stpbv {
 
-/// A vertex of each body.
-struct VertexPair {
-  int a;
-  int b;
+/// What a search over the two point sets found.
+struct VertexSearch {
+  bool apart = false;       ///< a gap, widest along `n`
+  bool surrounded = false;  ///< four points of the difference, second set minus first, with the origin inside
+  Eigen::Vector3d n{0, 0, 0};
+  std::array<int, 2> vertex{0, 0};        ///< last support vertices
+  std::array<Eigen::Vector3d, 4> corner;  ///< set where `surrounded`
 };
 
 /// Unit normal of the widest gap between the two point sets (Gilbert, Johnson, Keerthi 1988): the paper's
 /// first step (IV.B), done without any other library. Starts from the corners of a patch pair where they now
 /// are
-/// (`repose`), or from the normal `n`; leaves the last support vertices in `vertex`. A hint only: it may be
-/// off where the STP-BV's own triangulation is not convex, and is false when it finds no gap.
+/// (`repose`), or from the normal `n`. A hint only: it may be off where the STP-BV's own triangulation is not
+/// convex.
 ///
 /// The normal of a polyhedral witness falls into the region of the smooth patch of the same name: an edge's
 /// cone is centred on the plane across it, a face's region holds its plane's normal (paper IV.C, IV.D).
-bool searchVertices(const BodyPair& pair, Eigen::Vector3d& n, const std::array<int, 2>& patch, bool repose,
-                    VertexPair& vertex);
+void searchVertices(const BodyPair& pair, const Eigen::Vector3d& n, const std::array<int, 2>& patch,
+                    bool repose, VertexSearch& result);
 
 }  // namespace fcl_stpbv
