@@ -32,4 +32,8 @@ CoreGap coreGap(const PosedPatch& a, const PosedPatch& b, const Eigen::Vector3d&
 /// itself.
 Eigen::Vector3d widestNormal(const PosedPatch& a, const PosedPatch& b, const Eigen::Vector3d& n);
 
+/// Radii of curvature of the patch's core at its outward normal `n`, as a matrix on the tangent plane: the
+/// second derivative of its support function (m).
+Eigen::Matrix3d coreCurvature(const PosedPatch& p, const Eigen::Vector3d& n);
+
 }  // namespace fcl_stpbv

@@ -1,0 +1,30 @@
+// Second derivatives of the distance, and how normal and witness points move, in closed form.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+
+#include "fcl_stpbv/distance/distance.h"
+
+namespace fcl_stpbv {
+
+/// What a small motion of both bodies does to an answer, to the next order than its gradient. Columns are the
+/// 12 components of both twists, [linear; angular] of body 1 about its origin, then of body 2; world axes.
+/// The distance is piecewise C2: on a seam between patches these are the values of one side.
+struct DistanceHessian {
+  /// Along poses with origins `o + v t` and rotations `exp(w t) R`, the distance's second derivative is
+  /// `twists^T matrix twists`; symmetric.
+  Eigen::Matrix<double, 12, 12, Eigen::DontAlign> matrix;
+  /// Velocity of the normal.
+  Eigen::Matrix<double, 3, 12, Eigen::DontAlign> normal;
+  /// Velocities of the witness points, which slide on their bodies.
+  std::array<Eigen::Matrix<double, 3, 12, Eigen::DontAlign>, 2> point;
+};
+
+/// Derivatives at the answer `d` of `distance(a, poseA, b, poseB)` (docs/theory.md, 6). False, leaving
+/// `result` alone, where they do not exist: an answer that is neither exact nor a regular local one, cores
+/// that touch in a point of no curvature.
+bool hessian(const StpBv& a, const Eigen::Isometry3d& poseA, const StpBv& b, const Eigen::Isometry3d& poseB,
+             const Distance& d, DistanceHessian& result);
+
+}  // namespace fcl_stpbv

@@ -1,0 +1,101 @@
+// Second derivatives and the velocities of normal and witness points against central differences.
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "fcl_stpbv/distance/hessian.h"
+#include "test/shapes.h"
+
+using namespace fcl_stpbv;
+using namespace fcl_stpbv::test;
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+namespace {
+
+using Vector12 = Eigen::Matrix<double, 12, 1>;
+
+Isometry3d moved(const Isometry3d& p, int component, double step) {
+  Isometry3d result = p;
+  if (component < 3)
+    result.translation()[component] += step;
+  else
+    result.linear() = Eigen::AngleAxisd(step, Vector3d::Unit(component - 3)).toRotationMatrix() * p.linear();
+  return result;
+}
+
+Vector12 gradient(const Distance& d, const Isometry3d& poseA, const Isometry3d& poseB) {
+  Vector12 g;
+  g << d.gradient(0, poseA.translation()), d.gradient(1, poseB.translation());
+  return g;
+}
+
+}  // namespace
+
+TEST_CASE("The Hessian and the velocities of normal and witness points are what central differences say") {
+  const double R = GENERATE(0.6, 2.0, 10.0);
+  const double gap = GENERATE(0.1, -0.01, -0.05);  // separated, slightly penetrating, deep
+  const std::vector<StpBv::Ptr> pool{StpBv::build(box(0.3, 0.2, 0.5), {0.01, R}),
+                                     StpBv::build(cylinder(0.15, 0.4, 12), {0.02, R}),
+                                     StpBv::build(randomHull(40, {0.2, 0.3, 0.1}, 4), {0.015, R}),
+                                     StpBv::build({Vector3d(0, 0, -0.2), Vector3d(0.1, 0, 0.2)}, {0.01, R}),
+                                     StpBv::build({Vector3d(0.1, 0, 0)}, {0.05, R})};
+  Random random(17);
+  constexpr double kStep = 1e-6;
+  int compared = 0, kinds[3][3] = {};
+  double worst = 0;
+  for (int i = 0; i < 400; ++i) {
+    const StpBv& a = *pool[static_cast<std::size_t>(random.below(5))];
+    const StpBv& b = *pool[static_cast<std::size_t>(random.below(5))];
+    const Isometry3d poseA = pose(random.rotation(), 0.5 * random.direction());
+    Isometry3d poseB = pose(random.rotation(), 2.0 * random.direction());
+    const Distance far = distance(a, poseA, b, poseB);
+    poseB.translation() += (gap - far.distance) * far.normal;
+    const Distance d = distance(a, poseA, b, poseB);
+    DistanceHessian h;
+    if (!hessian(a, poseA, b, poseB, d, h)) continue;
+    CHECK(h.matrix == h.matrix.transpose());
+
+    Eigen::Matrix<double, 12, 12> second;
+    Eigen::Matrix<double, 3, 12> normal, point[2];
+    bool smooth = true;  // no seam within the step
+    for (int k = 0; k < 12; ++k) {
+      Distance side[2];
+      Vector12 g[2];
+      for (int s = 0; s < 2; ++s) {
+        const double step = s ? kStep : -kStep;
+        const Isometry3d pa = k < 6 ? moved(poseA, k, step) : poseA,
+                         pb = k < 6 ? poseB : moved(poseB, k - 6, step);
+        side[s] = distance(a, pa, b, pb);
+        g[s] = gradient(side[s], pa, pb);
+        smooth = smooth && side[s].patch == d.patch && (side[s].normal - d.normal).norm() < 1e-3;
+      }
+      second.col(k) = (g[1] - g[0]) / (2 * kStep);
+      normal.col(k) = (side[1].normal - side[0].normal) / (2 * kStep);
+      for (std::size_t p = 0; p < 2; ++p)
+        point[p].col(k) = (side[1].point[p] - side[0].point[p]) / (2 * kStep);
+    }
+    if (!smooth) continue;
+    // The gradient is taken in the moved bodies' frames, whose rotations do not commute; the symmetric part
+    // is the second derivative along the exponential.
+    const Eigen::Matrix<double, 12, 12> symmetric = 0.5 * (second + second.transpose());
+    const double scale = 1 + h.matrix.cwiseAbs().maxCoeff() + h.normal.cwiseAbs().maxCoeff();
+    worst = std::max(worst, (symmetric - h.matrix).cwiseAbs().maxCoeff() / scale);
+    worst = std::max(worst, (normal - h.normal).cwiseAbs().maxCoeff() / scale);
+    for (std::size_t p = 0; p < 2; ++p)
+      worst = std::max(worst, (point[p] - h.point[p]).cwiseAbs().maxCoeff() / scale);
+    ++compared;
+    ++kinds[static_cast<int>(a.kind(d.patch[0]))][static_cast<int>(b.kind(d.patch[1]))];
+  }
+  CHECK(worst < 2e-6);
+  CHECK(compared > 150);
+  CHECK(kinds[1][1] > 0);  // two tori
+  CHECK(kinds[0][2] + kinds[2][0] > 0);
+}
+
+TEST_CASE("There is no Hessian without an answer, and none where cores touch without curvature") {
+  const StpBv::Ptr a = StpBv::build({Vector3d(0, 0, 0)}, {0.1, 1});
+  DistanceHessian h;
+  const Isometry3d here = Isometry3d::Identity();
+  CHECK_FALSE(hessian(*a, here, *a, here, Distance(), h));
+  CHECK_FALSE(hessian(*a, here, *a, here, distance(*a, here, *a, here), h));  // coincident centres
+}
