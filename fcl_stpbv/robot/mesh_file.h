@@ -14,8 +14,8 @@ namespace fcl_stpbv {
 /// transforms of its nodes applied, then `scale` along each axis. Vertices with equal coordinates become one.
 ///
 /// COLLADA's `unit` is applied, so lengths are in metres. Its `up_axis` is not, as in rviz and MoveIt, for
-/// which robot descriptions are made: a point's x stays x. Other formats state no unit and are taken as metres.
-/// assimp stores single precision: a coordinate of 1 m is good to 0.06 um.
+/// which robot descriptions are made: a point's x stays x. Other formats state no unit and are taken as
+/// metres. assimp stores single precision: a coordinate of 1 m is good to 0.06 um.
 /// @throws Error naming the file and what would work.
 TriangleMesh loadMesh(const std::string& path, const Eigen::Vector3d& scale = {1, 1, 1});
 
