@@ -1,0 +1,37 @@
+// See capsule_fit.h.
+#include "fcl_stpbv/robot/capsule_fit.h"
+
+#include <cmath>
+
+namespace fcl_stpbv {
+namespace {
+
+// Digits that writers of URDF keep.
+constexpr double kAlike = 1e-6;
+
+int sphereAt(const std::vector<ShapeModel>& shapes, const Eigen::Vector3d& centre, double radius) {
+  for (std::size_t i = 0; i < shapes.size(); ++i) {
+    if (shapes[i].kind == ShapeKind::sphere && std::abs(shapes[i].size.x() - radius) < kAlike &&
+        (shapes[i].pose.translation() - centre).norm() < kAlike)
+      return static_cast<int>(i);
+  }
+  return -1;
+}
+
+}  // namespace
+
+void joinCapsules(std::vector<ShapeModel>& shapes) {
+  for (std::size_t i = 0; i < shapes.size(); ++i) {
+    if (shapes[i].kind != ShapeKind::cylinder) continue;
+    const Eigen::Vector3d half(0, 0, shapes[i].size.y() / 2);
+    const int top = sphereAt(shapes, shapes[i].pose * half, shapes[i].size.x());
+    const int bottom = sphereAt(shapes, shapes[i].pose * -half, shapes[i].size.x());
+    if (top < 0 || bottom < 0 || top == bottom) continue;
+    shapes[i].kind = ShapeKind::capsule;
+    shapes.erase(shapes.begin() + std::max(top, bottom));
+    shapes.erase(shapes.begin() + std::min(top, bottom));
+    i = static_cast<std::size_t>(-1);  // indices moved: look again from the start
+  }
+}
+
+}  // namespace fcl_stpbv

@@ -1,0 +1,14 @@
+// Capsules, written in URDF as a cylinder with a sphere at either end.
+#pragma once
+
+#include <vector>
+
+#include "fcl_stpbv/robot/robot_model.h"
+
+namespace fcl_stpbv {
+
+/// Replaces each cylinder that has a sphere of its radius centred on both ends by one capsule; the spheres
+/// go.
+void joinCapsules(std::vector<ShapeModel>& shapes);
+
+}  // namespace fcl_stpbv

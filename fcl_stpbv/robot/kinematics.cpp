@@ -1,0 +1,230 @@
+// See kinematics.h.
+#include "fcl_stpbv/robot/kinematics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "fcl_stpbv/error.h"
+
+namespace fcl_stpbv {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+int freedoms(JointType type) {
+  switch (type) {
+    case JointType::fixed:
+      return 0;
+    case JointType::planar:
+      return 3;
+    case JointType::floating:
+      return 6;
+    default:
+      return 1;
+  }
+}
+
+Matrix3d cross(const Vector3d& w) {
+  Matrix3d m;
+  m << 0, -w.z(), w.y(), w.z(), 0, -w.x(), -w.y(), w.x(), 0;
+  return m;
+}
+
+// Rotation by a rotation vector, and the matrix that turns its rate into the angular velocity.
+void exponential(const Vector3d& w, Matrix3d& rotation, Matrix3d& rate) {
+  const double angle2 = w.squaredNorm(), angle = std::sqrt(angle2);
+  double a, b, c;      // sin/angle, (1 - cos)/angle^2, (angle - sin)/angle^3
+  if (angle < 1e-2) {  // the series' next terms are below 1e-15
+    a = 1 - angle2 / 6 * (1 - angle2 / 20 * (1 - angle2 / 42));
+    b = 0.5 - angle2 / 24 * (1 - angle2 / 30 * (1 - angle2 / 56));
+    c = 1.0 / 6 - angle2 / 120 * (1 - angle2 / 42 * (1 - angle2 / 72));
+  } else {
+    a = std::sin(angle) / angle;
+    b = (1 - std::cos(angle)) / angle2;
+    c = (1 - a) / angle2;
+  }
+  const Matrix3d k = cross(w), k2 = k * k;
+  rotation = Matrix3d::Identity() + a * k + b * k2;
+  rate = Matrix3d::Identity() + b * k + c * k2;
+}
+
+Isometry3d pose(const Matrix3d& rotation, const Vector3d& position) {
+  Isometry3d t;
+  t.linear() = rotation;
+  t.translation() = position;
+  t.makeAffine();
+  return t;
+}
+
+Twist turning(const Vector3d& axis, const Vector3d& origin) { return {origin.cross(axis), axis}; }
+Twist sliding(const Vector3d& axis) { return {axis, Vector3d::Zero()}; }
+
+}  // namespace
+
+Kinematics::Kinematics(std::shared_ptr<const RobotModel> robot, BaseMotion base)
+    : robot_(std::move(robot)), coordinateOf_(robot_->joints.size(), -1), stepOf_(robot_->links.size(), -1) {
+  if (base != BaseMotion::fixed) {
+    JointModel root;
+    root.type = base == BaseMotion::planar ? JointType::planar : JointType::floating;
+    root.child = 0;
+    root.axis = Vector3d::UnitZ();
+    addCoordinates("base", root.type, -std::numeric_limits<double>::infinity(),
+                   std::numeric_limits<double>::infinity());
+    addStep(-1, root, 0, 1, 0);
+  }
+  for (std::size_t j = 0; j < robot_->joints.size(); ++j) {
+    const JointModel& joint = robot_->joints[j];
+    if (joint.mimic || joint.type == JointType::fixed) continue;
+    coordinateOf_[j] = size();
+    addCoordinates(joint.name, joint.type, joint.lower, joint.upper);
+  }
+  for (const LinkModel& link : robot_->links) {  // parents first
+    if (link.parentJoint < 0) continue;
+    const JointModel& joint = robot_->joints[at(link.parentJoint)];
+    if (joint.mimic)
+      addStep(link.parentJoint, joint, coordinateOf_[at(joint.mimic->joint)], joint.mimic->multiplier,
+              joint.mimic->offset);
+    else
+      addStep(link.parentJoint, joint, coordinateOf_[at(link.parentJoint)], 1, 0);
+  }
+  lower_ = Eigen::Map<const Eigen::VectorXd>(lowerList_.data(), size());
+  upper_ = Eigen::Map<const Eigen::VectorXd>(upperList_.data(), size());
+  neutral_.setZero(size());
+  for (int i = 0; i < size(); ++i)
+    if (lower_[i] > 0 || upper_[i] < 0) neutral_[i] = (lower_[i] + upper_[i]) / 2;
+}
+
+void Kinematics::addCoordinates(const std::string& name, JointType type, double lower, double upper) {
+  const double infinity = std::numeric_limits<double>::infinity();
+  const auto add = [&](const std::string& suffix, double low, double high) {
+    names_.push_back(name + suffix);
+    lowerList_.push_back(low);
+    upperList_.push_back(high);
+  };
+  if (type == JointType::planar) {
+    for (const char* suffix : {"/x", "/y"}) add(suffix, -infinity, infinity);
+    add("/angle", -M_PI, M_PI);
+  } else if (type == JointType::floating) {
+    for (const char* suffix : {"/x", "/y", "/z"}) add(suffix, -infinity, infinity);
+    for (const char* suffix : {"/rx", "/ry", "/rz"}) add(suffix, -M_PI, M_PI);
+  } else {
+    add("", lower, upper);
+  }
+}
+
+void Kinematics::addStep(int joint, const JointModel& model, int coordinate, double multiplier,
+                         double offset) {
+  Step step{model.type, model.parent, model.child,  -1,         coordinate,
+            multiplier, offset,       model.origin, model.axis, Matrix3d::Identity()};
+  if (model.type == JointType::planar)
+    step.plane = Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), model.axis).toRotationMatrix();
+  if (freedoms(model.type) > 0) step.motion = static_cast<int>(motions_.size());
+  for (int k = 0; k < freedoms(model.type); ++k) motions_.push_back({joint, coordinate + k, multiplier});
+  stepOf_[at(model.child)] = static_cast<int>(steps_.size());
+  steps_.push_back(step);
+}
+
+Eigen::VectorXd Kinematics::configuration(const Srdf::State& state) const {
+  Eigen::VectorXd q = neutral_;
+  for (const auto& [name, values] : state.joints) {
+    const std::string where = "group_state '" + state.name + "': joint '" + name + "'";
+    const int joint = robot_->joint(name);
+    if (joint < 0) continue;  // a virtual joint, or one of another robot's variant
+    const int first = coordinateOf_[at(joint)];
+    if (first < 0) continue;  // fixed or mimic: follows
+    const int count = freedoms(robot_->joints[at(joint)].type);
+    if (static_cast<int>(values.size()) != count)
+      throw Error(where + ": has " + std::to_string(values.size()) + " values, expected " +
+                  std::to_string(count));
+    for (int k = 0; k < count; ++k) q[first + k] = values[at(k)];
+  }
+  return q;
+}
+
+int Kinematics::coordinate(const std::string& joint) const {
+  const int j = robot_->joint(joint);
+  return j < 0 ? -1 : coordinateOf_[at(j)];
+}
+
+Kinematics::State Kinematics::makeState() const {
+  return {std::vector<Isometry3d>(robot_->links.size(), Isometry3d::Identity()),
+          std::vector<Twist>(motions_.size())};
+}
+
+void Kinematics::forward(const Eigen::Ref<const Eigen::VectorXd>& q, State& state) const {
+  if (stepOf_[0] < 0) state.link[0].setIdentity();
+  for (const Step& step : steps_) place(step, q, state);
+}
+
+void Kinematics::place(const Step& step, const Eigen::Ref<const Eigen::VectorXd>& q, State& state) const {
+  const Isometry3d frame = step.parent < 0 ? step.origin : state.link[at(step.parent)] * step.origin;
+  Isometry3d& link = state.link[at(step.child)];
+  if (step.type == JointType::fixed) {
+    link = frame;
+    return;
+  }
+  Twist* twist = &state.motion[at(step.motion)];
+  const double value = step.multiplier * q[step.coordinate] + step.offset;
+  const Vector3d axis = frame.linear() * step.axis;
+  if (step.type == JointType::prismatic) {
+    link = pose(frame.linear(), frame.translation() + value * axis);
+    twist[0] = sliding(step.multiplier * axis);
+  } else if (step.type == JointType::planar) {
+    const Matrix3d plane = frame.linear() * step.plane;
+    const Vector3d position = frame.translation() + plane.leftCols<2>() * q.segment<2>(step.coordinate);
+    const Eigen::AngleAxisd turn(q[step.coordinate + 2], step.axis);
+    link = pose(frame.linear() * turn.toRotationMatrix(), position);
+    twist[0] = sliding(plane.col(0));
+    twist[1] = sliding(plane.col(1));
+    twist[2] = turning(axis, position);
+  } else if (step.type == JointType::floating) {
+    Matrix3d rotation, rate;
+    exponential(q.segment<3>(step.coordinate + 3), rotation, rate);
+    const Vector3d position = frame * Vector3d(q.segment<3>(step.coordinate));
+    link = pose(frame.linear() * rotation, position);
+    rate = frame.linear() * rate;
+    for (int k = 0; k < 3; ++k) {
+      twist[k] = sliding(frame.linear().col(k));
+      twist[3 + k] = turning(rate.col(k), position);
+    }
+  } else {
+    link = pose(frame.linear() * Eigen::AngleAxisd(value, step.axis).toRotationMatrix(), frame.translation());
+    twist[0] = turning(step.multiplier * axis, frame.translation());
+  }
+}
+
+std::vector<Kinematics::Dependence> Kinematics::dependence(int link) const {
+  std::vector<Dependence> list;
+  for (int at1 = link; at1 >= 0;) {
+    const int s = stepOf_[at(at1)];
+    if (s < 0) break;
+    const Step& step = steps_[at(s)];
+    for (int k = 0; k < freedoms(step.type); ++k) list.push_back({step.motion + k, 1.0});
+    at1 = step.parent;
+  }
+  std::sort(list.begin(), list.end(),
+            [](const Dependence& a, const Dependence& b) { return a.motion < b.motion; });
+  return list;
+}
+
+std::vector<Kinematics::Dependence> Kinematics::dependence(int link1, int link2) const {
+  const std::vector<Dependence> first = dependence(link1), second = dependence(link2);
+  std::vector<Dependence> list;
+  std::size_t i = 0, j = 0;
+  while (i < first.size() || j < second.size()) {
+    const int a = i < first.size() ? first[i].motion : std::numeric_limits<int>::max();
+    const int b = j < second.size() ? second[j].motion : std::numeric_limits<int>::max();
+    if (a < b) list.push_back({a, -1.0});
+    if (b < a) list.push_back({b, 1.0});
+    i += a <= b;
+    j += b <= a;
+  }
+  return list;
+}
+
+}  // namespace fcl_stpbv

@@ -1,0 +1,100 @@
+// Where a robot's links are at a configuration, and how each coordinate moves them.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "fcl_stpbv/robot/robot_model.h"
+#include "fcl_stpbv/robot/srdf.h"
+
+namespace fcl_stpbv {
+
+/// How the root link moves in the world.
+enum class BaseMotion { fixed, planar, floating };
+
+/// Velocity of a rigid body per unit of one coordinate: that of the world's origin as if carried by the body,
+/// and the angular one. World axes.
+struct Twist {
+  Eigen::Vector3d linear{0, 0, 0};
+  Eigen::Vector3d angular{0, 0, 0};
+};
+
+/// Coordinates q of a robot: joints in the order of the URDF, the moving base before them. One per revolute,
+/// continuous or prismatic joint (rad, m); x, y and angle for a planar one; position and rotation vector
+/// (axis times angle, in the joint's frame, best kept below pi) for a floating one; none for a mimic joint.
+class Kinematics {
+ public:
+  /// One degree of freedom of one joint. A mimic joint's belongs to the coordinate it follows.
+  struct Motion {
+    int joint;       ///< -1 for the base
+    int coordinate;  ///< in q
+    double multiplier;
+  };
+
+  /// What the pair of two links depends on: `sign` is +1 where the motion carries the second link and not the
+  /// first, -1 where it is the other way round. Motions of both cancel and are left out.
+  struct Dependence {
+    int motion;
+    double sign;
+  };
+
+  /// Room for one configuration, to be used again and again.
+  struct State {
+    std::vector<Eigen::Isometry3d> link;  ///< pose of each link in the world
+    std::vector<Twist> motion;            ///< of the links below each motion, multiplier included
+  };
+
+  explicit Kinematics(std::shared_ptr<const RobotModel> robot, BaseMotion base = BaseMotion::fixed);
+
+  const RobotModel& robot() const { return *robot_; }
+  int size() const { return static_cast<int>(names_.size()); }
+  /// A joint's name, with `/x`, `/y`, `/angle`, `/z`, `/rx`, `/ry`, `/rz` after it where it has several.
+  const std::vector<std::string>& names() const { return names_; }
+  const Eigen::VectorXd& lower() const { return lower_; }
+  const Eigen::VectorXd& upper() const { return upper_; }
+  const std::vector<Motion>& motions() const { return motions_; }
+
+  /// All zero, or the middle of its limits for a coordinate that cannot be zero.
+  const Eigen::VectorXd& neutral() const { return neutral_; }
+  /// The neutral configuration with what a group_state says. @throws Error naming state and joint.
+  Eigen::VectorXd configuration(const Srdf::State& state) const;
+  /// First coordinate of a joint by name, -1 for fixed, mimic and unknown ones.
+  int coordinate(const std::string& joint) const;
+
+  State makeState() const;
+  /// Fills the state. Never throws or allocates; `q` has size() entries.
+  void forward(const Eigen::Ref<const Eigen::VectorXd>& q, State& state) const;
+
+  std::vector<Dependence> dependence(int link1, int link2) const;
+  /// The motions that carry a link.
+  std::vector<Dependence> dependence(int link) const;
+
+ private:
+  struct Step {  // one joint, or the base, ready for forward()
+    JointType type;
+    int parent, child;  // links; parent -1 is the world
+    int motion;         // first one, -1 for none
+    int coordinate;     // first one
+    double multiplier, offset;
+    Eigen::Isometry3d origin;
+    Eigen::Vector3d axis;
+    Eigen::Matrix3d plane;  // turns z into the axis
+  };
+  void addCoordinates(const std::string& name, JointType type, double lower, double upper);
+  void addStep(int joint, const JointModel& model, int coordinate, double multiplier, double offset);
+  void place(const Step& step, const Eigen::Ref<const Eigen::VectorXd>& q, State& state) const;
+
+  std::shared_ptr<const RobotModel> robot_;
+  std::vector<std::string> names_;
+  std::vector<int> coordinateOf_;  // of each joint, -1 for none
+  Eigen::VectorXd lower_, upper_, neutral_;
+  std::vector<double> lowerList_, upperList_;
+  std::vector<Motion> motions_;
+  std::vector<Step> steps_;  // parents before children
+  std::vector<int> stepOf_;  // the step that places each link, -1 for a root that stands still
+};
+
+}  // namespace fcl_stpbv

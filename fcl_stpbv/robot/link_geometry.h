@@ -1,0 +1,62 @@
+// The collision bodies of a robot's links: STP-BVs of meshes, and primitives as they are.
+#pragma once
+
+#include <fcl/geometry/collision_geometry.h>
+
+#include <Eigen/Geometry>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "fcl_stpbv/adapter/stp_bv_geometry.h"
+#include "fcl_stpbv/robot/package_path.h"
+#include "fcl_stpbv/robot/robot_model.h"
+#include "fcl_stpbv/robot/volume_cache.h"
+#include "fcl_stpbv/volume/measure.h"
+
+namespace fcl_stpbv {
+
+struct GeometryOptions {
+  StpBvOptions radii;                         ///< of every link's volumes
+  std::map<std::string, StpBvOptions> links;  ///< of single links, by name
+  /// Most that a volume may exceed the hull of its mesh by (m), 0 for any. R grows until it does; r must be
+  /// smaller.
+  double overCoverBudget = 0;
+  std::map<std::string, double> budgets;  ///< of single links, by name
+  bool visual = false;                    ///< the visual shapes instead of the collision shapes
+  std::vector<std::string> packagePath;
+  std::string cacheFolder = VolumeCache::defaultFolder();  ///< "" for no cache
+  /// Called before each shape with its index and the number of all.
+  std::function<void(std::size_t, std::size_t, const std::string&)> progress;
+};
+
+/// One shape of one link.
+struct Body {
+  int link = -1;
+  std::string name;        ///< the link's, with #2, #3 ... for its further shapes
+  Eigen::Isometry3d pose;  ///< in the link's frame
+  std::shared_ptr<fcl::CollisionGeometryd> geometry;
+  StpBv::Ptr volume;       ///< null for a primitive
+  std::string file;        ///< "" for a primitive
+  Eigen::Vector3d centre;  ///< of a sphere that holds the body, in the link's frame
+  double radius = 0;       ///< of that sphere (m)
+  OverCover cover{0, 0};   ///< what the volume exceeds the hull of the mesh by (m)
+};
+
+struct RobotGeometry {
+  std::vector<Body> bodies;           ///< in the order of the links
+  std::vector<std::string> warnings;  ///< whole sentences, to be told to the user
+  int fromCache = 0;
+
+  /// Bodies of a link: first index and one past the last.
+  std::pair<int, int> of(int link) const;
+};
+
+/// Reads the meshes and builds the volumes. A link without collision shapes has no body; where the whole
+/// robot has none, its visual shapes are taken with a warning.
+/// @throws Error naming the URDF, the link, the file and what would work.
+RobotGeometry loadGeometry(const RobotModel& robot, const GeometryOptions& options = {});
+
+}  // namespace fcl_stpbv

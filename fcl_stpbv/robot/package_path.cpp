@@ -1,0 +1,118 @@
+// See package_path.h.
+#include "fcl_stpbv/robot/package_path.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+
+#include "fcl_stpbv/error.h"
+#include "fcl_stpbv/robot/xml_text.h"
+
+namespace fcl_stpbv {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kPackage = "package://";
+constexpr std::string_view kFile = "file://";
+
+bool startsWith(const std::string& text, std::string_view start) {
+  return text.compare(0, start.size(), start) == 0;
+}
+
+std::vector<std::string> splitAtColons(const char* list) {
+  std::vector<std::string> parts;
+  for (std::string rest = list ? list : ""; !rest.empty();) {
+    const std::size_t colon = rest.find(':');
+    if (colon != 0) parts.push_back(rest.substr(0, colon));
+    rest = colon == std::string::npos ? "" : rest.substr(colon + 1);
+  }
+  return parts;
+}
+
+// The name that a folder's package.xml states, or "" where there is none.
+std::string packageIn(const fs::path& folder) {
+  std::error_code ignored;
+  const fs::path file = folder / "package.xml";
+  if (!fs::is_regular_file(file, ignored)) return "";
+  try {
+    tinyxml2::XMLDocument document;
+    loadXml(file.string(), document);
+    const tinyxml2::XMLElement* name = document.RootElement()->FirstChildElement("name");
+    return name && name->GetText() ? name->GetText() : "";
+  } catch (const Error&) {
+    return "";  // not a package then; the path shows up among those tried
+  }
+}
+
+bool isPackage(const fs::path& folder, const std::string& name) {
+  const fs::path plain = folder.has_filename() ? folder : folder.parent_path();
+  return plain.filename() == name || packageIn(folder) == name;
+}
+
+}  // namespace
+
+PackagePath::PackagePath(const std::string& urdf, std::vector<std::string> folders)
+    : folders_(std::move(folders)), prefixes_(splitAtColons(std::getenv("AMENT_PREFIX_PATH"))) {
+  for (std::string& folder : splitAtColons(std::getenv("ROS_PACKAGE_PATH")))
+    folders_.push_back(std::move(folder));
+  std::error_code error;
+  fs::path folder = fs::absolute(urdf, error).lexically_normal().parent_path();
+  urdfFolder_ = folder.string();
+  for (; !folder.empty(); folder = folder.parent_path()) {
+    above_.push_back(folder.string());
+    if (folder == folder.root_path()) break;
+  }
+}
+
+std::vector<std::string> PackagePath::candidates(const std::string& uri) const {
+  std::vector<std::string> paths;
+  const auto add = [&](const fs::path& path) {
+    const std::string text = path.lexically_normal().string();
+    if (std::find(paths.begin(), paths.end(), text) == paths.end()) paths.push_back(text);
+  };
+  if (startsWith(uri, kFile)) {
+    add(uri.substr(kFile.size()));
+  } else if (!startsWith(uri, kPackage)) {
+    add(fs::path(urdfFolder_) / uri);  // an absolute path stays as it is
+  } else {
+    const std::string inside = uri.substr(kPackage.size());
+    const std::size_t slash = inside.find('/');
+    const std::string package = inside.substr(0, slash);
+    const std::string rest = slash == std::string::npos ? "" : inside.substr(slash + 1);
+    for (const std::string& folder : folders_) {
+      if (isPackage(folder, package)) add(fs::path(folder) / rest);
+      add(fs::path(folder) / package / rest);
+      // A package inside another one, as in a checkout of a part of it: its own folder is the last that
+      // counts.
+      for (std::size_t next = rest.find('/');
+           next != std::string::npos && rest.find('/', next + 1) != std::string::npos;
+           next = rest.find('/', next + 1))
+        add(fs::path(folder) / rest.substr(next + 1));
+    }
+    for (const std::string& prefix : prefixes_) add(fs::path(prefix) / "share" / package / rest);
+    for (const std::string& folder : above_) {
+      if (isPackage(folder, package)) add(fs::path(folder) / rest);
+      if (!packageIn(folder).empty()) add(fs::path(folder).parent_path() / package / rest);
+    }
+    if (paths.empty()) add(fs::path(urdfFolder_) / package / rest);
+  }
+  return paths;
+}
+
+std::string PackagePath::resolve(const std::string& uri) const {
+  const std::vector<std::string> paths = candidates(uri);
+  std::error_code ignored;
+  for (const std::string& path : paths)
+    if (fs::is_regular_file(path, ignored)) return path;
+  std::string message = uri + ": no such file; tried";
+  for (const std::string& path : paths) message += "\n  " + path;
+  if (startsWith(uri, kPackage)) {
+    const std::string package = uri.substr(kPackage.size(), uri.find('/', kPackage.size()) - kPackage.size());
+    message += "\nGive the folder that holds the package '" + package +
+               "' as a package path (--package-path), or set ROS_PACKAGE_PATH or AMENT_PREFIX_PATH";
+  }
+  throw Error(message);
+}
+
+}  // namespace fcl_stpbv

@@ -1,0 +1,32 @@
+// Where the files are that a URDF names: package://, file://, absolute and relative names.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace fcl_stpbv {
+
+/// Turns the file names of one URDF into paths.
+///
+/// `package://name/rest` is looked for in each given folder (as `folder/name/rest`, or `folder/rest` where
+/// the folder is that package itself, or by the last folders of `rest`, for a package inside another), then
+/// in ROS_PACKAGE_PATH, in `share` of AMENT_PREFIX_PATH, in the package that encloses the URDF, and beside
+/// that package.
+class PackagePath {
+ public:
+  /// `urdf` is the file that names will come from; `folders` go before everything else.
+  explicit PackagePath(const std::string& urdf, std::vector<std::string> folders = {});
+
+  /// The path of an existing file. @throws Error naming every path that was tried.
+  std::string resolve(const std::string& uri) const;
+
+ private:
+  std::vector<std::string> candidates(const std::string& uri) const;
+
+  std::string urdfFolder_;
+  std::vector<std::string> folders_;   // may hold packages, or be one
+  std::vector<std::string> prefixes_;  // hold share/<package>
+  std::vector<std::string> above_;     // folders around the URDF, innermost first
+};
+
+}  // namespace fcl_stpbv

@@ -1,0 +1,113 @@
+// Poses and motions of links against differences and known positions.
+#include <catch2/catch.hpp>
+
+#include "fcl_stpbv/robot/kinematics.h"
+#include "test/robot/robots.h"
+#include "test/robot/urdf_texts.h"
+#include "test/shapes.h"
+
+using namespace fcl_stpbv;
+using namespace fcl_stpbv::test;
+
+namespace {
+
+Eigen::VectorXd randomConfiguration(const Kinematics& kinematics, Random& random) {
+  Eigen::VectorXd q(kinematics.size());
+  for (int i = 0; i < kinematics.size(); ++i)
+    q[i] = random.uniform(std::max(kinematics.lower()[i], -2.0), std::min(kinematics.upper()[i], 2.0));
+  return q;
+}
+
+// Velocity of a point of a link per unit of each coordinate, from the motions.
+Eigen::MatrixXd velocities(const Kinematics& kinematics, const Kinematics::State& state, int link,
+                           const Eigen::Vector3d& x) {
+  Eigen::MatrixXd v = Eigen::MatrixXd::Zero(3, kinematics.size());
+  for (const Kinematics::Dependence& d : kinematics.dependence(link)) {
+    const Twist& twist = state.motion[static_cast<std::size_t>(d.motion)];
+    v.col(kinematics.motions()[static_cast<std::size_t>(d.motion)].coordinate) +=
+        twist.linear + twist.angular.cross(x);
+  }
+  return v;
+}
+
+void checkMotions(const Kinematics& kinematics, int count) {
+  Random random(1);
+  Kinematics::State state = kinematics.makeState(), moved = kinematics.makeState();
+  constexpr double step = 1e-6;  // differences are then good to about step^2 + 1e-16 / step
+  double worst = 0;
+  for (int trial = 0; trial < count; ++trial) {
+    const Eigen::VectorXd q = randomConfiguration(kinematics, random);
+    kinematics.forward(q, state);
+    const int link = random.below(static_cast<int>(state.link.size()));
+    const Eigen::Vector3d local(0.1, -0.2, 0.3);
+    const std::size_t l = static_cast<std::size_t>(link);
+    const Eigen::MatrixXd v = velocities(kinematics, state, link, state.link[l] * local);
+    for (int i = 0; i < kinematics.size(); ++i) {
+      Eigen::VectorXd near = q;
+      near[i] = q[i] + step;
+      kinematics.forward(near, moved);
+      const Eigen::Vector3d after = moved.link[l] * local;
+      near[i] = q[i] - step;
+      kinematics.forward(near, moved);
+      worst = std::max(worst, ((after - moved.link[l] * local) / (2 * step) - v.col(i)).norm());
+    }
+  }
+  CHECK(worst < 1e-8);
+}
+
+}  // namespace
+
+TEST_CASE("motions of every kind of joint agree with differences of poses") {
+  const std::string axis = "<origin xyz=\"0.1 0.2 0.3\" rpy=\"0.3 -0.4 0.5\"/><axis xyz=\"1 2 -0.5\"/>";
+  const RobotModel model = parseUrdf(
+      robot(link("a") + link("b") + link("c") + link("d") + link("e") + link("f") + link("g") + link("h") +
+            joint("j1", "revolute", "a", "b", axis) + joint("j2", "prismatic", "b", "c", axis) +
+            joint("j3", "continuous", "c", "d", axis) + joint("j4", "planar", "d", "e", axis) +
+            joint("j5", "floating", "e", "f", axis) + joint("j6", "fixed", "f", "g", axis) +
+            joint("j7", "revolute", "g", "h",
+                  axis + "<mimic joint=\"j1\" multiplier=\"-1.5\" offset=\"0.2\"/>")),
+      "all.urdf");
+  const auto shared = std::make_shared<const RobotModel>(model);
+  for (const BaseMotion base : {BaseMotion::fixed, BaseMotion::planar, BaseMotion::floating}) {
+    const Kinematics kinematics(shared, base);
+    const int extra = base == BaseMotion::fixed ? 0 : base == BaseMotion::planar ? 3 : 6;
+    CHECK(kinematics.size() == extra + 3 + 3 + 6);
+    checkMotions(kinematics, 20);
+  }
+}
+
+TEST_CASE("motions of real robots agree with differences of poses") {
+  for (const TestRobot& robot : robots()) {
+    INFO(robot.name);
+    checkMotions(Kinematics(std::make_shared<const RobotModel>(loadUrdf(robot.urdf))), 10);
+  }
+}
+
+TEST_CASE("the humanoid's coordinates are those of its table, its feet 105 mm below the ankles") {
+  const TestRobot robot = robots()[0];
+  const auto model = std::make_shared<const RobotModel>(loadUrdf(robot.urdf));
+  const Kinematics kinematics(model);
+  CHECK(kinematics.size() == 30);
+  CHECK(kinematics.names().front() == "RLEG_JOINT0");
+  CHECK(kinematics.names().back() == "LARM_JOINT6");
+  Kinematics::State state = kinematics.makeState();
+  kinematics.forward(kinematics.neutral(), state);
+  const Eigen::Vector3d ankle = state.link[static_cast<std::size_t>(model->link("LLEG_LINK5"))].translation();
+  CHECK((ankle - Eigen::Vector3d(0, 0.095, -0.6)).norm() < 1e-12);
+  const Srdf srdf = loadSrdf(robot.srdf, *model);
+  const Eigen::VectorXd q = kinematics.configuration(srdf.state("half_sitting"));
+  CHECK(q[kinematics.coordinate("RLEG_JOINT3")] == Approx(0.872665));
+}
+
+TEST_CASE("a pair depends on the joints between its links only") {
+  const RobotModel model =
+      parseUrdf(robot(link("a") + link("b") + link("c") + link("d") + joint("j1", "revolute", "a", "b") +
+                      joint("j2", "revolute", "b", "c") + joint("j3", "revolute", "b", "d")),
+                "fork.urdf");
+  const Kinematics kinematics(std::make_shared<const RobotModel>(model));
+  const auto list = kinematics.dependence(model.link("c"), model.link("d"));
+  REQUIRE(list.size() == 2);
+  CHECK(list[0].sign == -1);
+  CHECK(list[1].sign == 1);
+  CHECK(kinematics.dependence(model.link("c"), model.link("c")).empty());
+}

@@ -1,0 +1,144 @@
+// Bodies of links from meshes and primitives, and the cache of volumes.
+#include <catch2/catch.hpp>
+#include <filesystem>
+
+#include "fcl_stpbv/error.h"
+#include "fcl_stpbv/robot/mesh_file.h"
+#include "fcl_stpbv/volume/stpbv_file.h"
+#include "test/robot/robots.h"
+#include "test/robot/urdf_texts.h"
+#include "test/volume/volume_files.h"
+
+using namespace fcl_stpbv;
+using namespace fcl_stpbv::test;
+using Catch::Matchers::Contains;
+
+namespace {
+
+GeometryOptions cachedIn(const std::string& folder) {
+  GeometryOptions options;
+  options.cacheFolder = folder;
+  return options;
+}
+
+// A robot of one link with a tetrahedron of this size as its mesh.
+RobotModel tetrahedron(const TemporaryFolder& folder, double size) {
+  const std::string s = std::to_string(size);
+  put(folder / "mesh.obj",
+      "v 0 0 0\nv " + s + " 0 0\nv 0 " + s + " 0\nv 0 0 " + s + "\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n");
+  put(folder / "r.urdf", robot(link("a", "<mesh filename=\"mesh.obj\" scale=\"1 -1 1\"/>")));
+  return loadUrdf(folder / "r.urdf");
+}
+
+bool sameVolume(const StpBv& a, const StpBv& b) {
+  return a.vertices() == b.vertices() && a.faces() == b.faces();
+}
+
+}  // namespace
+
+TEST_CASE("every link of every robot becomes a body within its bounding sphere") {
+  for (const TestRobot& robot : robots()) {
+    const LoadedRobot loaded = load(robot);
+    INFO(robot.name);
+    std::size_t shapes = 0;
+    for (const LinkModel& link : loaded.model->links) shapes += link.collision.size();
+    CHECK(loaded.geometry.bodies.size() == shapes);
+    for (const Body& body : loaded.geometry.bodies) {
+      REQUIRE(body.geometry);
+      if (!body.volume) continue;
+      for (const Eigen::Vector3d& v : body.volume->vertices())
+        CHECK((body.pose * v - body.centre).norm() + body.volume->radii().r <= body.radius + 1e-12);
+      CHECK(body.cover.max >= body.volume->radii().r);
+    }
+    CHECK(loaded.geometry.warnings.empty());
+  }
+}
+
+TEST_CASE("a second load takes volumes from the cache, and others when content or radii change") {
+  TemporaryFolder folder;
+  const RobotModel model = tetrahedron(folder, 0.1);
+  GeometryOptions options = cachedIn(folder / "cache");
+  const RobotGeometry first = loadGeometry(model, options);
+  CHECK(first.fromCache == 0);
+  const RobotGeometry second = loadGeometry(model, options);
+  CHECK(second.fromCache == 1);
+  CHECK(sameVolume(*first.bodies[0].volume, *second.bodies[0].volume));
+  options.radii.r = 0.02;
+  CHECK(loadGeometry(model, options).fromCache == 0);
+  CHECK(loadGeometry(tetrahedron(folder, 0.2), options).fromCache == 0);
+}
+
+TEST_CASE("a damaged entry of the cache is built anew") {
+  TemporaryFolder folder;
+  const RobotModel model = tetrahedron(folder, 0.1);
+  const RobotGeometry first = loadGeometry(model, cachedIn(folder / "cache"));
+  for (const auto& entry : std::filesystem::directory_iterator(folder / "cache")) {
+    std::string text = contentOf(entry.path().string());
+    text[text.size() - 3] ^= 1;
+    put(entry.path().string(), text);
+  }
+  const RobotGeometry again = loadGeometry(model, cachedIn(folder / "cache"));
+  CHECK(again.fromCache == 0);
+  CHECK(sameVolume(*first.bodies[0].volume, *again.bodies[0].volume));
+  CHECK(loadGeometry(model, cachedIn(folder / "cache")).fromCache == 1);
+}
+
+TEST_CASE("a cache that cannot be written is done without") {
+  TemporaryFolder folder;
+  const RobotModel model = tetrahedron(folder, 0.1);
+  put(folder / "file", "not a folder");
+  CHECK(loadGeometry(model, cachedIn(folder / "file")).bodies.size() == 1);
+}
+
+TEST_CASE("single links have their own radii, and an over-cover budget raises R") {
+  TemporaryFolder folder;
+  const RobotModel model = tetrahedron(folder, 0.5);
+  GeometryOptions options = cachedIn("");
+  options.links["a"] = {0.005, 2};
+  CHECK(loadGeometry(model, options).bodies[0].volume->radii().R == 2);
+  options.overCoverBudget = 0.006;
+  const Body body = loadGeometry(model, options).bodies[0];
+  CHECK(body.cover.max <= 0.006);
+  CHECK(body.volume->radii().r == 0.005);
+  options.overCoverBudget = 0.004;
+  CHECK_THAT(refusal([&](const std::string&) { loadGeometry(model, options); }, ""), Contains("budget"));
+  options = cachedIn("");
+  options.links["nobody"] = {};
+  CHECK_THAT(refusal([&](const std::string&) { loadGeometry(model, options); }, ""), Contains("nobody"));
+}
+
+TEST_CASE("a mesh that is missing or broken names robot, link and file") {
+  TemporaryFolder folder;
+  const RobotModel model = tetrahedron(folder, 0.1);
+  put(folder / "mesh.obj", "nothing");
+  CHECK_THAT(refusal([&](const std::string&) { loadGeometry(model, cachedIn("")); }, ""),
+             Contains("r.urdf") && Contains("'a'") && Contains("mesh.obj"));
+  std::filesystem::remove(folder / "mesh.obj");
+  CHECK_THAT(refusal([&](const std::string&) { loadGeometry(model, cachedIn("")); }, ""),
+             Contains("'a'") && Contains("tried") && Contains(folder / "mesh.obj"));
+}
+
+TEST_CASE("primitives stay primitives") {
+  const RobotModel model =
+      parseUrdf(robot("<link name=\"a\"><collision><geometry><sphere radius=\"0.1\"/></geometry></collision>"
+                      "<collision><geometry><box size=\"1 2 2\"/></geometry></collision></link>"),
+                "p.urdf");
+  const RobotGeometry geometry = loadGeometry(model, cachedIn(""));
+  REQUIRE(geometry.bodies.size() == 2);
+  CHECK(geometry.bodies[0].geometry->getNodeType() == fcl::GEOM_SPHERE);
+  CHECK(geometry.bodies[1].radius == 1.5);
+  CHECK(geometry.bodies[1].name == "a#2");
+  CHECK(geometry.of(0) == std::pair<int, int>(0, 2));
+}
+
+TEST_CASE("a robot without collision shapes is used by its visual ones, with a warning") {
+  const std::string visual =
+      "<link name=\"a\"><visual><geometry><sphere radius=\"1\"/></geometry></visual></link>";
+  const RobotGeometry geometry = loadGeometry(parseUrdf(robot(visual), "v.urdf"), cachedIn(""));
+  CHECK(geometry.bodies.size() == 1);
+  REQUIRE(geometry.warnings.size() == 1);
+  CHECK_THAT(geometry.warnings[0], Contains("visual"));
+  const RobotGeometry nothing = loadGeometry(parseUrdf(robot(link("a")), "n.urdf"), cachedIn(""));
+  CHECK(nothing.bodies.empty());
+  CHECK(nothing.warnings.size() == 1);
+}

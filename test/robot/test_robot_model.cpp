@@ -1,0 +1,201 @@
+// Reading URDF and SRDF: what they say is kept, and what cannot be a robot is refused with a reason.
+#include <catch2/catch.hpp>
+
+#include "fcl_stpbv/error.h"
+#include "fcl_stpbv/robot/package_path.h"
+#include "fcl_stpbv/robot/robot_model.h"
+#include "fcl_stpbv/robot/srdf.h"
+#include "test/robot/urdf_texts.h"
+#include "test/volume/volume_files.h"
+
+using namespace fcl_stpbv;
+using namespace fcl_stpbv::test;
+using Catch::Matchers::Contains;
+
+namespace {
+
+RobotModel parse(const std::string& body) { return parseUrdf(robot(body), "small.urdf"); }
+std::string refused(const std::string& text) {
+  return refusal([](const std::string& t) { parseUrdf(t, "small.urdf"); }, text);
+}
+
+}  // namespace
+
+TEST_CASE("links come parents first and joints in the order of the file") {
+  const RobotModel model =
+      parse(link("tip") + link("base") + link("mid") + joint("b", "revolute", "mid", "tip") +
+            joint("a", "continuous", "base", "mid"));
+  REQUIRE(model.links.size() == 3);
+  CHECK(model.links[0].name == "base");
+  CHECK(model.links[1].name == "mid");
+  CHECK(model.links[2].name == "tip");
+  CHECK(model.joints[0].name == "b");
+  CHECK(model.joints[0].parent == 1);
+  CHECK(model.links[2].parentJoint == 0);
+  CHECK(model.joints[1].upper == Approx(M_PI));
+  CHECK(model.link("nobody") == -1);
+}
+
+TEST_CASE("primitives keep their kind and sizes") {
+  const RobotModel model = parse(
+      "<link name=\"a\">"
+      "<collision><geometry><sphere radius=\"0.1\"/></geometry></collision>"
+      "<collision><origin xyz=\"0 0 1\" rpy=\"0 1.5707963267948966 0\"/>"
+      "<geometry><box size=\"1 2 3\"/></geometry></collision>"
+      "<collision><geometry><capsule radius=\"0.2\" length=\"0.5\"/></geometry></collision>"
+      "<collision><geometry><mesh filename=\"x.stl\" scale=\"1 -1 1\"/></geometry></collision></link>");
+  const std::vector<ShapeModel>& shapes = model.links[0].collision;
+  REQUIRE(shapes.size() == 4);
+  CHECK(shapes[0].kind == ShapeKind::sphere);
+  CHECK(shapes[1].kind == ShapeKind::box);
+  CHECK((shapes[1].pose * Eigen::Vector3d(0, 0, 1) - Eigen::Vector3d(1, 0, 1)).norm() < 1e-15);
+  CHECK(shapes[2].kind == ShapeKind::capsule);
+  CHECK(shapes[2].size.y() == 0.5);
+  CHECK(shapes[3].scale.y() == -1);
+}
+
+TEST_CASE("a cylinder with a sphere of its radius at either end is a capsule") {
+  const std::string ends =
+      "<collision><origin xyz=\"0 0 0.5\"/><geometry><sphere radius=\"0.1\"/></geometry></collision>"
+      "<collision><origin xyz=\"0 0 -0.5\"/><geometry><sphere radius=\"0.1\"/></geometry></collision>";
+  const std::string cylinder =
+      "<collision><geometry><cylinder radius=\"0.1\" length=\"1\"/></geometry></collision>";
+  const RobotModel model = parse("<link name=\"a\">" + ends + cylinder + "</link>");
+  REQUIRE(model.links[0].collision.size() == 1);
+  CHECK(model.links[0].collision[0].kind == ShapeKind::capsule);
+  CHECK(model.links[0].collision[0].size.y() == 1);
+}
+
+TEST_CASE("a mimic joint is tied to the end of its chain") {
+  const RobotModel model =
+      parse(link("a") + link("b") + link("c") + link("d") + joint("j1", "revolute", "a", "b") +
+            joint("j2", "revolute", "b", "c", "<mimic joint=\"j1\" multiplier=\"2\" offset=\"0.5\"/>") +
+            joint("j3", "revolute", "c", "d", "<mimic joint=\"j2\" multiplier=\"-1\" offset=\"0.25\"/>"));
+  REQUIRE(model.joints[2].mimic);
+  CHECK(model.joints[2].mimic->joint == 0);
+  CHECK(model.joints[2].mimic->multiplier == -2);
+  CHECK(model.joints[2].mimic->offset == -0.25);
+}
+
+TEST_CASE("what cannot be a robot is refused with a reason") {
+  const std::string ab = link("a") + link("b");
+  CHECK_THAT(refused("hello"), Contains("small.urdf"));
+  CHECK_THAT(refused(""), Contains("small.urdf"));
+  CHECK_THAT(refused("<robot name=\"x\"/>"), Contains("has no links"));
+  CHECK_THAT(refused("<sdf/>"), Contains("expected <robot>"));
+  CHECK_THAT(refused(robot(ab)), Contains("have no parent"));
+  CHECK_THAT(refused(robot(ab + joint("j", "revolute", "a", "b") + joint("k", "revolute", "b", "a"))),
+             Contains("form a loop"));
+  CHECK_THAT(
+      refused(robot(link("r") + ab + joint("j", "revolute", "a", "b") + joint("k", "revolute", "b", "a"))),
+      Contains("form a loop"));
+  CHECK_THAT(refused(robot(link("a") + joint("j", "fixed", "a", "a"))), Contains("form a loop"));
+  CHECK_THAT(refused(robot(ab + joint("j", "revolute", "a", "b") + joint("k", "revolute", "a", "b"))),
+             Contains("child of two joints"));
+  CHECK_THAT(refused(robot(ab + joint("j", "revolute", "a", "z"))), Contains("no link 'z'"));
+  CHECK_THAT(refused(robot(ab + link("a"))), Contains("two links are named"));
+  CHECK_THAT(refused(robot(ab + joint("j", "bendy", "a", "b"))), Contains("bendy"));
+  CHECK_THAT(refused(robot(ab + joint("j", "revolute", "a", "b", "<axis xyz=\"0 0 0\"/>"))),
+             Contains("axis"));
+  CHECK_THAT(refused(robot(ab + joint("j", "revolute", "a", "b", "<mimic joint=\"q\"/>"))), Contains("'q'"));
+  CHECK_THAT(refused(robot(ab + link("c") + joint("j", "revolute", "a", "b", "<mimic joint=\"k\"/>") +
+                           joint("k", "revolute", "b", "c", "<mimic joint=\"j\"/>"))),
+             Contains("mimics itself"));
+  CHECK_THAT(refused(robot(link("a", "<sphere radius=\"-1\"/>"))), Contains("'a'"));
+  CHECK_THAT(refused(robot(link("a", "<mesh filename=\"m.stl\" scale=\"1 0 1\"/>"))), Contains("scale"));
+  CHECK_THAT(refused("<robot xmlns:xacro=\"x\"><xacro:macro/></robot>"), Contains("xacro"));
+}
+
+TEST_CASE("bombs of entities, depth and NUL bytes are refused at once") {
+  std::string bomb = "<?xml version=\"1.0\"?><!DOCTYPE robot [<!ENTITY a0 \"lol\">";
+  for (int i = 1; i < 40; ++i)
+    bomb += "<!ENTITY a" + std::to_string(i) + " \"&a" + std::to_string(i - 1) + ";&a" +
+            std::to_string(i - 1) + ";\">";
+  CHECK_THAT(refused(bomb + "]><robot name=\"&a39;\"/>"), Contains("small.urdf"));
+  std::string deep = "<robot name=\"x\">";
+  for (int i = 0; i < 100000; ++i) deep += "<link>";
+  CHECK_THAT(refused(deep), Contains("nested deeper"));
+  CHECK_THAT(refused(std::string("<robot name=\"x\">\0</robot>", 25)), Contains("NUL"));
+}
+
+TEST_CASE("a text cut short anywhere is refused or read, never a crash") {
+  const std::string text =
+      robot(link("a", "<box size=\"1 1 1\"/>") + link("b") + joint("j", "revolute", "a", "b"));
+  for (std::size_t n = 0; n < text.size(); ++n) refused(text.substr(0, n));
+  for (std::size_t n = 0; n < text.size(); ++n) {
+    std::string changed = text;
+    changed[n] = '"';
+    refused(changed);
+  }
+}
+
+TEST_CASE("ten thousand links in one chain are read") {
+  std::string body = link("l0");
+  for (int i = 1; i < 10000; ++i) {
+    body += link("l" + std::to_string(i));
+    body += joint("j" + std::to_string(i), "revolute", "l" + std::to_string(i - 1), "l" + std::to_string(i));
+  }
+  CHECK(parse(body).links.size() == 10000);
+}
+
+TEST_CASE("package names are found in given folders, in the environment and around the URDF") {
+  TemporaryFolder folder;
+  put(folder / "robot.urdf", robot(link("a")));
+  put(folder / "mesh.stl", "x");
+  put(folder / "package.xml", "<package><name>pkg</name></package>");
+  const PackagePath paths(folder / "robot.urdf");
+  CHECK(paths.resolve("package://pkg/mesh.stl") == folder / "mesh.stl");
+  CHECK(paths.resolve("mesh.stl") == folder / "mesh.stl");
+  CHECK(paths.resolve("file://" + (folder / "mesh.stl")) == folder / "mesh.stl");
+  CHECK(paths.resolve(folder / "mesh.stl") == folder / "mesh.stl");
+  const PackagePath given("/somewhere/robot.urdf", {folder / ""});
+  CHECK(given.resolve("package://pkg/mesh.stl") == folder / "mesh.stl");
+}
+
+TEST_CASE("a missing file names every path that was tried") {
+  ::setenv("ROS_PACKAGE_PATH", "/ros/one:/ros/two", 1);
+  ::setenv("AMENT_PREFIX_PATH", "/ament", 1);
+  const PackagePath paths("/home/robot.urdf", {"/given"});
+  const std::string message =
+      refusal([&](const std::string& uri) { paths.resolve(uri); }, "package://pkg/meshes/a.stl");
+  ::unsetenv("ROS_PACKAGE_PATH");
+  ::unsetenv("AMENT_PREFIX_PATH");
+  for (const char* tried : {"/given/pkg/meshes/a.stl", "/ros/one/pkg/meshes/a.stl",
+                            "/ros/two/pkg/meshes/a.stl", "/ament/share/pkg/meshes/a.stl", "--package-path"})
+    CHECK_THAT(message, Contains(tried));
+}
+
+TEST_CASE("an SRDF gives pairs, states and the way the base moves") {
+  TemporaryFolder folder;
+  const RobotModel model = parse(link("a") + link("b") + joint("j", "revolute", "a", "b"));
+  put(folder / "s.srdf",
+      "<robot name=\"small\"><virtual_joint name=\"v\" type=\"floating\" parent_frame=\"w\" "
+      "child_link=\"a\"/>"
+      "<disable_collisions link1=\"b\" link2=\"a\" reason=\"Adjacent\"/>"
+      "<group_state name=\"up\" group=\"g\"><joint name=\"j\" value=\"0.5\"/></group_state></robot>");
+  const Srdf srdf = loadSrdf(folder / "s.srdf", model);
+  CHECK(srdf.reasonToSkip("a", "b") == "Adjacent");
+  CHECK(srdf.baseType == "floating");
+  CHECK(srdf.state("up").joints.at("j")[0] == 0.5);
+  CHECK_THAT(refusal([&](const std::string& name) { srdf.state(name); }, "down"), Contains("up"));
+}
+
+TEST_CASE("an SRDF of another robot is refused with the line") {
+  TemporaryFolder folder;
+  const RobotModel model = parse(link("a"));
+  put(folder / "s.srdf", "<robot>\n<disable_collisions link1=\"a\" link2=\"z\"/></robot>");
+  CHECK_THAT(refusal([&](const std::string& path) { loadSrdf(path, model); }, folder / "s.srdf"),
+             Contains("s.srdf:2") && Contains("'z'"));
+}
+
+TEST_CASE("new pairs replace old ones in an SRDF and leave the user's own alone") {
+  TemporaryFolder folder;
+  put(folder / "s.srdf",
+      "<robot name=\"small\"><group name=\"g\"/><disable_collisions link1=\"a\" link2=\"b\" "
+      "reason=\"Never\"/>"
+      "<disable_collisions link1=\"a\" link2=\"c\" reason=\"User\"/></robot>");
+  const std::string text = withPairs(folder / "s.srdf", "small", {{"b", "c", "Adjacent"}});
+  CHECK_THAT(text, Contains("<group name=\"g\"") && Contains("reason=\"User\"") && Contains("Adjacent") &&
+                       !Contains("Never"));
+  CHECK_THAT(withPairs("", "small", {{"b", "c", "Adjacent"}}), Contains("<robot name=\"small\">"));
+}

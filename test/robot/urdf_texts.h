@@ -1,0 +1,22 @@
+// Small robots as texts.
+#pragma once
+
+#include <string>
+
+namespace fcl_stpbv::test {
+
+inline std::string robot(const std::string& body) {
+  return "<?xml version=\"1.0\"?>\n<robot name=\"small\">" + body + "</robot>";
+}
+inline std::string link(const std::string& name, const std::string& geometry = "") {
+  return "<link name=\"" + name + "\">" +
+         (geometry.empty() ? "" : "<collision><geometry>" + geometry + "</geometry></collision>") + "</link>";
+}
+inline std::string joint(const std::string& name, const std::string& type, const std::string& parent,
+                         const std::string& child, const std::string& more = "") {
+  return "<joint name=\"" + name + "\" type=\"" + type + "\"><parent link=\"" + parent +
+         "\"/><child link=\"" + child + "\"/><limit lower=\"-1\" upper=\"1\" effort=\"1\" velocity=\"1\"/>" +
+         more + "</joint>";
+}
+
+}  // namespace fcl_stpbv::test
