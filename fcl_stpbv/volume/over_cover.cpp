@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
-#include "fcl_stpbv/volume/ball_side.h"
+#include "fcl_stpbv/volume/hull_excess.h"
 #include "fcl_stpbv/volume/measure.h"
-#include "fcl_stpbv/volume/rolling_ball.h"
 
 namespace fcl_stpbv {
 namespace {
@@ -135,64 +135,82 @@ constexpr std::array<TrianglePoint, 7> kTriangle{{{1.0 / 3, 1.0 / 3, 1.0 / 3, kW
                                                   {kB2, kA2, kB2, kW2},
                                                   {kB2, kB2, kA2, kW2}}};
 
-// Over a segment the surface is an arc of radius R.
-OverCover overCoverOfLine(const StpBv& volume) {
+// Mean height of a spindle over its own segment: an arc of radius R.
+double meanOverSegment(const StpBv& volume) {
   const Radii& radii = volume.radii();
   const Patch& patch = volume.patch(volume.edgePatch(0));
-  const double half = std::sqrt(patch.sag * (radii.rho + patch.kappa)), top = radii.r + patch.sag;
+  const double half = std::sqrt(patch.sag * (radii.rho + patch.kappa));
   constexpr int kPieces = 1000;
   double sum = 0;
   for (int k = 0; k < kPieces; ++k) {
     const double s = half * (2 * (k + 0.5) / kPieces - 1);
-    sum += top - s * s / (radii.R + std::sqrt(radii.R * radii.R - s * s));
+    sum += radii.r + patch.sag - s * s / (radii.R + std::sqrt(radii.R * radii.R - s * s));
   }
-  return {top, sum / kPieces};
+  return sum / kPieces;
 }
 
 }  // namespace
 
-OverCover overCover(const StpBv& volume) { return overCover(volume, volume.vertices()); }
+HullExcess::HullExcess(const std::vector<Vector3d>& points) : points_(points) {
+  RolledHull hull = rollBall(points);
+  faces_ = std::move(hull.faces);
+  ends_ = std::move(hull.vertices);
+  for (const std::vector<int>& ring : faces_) {
+    const std::array<int, 3> wide = wideTriangle(points_, ring);
+    normals_.push_back((at(wide[1]) - at(wide[0])).cross(at(wide[2]) - at(wide[0])).normalized());
+  }
+  halfEdges_ = pairHalfEdges(points_, faces_, normals_, std::numeric_limits<double>::infinity());
+}
 
-OverCover overCover(const StpBv& volume, const std::vector<Vector3d>& points) {
-  if (volume.vertexCount() == 1) return {volume.radii().r, volume.radii().r};
-  const auto at = [&](int i) -> const Vector3d& { return points[static_cast<std::size_t>(i)]; };
-  const RolledHull hull = rollBall(points);
-  if (hull.faces.empty()) return overCoverOfLine(volume);
+double HullExcess::max(const StpBv& volume) const {
+  const auto along = [&](const Vector3d& n, int vertex) {
+    const int patch = volume.owner(n);
+    return n.dot(volume.patch(patch).anchor - at(vertex)) +
+           supportAboveAnchor(volume.patch(patch), volume.kind(patch), volume.radii(), n);
+  };
+  double best = 0;
+  if (faces_.empty()) {  // a point, or a segment as an edge with normals all the way round
+    const Vector3d edge = at(ends_.back()) - at(ends_.front());
+    const Vector3d u = edge.norm() > 0 ? Vector3d(edge.normalized()) : Vector3d::UnitX();
+    best = std::max(along(u, ends_.back()), along(-u, ends_.front()));
+    return std::max(best,
+                    largestOverEdge(volume, at(ends_.front()), u, u.unitOrthogonal(), 6.283185307179586));
+  }
+  for (std::size_t f = 0; f < faces_.size(); ++f) best = std::max(best, along(normals_[f], faces_[f][0]));
+  for (std::size_t h = 0; h < halfEdges_.size(); ++h) {
+    const HalfEdge& edge = halfEdges_[h];
+    if (edge.twin < static_cast<int>(h)) continue;
+    const std::vector<int>& ring = faces_[static_cast<std::size_t>(edge.face)];
+    const Vector3d& a = at(ring[static_cast<std::size_t>(edge.corner)]);
+    const Vector3d& b = at(ring[(static_cast<std::size_t>(edge.corner) + 1) % ring.size()]);
+    const Vector3d u = (b - a).normalized(), n = normals_[static_cast<std::size_t>(edge.face)];
+    best = std::max(best, largestOverEdge(volume, a, u, (n - n.dot(u) * u).normalized(), edge.turn));
+  }
+  return best;
+}
 
-  OverCover result{volume.radii().r, 0};
+double HullExcess::mean(const StpBv& volume) const {
+  if (faces_.empty()) return volume.edgeCount() == 1 ? meanOverSegment(volume) : volume.radii().r;
   double area = 0, sum = 0;
-  std::vector<Vector3d> normals;
-  for (const std::vector<int>& ring : hull.faces) {
-    const std::array<int, 3> wide = wideTriangle(points, ring);
-    const Vector3d n = (at(wide[1]) - at(wide[0])).cross(at(wide[2]) - at(wide[0])).normalized();
-    normals.push_back(n);
-    int patch = volume.owner(n);
-    result.max = std::max(result.max,
-                          n.dot(volume.patch(patch).anchor - at(ring[0])) +
-                              supportAboveAnchor(volume.patch(patch), volume.kind(patch), volume.radii(), n));
+  for (std::size_t f = 0; f < faces_.size(); ++f) {
+    int patch = volume.owner(normals_[f]);
+    const std::vector<int>& ring = faces_[f];
     for (std::size_t k = 1; k + 1 < ring.size(); ++k) {
       const Vector3d a = at(ring[0]), b = at(ring[k]), c = at(ring[k + 1]);
       const double size = 0.5 * (b - a).cross(c - a).norm();
       area += size;
       for (const TrianglePoint& t : kTriangle)
-        sum += size * t.weight * heightOver(volume, t.a * a + t.b * b + t.c * c, n, &patch);
+        sum += size * t.weight * heightOver(volume, t.a * a + t.b * b + t.c * c, normals_[f], &patch);
     }
   }
-  result.mean = area > 0 ? sum / area : volume.radii().r;
+  return sum / area;
+}
 
-  const std::vector<HalfEdge> halfEdges =
-      pairHalfEdges(points, hull.faces, normals, std::numeric_limits<double>::infinity());
-  for (std::size_t h = 0; h < halfEdges.size(); ++h) {
-    const HalfEdge& edge = halfEdges[h];
-    if (edge.twin < static_cast<int>(h)) continue;
-    const std::vector<int>& ring = hull.faces[static_cast<std::size_t>(edge.face)];
-    const Vector3d& a = at(ring[static_cast<std::size_t>(edge.corner)]);
-    const Vector3d& b = at(ring[(static_cast<std::size_t>(edge.corner) + 1) % ring.size()]);
-    const Vector3d u = (b - a).normalized(), n = normals[static_cast<std::size_t>(edge.face)];
-    result.max =
-        std::max(result.max, largestOverEdge(volume, a, u, (n - n.dot(u) * u).normalized(), edge.turn));
-  }
-  return result;
+OverCover overCover(const StpBv& volume) { return overCover(volume, volume.vertices()); }
+
+OverCover overCover(const StpBv& volume, const std::vector<Vector3d>& cloud) {
+  const HullExcess excess(cloud);
+  return {excess.max(volume), excess.mean(volume)};
 }
 
 }  // namespace fcl_stpbv

@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <limits>
 
-#include "fcl_stpbv/volume/minimum_ball.h"
+#include "fcl_stpbv/volume/measure.h"
 #include "fcl_stpbv/volume/point_tree.h"
 #include "fcl_stpbv/volume/regions.h"
 #include "fcl_stpbv/volume/rolling_ball.h"
@@ -33,29 +33,24 @@ std::string number(double value) {
   return text;
 }
 
-double containmentOf(const StpBv& volume, const std::vector<Vector3d>& points) {
+// Largest height over the surface pulled in by `margin`, of the volume's own vertices and of a cloud's. A
+// vertex is on its own patch, so its faces' balls decide; any other point may come closest to an edge, and of
+// a cloud only the hull counts.
+double containmentOf(const StpBv& volume, const std::vector<Vector3d>& cloud, double margin) {
   double worst = -std::numeric_limits<double>::infinity();
-  const PointTree tree(points);
+  const std::vector<Vector3d>& own = volume.vertices();
+  const PointTree tree(own);
   std::vector<int> near;
-  const double rho = volume.radii().rho;
   for (int f = 0; f < volume.faceCount(); ++f) {
     const Patch& face = volume.patch(volume.facePatch(f));
-    worst = std::max(worst, tree.highest(face.anchor, face.axis, 1 / rho, 0, &near).height);
+    worst = std::max(worst, tree.highest(face.anchor, face.axis, 1 / volume.radii().rho, 0, &near).height);
   }
-  if (volume.faceCount() > 0) return worst;
-  // A sphere or a spindle: the core is the point, or the arc of radius rho turned about the two points' line.
-  for (const Vector3d& p : points) {
-    const Vector3d q = p - volume.patch(0).anchor;
-    if (volume.vertexCount() == 1) {
-      worst = std::max(worst, q.norm());
-      continue;
-    }
-    const Patch& edge = volume.patch(volume.edgePatch(0));
-    const Vector3d d = p - edge.anchor;
-    const double along = d.dot(edge.axis), across = (d - along * edge.axis).norm();
-    const double half2 = edge.sag * (rho + edge.kappa);
-    // |(across + kappa, along)| <= rho, written without the large squares.
-    worst = std::max(worst, (across * (across + 2 * edge.kappa) + along * along - half2) / (2 * rho));
+  if (cloud.empty()) return worst;
+  for (const int i : rollBall(cloud).vertices) {
+    const Vector3d& p = cloud[static_cast<std::size_t>(i)];
+    tree.within(p, 0, &near, 1);
+    if (near.empty() || margin > volume.radii().r)
+      worst = std::max(worst, signedDistance(volume, p) + margin);
   }
   return worst;
 }
@@ -153,10 +148,14 @@ std::vector<double> solidAngles(const StpBv& volume) {
 }
 
 Verification verify(const StpBv& volume, const std::vector<Vector3d>& points) {
+  return verify(volume, points, volume.radii().r);
+}
+
+Verification verify(const StpBv& volume, const std::vector<Vector3d>& points, double margin) {
   Verification result;
   std::vector<Vector3d> all = volume.vertices();
   all.insert(all.end(), points.begin(), points.end());
-  result.containment = containmentOf(volume, all);
+  result.containment = containmentOf(volume, points, margin);
   double sum = 0, least = 0;
   for (const double angle : solidAngles(volume)) sum += angle, least = std::min(least, angle);
   result.solidAngleError = sum - 4 * kPi;
@@ -169,7 +168,8 @@ Verification verify(const StpBv& volume, const std::vector<Vector3d>& points) {
   // Angles: each corner is rounded by a few units, more where an edge is short and its direction rounded.
   const double angle = 1e-13 * (16 + volume.edgeCount());
   if (!(result.containment <= length))
-    result.message = "a point lies " + number(result.containment) + " m outside a big ball";
+    result.message =
+        "a point lies " + number(result.containment) + " m nearer to the surface than the margin";
   else if (!(std::abs(result.solidAngleError) <= angle) || !(least >= -angle))
     result.message =
         "the regions of normals do not tile the sphere: off by " + number(result.solidAngleError) + " sr";

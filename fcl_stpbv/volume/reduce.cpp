@@ -1,0 +1,141 @@
+#include "fcl_stpbv/volume/reduce.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <numeric>
+
+#include "fcl_stpbv/volume/hull_excess.h"
+#include "fcl_stpbv/volume/measure.h"
+#include "fcl_stpbv/volume/minimum_ball.h"
+#include "fcl_stpbv/volume/rolling_ball.h"
+
+namespace fcl_stpbv {
+namespace {
+
+using Eigen::Vector3d;
+using Cloud = std::vector<Vector3d>;
+
+class Reducer {
+ public:
+  Reducer(const Cloud& points, const StpBvOptions& options, double budget)
+      : options_(options), budget_(budget), full_(StpBv::build(points, options)), excess_(points) {
+    for (const int i : rollBall(points).vertices) hull_.push_back(points[static_cast<std::size_t>(i)]);
+    const double own = excess_.max(*full_);
+    if (!(own <= budget)) {
+      char text[200];
+      std::snprintf(
+          text, sizeof text,
+          "an over-cover of %.9g m cannot be reached: with r = %.9g m and R = %.9g m all points give %.9g m; "
+          "allow more or choose a smaller r or a larger R",
+          budget, options.r, options.R, own);
+      throw Error(text);
+    }
+  }
+
+  StpBv::Ptr run() {
+    for (const Cloud& simple : {sphere(), spindle()})
+      if (const StpBv::Ptr volume = cover(simple)) return volume;
+    const StpBv::Ptr grown = grow();
+    return grown ? thin(grown) : full_;
+  }
+
+ private:
+  // How far each point sticks out of the margin.
+  std::vector<double> sticksOut(const StpBv& volume) const {
+    std::vector<double> heights;
+    for (const Vector3d& p : hull_) heights.push_back(signedDistance(volume, p) + options_.r);
+    return heights;
+  }
+
+  // The volume on these vertices with r grown until it covers all points with the margin; null where it
+  // cannot or exceeds the budget.
+  StpBv::Ptr cover(const Cloud& vertices) const {
+    StpBvOptions grown = options_;
+    // A larger r makes rho smaller and the core rounder, so the first growth is at most a little too much.
+    for (int round = 0; round < 20; ++round) {
+      if (grown.R <= StpBv::smallestR(vertices, grown.r)) return nullptr;
+      const StpBv::Ptr volume = StpBv::build(vertices, grown);
+      const std::vector<double> heights = sticksOut(*volume);
+      const double height = *std::max_element(heights.begin(), heights.end());
+      if (height <= 0) return excess_.max(*volume) <= budget_ ? volume : nullptr;
+      grown.r += height + 1e-15;
+    }
+    return nullptr;
+  }
+
+  Cloud sphere() const { return {minimumEnclosingBall(hull_).centre}; }
+
+  // The segment along the cloud's long axis, its ends drawn in where that covers tighter.
+  Cloud spindle() const {
+    Vector3d mean = Vector3d::Zero();
+    for (const Vector3d& p : hull_) mean += p / static_cast<double>(hull_.size());
+    Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+    for (const Vector3d& p : hull_) spread += (p - mean) * (p - mean).transpose();
+    const Vector3d axis = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvectors().col(2);
+    const Vector3d centre = minimumEnclosingBall(hull_).centre;
+    double low = 0, high = 0, across = 0;
+    for (const Vector3d& p : hull_) {
+      const double along = (p - centre).dot(axis);
+      low = std::min(low, along), high = std::max(high, along);
+      across = std::max(across, (p - centre - along * axis).norm());
+    }
+    Cloud best = {centre + low * axis, centre + high * axis};
+    for (double inset = 0.25; inset <= 1; inset += 0.25) {
+      const double in = std::min(inset * across, 0.45 * (high - low));
+      const Cloud trial = {centre + (low + in) * axis, centre + (high - in) * axis};
+      if (cover(trial)) best = trial;
+    }
+    return best;
+  }
+
+  // Adds the points that stick out most, a sixteenth more at a time, until the budget is kept; null where
+  // that takes as many as the full volume has.
+  StpBv::Ptr grow() const {
+    Cloud chosen = {hull_[0]};
+    while (static_cast<int>(chosen.size()) < full_->vertexCount()) {
+      const std::vector<double> heights = sticksOut(*StpBv::build(chosen, options_));
+      std::vector<std::size_t> order(hull_.size());
+      std::iota(order.begin(), order.end(), std::size_t{0});
+      std::sort(order.begin(), order.end(),
+                [&](std::size_t i, std::size_t j) { return heights[i] > heights[j]; });
+      // What sticks out is added to r; where that alone is over the budget there is no need to try.
+      if (heights[order[0]] <= budget_ - options_.r)
+        if (const StpBv::Ptr volume = cover(chosen)) return volume;
+      const std::size_t more = 1 + chosen.size() / 16;
+      for (std::size_t k = 0; k < std::min(more, order.size()) && heights[order[k]] > 0; ++k)
+        chosen.push_back(hull_[order[k]]);
+      if (heights[order[0]] <= 0) break;
+    }
+    return nullptr;
+  }
+
+  // Drops each vertex that the budget can spare.
+  StpBv::Ptr thin(StpBv::Ptr best) const {
+    for (int i = 0; i < best->vertexCount() && best->vertexCount() > 1;) {
+      Cloud fewer = best->vertices();
+      fewer.erase(fewer.begin() + i);
+      const StpBv::Ptr trial = cover(fewer);
+      if (trial && trial->vertexCount() < best->vertexCount())
+        best = trial;
+      else
+        ++i;
+    }
+    return best;
+  }
+
+  StpBvOptions options_;
+  double budget_;
+  StpBv::Ptr full_;
+  HullExcess excess_;
+  Cloud hull_;  // the points that matter: vertices of the convex hull
+};
+
+}  // namespace
+
+StpBv::Ptr reduce(const std::vector<Vector3d>& points, const StpBvOptions& options, double overCover) {
+  return Reducer(points, options, overCover).run();
+}
+
+}  // namespace fcl_stpbv
