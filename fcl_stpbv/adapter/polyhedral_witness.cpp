@@ -50,27 +50,24 @@ bool holds(const Simplex& s, const SimplexCorner& c) {
   return false;
 }
 
-/// The distinct vertices of one body in the simplex, heaviest first.
+/// The distinct vertices of one body in the simplex, heaviest first; how many.
 int verticesOf(const Simplex& s, int SimplexCorner::*vertex, std::array<int, 3>& out) {
-  std::array<double, 4> weight{};
-  std::array<int, 4> id{};
+  std::array<double, 3> weight{};
   int count = 0;
   for (std::size_t i = 0; i < static_cast<std::size_t>(s.size); ++i) {
-    const int v = s.corner[i].*vertex;
-    const auto k = static_cast<std::size_t>(std::find(id.begin(), id.begin() + count, v) - id.begin());
-    if (static_cast<int>(k) == count) id[k] = v, ++count;
+    std::size_t k = 0;
+    while (static_cast<int>(k) < count && out[k] != s.corner[i].*vertex) ++k;
+    if (static_cast<int>(k) == count) out[k] = s.corner[i].*vertex, ++count;
     weight[k] += s.weight[i];
   }
-  int kept = 0;
-  out = {-1, -1, -1};
-  for (int n = 0; n < std::min(count, 3); ++n) {
-    const auto k =
-        static_cast<std::size_t>(std::max_element(weight.begin(), weight.begin() + count) - weight.begin());
-    if (weight[k] < kMinWeight) break;
-    out[static_cast<std::size_t>(kept++)] = id[k];
-    weight[k] = -1;
-  }
-  return kept;
+  for (std::size_t i = 1; static_cast<int>(i) < count; ++i)
+    for (std::size_t k = i; k > 0 && weight[k] > weight[k - 1]; --k) {
+      std::swap(weight[k], weight[k - 1]);
+      std::swap(out[k], out[k - 1]);
+    }
+  while (count > 1 && weight[static_cast<std::size_t>(count) - 1] < kMinWeight)
+    out[static_cast<std::size_t>(--count)] = -1;
+  return count;
 }
 
 }  // namespace
@@ -92,27 +89,28 @@ PolyhedralWitness polyhedralWitness(const HullGraph& a, const Eigen::Isometry3d&
   // The distance loop of GJK on A - B: v the simplex's point nearest to the origin, n = -v/|v| the direction
   // from A to B. Any n gives the lower bound, any v the upper; they meet at the answer (docs/theory.md, 5,
   // for a polytope).
-  Simplex simplex, best;
-  Vector3d v(0, 0, 0);
-  double lower = -std::numeric_limits<double>::infinity(), upper = std::numeric_limits<double>::infinity();
+  Simplex simplex, reduced[2];
+  double upper = std::numeric_limits<double>::infinity();
   simplex.add(pair.support(n));
-  lower = -simplex.corner[0].point.dot(n);
+  double lower = -simplex.corner[0].point.dot(n);
   // Where the first plane separates the hulls already, FCL's intersection test would end at that same point.
   if (!(lower > 0)) simplex = runFclGjk(pair);
-  best = simplex;
+  int best = 0;  // which of `reduced` holds the nearest point so far
   bool inside = false;
   for (int step = 0; step < kMaxSteps; ++step) {
-    const NearestPoint near = reduceToNearest(simplex);
+    Simplex& trial = reduced[1 - best];
+    const NearestPoint near = reduceToNearest(simplex, trial);
     inside = near.inside;
     const double length = near.point.norm();
     if (inside || !(length < upper)) break;  // no progress: rounding
+    best = 1 - best;
     upper = length;
-    v = near.point;
-    best = simplex;
-    n = -v / length;
+    n = -near.point / length;
     const SimplexCorner next = pair.support(n);
     lower = std::max(lower, -next.point.dot(n));
-    if (upper - lower <= kGapTolerance * (1 + upper) || holds(simplex, next)) break;
+    if (upper - lower <= kGapTolerance * (1 + upper) || holds(trial, next)) break;
+    simplex.size = 0;
+    for (int i = 0; i < trial.size; ++i) simplex.add(trial.corner[static_cast<std::size_t>(i)]);
     simplex.add(next);
   }
 
@@ -128,15 +126,16 @@ PolyhedralWitness polyhedralWitness(const HullGraph& a, const Eigen::Isometry3d&
   result.verdict = lower > 0        ? Verdict::separated
                    : upper <= 1e-12 ? Verdict::overlapping  // touching to rounding
                                     : Verdict::failed;
+  const Simplex& answer = reduced[best];
   Vector3d pa(0, 0, 0), pb(0, 0, 0);
-  for (std::size_t i = 0; i < static_cast<std::size_t>(best.size); ++i) {
-    pa += best.weight[i] * pair.pointA(best.corner[i].vertexA);
-    pb += best.weight[i] * pair.pointB(best.corner[i].vertexB);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(answer.size); ++i) {
+    pa += answer.weight[i] * pair.pointA(answer.corner[i].vertexA);
+    pb += answer.weight[i] * pair.pointB(answer.corner[i].vertexB);
   }
   const Vector3d centre = poseA * a.centre();
   result.point = {centre + poseA.linear() * (metres * pa), centre + poseA.linear() * (metres * pb)};
-  const int countA = verticesOf(best, &SimplexCorner::vertexA, result.vertices[0]);
-  const int countB = verticesOf(best, &SimplexCorner::vertexB, result.vertices[1]);
+  const int countA = verticesOf(answer, &SimplexCorner::vertexA, result.vertices[0]);
+  const int countB = verticesOf(answer, &SimplexCorner::vertexB, result.vertices[1]);
   result.feature = {a.featureOf(result.vertices[0].data(), countA),
                     b.featureOf(result.vertices[1].data(), countB)};
   return result;

@@ -65,18 +65,17 @@ Candidate nearestOnTriangle(const Simplex& s, int i, int j, int k) {
 /// Six times the signed volume of the tetrahedron from the origin over a triangle.
 double volume(const Vector3d& a, const Vector3d& b, const Vector3d& c) { return a.dot(b.cross(c)); }
 
-void keep(Simplex& s, const Candidate& best) {
-  const Simplex old = s;
-  s.size = best.size;
+void keep(const Simplex& s, const Candidate& best, Simplex& reduced) {
+  reduced.size = best.size;
   for (std::size_t i = 0; i < static_cast<std::size_t>(best.size); ++i) {
-    s.corner[i] = old.corner[static_cast<std::size_t>(best.corner[i])];
-    s.weight[i] = best.weight[i];
+    reduced.corner[i] = s.corner[static_cast<std::size_t>(best.corner[i])];
+    reduced.weight[i] = best.weight[i];
   }
 }
 
 }  // namespace
 
-NearestPoint reduceToNearest(Simplex& s) {
+NearestPoint reduceToNearest(const Simplex& s, Simplex& reduced) {
   Candidate best{};
   switch (s.size) {
     case 1:
@@ -95,7 +94,8 @@ NearestPoint reduceToNearest(Simplex& s) {
       const bool inside = (va > 0 && vb > 0 && vc > 0 && vd > 0) || (va < 0 && vb < 0 && vc < 0 && vd < 0);
       if (inside) {
         const double sum = va + vb + vc + vd;
-        s.weight = {va / sum, vb / sum, vc / sum, vd / sum};
+        reduced = s;
+        reduced.weight = {va / sum, vb / sum, vc / sum, vd / sum};
         return {Vector3d(0, 0, 0), true};
       }
       // Only faces that the origin lies beyond can hold the point; all of them where the volume is rounding.
@@ -110,7 +110,7 @@ NearestPoint reduceToNearest(Simplex& s) {
       break;
     }
   }
-  keep(s, best);
+  keep(s, best, reduced);
   return {best.point, !(best.squared > 0)};
 }
 

@@ -27,11 +27,11 @@ struct NearestPoint {
   bool inside;            ///< the origin is inside a tetrahedron, or on the simplex to rounding
 };
 
-/// Finds the point nearest to the origin and drops the corners that do not hold it, so that the weights left
-/// are positive and sum to 1.
+/// Finds the point of `simplex` nearest to the origin and puts the corners that hold it into `reduced`, whose
+/// weights are positive and sum to 1.
 ///
 /// Each case is decided by comparing distances, never by the sign of a small determinant alone: flat and
 /// needle shaped simplices are the rule near parallel faces.
-NearestPoint reduceToNearest(Simplex& simplex);
+NearestPoint reduceToNearest(const Simplex& simplex, Simplex& reduced);
 
 }  // namespace fcl_stpbv

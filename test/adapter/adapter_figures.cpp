@@ -1,0 +1,120 @@
+// The figures of docs/fcl.md: how often FCL's features map to the right patches, and what a query costs.
+// Usage: adapter_figures [queries]
+#include <fcl/narrowphase/distance.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <vector>
+
+#include "fcl_stpbv/adapter/fcl_distance.h"
+#include "test/shapes.h"
+
+using namespace fcl_stpbv;
+using namespace fcl_stpbv::test;
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+namespace {
+
+struct Motion {
+  std::vector<Isometry3d> a, b;
+};
+
+/// The paper's motion (V.B): both bodies turn about three axes, the distance of their centres goes to and
+/// fro.
+Motion paperMotion(double degrees, double step, int queries, double nearest) {
+  const double angle = degrees * std::acos(-1.0) / 180;
+  const auto turn = [&](double f) {
+    return Eigen::Matrix3d(Eigen::AngleAxisd(angle * f, Vector3d::UnitX()) *
+                           Eigen::AngleAxisd(0.77 * angle * f, Vector3d::UnitY()) *
+                           Eigen::AngleAxisd(1.31 * angle * f, Vector3d::UnitZ()));
+  };
+  Motion motion;
+  Eigen::Matrix3d ra = Eigen::Matrix3d::Identity(), rb = ra;
+  double d = nearest, sign = 1;
+  for (int i = 0; i < queries; ++i) {
+    ra = turn(1) * ra;
+    rb = turn(-0.83) * rb;
+    d += sign * step;
+    if (d > nearest + 0.42) sign = -1;
+    if (d < nearest) sign = 1;
+    motion.a.push_back(pose(ra, {0, 0, 0}));
+    motion.b.push_back(pose(rb, {d, 0.01, 0.02}));
+  }
+  return motion;
+}
+
+/// Nanoseconds a query, the best of five passes over the motion.
+template <typename Query>
+double nanoseconds(const Motion& motion, Query query) {
+  double best = 1e300;
+  for (int pass = 0; pass < 5; ++pass) {
+    const auto start = std::chrono::steady_clock::now();
+    for (std::size_t i = 0; i < motion.a.size(); ++i) query(motion.a[i], motion.b[i]);
+    const std::chrono::duration<double, std::nano> spent = std::chrono::steady_clock::now() - start;
+    best = std::min(best, spent.count() / static_cast<double>(motion.a.size()));
+  }
+  return best;
+}
+
+void report(const char* name, const Cloud& cloud, int queries) {
+  const StpBvGeometry g(StpBv::build(cloud, {0.01, 10.0}));
+  const double nearest = 1.9 * g.volume().enclosingRadius();
+  for (const bool large : {true, false}) {
+    const Motion motion = paperMotion(large ? 20 : 1, large ? 0.02 : 0.001, queries, nearest);
+    MappingCounts counts;
+    double sum = 0;  // keeps the compiler from dropping queries
+    for (std::size_t i = 0; i < motion.a.size(); ++i)
+      distance(g, motion.a[i], g, motion.b[i], {nullptr, &counts});
+    const double n = 0.01 * static_cast<double>(counts.total());
+    std::printf("%-10s %-5s | %6.2f %6.2f %6.3f %6.2f |", name, large ? "large" : "small",
+                static_cast<double>(counts.right) / n, static_cast<double>(counts.neighbour) / n,
+                static_cast<double>(counts.farther) / n, static_cast<double>(counts.unmapped) / n);
+
+    fcl::DistanceRequestd request;
+    request.distance_tolerance = 1e-10;
+    const double fclTime = nanoseconds(motion, [&](const Isometry3d& a, const Isometry3d& b) {
+      fcl::DistanceResultd result;
+      sum += fcl::distance(&g, a, &g, b, request, result);
+    });
+    const double witness = nanoseconds(motion, [&](const Isometry3d& a, const Isometry3d& b) {
+      sum += polyhedralWitness(g.hull(), a, g.hull(), b).upper;
+    });
+    WitnessStart start;
+    const double warmWitness = nanoseconds(motion, [&](const Isometry3d& a, const Isometry3d& b) {
+      const PolyhedralWitness w = polyhedralWitness(g.hull(), a, g.hull(), b, start);
+      start = w.start();
+      sum += w.upper;
+    });
+    const double cold = nanoseconds(
+        motion, [&](const Isometry3d& a, const Isometry3d& b) { sum += distance(g, a, g, b).distance; });
+    PairCache cache;
+    const double warm = nanoseconds(motion, [&](const Isometry3d& a, const Isometry3d& b) {
+      sum += distance(g, a, g, b, {&cache, nullptr}).distance;
+    });
+    std::printf(" %6.0f | %5.0f %5.0f (%.2f) | %5.0f %5.0f%s\n", fclTime, witness, warmWitness,
+                witness / fclTime, cold, warm, std::isfinite(sum) ? "" : " !");
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const int queries = argc > 1 ? std::atoi(argv[1]) : 20000;
+  std::printf(
+      "                 | mapped features right, neighbour, farther, none (%%) | ns a query: fcl::distance | "
+      "witness "
+      "cold, warm (cold/fcl) | fcl_stpbv::distance cold, warm\n");
+  report("geodesic12", geodesicSphere(0.2, 0), queries);
+  report("geodesic42", geodesicSphere(0.2, 1), queries);
+  report("geodesic162", geodesicSphere(0.2, 2), queries);
+  report("geodesic642", geodesicSphere(0.2, 3), queries);
+  report("geodesic2562", geodesicSphere(0.2, 4), queries);
+  report("box", box(0.2, 0.3, 0.4), queries);
+  report("cylinder", cylinder(0.1, 0.4), queries);
+  report("plate", plate(0.3, 0.2), queries);
+  report("hull of 200", randomHull(200, {0.2, 0.15, 0.1}, 3), queries);
+}
