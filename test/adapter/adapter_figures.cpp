@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <utility>
 #include <vector>
 
 #include "fcl_stpbv/adapter/fcl_distance.h"
@@ -60,19 +61,41 @@ double nanoseconds(const Motion& motion, Query query) {
   return best;
 }
 
+/// Shares of the mapped queries, and of all those without features.
+void print(const MappingCounts& counts) {
+  const double mapped = 0.01 * static_cast<double>(counts.total() - counts.unmapped);
+  std::printf(" %6.2f %5.2f %6.3f %5.2f |", static_cast<double>(counts.right) / mapped,
+              static_cast<double>(counts.neighbour) / mapped, static_cast<double>(counts.farther) / mapped,
+              100 * static_cast<double>(counts.unmapped) / static_cast<double>(counts.total()));
+}
+
+/// Mapping over random poses with the centres `near` to `far` enclosing radii apart.
+void reportApart(const char* name, const Cloud& cloud, int queries, double near, double far) {
+  const StpBvGeometry g(StpBv::build(cloud, {0.01, 10.0}));
+  Random random(1);
+  MappingCounts counts;
+  for (int i = 0; i < queries; ++i) {
+    const double d = g.volume().enclosingRadius() * random.uniform(near, far);
+    const Isometry3d a = pose(random.rotation(), {0, 0, 0}),
+                     b = pose(random.rotation(), d * random.direction());
+    distance(g, a, g, b, {nullptr, &counts});
+  }
+  std::printf("%-12s apart |", name);
+  print(counts);
+  std::printf("\n");
+}
+
 void report(const char* name, const Cloud& cloud, int queries) {
   const StpBvGeometry g(StpBv::build(cloud, {0.01, 10.0}));
   const double nearest = 1.9 * g.volume().enclosingRadius();
   for (const bool large : {true, false}) {
     const Motion motion = paperMotion(large ? 20 : 1, large ? 0.02 : 0.001, queries, nearest);
     MappingCounts counts;
-    double sum = 0;  // keeps the compiler from dropping queries
     for (std::size_t i = 0; i < motion.a.size(); ++i)
       distance(g, motion.a[i], g, motion.b[i], {nullptr, &counts});
-    const double n = 0.01 * static_cast<double>(counts.total());
-    std::printf("%-10s %-5s | %6.2f %6.2f %6.3f %6.2f |", name, large ? "large" : "small",
-                static_cast<double>(counts.right) / n, static_cast<double>(counts.neighbour) / n,
-                static_cast<double>(counts.farther) / n, static_cast<double>(counts.unmapped) / n);
+    std::printf("%-12s %-5s |", name, large ? "large" : "small");
+    print(counts);
+    double sum = 0;  // keeps the compiler from dropping queries
 
     fcl::DistanceRequestd request;
     request.distance_tolerance = 1e-10;
@@ -104,17 +127,20 @@ void report(const char* name, const Cloud& cloud, int queries) {
 
 int main(int argc, char** argv) {
   const int queries = argc > 1 ? std::atoi(argv[1]) : 20000;
+  const std::vector<std::pair<const char*, Cloud>> shapes{
+      {"geodesic 12", geodesicSphere(0.2, 0)},
+      {"geodesic 42", geodesicSphere(0.2, 1)},
+      {"geodesic 162", geodesicSphere(0.2, 2)},
+      {"geodesic 642", geodesicSphere(0.2, 3)},
+      {"geodesic 2562", geodesicSphere(0.2, 4)},
+      {"box", box(0.2, 0.3, 0.4)},
+      {"cylinder", cylinder(0.1, 0.4)},
+      {"plate", plate(0.3, 0.2)},
+      {"hull of 200", randomHull(200, {0.2, 0.15, 0.1}, 3)}};
   std::printf(
-      "                 | mapped features right, neighbour, farther, none (%%) | ns a query: fcl::distance | "
-      "witness "
-      "cold, warm (cold/fcl) | fcl_stpbv::distance cold, warm\n");
-  report("geodesic12", geodesicSphere(0.2, 0), queries);
-  report("geodesic42", geodesicSphere(0.2, 1), queries);
-  report("geodesic162", geodesicSphere(0.2, 2), queries);
-  report("geodesic642", geodesicSphere(0.2, 3), queries);
-  report("geodesic2562", geodesicSphere(0.2, 4), queries);
-  report("box", box(0.2, 0.3, 0.4), queries);
-  report("cylinder", cylinder(0.1, 0.4), queries);
-  report("plate", plate(0.3, 0.2), queries);
-  report("hull of 200", randomHull(200, {0.2, 0.15, 0.1}, 3), queries);
+      "features mapped right, neighbour, farther, none (%%) | ns a query: fcl::distance | witness cold, warm "
+      "(cold/fcl) | fcl_stpbv::distance cold, warm\n");
+  for (const auto& [name, cloud] : shapes) report(name, cloud, queries);
+  std::printf("centres 3.8 to 7.6 enclosing radii apart\n");
+  for (const auto& [name, cloud] : shapes) reportApart(name, cloud, queries, 3.8, 7.6);
 }
