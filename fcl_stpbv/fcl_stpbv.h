@@ -1,0 +1,18 @@
+// Everything a user of the drop-in needs: volumes and their files, exact distance and derivatives, the FCL side.
+#pragma once
+
+#include "fcl_stpbv/adapter/distance_callback.h"
+#include "fcl_stpbv/adapter/fcl_distance.h"
+#include "fcl_stpbv/adapter/pair_distance.h"
+#include "fcl_stpbv/adapter/stp_bv_geometry.h"
+#include "fcl_stpbv/distance/distance.h"
+#include "fcl_stpbv/distance/hessian.h"
+#include "fcl_stpbv/error.h"
+#include "fcl_stpbv/volume/measure.h"
+#include "fcl_stpbv/volume/qhull_file.h"
+#include "fcl_stpbv/volume/reduce.h"
+#include "fcl_stpbv/volume/sch_file.h"
+#include "fcl_stpbv/volume/stp_bv.h"
+#include "fcl_stpbv/volume/stpbv_file.h"
+#include "fcl_stpbv/volume/tessellate.h"
+#include "fcl_stpbv/volume/verify.h"
