@@ -88,7 +88,7 @@ Report convert(const std::string& input, const ConversionOptions& options) {
     report.verification = verification.message;
   }
   if (options.measure) {
-    report.overCover = overCover(*report.volume);
+    report.overCover = overCover(*report.volume, points);
     report.cubicMetres = enclosedVolume(*report.volume);
   }
   return report;
