@@ -32,7 +32,7 @@ class Starts {
   Sample* end() { return sample_.data() + count_; }
 
  private:
-  static constexpr int kKept = 8;
+  static constexpr int kKept = 4;
   std::array<Sample, kKept> sample_;
   int count_ = 0;
 };
