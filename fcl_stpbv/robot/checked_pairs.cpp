@@ -1,0 +1,93 @@
+// See checked_pairs.h.
+#include "fcl_stpbv/robot/checked_pairs.h"
+
+#include <algorithm>
+
+#include "fcl_stpbv/robot/kinematics.h"
+
+namespace fcl_stpbv {
+namespace {
+
+bool hasBody(const RobotGeometry& geometry, int link) {
+  const auto [first, last] = geometry.of(link);
+  return first < last;
+}
+
+int parentOf(const RobotModel& robot, int link) {
+  const int joint = robot.links[static_cast<std::size_t>(link)].parentJoint;
+  return joint < 0 ? -1 : robot.joints[static_cast<std::size_t>(joint)].parent;
+}
+
+// The links above, up to and with the first that has a body.
+std::vector<int> reach(const RobotModel& robot, const RobotGeometry& geometry, int link) {
+  std::vector<int> links;
+  for (int at = parentOf(robot, link); at >= 0; at = parentOf(robot, at)) {
+    links.push_back(at);
+    if (hasBody(geometry, at)) break;
+  }
+  return links;
+}
+
+bool holds(const std::vector<int>& links, int link) {
+  return std::find(links.begin(), links.end(), link) != links.end();
+}
+
+}  // namespace
+
+Obstacle obstacleOf(const fcl::CollisionObjectd& object, const std::string& name) {
+  const auto& geometry = object.collisionGeometry();
+  return {name, geometry, object.getTransform(), object.getTransform() * geometry->aabb_center,
+          geometry->aabb_radius};
+}
+
+std::vector<Obstacle> obstaclesOf(std::shared_ptr<const RobotModel> scene, const RobotGeometry& geometry) {
+  const Kinematics kinematics(std::move(scene));
+  Kinematics::State state = kinematics.makeState();
+  kinematics.forward(kinematics.neutral(), state);
+  std::vector<Obstacle> obstacles;
+  for (const Body& body : geometry.bodies) {
+    const Eigen::Isometry3d& link = state.link[static_cast<std::size_t>(body.link)];
+    obstacles.push_back({body.name, body.geometry, link * body.pose, link * body.centre, body.radius});
+  }
+  return obstacles;
+}
+
+bool adjacent(const RobotModel& robot, const RobotGeometry& geometry, int link1, int link2) {
+  const std::vector<int> above1 = reach(robot, geometry, link1), above2 = reach(robot, geometry, link2);
+  if (holds(above1, link2) || holds(above2, link1)) return true;
+  return std::any_of(above1.begin(), above1.end(),
+                     [&](int link) { return !hasBody(geometry, link) && holds(above2, link); });
+}
+
+std::vector<CheckedPair> selfPairs(const RobotModel& robot, const RobotGeometry& geometry, const Srdf* srdf) {
+  std::vector<CheckedPair> pairs;
+  const int count = static_cast<int>(geometry.bodies.size());
+  const auto linkOf = [&](int body) { return geometry.bodies[static_cast<std::size_t>(body)].link; };
+  const auto nameOf = [&](int body) { return robot.links[static_cast<std::size_t>(linkOf(body))].name; };
+  for (int i = 0; i < count; ++i) {
+    for (int j = i + 1; j < count; ++j) {
+      if (linkOf(i) == linkOf(j)) continue;
+      const bool skip = srdf ? !srdf->reasonToSkip(nameOf(i), nameOf(j)).empty()
+                             : adjacent(robot, geometry, linkOf(i), linkOf(j));
+      if (!skip) pairs.push_back({i, j, false});
+    }
+  }
+  return pairs;
+}
+
+std::vector<CheckedPair> obstaclePairs(const RobotModel& robot, const RobotGeometry& geometry,
+                                       std::size_t obstacles, bool baseMoves) {
+  std::vector<CheckedPair> pairs;
+  for (std::size_t i = 0; i < geometry.bodies.size(); ++i) {
+    bool moves = baseMoves;
+    for (int link = geometry.bodies[i].link; !moves && link >= 0; link = parentOf(robot, link)) {
+      const int joint = robot.links[static_cast<std::size_t>(link)].parentJoint;
+      moves = joint >= 0 && robot.joints[static_cast<std::size_t>(joint)].type != JointType::fixed;
+    }
+    for (std::size_t o = 0; moves && o < obstacles; ++o)
+      pairs.push_back({static_cast<int>(i), static_cast<int>(o), true});
+  }
+  return pairs;
+}
+
+}  // namespace fcl_stpbv

@@ -1,0 +1,121 @@
+// All distances of a robot and their Jacobian, as an optimiser or a controller asks for them.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "fcl_stpbv/adapter/fcl_distance.h"
+#include "fcl_stpbv/robot/checked_pairs.h"
+#include "fcl_stpbv/robot/kinematics.h"
+#include "fcl_stpbv/robot/worker_pool.h"
+
+namespace fcl_stpbv {
+
+/// A smooth function of some coordinates that stands for pairs whose hulls would be too fat, as around a hip
+/// or a shoulder (paper VI: 8 of its 117 constraints).
+struct SmoothConstraint {
+  std::string name;
+  std::vector<int> coordinates;  ///< ascending
+  /// Value at q, positive where allowed; writes one derivative per coordinate unless `gradient` is null.
+  /// Called from one thread at a time for each constraint; must neither throw nor allocate where those
+  /// matter.
+  std::function<double(const Eigen::Ref<const Eigen::VectorXd>& q, double* gradient)> value;
+  std::vector<std::pair<std::string, std::string>> replaces;  ///< pairs of links that are left out for it
+};
+
+struct ConstraintOptions {
+  /// Pairs farther apart than this (m) cost one test of their bounding spheres. Their rows are constant:
+  /// beyond `exactUpTo` a row leaves the distance d and bends over, twice continuously differentiable, to
+  /// (influence + exactUpTo) / 2.
+  double influence = std::numeric_limits<double>::infinity();
+  double exactUpTo = -1;  ///< negative: half the influence
+  std::vector<Obstacle> obstacles;
+  std::vector<SmoothConstraint> smooth;  ///< rows after those of the pairs
+  int threads = 1;
+};
+
+/// d(q) and J(q): one row per pair of bodies, then one per smooth constraint. Each row starts its query from
+/// its last answer. One thread at a time may use one; no allocation after construction where every pair is of
+/// STP-BVs.
+///
+/// J is the paper's eq. 2 with the velocities of the witness points taken as fixed to their bodies; the
+/// motions of Kinematics are its pre-gradient matrices, put together once per configuration for all pairs.
+class CollisionConstraints {
+ public:
+  using Vector = Eigen::Ref<Eigen::VectorXd>;
+  using ConstVector = Eigen::Ref<const Eigen::VectorXd>;
+  using SparseJacobian = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+
+  /// @throws Error for a pair, coordinate or link that does not exist.
+  CollisionConstraints(std::shared_ptr<const Kinematics> kinematics,
+                       std::shared_ptr<const RobotGeometry> geometry, std::vector<CheckedPair> pairs,
+                       ConstraintOptions options = {});
+
+  int rows() const { return static_cast<int>(rowStart_.size()) - 1; }
+  int columns() const { return kinematics_->size(); }
+  const std::vector<CheckedPair>& pairs() const { return pairs_; }
+  std::string name(int row) const;
+
+  /// The entries of J that may differ from 0, row by row, columns ascending.
+  int nonZeros() const { return static_cast<int>(column_.size()); }
+  const std::vector<int>& rowStart() const { return rowStart_; }
+  const std::vector<int>& columnIndices() const { return column_; }
+  /// A matrix of that structure, for evaluate() to fill.
+  SparseJacobian makeJacobian() const;
+
+  void evaluate(const ConstVector& q, Vector d);
+  /// With the nonZeros() entries of J.
+  void evaluateValues(const ConstVector& q, Vector d, Vector values);
+  void evaluate(const ConstVector& q, Vector d, SparseJacobian& jacobian);
+  void evaluate(const ConstVector& q, Vector d, Eigen::Ref<Eigen::MatrixXd> jacobian);
+
+  /// Sum over the rows of weight times (Hessian of d) times v, by central differences of J along v.
+  void hessianVector(const ConstVector& q, const ConstVector& weights, const ConstVector& v, Vector out);
+
+  /// What the last evaluation found for a pair; status `invalid` where its spheres were enough.
+  const DistanceAnswer& answer(int row) const { return answers_[static_cast<std::size_t>(row)]; }
+  const Kinematics::State& state() const { return state_; }
+  /// Makes the next evaluation start from FCL's witness again.
+  void forget();
+
+ private:
+  struct Term {
+    int motion;
+    double sign;
+    int slot;  // among the non-zeros
+  };
+  struct Row {
+    int firstTerm, lastTerm;
+    double reach;  // sum of the bounding spheres' radii
+  };
+
+  void leaveOutReplaced();
+  void addPair(const CheckedPair& pair);
+  void addSmooth(const SmoothConstraint& constraint);
+  void compute(const ConstVector& q, double* d, double* values);
+  double pairRow(std::size_t row, double* values);
+  double bend(double d, double& slope) const;
+
+  std::shared_ptr<const Kinematics> kinematics_;
+  std::shared_ptr<const RobotGeometry> geometry_;
+  std::vector<CheckedPair> pairs_;
+  ConstraintOptions options_;
+  std::vector<int> rowStart_{0}, column_;
+  std::vector<Row> rows_;
+  std::vector<Term> terms_;
+  Kinematics::State state_;
+  std::vector<Eigen::Isometry3d> pose_;  // of each body
+  std::vector<Eigen::Vector3d> centre_;  // of each body's sphere
+  std::vector<PairCache> caches_;
+  std::vector<DistanceAnswer> answers_;
+  Eigen::VectorXd values_, otherValues_, scratch_, moved_;
+  std::unique_ptr<WorkerPool> pool_;
+};
+
+}  // namespace fcl_stpbv

@@ -1,0 +1,51 @@
+// See worker_pool.h.
+#include "fcl_stpbv/robot/worker_pool.h"
+
+namespace fcl_stpbv {
+
+WorkerPool::WorkerPool(int threads) {
+  for (int k = 1; k < threads; ++k) workers_.emplace_back([this, k] { serve(k); });
+}
+
+WorkerPool::~WorkerPool() {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    stop_ = true;
+  }
+  begin_.notify_all();
+  for (std::thread& worker : workers_) worker.join();
+}
+
+void WorkerPool::start(Call call, void* work) {
+  if (workers_.empty()) {
+    call(work, 0);
+    return;
+  }
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    call_ = call;
+    work_ = work;
+    busy_ = static_cast<int>(workers_.size());
+    ++round_;
+  }
+  begin_.notify_all();
+  call(work, 0);
+  std::unique_lock<std::mutex> lock(mutex_);
+  end_.wait(lock, [this] { return busy_ == 0; });
+}
+
+void WorkerPool::serve(int k) {
+  unsigned done = 0;
+  std::unique_lock<std::mutex> lock(mutex_);
+  for (;;) {
+    begin_.wait(lock, [&] { return stop_ || round_ != done; });
+    if (stop_) return;
+    done = round_;
+    lock.unlock();
+    call_(work_, k);
+    lock.lock();
+    if (--busy_ == 0) end_.notify_one();
+  }
+}
+
+}  // namespace fcl_stpbv

@@ -1,0 +1,185 @@
+// d(q) and J(q) of whole robots: against differences, across the influence distance, with obstacles, without
+// allocation.
+#include <fcl/geometry/shape/sphere.h>
+
+#include <catch2/catch.hpp>
+
+#include "fcl_stpbv/robot/constraints.h"
+#include "test/robot/robots.h"
+#include "test/robot/urdf_texts.h"
+#include "test/shapes.h"
+
+using namespace fcl_stpbv;
+using namespace fcl_stpbv::test;
+
+namespace {
+
+struct Problem {
+  std::shared_ptr<const RobotModel> model;
+  std::shared_ptr<const Kinematics> kinematics;
+  std::shared_ptr<const RobotGeometry> geometry;
+  std::vector<CheckedPair> pairs;
+};
+
+Problem problem(const TestRobot& robot, BaseMotion base = BaseMotion::fixed) {
+  GeometryOptions options;
+  LoadedRobot loaded = load(robot, options);
+  Problem p;
+  p.model = loaded.model;
+  p.kinematics = std::make_shared<const Kinematics>(loaded.model, base);
+  p.geometry = std::make_shared<const RobotGeometry>(std::move(loaded.geometry));
+  if (robot.srdf.empty()) {
+    p.pairs = selfPairs(*p.model, *p.geometry, nullptr);
+  } else {
+    const Srdf srdf = loadSrdf(robot.srdf, *p.model);
+    p.pairs = selfPairs(*p.model, *p.geometry, &srdf);
+  }
+  return p;
+}
+
+Eigen::VectorXd randomConfiguration(const Kinematics& kinematics, Random& random) {
+  Eigen::VectorXd q(kinematics.size());
+  for (int i = 0; i < kinematics.size(); ++i)
+    q[i] = random.uniform(std::max(kinematics.lower()[i], -1.0), std::min(kinematics.upper()[i], 1.0));
+  return q;
+}
+
+Eigen::VectorXd randomDirection(Eigen::Index size, Random& random) {
+  Eigen::VectorXd v(size);
+  for (Eigen::Index i = 0; i < size; ++i) v[i] = random.normal();
+  return v.normalized();
+}
+
+// Largest difference between J v and the central difference of d along v, over rows that are exact.
+double worstError(CollisionConstraints& constraints, const Kinematics& kinematics, int count) {
+  Random random(7);
+  constexpr double step = 1e-6;
+  Eigen::VectorXd d(constraints.rows()), after(d), before(d);
+  Eigen::MatrixXd jacobian(constraints.rows(), constraints.columns());
+  double worst = 0;
+  for (int trial = 0; trial < count; ++trial) {
+    const Eigen::VectorXd q = randomConfiguration(kinematics, random);
+    const Eigen::VectorXd v = randomDirection(q.size(), random);
+    constraints.evaluate(q, d, jacobian);
+    const Eigen::VectorXd slope = jacobian * v;
+    std::vector<bool> exact;
+    for (std::size_t row = 0; row < constraints.pairs().size(); ++row) {
+      const DistanceAnswer& answer = constraints.answer(static_cast<int>(row));
+      exact.push_back(answer.status == DistanceStatus::exact || answer.status == DistanceStatus::invalid);
+    }
+    exact.resize(static_cast<std::size_t>(constraints.rows()), true);
+    constraints.evaluate(q + step * v, after);
+    constraints.evaluate(q - step * v, before);
+    for (Eigen::Index row = 0; row < d.size(); ++row) {
+      if (exact[static_cast<std::size_t>(row)])
+        worst = std::max(worst, std::abs((after[row] - before[row]) / (2 * step) - slope[row]));
+    }
+  }
+  return worst;
+}
+
+// Across a seam the second derivative jumps, by at most lever^2 / (r1 + r2) = 1 / 0.02 per m, and a
+// difference over a step sees a quarter of that times the step; levers here are up to about 1.5 m.
+constexpr double kDifference = 1e-6 / 4 * 2.25 / 0.02;
+
+}  // namespace
+
+TEST_CASE("the Jacobian agrees with central differences on 1000 configurations of every robot") {
+  for (const TestRobot& robot : robots()) {
+    const Problem p = problem(robot);
+    CollisionConstraints constraints(p.kinematics, p.geometry, p.pairs);
+    INFO(robot.name << ", " << constraints.rows() << " rows");
+    REQUIRE(constraints.rows() > 20);
+    CHECK(worstError(constraints, *p.kinematics, 1000) < kDifference);
+  }
+}
+
+TEST_CASE("the Jacobian holds for a floating base among obstacles, and the base does not enter self pairs") {
+  const Problem p = problem(robots()[0], BaseMotion::floating);
+  ConstraintOptions options;
+  const auto ball = std::make_shared<StpBvGeometry>(StpBv::build(geodesicSphere(0.2, 2)));
+  fcl::CollisionObjectd object(ball);
+  object.setTranslation(Eigen::Vector3d(1.5, 0.5, 0));
+  options.obstacles = {obstacleOf(object, "ball")};
+  std::vector<CheckedPair> pairs = p.pairs;
+  for (const CheckedPair& pair : obstaclePairs(*p.model, *p.geometry, 1, true)) pairs.push_back(pair);
+  CollisionConstraints constraints(p.kinematics, p.geometry, pairs, options);
+  CHECK(constraints.rows() == static_cast<int>(p.pairs.size() + p.geometry->bodies.size()));
+  CHECK(worstError(constraints, *p.kinematics, 100) < kDifference);
+  CHECK(constraints.columnIndices()[0] >= 6);
+}
+
+TEST_CASE("rows bend over smoothly to a constant at the influence distance") {
+  const Problem p = problem(robots()[0]);
+  ConstraintOptions options;
+  options.influence = 0.2;
+  CollisionConstraints bent(p.kinematics, p.geometry, p.pairs, options),
+      plain(p.kinematics, p.geometry, p.pairs);
+  CHECK(worstError(bent, *p.kinematics, 300) < kDifference);
+  Random random(3);
+  Eigen::VectorXd d(bent.rows()), exact(bent.rows());
+  const Eigen::VectorXd q = randomConfiguration(*p.kinematics, random);
+  bent.evaluate(q, d);
+  plain.evaluate(q, exact);
+  int far = 0;
+  for (Eigen::Index row = 0; row < d.size(); ++row) {
+    if (exact[row] <= 0.1) CHECK(d[row] == exact[row]);
+    if (exact[row] >= 0.2) CHECK(d[row] == Approx(0.15).epsilon(1e-14));
+    far += bent.answer(static_cast<int>(row)).status == DistanceStatus::invalid;
+  }
+  CHECK(far > bent.rows() / 4);
+}
+
+TEST_CASE("sparse, dense and threaded evaluations give the same numbers") {
+  const Problem p = problem(robots()[0]);
+  ConstraintOptions options;
+  options.threads = 3;
+  CollisionConstraints one(p.kinematics, p.geometry, p.pairs),
+      several(p.kinematics, p.geometry, p.pairs, options);
+  Random random(5);
+  Eigen::VectorXd d1(one.rows()), d2(one.rows());
+  Eigen::MatrixXd dense(one.rows(), one.columns());
+  CollisionConstraints::SparseJacobian sparse = several.makeJacobian();
+  for (int trial = 0; trial < 20; ++trial) {
+    const Eigen::VectorXd q = randomConfiguration(*p.kinematics, random);
+    one.evaluate(q, d1, dense);
+    several.evaluate(q, d2, sparse);
+    CHECK(d1 == d2);
+    CHECK(dense == Eigen::MatrixXd(sparse));
+  }
+}
+
+TEST_CASE("a smooth constraint takes the place of the pairs it replaces") {
+  const Problem p = problem(robots()[0]);
+  ConstraintOptions options;
+  SmoothConstraint shoulder;
+  shoulder.name = "left shoulder";
+  shoulder.coordinates = {2, 5};
+  shoulder.value = [](const Eigen::Ref<const Eigen::VectorXd>& q, double* gradient) {
+    if (gradient) {
+      gradient[0] = 2 * q[2];
+      gradient[1] = 1;
+    }
+    return q[2] * q[2] + q[5];
+  };
+  shoulder.replaces = {{"LARM_LINK2", "CHEST_LINK1"}};
+  options.smooth = {shoulder};
+  CollisionConstraints constraints(p.kinematics, p.geometry, p.pairs, options);
+  CHECK(constraints.rows() == static_cast<int>(p.pairs.size()));  // one left, one came
+  CHECK(constraints.name(constraints.rows() - 1) == "left shoulder");
+  CHECK(worstError(constraints, *p.kinematics, 20) < kDifference);
+}
+
+TEST_CASE("a Hessian-vector product is the change of the gradient along the vector") {
+  const Problem p = problem(robots()[0]);
+  CollisionConstraints constraints(p.kinematics, p.geometry, p.pairs);
+  Eigen::VectorXd q = p.kinematics->neutral(), weights = Eigen::VectorXd::Ones(constraints.rows());
+  q[constraints.columns() - 4] = -1;
+  Random random(11);
+  const Eigen::VectorXd u = randomDirection(q.size(), random), v = randomDirection(q.size(), random);
+  Eigen::VectorXd hu(q.size()), hv(q.size());
+  constraints.hessianVector(q, weights, u, hu);
+  constraints.hessianVector(q, weights, v, hv);
+  // A Hessian is symmetric; differences of 130 rows with entries up to 100 are good to about 1e-5.
+  CHECK(v.dot(hu) == Approx(u.dot(hv)).margin(1e-3));
+}
