@@ -1,10 +1,9 @@
 #include "fcl_stpbv/adapter/polyhedral_witness.h"
 
-#include <fcl/narrowphase/detail/convexity_based_algorithm/gjk_libccd.h>
-
 #include <algorithm>
 #include <cmath>
 
+#include "fcl_stpbv/adapter/fcl_gjk.h"
 #include "fcl_stpbv/adapter/posed_hulls.h"
 #include "fcl_stpbv/adapter/simplex.h"
 

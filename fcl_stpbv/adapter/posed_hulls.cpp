@@ -25,7 +25,7 @@ PosedHulls::PosedHulls(const HullGraph& a, const Eigen::Isometry3d& poseA, const
       poseA.linear().transpose() * (poseB.translation() - poseA.translation() + poseB.linear() * b.centre()) -
       a.centre();
   double size = std::max(a.radius() + b.radius(), offset_.norm() / kFar);
-  if (!rotation_.allFinite() || !std::isfinite(size)) return;
+  if (!rotation_.allFinite() || !offset_.allFinite() || !std::isfinite(size)) return;
   if (!(size > 0)) size = 1;  // two points on one spot
   int exponent = 0;
   std::frexp(size, &exponent);

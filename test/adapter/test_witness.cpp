@@ -172,8 +172,13 @@ TEST_CASE("a witness of poses that are not finite fails quietly") {
     for (int entry = 0; entry < 12; ++entry) {
       Isometry3d broken = Isometry3d::Identity();
       broken.matrix()(entry % 3, entry / 3) = bad;
-      CHECK(polyhedralWitness(cube, broken, sphere, Isometry3d::Identity()).verdict != Verdict::separated);
-      CHECK(polyhedralWitness(sphere, Isometry3d::Identity(), cube, broken).verdict != Verdict::separated);
+      for (const PolyhedralWitness& w : {polyhedralWitness(cube, broken, sphere, Isometry3d::Identity()),
+                                         polyhedralWitness(sphere, Isometry3d::Identity(), cube, broken)}) {
+        if (std::abs(bad) < HUGE_VAL) continue;  // 1e308 is finite: any verdict, as long as it comes back
+        CHECK(w.verdict == Verdict::failed);
+        CHECK(w.supports == 0);  // nothing that is not finite reaches FCL
+        CHECK(w.direction == Vector3d(0, 0, 0));
+      }
     }
   }
 }
