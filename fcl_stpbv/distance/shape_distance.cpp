@@ -1,0 +1,160 @@
+#include "fcl_stpbv/distance/shape_distance.h"
+
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "fcl_stpbv/distance/shape_overlap.h"
+
+namespace fcl_stpbv {
+
+using Eigen::Isometry3d;
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+namespace {
+
+/// Newton for the polar factor, q (3 - q^T q) / 2: the error squares. False for what is no rotation.
+bool makeOrthonormal(Matrix3d& q) {
+  constexpr double kRotation = 0.1, kFine = 2e-15;
+  for (int i = 0; i < 5; ++i) {
+    const Matrix3d error = q.transpose() * q - Matrix3d::Identity();
+    const double size = error.norm();
+    if (!(size < kRotation)) return false;  // also what is not a number
+    if (size <= kFine) break;
+    q -= 0.5 * q * error;
+  }
+  return true;
+}
+
+/// From the remembered normal, else from the volume's centre to the shape's.
+StartNormal startOf(const ShapeQuery& q, const Vector3d& remembered, int patch) {
+  const double length = remembered.norm();
+  if (length > 0.5 && length < 2.0 && patch < q.body.patchCount()) return {remembered / length, patch};
+  const Vector3d d = q.posed(q.shape.centre) - q.body.centre();
+  const double away = d.norm();
+  return {away > 0.0 ? Vector3d(d / away) : Vector3d::UnitX(), -1};
+}
+
+/// Half spaces and planes have one or two normals, and along them the gap is all there is to know.
+Nearest nearestOnHalfspace(ShapeQuery& q) {
+  const Vector3d normal = (q.rotation * q.shape.normal).normalized();
+  const Vector3d onPlane = q.posed(q.shape.offset * q.shape.normal);
+  Nearest found = nearestOnPlane(q, onPlane, -normal, -1);
+  if (q.shape.kind == ShapeKind::plane) {
+    const Nearest other = nearestOnPlane(q, onPlane, normal, -1);
+    if (other.gap > found.gap) found = other;
+  }
+  return found;
+}
+
+Nearest nearestOnEllipsoid(ShapeQuery& q, const StartNormal& start) {
+  const Vector3d squares = q.shape.size.cwiseProduct(q.shape.size);
+  const EllipsoidFeature all{q.translation, q.rotation * squares.asDiagonal() * q.rotation.transpose()};
+  return nearestOn(q, all, start);
+}
+
+Nearest nearestOnShape(ShapeQuery& q, const StartNormal& start) {
+  switch (q.shape.kind) {
+    case ShapeKind::point:
+      return nearestOn(q, PointFeature{q.translation}, start);
+    case ShapeKind::segment: {
+      const Vector3d axis = q.shape.half * q.rotation.col(2);
+      return nearestOnSegment(q, q.translation - axis, q.translation + axis, start);
+    }
+    case ShapeKind::box:
+    case ShapeKind::triangle:
+    case ShapeKind::polytope:
+      return nearestOnPolytope(q, start);
+    case ShapeKind::cylinder:
+      return nearestOnCylinder(q, start);
+    case ShapeKind::cone:
+      return nearestOnCone(q, start);
+    case ShapeKind::ellipsoid:
+      return nearestOnEllipsoid(q, start);
+    case ShapeKind::halfspace:
+    case ShapeKind::plane:
+      break;
+  }
+  return nearestOnHalfspace(q);
+}
+
+struct Found {
+  Nearest at;
+  DistanceStatus status;
+  double upper;  ///< of the cores' gap (m)
+};
+
+Found solve(ShapeQuery& q, const StartNormal& start) {
+  Nearest found = nearestOnShape(q, start);
+  if (q.shape.unbounded()) return {found, DistanceStatus::exact, found.gap};
+  if (certified(q, found)) return {found, DistanceStatus::exact, found.gap};
+  const WidestGap cuts = widestGapByCuts(q, found.apart ? StartNormal{found.n, found.patch} : start);
+  if (!cuts.overlap) {
+    // Near the answer now; a feature search from here proves it to the last digit.
+    found = nearestOnShape(q, {cuts.at.n, cuts.at.patch});
+    if (certified(q, found)) return {found, DistanceStatus::exact, found.gap};
+    return {cuts.at, cuts.solved ? DistanceStatus::exact : DistanceStatus::bounded,
+            cuts.solved ? cuts.at.gap + q.rounding.gap : cuts.bound};
+  }
+  const WidestGap deep = leastOverlap(q, {cuts.at.n, cuts.at.patch});
+  return {deep.at, DistanceStatus::local, std::max(deep.bound, deep.at.gap)};
+}
+
+}  // namespace
+
+Distance distance(const StpBv& volume, const Isometry3d& poseVolume, const Shape& shape,
+                  const Isometry3d& poseShape, PairCache* cache) {
+  constexpr double kHuge = 1e300;  // squares must not overflow
+  Distance result;
+  result.lower = -std::numeric_limits<double>::infinity();
+  result.upper = std::numeric_limits<double>::infinity();
+  Matrix3d rotation = poseVolume.linear().transpose() * poseShape.linear();
+  const Vector3d translation =
+      poseVolume.linear().transpose() * (poseShape.translation() - poseVolume.translation());
+  if (!shape.valid() || !makeOrthonormal(rotation) || !(translation.squaredNorm() < kHuge)) return result;
+
+  ShapeQuery q(volume, shape, rotation, translation);
+  const Vector3d remembered =
+      cache ? Vector3d(poseVolume.linear().transpose() * cache->normal) : Vector3d(0, 0, 0);
+  const Found found = solve(q, startOf(q, remembered, cache ? cache->patch[0] : -1));
+
+  const Nearest& x = found.at;
+  const double margins = volume.radii().r + shape.margin;
+  const VolumeView view = viewVolume(volume, x.n, x.patch, q.steps);
+  result.status = found.status;
+  result.distance = result.lower = x.gap - margins;
+  result.upper = std::max(found.upper, x.gap) - margins;
+  result.patch = {view.patch, -1};
+  result.normal = (poseVolume.linear() * x.n).normalized();
+  result.point[0] = poseVolume * Vector3d(view.point + volume.radii().r * x.n);
+  result.point[1] = poseVolume * Vector3d(x.y - shape.margin * x.n);
+  result.patchPairs = q.pairs;
+  result.patchSteps = q.steps;
+  if (cache) {
+    cache->normal = result.normal;
+    cache->patch = result.patch;
+  }
+  return result;
+}
+
+Distance distance(const Shape& shape, const Isometry3d& poseShape, const StpBv& volume,
+                  const Isometry3d& poseVolume, PairCache* cache) {
+  // The same query, and so the same answer, seen from the other side.
+  PairCache mirrored;
+  if (cache) mirrored = {-cache->normal, {cache->patch[1], cache->patch[0]}};
+  Distance result = distance(volume, poseVolume, shape, poseShape, cache ? &mirrored : nullptr);
+  result.normal = -result.normal;
+  std::swap(result.point[0], result.point[1]);
+  std::swap(result.patch[0], result.patch[1]);
+  if (cache) *cache = {result.normal, result.patch};
+  return result;
+}
+
+Distance distance(const StpBv& volume, const Isometry3d& pose, const Vector3d& point, PairCache* cache) {
+  Isometry3d at = pose;  // its rotation is no matter, and relative coordinates stay exact
+  at.translation() = point;
+  return distance(volume, pose, Shape::sphere(0.0), at, cache);
+}
+
+}  // namespace fcl_stpbv

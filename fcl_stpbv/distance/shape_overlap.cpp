@@ -1,0 +1,87 @@
+#include "fcl_stpbv/distance/shape_overlap.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "fcl_stpbv/distance/polytope.h"
+
+namespace fcl_stpbv {
+
+using Eigen::Vector3d;
+
+namespace {
+
+/// The gap along one normal between the two whole cores, and the difference of the points that tell it.
+struct Trial {
+  Nearest at;
+  Vector3d difference;
+};
+
+Trial trialAlong(ShapeQuery& q, const Vector3d& n, int hint) {
+  const VolumeView view = viewVolume(q.body, n, hint, q.steps);
+  Trial trial;
+  trial.at.n = n;
+  trial.at.patch = view.patch;
+  trial.at.y = q.facing(n);
+  trial.at.gap = view.gap(trial.at.y);
+  trial.at.corners = 1;
+  trial.difference = trial.at.y - view.point;
+  ++q.pairs;
+  return trial;
+}
+
+}  // namespace
+
+WidestGap widestGapByCuts(ShapeQuery& q, const StartNormal& start) {
+  Trial trial = trialAlong(q, start.n, start.patch);
+  WidestGap best{trial.at, trial.difference.norm(), false, false};
+  if (!(best.bound > q.rounding.gap)) return {trial.at, best.bound, false, true};  // touching
+  NormalCone cone(trial.at.gap > 0.0 ? trial.at.n : Vector3d(trial.difference));
+  for (int i = 0; i < NormalCone::kMaxCuts; ++i) {
+    // With a gap the better normals lie where its gradient points; without one, where the difference does.
+    const Vector3d across = trial.difference - trial.difference.dot(trial.at.n) * trial.at.n;
+    const Vector3d cut = trial.at.gap > 0.0 ? across : trial.difference;
+    if (!(cut.norm() > 0.25 * q.rounding.gap) || !cone.cut(cut)) {
+      best.solved = true;
+      break;
+    }
+    trial = trialAlong(q, cone.middle(), trial.at.patch);
+    best.bound = std::min(best.bound, trial.difference.norm());
+    if (trial.at.gap > best.at.gap) best.at = trial.at;
+  }
+  best.at.apart = best.at.gap > 0.0;
+  best.overlap = best.at.gap < -q.rounding.gap;
+  return best;
+}
+
+WidestGap leastOverlap(ShapeQuery& q, const StartNormal& start) {
+  constexpr double kRelative = 1e-6;  // of the depth
+  WidestGap best{trialAlong(q, start.n, start.patch).at, 0.0, true, false};
+  const auto take = [&](const Vector3d& n) {
+    const Trial trial = trialAlong(q, n, -1);
+    if (trial.at.gap > best.at.gap) best.at = trial.at;
+    return trial.difference;
+  };
+  // A first tetrahedron, not yet around the origin: hulls grow over it as over any other point.
+  constexpr double kX = 0.942809041582063, kY = 0.816496580927726, kZ = 1.0 / 3.0;
+  const std::array<Vector3d, 4> first{take({0, 0, 1}), take(Vector3d(kX, 0, -kZ).normalized()),
+                                      take(Vector3d(-0.5 * kX, kY, -kZ).normalized()),
+                                      take(Vector3d(-0.5 * kX, -kY, -kZ).normalized())};
+  Polytope polytope(first, Polytope::Origin::anywhere);
+  while (polytope.sound()) {
+    const Polytope::Face nearest = polytope.nearest();
+    // Inside the difference, so with the origin inside it no direction leads out sooner.
+    if (nearest.distance > 0.0) best.bound = -nearest.distance;
+    const Vector3d difference = take(-nearest.normal);
+    if (nearest.distance > 0.0 &&
+        -best.at.gap - nearest.distance <= kRelative * nearest.distance + q.rounding.gap) {
+      best.solved = true;
+      break;
+    }
+    if (!(nearest.normal.dot(difference) - nearest.distance > q.rounding.gap)) break;
+    polytope.expand(difference);
+  }
+  return best;
+}
+
+}  // namespace fcl_stpbv

@@ -1,0 +1,120 @@
+#include "fcl_stpbv/distance/shape_query.h"
+
+#include <cmath>
+#include <limits>
+
+namespace fcl_stpbv {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+ShapeQuery::ShapeQuery(const StpBv& a, const Shape& s, const Matrix3d& r, const Vector3d& t)
+    : body(a), shape(s), rotation(r), translation(t) {
+  constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+  // Coordinates up to the bodies' extents and mutual distance, a dozen operations.
+  rounding.gap =
+      8.0 * kEpsilon *
+      (a.centre().lpNorm<1>() + a.enclosingRadius() + t.lpNorm<1>() + s.centre.lpNorm<1>() + s.reach);
+  rounding.across = rounding.gap + 8.0 * kEpsilon * a.radii().rho;
+}
+
+Nearest nearestOnPlane(ShapeQuery& q, const Vector3d& onPlane, const Vector3d& n, int hint) {
+  const VolumeView view = viewVolume(q.body, n, hint, q.steps);
+  Nearest found;
+  found.n = n;
+  found.patch = view.patch;
+  found.gap = view.gap(onPlane);
+  found.apart = found.gap > 0.0;
+  found.y = view.point + n.dot(onPlane - view.point) * n;
+  found.corners = 3;
+  ++q.pairs;
+  return found;
+}
+
+Nearest nearestOnSegment(ShapeQuery& q, const Vector3d& a, const Vector3d& b, const StartNormal& start) {
+  const Vector3d e = b - a;
+  const double length = e.norm();
+  const auto end = [&](int which) {
+    Nearest found = nearestOn(q, PointFeature{which == 0 ? a : b}, start);
+    found.corner[0] = which;
+    return found;
+  };
+  if (!(length > 0.0)) return end(0);
+  const Vector3d t = e / length;
+  Vector3d n = start.n - start.n.dot(t) * t;
+  const double across = n.norm();
+  // Across the line, through the start's side of it; where the start runs along the line any side will do.
+  n = across > 1e-6 ? Vector3d(n / across) : t.unitOrthogonal();
+  n = (n - n.dot(t) * t).normalized();
+  Nearest found = nearestOn(q, LineFeature{a, t}, {n, start.patch});
+  if (found.apart) {
+    const double at = (found.y - a).dot(t);
+    if (at < 0.0) return end(0);
+    if (at > length) return end(1);
+    found.corners = 2;
+    found.corner = {0, 1, 0};
+    return found;
+  }
+  // The line runs through the core: the segment may still end before it.
+  const Nearest first = end(0), second = end(1);
+  if (!first.apart || !second.apart) return first.apart ? second : first;  // an end inside: overlap
+  return first.gap < second.gap ? first : second;
+}
+
+Nearest nearestOnTriangle(ShapeQuery& q, const Vector3d& a, const Vector3d& b, const Vector3d& c,
+                          const StartNormal& start) {
+  const std::array<Vector3d, 3> p{a, b, c};
+  // The normal from the two shorter sides, which keeps its digits on slivers.
+  const double ab = (b - a).squaredNorm(), bc = (c - b).squaredNorm(), ca = (a - c).squaredNorm();
+  const std::size_t o = bc >= ab && bc >= ca ? 0 : ca >= ab ? 1 : 2;
+  const Vector3d u = p[(o + 1) % 3] - p[o], v = p[(o + 2) % 3] - p[o];
+  Vector3d normal = u.cross(v);
+  const double area = normal.norm();
+  bool side[3] = {true, true, true};  // edges that the nearest point may be on: i from corner i to i + 1
+  if (area > 1e-14 * (u.squaredNorm() + v.squaredNorm())) {
+    normal /= area;
+    if (normal.dot(start.n) < 0.0) normal = -normal;
+    for (int turn = 0; turn < 2; ++turn) {
+      const Vector3d n = turn == 0 ? normal : Vector3d(-normal);
+      const Nearest found = nearestOnPlane(q, p[o], n, turn == 0 ? start.patch : -1);
+      if (!found.apart) continue;
+      const Vector3d up = u.cross(v);
+      bool inside = true;
+      for (std::size_t i = 0; i < 3; ++i) {
+        side[i] = up.cross(p[(i + 1) % 3] - p[i]).dot(found.y - p[i]) < 0.0;
+        inside = inside && !side[i];
+      }
+      if (inside) return found;
+      break;
+    }
+  }
+  Nearest best;
+  for (int i = 0; i < 3; ++i) {
+    if (!side[i]) continue;
+    const int j = (i + 1) % 3;
+    Nearest found = nearestOnSegment(q, p[static_cast<std::size_t>(i)], p[static_cast<std::size_t>(j)],
+                                     best.apart ? StartNormal{best.n, best.patch} : start);
+    for (int k = 0; k < found.corners; ++k) {
+      int& corner = found.corner[static_cast<std::size_t>(k)];
+      corner = corner == 0 ? i : j;
+    }
+    if (!found.apart) return found;  // the core reaches this edge
+    if (!best.apart || found.gap < best.gap) best = found;
+  }
+  return best;
+}
+
+bool certified(ShapeQuery& q, const Nearest& found) {
+  if (!found.apart) return false;
+  const VolumeView view = viewVolume(q.body, found.n, found.patch, q.steps);
+  if (!q.shape.unbounded()) {
+    const Vector3d w = q.facing(found.n);
+    if (found.n.dot(found.y - w) > q.rounding.gap) return false;
+  }
+  const Vector3d difference = found.y - view.point;
+  const double across = (difference - difference.dot(found.n) * found.n).norm();
+  // Or the points' distance is the gap: where rounding moves a point along a rim, or a generator.
+  return across <= 2.0 * q.rounding.across || std::hypot(found.gap, across) - found.gap <= q.rounding.gap;
+}
+
+}  // namespace fcl_stpbv

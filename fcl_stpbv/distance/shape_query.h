@@ -1,0 +1,91 @@
+// One STP-BV, one simple body posed in its frame, and what a search between them finds.
+#pragma once
+
+#include <array>
+
+#include "fcl_stpbv/distance/shape.h"
+#include "fcl_stpbv/distance/shape_climb.h"
+
+namespace fcl_stpbv {
+
+/// The pair in the STP-BV's frame: however far it is from the world's origin, only the bodies' own
+/// coordinates and their mutual distance enter.
+struct ShapeQuery {
+  const StpBv& body;
+  const Shape& shape;
+  Eigen::Matrix3d rotation;     ///< shape's frame to the body's, orthonormal
+  Eigen::Vector3d translation;  ///< m
+  Rounding rounding;
+  int pairs = 0;  ///< Newton steps and closed forms, the work done
+  int steps = 0;  ///< patches changed
+
+  ShapeQuery(const StpBv& body, const Shape& shape, const Eigen::Matrix3d& rotation,
+             const Eigen::Vector3d& translation);
+
+  /// The shape's core point furthest against `n`, the one that faces a body in that direction.
+  Eigen::Vector3d facing(const Eigen::Vector3d& n) const {
+    return rotation * shape.support(-(rotation.transpose() * n)) + translation;
+  }
+  Eigen::Vector3d posed(const Eigen::Vector3d& p) const { return rotation * p + translation; }
+};
+
+/// Where the cores are nearest to each other, as far as a search knows.
+struct Nearest {
+  Eigen::Vector3d n{0, 0, 0};  ///< unit, from the body to the shape
+  int patch = -1;
+  Eigen::Vector3d y{0, 0, 0};  ///< the shape's core point
+  double gap = 0;              ///< between the body's supporting plane and `y` (m)
+  bool apart = false;          ///< the gap is positive and the widest for the points searched
+  int corners = 0;             ///< how many of the searched points hold `y`, and which
+  std::array<int, 3> corner{0, 1, 2};
+};
+
+/// What a warm or guessed normal gives a search to begin with.
+struct StartNormal {
+  Eigen::Vector3d n;
+  int patch;
+};
+
+/// Any feature that has a gradient, from a start.
+template <typename Feature>
+Nearest nearestOn(ShapeQuery& q, const Feature& feature, const StartNormal& start) {
+  ClimbPoint x = climbPoint(q.body, feature, start.n, start.patch, q.steps);
+  Nearest found;
+  found.apart = climb(q.body, feature, x, q.rounding, q.pairs, q.steps);
+  found.n = x.view.n;
+  found.patch = x.view.patch;
+  found.y = x.feature.point;
+  found.gap = x.gap;
+  found.corners = 1;
+  if (const Eigen::Vector3d* t = feature.direction())
+    found.y += (x.view.point - x.feature.point).dot(*t) * *t;  // straight above the body's point
+  return found;
+}
+
+/// The nearest point of a segment, of a triangle and of a vertex set's hull to the body's core.
+///
+/// Over the points of a convex set the distance to the core is a convex function, C1 outside the core, with
+/// the normal as its gradient: so a minimum over the whole line that falls outside the segment makes an end
+/// the nearest point, and one over the plane outside the triangle makes it an edge.
+Nearest nearestOnSegment(ShapeQuery& q, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                         const StartNormal& start);
+Nearest nearestOnTriangle(ShapeQuery& q, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                          const Eigen::Vector3d& c, const StartNormal& start);
+
+/// Box, triangle, polytope: grows a set of up to three corners by the one that faces the body most, until
+/// none faces it more than the nearest point of the set does (Wolfe 1976; GJK with a smooth body).
+Nearest nearestOnPolytope(ShapeQuery& q, const StartNormal& start);
+
+/// Cylinder and cone: ends, rims, sides and apex in turn.
+Nearest nearestOnCylinder(ShapeQuery& q, const StartNormal& start);
+Nearest nearestOnCone(ShapeQuery& q, const StartNormal& start);
+
+/// The plane of a flat end: its normal is fixed, only the position is to be checked. `apart` where the core
+/// is above.
+Nearest nearestOnPlane(ShapeQuery& q, const Eigen::Vector3d& onPlane, const Eigen::Vector3d& n, int hint);
+
+/// Whether nothing of the whole shape faces the body more than `found.y`, and the two points face each other:
+/// then the gap is the distance of the cores, whatever the search did (docs/theory.md, 5).
+bool certified(ShapeQuery& q, const Nearest& found);
+
+}  // namespace fcl_stpbv
