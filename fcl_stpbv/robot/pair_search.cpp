@@ -1,0 +1,196 @@
+// See pair_search.h.
+#include "fcl_stpbv/robot/pair_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace fcl_stpbv {
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+std::vector<CheckedPair> bodiesOf(const RobotGeometry& geometry, int link1, int link2) {
+  std::vector<CheckedPair> pairs;
+  const auto [first1, last1] = geometry.of(link1);
+  const auto [first2, last2] = geometry.of(link2);
+  for (int i = first1; i < last1; ++i)
+    for (int j = first2; j < last2; ++j) pairs.push_back({i, j, false});
+  return pairs;
+}
+
+// How far a link's bodies reach from its origin.
+double reachOf(const RobotGeometry& geometry, int link) {
+  double reach = 0;
+  const auto [first, last] = geometry.of(link);
+  for (int i = first; i < last; ++i)
+    reach = std::max(reach, geometry.bodies[at(i)].centre.norm() + geometry.bodies[at(i)].radius);
+  return reach;
+}
+
+std::vector<int> jointsAbove(const RobotModel& robot, int link) {
+  std::vector<int> joints;
+  for (int j = robot.links[at(link)].parentJoint; j >= 0;
+       j = robot.links[at(robot.joints[at(j)].parent)].parentJoint)
+    joints.push_back(j);
+  return joints;
+}
+
+}  // namespace
+
+PairSearch::PairSearch(std::shared_ptr<const Kinematics> kinematics,
+                       std::shared_ptr<const RobotGeometry> geometry, int link1, int link2)
+    : kinematics_(std::move(kinematics)),
+      geometry_(std::move(geometry)),
+      constraints_(kinematics_, geometry_, bodiesOf(*geometry_, link1, link2)),
+      d_(constraints_.rows()),
+      values_(constraints_.nonZeros()),
+      gradient_(kinematics_->size()) {
+  const std::vector<int>& rows = constraints_.rowStart();  // all rows have the same columns
+  coordinates_.assign(constraints_.columnIndices().begin(), constraints_.columnIndices().begin() + rows[1]);
+  boundSlopes(link1, link2);
+}
+
+// A turning joint moves a body's point by at most its distance from the axis; the moment of the normal's line
+// about the axis is the same taken at either witness point, so the nearer link counts. That distance is at
+// most the way along the links plus the body's reach.
+void PairSearch::boundSlopes(int link1, int link2) {
+  const RobotModel& robot = kinematics_->robot();
+  std::vector<int> up1 = jointsAbove(robot, link1), up2 = jointsAbove(robot, link2);
+  while (!up1.empty() && !up2.empty() && up1.back() == up2.back()) {
+    up1.pop_back();
+    up2.pop_back();
+  }
+  struct Part {
+    int joint;
+    double length;
+  };
+  std::vector<Part> path;  // from link1 up, then down to link2
+  const auto lengthOf = [&](int j) {
+    const JointModel& joint = robot.joints[at(j)];
+    double slide =
+        joint.type == JointType::prismatic ? std::max(std::abs(joint.lower), std::abs(joint.upper)) : 0;
+    if (joint.mimic && joint.type == JointType::prismatic) {
+      const JointModel& master = robot.joints[at(joint.mimic->joint)];
+      slide = std::abs(joint.mimic->offset) +
+              std::abs(joint.mimic->multiplier) * std::max(std::abs(master.lower), std::abs(master.upper));
+    }
+    return joint.origin.translation().norm() + slide;
+  };
+  for (int j : up1) path.push_back({j, lengthOf(j)});
+  for (auto j = up2.rbegin(); j != up2.rend(); ++j) path.push_back({*j, lengthOf(*j)});
+  double total = 0;
+  for (const Part& part : path) total += part.length;
+
+  lipschitz_.assign(coordinates_.size(), 0);
+  double before = 0;  // from link1 to this part
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    const bool on1 = i < up1.size();  // the joint's child is then on the side of link1
+    const JointModel& joint = robot.joints[at(path[i].joint)];
+    const double to1 = before + (on1 ? 0 : path[i].length) + reachOf(*geometry_, link1);
+    const double to2 = total - before - (on1 ? 0 : path[i].length) + reachOf(*geometry_, link2);
+    before += path[i].length;
+    if (joint.type == JointType::fixed) continue;
+    double slope = std::numeric_limits<double>::infinity();
+    if (joint.type == JointType::prismatic) slope = 1;
+    if (joint.type == JointType::revolute || joint.type == JointType::continuous) slope = std::min(to1, to2);
+    int coordinate = kinematics_->coordinate(joint.name);
+    if (joint.mimic) {
+      slope *= std::abs(joint.mimic->multiplier);
+      coordinate = kinematics_->coordinate(robot.joints[at(joint.mimic->joint)].name);
+    }
+    for (std::size_t k = 0; k < coordinates_.size(); ++k) {
+      const int freedoms = joint.type == JointType::floating ? 6 : joint.type == JointType::planar ? 3 : 1;
+      if (coordinates_[k] >= coordinate && coordinates_[k] < coordinate + freedoms) lipschitz_[k] += slope;
+    }
+  }
+}
+
+double PairSearch::distance(const Eigen::VectorXd& q) {
+  constraints_.evaluate(q, d_);
+  return d_.minCoeff();
+}
+
+double PairSearch::distanceAndGradient(const Eigen::VectorXd& q) {
+  constraints_.evaluateValues(q, d_, values_);
+  Eigen::Index row;
+  const double least = d_.minCoeff(&row);
+  gradient_.setZero();
+  const int start = constraints_.rowStart()[static_cast<std::size_t>(row)];
+  for (std::size_t k = 0; k < coordinates_.size(); ++k)
+    gradient_[coordinates_[k]] = values_[start + static_cast<int>(k)];
+  return least;
+}
+
+double PairSearch::descend(Eigen::VectorXd& q, double margin) {
+  constexpr int kSteps = 200;
+  constexpr double kEnough = 1e-6;  // m; a descent that gains less than this has arrived
+  double step = 0.1, d = distanceAndGradient(q);
+  for (int i = 0; i < kSteps && d >= margin; ++i) {
+    const Eigen::VectorXd slope = gradient_;
+    if (!(slope.norm() > 1e-12)) break;
+    bool better = false;
+    for (int half = 0; half < 30 && !better; ++half) {
+      const Eigen::VectorXd next =
+          (q - step / slope.norm() * slope).cwiseMax(kinematics_->lower()).cwiseMin(kinematics_->upper());
+      const double there = distanceAndGradient(next);
+      const double promised = slope.dot(q - next);
+      if (promised <= 0) return d;  // held by the limits
+      if (there < d - 1e-4 * promised) {
+        better = true;
+        const double gain = d - there;
+        q = next;
+        d = there;
+        step = std::min(1.0, step * 2);
+        if (gain < kEnough) return d;
+      } else {
+        step /= 2;
+      }
+    }
+    if (!better) break;
+  }
+  return d;
+}
+
+PairSearch::Proof PairSearch::prove(double margin, std::chrono::steady_clock::time_point until,
+                                    Eigen::VectorXd& q) {
+  for (double slope : lipschitz_)
+    if (!std::isfinite(slope)) return Proof::undecided;
+  struct Box {
+    Eigen::VectorXd middle, half;
+  };
+  const Eigen::Index size = static_cast<Eigen::Index>(coordinates_.size());
+  Box all{Eigen::VectorXd(size), Eigen::VectorXd(size)};
+  for (Eigen::Index k = 0; k < size; ++k) {
+    const int c = coordinates_[static_cast<std::size_t>(k)];
+    all.middle[k] = (kinematics_->lower()[c] + kinematics_->upper()[c]) / 2;
+    all.half[k] = (kinematics_->upper()[c] - kinematics_->lower()[c]) / 2;
+  }
+  const Eigen::Map<const Eigen::VectorXd> slopes(lipschitz_.data(), size);
+  Eigen::VectorXd at = kinematics_->neutral();
+  std::vector<Box> open{all};
+  while (!open.empty()) {
+    if (std::chrono::steady_clock::now() >= until) return Proof::undecided;
+    Box box = std::move(open.back());
+    open.pop_back();
+    for (Eigen::Index k = 0; k < size; ++k) at[coordinates_[static_cast<std::size_t>(k)]] = box.middle[k];
+    const double d = distance(at);
+    if (d < margin) {
+      q = at;
+      return Proof::collision;
+    }
+    Eigen::Index widest = 0;
+    const Eigen::VectorXd change = slopes.cwiseProduct(box.half);
+    if (d - change.sum() > margin) continue;
+    change.maxCoeff(&widest);
+    box.half[widest] /= 2;
+    Box other = box;
+    box.middle[widest] -= box.half[widest];
+    other.middle[widest] += box.half[widest];
+    open.push_back(std::move(box));
+    open.push_back(std::move(other));
+  }
+  return Proof::clear;
+}
+
+}  // namespace fcl_stpbv

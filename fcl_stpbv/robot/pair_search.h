@@ -1,0 +1,50 @@
+// The least distance of one pair of links over the joint box: descent, and a proof by branch and bound.
+#pragma once
+
+#include <Eigen/Core>
+#include <chrono>
+#include <memory>
+#include <vector>
+
+#include "fcl_stpbv/robot/constraints.h"
+
+namespace fcl_stpbv {
+
+/// One pair of links as a function of the coordinates between them.
+class PairSearch {
+ public:
+  enum class Proof { clear, collision, undecided };
+
+  PairSearch(std::shared_ptr<const Kinematics> kinematics, std::shared_ptr<const RobotGeometry> geometry,
+             int link1, int link2);
+
+  /// Least distance over the bodies at q.
+  double distance(const Eigen::VectorXd& q);
+
+  /// Projected gradient descent from q within the limits, until the distance is below `margin` or falls no
+  /// more. Gives the distance reached; q becomes where.
+  double descend(Eigen::VectorXd& q, double margin);
+
+  /// Whether the distance exceeds `margin` all over the joint box: cut into boxes until in each the distance
+  /// at the middle, less what the joints can change it by within the box, exceeds it (a Lipschitz bound:
+  /// docs/robot.md). On `collision` q is one.
+  Proof prove(double margin, std::chrono::steady_clock::time_point until, Eigen::VectorXd& q);
+
+  /// Bound on the change of the distance per unit of each coordinate between the links, infinite where there
+  /// is none.
+  const std::vector<double>& lipschitz() const { return lipschitz_; }
+  const std::vector<int>& coordinates() const { return coordinates_; }
+
+ private:
+  double distanceAndGradient(const Eigen::VectorXd& q);
+  void boundSlopes(int link1, int link2);
+
+  std::shared_ptr<const Kinematics> kinematics_;
+  std::shared_ptr<const RobotGeometry> geometry_;
+  CollisionConstraints constraints_;
+  std::vector<int> coordinates_;
+  std::vector<double> lipschitz_;
+  Eigen::VectorXd d_, values_, gradient_;
+};
+
+}  // namespace fcl_stpbv

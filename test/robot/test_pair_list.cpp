@@ -1,0 +1,130 @@
+// Reasons for leaving pairs out: on robots where they are plain to see, and on real ones.
+#include <catch2/catch.hpp>
+
+#include "fcl_stpbv/robot/pair_list.h"
+#include "fcl_stpbv/robot/pair_search.h"
+#include "test/robot/robots.h"
+#include "test/robot/urdf_texts.h"
+#include "test/shapes.h"
+#include "test/volume/volume_files.h"
+
+using namespace fcl_stpbv;
+using namespace fcl_stpbv::test;
+
+namespace {
+
+struct Arm {
+  std::shared_ptr<const Kinematics> kinematics;
+  std::shared_ptr<const RobotGeometry> geometry;
+};
+
+Arm armFrom(std::shared_ptr<const RobotModel> model, RobotGeometry geometry) {
+  return {std::make_shared<const Kinematics>(std::move(model)),
+          std::make_shared<const RobotGeometry>(std::move(geometry))};
+}
+
+// Three bars of 0.2 m in a row on z axes 0.25 m apart; each joint turns by 1 rad either way, so that the
+// third one comes near the first but cannot touch it.
+Arm bars(double limit) {
+  const TemporaryFolder folder;
+  std::string bar;
+  for (const Eigen::Vector3d& p : box(0.2, 0.02, 0.02))
+    bar += "v " + std::to_string(p.x() + 0.125) + " " + std::to_string(p.y()) + " " + std::to_string(p.z()) +
+           "\n";
+  put(folder / "bar.obj", bar + "f 1 2 3\nf 1 3 5\nf 2 4 6\nf 5 6 7\nf 7 8 3\n");
+  const std::string mesh = "<mesh filename=\"bar.obj\"/>", half = std::to_string(limit);
+  const auto turn = [&](const std::string& name, const std::string& parent, const std::string& child) {
+    return "<joint name=\"" + name +
+           "\" type=\"revolute\"><origin xyz=\"0.25 0 0\"/><axis xyz=\"0 0 1\"/><parent link=\"" + parent +
+           "\"/><child link=\"" + child + "\"/><limit lower=\"-" + half + "\" upper=\"" + half +
+           "\" effort=\"1\" velocity=\"1\"/></joint>";
+  };
+  put(folder / "r.urdf", robot(link("a", mesh) + link("b", mesh) + link("c", mesh) + turn("j1", "a", "b") +
+                               turn("j2", "b", "c")));
+  const auto model = std::make_shared<const RobotModel>(loadUrdf(folder / "r.urdf"));
+  GeometryOptions options;
+  options.cacheFolder.clear();
+  return armFrom(model, loadGeometry(*model, options));
+}
+
+}  // namespace
+
+TEST_CASE("a pair that cannot meet is proven never, one that can comes with the configuration") {
+  PairListOptions options;
+  options.samples = 50;
+  options.proofSeconds = 20;
+  for (const double limit : {1.0, 2.9}) {
+    const Arm arm = bars(limit);
+    const std::vector<PairEntry> list = pairList(arm.kinematics, arm.geometry, nullptr, options);
+    REQUIRE(list.size() == 3);
+    CHECK(list[0].reason == PairReason::adjacent);
+    const PairEntry& ends = list[1];
+    PairSearch search(arm.kinematics, arm.geometry, 0, 2);
+    CHECK(search.distance(ends.closest) == Approx(ends.minDistance).margin(1e-12));
+    if (limit < 2) {
+      CHECK(ends.reason == PairReason::neverProven);
+    } else {
+      CHECK(ends.reason == PairReason::sometimes);
+      CHECK(ends.minDistance < 0);
+    }
+  }
+}
+
+TEST_CASE("a descent finds the collision that few samples miss") {
+  const Arm arm = bars(2.9);
+  PairListOptions options;
+  options.samples = 3;
+  const std::vector<PairEntry> list = pairList(arm.kinematics, arm.geometry, nullptr, options);
+  CHECK(list[1].reason == PairReason::sometimes);
+  CHECK(list[1].minDistance < 0);
+}
+
+TEST_CASE("no slope of the distance exceeds its Lipschitz bound") {
+  for (const TestRobot& robot : robots()) {
+    LoadedRobot loaded = load(robot);
+    const Arm arm = armFrom(loaded.model, std::move(loaded.geometry));
+    Random random(2);
+    for (int trial = 0; trial < 100; ++trial) {
+      const int count = static_cast<int>(arm.geometry->bodies.size());
+      const int i = arm.geometry->bodies[static_cast<std::size_t>(random.below(count))].link;
+      const int j = arm.geometry->bodies[static_cast<std::size_t>(random.below(count))].link;
+      if (i == j) continue;
+      PairSearch search(arm.kinematics, arm.geometry, i, j);
+      Eigen::VectorXd q(arm.kinematics->size());
+      for (int k = 0; k < q.size(); ++k)
+        q[k] = random.uniform(arm.kinematics->lower()[k], arm.kinematics->upper()[k]);
+      const double here = search.distance(q);
+      for (std::size_t k = 0; k < search.coordinates().size(); ++k) {
+        Eigen::VectorXd near = q;
+        near[search.coordinates()[k]] += 1e-3;
+        const double there = search.distance(near);
+        if (here <= 0 || there <= 0) continue;  // FCL's boxes are cut off at 0
+        CHECK(std::abs(there - here) <= search.lipschitz()[k] * 1e-3 + 1e-9);
+      }
+    }
+  }
+}
+
+TEST_CASE("the list is the same for the same seed, sorted, and keeps the user's entries") {
+  const TestRobot robot = robots()[0];
+  LoadedRobot loaded = load(robot);
+  const Arm arm = armFrom(loaded.model, std::move(loaded.geometry));
+  const Srdf srdf = loadSrdf(robot.srdf, *loaded.model);
+  PairListOptions options;
+  options.samples = 100;
+  const std::vector<PairEntry> once = pairList(arm.kinematics, arm.geometry, &srdf, options);
+  options.threads = 2;
+  const std::vector<PairEntry> again = pairList(arm.kinematics, arm.geometry, &srdf, options);
+  REQUIRE(once.size() == 465);
+  int user = 0;
+  for (std::size_t i = 0; i < once.size(); ++i) {
+    CHECK(once[i].reason == again[i].reason);
+    CHECK(once[i].minDistance == again[i].minDistance);
+    user += once[i].reason == PairReason::user;
+  }
+  CHECK(user == 266);
+  const std::vector<Srdf::Pair> pairs = toSrdf(*loaded.model, once);
+  for (std::size_t i = 1; i < pairs.size(); ++i)
+    CHECK(std::make_pair(pairs[i - 1].link1, pairs[i - 1].link2) <
+          std::make_pair(pairs[i].link1, pairs[i].link2));
+}
