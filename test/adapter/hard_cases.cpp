@@ -39,6 +39,13 @@ std::vector<HardCase> equalNormCases() {
                    poseOf(q, {-0.23663076219973789, -0.09140831192966728, 0.33932874715329259}), 0.140824133,
                    1e-9});
 
+  const Quaterniond turned(0.69193712937676233, 0.40055124484227378, -0.59654385900593065,
+                           -0.070122275543958654);
+  const Cloud sphere = geodesicSphere(0.2, 1);
+  cases.push_back({"geodesic spheres in one orientation", sphere, sphere, poseOf(turned, {0, 0, 0}),
+                   poseOf(turned, {0.15246778685579854, -0.31482497554014005, 0.42129384087108968}),
+                   0.147585328, 1e-9});
+
   const std::array<Cloud, 6> tetrahedra{{{{2, -2, 1}, {2, 0, 0}, {2, 1, 0}, {-1, 0, -1}},
                                          {{2, 0, -2}, {-1, -2, 0}, {0, 0, 1}, {1, 2, 0}},
                                          {{2, 0, 2}, {1, -1, -2}, {-2, 0, 1}, {2, 0, -2}},
