@@ -100,7 +100,7 @@ class Search {
     for (std::size_t e = 0; e < list_.size(); ++e) {
       PairEntry& entry = list_[e];
       entry.neutralDistance = entry.minDistance = least[static_cast<Eigen::Index>(e)];
-      if (entry.reason == PairReason::sometimes && entry.neutralDistance < options_.margin)
+      if (entry.reason == PairReason::sometimes && entry.neutralDistance <= options_.margin)
         entry.reason = PairReason::byDefault;
     }
     // From here on the pairs that are still open only.
@@ -143,7 +143,7 @@ class Search {
   void note(Open& open, double distance, const Eigen::VectorXd& q) const {
     PairEntry& entry = *open.entry;
     ++entry.samples;
-    entry.collisions += distance < options_.margin;
+    entry.collisions += distance <= options_.margin;
     if (distance < entry.minDistance) {
       entry.minDistance = distance;
       entry.closest = q;
@@ -167,7 +167,7 @@ class Search {
       entry.minDistance = reached;
       entry.closest = q;
       entry.byDescent = true;
-      if (reached < options_.margin) {
+      if (reached <= options_.margin) {
         entry.reason = PairReason::sometimes;
         return;
       }

@@ -32,8 +32,8 @@ const char* reasonText(PairReason reason);
 struct PairListOptions {
   int samples = 2000;
   std::uint64_t seed = 1;
-  int descents = 3;              ///< from this many of a pair's closest samples
-  double margin = 0;             ///< a distance below it counts as a collision (m)
+  int descents = 3;   ///< from this many of a pair's closest samples
+  double margin = 0;  ///< a distance not above it is a collision (m); FCL's own answers are 0 at overlap
   double alwaysFraction = 0.95;  ///< of the samples in collision, as MoveIt has it
   double proofSeconds = 0;       ///< time to spend on proofs in all; a pair that is not decided stays sampled
   int threads = 1;

@@ -126,7 +126,7 @@ double PairSearch::descend(Eigen::VectorXd& q, double margin) {
   constexpr int kSteps = 200;
   constexpr double kEnough = 1e-6;  // m; a descent that gains less than this has arrived
   double step = 0.1, d = distanceAndGradient(q);
-  for (int i = 0; i < kSteps && d >= margin; ++i) {
+  for (int i = 0; i < kSteps && d > margin; ++i) {
     const Eigen::VectorXd slope = gradient_;
     if (!(slope.norm() > 1e-12)) break;
     bool better = false;
@@ -175,7 +175,7 @@ PairSearch::Proof PairSearch::prove(double margin, std::chrono::steady_clock::ti
     open.pop_back();
     for (Eigen::Index k = 0; k < size; ++k) at[coordinates_[static_cast<std::size_t>(k)]] = box.middle[k];
     const double d = distance(at);
-    if (d < margin) {
+    if (d <= margin) {
       q = at;
       return Proof::collision;
     }

@@ -21,7 +21,7 @@ class PairSearch {
   /// Least distance over the bodies at q.
   double distance(const Eigen::VectorXd& q);
 
-  /// Projected gradient descent from q within the limits, until the distance is below `margin` or falls no
+  /// Projected gradient descent from q within the limits, until the distance is at most `margin` or falls no
   /// more. Gives the distance reached; q becomes where.
   double descend(Eigen::VectorXd& q, double margin);
 

@@ -1,0 +1,164 @@
+"""urdf_collision_report as a user runs it.
+
+    test_urdf_collision_report.py PROGRAM SOURCE_FOLDER
+"""
+import csv
+import io
+import json
+import math
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+
+PROGRAM, SOURCE = sys.argv[1:3]
+ROBOT = os.path.join(SOURCE, "data/hrp2_style/hrp2_style")
+SHARED = os.path.join(os.path.dirname(os.path.abspath(SOURCE)), "shared", "robots")
+
+
+def link(name, geometry=""):
+    shape = f"<collision><geometry>{geometry}</geometry></collision>" if geometry else ""
+    return f'<link name="{name}">{shape}</link>'
+
+
+def joint(name, parent, child, kind="revolute"):
+    return (f'<joint name="{name}" type="{kind}"><parent link="{parent}"/><child link="{child}"/>'
+            '<limit lower="-1" upper="1" effort="1" velocity="1"/></joint>')
+
+
+class Report(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+
+    def run_tool(self, *arguments, timeout=120):
+        environment = dict(os.environ, XDG_CACHE_HOME=os.path.join(self.folder.name, "cache"))
+        return subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, env=environment, timeout=timeout)
+
+    def put(self, name, text):
+        path = os.path.join(self.folder.name, name)
+        with open(path, "w") as file:
+            file.write(text)
+        return path
+
+    def robot(self, body):
+        return self.put("robot.urdf", f'<robot name="small">{body}</robot>')
+
+    def humanoid(self, *arguments):
+        return self.run_tool(ROBOT + ".urdf", "--srdf", ROBOT + ".srdf", "--samples", "20", *arguments)
+
+    def test_a_clear_posture_exits_with_0_and_states_every_figure(self):
+        done = self.humanoid("--pose", "half_sitting", "--format", "json")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        report = json.loads(done.stdout)
+        self.assertEqual(report["robot"], "hrp2_style")
+        self.assertEqual(len(report["links"]), 31)
+        self.assertEqual(report["summary"]["pairs_total"], 465)
+        self.assertEqual(report["summary"]["checked"], 130)
+        self.assertEqual(report["summary"]["colliding"], 0)
+        first = report["pairs"][0]
+        self.assertEqual(first["distance"], report["summary"]["min_distance"])
+        gap = [b - a for a, b in zip(first["point1"], first["point2"])]
+        self.assertAlmostEqual(math.hypot(*gap), first["distance"], delta=1e-12)
+        # Along the normal the smooth gap and both over-covers make up the hulls' gap, which their distance exceeds.
+        covered = first["distance"] + first["over_cover1"] + first["over_cover2"]
+        self.assertLessEqual(covered, first["hull_distance"] + 1e-12)
+        self.assertTrue(first["gradient"])
+
+    def test_collisions_found_by_the_search_exit_with_1(self):
+        done = self.humanoid("--format", "json")
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertGreater(json.loads(done.stdout)["summary"]["colliding"], 0)
+
+    def test_a_seed_gives_the_same_srdf_and_it_loads_again(self):
+        one, two = (os.path.join(self.folder.name, name) for name in ("one.srdf", "two.srdf"))
+        for path in (one, two):
+            self.humanoid("--format", "srdf", "-o", path)
+        with open(one) as a, open(two) as b:
+            text = a.read()
+            self.assertEqual(text, b.read())
+        self.assertEqual(text.count('reason="User"'), 266)
+        again = self.run_tool(ROBOT + ".urdf", "--srdf", one, "--samples", "5", "--pose", "zero")
+        self.assertIn("checked", again.stdout)
+
+    def test_a_posture_from_a_file_is_the_same_as_from_the_srdf(self):
+        pose = self.put("pose.json", json.dumps({"RLEG_JOINT3": 0.5}))
+        done = self.humanoid("--pose", pose, "--format", "json")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        wrong = self.humanoid("--pose", self.put("wrong.json", '{"nobody": 1}'))
+        self.assertEqual(wrong.returncode, 2)
+        self.assertIn("nobody", wrong.stderr)
+        unknown = self.humanoid("--pose", "standing")
+        self.assertEqual(unknown.returncode, 2)
+        self.assertIn("half_sitting", unknown.stderr)
+
+    def test_csv_has_a_row_for_each_pair(self):
+        rows = list(csv.DictReader(io.StringIO(self.humanoid("--pose", "zero", "--format", "csv").stdout)))
+        self.assertEqual(len(rows), 465)
+        self.assertGreater(float(rows[0]["distance"]), 0)
+
+    def test_html_is_one_file_that_loads_nothing(self):
+        done = self.humanoid("--pose", "zero", "--format", "html")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertTrue(done.stdout.startswith("<!DOCTYPE html>"))
+        for outside in ("http://", "https://", "src=", "<link rel", "@import"):
+            self.assertNotIn(outside, done.stdout)
+
+    def test_an_obstacle_is_checked_against_every_moving_body(self):
+        scene = self.put("scene.urdf", f'<robot name="scene">{link("ball", chr(60) + "sphere radius=" + chr(34) + "0.1" + chr(34) + "/>")}</robot>')
+        done = self.humanoid("--pose", "zero", "--obstacles", scene, "--format", "json")
+        pairs = [p for p in json.loads(done.stdout)["pairs"] if p["reason"] == "obstacle"]
+        self.assertEqual(len(pairs), 30)
+
+    def test_overlapping_primitives_are_a_collision(self):
+        box = '<box size="1 1 1"/>'
+        urdf = self.robot(link("a", box) + link("b") + link("c", box) + link("d", box)
+                          + joint("j1", "a", "b") + joint("j2", "b", "c") + joint("j3", "c", "d"))
+        report = json.loads(self.run_tool(urdf, "--format", "json", "--samples", "10").stdout)
+        reasons = {(p["link1"], p["link2"]): p["reason"] for p in report["pairs"]}
+        self.assertEqual(reasons[("a", "d")], "default")
+
+    def test_what_cannot_be_read_exits_with_2_and_one_clear_message(self):
+        bomb = '<!DOCTYPE r [<!ENTITY a "aa"><!ENTITY b "&a;&a;">]><robot name="x">&b;</robot>'
+        cases = {
+            "no such file": os.path.join(self.folder.name, "nothing.urdf"),
+            "form a loop": self.put("loop.urdf", '<robot name="x">' + link("a") + link("b") + joint("j", "a", "b")
+                                    + joint("k", "b", "a") + "</robot>"),
+            "document type": self.put("bomb.urdf", bomb),
+            "tried": self.put("missing.urdf", '<robot name="x">'
+                              + link("a", '<mesh filename="package://nobody/a.stl"/>') + "</robot>"),
+        }
+        for words, path in cases.items():
+            output = os.path.join(self.folder.name, "out.json")
+            done = self.run_tool(path, "-o", output)
+            self.assertEqual(done.returncode, 2, words)
+            self.assertIn(words, done.stderr)
+            self.assertEqual(done.stdout, "")
+            self.assertFalse(os.path.exists(output))
+        for wrong in (["--samples", "0"], ["--format", "pdf"], ["-r", "-1"], ["-o", "/nowhere/x"]):
+            self.assertEqual(self.humanoid(*wrong).returncode, 2, wrong)
+
+    def test_a_robot_without_shapes_is_clear_and_says_so(self):
+        done = self.run_tool(self.robot(link("a") + link("b") + joint("j", "a", "b")))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("nothing to check", done.stderr)
+
+    def test_ten_thousand_links_are_read(self):
+        chain = link("l0") + "".join(link(f"l{i}") + joint(f"j{i}", f"l{i - 1}", f"l{i}") for i in range(1, 10000))
+        done = self.run_tool(self.robot(chain), "--samples", "5")
+        self.assertEqual(done.returncode, 0, done.stderr)
+
+    @unittest.skipUnless(os.path.isdir(SHARED), "skipped: no ../shared/robots")
+    def test_pairs_that_pandas_srdf_leaves_out_are_ours_too_or_come_with_a_collision(self):
+        panda = os.path.join(SHARED, "panda_description")
+        done = self.run_tool(panda + "/urdf/panda.urdf", "--srdf", panda + "/srdf/panda.srdf", "--package-path", SHARED,
+                             "--samples", "500", "--format", "json")
+        for pair in json.loads(done.stdout)["pairs"]:
+            if pair["srdf_reason"] in ("Never", "Adjacent"):
+                same = pair["reason"].startswith(pair["srdf_reason"].lower())
+                self.assertTrue(same or pair["min_distance"] <= 0, pair)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])

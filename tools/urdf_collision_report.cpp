@@ -1,0 +1,156 @@
+// urdf_collision_report: which links of a robot come how close, and which pairs need no check.
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <filesystem>
+#include <functional>
+#include <iostream>
+#include <memory>
+
+#include "fcl_stpbv/error.h"
+#include "fcl_stpbv/volume/atomic_write.h"
+#include "tools/progress_bar.h"
+#include "tools/report_formats.h"
+
+namespace {
+
+using namespace fcl_stpbv;
+using namespace fcl_stpbv::tools;
+
+enum Exit { kClear = 0, kCollision = 1, kUsage = 2 };
+
+constexpr const char* kDescription =
+    "Distances between the links of a robot, each covered by its sphere-torus-patch bounding volume "
+    "(STP-BV).";
+
+constexpr const char* kFooter =
+    R"(With --pose the pairs are reported in that posture, else each in the closest configuration that the samples
+and the descents from them found. Pairs that the SRDF leaves out, or without one adjacent links and those in collision
+in the zero posture or always, are not checked; their figures are reported all the same. Lengths are in metres.
+
+Examples:
+  urdf_collision_report robot.urdf --srdf robot.srdf --pose zero
+  urdf_collision_report robot.urdf --package-path ~/ws/src --samples 10000 --format srdf -o robot.srdf
+  urdf_collision_report robot.urdf --srdf robot.srdf --format html -o report.html
+
+Exit status: 0 no checked pair in collision; 1 a collision found; 2 the command line or an input is wrong.)";
+
+struct Arguments {
+  ReportRequest request;
+  std::string format = "text", output;
+  std::size_t top = 20;
+  bool noCache = false, quiet = false;
+};
+
+void describe(CLI::App& app, Arguments& a) {
+  ReportRequest& request = a.request;
+  app.add_option("ROBOT", request.urdf, "The robot's URDF")->required()->type_name("FILE");
+  app.add_option("--srdf", request.srdf, "SRDF with pairs to leave out and postures")->type_name("FILE");
+  app.add_option("--package-path", request.geometry.packagePath,
+                 "Folder that holds packages, for package:// names; may be given again")
+      ->type_name("FOLDER")
+      ->expected(1)
+      ->take_all();
+  app.add_option("--pose", request.pose, "A group_state of the SRDF, or a JSON file of joint values");
+  app.add_option("--samples", request.search.samples, "Random configurations")
+      ->check(CLI::Range(1, 100000000))
+      ->capture_default_str();
+  app.add_option("--seed", request.search.seed, "Of the random configurations")->capture_default_str();
+  app.add_option("--obstacles", request.obstacles, "URDF of a scene to keep clear of")->type_name("FILE");
+  app.add_option("-r", request.geometry.radii.r, "Radius of the small spheres, the margin")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  app.add_option("-R", request.geometry.radii.R, "Radius of the big spheres")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  app.add_flag("--visual", request.geometry.visual, "Use the visual shapes");
+  app.add_option("--top", a.top, "Pairs in the text")->capture_default_str();
+  app.add_option("--margin", request.search.margin, "A distance not above it counts as a collision")
+      ->capture_default_str();
+  app.add_option("--prove", request.search.proofSeconds, "Seconds to spend on proofs that pairs never meet")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  app.add_option("--format", a.format, "text, json, csv, srdf or html")
+      ->check(CLI::IsMember({"text", "json", "csv", "srdf", "html"}))
+      ->capture_default_str();
+  app.add_option("-o,--output", a.output, "File to write instead of standard output")->type_name("OUT");
+  app.add_option("--threads", request.search.threads, "Threads for the samples")
+      ->check(CLI::Range(1, 256))
+      ->capture_default_str();
+  app.add_flag("--no-cache", a.noCache, "Build every volume, keep none in the cache folder");
+  app.add_flag("-q,--quiet", a.quiet, "No progress bar and no warnings");
+}
+
+std::string written(const CollisionReport& report, const Arguments& a) {
+  if (a.format == "json") return toJson(report);
+  if (a.format == "csv") return toCsv(report);
+  if (a.format == "srdf") return toSrdfText(report, a.request.srdf);
+  if (a.format == "html") return toHtml(report);
+  return toText(report, a.top);
+}
+
+void checkOutput(const Arguments& a) {
+  if (a.output.empty()) return;
+  std::error_code ignored;
+  const std::filesystem::path parent = std::filesystem::path(a.output).parent_path();
+  if (std::filesystem::is_directory(a.output, ignored))
+    throw Error("-o " + a.output + ": is a folder, expected a file");
+  if (!parent.empty() && !std::filesystem::is_directory(parent, ignored))
+    throw Error("-o " + a.output + ": the folder " + parent.string() + " does not exist; make it first");
+}
+
+// A bar for each of the stages; its steps are only known when it begins.
+class Stages {
+ public:
+  explicit Stages(bool wanted) : wanted_(wanted) {}
+  void operator()(std::size_t done, std::size_t all, const std::string& what) {
+    if (!bar_ || all != all_) bar_.reset();
+    all_ = all;
+    if (!bar_) bar_ = std::make_unique<ProgressBar>(all, wanted_);
+    bar_->show(done, what);
+  }
+  void clear() { bar_.reset(); }
+
+ private:
+  bool wanted_;
+  std::size_t all_ = 0;
+  std::unique_ptr<ProgressBar> bar_;
+};
+
+int run(Arguments& a) {
+  checkOutput(a);
+  if (a.noCache) a.request.geometry.cacheFolder.clear();
+  Stages stages(!a.quiet);
+  a.request.geometry.progress = a.request.search.progress = std::ref(stages);
+  const CollisionReport report = makeReport(a.request);
+  stages.clear();
+  if (!a.quiet)
+    for (const std::string& warning : report.warnings)
+      std::cerr << "urdf_collision_report: " << warning << std::endl;
+  const std::string text = written(report, a);
+  if (a.output.empty())
+    std::cout << text << std::flush;
+  else
+    atomicWrite(a.output, text);
+  return report.colliding > 0 ? kCollision : kClear;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app(kDescription, "urdf_collision_report");
+  app.footer(kFooter);
+  Arguments arguments;
+  describe(app, arguments);
+  try {
+    app.parse(argc, argv);
+    return run(arguments);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? kClear : kUsage;
+  } catch (const std::bad_alloc&) {
+    std::cerr << "urdf_collision_report: not enough memory; give a smaller robot" << std::endl;
+    return kUsage;
+  } catch (const std::exception& error) {
+    std::cerr << "urdf_collision_report: " << error.what() << std::endl;
+    return kUsage;
+  }
+}
