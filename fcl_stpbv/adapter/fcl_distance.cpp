@@ -1,6 +1,9 @@
 #include "fcl_stpbv/adapter/fcl_distance.h"
 
+#include <utility>
+
 #include "fcl_stpbv/adapter/fcl_fallback.h"
+#include "fcl_stpbv/adapter/other_geometry.h"
 #include "fcl_stpbv/adapter/polyhedral_witness.h"
 
 namespace fcl_stpbv {
@@ -39,6 +42,37 @@ DistanceAnswer inFclTerms(const Distance& found, const Transform3d& pose1, const
   return answer;
 }
 
+/// An STP-BV and anything else, in either order: the same query, so the same answer from the other side.
+bool mixedDistance(const StpBvGeometry* a, const CollisionGeometryd& geometry1, const Transform3d& pose1,
+                   const StpBvGeometry* b, const CollisionGeometryd& geometry2, const Transform3d& pose2,
+                   const QueryContext& context, DistanceAnswer& answer) {
+  if (!a && !b) return false;
+  PairCache cache;  // of the STP-BV first
+  if (context.cache) cache = *context.cache;
+  if (!a) {
+    cache.normal = -cache.normal;
+    std::swap(cache.patch[0], cache.patch[1]);
+  }
+  OtherDistance other;
+  if (!(a ? distanceToOther(a->volume(), pose1, geometry2, pose2, &cache, other)
+          : distanceToOther(b->volume(), pose2, geometry1, pose1, &cache, other)))
+    return false;
+  if (!a) {
+    cache.normal = -cache.normal;
+    std::swap(cache.patch[0], cache.patch[1]);
+    other.found.normal = -other.found.normal;
+    std::swap(other.found.point[0], other.found.point[1]);
+    std::swap(other.found.patch[0], other.found.patch[1]);
+  }
+  if (context.cache) *context.cache = cache;
+  answer = inFclTerms(other.found, pose1, pose2);
+  if (answer.status == DistanceStatus::invalid) return true;
+  answer.element[a ? 1 : 0] = other.element;
+  answer.runnerUp = other.runnerUp;
+  answer.continuous = other.continuous;
+  return true;
+}
+
 bool finite(const Transform3d& pose) { return pose.matrix().topRows<3>().allFinite(); }
 
 }  // namespace
@@ -51,7 +85,9 @@ DistanceAnswer distance(const CollisionGeometryd& geometry1, const Transform3d& 
   const StpBvGeometry* b = asStpBv(&geometry2);
   if (a && b)
     answer = inFclTerms(smoothDistance(*a, pose1, *b, pose2, context), pose1, pose2);
-  else if (finite(pose1) && finite(pose2))  // FCL may loop or assert on anything else
+  else if (!finite(pose1) || !finite(pose2))
+    answer = {};  // FCL may loop or assert on these
+  else if (!mixedDistance(a, geometry1, pose1, b, geometry2, pose2, context, answer))
     answer = fallbackDistance(geometry1, pose1, geometry2, pose2);
   answer.geometry = {&geometry1, &geometry2};
   return answer;
@@ -67,13 +103,15 @@ DistanceAnswer distance(const fcl::CollisionObjectd& object1, const fcl::Collisi
 
 fcl::DistanceResultd toFclResult(const DistanceAnswer& answer) {
   fcl::DistanceResultd result;
-  const bool known = answer.status != DistanceStatus::invalid && (answer.continuous || answer.distance > 0);
+  const bool known = answer.status != DistanceStatus::invalid &&
+                     (answer.distance > 0 || answer.normal.squaredNorm() > 0);  // without one: not signed
   result.min_distance = known ? answer.distance : -1;
   result.nearest_points[0] = answer.points[0];
   result.nearest_points[1] = answer.points[1];
   result.o1 = answer.geometry[0];
   result.o2 = answer.geometry[1];
-  result.b1 = result.b2 = fcl::DistanceResultd::NONE;
+  result.b1 = answer.element[0];
+  result.b2 = answer.element[1];
   return result;
 }
 

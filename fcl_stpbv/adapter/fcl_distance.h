@@ -1,4 +1,4 @@
-// The drop-in for fcl::distance: exact, C1 distance where both geometries are STP-BVs, FCL's own for the
+// The drop-in for fcl::distance: exact, C1 distance where a geometry is an STP-BV, FCL's own for the
 // rest.
 #pragma once
 
@@ -7,6 +7,7 @@
 #include <fcl/narrowphase/distance_result.h>
 
 #include <array>
+#include <cstdint>
 #include <limits>
 
 #include "fcl_stpbv/adapter/feature_map.h"
@@ -28,7 +29,12 @@ struct DistanceAnswer {
   /// axes.
   std::array<TwistGradient, 2> gradient{TwistGradient::Zero(), TwistGradient::Zero()};
   std::array<int, 2> patch{-1, -1};  ///< of the STP-BVs; -1 for any other geometry
-  /// Whether distance and gradient are continuous over motions: true for pairs of STP-BVs, false where FCL
+  /// Nearest triangle or cell of a mesh or tree, FCL's `b1`, `b2`; -1 for any other geometry.
+  std::array<std::intptr_t, 2> element{-1, -1};
+  /// No other triangle or cell is nearer than this: how far the nearest one is from switching (m).
+  double runnerUp = std::numeric_limits<double>::infinity();
+  /// Whether distance and gradient are continuous over motions: true for an STP-BV against one or a
+  /// simple shape; false for meshes and trees, whose nearest element switches, and where FCL
   /// answered.
   bool continuous = false;
   std::array<const fcl::CollisionGeometryd*, 2> geometry{nullptr, nullptr};
@@ -42,9 +48,10 @@ struct QueryContext {
   MappingCounts* mapping = nullptr;  ///< gets the outcome of the feature mapping, for queries that ask FCL
 };
 
-/// Distance between two geometries. Never throws; allocates nothing where both are STP-BVs.
+/// Distance between two geometries. Never throws; allocates nothing where one is an STP-BV.
 ///
-/// Two STP-BVs: exact and signed, with status, bounds and derivatives. Any other pair: `fcl::distance`,
+/// An STP-BV against one, or against any other FCL geometry in either order: exact and signed, with status,
+/// bounds and derivatives. Any other pair: `fcl::distance`,
 /// unsigned, with tolerance 1e-10, exceptions caught; status `bounded`, `continuous` false, 0 for touching or
 /// overlapping geometries.
 DistanceAnswer distance(const fcl::CollisionGeometryd& geometry1, const fcl::Transform3d& pose1,

@@ -171,12 +171,11 @@ TEST_CASE("penetration of two STP-BVs is a signed distance, whether asked for or
   }
 }
 
-TEST_CASE("a pair that is not two STP-BVs gets FCL's answer, marked as not continuous") {
-  const auto cube = geometryOf(box(0.2, 0.2, 0.2));
+TEST_CASE("a pair without an STP-BV gets FCL's answer, marked as not continuous") {
   const auto ball = std::make_shared<fcl::Sphered>(0.1);
   const auto crate = std::make_shared<fcl::Boxd>(0.2, 0.2, 0.2);
   SECTION("apart") {
-    const DistanceAnswer d = distance(*cube, at(0, 0, 0), *ball, at(0.5, 0, 0));
+    const DistanceAnswer d = distance(*crate, at(0, 0, 0), *ball, at(0.5, 0, 0));
     CHECK_FALSE(d.continuous);
     CHECK(d.status == DistanceStatus::bounded);
     CHECK(d.distance == Approx(0.3).margin(1e-9));
@@ -216,8 +215,7 @@ TEST_CASE("a pair that is not two STP-BVs gets FCL's answer, marked as not conti
         std::make_shared<fcl::BVHModel<fcl::OBBRSSd>>(), std::make_shared<fcl::BVHModel<fcl::AABBd>>()};
     for (const auto& first : others)
       for (const fcl::CollisionGeometryd* second :
-           {first.get(), static_cast<fcl::CollisionGeometryd*>(ball.get()),
-            static_cast<fcl::CollisionGeometryd*>(cube.get())}) {
+           {first.get(), static_cast<fcl::CollisionGeometryd*>(ball.get())}) {
         CHECK(distance(*first, at(0, 0, 0), *second, at(0, 0, 1)).status == DistanceStatus::invalid);
         CHECK(distance(*second, at(0, 0, 0), *first, at(0, 0, 1)).status == DistanceStatus::invalid);
       }

@@ -1,0 +1,67 @@
+#include "fcl_stpbv/adapter/fcl_shapes.h"
+
+#include <fcl/geometry/shape/box.h>
+#include <fcl/geometry/shape/capsule.h>
+#include <fcl/geometry/shape/cone.h>
+#include <fcl/geometry/shape/convex.h>
+#include <fcl/geometry/shape/cylinder.h>
+#include <fcl/geometry/shape/ellipsoid.h>
+#include <fcl/geometry/shape/halfspace.h>
+#include <fcl/geometry/shape/plane.h>
+#include <fcl/geometry/shape/sphere.h>
+#include <fcl/geometry/shape/triangle_p.h>
+
+namespace fcl_stpbv {
+
+bool shapeOf(const fcl::CollisionGeometryd& geometry, Shape& shape) {
+  switch (geometry.getNodeType()) {
+    case fcl::GEOM_SPHERE:
+      shape = Shape::sphere(static_cast<const fcl::Sphered&>(geometry).radius);
+      return true;
+    case fcl::GEOM_CAPSULE: {
+      const auto& g = static_cast<const fcl::Capsuled&>(geometry);
+      shape = Shape::capsule(g.radius, g.lz);
+      return true;
+    }
+    case fcl::GEOM_ELLIPSOID:
+      shape = Shape::ellipsoidOf(static_cast<const fcl::Ellipsoidd&>(geometry).radii);
+      return true;
+    case fcl::GEOM_BOX:
+      shape = Shape::boxOf(static_cast<const fcl::Boxd&>(geometry).side);
+      return true;
+    case fcl::GEOM_CYLINDER: {
+      const auto& g = static_cast<const fcl::Cylinderd&>(geometry);
+      shape = Shape::cylinderOf(g.radius, g.lz);
+      return true;
+    }
+    case fcl::GEOM_CONE: {
+      const auto& g = static_cast<const fcl::Coned&>(geometry);
+      shape = Shape::coneOf(g.radius, g.lz);
+      return true;
+    }
+    case fcl::GEOM_CONVEX: {
+      const auto& vertices = static_cast<const fcl::Convexd&>(geometry).getVertices();
+      shape = Shape::polytopeOf(vertices.data(), static_cast<int>(vertices.size()));
+      return true;
+    }
+    case fcl::GEOM_HALFSPACE: {
+      const auto& g = static_cast<const fcl::Halfspaced&>(geometry);
+      shape = Shape::halfspaceOf(g.n, g.d);
+      return true;
+    }
+    case fcl::GEOM_PLANE: {
+      const auto& g = static_cast<const fcl::Planed&>(geometry);
+      shape = Shape::planeOf(g.n, g.d);
+      return true;
+    }
+    case fcl::GEOM_TRIANGLE: {
+      const auto& g = static_cast<const fcl::TrianglePd&>(geometry);
+      shape = Shape::triangleOf(g.a, g.b, g.c);
+      return true;
+    }
+    default:
+      return false;
+  }
+}
+
+}  // namespace fcl_stpbv

@@ -1,0 +1,27 @@
+// An STP-BV against any other FCL geometry: simple shapes, meshes and trees.
+#pragma once
+
+#include <fcl/geometry/collision_geometry.h>
+
+#include <cstdint>
+#include <limits>
+
+#include "fcl_stpbv/distance/distance.h"
+
+namespace fcl_stpbv {
+
+/// The distance, and what of a mesh or a tree it is to.
+struct OtherDistance {
+  Distance found;              ///< body 1 is the STP-BV
+  std::intptr_t element = -1;  ///< triangle or cell, as FCL numbers them; -1 for simple shapes
+  double runnerUp = std::numeric_limits<double>::infinity();  ///< no other element is nearer (m)
+  bool continuous = true;  ///< the gradient too: false for meshes and trees, whose nearest element switches
+};
+
+/// Solves the pair. False where this library has no answer: a type it does not know, or nothing to measure
+/// to. Allocates nothing.
+bool distanceToOther(const StpBv& volume, const Eigen::Isometry3d& poseVolume,
+                     const fcl::CollisionGeometryd& other, const Eigen::Isometry3d& poseOther,
+                     PairCache* cache, OtherDistance& result);
+
+}  // namespace fcl_stpbv

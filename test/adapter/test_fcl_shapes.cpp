@@ -1,0 +1,165 @@
+// An STP-BV against FCL's other geometries through the drop-in: shapes, meshes of every bounding volume,
+// octrees.
+#include <fcl/config.h>
+#include <fcl/geometry/bvh/BVH_model.h>
+#include <fcl/geometry/geometric_shape_to_BVH_model.h>
+#include <fcl/geometry/shape/box.h>
+#include <fcl/geometry/shape/capsule.h>
+#include <fcl/geometry/shape/cone.h>
+#include <fcl/geometry/shape/cylinder.h>
+#include <fcl/geometry/shape/ellipsoid.h>
+#include <fcl/geometry/shape/halfspace.h>
+#include <fcl/geometry/shape/plane.h>
+#include <fcl/geometry/shape/sphere.h>
+#include <fcl/geometry/shape/triangle_p.h>
+#if FCL_HAVE_OCTOMAP
+#include <fcl/geometry/octree/octree.h>
+#endif
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+
+#include "fcl_stpbv/adapter/proximity.h"
+#include "fcl_stpbv/distance/shape_distance.h"
+#include "test/shapes.h"
+
+using namespace fcl_stpbv;
+using namespace fcl_stpbv::test;
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+namespace {
+
+std::shared_ptr<StpBvGeometry> link() {
+  return std::make_shared<StpBvGeometry>(StpBv::build(randomHull(20, {0.2, 0.15, 0.1}, 3), {0.01, 10}));
+}
+
+template <typename BV>
+std::shared_ptr<fcl::BVHModel<BV>> bumpyGround() {
+  constexpr int kSide = 24;
+  auto mesh = std::make_shared<fcl::BVHModel<BV>>();
+  std::vector<Vector3d> points;
+  std::vector<fcl::Triangle> triangles;
+  Random random(4);
+  for (int i = 0; i <= kSide; ++i)
+    for (int j = 0; j <= kSide; ++j)
+      points.emplace_back(0.1 * i - 1.2, 0.1 * j - 1.2, random.uniform(-0.05, 0.05));
+  for (std::size_t i = 0; i < kSide; ++i)
+    for (std::size_t j = 0; j < kSide; ++j) {
+      const std::size_t p = i * (kSide + 1) + j, q = p + kSide + 1;
+      triangles.emplace_back(p, q, p + 1);
+      triangles.emplace_back(q, q + 1, p + 1);
+    }
+  mesh->beginModel();
+  mesh->addSubModel(points, triangles);
+  mesh->endModel();
+  return mesh;
+}
+
+}  // namespace
+
+TEST_CASE("every FCL shape is answered exactly, in both orders alike") {
+  const auto body = link();
+  const std::vector<std::pair<std::shared_ptr<fcl::CollisionGeometryd>, Shape>> shapes{
+      {std::make_shared<fcl::Sphered>(0.1), Shape::sphere(0.1)},
+      {std::make_shared<fcl::Capsuled>(0.1, 0.3), Shape::capsule(0.1, 0.3)},
+      {std::make_shared<fcl::Ellipsoidd>(0.1, 0.2, 0.3), Shape::ellipsoidOf({0.1, 0.2, 0.3})},
+      {std::make_shared<fcl::Boxd>(0.1, 0.2, 0.3), Shape::boxOf({0.1, 0.2, 0.3})},
+      {std::make_shared<fcl::Cylinderd>(0.1, 0.3), Shape::cylinderOf(0.1, 0.3)},
+      {std::make_shared<fcl::Coned>(0.1, 0.3), Shape::coneOf(0.1, 0.3)},
+      {std::make_shared<fcl::Halfspaced>(Vector3d(0, 0, 1), 0.1), Shape::halfspaceOf({0, 0, 1}, 0.1)},
+      {std::make_shared<fcl::Planed>(Vector3d(0, 0, 1), 0.1), Shape::planeOf({0, 0, 1}, 0.1)},
+      {std::make_shared<fcl::TrianglePd>(Vector3d(0, 0, 0), Vector3d(1, 0, 0), Vector3d(0, 1, 0)),
+       Shape::triangleOf({0, 0, 0}, {1, 0, 0}, {0, 1, 0})}};
+  Random random(2);
+  for (const auto& [geometry, shape] : shapes)
+    for (int i = 0; i < 100; ++i) {
+      CAPTURE(static_cast<int>(geometry->getNodeType()), i);
+      const Isometry3d a = pose(random.rotation(), random.direction());
+      const Isometry3d b =
+          pose(random.rotation(), a.translation() + random.uniform(0.2, 1) * random.direction());
+      const DistanceAnswer d = distance(*body, a, *geometry, b), e = distance(*geometry, b, *body, a);
+      const Distance truth = distance(body->volume(), a, shape, b);
+      CHECK(d.distance == truth.distance);
+      CHECK(d.status == truth.status);
+      CHECK(e.distance == d.distance);
+      CHECK(e.normal == -d.normal);
+      CHECK(e.points[0] == d.points[1]);
+      CHECK(e.gradient[0] == d.gradient[1]);
+      CHECK(d.continuous);
+      CHECK(isFartherThan(d.distance - 1e-9, *body, a, *geometry, b));
+      CHECK(collides(*body, a, *geometry, b, d.distance + 1e-9));
+    }
+}
+
+TEMPLATE_TEST_CASE("a mesh of any bounding volume gives the minimum over its triangles", "", fcl::AABBd,
+                   fcl::OBBd, fcl::RSSd, fcl::kIOSd, fcl::OBBRSSd, (fcl::KDOP<double, 16>),
+                   (fcl::KDOP<double, 18>), (fcl::KDOP<double, 24>)) {
+  const auto mesh = bumpyGround<TestType>();
+  const auto body = link();
+  Random random(3);
+  for (int i = 0; i < 12; ++i) {
+    const Isometry3d ground = pose(random.rotation(), random.direction());
+    const Isometry3d at = ground * pose(random.rotation(), {random.uniform(-1, 1), random.uniform(-1, 1),
+                                                            random.uniform(0.2, 1)});
+    std::vector<double> all;
+    for (int t = 0; t < mesh->num_tris; ++t) {
+      const fcl::Triangle& v = mesh->tri_indices[t];
+      all.push_back(
+          distance(body->volume(), at,
+                   Shape::triangleOf(mesh->vertices[v[0]], mesh->vertices[v[1]], mesh->vertices[v[2]]),
+                   ground)
+              .distance);
+    }
+    const DistanceAnswer d = distance(*body, at, *mesh, ground), e = distance(*mesh, ground, *body, at);
+    const double least = *std::min_element(all.begin(), all.end());
+    CHECK(std::abs(d.distance - least) <= 1e-14);
+    REQUIRE(d.element[1] >= 0);
+    CHECK(std::abs(all[static_cast<std::size_t>(d.element[1])] - least) <= 1e-14);
+    all.erase(all.begin() + d.element[1]);
+    CHECK(d.runnerUp <= *std::min_element(all.begin(), all.end()) + 1e-14);
+    CHECK(d.runnerUp >= d.distance - 1e-14);
+    CHECK(e.distance == d.distance);
+    CHECK(e.element[0] == d.element[1]);
+    CHECK_FALSE(d.continuous);
+    CHECK(toFclResult(d).b2 == d.element[1]);
+  }
+}
+
+#if FCL_HAVE_OCTOMAP
+TEST_CASE("an octree gives the minimum over its occupied cells") {
+  auto tree = std::make_shared<octomap::OcTree>(0.05);
+  Random random(5);
+  for (int i = 0; i < 300; ++i)
+    tree->updateNode(octomap::point3d(static_cast<float>(random.uniform(-0.5, 0.5)),
+                                      static_cast<float>(random.uniform(-0.5, 0.5)),
+                                      static_cast<float>(random.uniform(-0.5, 0.5))),
+                     i % 5 != 0);
+  const fcl::OcTreed cells(tree);
+  const auto body = link();
+  for (int i = 0; i < 20; ++i) {
+    const Isometry3d at = pose(random.rotation(), random.uniform(0.9, 1.5) * random.direction());
+    const Isometry3d ground = pose(random.rotation(), {0, 0, 0});
+    double least = 1e9;
+    for (const auto& cell : cells.toBoxes()) {
+      Isometry3d where = ground;
+      where.translation() = ground * Vector3d(cell[0], cell[1], cell[2]);
+      least = std::min(
+          least, distance(body->volume(), at, Shape::boxOf(Vector3d::Constant(cell[3])), where).distance);
+    }
+    const DistanceAnswer d = distance(*body, at, cells, ground);
+    CHECK(d.status == DistanceStatus::exact);
+    CHECK(std::abs(d.distance - least) <= 1e-12);
+    CHECK(d.element[1] >= 0);
+    CHECK(d.runnerUp >= d.distance);
+    CHECK(distance(cells, ground, *body, at).distance == d.distance);
+  }
+}
+#endif
+
+TEST_CASE("nothing to measure to has no answer") {
+  const auto body = link();
+  const Isometry3d at = Isometry3d::Identity();
+  CHECK(distance(*body, at, fcl::BVHModel<fcl::OBBRSSd>(), at).status == DistanceStatus::invalid);
+  CHECK(collides(*body, at, fcl::BVHModel<fcl::OBBRSSd>(), at));
+}
