@@ -1,4 +1,10 @@
 // Queries on STP-BVs do not allocate: this program counts every operator new.
+#include <fcl/geometry/bvh/BVH_model.h>
+#include <fcl/geometry/geometric_shape_to_BVH_model.h>
+#include <fcl/geometry/shape/box.h>
+#include <fcl/geometry/shape/cone.h>
+#include <fcl/geometry/shape/cylinder.h>
+
 #include <atomic>
 #include <catch2/catch.hpp>
 #include <cstdlib>
@@ -48,4 +54,30 @@ TEST_CASE("no query on STP-BVs allocates, cold or warm, separated, deep or inval
     distanceCallback(&first, &second, &data, dist);
   }
   CHECK(allocations == before);
+}
+
+TEST_CASE("no query of an STP-BV against another geometry allocates") {
+  const StpBvGeometry a(StpBv::build(geodesicSphere(0.2, 2))), b(StpBv::build(box(0.2, 0.3, 0.4)));
+  const fcl::Convexd& hull = b;
+  const fcl::Convexd plain(std::make_shared<const std::vector<fcl::Vector3d>>(hull.getVertices()),
+                           hull.getFaceCount(), std::make_shared<const std::vector<int>>(hull.getFaces()));
+  const fcl::Boxd crate(0.2, 0.3, 0.4);
+  const fcl::Cylinderd post(0.1, 0.4);
+  const fcl::Coned cone(0.1, 0.4);
+  fcl::BVHModel<fcl::OBBRSSd> mesh;
+  fcl::generateBVHModel(mesh, crate, Eigen::Isometry3d::Identity());
+  Random random(2);
+  long seen = 0;
+  const long before = allocations;
+  for (int i = 0; i < 1000; ++i)
+    for (const fcl::CollisionGeometryd* other : {static_cast<const fcl::CollisionGeometryd*>(&plain),
+                                                 static_cast<const fcl::CollisionGeometryd*>(&crate),
+                                                 static_cast<const fcl::CollisionGeometryd*>(&post),
+                                                 static_cast<const fcl::CollisionGeometryd*>(&cone),
+                                                 static_cast<const fcl::CollisionGeometryd*>(&mesh)}) {
+      const Eigen::Isometry3d there = pose(random.rotation(), random.uniform(0, 0.9) * random.direction());
+      seen += distance(a, Eigen::Isometry3d::Identity(), *other, there).status != DistanceStatus::invalid;
+    }
+  CHECK(allocations == before);
+  CHECK(seen == 5000);
 }
