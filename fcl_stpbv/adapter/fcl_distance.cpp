@@ -3,6 +3,8 @@
 #include <utility>
 
 #include "fcl_stpbv/adapter/fcl_fallback.h"
+#include "fcl_stpbv/adapter/fcl_shapes.h"
+#include "fcl_stpbv/adapter/flat_pair.h"
 #include "fcl_stpbv/adapter/other_geometry.h"
 #include "fcl_stpbv/adapter/polyhedral_witness.h"
 
@@ -73,6 +75,18 @@ bool mixedDistance(const StpBvGeometry* a, const CollisionGeometryd& geometry1, 
   return true;
 }
 
+/// Two shapes, neither an STP-BV, whose cores are apart.
+bool flatPair(const CollisionGeometryd& geometry1, const Transform3d& pose1,
+              const CollisionGeometryd& geometry2, const Transform3d& pose2, DistanceAnswer& answer) {
+  Shape a, b;
+  if (!shapeOf(geometry1, a) || !shapeOf(geometry2, b)) return false;
+  const Distance found = flatDistance(a, pose1, b, pose2);
+  if (found.status == DistanceStatus::invalid) return false;
+  answer = inFclTerms(found, pose1, pose2);
+  answer.continuous = false;
+  return true;
+}
+
 bool finite(const Transform3d& pose) { return pose.matrix().topRows<3>().allFinite(); }
 
 }  // namespace
@@ -87,7 +101,8 @@ DistanceAnswer distance(const CollisionGeometryd& geometry1, const Transform3d& 
     answer = inFclTerms(smoothDistance(*a, pose1, *b, pose2, context), pose1, pose2);
   else if (!finite(pose1) || !finite(pose2))
     answer = {};  // FCL may loop or assert on these
-  else if (!mixedDistance(a, geometry1, pose1, b, geometry2, pose2, context, answer))
+  else if (!mixedDistance(a, geometry1, pose1, b, geometry2, pose2, context, answer) &&
+           !flatPair(geometry1, pose1, geometry2, pose2, answer))
     answer = fallbackDistance(geometry1, pose1, geometry2, pose2);
   answer.geometry = {&geometry1, &geometry2};
   return answer;

@@ -51,9 +51,9 @@ struct QueryContext {
 /// Distance between two geometries. Never throws; allocates nothing where one is an STP-BV.
 ///
 /// An STP-BV against one, or against any other FCL geometry in either order: exact and signed, with status,
-/// bounds and derivatives. Any other pair: `fcl::distance`,
-/// unsigned, with tolerance 1e-10, exceptions caught; status `bounded`, `continuous` false, 0 for touching or
-/// overlapping geometries.
+/// bounds and derivatives. Two other shapes that are apart: exact, by this library's own GJK, `continuous`
+/// false. Any other pair: `fcl::distance`, unsigned, with tolerance 1e-10, exceptions caught; status
+/// `bounded`, `continuous` false, 0 for touching or overlapping geometries.
 DistanceAnswer distance(const fcl::CollisionGeometryd& geometry1, const fcl::Transform3d& pose1,
                         const fcl::CollisionGeometryd& geometry2, const fcl::Transform3d& pose2,
                         const QueryContext& context = {});

@@ -46,6 +46,7 @@ void NearestElement::offer(const Shape& element, const Isometry3d& pose, std::in
   }
   if (any()) runnerUp_ = std::min(runnerUp_, best_.distance);
   best_ = found;
+  any_ = true;
   element_ = id;
   const Vector3d n = poseVolume_.linear().transpose() * found.normal;
   n_ = rotation_.transpose() * n;

@@ -31,7 +31,7 @@ class NearestElement {
   /// Solves an element and keeps the nearest.
   void offer(const Shape& element, const Eigen::Isometry3d& pose, std::intptr_t id);
 
-  bool any() const { return element_ >= 0; }
+  bool any() const { return any_; }
   const Distance& best() const { return best_; }
   std::intptr_t element() const { return element_; }
   /// No element but the nearest is nearer than this (m).
@@ -47,7 +47,8 @@ class NearestElement {
   double support_ = 0;                    // the volume's along it, measured from centre_
   PairCache* cache_;
   Distance best_;
-  std::intptr_t element_ = -1;
+  bool any_ = false;
+  std::intptr_t element_ = -1;  // a tree's ids may be negative
   double runnerUp_ = std::numeric_limits<double>::infinity();
 };
 

@@ -150,12 +150,50 @@ TEST_CASE("an octree gives the minimum over its occupied cells") {
     const DistanceAnswer d = distance(*body, at, cells, ground);
     CHECK(d.status == DistanceStatus::exact);
     CHECK(std::abs(d.distance - least) <= 1e-12);
-    CHECK(d.element[1] >= 0);
+    fcl::AABBd cell;  // FCL finds the cell again by its id
+    CHECK(cells.getNodeByQueryCellId(d.element[1], ground.inverse() * d.points[1], &cell) != nullptr);
     CHECK(d.runnerUp >= d.distance);
     CHECK(distance(cells, ground, *body, at).distance == d.distance);
   }
 }
 #endif
+
+TEST_CASE("two shapes without an STP-BV are measured exactly while they are apart") {
+  // A sphere is also the STP-BV of one point, which has a path of its own to check against.
+  const fcl::Sphered ball(0.1);
+  const StpBvGeometry point(StpBv::build({{0, 0, 0}}, {0.1, 10}));
+  const std::vector<std::shared_ptr<fcl::CollisionGeometryd>> shapes{
+      std::make_shared<fcl::Sphered>(0.2),        std::make_shared<fcl::Capsuled>(0.1, 0.4),
+      std::make_shared<fcl::Boxd>(0.3, 0.2, 0.1), std::make_shared<fcl::Cylinderd>(0.2, 0.3),
+      std::make_shared<fcl::Coned>(0.2, 0.3),     std::make_shared<fcl::Ellipsoidd>(0.1, 0.2, 0.3)};
+  Random random(9);
+  int exact = 0, bounded = 0;
+  for (const auto& shape : shapes)
+    for (int i = 0; i < 300; ++i) {
+      CAPTURE(static_cast<int>(shape->getNodeType()), i);
+      const Isometry3d a = pose(random.rotation(), random.direction());
+      const Isometry3d b =
+          pose(random.rotation(), a.translation() + random.uniform(0.5, 1) * random.direction());
+      const DistanceAnswer truth = distance(*shape, a, point, b), d = distance(*shape, a, ball, b);
+      CHECK(std::abs(d.distance - truth.distance) <= 1e-12);
+      CHECK(d.lower <= truth.distance + 1e-14);
+      CHECK(d.upper >= truth.distance - 1e-14);
+      CHECK((d.normal - truth.normal).norm() <= 1e-6);
+      CHECK_FALSE(d.continuous);
+      ++(d.status == DistanceStatus::exact ? exact : bounded);
+    }
+  CHECK(bounded <= exact / 100);
+  const fcl::Boxd first(0.2, 0.3, 0.4), second(0.4, 0.1, 0.2);
+  for (int i = 0; i < 300; ++i) {
+    const Isometry3d a = pose(random.rotation(), random.direction());
+    const Isometry3d b =
+        pose(random.rotation(), a.translation() + random.uniform(0.5, 1) * random.direction());
+    const DistanceAnswer d = distance(first, a, second, b), e = distance(second, b, first, a);
+    CHECK(d.status == DistanceStatus::exact);
+    CHECK(std::abs(d.distance - e.distance) <= 1e-14);
+    CHECK((d.points[1] - d.points[0] - d.distance * d.normal).norm() <= 1e-13);
+  }
+}
 
 TEST_CASE("nothing to measure to has no answer") {
   const auto body = link();
