@@ -50,7 +50,7 @@ struct RimFeature {
   const Eigen::Vector3d* direction() const { return nullptr; }
   /// Near the axis an ulp of the normal moves the point a long way along the rim.
   double wobble(const Eigen::Vector3d& n) const {
-    return radius * std::min(1.0, 1e-15 / (n - n.dot(axis) * axis).norm());
+    return radius * std::min(1e-6, 1e-15 / (n - n.dot(axis) * axis).norm());
   }
 
  private:

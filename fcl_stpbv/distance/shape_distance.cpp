@@ -1,5 +1,6 @@
 #include "fcl_stpbv/distance/shape_distance.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -94,8 +95,10 @@ Found solve(ShapeQuery& q, const StartNormal& start) {
     // Near the answer now; a feature search from here proves it to the last digit.
     found = nearestOnShape(q, {cuts.at.n, cuts.at.patch});
     if (certified(q, found)) return {found, DistanceStatus::exact, found.gap};
-    return {cuts.at, cuts.solved ? DistanceStatus::exact : DistanceStatus::bounded,
-            cuts.solved ? cuts.at.gap + q.rounding.gap : cuts.bound};
+    // The bounds of both sides agree, or no normal is left that could do better.
+    const double upper = cuts.solved ? std::min(cuts.bound, cuts.at.gap + q.rounding.gap) : cuts.bound;
+    const bool proven = upper - cuts.at.gap <= q.rounding.gap;
+    return {cuts.at, proven ? DistanceStatus::exact : DistanceStatus::bounded, upper};
   }
   const WidestGap deep = leastOverlap(q, {cuts.at.n, cuts.at.patch});
   return {deep.at, DistanceStatus::local, std::max(deep.bound, deep.at.gap)};

@@ -86,7 +86,15 @@ class ConeSide {
 /// The rim of a disc, nearest point and normal. Where the normal is all but the axis the point along the rim
 /// is rounding, so it is taken from the body's point.
 Nearest nearestOnRim(ShapeQuery& q, const Vector3d& middle, const Vector3d& axis, const StartNormal& start) {
-  Nearest found = nearestOn(q, RimFeature{middle, axis, q.shape.radius}, start);
+  // On the axis every point of the rim is as far, so no gradient leads away: start towards the body's side.
+  StartNormal from = start;
+  constexpr double kOnAxis = 1e-6, kTilt = 1e-3;
+  if ((start.n - start.n.dot(axis) * axis).norm() < kOnAxis) {
+    const Vector3d up = viewVolume(q.body, start.n, start.patch, q.steps).point - middle;
+    const Vector3d out = up - up.dot(axis) * axis;
+    if (out.norm() > 0.0) from.n = (start.n - kTilt * out.normalized()).normalized();
+  }
+  Nearest found = nearestOn(q, RimFeature{middle, axis, q.shape.radius}, from);
   constexpr double kNearAxis = 1e-4;  // sine; rounding of the normal is then a thousand times that of a point
   const Vector3d side = found.n - found.n.dot(axis) * axis;
   if (!found.apart || side.norm() > kNearAxis) return found;
