@@ -1,0 +1,79 @@
+#include "tools/benchmark/summary.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tools/benchmark/reference_answer.h"
+#include "tools/benchmark/timing.h"
+
+namespace fcl_stpbv::benchmark {
+
+namespace {
+
+constexpr int kBlocks = 300;
+constexpr int kCheckEvery = 997;    // prime: every part of the motion gets its share
+constexpr int kCheckedPerRun = 60;  // a reference of a large body takes milliseconds
+
+struct Figures {
+  double ns, speedup;
+};
+
+Figures measure(const Bodies& bodies, const Step& step, std::uint64_t seed, Summary& summary, Errors& worst) {
+  std::vector<MethodPtr> methods;
+  methods.push_back(stpBvWarm(bodies));
+  methods.push_back(fclLibccd(bodies));
+  GeodesicMotion motion(step, seed);
+  long asked = 0;
+  int checked = 0;
+  const std::vector<Times> times =
+      timed(methods, motion, kBlocks, GeodesicMotion::kCycle, false,
+            [&](std::size_t method, const Poses& poses, const std::vector<Answer>& answers) {
+              if (method != 0) return;
+              for (std::size_t i = 0; i < answers.size(); ++i) {
+                summary.failed += answers[i].outcome == Outcome::failed;
+                if (++asked % kCheckEvery || checked == kCheckedPerRun) continue;
+                const Truth truth = smoothTruth(bodies, poses.a[i], poses.b[i]);
+                ++checked;
+                ++summary.checked;
+                if (!truth.proven) {
+                  ++summary.unproven;
+                  continue;
+                }
+                const Errors e = errorsOf(answers[i], truth);
+                worst = {std::max(worst.distance, e.distance), std::max(worst.normal, e.normal)};
+              }
+            });
+  std::vector<double> ratio;  // block by block: what slows the machine for a while slows both
+  for (std::size_t i = 0; i < times[0].block.size(); ++i)
+    ratio.push_back(times[1].block[i] / times[0].block[i]);
+  summary.spread = std::max(summary.spread, spread(ratio));
+  return {median(times[0].block), median(ratio)};
+}
+
+double rounded(double x, double unit) { return std::round(x / unit) * unit; }
+
+}  // namespace
+
+Summary summarise(std::uint64_t seed) {
+  Summary summary;
+  Errors worst{0, 0};
+  const auto run = [&](const Bodies& bodies, const Step& step) {
+    return measure(bodies, step, seed, summary, worst);
+  };
+  const Bodies b12 = geodesicSpheres(0), b162 = geodesicSpheres(2), b2562 = geodesicSpheres(4);
+  const Figures small12 = run(b12, smallStep()), large12 = run(b12, largeStep());
+  const Figures small162 = run(b162, smallStep()), large162 = run(b162, largeStep());
+  const Figures small2562 = run(b2562, smallStep()), large2562 = run(b2562, largeStep());
+  summary.figures["speedup_small_162"] = rounded(small162.speedup, 0.01);
+  summary.figures["speedup_large_162"] = rounded(large162.speedup, 0.01);
+  summary.figures["speedup_small_12"] = rounded(small12.speedup, 0.01);
+  summary.figures["ns_small_162"] = rounded(small162.ns, 1);
+  summary.figures["ns_large_162"] = rounded(large162.ns, 1);
+  summary.figures["growth_12_2562"] =
+      rounded(std::max(small2562.ns / small12.ns, large2562.ns / large12.ns), 0.01);
+  summary.figures["normal_error_max"] = worst.normal;
+  summary.figures["distance_error_max"] = worst.distance;
+  return summary;
+}
+
+}  // namespace fcl_stpbv::benchmark
