@@ -49,12 +49,13 @@ Quad squareRoot(Quad x) {
 
 // Outward normal at a of the ball through a, a+u, a+v; `condition` tells how much it magnifies rounding.
 // With N = u x v and O the circumcentre relative to a: m = -kappa O + sqrt(1 - kappa^2 O^2) N/|N|.
+// `leastSine` tells points in a row from a thin triangle: below it the cross product is rounding.
 template <class T>
-bool ballNormal(const Vec<T>& u, const Vec<T>& v, T kappa, Vec<T>* m, double* condition) {
+bool ballNormal(const Vec<T>& u, const Vec<T>& v, T kappa, double leastSine, Vec<T>* m, double* condition) {
   const Vec<T> n = cross(u, v);
   const T n2 = dot(n, n), u2 = dot(u, u), v2 = dot(v, v);
   const double sine = std::sqrt(static_cast<double>(n2 / (u2 * v2)));  // NaN for coinciding points
-  if (!(sine > 1e-15)) return false;                                   // on a line to double precision
+  if (!(sine > leastSine)) return false;
   const T length = squareRoot(n2);
   const Vec<T> towards = combine(u2, cross(v, n), v2, cross(n, u));
   const T scale = kappa / (2 * n2);
@@ -70,7 +71,13 @@ bool ballNormal(const Vec<T>& u, const Vec<T>& v, T kappa, Vec<T>* m, double* co
 
 }  // namespace
 
+// Thinner triangles than this are decided in quadruple precision; coordinates that are doubles and not in a
+// row make triangles far thicker than the last one.
+constexpr double kThinLong = 1e-6, kThinQuad = 1e-24;
+
 struct TouchingBall::Exact {
+  bool valid = false;
+  double condition = 1;
   Quad kappa;
   Vec<Quad> m;
 };
@@ -80,12 +87,15 @@ TouchingBall::TouchingBall(const Eigen::Vector3d& a, const Eigen::Vector3d& b, c
     : anchor_(a), b_(b), c_(c), radius_(radius) {
   kappa_ = std::isinf(radius) ? 0.0L : 1.0L / static_cast<long double>(radius);
   Vec<long double> m{};
-  valid_ = ballNormal(difference<long double>(b, a), difference<long double>(c, a), kappa_, &m, &condition_);
-  if (!valid_) return;
+  valid_ = ballNormal(difference<long double>(b, a), difference<long double>(c, a), kappa_, kThinLong, &m,
+                      &condition_);
   double error = kLongEpsilon * condition_;
-  if (error > 1e-17) {
-    const Vec<Quad>& e = exact().m;
-    m = {static_cast<long double>(e.x), static_cast<long double>(e.y), static_cast<long double>(e.z)};
+  if (!valid_ || error > 1e-17) {
+    const Exact& e = exact();
+    valid_ = e.valid;
+    if (!valid_) return;
+    condition_ = e.condition;
+    m = {static_cast<long double>(e.m.x), static_cast<long double>(e.m.y), static_cast<long double>(e.m.z)};
     error = kLongEpsilon + kQuadEpsilon * condition_;
   }
   m_[0] = m.x, m_[1] = m.y, m_[2] = m.z;
@@ -97,8 +107,8 @@ const TouchingBall::Exact& TouchingBall::exact() const {
   if (!exact_) {
     auto e = std::make_shared<Exact>();
     e->kappa = std::isinf(radius_) ? Quad(0) : Quad(1) / Quad(radius_);
-    double unused = 0;
-    ballNormal(difference<Quad>(b_, anchor_), difference<Quad>(c_, anchor_), e->kappa, &e->m, &unused);
+    e->valid = ballNormal(difference<Quad>(b_, anchor_), difference<Quad>(c_, anchor_), e->kappa, kThinQuad,
+                          &e->m, &e->condition);
     exact_ = std::move(e);
   }
   return *exact_;

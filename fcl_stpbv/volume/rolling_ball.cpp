@@ -168,8 +168,8 @@ int Roller::leftOnTheWay(int a, int b, const Vector3d& across, double rest) {
   double first = rest - 1e-8;  // later ones are still outside at the end
   for (const int i : aside) {
     if (i == a || i == b) continue;
-    // A point is highest over the ball when the normal points at it across the edge; most points do not lie in the
-    // wedge that the normal sweeps.
+    // A point is highest over the ball when the normal points at it across the edge; most points do not lie
+    // in the wedge that the normal sweeps.
     const Vector3d q = at(i) - at(a);
     const double x = q.dot(across), y = q.dot(side);
     if (rest < 3 && (y < -margin || x * sine - y * cosine < -margin)) continue;
@@ -440,7 +440,9 @@ std::vector<HalfEdge> pairHalfEdges(const std::vector<Vector3d>& points, const s
   return halfEdges;
 }
 
-RolledHull rollBall(const std::vector<Vector3d>& points, double radius) {
+namespace {
+
+RolledHull rollOnce(const std::vector<Vector3d>& points, double radius) {
   Roller roller(points, radius);
   roller.roll();
   RolledHull hull;
@@ -450,6 +452,21 @@ RolledHull rollBall(const std::vector<Vector3d>& points, double radius) {
   std::sort(hull.vertices.begin(), hull.vertices.end());
   hull.vertices.erase(std::unique(hull.vertices.begin(), hull.vertices.end()), hull.vertices.end());
   return hull;
+}
+
+}  // namespace
+
+RolledHull rollBall(const std::vector<Vector3d>& points, double radius) {
+  if (!std::isinf(radius)) return rollOnce(points, radius);
+  try {
+    return rollOnce(points, radius);
+  } catch (const Error&) {
+    // A flat cloud off its plane, or a row off its line, by rounding has no convex hull worth the name. A
+    // ball of 1e12 extents leaves out what sticks out of the rest by less than about 1e-13 extents.
+    Vector3d low = points[0], high = points[0];
+    for (const Vector3d& p : points) low = low.cwiseMin(p), high = high.cwiseMax(p);
+    return rollOnce(points, 1e12 * (high - low).norm());
+  }
 }
 
 }  // namespace fcl_stpbv

@@ -165,8 +165,13 @@ Verification verify(const StpBv& volume, const std::vector<Vector3d>& points, do
   const double length = touchTolerance(all) + 8 * std::numeric_limits<double>::epsilon() * volume.radii().rho;
   const SeamGap seams = seamGapOf(volume, 4 * length);
   result.seamGap = seams.largest;
-  // Angles: each corner is rounded by a few units, more where an edge is short and its direction rounded.
-  const double angle = 1e-13 * (16 + volume.edgeCount());
+  // Angles: each corner is rounded by a few units; near the smallest R an edge's normals lie close to its
+  // line, by the cosine kappa/rho, and its turn is rounded by as much more.
+  double cosine = 1;
+  for (int e = 0; e < volume.edgeCount(); ++e)
+    cosine = std::min(cosine, volume.patch(volume.edgePatch(e)).kappa / volume.radii().rho);
+  const double angle =
+      1e-13 * (16 + volume.edgeCount()) + 4 * std::numeric_limits<double>::epsilon() / cosine;
   if (!(result.containment <= length))
     result.message =
         "a point lies " + number(result.containment) + " m nearer to the surface than the margin";
