@@ -1,0 +1,98 @@
+// The work of a query, counted: a solver that slows down fails here whatever the machine does beside it.
+#include <algorithm>
+#include <atomic>
+#include <catch2/catch.hpp>
+#include <cstdlib>
+#include <new>
+#include <string>
+
+#include "fcl_stpbv/distance/distance.h"
+#include "test/shapes.h"
+#include "tools/benchmark/motion.h"
+
+static std::atomic<long> allocations{0};
+
+void* operator new(std::size_t size) {
+  ++allocations;
+  if (void* p = std::malloc(size)) return p;
+  throw std::bad_alloc();
+}
+void operator delete(void* p) noexcept { std::free(p); }
+void operator delete(void* p, std::size_t) noexcept { std::free(p); }
+
+using namespace fcl_stpbv;
+using namespace fcl_stpbv::test;
+using fcl_stpbv::benchmark::GeodesicMotion;
+using fcl_stpbv::benchmark::Poses;
+using fcl_stpbv::benchmark::Step;
+
+namespace {
+
+/// Means over the queries whose bodies overlap by no more than their margins, and the most of any of them.
+struct Work {
+  double pairs = 0, steps = 0;
+  int mostPairs = 0, mostSteps = 0;
+  int queries = 0, deeper = 0, notSolved = 0;
+  long allocated = 0;
+};
+
+Work workOf(const Cloud& cloud, const Step& step, bool warm) {
+  const StpBv::Ptr a = StpBv::build(cloud, {0.01, 10}), b = StpBv::build(cloud, {0.01, 10});
+  GeodesicMotion motion(step, 1);
+  Poses poses;
+  motion.next(poses, 4 * GeodesicMotion::kCycle);
+  PairCache cache;
+  Work work;
+  const long before = allocations;
+  for (std::size_t i = 0; i < poses.a.size(); ++i) {
+    const Distance d = distance(*a, poses.a[i], *b, poses.b[i], warm ? &cache : nullptr);
+    work.notSolved += d.status == DistanceStatus::bounded || d.status == DistanceStatus::invalid;
+    if (d.status != DistanceStatus::exact) {
+      ++work.deeper;
+      continue;
+    }
+    ++work.queries;
+    work.pairs += d.patchPairs;
+    work.steps += d.patchSteps;
+    work.mostPairs = std::max(work.mostPairs, d.patchPairs);
+    work.mostSteps = std::max(work.mostSteps, d.patchSteps);
+  }
+  work.allocated = allocations - before;
+  work.pairs /= work.queries;
+  work.steps /= work.queries;
+  return work;
+}
+
+/// What a workload may take: measured when it was written, and a tenth more.
+struct Bound {
+  int subdivisions;
+  bool large, warm;
+  double pairs, steps;
+  int mostPairs, mostSteps;
+};
+
+}  // namespace
+
+TEST_CASE("A query on turning geodesic spheres takes no more work than it did, and no allocation") {
+  const Bound bounds[] = {
+      {0, false, true, 1.25, 0.20, 7, 7}, {0, true, true, 1.25, 1.27, 6, 7},
+      {0, true, false, 1.15, 1.27, 5, 7}, {2, false, true, 1.53, 0.52, 6, 9},
+      {2, true, true, 1.15, 1.32, 6, 9},  {2, true, false, 1.15, 1.32, 6, 9},
+      {4, false, true, 2.09, 1.13, 7, 9}, {4, true, true, 1.15, 1.34, 6, 9},
+      {4, true, false, 1.15, 1.34, 6, 9},
+  };
+  for (const Bound& bound : bounds) {
+    const Work work = workOf(geodesicSphere(0.2, bound.subdivisions),
+                             bound.large ? benchmark::largeStep() : benchmark::smallStep(), bound.warm);
+    INFO("subdivisions " << bound.subdivisions << (bound.large ? ", large" : ", small") << " steps, "
+                         << (bound.warm ? "warm" : "cold") << ": pairs " << work.pairs << " most "
+                         << work.mostPairs << ", steps " << work.steps << " most " << work.mostSteps);
+    CHECK(work.pairs <= bound.pairs);
+    CHECK(work.steps <= bound.steps);
+    CHECK(work.mostPairs <= bound.mostPairs);
+    CHECK(work.mostSteps <= bound.mostSteps);
+    CHECK(work.allocated == 0);
+    CHECK(work.notSolved == 0);
+    CHECK(work.queries > 20 * work.deeper);  // the motion still asks mostly what the bounds are about
+  }
+}
