@@ -106,7 +106,8 @@ Vector3d stationaryNormal(const StpBv& volume, int index, const Vector3d& p) {
         (length + patch.kappa) * (length > 0 ? Vector3d(side / length) : acrossEdge(volume, index));
   }
   const double length = g.norm();
-  if (length > 0) return g / length;
+  // A point that is a vertex but for rounding has no direction from it.
+  if (length > (kind == PatchKind::vertex ? 1e-12 * volume.enclosingRadius() : 0.0)) return g / length;
   if (kind == PatchKind::face) return patch.axis;
   Vector3d inside = Vector3d::Zero();
   for (const StpBv::Seam* seam = volume.seamsBegin(index); seam != volume.seamsEnd(index); ++seam)
@@ -140,16 +141,18 @@ double enclosedVolume(const StpBv& volume) {
 }
 
 double signedDistance(const StpBv& volume, const Vector3d& point) {
-  // The largest value lies on the patch that owns its normal; a normal this close to a seam belongs to both
-  // sides.
-  constexpr double kSeam = 1e-12;
+  // The largest value lies on the patch that owns its normal. Any normal gives a lower bound with the support
+  // of its true owner, so one that rounding has put past a seam, as close to a vertex it may, does no harm.
+  constexpr double kNear = 1e-3;
   double best = -2 * volume.radii().R;
   for (int index = 0; index < volume.patchCount(); ++index) {
-    const Patch& patch = volume.patch(index);
     const Vector3d n = stationaryNormal(volume, index, point);
-    if (volume.outside(index, n) > kSeam) continue;
+    const double past = volume.outside(index, n);
+    if (past > kNear) continue;
+    const int owner = past <= 0 ? index : volume.owner(n, index);
+    const Patch& patch = volume.patch(owner);
     best = std::max(
-        best, n.dot(point - patch.anchor) - supportAboveAnchor(patch, volume.kind(index), volume.radii(), n));
+        best, n.dot(point - patch.anchor) - supportAboveAnchor(patch, volume.kind(owner), volume.radii(), n));
   }
   return best;
 }

@@ -9,6 +9,7 @@
 #include "fcl_stpbv/volume/minimum_ball.h"
 #include "fcl_stpbv/volume/point_tree.h"
 #include "fcl_stpbv/volume/rolling_ball.h"
+#include "fcl_stpbv/volume/verify.h"
 
 namespace fcl_stpbv {
 namespace {
@@ -50,6 +51,19 @@ Ball checkRadius(const std::vector<Vector3d>& points, const StpBvOptions& option
   return ball;
 }
 
+// Clusters of points that differ by a few roundings can defeat the builder's joining of faces. The result is
+// then wrong by far more than rounding, so wide bounds tell it; a wrong volume must not leave the builder.
+void refuseBroken(const StpBv& volume) {
+  const Verification check = verify(volume);
+  const double size = volume.enclosingRadius();
+  if (check.containment <= 1e-9 * size && std::abs(check.solidAngleError) <= 1e-6 &&
+      check.seamGap <= 1e-3 * size)
+    return;
+  throw Error(
+      "the points are too close to each other to be told apart: merge those closer together than about " +
+      number(1e-9 * size) + " m and build again");
+}
+
 }  // namespace
 
 double StpBv::smallestR(const std::vector<Vector3d>& points, double r) {
@@ -69,7 +83,9 @@ StpBv::Ptr StpBv::build(const std::vector<Vector3d>& points, const StpBvOptions&
   }
   for (Ring& ring : hull.faces)
     for (int& i : ring) i = newIndex[static_cast<std::size_t>(i)];
-  return make(std::move(vertices), std::move(hull.faces), options);
+  const Ptr volume = make(std::move(vertices), std::move(hull.faces), options);
+  refuseBroken(*volume);
+  return volume;
 }
 
 StpBv::Ptr StpBv::assemble(std::vector<Vector3d> vertices, std::vector<Ring> faces,
