@@ -32,7 +32,8 @@ double seesaw(double t) {
 Step largeStep() { return {"large", 20 * kDegree, 0.02}; }
 Step smallStep() { return {"small", 1 * kDegree, 0.001}; }
 
-GeodesicMotion::GeodesicMotion(const Step& step, std::uint64_t seed) : step_(step) {
+GeodesicMotion::GeodesicMotion(const Step& step, std::uint64_t seed, double nearest)
+    : step_(step), nearest_(nearest) {
   test::Random random(seed);
   firstA_ = random.rotation();
   firstB_ = random.rotation();
@@ -43,8 +44,7 @@ void GeodesicMotion::next(Poses& poses, int count) {
   poses.b.clear();
   for (int i = 0; i < count; ++i, ++query_) {
     const double k = static_cast<double>(query_), angle = k * step_.turn;
-    const double range = kFarthest - kNearest;
-    const double apart = kNearest + range * seesaw(k * step_.shift / (2 * range));
+    const double apart = nearest_ + kRange * seesaw(k * step_.shift / (2 * kRange));
     poses.a.push_back(test::pose(turned(angle) * firstA_, {0, 0, 0}));
     poses.b.push_back(test::pose(turned(-0.83 * angle) * firstB_, {apart, 0, 0}));
   }

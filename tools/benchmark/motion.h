@@ -26,19 +26,20 @@ struct Poses {
 class GeodesicMotion {
  public:
   /// Centres 0.38 m to 0.80 m apart; at spheres of radius 0.20 m the nearest 5 % overlap.
-  static constexpr double kNearest = 0.38, kFarthest = 0.80;
+  static constexpr double kNearest = 0.38, kRange = 0.42;
 
   /// Both steps go to and fro a whole number of times in as many queries as this, so blocks of this length
   /// ask for the same mixture of distances.
   static constexpr int kCycle = 840;
 
-  GeodesicMotion(const Step& step, std::uint64_t seed);
+  GeodesicMotion(const Step& step, std::uint64_t seed, double nearest = kNearest);
 
   /// Replaces `poses` by the next `count` ones.
   void next(Poses& poses, int count);
 
  private:
   Step step_;
+  double nearest_;
   Eigen::Matrix3d firstA_, firstB_;
   std::uint64_t query_ = 0;
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <ctime>
 
 namespace fcl_stpbv::benchmark {
 
@@ -24,24 +25,29 @@ double clockTime() {
   return median(times);
 }
 
+/// Time this thread has run (ns): without the time others had the core.
+double ownTime() {
+  timespec t{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return 1e9 * static_cast<double>(t.tv_sec) + static_cast<double>(t.tv_nsec);
+}
+
 void runBlock(Method& method, const Poses& poses, std::vector<Answer>& answers, double clock, Times* times,
               bool everyQuery) {
   const std::size_t n = poses.a.size();
-  const Clock::time_point start = Clock::now();
+  const double start = ownTime();
   if (!everyQuery) {
     for (std::size_t i = 0; i < n; ++i) answers[i] = method.query(poses.a[i], poses.b[i]);
-    if (times) times->block.push_back(nanoseconds(start, Clock::now()) / static_cast<double>(n));
-    return;
+  } else {
+    for (std::size_t i = 0; i < n; ++i) {
+      const Clock::time_point before = Clock::now();
+      answers[i] = method.query(poses.a[i], poses.b[i]);
+      const double t = nanoseconds(before, Clock::now()) - clock;
+      if (times) times->query.push_back(std::max(0.0, t));
+    }
   }
-  double sum = 0;
-  for (std::size_t i = 0; i < n; ++i) {
-    const Clock::time_point before = Clock::now();
-    answers[i] = method.query(poses.a[i], poses.b[i]);
-    const double t = std::max(0.0, nanoseconds(before, Clock::now()) - clock);
-    sum += t;
-    if (times) times->query.push_back(t);
-  }
-  if (times) times->block.push_back(sum / static_cast<double>(n));
+  if (times)
+    times->block.push_back((ownTime() - start) / static_cast<double>(n) - (everyQuery ? 2 * clock : 0));
 }
 
 }  // namespace
@@ -61,16 +67,20 @@ double spread(std::vector<double> values) {
 }
 
 std::vector<Times> timed(const std::vector<MethodPtr>& methods, GeodesicMotion& motion, int blocks,
-                         int length, bool everyQuery, const Watch& watch) {
+                         int length, bool everyQuery, const Watch& watch, double seconds) {
   std::vector<Times> times(methods.size());
   std::vector<Answer> answers(static_cast<std::size_t>(length));
   Poses poses;
+  std::vector<double> spent(methods.size(), 0);  // s
   const double clock = everyQuery ? clockTime() : 0;
   for (int block = -1; block < blocks; ++block) {
     motion.next(poses, length);
     for (std::size_t k = 0; k < methods.size(); ++k) {
       const std::size_t m = block % 2 ? methods.size() - 1 - k : k;
+      if (spent[m] > seconds) continue;
+      const double start = ownTime();
       runBlock(*methods[m], poses, answers, clock, block < 0 ? nullptr : &times[m], everyQuery);
+      spent[m] += 1e-9 * (ownTime() - start);
       if (watch && block >= 0) watch(m, poses, answers);
     }
   }

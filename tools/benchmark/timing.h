@@ -22,7 +22,7 @@ constexpr double kQuietSpread = 0.15;
 
 /// One method's times.
 struct Times {
-  std::vector<double> block;  ///< ns a query, one value a block
+  std::vector<double> block;  ///< ns a query, one value a block; the thread's own time
   std::vector<double> query;  ///< ns, one value a query, the clock's own time taken off; only if asked for
 };
 
@@ -30,8 +30,9 @@ struct Times {
 using Watch = std::function<void(std::size_t method, const Poses&, const std::vector<Answer>&)>;
 
 /// Runs `blocks` blocks of `length` queries. Within a block each method answers all of its poses; the order
-/// of the methods is turned round from block to block. A first block is not counted.
+/// of the methods is turned round from block to block. A first block is not counted. A method that
+/// has spent more than `seconds` answers no further block.
 std::vector<Times> timed(const std::vector<MethodPtr>& methods, GeodesicMotion& motion, int blocks,
-                         int length, bool everyQuery = false, const Watch& watch = {});
+                         int length, bool everyQuery = false, const Watch& watch = {}, double seconds = 1e9);
 
 }  // namespace fcl_stpbv::benchmark
