@@ -57,9 +57,9 @@ struct Found {
   double bound = 0.0;  ///< for cores that overlap: along no normal is their gap wider (m)
 };
 
-/// A start for `settle` that asks nothing but a gap between the cores.
+/// A start for `settle` that any gap is better than.
 Sample unevaluated(const Vector3d& n, const std::array<int, 2>& patch) {
-  return {n, patch, 0.0, Vector3d(0, 0, 0)};
+  return {n, patch, -std::numeric_limits<double>::infinity(), Vector3d(0, 0, 0)};
 }
 
 /// From any start along which the cores are apart: the widest gap.
@@ -89,22 +89,29 @@ bool polyhedralStart(const BodyPair& pair, const Vector3d& start, const std::arr
   return true;
 }
 
-/// From the line of centres, whatever was remembered: what it finds for cores that overlap is a function of
-/// the poses.
+/// Cores that overlap: the least separating translation, from any normal.
+Found solveOverlap(const BodyPair& pair, const Vector3d& n, const std::array<int, 2>& patch,
+                   const VertexSearch& search, Work& work) {
+  Sample x = pair.sampleFrom(n, patch, work.steps);
+  Vector3d ignored;
+  settle(pair, x, ignored, work);
+  if (x.core > 0.0) return climb(pair, x, work);  // apart, by less than the search's rounding
+  double bound = 0.0;
+  if (!expandPolytope(pair, x, bound, work) && !expandPolytope(pair, search.corner, x, bound, work))
+    leastPenetration(pair, x, work);
+  ascend(pair, x, work);
+  return {x, DistanceStatus::local, bound};
+}
+
+/// From the line of centres.
 Found solveCold(const BodyPair& pair, Work& work) {
   const Vector3d n = centreLine(pair);
   const std::array<int, 2> patch{pair.a().owner(n), pair.b().owner(pair.opposite(n))};
   Found found;
   VertexSearch search;
   if (polyhedralStart(pair, n, patch, false, search, found, work)) return found;
+  if (search.surrounded) return solveOverlap(pair, n, patch, search, work);
   Sample x = pair.sample(n, patch);
-  if (search.surrounded) {
-    double bound = 0.0;
-    const bool solved = expandPolytope(pair, search.corner, x, bound, work);
-    if (!solved) leastPenetration(pair, x, work);
-    ascend(pair, x, work);
-    return {x, DistanceStatus::local, bound};
-  }
   switch (separateCores(pair, x, work)) {
     case CoreContact::apart:
       return climb(pair, x, work);
@@ -125,9 +132,13 @@ bool solveWarm(const BodyPair& pair, const Vector3d& normal, const std::array<in
   if (!(length2 > 0.25 && length2 < 4.0)) return false;
   const Vector3d n = renormalized(normal);
   VertexSearch search;
+  const auto searchFrom = [&](const std::array<int, 2>& from, bool repose) {
+    if (polyhedralStart(pair, n, from, repose, search, found, work)) return true;
+    if (search.surrounded) found = solveOverlap(pair, n, from, search, work);
+    return search.surrounded;
+  };
   if (patch[0] < 0 || patch[1] < 0)
-    return polyhedralStart(pair, n, {pair.a().owner(n, patch[0]), pair.b().owner(pair.opposite(n), patch[1])},
-                           false, search, found, work);
+    return searchFrom({pair.a().owner(n, patch[0]), pair.b().owner(pair.opposite(n), patch[1])}, false);
   // In a small motion the bodies carry their patches along; in a large one the world's normal is the better
   // memory.
   constexpr double kSmallMotion =
@@ -137,12 +148,14 @@ bool solveWarm(const BodyPair& pair, const Vector3d& normal, const std::array<in
   if (small) {
     Sample x = unevaluated(n, patch);
     Vector3d ignored;
-    if (settle(pair, x, ignored, work) && x.core > 0.0) {
+    if (settle(pair, x, ignored, work)) {
       found = {x, DistanceStatus::exact};
-      return true;
+      if (x.core > 0.0) return true;
+      found.status = DistanceStatus::local;
+      if (expandPolytope(pair, found.at, found.bound, work)) return true;
     }
   }
-  return polyhedralStart(pair, n, patch, small, search, found, work);
+  return searchFrom(patch, small);
 }
 
 }  // namespace

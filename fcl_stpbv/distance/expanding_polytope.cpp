@@ -1,29 +1,85 @@
 #include "fcl_stpbv/distance/expanding_polytope.h"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 #include "fcl_stpbv/distance/polytope.h"
 
 namespace fcl_stpbv {
 
 using Eigen::Vector3d;
 
+namespace {
+
+/// Where the polytope is this much of the depth from the surface, a maximum is likely to be next to it.
+constexpr double kNear = 0.1;
+
+/// Where it is this near, the maximum that its normal leads to is the only one there.
+constexpr double kClose = 1e-3;
+
+/// The difference's point furthest against the sample's normal.
+Vector3d furthest(const Sample& s) { return s.core * s.n + s.across; }
+
+/// Three unit vectors across `n`, a third of a turn apart.
+std::array<Vector3d, 3> around(const Vector3d& n) {
+  const Vector3d e = n.unitOrthogonal(), f = std::sqrt(0.75) * n.cross(e);
+  return {e, f - 0.5 * e, -f - 0.5 * e};
+}
+
+/// The points supporting normals a little off a maximum are what the polytope would find last; with them it
+/// is close to the surface there.
+void expandAround(const BodyPair& pair, const Sample& top, Polytope& polytope, Work& work) {
+  // A tilt that no radius of curvature turns into more than a part of that.
+  const double tilt =
+      std::sqrt(0.5 * kClose * std::abs(top.core) / (pair.a().radii().rho + pair.b().radii().rho));
+  for (const Vector3d& m : around(top.n))
+    if (polytope.sound())
+      polytope.expand(furthest(pair.sampleFrom((top.n + tilt * m).normalized(), top.patch, work.steps)));
+}
+
+bool grow(const BodyPair& pair, Polytope& polytope, Sample& x, double& bound, Work& work) {
+  const double flat2 = pair.acrossRounding() * pair.acrossRounding();
+  if (x.across.squaredNorm() <= flat2) expandAround(pair, x, polytope, work);
+  double least = std::numeric_limits<double>::infinity();  // distance of the faces done with
+  bool solved = false;
+  while (polytope.sound() && !solved) {
+    const Polytope::Face nearest = polytope.nearest();
+    solved = -x.core - nearest.distance <= pair.gapRounding();
+    // The polytope lies inside the difference, so with the origin inside it no direction leads out sooner.
+    bound = -std::max(0.0, std::min(least, nearest.distance));
+    if (solved) break;
+    Sample trial = pair.sampleFrom(-nearest.normal, {-1, -1}, work.steps);
+    if (trial.core > 0.0) return false;
+    const Vector3d point = furthest(trial);
+    const double open = -trial.core - nearest.distance;
+    Vector3d ignored;
+    const bool top = open <= kNear * nearest.distance && settle(pair, trial, ignored, work);
+    if (trial.core > x.core) x = trial;
+    if (open <= pair.gapRounding() || (top && open <= kClose * nearest.distance)) {
+      least = std::min(least, nearest.distance);
+      polytope.putAside();
+      continue;
+    }
+    polytope.expand(point);
+    if (top) expandAround(pair, trial, polytope, work);
+  }
+  return solved;
+}
+
+}  // namespace
+
 bool expandPolytope(const BodyPair& pair, const std::array<Vector3d, 4>& corner, Sample& x, double& bound,
                     Work& work) {
-  // The ascent that follows finds the maximum next to the best normal exactly; this only has to tell which of
-  // them is the best, to this much of the depth.
-  constexpr double kRelative = 1e-3;
-  bound = 0.0;
   Polytope polytope(corner);
-  while (polytope.sound()) {
-    const Polytope::Face nearest = polytope.nearest();
-    bound = -nearest.distance;  // the polytope lies inside the difference, so no direction leads out sooner
-    const Sample trial = pair.sampleFrom(-nearest.normal, {-1, -1}, work.steps);
-    if (trial.core > x.core) x = trial;
-    // Its own overlap, or the least one seen, is no more than the polytope's: nothing better is left.
-    if (-x.core - nearest.distance <= kRelative * nearest.distance + pair.gapRounding()) return true;
-    const Vector3d difference = trial.core * trial.n + trial.across;
-    polytope.expand(difference);
-  }
-  return false;
+  return grow(pair, polytope, x, bound, work);
+}
+
+bool expandPolytope(const BodyPair& pair, Sample& x, double& bound, Work& work) {
+  const std::array<Vector3d, 3> m = around(x.n);
+  const auto from = [&](const Vector3d& n) { return furthest(pair.sampleFrom(n, {-1, -1}, work.steps)); };
+  Polytope polytope({from(m[0]), from(m[1]), from(m[2]), from(-x.n)}, Polytope::Origin::anywhere);
+  return grow(pair, polytope, x, bound, work);
 }
 
 }  // namespace fcl_stpbv

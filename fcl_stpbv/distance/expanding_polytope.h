@@ -7,11 +7,14 @@
 
 namespace fcl_stpbv {
 
-/// Grows a polytope inside the difference of the two cores, out from four of its points around the origin,
-/// where its surface is nearest (van den Bergen 2001, "expanding polytope"). Leaves the normal with the least
-/// overlap seen in `x` and returns a bound: along no normal is the gap of the cores more than this (m, not
-/// positive). False when rounding or the size of the polytope stopped it; `x` and the bound hold all the
-/// same.
+/// Grows a polytope inside the difference of the two cores where its surface is nearest to the origin (van den
+/// Bergen 2001, "expanding polytope"), from around `x.n`. Leaves the maximum of the gap with the least overlap
+/// in `x`, and in `bound` what holds for all: along no normal is the gap of the cores more than this (m, not
+/// positive). False when rounding, the size of the polytope or a gap between the cores
+/// stopped it; `x` and the bound hold all the same.
+bool expandPolytope(const BodyPair& pair, Sample& x, double& bound, Work& work);
+
+/// The same from four points of the difference around the origin.
 bool expandPolytope(const BodyPair& pair, const std::array<Eigen::Vector3d, 4>& corner, Sample& x,
                     double& bound, Work& work);
 

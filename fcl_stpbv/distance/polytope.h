@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <cstdint>
+#include <limits>
 
 namespace fcl_stpbv {
 
@@ -31,12 +32,16 @@ class Polytope {
   /// False once a face could not be made: too flat, or no room.
   bool sound() const { return sound_; }
 
-  const Face& nearest() const {
-    int best = 0;
-    for (int i = 1; i < faces_; ++i)
-      if (face(i).distance < face(best).distance) best = i;
-    return face(best);
+  /// The face nearest to the origin of those not put aside; at an infinite distance if all are.
+  Face nearest() const {
+    const std::size_t i = nearestIndex();
+    Face f = face_[i];
+    f.distance = rank_[i];
+    return f;
   }
+
+  /// Takes the nearest face out of the search.
+  void putAside() { rank_[nearestIndex()] = std::numeric_limits<double>::infinity(); }
 
   /// Takes `p`, outside at least one face, into the hull.
   void expand(const Eigen::Vector3d& p) {
@@ -66,7 +71,9 @@ class Polytope {
         else
           horizon[static_cast<std::size_t>(sides++)] = {from, to};
       }
-      face_[static_cast<std::size_t>(i)] = face(--faces_);
+      --faces_;
+      face_[static_cast<std::size_t>(i)] = face(faces_);
+      rank_[static_cast<std::size_t>(i)] = rank_[static_cast<std::size_t>(faces_)];
     }
     for (int i = 0; i < sides && sound_; ++i)
       sound_ = add(horizon[static_cast<std::size_t>(i)][0], horizon[static_cast<std::size_t>(i)][1], index);
@@ -76,6 +83,13 @@ class Polytope {
  private:
   static constexpr int kMaxPoints = 100;  // some 30 are usual
   static constexpr int kMaxFaces = 2 * kMaxPoints;
+
+  std::size_t nearestIndex() const {
+    std::size_t best = 0;
+    for (std::size_t i = 1; i < static_cast<std::size_t>(faces_); ++i)
+      if (rank_[i] < rank_[best]) best = i;
+    return best;
+  }
 
   const Face& face(int i) const { return face_[static_cast<std::size_t>(i)]; }
   const Eigen::Vector3d& point(int i) const { return point_[static_cast<std::size_t>(i)]; }
@@ -90,12 +104,14 @@ class Polytope {
     const double distance = unit.dot(point(i));
     if (origin_ == Origin::inside && !(distance >= 0.0))
       return false;  // the origin is on the surface, to rounding
+    rank_[static_cast<std::size_t>(faces_)] = distance;
     face_[static_cast<std::size_t>(faces_++)] = {{i, j, k}, unit, distance};
     return true;
   }
 
   std::array<Eigen::Vector3d, kMaxPoints> point_;
   std::array<Face, kMaxFaces> face_;
+  std::array<double, kMaxFaces> rank_;  // distance, or infinity for a face put aside
   Origin origin_;
   int points_ = 0;
   int faces_ = 0;
