@@ -127,6 +127,12 @@ LinkModel toLink(const urdf::Link& link, const CapsuleNames& capsules, const std
   }
   joinCapsules(model.collision);
   joinCapsules(model.visual);
+  if (link.inertial) {
+    model.mass = link.inertial->mass;
+    model.centreOfMass = toEigen(link.inertial->origin.position);
+    if (!std::isfinite(model.mass) || model.mass < 0 || !model.centreOfMass.allFinite())
+      throw Error(where + ": its mass must be finite and not negative, its centre of mass finite");
+  }
   return model;
 }
 

@@ -1,0 +1,29 @@
+// See collision_rows.h.
+#include "fcl_stpbv/posture/collision_rows.h"
+
+namespace fcl_stpbv {
+
+CollisionRows::CollisionRows(CollisionConstraints constraints, double margin)
+    : constraints_(std::move(constraints)), margin_(margin), entries_(constraints_.nonZeros()) {}
+
+void CollisionRows::evaluate(const Point& at, Eigen::Ref<Eigen::VectorXd> values,
+                             Eigen::Ref<RowMatrix> jacobian) {
+  constraints_.evaluateValues(at.x.head(constraints_.columns()), values, entries_);
+  values.array() -= margin_;
+  for (int row = 0; row < constraints_.rows(); ++row) {
+    const std::size_t r = static_cast<std::size_t>(row);
+    for (int k = constraints_.rowStart()[r]; k < constraints_.rowStart()[r + 1]; ++k)
+      jacobian(row, constraints_.columnIndices()[static_cast<std::size_t>(k)]) = entries_[k];
+    const bool asked =
+        r < constraints_.pairs().size() && constraints_.answer(row).status != DistanceStatus::invalid;
+    queries_ += asked;
+  }
+}
+
+void SmoothRow::evaluate(const Point& at, Eigen::Ref<Eigen::VectorXd> values,
+                         Eigen::Ref<RowMatrix> jacobian) {
+  values[0] = constraint_.value(at.x, gradient_.data());
+  for (std::size_t i = 0; i < gradient_.size(); ++i) jacobian(0, constraint_.coordinates[i]) = gradient_[i];
+}
+
+}  // namespace fcl_stpbv

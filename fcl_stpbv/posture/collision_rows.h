@@ -1,0 +1,46 @@
+// The distances of a robot as rows: d(q) - margin, not to be negative.
+#pragma once
+
+#include "fcl_stpbv/posture/rows.h"
+#include "fcl_stpbv/robot/constraints.h"
+
+namespace fcl_stpbv {
+
+/// One row per pair of bodies and per smooth constraint of CollisionConstraints.
+class CollisionRows : public PostureRows {
+ public:
+  CollisionRows(CollisionConstraints constraints, double margin);
+
+  Kind kind() const override { return Kind::atLeast; }
+  int size() const override { return constraints_.rows(); }
+  std::string name(int row) const override { return constraints_.name(row); }
+  void evaluate(const Point& at, Eigen::Ref<Eigen::VectorXd> values, Eigen::Ref<RowMatrix> jacobian) override;
+
+  const CollisionConstraints& constraints() const { return constraints_; }
+  /// Distances asked for so far: what the bounding spheres settled is not among them.
+  long queries() const { return queries_; }
+
+ private:
+  CollisionConstraints constraints_;
+  double margin_;
+  Eigen::VectorXd entries_;
+  long queries_ = 0;
+};
+
+/// A smooth function of the coordinates, not to be negative.
+class SmoothRow : public PostureRows {
+ public:
+  explicit SmoothRow(SmoothConstraint constraint)
+      : constraint_(std::move(constraint)), gradient_(constraint_.coordinates.size()) {}
+
+  Kind kind() const override { return Kind::atLeast; }
+  int size() const override { return 1; }
+  std::string name(int) const override { return constraint_.name; }
+  void evaluate(const Point& at, Eigen::Ref<Eigen::VectorXd> values, Eigen::Ref<RowMatrix> jacobian) override;
+
+ private:
+  SmoothConstraint constraint_;
+  std::vector<double> gradient_;
+};
+
+}  // namespace fcl_stpbv

@@ -1,0 +1,38 @@
+// The posture generator: from a task to joint values, or to the constraints that cannot hold together.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "fcl_stpbv/posture/solver.h"
+#include "fcl_stpbv/posture/task.h"
+
+namespace fcl_stpbv {
+
+struct PostureOptions {
+  SolverOptions solver;
+  int starts = 5;          ///< at most; the task's own first, then random ones near it
+  std::uint64_t seed = 1;  ///< of the random ones
+};
+
+struct Posture {
+  bool feasible = false;  ///< all constraints hold within the solver's tolerance
+  Eigen::VectorXd q;      ///< the best found
+  double cost = 0;
+  double seconds = 0;
+  int starts = 0, iterations = 0;             ///< of all starts together
+  long distanceCalls = 0, gradientCalls = 0;  ///< distances, and gradients of distances, that were computed
+  std::string status;
+  std::vector<Violation> violations;  ///< at q, worst first
+  std::vector<std::string> active;    ///< collision rows and joint limits that hold q where it is
+  /// Where nothing was feasible: the constraints that pull against each other where their violations are
+  /// least in sum of squares, each with what it misses there, and the joint limits that they push against.
+  std::vector<Violation> conflict;
+  std::vector<std::string> conflictLimits;
+};
+
+/// Never throws. Deterministic for a seed, but for a solver that runs out of time.
+Posture findPosture(PostureSetup& setup, const PostureOptions& options = {});
+
+}  // namespace fcl_stpbv

@@ -1,0 +1,114 @@
+// See problem.h.
+#include "fcl_stpbv/posture/problem.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fcl_stpbv {
+
+PostureCost quarterCost(const Kinematics& kinematics) {
+  PostureCost cost{Eigen::VectorXd::Ones(kinematics.size()), Eigen::VectorXd::Zero(kinematics.size())};
+  for (const Kinematics::Motion& motion : kinematics.motions())
+    if (motion.joint < 0) cost.weights[motion.coordinate] = 0;
+  for (int i = 0; i < kinematics.size(); ++i)
+    if (std::isfinite(kinematics.lower()[i]) && std::isfinite(kinematics.upper()[i]))
+      cost.reference[i] = (kinematics.lower()[i] + kinematics.upper()[i]) / 4;
+  return cost;
+}
+
+PostureProblem::PostureProblem(std::shared_ptr<const Kinematics> kinematics, PostureCost cost,
+                               const Eigen::VectorXd& start)
+    : kinematics_(std::move(kinematics)),
+      cost_(std::move(cost)),
+      lower_(kinematics_->lower()),
+      upper_(kinematics_->upper()),
+      state_(kinematics_->makeState()) {
+  for (const Kinematics::Motion& motion : kinematics_->motions()) {
+    const int i = motion.coordinate;
+    if (motion.joint >= 0 || !std::isfinite(lower_[i])) continue;
+    lower_[i] = start[i] - M_PI / 2;
+    upper_[i] = start[i] + M_PI / 2;
+  }
+}
+
+int PostureProblem::addVariables(int count) {
+  const int first = variables();
+  lower_.conservativeResize(first + count);
+  upper_.conservativeResize(first + count);
+  lower_.tail(count).setZero();
+  upper_.tail(count).setOnes();
+  shares_.emplace_back(first, count);
+  known_ = false;
+  return first;
+}
+
+void PostureProblem::add(std::shared_ptr<PostureRows> rows) {
+  (rows->kind() == PostureRows::Kind::equal ? equalities_ : inequalities_) += rows->size();
+  rows_.push_back(std::move(rows));
+  known_ = false;
+}
+
+std::string PostureProblem::name(PostureRows::Kind kind, int row) const {
+  for (const auto& rows : rows_) {
+    if (rows->kind() != kind) continue;
+    if (row < rows->size()) return rows->name(row);
+    row -= rows->size();
+  }
+  return "";
+}
+
+std::string PostureProblem::variableName(int i) const {
+  return i < kinematics_->size() ? kinematics_->names()[static_cast<std::size_t>(i)] : "contact weight";
+}
+
+Eigen::VectorXd PostureProblem::variablesAt(const Eigen::VectorXd& q) const {
+  Eigen::VectorXd x(variables());
+  x.head(q.size()) = q;
+  for (const auto& [first, count] : shares_) x.segment(first, count).setConstant(1.0 / count);
+  return x.cwiseMax(lower_).cwiseMin(upper_);
+}
+
+const PostureValues& PostureProblem::evaluate(const Eigen::Ref<const Eigen::VectorXd>& x) {
+  if (known_ && x == values_.x) return values_;
+  known_ = true;
+  ++evaluations_;
+  values_.x = x;
+  const int n = kinematics_->size();
+  const Eigen::VectorXd away = x.head(n) - cost_.reference;
+  values_.cost = away.cwiseAbs2().dot(cost_.weights);
+  values_.costGradient = Eigen::VectorXd::Zero(variables());
+  values_.costGradient.head(n) = 2 * cost_.weights.cwiseProduct(away);
+  values_.equal.resize(equalities_);
+  values_.atLeast.resize(inequalities_);
+  values_.equalJacobian.setZero(equalities_, variables());
+  values_.atLeastJacobian.setZero(inequalities_, variables());
+  kinematics_->forward(x.head(n), state_);
+  int equal = 0, atLeast = 0;
+  for (const auto& rows : rows_) {
+    const bool equality = rows->kind() == PostureRows::Kind::equal;
+    int& first = equality ? equal : atLeast;
+    RowMatrix& jacobian = equality ? values_.equalJacobian : values_.atLeastJacobian;
+    Eigen::VectorXd& values = equality ? values_.equal : values_.atLeast;
+    rows->evaluate({x, state_}, values.segment(first, rows->size()),
+                   jacobian.middleRows(first, rows->size()));
+    first += rows->size();
+  }
+  return values_;
+}
+
+std::vector<Violation> PostureProblem::violations(const Eigen::Ref<const Eigen::VectorXd>& x,
+                                                  double tolerance) {
+  const PostureValues& at = evaluate(x);
+  std::vector<Violation> list;
+  const auto note = [&](const std::string& what, double amount) {
+    if (!(amount <= tolerance)) list.push_back({what, amount});
+  };
+  for (int i = 0; i < equalities_; ++i) note(equalityName(i), std::abs(at.equal[i]));
+  for (int i = 0; i < inequalities_; ++i) note(inequalityName(i), -at.atLeast[i]);
+  for (int i = 0; i < variables(); ++i) note(variableName(i), std::max(lower_[i] - x[i], x[i] - upper_[i]));
+  std::stable_sort(list.begin(), list.end(),
+                   [](const Violation& a, const Violation& b) { return a.amount > b.amount; });
+  return list;
+}
+
+}  // namespace fcl_stpbv

@@ -1,0 +1,34 @@
+// What a constraint of a posture gives a solver: values and exact first derivatives.
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+
+#include "fcl_stpbv/robot/kinematics.h"
+
+namespace fcl_stpbv {
+
+using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+/// A few rows g(x), all of which are to be 0 or all of which are not to be negative. The variables x are the
+/// robot's coordinates q (Kinematics) and, after them, what a constraint brings along (StaticStability).
+class PostureRows {
+ public:
+  enum class Kind { equal, atLeast };
+
+  /// A vector of variables and where it puts the links.
+  struct Point {
+    Eigen::Ref<const Eigen::VectorXd> x;
+    const Kinematics::State& state;
+  };
+
+  virtual ~PostureRows() = default;
+  virtual Kind kind() const = 0;
+  virtual int size() const = 0;
+  virtual std::string name(int row) const = 0;
+  /// Writes g and its Jacobian, size() x variables, which comes zeroed. Lengths in m, angles in rad.
+  virtual void evaluate(const Point& at, Eigen::Ref<Eigen::VectorXd> values,
+                        Eigen::Ref<RowMatrix> jacobian) = 0;
+};
+
+}  // namespace fcl_stpbv

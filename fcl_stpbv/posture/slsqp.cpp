@@ -1,0 +1,160 @@
+// NLopt's SLSQP behind solver.h.
+#include <nlopt.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include "fcl_stpbv/posture/solver.h"
+
+namespace fcl_stpbv {
+namespace {
+
+using ConstMap = Eigen::Map<const Eigen::VectorXd>;
+using Map = Eigen::Map<Eigen::VectorXd>;
+
+class Slsqp {
+ public:
+  Slsqp(PostureProblem& problem, const SolverOptions& options) : problem_(problem), options_(options) {}
+
+  SolverOutcome run(const Eigen::VectorXd& start) {
+    const auto begin = std::chrono::steady_clock::now();
+    best_.x = start;
+    Eigen::VectorXd x = start;
+    select(x);
+    for (;;) {
+      grown_ = false;
+      const double left = options_.maxSeconds -
+                          std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+      const nlopt_result result = optimise(x, left);
+      if (!grown_) {
+        best_.x = x;
+        best_.status = nameOf(result);
+        return best_;
+      }
+      select(grownAt_);
+      x = iterate_;
+    }
+  }
+
+ private:
+  struct Delete {
+    void operator()(nlopt_opt opt) const { nlopt_destroy(opt); }
+  };
+
+  static std::string nameOf(nlopt_result result) {
+    switch (result) {
+      case NLOPT_FTOL_REACHED:
+      case NLOPT_XTOL_REACHED:
+      case NLOPT_SUCCESS:
+        return "converged";
+      case NLOPT_ROUNDOFF_LIMITED:
+        return "no further progress";
+      case NLOPT_MAXEVAL_REACHED:
+      case NLOPT_FORCED_STOP:
+        return "too many iterations";
+      case NLOPT_MAXTIME_REACHED:
+        return "out of time";
+      default:
+        return "the solver failed";
+    }
+  }
+
+  // Takes in what has little slack at x.
+  void select(const Eigen::VectorXd& x) {
+    const PostureValues& values = problem_.evaluate(x);
+    chosen_.resize(static_cast<std::size_t>(problem_.inequalities()), false);
+    active_.clear();
+    for (int i = 0; i < problem_.inequalities(); ++i) {
+      chosen_[static_cast<std::size_t>(i)] =
+          chosen_[static_cast<std::size_t>(i)] || values.atLeast[i] < options_.activation;
+      if (chosen_[static_cast<std::size_t>(i)]) active_.push_back(i);
+    }
+  }
+
+  nlopt_result optimise(Eigen::VectorXd& x, double seconds) {
+    const unsigned n = static_cast<unsigned>(problem_.variables());
+    const std::unique_ptr<nlopt_opt_s, Delete> opt(nlopt_create(NLOPT_LD_SLSQP, n));
+    opt_ = opt.get();
+    nlopt_set_lower_bounds(opt_, problem_.lower().data());
+    nlopt_set_upper_bounds(opt_, problem_.upper().data());
+    nlopt_set_min_objective(opt_, &Slsqp::objective, this);
+    const std::vector<double> tolerances(
+        static_cast<std::size_t>(std::max(problem_.equalities(), problem_.inequalities())),
+        options_.tolerance);
+    if (problem_.equalities() > 0)
+      nlopt_add_equality_mconstraint(opt_, static_cast<unsigned>(problem_.equalities()), &Slsqp::equalities,
+                                     this, tolerances.data());
+    if (!active_.empty())
+      nlopt_add_inequality_mconstraint(opt_, static_cast<unsigned>(active_.size()), &Slsqp::inequalities,
+                                       this, tolerances.data());
+    nlopt_set_ftol_rel(opt_, options_.costTolerance);
+    nlopt_set_xtol_rel(opt_, 1e-9);
+    nlopt_set_maxtime(opt_, std::max(1e-3, seconds));
+    double cost;
+    return nlopt_optimize(opt_, x.data(), &cost);
+  }
+
+  // SLSQP begins with the identity as the Hessian: half the cost has just that along each joint of weight 1.
+  static double objective(unsigned n, const double* x, double* gradient, void* self) {
+    Slsqp& s = *static_cast<Slsqp*>(self);
+    const PostureValues& values = s.problem_.evaluate(ConstMap(x, n));
+    if (gradient) {
+      Map(gradient, n) = values.costGradient / 2;
+      s.iterate_ = values.x;
+      if (++s.best_.iterations >= s.options_.maxIterations) nlopt_force_stop(s.opt_);
+    }
+    s.grow(values);
+    return values.cost / 2;
+  }
+
+  // Stops, to begin again with a larger model, where a row is violated that it lacks.
+  void grow(const PostureValues& values) {
+    if (best_.iterations >= options_.maxIterations) return;
+    for (int i = 0; i < problem_.inequalities(); ++i) {
+      if (values.atLeast[i] >= -options_.tolerance || chosen_[static_cast<std::size_t>(i)]) continue;
+      grown_ = true;
+      chosen_[static_cast<std::size_t>(i)] = true;
+    }
+    if (!grown_) return;
+    grownAt_ = values.x;
+    nlopt_force_stop(opt_);
+  }
+
+  static void equalities(unsigned m, double* result, unsigned n, const double* x, double* jacobian,
+                         void* self) {
+    const PostureValues& values = static_cast<Slsqp*>(self)->problem_.evaluate(ConstMap(x, n));
+    Map(result, m) = values.equal;
+    if (jacobian) Eigen::Map<RowMatrix>(jacobian, m, n) = values.equalJacobian;
+  }
+
+  static void inequalities(unsigned m, double* result, unsigned n, const double* x, double* jacobian,
+                           void* self) {
+    const Slsqp& s = *static_cast<Slsqp*>(self);
+    const PostureValues& values = s.problem_.evaluate(ConstMap(x, n));
+    for (unsigned i = 0; i < m; ++i) {
+      result[i] = -values.atLeast[s.active_[i]];
+      if (jacobian) Eigen::Map<RowMatrix>(jacobian, m, n).row(i) = -values.atLeastJacobian.row(s.active_[i]);
+    }
+  }
+
+  PostureProblem& problem_;
+  const SolverOptions& options_;
+  nlopt_opt opt_ = nullptr;
+  std::vector<int> active_;
+  std::vector<bool> chosen_;
+  bool grown_ = false;
+  Eigen::VectorXd iterate_, grownAt_;
+  SolverOutcome best_;
+};
+
+}  // namespace
+
+SolverOutcome solveBySlsqp(PostureProblem& problem, const Eigen::VectorXd& start,
+                           const SolverOptions& options) {
+  return Slsqp(problem, options).run(start);
+}
+
+}  // namespace fcl_stpbv

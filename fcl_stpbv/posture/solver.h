@@ -1,0 +1,29 @@
+// Solving a posture's optimisation problem from one start.
+#pragma once
+
+#include <string>
+
+#include "fcl_stpbv/posture/problem.h"
+
+namespace fcl_stpbv {
+
+struct SolverOptions {
+  int maxIterations = 300;
+  double maxSeconds = 10;
+  double tolerance = 1e-6;      ///< a constraint holds within this (m, rad)
+  double costTolerance = 1e-6;  ///< relative change of the cost at which a posture that holds is good enough
+  /// Inequalities with more slack than this are left out of an iteration's model until they have less.
+  double activation = 0.1;
+};
+
+struct SolverOutcome {
+  Eigen::VectorXd x;   ///< best found: the constraints hold, or are least violated
+  int iterations = 0;  ///< models built, each from one evaluation of all derivatives
+  std::string status;  ///< why it ended, for people
+};
+
+/// Sequential quadratic programming by NLopt's SLSQP.
+SolverOutcome solveBySlsqp(PostureProblem& problem, const Eigen::VectorXd& start,
+                           const SolverOptions& options);
+
+}  // namespace fcl_stpbv

@@ -1,0 +1,136 @@
+// See task.h; the file's format is read in task_file.cpp.
+#include "fcl_stpbv/posture/task.h"
+
+#include <algorithm>
+
+#include "fcl_stpbv/error.h"
+
+namespace fcl_stpbv {
+namespace {
+
+int linkNamed(const std::string& name, const PostureScene& scene, const std::string& where) {
+  const int link = scene.robot->link(name);
+  if (link < 0) throw Error(where + ": the robot has no link '" + name + "'");
+  return link;
+}
+
+// An obstacle of this link of the scene: the link's first shape has its name, others #2, #3 after it.
+bool isOf(const Obstacle& obstacle, const std::string& link) {
+  return obstacle.name == link || obstacle.name.compare(0, link.size() + 1, link + "#") == 0;
+}
+
+// Which of some pairs with obstacles these lists name.
+std::vector<bool> named(const std::vector<LinkObstacles>& lists, const std::vector<CheckedPair>& pairs,
+                        const PostureScene& scene, const std::string& where) {
+  std::vector<bool> found(pairs.size(), false);
+  for (std::size_t i = 0; i < lists.size(); ++i) {
+    const std::string here = where + "[" + std::to_string(i) + "]";
+    std::vector<int> links;
+    for (const std::string& link : lists[i].links) links.push_back(linkNamed(link, scene, here + ".links"));
+    for (const std::string& name : lists[i].obstacles) {
+      if (std::none_of(scene.obstacles.begin(), scene.obstacles.end(),
+                       [&](const Obstacle& o) { return isOf(o, name); }))
+        throw Error(here + ".obstacles: there is no obstacle '" + name + "'" +
+                    (scene.obstacles.empty() ? "; give --obstacles" : ""));
+    }
+    for (std::size_t p = 0; p < pairs.size(); ++p) {
+      const int link = scene.geometry->bodies[static_cast<std::size_t>(pairs[p].body)].link;
+      const Obstacle& obstacle = scene.obstacles[static_cast<std::size_t>(pairs[p].other)];
+      const std::vector<std::string>& names = lists[i].obstacles;
+      const bool linkToo = links.empty() || std::find(links.begin(), links.end(), link) != links.end();
+      const bool obstacleToo =
+          names.empty() ||
+          std::any_of(names.begin(), names.end(), [&](const auto& name) { return isOf(obstacle, name); });
+      if (linkToo && obstacleToo) found[p] = true;
+    }
+  }
+  return found;
+}
+
+PostureCost costOf(const PostureTask& task, const Kinematics& kinematics, const Eigen::VectorXd& start) {
+  PostureCost cost = quarterCost(kinematics);
+  if (task.towardsStart) cost.reference = start;
+  for (const auto& [joint, weight] : task.weights) {
+    const int i = kinematics.coordinate(joint);
+    if (i < 0) throw Error(task.path + ": cost.weights: the robot has no joint '" + joint + "' of its own");
+    cost.weights[i] = weight;
+  }
+  return cost;
+}
+
+}  // namespace
+
+Eigen::VectorXd startOf(const PostureTask& task, const PostureScene& scene, const Kinematics& kinematics) {
+  if (!task.state.empty() && !scene.srdf)
+    throw Error(task.path + ": start.state: '" + task.state + "' needs an SRDF; give --srdf");
+  Eigen::VectorXd q = kinematics.neutral();
+  if (!task.state.empty()) q = kinematics.configuration(scene.srdf->state(task.state));
+  for (const auto& [joint, value] : task.joints) {
+    const int i = kinematics.coordinate(joint);
+    if (i < 0) throw Error(task.path + ": start.joints: the robot has no joint '" + joint + "' of its own");
+    q[i] = value;
+  }
+  const Eigen::AngleAxisd turn(task.basePose.linear());
+  if (task.base == BaseMotion::planar) {
+    q.head<2>() = task.basePose.translation().head<2>();
+    q[2] = turn.angle() * turn.axis().z();
+  } else if (task.base == BaseMotion::floating) {
+    q.head<3>() = task.basePose.translation();
+    q.segment<3>(3) = turn.angle() * turn.axis();
+  }
+  return q;
+}
+
+std::vector<CheckedPair> pairsOf(const PostureTask& task, const PostureScene& scene) {
+  std::vector<CheckedPair> pairs;
+  if (task.selfCollisions) pairs = selfPairs(*scene.robot, *scene.geometry, scene.srdf.get());
+  const std::vector<CheckedPair> all =
+      obstaclePairs(*scene.robot, *scene.geometry, scene.obstacles.size(), task.base != BaseMotion::fixed);
+  const std::vector<bool> wanted = named(task.pairs, all, scene, task.path + ": collisions.pairs");
+  const std::vector<bool> ignored = named(task.ignore, all, scene, task.path + ": collisions.ignore");
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if ((task.pairs.empty() || wanted[i]) && !ignored[i]) pairs.push_back(all[i]);
+  return pairs;
+}
+
+PostureSetup setUpWithoutCollisions(const PostureTask& task, const PostureScene& scene) {
+  const auto kinematics = std::make_shared<const Kinematics>(scene.robot, task.base);
+  PostureSetup setup;
+  setup.start = startOf(task, scene, *kinematics);
+  setup.problem =
+      std::make_shared<PostureProblem>(kinematics, costOf(task, *kinematics, setup.start), setup.start);
+  for (std::size_t i = 0; i < task.placements.size(); ++i) {
+    Placement placement = task.placements[i].placement;
+    placement.link =
+        linkNamed(task.placements[i].link, scene, task.path + ": placements[" + std::to_string(i) + "].link");
+    setup.problem->add(std::make_shared<PlacementRows>(*kinematics, placement));
+  }
+  if (task.contacts.empty()) return setup;
+  std::vector<Contact> contacts;
+  for (std::size_t i = 0; i < task.contacts.size(); ++i)
+    contacts.push_back({linkNamed(task.contacts[i].link, scene,
+                                  task.path + ": stability.contacts[" + std::to_string(i) + "].link"),
+                        task.contacts[i].points});
+  const auto stability = std::make_shared<StaticStability>(*kinematics, contacts, task.stabilityMargin,
+                                                           setup.problem->variables());
+  setup.problem->addVariables(stability->weights());
+  setup.problem->add(stability);
+  return setup;
+}
+
+PostureSetup setUp(const PostureTask& task, const PostureScene& scene, double influence) {
+  PostureSetup setup = setUpWithoutCollisions(task, scene);
+  setup.pairs = pairsOf(task, scene);
+  if (setup.pairs.empty()) return setup;
+  ConstraintOptions options;
+  options.influence = influence + task.collisionMargin;
+  options.obstacles = scene.obstacles;
+  const auto kinematics = std::make_shared<const Kinematics>(scene.robot, task.base);
+  setup.collisions = std::make_shared<CollisionRows>(
+      CollisionConstraints(kinematics, scene.geometry, setup.pairs, std::move(options)),
+      task.collisionMargin);
+  setup.problem->add(setup.collisions);
+  return setup;
+}
+
+}  // namespace fcl_stpbv

@@ -1,0 +1,78 @@
+// What a robot is asked to do: its task file, and the optimisation problem made of it.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "fcl_stpbv/posture/collision_rows.h"
+#include "fcl_stpbv/posture/placement.h"
+#include "fcl_stpbv/posture/problem.h"
+#include "fcl_stpbv/posture/stability.h"
+#include "fcl_stpbv/robot/checked_pairs.h"
+
+namespace fcl_stpbv {
+
+/// A robot and what stands around it, loaded once for any number of tasks.
+struct PostureScene {
+  std::shared_ptr<const RobotModel> robot;
+  std::shared_ptr<const RobotGeometry> geometry;
+  std::shared_ptr<const Srdf> srdf;  ///< null without one
+  std::vector<Obstacle> obstacles;
+};
+
+/// All pairs of some links with some obstacles. An empty list stands for all of its kind.
+struct LinkObstacles {
+  std::vector<std::string> links, obstacles;
+};
+
+struct PostureTask {
+  std::string path;  ///< for messages
+  BaseMotion base = BaseMotion::floating;
+  std::string state;  ///< SRDF state to start from; "" for the neutral configuration
+  Eigen::Isometry3d basePose = Eigen::Isometry3d::Identity();  ///< at the start
+  std::map<std::string, double> joints;                        ///< at the start, over those of the state
+  bool towardsStart = false;  ///< the cost's reference is the start instead of eq. 3's
+  std::map<std::string, double> weights;
+  struct Place {
+    std::string link;
+    Placement placement;  ///< its link is found by name
+  };
+  std::vector<Place> placements;
+  struct Touch {
+    std::string link;
+    std::vector<Eigen::Vector3d> points;
+  };
+  std::vector<Touch> contacts;  ///< none: no static stability
+  double stabilityMargin = 0;   ///< m
+  double collisionMargin = 0;   ///< m
+  bool selfCollisions = true;
+  std::vector<LinkObstacles> pairs;   ///< checked; none: every moving body against every obstacle
+  std::vector<LinkObstacles> ignore;  ///< left out all the same
+};
+
+/// @throws Error naming the file and the key, and what would work.
+PostureTask loadTask(const std::string& path);
+/// The same from a text; `path` stands for it in messages.
+PostureTask parseTask(const std::string& text, const std::string& path);
+
+/// The problem of a task and where to start.
+struct PostureSetup {
+  std::shared_ptr<PostureProblem> problem;
+  Eigen::VectorXd start;                      ///< q
+  std::vector<CheckedPair> pairs;             ///< kept apart; none where collisions were not asked for
+  std::shared_ptr<CollisionRows> collisions;  ///< null without pairs
+};
+
+/// The coordinates of the task's start. @throws Error naming the task's key.
+Eigen::VectorXd startOf(const PostureTask& task, const PostureScene& scene, const Kinematics& kinematics);
+/// The pairs that the task asks to keep apart. @throws Error naming the task's key.
+std::vector<CheckedPair> pairsOf(const PostureTask& task, const PostureScene& scene);
+/// All but the collisions. @throws Error naming the task's key.
+PostureSetup setUpWithoutCollisions(const PostureTask& task, const PostureScene& scene);
+/// Pairs farther apart than `influence` (m) cost one test of their bounding spheres.
+PostureSetup setUp(const PostureTask& task, const PostureScene& scene, double influence = 0.2);
+
+}  // namespace fcl_stpbv

@@ -1,0 +1,128 @@
+// find_posture: joint values for a task, free of collisions, or which of its constraints cannot hold
+// together.
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <filesystem>
+#include <iostream>
+
+#include "fcl_stpbv/error.h"
+#include "fcl_stpbv/volume/atomic_write.h"
+#include "tools/posture_formats.h"
+
+namespace {
+
+using namespace fcl_stpbv;
+using namespace fcl_stpbv::tools;
+
+enum Exit { kFeasible = 0, kInfeasible = 1, kUsage = 2 };
+
+constexpr const char* kDescription =
+    "A posture of a robot that does a task free of collisions, by constrained optimisation with the smooth "
+    "distance "
+    "of sphere-torus-patch bounding volumes (STP-BV).";
+
+constexpr const char* kFooter =
+    R"(TASK is a JSON file: where to start, what to place where, contacts for static stability, pairs to keep apart
+(docs/posture.md). Lengths are in metres, angles in radians.
+
+Examples:
+  find_posture hrp2_style.urdf pick_can.json --srdf hrp2_style.srdf --obstacles fridge.urdf
+  find_posture robot.urdf task.json --starts 20 --format json -o posture.json
+
+Exit status: 0 a posture was found; 1 none was found; 2 the command line or an input is wrong.)";
+
+struct Arguments {
+  std::string urdf, task, srdf, obstacles, format = "text", output;
+  GeometryOptions geometry;
+  PostureOptions options;
+  bool noCache = false, quiet = false;
+};
+
+void describe(CLI::App& app, Arguments& a) {
+  app.add_option("ROBOT", a.urdf, "The robot's URDF")->required()->type_name("FILE");
+  app.add_option("TASK", a.task, "The task's JSON file")->required()->type_name("FILE");
+  app.add_option("--srdf", a.srdf, "SRDF with pairs to leave out and postures")->type_name("FILE");
+  app.add_option("--obstacles", a.obstacles, "URDF of a scene to keep clear of")->type_name("FILE");
+  app.add_option("--package-path", a.geometry.packagePath,
+                 "Folder that holds packages, for package:// names; may be given again")
+      ->type_name("FOLDER")
+      ->expected(1)
+      ->take_all();
+  app.add_option("--starts", a.options.starts, "Starts to try: the task's own, then random ones near it")
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str();
+  app.add_option("--seed", a.options.seed, "Of the random starts")->capture_default_str();
+  app.add_option("-r", a.geometry.radii.r, "Radius of the small spheres, the margin")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  app.add_option("-R", a.geometry.radii.R, "Radius of the big spheres")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  app.add_option("--format", a.format, "text or json")
+      ->check(CLI::IsMember({"text", "json"}))
+      ->capture_default_str();
+  app.add_option("-o,--output", a.output, "File to write instead of standard output")->type_name("OUT");
+  app.add_flag("--no-cache", a.noCache, "Build every volume, keep none in the cache folder");
+  app.add_flag("-q,--quiet", a.quiet, "No warnings");
+}
+
+PostureScene load(const Arguments& a) {
+  PostureScene scene;
+  scene.robot = std::make_shared<const RobotModel>(loadUrdf(a.urdf));
+  if (!a.srdf.empty()) scene.srdf = std::make_shared<const Srdf>(loadSrdf(a.srdf, *scene.robot));
+  scene.geometry = std::make_shared<const RobotGeometry>(loadGeometry(*scene.robot, a.geometry));
+  std::vector<std::string> warnings = scene.geometry->warnings;
+  if (!a.obstacles.empty()) {
+    const auto model = std::make_shared<const RobotModel>(loadUrdf(a.obstacles));
+    const RobotGeometry bodies = loadGeometry(*model, a.geometry);
+    scene.obstacles = obstaclesOf(model, bodies);
+    warnings.insert(warnings.end(), bodies.warnings.begin(), bodies.warnings.end());
+  }
+  if (!a.quiet)
+    for (const std::string& warning : warnings) std::cerr << "find_posture: " << warning << std::endl;
+  return scene;
+}
+
+int run(Arguments& a) {
+  if (!a.output.empty() && std::filesystem::is_directory(a.output))
+    throw Error("-o " + a.output + ": is a folder, expected a file");
+  if (a.noCache) a.geometry.cacheFolder.clear();
+  PostureReport report;
+  report.task = loadTask(a.task);
+  report.scene = load(a);
+  PostureSetup setup = setUp(report.task, report.scene);
+  report.kinematics = std::make_shared<const Kinematics>(setup.problem->kinematics());
+  report.pairs = setup.pairs;
+  report.posture = findPosture(setup, a.options);
+  if (!setup.pairs.empty()) {
+    PostureSetup free = setUpWithoutCollisions(report.task, report.scene);
+    report.withoutCollisions = findPosture(free, a.options);
+  }
+  const std::string text = a.format == "json" ? toJson(report) : toText(report);
+  if (a.output.empty())
+    std::cout << text << std::flush;
+  else
+    atomicWrite(a.output, text);
+  return report.posture.feasible ? kFeasible : kInfeasible;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app(kDescription, "find_posture");
+  app.footer(kFooter);
+  Arguments arguments;
+  describe(app, arguments);
+  try {
+    app.parse(argc, argv);
+    return run(arguments);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? kFeasible : kUsage;
+  } catch (const std::bad_alloc&) {
+    std::cerr << "find_posture: not enough memory; give a smaller robot" << std::endl;
+    return kUsage;
+  } catch (const std::exception& error) {
+    std::cerr << "find_posture: " << error.what() << std::endl;
+    return kUsage;
+  }
+}
