@@ -15,15 +15,17 @@ import sys
 
 FOLDER = os.path.dirname(os.path.abspath(__file__))
 
-FRONT, BACK = 300, 860          # of the shelves' compartment
-LEFT, RIGHT = 270, -330         # inner sides of its panels
+FRONT, BACK = 212, 800          # of the shelves' compartment
+LEFT, RIGHT = 215, -330         # inner sides of its panels
 FLOOR, TOP = 740, 1520
 PANEL, DOOR = 40, 60            # thicknesses
-OPEN = 97                       # the upper door's angle; the lower one is shut
-CAN = (560, 60)                 # where the can stands: x, y
-SHELF = 960                     # the shelf that it stands on, upper side
+OPEN = 92                       # the upper door's angle; the lower one is shut
+CAN = (520, 170)                # where the can stands: x, y
+SHELF = 860                     # the shelf that it stands on, upper side
 CAN_RADIUS, CAN_HEIGHT, GRASP = 26, 130, 100  # the hand closes at this height above the shelf
-CLEMENTINE = 25
+CARAFE = (425, 35)
+CLEMENTINES = ((435, 138), (446, 198))  # in front of the can
+CLEMENTINE = 25                 # radius
 
 WHITE, GLASS, ORANGE, RED = "0.93 0.94 0.95 1", "0.6 0.75 0.8 1", "0.95 0.55 0.1 1", "0.8 0.1 0.15 1"
 
@@ -64,8 +66,8 @@ def parts():
     add("shelf_high", box((FRONT + 20, RIGHT, SHELF + 320), (BACK, LEFT, SHELF + 332)), GLASS)
     add("can", (f'<cylinder radius="{CAN_RADIUS / 1000}" length="{CAN_HEIGHT / 1000}"/>',
                 (*CAN, SHELF + CAN_HEIGHT / 2)), RED)
-    add("carafe", ('<mesh filename="package://fridge/meshes/carafe.obj"/>', (440, 165, SHELF)), GLASS)
-    for i, (x, y) in enumerate(((455, 20), (470, -45)), 1):
+    add("carafe", ('<mesh filename="package://fridge/meshes/carafe.obj"/>', (*CARAFE, SHELF)), GLASS)
+    for i, (x, y) in enumerate(CLEMENTINES, 1):
         add(f"clementine_{i}", (f'<sphere radius="{CLEMENTINE / 1000}"/>', (x, y, SHELF + CLEMENTINE)), ORANGE)
     return items
 
@@ -139,7 +141,7 @@ def files():
     yield "meshes/carafe.obj", carafe()
     yield "package.xml", ('<?xml version="1.0"?>\n<package format="3">\n  <name>fridge</name>\n  <version>0.1.0</version>\n'
                           "  <description>A fridge to take a can from</description>\n"
-                          '  <maintainer email="none@example.org">fcl_stpbv</maintainer>\n  <license>BSD-2-Clause</license>\n</package>\n')
+                          '  <maintainer email="developers@fcl-stpbv.invalid">fcl_stpbv developers</maintainer>\n  <license>BSD-2-Clause</license>\n</package>\n')
     yield "pick_can.json", json.dumps(pick_can(), indent=1) + "\n"
 
 

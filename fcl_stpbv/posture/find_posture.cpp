@@ -4,7 +4,7 @@
 #include <chrono>
 #include <random>
 
-#include "fcl_stpbv/posture/conflict.h"
+#include "fcl_stpbv/posture/approach.h"
 
 namespace fcl_stpbv {
 namespace {
@@ -46,6 +46,39 @@ std::vector<std::string> activeAt(PostureProblem& problem, const Eigen::VectorXd
   return names;
 }
 
+// Variables that the violated constraints push against a bound.
+std::vector<std::string> pushedLimits(const PostureProblem& problem, const Approach& least) {
+  const double push = 0.05 * least.slope.cwiseAbs().maxCoeff();  // less is what the descent left
+  std::vector<std::string> names;
+  for (int i = 0; i < problem.variables(); ++i) {
+    const bool low = least.x[i] <= problem.lower()[i] && least.slope[i] > push;
+    const bool high = least.x[i] >= problem.upper()[i] && least.slope[i] < -push;
+    if (low || high) names.push_back(problem.variableName(i) + (low ? " (lower limit)" : " (upper limit)"));
+  }
+  return names;
+}
+
+// From one start: near to the posture by damped steps, then to it by sequential quadratic programming.
+SolverOutcome solve(PostureProblem& problem, const Eigen::VectorXd& start, const SolverOptions& options) {
+  // The cost then pulls the constraints apart by about 1e-4 times their multipliers: millimetres.
+  constexpr double kCostWeight = 1e-4;
+  // Soft obstacles first: a hand that would be caught before one passes through it and is pushed out behind.
+  constexpr double kSoft = 0.3, kFirm = 1;
+  // Farther away than this (m, rad) where the damped steps end, the start leads into a dead end.
+  constexpr double kNear = 0.1;
+  Approach near{start, {}, 0};
+  int iterations = 0;
+  for (const double weight : {kSoft, kFirm}) {
+    near = approach(problem, near.x, {kCostWeight, weight});
+    iterations += near.iterations;
+  }
+  const std::vector<Violation> left = problem.violations(near.x, options.tolerance);
+  if (!left.empty() && left.front().amount > kNear) return {near.x, iterations, "stuck"};
+  SolverOutcome outcome = solveBySlsqp(problem, near.x, options);
+  outcome.iterations += iterations;
+  return outcome;
+}
+
 }  // namespace
 
 Posture findPosture(PostureSetup& setup, const PostureOptions& options) {
@@ -60,14 +93,14 @@ Posture findPosture(PostureSetup& setup, const PostureOptions& options) {
   Eigen::VectorXd bestX;
   for (int i = 0; i < options.starts && !best.feasible; ++i) {
     const Eigen::VectorXd q = i == 0 ? setup.start : randomStart(problem, setup.start, random);
-    const SolverOutcome outcome = solveBySlsqp(problem, problem.variablesAt(q), options.solver);
+    const SolverOutcome outcome = solve(problem, problem.variablesAt(q), options.solver);
     std::vector<Violation> violations = problem.violations(outcome.x, options.solver.tolerance);
     ++best.starts;
     best.iterations += outcome.iterations;
     if (i > 0 && total(violations) >= total(best.violations)) continue;
     best.violations = std::move(violations);
     best.feasible = best.violations.empty();
-    best.status = outcome.status;
+    best.status = !best.feasible && outcome.status == "converged" ? "stuck" : outcome.status;
     bestX = outcome.x;
   }
   best.seconds = elapsed();
@@ -77,9 +110,9 @@ Posture findPosture(PostureSetup& setup, const PostureOptions& options) {
   best.distanceCalls = best.gradientCalls =
       (setup.collisions ? setup.collisions->queries() : 0) - queriesBefore;
   if (best.feasible) return best;
-  Conflict conflict = findConflict(problem, bestX, options.solver.tolerance);
-  best.conflict = std::move(conflict.rows);
-  best.conflictLimits = std::move(conflict.limits);
+  const Approach least = approach(problem, bestX, {});
+  best.conflict = problem.violations(least.x, options.solver.tolerance);
+  if (!best.conflict.empty()) best.conflictLimits = pushedLimits(problem, least);
   return best;
 }
 

@@ -45,9 +45,8 @@ void angleBySine(double cosine, double sine, double& g, double& slope) {
     slope = -(1.0 / 3 + s2 * 3 / 10 * (1 + s2 * 25 / 28)) * cosine;
     return;
   }
-  const double s = std::max(sine, 1e-9);  // at half a turn: large, but finite
-  g = angle / s;
-  slope = (cosine * g - 1) / (s * s);
+  g = angle / sine;
+  slope = (cosine * g - 1) / (sine * sine);
 }
 
 }  // namespace
@@ -86,7 +85,10 @@ void PlacementRows::rotation(const Matrix3d& frame, Vector3d& error, Matrix3d& r
     return;
   }
   const Vector3d axis = Vector3d::Unit(freeAxis_), tilted = relative.col(freeAxis_);
-  const Vector3d turn = axis.cross(tilted);
+  Vector3d turn = axis.cross(tilted);
+  // Nearer to half a turn than this the way round is taken as given: it is any, and the rate stays finite.
+  constexpr double kHalfTurn = 1e-6;
+  if (axis.dot(tilted) < 0 && turn.norm() < kHalfTurn) turn = kHalfTurn * Vector3d::Unit((freeAxis_ + 1) % 3);
   const double cosine = axis.dot(tilted);
   double g, slope;
   angleBySine(cosine, turn.norm(), g, slope);

@@ -68,6 +68,12 @@ Eigen::VectorXd PostureProblem::variablesAt(const Eigen::VectorXd& q) const {
   return x.cwiseMax(lower_).cwiseMin(upper_);
 }
 
+Eigen::VectorXd PostureProblem::costCurvature() const {
+  Eigen::VectorXd curvature = Eigen::VectorXd::Zero(variables());
+  curvature.head(cost_.weights.size()) = 2 * cost_.weights;
+  return curvature;
+}
+
 const PostureValues& PostureProblem::evaluate(const Eigen::Ref<const Eigen::VectorXd>& x) {
   if (known_ && x == values_.x) return values_;
   known_ = true;

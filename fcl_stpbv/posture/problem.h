@@ -58,6 +58,8 @@ class PostureProblem {
 
   /// q within the bounds, and own variables that share out evenly.
   Eigen::VectorXd variablesAt(const Eigen::VectorXd& q) const;
+  /// Second derivatives of the cost: it has no others.
+  Eigen::VectorXd costCurvature() const;
   /// Computed anew only where x differs from the last one. Valid until the next call.
   const PostureValues& evaluate(const Eigen::Ref<const Eigen::VectorXd>& x);
   /// How often it was computed anew.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -31,7 +32,7 @@ class Slsqp {
       const nlopt_result result = optimise(x, left);
       if (!grown_) {
         best_.x = x;
-        best_.status = nameOf(result);
+        best_.status = stuck_ ? "stuck" : nameOf(result);
         return best_;
       }
       select(grownAt_);
@@ -104,15 +105,30 @@ class Slsqp {
     if (gradient) {
       Map(gradient, n) = values.costGradient / 2;
       s.iterate_ = values.x;
-      if (++s.best_.iterations >= s.options_.maxIterations) nlopt_force_stop(s.opt_);
+      ++s.best_.iterations;
+      s.watch(values);
     }
     s.grow(values);
     return values.cost / 2;
   }
 
+  // Stops a search that gets no nearer, which SLSQP goes on with for hundreds of iterations.
+  void watch(const PostureValues& values) {
+    constexpr double kFar = 1e-3;  // nearer than this (m, rad) it may well alternate between two sides
+    constexpr int kPatience = 15;
+    const double miss = std::max(values.equal.size() ? values.equal.cwiseAbs().maxCoeff() : 0.0,
+                                 values.atLeast.size() ? -values.atLeast.minCoeff() : 0.0);
+    if (miss < 0.9 * leastMiss_) {
+      leastMiss_ = miss;
+      leastAt_ = best_.iterations;
+    }
+    stuck_ = leastMiss_ > kFar && best_.iterations > leastAt_ + kPatience;
+    if (stuck_ || best_.iterations >= options_.maxIterations) nlopt_force_stop(opt_);
+  }
+
   // Stops, to begin again with a larger model, where a row is violated that it lacks.
   void grow(const PostureValues& values) {
-    if (best_.iterations >= options_.maxIterations) return;
+    if (stuck_ || best_.iterations >= options_.maxIterations) return;
     for (int i = 0; i < problem_.inequalities(); ++i) {
       if (values.atLeast[i] >= -options_.tolerance || chosen_[static_cast<std::size_t>(i)]) continue;
       grown_ = true;
@@ -145,7 +161,9 @@ class Slsqp {
   nlopt_opt opt_ = nullptr;
   std::vector<int> active_;
   std::vector<bool> chosen_;
-  bool grown_ = false;
+  bool grown_ = false, stuck_ = false;
+  double leastMiss_ = std::numeric_limits<double>::infinity();  // of any iteration so far
+  int leastAt_ = 0;
   Eigen::VectorXd iterate_, grownAt_;
   SolverOutcome best_;
 };

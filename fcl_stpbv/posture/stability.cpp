@@ -65,8 +65,7 @@ CentreOfMass::CentreOfMass(const Kinematics& kinematics) {
     links_.push_back({parent, link.mass, link.centreOfMass});
     mass_ += link.mass;
   }
-  if (!(mass_ > 0))
-    throw Error(robot.path + ": no link has a mass; static stability needs <inertial> elements");
+  if (!(mass_ > 0)) throw Error(robot.path + ": no link has a mass; give the links <inertial> elements");
   for (const Kinematics::Motion& motion : kinematics.motions())
     motions_.push_back({motion.joint < 0 ? 0 : robot.joints[at(motion.joint)].child, motion.coordinate});
   below_.resize(links_.size());
@@ -105,8 +104,7 @@ std::vector<Vector3d> shrunk(const std::vector<Vector3d>& points, double margin)
   std::vector<Vector3d> corners;
   if (points.size() >= 3)
     for (const Vector2d& p : inner(hull(flat), margin)) corners.push_back(centre + p.x() * u + p.y() * v);
-  if (corners.empty())
-    throw Error("static stability: a contact is narrower than twice the margin; give a smaller margin");
+  if (corners.empty()) throw Error("a contact is narrower than twice the margin; give a smaller margin");
   return corners;
 }
 
@@ -122,7 +120,7 @@ StaticStability::StaticStability(const Kinematics& kinematics, std::vector<Conta
     weights_ += static_cast<int>(contact.points.size());
     carriers_.push_back(kinematics.dependence(contact.link));
   }
-  if (weights_ == 0) throw Error("static stability: there are no contacts; give some points of some links");
+  if (weights_ == 0) throw Error("there are no contacts; give some points of some links");
 }
 
 std::string StaticStability::name(int row) const {

@@ -14,6 +14,16 @@ int linkNamed(const std::string& name, const PostureScene& scene, const std::str
   return link;
 }
 
+// What `make` returns; its errors get the place in the task before them.
+template <class Make>
+auto within(const std::string& where, Make make) {
+  try {
+    return make();
+  } catch (const Error& error) {
+    throw Error(where + ": " + error.what());
+  }
+}
+
 // An obstacle of this link of the scene: the link's first shape has its name, others #2, #3 after it.
 bool isOf(const Obstacle& obstacle, const std::string& link) {
   return obstacle.name == link || obstacle.name.compare(0, link.size() + 1, link + "#") == 0;
@@ -64,7 +74,9 @@ Eigen::VectorXd startOf(const PostureTask& task, const PostureScene& scene, cons
   if (!task.state.empty() && !scene.srdf)
     throw Error(task.path + ": start.state: '" + task.state + "' needs an SRDF; give --srdf");
   Eigen::VectorXd q = kinematics.neutral();
-  if (!task.state.empty()) q = kinematics.configuration(scene.srdf->state(task.state));
+  if (!task.state.empty())
+    q = within(task.path + ": start.state",
+               [&] { return kinematics.configuration(scene.srdf->state(task.state)); });
   for (const auto& [joint, value] : task.joints) {
     const int i = kinematics.coordinate(joint);
     if (i < 0) throw Error(task.path + ": start.joints: the robot has no joint '" + joint + "' of its own");
@@ -100,19 +112,23 @@ PostureSetup setUpWithoutCollisions(const PostureTask& task, const PostureScene&
   setup.problem =
       std::make_shared<PostureProblem>(kinematics, costOf(task, *kinematics, setup.start), setup.start);
   for (std::size_t i = 0; i < task.placements.size(); ++i) {
+    const std::string where = task.path + ": placements[" + std::to_string(i) + "]";
     Placement placement = task.placements[i].placement;
-    placement.link =
-        linkNamed(task.placements[i].link, scene, task.path + ": placements[" + std::to_string(i) + "].link");
-    setup.problem->add(std::make_shared<PlacementRows>(*kinematics, placement));
+    placement.link = linkNamed(task.placements[i].link, scene, where + ".link");
+    setup.problem->add(
+        within(where, [&] { return std::make_shared<PlacementRows>(*kinematics, placement); }));
   }
   if (task.contacts.empty()) return setup;
+  const std::string where = task.path + ": stability";
   std::vector<Contact> contacts;
   for (std::size_t i = 0; i < task.contacts.size(); ++i)
-    contacts.push_back({linkNamed(task.contacts[i].link, scene,
-                                  task.path + ": stability.contacts[" + std::to_string(i) + "].link"),
-                        task.contacts[i].points});
-  const auto stability = std::make_shared<StaticStability>(*kinematics, contacts, task.stabilityMargin,
-                                                           setup.problem->variables());
+    contacts.push_back(
+        {linkNamed(task.contacts[i].link, scene, where + ".contacts[" + std::to_string(i) + "].link"),
+         task.contacts[i].points});
+  const auto stability = within(where, [&] {
+    return std::make_shared<StaticStability>(*kinematics, contacts, task.stabilityMargin,
+                                             setup.problem->variables());
+  });
   setup.problem->addVariables(stability->weights());
   setup.problem->add(stability);
   return setup;

@@ -1,5 +1,5 @@
 // The task file: JSON with the keys of docs/posture.md.
-#include <cmath>
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -150,6 +150,7 @@ void readStability(const Field& field, PostureTask& task) {
     for (const Field& point : contact["points"].list("points")) touch.points.push_back(point.vector());
     task.contacts.push_back(touch);
   }
+  if (task.contacts.empty()) field["contacts"].refuse("at least one contact");
 }
 
 std::vector<LinkObstacles> readPairs(const Field& field) {

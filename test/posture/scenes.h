@@ -1,0 +1,16 @@
+// Robots and scenes that posture tests share.
+#pragma once
+
+#include <string>
+
+#include "fcl_stpbv/posture/task.h"
+#include "test/robot/robots.h"
+
+namespace fcl_stpbv::test {
+
+/// The HRP-2-style robot in front of the fridge, or of nothing.
+PostureScene hrp2Scene(bool fridge = true);
+std::shared_ptr<const RobotModel> fridgeModel();
+PostureTask pickCan();
+
+}  // namespace fcl_stpbv::test

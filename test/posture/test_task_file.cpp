@@ -1,0 +1,81 @@
+// Task files: each mistake gets one message that names the file and the key.
+#include <catch2/catch.hpp>
+
+#include "fcl_stpbv/error.h"
+#include "test/posture/scenes.h"
+
+using namespace fcl_stpbv;
+using namespace fcl_stpbv::test;
+
+namespace {
+
+std::string refusal(const std::string& text) {
+  try {
+    setUp(parseTask(text, "task.json"), hrp2Scene());
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+}  // namespace
+
+TEST_CASE("a task file's mistakes are named with their key") {
+  const auto refused = [](const std::string& text, const std::string& where, const std::string& what) {
+    const std::string message = refusal(text);
+    INFO(text << " -> " << message);
+    CHECK(message.compare(0, 10, "task.json:") == 0);
+    CHECK(message.find(where) != std::string::npos);
+    CHECK(message.find(what) != std::string::npos);
+    CHECK(message.find('\n') == std::string::npos);
+  };
+  refused("{", "task.json", "no JSON");
+  refused("[]", "task.json", "expected an object");
+  refused("{}", "placements", "missing");
+  refused(R"({"placements": [], "colisions": {}})", "colisions", "known are base, collisions");
+  refused(R"({"placements": 3})", "placements", "expected a list");
+  refused(R"({"placements": [{"link": "NO", "target": {}}]})", "placements[0].link", "no link 'NO'");
+  refused(R"({"placements": [{"link": "BODY"}]})", "placements[0]", "'target' is missing");
+  refused(R"({"placements": [{"link": "BODY", "target": {"position": [1, 2]}}]})",
+          "placements[0].target.position", "three numbers");
+  refused(R"({"placements": [{"link": "BODY", "target": {"position": [1, 2, "x"]}}]})",
+          "placements[0].target.position[2]", "a number");
+  refused(R"({"placements": [{"link": "BODY", "target": {}, "free": ["w"]}]})", "placements[0].free[0]",
+          "one of x, y");
+  refused(R"({"placements": [{"link": "BODY", "target": {}, "free": ["rx", "ry"]}]})", "placement 'BODY'",
+          "two rotations");
+  refused(R"({"placements": [], "base": "flying"})", "base", "one of floating, planar, fixed");
+  refused(R"({"placements": [], "start": {"state": "NO"}})", "start.state", "NO");
+  refused(R"({"placements": [], "start": {"joints": {"NO": 1}}})", "start.joints", "no joint 'NO'");
+  refused(R"({"placements": [], "start": {"joints": {"LLEG_JOINT3": "x"}}})", "start.joints.LLEG_JOINT3",
+          "a number");
+  refused(R"({"placements": [], "cost": {"weights": {"LLEG_JOINT3": -1}}})", "cost.weights.LLEG_JOINT3",
+          "from 0");
+  refused(R"({"placements": [], "stability": {}})", "stability", "'contacts' is missing");
+  refused(R"({"placements": [], "stability": {"contacts": []}})", "stability.contacts", "at least one");
+  refused(R"({"placements": [], "stability": {"contacts": [{"link": "NO", "points": [[0, 0, 0]]}]}})",
+          "stability.contacts[0].link", "no link 'NO'");
+  refused(
+      R"({"placements": [], "stability": {"margin": 0.1, "contacts": [{"link": "BODY", "points": [[0, 0, 0]]}]}})",
+      "stability", "smaller margin");
+  refused(R"({"placements": [], "collisions": {"pairs": [{"links": ["NO"]}]}})", "collisions.pairs[0].links",
+          "no link 'NO'");
+  refused(R"({"placements": [], "collisions": {"ignore": [{"obstacles": ["NO"]}]}})",
+          "collisions.ignore[0].obstacles", "no obstacle 'NO'");
+  refused(R"({"placements": [], "collisions": {"margin": 2}})", "collisions.margin", "from -1 to 1");
+}
+
+TEST_CASE("pairs are what the task names, less what it ignores") {
+  const PostureScene scene = hrp2Scene();
+  const auto count = [&](const std::string& collisions) {
+    return pairsOf(parseTask(R"({"placements": [], "collisions": )" + collisions + "}", "task.json"), scene)
+        .size();
+  };
+  const std::size_t bodies = scene.geometry->bodies.size(), obstacles = scene.obstacles.size();
+  CHECK(count("{}") == 130 + bodies * obstacles);
+  CHECK(count(R"({"self": false})") == bodies * obstacles);
+  CHECK(count(R"({"self": false, "pairs": [{"links": ["BODY"]}, {"obstacles": ["can"]}]})") ==
+        bodies + obstacles - 1);
+  CHECK(count(R"({"self": false, "ignore": [{"links": ["BODY"], "obstacles": ["can"]}]})") ==
+        bodies * obstacles - 1);
+}

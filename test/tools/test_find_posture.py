@@ -1,0 +1,97 @@
+"""find_posture as a user runs it.
+
+    test_find_posture.py PROGRAM SOURCE_FOLDER
+"""
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+
+PROGRAM, SOURCE = sys.argv[1:3]
+ROBOT = os.path.join(SOURCE, "data/hrp2_style/hrp2_style")
+FRIDGE = os.path.join(SOURCE, "data/fridge")
+
+
+class FindPosture(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+
+    def run_tool(self, *arguments):
+        environment = dict(os.environ, XDG_CACHE_HOME=os.path.join(self.folder.name, "cache"))
+        return subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, env=environment, timeout=120)
+
+    def run_task(self, task, *arguments):
+        path = os.path.join(self.folder.name, "task.json")
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(task if isinstance(task, str) else json.dumps(task))
+        return self.run_tool(f"{ROBOT}.urdf", path, "--srdf", f"{ROBOT}.srdf", "--obstacles",
+                             f"{FRIDGE}/fridge.urdf", *arguments)
+
+    def pick_can(self):
+        with open(f"{FRIDGE}/pick_can.json", encoding="utf-8") as file:
+            return json.load(file)
+
+    def test_the_can_is_picked(self):
+        run = self.run_task(self.pick_can(), "--format", "json")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertEqual(run.stderr, "")
+        answer = json.loads(run.stdout)
+        self.assertTrue({"feasible", "seconds", "iterations", "distance_calls", "gradient_calls", "pairs", "cost", "q",
+                         "violations"} <= set(answer))
+        self.assertIs(answer["feasible"], True)
+        self.assertEqual(answer["violations"], [])
+        self.assertEqual(answer["pairs"], 130 + 33)
+        self.assertEqual(len(answer["q"]), 36)
+        self.assertGreater(answer["distance_calls"], 100)
+        self.assertIs(answer["without_collisions"]["feasible"], True)
+        self.assertLess(answer["without_collisions"]["cost"], answer["cost"])
+
+    def test_text_says_what_holds_the_posture(self):
+        run = self.run_task(self.pick_can())
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertTrue(run.stdout.startswith("feasible"))
+        for word in ("without collisions feasible", "163 pairs, 33", "active:", "lower_door", "LARM_JOINT3"):
+            self.assertIn(word, run.stdout)
+
+    def test_what_cannot_be_done_ends_with_1_and_names_why(self):
+        task = self.pick_can()
+        task["placements"][2]["target"]["position"] = [1.6, 0, 1]
+        run = self.run_task(task, "--starts", "2", "--format", "json")
+        self.assertEqual(run.returncode, 1, run.stderr)
+        answer = json.loads(run.stdout)
+        self.assertIs(answer["feasible"], False)
+        self.assertEqual(answer["starts"], 2)
+        self.assertIn("left hand x", [v["constraint"] for v in answer["conflict"]])
+        text = self.run_task(task, "--starts", "2").stdout
+        self.assertTrue(text.startswith("not feasible"))
+        self.assertIn("cannot hold together", text)
+
+    def test_a_mistake_ends_with_2_and_one_line(self):
+        task = self.pick_can()
+        task["placements"][2]["link"] = "LARM_LINK9"
+        for run, words in ((self.run_task(task), ["task.json: placements[2].link", "LARM_LINK9"]),
+                           (self.run_task("{"), ["task.json", "JSON"]),
+                           (self.run_task(self.pick_can(), "-o", self.folder.name), ["is a folder"]),
+                           (self.run_tool(f"{ROBOT}.urdf", f"{FRIDGE}/pick_can.json"), ["start.state", "--srdf"]),
+                           (self.run_tool(f"{ROBOT}.urdf", f"{FRIDGE}/pick_can.json", "--srdf", f"{ROBOT}.srdf"),
+                            ["collisions.pairs[0].obstacles", "give --obstacles"]),
+                           (self.run_tool(f"{ROBOT}.urdf", "nothing.json"), ["nothing.json"])):
+            self.assertEqual(run.returncode, 2, run.stdout)
+            self.assertEqual(run.stdout, "")
+            self.assertEqual(run.stderr.count("\n"), 1, run.stderr)
+            for word in words:
+                self.assertIn(word, run.stderr)
+        self.assertEqual(self.run_tool().returncode, 2)
+        self.assertEqual(self.run_task(self.pick_can(), "--format", "xml").returncode, 2)
+        self.assertEqual(self.run_tool("--help").returncode, 0)
+
+    def test_the_fridge_is_what_its_script_writes(self):
+        run = subprocess.run([sys.executable, f"{FRIDGE}/make_fridge.py", "--check"], capture_output=True, text=True)
+        self.assertEqual(run.returncode, 0, run.stdout)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0]])

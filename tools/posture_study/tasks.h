@@ -1,0 +1,22 @@
+// Randomised tasks for the HRP-2-style robot: reaching into a fridge, over and under tables, into shelves, between
+// the legs.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "fcl_stpbv/posture/task.h"
+
+namespace fcl_stpbv::tools {
+
+struct RandomTask {
+  std::string family;  ///< fridge, table, shelves or legs
+  PostureTask task;
+  std::vector<Obstacle> obstacles;  ///< boxes, cylinders and spheres
+};
+
+/// The same for the same seed on every machine. Nothing says that a task has a solution.
+RandomTask randomTask(std::uint64_t seed);
+
+}  // namespace fcl_stpbv::tools
