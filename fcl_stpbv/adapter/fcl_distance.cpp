@@ -29,21 +29,6 @@ Distance smoothDistance(const StpBvGeometry& a, const Transform3d& poseA, const 
   return found;
 }
 
-DistanceAnswer inFclTerms(const Distance& found, const Transform3d& pose1, const Transform3d& pose2) {
-  DistanceAnswer answer;
-  answer.status = found.status;
-  if (found.status == DistanceStatus::invalid) return answer;
-  answer.distance = found.distance;
-  answer.lower = found.lower;
-  answer.upper = found.upper;
-  answer.normal = found.normal;
-  answer.points = found.point;
-  answer.patch = found.patch;
-  answer.gradient = {found.gradient(0, pose1.translation()), found.gradient(1, pose2.translation())};
-  answer.continuous = true;
-  return answer;
-}
-
 /// An STP-BV and anything else, in either order: the same query, so the same answer from the other side.
 bool mixedDistance(const StpBvGeometry* a, const CollisionGeometryd& geometry1, const Transform3d& pose1,
                    const StpBvGeometry* b, const CollisionGeometryd& geometry2, const Transform3d& pose2,
@@ -90,6 +75,21 @@ bool flatPair(const CollisionGeometryd& geometry1, const Transform3d& pose1,
 bool finite(const Transform3d& pose) { return pose.matrix().topRows<3>().allFinite(); }
 
 }  // namespace
+
+DistanceAnswer inFclTerms(const Distance& found, const Transform3d& pose1, const Transform3d& pose2) {
+  DistanceAnswer answer;
+  answer.status = found.status;
+  if (found.status == DistanceStatus::invalid) return answer;
+  answer.distance = found.distance;
+  answer.lower = found.lower;
+  answer.upper = found.upper;
+  answer.normal = found.normal;
+  answer.points = found.point;
+  answer.patch = found.patch;
+  answer.gradient = {found.gradient(0, pose1.translation()), found.gradient(1, pose2.translation())};
+  answer.continuous = true;
+  return answer;
+}
 
 DistanceAnswer distance(const CollisionGeometryd& geometry1, const Transform3d& pose1,
                         const CollisionGeometryd& geometry2, const Transform3d& pose2,

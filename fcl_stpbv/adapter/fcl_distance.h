@@ -62,6 +62,10 @@ DistanceAnswer distance(const fcl::CollisionGeometryd& geometry1, const fcl::Tra
 DistanceAnswer distance(const fcl::CollisionObjectd& object1, const fcl::CollisionObjectd& object2,
                         const QueryContext& context = {});
 
+/// What a query of two STP-BVs found, as an answer about bodies at these poses.
+DistanceAnswer inFclTerms(const Distance& found, const fcl::Transform3d& pose1,
+                          const fcl::Transform3d& pose2);
+
 /// In the shape of `fcl::distance`: returns the distance and fills `result` afresh, nearest points always
 /// included.
 ///

@@ -11,7 +11,7 @@ constexpr double kAlike = 1e-6;
 
 int sphereAt(const std::vector<ShapeModel>& shapes, const Eigen::Vector3d& centre, double radius) {
   for (std::size_t i = 0; i < shapes.size(); ++i) {
-    if (shapes[i].kind == ShapeKind::sphere && std::abs(shapes[i].size.x() - radius) < kAlike &&
+    if (shapes[i].kind == ShapeModel::Kind::sphere && std::abs(shapes[i].size.x() - radius) < kAlike &&
         (shapes[i].pose.translation() - centre).norm() < kAlike)
       return static_cast<int>(i);
   }
@@ -22,12 +22,12 @@ int sphereAt(const std::vector<ShapeModel>& shapes, const Eigen::Vector3d& centr
 
 void joinCapsules(std::vector<ShapeModel>& shapes) {
   for (std::size_t i = 0; i < shapes.size(); ++i) {
-    if (shapes[i].kind != ShapeKind::cylinder) continue;
+    if (shapes[i].kind != ShapeModel::Kind::cylinder) continue;
     const Eigen::Vector3d half(0, 0, shapes[i].size.y() / 2);
     const int top = sphereAt(shapes, shapes[i].pose * half, shapes[i].size.x());
     const int bottom = sphereAt(shapes, shapes[i].pose * -half, shapes[i].size.x());
     if (top < 0 || bottom < 0 || top == bottom) continue;
-    shapes[i].kind = ShapeKind::capsule;
+    shapes[i].kind = ShapeModel::Kind::capsule;
     shapes.erase(shapes.begin() + std::max(top, bottom));
     shapes.erase(shapes.begin() + std::min(top, bottom));
     i = static_cast<std::size_t>(-1);  // indices moved: look again from the start

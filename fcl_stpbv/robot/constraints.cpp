@@ -2,6 +2,7 @@
 #include "fcl_stpbv/robot/constraints.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "fcl_stpbv/error.h"
 
@@ -20,17 +21,25 @@ CollisionConstraints::CollisionConstraints(std::shared_ptr<const Kinematics> kin
       pairs_(std::move(pairs)),
       options_(std::move(options)),
       state_(kinematics_->makeState()),
+      rate_(kinematics_->makeRate()),
       pose_(geometry_->bodies.size(), Eigen::Isometry3d::Identity()),
       centre_(geometry_->bodies.size(), Eigen::Vector3d::Zero()) {
   if (!(options_.influence > 0)) throw Error("CollisionConstraints: influence must be larger than 0");
-  if (options_.exactUpTo < 0) options_.exactUpTo = options_.influence / 2;
+  const bool always = options_.influence == std::numeric_limits<double>::infinity();
+  if (options_.exactUpTo < 0 || always) options_.exactUpTo = options_.influence / 2;
   if (options_.exactUpTo > options_.influence)
     throw Error("CollisionConstraints: exactUpTo must not exceed influence");
+  for (const Obstacle& obstacle : options_.obstacles) {
+    pose_.push_back(obstacle.pose);
+    centre_.push_back(obstacle.centre);
+  }
   leaveOutReplaced();
   for (const CheckedPair& pair : pairs_) addPair(pair);
   for (const SmoothConstraint& constraint : options_.smooth) addSmooth(constraint);
   caches_.resize(pairs_.size());
+  found_.resize(pairs_.size());
   answers_.resize(pairs_.size());
+  open_.resize(at(rows()));
   values_.resize(nonZeros());
   otherValues_.resize(nonZeros());
   scratch_.resize(rows());
@@ -62,29 +71,37 @@ void CollisionConstraints::addPair(const CheckedPair& pair) {
       at(pair.other) >= others)
     throw Error("CollisionConstraints: a pair names a body or an obstacle that does not exist");
   const Body& body = geometry_->bodies[at(pair.body)];
+  const StpBvGeometry* first = asStpBv(body.geometry.get());
+  const StpBvGeometry* other = asStpBv(&second(pair));
+  Row row{nullptr, nullptr, pair.body, pair.other, static_cast<int>(terms_.size()), 0, options_.influence};
+  if (first && other) {
+    row.first = &first->volume();
+    row.second = &other->volume();
+  }
   std::vector<Kinematics::Dependence> list;
-  double reach = body.radius;
+  row.far += body.radius;
   if (pair.obstacle) {
     list = kinematics_->dependence(body.link);
     for (Kinematics::Dependence& d : list) d.sign = -1;
-    reach += options_.obstacles[at(pair.other)].radius;
+    row.far += options_.obstacles[at(pair.other)].radius;
+    row.b += static_cast<int>(geometry_->bodies.size());
   } else {
-    const Body& other = geometry_->bodies[at(pair.other)];
-    list = kinematics_->dependence(body.link, other.link);
-    reach += other.radius;
+    const Body& otherBody = geometry_->bodies[at(pair.other)];
+    list = kinematics_->dependence(body.link, otherBody.link);
+    row.far += otherBody.radius;
   }
   std::vector<int> columns;
   for (const Kinematics::Dependence& d : list)
     columns.push_back(kinematics_->motions()[at(d.motion)].coordinate);
   std::sort(columns.begin(), columns.end());
   columns.erase(std::unique(columns.begin(), columns.end()), columns.end());
-  const int first = static_cast<int>(terms_.size());
   for (const Kinematics::Dependence& d : list) {
     const int coordinate = kinematics_->motions()[at(d.motion)].coordinate;
     const auto slot = std::lower_bound(columns.begin(), columns.end(), coordinate) - columns.begin();
-    terms_.push_back({d.motion, d.sign, rowStart_.back() + static_cast<int>(slot)});
+    terms_.push_back({d.motion, d.sign < 0 ? 0 : 1, rowStart_.back() + static_cast<int>(slot)});
   }
-  rows_.push_back({first, static_cast<int>(terms_.size()), reach});
+  row.lastTerm = static_cast<int>(terms_.size());
+  rows_.push_back(row);
   column_.insert(column_.end(), columns.begin(), columns.end());
   rowStart_.push_back(nonZeros());
 }
@@ -98,6 +115,11 @@ void CollisionConstraints::addSmooth(const SmoothConstraint& constraint) {
                 "' needs a function and existing coordinates in ascending order");
   column_.insert(column_.end(), list.begin(), list.end());
   rowStart_.push_back(nonZeros());
+}
+
+const fcl::CollisionGeometryd& CollisionConstraints::second(const CheckedPair& pair) const {
+  return pair.obstacle ? *options_.obstacles[at(pair.other)].geometry
+                       : *geometry_->bodies[at(pair.other)].geometry;
 }
 
 std::string CollisionConstraints::name(int row) const {
@@ -115,53 +137,78 @@ CollisionConstraints::SparseJacobian CollisionConstraints::makeJacobian() const 
 
 void CollisionConstraints::forget() { std::fill(caches_.begin(), caches_.end(), PairCache{}); }
 
-double CollisionConstraints::bend(double d, double& slope) const {
+DistanceAnswer CollisionConstraints::answer(int row) const {
+  const Row& r = rows_[at(row)];
+  if (!r.first) return answers_[at(row)];
+  DistanceAnswer answer = inFclTerms(found_[at(row)], pose_[at(r.a)], pose_[at(r.b)]);
+  answer.geometry = {geometry_->bodies[at(r.a)].geometry.get(), &second(pairs_[at(row)])};
+  return answer;
+}
+
+double CollisionConstraints::bend(double d, double& slope, double& curvature) const {
   const double start = options_.exactUpTo, width = options_.influence - start;
   slope = 1;
+  curvature = 0;
   if (!(d > start)) return d;
   const double t = std::min(1.0, (d - start) / width);
   slope = 1 - t * t * (3 - 2 * t);
+  if (t < 1) curvature = 6 * t * (t - 1) / width;
   return start + width * (t - t * t * t * (1 - t / 2));
 }
 
-double CollisionConstraints::pairRow(std::size_t row, double* values) {
-  const CheckedPair& pair = pairs_[row];
-  const std::size_t a = at(pair.body), b = at(pair.other);
-  const Obstacle* obstacle = pair.obstacle ? &options_.obstacles[b] : nullptr;
-  const Eigen::Vector3d& centre = obstacle ? obstacle->centre : centre_[b];
-  if (values) std::fill(values + rowStart_[row], values + rowStart_[row + 1], 0.0);
-  answers_[row].status = DistanceStatus::invalid;
-  const double far = options_.influence + rows_[row].reach;
-  if ((centre - centre_[a]).squaredNorm() >= far * far) return (options_.influence + options_.exactUpTo) / 2;
+// The query, but for pairs too far apart: status `invalid`, and the largest value that a row may have.
+CollisionConstraints::Witness CollisionConstraints::ask(std::size_t row) {
+  const Row& r = rows_[row];
+  const bool far = (centre_[at(r.b)] - centre_[at(r.a)]).squaredNorm() >= r.far * r.far;
+  if (r.first) {
+    Distance& found = found_[row];
+    found.status = DistanceStatus::invalid;
+    if (!far) found = distance(*r.first, pose_[at(r.a)], *r.second, pose_[at(r.b)], &caches_[row]);
+    if (found.status != DistanceStatus::invalid)
+      return {found.status, found.distance, found.normal, found.point};
+  } else {
+    DistanceAnswer& answer = answers_[row];
+    answer.status = DistanceStatus::invalid;
+    if (!far)
+      answer = distance(*geometry_->bodies[at(r.a)].geometry, pose_[at(r.a)], second(pairs_[row]),
+                        pose_[at(r.b)], {&caches_[row], nullptr});
+    if (answer.status != DistanceStatus::invalid)
+      return {answer.status, answer.distance, answer.normal, answer.points};
+  }
+  const double most = far ? options_.influence : std::numeric_limits<double>::max();
+  return {DistanceStatus::invalid, most, Eigen::Vector3d::Zero(), {}};
+}
 
-  DistanceAnswer& answer = answers_[row];
-  answer = distance(*geometry_->bodies[a].geometry, pose_[a],
-                    obstacle ? *obstacle->geometry : *geometry_->bodies[b].geometry,
-                    obstacle ? obstacle->pose : pose_[b], {&caches_[row], nullptr});
-  double slope = 1;
-  const double value = options_.influence < std::numeric_limits<double>::infinity()
-                           ? bend(answer.distance, slope)
-                           : answer.distance;
+double CollisionConstraints::pairRow(std::size_t row, double* values) {
+  const Witness witness = ask(row);
+  double slope, curvature;
+  const double value = bend(witness.distance, slope, curvature);
   if (!values) return value;
+  std::fill(values + rowStart_[row], values + rowStart_[row + 1], 0.0);
+  if (witness.status == DistanceStatus::invalid) return value;
   // The velocity of x along n is n.v + (x cross n).w for a motion (v, w).
-  const Eigen::Vector3d n = slope * answer.normal;
-  const Eigen::Vector3d moment[2] = {answer.points[0].cross(n), answer.points[1].cross(n)};
+  const Eigen::Vector3d n = slope * witness.normal;
+  const Eigen::Vector3d along[2] = {-n, n};
+  const Eigen::Vector3d moment[2] = {n.cross(witness.point[0]), witness.point[1].cross(n)};
   for (int t = rows_[row].firstTerm; t < rows_[row].lastTerm; ++t) {
     const Term& term = terms_[at(t)];
     const Twist& motion = state_.motion[at(term.motion)];
-    values[term.slot] +=
-        term.sign * (n.dot(motion.linear) + moment[term.sign < 0 ? 0 : 1].dot(motion.angular));
+    values[term.slot] += along[term.side].dot(motion.linear) + moment[term.side].dot(motion.angular);
   }
   return value;
 }
 
-void CollisionConstraints::compute(const ConstVector& q, double* d, double* values) {
+void CollisionConstraints::place(const ConstVector& q) {
   kinematics_->forward(q, state_);
-  for (std::size_t i = 0; i < pose_.size(); ++i) {
+  for (std::size_t i = 0; i < geometry_->bodies.size(); ++i) {
     const Body& body = geometry_->bodies[i];
     pose_[i] = state_.link[at(body.link)] * body.pose;
     centre_[i] = state_.link[at(body.link)] * body.centre;
   }
+}
+
+void CollisionConstraints::compute(const ConstVector& q, double* d, double* values) {
+  place(q);
   auto work = [&](int k) {  // every n-th row, so that far and near ones are shared out
     const std::size_t step = at(pool_->threads());
     for (std::size_t row = at(k); row < pairs_.size(); row += step) d[row] = pairRow(row, values);
@@ -189,21 +236,6 @@ void CollisionConstraints::evaluate(const ConstVector& q, Vector d, Eigen::Ref<E
   for (int row = 0; row < rows(); ++row)
     for (int k = rowStart_[at(row)]; k < rowStart_[at(row) + 1]; ++k)
       jacobian(row, column_[at(k)]) = values_[k];
-}
-
-void CollisionConstraints::hessianVector(const ConstVector& q, const ConstVector& weights,
-                                         const ConstVector& v, Vector out) {
-  // Rounding in J divided by the step and what the step misses of a seam are then about equal.
-  constexpr double kStep = 1e-6;
-  moved_ = q + kStep * v;
-  compute(moved_, scratch_.data(), values_.data());
-  moved_ = q - kStep * v;
-  compute(moved_, scratch_.data(), otherValues_.data());
-  out.setZero();
-  for (int row = 0; row < rows(); ++row) {
-    for (int k = rowStart_[at(row)]; k < rowStart_[at(row) + 1]; ++k)
-      out[column_[at(k)]] += weights[row] * (values_[k] - otherValues_[k]) / (2 * kStep);
-  }
 }
 
 }  // namespace fcl_stpbv

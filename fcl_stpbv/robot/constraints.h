@@ -75,11 +75,13 @@ class CollisionConstraints {
   void evaluate(const ConstVector& q, Vector d, SparseJacobian& jacobian);
   void evaluate(const ConstVector& q, Vector d, Eigen::Ref<Eigen::MatrixXd> jacobian);
 
-  /// Sum over the rows of weight times (Hessian of d) times v, by central differences of J along v.
+  /// Sum over the rows of weight times (Hessian of d) times v: the change of J as q moves along v. Closed
+  /// form for pairs of STP-BVs (docs/robot.md), on a seam that of one side; central differences of J for
+  /// other pairs, smooth constraints and the few answers that have no second derivative.
   void hessianVector(const ConstVector& q, const ConstVector& weights, const ConstVector& v, Vector out);
 
   /// What the last evaluation found for a pair; status `invalid` where its spheres were enough.
-  const DistanceAnswer& answer(int row) const { return answers_[static_cast<std::size_t>(row)]; }
+  DistanceAnswer answer(int row) const;
   const Kinematics::State& state() const { return state_; }
   /// Makes the next evaluation start from FCL's witness again.
   void forget();
@@ -87,20 +89,33 @@ class CollisionConstraints {
  private:
   struct Term {
     int motion;
-    double sign;
+    int side;  // 0: it carries the first body, 1: the second
     int slot;  // among the non-zeros
   };
   struct Row {
+    const StpBv *first, *second;  // null where one of the two is no STP-BV
+    int a, b;                     // places among pose_ and centre_
     int firstTerm, lastTerm;
-    double reach;  // sum of the bounding spheres' radii
+    double far;  // centres farther apart than this need no query
+  };
+  struct Witness {
+    DistanceStatus status;
+    double distance;
+    Eigen::Vector3d normal;
+    std::array<Eigen::Vector3d, 2> point;
   };
 
   void leaveOutReplaced();
   void addPair(const CheckedPair& pair);
   void addSmooth(const SmoothConstraint& constraint);
+  const fcl::CollisionGeometryd& second(const CheckedPair& pair) const;
+  void place(const ConstVector& q);
   void compute(const ConstVector& q, double* d, double* values);
+  Witness ask(std::size_t row);
   double pairRow(std::size_t row, double* values);
-  double bend(double d, double& slope) const;
+  double bend(double d, double& slope, double& curvature) const;
+  bool rowChange(std::size_t row, double* change);
+  void differences(const ConstVector& q, const ConstVector& v);
 
   std::shared_ptr<const Kinematics> kinematics_;
   std::shared_ptr<const RobotGeometry> geometry_;
@@ -110,11 +125,14 @@ class CollisionConstraints {
   std::vector<Row> rows_;
   std::vector<Term> terms_;
   Kinematics::State state_;
-  std::vector<Eigen::Isometry3d> pose_;  // of each body
-  std::vector<Eigen::Vector3d> centre_;  // of each body's sphere
+  Kinematics::Rate rate_;
+  std::vector<Eigen::Isometry3d> pose_;  // of each body, then of each obstacle
+  std::vector<Eigen::Vector3d> centre_;  // of their spheres
   std::vector<PairCache> caches_;
-  std::vector<DistanceAnswer> answers_;
+  std::vector<Distance> found_;          // of pairs of STP-BVs
+  std::vector<DistanceAnswer> answers_;  // of the other pairs
   Eigen::VectorXd values_, otherValues_, scratch_, moved_;
+  std::vector<char> open_;  // rows whose change is left to differences
   std::unique_ptr<WorkerPool> pool_;
 };
 

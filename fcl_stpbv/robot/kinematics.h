@@ -47,6 +47,12 @@ class Kinematics {
     std::vector<Twist> motion;            ///< of the links below each motion, multiplier included
   };
 
+  /// How a State changes as q moves.
+  struct Rate {
+    std::vector<Twist> link;    ///< velocity of each link
+    std::vector<Twist> motion;  ///< change of each motion's twist
+  };
+
   explicit Kinematics(std::shared_ptr<const RobotModel> robot, BaseMotion base = BaseMotion::fixed);
 
   const RobotModel& robot() const { return *robot_; }
@@ -68,6 +74,11 @@ class Kinematics {
   /// Fills the state. Never throws or allocates; `q` has size() entries.
   void forward(const Eigen::Ref<const Eigen::VectorXd>& q, State& state) const;
 
+  Rate makeRate() const;
+  /// Fills the rate of `state`, which is that of q, as q moves with velocity v. Never throws or allocates.
+  void differentiate(const Eigen::Ref<const Eigen::VectorXd>& q, const Eigen::Ref<const Eigen::VectorXd>& v,
+                     const State& state, Rate& rate) const;
+
   std::vector<Dependence> dependence(int link1, int link2) const;
   /// The motions that carry a link.
   std::vector<Dependence> dependence(int link) const;
@@ -86,6 +97,8 @@ class Kinematics {
   void addCoordinates(const std::string& name, JointType type, double lower, double upper);
   void addStep(int joint, const JointModel& model, int coordinate, double multiplier, double offset);
   void place(const Step& step, const Eigen::Ref<const Eigen::VectorXd>& q, State& state) const;
+  void differentiate(const Step& step, const Eigen::Ref<const Eigen::VectorXd>& q,
+                     const Eigen::Ref<const Eigen::VectorXd>& v, const State& state, Rate& rate) const;
 
   std::shared_ptr<const RobotModel> robot_;
   std::vector<std::string> names_;

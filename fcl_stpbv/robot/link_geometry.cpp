@@ -96,7 +96,7 @@ class Loader {
     body.name = number == 1 ? name : name + "#" + std::to_string(number);
     body.pose = shape.pose;
     try {
-      if (shape.kind == ShapeKind::mesh)
+      if (shape.kind == ShapeModel::Kind::mesh)
         addVolume(name, shape, body);
       else
         addPrimitive(shape, body);
@@ -145,13 +145,13 @@ class Loader {
   static void addPrimitive(const ShapeModel& shape, Body& body) {
     const Eigen::Vector3d& size = shape.size;
     body.centre.setZero();
-    if (shape.kind == ShapeKind::sphere) {
+    if (shape.kind == ShapeModel::Kind::sphere) {
       body.geometry = std::make_shared<fcl::Sphered>(size.x());
       body.radius = size.x();
-    } else if (shape.kind == ShapeKind::capsule) {
+    } else if (shape.kind == ShapeModel::Kind::capsule) {
       body.geometry = std::make_shared<fcl::Capsuled>(size.x(), size.y());
       body.radius = size.x() + size.y() / 2;
-    } else if (shape.kind == ShapeKind::box) {
+    } else if (shape.kind == ShapeModel::Kind::box) {
       body.geometry = std::make_shared<fcl::Boxd>(size);
       body.radius = size.norm() / 2;
     } else {

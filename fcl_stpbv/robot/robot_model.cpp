@@ -89,14 +89,14 @@ ShapeModel toShape(const urdf::Geometry& geometry, const urdf::Pose& origin, boo
   ShapeModel shape;
   shape.pose = toEigen(origin, where);
   if (geometry.type == urdf::Geometry::SPHERE) {
-    shape.kind = ShapeKind::sphere;
+    shape.kind = ShapeModel::Kind::sphere;
     shape.size.x() = static_cast<const urdf::Sphere&>(geometry).radius;
   } else if (geometry.type == urdf::Geometry::BOX) {
-    shape.kind = ShapeKind::box;
+    shape.kind = ShapeModel::Kind::box;
     shape.size = toEigen(static_cast<const urdf::Box&>(geometry).dim);
   } else if (geometry.type == urdf::Geometry::CYLINDER) {
     const auto& cylinder = static_cast<const urdf::Cylinder&>(geometry);
-    shape.kind = capsule ? ShapeKind::capsule : ShapeKind::cylinder;
+    shape.kind = capsule ? ShapeModel::Kind::capsule : ShapeModel::Kind::cylinder;
     shape.size = {cylinder.radius, cylinder.length, 0};
   } else {
     const auto& mesh = static_cast<const urdf::Mesh&>(geometry);

@@ -28,10 +28,9 @@ struct JointModel {
   std::optional<Mimic> mimic;     ///< never of a joint that mimics itself
 };
 
-enum class ShapeKind { sphere, capsule, box, cylinder, mesh };
-
 struct ShapeModel {
-  ShapeKind kind = ShapeKind::mesh;
+  enum class Kind { sphere, capsule, box, cylinder, mesh };
+  Kind kind = Kind::mesh;
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();  ///< in the link's frame
   Eigen::Vector3d size{0, 0, 0};   ///< box: sides; else radius and length (without a capsule's caps) (m)
   std::string mesh;                ///< as the URDF names it

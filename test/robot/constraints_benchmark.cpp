@@ -1,9 +1,13 @@
-// Time of d(q) and J(q) of all self pairs of a robot: median and 99th percentile over random walks.
+// Time of d(q) and J(q) of all self pairs of a robot, beside FCL: median and 99th percentile over random
+// walks.
 //   constraints_benchmark ROBOT.urdf [ROBOT.srdf] [PACKAGE_PATH]
+#include <fcl/narrowphase/distance.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <exception>
+#include <functional>
 
 #include "fcl_stpbv/robot/constraints.h"
 #include "test/shapes.h"
@@ -12,10 +16,13 @@ using namespace fcl_stpbv;
 
 namespace {
 
+using Evaluate = std::function<void(const Eigen::VectorXd&)>;
+
 // Each configuration is `step` of the joints' ranges away from the last one.
-void measure(CollisionConstraints& constraints, const Kinematics& kinematics, double step, const char* what) {
+void measure(const Kinematics& kinematics, double step, int rows, const char* what,
+             const Evaluate& evaluate) {
   test::Random random(1);
-  Eigen::VectorXd d(constraints.rows()), values(constraints.nonZeros()), q = kinematics.neutral();
+  Eigen::VectorXd q = kinematics.neutral();
   std::vector<double> times;
   for (int i = 0; i < 3000; ++i) {
     for (int k = 0; k < q.size(); ++k) {
@@ -24,15 +31,40 @@ void measure(CollisionConstraints& constraints, const Kinematics& kinematics, do
                         kinematics.upper()[k]);
     }
     const auto start = std::chrono::steady_clock::now();
-    constraints.evaluateValues(q, d, values);
+    evaluate(q);
     times.push_back(
         std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count());
   }
   std::sort(times.begin(), times.end());
-  std::printf("%-28s %6d pairs, median %8.1f us, 99 %% %8.1f us, %6.0f ns a pair\n", what, constraints.rows(),
-              times[times.size() / 2], times[times.size() * 99 / 100],
-              times[times.size() / 2] * 1e3 / constraints.rows());
+  std::printf("%-34s %6d pairs, median %8.1f us, 99 %% %8.1f us, %6.0f ns a pair\n", what, rows,
+              times[times.size() / 2], times[times.size() * 99 / 100], times[times.size() / 2] * 1e3 / rows);
 }
+
+// Distances alone of the polyhedra, as FCL's own users ask for them.
+class PlainFcl {
+ public:
+  PlainFcl(const Kinematics& kinematics, const RobotGeometry& geometry, const std::vector<CheckedPair>& pairs)
+      : kinematics_(kinematics), geometry_(geometry), pairs_(pairs), state_(kinematics.makeState()) {}
+
+  void operator()(const Eigen::VectorXd& q) {
+    kinematics_.forward(q, state_);
+    fcl::DistanceRequestd request;
+    for (const CheckedPair& pair : pairs_) {
+      const Body& a = geometry_.bodies[static_cast<std::size_t>(pair.body)];
+      const Body& b = geometry_.bodies[static_cast<std::size_t>(pair.other)];
+      fcl::DistanceResultd result;
+      fcl::distance(a.geometry.get(), state_.link[static_cast<std::size_t>(a.link)] * a.pose,
+                    b.geometry.get(), state_.link[static_cast<std::size_t>(b.link)] * b.pose, request,
+                    result);
+    }
+  }
+
+ private:
+  const Kinematics& kinematics_;
+  const RobotGeometry& geometry_;
+  const std::vector<CheckedPair>& pairs_;
+  Kinematics::State state_;
+};
 
 }  // namespace
 
@@ -50,13 +82,21 @@ int main(int argc, char** argv) try {
   const bool given = argc > 2 && argv[2][0] != '\0';
   if (given) srdf = loadSrdf(argv[2], *model);
   const std::vector<CheckedPair> pairs = selfPairs(*model, *geometry, given ? &srdf : nullptr);
-  CollisionConstraints all(kinematics, geometry, pairs);
-  measure(all, *kinematics, 1e-3, "small steps");
-  measure(all, *kinematics, 0.5, "large steps");
   ConstraintOptions near;
   near.influence = 0.1;
-  CollisionConstraints some(kinematics, geometry, pairs, near);
-  measure(some, *kinematics, 1e-3, "small, influence 0.1 m");
+  CollisionConstraints all(kinematics, geometry, pairs), some(kinematics, geometry, pairs, near);
+  Eigen::VectorXd d(all.rows()), values(all.nonZeros()), weights = Eigen::VectorXd::Ones(all.rows()),
+                                                         v = Eigen::VectorXd::Ones(all.columns()), out = v;
+  const Evaluate jacobian = [&](const Eigen::VectorXd& q) { all.evaluateValues(q, d, values); };
+  measure(*kinematics, 1e-3, all.rows(), "d and J, small steps", jacobian);
+  measure(*kinematics, 0.5, all.rows(), "d and J, large steps", jacobian);
+  measure(*kinematics, 1e-3, all.rows(), "d and J, small, influence 0.1 m",
+          [&](const Eigen::VectorXd& q) { some.evaluateValues(q, d, values); });
+  measure(*kinematics, 1e-3, all.rows(), "Hessian times vector, small steps",
+          [&](const Eigen::VectorXd& q) { all.hessianVector(q, weights, v, out); });
+  PlainFcl plain(*kinematics, *geometry, pairs);
+  measure(*kinematics, 1e-3, all.rows(), "fcl::distance on the hulls, small", std::ref(plain));
+  measure(*kinematics, 0.5, all.rows(), "fcl::distance on the hulls, large", std::ref(plain));
   return 0;
 } catch (const std::exception& error) {
   std::fprintf(stderr, "constraints_benchmark: %s\n", error.what());

@@ -1,6 +1,7 @@
 // See robots.h.
 #include "test/robot/robots.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 
 #include "test/volume/volume_files.h"
@@ -29,6 +30,34 @@ LoadedRobot load(const TestRobot& robot, GeometryOptions options) {
   auto model = std::make_shared<const RobotModel>(loadUrdf(robot.urdf));
   RobotGeometry geometry = loadGeometry(*model, options);
   return {model, std::move(geometry)};
+}
+
+Problem problem(const TestRobot& robot, BaseMotion base) {
+  LoadedRobot loaded = load(robot);
+  Problem p;
+  p.model = loaded.model;
+  p.kinematics = std::make_shared<const Kinematics>(loaded.model, base);
+  p.geometry = std::make_shared<const RobotGeometry>(std::move(loaded.geometry));
+  if (robot.srdf.empty()) {
+    p.pairs = selfPairs(*p.model, *p.geometry, nullptr);
+  } else {
+    const Srdf srdf = loadSrdf(robot.srdf, *p.model);
+    p.pairs = selfPairs(*p.model, *p.geometry, &srdf);
+  }
+  return p;
+}
+
+Eigen::VectorXd randomConfiguration(const Kinematics& kinematics, Random& random) {
+  Eigen::VectorXd q(kinematics.size());
+  for (int i = 0; i < kinematics.size(); ++i)
+    q[i] = random.uniform(std::max(kinematics.lower()[i], -1.0), std::min(kinematics.upper()[i], 1.0));
+  return q;
+}
+
+Eigen::VectorXd randomDirection(Eigen::Index size, Random& random) {
+  Eigen::VectorXd v(size);
+  for (Eigen::Index i = 0; i < size; ++i) v[i] = random.normal();
+  return v.normalized();
 }
 
 }  // namespace fcl_stpbv::test

@@ -5,8 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "fcl_stpbv/robot/constraints.h"
 #include "fcl_stpbv/robot/link_geometry.h"
 #include "fcl_stpbv/robot/robot_model.h"
+#include "test/shapes.h"
 
 namespace fcl_stpbv::test {
 
@@ -25,5 +27,18 @@ struct LoadedRobot {
 
 /// Without a cache, so that tests leave nothing behind.
 LoadedRobot load(const TestRobot& robot, GeometryOptions options = {});
+
+/// What CollisionConstraints needs: all pairs but those of the SRDF, or of adjacent links.
+struct Problem {
+  std::shared_ptr<const RobotModel> model;
+  std::shared_ptr<const Kinematics> kinematics;
+  std::shared_ptr<const RobotGeometry> geometry;
+  std::vector<CheckedPair> pairs;
+};
+Problem problem(const TestRobot& robot, BaseMotion base = BaseMotion::fixed);
+
+/// Within the limits and 1 rad or m around zero.
+Eigen::VectorXd randomConfiguration(const Kinematics& kinematics, Random& random);
+Eigen::VectorXd randomDirection(Eigen::Index size, Random& random);
 
 }  // namespace fcl_stpbv::test

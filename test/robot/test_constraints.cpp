@@ -14,42 +14,6 @@ using namespace fcl_stpbv::test;
 
 namespace {
 
-struct Problem {
-  std::shared_ptr<const RobotModel> model;
-  std::shared_ptr<const Kinematics> kinematics;
-  std::shared_ptr<const RobotGeometry> geometry;
-  std::vector<CheckedPair> pairs;
-};
-
-Problem problem(const TestRobot& robot, BaseMotion base = BaseMotion::fixed) {
-  GeometryOptions options;
-  LoadedRobot loaded = load(robot, options);
-  Problem p;
-  p.model = loaded.model;
-  p.kinematics = std::make_shared<const Kinematics>(loaded.model, base);
-  p.geometry = std::make_shared<const RobotGeometry>(std::move(loaded.geometry));
-  if (robot.srdf.empty()) {
-    p.pairs = selfPairs(*p.model, *p.geometry, nullptr);
-  } else {
-    const Srdf srdf = loadSrdf(robot.srdf, *p.model);
-    p.pairs = selfPairs(*p.model, *p.geometry, &srdf);
-  }
-  return p;
-}
-
-Eigen::VectorXd randomConfiguration(const Kinematics& kinematics, Random& random) {
-  Eigen::VectorXd q(kinematics.size());
-  for (int i = 0; i < kinematics.size(); ++i)
-    q[i] = random.uniform(std::max(kinematics.lower()[i], -1.0), std::min(kinematics.upper()[i], 1.0));
-  return q;
-}
-
-Eigen::VectorXd randomDirection(Eigen::Index size, Random& random) {
-  Eigen::VectorXd v(size);
-  for (Eigen::Index i = 0; i < size; ++i) v[i] = random.normal();
-  return v.normalized();
-}
-
 // Largest difference between J v and the central difference of d along v, over rows that are exact.
 double worstError(CollisionConstraints& constraints, const Kinematics& kinematics, int count) {
   Random random(7);
@@ -168,18 +132,4 @@ TEST_CASE("a smooth constraint takes the place of the pairs it replaces") {
   CHECK(constraints.rows() == static_cast<int>(p.pairs.size()));  // one left, one came
   CHECK(constraints.name(constraints.rows() - 1) == "left shoulder");
   CHECK(worstError(constraints, *p.kinematics, 20) < kDifference);
-}
-
-TEST_CASE("a Hessian-vector product is the change of the gradient along the vector") {
-  const Problem p = problem(robots()[0]);
-  CollisionConstraints constraints(p.kinematics, p.geometry, p.pairs);
-  Eigen::VectorXd q = p.kinematics->neutral(), weights = Eigen::VectorXd::Ones(constraints.rows());
-  q[constraints.columns() - 4] = -1;
-  Random random(11);
-  const Eigen::VectorXd u = randomDirection(q.size(), random), v = randomDirection(q.size(), random);
-  Eigen::VectorXd hu(q.size()), hv(q.size());
-  constraints.hessianVector(q, weights, u, hu);
-  constraints.hessianVector(q, weights, v, hv);
-  // A Hessian is symmetric; differences of 130 rows with entries up to 100 are good to about 1e-5.
-  CHECK(v.dot(hu) == Approx(u.dot(hv)).margin(1e-3));
 }

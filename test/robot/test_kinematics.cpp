@@ -11,13 +11,6 @@ using namespace fcl_stpbv::test;
 
 namespace {
 
-Eigen::VectorXd randomConfiguration(const Kinematics& kinematics, Random& random) {
-  Eigen::VectorXd q(kinematics.size());
-  for (int i = 0; i < kinematics.size(); ++i)
-    q[i] = random.uniform(std::max(kinematics.lower()[i], -2.0), std::min(kinematics.upper()[i], 2.0));
-  return q;
-}
-
 // Velocity of a point of a link per unit of each coordinate, from the motions.
 Eigen::MatrixXd velocities(const Kinematics& kinematics, const Kinematics::State& state, int link,
                            const Eigen::Vector3d& x) {
@@ -55,6 +48,38 @@ void checkMotions(const Kinematics& kinematics, int count) {
   CHECK(worst < 1e-8);
 }
 
+double difference(const Twist& a, const Twist& b, const Twist& rate, double step) {
+  return ((a.linear - b.linear) / (2 * step) - rate.linear).norm() +
+         ((a.angular - b.angular) / (2 * step) - rate.angular).norm();
+}
+
+void checkRates(const Kinematics& kinematics, int count) {
+  Random random(2);
+  Kinematics::State state = kinematics.makeState(), after = state, before = state;
+  Kinematics::Rate rate = kinematics.makeRate();
+  constexpr double step = 1e-6;  // as above
+  double motions = 0, links = 0;
+  for (int trial = 0; trial < count; ++trial) {
+    Eigen::VectorXd q = randomConfiguration(kinematics, random), v(q.size());
+    if (trial % 3 == 0) q *= 1e-3;  // rotation vectors near 0
+    for (Eigen::Index i = 0; i < v.size(); ++i) v[i] = random.uniform(-1, 1);
+    kinematics.forward(q, state);
+    kinematics.differentiate(q, v, state, rate);
+    kinematics.forward(q + step * v, after);
+    kinematics.forward(q - step * v, before);
+    for (std::size_t m = 0; m < rate.motion.size(); ++m)
+      motions = std::max(motions, difference(after.motion[m], before.motion[m], rate.motion[m], step));
+    for (std::size_t l = 0; l < rate.link.size(); ++l) {
+      const Eigen::Vector3d local(0.1, -0.2, 0.3), x = state.link[l] * local;
+      const Eigen::Vector3d moved = after.link[l] * local - before.link[l] * local;
+      links =
+          std::max(links, (moved / (2 * step) - rate.link[l].linear - rate.link[l].angular.cross(x)).norm());
+    }
+  }
+  CHECK(motions < 1e-8);
+  CHECK(links < 1e-8);
+}
+
 }  // namespace
 
 TEST_CASE("motions of every kind of joint agree with differences of poses") {
@@ -73,6 +98,7 @@ TEST_CASE("motions of every kind of joint agree with differences of poses") {
     const int extra = base == BaseMotion::fixed ? 0 : base == BaseMotion::planar ? 3 : 6;
     CHECK(kinematics.size() == extra + 3 + 3 + 6);
     checkMotions(kinematics, 20);
+    checkRates(kinematics, 30);
   }
 }
 

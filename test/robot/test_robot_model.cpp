@@ -46,10 +46,10 @@ TEST_CASE("primitives keep their kind and sizes") {
       "<collision><geometry><mesh filename=\"x.stl\" scale=\"1 -1 1\"/></geometry></collision></link>");
   const std::vector<ShapeModel>& shapes = model.links[0].collision;
   REQUIRE(shapes.size() == 4);
-  CHECK(shapes[0].kind == ShapeKind::sphere);
-  CHECK(shapes[1].kind == ShapeKind::box);
+  CHECK(shapes[0].kind == ShapeModel::Kind::sphere);
+  CHECK(shapes[1].kind == ShapeModel::Kind::box);
   CHECK((shapes[1].pose * Eigen::Vector3d(0, 0, 1) - Eigen::Vector3d(1, 0, 1)).norm() < 1e-15);
-  CHECK(shapes[2].kind == ShapeKind::capsule);
+  CHECK(shapes[2].kind == ShapeModel::Kind::capsule);
   CHECK(shapes[2].size.y() == 0.5);
   CHECK(shapes[3].scale.y() == -1);
 }
@@ -62,7 +62,7 @@ TEST_CASE("a cylinder with a sphere of its radius at either end is a capsule") {
       "<collision><geometry><cylinder radius=\"0.1\" length=\"1\"/></geometry></collision>";
   const RobotModel model = parse("<link name=\"a\">" + ends + cylinder + "</link>");
   REQUIRE(model.links[0].collision.size() == 1);
-  CHECK(model.links[0].collision[0].kind == ShapeKind::capsule);
+  CHECK(model.links[0].collision[0].kind == ShapeModel::Kind::capsule);
   CHECK(model.links[0].collision[0].size.y() == 1);
 }
 

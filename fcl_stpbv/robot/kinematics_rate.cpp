@@ -1,0 +1,97 @@
+// How the links' poses and motions change as a configuration moves; see kinematics.h.
+#include <cmath>
+
+#include "fcl_stpbv/robot/kinematics.h"
+
+namespace fcl_stpbv {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+// Change of a twist that is fixed to a body of this velocity.
+Twist carried(const Twist& velocity, const Twist& twist) {
+  return {velocity.angular.cross(twist.linear) + velocity.linear.cross(twist.angular),
+          velocity.angular.cross(twist.angular)};
+}
+
+void add(Twist& sum, double factor, const Twist& twist) {
+  sum.linear += factor * twist.linear;
+  sum.angular += factor * twist.angular;
+}
+
+Matrix3d cross(const Vector3d& w) {
+  Matrix3d m;
+  m << 0, -w.z(), w.y(), w.z(), 0, -w.x(), -w.y(), w.x(), 0;
+  return m;
+}
+
+// Change, as the rotation vector w moves by u, of the matrix I + b K + c K^2 that turns its rate into the
+// angular velocity; b = (1 - cos)/angle^2, c = (angle - sin)/angle^3, K w = 0.
+Matrix3d rateChange(const Vector3d& w, const Vector3d& u) {
+  const double x = w.squaredNorm(), angle = std::sqrt(x);
+  double b, c, bx, cx;  // bx, cx: derivatives with respect to the angle's square
+  if (angle < 0.3) {    // the series' next terms are below 1e-15
+    b = 1.0 / 2 - x / 24 * (1 - x / 30 * (1 - x / 56 * (1 - x / 90 * (1 - x / 132))));
+    c = 1.0 / 6 - x / 120 * (1 - x / 42 * (1 - x / 72 * (1 - x / 110)));
+    bx = -1.0 / 24 + x * (2.0 / 720 - x * (3.0 / 40320 - x * (4.0 / 3628800 - x * 5.0 / 479001600)));
+    cx = -1.0 / 120 + x * (2.0 / 5040 - x * (3.0 / 362880 - x * (4.0 / 39916800 - x * 5.0 / 6227020800)));
+  } else {
+    const double a = std::sin(angle) / angle;
+    b = (1 - std::cos(angle)) / x;
+    c = (1 - a) / x;
+    bx = (a - 2 * b) / (2 * x);
+    cx = (b - 3 * c) / (2 * x);
+  }
+  const Matrix3d k = cross(w), ku = cross(u);
+  const double change = 2 * w.dot(u);
+  return b * ku + c * (k * ku + ku * k) + change * (bx * k + cx * k * k);
+}
+
+}  // namespace
+
+Kinematics::Rate Kinematics::makeRate() const {
+  return {std::vector<Twist>(robot_->links.size()), std::vector<Twist>(motions_.size())};
+}
+
+void Kinematics::differentiate(const Eigen::Ref<const Eigen::VectorXd>& q,
+                               const Eigen::Ref<const Eigen::VectorXd>& v, const State& state,
+                               Rate& rate) const {
+  if (stepOf_[0] < 0) rate.link[0] = {};
+  for (const Step& step : steps_) differentiate(step, q, v, state, rate);
+}
+
+// Each motion's axis is carried by the parent link and by the motions of the same joint before it.
+void Kinematics::differentiate(const Step& step, const Eigen::Ref<const Eigen::VectorXd>& q,
+                               const Eigen::Ref<const Eigen::VectorXd>& v, const State& state,
+                               Rate& rate) const {
+  Twist velocity = step.parent < 0 ? Twist{} : rate.link[at(step.parent)];
+  if (step.type == JointType::floating) {
+    const Twist* twist = &state.motion[at(step.motion)];
+    Twist* change = &rate.motion[at(step.motion)];
+    for (int k = 0; k < 3; ++k) change[k] = carried(velocity, twist[k]);
+    for (int k = 0; k < 3; ++k) add(velocity, v[step.coordinate + k], twist[k]);
+    const Vector3d position = state.link[at(step.child)].translation();
+    Matrix3d frame;
+    for (int k = 0; k < 3; ++k) frame.col(k) = twist[k].linear;
+    const Matrix3d turn =
+        frame * rateChange(q.segment<3>(step.coordinate + 3), v.segment<3>(step.coordinate + 3));
+    for (int k = 3; k < 6; ++k) {
+      change[k] = carried(velocity, twist[k]);
+      add(change[k], 1, {position.cross(turn.col(k - 3)), turn.col(k - 3)});
+    }
+    for (int k = 3; k < 6; ++k) add(velocity, v[step.coordinate + k], twist[k]);
+  } else if (step.type != JointType::fixed) {
+    const int freedoms = step.type == JointType::planar ? 3 : 1;
+    for (int k = 0; k < freedoms; ++k) {
+      const Twist& twist = state.motion[at(step.motion + k)];
+      rate.motion[at(step.motion + k)] = carried(velocity, twist);
+      add(velocity, v[step.coordinate + k], twist);
+    }
+  }
+  rate.link[at(step.child)] = velocity;
+}
+
+}  // namespace fcl_stpbv
