@@ -1,0 +1,94 @@
+// Published reports: the files of data/hard_cases, one situation each.
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+#include "test/stability/situation.h"
+
+namespace fcl_stpbv::stability {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+namespace {
+
+struct Half {
+  Cloud points;
+  std::vector<int> facets;
+};
+
+[[noreturn]] void fail(const std::filesystem::path& file, int line, const std::string& what) {
+  throw std::runtime_error(file.string() + ":" + std::to_string(line) + ": " + what);
+}
+
+/// data/hard_cases/README.md has the format.
+Situation load(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  if (!file) throw std::runtime_error("cannot open " + path.string());
+  Situation s;
+  s.group = "published reports";
+  StpBvOptions radii;
+  Half halves[2];
+  int body = -1, number = 0;
+  Placement at{Isometry3d::Identity(), Isometry3d::Identity()};
+  for (std::string line; std::getline(file, line);) {
+    ++number;
+    std::istringstream words(line);
+    std::string word;
+    if (!(words >> word) || word[0] == '#') continue;
+    const auto rest = [&] {
+      std::string text;
+      std::getline(words >> std::ws, text);
+      return text;
+    };
+    if (word == "report") {
+      s.name = rest();
+    } else if (word == "said") {
+      s.source += (s.source.empty() ? "" : " ") + rest();
+    } else if (word == "radii") {
+      words >> radii.r >> radii.R;
+    } else if (word == "body") {
+      if (++body > 1) fail(path, number, "a third body");
+    } else if (word == "v" && body >= 0) {
+      Vector3d p;
+      words >> p[0] >> p[1] >> p[2];
+      halves[body].points.push_back(p);
+    } else if (word == "f" && body >= 0) {
+      std::vector<int> facet;
+      for (int i; words >> i;) facet.push_back(i);
+      words.clear();
+      halves[body].facets.push_back(static_cast<int>(facet.size()));
+      halves[body].facets.insert(halves[body].facets.end(), facet.begin(), facet.end());
+    } else if (word == "pose" && body >= 0) {
+      Eigen::Matrix<double, 3, 4> m;
+      for (int i = 0; i < 12; ++i) words >> m(i / 4, i % 4);
+      (body == 0 ? at.a : at.b) = test::pose(m.leftCols<3>(), m.col(3));
+    } else if (word == "next") {  // another placement of the same bodies
+      s.placements.push_back(at);
+      body = -1;
+    } else {
+      fail(path, number, "unknown word '" + word + "'");
+    }
+    if (words.fail()) fail(path, number, "a number is missing");
+  }
+  s.placements.push_back(at);
+  if (s.name.empty() || s.source.empty()) fail(path, number, "no report or no said line");
+  s.a = makeBody(halves[0].points, radii, halves[0].facets);
+  s.b = makeBody(halves[1].points, radii, halves[1].facets);
+  return s;
+}
+
+}  // namespace
+
+void addReports(std::vector<Situation>& all, const std::string& folder) {
+  if (!std::filesystem::is_directory(folder)) throw std::runtime_error("no folder " + folder);
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    if (entry.path().extension() == ".case") files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  for (const std::filesystem::path& file : files) all.push_back(load(file));
+}
+
+}  // namespace fcl_stpbv::stability
