@@ -30,13 +30,13 @@ std::shared_ptr<fcl::CollisionGeometryd> trianglesOf(const TriangleMesh& mesh) {
 
 std::shared_ptr<fcl::CollisionGeometryd> geometryOf(const ShapeModel& shape, const PackagePath& paths) {
   switch (shape.kind) {
-    case ShapeKind::sphere:
+    case ShapeModel::Kind::sphere:
       return std::make_shared<fcl::Sphered>(shape.size.x());
-    case ShapeKind::box:
+    case ShapeModel::Kind::box:
       return std::make_shared<fcl::Boxd>(shape.size);
-    case ShapeKind::cylinder:
+    case ShapeModel::Kind::cylinder:
       return std::make_shared<fcl::Cylinderd>(shape.size.x(), shape.size.y());
-    case ShapeKind::capsule:
+    case ShapeModel::Kind::capsule:
       return std::make_shared<fcl::Capsuled>(shape.size.x(), shape.size.y());
     default:
       return trianglesOf(loadMesh(paths.resolve(shape.mesh), shape.scale));
