@@ -60,8 +60,7 @@ std::vector<HardCase> equalNormCases() {
   return cases;
 }
 
-std::vector<HardCase> fieldCases() {
-  const std::string path = std::string(FCL_STPBV_SOURCE_DIR) + "/test/adapter/fcl_field_cases.txt";
+std::vector<HardCase> fieldCases(const std::string& path) {
   std::ifstream file(path);
   if (!file) throw std::runtime_error("cannot open " + path);
   const std::array<double, 8> distances{-0.5747809, -0.8936539, -0.6343419,   -0.1513552,

@@ -22,7 +22,7 @@ struct HardCase {
 std::vector<HardCase> equalNormCases();
 
 /// Overlapping pairs from field reports (RobotLocomotion/drake#21673, #21234), with the distances of FCL's
-/// later regression tests, read from fcl_field_cases.txt beside this file.
-std::vector<HardCase> fieldCases();
+/// later regression tests, read from data/hard_cases/fcl_field_cases.txt.
+std::vector<HardCase> fieldCases(const std::string& path);
 
 }  // namespace fcl_stpbv::test

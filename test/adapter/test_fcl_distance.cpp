@@ -44,7 +44,7 @@ fcl::DistanceResultd dirtyResult() {
 
 TEST_CASE("sharp polyhedra's known distances come out within the over-cover, with a closed certificate") {
   std::vector<HardCase> cases = equalNormCases();
-  for (const HardCase& c : fieldCases()) cases.push_back(c);
+  for (const HardCase& c : fieldCases(FCL_STPBV_SOURCE_DIR "/data/hard_cases/fcl_field_cases.txt")) cases.push_back(c);
   for (const HardCase& c : cases)
     for (const StpBvOptions options : {StpBvOptions{0.0, 1000.0}, StpBvOptions{1e-3, 200.0}}) {
       CAPTURE(c.name, options.r);

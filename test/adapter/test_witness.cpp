@@ -40,7 +40,7 @@ TEST_CASE("the polyhedral witness is right where FCL stops on equal norms") {
 }
 
 TEST_CASE("the polyhedral witness calls the field cases overlapping or touching") {
-  const std::vector<HardCase> cases = fieldCases();
+  const std::vector<HardCase> cases = fieldCases(FCL_STPBV_SOURCE_DIR "/data/hard_cases/fcl_field_cases.txt");
   REQUIRE(cases.size() == 8);
   for (const HardCase& c : cases) {
     CAPTURE(c.name);

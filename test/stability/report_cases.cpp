@@ -1,10 +1,11 @@
-// Published reports: the files of data/hard_cases, one situation each.
+// Published reports: the files of data/hard_cases, one situation each; and pairs found here.
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
 
+#include "test/adapter/hard_cases.h"
 #include "test/stability/situation.h"
 
 namespace fcl_stpbv::stability {
@@ -21,6 +22,18 @@ struct Half {
 
 [[noreturn]] void fail(const std::filesystem::path& file, int line, const std::string& what) {
   throw std::runtime_error(file.string() + ":" + std::to_string(line) + ": " + what);
+}
+
+/// Printed matrices are rotations to some digits only; which rotation is meant is open by as much (m).
+double openByRotation(const Situation& s) {
+  double open = 0;
+  for (const Placement& at : s.placements) {
+    const auto defect = [](const Isometry3d& p) {
+      return (p.linear().transpose() * p.linear() - Eigen::Matrix3d::Identity()).norm();
+    };
+    open = std::max(open, 2 * (defect(at.a) + defect(at.b)) * sizeOf(s, at));
+  }
+  return open < 1e-15 ? 0 : open;
 }
 
 /// data/hard_cases/README.md has the format.
@@ -77,6 +90,19 @@ Situation load(const std::filesystem::path& path) {
   if (s.name.empty() || s.source.empty()) fail(path, number, "no report or no said line");
   s.a = makeBody(halves[0].points, radii, halves[0].facets);
   s.b = makeBody(halves[1].points, radii, halves[1].facets);
+  s.slack = openByRotation(s);
+  return s;
+}
+
+Situation fromTest(const test::HardCase& c, const char* group, const char* said) {
+  Situation s;
+  s.group = group;
+  s.name = c.name;
+  s.source = said;
+  s.a = makeBody(c.first);
+  s.b = makeBody(c.second);
+  s.placements.push_back({c.pose1, c.pose2});
+  s.slack = openByRotation(s);
   return s;
 }
 
@@ -89,6 +115,10 @@ void addReports(std::vector<Situation>& all, const std::string& folder) {
     if (entry.path().extension() == ".case") files.push_back(entry.path());
   std::sort(files.begin(), files.end());
   for (const std::filesystem::path& file : files) all.push_back(load(file));
+  for (const test::HardCase& c : test::fieldCases(folder + "/fcl_field_cases.txt"))
+    all.push_back(fromTest(c, "published reports", "the signed query throws"));
+  for (const test::HardCase& c : test::equalNormCases())
+    all.push_back(fromTest(c, "equal norms", "FCL's distance stops where two norms agree"));
 }
 
 }  // namespace fcl_stpbv::stability
