@@ -16,9 +16,8 @@ class CollisionRows : public PostureRows {
   std::string name(int row) const override { return constraints_.name(row); }
   void evaluate(const Point& at, Eigen::Ref<Eigen::VectorXd> values, Eigen::Ref<RowMatrix> jacobian) override;
 
-  const CollisionConstraints& constraints() const { return constraints_; }
-  /// Distances asked for so far: what the bounding spheres settled is not among them.
-  long queries() const { return queries_; }
+  /// What the bounding spheres settled is not among them.
+  long queries() const override { return queries_; }
 
  private:
   CollisionConstraints constraints_;

@@ -87,7 +87,7 @@ Posture findPosture(PostureSetup& setup, const PostureOptions& options) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   };
   PostureProblem& problem = *setup.problem;
-  const long queriesBefore = setup.collisions ? setup.collisions->queries() : 0;
+  const long queriesBefore = problem.queries();
   std::mt19937_64 random(options.seed);
   Posture best;
   Eigen::VectorXd bestX;
@@ -107,8 +107,7 @@ Posture findPosture(PostureSetup& setup, const PostureOptions& options) {
   best.q = bestX.head(setup.start.size());
   best.cost = problem.evaluate(bestX).cost;
   best.active = activeAt(problem, bestX);
-  best.distanceCalls = best.gradientCalls =
-      (setup.collisions ? setup.collisions->queries() : 0) - queriesBefore;
+  best.distanceCalls = best.gradientCalls = problem.queries() - queriesBefore;
   if (best.feasible) return best;
   const Approach least = approach(problem, bestX, {});
   best.conflict = problem.violations(least.x, options.solver.tolerance);

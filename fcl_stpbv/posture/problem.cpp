@@ -77,7 +77,6 @@ Eigen::VectorXd PostureProblem::costCurvature() const {
 const PostureValues& PostureProblem::evaluate(const Eigen::Ref<const Eigen::VectorXd>& x) {
   if (known_ && x == values_.x) return values_;
   known_ = true;
-  ++evaluations_;
   values_.x = x;
   const int n = kinematics_->size();
   const Eigen::VectorXd away = x.head(n) - cost_.reference;
@@ -100,6 +99,12 @@ const PostureValues& PostureProblem::evaluate(const Eigen::Ref<const Eigen::Vect
     first += rows->size();
   }
   return values_;
+}
+
+long PostureProblem::queries() const {
+  long sum = 0;
+  for (const auto& rows : rows_) sum += rows->queries();
+  return sum;
 }
 
 std::vector<Violation> PostureProblem::violations(const Eigen::Ref<const Eigen::VectorXd>& x,

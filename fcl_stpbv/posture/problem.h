@@ -62,8 +62,8 @@ class PostureProblem {
   Eigen::VectorXd costCurvature() const;
   /// Computed anew only where x differs from the last one. Valid until the next call.
   const PostureValues& evaluate(const Eigen::Ref<const Eigen::VectorXd>& x);
-  /// How often it was computed anew.
-  int evaluations() const { return evaluations_; }
+  /// Distances computed so far, each with its gradient.
+  long queries() const;
   /// What is farther than `tolerance` from holding, worst first; bounds included.
   std::vector<Violation> violations(const Eigen::Ref<const Eigen::VectorXd>& x, double tolerance);
 
@@ -75,7 +75,7 @@ class PostureProblem {
   Eigen::VectorXd lower_, upper_;
   std::vector<std::pair<int, int>> shares_;  // first own variable and count of each addVariables()
   std::vector<std::shared_ptr<PostureRows>> rows_;
-  int equalities_ = 0, inequalities_ = 0, evaluations_ = 0;
+  int equalities_ = 0, inequalities_ = 0;
   Kinematics::State state_;
   PostureValues values_;
   bool known_ = false;

@@ -29,6 +29,8 @@ class PostureRows {
   /// Writes g and its Jacobian, size() x variables, which comes zeroed. Lengths in m, angles in rad.
   virtual void evaluate(const Point& at, Eigen::Ref<Eigen::VectorXd> values,
                         Eigen::Ref<RowMatrix> jacobian) = 0;
+  /// Distances computed so far, each with its gradient.
+  virtual long queries() const { return 0; }
 };
 
 }  // namespace fcl_stpbv

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/posture/collision_rows.h"
 
 namespace fcl_stpbv {
 namespace {
@@ -142,10 +143,9 @@ PostureSetup setUp(const PostureTask& task, const PostureScene& scene, double in
   options.influence = influence + task.collisionMargin;
   options.obstacles = scene.obstacles;
   const auto kinematics = std::make_shared<const Kinematics>(scene.robot, task.base);
-  setup.collisions = std::make_shared<CollisionRows>(
+  setup.problem->add(std::make_shared<CollisionRows>(
       CollisionConstraints(kinematics, scene.geometry, setup.pairs, std::move(options)),
-      task.collisionMargin);
-  setup.problem->add(setup.collisions);
+      task.collisionMargin));
   return setup;
 }
 

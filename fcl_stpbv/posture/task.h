@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "fcl_stpbv/posture/collision_rows.h"
 #include "fcl_stpbv/posture/placement.h"
 #include "fcl_stpbv/posture/problem.h"
 #include "fcl_stpbv/posture/stability.h"
@@ -61,9 +60,8 @@ PostureTask parseTask(const std::string& text, const std::string& path);
 /// The problem of a task and where to start.
 struct PostureSetup {
   std::shared_ptr<PostureProblem> problem;
-  Eigen::VectorXd start;                      ///< q
-  std::vector<CheckedPair> pairs;             ///< kept apart; none where collisions were not asked for
-  std::shared_ptr<CollisionRows> collisions;  ///< null without pairs
+  Eigen::VectorXd start;           ///< q
+  std::vector<CheckedPair> pairs;  ///< kept apart
 };
 
 /// The coordinates of the task's start. @throws Error naming the task's key.

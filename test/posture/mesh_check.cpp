@@ -76,6 +76,16 @@ MeshCheck::MeshCheck(std::shared_ptr<const RobotModel> robot, std::shared_ptr<co
     scenePoses_.push_back(state.link[static_cast<std::size_t>(part.link)] * part.pose);
 }
 
+void MeshCheck::setObstacles(const std::vector<Obstacle>& obstacles) {
+  scene_.clear();
+  scenePoses_.clear();
+  for (const Obstacle& obstacle : obstacles) {
+    scene_.push_back({0, obstacle.name, std::const_pointer_cast<fcl::CollisionGeometryd>(obstacle.geometry),
+                      Eigen::Isometry3d::Identity()});
+    scenePoses_.push_back(obstacle.pose);
+  }
+}
+
 std::vector<std::string> MeshCheck::collisions(const Kinematics& kinematics, const Eigen::VectorXd& q,
                                                const std::vector<std::pair<int, int>>& links) {
   Kinematics::State state = kinematics.makeState();

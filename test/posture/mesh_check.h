@@ -1,4 +1,5 @@
-// Whether a posture is free of collisions, asked of FCL about the original triangle meshes: no STP-BV, no
+// Whether a posture is free of collisions, asked of FCL about the original triangle
+// meshes: no STP-BV, no
 // hull and none of this library's distances take part.
 #pragma once
 
@@ -20,6 +21,9 @@ class MeshCheck {
   MeshCheck(std::shared_ptr<const RobotModel> robot, std::shared_ptr<const RobotModel> scene,
             const std::vector<std::string>& packagePath,
             std::vector<std::pair<std::string, std::string>> allowed = {});
+
+  /// Obstacles in place of those there are: shapes of FCL, as they stand.
+  void setObstacles(const std::vector<Obstacle>& obstacles);
 
   /// Names of the pairs in collision at q: the given pairs of links, and all links with all obstacles.
   std::vector<std::string> collisions(const Kinematics& kinematics, const Eigen::VectorXd& q,

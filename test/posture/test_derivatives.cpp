@@ -1,6 +1,7 @@
 // The Jacobian of every kind of constraint and the cost's gradient against central differences.
 #include <catch2/catch.hpp>
 
+#include "fcl_stpbv/posture/collision_rows.h"
 #include "fcl_stpbv/posture/placement.h"
 #include "fcl_stpbv/posture/stability.h"
 #include "test/posture/scenes.h"

@@ -60,7 +60,8 @@ class Maker {
     const double size = uniform(0.025, 0.05), height = uniform(0.1, 0.28);
     const double kind = uniform(0, 3);
     if (kind < 1) add(name, fcl::Cylinderd(size, height), {x, y, floor + height / 2});
-    if (kind >= 1 && kind < 2) add(name, fcl::Boxd(2 * size, 2 * size, height), {x, y, floor + height / 2}, uniform(0, 3));
+    if (kind >= 1 && kind < 2)
+      add(name, fcl::Boxd(2 * size, 2 * size, height), {x, y, floor + height / 2}, uniform(0, 3));
     if (kind >= 2) add(name, fcl::Sphered(size), {x, y, floor + size});
   }
   // A few of them around a place that is to be reached, none nearer than 9 cm.
@@ -108,11 +109,13 @@ class Maker {
 
   void fridge() {
     made_.family = "fridge";
-    const double front = uniform(0.24, 0.32), back = 0.86, left = uniform(0.24, 0.32), shelf = uniform(0.76, 1.1);
+    const double front = uniform(0.24, 0.32), back = 0.86, left = uniform(0.24, 0.32),
+                 shelf = uniform(0.76, 1.1);
     const double width = left + 0.38, open = uniform(1.5, 1.9);
     const double s = side();  // the open door is on the reaching hand's side
     const auto panel = [&](const std::string& name, const Vector3d& a, const Vector3d& b) {
-      addBox(name, {a.x(), std::min(s * a.y(), s * b.y()), a.z()}, {b.x(), std::max(s * a.y(), s * b.y()), b.z()});
+      addBox(name, {a.x(), std::min(s * a.y(), s * b.y()), a.z()},
+             {b.x(), std::max(s * a.y(), s * b.y()), b.z()});
     };
     panel("side_panel", {front, left, 0.7}, {back, left + 0.04, 1.56});
     panel("other_panel", {front, -0.37, 0.7}, {back, -0.33, 1.56});
@@ -123,7 +126,8 @@ class Maker {
     const Eigen::Vector2d middle = Eigen::Vector2d(front, left + 0.04) + along * width / 2 + out * 0.03;
     add("upper_door", fcl::Boxd(width, 0.06, 0.82), {middle.x(), s * middle.y(), 1.15},
         std::atan2(s * along.y(), along.x()));
-    const Vector3d can(uniform(front + 0.15, front + 0.32), s * uniform(-0.15, left - 0.07), shelf + uniform(0.07, 0.16));
+    const Vector3d can(uniform(front + 0.15, front + 0.32), s * uniform(-0.15, left - 0.07),
+                       shelf + uniform(0.07, 0.16));
     clutter(3, can, {front + 0.07, std::min(-s * 0.25, s * (left - 0.06)), shelf},
             {front + 0.4, std::max(-s * 0.25, s * (left - 0.06)), shelf});
     reach(can, true);
@@ -156,7 +160,8 @@ class Maker {
     for (const double z : boards)
       if (z > 0.5 && z < 1.25) within.push_back(z);
     const double board = within[static_cast<std::size_t>(uniform(0, 1) * static_cast<double>(within.size()))];
-    const Vector3d target(front + uniform(0.02, 0.2), side() * uniform(-0.15, 0.38), board + uniform(0.08, gap - 0.1));
+    const Vector3d target(front + uniform(0.02, 0.2), side() * uniform(-0.15, 0.38),
+                          board + uniform(0.08, gap - 0.1));
     clutter(4, target, {front + 0.05, -0.42, board}, {front + 0.3, 0.42, board});
     reach(target, flip());
   }
