@@ -203,7 +203,7 @@ benchmark::Chart chartOf(const std::vector<Row>& rows, int starts) {
     }
   chart.height = 460;
   chart.plot =
-      "set multiplot layout 1,3 margins 0.06,0.985,0.24,0.9 spacing 0.06\nset logscale x\nset xrange [1:20]\n"
+      "set multiplot layout 1,3 margins 0.07,0.985,0.24,0.9 spacing 0.06\nset logscale x\nset xrange [1:20]\n"
       "set yrange [0:100]\nset xlabel 'factor of the best'\nset ylabel 'solved (%)'\nset key bottom right\n" +
       profile(rows, "iterations", [](const Posture& p) { return static_cast<double>(p.iterations); }) +
       "unset ylabel\nunset label 1\n" +
