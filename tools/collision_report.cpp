@@ -57,6 +57,29 @@ double coverAlong(const StpBv* volume, const Eigen::Isometry3d& pose, const Eige
   return volume->support(n) - hull;
 }
 
+void covers(const CollisionReport& report, const CheckedPair& both, const Kinematics::State& state,
+            PairReport& pair) {
+  const Body& a = report.geometry->bodies[at(both.body)];
+  const Eigen::Isometry3d poseA = state.link[at(a.link)] * a.pose;
+  const StpBvGeometry* first = asStpBv(a.geometry.get());
+  const StpBvGeometry* second;
+  Eigen::Isometry3d poseB;
+  if (both.obstacle) {
+    second = asStpBv(report.obstacles[at(both.other)].geometry.get());
+    poseB = report.obstacles[at(both.other)].pose;
+  } else {
+    const Body& b = report.geometry->bodies[at(both.other)];
+    second = asStpBv(b.geometry.get());
+    poseB = state.link[at(b.link)] * b.pose;
+  }
+  pair.overCover1 = coverAlong(first ? &first->volume() : nullptr, poseA, pair.answer.normal);
+  pair.overCover2 = coverAlong(second ? &second->volume() : nullptr, poseB, -pair.answer.normal);
+  pair.hullDistance = std::numeric_limits<double>::quiet_NaN();
+  if (!first || !second) return;
+  const PolyhedralWitness witness = polyhedralWitness(first->hull(), poseA, second->hull(), poseB);
+  if (witness.verdict == PolyhedralWitness::Verdict::separated) pair.hullDistance = witness.upper;
+}
+
 class Maker {
  public:
   explicit Maker(const ReportRequest& request) : request_(request) {}
@@ -115,7 +138,7 @@ class Maker {
     const auto [first2, last2] = report_.geometry->of(entry.link2);
     for (int i = first1; i < last1; ++i)
       for (int j = first2; j < last2; ++j) bodies.push_back({i, j, false});
-    measurePair(bodies, pair);
+    measurePair(report_, bodies, pair);
     report_.pairs.push_back(std::move(pair));
   }
 
@@ -127,51 +150,10 @@ class Maker {
       pair.link2 = report_.obstacles[at(both.other)].name;
       pair.reason = "obstacle";
       pair.configuration = pair.closest = q;
-      measurePair({both}, pair);
+      measurePair(report_, {both}, pair);
       pair.minDistance = pair.answer.distance;
       report_.pairs.push_back(std::move(pair));
     }
-  }
-
-  // The closest of these pairs of bodies at the pair's configuration.
-  void measurePair(const std::vector<CheckedPair>& bodies, PairReport& pair) {
-    ConstraintOptions options;
-    options.obstacles = report_.obstacles;
-    CollisionConstraints constraints(report_.kinematics, report_.geometry, bodies, options);
-    Eigen::VectorXd d(constraints.rows()), values(constraints.nonZeros());
-    constraints.evaluateValues(pair.configuration, d, values);
-    Eigen::Index row;
-    d.minCoeff(&row);
-    pair.answer = constraints.answer(static_cast<int>(row));
-    const CheckedPair& closest = bodies[static_cast<std::size_t>(row)];
-    pair.body1 = closest.body;
-    pair.body2 = closest.other + (closest.obstacle ? static_cast<int>(report_.geometry->bodies.size()) : 0);
-    for (int k = constraints.rowStart()[static_cast<std::size_t>(row)];
-         k < constraints.rowStart()[static_cast<std::size_t>(row) + 1]; ++k)
-      pair.gradient[report_.kinematics->names()[at(constraints.columnIndices()[at(k)])]] = values[k];
-    covers(closest, constraints.state(), pair);
-  }
-
-  void covers(const CheckedPair& both, const Kinematics::State& state, PairReport& pair) const {
-    const Body& a = report_.geometry->bodies[at(both.body)];
-    const Eigen::Isometry3d poseA = state.link[at(a.link)] * a.pose;
-    const StpBvGeometry* first = asStpBv(a.geometry.get());
-    const StpBvGeometry* second;
-    Eigen::Isometry3d poseB;
-    if (both.obstacle) {
-      second = asStpBv(report_.obstacles[at(both.other)].geometry.get());
-      poseB = report_.obstacles[at(both.other)].pose;
-    } else {
-      const Body& b = report_.geometry->bodies[at(both.other)];
-      second = asStpBv(b.geometry.get());
-      poseB = state.link[at(b.link)] * b.pose;
-    }
-    pair.overCover1 = coverAlong(first ? &first->volume() : nullptr, poseA, pair.answer.normal);
-    pair.overCover2 = coverAlong(second ? &second->volume() : nullptr, poseB, -pair.answer.normal);
-    pair.hullDistance = std::numeric_limits<double>::quiet_NaN();
-    if (!first || !second) return;
-    const PolyhedralWitness witness = polyhedralWitness(first->hull(), poseA, second->hull(), poseB);
-    if (witness.verdict == PolyhedralWitness::Verdict::separated) pair.hullDistance = witness.upper;
   }
 
   void summarise() {
@@ -227,6 +209,24 @@ class Maker {
 bool PairReport::contradictsSrdf() const {
   return (srdfReason == "Never" && reason != "never (sampled)" && reason != "never (proven)") ||
          (srdfReason == "Adjacent" && reason != "adjacent");
+}
+
+void measurePair(const CollisionReport& report, const std::vector<CheckedPair>& bodies, PairReport& pair) {
+  ConstraintOptions options;
+  options.obstacles = report.obstacles;
+  CollisionConstraints constraints(report.kinematics, report.geometry, bodies, options);
+  Eigen::VectorXd d(constraints.rows()), values(constraints.nonZeros());
+  constraints.evaluateValues(pair.configuration, d, values);
+  Eigen::Index row;
+  d.minCoeff(&row);
+  pair.answer = constraints.answer(static_cast<int>(row));
+  const CheckedPair& closest = bodies[static_cast<std::size_t>(row)];
+  pair.body1 = closest.body;
+  pair.body2 = closest.other + (closest.obstacle ? static_cast<int>(report.geometry->bodies.size()) : 0);
+  for (int k = constraints.rowStart()[static_cast<std::size_t>(row)];
+       k < constraints.rowStart()[static_cast<std::size_t>(row) + 1]; ++k)
+    pair.gradient[report.kinematics->names()[at(constraints.columnIndices()[at(k)])]] = values[k];
+  covers(report, closest, constraints.state(), pair);
 }
 
 CollisionReport makeReport(const ReportRequest& request) { return Maker(request).make(); }

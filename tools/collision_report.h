@@ -53,6 +53,10 @@ struct CollisionReport {
   double nsPerPair = 0, usPerTick = 0;  ///< of all checked pairs with their Jacobian, in small steps
 };
 
+/// What is known about the closest of some pairs of bodies at the pair's configuration: answer, bodies,
+/// gradient, covers and the hulls' distance. `report` has the robot and its obstacles.
+void measurePair(const CollisionReport& report, const std::vector<CheckedPair>& bodies, PairReport& pair);
+
 /// @throws Error naming the file or the argument.
 CollisionReport makeReport(const ReportRequest& request);
 

@@ -35,7 +35,7 @@ struct Arguments {
   std::string urdf, task, srdf, obstacles, format = "text", output;
   GeometryOptions geometry;
   PostureOptions options;
-  bool noCache = false, quiet = false;
+  bool careless = false, noCache = false, quiet = false;
 };
 
 void describe(CLI::App& app, Arguments& a) {
@@ -58,10 +58,11 @@ void describe(CLI::App& app, Arguments& a) {
   app.add_option("-R", a.geometry.radii.R, "Radius of the big spheres")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  app.add_option("--format", a.format, "text or json")
-      ->check(CLI::IsMember({"text", "json"}))
+  app.add_option("--format", a.format, "text, json or html")
+      ->check(CLI::IsMember({"text", "json", "html"}))
       ->capture_default_str();
   app.add_option("-o,--output", a.output, "File to write instead of standard output")->type_name("OUT");
+  app.add_flag("--ignore-collisions", a.careless, "Solve without the pairs, which are reported all the same");
   app.add_flag("--no-cache", a.noCache, "Build every volume, keep none in the cache folder");
   app.add_flag("-q,--quiet", a.quiet, "No warnings");
 }
@@ -91,14 +92,17 @@ int run(Arguments& a) {
   report.task = loadTask(a.task);
   report.scene = load(a);
   PostureSetup setup = setUp(report.task, report.scene);
+  if (a.careless) setup.problem = setUpWithoutCollisions(report.task, report.scene).problem;
   report.kinematics = std::make_shared<const Kinematics>(setup.problem->kinematics());
   report.pairs = setup.pairs;
   report.posture = findPosture(setup, a.options);
-  if (!setup.pairs.empty()) {
+  if (!setup.pairs.empty() && !a.careless) {
     PostureSetup free = setUpWithoutCollisions(report.task, report.scene);
     report.withoutCollisions = findPosture(free, a.options);
   }
-  const std::string text = a.format == "json" ? toJson(report) : toText(report);
+  const std::string text = a.format == "json"   ? toJson(report)
+                           : a.format == "html" ? toHtml(report)
+                                                : toText(report);
   if (a.output.empty())
     std::cout << text << std::flush;
   else

@@ -20,5 +20,7 @@ struct PostureReport {
 
 std::string toText(const PostureReport& report);
 std::string toJson(const PostureReport& report);
+/// The page of a collision report, with the robot in its posture among the obstacles.
+std::string toHtml(const PostureReport& report);
 
 }  // namespace fcl_stpbv::tools

@@ -80,8 +80,9 @@ std::string inScript(std::string text) {
 
 }  // namespace
 
-std::string toHtml(const CollisionReport& report) {
+std::string toHtml(const CollisionReport& report, const std::string& title) {
   json data = json::parse(toJson(report));
+  data["title"] = title;
   data["bodies"] = json::array();
   for (const Body& body : report.geometry->bodies)
     data["bodies"].push_back(shapeOf(body.name, *body.geometry, false));

@@ -35,10 +35,10 @@ const $ = id => document.getElementById(id), mm = v => v === null ? '-' : (1e3 *
 const pairs = report.pairs, bodies = report.bodies;
 let selected = 0, yaw = 0.8, pitch = 0.35, zoom = 1, sortKey = null, sortSign = 1;
 
-$('title').textContent = report.robot + ': self-collision report';
+$('title').textContent = report.robot + ': ' + report.title;
 $('summary').textContent = `${report.summary.pairs_total} pairs, ${report.summary.checked} checked, ` +
-  `${report.summary.colliding} in collision, least distance ${mm(report.summary.min_distance)} mm, ` +
-  `${report.summary.ns_per_pair.toFixed(0)} ns a pair` + (report.pose ? `, posture ${report.pose}` : ', closest configurations');
+  `${report.summary.colliding} in collision, least distance ${mm(report.summary.min_distance)} mm` +
+  (report.summary.ns_per_pair ? `, ${report.summary.ns_per_pair.toFixed(0)} ns a pair` : '') + (report.pose ? `, posture ${report.pose}` : ', closest configurations');
 
 const columns = [['link1', 'link 1'], ['link2', 'link 2'], ['distance', 'STP-BV [mm]'], ['hull_distance', 'hulls [mm]'],
                  ['cover', 'cover [mm]'], ['reason', 'reason'], ['srdf_reason', 'SRDF']];
@@ -139,7 +139,7 @@ function draw() {
   if (!pairs.length) return;
   const pair = pairs[selected], poses = report.poses[pair.pose], cy = Math.cos(yaw), sy = Math.sin(yaw);
   const cp = Math.cos(pitch), sp = Math.sin(pitch);
-  const turn = v => { const x = cy * v[0] + sy * v[1], y = cy * v[1] - sy * v[0]; return [y, sp * x + cp * v[2], cp * x - sp * v[2]]; };
+  const turn = v => { const x = cy * v[0] + sy * v[1], y = cy * v[1] - sy * v[0]; return [y, cp * v[2] - sp * x, cp * x + sp * v[2]]; };
   const turned = bodies.map((b, i) => b.v.map(v => turn(place(poses[i], v))));
   const low = [1e9, 1e9, 1e9], high = [-1e9, -1e9, -1e9];
   for (const list of turned) for (const v of list) for (let k = 0; k < 3; ++k) {
@@ -163,14 +163,16 @@ function draw() {
   faces.sort((a, b) => a[0] - b[0]);
   for (const [, p, q, r, mine, light, obstacle] of faces) {
     g.fillStyle = g.strokeStyle = mine ? `hsl(38, 90%, ${light * 0.8}%)` : `hsl(${obstacle ? 120 : 212}, 22%, ${light}%)`;
+    g.globalAlpha = obstacle ? 0.35 : 1;  // the robot shows through
     g.beginPath();
     g.moveTo(toX(p), toY(p));
     g.lineTo(toX(q), toY(q));
     g.lineTo(toX(r), toY(r));
     g.closePath();
     g.fill();
-    g.stroke();
+    if (!obstacle) g.stroke();
   }
+  g.globalAlpha = 1;
   const a = turn(pair.point1), b = turn(pair.point2);
   g.strokeStyle = g.fillStyle = '#d0021b';
   g.lineWidth = 2.5;
@@ -193,8 +195,11 @@ $('view').onpointermove = e => {
 };
 $('view').onwheel = e => { e.preventDefault(); zoom *= Math.exp(-e.deltaY * 0.001); draw(); };
 
+// A page opened as report.html#yaw,pitch,zoom,row shows that view.
+const [asYaw, asPitch, asZoom, asRow] = location.hash.slice(1).split(',').map(Number);
+if (asZoom > 0) { yaw = asYaw; pitch = asPitch; zoom = asZoom; }
 fillTable();
-if (pairs.length) select(0);
+if (pairs.length) select(pairs[asRow] ? asRow : 0);
 </script></body></html>
 )PAGE";
 

@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include "fcl_stpbv/posture/find_posture.h"
+#include "fcl_stpbv/robot/constraints.h"
 #include "fcl_stpbv/robot/pair_list.h"
 #include "test/posture/mesh_check.h"
 #include "test/posture/scenes.h"
@@ -40,6 +41,13 @@ TEST_CASE("the can is taken from the fridge without a collision of the original 
   CHECK(posture.iterations < 74);
 
   const Kinematics& kinematics = setup.problem->kinematics();
+  ConstraintOptions asked;
+  asked.obstacles = scene.obstacles;
+  CollisionConstraints distances(std::make_shared<const Kinematics>(kinematics), scene.geometry, setup.pairs,
+                                 asked);
+  Eigen::VectorXd d(distances.rows());
+  distances.evaluate(posture.q, d);
+  CHECK(d.minCoeff() >= 0);  // not only within a tolerance
   for (const PostureTask::Place& place : task.placements) {
     const Eigen::Isometry3d miss = placed(kinematics, posture.q, place);
     CHECK(miss.translation().norm() < 1e-4);

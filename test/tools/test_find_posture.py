@@ -56,6 +56,22 @@ class FindPosture(unittest.TestCase):
         for word in ("without collisions feasible", "163 pairs, 33", "active:", "lower_door", "LARM_JOINT3"):
             self.assertIn(word, run.stdout)
 
+    def test_the_page_shows_the_posture_among_the_obstacles(self):
+        out = os.path.join(self.folder.name, "page.html")
+        run = self.run_task(self.pick_can(), "--format", "html", "-o", out)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        with open(out, encoding="utf-8") as file:
+            page = file.read()
+        self.assertTrue(page.startswith("<!DOCTYPE html>") and page.rstrip().endswith("</html>"))
+        data = json.loads(page[page.index("const report = ") + 15:page.index(";\n'use strict'")])
+        self.assertEqual(len(data["pairs"]), 163)
+        self.assertEqual(data["summary"]["colliding"], 0)
+        self.assertGreaterEqual(data["pairs"][0]["distance"], 0)
+        self.assertEqual(len(data["poses"][0]), len(data["bodies"]))
+        self.assertIn("upper_door", [body["name"] for body in data["bodies"] if body["obstacle"]])
+        careless = self.run_task(self.pick_can(), "--format", "html", "--ignore-collisions")
+        self.assertIn("7 in collision", careless.stdout.replace('"colliding":7', "7 in collision"))
+
     def test_what_cannot_be_done_ends_with_1_and_names_why(self):
         task = self.pick_can()
         task["placements"][2]["target"]["position"] = [1.6, 0, 1]
