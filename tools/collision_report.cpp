@@ -86,13 +86,14 @@ class Maker {
 
   CollisionReport make() {
     load();
-    report_.list = pairList(report_.kinematics, report_.geometry, srdf(), request_.search);
+    PairListOptions search = request_.search;
+    search.obstacles = report_.obstacles;
+    report_.list = pairList(report_.kinematics, report_.geometry, srdf(), search);
     const bool posed = !request_.pose.empty();
     report_.pose = request_.pose;
     const Eigen::VectorXd q =
         posed ? poseOf(request_.pose, *report_.kinematics, srdf()) : report_.kinematics->neutral();
     for (const PairEntry& entry : report_.list) addPair(entry, posed ? q : entry.closest);
-    addObstacles(q);
     summarise();
     measure(q);
     return std::move(report_);
@@ -120,10 +121,13 @@ class Maker {
   void addPair(const PairEntry& entry, const Eigen::VectorXd& q) {
     PairReport pair;
     pair.link1 = report_.robot->links[at(entry.link1)].name;
-    pair.link2 = report_.robot->links[at(entry.link2)].name;
+    pair.obstacle = entry.obstacle;
+    pair.link2 =
+        entry.obstacle ? report_.obstacles[at(entry.link2)].name : report_.robot->links[at(entry.link2)].name;
     pair.reason = reasonText(entry.reason);
-    if (srdf()) pair.srdfReason = srdf_.reasonToSkip(pair.link1, pair.link2);
-    pair.checked = srdf()
+    if (srdf() && !entry.obstacle) pair.srdfReason = srdf_.reasonToSkip(pair.link1, pair.link2);
+    pair.checked = entry.obstacle ? true
+                   : srdf()
                        ? pair.srdfReason.empty()
                        : entry.reason == PairReason::sometimes || entry.reason == PairReason::neverSampled ||
                              entry.reason == PairReason::neverProven;
@@ -133,27 +137,11 @@ class Maker {
     pair.influence = entry.influence;
     pair.configuration = q;
     pair.closest = entry.closest;
-    std::vector<CheckedPair> bodies;
-    const auto [first1, last1] = report_.geometry->of(entry.link1);
-    const auto [first2, last2] = report_.geometry->of(entry.link2);
-    for (int i = first1; i < last1; ++i)
-      for (int j = first2; j < last2; ++j) bodies.push_back({i, j, false});
-    measurePair(report_, bodies, pair);
+    measurePair(report_,
+                entry.obstacle ? pairsWithObstacle(*report_.geometry, entry.link1, entry.link2)
+                               : pairsOfLinks(*report_.geometry, entry.link1, entry.link2),
+                pair);
     report_.pairs.push_back(std::move(pair));
-  }
-
-  void addObstacles(const Eigen::VectorXd& q) {
-    for (const CheckedPair& both :
-         obstaclePairs(*report_.robot, *report_.geometry, report_.obstacles.size())) {
-      PairReport pair;
-      pair.link1 = report_.geometry->bodies[at(both.body)].name;
-      pair.link2 = report_.obstacles[at(both.other)].name;
-      pair.reason = "obstacle";
-      pair.configuration = pair.closest = q;
-      measurePair(report_, {both}, pair);
-      pair.minDistance = pair.answer.distance;
-      report_.pairs.push_back(std::move(pair));
-    }
   }
 
   void summarise() {

@@ -21,9 +21,10 @@ struct ReportRequest {
 /// One pair of links, or a link and an obstacle, in the posture asked for or in its closest configuration.
 struct PairReport {
   std::string link1, link2;
-  std::string reason;      ///< what the search says; "obstacle" for an obstacle
+  bool obstacle = false;   ///< link2 is an obstacle's name
+  std::string reason;      ///< what the search says
   std::string srdfReason;  ///< what the SRDF says, "" where it says nothing
-  bool checked = true;     ///< false where the SRDF or, without one, the search leaves the pair out
+  bool checked = true;     ///< false where the SRDF or, without one, the search leaves the pair of links out
   DistanceAnswer answer;
   int body1 = -1, body2 = -1;  ///< the closest bodies; body2 of an obstacle counts on from the robot's
   std::map<std::string, double> gradient;

@@ -124,6 +124,7 @@ std::string toJson(const CollisionReport& report) {
   for (const PairReport& pair : report.pairs) {
     json["pairs"].push_back({{"link1", pair.link1},
                              {"link2", pair.link2},
+                             {"obstacle", pair.obstacle},
                              {"reason", pair.reason},
                              {"srdf_reason", pair.srdfReason},
                              {"checked", pair.checked},

@@ -75,16 +75,36 @@ std::vector<CheckedPair> selfPairs(const RobotModel& robot, const RobotGeometry&
   return pairs;
 }
 
+std::vector<CheckedPair> pairsOfLinks(const RobotGeometry& geometry, int link1, int link2) {
+  std::vector<CheckedPair> pairs;
+  const auto [first1, last1] = geometry.of(link1);
+  const auto [first2, last2] = geometry.of(link2);
+  for (int i = first1; i < last1; ++i)
+    for (int j = first2; j < last2; ++j) pairs.push_back({i, j, false});
+  return pairs;
+}
+
+std::vector<CheckedPair> pairsWithObstacle(const RobotGeometry& geometry, int link, int obstacle) {
+  std::vector<CheckedPair> pairs;
+  const auto [first, last] = geometry.of(link);
+  for (int i = first; i < last; ++i) pairs.push_back({i, obstacle, true});
+  return pairs;
+}
+
+bool moves(const RobotModel& robot, int link, bool baseMoves) {
+  for (int at = link; !baseMoves && at >= 0; at = parentOf(robot, at)) {
+    const int joint = robot.links[static_cast<std::size_t>(at)].parentJoint;
+    if (joint >= 0 && robot.joints[static_cast<std::size_t>(joint)].type != JointType::fixed) return true;
+  }
+  return baseMoves;
+}
+
 std::vector<CheckedPair> obstaclePairs(const RobotModel& robot, const RobotGeometry& geometry,
                                        std::size_t obstacles, bool baseMoves) {
   std::vector<CheckedPair> pairs;
   for (std::size_t i = 0; i < geometry.bodies.size(); ++i) {
-    bool moves = baseMoves;
-    for (int link = geometry.bodies[i].link; !moves && link >= 0; link = parentOf(robot, link)) {
-      const int joint = robot.links[static_cast<std::size_t>(link)].parentJoint;
-      moves = joint >= 0 && robot.joints[static_cast<std::size_t>(joint)].type != JointType::fixed;
-    }
-    for (std::size_t o = 0; moves && o < obstacles; ++o)
+    if (!moves(robot, geometry.bodies[i].link, baseMoves)) continue;
+    for (std::size_t o = 0; o < obstacles; ++o)
       pairs.push_back({static_cast<int>(i), static_cast<int>(o), true});
   }
   return pairs;

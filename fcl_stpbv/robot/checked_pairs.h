@@ -40,6 +40,15 @@ bool adjacent(const RobotModel& robot, const RobotGeometry& geometry, int link1,
 /// without those of adjacent links.
 std::vector<CheckedPair> selfPairs(const RobotModel& robot, const RobotGeometry& geometry, const Srdf* srdf);
 
+/// Every body of one link against every body of the other.
+std::vector<CheckedPair> pairsOfLinks(const RobotGeometry& geometry, int link1, int link2);
+
+/// Every body of a link against one obstacle.
+std::vector<CheckedPair> pairsWithObstacle(const RobotGeometry& geometry, int link, int obstacle);
+
+/// Whether a joint, or the base, moves the link.
+bool moves(const RobotModel& robot, int link, bool baseMoves = false);
+
 /// Every body against every obstacle, but for bodies that no joint moves.
 std::vector<CheckedPair> obstaclePairs(const RobotModel& robot, const RobotGeometry& geometry,
                                        std::size_t obstacles, bool baseMoves = false);

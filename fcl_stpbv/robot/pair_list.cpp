@@ -52,21 +52,41 @@ class Search {
     const RobotModel& robot = kinematics_->robot();
     const int links = static_cast<int>(robot.links.size());
     const auto none = [&](int link) { return geometry_->of(link).first == geometry_->of(link).second; };
+    const auto add = [&](int first, int second, bool obstacle) {
+      PairEntry entry;
+      entry.link1 = first;
+      entry.link2 = second;
+      entry.obstacle = obstacle;
+      entry.closest = kinematics_->neutral();
+      list_.push_back(entry);
+    };
     for (int i = 0; i < links; ++i) {
       for (int j = i + 1; j < links; ++j) {
         if (none(i) || none(j)) continue;
-        PairEntry entry;
-        entry.link1 = i;
-        entry.link2 = j;
-        entry.closest = kinematics_->neutral();
+        add(i, j, false);
         const std::string &name1 = robot.links[at(i)].name, &name2 = robot.links[at(j)].name;
         if (srdf && srdf->reasonToSkip(name1, name2) == "User")
-          entry.reason = PairReason::user;
+          list_.back().reason = PairReason::user;
         else if (adjacent(robot, *geometry_, i, j))
-          entry.reason = PairReason::adjacent;
-        list_.push_back(entry);
+          list_.back().reason = PairReason::adjacent;
       }
     }
+    const auto& motions = kinematics_->motions();
+    const bool baseMoves = !motions.empty() && motions.front().joint < 0;
+    for (int i = 0; i < links; ++i)
+      for (int o = 0; o < static_cast<int>(options_.obstacles.size()); ++o)
+        if (!none(i) && moves(robot, i, baseMoves)) add(i, o, true);
+  }
+
+  std::vector<CheckedPair> bodiesOf(const PairEntry& entry) const {
+    return entry.obstacle ? pairsWithObstacle(*geometry_, entry.link1, entry.link2)
+                          : pairsOfLinks(*geometry_, entry.link1, entry.link2);
+  }
+
+  PairSearch searchOf(const PairEntry& entry) const {
+    return entry.obstacle
+               ? PairSearch(kinematics_, geometry_, entry.link1, options_.obstacles[at(entry.link2)])
+               : PairSearch(kinematics_, geometry_, entry.link1, entry.link2);
   }
 
   // Distances of all pairs of bodies at once, then the least of each pair of links.
@@ -74,17 +94,14 @@ class Search {
     std::vector<CheckedPair> pairs;
     std::vector<std::size_t> entryOf;
     for (std::size_t e = 0; e < list_.size(); ++e) {
-      const auto [first1, last1] = geometry_->of(list_[e].link1);
-      const auto [first2, last2] = geometry_->of(list_[e].link2);
-      for (int i = first1; i < last1; ++i) {
-        for (int j = first2; j < last2; ++j) {
-          pairs.push_back({i, j, false});
-          entryOf.push_back(e);
-        }
+      for (const CheckedPair& pair : bodiesOf(list_[e])) {
+        pairs.push_back(pair);
+        entryOf.push_back(e);
       }
     }
     ConstraintOptions settings;
     settings.threads = options_.threads;
+    settings.obstacles = options_.obstacles;
     CollisionConstraints neutral(kinematics_, geometry_, pairs, settings);
     Eigen::VectorXd d(neutral.rows()), least(static_cast<Eigen::Index>(list_.size()));
     const auto leastOf = [&](CollisionConstraints& constraints, const std::vector<std::size_t>& owner,
@@ -100,7 +117,8 @@ class Search {
     for (std::size_t e = 0; e < list_.size(); ++e) {
       PairEntry& entry = list_[e];
       entry.neutralDistance = entry.minDistance = least[static_cast<Eigen::Index>(e)];
-      if (entry.reason == PairReason::sometimes && entry.neutralDistance <= options_.margin)
+      if (entry.reason == PairReason::sometimes && !entry.obstacle &&
+          entry.neutralDistance <= options_.margin)
         entry.reason = PairReason::byDefault;
     }
     // From here on the pairs that are still open only.
@@ -160,7 +178,7 @@ class Search {
 
   void descend(Open& open) {
     PairEntry& entry = *open.entry;
-    PairSearch search(kinematics_, geometry_, entry.link1, entry.link2);
+    PairSearch search = searchOf(entry);
     for (auto& [start, q] : open.closest) {
       const double reached = search.descend(q, options_.margin);
       if (reached >= entry.minDistance) continue;
@@ -188,7 +206,7 @@ class Search {
     for (std::size_t i = 0; i < never.size(); ++i) {
       tell("proofs", i, never.size());
       const Clock::time_point now = Clock::now();
-      PairSearch search(kinematics_, geometry_, never[i]->link1, never[i]->link2);
+      PairSearch search = searchOf(*never[i]);
       Eigen::VectorXd q;
       const auto proof =
           search.prove(options_.margin, now + (end - now) / static_cast<long>(never.size() - i), q);
@@ -264,7 +282,7 @@ std::vector<PairEntry> pairList(std::shared_ptr<const Kinematics> kinematics,
 std::vector<Srdf::Pair> toSrdf(const RobotModel& robot, const std::vector<PairEntry>& list) {
   std::vector<Srdf::Pair> pairs;
   for (const PairEntry& entry : list) {
-    if (entry.reason == PairReason::sometimes || entry.reason == PairReason::user) continue;
+    if (entry.obstacle || entry.reason == PairReason::sometimes || entry.reason == PairReason::user) continue;
     Srdf::Pair pair{robot.links[at(entry.link1)].name, robot.links[at(entry.link2)].name,
                     srdfReason(entry.reason)};
     if (pair.link2 < pair.link1) std::swap(pair.link1, pair.link2);

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "fcl_stpbv/robot/checked_pairs.h"
 #include "fcl_stpbv/robot/kinematics.h"
 #include "fcl_stpbv/robot/link_geometry.h"
 
@@ -37,11 +38,13 @@ struct PairListOptions {
   double alwaysFraction = 0.95;  ///< of the samples in collision, as MoveIt has it
   double proofSeconds = 0;       ///< time to spend on proofs in all; a pair that is not decided stays sampled
   int threads = 1;
+  std::vector<Obstacle> obstacles;  ///< each is a pair with each link that joints or the base move
   std::function<void(std::size_t, std::size_t, const std::string&)> progress;
 };
 
 struct PairEntry {
-  int link1, link2;
+  int link1, link2;       ///< link2: index among the obstacles where that is what it is
+  bool obstacle = false;  ///< such an entry is never left out as adjacent or by default
   PairReason reason = PairReason::sometimes;
   int samples = 0, collisions = 0;
   double minDistance = 0;   ///< least found (m); that of the neutral configuration where nothing was sampled
@@ -55,7 +58,8 @@ struct PairEntry {
   double probabilityBound() const { return collisions > 0 || samples == 0 ? 1 : 3.0 / samples; }
 };
 
-/// All pairs of links that have bodies. Deterministic for a seed, but for proofs that their time cuts short.
+/// All pairs of links that have bodies, then those with obstacles. Deterministic for a seed, but for proofs
+/// that their time cuts short.
 ///
 /// `srdf` (or null) gives the user's own entries, of the reason "User" and of enable_collisions; its other
 /// entries are found anew.
@@ -63,7 +67,8 @@ std::vector<PairEntry> pairList(std::shared_ptr<const Kinematics> kinematics,
                                 std::shared_ptr<const RobotGeometry> geometry, const Srdf* srdf,
                                 const PairListOptions& options = {});
 
-/// The entries to leave out, sorted by the links' names, for withPairs(). The user's own are not among them.
+/// The pairs of links to leave out, sorted by the links' names, for withPairs(). The user's own are not among
+/// them.
 std::vector<Srdf::Pair> toSrdf(const RobotModel& robot, const std::vector<PairEntry>& list);
 
 }  // namespace fcl_stpbv

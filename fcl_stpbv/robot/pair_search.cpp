@@ -10,15 +10,6 @@ namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-std::vector<CheckedPair> bodiesOf(const RobotGeometry& geometry, int link1, int link2) {
-  std::vector<CheckedPair> pairs;
-  const auto [first1, last1] = geometry.of(link1);
-  const auto [first2, last2] = geometry.of(link2);
-  for (int i = first1; i < last1; ++i)
-    for (int j = first2; j < last2; ++j) pairs.push_back({i, j, false});
-  return pairs;
-}
-
 // How far a link's bodies reach from its origin.
 double reachOf(const RobotGeometry& geometry, int link) {
   double reach = 0;
@@ -36,25 +27,43 @@ std::vector<int> jointsAbove(const RobotModel& robot, int link) {
   return joints;
 }
 
+ConstraintOptions withObstacle(const Obstacle& obstacle) {
+  ConstraintOptions options;
+  options.obstacles = {obstacle};
+  return options;
+}
+
 }  // namespace
 
 PairSearch::PairSearch(std::shared_ptr<const Kinematics> kinematics,
                        std::shared_ptr<const RobotGeometry> geometry, int link1, int link2)
+    : PairSearch(kinematics, geometry, pairsOfLinks(*geometry, link1, link2), ConstraintOptions{}) {
+  boundSlopes(link1, reachOf(*geometry_, link1), link2, reachOf(*geometry_, link2));
+}
+
+PairSearch::PairSearch(std::shared_ptr<const Kinematics> kinematics,
+                       std::shared_ptr<const RobotGeometry> geometry, int link, const Obstacle& obstacle)
+    : PairSearch(kinematics, geometry, pairsWithObstacle(*geometry, link, 0), withObstacle(obstacle)) {
+  boundSlopes(link, reachOf(*geometry_, link), 0, obstacle.centre.norm() + obstacle.radius);
+}
+
+PairSearch::PairSearch(std::shared_ptr<const Kinematics> kinematics,
+                       std::shared_ptr<const RobotGeometry> geometry, std::vector<CheckedPair> pairs,
+                       ConstraintOptions options)
     : kinematics_(std::move(kinematics)),
       geometry_(std::move(geometry)),
-      constraints_(kinematics_, geometry_, bodiesOf(*geometry_, link1, link2)),
+      constraints_(kinematics_, geometry_, std::move(pairs), std::move(options)),
       d_(constraints_.rows()),
       values_(constraints_.nonZeros()),
       gradient_(kinematics_->size()) {
   const std::vector<int>& rows = constraints_.rowStart();  // all rows have the same columns
   coordinates_.assign(constraints_.columnIndices().begin(), constraints_.columnIndices().begin() + rows[1]);
-  boundSlopes(link1, link2);
 }
 
 // A turning joint moves a body's point by at most its distance from the axis; the moment of the normal's line
 // about the axis is the same taken at either witness point, so the nearer link counts. That distance is at
-// most the way along the links plus the body's reach.
-void PairSearch::boundSlopes(int link1, int link2) {
+// most the way along the links plus the body's reach. An obstacle is fixed to the root link.
+void PairSearch::boundSlopes(int link1, double reach1, int link2, double reach2) {
   const RobotModel& robot = kinematics_->robot();
   std::vector<int> up1 = jointsAbove(robot, link1), up2 = jointsAbove(robot, link2);
   while (!up1.empty() && !up2.empty() && up1.back() == up2.back()) {
@@ -83,12 +92,16 @@ void PairSearch::boundSlopes(int link1, int link2) {
   for (const Part& part : path) total += part.length;
 
   lipschitz_.assign(coordinates_.size(), 0);
+  for (const Kinematics::Motion& motion : kinematics_->motions())  // a moving base has no limits
+    for (std::size_t k = 0; k < coordinates_.size(); ++k)
+      if (motion.joint < 0 && motion.coordinate == coordinates_[k])
+        lipschitz_[k] = std::numeric_limits<double>::infinity();
   double before = 0;  // from link1 to this part
   for (std::size_t i = 0; i < path.size(); ++i) {
     const bool on1 = i < up1.size();  // the joint's child is then on the side of link1
     const JointModel& joint = robot.joints[at(path[i].joint)];
-    const double to1 = before + (on1 ? 0 : path[i].length) + reachOf(*geometry_, link1);
-    const double to2 = total - before - (on1 ? 0 : path[i].length) + reachOf(*geometry_, link2);
+    const double to1 = before + (on1 ? 0 : path[i].length) + reach1;
+    const double to2 = total - before - (on1 ? 0 : path[i].length) + reach2;
     before += path[i].length;
     if (joint.type == JointType::fixed) continue;
     double slope = std::numeric_limits<double>::infinity();
@@ -109,6 +122,13 @@ void PairSearch::boundSlopes(int link1, int link2) {
 double PairSearch::distance(const Eigen::VectorXd& q) {
   constraints_.evaluate(q, d_);
   return d_.minCoeff();
+}
+
+// Of the distance where it was last asked for: below it where a query was not solved to rounding.
+double PairSearch::lowerBound() const {
+  double least = std::numeric_limits<double>::infinity();
+  for (int row = 0; row < constraints_.rows(); ++row) least = std::min(least, constraints_.answer(row).lower);
+  return least;
 }
 
 double PairSearch::distanceAndGradient(const Eigen::VectorXd& q) {
@@ -181,7 +201,7 @@ PairSearch::Proof PairSearch::prove(double margin, std::chrono::steady_clock::ti
     }
     Eigen::Index widest = 0;
     const Eigen::VectorXd change = slopes.cwiseProduct(box.half);
-    if (d - change.sum() > margin) continue;
+    if (lowerBound() - change.sum() > margin) continue;
     change.maxCoeff(&widest);
     box.half[widest] /= 2;
     Box other = box;

@@ -1,4 +1,5 @@
-// The least distance of one pair of links over the joint box: descent, and a proof by branch and bound.
+// The least distance of one pair of links, or of a link and an obstacle, over the joint box: descent, and a
+// proof by branch and bound.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,13 +11,16 @@
 
 namespace fcl_stpbv {
 
-/// One pair of links as a function of the coordinates between them.
+/// One pair as a function of the coordinates between them.
 class PairSearch {
  public:
   enum class Proof { clear, collision, undecided };
 
   PairSearch(std::shared_ptr<const Kinematics> kinematics, std::shared_ptr<const RobotGeometry> geometry,
              int link1, int link2);
+  /// A link and something that stands still.
+  PairSearch(std::shared_ptr<const Kinematics> kinematics, std::shared_ptr<const RobotGeometry> geometry,
+             int link, const Obstacle& obstacle);
 
   /// Least distance over the bodies at q.
   double distance(const Eigen::VectorXd& q);
@@ -36,8 +40,11 @@ class PairSearch {
   const std::vector<int>& coordinates() const { return coordinates_; }
 
  private:
+  PairSearch(std::shared_ptr<const Kinematics> kinematics, std::shared_ptr<const RobotGeometry> geometry,
+             std::vector<CheckedPair> pairs, ConstraintOptions options);
   double distanceAndGradient(const Eigen::VectorXd& q);
-  void boundSlopes(int link1, int link2);
+  double lowerBound() const;
+  void boundSlopes(int link1, double reach1, int link2, double reach2);
 
   std::shared_ptr<const Kinematics> kinematics_;
   std::shared_ptr<const RobotGeometry> geometry_;

@@ -40,8 +40,8 @@ struct ShapeModel {
 struct LinkModel {
   std::string name;
   std::vector<ShapeModel> collision, visual;
-  int parentJoint = -1;  ///< -1 for the root
-  double mass = 0;       ///< kg; 0 without <inertial>
+  int parentJoint = -1;                   ///< -1 for the root
+  double mass = 0;                        ///< kg; 0 without <inertial>
   Eigen::Vector3d centreOfMass{0, 0, 0};  ///< in the link's frame (m)
 };
 

@@ -1,4 +1,6 @@
 // Reasons for leaving pairs out: on robots where they are plain to see, and on real ones.
+#include <fcl/geometry/shape/sphere.h>
+
 #include <catch2/catch.hpp>
 
 #include "fcl_stpbv/robot/pair_list.h"
@@ -79,7 +81,68 @@ TEST_CASE("a descent finds the collision that few samples miss") {
   CHECK(list[1].minDistance < 0);
 }
 
+TEST_CASE("obstacles enter the search: met with the configuration, or proven out of reach") {
+  const Arm arm = bars(1.0);  // reaches 0.735 m from the origin along x
+  const auto ball = std::make_shared<StpBvGeometry>(StpBv::build(geodesicSphere(0.1, 2)));
+  const auto at = [&](const std::shared_ptr<fcl::CollisionGeometryd>& geometry, double x, double y) {
+    fcl::CollisionObjectd object(geometry);
+    object.setTranslation(Eigen::Vector3d(x, y, 0));
+    return obstacleOf(object, "obstacle");
+  };
+  PairListOptions options;
+  options.samples = 20;
+  options.proofSeconds = 20;
+  options.obstacles = {at(ball, 0.35, 0.25), at(ball, 0, 1.2),
+                       at(std::make_shared<fcl::Sphered>(0.1), 0.35, 0.25)};
+  const std::vector<PairEntry> list = pairList(arm.kinematics, arm.geometry, nullptr, options);
+  REQUIRE(list.size() == 3 + 2 * 3);  // the first bar does not move
+  for (const PairEntry& entry : list) {
+    if (!entry.obstacle) continue;
+    INFO("link " << entry.link1 << ", obstacle " << entry.link2);
+    PairSearch search(arm.kinematics, arm.geometry, entry.link1,
+                      options.obstacles[static_cast<std::size_t>(entry.link2)]);
+    CHECK(search.distance(entry.closest) == Approx(entry.minDistance).margin(1e-12));
+    if (entry.link2 == 1) {
+      CHECK(entry.reason == PairReason::neverProven);
+      CHECK(entry.minDistance > 0.3);
+    } else {
+      CHECK(entry.reason == PairReason::sometimes);
+      CHECK(entry.minDistance <= 0);
+    }
+  }
+  CHECK(toSrdf(arm.kinematics->robot(), list).size() == 3);
+}
+
+TEST_CASE("what is proven never stays apart in samples and descents of another seed") {
+  for (const TestRobot& robot : robots()) {
+    LoadedRobot loaded = load(robot);
+    const Arm arm = armFrom(loaded.model, std::move(loaded.geometry));
+    INFO(robot.name);
+    PairListOptions options;
+    options.samples = 200;
+    options.proofSeconds = 3;
+    int proven = 0;
+    Random random(23);
+    const std::vector<PairEntry> list = pairList(arm.kinematics, arm.geometry, nullptr, options);
+    for (const PairEntry& entry : list) {
+      if (entry.reason != PairReason::neverProven) continue;
+      ++proven;
+      PairSearch search(arm.kinematics, arm.geometry, entry.link1, entry.link2);
+      Eigen::VectorXd q(arm.kinematics->size());
+      for (int trial = 0; trial < 10; ++trial) {
+        for (int k = 0; k < q.size(); ++k)
+          q[k] = random.uniform(arm.kinematics->lower()[k], arm.kinematics->upper()[k]);
+        CHECK(search.descend(q, 0) > 0);
+      }
+    }
+    CHECK(proven >= 10);
+  }
+}
+
 TEST_CASE("no slope of the distance exceeds its Lipschitz bound") {
+  const auto ball = std::make_shared<StpBvGeometry>(StpBv::build(geodesicSphere(0.1, 2)));
+  fcl::CollisionObjectd object(ball);
+  object.setTranslation(Eigen::Vector3d(0.5, 0.7, 0.9));
   for (const TestRobot& robot : robots()) {
     LoadedRobot loaded = load(robot);
     const Arm arm = armFrom(loaded.model, std::move(loaded.geometry));
@@ -89,7 +152,9 @@ TEST_CASE("no slope of the distance exceeds its Lipschitz bound") {
       const int i = arm.geometry->bodies[static_cast<std::size_t>(random.below(count))].link;
       const int j = arm.geometry->bodies[static_cast<std::size_t>(random.below(count))].link;
       if (i == j) continue;
-      PairSearch search(arm.kinematics, arm.geometry, i, j);
+      PairSearch search = trial % 4 == 0 && moves(*loaded.model, i)
+                              ? PairSearch(arm.kinematics, arm.geometry, i, obstacleOf(object, "ball"))
+                              : PairSearch(arm.kinematics, arm.geometry, i, j);
       Eigen::VectorXd q(arm.kinematics->size());
       for (int k = 0; k < q.size(); ++k)
         q[k] = random.uniform(arm.kinematics->lower()[k], arm.kinematics->upper()[k]);

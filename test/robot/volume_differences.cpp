@@ -27,7 +27,8 @@ int main(int argc, char** argv) try {
     const StpBv::Ptr polyhedron = StpBv::build(loadPoints(file.string()));
     std::printf("%-16s %13d %13d %9d, %7d %12.2f\n", link.c_str(), mesh->vertexCount(),
                 polyhedron->vertexCount(), withoutPartner(*mesh, *polyhedron, kSame),
-                withoutPartner(*polyhedron, *mesh, kSame), surfaceDifference(*mesh, *polyhedron, 20000) * 1e6);
+                withoutPartner(*polyhedron, *mesh, kSame),
+                surfaceDifference(*mesh, *polyhedron, 20000) * 1e6);
   }
   return 0;
 } catch (const std::exception& error) {

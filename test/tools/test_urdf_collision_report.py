@@ -108,7 +108,7 @@ class Report(unittest.TestCase):
     def test_an_obstacle_is_checked_against_every_moving_body(self):
         scene = self.put("scene.urdf", f'<robot name="scene">{link("ball", chr(60) + "sphere radius=" + chr(34) + "0.1" + chr(34) + "/>")}</robot>')
         done = self.humanoid("--pose", "zero", "--obstacles", scene, "--format", "json")
-        pairs = [p for p in json.loads(done.stdout)["pairs"] if p["reason"] == "obstacle"]
+        pairs = [p for p in json.loads(done.stdout)["pairs"] if p["obstacle"]]
         self.assertEqual(len(pairs), 30)
 
     def test_overlapping_primitives_are_a_collision(self):
