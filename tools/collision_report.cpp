@@ -49,34 +49,43 @@ Eigen::VectorXd poseOf(const std::string& pose, const Kinematics& kinematics, co
   return kinematics.configuration(srdf->state(pose));
 }
 
-double coverAlong(const StpBv* volume, const Eigen::Isometry3d& pose, const Eigen::Vector3d& normal) {
-  if (!volume || normal.isZero()) return 0;
-  const Eigen::Vector3d n = pose.linear().transpose() * normal;
-  double hull = -std::numeric_limits<double>::infinity();
-  for (const Eigen::Vector3d& v : volume->vertices()) hull = std::max(hull, n.dot(v));
-  return volume->support(n) - hull;
+// A body or an obstacle in its place. Its hull is that of all the mesh's points, also under a reduced volume.
+struct Placed {
+  const StpBvGeometry* smooth;
+  std::shared_ptr<const StpBvGeometry> full;
+  Eigen::Isometry3d pose;
+
+  const HullGraph& hull() const { return full ? full->hull() : smooth->hull(); }
+  double cover(const Eigen::Vector3d& normal) const {
+    if (!smooth || normal.isZero()) return 0;
+    const Eigen::Vector3d n = pose.linear().transpose() * normal;
+    double height = -std::numeric_limits<double>::infinity();
+    for (const Eigen::Vector3d& v : (full ? full.get() : smooth)->volume().vertices())
+      height = std::max(height, n.dot(v));
+    return smooth->volume().support(n) - height;
+  }
+};
+
+Placed placed(const Body& body, const Kinematics::State& state) {
+  return {asStpBv(body.geometry.get()), body.full ? std::make_shared<StpBvGeometry>(body.full) : nullptr,
+          state.link[at(body.link)] * body.pose};
 }
 
 void covers(const CollisionReport& report, const CheckedPair& both, const Kinematics::State& state,
             PairReport& pair) {
-  const Body& a = report.geometry->bodies[at(both.body)];
-  const Eigen::Isometry3d poseA = state.link[at(a.link)] * a.pose;
-  const StpBvGeometry* first = asStpBv(a.geometry.get());
-  const StpBvGeometry* second;
-  Eigen::Isometry3d poseB;
+  const Placed first = placed(report.geometry->bodies[at(both.body)], state);
+  Placed second;
   if (both.obstacle) {
-    second = asStpBv(report.obstacles[at(both.other)].geometry.get());
-    poseB = report.obstacles[at(both.other)].pose;
+    const Obstacle& obstacle = report.obstacles[at(both.other)];
+    second = {asStpBv(obstacle.geometry.get()), nullptr, obstacle.pose};
   } else {
-    const Body& b = report.geometry->bodies[at(both.other)];
-    second = asStpBv(b.geometry.get());
-    poseB = state.link[at(b.link)] * b.pose;
+    second = placed(report.geometry->bodies[at(both.other)], state);
   }
-  pair.overCover1 = coverAlong(first ? &first->volume() : nullptr, poseA, pair.answer.normal);
-  pair.overCover2 = coverAlong(second ? &second->volume() : nullptr, poseB, -pair.answer.normal);
+  pair.overCover1 = first.cover(pair.answer.normal);
+  pair.overCover2 = second.cover(-pair.answer.normal);
   pair.hullDistance = std::numeric_limits<double>::quiet_NaN();
-  if (!first || !second) return;
-  const PolyhedralWitness witness = polyhedralWitness(first->hull(), poseA, second->hull(), poseB);
+  if (!first.smooth || !second.smooth) return;
+  const PolyhedralWitness witness = polyhedralWitness(first.hull(), first.pose, second.hull(), second.pose);
   if (witness.verdict == PolyhedralWitness::Verdict::separated) pair.hullDistance = witness.upper;
 }
 
@@ -112,7 +121,10 @@ class Maker {
     report_.warnings = report_.geometry->warnings;
     if (request_.obstacles.empty()) return;
     const auto scene = std::make_shared<const RobotModel>(loadUrdf(request_.obstacles));
-    sceneGeometry_ = loadGeometry(*scene, request_.geometry);
+    GeometryOptions options = request_.geometry;
+    options.links.clear();  // these name the robot's
+    options.budgets.clear();
+    sceneGeometry_ = loadGeometry(*scene, options);
     report_.warnings.insert(report_.warnings.end(), sceneGeometry_.warnings.begin(),
                             sceneGeometry_.warnings.end());
     report_.obstacles = obstaclesOf(scene, sceneGeometry_);

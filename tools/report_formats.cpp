@@ -113,6 +113,7 @@ std::string toJson(const CollisionReport& report) {
     nlohmann::json link{{"name", body.name}, {"file", body.file}};
     if (body.volume) {
       link["vertices"] = body.volume->vertexCount();
+      link["vertices_unreduced"] = (body.full ? body.full : body.volume)->vertexCount();
       link["r"] = body.volume->radii().r;
       link["R"] = body.volume->radii().R;
       link["over_cover_max"] = body.cover.max;

@@ -1,5 +1,7 @@
 // urdf_collision_report: which links of a robot come how close, and which pairs need no check.
 #include <CLI/CLI.hpp>
+#include <cmath>
+#include <cstdlib>
 #include <exception>
 #include <filesystem>
 #include <functional>
@@ -37,6 +39,7 @@ Exit status: 0 no checked pair in collision; 1 a collision found; 2 the command 
 struct Arguments {
   ReportRequest request;
   std::string format = "text", output;
+  std::vector<std::string> links;
   std::size_t top = 20;
   bool noCache = false, quiet = false;
 };
@@ -62,6 +65,15 @@ void describe(CLI::App& app, Arguments& a) {
   app.add_option("-R", request.geometry.radii.R, "Radius of the big spheres")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
+  app.add_option(
+         "--over-cover", request.geometry.overCoverBudget,
+         "Most that a volume may exceed its mesh's hull by; spends it on fewer vertices, 0 for no limit")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  app.add_option("--link", a.links, "Values of a single link; may be given again")
+      ->type_name("NAME=r,R[,OVER_COVER]")
+      ->expected(1)
+      ->take_all();
   app.add_flag("--visual", request.geometry.visual, "Use the visual shapes");
   app.add_option("--top", a.top, "Pairs in the text")->capture_default_str();
   app.add_option("--margin", request.search.margin, "A distance not above it counts as a collision")
@@ -98,6 +110,23 @@ void checkOutput(const Arguments& a) {
     throw Error("-o " + a.output + ": the folder " + parent.string() + " does not exist; make it first");
 }
 
+// "NAME=r,R" or "NAME=r,R,OVER_COVER".
+void readLink(const std::string& text, GeometryOptions& options) {
+  const std::size_t equals = text.rfind('=');
+  std::vector<double> values;
+  for (const char* at = equals == std::string::npos ? nullptr : text.c_str() + equals; at && *at != '\0';) {
+    char* end;
+    values.push_back(std::strtod(at + 1, &end));
+    at = end != at + 1 && (*end == ',' || *end == '\0') && std::isfinite(values.back()) ? end : nullptr;
+    if (!at) values.clear();
+  }
+  if (values.size() < 2 || values.size() > 3)
+    throw Error("--link " + text + ": expected NAME=r,R or NAME=r,R,OVER_COVER with lengths in metres");
+  const std::string name = text.substr(0, equals);
+  options.links[name] = {values[0], values[1]};
+  if (values.size() == 3) options.budgets[name] = values[2];
+}
+
 // A bar for each of the stages; its steps are only known when it begins.
 class Stages {
  public:
@@ -118,6 +147,7 @@ class Stages {
 
 int run(Arguments& a) {
   checkOutput(a);
+  for (const std::string& link : a.links) readLink(link, a.request.geometry);
   if (a.noCache) a.request.geometry.cacheFolder.clear();
   Stages stages(!a.quiet);
   a.request.geometry.progress = a.request.search.progress = std::ref(stages);

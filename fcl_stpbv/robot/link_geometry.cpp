@@ -11,6 +11,7 @@
 
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/robot/mesh_file.h"
+#include "fcl_stpbv/volume/reduce.h"
 #include "fcl_stpbv/volume/text_scanner.h"
 
 namespace fcl_stpbv {
@@ -114,32 +115,42 @@ class Loader {
     const auto budgetOf = options_.budgets.find(link);
     const double budget = budgetOf == options_.budgets.end() ? options_.overCoverBudget : budgetOf->second;
     const std::string content = contentOf(body.file, shape.scale);
-    build(body, content, shape.scale, radii);
-    // The over-cover falls towards r as R grows.
-    constexpr double kLargest = 1e5;  // beyond it a big sphere is flat to rounding
-    while (budget > 0 && body.cover.max > budget && radii.R < kLargest) {
-      radii.R *= 2;
-      build(body, content, shape.scale, radii);
-    }
-    if (budget > 0 && body.cover.max > budget)
-      throw Error("no R keeps its over-cover within " + toDecimal(budget) +
-                  " m with r = " + toDecimal(radii.r) + " m; give a larger budget or a smaller r");
-    body.geometry = std::make_shared<StpBvGeometry>(body.volume);
-    body.centre = body.volume->centre();
-    body.radius = body.volume->enclosingRadius();
-  }
-
-  void build(Body& body, const std::string& content, const Eigen::Vector3d& scale,
-             const StpBvOptions& radii) {
+    const auto build = [&] {
+      body.volume = cache_.volume(content, radii,
+                                  [&] { return StpBv::build(loadPoints(body.file, shape.scale), radii); });
+    };
     try {
-      body.volume =
-          cache_.volume(content, radii, [&] { return StpBv::build(loadPoints(body.file, scale), radii); });
+      build();
+      body.cover = overCover(*body.volume);
+      if (budget > 0) reduceTo(budget, loadPoints(body.file, shape.scale), content, radii, build, body);
     } catch (const Error& error) {
       const std::string message = error.what();
       const bool named = message.find(body.file) != std::string::npos;
       throw Error(named ? message : body.file + ": " + message);
     }
-    body.cover = overCover(*body.volume);
+    body.geometry = std::make_shared<StpBvGeometry>(body.volume);
+    body.centre = body.volume->centre();
+    body.radius = body.volume->enclosingRadius();
+  }
+
+  template <class Build>
+  void reduceTo(double budget, const Points& points, const std::string& content, StpBvOptions& radii,
+                const Build& build, Body& body) {
+    constexpr double kLargest = 1e5;  // beyond it a big sphere is flat to rounding
+    body.cover = overCover(*body.volume, points);
+    for (; body.cover.max > budget && radii.R < kLargest; body.cover = overCover(*body.volume, points)) {
+      radii.R *= 2;  // the over-cover falls towards r
+      build();
+    }
+    if (body.cover.max > budget)
+      throw Error("no R keeps its over-cover within " + toDecimal(budget) +
+                  " m with r = " + toDecimal(radii.r) + " m; give a larger budget or a smaller r");
+    const StpBv::Ptr few = cache_.volume(content + "\nreduced to " + toDecimal(budget), radii,
+                                         [&] { return reduce(points, radii, budget); });
+    if (few->vertexCount() >= body.volume->vertexCount()) return;
+    body.full = body.volume;
+    body.volume = few;
+    body.cover = overCover(*few, points);
   }
 
   static void addPrimitive(const ShapeModel& shape, Body& body) {

@@ -21,8 +21,9 @@ namespace fcl_stpbv {
 struct GeometryOptions {
   StpBvOptions radii;                         ///< of every link's volumes
   std::map<std::string, StpBvOptions> links;  ///< of single links, by name
-  /// Most that a volume may exceed the hull of its mesh by (m), 0 for any. R grows until it does; r must be
-  /// smaller.
+  /// Most that a volume may exceed the hull of its mesh by (m), 0 for any. With one a volume gets few
+  /// vertices (reduce()) and a larger r to cover the others; R is doubled first until all vertices keep to
+  /// the budget. The budget must be above r.
   double overCoverBudget = 0;
   std::map<std::string, double> budgets;  ///< of single links, by name
   bool visual = false;                    ///< the visual shapes instead of the collision shapes
@@ -39,6 +40,7 @@ struct Body {
   Eigen::Isometry3d pose;  ///< in the link's frame
   std::shared_ptr<fcl::CollisionGeometryd> geometry;
   StpBv::Ptr volume;       ///< null for a primitive
+  StpBv::Ptr full;         ///< the volume of all the mesh's points where `volume` is a reduced one, else null
   std::string file;        ///< "" for a primitive
   Eigen::Vector3d centre;  ///< of a sphere that holds the body, in the link's frame
   double radius = 0;       ///< of that sphere (m)

@@ -54,7 +54,7 @@ StpBv::Ptr VolumeCache::volume(std::string_view content, const StpBvOptions& opt
   key += '\n';
   key += content;
   const std::string path = (fs::path(folder_) / (digest(key) + ".stpbv")).string();
-  StpBv::Ptr volume = load(path, options);
+  StpBv::Ptr volume = load(path);
   if (volume) {
     ++hits_;
     return volume;
@@ -65,7 +65,7 @@ StpBv::Ptr VolumeCache::volume(std::string_view content, const StpBvOptions& opt
 }
 
 // An entry is a line with the digest of the rest, then the volume's own format.
-StpBv::Ptr VolumeCache::load(const std::string& path, const StpBvOptions& options) const {
+StpBv::Ptr VolumeCache::load(const std::string& path) const {
   try {
     std::error_code ignored;
     if (!fs::is_regular_file(path, ignored)) return nullptr;
@@ -74,9 +74,7 @@ StpBv::Ptr VolumeCache::load(const std::string& path, const StpBvOptions& option
     if (line == std::string::npos || digest(std::string_view(text).substr(line + 1)) != text.substr(0, line))
       return nullptr;
     std::istringstream in(text.substr(line + 1));
-    StpBv::Ptr volume = loadStpBv(in, path);
-    const bool same = volume->radii().r == options.r && volume->radii().R == options.R;
-    return same ? volume : nullptr;
+    return loadStpBv(in, path);
   } catch (const std::exception&) {
     return nullptr;
   }

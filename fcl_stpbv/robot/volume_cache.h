@@ -26,7 +26,7 @@ class VolumeCache {
   int hits() const { return hits_; }
 
  private:
-  StpBv::Ptr load(const std::string& path, const StpBvOptions& options) const;
+  StpBv::Ptr load(const std::string& path) const;
   void keep(const std::string& path, const StpBv& volume) const;
 
   std::string folder_;

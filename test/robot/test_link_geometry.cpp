@@ -5,6 +5,7 @@
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/robot/mesh_file.h"
 #include "fcl_stpbv/volume/stpbv_file.h"
+#include "fcl_stpbv/volume/verify.h"
 #include "test/robot/robots.h"
 #include "test/robot/urdf_texts.h"
 #include "test/volume/volume_files.h"
@@ -99,12 +100,43 @@ TEST_CASE("single links have their own radii, and an over-cover budget raises R"
   options.overCoverBudget = 0.006;
   const Body body = loadGeometry(model, options).bodies[0];
   CHECK(body.cover.max <= 0.006);
-  CHECK(body.volume->radii().r == 0.005);
+  CHECK(body.volume->radii().R > 2);
   options.overCoverBudget = 0.004;
   CHECK_THAT(refusal([&](const std::string&) { loadGeometry(model, options); }, ""), Contains("budget"));
   options = cachedIn("");
   options.links["nobody"] = {};
   CHECK_THAT(refusal([&](const std::string&) { loadGeometry(model, options); }, ""), Contains("nobody"));
+}
+
+TEST_CASE("an over-cover budget is spent on fewer vertices that still cover every point of the mesh") {
+  const TemporaryFolder folder;
+  const TestRobot robot = robots()[0];
+  const auto model = std::make_shared<const RobotModel>(loadUrdf(robot.urdf));
+  GeometryOptions options = cachedIn(folder / "cache");
+  const RobotGeometry all = loadGeometry(*model, options);
+  options.overCoverBudget = 0.02;
+  options.budgets["BODY"] = 0.2;
+  const RobotGeometry few = loadGeometry(*model, options);
+  int before = 0, after = 0;
+  for (std::size_t i = 0; i < few.bodies.size(); ++i) {
+    const Body& body = few.bodies[i];
+    INFO(body.name);
+    before += all.bodies[i].volume->vertexCount();
+    after += body.volume->vertexCount();
+    const std::vector<Eigen::Vector3d> points =
+        loadPoints(body.file, model->links[static_cast<std::size_t>(body.link)].collision[0].scale);
+    CHECK(verify(*body.volume, points, options.radii.r).ok);
+    const double budget = body.name == "BODY" ? 0.2 : 0.02;
+    CHECK(overCover(*body.volume, points).max <= budget);
+    CHECK(body.cover.max == overCover(*body.volume, points).max);
+    if (body.name == "BODY") CHECK(body.volume->vertexCount() <= 2);
+    if (body.full) CHECK(body.full->vertexCount() > body.volume->vertexCount());
+  }
+  CHECK(after < before / 2);
+  const RobotGeometry again = loadGeometry(*model, options);
+  CHECK(again.fromCache >= static_cast<int>(2 * again.bodies.size()));  // full and reduced
+  for (std::size_t i = 0; i < few.bodies.size(); ++i)
+    CHECK(sameVolume(*few.bodies[i].volume, *again.bodies[i].volume));
 }
 
 TEST_CASE("a mesh that is missing or broken names robot, link and file") {

@@ -110,6 +110,45 @@ class Report(unittest.TestCase):
         done = self.humanoid("--pose", "zero", "--obstacles", scene, "--format", "json")
         pairs = [p for p in json.loads(done.stdout)["pairs"] if p["obstacle"]]
         self.assertEqual(len(pairs), 30)
+        self.assertTrue(all(p["checked"] and p["closest"] for p in pairs))
+        # Without a posture the search looks for the closest configuration of each.
+        searched = json.loads(self.humanoid("--obstacles", scene, "--format", "json").stdout)
+        hand = {p["link1"]: p for p in searched["pairs"] if p["obstacle"]}["LARM_LINK6"]
+        self.assertEqual(hand["reason"], "sometimes")
+        self.assertLessEqual(hand["distance"], 0)
+
+    def test_json_has_the_keys_that_the_page_on_robots_lists(self):
+        report = json.loads(self.humanoid("--pose", "zero", "--format", "json").stdout)
+        self.assertLessEqual({"robot", "links", "pairs", "summary"}, set(report))
+        self.assertLessEqual({"link1", "link2", "reason", "distance", "point1", "point2", "normal", "gradient", "over_cover1",
+                              "over_cover2"}, set(report["pairs"][0]))
+        self.assertLessEqual({"pairs_total", "checked", "disabled", "min_distance", "colliding", "ns_per_pair"},
+                             set(report["summary"]))
+        self.assertGreater(report["summary"]["ns_per_pair"], 0)
+
+    def test_radii_and_budgets_of_all_links_and_of_one(self):
+        done = self.humanoid("--pose", "zero", "-r", "0.005", "-R", "20", "--over-cover", "0.02", "--link", "BODY=0.01,5,0.2",
+                             "--link", "CHEST_LINK0=0.008,4", "--format", "json")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        links = {link["name"]: link for link in json.loads(done.stdout)["links"]}
+        self.assertLessEqual(links["BODY"]["vertices"], 2)
+        self.assertLessEqual(links["CHEST_LINK0"]["over_cover_max"], 0.02)
+        for name, link in links.items():
+            self.assertLessEqual(link["vertices"], link["vertices_unreduced"])
+            if name != "BODY":
+                self.assertLessEqual(link["over_cover_max"], 0.02)
+        for wrong, words in (("BODY=0.01", "expected NAME=r,R"), ("BODY", "expected NAME=r,R"), ("BODY=0.01,5,x", "expected NAME=r,R"),
+                             ("NOBODY=0.01,5", "NOBODY"), ("BODY=0.01,5,0.001", "budget"), ("BODY=-1,5", "BODY")):
+            done = self.humanoid("--link", wrong)
+            self.assertEqual(done.returncode, 2, wrong)
+            self.assertIn(words, done.stderr)
+
+    def test_a_pair_that_the_srdf_wrongly_leaves_out_comes_with_the_configuration(self):
+        wrong = self.put("wrong.srdf", '<robot name="hrp2_style"><disable_collisions link1="CHEST_LINK1" link2="LARM_LINK5" '
+                         'reason="Never"/></robot>')
+        done = self.run_tool(ROBOT + ".urdf", "--srdf", wrong, "--samples", "200")
+        self.assertIn("The SRDF leaves out CHEST_LINK1 - LARM_LINK5 as Never; found: sometimes", done.stdout)
+        self.assertIn("LARM_JOINT3=", done.stdout)
 
     def test_overlapping_primitives_are_a_collision(self):
         box = '<box size="1 1 1"/>'
