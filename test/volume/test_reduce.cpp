@@ -1,5 +1,6 @@
 // Reduced volumes: conservative, within their budget, and of few vertices.
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <catch2/catch.hpp>
 
 #include "fcl_stpbv/volume/measure.h"
@@ -38,4 +39,52 @@ TEST_CASE("A point or a segment takes the place of a hull where it fits") {
 
 TEST_CASE("A budget that no volume of these radii can keep is refused with what they give") {
   CHECK_THROWS_WITH(reduce(box(0.2, 0.3, 0.4), {0.01, 10}, 0.0101), Catch::Contains("all points give 0.01"));
+}
+
+namespace {
+
+// Whether the volume on these vertices, r grown until it covers the cloud with the margin, keeps the budget.
+bool keeps(const Cloud& cloud, const Cloud& vertices, const StpBvOptions& options, double budget) {
+  StpBvOptions grown = options;
+  while (grown.r <= budget && grown.R > StpBv::smallestR(vertices, grown.r)) {
+    const StpBv::Ptr volume = StpBv::build(vertices, grown);
+    double height = -1;
+    for (const Vector3d& p : cloud) height = std::max(height, signedDistance(*volume, p) + options.r);
+    if (height <= 0) return overCover(*volume, cloud).max <= budget;
+    grown.r += height + 1e-15;
+  }
+  return false;
+}
+
+// The fewest of the cloud's own points that do, by trying all subsets.
+int fewest(const Cloud& cloud, const StpBvOptions& options, double budget) {
+  int best = static_cast<int>(cloud.size());
+  for (unsigned subset = 1; subset < 1u << cloud.size(); ++subset) {
+    Cloud vertices;
+    for (std::size_t i = 0; i < cloud.size(); ++i)
+      if (subset >> i & 1) vertices.push_back(cloud[i]);
+    const int count = static_cast<int>(vertices.size());
+    if (count < best && keeps(cloud, vertices, options, budget)) best = count;
+  }
+  return best;
+}
+
+}  // namespace
+
+TEST_CASE("On small hulls a reduced volume has the fewest vertices in most cases and never two too many") {
+  const StpBvOptions options{0.01, 10};
+  int cases = 0, exact = 0;
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    const Cloud cloud = randomHull(8, {0.3, 0.2, 0.1}, seed);
+    const double own = overCover(*StpBv::build(cloud, options), cloud).max;
+    for (const double extra : {0.005, 0.02, 0.05, 0.1}) {
+      const int found = reduce(cloud, options, own + extra)->vertexCount();
+      const int best = fewest(cloud, options, own + extra);
+      INFO("seed " << seed << ", budget " << own + extra);
+      CHECK(found <= best + 1);
+      exact += found <= best;  // a point or a segment that is none of the cloud's may be fewer
+      ++cases;
+    }
+  }
+  CHECK(exact >= cases - 2);
 }
