@@ -71,9 +71,10 @@ PostureSetup setUpFor(const Method& method, const PostureTask& task, const Postu
 
 class Study {
  public:
-  Study(int starts, int searchStarts)
+  Study(int starts, int searchStarts, double tolerance)
       : scene_(loadRobot()), check_(scene_.robot, nullptr, {}), searchStarts_(searchStarts) {
     options_.starts = starts;
+    options_.solver.costTolerance = tolerance;
   }
 
   Row run(std::uint64_t seed) {
@@ -221,16 +222,18 @@ benchmark::Chart chartOf(const std::vector<Row>& rows, int starts) {
 int main(int argc, char** argv) {
   CLI::App app("Postures for random tasks, with and without continuous gradients", "posture_study");
   int tasks = 240, starts = 5, searchStarts = 100;
+  double tolerance = SolverOptions().costTolerance;
   std::string folder;
   app.add_option("--tasks", tasks, "Random tasks")->capture_default_str()->check(CLI::Range(1, 100000));
   app.add_option("--starts", starts, "Starts of each")->capture_default_str()->check(CLI::Range(1, 1000));
   app.add_option("--search-starts", searchStarts, "Starts before a task counts as infeasible")
       ->capture_default_str();
+  app.add_option("--tolerance", tolerance, "Relative change of the cost to stop at")->capture_default_str();
   app.add_option("-o,--output", folder, "Folder for posture_profile.csv and .svg");
   CLI11_PARSE(app, argc, argv);
   try {
     if (!folder.empty()) benchmark::requireGnuplot();
-    Study study(starts, searchStarts);
+    Study study(starts, searchStarts, tolerance);
     std::vector<Row> rows;
     for (int seed = 0; seed < tasks; ++seed) rows.push_back(study.run(static_cast<std::uint64_t>(seed)));
     printTable(rows, starts);

@@ -11,7 +11,7 @@ struct SolverOptions {
   int maxIterations = 300;
   double maxSeconds = 10;
   double tolerance = 1e-6;      ///< a constraint holds within this (m, rad)
-  double costTolerance = 1e-6;  ///< relative change of the cost at which a posture that holds is good enough
+  double costTolerance = 1e-8;  ///< relative change of the cost in one iteration at which it ends
   /// Inequalities with more slack than this are left out of an iteration's model until they have less.
   double activation = 0.1;
 };

@@ -136,8 +136,6 @@ PostureSetup setUpWithoutCollisions(const PostureTask& task, const PostureScene&
 }
 
 PostureSetup setUp(const PostureTask& task, const PostureScene& scene, double influence) {
-  // More than a solver's tolerance: what it calls feasible keeps the margin itself.
-  constexpr double kBeyond = 2e-6;
   PostureSetup setup = setUpWithoutCollisions(task, scene);
   setup.pairs = pairsOf(task, scene);
   if (setup.pairs.empty()) return setup;
@@ -147,7 +145,7 @@ PostureSetup setUp(const PostureTask& task, const PostureScene& scene, double in
   const auto kinematics = std::make_shared<const Kinematics>(scene.robot, task.base);
   setup.problem->add(std::make_shared<CollisionRows>(
       CollisionConstraints(kinematics, scene.geometry, setup.pairs, std::move(options)),
-      task.collisionMargin + kBeyond));
+      task.collisionMargin + kBeyondMargin));
   return setup;
 }
 

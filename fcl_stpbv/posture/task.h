@@ -70,6 +70,9 @@ Eigen::VectorXd startOf(const PostureTask& task, const PostureScene& scene, cons
 std::vector<CheckedPair> pairsOf(const PostureTask& task, const PostureScene& scene);
 /// All but the collisions. @throws Error naming the task's key.
 PostureSetup setUpWithoutCollisions(const PostureTask& task, const PostureScene& scene);
+/// Asked for beyond a collision margin (m): more than a solver's tolerance, so that what it calls feasible
+/// keeps the margin itself.
+constexpr double kBeyondMargin = 2e-6;
 /// Pairs farther apart than `influence` (m) cost one test of their bounding spheres.
 PostureSetup setUp(const PostureTask& task, const PostureScene& scene, double influence = 0.2);
 

@@ -5,6 +5,7 @@
 #include <fcl/narrowphase/distance.h>
 
 #include "fcl_stpbv/adapter/fcl_distance.h"
+#include "fcl_stpbv/posture/task.h"
 
 namespace fcl_stpbv::tools {
 namespace {
@@ -88,7 +89,7 @@ void HullRows::evaluate(const Point& point, Eigen::Ref<Eigen::VectorXd> values,
     const Eigen::Isometry3d& link = point.state.link[at(first.link)];
     const Obstacle* obstacle = pair.obstacle ? &obstacles_[at(pair.other)] : nullptr;
     const Body* second = obstacle ? nullptr : &geometry_->bodies[at(pair.other)];
-    const double rounding = (obstacle ? 1 : 2) * rounding_;
+    const double rounding = (obstacle ? 1 : 2) * rounding_ + kBeyondMargin;
     const Eigen::Vector3d centre =
         obstacle ? obstacle->centre : Eigen::Vector3d(point.state.link[at(second->link)] * second->centre);
     const double reach = first.radius + (obstacle ? obstacle->radius : second->radius);
