@@ -95,6 +95,16 @@ std::vector<Ring> joinFaces(const std::vector<Vector3d>& points, std::vector<Rin
   }
   const std::vector<HalfEdge> halfEdges = pairHalfEdges(points, faces, normals, radius);
 
+  // One face in place of two must not tilt either: a height at the level of rounding is a tilt where the face
+  // is narrow, as between near-duplicates, and near the smallest radius the balls of opposite faces nearly
+  // coincide.
+  constexpr double kTilt = 1e-10;
+  const auto onOneBall = [&](std::size_t seed, std::size_t f) {
+    const Vector3d tilt = balls[seed].normalAt(at(faces[f][0])) - normals[f];
+    return tilt.norm() <= kTilt && std::all_of(faces[f].begin(), faces[f].end(), [&](int i) {
+             return std::abs(balls[seed].height(at(i))) <= tolerance;
+           });
+  };
   std::vector<std::size_t> order(count);
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(),
@@ -111,12 +121,7 @@ std::vector<Ring> joinFaces(const std::vector<Vector3d>& points, std::vector<Rin
         const int twin = halfEdges[static_cast<std::size_t>(first[f]) + k].twin;
         const std::size_t g = static_cast<std::size_t>(halfEdges[static_cast<std::size_t>(twin)].face);
         if (group[g] >= 0) continue;
-        // Back to back faces of a flat cloud have all vertices in common but face opposite ways.
-        const bool touches =
-            std::all_of(faces[g].begin(), faces[g].end(),
-                        [&](int i) { return std::abs(balls[seed].height(at(i))) <= tolerance; }) &&
-            halfEdges[static_cast<std::size_t>(first[f]) + k].turn < 1.5;
-        if (touches) group[g] = static_cast<int>(seed), members.push_back(g);
+        if (onOneBall(seed, g)) group[g] = static_cast<int>(seed), members.push_back(g);
       }
     }
     groups.push_back(std::move(members));

@@ -189,6 +189,7 @@ int Roller::leftOnTheWay(int a, int b, const Vector3d& across, double rest) {
 // rest on.
 Ring Roller::pivot(int a, int b, const Vector3d& across, int candidate) {
   const bool lone = isLone(a, b);
+  std::vector<int> sent;
   for (int round = 0; round < 10000; ++round) {
     const TouchingBall ball(at(b), at(a), at(candidate), radius_);
     if (!ball.valid()) break;
@@ -210,7 +211,13 @@ Ring Roller::pivot(int a, int b, const Vector3d& across, int candidate) {
       if (side == 0) touched.push_back(i);
       if (side > 0 && (outside < 0 || ball.height(at(i)) > height)) outside = i, height = ball.height(at(i));
     }
-    if (outside < 0 && !lone) outside = leftOnTheWay(a, b, across, leavingAngle(a, b, across, candidate));
+    if (outside < 0 && !lone) {
+      outside = leftOnTheWay(a, b, across, leavingAngle(a, b, across, candidate));
+      // The side of a ball is decided exactly, an angle is not: among near-duplicates it may send the ball
+      // back and forth. Where it has been sent once and has not stayed there is no rest.
+      if (std::find(sent.begin(), sent.end(), outside) != sent.end()) outside = -1;
+      sent.push_back(outside);
+    }
     if (outside >= 0) {
       candidate = outside;
       continue;

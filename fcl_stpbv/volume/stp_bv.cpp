@@ -8,6 +8,7 @@
 
 #include "fcl_stpbv/volume/minimum_ball.h"
 #include "fcl_stpbv/volume/point_tree.h"
+#include "fcl_stpbv/volume/regions.h"
 #include "fcl_stpbv/volume/rolling_ball.h"
 #include "fcl_stpbv/volume/verify.h"
 
@@ -51,13 +52,42 @@ Ball checkRadius(const std::vector<Vector3d>& points, const StpBvOptions& option
   return ball;
 }
 
-// Clusters of points that differ by a few roundings can defeat the builder's joining of faces. The result is
-// then wrong by far more than rounding, so wide bounds tell it; a wrong volume must not leave the builder.
-void refuseBroken(const StpBv& volume) {
+// How far a point of the cloud is outside of a ball that touches one of the volume's faces or rolls over one
+// of its wider edges (m).
+double farthestOut(const StpBv& volume, const std::vector<Vector3d>& points) {
+  const PointTree tree(points);
+  const double curvature = 1 / volume.radii().rho;
+  std::vector<int> near;
+  double out = -std::numeric_limits<double>::infinity();
+  const auto consider = [&](const Vector3d& touched, const Vector3d& normal) {
+    out = std::max(out, tree.highest(touched, normal, curvature, 0, &near).height);
+  };
+  for (int f = 0; f < volume.faceCount(); ++f) {
+    const Patch& face = volume.patch(volume.facePatch(f));
+    consider(face.anchor, face.axis);
+  }
+  constexpr double kWide = 0.3;  // rad between two normals that are tried
+  for (int e = 0; e < volume.edgeCount(); ++e) {
+    const StpBv::Edge& edge = volume.edges()[static_cast<std::size_t>(e)];
+    if (edge.turn < kWide) continue;
+    const Vector3d &from = volume.vertices()[static_cast<std::size_t>(edge.vertex[0])],
+                   &to = volume.vertices()[static_cast<std::size_t>(edge.vertex[1])];
+    const double sine = 0.5 * curvature * (to - from).norm();
+    const double cosine = curvature * volume.patch(volume.edgePatch(e)).kappa;
+    const Arc arc = edgeArc(volume, e);
+    const int count = static_cast<int>(edge.turn / kWide) + 1;
+    for (int k = 0; k < count; ++k) consider(from, cosine * arc.at((k + 0.5) / count) - sine * arc.axis);
+  }
+  return out;
+}
+
+// Clusters of points that differ by a few roundings can defeat the builder. The result is then wrong by far
+// more than rounding, so wide bounds tell it; a wrong volume must not leave the builder.
+void refuseBroken(const StpBv& volume, const std::vector<Vector3d>& points) {
   const Verification check = verify(volume);
   const double size = volume.enclosingRadius();
-  if (check.containment <= 1e-9 * size && std::abs(check.solidAngleError) <= 1e-6 &&
-      check.seamGap <= 1e-3 * size)
+  if (check.containment <= 1e-9 * size && farthestOut(volume, points) <= 1e-9 * size &&
+      std::abs(check.solidAngleError) <= 1e-6 && check.seamGap <= 1e-3 * size)
     return;
   throw Error(
       "the points are too close to each other to be told apart: merge those closer together than about " +
@@ -84,7 +114,7 @@ StpBv::Ptr StpBv::build(const std::vector<Vector3d>& points, const StpBvOptions&
   for (Ring& ring : hull.faces)
     for (int& i : ring) i = newIndex[static_cast<std::size_t>(i)];
   const Ptr volume = make(std::move(vertices), std::move(hull.faces), options);
-  refuseBroken(*volume);
+  refuseBroken(*volume, points);
   return volume;
 }
 

@@ -97,7 +97,7 @@ void addScales(Maker& m, std::uint64_t seed) {
 
 void addNearDegenerate(Maker& m) {
   const StpBvOptions usual{0.01, 10.0};
-  for (int exponent = -16; exponent <= -6; exponent += 5) {
+  for (int exponent = -16; exponent <= -6; exponent += 2) {
     const double noise = std::pow(10.0, exponent);
     Cloud doubled = test::box(0.3, 0.2, 0.25), sliver, subdivided;
     for (const Vector3d& p : test::box(0.3, 0.2, 0.25)) doubled.push_back(p + noise * m.random.direction());

@@ -241,3 +241,30 @@ TEST_CASE("A volume assembled from its own parts is the same and damaged parts a
   CHECK_THROWS_WITH(StpBv::assemble(moved, volume->faces(), {0.01, 10}),
                     Catch::Contains("outside the ball of face"));
 }
+
+TEST_CASE("Near-duplicates however close build a volume that verifies") {
+  Random random(11);
+  for (int exponent = -17; exponent <= -9; ++exponent)
+    for (const double R : {0.4, 10.0, 1e4}) {
+      Cloud cloud = box(0.3, 0.2, 0.25);
+      for (int i = 0; i < 24; ++i)
+        cloud.push_back(cloud[static_cast<std::size_t>(i % 8)] +
+                        std::pow(10.0, exponent) * random.direction());
+      CAPTURE(exponent, R);
+      const StpBv::Ptr volume = StpBv::build(cloud, {0.01, R});
+      const Verification check = verify(*volume, cloud);
+      CHECK(check.message == "ok");
+    }
+}
+
+TEST_CASE("A near-duplicate on the ball that the smallest R leaves does not join opposite faces") {
+  for (const double apart : {1e-14, 1e-12, 1e-10}) {
+    const Cloud cloud{
+        {-0.27, -0.17, 0.78}, {-0.52, 0.12, -1.07}, {0.89, 0.11, 0.03}, {-0.27 + apart, -0.17, 0.78}};
+    for (const double beyond : {1e-9, 1e-7, 1e-4}) {
+      CAPTURE(apart, beyond);
+      const StpBv::Ptr volume = StpBv::build(cloud, {0.0, StpBv::smallestR(cloud, 0.0) * (1 + beyond)});
+      CHECK(verify(*volume, cloud).message == "ok");
+    }
+  }
+}
