@@ -276,6 +276,19 @@ std::vector<PairEntry> pairList(std::shared_ptr<const Kinematics> kinematics,
                                 std::shared_ptr<const RobotGeometry> geometry, const Srdf* srdf,
                                 const PairListOptions& options) {
   if (options.samples < 1) throw Error("pairList: samples must be 1 or more");
+  // A pair keeps a configuration and a row of the Jacobian with its structure.
+  constexpr double kMostBytes = 4e9;
+  double links = 0;
+  for (std::size_t l = 0; l < kinematics->robot().links.size(); ++l) {
+    const auto [first, last] = geometry->of(static_cast<int>(l));
+    links += first != last;
+  }
+  const double pairs = links * (links - 1) / 2 + links * static_cast<double>(options.obstacles.size());
+  if (pairs * (1000.0 + 40.0 * kinematics->size()) > kMostBytes)
+    throw Error("pairList: the " + std::to_string(static_cast<long>(pairs)) + " pairs of " +
+                std::to_string(static_cast<long>(links)) + " links and " +
+                std::to_string(options.obstacles.size()) +
+                " obstacles do not fit into memory; give collision shapes to fewer links");
   return Search(std::move(kinematics), std::move(geometry), options).run(srdf);
 }
 

@@ -62,7 +62,7 @@ struct PairEntry {
 /// that their time cuts short.
 ///
 /// `srdf` (or null) gives the user's own entries, of the reason "User" and of enable_collisions; its other
-/// entries are found anew.
+/// entries are found anew. @throws Error for a robot with more pairs than memory (4 GB) holds.
 std::vector<PairEntry> pairList(std::shared_ptr<const Kinematics> kinematics,
                                 std::shared_ptr<const RobotGeometry> geometry, const Srdf* srdf,
                                 const PairListOptions& options = {});

@@ -188,6 +188,13 @@ class Report(unittest.TestCase):
         done = self.run_tool(self.robot(chain), "--samples", "5")
         self.assertEqual(done.returncode, 0, done.stderr)
 
+    def test_ten_thousand_bodies_have_too_many_pairs(self):
+        ball = '<sphere radius="0.1"/>'
+        chain = link("l0", ball) + "".join(link(f"l{i}", ball) + joint(f"j{i}", f"l{i - 1}", f"l{i}") for i in range(1, 10000))
+        done = self.run_tool(self.robot(chain), "--samples", "5")
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertIn("49995000 pairs of 10000 links", done.stderr)
+
     @unittest.skipUnless(os.path.isdir(SHARED), "skipped: no ../shared/robots")
     def test_pairs_that_pandas_srdf_leaves_out_are_ours_too_or_come_with_a_collision(self):
         panda = os.path.join(SHARED, "panda_description")
