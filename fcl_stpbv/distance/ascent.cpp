@@ -1,4 +1,5 @@
 #include "fcl_stpbv/distance/ascent.h"
+#include "fcl_stpbv/vectorized.h"
 
 #include <cmath>
 
@@ -65,12 +66,14 @@ Sample climbArc(const BodyPair& pair, const Sample& x, const Vector3d& to, const
 
 }  // namespace
 
+FCL_STPBV_VECTORIZED
 bool nearRegion(const StpBv& body, int patch, const Vector3d& n, double slack) {
   for (const StpBv::Seam* seam = body.seamsBegin(patch); seam != body.seamsEnd(patch); ++seam)
     if (n.dot(seam->normal) - seam->limit > slack) return false;
   return true;
 }
 
+FCL_STPBV_VECTORIZED
 bool settle(const BodyPair& pair, Sample& x, Vector3d& next, Work& work) {
   const PosedPatch a = pair.patchA(x.patch[0]), b = pair.patchB(x.patch[1]);
   const double flat2 = pair.acrossRounding() * pair.acrossRounding();
@@ -93,6 +96,7 @@ bool settle(const BodyPair& pair, Sample& x, Vector3d& next, Work& work) {
   return false;
 }
 
+FCL_STPBV_VECTORIZED
 bool ascend(const BodyPair& pair, Sample& x, Work& work) {
   const double flat2 = pair.acrossRounding() * pair.acrossRounding();
   for (int i = 0; i < kMaxPairs; ++i) {

@@ -1,4 +1,5 @@
 #include "fcl_stpbv/distance/body_pair.h"
+#include "fcl_stpbv/vectorized.h"
 
 #include <limits>
 
@@ -20,6 +21,7 @@ BodyPair::BodyPair(const StpBv& a, const StpBv& b, const Matrix3d& rotation, con
   acrossRounding_ = gapRounding_ + 8.0 * kEpsilon * (a.radii().rho + b.radii().rho);
 }
 
+FCL_STPBV_VECTORIZED
 Sample BodyPair::sampleFrom(const Vector3d& n, const std::array<int, 2>& hint, int& steps) const {
   const std::array<int, 2> patch{a_.owner(n, hint[0]), b_.owner(opposite(n), hint[1])};
   steps += (hint[0] >= 0 && patch[0] != hint[0]) + (hint[1] >= 0 && patch[1] != hint[1]);

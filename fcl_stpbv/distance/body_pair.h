@@ -17,6 +17,7 @@ struct Sample {
   std::array<int, 2> patch;  ///< patches owning `n` and `-n`
   double core;               ///< gap between the cores' supporting planes, s(n) + r_A + r_B (m)
   Eigen::Vector3d across;    ///< gradient of the gap on the sphere: core points' difference across `n` (m)
+  Eigen::Vector3d point;     ///< the first core's point (m)
 };
 
 /// Both bodies in the first one's frame: however far the pair is from the world's origin, only the bodies'
@@ -50,7 +51,7 @@ class BodyPair {
   static Sample sample(const Eigen::Vector3d& n, const std::array<int, 2>& patch, const PosedPatch& a,
                        const PosedPatch& b) {
     const CoreGap gap = coreGap(a, b, n);
-    return {n, patch, gap.value, gap.across(n)};
+    return {n, patch, gap.value, gap.across(n), gap.point};
   }
 
   /// The gap along `n`; the owners are looked for from `hint`. Adds the patches that changed to `steps`.

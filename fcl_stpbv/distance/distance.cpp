@@ -9,6 +9,7 @@
 #include "fcl_stpbv/distance/penetration.h"
 #include "fcl_stpbv/distance/polytope_search.h"
 #include "fcl_stpbv/distance/separation.h"
+#include "fcl_stpbv/vectorized.h"
 
 namespace fcl_stpbv {
 
@@ -59,7 +60,7 @@ struct Found {
 
 /// A start for `settle` that any gap is better than.
 Sample unevaluated(const Vector3d& n, const std::array<int, 2>& patch) {
-  return {n, patch, -std::numeric_limits<double>::infinity(), Vector3d(0, 0, 0)};
+  return {n, patch, -std::numeric_limits<double>::infinity(), Vector3d(0, 0, 0), Vector3d(0, 0, 0)};
 }
 
 /// From any start along which the cores are apart: the widest gap.
@@ -155,11 +156,13 @@ bool solveWarm(const BodyPair& pair, const Vector3d& normal, const std::array<in
       if (expandPolytope(pair, found.at, found.bound, work)) return true;
     }
   }
-  return searchFrom(patch, small);
+  if (small) return searchFrom(patch, true);
+  return searchFrom({pair.a().patchNear(n), pair.b().patchNear(pair.opposite(n))}, false);
 }
 
 }  // namespace
 
+FCL_STPBV_VECTORIZED
 Distance distance(const StpBv& a, const Isometry3d& poseA, const StpBv& b, const Isometry3d& poseB,
                   PairCache* cache) {
   constexpr double kHuge = 1e300;  // squares must not overflow
@@ -186,11 +189,8 @@ Distance distance(const StpBv& a, const Isometry3d& poseA, const StpBv& b, const
   result.distance = result.lower;
   result.patch = x.patch;
   result.normal = renormalized(poseA.linear() * x.n);
-  const Vector3d nB = pair.opposite(x.n);
-  result.point[0] = poseA * Vector3d(corePoint(a.patch(x.patch[0]), a.kind(x.patch[0]), a.radii(), x.n) +
-                                     a.radii().r * x.n);
-  result.point[1] =
-      poseB * Vector3d(corePoint(b.patch(x.patch[1]), b.kind(x.patch[1]), b.radii(), nB) + b.radii().r * nB);
+  result.point[0] = poseA * Vector3d(x.point + a.radii().r * x.n);
+  result.point[1] = poseA * Vector3d(x.point + x.core * x.n + x.across - b.radii().r * x.n);
   result.patchPairs = work.pairs;
   result.patchSteps = work.steps;
   if (cache) {

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "fcl_stpbv/distance/polytope.h"
+#include "fcl_stpbv/vectorized.h"
 
 namespace fcl_stpbv {
 
@@ -27,20 +28,23 @@ std::array<Vector3d, 3> around(const Vector3d& n) {
   return {e, f - 0.5 * e, -f - 0.5 * e};
 }
 
-/// The points supporting normals a little off a maximum are what the polytope would find last; with them it
-/// is close to the surface there.
-void expandAround(const BodyPair& pair, const Sample& top, Polytope& polytope, Work& work) {
+bool isMaximum(const BodyPair& pair, const Sample& x) {
+  return x.across.squaredNorm() <= pair.acrossRounding() * pair.acrossRounding();
+}
+
+/// The points supporting normals a little off a maximum: what the polytope would find last, and with them it is
+/// close to the surface there.
+std::array<Vector3d, 3> pointsAround(const BodyPair& pair, const Sample& top, Work& work) {
   // A tilt that no radius of curvature turns into more than a part of that.
   const double tilt =
       std::sqrt(0.5 * kClose * std::abs(top.core) / (pair.a().radii().rho + pair.b().radii().rho));
-  for (const Vector3d& m : around(top.n))
-    if (polytope.sound())
-      polytope.expand(furthest(pair.sampleFrom((top.n + tilt * m).normalized(), top.patch, work.steps)));
+  std::array<Vector3d, 3> points = around(top.n);
+  for (Vector3d& m : points)
+    m = furthest(pair.sampleFrom((top.n + tilt * m).normalized(), top.patch, work.steps));
+  return points;
 }
 
 bool grow(const BodyPair& pair, Polytope& polytope, Sample& x, double& bound, Work& work) {
-  const double flat2 = pair.acrossRounding() * pair.acrossRounding();
-  if (x.across.squaredNorm() <= flat2) expandAround(pair, x, polytope, work);
   double least = std::numeric_limits<double>::infinity();  // distance of the faces done with
   bool solved = false;
   while (polytope.sound() && !solved) {
@@ -62,7 +66,9 @@ bool grow(const BodyPair& pair, Polytope& polytope, Sample& x, double& bound, Wo
       continue;
     }
     polytope.expand(point);
-    if (top) expandAround(pair, trial, polytope, work);
+    if (!top) continue;
+    for (const Vector3d& p : pointsAround(pair, trial, work))
+      if (polytope.sound()) polytope.expand(p);
   }
   return solved;
 }
@@ -75,7 +81,14 @@ bool expandPolytope(const BodyPair& pair, const std::array<Vector3d, 4>& corner,
   return grow(pair, polytope, x, bound, work);
 }
 
+FCL_STPBV_VECTORIZED
 bool expandPolytope(const BodyPair& pair, Sample& x, double& bound, Work& work) {
+  if (isMaximum(pair, x)) {
+    const std::array<Vector3d, 3> near = pointsAround(pair, x, work);
+    Polytope polytope({near[0], near[1], near[2], furthest(pair.sampleFrom(-x.n, {-1, -1}, work.steps))},
+                      Polytope::Origin::anywhere);
+    return grow(pair, polytope, x, bound, work);
+  }
   const std::array<Vector3d, 3> m = around(x.n);
   const auto from = [&](const Vector3d& n) { return furthest(pair.sampleFrom(n, {-1, -1}, work.steps)); };
   Polytope polytope({from(m[0]), from(m[1]), from(m[2]), from(-x.n)}, Polytope::Origin::anywhere);

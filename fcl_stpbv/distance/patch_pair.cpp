@@ -1,4 +1,5 @@
 #include "fcl_stpbv/distance/patch_pair.h"
+#include "fcl_stpbv/vectorized.h"
 
 #include <Eigen/Geometry>
 #include <cmath>
@@ -161,12 +162,15 @@ Vector3d circleCircle(const PosedPatch& a, const PosedPatch& b, Vector3d n) {
 
 }  // namespace
 
+FCL_STPBV_VECTORIZED
 CoreGap coreGap(const PosedPatch& a, const PosedPatch& b, const Vector3d& n) {
   const CoreView viewA = viewCore(a, n), viewB = viewCore(b, -n);
   const Vector3d anchors = b.patch.anchor - a.patch.anchor;
-  return {n.dot(anchors) - viewA.rise - viewB.rise, anchors + viewB.offset - viewA.offset};
+  return {n.dot(anchors) - viewA.rise - viewB.rise, a.patch.anchor + viewA.offset,
+          anchors + viewB.offset - viewA.offset};
 }
 
+FCL_STPBV_VECTORIZED
 Vector3d widestNormal(const PosedPatch& a, const PosedPatch& b, const Vector3d& n) {
   const bool circleA = a.kind == PatchKind::edge, circleB = b.kind == PatchKind::edge;
   if (circleA && circleB) return circleCircle(a, b, n);

@@ -17,7 +17,8 @@ struct PosedPatch {
 /// The gap between two patches along one normal, without their margins.
 struct CoreGap {
   double value;                ///< between the supporting planes, `s(n) + r_A + r_B` (m)
-  Eigen::Vector3d difference;  ///< between the points, second minus first (m)
+  Eigen::Vector3d point;       ///< the first patch's, in the patches' frame (m)
+  Eigen::Vector3d difference;  ///< from it to the second patch's (m)
 
   /// Gradient of the gap over the sphere of normals: what of the points' difference lies across `n` (m).
   Eigen::Vector3d across(const Eigen::Vector3d& n) const { return difference - difference.dot(n) * n; }

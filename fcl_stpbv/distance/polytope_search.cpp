@@ -1,4 +1,5 @@
 #include "fcl_stpbv/distance/polytope_search.h"
+#include "fcl_stpbv/vectorized.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -10,22 +11,17 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// Climbs the vertex graph to the vertex furthest along `direction`, along the steepest edge of each.
-int climb(const StpBv& body, const Vector3d& direction, int vertex) {
-  const int firstFace = body.facePatch(0), firstEdge = body.edgePatch(0);
-  for (int step = 0; step < body.vertexCount(); ++step) {
-    double steepest = 0.0;
-    int over = -1;
-    for (const StpBv::Seam* seam = body.seamsBegin(vertex); seam != body.seamsEnd(vertex); ++seam) {
-      const double rise = direction.dot(seam->normal);
-      over = rise > steepest ? seam->neighbour : over;  // as selections: the branch would be mispredicted
-      steepest = std::max(steepest, rise);
-    }
-    if (over < firstEdge || over >= firstFace) break;
-    const auto& ends = body.edges()[static_cast<std::size_t>(over - firstEdge)].vertex;
-    vertex = ends[0] == vertex ? ends[1] : ends[0];
+/// Climbs both vertex graphs to the vertices furthest along `d` and, in the second body's frame, `e`, side by
+/// side: neither waits for the other.
+void climb(const StpBv& a, const Vector3d& d, int& i, const StpBv& b, const Vector3d& e, int& j) {
+  const Eigen::Vector3f up = d.cast<float>(), down = e.cast<float>();
+  const float level = 1e-6f * up.lpNorm<1>();
+  for (int step = a.vertexCount() + b.vertexCount(); step > 0; --step) {
+    const int overA = a.uphill(i, up, level), overB = b.uphill(j, down, level);
+    if (overA == i && overB == j) break;
+    i = overA;
+    j = overB;
   }
-  return vertex;
 }
 
 /// Up to three vertices of a patch: its point, its edge's ends, or three of its face's.
@@ -161,6 +157,7 @@ class Simplex {
 
 }  // namespace
 
+FCL_STPBV_VECTORIZED
 void searchVertices(const BodyPair& pair, const Vector3d& n, const std::array<int, 2>& patch, bool repose,
                     VertexSearch& result) {
   constexpr int kIterations = 20;
@@ -182,15 +179,21 @@ void searchVertices(const BodyPair& pair, const Vector3d& n, const std::array<in
       simplex.add(difference(cornersA.vertex[static_cast<std::size_t>(k)], j));
     for (int k = 1; k < cornersB.count && simplex.count < 3; ++k)
       simplex.add(difference(i, cornersB.vertex[static_cast<std::size_t>(k)]));
-    simplex.nearest(v);
+  } else {
+    // The support vertices along `n`, and of either body the one beside it that is next.
+    const Vector3d m = pair.opposite(n);
+    climb(a, n, i, b, m, j);
+    simplex.add(difference(i, j));
+    simplex.add(difference(a.beside(i, n.cast<float>(), 1.0f), j));
+    simplex.add(difference(i, b.beside(j, m.cast<float>(), 1.0f)));
   }
+  simplex.nearest(v);
   for (int iteration = 0; iteration < kIterations; ++iteration) {
     const double v2 = v.squaredNorm();
     if (!(v2 > 1e-24)) return;
-    i = climb(a, v, i);
-    j = climb(b, pair.opposite(v), j);
+    climb(a, v, i, b, pair.opposite(v), j);
     const Vector3d w = difference(i, j);
-    if (simplex.count > 0 && (v2 - v.dot(w) <= kGap * v2 || simplex.holds(w))) break;
+    if (v2 - v.dot(w) <= kGap * v2 || simplex.holds(w)) break;
     simplex.add(w);
     if (!simplex.nearest(v)) {
       result.surrounded = true;

@@ -11,6 +11,7 @@
 #include "fcl_stpbv/volume/regions.h"
 #include "fcl_stpbv/volume/rolling_ball.h"
 #include "fcl_stpbv/volume/verify.h"
+#include "fcl_stpbv/vectorized.h"
 
 namespace fcl_stpbv {
 namespace {
@@ -168,17 +169,16 @@ double StpBv::outside(int patch, const Vector3d& n) const {
 }
 
 std::size_t StpBv::cell(const Vector3d& n) const {
-  int axis = 0;
-  const double largest = n.cwiseAbs().maxCoeff(&axis);
-  const auto slot = [&](double x) {
-    const int k = static_cast<int>((x / largest + 1) * 0.5 * cells_);
-    return static_cast<std::size_t>(std::clamp(k, 0, cells_ - 1));
-  };
-  const std::size_t side = static_cast<std::size_t>(2 * axis) + (n[axis] < 0 ? 1 : 0);
-  const std::size_t cells = static_cast<std::size_t>(cells_);
-  return (side * cells + slot(n[(axis + 1) % 3])) * cells + slot(n[(axis + 2) % 3]);
+  const double x = std::abs(n.x()), y = std::abs(n.y()), z = std::abs(n.z());
+  const int axis = x >= y ? (x >= z ? 0 : 2) : (y >= z ? 1 : 2);
+  const int second = axis == 2 ? 0 : axis + 1, third = axis == 0 ? 2 : axis - 1;
+  const double half = 0.5 * cells_, scale = half / std::abs(n[axis]);
+  const auto slot = [&](double along) { return std::clamp(static_cast<int>(along * scale + half), 0, cells_ - 1); };
+  const int side = 2 * axis + (n[axis] < 0);
+  return static_cast<std::size_t>((side * cells_ + slot(n[second])) * cells_ + slot(n[third]));
 }
 
+FCL_STPBV_VECTORIZED
 int StpBv::owner(const Vector3d& n, int hint) const {
   if (!(n.squaredNorm() > 0)) return 0;  // zero or NaN: no direction, any patch
   int current = hint >= 0 ? hint : table_[cell(n)];
@@ -189,9 +189,10 @@ int StpBv::owner(const Vector3d& n, int hint) const {
   for (int step = 0; step < 64 + patchCount(); ++step) {
     const Seam* over = nullptr;
     double worst = kSeamRounding;
-    for (const Seam* seam = seamsBegin(current); seam != seamsEnd(current); ++seam) {
+    for (const Seam *seam = seamsBegin(current), *end = seamsEnd(current); seam != end; ++seam) {
       const double past = n.dot(seam->normal) - seam->limit;
-      if (past > worst) worst = past, over = seam;
+      over = past > worst ? seam : over;  // as selections: the branch would be mispredicted
+      worst = std::max(worst, past);
     }
     if (over == nullptr) return current;
     if (worst < least) least = worst, best = current;
@@ -225,7 +226,7 @@ std::size_t StpBv::memory() const {
                       edges_.capacity() * sizeof(Edge) + faces_.capacity() * sizeof(Ring) +
                       faceNormals_.capacity() * sizeof(Vector3d) + patches_.capacity() * sizeof(Patch) +
                       seams_.capacity() * sizeof(Seam) + seamStart_.capacity() * sizeof(std::int32_t) +
-                      table_.capacity() * sizeof(std::int32_t);
+                      stars_.capacity() * sizeof(VertexStar) + table_.capacity() * sizeof(std::int32_t);
   for (const Ring& ring : faces_) bytes += ring.capacity() * sizeof(int);
   return bytes;
 }

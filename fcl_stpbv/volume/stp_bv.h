@@ -9,6 +9,7 @@
 
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/volume/patch.h"
+#include "fcl_stpbv/volume/vertex_star.h"
 
 namespace fcl_stpbv {
 
@@ -92,8 +93,32 @@ class StpBv {
     return seams_.data() + seamStart_[static_cast<std::size_t>(patch) + 1];
   }
 
+  /// The vertex itself, or its neighbour up the steepest edge along `d`. Edges that rise by less than `level` a
+  /// metre, for rounding the length of `d` times 1e-6, count as level.
+  int uphill(int vertex, const Eigen::Vector3f& d, float level) const {
+    const VertexStar* star = &stars_[static_cast<std::size_t>(vertex)];
+    std::int32_t best = star->steepest(d), enough;
+    std::memcpy(&enough, &level, sizeof level);
+    int over = star->neighbour[best & (VertexStar::kSize - 1)];
+    while (star->next >= 0) {
+      star = &stars_[static_cast<std::size_t>(star->next)];
+      const std::int32_t other = star->steepest(d);
+      if (other > best) best = other, over = star->neighbour[other & (VertexStar::kSize - 1)];
+    }
+    return best > enough ? over : vertex;
+  }
+
+  /// A neighbour of the vertex, itself highest along `d`, that is least below it. `length` is at least that of `d`.
+  int beside(int vertex, const Eigen::Vector3f& d, float length) const {
+    const VertexStar& star = stars_[static_cast<std::size_t>(vertex)];
+    return star.neighbour[star.steepest(d, 2.0f * length) & (VertexStar::kSize - 1)];
+  }
+
   /// How far `n` lies outside the patch's region: the largest `n.normal - limit`, <= 0 inside.
   double outside(int patch, const Eigen::Vector3d& n) const;
+
+  /// A patch whose region is near that of the unit normal `n`, from a direction table.
+  int patchNear(const Eigen::Vector3d& n) const { return table_[cell(n)]; }
 
   /// The patch whose region holds the unit normal `n`, found by walking over the seams from `hint` (any
   /// patch), or from a direction table when `hint` is negative.
@@ -123,6 +148,7 @@ class StpBv {
   void makeEdges();
   void makePatches();
   void makeSeams();
+  void makeStars();
   void makeTable();
   std::size_t cell(const Eigen::Vector3d& n) const;
 
@@ -134,6 +160,7 @@ class StpBv {
   std::vector<Patch> patches_;
   std::vector<Seam> seams_;
   std::vector<std::int32_t> seamStart_;
+  std::vector<VertexStar> stars_;  // one a vertex, then the further ones
   std::vector<std::int32_t> table_;  // patch owning the middle of each cell of a cube map of directions
   int cells_ = 1;                    // cells along a cube's side in table_
   Eigen::Vector3d centre_{0, 0, 0};

@@ -2,6 +2,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "fcl_stpbv/volume/ball_side.h"
@@ -41,6 +42,7 @@ StpBv::Ptr StpBv::make(std::vector<Vector3d> vertices, std::vector<Ring> faces, 
   volume->makeEdges();
   volume->makePatches();
   volume->makeSeams();
+  volume->makeStars();
   volume->makeTable();
   return volume;
 }
@@ -137,6 +139,30 @@ void StpBv::makeSeams() {
   std::vector<std::int32_t> next(seamStart_.begin(), seamStart_.end() - 1);
   for (const auto& [patch, seam] : all)
     seams_[static_cast<std::size_t>(next[static_cast<std::size_t>(patch)]++)] = seam;
+}
+
+void StpBv::makeStars() {
+  stars_.resize(vertices_.size());
+  std::vector<std::int32_t> last(vertices_.size());  // star with room
+  std::iota(last.begin(), last.end(), 0);
+  std::vector<std::size_t> filled(vertices_.size(), 0);
+  for (const Edge& edge : edges_)
+    for (const std::size_t side : {0u, 1u}) {
+      const std::size_t from = static_cast<std::size_t>(edge.vertex[side]);
+      const int to = edge.vertex[1 - side];
+      if (filled[from] == VertexStar::kSize) {
+        const auto further = static_cast<std::int32_t>(stars_.size());
+        stars_[static_cast<std::size_t>(last[from])].next = further;
+        last[from] = further;
+        stars_.emplace_back();
+        filled[from] = 0;
+      }
+      const Vector3d along = vertices_[static_cast<std::size_t>(to)] - vertices_[from];
+      VertexStar& star = stars_[static_cast<std::size_t>(last[from])];
+      for (std::size_t slot = filled[from]++; slot < VertexStar::kSize; ++slot)
+        star.set(slot, along.normalized().cast<float>(), to);
+    }
+  stars_.shrink_to_fit();
 }
 
 void StpBv::makeTable() {
