@@ -1,7 +1,9 @@
 // shape_soak POSES SEED [SHAPE]: random poses of an STP-BV against each simple shape, all against the
-// independent reference. Prints one line a shape and fails on any error above 1e-12 m (1e-9 for cone and
-// ellipsoid).
+// independent reference, in both orders, with the gradient against central differences and the turn of the
+// normal against its Lipschitz bound. Prints one line a shape and fails on any error above 1e-12 m (1e-9 for
+// cone and ellipsoid), any difference between the orders, and either bound exceeded.
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <string>
@@ -48,10 +50,74 @@ Isometry3d placed(Random& random, const TestShape& shape, const Body& body) {
   const Vector3d d = random.direction();
   Isometry3d at = pose(turn, d);
   // Along d the shape's near side comes to a chosen gap from the volume's far side.
+  if (shape.shape.unbounded()) return at;
   const double reach = d.dot(at.linear() * shape.shape.support(-(turn.transpose() * d))) - shape.shape.margin;
   const double gap = random.below(3) == 0 ? random.uniform(-2, 2) * body.r : random.uniform(0, 0.5);
   at.translation() = (body.volume->support(d) + gap - reach) * d + 0.05 * random.direction();
   return at;
+}
+
+/// The reference's answer; half spaces and planes have their normals given.
+ReferenceAnswer truthOf(const Body& body, const TestShape& shape, const Isometry3d& base,
+                        const Isometry3d& at) {
+  const ReferenceBody a = referenceBody(body.cloud, body.r, body.R, base);
+  if (!shape.shape.unbounded())
+    return referenceDistance(a, shape.posed(at),
+                             (at * shape.shape.centre - base.translation()).cast<long double>());
+  const Vector3L n = (at.linear() * shape.shape.normal).cast<long double>().normalized();
+  const long double height = n.dot(at.translation().cast<long double>()) + shape.shape.offset;
+  const long double above = -height - referenceSupport(a, -n), below = height - referenceSupport(a, n);
+  const bool down = shape.shape.kind == ShapeKind::halfspace || above >= below;
+  return {down ? above : below, down ? Vector3L(-n) : n, false};
+}
+
+/// How far the derivatives of an answer are from what other poses say, in parts of what theory allows.
+struct Derivatives {
+  double gradient = 0;  ///< central difference of the distance against the gradient
+  double turn = 0;      ///< turn of the normal under a translation (docs/theory.md, 6)
+};
+
+Derivatives derivativesOf(const Body& body, const Shape& shape, const Isometry3d& base, const Isometry3d& at,
+                          const Distance& d, Random& random) {
+  const double core = d.distance + body.r + shape.margin;
+  Derivatives parts;
+  // The second derivative is bounded but jumps at seams, so a central difference over +-h is off by h / 2
+  // times its bound (docs/theory.md, 6): levers squared over the cores' distance, and the radii of curvature
+  // that turn under the normal.
+  constexpr double kStep = 1e-7;
+  const Vector3d turning = random.direction();
+  Eigen::Matrix<double, 6, 1> twist;
+  twist << random.direction(), turning;
+  double value[2];
+  for (int side = 0; side < 2; ++side) {
+    const double h = side ? kStep : -kStep;
+    Isometry3d there = at;
+    there.linear() = Eigen::AngleAxisd(h, turning).toRotationMatrix() * at.linear();
+    there.translation() += h * twist.head<3>();
+    value[side] = distance(*body.volume, base, shape, there).distance;
+  }
+  const double lever = 1 + (d.point[1] - at.translation()).norm();
+  const double bend = (shape.unbounded() ? 0 : lever * lever / core) + 4 * lever + body.volume->radii().rho;
+  const double error =
+      std::abs((value[1] - value[0]) / (2 * kStep) - d.gradient(1, at.translation()).dot(twist));
+  const double rounding = 1e-15 * (4 + at.translation().norm()) / kStep;
+  parts.gradient = error / (0.5 * kStep * bend + rounding);
+
+  if (shape.unbounded()) return parts;  // the normal is the plane's
+  const double eps = 1e-3 * core;
+  Isometry3d there = at;
+  there.translation() += eps * random.direction();
+  const Distance e = distance(*body.volume, base, shape, there);
+  if (e.status != DistanceStatus::exact) return parts;
+  // Between the two poses the cores may come a little nearer than at either, by eps^2 / (8 nearer) to first
+  // order: no body's distance curves more than a point's.
+  const double ends = std::min(core, e.distance + body.r + shape.margin);
+  const double nearer = ends - eps * eps / (6 * ends);
+  const double angle = 2 * std::asin(std::min(1.0, 0.5 * (e.normal - d.normal).norm()));
+  // A normal is good to the rounding of the core's point, which moves rho an ulp, over the cores' distance.
+  const double rounded = 16 * 2.2e-16 * (body.volume->radii().rho + 4) / nearer;
+  parts.turn = angle / (eps / nearer + rounded);
+  return parts;
 }
 
 }  // namespace
@@ -62,13 +128,16 @@ int main(int argc, char** argv) {
   const std::string only = argc > 3 ? argv[3] : "";
   const std::vector<Body> all = bodies();
   bool good = true;
-  std::printf("%-10s %8s %8s %8s %8s %8s %9s %9s %9s\n", "shape", "exact", "bounded", "overlap", "missed",
-              "pairs", "error", "gap", "ns/query");
-  for (const std::string& name : boundedShapes()) {
+  std::vector<std::string> names = boundedShapes();
+  names.insert(names.end(), {"halfspace", "plane"});
+  std::printf("%-10s %8s %8s %8s %8s %8s %8s %9s %9s %9s %9s\n", "shape", "exact", "bounded", "overlap",
+              "missed", "swapped", "error", "gap", "gradient", "turn", "ns/query");
+  for (const std::string& name : names) {
     if (!only.empty() && only != name) continue;
     Random random(static_cast<std::uint64_t>(seed));
-    int exact = 0, bounded = 0, overlap = 0, missed = 0;
-    double worst = 0, gap = 0, time = 0, pairs = 0;
+    int exact = 0, bounded = 0, overlap = 0, missed = 0, swapped = 0;
+    double worst = 0, gap = 0, time = 0;
+    Derivatives most;
     for (int i = 0; i < poses; ++i) {
       const Body& body = all[static_cast<std::size_t>(random.below(static_cast<int>(all.size())))];
       const TestShape shape = randomShape(name, random);
@@ -77,10 +146,10 @@ int main(int argc, char** argv) {
       const auto begin = std::chrono::steady_clock::now();
       const Distance d = distance(*body.volume, base, shape.shape, at);
       time += std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - begin).count();
-      pairs += d.patchPairs;
-      const ReferenceAnswer truth =
-          referenceDistance(referenceBody(body.cloud, body.r, body.R, base), shape.posed(at),
-                            (at * shape.shape.centre - base.translation()).cast<long double>());
+      const Distance other = distance(shape.shape, at, *body.volume, base);
+      swapped += other.distance != d.distance || other.normal != -d.normal || other.point[0] != d.point[1] ||
+                 other.point[1] != d.point[0];
+      const ReferenceAnswer truth = truthOf(body, shape, base, at);
       if (truth.overlap) {
         ++overlap;
         if (d.status == DistanceStatus::exact && d.distance + body.r + shape.shape.margin > 1e-13) {
@@ -96,13 +165,24 @@ int main(int argc, char** argv) {
         std::printf("  %s %d: body %d status %d distance %.17g truth %.17Lg error %.2g upper-lower %.2g\n",
                     name.c_str(), i, static_cast<int>(&body - all.data()), static_cast<int>(d.status),
                     d.distance, truth.distance, error, d.upper - d.lower);
+      constexpr double kApart = 1e-4;  // nearer cores turn the normal faster than the steps resolve
+      if (d.status == DistanceStatus::exact &&
+          (shape.shape.unbounded() || d.distance + body.r + shape.shape.margin > kApart)) {
+        const Derivatives parts = derivativesOf(body, shape.shape, base, at, d, random);
+        if (parts.gradient > 1 || parts.turn > 1)
+          std::printf("  %s %d: gradient %.3g, turn %.3g of what is allowed\n", name.c_str(), i,
+                      parts.gradient, parts.turn);
+        most.gradient = std::max(most.gradient, parts.gradient);
+        most.turn = std::max(most.turn, parts.turn);
+      }
       worst = std::max(worst, error);
       gap = std::max(gap, d.upper - d.lower);
     }
-    std::printf("%-10s %8d %8d %8d %8d %8.1f %9.1e %9.1e %9.0f\n", name.c_str(), exact, bounded, overlap,
-                missed, pairs / poses, worst, gap, time / poses);
+    std::printf("%-10s %8d %8d %8d %8d %8d %8.1e %9.1e %9.3f %9.3f %9.0f\n", name.c_str(), exact, bounded,
+                overlap, missed, swapped, worst, gap, most.gradient, most.turn, time / poses);
     const double allowed = name == "cone" || name == "ellipsoid" ? 1e-9 : 1e-12;
-    good = good && missed == 0 && bounded == 0 && worst <= allowed;
+    good = good && missed == 0 && bounded == 0 && worst <= allowed && swapped == 0 && most.gradient <= 1 &&
+           most.turn <= 1;
   }
   return good ? 0 : 1;
 }

@@ -1,0 +1,269 @@
+// deep_soak PAIRS SEED: STP-BVs deeper in each other than their margins, against a reference that shares no
+// code with the library: the overlap along thousands of directions from the vertices alone, then a polish of
+// every candidate with the support function straight from its definition. Prints one line a pair of shapes
+// and fails if a wider gap than the library's is found or an answer is not what its supporting planes say.
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <map>
+#include <string>
+
+#include "fcl_stpbv/distance/distance.h"
+#include "test/distance/reference.h"
+#include "test/shapes.h"
+
+using namespace fcl_stpbv;
+using namespace fcl_stpbv::test;
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+namespace {
+
+struct Body {
+  std::string name;
+  Cloud cloud;
+  double r;
+  std::map<double, StpBv::Ptr> volume;  // by R
+};
+
+const std::array<double, 3> kBigRadii{1, 10, 100};
+
+std::vector<Body> bodies() {
+  std::vector<Body> all;
+  const auto add = [&](const char* name, const Cloud& cloud, double r) {
+    Body body{name, cloud, r, {}};
+    for (const double R : kBigRadii) body.volume[R] = StpBv::build(cloud, {r, R});
+    all.push_back(body);
+  };
+  add("box", box(0.3, 0.2, 0.1), 0.01);
+  add("cube", box(0.2, 0.2, 0.2), 0);
+  add("plate", plate(0.3, 0.2), 0.005);
+  add("needle", needle(0.5), 0.005);
+  add("cylinder", cylinder(0.1, 0.3, 32), 0.01);
+  add("geodesic", geodesicSphere(0.15, 2), 0.01);
+  add("hull", randomHull(200, {0.2, 0.15, 0.1}, 3), 0.01);
+  Cloud link = cylinder(0.05, 0.4, 16);  // a limb: a cylinder with a head wider than it
+  for (const Vector3d& p : box(0.16, 0.12, 0.08)) link.push_back(p + Vector3d(0.02, 0, 0.2));
+  add("link", link, 0.01);
+  return all;
+}
+
+/// A posed body's support function in double precision: the lowest centre along `n` whose ball of radius rho
+/// holds all points, from its at most three active points (docs/theory.md, 1).
+class Support {
+ public:
+  Support(const Body& body, double R, const Isometry3d& at) : r_(body.r), rho_(R - body.r) {
+    for (const Vector3d& p : body.cloud) points_.push_back(at * p);
+  }
+  /// Of the points' hull: no more than the body's, and no less by more than what faces bulge.
+  double hull(const Vector3d& n) const {
+    double most = -1e300;
+    for (const Vector3d& p : points_) most = std::max(most, n.dot(p));
+    return most;
+  }
+  double exact(const Vector3d& n) const {
+    std::vector<Vector3d> basis{*std::max_element(points_.begin(), points_.end(),
+                                                  [&](auto& p, auto& q) { return n.dot(p) < n.dot(q); })};
+    Vector3d centre = basis[0] - rho_ * n;
+    for (int i = 0; i < 50; ++i) {
+      const Vector3d* worst = nullptr;
+      double miss = 1e-13 * (1 + rho_);
+      for (const Vector3d& p : points_)
+        if (const double m = (p - centre).norm() - rho_; m > miss) miss = m, worst = &p;
+      if (!worst) break;
+      basis.push_back(*worst);
+      centre = lowest(basis, n);
+    }
+    return r_ + rho_ + n.dot(centre);
+  }
+
+ private:
+  /// Lowest feasible centre of up to four points over all their subsets; keeps the subset.
+  Vector3d lowest(std::vector<Vector3d>& basis, const Vector3d& n) const {
+    const std::vector<Vector3d> all = basis;
+    double leastMiss = 1e300, height = 1e300;
+    Vector3d best = all[0] - rho_ * n;
+    const double tolerance = 1e-13 * (1 + rho_);
+    for (unsigned subset = 1; subset < (1u << all.size()); ++subset) {
+      std::vector<Vector3d> p;
+      for (std::size_t i = 0; i < all.size(); ++i)
+        if (subset >> i & 1u) p.push_back(all[i]);
+      if (p.size() > 3) continue;
+      Vector3d middle = p[0], down = n;  // the points' centre, and the way from there to the ball's
+      double reach2 = 0;
+      if (p.size() == 2) {
+        middle = 0.5 * (p[0] + p[1]);
+        const Vector3d u = (p[1] - p[0]).normalized();
+        reach2 = 0.25 * (p[1] - p[0]).squaredNorm();
+        down = (n - n.dot(u) * u).normalized();
+      }
+      if (p.size() == 3) {
+        const Vector3d e = p[1] - p[0], f = p[2] - p[0], x = e.cross(f);
+        if (!(x.norm() > 1e-14)) continue;
+        const Vector3d c =
+            (f.squaredNorm() * x.cross(e) + e.squaredNorm() * f.cross(x)) / (2 * x.squaredNorm());
+        middle = p[0] + c;
+        reach2 = c.squaredNorm();
+        down = n.dot(x) > 0 ? x.normalized() : Vector3d(-x.normalized());
+      }
+      if (!(rho_ * rho_ >= reach2)) continue;
+      const Vector3d centre = middle - std::sqrt(rho_ * rho_ - reach2) * down;
+      double miss = 0;
+      for (const Vector3d& q : all) miss = std::max(miss, (q - centre).norm() - rho_);
+      const bool better =
+          miss <= tolerance ? leastMiss > tolerance || n.dot(centre) < height : miss < leastMiss;
+      if (!better) continue;
+      best = centre;
+      basis = p;
+      height = n.dot(centre);
+      leastMiss = miss;
+    }
+    return best;
+  }
+
+  std::vector<Vector3d> points_;
+  double r_, rho_;
+};
+
+/// Steps of a shrinking compass around `n` while they widen the gap.
+template <typename Gap>
+double polish(const Gap& gap, Vector3d& n, double step, double finest) {
+  double best = gap(n);
+  while (step > finest) {
+    const Vector3d e = n.unitOrthogonal(), f = n.cross(e);
+    bool grew = false;
+    for (int k = 0; k < 12; ++k) {
+      const double angle = 0.5235987755982988 * k + 7 * step;  // turned a little each round
+      const Vector3d m = (n + step * (std::cos(angle) * e + std::sin(angle) * f)).normalized();
+      const double g = gap(m);
+      if (g > best) best = g, n = m, grew = true;
+    }
+    if (!grew) step *= 0.5;
+  }
+  return best;
+}
+
+/// The widest gap between two overlapping bodies, by brute force.
+double widestGap(const Support& a, const Support& b, double bulge) {
+  constexpr int kDirections = 6000;
+  const double spacing = 3.6 / std::sqrt(kDirections);  // rad, to the nearest direction and beyond
+  const auto hulls = [&](const Vector3d& n) { return -a.hull(n) - b.hull(-n); };
+  const auto exact = [&](const Vector3d& n) { return -a.exact(n) - b.exact(-n); };
+  static const std::vector<Vector3d> directions = [] {
+    std::vector<Vector3d> all;
+    const double golden = std::acos(-1.0) * (3 - std::sqrt(5.0));
+    for (int i = 0; i < kDirections; ++i) {  // Fibonacci spiral
+      const double z = 1 - (2 * i + 1) / static_cast<double>(kDirections), w = std::sqrt(1 - z * z);
+      all.emplace_back(w * std::cos(golden * i), w * std::sin(golden * i), z);
+    }
+    return all;
+  }();
+  std::vector<std::pair<double, Vector3d>> trials;
+  for (const Vector3d& n : directions) trials.emplace_back(hulls(n), n);
+  std::sort(trials.begin(), trials.end(), [](auto& p, auto& q) { return p.first > q.first; });
+  // The best of each neighbourhood, polished on the hulls; then those within the bulge of the best, exactly.
+  std::vector<std::pair<double, Vector3d>> tops;
+  std::vector<Vector3d> seen;
+  for (std::size_t i = 0; i < trials.size() && seen.size() < 60; ++i) {
+    Vector3d n = trials[i].second;
+    if (std::any_of(seen.begin(), seen.end(), [&](auto& s) { return s.dot(n) > 1 - 2 * spacing * spacing; }))
+      continue;
+    seen.push_back(n);
+    const double g = polish(hulls, n, 0.5 * spacing, 1e-4);
+    tops.emplace_back(g, n);
+  }
+  std::sort(tops.begin(), tops.end(), [](auto& p, auto& q) { return p.first > q.first; });
+  double best = -1e300;
+  std::vector<Vector3d> done;
+  for (auto& [g, n] : tops) {
+    if (g < tops[0].first - bulge - 1e-4) break;
+    if (std::any_of(done.begin(), done.end(), [&, m = n](auto& s) { return s.dot(m) > 1 - 1e-6; })) continue;
+    done.push_back(n);
+    best = std::max(best, polish(exact, n, 0.02, 1e-7));
+  }
+  return best;
+}
+
+struct Row {
+  int pairs = 0, exact = 0, local = 0, bounded = 0, best = 0;
+  double missed = 0;  ///< widest gap beyond the answer (m)
+  double error = 0;   ///< of the answer along its own normal (m)
+  double open = 0;    ///< upper less lower bound, at most (m)
+  double nanoseconds = 0;
+  void add(const Row& o) {
+    pairs += o.pairs, exact += o.exact, local += o.local, bounded += o.bounded, best += o.best;
+    missed = std::max(missed, o.missed), error = std::max(error, o.error), open = std::max(open, o.open);
+    nanoseconds += o.nanoseconds;
+  }
+  void print(const std::string& name) const {
+    std::printf("| %s | %d | %d | %d | %d | %d | %.1e | %.1e | %.1e | %.1f |\n", name.c_str(), pairs, exact,
+                local, bounded, best, missed, error, open, 1e-3 * nanoseconds / std::max(pairs, 1));
+    std::fflush(stdout);
+  }
+};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const int count = argc > 1 ? std::atoi(argv[1]) : 200;
+  Random random(static_cast<std::uint64_t>(argc > 2 ? std::atoi(argv[2]) : 1));
+  const std::vector<Body> all = bodies();
+  std::map<std::string, Row> rows;
+  Row total;
+  bool good = true;
+  for (int i = 0; i < count;) {
+    const Body& a = all[static_cast<std::size_t>(random.below(static_cast<int>(all.size())))];
+    const Body& b = all[static_cast<std::size_t>(random.below(static_cast<int>(all.size())))];
+    const double R = kBigRadii[static_cast<std::size_t>(random.below(3))];
+    const StpBv &va = *a.volume.at(R), &vb = *b.volume.at(R);
+    // A quarter aligned, a quarter nearly so; from contact's depth to one centre on the other.
+    Eigen::Matrix3d turn = random.rotation();
+    const int kind = random.below(4);
+    if (kind == 0) turn = Eigen::Matrix3d::Identity();
+    if (kind == 1) turn = random.rotation(1e-3);
+    const Isometry3d base = pose(random.rotation(), random.direction());
+    const Vector3d way = random.direction();
+    Isometry3d at = pose(turn, 2 * way);
+    const Distance far = distance(va, Isometry3d::Identity(), vb, at);
+    at.translation() *= random.uniform(0, 1) * (2 - std::max(far.distance, 0.0)) / 2;
+    const Isometry3d pb = base * at;
+
+    const auto begin = std::chrono::steady_clock::now();
+    const Distance d = distance(va, base, vb, pb);
+    const double ns =
+        std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - begin).count();
+    if (!(d.distance < -(a.r + b.r) - 1e-6)) continue;
+    ++i;
+    Row row;
+    row.pairs = 1;
+    row.nanoseconds = ns;
+    row.exact = d.status == DistanceStatus::exact;
+    row.local = d.status == DistanceStatus::local;
+    row.bounded = d.status == DistanceStatus::bounded;
+    row.open = d.upper - d.lower;
+    // The bulge of all faces over the hull is at most the sag of the longest chord (docs/theory.md, 4).
+    const double half = 0.3, rho = R - std::max(a.r, b.r);
+    const double truth = widestGap({a, R, base}, {b, R, pb}, 2 * (rho - std::sqrt(rho * rho - half * half)));
+    row.missed = std::max(0.0, truth - d.distance);
+    row.best = row.missed <= 1e-9;
+    const long double along = referenceGap(referenceBody(a.cloud, a.r, R, base),
+                                           referenceBody(b.cloud, b.r, R, pb), d.normal.cast<long double>());
+    row.error = std::abs(static_cast<double>(along - d.distance));
+    if (!row.best || row.error > 1e-13 || d.upper < truth - 1e-12 || d.lower > d.upper) {
+      good = false;
+      std::printf("  %d %s-%s R %g status %d distance %.17g truth %.17g bounds %.3g error %.3g\n", i,
+                  a.name.c_str(), b.name.c_str(), R, static_cast<int>(d.status), d.distance, truth,
+                  d.upper - d.lower, row.error);
+    }
+    rows[std::min(a.name, b.name) + ", " + std::max(a.name, b.name)].add(row);
+    total.add(row);
+  }
+  std::printf(
+      "| pair | queries | exact | local | bounded | widest found | missed by (m) | error (m) | bounds (m) "
+      "| us |\n|---|---|---|---|---|---|---|---|---|---|\n");
+  for (const auto& [name, row] : rows) row.print(name);
+  total.print("all");
+  return good ? 0 : 1;
+}
