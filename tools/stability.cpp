@@ -72,9 +72,9 @@ int main(int argc, char** argv) {
     } else {
       const std::filesystem::path images = std::filesystem::path(folder) / "images";
       std::filesystem::create_directories(images);
-      draw(results, images / "stability.svg");
-      writeText(images / "stability.csv", csv(results));
       std::printf("%s", markdown(results).c_str());
+      writeText(images / "stability.csv", csv(results));
+      draw(results, images / "stability.svg");
     }
     return 0;
   } catch (const std::exception& e) {

@@ -127,18 +127,15 @@ std::string strip(const Results& results, const std::string& svg) {
   data += "EOD\n";
   std::string ticks, lines;
   for (std::size_t m = 0; m < rows; ++m)
-    ticks += (m ? ", " : "") + ("'" + std::string(results.methods[m].title) + "' ") + std::to_string(m);
+    ticks += (m ? ", " : "") + ("\"" + results.methods[m].title + "\" ") + std::to_string(m);
   std::string names;
   std::size_t first = 0;
   for (std::size_t i = 1; i <= columns; ++i) {
     if (i < columns && results.situations[i].group == results.situations[first].group) continue;
-    // A group's name at its middle; motions come in turns of two groups and are named by the first.
-    if (i - first >= 3) {
-      char tick[128];
-      std::snprintf(tick, sizeof tick, "%s'%s' %.1f", names.empty() ? "" : ", ",
-                    results.situations[first].group.c_str(), 0.5 * static_cast<double>(first + i) - 0.5);
-      names += tick;
-    }
+    char tick[128];
+    std::snprintf(tick, sizeof tick, "%s\"%s\" %.1f", names.empty() ? "" : ", ",
+                  results.situations[first].group.c_str(), 0.5 * static_cast<double>(first + i) - 0.5);
+    names += tick;
     if (i < columns) {
       char line[128];
       std::snprintf(
@@ -150,7 +147,7 @@ std::string strip(const Results& results, const std::string& svg) {
   }
   char size[160];
   std::snprintf(size, sizeof size, "set terminal svg size 1200,%d font 'Helvetica,12' background '#ffffff'\n",
-                static_cast<int>(300 + 22 * rows));
+                static_cast<int>(260 + 22 * rows));
   return size + ("set output '" + svg + "'\n") + data + lines +
          "set palette defined (0 '#d9e8d4', 1 '#a9c9e8', 2 '#f3dc8f', 3 '#f0b467', 4 '#e58a4d', 5 '#c44e52', "
          "6 '#b8a4d4', 7 '#7d5ba6', 8 '#222222') maxcolors 9\n"
@@ -160,11 +157,11 @@ std::string strip(const Results& results, const std::string& svg) {
          "set xrange [-0.5:" +
          std::to_string(columns) + "-0.5]\nset yrange [" + std::to_string(rows) + "-0.5:-0.5]\nset ytics (" +
          ticks + ") scale 0\nset xtics (" + names +
-         ") rotate by -55 left font ',10' scale 0\nset border lc rgb '#888888'\n"
+         ") rotate by -55 left font ',9' scale 0\nset border lc rgb '#888888'\n"
          "set colorbox user origin 0.885,0.45 size 0.012,0.5\nset lmargin at screen 0.2\nset rmargin at "
          "screen 0.87\n"
          "set tmargin at screen 0.97\nset bmargin at screen 0.4\n"
-         "plot $shade matrix with image notitle\n";
+         "plot $shade matrix with image pixels notitle\n";
 }
 
 }  // namespace fcl_stpbv::stability

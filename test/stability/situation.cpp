@@ -1,6 +1,7 @@
 #include "test/stability/situation.h"
 
 #include <algorithm>
+#include <map>
 #include <set>
 #include <stdexcept>
 
@@ -47,6 +48,10 @@ std::vector<Situation> allSituations(std::uint64_t seed, const std::string& hard
   addPoses(all, seed);
   addMeshes(all, seed);
   addReports(all, hardCases);
+  std::map<std::string, std::size_t> order;  // of the groups: as they first come
+  for (const Situation& s : all) order.emplace(s.group, order.size());
+  std::stable_sort(all.begin(), all.end(),
+                   [&](const Situation& s, const Situation& t) { return order[s.group] < order[t.group]; });
   std::set<std::string> names;
   for (const Situation& s : all)
     if (!names.insert(s.group + ": " + s.name).second)

@@ -1,0 +1,96 @@
+#include "test/fuzz/clouds.h"
+
+#include <cmath>
+
+namespace fcl_stpbv::fuzz {
+
+using Eigen::Vector3d;
+using test::Cloud;
+using test::Random;
+
+namespace {
+
+Cloud base(Random& random) {
+  Cloud cloud;
+  const int count = 1 + random.below(30);
+  switch (random.below(7)) {
+    case 0:  // a grid of small integers, points may repeat
+      for (int i = 0; i < count; ++i) {
+        const int side = 2 + random.below(3);
+        const double x = random.below(side), y = random.below(side), z = random.below(side);
+        cloud.emplace_back(x, y, z);
+      }
+      break;
+    case 1:  // a circle, or two
+      for (int i = 0; i < count; ++i) {
+        const double angle = 2 * M_PI * i / count;
+        cloud.emplace_back(std::cos(angle), std::sin(angle), random.below(2));
+      }
+      break;
+    case 2:  // nearly on a line
+      for (int i = 0; i < count; ++i) {
+        const double along = random.uniform(-1, 1), off = std::pow(10.0, random.uniform(-16, -6));
+        cloud.emplace_back(along, off * random.uniform(-1, 1), off * random.uniform(-1, 1));
+      }
+      break;
+    case 3:  // nearly in a plane
+      for (int i = 0; i < count; ++i) {
+        const double x = random.below(5), y = random.below(5);
+        cloud.emplace_back(x, y, std::pow(10.0, random.uniform(-17, -8)) * random.uniform(-1, 1));
+      }
+      break;
+    case 4:  // on a sphere
+      for (int i = 0; i < count; ++i) cloud.push_back(random.direction());
+      break;
+    case 5:  // a box and points on it
+      cloud = test::box(1, 2, 0.5);
+      for (int i = 0; i < count; ++i)
+        cloud.emplace_back(0.5 * random.uniform(-1, 1), random.uniform(-1, 1),
+                           random.below(2) ? 0.25 : -0.25);
+      break;
+    default:  // anywhere
+      for (int i = 0; i < count; ++i) cloud.push_back(random.uniform(0, 1) * random.direction());
+      break;
+  }
+  return cloud;
+}
+
+}  // namespace
+
+CloudCase nastyCloud(Random& random) {
+  CloudCase c;
+  c.points = base(random);
+  if (random.below(3) == 0) {  // doubles of some points, next to them
+    const double apart = std::pow(10.0, random.uniform(-17, -9));
+    const std::size_t count = c.points.size();
+    for (std::size_t i = 0; i < count; ++i)
+      for (int k = random.below(4); k > 0; --k) c.points.push_back(c.points[i] + apart * random.direction());
+  }
+  const double scale = std::pow(10.0, random.uniform(-4, 3));
+  const Eigen::Matrix3d turn =
+      random.below(2) ? random.rotation() : Eigen::Matrix3d(Eigen::Matrix3d::Identity());
+  const double away = random.below(2) ? scale * std::pow(10.0, random.uniform(-1, 3)) : 0;
+  const Vector3d offset = away * random.direction();
+  const double noise = random.below(2) ? scale * std::pow(10.0, random.uniform(-17, -12)) : 0;
+  for (Vector3d& p : c.points) {
+    p = scale * (turn * p) + offset;
+    p += noise * random.direction();
+  }
+  c.radii.r = random.below(3) == 0 ? 0 : scale * std::pow(10.0, random.uniform(-3, 0));
+  const double smallest = StpBv::smallestR(c.points, c.radii.r);
+  switch (random.below(4)) {
+    case 0:
+      c.radii.R =
+          smallest * (1 + std::pow(10.0, random.uniform(-9, -3))) + (smallest == c.radii.r ? scale : 0);
+      break;
+    case 1:
+      c.radii.R = smallest + scale * std::pow(10.0, random.uniform(2, 6));
+      break;
+    default:
+      c.radii.R = smallest + scale * std::pow(10.0, random.uniform(-2, 2));
+      break;
+  }
+  return c;
+}
+
+}  // namespace fcl_stpbv::fuzz

@@ -1,0 +1,308 @@
+#include "test/fuzz/target.h"
+
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+#include "fcl_stpbv/distance/distance.h"
+#include "fcl_stpbv/robot/mesh_file.h"
+#include "fcl_stpbv/robot/robot_model.h"
+#include "fcl_stpbv/robot/srdf.h"
+#include "fcl_stpbv/volume/qhull_file.h"
+#include "fcl_stpbv/volume/sch_file.h"
+#include "fcl_stpbv/volume/stpbv_file.h"
+#include "test/fuzz/clouds.h"
+#include "test/robot/urdf_texts.h"
+
+namespace fcl_stpbv::fuzz {
+
+using Eigen::Vector3d;
+using test::Cloud;
+using test::Random;
+
+namespace {
+
+void must(bool holds, const char* what) {
+  if (!holds) throw std::logic_error(what);
+}
+
+/// The library may refuse, in a message; nothing else may come out of it.
+template <class Call>
+bool accepted(Call call) {
+  try {
+    call();
+    return true;
+  } catch (const Error& e) {
+    must(std::strlen(e.what()) > 10, "an error without a message");
+    return false;
+  }
+}
+
+std::string number(double x) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.17g", x);
+  return text;
+}
+
+std::string lineOf(const char* word, const Vector3d& p) {
+  return std::string(word) + " " + number(p.x()) + " " + number(p.y()) + " " + number(p.z()) + "\n";
+}
+
+std::string textOf(const CloudCase& c) {
+  std::string text = number(c.radii.r) + " " + number(c.radii.R) + "\n";
+  for (const Vector3d& p : c.points) text += lineOf("v", p);
+  return text;
+}
+
+std::string randomCloud(Random& random) { return textOf(nastyCloud(random)); }
+
+/// Whatever numbers a text holds; garbage ends it.
+CloudCase cloudOf(std::istream& in) {
+  CloudCase c;
+  in >> c.radii.r >> c.radii.R;
+  std::string word;
+  for (Vector3d p; in >> word >> p[0] >> p[1] >> p[2] && word == "v";) c.points.push_back(p);
+  in.clear();
+  return c;
+}
+
+void checkBuild(const std::string& text, const std::string&) {
+  std::istringstream in(text);
+  const CloudCase c = cloudOf(in);
+  StpBv::Ptr volume;
+  if (!accepted([&] { volume = StpBv::build(c.points, c.radii); })) return;
+  // The volume holds every point with the margin around it: no direction's supporting plane cuts one off.
+  double size = volume->enclosingRadius();
+  for (const Vector3d& p : c.points) size = std::max(size, p.norm());
+  const double rounding = 1e-12 * size + 1e-14 * c.radii.R;
+  Random random(1);
+  for (int i = 0; i < 50; ++i) {
+    const Vector3d n = random.direction();
+    const double h = volume->support(n);
+    must(std::isfinite(h), "a support value that is no number");
+    for (const Vector3d& p : c.points) must(n.dot(p) + c.radii.r <= h + rounding, "a point sticks out");
+  }
+}
+
+std::string randomQuery(Random& random) {
+  std::string text;
+  double reach = 0;
+  for (int body = 0; body < 2; ++body) {
+    const CloudCase c = nastyCloud(random);
+    text += textOf(c) + "end\n";
+    for (const Vector3d& p : c.points) reach = std::max(reach, p.norm());
+  }
+  for (int body = 0; body < 2; ++body) {
+    Eigen::Isometry3d pose =
+        test::pose(random.rotation(), reach * std::pow(10.0, random.uniform(-2, 1)) * random.direction());
+    if (random.below(4) == 0) pose.linear().setIdentity();
+    if (random.below(20) == 0) pose.linear()(1, 1) = random.below(2) ? std::nan("") : 1e200;
+    for (int i = 0; i < 12; ++i) text += number(pose.matrix()(i / 4, i % 4)) + " ";
+    text += "\n";
+  }
+  return text;
+}
+
+void checkQuery(const std::string& text, const std::string&) {
+  std::istringstream in(text);
+  StpBv::Ptr body[2];
+  for (auto& b : body) {
+    const CloudCase c = cloudOf(in);
+    if (!accepted([&] { b = StpBv::build(c.points, c.radii); })) return;
+  }
+  Eigen::Isometry3d pose[2] = {Eigen::Isometry3d::Identity(), Eigen::Isometry3d::Identity()};
+  for (Eigen::Isometry3d& p : pose)
+    for (int i = 0; i < 12; ++i)
+      for (std::string word; in >> word;) {  // nan too, which streams do not read
+        p.matrix()(i / 4, i % 4) = std::strtod(word.c_str(), nullptr);
+        break;
+      }
+  PairCache cache;
+  for (int again = 0; again < 2; ++again) {
+    const Distance d = distance(*body[0], pose[0], *body[1], pose[1], &cache);
+    must(std::isfinite(d.distance) && d.normal.allFinite(), "an answer that is no number");
+    if (d.status == DistanceStatus::invalid) return;
+    must(d.point[0].allFinite() && d.point[1].allFinite(), "a witness point that is no number");
+    must(std::abs(d.normal.norm() - 1) < 1e-12, "a normal that is not unit");
+    const double size = body[0]->enclosingRadius() + body[1]->enclosingRadius() +
+                        (pose[1].translation() - pose[0].translation()).norm() + body[0]->centre().norm() +
+                        body[1]->centre().norm();
+    const double rounding = 1e-12 * size + 1e-14 * (body[0]->radii().R + body[1]->radii().R);
+    must(d.lower <= d.upper + rounding, "bounds the wrong way round");
+    must(d.distance >= d.lower - rounding && d.distance <= d.upper + rounding,
+         "a distance outside its bounds");
+    must(d.status != DistanceStatus::bounded, "a query that did not converge");
+  }
+}
+
+/// A small volume as a file, damaged most of the time.
+template <void (*kSave)(std::ostream&, const StpBv&)>
+std::string randomFile(Random& random) {
+  for (;;) try {
+      const CloudCase c = nastyCloud(random);
+      std::ostringstream out;
+      kSave(out, *StpBv::build(c.points, c.radii));
+      return random.below(10) ? damaged(out.str(), random) : out.str();
+    } catch (const Error&) {  // not every cloud makes a volume or fits a format
+    }
+}
+
+template <StpBv::Ptr (*kLoad)(std::istream&, const std::string&)>
+void checkFile(const std::string& text, const std::string&) {
+  std::istringstream in(text);
+  StpBv::Ptr volume;
+  if (accepted([&] { volume = kLoad(in, "fuzz"); }))
+    must(std::isfinite(volume->support(Vector3d::UnitX())), "a loaded volume without support");
+}
+
+std::string randomQhull(Random& random) {
+  const Cloud cloud = nastyCloud(random).points;
+  std::string text = "3\n" + std::to_string(cloud.size()) + " 1 1\n";
+  for (const Vector3d& p : cloud) text += number(p.x()) + " " + number(p.y()) + " " + number(p.z()) + "\n";
+  return damaged(text + "3 0 1 2\n", random);
+}
+
+void checkQhull(const std::string& text, const std::string&) {
+  accepted([&] { parseQhullPoints(text, "fuzz"); });
+}
+
+std::string urdf() {
+  using namespace test;
+  return robot(link("base", "<box size=\"0.1 0.2 0.3\"/>") +
+               link("arm", "<cylinder radius=\"0.1\" length=\"0.5\"/>") +
+               link("hand", "<sphere radius=\"0.1\"/>") +
+               joint("shoulder", "revolute", "base", "arm",
+                     "<origin xyz=\"0 0 1\" rpy=\"0 0.5 0\"/><axis xyz=\"0 1 0\"/>") +
+               joint("wrist", "prismatic", "arm", "hand",
+                     "<axis xyz=\"0 0 1\"/><mimic joint=\"shoulder\" multiplier=\"2\"/>"));
+}
+
+std::string randomUrdf(Random& random) { return damaged(urdf(), random); }
+void checkUrdf(const std::string& text, const std::string&) {
+  accepted([&] { parseUrdf(text, "fuzz.urdf"); });
+}
+
+std::string randomSrdf(Random& random) {
+  return damaged(
+      "<?xml version=\"1.0\"?>\n<robot name=\"small\">\n<group name=\"g\"><chain base_link=\"base\" "
+      "tip_link=\"hand\"/></group>\n"
+      "<group_state name=\"home\" group=\"g\"><joint name=\"shoulder\" value=\"0.5\"/></group_state>\n"
+      "<disable_collisions link1=\"base\" link2=\"arm\" reason=\"Adjacent\"/>\n</robot>\n",
+      random);
+}
+void write(const std::string& path, const std::string& text) {
+  std::ofstream(path, std::ios::binary) << text;
+}
+void checkSrdf(const std::string& text, const std::string& folder) {
+  static const RobotModel robot = parseUrdf(urdf(), "fuzz.urdf");
+  write(folder + "/fuzz.srdf", text);
+  accepted([&] { loadSrdf(folder + "/fuzz.srdf", robot); });
+}
+
+/// One target an extension, so that the first byte may be damaged too.
+std::string stl() {
+  std::string text = "solid s\n";
+  for (int f = 0; f < 4; ++f) {
+    text += "facet normal 0 0 1\nouter loop\n";
+    for (int k = 0; k < 3; ++k)
+      text += "vertex " + std::to_string((f + k) & 1) + " " + std::to_string((f + k) >> 1 & 1) + " 0.5\n";
+    text += "endloop\nendfacet\n";
+  }
+  return text + "endsolid s\n";
+}
+std::string binaryStl() {
+  std::string text(80, ' ');
+  const std::uint32_t count = 2;
+  text.append(reinterpret_cast<const char*>(&count), 4);
+  for (std::uint32_t f = 0; f < count; ++f) {
+    for (int i = 0; i < 12; ++i) {
+      const float x = static_cast<float>((f + 1) * static_cast<std::uint32_t>(i % 5));
+      text.append(reinterpret_cast<const char*>(&x), 4);
+    }
+    text.append(2, '\0');
+  }
+  return text;
+}
+std::string randomStl(Random& random) { return damaged(random.below(2) ? stl() : binaryStl(), random); }
+std::string randomObj(Random& random) {
+  return damaged("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n", random);
+}
+std::string randomPly(Random& random) {
+  return damaged(
+      "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float "
+      "z\nelement face 2\n"
+      "property list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 1 2\n3 0 2 3\n",
+      random);
+}
+template <char kFirst>
+void checkMesh(const std::string& text, const std::string& folder) {
+  const std::string path = folder + (kFirst == 's' ? "/fuzz.stl" : kFirst == 'o' ? "/fuzz.obj" : "/fuzz.ply");
+  write(path, text);
+  accepted([&] { loadPoints(path); });
+}
+
+StpBv::Ptr loadStpBvStream(std::istream& in, const std::string& name) { return loadStpBv(in, name); }
+StpBv::Ptr loadSchStream(std::istream& in, const std::string& name) { return loadSch(in, name); }
+void saveStpBvStream(std::ostream& out, const StpBv& volume) { saveStpBv(out, volume); }
+void saveSchStream(std::ostream& out, const StpBv& volume) { saveSch(out, volume); }
+
+}  // namespace
+
+std::string damaged(std::string text, Random& random) {
+  const auto somewhere = [&] {
+    return static_cast<std::size_t>(random.below(static_cast<int>(text.size()) + 1));
+  };
+  for (int times = 1 + random.below(3); times > 0 && !text.empty(); --times) {
+    const std::size_t at = somewhere() % text.size();
+    const std::size_t lineEnd = std::min(text.find('\n', at), text.size() - 1);
+    switch (random.below(6)) {
+      case 0:
+        text.resize(at);
+        break;
+      case 1:
+        text[at] = static_cast<char>(text[at] ^ (1 << random.below(8)));
+        break;
+      case 2:
+        text.erase(at, lineEnd - at + 1);
+        break;
+      case 3: {
+        const std::string line = text.substr(at, lineEnd - at + 1);
+        text.insert(somewhere() % text.size(), line);
+        break;
+      }
+      case 4: {
+        const std::size_t digits = text.find_first_of("0123456789", at);
+        if (digits == std::string::npos) break;
+        const std::size_t end = std::min(text.find_first_not_of("0123456789.eE+-", digits), text.size());
+        static const char* const numbers[] = {
+            "4294967295", "-1",     "1e308",      "nan", "99999999999999999999",
+            "0",          "1e-320", "2147483647", "inf", "1000000000"};
+        text.replace(digits, end - digits, numbers[random.below(10)]);
+        break;
+      }
+      default:
+        text.insert(at,
+                    std::string(static_cast<std::size_t>(1 + random.below(40)), random.below(2) ? '<' : '9'));
+        break;
+    }
+  }
+  return text;
+}
+
+const std::vector<Target>& targets() {
+  static const std::vector<Target> all{{"build", randomCloud, checkBuild},
+                                       {"query", randomQuery, checkQuery},
+                                       {"stpbv", randomFile<saveStpBvStream>, checkFile<loadStpBvStream>},
+                                       {"sch", randomFile<saveSchStream>, checkFile<loadSchStream>},
+                                       {"qhull", randomQhull, checkQhull},
+                                       {"urdf", randomUrdf, checkUrdf},
+                                       {"srdf", randomSrdf, checkSrdf},
+                                       {"stl", randomStl, checkMesh<'s'>},
+                                       {"obj", randomObj, checkMesh<'o'>},
+                                       {"ply", randomPly, checkMesh<'p'>}};
+  return all;
+}
+
+}  // namespace fcl_stpbv::fuzz
