@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // Changes when the builder gives other volumes for the same points.
-constexpr std::string_view kVersion = "fcl_stpbv volume cache 1\n";
+constexpr std::string_view kVersion = "fcl_stpbv volume cache 2\n";
 
 // Two streams of 64 bits: FNV-1a, and the same steps over a mixed state. Guards against accidents, not
 // against somebody who may write into the user's own cache.
