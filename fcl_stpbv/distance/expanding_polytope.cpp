@@ -19,6 +19,9 @@ constexpr double kNear = 0.1;
 /// Where it is this near, the maximum that its normal leads to is the only one there.
 constexpr double kClose = 1e-3;
 
+/// Normals of one maximum found twice differ by less (rad).
+constexpr double kSame = 1e-7;
+
 /// The difference's point furthest against the sample's normal.
 Vector3d furthest(const Sample& s) { return s.core * s.n + s.across; }
 
@@ -59,6 +62,7 @@ bool grow(const BodyPair& pair, Polytope& polytope, Sample& x, double& bound, Wo
     const double open = -trial.core - nearest.distance;
     Vector3d ignored;
     const bool top = open <= kNear * nearest.distance && settle(pair, trial, ignored, work);
+    const bool another = top && (trial.n - x.n).squaredNorm() > kSame * kSame;
     if (trial.core > x.core) x = trial;
     if (open <= pair.gapRounding() || (top && open <= kClose * nearest.distance)) {
       least = std::min(least, nearest.distance);
@@ -66,7 +70,7 @@ bool grow(const BodyPair& pair, Polytope& polytope, Sample& x, double& bound, Wo
       continue;
     }
     polytope.expand(point);
-    if (!top) continue;
+    if (!another) continue;
     for (const Vector3d& p : pointsAround(pair, trial, work))
       if (polytope.sound()) polytope.expand(p);
   }

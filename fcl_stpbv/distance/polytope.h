@@ -81,7 +81,7 @@ class Polytope {
   }
 
  private:
-  static constexpr int kMaxPoints = 100;  // some 30 are usual
+  static constexpr int kMaxPoints = 400;  // some 20 are usual, hundreds where all directions are nearly as good
   static constexpr int kMaxFaces = 2 * kMaxPoints;
 
   std::size_t nearestIndex() const {
