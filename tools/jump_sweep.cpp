@@ -6,6 +6,7 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <memory>
 
 #include "fcl_stpbv/adapter/fcl_distance.h"
@@ -25,10 +26,16 @@ std::shared_ptr<StpBvGeometry> boxGeometry(const Vector3d& side) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  const bool help = argc == 2 && (std::strcmp(argv[1], "--help") == 0 || std::strcmp(argv[1], "-h") == 0);
   const int steps = argc > 1 ? std::atoi(argv[1]) : 2000;
-  if (argc > 2 || steps < 1) {
-    std::fprintf(stderr, "usage: jump_sweep [STEPS], STEPS a whole number, 1 or more\n");
-    return 2;
+  if (help || argc > 2 || steps < 1) {
+    std::fputs(
+        "usage: jump_sweep [STEPS]\n"
+        "Rocks a 20 cm box over a plate from -2 to 2 degrees and prints CSV: the angle, then distance (m) and its\n"
+        "derivative with the angle (m/rad) between the polyhedra by FCL and between the STP-BVs.\n"
+        "STEPS is a whole number, 1 or more [2000].\n",
+        help ? stdout : stderr);
+    return help ? 0 : 2;
   }
   const double range = 2 * 3.14159265358979323846 / 180;  // rad, to either side of parallel
   const auto plate = boxGeometry({0.3, 0.3, 0.1}), box = boxGeometry({0.2, 0.2, 0.2});

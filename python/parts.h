@@ -1,0 +1,31 @@
+// The parts of the Python module, each filled in by its own file.
+#pragma once
+
+#include <pybind11/eigen.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace fcl_stpbv {
+
+using PointArray = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
+
+void addVolume(pybind11::module_& module);
+void addRobot(pybind11::module_& module);
+
+inline std::vector<Eigen::Vector3d> toPoints(const Eigen::Ref<const PointArray>& array) {
+  std::vector<Eigen::Vector3d> points;
+  points.reserve(static_cast<std::size_t>(array.rows()));
+  for (Eigen::Index i = 0; i < array.rows(); ++i) points.emplace_back(array.row(i));
+  return points;
+}
+
+inline PointArray toArray(const std::vector<Eigen::Vector3d>& points) {
+  PointArray array(static_cast<Eigen::Index>(points.size()), 3);
+  for (std::size_t i = 0; i < points.size(); ++i) array.row(static_cast<Eigen::Index>(i)) = points[i];
+  return array;
+}
+
+}  // namespace fcl_stpbv

@@ -1,0 +1,100 @@
+// A robot's collision constraints in Python.
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "fcl_stpbv/error.h"
+#include "fcl_stpbv/robot/constraints.h"
+#include "parts.h"
+
+namespace py = pybind11;
+
+namespace fcl_stpbv {
+namespace {
+
+BaseMotion baseMotion(const std::string& name) {
+  if (name == "fixed") return BaseMotion::fixed;
+  if (name == "planar") return BaseMotion::planar;
+  if (name == "floating") return BaseMotion::floating;
+  throw Error("base: got \"" + name + "\", expected \"fixed\", \"planar\" or \"floating\"");
+}
+
+/// A robot, its volumes and the pairs that its SRDF leaves to be checked.
+class PythonRobot {
+ public:
+  PythonRobot(const std::string& urdf, const std::string& srdf, double r, double R, const std::string& base,
+              std::vector<std::string> packagePath, double influence) {
+    const auto model = std::make_shared<const RobotModel>(loadUrdf(urdf));
+    if (!srdf.empty()) srdf_ = loadSrdf(srdf, *model);
+    GeometryOptions options;
+    options.radii = {r, R};
+    options.packagePath = std::move(packagePath);
+    const auto geometry = std::make_shared<const RobotGeometry>(loadGeometry(*model, options));
+    kinematics_ = std::make_shared<const Kinematics>(model, baseMotion(base));
+    ConstraintOptions constraintOptions;
+    constraintOptions.influence = influence;
+    constraints_ = std::make_unique<CollisionConstraints>(
+        kinematics_, geometry, selfPairs(*model, *geometry, srdf.empty() ? nullptr : &srdf_), constraintOptions);
+  }
+
+  const Kinematics& kinematics() const { return *kinematics_; }
+  int rows() const { return constraints_->rows(); }
+  std::vector<std::string> rowNames() const {
+    std::vector<std::string> names;
+    for (int row = 0; row < rows(); ++row) names.push_back(constraints_->name(row));
+    return names;
+  }
+  Eigen::VectorXd configuration(const std::string& state) const {
+    return kinematics_->configuration(srdf_.state(state));
+  }
+
+  Eigen::VectorXd distances(const Eigen::VectorXd& q) {
+    check(q);
+    Eigen::VectorXd d(rows());
+    constraints_->evaluate(q, d);
+    return d;
+  }
+  std::pair<Eigen::VectorXd, Eigen::MatrixXd> evaluate(const Eigen::VectorXd& q) {
+    check(q);
+    Eigen::VectorXd d(rows());
+    Eigen::MatrixXd jacobian(rows(), constraints_->columns());
+    constraints_->evaluate(q, d, jacobian);
+    return {std::move(d), std::move(jacobian)};
+  }
+
+ private:
+  void check(const Eigen::VectorXd& q) const {
+    if (q.size() != kinematics_->size()) {
+      throw Error("q: got " + std::to_string(q.size()) + " coordinates, expected " +
+                  std::to_string(kinematics_->size()));
+    }
+  }
+
+  Srdf srdf_;
+  std::shared_ptr<const Kinematics> kinematics_;
+  std::unique_ptr<CollisionConstraints> constraints_;
+};
+
+}  // namespace
+
+void addRobot(py::module_& module) {
+  py::class_<PythonRobot>(module, "Robot", "Distances d(q) and Jacobian J(q) of a robot's pairs of bodies.")
+      .def(py::init<const std::string&, const std::string&, double, double, const std::string&,
+                    std::vector<std::string>, double>(),
+           py::arg("urdf"), py::arg("srdf") = "", py::kw_only(), py::arg("r") = 0.01, py::arg("R") = 10.0,
+           py::arg("base") = "fixed", py::arg("package_path") = std::vector<std::string>{},
+           py::arg("influence") = std::numeric_limits<double>::infinity(),
+           "Loads a URDF; pairs that the SRDF disables (without one, adjacent links) are left out.\n"
+           "base: \"fixed\", \"planar\" or \"floating\". influence: farther pairs are constant (m).")
+      .def_property_readonly("names", [](const PythonRobot& robot) { return robot.kinematics().names(); },
+                             "of the coordinates")
+      .def_property_readonly("rows", &PythonRobot::rowNames, "names of the pairs, in the order of d")
+      .def_property_readonly("lower", [](const PythonRobot& robot) { return robot.kinematics().lower(); })
+      .def_property_readonly("upper", [](const PythonRobot& robot) { return robot.kinematics().upper(); })
+      .def_property_readonly("neutral", [](const PythonRobot& robot) { return robot.kinematics().neutral(); })
+      .def("configuration", &PythonRobot::configuration, py::arg("state"), "q of one of the SRDF's group states.")
+      .def("distances", &PythonRobot::distances, py::arg("q"), "d(q), one row a pair (m).")
+      .def("evaluate", &PythonRobot::evaluate, py::arg("q"), "(d(q), J(q)), J dense, a row a pair.");
+}
+
+}  // namespace fcl_stpbv

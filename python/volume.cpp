@@ -1,0 +1,135 @@
+// Volumes and their distance in Python.
+#include "fcl_stpbv/distance/distance.h"
+#include "fcl_stpbv/robot/mesh_file.h"
+#include "fcl_stpbv/volume/measure.h"
+#include "fcl_stpbv/volume/stp_bv.h"
+#include "fcl_stpbv/volume/stpbv_file.h"
+#include "fcl_stpbv/volume/tessellate.h"
+#include "fcl_stpbv/volume/verify.h"
+#include "parts.h"
+
+namespace py = pybind11;
+
+namespace fcl_stpbv {
+namespace {
+
+/// pybind11 has no holder for pointers to const; no bound method changes a volume.
+std::shared_ptr<StpBv> held(const StpBv::Ptr& volume) { return std::const_pointer_cast<StpBv>(volume); }
+
+Eigen::Isometry3d toPose(const Eigen::Matrix4d& matrix) {
+  if (matrix.row(3) != Eigen::RowVector4d(0, 0, 0, 1)) throw py::value_error("pose: its last row must be 0 0 0 1");
+  Eigen::Isometry3d pose;
+  pose.matrix() = matrix;
+  return pose;
+}
+
+/// The answer and where the bodies' frames were, which the gradients are about.
+struct PlacedDistance : Distance {
+  PlacedDistance(const Distance& found, const Eigen::Vector3d& origin1, const Eigen::Vector3d& origin2)
+      : Distance(found), origins{origin1, origin2} {}
+  std::array<Eigen::Vector3d, 2> origins;
+};
+
+PlacedDistance ask(const StpBv& a, const Eigen::Matrix4d& poseA, const StpBv& b, const Eigen::Matrix4d& poseB,
+                   PairCache* cache) {
+  const Eigen::Isometry3d first = toPose(poseA), second = toPose(poseB);
+  return {distance(a, first, b, second, cache), first.translation(), second.translation()};
+}
+
+void addStpBv(py::module_& module) {
+  py::class_<StpBv, std::shared_ptr<StpBv>>(module, "StpBv", "A volume; immutable. Its own frame.")
+      .def_static(
+          "build",
+          [](const Eigen::Ref<const PointArray>& points, double r, double R) {
+            const std::vector<Eigen::Vector3d> list = toPoints(points);
+            py::gil_scoped_release others;
+            return held(StpBv::build(list, {r, R}));
+          },
+          py::arg("points"), py::arg("r") = 0.01, py::arg("R") = 10.0,
+          "Volume around an (n, 3) array of points; raises Error naming what would work.")
+      .def_static(
+          "load", [](const std::string& path) { return held(loadStpBv(path)); }, py::arg("path"))
+      .def(
+          "save", [](const StpBv& volume, const std::string& path) { saveStpBv(path, volume); }, py::arg("path"))
+      .def_property_readonly("r", [](const StpBv& volume) { return volume.radii().r; })
+      .def_property_readonly("R", [](const StpBv& volume) { return volume.radii().R; })
+      .def_property_readonly("vertices", [](const StpBv& volume) { return toArray(volume.vertices()); })
+      .def_property_readonly("faces", [](const StpBv& volume) { return volume.faces(); },
+                             "Lists of vertex indices, counter-clockwise seen from outside.")
+      .def(
+          "support", [](const StpBv& volume, const Eigen::Vector3d& n) { return volume.support(n.normalized()); },
+          py::arg("direction"))
+      .def(
+          "surface_point",
+          [](const StpBv& volume, const Eigen::Vector3d& n) { return volume.surfacePoint(n.normalized()); },
+          py::arg("direction"), "The surface point with this outward normal.")
+      .def(
+          "signed_distance",
+          [](const StpBv& volume, const Eigen::Vector3d& point) { return signedDistance(volume, point); },
+          py::arg("point"))
+      .def(
+          "over_cover",
+          [](const StpBv& volume) {
+            const OverCover cover = overCover(volume);
+            return std::make_pair(cover.max, cover.mean);
+          },
+          "Largest and mean excess over the convex hull (m).")
+      .def(
+          "verify", [](const StpBv& volume) { return verify(volume).message; }, "\"ok\", or what is wrong.")
+      .def("__repr__", [](const StpBv& volume) {
+        return "<StpBv: " + std::to_string(volume.vertexCount()) + " vertices, " +
+               std::to_string(volume.faceCount()) + " faces>";
+      });
+}
+
+void addDistance(py::module_& module) {
+  py::enum_<DistanceStatus>(module, "Status")
+      .value("exact", DistanceStatus::exact, "to rounding: apart, touching, or overlapping by at most r1 + r2")
+      .value("local", DistanceStatus::local, "deeper: a locally best way out; the true value is in [lower, upper]")
+      .value("bounded", DistanceStatus::bounded, "not solved to rounding; the true value is in [lower, upper]")
+      .value("invalid", DistanceStatus::invalid, "a pose is not a finite rotation and translation");
+
+  py::class_<PairCache>(module, "PairCache", "Starts a pair's next query near its last answer.").def(py::init<>());
+
+  py::class_<PlacedDistance>(module, "Distance", "Answer to a query. World frame.")
+      .def_readonly("status", &PlacedDistance::status)
+      .def_readonly("distance", &PlacedDistance::distance, "signed (m)")
+      .def_readonly("lower", &PlacedDistance::lower, "certified")
+      .def_readonly("upper", &PlacedDistance::upper, "certified")
+      .def_readonly("normal", &PlacedDistance::normal, "unit, from the first body to the second")
+      .def_property_readonly(
+          "points",
+          [](const PlacedDistance& d) {
+            Eigen::Matrix<double, 2, 3, Eigen::RowMajor> points;
+            points << d.point[0].transpose(), d.point[1].transpose();
+            return points;
+          },
+          "(2, 3): witness points on the two surfaces")
+      .def_property_readonly(
+          "gradient",
+          [](const PlacedDistance& d) {
+            Eigen::Matrix<double, 2, 6, Eigen::RowMajor> gradient;
+            gradient << d.gradient(0, d.origins[0]).transpose(), d.gradient(1, d.origins[1]).transpose();
+            return gradient;
+          },
+          "(2, 6): derivative with each body's twist [linear; angular] about its frame's origin, world axes")
+      .def("__repr__", [](const PlacedDistance& d) {
+        return py::str("<Distance: {} m, {}>").format(d.distance, py::cast(d.status).attr("name"));
+      });
+
+  module.def("distance", &ask, py::arg("first"), py::arg("first_pose"), py::arg("second"), py::arg("second_pose"),
+             py::arg("cache") = static_cast<PairCache*>(nullptr),
+             "Signed distance of two volumes at 4x4 poses. Poses that are no rigid motion give Status.invalid.");
+}
+
+}  // namespace
+
+void addVolume(py::module_& module) {
+  addStpBv(module);
+  addDistance(module);
+  module.def(
+      "load_points", [](const std::string& path) { return toArray(loadPoints(path)); }, py::arg("path"),
+      "(n, 3) array: the points of a mesh file or of a qhull file.");
+}
+
+}  // namespace fcl_stpbv

@@ -1,0 +1,89 @@
+"""The Python module: arrays in and out, files, errors, a robot's constraints against differences."""
+import math
+import os
+import pathlib
+
+import numpy as np
+import pytest
+
+import fcl_stpbv
+
+DATA = pathlib.Path(os.environ.get("FCL_STPBV_DATA", pathlib.Path(__file__).parents[2] / "data"))
+BOX = np.array([[x, y, z] for x in (-0.1, 0.1) for y in (-0.1, 0.1) for z in (-0.1, 0.1)])
+
+
+def pose(x=0.0, angle=0.0):
+    c, s = math.cos(angle), math.sin(angle)
+    return np.array([[c, -s, 0, x], [s, c, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]])
+
+
+def box():
+    return fcl_stpbv.StpBv.build(BOX, r=0.01, R=10.0)
+
+
+def test_facing_boxes_are_apart_by_the_gap_less_the_over_cover():
+    found = fcl_stpbv.distance(box(), pose(), box(), pose(0.5))
+    assert found.status == fcl_stpbv.Status.exact
+    assert found.distance == pytest.approx(0.3 - 2 * box().over_cover()[0], abs=1e-14)  # a few roundings of 0.5
+    assert found.lower <= found.distance <= found.upper
+    assert found.points.shape == (2, 3) and found.gradient.shape == (2, 6)
+    np.testing.assert_allclose(found.points[1] - found.points[0], found.distance * found.normal, atol=1e-14)
+
+
+def test_the_gradient_is_what_differences_say():
+    volume, angle, step = box(), 0.3, 1e-6
+    ask = lambda x, a: fcl_stpbv.distance(volume, pose(), volume, pose(x, a))
+    found = ask(0.5, angle)
+    along_x = (ask(0.5 + step, angle).distance - ask(0.5 - step, angle).distance) / (2 * step)
+    about_z = (ask(0.5, angle + step).distance - ask(0.5, angle - step).distance) / (2 * step)
+    # Central differences: 1e-16 / 1e-6 of rounding and step^2 times a third derivative of at most 1 / r^2.
+    assert found.gradient[1, 0] == pytest.approx(along_x, abs=1e-8)
+    assert found.gradient[1, 5] == pytest.approx(about_z, abs=1e-8)
+
+
+def test_a_cache_does_not_change_the_answer():
+    volume, cache = box(), fcl_stpbv.PairCache()
+    for angle in np.linspace(-1, 1, 50):
+        cold = fcl_stpbv.distance(volume, pose(), volume, pose(0.4, angle))
+        warm = fcl_stpbv.distance(volume, pose(), volume, pose(0.4, angle), cache)
+        assert warm.distance == pytest.approx(cold.distance, abs=1e-15)
+
+
+def test_files_keep_every_bit(tmp_path):
+    path = str(tmp_path / "box.stpbv")
+    box().save(path)
+    again = fcl_stpbv.StpBv.load(path)
+    assert (again.r, again.R) == (0.01, 10.0)
+    assert np.array_equal(again.vertices, box().vertices) and again.faces == box().faces
+    assert again.verify() == "ok"
+
+
+def test_errors_name_what_would_work(tmp_path):
+    with pytest.raises(fcl_stpbv.Error, match="R"):
+        fcl_stpbv.StpBv.build(BOX, R=0.1)
+    with pytest.raises(fcl_stpbv.Error, match="missing.stpbv"):
+        fcl_stpbv.StpBv.load(str(tmp_path / "missing.stpbv"))
+    with pytest.raises(TypeError):
+        fcl_stpbv.StpBv.build(np.zeros((4, 2)))
+    with pytest.raises(ValueError, match="last row"):
+        fcl_stpbv.distance(box(), np.zeros((4, 4)), box(), pose())
+
+
+def test_a_pose_that_is_not_finite_is_invalid_and_not_raised():
+    assert fcl_stpbv.distance(box(), pose(math.nan), box(), pose()).status == fcl_stpbv.Status.invalid
+
+
+def test_a_robots_jacobian_is_what_differences_say(tmp_path, monkeypatch):
+    folder = DATA / "hrp2_style"
+    robot = fcl_stpbv.Robot(str(folder / "hrp2_style.urdf"), str(folder / "hrp2_style.srdf"))
+    q = robot.configuration("half_sitting")
+    d, jacobian = robot.evaluate(q)
+    assert jacobian.shape == (len(robot.rows), len(robot.names)) == (d.size, q.size)
+    assert np.array_equal(robot.distances(robot.neutral), robot.evaluate(robot.neutral)[0])
+    step, direction = 1e-6, np.random.default_rng(1).normal(size=q.size)
+    slope = (robot.distances(q + step * direction) - robot.distances(q - step * direction)) / (2 * step)
+    # Second derivatives jump on seams: up to step |direction|^2 (reach^2 / r + reach), reach about 1 m; most
+    # pairs are far apart and none of this posture's sits on one.
+    np.testing.assert_allclose(jacobian @ direction, slope, atol=1e-6)
+    with pytest.raises(fcl_stpbv.Error, match="coordinates"):
+        robot.distances(q[:-1])
