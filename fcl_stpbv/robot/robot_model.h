@@ -41,7 +41,7 @@ struct LinkModel {
   std::string name;
   std::vector<ShapeModel> collision, visual;
   int parentJoint = -1;                   ///< -1 for the root
-  double mass = 0;                        ///< kg; 0 without <inertial>
+  double mass = 0;                        ///< kg; 0 without an inertial element
   Eigen::Vector3d centreOfMass{0, 0, 0};  ///< in the link's frame (m)
 };
 
