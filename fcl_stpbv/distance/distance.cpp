@@ -1,5 +1,6 @@
 #include "fcl_stpbv/distance/distance.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -90,7 +91,8 @@ bool polyhedralStart(const BodyPair& pair, const Vector3d& start, const std::arr
   return true;
 }
 
-/// Cores that overlap: the least separating translation, from any normal.
+/// Cores that overlap: the least separating translation, from any normal. A search that was not surrounded has no
+/// corners to start from.
 Found solveOverlap(const BodyPair& pair, const Vector3d& n, const std::array<int, 2>& patch,
                    const VertexSearch& search, Work& work) {
   Sample x = pair.sampleFrom(n, patch, work.steps);
@@ -98,8 +100,10 @@ Found solveOverlap(const BodyPair& pair, const Vector3d& n, const std::array<int
   settle(pair, x, ignored, work);
   if (x.core > 0.0) return climb(pair, x, work);  // apart, by less than the search's rounding
   double bound = 0.0;
-  if (!expandPolytope(pair, x, bound, work) && !expandPolytope(pair, search.corner, x, bound, work))
+  if (!expandPolytope(pair, x, bound, work) &&
+      !(search.surrounded && expandPolytope(pair, search.corner, x, bound, work)))
     leastPenetration(pair, x, work);
+  if (x.core > 0.0) return climb(pair, x, work);
   ascend(pair, x, work);
   return {x, DistanceStatus::local, bound};
 }
@@ -121,8 +125,7 @@ Found solveCold(const BodyPair& pair, Work& work) {
     case CoreContact::overlap:
       break;
   }
-  leastPenetration(pair, x, work);
-  return {x, DistanceStatus::local};
+  return solveOverlap(pair, x.n, x.patch, search, work);
 }
 
 /// From what the last query left: first its patch pair, which most small motions keep, then its normal.
@@ -183,7 +186,7 @@ Distance distance(const StpBv& a, const Isometry3d& poseA, const StpBv& b, const
   result.status = found.status;
   result.lower = x.core - pair.margins();
   result.upper =
-      (found.status == DistanceStatus::local ? found.bound
+      (found.status == DistanceStatus::local ? std::max(found.bound, x.core)
                                              : std::sqrt(x.core * x.core + x.across.squaredNorm())) -
       pair.margins();
   result.distance = result.lower;
