@@ -91,8 +91,8 @@ bool polyhedralStart(const BodyPair& pair, const Vector3d& start, const std::arr
   return true;
 }
 
-/// Cores that overlap: the least separating translation, from any normal. A search that was not surrounded has no
-/// corners to start from.
+/// Cores that overlap: the least separating translation, from any normal. A search that was not surrounded
+/// has no corners to start from.
 Found solveOverlap(const BodyPair& pair, const Vector3d& n, const std::array<int, 2>& patch,
                    const VertexSearch& search, Work& work) {
   Sample x = pair.sampleFrom(n, patch, work.steps);

@@ -64,12 +64,11 @@ bool grow(const BodyPair& pair, Polytope& polytope, Sample& x, double& bound, Wo
     const bool top = open <= kNear * nearest.distance && settle(pair, trial, ignored, work);
     const bool another = top && (trial.n - x.n).squaredNorm() > kSame * kSame;
     if (trial.core > x.core) x = trial;
-    if (open <= pair.gapRounding() || (top && open <= kClose * nearest.distance)) {
+    if (open <= pair.gapRounding() || (top && open <= kClose * nearest.distance) || !polytope.expand(point)) {
       least = std::min(least, nearest.distance);
       polytope.putAside();
       continue;
     }
-    polytope.expand(point);
     if (!another) continue;
     for (const Vector3d& p : pointsAround(pair, trial, work))
       if (polytope.sound()) polytope.expand(p);

@@ -43,12 +43,9 @@ class Polytope {
   /// Takes the nearest face out of the search.
   void putAside() { rank_[nearestIndex()] = std::numeric_limits<double>::infinity(); }
 
-  /// Takes `p`, outside at least one face, into the hull.
-  void expand(const Eigen::Vector3d& p) {
-    if (points_ == kMaxPoints) {
-      sound_ = false;
-      return;
-    }
+  /// Takes `p` into the hull. False where it is inside already, or in a face's plane to rounding, or without room.
+  bool expand(const Eigen::Vector3d& p) {
+    if (points_ == kMaxPoints) return sound_ = false;
     const std::int16_t index = static_cast<std::int16_t>(points_);
     point_[static_cast<std::size_t>(points_++)] = p;
     // The sides of the faces that see `p`; those seen from both sides cancel and the rest is the horizon.
@@ -56,7 +53,7 @@ class Polytope {
     int sides = 0;
     for (int i = 0; i < faces_;) {
       const Face& f = face(i);
-      if (f.normal.dot(p) <= f.distance) {
+      if (f.normal.dot(p) - f.distance <= kFlat * p.lpNorm<1>()) {
         ++i;
         continue;
       }
@@ -75,14 +72,20 @@ class Polytope {
       face_[static_cast<std::size_t>(i)] = face(faces_);
       rank_[static_cast<std::size_t>(i)] = rank_[static_cast<std::size_t>(faces_)];
     }
+    if (sides == 0) {
+      --points_;
+      sound_ = faces_ > 0;  // not seen from everywhere
+      return false;
+    }
     for (int i = 0; i < sides && sound_; ++i)
       sound_ = add(horizon[static_cast<std::size_t>(i)][0], horizon[static_cast<std::size_t>(i)][1], index);
-    sound_ = sound_ && faces_ > 0;
+    return sound_ = sound_ && faces_ > 0;
   }
 
  private:
   static constexpr int kMaxPoints = 400;  // some 20 are usual, hundreds where all directions are nearly as good
   static constexpr int kMaxFaces = 2 * kMaxPoints;
+  static constexpr double kFlat = 1e-15;  // of a point: this near to a face's plane is in it, to rounding
 
   std::size_t nearestIndex() const {
     std::size_t best = 0;

@@ -79,7 +79,7 @@ WidestGap leastOverlap(ShapeQuery& q, const StartNormal& start) {
       break;
     }
     if (!(nearest.normal.dot(difference) - nearest.distance > q.rounding.gap)) break;
-    polytope.expand(difference);
+    if (!polytope.expand(difference)) break;
   }
   return best;
 }
