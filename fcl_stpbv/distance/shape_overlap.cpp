@@ -55,7 +55,8 @@ WidestGap widestGapByCuts(ShapeQuery& q, const StartNormal& start) {
 }
 
 WidestGap leastOverlap(ShapeQuery& q, const StartNormal& start) {
-  constexpr double kRelative = 1e-6;  // of the depth
+  constexpr double kRelative = 1e-6;  // of the depth, which is as good as proven
+  constexpr int kMore = 16;           // steps from there for a normal to rounding, which flat faces give
   WidestGap best{trialAlong(q, start.n, start.patch).at, 0.0, true, false};
   const auto take = [&](const Vector3d& n) {
     const Trial trial = trialAlong(q, n, -1);
@@ -68,19 +69,23 @@ WidestGap leastOverlap(ShapeQuery& q, const StartNormal& start) {
                                       take(Vector3d(-0.5 * kX, kY, -kZ).normalized()),
                                       take(Vector3d(-0.5 * kX, -kY, -kZ).normalized())};
   Polytope polytope(first, Polytope::Origin::anywhere);
+  int more = 0;
   while (polytope.sound()) {
     const Polytope::Face nearest = polytope.nearest();
     // Inside the difference, so with the origin inside it no direction leads out sooner.
-    if (nearest.distance > 0.0) best.bound = -nearest.distance;
+    best.bound = std::min(best.bound, -nearest.distance);
     const Vector3d difference = take(-nearest.normal);
-    if (nearest.distance > 0.0 &&
-        -best.at.gap - nearest.distance <= kRelative * nearest.distance + q.rounding.gap) {
+    const double open = -best.at.gap - nearest.distance;
+    if (nearest.distance > 0.0 && open <= kRelative * nearest.distance + q.rounding.gap) {
       best.solved = true;
-      break;
+      if (open <= q.rounding.gap || ++more > kMore) break;
     }
     if (!(nearest.normal.dot(difference) - nearest.distance > q.rounding.gap)) break;
     if (!polytope.expand(difference)) break;
   }
+  // The strictly convex body's point is the only one; of a face the shape gave a corner, so take what is
+  // opposite.
+  best.at.y = viewVolume(q.body, best.at.n, best.at.patch, q.steps).point + best.at.gap * best.at.n;
   return best;
 }
 

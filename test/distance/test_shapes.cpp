@@ -145,11 +145,30 @@ TEST_CASE("deep in each other: bounds on both sides of the widest gap that a den
           static_cast<double>(widestGapOverDirections(referenceBody(cloud, 0.01, 10), shape.posed(b), 2000));
       CHECK(d.distance < 0);
       CHECK(d.lower <= d.upper);
+      CHECK((d.point[1] - d.point[0] - d.distance * d.normal).norm() <= 1e-14);
       CHECK(truth <= d.upper + 1e-9);
       // Both are gaps along some normal, so neither can exceed the widest; the library's is no worse.
       CHECK(d.distance >= truth - 1e-6 * (1e-3 - truth));
     }
   CHECK(deep > 40);
+}
+
+TEST_CASE("deep in a box the witness point is the matching one in its face, not a corner of it") {
+  Random random(14);
+  const Vector3d half(0.5, 0.6, 0.7);
+  for (const Cloud& cloud : {box(0.3, 0.2, 0.1), geodesicSphere(0.1, 2), plate(0.3, 0.2)})
+    for (int i = 0; i < 40; ++i) {
+      const auto volume = StpBv::build(cloud, {0.01, i % 2 ? 1.0 : 10.0});
+      const Isometry3d a = pose(random.rotation(), random.direction());
+      const Isometry3d b = a * pose(i % 4 ? random.rotation() : Eigen::Matrix3d(Eigen::Matrix3d::Identity()),
+                                    0.25 * random.direction());
+      CAPTURE(cloud.size(), i);
+      const Distance d = distance(*volume, a, Shape::boxOf(2 * half), b);
+      REQUIRE(d.status == DistanceStatus::local);
+      CHECK((d.point[1] - d.point[0] - d.distance * d.normal).norm() <= 1e-14);
+      const Vector3d inBox = b.inverse() * d.point[1];
+      CHECK(std::abs((inBox.cwiseAbs() - half).maxCoeff()) <= 1e-14);  // on its surface
+    }
 }
 
 TEST_CASE("poses that are no poses and shapes that are no shapes are answered invalid") {
