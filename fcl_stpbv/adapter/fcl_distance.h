@@ -51,8 +51,8 @@ struct QueryContext {
 /// Distance between two geometries. Never throws; allocates nothing where one is an STP-BV.
 ///
 /// An STP-BV against one, or against any other FCL geometry in either order: exact and signed, with status,
-/// bounds and derivatives. Two other shapes that are apart: exact, by this library's own GJK, `continuous`
-/// false. Any other pair: `fcl::distance`, unsigned, with tolerance 1e-10, exceptions caught; status
+/// bounds and derivatives. Two other shapes, one of them bounded: signed, by this library's own GJK, and at
+/// overlap by an expanding polytope (flat_overlap.h), `continuous` false. Any other pair: `fcl::distance`, unsigned, with tolerance 1e-10, exceptions caught; status
 /// `bounded`, `continuous` false, 0 for touching or overlapping geometries.
 DistanceAnswer distance(const fcl::CollisionGeometryd& geometry1, const fcl::Transform3d& pose1,
                         const fcl::CollisionGeometryd& geometry2, const fcl::Transform3d& pose2,
@@ -70,7 +70,7 @@ DistanceAnswer inFclTerms(const Distance& found, const fcl::Transform3d& pose1,
 /// included.
 ///
 /// Differs from FCL where FCL sets traps (docs/fcl.md): `result` holds this pair and no earlier one, the
-/// distance of two STP-BVs is always signed, no field is left uninitialised. Overlap of other geometries, and
+/// distance of convex shapes is always signed, no field is left uninitialised. Overlap that FCL answers about, and
 /// a query that has no answer, is -1, FCL's own value for them.
 double distance(const fcl::CollisionObjectd* object1, const fcl::CollisionObjectd* object2,
                 const fcl::DistanceRequestd& request, fcl::DistanceResultd& result);

@@ -1,0 +1,208 @@
+// How deep two shapes without an STP-BV are in each other, against closed forms and brute force.
+#include <fcl/geometry/shape/box.h>
+#include <fcl/geometry/shape/capsule.h>
+#include <fcl/geometry/shape/cone.h>
+#include <fcl/geometry/shape/convex.h>
+#include <fcl/geometry/shape/cylinder.h>
+#include <fcl/geometry/shape/ellipsoid.h>
+#include <fcl/geometry/shape/halfspace.h>
+#include <fcl/geometry/shape/plane.h>
+#include <fcl/geometry/shape/sphere.h>
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+
+#include "fcl_stpbv/adapter/fcl_distance.h"
+#include "fcl_stpbv/adapter/fcl_shapes.h"
+#include "fcl_stpbv/adapter/flat_overlap.h"
+#include "test/shapes.h"
+
+using namespace fcl_stpbv;
+using namespace fcl_stpbv::test;
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+namespace {
+
+/// Separating axes in long double: the widest gap over face normals and cross products of edges.
+double boxGap(const Vector3d& sidesA, const Isometry3d& a, const Vector3d& sidesB, const Isometry3d& b) {
+  using Vector3l = Eigen::Matrix<long double, 3, 1>;
+  const Eigen::Matrix<long double, 3, 3> u = a.linear().cast<long double>(), v = b.linear().cast<long double>();
+  const Vector3l t = b.translation().cast<long double>() - a.translation().cast<long double>();
+  const Vector3l h = sidesA.cast<long double>() / 2, k = sidesB.cast<long double>() / 2;
+  long double best = -1e30L;
+  const auto test = [&](const Vector3l& axis) {
+    const long double length = axis.norm();
+    if (length < 1e-9L) return;
+    const Vector3l n = axis / length;
+    const long double gap =
+        std::abs(n.dot(t)) - (u.transpose() * n).cwiseAbs().dot(h) - (v.transpose() * n).cwiseAbs().dot(k);
+    best = std::max(best, gap);
+  };
+  for (int i = 0; i < 3; ++i) {
+    test(u.col(i));
+    test(v.col(i));
+    for (int j = 0; j < 3; ++j) test(u.col(i).cross(v.col(j)));
+  }
+  return static_cast<double>(best);
+}
+
+/// The gap of two shapes along `n`, by support points of the placed bodies.
+double gapAlong(const Shape& a, const Isometry3d& poseA, const Shape& b, const Isometry3d& poseB, const Vector3d& n) {
+  const Vector3d p = poseA * a.support(poseA.linear().transpose() * n);
+  const Vector3d q = poseB * b.support(-(poseB.linear().transpose() * n));
+  return n.dot(q - p) - a.margin - b.margin;
+}
+
+void checkConsistent(const DistanceAnswer& d, const DistanceAnswer& e) {
+  CHECK(d.status != DistanceStatus::invalid);
+  CHECK((std::isfinite(d.distance) && d.points[0].allFinite() && d.normal.allFinite()));
+  CHECK(std::abs(d.normal.norm() - 1) <= 1e-14);
+  CHECK((d.points[1] - d.points[0] - d.distance * d.normal).norm() <= 1e-14);
+  CHECK((d.lower <= d.distance && d.distance <= d.upper));
+  CHECK_FALSE(d.continuous);
+  CHECK(e.distance == d.distance);
+  CHECK(e.normal == -d.normal);
+  CHECK(e.points[0] == d.points[1]);
+  CHECK(e.points[1] == d.points[0]);
+}
+
+}  // namespace
+
+TEST_CASE("overlapping boxes: the widest gap over the separating axes") {
+  Random random(1);
+  const Vector3d s(0.2, 0.3, 0.4), t(0.4, 0.1, 0.2);
+  const fcl::Boxd first(s), second(t);
+  int exact = 0, overlapping = 0;
+  for (int i = 0; i < 1000; ++i) {
+    CAPTURE(i);
+    const Isometry3d a = pose(random.rotation(), random.direction());
+    const Isometry3d b = pose(random.rotation(), a.translation() + random.uniform(0, 0.3) * random.direction());
+    const double truth = boxGap(s, a, t, b);
+    if (!(truth < 0)) continue;
+    ++overlapping;
+    const DistanceAnswer d = distance(first, a, second, b), e = distance(second, b, first, a);
+    checkConsistent(d, e);
+    // Poses 1 m from the origin round to some 1e-16 m each, amplified by flat faces of the difference.
+    CHECK(d.lower <= truth + 1e-14);
+    CHECK(d.upper >= truth - 1e-14);
+    if (d.status != DistanceStatus::exact) continue;
+    ++exact;
+    CHECK(std::abs(d.distance - truth) <= 1e-14);
+  }
+  CHECK(overlapping > 500);
+  CHECK(exact >= overlapping * 99 / 100);
+}
+
+TEST_CASE("balls, capsules, half spaces and planes overlap by their closed forms") {
+  Random random(2);
+  const fcl::Sphered ball(0.2), small(0.1);
+  const fcl::Boxd box(0.6, 0.8, 1.0);
+  const fcl::Capsuled capsule(0.1, 0.6);
+  const Vector3d half(0.3, 0.4, 0.5);
+  for (int i = 0; i < 500; ++i) {
+    CAPTURE(i);
+    const Isometry3d a = pose(random.rotation(), random.direction());
+    const Vector3d x(random.uniform(-0.3, 0.3), random.uniform(-0.4, 0.4), random.uniform(-0.5, 0.5));
+    const Isometry3d b = pose(random.rotation(), a * x);
+    const DistanceAnswer d = distance(box, a, ball, b);
+    checkConsistent(d, distance(ball, b, box, a));
+    CHECK(std::abs(d.distance + (half - x.cwiseAbs()).minCoeff() + 0.2) <= 1e-14);
+    const Isometry3d c = pose(random.rotation(), a.translation() + random.uniform(1e-3, 0.3) * random.direction());
+    const DistanceAnswer balls = distance(ball, a, small, c);
+    checkConsistent(balls, distance(small, c, ball, a));
+    CHECK(std::abs(balls.distance - ((c.translation() - a.translation()).norm() - 0.3)) <= 1e-14);
+    const fcl::Halfspaced ground(Vector3d(0, 0, 1), 0.1);
+    const fcl::Planed sheet(Vector3d(0, 0, 1), 0.1);
+    const double below = x.z() - 0.1;
+    const DistanceAnswer g = distance(ground, a, ball, b), p = distance(sheet, a, ball, b);
+    checkConsistent(g, distance(ball, b, ground, a));
+    checkConsistent(p, distance(ball, b, sheet, a));
+    CHECK(std::abs(g.distance - (below - 0.2)) <= 1e-14);
+    CHECK(std::abs(p.distance - (std::abs(below) - 0.2)) <= 1e-14);
+  }
+  // Axes that cross: out along their common normal, past both radii.
+  Eigen::Matrix3d turned = Eigen::AngleAxisd(1.0, Vector3d::UnitX()).toRotationMatrix();
+  for (const double apart : {0.0, 1e-9, 0.05}) {
+    const Isometry3d here = Isometry3d::Identity(), there = pose(turned, {apart, 0, 0});
+    CHECK(std::abs(distance(capsule, here, capsule, there).distance - (apart - 0.2)) <= 1e-14);
+  }
+}
+
+TEST_CASE("round bodies: bounds that no direction breaks, and the relative tolerance is met") {
+  const std::vector<std::shared_ptr<fcl::CollisionGeometryd>> shapes{
+      std::make_shared<fcl::Capsuled>(0.1, 0.4), std::make_shared<fcl::Boxd>(0.3, 0.2, 0.1),
+      std::make_shared<fcl::Cylinderd>(0.2, 0.3), std::make_shared<fcl::Coned>(0.2, 0.3),
+      std::make_shared<fcl::Ellipsoidd>(0.1, 0.2, 0.3)};
+  Random random(3);
+  int loose = 0, all = 0;
+  for (const auto& first : shapes)
+    for (const auto& second : shapes)
+      for (int i = 0; i < 24; ++i) {
+        CAPTURE(static_cast<int>(first->getNodeType()), static_cast<int>(second->getNodeType()), i);
+        Shape s, t;
+        REQUIRE((shapeOf(*first, s) && shapeOf(*second, t)));
+        const Isometry3d a = pose(random.rotation(), random.direction());
+        const Isometry3d b = i == 0 ? pose(random.rotation(), a.translation())
+                                    : pose(random.rotation(), a.translation() + random.uniform(0, 0.1) * random.direction());
+        const DistanceAnswer d = distance(*first, a, *second, b);
+        checkConsistent(d, distance(*second, b, *first, a));
+        CHECK(std::abs(gapAlong(s, a, t, b, d.normal) - d.distance) <= 1e-14);
+        double best = -1;
+        for (int k = 0; k < 2000; ++k) best = std::max(best, gapAlong(s, a, t, b, random.direction()));
+        CHECK(best <= d.upper + 1e-14);
+        ++all;
+        loose += d.upper - d.lower > 1e-6 * std::abs(d.distance) + 1e-14;
+      }
+  CHECK(loose <= all / 20);
+}
+
+TEST_CASE("identical, pointlike and barely overlapping boxes") {
+  const fcl::Boxd box(0.2, 0.3, 0.4);
+  const Isometry3d here = Isometry3d::Identity();
+  CHECK(std::abs(distance(box, here, box, here).distance + 0.2) <= 1e-15);
+  const fcl::Sphered ball(0.1);
+  CHECK(distance(ball, here, ball, here).distance == -0.2);
+  CHECK(distance(fcl::Boxd(0, 0, 0), here, box, here).distance == Approx(-0.1).margin(1e-15));
+  const DistanceAnswer d = distance(box, here, box, pose(Eigen::Matrix3d::Identity(), {0.2 - 1e-9, 0.01, 0.02}));
+  CHECK(std::abs(d.distance + 1e-9) <= 1e-15);
+  CHECK((d.normal - Vector3d::UnitX()).norm() <= 1e-9);
+}
+
+TEST_CASE("overlapping hulls: the widest gap over all normals that three vertices or two edges can have") {
+  Random random(4);
+  for (int i = 0; i < 203; ++i) {
+    const int count = i < 200 ? 10 : 60;
+    CAPTURE(i, count);
+    const auto p = randomHull(count, {0.2, 0.15, 0.1}, static_cast<unsigned>(2 * i + 1));
+    const auto q = randomHull(count, {0.1, 0.2, 0.15}, static_cast<unsigned>(2 * i + 2));
+    const Isometry3d a = pose(random.rotation(), random.direction());
+    const Isometry3d b = pose(random.rotation(), a.translation() + random.uniform(0, 0.1) * random.direction());
+    std::vector<Vector3d> x, y, sidesX, sidesY;
+    for (const Vector3d& v : p) x.push_back(a * v - a.translation());
+    for (const Vector3d& v : q) y.push_back(b * v - a.translation());
+    double truth = -1e9;
+    const auto test = [&](const Vector3d& axis) {
+      if (!(axis.norm() > 1e-9)) return;
+      const Vector3d n = axis.normalized();
+      double lowX = 1e9, highX = -1e9, lowY = 1e9, highY = -1e9;
+      for (const Vector3d& v : x) lowX = std::min(lowX, n.dot(v)), highX = std::max(highX, n.dot(v));
+      for (const Vector3d& v : y) lowY = std::min(lowY, n.dot(v)), highY = std::max(highY, n.dot(v));
+      truth = std::max({truth, lowY - highX, lowX - highY});
+    };
+    for (const auto& [points, sides] : {std::make_pair(&x, &sidesX), std::make_pair(&y, &sidesY)})
+      for (std::size_t j = 0; j < points->size(); ++j)
+        for (std::size_t k = 0; k < j; ++k) {
+          sides->push_back((*points)[j] - (*points)[k]);
+          for (std::size_t l = 0; l < k; ++l)
+            test(sides->back().cross((*points)[l] - (*points)[k]));
+        }
+    for (const Vector3d& e : sidesX)
+      for (const Vector3d& f : sidesY) test(e.cross(f));
+    if (!(truth < 0)) continue;
+    const Distance d = flatOverlap(Shape::polytopeOf(p.data(), static_cast<int>(p.size())), a,
+                                   Shape::polytopeOf(q.data(), static_cast<int>(q.size())), b);
+    CHECK(d.status == DistanceStatus::exact);
+    CHECK(std::abs(d.distance - truth) <= 1e-14);
+  }
+}
