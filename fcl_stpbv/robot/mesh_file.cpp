@@ -99,8 +99,9 @@ std::string lowerExtension(const std::string& path) {
   return extension;
 }
 
-// By its content, as assimp decides where the name says nothing.
+// By its name or its content, as assimp decides.
 bool isPly(const std::string& path) {
+  if (lowerExtension(path) == ".ply") return true;
   char magic[3] = {};
   std::ifstream in(path, std::ios::binary);
   return in.read(magic, sizeof magic) && std::string_view(magic, sizeof magic) == "ply";
