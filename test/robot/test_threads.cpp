@@ -1,8 +1,17 @@
-// What may be shared between threads is: volumes and geometries by any number, a constraint's rows by its own pool.
-// Built with the thread sanitizer (preset tsan) this is what finds a race.
+// What may be shared between threads is: volumes and geometries by any number, a constraint's rows by its own
+// pool. Built with the thread sanitizer (preset tsan) this is what finds a race.
+#include <fcl/broadphase/broadphase_dynamic_AABB_tree.h>
+#include <fcl/config.h>
+#include <fcl/geometry/bvh/BVH_model.h>
+#include <fcl/geometry/geometric_shape_to_BVH_model.h>
+#if FCL_HAVE_OCTOMAP
+#include <fcl/geometry/octree/octree.h>
+#endif
+
 #include <catch2/catch.hpp>
 #include <thread>
 
+#include "fcl_stpbv/adapter/distance_callback.h"
 #include "fcl_stpbv/adapter/fcl_distance.h"
 #include "fcl_stpbv/robot/constraints.h"
 #include "test/robot/robots.h"
@@ -17,7 +26,67 @@ Eigen::Isometry3d turned(int k) {
   return pose;
 }
 
+/// One geometry of each kind, for all threads to share.
+std::vector<std::shared_ptr<fcl::CollisionGeometryd>> everyKind() {
+  std::vector<std::shared_ptr<fcl::CollisionGeometryd>> all{
+      std::make_shared<StpBvGeometry>(StpBv::build(box(0.2, 0.1, 0.3))),
+      std::make_shared<fcl::Sphered>(0.1),
+      std::make_shared<fcl::Capsuled>(0.1, 0.3),
+      std::make_shared<fcl::Ellipsoidd>(0.1, 0.2, 0.3),
+      std::make_shared<fcl::Boxd>(0.1, 0.2, 0.3),
+      std::make_shared<fcl::Cylinderd>(0.1, 0.3),
+      std::make_shared<fcl::Coned>(0.1, 0.3),
+      std::make_shared<fcl::Halfspaced>(Eigen::Vector3d(0, 0, 1), -0.2),
+      std::make_shared<fcl::Planed>(Eigen::Vector3d(0, 0, 1), -0.2),
+      std::make_shared<fcl::TrianglePd>(Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(1, 0, 0),
+                                        Eigen::Vector3d(0, 1, 0))};
+  auto mesh = std::make_shared<fcl::BVHModel<fcl::OBBRSSd>>();
+  fcl::generateBVHModel(*mesh, fcl::Sphered(0.2), fcl::Transform3d::Identity(), 12, 12);
+  all.push_back(mesh);
+#if FCL_HAVE_OCTOMAP
+  auto cells = std::make_shared<octomap::OcTree>(0.05);
+  for (int i = 0; i < 30; ++i) cells->updateNode(0.01f * static_cast<float>(i), 0.1f, 0.02f, true);
+  all.push_back(std::make_shared<fcl::OcTreed>(cells));
+#endif
+  return all;
+}
+
 }  // namespace
+
+TEST_CASE("eight threads that share a geometry of every kind get the answers of one thread") {
+  const StpBvGeometry link(StpBv::build(geodesicSphere(0.1, 2)));
+  const auto linkShared = std::make_shared<StpBvGeometry>(StpBv::build(geodesicSphere(0.1, 2)));
+  const auto kinds = everyKind();
+  constexpr int kPoses = 20, kThreads = 8;
+  // An object of one's own in each thread, made beforehand: FCL's constructor writes into the geometry.
+  std::vector<std::unique_ptr<fcl::CollisionObjectd>> objects;
+  for (int i = 0; i < 3 * (kThreads + 1); ++i)
+    objects.push_back(std::make_unique<fcl::CollisionObjectd>(
+        i % 3 == 0 ? linkShared : kinds[i % 3 == 1 ? 0 : 4], turned(9 * (i % 3))));
+  const auto ask = [&](int thread, std::vector<double>& found) {
+    const auto* own = &objects[static_cast<std::size_t>(3 * thread)];
+    fcl::DynamicAABBTreeCollisionManagerd manager;
+    manager.registerObjects({own[0].get(), own[1].get(), own[2].get()});
+    for (int k = 0; k < kPoses; ++k) {
+      for (const auto& kind : kinds)
+        found.push_back(distance(link, Eigen::Isometry3d::Identity(), *kind, turned(k)).distance);
+      own[0]->setTransform(turned(k));
+      own[0]->computeAABB();
+      manager.update();
+      DistanceData data;
+      manager.distance(&data, distanceCallback);
+      found.push_back(data.result.distance);
+    }
+  };
+  std::vector<double> alone;
+  ask(kThreads, alone);
+  std::vector<std::vector<double>> found(kThreads);
+  std::vector<std::thread> threads;
+  for (int i = 0; i < kThreads; ++i)
+    threads.emplace_back([&, i] { ask(i, found[static_cast<std::size_t>(i)]); });
+  for (auto& thread : threads) thread.join();
+  for (const auto& list : found) CHECK(list == alone);
+}
 
 TEST_CASE("threads that share two geometries get the answers of one thread") {
   const StpBvGeometry first(StpBv::build(geodesicSphere(0.1, 2))), second(StpBv::build(box(0.2, 0.1, 0.3)));
