@@ -104,6 +104,7 @@ class Maker {
         posed ? poseOf(request_.pose, *report_.kinematics, srdf()) : report_.kinematics->neutral();
     for (const PairEntry& entry : report_.list) addPair(entry, posed ? q : entry.closest);
     summarise();
+    warnOfKinks();
     measure(q);
     return std::move(report_);
   }
@@ -124,6 +125,8 @@ class Maker {
     GeometryOptions options = request_.geometry;
     options.links.clear();  // these name the robot's
     options.budgets.clear();
+    options.flatLinks.clear();
+    options.flat = request_.flatObstacles;
     sceneGeometry_ = loadGeometry(*scene, options);
     report_.warnings.insert(report_.warnings.end(), sceneGeometry_.warnings.begin(),
                             sceneGeometry_.warnings.end());
@@ -168,6 +171,17 @@ class Maker {
       report_.colliding += pair.answer.distance <= request_.search.margin;
       report_.minDistance = std::min(report_.minDistance, pair.answer.distance);
     }
+  }
+
+  void warnOfKinks() {
+    const auto kinked = std::count_if(report_.pairs.begin(), report_.pairs.end(), [](const PairReport& pair) {
+      return pair.checked && !pair.answer.continuous;
+    });
+    if (kinked > 0)
+      report_.warnings.push_back(
+          request_.urdf + ": " + std::to_string(kinked) +
+          " checked pairs have no smooth body, so their gradients may jump (\"continuous\" "
+          "is false in the JSON).");
   }
 
   // As a controller runs: small steps around the posture, everything warm.

@@ -15,6 +15,7 @@ namespace fcl_stpbv::tools {
 struct ReportRequest {
   std::string urdf, srdf, pose, obstacles;  ///< "" where not given; pose is a state's name or a JSON file
   GeometryOptions geometry;
+  bool flatObstacles = false;  ///< the scene's meshes stay convex polyhedra
   PairListOptions search;
 };
 

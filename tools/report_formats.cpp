@@ -131,6 +131,7 @@ std::string toJson(const CollisionReport& report) {
                              {"checked", pair.checked},
                              {"distance", orNull(pair.answer.distance)},
                              {"status", statusName(pair.answer.status)},
+                             {"continuous", pair.answer.continuous},
                              {"point1", numbers(pair.answer.points[0])},
                              {"point2", numbers(pair.answer.points[1])},
                              {"normal", numbers(pair.answer.normal)},

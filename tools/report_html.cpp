@@ -3,6 +3,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include <fcl/geometry/shape/convex.h>
+
 #include "fcl_stpbv/adapter/stp_bv_geometry.h"
 #include "fcl_stpbv/volume/tessellate.h"
 #include "tools/report_formats.h"
@@ -20,10 +22,11 @@ constexpr double kPrimitiveRadius = 1e-3;
 
 double rounded(double value) { return std::round(value * 1e5) / 1e5; }
 
-// What FCL's primitives look like, near enough for a picture: the hull of points of their surface.
+// What FCL's shapes look like, near enough for a picture: the hull of points of their surface.
 std::vector<Eigen::Vector3d> pointsOf(const fcl::CollisionGeometryd& geometry) {
   const Eigen::Vector3d half = (geometry.aabb_local.max_ - geometry.aabb_local.min_) / 2;
   std::vector<Eigen::Vector3d> points;
+  if (geometry.getNodeType() == fcl::GEOM_CONVEX) return static_cast<const fcl::Convexd&>(geometry).getVertices();
   const bool round = geometry.getNodeType() != fcl::GEOM_BOX;
   constexpr int kSides = 12;
   for (int i = 0; i < (round ? kSides : 4); ++i) {

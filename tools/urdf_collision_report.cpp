@@ -39,7 +39,7 @@ Exit status: 0 no checked pair in collision; 1 a collision found; 2 the command 
 struct Arguments {
   ReportRequest request;
   std::string format = "text", output;
-  std::vector<std::string> links;
+  std::vector<std::string> links, flat;
   std::size_t top = 20;
   bool noCache = false, quiet = false;
 };
@@ -72,6 +72,12 @@ void describe(CLI::App& app, Arguments& a) {
       ->capture_default_str();
   app.add_option("--link", a.links, "Values of a single link; may be given again")
       ->type_name("NAME=r,R[,OVER_COVER]")
+      ->expected(1)
+      ->take_all();
+  app.add_option(
+         "--flat", a.flat,
+         "Link whose meshes stay convex polyhedra, or 'obstacles' for those of the scene; may be given again")
+      ->type_name("NAME")
       ->expected(1)
       ->take_all();
   app.add_flag("--visual", request.geometry.visual, "Use the visual shapes");
@@ -148,6 +154,12 @@ class Stages {
 int run(Arguments& a) {
   checkOutput(a);
   for (const std::string& link : a.links) readLink(link, a.request.geometry);
+  for (const std::string& link : a.flat) {
+    if (link == "obstacles")
+      a.request.flatObstacles = true;
+    else
+      a.request.geometry.flatLinks.insert(link);
+  }
   if (a.noCache) a.request.geometry.cacheFolder.clear();
   Stages stages(!a.quiet);
   a.request.geometry.progress = a.request.search.progress = std::ref(stages);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "fcl_stpbv/adapter/hull_geometry.h"
 #include "fcl_stpbv/error.h"
 
 namespace fcl_stpbv {
@@ -17,23 +18,6 @@ const std::vector<Vector3d>& verticesOf(const StpBv::Ptr& volume) {
   return volume->vertices();
 }
 
-// The volume's own coordinates, not the hull's relative ones: FCL must see the points unrounded.
-std::shared_ptr<const std::vector<fcl::Vector3d>> fclVertices(const StpBv& volume, const HullGraph& hull) {
-  auto vertices = std::make_shared<std::vector<fcl::Vector3d>>();
-  for (int v = 0; v < hull.vertexCount(); ++v) vertices->push_back(volume.vertices()[at(hull.cloudIndex(v))]);
-  return vertices;
-}
-
-// FCL's format: each face as its number of vertices followed by them, counter-clockwise from outside.
-std::shared_ptr<const std::vector<int>> fclFaces(const HullGraph& hull) {
-  auto faces = std::make_shared<std::vector<int>>();
-  for (const HullGraph::Ring& ring : hull.faces()) {
-    faces->push_back(static_cast<int>(ring.size()));
-    faces->insert(faces->end(), ring.begin(), ring.end());
-  }
-  return faces;
-}
-
 }  // namespace
 
 StpBvGeometry::StpBvGeometry(StpBv::Ptr volume) : StpBvGeometry(volume, HullGraph(verticesOf(volume))) {}
@@ -41,7 +25,7 @@ StpBvGeometry::StpBvGeometry(StpBv::Ptr volume) : StpBvGeometry(volume, HullGrap
 // FCL's check of the mesh would throw on degenerate volumes, and everything else it checks holds by
 // construction.
 StpBvGeometry::StpBvGeometry(StpBv::Ptr volume, HullGraph hull)
-    : fcl::Convexd(fclVertices(*volume, hull), hull.faceCount(), fclFaces(hull), /*throw_if_invalid=*/false),
+    : fcl::Convexd(fclVertices(hull, volume->vertices()), hull.faceCount(), fclFaces(hull), /*throw_if_invalid=*/false),
       volume_(std::move(volume)),
       hull_(std::move(hull)) {
   nameFaces();

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fcl_stpbv/adapter/hull_geometry.h"
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/robot/mesh_file.h"
 #include "fcl_stpbv/volume/reduce.h"
@@ -72,10 +73,11 @@ class Loader {
   void checkNames() const {
     const auto check = [&](const std::string& name) {
       if (robot_.link(name) < 0)
-        throw Error(robot_.path + ": radii were given for a link '" + name + "' it does not have");
+        throw Error(robot_.path + ": options were given for a link '" + name + "' it does not have");
     };
     for (const auto& entry : options_.links) check(entry.first);
     for (const auto& entry : options_.budgets) check(entry.first);
+    for (const std::string& link : options_.flatLinks) check(link);
   }
 
   bool onlyVisual() {
@@ -98,7 +100,7 @@ class Loader {
     body.pose = shape.pose;
     try {
       if (shape.kind == ShapeModel::Kind::mesh)
-        addVolume(name, shape, body);
+        addMesh(name, shape, body);
       else
         addPrimitive(shape, body);
     } catch (const Error& error) {
@@ -108,8 +110,30 @@ class Loader {
     geometry_.bodies.push_back(std::move(body));
   }
 
-  void addVolume(const std::string& link, const ShapeModel& shape, Body& body) {
+  void addMesh(const std::string& link, const ShapeModel& shape, Body& body) {
     body.file = paths_.resolve(shape.mesh);
+    try {
+      if (options_.flat || options_.flatLinks.count(link) > 0)
+        addHull(shape, body);
+      else
+        addVolume(link, shape, body);
+    } catch (const Error& error) {
+      const std::string message = error.what();
+      const bool named = message.find(body.file) != std::string::npos;
+      throw Error(named ? message : body.file + ": " + message);
+    }
+  }
+
+  static void addHull(const ShapeModel& shape, Body& body) {
+    const auto hull = hullGeometry(loadPoints(body.file, shape.scale));
+    body.centre = hull->aabb_center;
+    body.radius = 0;
+    for (const Eigen::Vector3d& v : hull->getVertices())
+      body.radius = std::max(body.radius, (v - body.centre).norm());
+    body.geometry = hull;
+  }
+
+  void addVolume(const std::string& link, const ShapeModel& shape, Body& body) {
     const auto own = options_.links.find(link);
     StpBvOptions radii = own == options_.links.end() ? options_.radii : own->second;
     const auto budgetOf = options_.budgets.find(link);
@@ -119,15 +143,9 @@ class Loader {
       body.volume = cache_.volume(content, radii,
                                   [&] { return StpBv::build(loadPoints(body.file, shape.scale), radii); });
     };
-    try {
-      build();
-      body.cover = overCover(*body.volume);
-      if (budget > 0) reduceTo(budget, loadPoints(body.file, shape.scale), content, radii, build, body);
-    } catch (const Error& error) {
-      const std::string message = error.what();
-      const bool named = message.find(body.file) != std::string::npos;
-      throw Error(named ? message : body.file + ": " + message);
-    }
+    build();
+    body.cover = overCover(*body.volume);
+    if (budget > 0) reduceTo(budget, loadPoints(body.file, shape.scale), content, radii, build, body);
     body.geometry = std::make_shared<StpBvGeometry>(body.volume);
     body.centre = body.volume->centre();
     body.radius = body.volume->enclosingRadius();

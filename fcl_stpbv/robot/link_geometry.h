@@ -7,6 +7,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -26,7 +27,9 @@ struct GeometryOptions {
   /// the budget. The budget must be above r.
   double overCoverBudget = 0;
   std::map<std::string, double> budgets;  ///< of single links, by name
-  bool visual = false;                    ///< the visual shapes instead of the collision shapes
+  bool flat = false;                      ///< the meshes of all links stay convex polyhedra, without STP-BVs:
+  std::set<std::string> flatLinks;  ///< or those of these links; enough where a pair's other body is smooth
+  bool visual = false;              ///< the visual shapes instead of the collision shapes
   std::vector<std::string> packagePath;
   std::string cacheFolder = VolumeCache::defaultFolder();  ///< "" for no cache
   /// Called before each shape with its index and the number of all.
@@ -39,7 +42,7 @@ struct Body {
   std::string name;        ///< the link's, with #2, #3 ... for its further shapes
   Eigen::Isometry3d pose;  ///< in the link's frame
   std::shared_ptr<fcl::CollisionGeometryd> geometry;
-  StpBv::Ptr volume;       ///< null for a primitive
+  StpBv::Ptr volume;       ///< null for a primitive and for a flat mesh
   StpBv::Ptr full;         ///< the volume of all the mesh's points where `volume` is a reduced one, else null
   std::string file;        ///< "" for a primitive
   Eigen::Vector3d centre;  ///< of a sphere that holds the body, in the link's frame

@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/robot/constraints.h"
 #include "fcl_stpbv/robot/mesh_file.h"
 #include "fcl_stpbv/volume/stpbv_file.h"
 #include "fcl_stpbv/volume/verify.h"
@@ -173,4 +174,39 @@ TEST_CASE("a robot without collision shapes is used by its visual ones, with a w
   const RobotGeometry nothing = loadGeometry(parseUrdf(robot(link("a")), "n.urdf"), cachedIn(""));
   CHECK(nothing.bodies.empty());
   CHECK(nothing.warnings.size() == 1);
+}
+
+TEST_CASE("a flat link is its convex hull, and in a pair with a smooth one its gradient is as exact") {
+  const TestRobot robot = robots()[0];
+  const auto model = std::make_shared<const RobotModel>(loadUrdf(robot.urdf));
+  const auto kinematics = std::make_shared<const Kinematics>(model);
+  GeometryOptions options = cachedIn("");
+  options.flatLinks.insert("BODY");
+  const auto geometry = std::make_shared<const RobotGeometry>(loadGeometry(*model, options));
+  const int body = geometry->of(model->link("BODY")).first,
+            hand = geometry->of(model->link("LARM_LINK5")).first;
+  const Body& flat = geometry->bodies[static_cast<std::size_t>(body)];
+  CHECK(!flat.volume);
+  for (const Eigen::Vector3d& p :
+       loadPoints(flat.file, model->links[static_cast<std::size_t>(flat.link)].collision[0].scale))
+    CHECK((flat.pose * p - flat.centre).norm() <= flat.radius + 1e-12);
+  CollisionConstraints constraints(kinematics, geometry, {{body, hand}});
+  const int n = kinematics->size();
+  Eigen::VectorXd q = kinematics->neutral(), d(1), to(1), from(1);
+  Eigen::MatrixXd J(1, n);
+  constraints.evaluate(q, d, J);
+  CHECK(constraints.answer(0).status == DistanceStatus::exact);
+  CHECK(constraints.answer(0).continuous);
+  constexpr double kStep =
+      1e-6;  // a central difference is then good to 1e-10 / 1e-6 of rounding and h^2 of curvature
+  for (int i = 0; i < n; ++i) {
+    Eigen::VectorXd moved = q;
+    moved[i] += kStep;
+    constraints.evaluate(moved, to);
+    moved[i] -= 2 * kStep;
+    constraints.evaluate(moved, from);
+    CHECK(std::abs((to[0] - from[0]) / (2 * kStep) - J(0, i)) <= 1e-8);
+  }
+  options.flatLinks = {"nobody"};
+  CHECK_THAT(refusal([&](const std::string&) { loadGeometry(*model, options); }, ""), Contains("nobody"));
 }

@@ -143,6 +143,22 @@ class Report(unittest.TestCase):
             self.assertEqual(done.returncode, 2, wrong)
             self.assertIn(words, done.stderr)
 
+    def test_flat_links_and_obstacles_are_smooth_in_a_pair_with_a_smooth_one_only(self):
+        cube = self.put("cube.obj", "".join(f"v {x} {y} {z}\n" for x in (0.9, 1.1) for y in (-0.1, 0.1) for z in (0.5, 0.7)))
+        scene = self.put("scene.urdf", '<robot name="scene">' + link("crate", f'<mesh filename="{cube}"/>') + "</robot>")
+        done = self.humanoid("--pose", "zero", "--obstacles", scene, "--flat", "obstacles", "--flat", "BODY", "--format", "json")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        report = json.loads(done.stdout)
+        self.assertNotIn("vertices", {link["name"]: link for link in report["links"]}["BODY"])
+        for pair in report["pairs"]:
+            flat = pair["link1"] == "BODY" and pair["obstacle"]
+            self.assertEqual(pair["continuous"], not flat, pair)
+            if pair["obstacle"] and not flat:
+                self.assertEqual((pair["status"], pair["over_cover2"]), ("exact", 0))
+        wrong = self.humanoid("--flat", "NOBODY")
+        self.assertEqual(wrong.returncode, 2)
+        self.assertIn("NOBODY", wrong.stderr)
+
     def test_a_pair_that_the_srdf_wrongly_leaves_out_comes_with_the_configuration(self):
         wrong = self.put("wrong.srdf", '<robot name="hrp2_style"><disable_collisions link1="CHEST_LINK1" link2="LARM_LINK5" '
                          'reason="Never"/></robot>')

@@ -1,0 +1,26 @@
+// A convex hull as FCL knows it.
+#pragma once
+
+#include <fcl/geometry/shape/convex.h>
+
+#include <memory>
+#include <vector>
+
+#include "fcl_stpbv/adapter/hull_graph.h"
+
+namespace fcl_stpbv {
+
+/// The hull's vertices for `fcl::Convexd`, with the coordinates that they have in `cloud` (m), which the hull
+/// was made of: FCL must see the points unrounded.
+std::shared_ptr<const std::vector<fcl::Vector3d>> fclVertices(const HullGraph& hull,
+                                                              const std::vector<Eigen::Vector3d>& cloud);
+
+/// The hull's faces in the format of `fcl::Convexd`: each as its number of vertices followed by them,
+/// counter-clockwise from outside.
+std::shared_ptr<const std::vector<int>> fclFaces(const HullGraph& hull);
+
+/// The convex hull of a cloud (m), flat: a body for a pair whose other one is smooth. May be degenerate.
+/// @throws Error for a cloud that is empty or not finite.
+std::shared_ptr<fcl::Convexd> hullGeometry(const std::vector<Eigen::Vector3d>& cloud);
+
+}  // namespace fcl_stpbv
