@@ -96,6 +96,30 @@ bool settle(const BodyPair& pair, Sample& x, Vector3d& next, Work& work) {
   return false;
 }
 
+bool settleBeside(const BodyPair& pair, Sample& x, Work& work) {
+  Vector3d next;
+  if (settle(pair, x, next, work)) return true;
+  const Vector3d opposite = pair.opposite(next);
+  const auto tryBeside = [&](int patchA) {
+    const auto tryPair = [&](int patchB) {
+      Sample y = x;
+      y.patch = {patchA, patchB};
+      Vector3d ignored;
+      if (!settle(pair, y, ignored, work)) return false;
+      x = y;
+      return true;
+    };
+    if (patchA != x.patch[0] && tryPair(x.patch[1])) return true;
+    for (const StpBv::Seam* s = pair.b().seamsBegin(x.patch[1]); s != pair.b().seamsEnd(x.patch[1]); ++s)
+      if (opposite.dot(s->normal) > s->limit && tryPair(s->neighbour)) return true;
+    return false;
+  };
+  if (tryBeside(x.patch[0])) return true;
+  for (const StpBv::Seam* s = pair.a().seamsBegin(x.patch[0]); s != pair.a().seamsEnd(x.patch[0]); ++s)
+    if (next.dot(s->normal) > s->limit && tryBeside(s->neighbour)) return true;
+  return false;
+}
+
 FCL_STPBV_VECTORIZED
 bool ascend(const BodyPair& pair, Sample& x, Work& work) {
   const double flat2 = pair.acrossRounding() * pair.acrossRounding();

@@ -18,6 +18,11 @@ bool nearRegion(const StpBv& body, int patch, const Eigen::Vector3d& n, double s
 /// maximum of the gap. On success `x` is moved there; otherwise `next` is that normal.
 bool settle(const BodyPair& pair, Sample& x, Eigen::Vector3d& next, Work& work);
 
+/// Like `settle`, of the patches across the seams that the way to the sample's own widest normal crosses: for
+/// a maximum in a region so narrow (an edge's is its length over R wide) that the gap grows by less than its
+/// rounding on the way there.
+bool settleBeside(const BodyPair& pair, Sample& x, Work& work);
+
 /// Climbs from `x` to a maximum of the gap; each step raises it. True when it got there. While the gap of the
 /// cores is positive the maximum is the global one (docs/theory.md, 5).
 bool ascend(const BodyPair& pair, Sample& x, Work& work);

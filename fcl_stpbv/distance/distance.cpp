@@ -66,7 +66,7 @@ Sample unevaluated(const Vector3d& n, const std::array<int, 2>& patch) {
 
 /// From any start along which the cores are apart: the widest gap.
 Found climb(const BodyPair& pair, Sample x, Work& work) {
-  if (!ascend(pair, x, work)) bisectToWidest(pair, x, work);
+  if (!ascend(pair, x, work) && !settleBeside(pair, x, work)) bisectToWidest(pair, x, work);
   const bool flat = x.across.squaredNorm() <= pair.acrossRounding() * pair.acrossRounding();
   return {x, flat ? DistanceStatus::exact : DistanceStatus::bounded};
 }

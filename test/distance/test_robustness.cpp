@@ -264,3 +264,33 @@ TEST_CASE("Without margins contact is exact, whatever touches whatever") {
     CHECK(std::abs(d.upper) < 1e-14 + 1e-14 * R);
   }
 }
+
+TEST_CASE("The band of an edge 2 mm long at R = 1e6 m, 2e-9 rad wide, is found from any memory") {
+  const StpBv::Ptr a = StpBv::build({Vector3d(0, 0, 0)}, {0.01, 1e6}),
+                   b = StpBv::build(needle(0.8), {0.01, 1e6});
+  Random random(4);
+  for (int i = 0; i < 20000; ++i) {
+    const int e = random.below(b->edgeCount());
+    const StpBv::Edge& edge = b->edges()[static_cast<std::size_t>(e)];
+    const Patch& patch = b->patch(b->edgePatch(e));
+    const double length = (b->vertices()[static_cast<std::size_t>(edge.vertex[0])] -
+                           b->vertices()[static_cast<std::size_t>(edge.vertex[1])])
+                              .norm();
+    // A normal of this edge's, and the point that it leads to.
+    const double mix = random.uniform(0.01, 0.99);
+    Vector3d n =
+        mix * b->corner(edge.face[0], edge.vertex[0]) + (1 - mix) * b->corner(edge.face[1], edge.vertex[0]);
+    n -= n.dot(patch.axis) * patch.axis;
+    const double side = (random.below(2) ? 0.5 : -0.5) * (1 - std::pow(10.0, random.uniform(-6, 0)));
+    n = (n.normalized() + side * length / b->radii().rho * patch.axis).normalized();
+    const double apart = std::pow(10.0, random.uniform(-3, 0));
+    Isometry3d pa = kOrigin;
+    pa.translation() = corePoint(patch, PatchKind::edge, b->radii(), n) + (apart + 0.02) * n;
+    PairCache cache;
+    cache.normal = random.rotation(random.below(2) ? 0.02 : 0.4) * -n;
+    cache.patch = {0, b->owner(-cache.normal)};
+    const Distance d = distance(*a, pa, *b, kOrigin, &cache);
+    CHECK(d.status == DistanceStatus::exact);
+    CHECK(std::abs(d.distance - apart) < 1e-14);  // coordinates of 1 m, a dozen operations
+  }
+}
