@@ -2,6 +2,7 @@
 #include "fcl_stpbv/robot/ply_check.h"
 
 #include <algorithm>
+#include <cctype>
 #include <limits>
 #include <map>
 #include <vector>
@@ -70,6 +71,9 @@ Header readHeader(TextScanner& in) {
       header.encoding = readEncoding(in);
     } else if (word == "element") {
       const std::string name(in.token("the name of an element"));
+      // assimp takes an unknown element's name for its count: of digits, it is one without a bound.
+      if (std::isdigit(static_cast<unsigned char>(name[0])))
+        in.fail("the element '" + name + "', expected a name that is no number, such as vertex");
       header.elements.push_back({name, static_cast<std::size_t>(in.count("number of elements", 0, 1)), {}});
     } else if (word == "property") {
       if (header.elements.empty()) in.fail("a property before the first element");
