@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "fcl_stpbv/distance/first_corners.h"
 #include "fcl_stpbv/distance/polytope.h"
 
 namespace fcl_stpbv {
@@ -41,32 +42,6 @@ struct Difference {
     }
     return {w, p};
   }
-
-  /// Four corners that span a volume; false where the difference is flat, and `gap` is then that across it.
-  bool corners(double rounding, std::array<Point, 4>& c) {
-    c[0] = furthest(Vector3d::UnitX());
-    c[1] = c[0];
-    const auto widen = [&](const Vector3d& m, const auto& measure, Point& best) {
-      for (const Vector3d& d : {m, Vector3d(-m)}) {
-        const Point p = furthest(d);
-        if (measure(p.w) > measure(best.w)) best = p;
-      }
-    };
-    const auto fromPoint = [&](const Vector3d& w) { return (w - c[0].w).norm(); };
-    for (int i = 0; i < 3; ++i) widen(Vector3d::Unit(i), fromPoint, c[1]);
-    if (!(fromPoint(c[1].w) > rounding)) return false;
-    const Vector3d u = (c[1].w - c[0].w).normalized(), e = u.unitOrthogonal();
-    c[2] = c[0];
-    const auto fromLine = [&](const Vector3d& w) { return u.cross(w - c[0].w).norm(); };
-    widen(e, fromLine, c[2]);
-    widen(u.cross(e), fromLine, c[2]);
-    if (!(fromLine(c[2].w) > rounding)) return false;
-    const Vector3d n = u.cross(c[2].w - c[0].w).normalized();
-    c[3] = c[0];
-    const auto fromPlane = [&](const Vector3d& w) { return std::abs(n.dot(w - c[0].w)); };
-    widen(n, fromPlane, c[3]);
-    return fromPlane(c[3].w) > rounding;
-  }
 };
 
 /// A's part of the face's point nearest to the origin.
@@ -97,7 +72,7 @@ Distance flatOverlap(const Shape& a, const Eigen::Isometry3d& poseA, const Shape
 
   double upper = 0.0;  // the cores overlap
   std::array<Difference::Point, 4> first;
-  if (d.corners(rounding, first)) {
+  if (firstCorners([&](const Vector3d& m) { return d.furthest(m); }, rounding, first)) {
     std::array<Difference::Point, kPoints> point;
     std::copy(first.begin(), first.end(), point.begin());
     int points = 4;

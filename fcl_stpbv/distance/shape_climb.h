@@ -79,14 +79,20 @@ struct ClimbPoint {
 };
 
 template <typename Feature>
-ClimbPoint climbPoint(const StpBv& body, const Feature& feature, const Eigen::Vector3d& n, int hint,
-                      int& steps) {
-  ClimbPoint x{viewVolume(body, n, hint, steps), feature.along(n), 0.0, Eigen::Vector3d(0, 0, 0)};
+ClimbPoint climbPoint(const VolumeView& view, const Feature& feature) {
+  const Eigen::Vector3d& n = view.n;
+  ClimbPoint x{view, feature.along(n), 0.0, Eigen::Vector3d(0, 0, 0)};
   x.gap = x.view.gap(x.feature.point);
   const Eigen::Vector3d difference = x.feature.point - x.view.point;
   x.across = difference - difference.dot(n) * n;
   if (const Eigen::Vector3d* t = feature.direction()) x.across -= x.across.dot(*t) * *t;
   return x;
+}
+
+template <typename Feature>
+ClimbPoint climbPoint(const StpBv& body, const Feature& feature, const Eigen::Vector3d& n, int hint,
+                      int& steps) {
+  return climbPoint(viewVolume(body, n, hint, steps), feature);
 }
 
 /// A normal with a gap, by halving what directions are left (docs/theory.md, 5: points of a trial that fails
@@ -173,10 +179,25 @@ bool climb(const StpBv& body, const Feature& feature, ClimbPoint& x, const Round
     const bool accepted = flatter ? y.gap >= x.gap - rounding.gap : y.gap > x.gap && slope(y) > -0.5 * start;
     if (!accepted) {
       if (flat <= rounded) return true;
+      if (y.view.patch != x.view.patch) {
+        // The step went over a seam, past which the gap bends otherwise: as the patch there tells it from here.
+        const ClimbPoint there = climbPoint(viewPatch(body, x.view.n, y.view.patch), feature);
+        const ClimbPoint z =
+            climbPoint(body, feature, newtonTarget(body, there, feature.direction()), y.view.patch, steps);
+        if (z.across.norm() < 0.5 * flat && z.gap >= x.gap - rounding.gap) {
+          x = z;
+          continue;
+        }
+      }
       if (!(sine > 1e-15) || !(start > 0.0)) return false;
       double low = 0.0, high = 1.0, lowSlope = start, highSlope = slope(y);
-      ClimbPoint best = y.gap > x.gap ? y : x;
-      bool grew = y.gap > x.gap;
+      // Over a seam of the volume Newton may overshoot down to where gaps are equal to rounding: the flatter is it.
+      const auto better = [&](const ClimbPoint& p, const ClimbPoint& than) {
+        return p.gap > than.gap + rounding.gap ||
+               (p.gap >= than.gap - rounding.gap && p.across.norm() < than.across.norm());
+      };
+      ClimbPoint best = better(y, x) ? y : x;
+      bool grew = better(y, x);
       for (int k = 0; k < kTrials; ++k) {
         double at = 0.5 * (low + high);
         if (highSlope < 0.0 && k % 3 != 2) at = low + (high - low) * lowSlope / (lowSlope - highSlope);
@@ -184,12 +205,13 @@ bool climb(const StpBv& body, const Feature& feature, ClimbPoint& x, const Round
         Eigen::Vector3d m = ((1.0 - at) * x.view.n + at * to).normalized();
         const ClimbPoint mid = climbPoint(body, feature, m, x.view.patch, steps);
         const double here = slope(mid);
-        if (mid.gap > best.gap) {
+        if (better(mid, best)) {
           best = mid;
           grew = true;
         }
-        if (mid.gap > x.gap && std::abs(here) <= kFlat * start) break;
-        if (mid.gap > x.gap && here > 0.0) {
+        const bool above = mid.gap >= x.gap - rounding.gap;
+        if (above && std::abs(here) <= kFlat * start) break;
+        if (above && here > 0.0) {
           low = at;
           lowSlope = here;
         } else {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "fcl_stpbv/distance/first_corners.h"
 #include "fcl_stpbv/distance/polytope.h"
 
 namespace fcl_stpbv {
@@ -63,14 +64,15 @@ WidestGap leastOverlap(ShapeQuery& q, const StartNormal& start) {
     if (trial.at.gap > best.at.gap) best.at = trial.at;
     return trial.difference;
   };
-  // A first tetrahedron, not yet around the origin: hulls grow over it as over any other point.
-  constexpr double kX = 0.942809041582063, kY = 0.816496580927726, kZ = 1.0 / 3.0;
-  const std::array<Vector3d, 4> first{take({0, 0, 1}), take(Vector3d(kX, 0, -kZ).normalized()),
-                                      take(Vector3d(-0.5 * kX, kY, -kZ).normalized()),
-                                      take(Vector3d(-0.5 * kX, -kY, -kZ).normalized())};
-  Polytope polytope(first, Polytope::Origin::anywhere);
+  struct Corner {
+    Vector3d w;
+  };
+  std::array<Corner, 4> first;
+  const bool solid = firstCorners([&](const Vector3d& m) { return Corner{take(-m.normalized())}; }, q.rounding.gap, first);
+  // Not yet around the origin: hulls grow over it as over any other point.
+  Polytope polytope({first[0].w, first[1].w, first[2].w, first[3].w}, Polytope::Origin::anywhere);
   int more = 0;
-  while (polytope.sound()) {
+  while (solid && polytope.sound()) {
     const Polytope::Face nearest = polytope.nearest();
     // Inside the difference, so with the origin inside it no direction leads out sooner.
     best.bound = std::min(best.bound, -nearest.distance);

@@ -41,7 +41,7 @@ class CornerSet {
       Nearest next = nearestOnTriangle(q, at(face[0]), at(face[1]), at(face[2]), start);
       for (int& corner : next.corner) corner = face[static_cast<std::size_t>(corner)];
       if (!next.apart) return next;
-      if (!best.apart || next.gap < best.gap) best = next;
+      if (!best.apart || isNearer(q, next, best, corner_.data(), 4)) best = next;
     }
     return best;
   }
@@ -67,14 +67,16 @@ Nearest nearestOnPolytope(ShapeQuery& q, const StartNormal& start) {
   CornerSet set;
   set.add(q.facing(start.n));
   Nearest found = set.nearest(q, start);
+  Vector3d w = q.facing(found.n);
   for (int i = 0; i < kRounds && found.apart; ++i) {
-    const Vector3d w = q.facing(found.n);
     if (found.n.dot(found.y - w) <= 0.5 * q.rounding.gap || set.holds(w)) break;
     set.add(w);
-    const double last = found.gap;
     const Nearest next = set.nearest(q, {found.n, found.patch});
-    if (next.apart && !(next.gap < last)) break;  // rounding
+    const Vector3d facing = q.facing(next.n);
+    const std::array<Vector3d, 2> both{w, facing};
+    if (next.apart && !isNearer(q, next, found, both.data(), 2)) break;  // rounding
     found = next;
+    w = facing;
   }
   return found;
 }

@@ -1,5 +1,6 @@
 #include "fcl_stpbv/distance/shape_query.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -16,6 +17,16 @@ ShapeQuery::ShapeQuery(const StpBv& a, const Shape& s, const Matrix3d& r, const 
       8.0 * kEpsilon *
       (a.centre().lpNorm<1>() + a.enclosingRadius() + t.lpNorm<1>() + s.centre.lpNorm<1>() + s.reach);
   rounding.across = rounding.gap + 8.0 * kEpsilon * a.radii().rho;
+}
+
+bool isNearer(const ShapeQuery& q, const Nearest& x, const Nearest& than, const Vector3d* points, int count) {
+  if (std::abs(x.gap - than.gap) > q.rounding.gap) return x.gap < than.gap;
+  const auto beyond = [&](const Nearest& found) {
+    double most = 0.0;
+    for (int i = 0; i < count; ++i) most = std::max(most, found.n.dot(found.y - points[i]));
+    return most;
+  };
+  return beyond(x) < beyond(than);
 }
 
 Nearest nearestOnPlane(ShapeQuery& q, const Vector3d& onPlane, const Vector3d& n, int hint) {
@@ -99,7 +110,7 @@ Nearest nearestOnTriangle(ShapeQuery& q, const Vector3d& a, const Vector3d& b, c
       corner = corner == 0 ? i : j;
     }
     if (!found.apart) return found;  // the core reaches this edge
-    if (!best.apart || found.gap < best.gap) best = found;
+    if (!best.apart || isNearer(q, found, best, p.data(), 3)) best = found;
   }
   return best;
 }

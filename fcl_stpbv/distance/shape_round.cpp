@@ -30,10 +30,12 @@ class ConeSide {
     Nearest found;
     for (int i = 0; i < kSteps; ++i) {
       ++q.pairs;
-      if (std::abs(x.slope) <= 0.25 * q.rounding.across) break;
+      if (std::abs(x.slope) <= 0.25 * q.rounding.across * cos_) break;
       double turn = x.bend < 0.0 ? -x.slope / x.bend : std::copysign(0.5, x.slope);
       turn = std::clamp(turn, -1.0, 1.0);
       State y = at(q, turned(x.e, turn), x.view.patch);
+      // Past a seam of the volume Newton may overshoot: the slope is continuous, so it is zero between.
+      if (!better(q, y, x) && x.slope * y.slope < 0.0) y = between(q, x, y, turn);
       for (int k = 0; k < 50 && !better(q, y, x); ++k) {
         turn *= 0.4;
         y = at(q, turned(x.e, turn), x.view.patch);
@@ -71,6 +73,23 @@ class ConeSide {
     x.bend = cos_ * e.dot(difference) - turning.dot(curvatureRadii(q.body, x.view) * turning);
     return x;
   }
+  /// Where the slope is zero between `x` and `y`, which is `turn` away, by halving that mends its steps (Illinois).
+  State between(ShapeQuery& q, const State& x, const State& y, double turn) const {
+    double low = 0.0, high = turn, lowWeight = x.slope, highWeight = y.slope;
+    State best = std::abs(x.slope) < std::abs(y.slope) ? x : y;
+    int last = 0;
+    for (int k = 0; k < 60 && std::abs(best.slope) > 0.25 * q.rounding.across * cos_; ++k) {
+      const double angle = low + (high - low) * lowWeight / (lowWeight - highWeight);
+      const State middle = at(q, turned(x.e, angle), best.view.patch);
+      if (std::abs(middle.slope) < std::abs(best.slope)) best = middle;
+      const int side = middle.slope * x.slope > 0.0 ? 1 : -1;
+      (side > 0 ? low : high) = angle;
+      (side > 0 ? lowWeight : highWeight) = middle.slope;
+      if (side == last) (side > 0 ? highWeight : lowWeight) *= 0.5;
+      last = side;
+    }
+    return best;
+  }
   static bool better(const ShapeQuery& q, const State& y, const State& x) {
     return y.gap > x.gap || (std::abs(y.slope) < 0.5 * std::abs(x.slope) && y.gap >= x.gap - q.rounding.gap);
   }
@@ -83,8 +102,41 @@ class ConeSide {
   double slant_, cos_ = 1, sin_ = 0;
 };
 
-/// The rim of a disc, nearest point and normal. Where the normal is all but the axis the point along the rim
-/// is rounding, so it is taken from the body's point.
+/// The rim's nearest point by its angle around the axis, from the side the body's point is on: Newton on the distance
+/// to one of its points. Where the normal is nearly the axis it says nothing about the place on the rim, but each
+/// point has its own normal to the last digit.
+Nearest nearestByAngle(ShapeQuery& q, const Vector3d& middle, const Vector3d& axis, const StartNormal& start) {
+  constexpr int kSteps = 20;
+  const Vector3d up = viewVolume(q.body, start.n, start.patch, q.steps).point - middle;
+  Vector3d e = up - up.dot(axis) * axis;
+  if (!(e.norm() > 0.0)) return {};
+  e.normalize();
+  const double radius = q.shape.radius;
+  Nearest best;
+  double flattest = 0.0;
+  for (int i = 0; i < kSteps; ++i) {
+    const StartNormal from = best.apart ? StartNormal{best.n, best.patch} : start;
+    const Nearest found = nearestOn(q, PointFeature{middle + radius * e}, from);
+    if (!found.apart) break;
+    const Vector3d t = axis.cross(e), &n = found.n;
+    const double slope = n.dot(t);
+    if (best.apart && !(std::abs(slope) < flattest)) break;  // rounding
+    best = found;
+    flattest = std::abs(slope);
+    // The normal turns by the inverse of the radii of curvature and the gap.
+    Eigen::Matrix3d w = curvatureRadii(q.body, viewVolume(q.body, n, found.patch, q.steps));
+    w += found.gap * Eigen::Matrix3d::Identity();
+    const Vector3d e1 = (t - t.dot(n) * n).normalized(), e2 = n.cross(e1);
+    const double m11 = e1.dot(w * e1), m22 = e2.dot(w * e2), m12 = e1.dot(w * e2);
+    const double bend = radius * t.dot(e1) * t.dot(e1) * m22 / (m11 * m22 - m12 * m12) - n.dot(e);
+    if (!(bend > 0.0)) break;
+    const double turn = std::clamp(-slope / bend, -0.5, 0.5);
+    e = (std::cos(turn) * e + std::sin(turn) * t).normalized();
+  }
+  return best;
+}
+
+/// The rim of a disc, nearest point and normal.
 Nearest nearestOnRim(ShapeQuery& q, const Vector3d& middle, const Vector3d& axis, const StartNormal& start) {
   // On the axis every point of the rim is as far, so no gradient leads away: start towards the body's side.
   StartNormal from = start;
@@ -94,19 +146,11 @@ Nearest nearestOnRim(ShapeQuery& q, const Vector3d& middle, const Vector3d& axis
     const Vector3d out = up - up.dot(axis) * axis;
     if (out.norm() > 0.0) from.n = (start.n - kTilt * out.normalized()).normalized();
   }
-  Nearest found = nearestOn(q, RimFeature{middle, axis, q.shape.radius}, from);
-  constexpr double kNearAxis = 1e-4;  // sine; rounding of the normal is then a thousand times that of a point
-  const Vector3d side = found.n - found.n.dot(axis) * axis;
-  if (!found.apart || side.norm() > kNearAxis) return found;
-  const Vector3d up = viewVolume(q.body, found.n, found.patch, q.steps).point - middle;
-  const Vector3d out = up - up.dot(axis) * axis;
-  const double length = out.norm();
-  if (!(length > 0.0)) return found;
-  // Inside the disc where that is as near to the plane of the normal as the rim is.
-  const bool inside =
-      length < q.shape.radius && (q.shape.radius - length) * side.norm() < 0.5 * q.rounding.gap;
-  found.y = middle + (inside ? 1.0 : q.shape.radius / length) * out;
-  return found;
+  const Nearest found = nearestOn(q, RimFeature{middle, axis, q.shape.radius}, from);
+  constexpr double kNearAxis = 0.1;  // sine; rounding of the normal is then ten times that of the point on the rim
+  if ((found.n - found.n.dot(axis) * axis).norm() > kNearAxis) return found;
+  const Nearest refined = nearestByAngle(q, middle, axis, {found.n, found.patch});
+  return refined.apart ? refined : found;
 }
 
 /// A disc from outside its plane, on the side `n` points from: its inside, or its rim. Above the plane of a

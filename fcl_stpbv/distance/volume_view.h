@@ -21,16 +21,21 @@ struct VolumeView {
   double gap(const Eigen::Vector3d& y) const { return n.dot(y - anchor) - rise; }
 };
 
-/// Looks at the volume along `n`; the owner is sought from the patch `hint` (-1: anywhere). Counts patches
-/// changed.
-inline VolumeView viewVolume(const StpBv& body, const Eigen::Vector3d& n, int hint, int& steps) {
-  const int index = body.owner(n, hint);
-  steps += index != hint;
+/// Looks at one patch along `n`, its formula continued past its own region of normals.
+inline VolumeView viewPatch(const StpBv& body, const Eigen::Vector3d& n, int index) {
   const Patch& patch = body.patch(index);
   const PatchKind kind = body.kind(index);
   const Radii core{0.0, body.radii().rho, body.radii().rho};
   return {n, index, patch.anchor, supportAboveAnchor(patch, kind, core, n),
           corePoint(patch, kind, body.radii(), n)};
+}
+
+/// Looks at the volume along `n`; the owner is sought from the patch `hint` (-1: anywhere). Counts patches
+/// changed.
+inline VolumeView viewVolume(const StpBv& body, const Eigen::Vector3d& n, int hint, int& steps) {
+  const int index = body.owner(n, hint);
+  steps += index != hint;
+  return viewPatch(body, n, index);
 }
 
 /// Derivative of the core's point with the normal, d y = W d n (docs/theory.md, 6: radii of curvature beyond

@@ -1,13 +1,16 @@
 // shape_soak POSES SEED [SHAPE]: random poses of an STP-BV against each simple shape, all against the
-// independent reference, in both orders, with the gradient against central differences and the turn of the
+// independent reference, in both orders, with gradient and Hessian against differences and the turn of the
 // normal against its Lipschitz bound. Prints one line a shape and fails on any error above 1e-12 m (1e-9 for
-// cone and ellipsoid), any difference between the orders, and either bound exceeded.
+// cone and ellipsoid), any difference between the orders, witness points that do not face each other, and any bound
+// exceeded.
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <string>
 
+#include "fcl_stpbv/distance/hessian.h"
 #include "fcl_stpbv/distance/shape_distance.h"
 #include "test/distance/shape_reference.h"
 
@@ -74,34 +77,62 @@ ReferenceAnswer truthOf(const Body& body, const TestShape& shape, const Isometry
 /// How far the derivatives of an answer are from what other poses say, in parts of what theory allows.
 struct Derivatives {
   double gradient = 0;  ///< central difference of the distance against the gradient
+  double second = 0;    ///< and of the gradient against the Hessian
+  double smooth = 0;    ///< error of the gradient where no seam is within the step
   double turn = 0;      ///< turn of the normal under a translation (docs/theory.md, 6)
 };
+
+/// Along a random twist of the shape over +-h. The second derivative jumps at seams: so a central difference of the
+/// distance may be off by half a step times what the three Hessians there differ, and one of the gradient lies
+/// between them. False where something that the Hessians do not show, a feature smaller than the step, spoils it.
+bool differences(const Body& body, const Shape& shape, const Isometry3d& base, const Isometry3d& at, const Distance& d,
+                 const Eigen::Matrix<double, 6, 1>& twist, double h, Derivatives& parts) {
+  const double core = d.distance + body.r + shape.margin;
+  const auto rates = [&](const Isometry3d& there, const Distance& e, double& speed, double& second) {
+    DistanceHessian hessian;
+    if (!fcl_stpbv::hessian(*body.volume, base, shape, there, e, hessian)) return false;
+    speed = e.gradient(1, there.translation()).dot(twist);
+    second = twist.dot(hessian.matrix.bottomRightCorner<6, 6>() * twist);
+    return true;
+  };
+  double speed[3], second[3], value[3];
+  for (int k = 0; k < 3; ++k) {
+    Isometry3d there = at;
+    if (k != 1) {
+      const double t = (k - 1) * h, angle = twist.tail<3>().norm();
+      there.linear() =
+          Eigen::AngleAxisd(t * angle, twist.tail<3>().normalized()).toRotationMatrix() * at.linear();
+      there.translation() += t * twist.head<3>();
+    }
+    const Distance e = k == 1 ? d : distance(*body.volume, base, shape, there);
+    value[k] = e.distance;
+    if (!rates(there, e, speed[k], second[k])) return true;
+  }
+  const double low = std::min({second[0], second[1], second[2]}), high = std::max({second[0], second[1], second[2]});
+  const double error = std::abs((value[2] - value[0]) / (2 * h) - speed[1]);
+  const double rounding = 8 * 2.2e-16 * (4 + at.translation().norm()) / h;
+  Derivatives here;
+  here.gradient = error / (0.5 * h * (high - low) + rounding);
+  if (0.5 * h * (high - low) < rounding) here.smooth = error;
+  const double between = (speed[2] - speed[0]) / (2 * h);
+  // The core's point moves rho an ulp of the normal, the normal that over the cores' distance.
+  const double rounded = 16 * 2.2e-16 * (body.volume->radii().rho + 4) * (1 + (shape.unbounded() ? 0 : 1 / core)) / h;
+  here.second = std::max({0.0, between - high, low - between}) / (0.1 * (high - low) + rounded);
+  parts.smooth = here.smooth;
+  parts.gradient = here.gradient;
+  parts.second = here.second;
+  return here.gradient <= 1 && here.second <= 1;
+}
 
 Derivatives derivativesOf(const Body& body, const Shape& shape, const Isometry3d& base, const Isometry3d& at,
                           const Distance& d, Random& random) {
   const double core = d.distance + body.r + shape.margin;
   Derivatives parts;
-  // The second derivative is bounded but jumps at seams, so a central difference over +-h is off by h / 2
-  // times its bound (docs/theory.md, 6): levers squared over the cores' distance, and the radii of curvature
-  // that turn under the normal.
-  constexpr double kStep = 1e-7;
-  const Vector3d turning = random.direction();
   Eigen::Matrix<double, 6, 1> twist;
-  twist << random.direction(), turning;
-  double value[2];
-  for (int side = 0; side < 2; ++side) {
-    const double h = side ? kStep : -kStep;
-    Isometry3d there = at;
-    there.linear() = Eigen::AngleAxisd(h, turning).toRotationMatrix() * at.linear();
-    there.translation() += h * twist.head<3>();
-    value[side] = distance(*body.volume, base, shape, there).distance;
-  }
-  const double lever = 1 + (d.point[1] - at.translation()).norm();
-  const double bend = (shape.unbounded() ? 0 : lever * lever / core) + 4 * lever + body.volume->radii().rho;
-  const double error =
-      std::abs((value[1] - value[0]) / (2 * kStep) - d.gradient(1, at.translation()).dot(twist));
-  const double rounding = 1e-15 * (4 + at.translation().norm()) / kStep;
-  parts.gradient = error / (0.5 * kStep * bend + rounding);
+  twist << random.direction(), random.direction();
+  const double step = 1e-4 * (shape.unbounded() ? 1 : std::min(core, 1.0));
+  for (const double part : {1.0, 0.1, 0.01, 0.001})
+    if (differences(body, shape, base, at, d, twist, part * step, parts)) break;
 
   if (shape.unbounded()) return parts;  // the normal is the plane's
   const double eps = 1e-3 * core;
@@ -130,13 +161,13 @@ int main(int argc, char** argv) {
   bool good = true;
   std::vector<std::string> names = boundedShapes();
   names.insert(names.end(), {"halfspace", "plane"});
-  std::printf("%-10s %8s %8s %8s %8s %8s %8s %9s %9s %9s %9s\n", "shape", "exact", "bounded", "overlap",
-              "missed", "swapped", "error", "gap", "gradient", "turn", "ns/query");
+  std::printf("| shape | exact | bounded | overlap | missed | swapped | error (m) | deep (m) | askew | gradient | of allowed | "
+              "second | turn | ns a query |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
   for (const std::string& name : names) {
     if (!only.empty() && only != name) continue;
     Random random(static_cast<std::uint64_t>(seed));
     int exact = 0, bounded = 0, overlap = 0, missed = 0, swapped = 0;
-    double worst = 0, gap = 0, time = 0;
+    double worst = 0, deep = 0, askew = 0, time = 0;
     Derivatives most;
     for (int i = 0; i < poses; ++i) {
       const Body& body = all[static_cast<std::size_t>(random.below(static_cast<int>(all.size())))];
@@ -155,6 +186,20 @@ int main(int argc, char** argv) {
         if (d.status == DistanceStatus::exact && d.distance + body.r + shape.shape.margin > 1e-13) {
           ++missed;
         }
+        // Nothing but directions is left to ask: none may be wider than the bound, or than the answer by more than
+        // its search leaves, and along its own normal the answer is what the supports say.
+        const ReferenceBody a = referenceBody(body.cloud, body.r, body.R, base);
+        const ReferenceShape b = shape.posed(at);
+        const auto widest = static_cast<double>(widestGapOverDirections(a, b, 500));
+        const Vector3L n = d.normal.cast<long double>();
+        const auto along = static_cast<double>(n.dot(b.support(-n)) - b.margin - referenceSupport(a, n));
+        deep = std::max({deep, widest - d.distance, widest - d.upper, std::abs(along - d.distance)});
+        if (widest - d.distance > 1e-6 * (1e-3 - widest) || widest - d.upper > 1e-12 ||
+            std::abs(along - d.distance) > 1e-12) {
+          ++missed;
+          std::printf("  %s %d: deep, body %d distance %.17g upper %.17g widest %.17g along %.17g\n", name.c_str(), i,
+                      static_cast<int>(&body - all.data()), d.distance, d.upper, widest, along);
+        }
         continue;
       }
       const double error = std::abs(static_cast<double>(d.distance - truth.distance));
@@ -169,20 +214,26 @@ int main(int argc, char** argv) {
       if (d.status == DistanceStatus::exact &&
           (shape.shape.unbounded() || d.distance + body.r + shape.shape.margin > kApart)) {
         const Derivatives parts = derivativesOf(body, shape.shape, base, at, d, random);
-        if (parts.gradient > 1 || parts.turn > 1)
-          std::printf("  %s %d: gradient %.3g, turn %.3g of what is allowed\n", name.c_str(), i,
-                      parts.gradient, parts.turn);
+        if (parts.gradient > 1 || parts.second > 1 || parts.turn > 1)
+          std::printf("  %s %d: gradient %.3g, second %.3g, turn %.3g of what is allowed\n", name.c_str(), i,
+                      parts.gradient, parts.second, parts.turn);
         most.gradient = std::max(most.gradient, parts.gradient);
+        most.second = std::max(most.second, parts.second);
+        most.smooth = std::max(most.smooth, parts.smooth);
         most.turn = std::max(most.turn, parts.turn);
       }
+      // The witness points face each other: an ulp of the normal moves a core's point by rho times that.
+      const double off = (d.point[1] - d.point[0] - d.distance * d.normal).norm();
+      askew = std::max(askew, off / (16 * 2.2e-16 * (body.volume->radii().rho + 4)));
       worst = std::max(worst, error);
-      gap = std::max(gap, d.upper - d.lower);
     }
-    std::printf("%-10s %8d %8d %8d %8d %8d %8.1e %9.1e %9.3f %9.3f %9.0f\n", name.c_str(), exact, bounded,
-                overlap, missed, swapped, worst, gap, most.gradient, most.turn, time / poses);
+    std::printf("| %s | %d | %d | %d | %d | %d | %.1e | %.1e | %.2f | %.1e | %.2f | %.3f | %.3f | %.0f |\n", name.c_str(), exact,
+                bounded, overlap, missed, swapped, worst, deep, askew, most.smooth, most.gradient, most.second, most.turn,
+                time / poses);
+    std::fflush(stdout);
     const double allowed = name == "cone" || name == "ellipsoid" ? 1e-9 : 1e-12;
-    good = good && missed == 0 && bounded == 0 && worst <= allowed && swapped == 0 && most.gradient <= 1 &&
-           most.turn <= 1;
+    good = good && missed == 0 && bounded == 0 && worst <= allowed && swapped == 0 && askew <= 1 &&
+           most.gradient <= 1 && most.second <= 1 && most.turn <= 1;
   }
   return good ? 0 : 1;
 }
