@@ -1,6 +1,7 @@
 // Reading; see mesh_file.h.
 #include "fcl_stpbv/robot/mesh_file.h"
 
+#include <assimp/DefaultIOSystem.h>
 #include <assimp/config.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
@@ -8,14 +9,17 @@
 #include <algorithm>
 #include <assimp/Importer.hpp>
 #include <cctype>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <optional>
+#include <set>
 #include <string_view>
 #include <unordered_map>
 #include <utility>
 
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/robot/child_process.h"
 #include "fcl_stpbv/robot/ply_check.h"
 #include "fcl_stpbv/volume/qhull_file.h"
 #include "fcl_stpbv/volume/text_scanner.h"
@@ -124,6 +128,28 @@ void checkFaces(const aiScene& scene, const std::string& path) {
   }
 }
 
+/// Opens whole files only, no pipes or devices that a mesh may name, and lets reading take in proportion to
+/// their sizes.
+class Files : public Assimp::DefaultIOSystem {
+ public:
+  explicit Files(ChildLimits& limits) : limits_(limits) {}
+
+  bool Exists(const char* path) const override {
+    std::error_code ignored;
+    return std::filesystem::is_regular_file(path, ignored);
+  }
+  Assimp::IOStream* Open(const char* path, const char* mode) override {
+    std::error_code ignored;
+    if (!Exists(path)) return nullptr;
+    if (seen_.insert(path).second) limits_.allow(std::filesystem::file_size(path, ignored));
+    return DefaultIOSystem::Open(path, mode);
+  }
+
+ private:
+  ChildLimits& limits_;
+  std::set<std::string> seen_;
+};
+
 const aiScene& read(Assimp::Importer& importer, const std::string& path) {
   if (isPly(path)) checkPly(readText(path), path);
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
@@ -152,9 +178,12 @@ std::optional<std::string> qhullText(const std::string& path) {
 
 }  // namespace
 
-TriangleMesh loadMesh(const std::string& path, const Vector3d& scale) {
-  checkReadable(path, scale);
+namespace {
+
+/// assimp trusts what it reads: counts that fill the memory, loops, depths that overflow the stack.
+TriangleMesh readMesh(const std::string& path, const Vector3d& scale, ChildLimits& limits) {
   Assimp::Importer importer;
+  importer.SetIOHandler(new Files(limits));  // which deletes it
   const aiScene& scene = read(importer, path);
   Gatherer gatherer(path, scale);
   std::vector<std::pair<const aiNode*, aiMatrix4x4>> open{{scene.mRootNode, aiMatrix4x4()}};
@@ -167,6 +196,41 @@ TriangleMesh loadMesh(const std::string& path, const Vector3d& scale) {
   }
   TriangleMesh mesh = gatherer.take();
   if (mesh.vertices.empty()) throw Error(path + ": holds no vertices; give a file with at least one mesh");
+  return mesh;
+}
+
+template <class T>
+void append(std::string& bytes, const std::vector<T>& items) {
+  const std::size_t count = items.size();
+  bytes.append(reinterpret_cast<const char*>(&count), sizeof count);
+  bytes.append(reinterpret_cast<const char*>(items.data()), count * sizeof(T));
+}
+
+template <class T>
+std::vector<T> take(const char*& bytes) {
+  std::size_t count = 0;
+  std::memcpy(&count, bytes, sizeof count);
+  std::vector<T> items(count);
+  std::memcpy(static_cast<void*>(items.data()), bytes + sizeof count, count * sizeof(T));
+  bytes += sizeof count + count * sizeof(T);
+  return items;
+}
+
+}  // namespace
+
+TriangleMesh loadMesh(const std::string& path, const Vector3d& scale) {
+  checkReadable(path, scale);
+  const std::string bytes = inChildProcess(path, [&](ChildLimits& limits) {
+    const TriangleMesh mesh = readMesh(path, scale, limits);
+    std::string all;
+    append(all, mesh.vertices);
+    append(all, mesh.triangles);
+    return all;
+  });
+  const char* at = bytes.data();
+  TriangleMesh mesh;
+  mesh.vertices = take<Vector3d>(at);
+  mesh.triangles = take<std::array<int, 3>>(at);
   return mesh;
 }
 

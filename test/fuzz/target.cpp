@@ -201,6 +201,9 @@ void checkSrdf(const std::string& text, const std::string& folder) {
   accepted([&] { loadSrdf(folder + "/fuzz.srdf", robot); });
 }
 
+constexpr char kStl[] = "/fuzz.stl", kObj[] = "/fuzz.obj", kPly[] = "/fuzz.ply", kOff[] = "/fuzz.off",
+               kDae[] = "/fuzz.dae", kGltf[] = "/fuzz.gltf";
+
 /// One target an extension, so that the first byte may be damaged too.
 std::string stl() {
   std::string text = "solid s\n";
@@ -236,9 +239,37 @@ std::string randomPly(Random& random) {
       "property list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 1 2\n3 0 2 3\n",
       random);
 }
-template <char kFirst>
+std::string randomOff(Random& random) {
+  return damaged("OFF\n4 4 6\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n", random);
+}
+std::string randomDae(Random& random) {
+  return damaged(
+      "<?xml version=\"1.0\"?>\n<COLLADA xmlns=\"http://www.collada.org/2005/11/COLLADASchema\" "
+      "version=\"1.4.1\">\n<library_geometries><geometry id=\"g\"><mesh>\n<source id=\"p\"><float_array "
+      "id=\"a\" count=\"9\">0 0 0 1 0 0 0 1 0</float_array>\n<technique_common><accessor source=\"#a\" "
+      "count=\"3\" stride=\"3\">\n<param name=\"X\" type=\"float\"/><param name=\"Y\" type=\"float\"/><param "
+      "name=\"Z\" type=\"float\"/></accessor></technique_common></source>\n<vertices id=\"v\"><input "
+      "semantic=\"POSITION\" source=\"#p\"/></vertices>\n<triangles count=\"1\"><input semantic=\"VERTEX\" "
+      "source=\"#v\" offset=\"0\"/><p>0 1 2</p></triangles></mesh></geometry></library_geometries>\n"
+      "<library_visual_scenes><visual_scene id=\"s\"><node><instance_geometry "
+      "url=\"#g\"/></node></visual_scene></library_visual_scenes>\n<scene><instance_visual_scene "
+      "url=\"#s\"/></scene></COLLADA>\n",
+      random);
+}
+std::string randomGltf(Random& random) {
+  return damaged(
+      "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0]}],\n\"nodes\":[{\"mesh\":0,"
+      "\"children\":[1]},{\"mesh\":0}],\n\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}],\n"
+      "\"buffers\":[{\"byteLength\":36,\"uri\":\"data:application/octet-stream;base64,"
+      "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA\"}],\n\"bufferViews\":[{\"buffer\":0,\"byteOffset\":"
+      "0,"
+      "\"byteLength\":36}],\n\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":"
+      "\"VEC3\"}]}\n",
+      random);
+}
+template <const char* kName>
 void checkMesh(const std::string& text, const std::string& folder) {
-  const std::string path = folder + (kFirst == 's' ? "/fuzz.stl" : kFirst == 'o' ? "/fuzz.obj" : "/fuzz.ply");
+  const std::string path = folder + kName;
   write(path, text);
   accepted([&] { loadPoints(path); });
 }
@@ -299,9 +330,12 @@ const std::vector<Target>& targets() {
                                        {"qhull", randomQhull, checkQhull},
                                        {"urdf", randomUrdf, checkUrdf},
                                        {"srdf", randomSrdf, checkSrdf},
-                                       {"stl", randomStl, checkMesh<'s'>},
-                                       {"obj", randomObj, checkMesh<'o'>},
-                                       {"ply", randomPly, checkMesh<'p'>}};
+                                       {"stl", randomStl, checkMesh<kStl>},
+                                       {"obj", randomObj, checkMesh<kObj>},
+                                       {"ply", randomPly, checkMesh<kPly>},
+                                       {"off", randomOff, checkMesh<kOff>},
+                                       {"dae", randomDae, checkMesh<kDae>},
+                                       {"gltf", randomGltf, checkMesh<kGltf>}};
   return all;
 }
 

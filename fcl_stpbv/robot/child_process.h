@@ -1,0 +1,29 @@
+// Work on a file that may be hostile, done by somebody else's code: in a child process, which may fall over
+// alone.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <string>
+
+namespace fcl_stpbv {
+
+/// Memory and processor time that a child process may still take, in proportion to the bytes it reads.
+class ChildLimits {
+ public:
+  /// Some to begin with: what any file may cost.
+  ChildLimits();
+  /// More, for a file of this many bytes.
+  void allow(std::size_t bytes);
+
+ private:
+  std::size_t memory_;  // bytes
+  double seconds_;
+};
+
+/// Runs `work` in a child process and returns what it returns. `name` stands for the file in messages.
+/// @throws Error what `work` throws; or that the file is damaged, where the child fell over or went past its
+/// limits.
+std::string inChildProcess(const std::string& name, const std::function<std::string(ChildLimits&)>& work);
+
+}  // namespace fcl_stpbv
