@@ -148,7 +148,8 @@ TEST_CASE("an octree gives the minimum over its occupied cells") {
           least, distance(body->volume(), at, Shape::boxOf(Vector3d::Constant(cell[3])), where).distance);
     }
     const DistanceAnswer d = distance(*body, at, cells, ground);
-    CHECK(d.status == DistanceStatus::exact);
+    // Compilers draw the arguments of pose() in different orders; some scenes are deeper than the margin.
+    CHECK(d.status == (least > -body->volume().radii().r ? DistanceStatus::exact : DistanceStatus::local));
     CHECK(std::abs(d.distance - least) <= 1e-12);
     fcl::AABBd cell;  // FCL finds the cell again by its id
     CHECK(cells.getNodeByQueryCellId(d.element[1], ground.inverse() * d.points[1], &cell) != nullptr);
