@@ -235,6 +235,7 @@ int run(const std::string& urdf, const std::string& srdfPath, const std::string&
 
 int main(int argc, char** argv) {
   CLI::App app("Distances and gradients of the HRP-2-style robot, next to plain FCL's.", "demo");
+  app.set_version_flag("--version", "demo " FCL_STPBV_VERSION);
   std::string pose = "half_sitting", robot = FCL_STPBV_SOURCE_DIR "/data/hrp2_style/hrp2_style";
   std::size_t top = 12;
   app.add_option("--pose", pose, "Posture, a group_state of the SRDF")->capture_default_str();

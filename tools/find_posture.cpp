@@ -114,6 +114,7 @@ int run(Arguments& a) {
 
 int main(int argc, char** argv) {
   CLI::App app(kDescription, "find_posture");
+  app.set_version_flag("--version", "find_posture " FCL_STPBV_VERSION);
   app.footer(kFooter);
   Arguments arguments;
   describe(app, arguments);

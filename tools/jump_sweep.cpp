@@ -27,13 +27,16 @@ std::shared_ptr<StpBvGeometry> boxGeometry(const Vector3d& side) {
 
 int main(int argc, char** argv) {
   const bool help = argc == 2 && (std::strcmp(argv[1], "--help") == 0 || std::strcmp(argv[1], "-h") == 0);
+  if (argc == 2 && std::strcmp(argv[1], "--version") == 0)
+    return std::puts("jump_sweep " FCL_STPBV_VERSION) < 0;
   const int steps = argc > 1 ? std::atoi(argv[1]) : 2000;
   if (help || argc > 2 || steps < 1) {
     std::fputs(
         "usage: jump_sweep [STEPS]\n"
-        "Rocks a 20 cm box over a plate from -2 to 2 degrees and prints CSV: the angle, then distance (m) and its\n"
+        "Rocks a 20 cm box over a plate from -2 to 2 degrees and prints CSV: the angle, then distance (m) "
+        "and its\n"
         "derivative with the angle (m/rad) between the polyhedra by FCL and between the STP-BVs.\n"
-        "STEPS is a whole number, 1 or more [2000].\n",
+        "STEPS is a whole number, 1 or more [2000]; --version prints the version.\n",
         help ? stdout : stderr);
     return help ? 0 : 2;
   }

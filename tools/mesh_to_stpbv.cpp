@@ -125,6 +125,7 @@ int run(const Arguments& arguments) {
 
 int main(int argc, char** argv) {
   CLI::App app(kDescription, "mesh_to_stpbv");
+  app.set_version_flag("--version", "mesh_to_stpbv " FCL_STPBV_VERSION);
   app.footer(kFooter);
   Arguments arguments;
   describe(app, arguments);

@@ -221,6 +221,7 @@ benchmark::Chart chartOf(const std::vector<Row>& rows, int starts) {
 
 int main(int argc, char** argv) {
   CLI::App app("Postures for random tasks, with and without continuous gradients", "posture_study");
+  app.set_version_flag("--version", "posture_study " FCL_STPBV_VERSION);
   int tasks = 240, starts = 5, searchStarts = 100;
   double tolerance = SolverOptions().costTolerance;
   std::string folder;

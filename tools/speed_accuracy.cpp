@@ -46,6 +46,7 @@ int drawCharts(const std::string& only, const std::string& folder, const ChartOp
 
 int main(int argc, char** argv) {
   CLI::App app("Speed and accuracy of STP-BV distances beside FCL's");
+  app.set_version_flag("--version", "speed_accuracy " FCL_STPBV_VERSION);
   bool summary = false;
   bool force = false;
   std::string only, folder = "docs/images";

@@ -53,6 +53,7 @@ void listFailures(const Results& results, const std::string& id) {
 
 int main(int argc, char** argv) {
   CLI::App app("Where distance codes break: every method on every hard case");
+  app.set_version_flag("--version", "stability " FCL_STPBV_VERSION);
   bool json = false;
   std::uint64_t seed = 1;
   std::string folder = "docs", list;

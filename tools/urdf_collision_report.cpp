@@ -180,6 +180,7 @@ int run(Arguments& a) {
 
 int main(int argc, char** argv) {
   CLI::App app(kDescription, "urdf_collision_report");
+  app.set_version_flag("--version", "urdf_collision_report " FCL_STPBV_VERSION);
   app.footer(kFooter);
   Arguments arguments;
   describe(app, arguments);
