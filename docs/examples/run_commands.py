@@ -39,6 +39,7 @@ def commands(page):
 def make_samples(folder):
     robot, fridge = project / "data/hrp2_style", project / "data/fridge"
     shutil.copytree(robot, folder, dirs_exist_ok=True)
+    shutil.copytree(fridge, folder / "fridge")
     for source, name in ((robot / "hrp2_style.urdf", "robot.urdf"), (robot / "hrp2_style.srdf", "robot.srdf"),
                          (fridge / "pick_can.json", "pick_can.json"), (fridge / "pick_can.json", "task.json"),
                          (fridge / "fridge.urdf", "fridge.urdf"), (fridge / "fridge.urdf", "scene.urdf")):
@@ -50,7 +51,8 @@ ran, failed = 0, []
 with tempfile.TemporaryDirectory() as name:
     folder = pathlib.Path(name)
     make_samples(folder)
-    environment = {**os.environ, "PATH": f"{build}/bin:{os.environ['PATH']}", "XDG_CACHE_HOME": f"{folder}/cache"}
+    environment = {**os.environ, "PATH": f"{build}/bin:{os.environ['PATH']}", "XDG_CACHE_HOME": f"{folder}/cache",
+                   "ROS_PACKAGE_PATH": name}
     for page in pages:
         for number, command, reason in commands(page):
             where = f"{page.relative_to(project)}:{number}: {command}"

@@ -203,7 +203,7 @@ template <class T>
 void append(std::string& bytes, const std::vector<T>& items) {
   const std::size_t count = items.size();
   bytes.append(reinterpret_cast<const char*>(&count), sizeof count);
-  bytes.append(reinterpret_cast<const char*>(items.data()), count * sizeof(T));
+  if (count > 0) bytes.append(reinterpret_cast<const char*>(items.data()), count * sizeof(T));
 }
 
 template <class T>
@@ -211,7 +211,7 @@ std::vector<T> take(const char*& bytes) {
   std::size_t count = 0;
   std::memcpy(&count, bytes, sizeof count);
   std::vector<T> items(count);
-  std::memcpy(static_cast<void*>(items.data()), bytes + sizeof count, count * sizeof(T));
+  if (count > 0) std::memcpy(static_cast<void*>(items.data()), bytes + sizeof count, count * sizeof(T));
   bytes += sizeof count + count * sizeof(T);
   return items;
 }
