@@ -31,7 +31,8 @@ struct DistanceAnswer {
   std::array<int, 2> patch{-1, -1};  ///< of the STP-BVs; -1 for any other geometry
   /// Nearest triangle or cell of a mesh or tree, FCL's `b1`, `b2`; -1 for any other geometry.
   std::array<std::intptr_t, 2> element{-1, -1};
-  /// No other triangle or cell is nearer than this: how far the nearest one is from switching (m).
+  /// Distance to the next triangle or cell (m), infinite where there is none: the nearest one can switch once both
+  /// have come nearer to each other by the difference. Equal where the nearest point is on a shared edge or corner.
   double runnerUp = std::numeric_limits<double>::infinity();
   /// Whether distance and gradient are continuous over motions: true for an STP-BV against one or a
   /// simple shape; false for meshes and trees, whose nearest element switches, and where FCL
@@ -42,10 +43,17 @@ struct DistanceAnswer {
                                                      nullptr};  ///< null if asked by geometry and pose
 };
 
+/// What a question about a threshold took (proximity.h).
+struct ProximityCounts {
+  long bounds = 0;  ///< pairs of boxes, balls or planes compared
+  long solved = 0;  ///< pairs of bodies whose distance had to be searched for
+};
+
 /// What a query may remember and report; all optional, all owned by the caller.
 struct QueryContext {
   PairCache* cache = nullptr;        ///< starts the query near the pair's last answer instead of asking FCL
   MappingCounts* mapping = nullptr;  ///< gets the outcome of the feature mapping, for queries that ask FCL
+  ProximityCounts* proximity = nullptr;  ///< gets what a question about a threshold took
 };
 
 /// Distance between two geometries. Never throws; allocates nothing where one is an STP-BV.

@@ -7,44 +7,72 @@ namespace fcl_stpbv {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-NearestElement::NearestElement(const StpBv& volume, const Isometry3d& poseVolume,
+NearestElement::NearestElement(const StpBv& volume, const Isometry3d& poseVolume, const ElementTree& elements,
                                const Isometry3d& poseElements, PairCache* cache)
     : volume_(volume),
+      elements_(elements),
       poseVolume_(poseVolume),
       poseElements_(poseElements),
       rotation_(poseVolume.linear().transpose() * poseElements.linear()),
       translation_(poseVolume.linear().transpose() * (poseElements.translation() - poseVolume.translation())),
       centre_(rotation_.transpose() * (volume.centre() - translation_)),
-      cache_(cache) {}
+      cache_(cache) {
+  if (!elements.any()) return;
+  const ElementTree::Node root = elements.root();
+  visit(root, lowerBound(root.box));
+}
 
 double NearestElement::lowerBound(const OrientedBox& box) const {
   const Vector3d local = box.axes.transpose() * (centre_ - box.centre);
   const double ball = (local.cwiseAbs() - box.half).cwiseMax(0.0).norm() - volume_.enclosingRadius();
   if (!any()) return ball;
-  const double plane =
-      n_.dot(box.centre - centre_) - box.half.dot((box.axes.transpose() * n_).cwiseAbs()) - support_;
-  return std::max(ball, plane);
+  return std::max(ball, n_.dot(box.centre - centre_) - box.reach(n_) - support_);
 }
 
-bool NearestElement::mayImprove(double bound) {
-  if (!any() || bound < best_.distance) return true;
-  runnerUp_ = std::min(runnerUp_, bound);
-  return false;
+double NearestElement::lowerBound(const Shape& element, const Vector3d& place) const {
+  if (!any()) return -std::numeric_limits<double>::infinity();
+  return n_.dot(place + element.support(-n_) - centre_) - element.margin - support_;
 }
 
-void NearestElement::offer(const Shape& element, const Isometry3d& pose, std::intptr_t id) {
+void NearestElement::visit(const ElementTree::Node& node, double bound) {
+  if (any() && !(bound < runnerUp_)) return;
+  if (node.leaf) {
+    Shape shape;
+    Vector3d place;
+    if (elements_.element(node, shape, place) && (!any() || lowerBound(shape, place) < runnerUp_))
+      offer(shape, place, node.id);
+    return;
+  }
+  std::array<ElementTree::Node, 8> child;
+  std::array<double, 8> near;
+  std::array<std::size_t, 8> order;
+  const auto count = static_cast<std::size_t>(elements_.children(node, child));
+  for (std::size_t i = 0; i < count; ++i) {
+    near[i] = lowerBound(child[i].box);
+    order[i] = i;
+    for (std::size_t j = i; j > 0 && near[order[j]] < near[order[j - 1]]; --j) std::swap(order[j], order[j - 1]);
+  }
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::size_t i = order[k];
+    visit(child[i], k == 0 ? near[i] : std::max(near[i], lowerBound(child[i].box)));  // with the new best normal
+  }
+}
+
+void NearestElement::offer(const Shape& element, const Vector3d& place, std::intptr_t id) {
   PairCache start;
   if (any())
     start = {best_.normal, best_.patch};
   else if (cache_)
     start = *cache_;
-  const Distance found = distance(volume_, poseVolume_, element, pose, &start);
+  Isometry3d at = poseElements_;
+  at.translation() = poseElements_ * place;
+  const Distance found = distance(volume_, poseVolume_, element, at, &start);
   if (found.status == DistanceStatus::invalid) return;
   if (any() && found.distance >= best_.distance) {
     runnerUp_ = std::min(runnerUp_, found.distance);
     return;
   }
-  if (any()) runnerUp_ = std::min(runnerUp_, best_.distance);
+  if (any()) runnerUp_ = best_.distance;
   best_ = found;
   any_ = true;
   element_ = id;

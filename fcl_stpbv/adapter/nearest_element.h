@@ -1,45 +1,36 @@
-// The nearest of many elements, triangles or cells: what a walk down FCL's hierarchies keeps.
+// The nearest of many elements, triangles or cells, and the one after it.
 #pragma once
 
-#include <cstdint>
 #include <limits>
 
+#include "fcl_stpbv/adapter/element_tree.h"
 #include "fcl_stpbv/distance/shape_distance.h"
 
 namespace fcl_stpbv {
 
-/// A box anywhere in the frame of a mesh or a tree, as every FCL bounding volume has one around it.
-struct OrientedBox {
-  Eigen::Vector3d centre;
-  Eigen::Matrix3d axes;  ///< columns
-  Eigen::Vector3d half;  ///< half sides (m)
-};
-
-/// One STP-BV against the elements of one mesh or tree. Lives on the stack of one query.
+/// One STP-BV against the elements of one mesh or tree: a walk down the hierarchy, near branches first, that leaves
+/// out what cannot be one of the nearest two. Lives on the stack of one query.
 class NearestElement {
  public:
-  NearestElement(const StpBv& volume, const Eigen::Isometry3d& poseVolume,
+  NearestElement(const StpBv& volume, const Eigen::Isometry3d& poseVolume, const ElementTree& elements,
                  const Eigen::Isometry3d& poseElements, PairCache* cache);
-
-  /// A lower bound of the volume's distance to anything in `box` (m): by the volume's enclosing ball, and by
-  /// the gap along the best normal so far (docs/theory.md, 5: any normal gives one).
-  double lowerBound(const OrientedBox& box) const;
-
-  /// Whether something in `box` may be nearer than what is known. What is not is kept for `runnerUp`.
-  bool mayImprove(double bound);
-
-  /// Solves an element and keeps the nearest.
-  void offer(const Shape& element, const Eigen::Isometry3d& pose, std::intptr_t id);
 
   bool any() const { return any_; }
   const Distance& best() const { return best_; }
   std::intptr_t element() const { return element_; }
-  /// No element but the nearest is nearer than this (m).
+  /// Distance to the second nearest element (m); infinite if there is but one.
   double runnerUp() const { return runnerUp_; }
-  const Eigen::Isometry3d& pose() const { return poseElements_; }
 
  private:
+  void visit(const ElementTree::Node& node, double bound);
+  void offer(const Shape& element, const Eigen::Vector3d& place, std::intptr_t id);
+  /// A lower bound of the distance to anything in `box` (m): by the volume's enclosing ball, and by the gap along the
+  /// best normal so far (docs/theory.md, 5: any normal gives one).
+  double lowerBound(const OrientedBox& box) const;
+  double lowerBound(const Shape& element, const Eigen::Vector3d& place) const;
+
   const StpBv& volume_;
+  const ElementTree& elements_;
   Eigen::Isometry3d poseVolume_, poseElements_;
   Eigen::Matrix3d rotation_;              // elements' frame to the volume's
   Eigen::Vector3d translation_, centre_;  // centre of the volume, in the elements' frame

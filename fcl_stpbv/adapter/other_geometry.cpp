@@ -1,8 +1,7 @@
 #include "fcl_stpbv/adapter/other_geometry.h"
 
 #include "fcl_stpbv/adapter/fcl_shapes.h"
-#include "fcl_stpbv/adapter/mesh_traversal.h"
-#include "fcl_stpbv/adapter/octree_traversal.h"
+#include "fcl_stpbv/adapter/nearest_element.h"
 
 namespace fcl_stpbv {
 
@@ -14,8 +13,8 @@ bool distanceToOther(const StpBv& volume, const Eigen::Isometry3d& poseVolume,
     result.found = distance(volume, poseVolume, shape, poseOther, cache);
     return true;
   }
-  NearestElement search(volume, poseVolume, poseOther, cache);
-  if (!searchMesh(other, search) && !searchOcTree(other, search)) return false;
+  const ElementTree elements(other);
+  const NearestElement search(volume, poseVolume, elements, poseOther, cache);
   if (!search.any()) return false;
   result.found = search.best();
   result.element = search.element();

@@ -14,7 +14,7 @@ namespace fcl_stpbv {
 struct OtherDistance {
   Distance found;              ///< body 1 is the STP-BV
   std::intptr_t element = -1;  ///< triangle or cell, as FCL numbers them; -1 for simple shapes
-  double runnerUp = std::numeric_limits<double>::infinity();  ///< no other element is nearer (m)
+  double runnerUp = std::numeric_limits<double>::infinity();  ///< distance to the next element (m)
   bool continuous = true;  ///< the gradient too: false for meshes and trees, whose nearest element switches
 };
 

@@ -1,6 +1,7 @@
 #include "fcl_stpbv/distance/shape_overlap.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "fcl_stpbv/distance/first_corners.h"
@@ -58,6 +59,7 @@ WidestGap widestGapByCuts(ShapeQuery& q, const StartNormal& start) {
 WidestGap leastOverlap(ShapeQuery& q, const StartNormal& start) {
   constexpr double kRelative = 1e-6;  // of the depth, which is as good as proven
   constexpr int kMore = 16;           // steps from there for a normal to rounding, which flat faces give
+  constexpr int kAttempts = 4;
   WidestGap best{trialAlong(q, start.n, start.patch).at, 0.0, true, false};
   const auto take = [&](const Vector3d& n) {
     const Trial trial = trialAlong(q, n, -1);
@@ -67,23 +69,43 @@ WidestGap leastOverlap(ShapeQuery& q, const StartNormal& start) {
   struct Corner {
     Vector3d w;
   };
-  std::array<Corner, 4> first;
-  const bool solid = firstCorners([&](const Vector3d& m) { return Corner{take(-m.normalized())}; }, q.rounding.gap, first);
-  // Not yet around the origin: hulls grow over it as over any other point.
-  Polytope polytope({first[0].w, first[1].w, first[2].w, first[3].w}, Polytope::Origin::anywhere);
-  int more = 0;
-  while (solid && polytope.sound()) {
-    const Polytope::Face nearest = polytope.nearest();
-    // Inside the difference, so with the origin inside it no direction leads out sooner.
-    best.bound = std::min(best.bound, -nearest.distance);
-    const Vector3d difference = take(-nearest.normal);
-    const double open = -best.at.gap - nearest.distance;
-    if (nearest.distance > 0.0 && open <= kRelative * nearest.distance + q.rounding.gap) {
-      best.solved = true;
-      if (open <= q.rounding.gap || ++more > kMore) break;
+  // Rounding may spoil a polytope, of slivers along edges and generators: another start makes other faces.
+  for (int attempt = 0; attempt < kAttempts && !best.solved; ++attempt) {
+    const Eigen::Matrix3d turn = Eigen::AngleAxisd(attempt, Vector3d(0.48, 0.6, 0.64)).toRotationMatrix();
+    std::array<Corner, 4> first;
+    const auto furthest = [&](const Vector3d& m) { return Corner{take(-(turn * m).normalized())}; };
+    if (!firstCorners(furthest, q.rounding.gap, first)) break;
+    // Not yet around the origin: hulls grow over it as over any other point.
+    Polytope polytope({first[0].w, first[1].w, first[2].w, first[3].w}, Polytope::Origin::anywhere);
+    double bound = 0.0;
+    int more = 0;
+    while (polytope.sound()) {
+      const Polytope::Face nearest = polytope.nearest();
+      // Inside the difference, so with the origin inside it no direction leads out sooner.
+      bound = std::min(bound, -nearest.distance);
+      const Vector3d difference = take(-nearest.normal);
+      const double open = -best.at.gap - nearest.distance;
+      if (nearest.distance > 0.0 && open <= kRelative * nearest.distance + q.rounding.gap) {
+        best.solved = true;
+        if (open <= q.rounding.gap || ++more > kMore) break;
+      }
+      if (!(nearest.normal.dot(difference) - nearest.distance > q.rounding.gap)) break;
+      if (!polytope.expand(difference)) break;
     }
-    if (!(nearest.normal.dot(difference) - nearest.distance > q.rounding.gap)) break;
-    if (!polytope.expand(difference)) break;
+    best.bound = std::min(best.bound, bound);
+  }
+  if (!best.solved) {  // rounding or the size of the polytope stopped it: at least to the top of this hill
+    constexpr int kTrials = 4000;
+    double step = 0.02;  // rad
+    for (int trials = 0; step > 1e-9 && trials < kTrials;) {
+      const Vector3d n = best.at.n, e = n.unitOrthogonal(), f = n.cross(e);
+      const double gap = best.at.gap;
+      for (int k = 0; k < 8 && best.at.gap <= gap; ++k, ++trials) {
+        const double angle = 0.785398163397448 * k + 40.0 * step;  // turned a little each round
+        take((n + step * (std::cos(angle) * e + std::sin(angle) * f)).normalized());
+      }
+      if (best.at.gap <= gap) step *= 0.5;
+    }
   }
   // The strictly convex body's point is the only one; of a face the shape gave a corner, so take what is
   // opposite.

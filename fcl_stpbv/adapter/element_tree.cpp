@@ -1,0 +1,180 @@
+#include "fcl_stpbv/adapter/element_tree.h"
+
+#include <fcl/config.h>
+#include <fcl/geometry/bvh/BVH_model.h>
+#if FCL_HAVE_OCTOMAP
+#include <fcl/geometry/octree/octree.h>
+#endif
+
+namespace fcl_stpbv {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+using Node = ElementTree::Node;
+
+OrientedBox boxAround(const fcl::AABBd& bv) {
+  return {0.5 * (bv.min_ + bv.max_), Matrix3d::Identity(), 0.5 * (bv.max_ - bv.min_)};
+}
+OrientedBox boxAround(const fcl::OBBd& bv) { return {bv.To, bv.axis, bv.extent}; }
+OrientedBox boxAround(const fcl::RSSd& bv) {
+  return {bv.center(), bv.axis, Vector3d(0.5 * bv.l[0] + bv.r, 0.5 * bv.l[1] + bv.r, bv.r)};
+}
+OrientedBox boxAround(const fcl::OBBRSSd& bv) { return boxAround(bv.obb); }
+OrientedBox boxAround(const fcl::kIOSd& bv) { return boxAround(bv.obb); }
+template <std::size_t N>
+OrientedBox boxAround(const fcl::KDOP<double, N>& bv) {  // its first three slabs are the axes'
+  const Vector3d low(bv.dist(0), bv.dist(1), bv.dist(2));
+  const Vector3d high(bv.dist(N / 2), bv.dist(N / 2 + 1), bv.dist(N / 2 + 2));
+  return {0.5 * (low + high), Matrix3d::Identity(), 0.5 * (high - low)};
+}
+
+/// Rounding in FCL's fitting of a bounding volume may leave a triangle's corner outside by this part of its size.
+constexpr double kFit = 1e-9;
+
+template <typename BV>
+Node meshNode(const fcl::BVHModel<BV>& mesh, int index) {
+  const fcl::BVNode<BV>& node = mesh.getBV(index);
+  OrientedBox box = boxAround(node.bv);
+  box.half.array() += kFit * (box.half.sum() + box.centre.lpNorm<1>());
+  return {node.isLeaf() ? node.primitiveId() : index, node.isLeaf(), nullptr, box};
+}
+
+/// Calls `action` with the geometry as the BVHModel it is; `otherwise` for what is none.
+template <typename Action, typename Result>
+Result withMesh(const fcl::CollisionGeometryd& g, const Action& action, Result otherwise) {
+  switch (g.getNodeType()) {
+    case fcl::BV_AABB:
+      return action(static_cast<const fcl::BVHModel<fcl::AABBd>&>(g));
+    case fcl::BV_OBB:
+      return action(static_cast<const fcl::BVHModel<fcl::OBBd>&>(g));
+    case fcl::BV_RSS:
+      return action(static_cast<const fcl::BVHModel<fcl::RSSd>&>(g));
+    case fcl::BV_kIOS:
+      return action(static_cast<const fcl::BVHModel<fcl::kIOSd>&>(g));
+    case fcl::BV_OBBRSS:
+      return action(static_cast<const fcl::BVHModel<fcl::OBBRSSd>&>(g));
+    case fcl::BV_KDOP16:
+      return action(static_cast<const fcl::BVHModel<fcl::KDOP<double, 16>>&>(g));
+    case fcl::BV_KDOP18:
+      return action(static_cast<const fcl::BVHModel<fcl::KDOP<double, 18>>&>(g));
+    case fcl::BV_KDOP24:
+      return action(static_cast<const fcl::BVHModel<fcl::KDOP<double, 24>>&>(g));
+    default:
+      return otherwise;
+  }
+}
+
+template <typename Mesh>
+Shape meshElement(const Mesh& mesh, std::intptr_t id) {
+  if (!mesh.tri_indices) {  // a point cloud
+    const Vector3d p = mesh.vertices[id];
+    return Shape::triangleOf(p, p, p);
+  }
+  const fcl::Triangle& t = mesh.tri_indices[id];
+  return Shape::triangleOf(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]);
+}
+
+#if FCL_HAVE_OCTOMAP
+using Cell = fcl::OcTreed::OcTreeNode;
+
+const fcl::OcTreed* asOcTree(const fcl::CollisionGeometryd& g) {
+  return g.getNodeType() == fcl::GEOM_OCTREE ? static_cast<const fcl::OcTreed*>(&g) : nullptr;
+}
+
+Node treeNode(const fcl::OcTreed& tree, const Cell* cell, const fcl::AABBd& box) {
+  return {cell - tree.getRoot(), !tree.nodeHasChildren(cell), cell, boxAround(box)};
+}
+
+int treeChildren(const fcl::OcTreed& tree, const Node& node, std::array<Node, 8>& child) {
+  const Cell* cell = static_cast<const Cell*>(node.handle);
+  const fcl::AABBd box(node.box.centre - node.box.half, node.box.centre + node.box.half);
+  int count = 0;
+  for (unsigned i = 0; i < 8; ++i) {
+    if (!tree.nodeChildExists(cell, i)) continue;
+    fcl::AABBd part;
+    fcl::computeChildBV(box, i, part);
+    child[static_cast<std::size_t>(count++)] = treeNode(tree, tree.getNodeChild(cell, i), part);
+  }
+  return count;
+}
+#endif
+
+}  // namespace
+
+ElementTree::ElementTree(const fcl::CollisionGeometryd& geometry) : geometry_(geometry) {
+  any_ = withMesh(geometry, [](const auto& mesh) { return mesh.getNumBVs() > 0 && mesh.vertices; }, false);
+#if FCL_HAVE_OCTOMAP
+  if (const fcl::OcTreed* tree = asOcTree(geometry)) any_ = tree->getRoot() != nullptr;
+#endif
+}
+
+Node ElementTree::root() const {
+#if FCL_HAVE_OCTOMAP
+  if (const fcl::OcTreed* tree = asOcTree(geometry_)) return treeNode(*tree, tree->getRoot(), tree->getRootBV());
+#endif
+  const Node none{-1, true, nullptr, {Vector3d::Zero(), Matrix3d::Zero(), Vector3d::Zero()}};
+  return withMesh(geometry_, [](const auto& mesh) { return meshNode(mesh, 0); }, none);
+}
+
+int ElementTree::children(const Node& node, std::array<Node, 8>& child) const {
+#if FCL_HAVE_OCTOMAP
+  if (const fcl::OcTreed* tree = asOcTree(geometry_)) return treeChildren(*tree, node, child);
+#endif
+  return withMesh(
+      geometry_,
+      [&](const auto& mesh) {
+        const auto& inner = mesh.getBV(static_cast<int>(node.id));
+        child[0] = meshNode(mesh, inner.leftChild());
+        child[1] = meshNode(mesh, inner.rightChild());
+        return 2;
+      },
+      0);
+}
+
+bool ElementTree::element(const Node& leaf, Shape& shape, Vector3d& place) const {
+#if FCL_HAVE_OCTOMAP
+  if (const fcl::OcTreed* tree = asOcTree(geometry_)) {
+    if (!tree->isNodeOccupied(static_cast<const Cell*>(leaf.handle))) return false;
+    shape = Shape::boxOf(2.0 * leaf.box.half);
+    place = leaf.box.centre;
+    return true;
+  }
+#endif
+  place.setZero();
+  shape = withMesh(geometry_, [&](const auto& mesh) { return meshElement(mesh, leaf.id); }, Shape{});
+  return true;
+}
+
+bool ElementTree::find(std::intptr_t id, const Vector3d& x, Shape& shape, Vector3d& place) const {
+  if (!any()) return false;
+  Node node = root();
+  if (!node.handle) {  // a mesh: any id within bounds
+    const bool within = withMesh(
+        geometry_,
+        [&](const auto& mesh) { return id >= 0 && id < (mesh.tri_indices ? mesh.num_tris : mesh.num_vertices); },
+        false);
+    return within && element({id, true, nullptr, node.box}, shape, place);
+  }
+  // Down a tree to where `x` is, to rounding; a point between cells may lie in several.
+  constexpr int kPending = 8 * 17;  // octomap is sixteen levels deep
+  std::array<Node, kPending> pending;
+  int count = 0;
+  pending[static_cast<std::size_t>(count++)] = node;
+  while (count > 0) {
+    node = pending[static_cast<std::size_t>(--count)];
+    const double slack = 1e-9 * (node.box.half.norm() + node.box.centre.norm());
+    if (((x - node.box.centre).cwiseAbs() - node.box.half).maxCoeff() > slack) continue;
+    if (node.leaf) {
+      if (node.id == id) return element(node, shape, place);
+      continue;
+    }
+    std::array<Node, 8> child;
+    const int children = this->children(node, child);
+    for (int i = 0; i < children && count < kPending; ++i)
+      pending[static_cast<std::size_t>(count++)] = child[static_cast<std::size_t>(i)];
+  }
+  return false;
+}
+
+}  // namespace fcl_stpbv

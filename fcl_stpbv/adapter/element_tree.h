@@ -1,0 +1,50 @@
+// The triangles of a mesh, the points of a cloud or the cells of a tree, through FCL's own hierarchy.
+#pragma once
+
+#include <fcl/geometry/collision_geometry.h>
+
+#include <array>
+#include <cstdint>
+
+#include "fcl_stpbv/distance/shape.h"
+
+namespace fcl_stpbv {
+
+/// A box anywhere in the frame of a mesh or a tree, as every FCL bounding volume has one around it.
+struct OrientedBox {
+  Eigen::Vector3d centre;
+  Eigen::Matrix3d axes;  ///< columns
+  Eigen::Vector3d half;  ///< half sides (m)
+
+  /// Half its width along a unit vector (m).
+  double reach(const Eigen::Vector3d& n) const { return half.dot((axes.transpose() * n).cwiseAbs()); }
+};
+
+/// A view of a BVHModel of any bounding volume or of an OcTree; the geometry must outlive it. Allocates nothing.
+class ElementTree {
+ public:
+  struct Node {
+    std::intptr_t id;     ///< of an element as FCL's `b1`, `b2` name it; else of the inner node
+    bool leaf;
+    const void* handle;   ///< a tree's node
+    OrientedBox box;      ///< holds all that is below, in the geometry's frame
+  };
+
+  explicit ElementTree(const fcl::CollisionGeometryd& geometry);
+
+  /// Whether the geometry is a mesh or a tree with anything in it.
+  bool any() const { return any_; }
+  Node root() const;
+  /// The node's children, at most eight; how many.
+  int children(const Node& node, std::array<Node, 8>& child) const;
+  /// A leaf as a shape, placed in the geometry's frame. False for a cell that is free.
+  bool element(const Node& leaf, Shape& shape, Eigen::Vector3d& place) const;
+  /// The element with this id, at or next to `x` (geometry's frame).
+  bool find(std::intptr_t id, const Eigen::Vector3d& x, Shape& shape, Eigen::Vector3d& place) const;
+
+ private:
+  const fcl::CollisionGeometryd& geometry_;
+  bool any_ = false;
+};
+
+}  // namespace fcl_stpbv

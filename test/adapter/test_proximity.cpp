@@ -1,0 +1,234 @@
+// Farther than a threshold, for every pair of geometries, and how little has to be asked for it.
+#include <fcl/config.h>
+#include <fcl/geometry/bvh/BVH_model.h>
+#include <fcl/geometry/geometric_shape_to_BVH_model.h>
+#include <fcl/geometry/shape/box.h>
+#include <fcl/geometry/shape/capsule.h>
+#include <fcl/geometry/shape/cone.h>
+#include <fcl/geometry/shape/cylinder.h>
+#include <fcl/geometry/shape/ellipsoid.h>
+#include <fcl/geometry/shape/halfspace.h>
+#include <fcl/geometry/shape/plane.h>
+#include <fcl/geometry/shape/sphere.h>
+#include <fcl/geometry/shape/triangle_p.h>
+#if FCL_HAVE_OCTOMAP
+#include <fcl/geometry/octree/octree.h>
+#endif
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "fcl_stpbv/adapter/fcl_shapes.h"
+#include "fcl_stpbv/adapter/flat_overlap.h"
+#include "fcl_stpbv/adapter/flat_pair.h"
+#include "fcl_stpbv/adapter/hull_geometry.h"
+#include "fcl_stpbv/adapter/proximity.h"
+#include "fcl_stpbv/distance/shape_distance.h"
+#include "test/shapes.h"
+
+using namespace fcl_stpbv;
+using namespace fcl_stpbv::test;
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+namespace {
+
+/// One body of a geometry, in the geometry's frame.
+struct Part {
+  StpBv::Ptr volume;
+  Shape shape;
+  Vector3d place;
+};
+
+struct Kind {
+  const char* name;
+  std::shared_ptr<fcl::CollisionGeometryd> geometry;
+  std::vector<Part> parts;
+};
+
+template <typename BV>
+Kind mesh(const char* name) {
+  auto model = std::make_shared<fcl::BVHModel<BV>>();
+  fcl::generateBVHModel(*model, fcl::Ellipsoidd(0.2, 0.15, 0.25), fcl::Transform3d::Identity(), 8, 8);
+  Kind kind{name, model, {}};
+  for (int t = 0; t < model->num_tris; ++t) {
+    const fcl::Triangle& i = model->tri_indices[t];
+    kind.parts.push_back(
+        {nullptr, Shape::triangleOf(model->vertices[i[0]], model->vertices[i[1]], model->vertices[i[2]]), {0, 0, 0}});
+  }
+  return kind;
+}
+
+/// Every type, some 0.4 m across.
+std::vector<Kind> everyKind() {
+  std::vector<Kind> all;
+  const auto volume = StpBv::build(randomHull(30, {0.2, 0.15, 0.1}, 3));
+  all.push_back({"volume", std::make_shared<StpBvGeometry>(volume), {{volume, {}, {0, 0, 0}}}});
+  const auto shape = [&](const char* name, std::shared_ptr<fcl::CollisionGeometryd> geometry) {
+    Shape s;
+    REQUIRE(shapeOf(*geometry, s));
+    all.push_back({name, geometry, {{nullptr, s, {0, 0, 0}}}});
+  };
+  shape("sphere", std::make_shared<fcl::Sphered>(0.2));
+  shape("capsule", std::make_shared<fcl::Capsuled>(0.1, 0.3));
+  shape("ellipsoid", std::make_shared<fcl::Ellipsoidd>(0.1, 0.2, 0.15));
+  shape("box", std::make_shared<fcl::Boxd>(0.3, 0.2, 0.4));
+  shape("cylinder", std::make_shared<fcl::Cylinderd>(0.1, 0.3));
+  shape("cone", std::make_shared<fcl::Coned>(0.1, 0.3));
+  shape("convex", hullGeometry(randomHull(40, {0.1, 0.2, 0.15}, 5)));
+  shape("triangle", std::make_shared<fcl::TrianglePd>(Vector3d(0.2, 0, 0), Vector3d(-0.1, 0.2, 0), Vector3d(0, -0.2, 0.1)));
+  shape("half space", std::make_shared<fcl::Halfspaced>(Vector3d(0, 0, 1), 0.1));
+  shape("plane", std::make_shared<fcl::Planed>(Vector3d(0, 0, 1), 0.1));
+  all.push_back(mesh<fcl::OBBRSSd>("mesh of OBBRSS"));
+  all.push_back(mesh<fcl::AABBd>("mesh of AABB"));
+  all.push_back(mesh<fcl::KDOP<double, 24>>("mesh of KDOP"));
+#if FCL_HAVE_OCTOMAP
+  auto cells = std::make_shared<octomap::OcTree>(0.05);
+  Random random(5);
+  for (int i = 0; i < 100; ++i) {
+    const Eigen::Vector3f p = (0.2 * random.direction()).cast<float>();
+    cells->updateNode(octomap::point3d(p.x(), p.y(), p.z()), i % 4 != 0);
+  }
+  const auto tree = std::make_shared<fcl::OcTreed>(cells);
+  Kind kind{"tree", tree, {}};
+  for (const auto& c : tree->toBoxes())
+    kind.parts.push_back({nullptr, Shape::boxOf(Vector3d::Constant(c[3])), Vector3d(c[0], c[1], c[2])});
+  all.push_back(kind);
+#endif
+  return all;
+}
+
+/// Two bodies' distance, or what is known of it.
+Distance between(const Part& p, Isometry3d a, const Part& q, Isometry3d b) {
+  a.translation() = a * p.place;
+  b.translation() = b * q.place;
+  if (p.volume && q.volume) return distance(*p.volume, a, *q.volume, b);
+  if (p.volume) return distance(*p.volume, a, q.shape, b);
+  if (q.volume) return distance(p.shape, a, *q.volume, b);
+  if (p.shape.unbounded()) return planeDistance(p.shape, a, q.shape, b);
+  if (q.shape.unbounded()) return planeDistance(q.shape, b, p.shape, a);
+  const Distance d = flatDistance(p.shape, a, q.shape, b);
+  return d.status != DistanceStatus::invalid ? d : flatOverlap(p.shape, a, q.shape, b);
+}
+
+/// Over all pairs of bodies.
+Distance leastBetween(const Kind& first, const Isometry3d& a, const Kind& second, const Isometry3d& b) {
+  Distance least;
+  least.lower = least.upper = std::numeric_limits<double>::infinity();
+  for (const Part& p : first.parts)
+    for (const Part& q : second.parts) {
+      const Distance d = between(p, a, q, b);
+      if (d.status == DistanceStatus::invalid) return d;
+      least.lower = std::min(least.lower, d.lower);
+      least.upper = std::min(least.upper, d.upper);
+    }
+  least.status = DistanceStatus::bounded;
+  return least;
+}
+
+}  // namespace
+
+TEST_CASE("farther than a little less than the distance, not farther than a little more, for every two kinds") {
+  const auto kinds = everyKind();
+  Random random(1);
+  int apart = 0, overlapping = 0, unknown = 0;
+  for (const Kind& first : kinds)
+    for (const Kind& second : kinds)
+      for (int i = 0; i < 4; ++i) {
+        CAPTURE(first.name, second.name, i);
+        const double far = i == 3 ? 1000 : 1;  // m from the world's origin
+        const Isometry3d a = pose(random.rotation(), far * random.direction());
+        const Isometry3d b = pose(random.rotation(), a.translation() + random.uniform(0.2, 0.9) * random.direction());
+        const auto farther = [&](double x) { return isFartherThan(x, *first.geometry, a, *second.geometry, b); };
+        const Distance d = leastBetween(first, a, second, b);
+        if (d.status == DistanceStatus::invalid) {  // two planes
+          ++unknown;
+          CHECK_FALSE(farther(-1e3));
+          continue;
+        }
+        ++(d.lower > 0 ? apart : overlapping);
+        CAPTURE(d.lower, d.upper);
+        // A depth of round bodies is good to 1e-6 of it: an ulp in a cell's place may move its bounds by that.
+        const double slack = 1e-12 * far + (d.lower < 0 ? 1e-6 * -d.lower : 0);
+        CHECK(farther(d.lower - slack));
+        CHECK_FALSE(farther(d.upper + slack));
+        CHECK(collides(*first.geometry, a, *second.geometry, b, d.upper + slack));
+      }
+  CHECK(apart > 300);
+  CHECK(overlapping > 100);
+  CHECK(unknown == 16);
+}
+
+TEST_CASE("what is asked for a threshold: one bound far away, few elements near it, and none beyond the first within") {
+  const auto kinds = everyKind();
+  Random random(2);
+  long pairs = 0, solvedBelow = 0, solvedAbove = 0, asked = 0;
+  for (const Kind& first : kinds)
+    for (const Kind& second : kinds) {
+      CAPTURE(first.name, second.name);
+      ProximityCounts counts;
+      QueryContext context;
+      context.proximity = &counts;
+      const Isometry3d a = pose(random.rotation(), random.direction());
+      const auto farther = [&](double x, const Isometry3d& b) {
+        counts = {};
+        return isFartherThan(x, *first.geometry, a, *second.geometry, b, context);
+      };
+      const bool unbounded = first.parts[0].shape.unbounded() || second.parts[0].shape.unbounded();
+      const Isometry3d away = pose(random.rotation(), a.translation() + 5 * random.direction());
+      if (!unbounded) {
+        CHECK(farther(1, away));
+        CHECK(counts.solved == 0);
+        // A tree's root is kilometres across: it takes a few levels to get to the cells.
+        if (first.parts[0].place.isZero() && second.parts[0].place.isZero()) CHECK(counts.bounds == 1);
+      }
+      const Isometry3d b = pose(random.rotation(), a.translation() + 0.7 * random.direction());
+      const Distance d = leastBetween(first, a, second, b);
+      if (d.status == DistanceStatus::invalid || !(d.lower > 0)) continue;
+      ++asked;
+      pairs += static_cast<long>(first.parts.size() * second.parts.size());
+      CHECK(farther(d.lower - 1e-3, b));
+      solvedBelow += counts.solved;
+      CHECK_FALSE(farther(d.upper + 1e-3, b));
+      solvedAbove += counts.solved;
+    }
+  CAPTURE(pairs, asked, solvedBelow, solvedAbove);
+  CHECK(solvedBelow <= pairs / 40);  // 2.2 % of all pairs of bodies, a millimetre below the distance
+  CHECK(solvedAbove <= 5 * asked);   // four a question on average, a millimetre above it
+}
+
+TEST_CASE("the remembered normal's planes answer the next question alone") {
+  const auto kinds = everyKind();
+  Random random(3);
+  for (const Kind& second : kinds) {
+    if (second.parts.size() > 1 || second.parts[0].shape.unbounded()) continue;
+    CAPTURE(second.name);
+    PairCache cache;
+    ProximityCounts counts;
+    QueryContext context;
+    context.cache = &cache;
+    context.proximity = &counts;
+    const Isometry3d a = pose(random.rotation(), random.direction());
+    Isometry3d b = pose(random.rotation(), a.translation() + 0.6 * random.direction());
+    const double d = distance(*kinds[0].geometry, a, *second.geometry, b, context).distance;
+    REQUIRE(d > 0.01);
+    b.translation() += 1e-4 * random.direction();
+    CHECK(isFartherThan(d - 1e-3, *kinds[0].geometry, a, *second.geometry, b, context));
+    CHECK(counts.solved == 0);
+  }
+}
+
+TEST_CASE("a pose that is none, or a geometry without anything in it, is not certainly farther than anything") {
+  const auto kinds = everyKind();
+  Isometry3d broken = Isometry3d::Identity(), scaled = Isometry3d::Identity();
+  broken.translation().x() = std::nan("");
+  scaled.linear() *= 2;
+  const Isometry3d here = Isometry3d::Identity(), there = pose(Eigen::Matrix3d::Identity(), {10, 0, 0});
+  for (const Kind& kind : kinds) {
+    CAPTURE(kind.name);
+    CHECK_FALSE(isFartherThan(-1, *kind.geometry, here, *kinds[0].geometry, broken));
+    CHECK_FALSE(isFartherThan(-1, *kind.geometry, scaled, *kinds[0].geometry, there));
+    CHECK_FALSE(isFartherThan(std::nan(""), *kind.geometry, here, *kinds[0].geometry, there));
+    CHECK_FALSE(isFartherThan(-1, *kind.geometry, here, fcl::BVHModel<fcl::OBBRSSd>(), there));
+  }
+}
