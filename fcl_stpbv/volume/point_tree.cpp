@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <numeric>
+
+#include "fcl_stpbv/volume/minimum_ball.h"
 
 namespace fcl_stpbv {
 namespace {
@@ -16,6 +19,7 @@ constexpr int kStack = 96;  // deeper than any balanced tree of 2^31 points need
 PointTree::PointTree(const std::vector<Eigen::Vector3d>& points)
     : points_(points), order_(points.size()), removed_(points.size(), 0) {
   std::iota(order_.begin(), order_.end(), 0);
+  if (!points.empty()) centre_ = minimumEnclosingBall(points).centre;
   nodes_.reserve(points.size() / (kLeaf / 4) + 1);
   if (!points.empty()) makeNode(0, static_cast<int>(points.size()));
   sorted_.reserve(points.size());
@@ -27,12 +31,15 @@ PointTree::PointTree(const std::vector<Eigen::Vector3d>& points)
 }
 
 int PointTree::makeNode(int begin, int end) {
-  Node node{points_[static_cast<std::size_t>(order_[static_cast<std::size_t>(begin)])], {}, begin, end, -1};
+  Node node{
+      points_[static_cast<std::size_t>(order_[static_cast<std::size_t>(begin)])], {}, 0, begin, end, -1};
   node.high = node.low;
+  node.far2 = (node.low - centre_).squaredNorm();
   for (int i = begin + 1; i < end; ++i) {
     const Eigen::Vector3d& p = points_[static_cast<std::size_t>(order_[static_cast<std::size_t>(i)])];
     node.low = node.low.cwiseMin(p);
     node.high = node.high.cwiseMax(p);
+    node.far2 = std::max(node.far2, (p - centre_).squaredNorm());
   }
   const int index = static_cast<int>(nodes_.size());
   nodes_.push_back(node);
@@ -68,6 +75,19 @@ PointTree::Highest PointTree::highest(const Eigen::Vector3d& anchor, const Eigen
     }
     return sum;
   };
+  // Over a box of points on a sphere that bound is as much too high as the sphere bulges in the box, and no
+  // box falls out when the ball is nearly that sphere. From the sphere's centre o on, the height is linear in
+  // p and |p - o|^2 together, of which each node knows the largest.
+  const Eigen::Vector3d o = centre_ - anchor, slope = curvature * o + normal;
+  const double level = 0.5 * curvature * o.squaredNorm() + normal.dot(o);
+  const double rounding = 32 * std::numeric_limits<double>::epsilon() *
+                          (curvature * (nodes_[0].far2 + o.squaredNorm()) + normal.norm() * o.norm() +
+                           slope.norm() * std::sqrt(nodes_[0].far2));
+  const auto sphereBound = [&](const Node& node) {
+    const Eigen::Vector3d l = node.low - centre_, h = node.high - centre_;
+    return level + 0.5 * curvature * node.far2 + slope.cwiseProduct(l).cwiseMax(slope.cwiseProduct(h)).sum() +
+           rounding;
+  };
   struct Waiting {
     double bound;
     int node;
@@ -81,6 +101,7 @@ PointTree::Highest PointTree::highest(const Eigen::Vector3d& anchor, const Eigen
     const double wanted = best.height > tolerance ? best.height : -2 * tolerance;
     if (top.bound < wanted) continue;
     const Node& node = nodes_[static_cast<std::size_t>(top.node)];
+    if (sphereBound(node) < wanted) continue;
     if (node.right < 0) {
       for (int i = node.begin; i < node.end; ++i) {
         const Eigen::Vector3d q = sorted_[static_cast<std::size_t>(i)] - anchor;

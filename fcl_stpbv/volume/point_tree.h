@@ -37,12 +37,14 @@ class PointTree {
  private:
   struct Node {
     Eigen::Vector3d low, high;
+    double far2;     // of its points, the largest squared distance from centre_
     int begin, end;  // range of order_
     int right;       // second child; the first one follows its parent; -1 for a leaf
   };
   int makeNode(int begin, int end);
 
   const std::vector<Eigen::Vector3d>& points_;
+  Eigen::Vector3d centre_{0, 0, 0};  // of the smallest ball around the points
   std::vector<int> order_;
   std::vector<Eigen::Vector3d> sorted_;  // points in the order of order_
   std::vector<int> place_;               // where in order_ each point stands

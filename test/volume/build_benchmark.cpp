@@ -43,6 +43,10 @@ int main() {
   std::printf("| cloud | points | vertices | seconds, median of 5 | us / (V log2 V) | bytes a vertex |\n|---|---|---|---|---|---|\n");
   for (int subdivisions = 1; subdivisions <= 5; ++subdivisions) row("geodesic sphere", geodesicSphere(0.2, subdivisions));
   for (const int count : {100, 1000, 10000, 100000}) row("random on a sphere", onSphere(count));
+  for (const double over : {1e-2, 1e-9}) {
+    const Cloud points = onSphere(10000);
+    row("random on a sphere, near the smallest R", points, StpBv::smallestR(points, 0.01) * (1 + over));
+  }
   row("1000-gon prism", cylinder(0.1, 0.4, 1000));
   row("uniform in a box", randomHull(1000000, {0.3, 0.2, 0.1}, 1));
   Cloud ball = onSphere(1000000);
