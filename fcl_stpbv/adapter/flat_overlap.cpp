@@ -16,6 +16,7 @@ namespace {
 
 constexpr double kRelative = 1e-6;  // of the depth, for round bodies
 constexpr int kPoints = 390;        // what the polytope has room for, less a few
+constexpr int kAttempts = 4;
 
 /// The difference B - A of the two cores in A's frame, by its furthest points; remembers the least overlap.
 struct Difference {
@@ -70,10 +71,14 @@ Distance flatOverlap(const Shape& a, const Eigen::Isometry3d& poseA, const Shape
                           (d.translation.norm() + a.centre.norm() + a.reach + b.centre.norm() + b.reach);
   if (!(rounding < 1e100)) return result;
 
+  const auto solved = [&](double depth) { return -d.gap - depth <= std::max(rounding, 0.5 * kRelative * depth); };
   double upper = 0.0;  // the cores overlap
+  std::array<Difference::Point, kPoints> point;
   std::array<Difference::Point, 4> first;
-  if (firstCorners([&](const Vector3d& m) { return d.furthest(m); }, rounding, first)) {
-    std::array<Difference::Point, kPoints> point;
+  // Rounding may spoil a polytope, of slivers along edges and generators: another start makes other faces.
+  for (int attempt = 0; attempt < kAttempts && !(attempt > 0 && solved(-upper)); ++attempt) {
+    const Matrix3d turn = Eigen::AngleAxisd(attempt, Vector3d(0.48, 0.6, 0.64)).toRotationMatrix();
+    if (!firstCorners([&](const Vector3d& m) { return d.furthest(turn * m); }, rounding, first)) break;
     std::copy(first.begin(), first.end(), point.begin());
     int points = 4;
     Polytope polytope({first[0].w, first[1].w, first[2].w, first[3].w}, Polytope::Origin::anywhere);
@@ -87,7 +92,7 @@ Distance flatOverlap(const Shape& a, const Eigen::Isometry3d& poseA, const Shape
         const auto at = [&](std::size_t i) { return point[static_cast<std::size_t>(face.corner[i])]; };
         d.onA = onFace({at(0), at(1), at(2)}, face.distance * face.normal);
       }
-      if (-d.gap - face.distance <= std::max(rounding, 0.5 * kRelative * face.distance)) break;
+      if (solved(face.distance)) break;
       if (!(face.normal.dot(next.w) - face.distance > rounding)) break;
       point[static_cast<std::size_t>(points++)] = next;
       polytope.expand(next.w);

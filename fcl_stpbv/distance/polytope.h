@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <limits>
@@ -51,9 +52,10 @@ class Polytope {
     // The sides of the faces that see `p`; those seen from both sides cancel and the rest is the horizon.
     std::array<std::array<std::int16_t, 2>, 3 * kMaxFaces> horizon;
     int sides = 0;
+    const double size = p.lpNorm<1>();
     for (int i = 0; i < faces_;) {
       const Face& f = face(i);
-      if (f.normal.dot(p) - f.distance <= kFlat * p.lpNorm<1>()) {
+      if (f.normal.dot(p) - f.distance <= flat_[static_cast<std::size_t>(i)] * size) {
         ++i;
         continue;
       }
@@ -71,6 +73,7 @@ class Polytope {
       --faces_;
       face_[static_cast<std::size_t>(i)] = face(faces_);
       rank_[static_cast<std::size_t>(i)] = rank_[static_cast<std::size_t>(faces_)];
+      flat_[static_cast<std::size_t>(i)] = flat_[static_cast<std::size_t>(faces_)];
     }
     if (sides == 0) {
       --points_;
@@ -85,6 +88,7 @@ class Polytope {
  private:
   static constexpr int kMaxPoints = 400;  // some 20 are usual, hundreds where all directions are nearly as good
   static constexpr int kMaxFaces = 2 * kMaxPoints;
+  static constexpr double kNarrow = 300.0;  // more would leave out points that a flat face of the bodies needs
   static constexpr double kFlat = 1e-15;  // of a point: this near to a face's plane is in it, to rounding
 
   std::size_t nearestIndex() const {
@@ -108,12 +112,16 @@ class Polytope {
     if (origin_ == Origin::inside && !(distance >= 0.0))
       return false;  // the origin is on the surface, to rounding
     rank_[static_cast<std::size_t>(faces_)] = distance;
+    // A sliver's normal is as much less certain as it is narrow.
+    const double narrow = std::min((e.squaredNorm() + f.squaredNorm()) / length, kNarrow);
+    flat_[static_cast<std::size_t>(faces_)] = kFlat * narrow;
     face_[static_cast<std::size_t>(faces_++)] = {{i, j, k}, unit, distance};
     return true;
   }
 
   std::array<Eigen::Vector3d, kMaxPoints> point_;
   std::array<Face, kMaxFaces> face_;
+  std::array<double, kMaxFaces> flat_;  // height over it, as a part of a point's size, that is rounding
   std::array<double, kMaxFaces> rank_;  // distance, or infinity for a face put aside
   Origin origin_;
   int points_ = 0;

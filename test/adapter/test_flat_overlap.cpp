@@ -8,6 +8,7 @@
 #include <fcl/geometry/shape/halfspace.h>
 #include <fcl/geometry/shape/plane.h>
 #include <fcl/geometry/shape/sphere.h>
+#include <fcl/geometry/shape/triangle_p.h>
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -15,6 +16,7 @@
 #include "fcl_stpbv/adapter/fcl_distance.h"
 #include "fcl_stpbv/adapter/fcl_shapes.h"
 #include "fcl_stpbv/adapter/flat_overlap.h"
+#include "fcl_stpbv/adapter/hull_geometry.h"
 #include "test/shapes.h"
 
 using namespace fcl_stpbv;
@@ -54,11 +56,12 @@ double gapAlong(const Shape& a, const Isometry3d& poseA, const Shape& b, const I
   return n.dot(q - p) - a.margin - b.margin;
 }
 
-void checkConsistent(const DistanceAnswer& d, const DistanceAnswer& e) {
+/// `far`: how far from the world's origin the bodies are (m), whose coordinates round by that much more.
+void checkConsistent(const DistanceAnswer& d, const DistanceAnswer& e, double far = 1) {
   CHECK(d.status != DistanceStatus::invalid);
   CHECK((std::isfinite(d.distance) && d.points[0].allFinite() && d.normal.allFinite()));
   CHECK(std::abs(d.normal.norm() - 1) <= 1e-14);
-  CHECK((d.points[1] - d.points[0] - d.distance * d.normal).norm() <= 1e-14);
+  CHECK((d.points[1] - d.points[0] - d.distance * d.normal).norm() <= 1e-14 * far);
   CHECK((d.lower <= d.distance && d.distance <= d.upper));
   CHECK_FALSE(d.continuous);
   CHECK(e.distance == d.distance);
@@ -129,32 +132,66 @@ TEST_CASE("balls, capsules, half spaces and planes overlap by their closed forms
   }
 }
 
-TEST_CASE("round bodies: bounds that no direction breaks, and the relative tolerance is met") {
+TEST_CASE("every two bounded shapes: bounds that no direction breaks, the tolerance is met, also 1 km from the origin") {
   const std::vector<std::shared_ptr<fcl::CollisionGeometryd>> shapes{
-      std::make_shared<fcl::Capsuled>(0.1, 0.4), std::make_shared<fcl::Boxd>(0.3, 0.2, 0.1),
-      std::make_shared<fcl::Cylinderd>(0.2, 0.3), std::make_shared<fcl::Coned>(0.2, 0.3),
-      std::make_shared<fcl::Ellipsoidd>(0.1, 0.2, 0.3)};
+      std::make_shared<fcl::Capsuled>(0.1, 0.4),
+      std::make_shared<fcl::Boxd>(0.3, 0.2, 0.1),
+      std::make_shared<fcl::Cylinderd>(0.2, 0.3),
+      std::make_shared<fcl::Coned>(0.2, 0.3),
+      std::make_shared<fcl::Ellipsoidd>(0.1, 0.2, 0.3),
+      std::make_shared<fcl::Sphered>(0.2),
+      hullGeometry(randomHull(30, {0.2, 0.15, 0.1}, 9)),
+      std::make_shared<fcl::TrianglePd>(Vector3d(0.2, 0, 0.01), Vector3d(-0.1, 0.2, 0), Vector3d(-0.1, -0.2, 0))};
   Random random(3);
-  int loose = 0, all = 0;
+  int loose = 0, overlapping = 0;
   for (const auto& first : shapes)
     for (const auto& second : shapes)
       for (int i = 0; i < 24; ++i) {
         CAPTURE(static_cast<int>(first->getNodeType()), static_cast<int>(second->getNodeType()), i);
         Shape s, t;
         REQUIRE((shapeOf(*first, s) && shapeOf(*second, t)));
-        const Isometry3d a = pose(random.rotation(), random.direction());
+        const double far = i % 3 == 2 ? 1000 : 1;
+        const Isometry3d a = pose(random.rotation(), far * random.direction());
         const Isometry3d b = i == 0 ? pose(random.rotation(), a.translation())
                                     : pose(random.rotation(), a.translation() + random.uniform(0, 0.1) * random.direction());
         const DistanceAnswer d = distance(*first, a, *second, b);
-        checkConsistent(d, distance(*second, b, *first, a));
-        CHECK(std::abs(gapAlong(s, a, t, b, d.normal) - d.distance) <= 1e-14);
+        checkConsistent(d, distance(*second, b, *first, a), far);
+        if (!(d.distance < 0)) continue;  // two triangles may miss each other
+        ++overlapping;
+        CHECK(std::abs(gapAlong(s, a, t, b, d.normal) - d.distance) <= 1e-14 * far);
         double best = -1;
         for (int k = 0; k < 2000; ++k) best = std::max(best, gapAlong(s, a, t, b, random.direction()));
-        CHECK(best <= d.upper + 1e-14);
-        ++all;
-        loose += d.upper - d.lower > 1e-6 * std::abs(d.distance) + 1e-14;
+        CHECK(best <= d.upper + 1e-14 * far);
+        // A ball on a cone's axis is as deep towards all generators, more than the polytope has room for.
+        const double part = i == 0 ? 1e-3 : 1e-6;
+        loose += d.upper - d.lower > part * std::abs(d.distance) + 1e-14 * far;
       }
-  CHECK(loose <= all / 20);
+  CHECK(overlapping > 1400);
+  CHECK(loose == 0);
+}
+
+TEST_CASE("a ball in a hull or a triangle overlaps by its closed form, 1 km from the origin too") {
+  Random random(5);
+  const auto points = box(0.6, 0.8, 1.0);
+  const auto hull = hullGeometry(points);
+  const fcl::TrianglePd triangle(Vector3d(1, 0, 0), Vector3d(-1, 1, 0), Vector3d(-1, -1, 0));
+  const fcl::Sphered ball(0.2);
+  const Vector3d half(0.3, 0.4, 0.5);
+  for (int i = 0; i < 300; ++i) {
+    CAPTURE(i);
+    const double far = i % 2 ? 1000 : 1;
+    const Isometry3d a = pose(random.rotation(), far * random.direction());
+    const Vector3d x(random.uniform(-0.3, 0.3), random.uniform(-0.4, 0.4), random.uniform(-0.5, 0.5));
+    const Isometry3d b = pose(random.rotation(), a * x);
+    const DistanceAnswer d = distance(*hull, a, ball, b);
+    checkConsistent(d, distance(ball, b, *hull, a), far);
+    CHECK(std::abs(d.distance + (half - x.cwiseAbs()).minCoeff() + 0.2) <= 1e-13 * far);
+    const Vector3d y(0.3 * x.x(), 0.3 * x.y(), 0.3 * x.z());
+    const Isometry3d c = pose(random.rotation(), a * y);
+    const DistanceAnswer e = distance(triangle, a, ball, c);
+    checkConsistent(e, distance(ball, c, triangle, a), far);
+    CHECK(std::abs(e.distance - (std::abs(y.z()) - 0.2)) <= 1e-13 * far);
+  }
 }
 
 TEST_CASE("identical, pointlike and barely overlapping boxes") {

@@ -13,6 +13,8 @@
 
 #include "fcl_stpbv/adapter/distance_callback.h"
 #include "fcl_stpbv/adapter/fcl_distance.h"
+#include "fcl_stpbv/adapter/hull_geometry.h"
+#include "fcl_stpbv/adapter/proximity.h"
 #include "fcl_stpbv/robot/constraints.h"
 #include "test/robot/robots.h"
 
@@ -40,9 +42,19 @@ std::vector<std::shared_ptr<fcl::CollisionGeometryd>> everyKind() {
       std::make_shared<fcl::Planed>(Eigen::Vector3d(0, 0, 1), -0.2),
       std::make_shared<fcl::TrianglePd>(Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(1, 0, 0),
                                         Eigen::Vector3d(0, 1, 0))};
-  auto mesh = std::make_shared<fcl::BVHModel<fcl::OBBRSSd>>();
-  fcl::generateBVHModel(*mesh, fcl::Sphered(0.2), fcl::Transform3d::Identity(), 12, 12);
-  all.push_back(mesh);
+  all.push_back(hullGeometry(randomHull(30, {0.2, 0.1, 0.15}, 3)));
+  const auto add = [&](auto mesh) {
+    fcl::generateBVHModel(*mesh, fcl::Sphered(0.2), fcl::Transform3d::Identity(), 8, 8);
+    all.push_back(mesh);
+  };
+  add(std::make_shared<fcl::BVHModel<fcl::AABBd>>());
+  add(std::make_shared<fcl::BVHModel<fcl::OBBd>>());
+  add(std::make_shared<fcl::BVHModel<fcl::RSSd>>());
+  add(std::make_shared<fcl::BVHModel<fcl::kIOSd>>());
+  add(std::make_shared<fcl::BVHModel<fcl::OBBRSSd>>());
+  add(std::make_shared<fcl::BVHModel<fcl::KDOP<double, 16>>>());
+  add(std::make_shared<fcl::BVHModel<fcl::KDOP<double, 18>>>());
+  add(std::make_shared<fcl::BVHModel<fcl::KDOP<double, 24>>>());
 #if FCL_HAVE_OCTOMAP
   auto cells = std::make_shared<octomap::OcTree>(0.05);
   for (int i = 0; i < 30; ++i) cells->updateNode(0.01f * static_cast<float>(i), 0.1f, 0.02f, true);
@@ -70,6 +82,9 @@ TEST_CASE("eight threads that share a geometry of every kind get the answers of 
     for (int k = 0; k < kPoses; ++k) {
       for (const auto& kind : kinds)
         found.push_back(distance(link, Eigen::Isometry3d::Identity(), *kind, turned(k)).distance);
+      for (std::size_t i = 0; i < kinds.size(); ++i)  // each kind with another in turn
+        found.push_back(isFartherThan(0.05, *kinds[i], Eigen::Isometry3d::Identity(),
+                                      *kinds[(i + static_cast<std::size_t>(k)) % kinds.size()], turned(k)));
       own[0]->setTransform(turned(k));
       own[0]->computeAABB();
       manager.update();
