@@ -22,6 +22,14 @@ using namespace fcl_stpbv::test;
 
 namespace {
 
+// The address sanitizer's allocator reserves its whole address space when the program starts, so a limit on
+// that space does not bind it, and it keeps freed memory for a while.
+#ifdef __SANITIZE_ADDRESS__
+constexpr bool kMemoryIsMeasured = false;
+#else
+constexpr bool kMemoryIsMeasured = true;
+#endif
+
 /// What a call took: processor time (s) and memory above what there was (bytes), its own child processes with
 /// it.
 struct Cost {
@@ -176,7 +184,7 @@ TEST_CASE("a hostile mesh costs an error, and memory and time in proportion to i
     CHECK(cost.ended);
     // The limits of child_process.cpp, and as much again for what the mesh becomes here.
     const double size = static_cast<double>(mesh.content.size());
-    CHECK(cost.bytes <= 2 * (256e6 + 256 * size));
+    if (kMemoryIsMeasured) CHECK(cost.bytes <= 2 * (256e6 + 256 * size));
     CHECK(cost.seconds <= 2 * (5 + 5e-6 * size));
     refused += cost.refused;
     CHECK(contentOf(path) == mesh.content);
@@ -253,7 +261,7 @@ TEST_CASE("a hostile robot description costs memory and time in proportion to it
     CAPTURE(text.substr(0, 300), text.size(), cost.seconds, cost.bytes);
     CHECK(cost.ended);
     // Measured at up to 50 bytes and 2 us a byte, without sanitizers.
-    CHECK(cost.bytes <= 64e6 + 500 * static_cast<double>(text.size()));
+    if (kMemoryIsMeasured) CHECK(cost.bytes <= 64e6 + 500 * static_cast<double>(text.size()));
     CHECK(cost.seconds <= 2 + 50e-6 * static_cast<double>(text.size()));
     refused += cost.refused;
   }
