@@ -53,6 +53,8 @@ Vector3d centreLine(const BodyPair& pair) {
   return length > 0.0 ? Vector3d(d / length) : Vector3d::UnitX();
 }
 
+constexpr std::array<int, 2> kNoHint{-1, -1};
+
 struct Found {
   Sample at;
   DistanceStatus status;
@@ -72,9 +74,7 @@ Found climb(const BodyPair& pair, Sample x, Work& work) {
 }
 
 /// From the polyhedra's closest features to the smooth ones (paper IV.B), and on from there.
-bool polyhedralStart(const BodyPair& pair, const Vector3d& start, const std::array<int, 2>& patch,
-                     bool repose, VertexSearch& search, Found& found, Work& work) {
-  searchVertices(pair, start, patch, repose, search);
+bool polyhedralStart(const BodyPair& pair, const VertexSearch& search, Found& found, Work& work) {
   if (!search.apart) return false;
   const Vector3d& n = search.n;
   Sample x = unevaluated(
@@ -91,18 +91,29 @@ bool polyhedralStart(const BodyPair& pair, const Vector3d& start, const std::arr
   return true;
 }
 
+/// Cores that overlap, from a normal with its gap: their widest gap as far as the polytope around that normal
+/// proves it.
+bool overlapAround(const BodyPair& pair, Sample x, Found& found, Work& work) {
+  found = {x, DistanceStatus::local};
+  if (!(x.core < 0.0) || !expandPolytope(pair, found.at, found.bound, work)) return false;
+  ascend(pair, found.at, work);  // a sample that the polytope met may be next to the top only
+  return found.at.core <= 0.0;
+}
+
 /// Cores that overlap: the least separating translation, from any normal. A search that was not surrounded
 /// has no corners to start from.
 Found solveOverlap(const BodyPair& pair, const Vector3d& n, const std::array<int, 2>& patch,
                    const VertexSearch& search, Work& work) {
   Sample x = pair.sampleFrom(n, patch, work.steps);
   Vector3d ignored;
-  settle(pair, x, ignored, work);
+  const bool top = settle(pair, x, ignored, work);
   if (x.core > 0.0) return climb(pair, x, work);  // apart, by less than the search's rounding
   double bound = 0.0;
-  if (!expandPolytope(pair, x, bound, work) &&
-      !(search.surrounded && expandPolytope(pair, search.corner, x, bound, work)))
-    leastPenetration(pair, x, work);
+  const auto fromCorners = [&] {
+    return search.surrounded && expandPolytope(pair, search.corner, x, bound, work);
+  };
+  const auto fromTop = [&] { return expandPolytope(pair, x, bound, work); };
+  if (top ? !fromTop() && !fromCorners() : !fromCorners() && !fromTop()) leastPenetration(pair, x, work);
   if (x.core > 0.0) return climb(pair, x, work);
   ascend(pair, x, work);
   return {x, DistanceStatus::local, bound};
@@ -111,12 +122,11 @@ Found solveOverlap(const BodyPair& pair, const Vector3d& n, const std::array<int
 /// From the line of centres.
 Found solveCold(const BodyPair& pair, Work& work) {
   const Vector3d n = centreLine(pair);
-  const std::array<int, 2> patch{pair.a().owner(n), pair.b().owner(pair.opposite(n))};
   Found found;
-  VertexSearch search;
-  if (polyhedralStart(pair, n, patch, false, search, found, work)) return found;
-  if (search.surrounded) return solveOverlap(pair, n, patch, search, work);
-  Sample x = pair.sample(n, patch);
+  const VertexSearch search = searchVertices(pair, n);
+  if (polyhedralStart(pair, search, found, work)) return found;
+  if (search.surrounded) return solveOverlap(pair, n, kNoHint, search, work);
+  Sample x = pair.sampleFrom(n, kNoHint, work.steps);
   switch (separateCores(pair, x, work)) {
     case CoreContact::apart:
       return climb(pair, x, work);
@@ -129,38 +139,32 @@ Found solveCold(const BodyPair& pair, Work& work) {
 }
 
 /// From what the last query left: first its patch pair, which most small motions keep, then its normal.
-bool solveWarm(const BodyPair& pair, const Vector3d& normal, const std::array<int, 2>& patch, Found& found,
-               Work& work) {
+bool solveWarm(const BodyPair& pair, const Vector3d& normal, const std::array<int, 2>& patch, bool deep,
+               Found& found, Work& work) {
   if (patch[0] >= pair.a().patchCount() || patch[1] >= pair.b().patchCount()) return false;
   const double length2 = normal.squaredNorm();
   if (!(length2 > 0.25 && length2 < 4.0)) return false;
   const Vector3d n = renormalized(normal);
-  VertexSearch search;
-  const auto searchFrom = [&](const std::array<int, 2>& from, bool repose) {
-    if (polyhedralStart(pair, n, from, repose, search, found, work)) return true;
-    if (search.surrounded) found = solveOverlap(pair, n, from, search, work);
-    return search.surrounded;
-  };
-  if (patch[0] < 0 || patch[1] < 0)
-    return searchFrom({pair.a().owner(n, patch[0]), pair.b().owner(pair.opposite(n), patch[1])}, false);
   // In a small motion the bodies carry their patches along; in a large one the world's normal is the better
   // memory.
   constexpr double kSmallMotion =
       0.1;  // rad from the last normal to the region of the patch, which has moved
-  const bool small = nearRegion(pair.a(), patch[0], n, kSmallMotion) &&
+  const bool small = patch[0] >= 0 && patch[1] >= 0 && nearRegion(pair.a(), patch[0], n, kSmallMotion) &&
                      nearRegion(pair.b(), patch[1], pair.opposite(n), kSmallMotion);
   if (small) {
     Sample x = unevaluated(n, patch);
     Vector3d ignored;
     if (settle(pair, x, ignored, work)) {
       found = {x, DistanceStatus::exact};
-      if (x.core > 0.0) return true;
-      found.status = DistanceStatus::local;
-      if (expandPolytope(pair, found.at, found.bound, work)) return true;
+      if (x.core > 0.0 || overlapAround(pair, x, found, work)) return true;
+    } else if (deep && overlapAround(pair, pair.sampleFrom(n, patch, work.steps), found, work)) {
+      return true;
     }
   }
-  if (small) return searchFrom(patch, true);
-  return searchFrom({pair.a().patchNear(n), pair.b().patchNear(pair.opposite(n))}, false);
+  const VertexSearch search = small ? searchVertices(pair, n, patch) : searchVertices(pair, n);
+  if (polyhedralStart(pair, search, found, work)) return true;
+  if (search.surrounded) found = solveOverlap(pair, n, small ? patch : kNoHint, search, work);
+  return search.surrounded;
 }
 
 }  // namespace
@@ -179,7 +183,8 @@ Distance distance(const StpBv& a, const Isometry3d& poseA, const StpBv& b, const
   const BodyPair pair(a, b, rotation, translation);
   Work work;
   Found found;
-  if (!cache || !solveWarm(pair, poseA.linear().transpose() * cache->normal, cache->patch, found, work))
+  if (!cache ||
+      !solveWarm(pair, poseA.linear().transpose() * cache->normal, cache->patch, cache->overlap, found, work))
     found = solveCold(pair, work);
 
   const Sample& x = found.at;
@@ -199,6 +204,7 @@ Distance distance(const StpBv& a, const Isometry3d& poseA, const StpBv& b, const
   if (cache) {
     cache->normal = result.normal;
     cache->patch = result.patch;
+    cache->overlap = x.core <= 0.0;
   }
   return result;
 }

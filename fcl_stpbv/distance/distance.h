@@ -50,6 +50,7 @@ struct Distance {
 struct PairCache {
   Eigen::Vector3d normal{0, 0, 0};   ///< last normal, world frame; zero: none
   std::array<int, 2> patch{-1, -1};  ///< last patches; -1: none
+  bool overlap = false;              ///< whether the cores overlapped
 };
 
 /// Signed distance between `a` placed at `poseA` and `b` placed at `poseB`. Never throws, allocates or

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "fcl_stpbv/distance/polytope.h"
+#include "fcl_stpbv/distance/polytope_search.h"
 #include "fcl_stpbv/vectorized.h"
 
 namespace fcl_stpbv {
@@ -14,10 +15,13 @@ using Eigen::Vector3d;
 namespace {
 
 /// Where the polytope is this much of the depth from the surface, a maximum is likely to be next to it.
-constexpr double kNear = 0.1;
+constexpr double kNear = 0.03;
 
 /// Where it is this near, the maximum that its normal leads to is the only one there.
 constexpr double kClose = 1e-3;
+
+/// Tilt of the normals of points that the polytope gets at first around a maximum, and further off (rad).
+constexpr double kRing = 0.4;
 
 /// Normals of one maximum found twice differ by less (rad).
 constexpr double kSame = 1e-7;
@@ -35,8 +39,8 @@ bool isMaximum(const BodyPair& pair, const Sample& x) {
   return x.across.squaredNorm() <= pair.acrossRounding() * pair.acrossRounding();
 }
 
-/// The points supporting normals a little off a maximum: what the polytope would find last, and with them it is
-/// close to the surface there.
+/// The points supporting normals a little off a maximum: what the polytope would find last, and with them it
+/// is close to the surface there.
 std::array<Vector3d, 3> pointsAround(const BodyPair& pair, const Sample& top, Work& work) {
   // A tilt that no radius of curvature turns into more than a part of that.
   const double tilt =
@@ -47,55 +51,97 @@ std::array<Vector3d, 3> pointsAround(const BodyPair& pair, const Sample& top, Wo
   return points;
 }
 
-bool grow(const BodyPair& pair, Polytope& polytope, Sample& x, double& bound, Work& work) {
-  double least = std::numeric_limits<double>::infinity();  // distance of the faces done with
-  bool solved = false;
-  while (polytope.sound() && !solved) {
-    const Polytope::Face nearest = polytope.nearest();
-    solved = -x.core - nearest.distance <= pair.gapRounding();
-    // The polytope lies inside the difference, so with the origin inside it no direction leads out sooner.
-    bound = -std::max(0.0, std::min(least, nearest.distance));
-    if (solved) break;
-    Sample trial = pair.sampleFrom(-nearest.normal, {-1, -1}, work.steps);
+class Search {
+ public:
+  Search(const BodyPair& pair, const std::array<Vector3d, 4>& corner, Polytope::Origin origin, Sample& x,
+         Work& work)
+      : pair_(pair), polytope_(corner, origin), x_(x), work_(work) {}
+
+  /// Takes in the points around a maximum; the face between them needs no look.
+  void addTop(const Sample& top) {
+    for (const Vector3d& p : pointsAround(pair_, top, work_)) add(p);
+    least_ = std::min(least_, polytope_.putLastAside());
+  }
+
+  void add(const Vector3d& p) {
+    if (polytope_.sound()) polytope_.expand(p);
+  }
+
+  bool sound() const { return polytope_.sound(); }
+
+  /// Expands where the surface is nearest; true once nothing is nearer than the maximum in `x`.
+  bool run(double& bound) {
+    while (polytope_.sound()) {
+      const Polytope::Face nearest = polytope_.nearest();
+      // The polytope lies inside the difference, so with the origin inside it no direction leads out sooner.
+      bound = -std::max(0.0, std::min(least_, nearest.distance));
+      if (-x_.core - nearest.distance <= pair_.gapRounding()) return true;
+      if (expandToVertex(nearest)) continue;
+      if (!expandToSurface(nearest)) return false;
+    }
+    return false;
+  }
+
+ private:
+  /// Far from the surface vertices will do; they are the cheapest points of the difference.
+  bool expandToVertex(const Polytope::Face& nearest) {
+    if (!(nearest.distance > 0.0)) return false;
+    const Vector3d vertex = vertexDifference(pair_, -nearest.normal);
+    return nearest.normal.dot(vertex) > (1.0 + kNear) * nearest.distance && polytope_.expand(vertex);
+  }
+
+  /// False where the cores turn out to be apart.
+  bool expandToSurface(const Polytope::Face& nearest) {
+    Sample trial = pair_.sampleFrom(-nearest.normal, {-1, -1}, work_.steps);
     if (trial.core > 0.0) return false;
     const Vector3d point = furthest(trial);
     const double open = -trial.core - nearest.distance;
     Vector3d ignored;
-    const bool top = open <= kNear * nearest.distance && settle(pair, trial, ignored, work);
-    const bool another = top && (trial.n - x.n).squaredNorm() > kSame * kSame;
-    if (trial.core > x.core) x = trial;
-    if (open <= pair.gapRounding() || (top && open <= kClose * nearest.distance) || !polytope.expand(point)) {
-      least = std::min(least, nearest.distance);
-      polytope.putAside();
-      continue;
+    const bool top = open <= kNear * nearest.distance && settle(pair_, trial, ignored, work_);
+    const bool another = top && (trial.n - x_.n).squaredNorm() > kSame * kSame;
+    if (trial.core > x_.core) x_ = trial;
+    if (open <= pair_.gapRounding() || (top && open <= kClose * nearest.distance) ||
+        !polytope_.expand(point)) {
+      least_ = std::min(least_, nearest.distance);
+      polytope_.putAside();
+    } else if (another) {
+      addTop(trial);
     }
-    if (!another) continue;
-    for (const Vector3d& p : pointsAround(pair, trial, work))
-      if (polytope.sound()) polytope.expand(p);
+    return true;
   }
-  return solved;
-}
+
+  const BodyPair& pair_;
+  Polytope polytope_;
+  Sample& x_;
+  Work& work_;
+  double least_ = std::numeric_limits<double>::infinity();  // distance of the faces done with
+};
 
 }  // namespace
 
+FCL_STPBV_VECTORIZED
 bool expandPolytope(const BodyPair& pair, const std::array<Vector3d, 4>& corner, Sample& x, double& bound,
                     Work& work) {
-  Polytope polytope(corner);
-  return grow(pair, polytope, x, bound, work);
+  return Search(pair, corner, Polytope::Origin::inside, x, work).run(bound);
 }
 
 FCL_STPBV_VECTORIZED
 bool expandPolytope(const BodyPair& pair, Sample& x, double& bound, Work& work) {
-  if (isMaximum(pair, x)) {
-    const std::array<Vector3d, 3> near = pointsAround(pair, x, work);
-    Polytope polytope({near[0], near[1], near[2], furthest(pair.sampleFrom(-x.n, {-1, -1}, work.steps))},
-                      Polytope::Origin::anywhere);
-    return grow(pair, polytope, x, bound, work);
-  }
+  // Three points off the normal and one behind; beside the points around a maximum at the normal they make
+  // sides flat enough not to come nearer to the origin than the top does, on most bodies.
   const std::array<Vector3d, 3> m = around(x.n);
+  std::array<Vector3d, 3> ring;
+  for (std::size_t i = 0; i < 3; ++i) ring[i] = vertexDifference(pair, (x.n - kRing * m[i]).normalized());
+  Search search(pair, {ring[0], ring[1], ring[2], vertexDifference(pair, -x.n)}, Polytope::Origin::anywhere,
+                x, work);
+  if (isMaximum(pair, x))
+    search.addTop(x);
+  else
+    search.add(vertexDifference(pair, x.n));
+  if (search.run(bound)) return true;
   const auto from = [&](const Vector3d& n) { return furthest(pair.sampleFrom(n, {-1, -1}, work.steps)); };
-  Polytope polytope({from(m[0]), from(m[1]), from(m[2]), from(-x.n)}, Polytope::Origin::anywhere);
-  return grow(pair, polytope, x, bound, work);
+  return Search(pair, {from(m[0]), from(m[1]), from(m[2]), from(-x.n)}, Polytope::Origin::anywhere, x, work)
+      .run(bound);
 }
 
 }  // namespace fcl_stpbv

@@ -13,10 +13,14 @@ namespace fcl_stpbv {
 /// A convex polytope, triangles only, in arrays of fixed size.
 class Polytope {
  public:
+  using Index = std::uint16_t;
+  static constexpr Index kNone = 0xffff;
+
   struct Face {
-    std::array<std::int16_t, 3> corner;
-    Eigen::Vector3d normal;  // unit, outward
-    double distance;         // of its plane from the origin, negative with the origin beyond it
+    std::array<Index, 3> corner;  // counter-clockwise from outside; corner[0] is kNone once the face is gone
+    std::array<Index, 3> across;  // what lies across the side from corner k to the next: face * 4 + its side
+    Eigen::Vector3d normal;       // unit, outward
+    double distance;              // of its plane from the origin, negative with the origin beyond it
   };
 
   /// Whether the origin must be inside from the start; rounding that puts it outside then ends the search.
@@ -26,106 +30,142 @@ class Polytope {
       : origin_(origin) {
     for (const Eigen::Vector3d& p : corner) point_[static_cast<std::size_t>(points_++)] = p;
     const bool flip = (corner[1] - corner[0]).cross(corner[2] - corner[0]).dot(corner[3] - corner[0]) > 0.0;
-    const std::int16_t i1 = flip ? 2 : 1, i2 = flip ? 1 : 2;
-    sound_ = add(0, i1, i2) && add(0, i2, 3) && add(i2, i1, 3) && add(i1, 0, 3);
+    const Index i1 = flip ? 2 : 1, i2 = flip ? 1 : 2;
+    sound_ = set(0, 0, i1, i2) && set(1, 0, i2, 3) && set(2, i2, i1, 3) && set(3, i1, 0, 3);
+    faces_ = 4;
+    join(0, 0, 3, 0), join(0, 1, 2, 0), join(0, 2, 1, 0);
+    join(1, 1, 2, 2), join(2, 1, 3, 2), join(3, 1, 1, 2);
   }
 
   /// False once a face could not be made: too flat, or no room.
   bool sound() const { return sound_; }
 
   /// The face nearest to the origin of those not put aside; at an infinite distance if all are.
-  Face nearest() const {
-    const std::size_t i = nearestIndex();
-    Face f = face_[i];
-    f.distance = rank_[i];
+  Face nearest() {
+    nearest_ = 0;
+    for (std::size_t i = 1; i < static_cast<std::size_t>(faces_); ++i)
+      if (rank_[i] < rank_[nearest_]) nearest_ = i;
+    Face f = face_[nearest_];
+    f.distance = rank_[nearest_];
     return f;
   }
 
-  /// Takes the nearest face out of the search.
-  void putAside() { rank_[nearestIndex()] = std::numeric_limits<double>::infinity(); }
+  /// Takes the face that nearest() gave out of the search.
+  void putAside() { rank_[nearest_] = std::numeric_limits<double>::infinity(); }
 
-  /// Takes `p` into the hull. False where it is inside already, or in a face's plane to rounding, or without room.
+  /// The same for the face between the last three points taken in; gives its distance, or infinity if there
+  /// is none.
+  double putLastAside() {
+    for (std::size_t i = 0; i < static_cast<std::size_t>(faces_); ++i)
+      if (const Face& f = face_[i]; f.corner[0] != kNone && f.corner[0] >= points_ - 3 &&
+                                    f.corner[1] >= points_ - 3 && f.corner[2] >= points_ - 3) {
+        rank_[i] = std::numeric_limits<double>::infinity();
+        return f.distance;
+      }
+    return std::numeric_limits<double>::infinity();
+  }
+
+  /// Takes `p` into the hull. False where it is inside already, or in a face's plane to rounding, or without
+  /// room.
   bool expand(const Eigen::Vector3d& p) {
     if (points_ == kMaxPoints) return sound_ = false;
-    const std::int16_t index = static_cast<std::int16_t>(points_);
-    point_[static_cast<std::size_t>(points_++)] = p;
-    // The sides of the faces that see `p`; those seen from both sides cancel and the rest is the horizon.
-    std::array<std::array<std::int16_t, 2>, 3 * kMaxFaces> horizon;
-    int sides = 0;
     const double size = p.lpNorm<1>();
-    for (int i = 0; i < faces_;) {
-      const Face& f = face(i);
-      if (f.normal.dot(p) - f.distance <= flat_[static_cast<std::size_t>(i)] * size) {
-        ++i;
-        continue;
-      }
-      for (std::size_t k = 0; k < 3; ++k) {
-        const std::int16_t from = f.corner[k], to = f.corner[(k + 1) % 3];
-        int twin = 0;
-        while (twin < sides && !(horizon[static_cast<std::size_t>(twin)][0] == to &&
-                                 horizon[static_cast<std::size_t>(twin)][1] == from))
-          ++twin;
-        if (twin < sides)
-          horizon[static_cast<std::size_t>(twin)] = horizon[static_cast<std::size_t>(--sides)];
-        else
-          horizon[static_cast<std::size_t>(sides++)] = {from, to};
-      }
-      --faces_;
-      face_[static_cast<std::size_t>(i)] = face(faces_);
-      rank_[static_cast<std::size_t>(i)] = rank_[static_cast<std::size_t>(faces_)];
-      flat_[static_cast<std::size_t>(i)] = flat_[static_cast<std::size_t>(faces_)];
+    const auto sees = [&](int i) { return face(i).normal.dot(p) - face(i).distance > flat_[at(i)] * size; };
+    int first = static_cast<int>(nearest_);
+    if (face(first).corner[0] == kNone || !sees(first))
+      for (first = 0; first < faces_ && (face(first).corner[0] == kNone || !sees(first));) ++first;
+    if (first == faces_) return false;
+
+    // From face to face that sees `p`, each side in turn: what does not see it comes in the order of the
+    // horizon.
+    std::array<Index, 3 * kMaxFaces> open;
+    std::array<Index, kMaxFaces> horizon;
+    int opened = 0, sides = 0;
+    const auto enter = [&](int i, int side, int count) {
+      Face& f = face(i);
+      for (int k = count; k > 0; --k) open[at(opened++)] = f.across[at(kTurn[at(side + k)])];
+      f.corner[0] = kNone;
+      rank_[at(i)] = std::numeric_limits<double>::infinity();
+      free_[at(freed_++)] = static_cast<Index>(i);
+    };
+    enter(first, 0, 3);
+    while (opened > 0) {
+      const Index link = open[at(--opened)];
+      const int i = link >> 2;
+      if (face(i).corner[0] == kNone) continue;
+      if (sees(i))
+        enter(i, link & 3, 2);
+      else
+        horizon[at(sides++)] = link;
     }
-    if (sides == 0) {
-      --points_;
-      sound_ = faces_ > 0;  // not seen from everywhere
-      return false;
-    }
-    for (int i = 0; i < sides && sound_; ++i)
-      sound_ = add(horizon[static_cast<std::size_t>(i)][0], horizon[static_cast<std::size_t>(i)][1], index);
-    return sound_ = sound_ && faces_ > 0;
+    return sound_ = close(p, horizon.data(), sides);
   }
 
  private:
-  static constexpr int kMaxPoints = 400;  // some 20 are usual, hundreds where all directions are nearly as good
+  static constexpr int kMaxPoints =
+      400;  // some 20 are usual, hundreds where all directions are nearly as good
   static constexpr int kMaxFaces = 2 * kMaxPoints;
   static constexpr double kNarrow = 300.0;  // more would leave out points that a flat face of the bodies needs
   static constexpr double kFlat = 1e-15;  // of a point: this near to a face's plane is in it, to rounding
 
-  std::size_t nearestIndex() const {
-    std::size_t best = 0;
-    for (std::size_t i = 1; i < static_cast<std::size_t>(faces_); ++i)
-      if (rank_[i] < rank_[best]) best = i;
-    return best;
+  static constexpr std::array<int, 6> kTurn{0, 1, 2, 0, 1, 2};  // sides modulo 3
+
+  static std::size_t at(int i) { return static_cast<std::size_t>(i); }
+  Face& face(int i) { return face_[at(i)]; }
+  const Eigen::Vector3d& point(int i) const { return point_[at(i)]; }
+
+  void join(int i, int side, int j, int other) {
+    face(i).across[at(side)] = static_cast<Index>(4 * j + other);
+    face(j).across[at(other)] = static_cast<Index>(4 * i + side);
   }
 
-  const Face& face(int i) const { return face_[static_cast<std::size_t>(i)]; }
-  const Eigen::Vector3d& point(int i) const { return point_[static_cast<std::size_t>(i)]; }
+  /// Faces from the sides of a horizon to `p`. False where rounding has torn the horizon.
+  bool close(const Eigen::Vector3d& p, const Index* horizon, int sides) {
+    if (sides < 3) return false;
+    const Index index = static_cast<Index>(points_);
+    point_[at(points_++)] = p;
+    int before = -1, first = -1;
+    for (int i = 0; i < sides; ++i) {
+      if (freed_ == 0 && faces_ == kMaxFaces) return false;
+      const int j = horizon[i] >> 2, side = horizon[i] & 3,
+                made = freed_ > 0 ? free_[at(--freed_)] : faces_++;
+      if (!set(made, face(j).corner[at(kTurn[at(side + 1)])], face(j).corner[at(side)], index)) return false;
+      join(made, 0, j, side);
+      if (before < 0)
+        first = made;
+      else if (face(before).corner[1] != face(made).corner[0])
+        return false;
+      else
+        join(before, 1, made, 2);
+      before = made;
+    }
+    if (face(before).corner[1] != face(first).corner[0]) return false;
+    join(before, 1, first, 2);
+    return true;
+  }
 
-  bool add(std::int16_t i, std::int16_t j, std::int16_t k) {
-    if (faces_ == kMaxFaces) return false;
-    const Eigen::Vector3d e = point(j) - point(i), f = point(k) - point(i);
+  bool set(int i, Index a, Index b, Index c) {
+    const Eigen::Vector3d e = point(b) - point(a), f = point(c) - point(a);
     const Eigen::Vector3d normal = e.cross(f);
     const double length = normal.norm();
     if (!(length > 1e-14 * (e.squaredNorm() + f.squaredNorm()))) return false;
-    const Eigen::Vector3d unit = normal / length;
-    const double distance = unit.dot(point(i));
-    if (origin_ == Origin::inside && !(distance >= 0.0))
-      return false;  // the origin is on the surface, to rounding
-    rank_[static_cast<std::size_t>(faces_)] = distance;
+    face(i).corner = {a, b, c};
+    face(i).normal = normal / length;
+    face(i).distance = rank_[at(i)] = face(i).normal.dot(point(a));
     // A sliver's normal is as much less certain as it is narrow.
-    const double narrow = std::min((e.squaredNorm() + f.squaredNorm()) / length, kNarrow);
-    flat_[static_cast<std::size_t>(faces_)] = kFlat * narrow;
-    face_[static_cast<std::size_t>(faces_++)] = {{i, j, k}, unit, distance};
-    return true;
+    flat_[at(i)] = kFlat * std::min((e.squaredNorm() + f.squaredNorm()) / length, kNarrow);
+    // Else the origin is on the surface, to rounding.
+    return origin_ == Origin::anywhere || face(i).distance >= 0.0;
   }
 
   std::array<Eigen::Vector3d, kMaxPoints> point_;
   std::array<Face, kMaxFaces> face_;
   std::array<double, kMaxFaces> flat_;  // height over it, as a part of a point's size, that is rounding
-  std::array<double, kMaxFaces> rank_;  // distance, or infinity for a face put aside
+  std::array<double, kMaxFaces> rank_;  // distance, or infinity for a face put aside or gone
+  std::array<Index, kMaxFaces> free_;
   Origin origin_;
-  int points_ = 0;
-  int faces_ = 0;
+  std::size_t nearest_ = 0;
+  int points_ = 0, faces_ = 0, freed_ = 0;
   bool sound_;
 };
 

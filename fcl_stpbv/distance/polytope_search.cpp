@@ -1,9 +1,10 @@
 #include "fcl_stpbv/distance/polytope_search.h"
-#include "fcl_stpbv/vectorized.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+
+#include "fcl_stpbv/vectorized.h"
 
 namespace fcl_stpbv {
 
@@ -15,7 +16,7 @@ namespace {
 /// side: neither waits for the other.
 void climb(const StpBv& a, const Vector3d& d, int& i, const StpBv& b, const Vector3d& e, int& j) {
   const Eigen::Vector3f up = d.cast<float>(), down = e.cast<float>();
-  const float level = 1e-6f * up.lpNorm<1>();
+  const float level = StpBv::kLevel * up.lpNorm<1>();
   for (int step = a.vertexCount() + b.vertexCount(); step > 0; --step) {
     const int overA = a.uphill(i, up, level), overB = b.uphill(j, down, level);
     if (overA == i && overB == j) break;
@@ -155,44 +156,23 @@ class Simplex {
   }
 };
 
-}  // namespace
+Vector3d difference(const BodyPair& pair, int i, int j) {
+  return pair.rotation() * pair.b().vertices()[static_cast<std::size_t>(j)] + pair.translation() -
+         pair.a().vertices()[static_cast<std::size_t>(i)];
+}
 
-FCL_STPBV_VECTORIZED
-void searchVertices(const BodyPair& pair, const Vector3d& n, const std::array<int, 2>& patch, bool repose,
-                    VertexSearch& result) {
+/// Nears the simplex to the origin until its features are those that face each other.
+void descend(const BodyPair& pair, Simplex& simplex, Vector3d& v, VertexSearch& result) {
   constexpr int kIterations = 20;
   constexpr double kGap =
       1e-5;  // relative; which features face each other is settled long before their distance
-  const StpBv &a = pair.a(), &b = pair.b();
-  const auto difference = [&](int i, int j) -> Vector3d {
-    return pair.rotation() * b.vertices()[static_cast<std::size_t>(j)] + pair.translation() -
-           a.vertices()[static_cast<std::size_t>(i)];
-  };
-  const Corners cornersA(a, patch[0]), cornersB(b, patch[1]);
   int &i = result.vertex[0], &j = result.vertex[1];
-  i = cornersA.vertex[0];
-  j = cornersB.vertex[0];
-  Simplex simplex;
-  Vector3d v = n;
-  if (repose) {
-    for (int k = 0; k < cornersA.count && simplex.count < 3; ++k)
-      simplex.add(difference(cornersA.vertex[static_cast<std::size_t>(k)], j));
-    for (int k = 1; k < cornersB.count && simplex.count < 3; ++k)
-      simplex.add(difference(i, cornersB.vertex[static_cast<std::size_t>(k)]));
-  } else {
-    // The support vertices along `n`, and of either body the one beside it that is next.
-    const Vector3d m = pair.opposite(n);
-    climb(a, n, i, b, m, j);
-    simplex.add(difference(i, j));
-    simplex.add(difference(a.beside(i, n.cast<float>(), 1.0f), j));
-    simplex.add(difference(i, b.beside(j, m.cast<float>(), 1.0f)));
-  }
   simplex.nearest(v);
   for (int iteration = 0; iteration < kIterations; ++iteration) {
     const double v2 = v.squaredNorm();
     if (!(v2 > 1e-24)) return;
-    climb(a, v, i, b, pair.opposite(v), j);
-    const Vector3d w = difference(i, j);
+    climb(pair.a(), v, i, pair.b(), pair.opposite(v), j);
+    const Vector3d w = difference(pair, i, j);
     if (v2 - v.dot(w) <= kGap * v2 || simplex.holds(w)) break;
     simplex.add(w);
     if (!simplex.nearest(v)) {
@@ -203,6 +183,49 @@ void searchVertices(const BodyPair& pair, const Vector3d& n, const std::array<in
   }
   result.apart = true;
   result.n = v.normalized();
+}
+
+}  // namespace
+
+FCL_STPBV_VECTORIZED
+VertexSearch searchVertices(const BodyPair& pair, const Vector3d& n) {
+  // The support vertices along `n`, and of either body the one beside it that is next.
+  const StpBv &a = pair.a(), &b = pair.b();
+  const Vector3d m = pair.opposite(n);
+  VertexSearch result;
+  int &i = result.vertex[0], &j = result.vertex[1];
+  i = a.vertexNear(n);
+  j = b.vertexNear(m);
+  climb(a, n, i, b, m, j);
+  Simplex simplex;
+  simplex.add(difference(pair, i, j));
+  simplex.add(difference(pair, a.beside(i, n.cast<float>(), 1.0f), j));
+  simplex.add(difference(pair, i, b.beside(j, m.cast<float>(), 1.0f)));
+  Vector3d v = n;
+  descend(pair, simplex, v, result);
+  return result;
+}
+
+FCL_STPBV_VECTORIZED
+VertexSearch searchVertices(const BodyPair& pair, const Vector3d& n, const std::array<int, 2>& patch) {
+  const Corners a(pair.a(), patch[0]), b(pair.b(), patch[1]);
+  VertexSearch result;
+  const auto [i, j] = result.vertex = {a.vertex[0], b.vertex[0]};
+  Simplex simplex;
+  for (int k = 0; k < a.count; ++k) simplex.add(difference(pair, a.vertex[static_cast<std::size_t>(k)], j));
+  for (int k = 1; k < b.count && simplex.count < 3; ++k)
+    simplex.add(difference(pair, i, b.vertex[static_cast<std::size_t>(k)]));
+  Vector3d v = n;
+  descend(pair, simplex, v, result);
+  return result;
+}
+
+FCL_STPBV_VECTORIZED
+Vector3d vertexDifference(const BodyPair& pair, const Vector3d& n) {
+  const Vector3d m = pair.opposite(n);
+  int i = pair.a().vertexNear(n), j = pair.b().vertexNear(m);
+  climb(pair.a(), n, i, pair.b(), m, j);
+  return difference(pair, i, j);
 }
 
 }  // namespace fcl_stpbv

@@ -93,8 +93,11 @@ class StpBv {
     return seams_.data() + seamStart_[static_cast<std::size_t>(patch) + 1];
   }
 
-  /// The vertex itself, or its neighbour up the steepest edge along `d`. Edges that rise by less than `level` a
-  /// metre, for rounding the length of `d` times 1e-6, count as level.
+  /// Rounding of a rise along `d`, of the sum of its components.
+  static constexpr float kLevel = 1e-6f;
+
+  /// The vertex itself, or its neighbour up the steepest edge along `d`. Edges that rise by less than `level`
+  /// a metre, `kLevel` of the sum of the components of `d` for rounding, count as level.
   int uphill(int vertex, const Eigen::Vector3f& d, float level) const {
     const VertexStar* star = &stars_[static_cast<std::size_t>(vertex)];
     std::int32_t best = star->steepest(d), enough;
@@ -108,7 +111,16 @@ class StpBv {
     return best > enough ? over : vertex;
   }
 
-  /// A neighbour of the vertex, itself highest along `d`, that is least below it. `length` is at least that of `d`.
+  /// The vertex furthest along `d` to single precision, from `vertex` on.
+  int climb(int vertex, const Eigen::Vector3f& d) const {
+    const float level = kLevel * d.lpNorm<1>();
+    for (int over, step = vertexCount(); step > 0 && (over = uphill(vertex, d, level)) != vertex; --step)
+      vertex = over;
+    return vertex;
+  }
+
+  /// A neighbour of the vertex, itself highest along `d`, that is least below it. `length` is at least that
+  /// of `d`.
   int beside(int vertex, const Eigen::Vector3f& d, float length) const {
     const VertexStar& star = stars_[static_cast<std::size_t>(vertex)];
     return star.neighbour[star.steepest(d, 2.0f * length) & (VertexStar::kSize - 1)];
@@ -117,8 +129,8 @@ class StpBv {
   /// How far `n` lies outside the patch's region: the largest `n.normal - limit`, <= 0 inside.
   double outside(int patch, const Eigen::Vector3d& n) const;
 
-  /// A patch whose region is near that of the unit normal `n`, from a direction table.
-  int patchNear(const Eigen::Vector3d& n) const { return table_[cell(n)]; }
+  /// A vertex about as far along the unit vector `n` as any, from a direction table.
+  int vertexNear(const Eigen::Vector3d& n) const { return vertexTable_[cell(n)]; }
 
   /// The patch whose region holds the unit normal `n`, found by walking over the seams from `hint` (any
   /// patch), or from a direction table when `hint` is negative.
@@ -160,9 +172,10 @@ class StpBv {
   std::vector<Patch> patches_;
   std::vector<Seam> seams_;
   std::vector<std::int32_t> seamStart_;
-  std::vector<VertexStar> stars_;  // one a vertex, then the further ones
-  std::vector<std::int32_t> table_;  // patch owning the middle of each cell of a cube map of directions
-  int cells_ = 1;                    // cells along a cube's side in table_
+  std::vector<VertexStar> stars_;          // one a vertex, then the further ones
+  std::vector<std::int32_t> table_;        // patch owning the middle of each cell of a cube map of directions
+  std::vector<std::int32_t> vertexTable_;  // vertex furthest along the middle of each such cell
+  int cells_ = 1;                          // cells along a cube's side in the tables
   Eigen::Vector3d centre_{0, 0, 0};
   double enclosingRadius_ = 0;
 };

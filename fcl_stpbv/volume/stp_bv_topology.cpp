@@ -171,6 +171,7 @@ void StpBv::makeTable() {
   cells_ = std::clamp(static_cast<int>(std::sqrt(patchCount() / 4.0)), 1, 64);
   const std::size_t cells = static_cast<std::size_t>(cells_);
   table_.reserve(6 * cells * cells);
+  vertexTable_.reserve(6 * cells * cells);
   int last = 0;
   for (std::size_t side = 0; side < 6; ++side)
     for (std::size_t i = 0; i < cells; ++i)
@@ -180,8 +181,12 @@ void StpBv::makeTable() {
         n[axis] = side % 2 == 0 ? 1 : -1;
         n[(axis + 1) % 3] = (2 * static_cast<double>(i) + 1) / static_cast<double>(cells) - 1;
         n[(axis + 2) % 3] = (2 * static_cast<double>(j) + 1) / static_cast<double>(cells) - 1;
-        last = owner(n.normalized(), last);
+        n.normalize();
+        last = owner(n, last);
         table_.push_back(last);
+        int corner = last;  // one of the patch: its own point, else by an edge's first seam, which leads to an end
+        while (corner >= vertexCount()) corner = seamsBegin(corner)->neighbour;
+        vertexTable_.push_back(climb(corner, n.cast<float>()));
       }
 }
 

@@ -251,7 +251,9 @@ int main(int argc, char** argv) {
     const long double along = referenceGap(referenceBody(a.cloud, a.r, R, base),
                                            referenceBody(b.cloud, b.r, R, pb), d.normal.cast<long double>());
     row.error = std::abs(static_cast<double>(along - d.distance));
-    if (!row.best || row.error > 1e-13 || d.upper < truth - 1e-12 || d.lower > d.upper) {
+    // Faces of the proof's polytope count as done within a thousandth of the depth of the cores.
+    const bool wide = row.open > 2e-3 * -d.distance;
+    if (!row.best || wide || row.error > 1e-13 || d.upper < truth - 1e-12 || d.lower > d.upper) {
       good = false;
       std::printf("  %d %s-%s R %g status %d distance %.17g truth %.17g bounds %.3g error %.3g\n", i,
                   a.name.c_str(), b.name.c_str(), R, static_cast<int>(d.status), d.distance, truth,
