@@ -7,81 +7,12 @@
 
 #include "fcl_stpbv/volume/hull_excess.h"
 #include "fcl_stpbv/volume/measure.h"
+#include "fcl_stpbv/volume/surface_height.h"
 
 namespace fcl_stpbv {
 namespace {
 
 using Eigen::Vector3d;
-
-// Height above y, along the unit direction d, at which a ray from inside leaves the patch continued over the
-// whole sphere: |q + t d - I| = c for a point, the circle's farthest point likewise.
-double exitHeight(const Patch& patch, PatchKind kind, const Radii& radii, const Vector3d& y,
-                  const Vector3d& d) {
-  const Vector3d q = y - patch.anchor;
-  if (kind != PatchKind::edge) {
-    // |q + t d + rho m|^2 = R^2 for a face, |q + t d|^2 = r^2 for a vertex; the constant term holds no large
-    // square.
-    const double rho = kind == PatchKind::face ? radii.rho : 0;
-    const double half = d.dot(q + rho * patch.axis);
-    const double constant =
-        q.squaredNorm() + 2 * rho * q.dot(patch.axis) - radii.r * (offset(kind, radii) + rho);
-    if (half * half <= constant)
-      return -half;  // past it: the nearest place on the ray tells which way to go on
-    const double root = std::sqrt(half * half - constant);
-    return half > 0 ? -constant / (half + root) : root - half;
-  }
-  // The distance to the circle's farthest point is convex along the ray: Newton from beyond comes down
-  // monotonically.
-  const double half2 = patch.sag * (radii.rho + patch.kappa);
-  const double rest = radii.r * (radii.R + radii.rho) + half2;  // R^2 - kappa^2
-  double t = 2 * (radii.r + patch.sag) + q.norm();
-  for (int round = 0; round < 60; ++round) {
-    const Vector3d x = q + t * d;
-    const double along = x.dot(patch.axis);
-    const Vector3d side = x - along * patch.axis;
-    const double across = side.norm();
-    const double value = across * (across + 2 * patch.kappa) + along * along - rest;
-    const double slope =
-        2 * (along * d.dot(patch.axis) + (across > 0 ? (1 + patch.kappa / across) * side.dot(d) : 0));
-    if (!(slope > 0)) break;
-    const double step = value / slope;
-    t -= step;
-    if (!(step > 1e-16 * (1 + std::abs(t)))) break;
-  }
-  return t;
-}
-
-// Height of the surface over the point y of the hull, along the unit direction d out of it. Goes from patch
-// to patch over the seam that the exit's normal is farthest past.
-double heightOver(const StpBv& volume, const Vector3d& y, const Vector3d& d, int* patch) {
-  constexpr int kSteps = 100;  // a face away from the right one is common, more than a few are not
-  for (int step = 0; step < kSteps; ++step) {
-    const Patch& p = volume.patch(*patch);
-    const PatchKind kind = volume.kind(*patch);
-    const double height = exitHeight(p, kind, volume.radii(), y, d);
-    Vector3d n = y + height * d - centre(p, kind, volume.radii());
-    if (kind == PatchKind::edge) {
-      const Vector3d side = n - n.dot(p.axis) * p.axis;
-      if (side.norm() > 0) n += p.kappa * side.normalized();
-    }
-    n.normalize();
-    const StpBv::Seam* over = nullptr;
-    double worst = 1e-12;
-    for (const StpBv::Seam* seam = volume.seamsBegin(*patch); seam != volume.seamsEnd(*patch); ++seam) {
-      const double past = n.dot(seam->normal) - seam->limit;
-      if (past > worst) worst = past, over = seam;
-    }
-    if (over == nullptr) return height;
-    *patch = over->neighbour;
-  }
-  // Between regions narrower than rounding the steps may go round in circles; halving the ray always ends.
-  double low = 0, high = 2 * volume.enclosingRadius() + 2 * volume.radii().r;
-  for (int round = 0; round < 60; ++round) {
-    const double middle = 0.5 * (low + high);
-    (contains(volume, y + middle * d) ? low : high) = middle;
-  }
-  return low;
-}
 
 // Largest difference of the support functions over the normals of one hull edge: an arc about the edge, where
 // the hull's is that of the edge's points. The difference grows where the surface point lies ahead of the
@@ -193,14 +124,17 @@ double HullExcess::mean(const StpBv& volume) const {
   if (faces_.empty()) return volume.edgeCount() == 1 ? meanOverSegment(volume) : volume.radii().r;
   double area = 0, sum = 0;
   for (std::size_t f = 0; f < faces_.size(); ++f) {
-    int patch = volume.owner(normals_[f]);
+    int patch = -1;
     const std::vector<int>& ring = faces_[f];
     for (std::size_t k = 1; k + 1 < ring.size(); ++k) {
       const Vector3d a = at(ring[0]), b = at(ring[k]), c = at(ring[k + 1]);
       const double size = 0.5 * (b - a).cross(c - a).norm();
       area += size;
-      for (const TrianglePoint& t : kTriangle)
-        sum += size * t.weight * heightOver(volume, t.a * a + t.b * b + t.c * c, normals_[f], &patch);
+      for (const TrianglePoint& t : kTriangle) {
+        const SurfaceHeight over = surfaceHeight(volume, t.a * a + t.b * b + t.c * c, normals_[f], patch);
+        patch = over.patch;
+        sum += size * t.weight * over.height;
+      }
     }
   }
   return sum / area;

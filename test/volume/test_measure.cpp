@@ -6,6 +6,7 @@
 
 #include "fcl_stpbv/volume/measure.h"
 #include "fcl_stpbv/volume/stp_bv.h"
+#include "fcl_stpbv/volume/surface_height.h"
 #include "fcl_stpbv/volume/tessellate.h"
 #include "test/shapes.h"
 
@@ -45,6 +46,28 @@ std::vector<Cloud> clouds() {
           cylinder(0.1, 0.3),
           geodesicSphere(0.2, 1),
           randomHull(60, {0.3, 0.2, 0.1}, 2)};
+}
+
+// Points on a circle as a file with few digits holds them: every three fix a ball of their own, and the faces
+// of both sides are slivers.
+Cloud roundedDisc(int points, double radius, double unit) {
+  Cloud cloud;
+  for (int k = 0; k < points; ++k) {
+    const double angle = 2 * kPi * k / points;
+    cloud.push_back({unit * std::round(radius * std::cos(angle) / unit),
+                     unit * std::round(radius * std::sin(angle) / unit), 0});
+  }
+  return cloud;
+}
+
+// Height of the surface over y along d by halving a ray, from the sign of the point's distance alone.
+double halvedHeight(const StpBv& volume, const Vector3d& y, const Vector3d& d) {
+  double low = 0, high = 2 * (volume.enclosingRadius() + (y - volume.centre()).norm());
+  for (int round = 0; round < 60; ++round) {
+    const double middle = 0.5 * (low + high);
+    (contains(volume, y + middle * d) ? low : high) = middle;
+  }
+  return low;
 }
 
 }  // namespace
@@ -103,6 +126,80 @@ TEST_CASE("The largest over-cover is the largest difference of the support funct
       CHECK(cover.mean <= cover.max);
       CHECK(cover.mean >= 0.01 - 1e-14);
     }
+}
+
+TEST_CASE("The height of the surface over a point of the hull agrees with halving the ray, in few steps") {
+  std::vector<Cloud> all = clouds();
+  all.push_back(roundedDisc(60, 0.1, 1e-4));
+  all.push_back(roundedDisc(200, 0.1, 1e-6));
+  for (const Cloud& cloud : all)
+    for (const StpBvOptions radii : {StpBvOptions{0.01, StpBv::smallestR(cloud, 0.01) * 1.001},
+                                     StpBvOptions{0.01, 1}, StpBvOptions{0.01, 10}, StpBvOptions{0.0, 10}}) {
+      const double R = radii.R;
+      if (radii.r == 0 && cloud.size() <= 3) continue;  // sharp ends, where rays graze the surface
+      const StpBv::Ptr volume = StpBv::build(cloud, radii);
+      Random random(4);
+      for (int k = 0; k < 100; ++k) {
+        Vector3d y = Vector3d::Zero();
+        double sum = 0;
+        for (const Vector3d& p : cloud) {  // anywhere in the hull, near a side of it more often than not
+          const double weight = std::pow(random.uniform(0, 1), 20);
+          y += weight * p, sum += weight;
+        }
+        y /= sum;
+        const Vector3d d = k % 4 == 0 ? Vector3d::UnitZ() : random.direction();
+        const SurfaceHeight over = surfaceHeight(*volume, y, d);
+        INFO(cloud.size() << " points, r = " << radii.r << ", R = " << R << ", ray " << k);
+        // Halving ends where the distance's rounding, a few units of rho's normals, hides its sign.
+        CHECK(std::abs(over.height - halvedHeight(*volume, y, d)) <= 1e-14 + 4e-16 * R);
+        CHECK(over.planes <= 150);
+      }
+    }
+}
+
+TEST_CASE("Measuring a disc whose coordinates were rounded takes few planes a point") {
+  // Patches continued past their regions send a search from the top to the bottom and back; each point then
+  // cost sixty looks at every patch.
+  const Cloud cloud = roundedDisc(1000, 0.1, 1e-6);
+  const StpBv::Ptr volume = StpBv::build(cloud);
+  REQUIRE(volume->faceCount() > 1000);  // slivers, not one face a side
+  int most = 0, hint = -1;
+  for (const Vector3d& p : cloud)
+    for (const double part : {0.0, 0.3, 0.9, 1.0}) {
+      const SurfaceHeight over = surfaceHeight(*volume, part * p, Vector3d::UnitZ(), hint);
+      hint = over.patch, most = std::max(most, over.planes);
+      // Over the disc lies the ball through its rim.
+      const double rho = volume->radii().rho, sag = rho - std::sqrt(rho * rho - 0.01);
+      CHECK(over.height <= 0.01 + sag + 1e-7);
+      CHECK(over.height >= 0.01 - 1e-15);
+    }
+  CHECK(most <= 80);
+  CHECK(overCover(*volume, cloud).mean == Approx(0.01 + 0.01 / (4 * volume->radii().rho)).epsilon(1e-3));
+}
+
+TEST_CASE("The mean over-cover of a box agrees with a fine grid over its sides") {
+  const Vector3d size(0.2, 0.4, 0.6);
+  for (const double R : {0.45, 1.0, 10.0}) {
+    const Cloud cloud = box(size.x(), size.y(), size.z());
+    const StpBv::Ptr volume = StpBv::build(cloud, {0.01, R});
+    double sum = 0, area = 0;
+    constexpr int kGrid = 40;
+    for (int axis = 0; axis < 3; ++axis) {
+      const int b = (axis + 1) % 3, c = (axis + 2) % 3;
+      double heights = 0;
+      for (int i = 0; i < kGrid; ++i)
+        for (int j = 0; j < kGrid; ++j) {
+          Vector3d y;
+          y[axis] = 0.5 * size[axis];
+          y[b] = size[b] * ((i + 0.5) / kGrid - 0.5), y[c] = size[c] * ((j + 0.5) / kGrid - 0.5);
+          heights += halvedHeight(*volume, y, Vector3d::Unit(axis));
+        }
+      sum += heights / (kGrid * kGrid) * size[b] * size[c];
+      area += size[b] * size[c];
+    }
+    // The grid's own error is that of the midpoint rule, (1/40)^2 of the sag or so.
+    CHECK(overCover(*volume, cloud).mean == Approx(sum / area).epsilon(1e-3));
+  }
 }
 
 TEST_CASE("The enclosed volume agrees with closed forms") {

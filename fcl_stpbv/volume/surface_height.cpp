@@ -1,0 +1,153 @@
+#include "fcl_stpbv/volume/surface_height.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace fcl_stpbv {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+// Height above y, along the unit direction d, at which a ray from inside leaves the patch continued over the
+// whole sphere: |q + t d - I| = c for a point, the circle's farthest point likewise.
+double exitHeight(const Patch& patch, PatchKind kind, const Radii& radii, const Vector3d& y,
+                  const Vector3d& d) {
+  const Vector3d q = y - patch.anchor;
+  if (kind != PatchKind::edge) {
+    // |q + t d + rho m|^2 = R^2 for a face, |q + t d|^2 = r^2 for a vertex; the constant term holds no large
+    // square.
+    const double rho = kind == PatchKind::face ? radii.rho : 0;
+    const double half = d.dot(q + rho * patch.axis);
+    const double constant =
+        q.squaredNorm() + 2 * rho * q.dot(patch.axis) - radii.r * (offset(kind, radii) + rho);
+    if (half * half <= constant)
+      return -half;  // past it: the nearest place on the ray tells which way to go on
+    const double root = std::sqrt(half * half - constant);
+    return half > 0 ? -constant / (half + root) : root - half;
+  }
+  // The distance to the circle's farthest point is convex along the ray: Newton from beyond comes down
+  // monotonically.
+  const double half2 = patch.sag * (radii.rho + patch.kappa);
+  const double rest = radii.r * (radii.R + radii.rho) + half2;  // R^2 - kappa^2
+  double t = radii.r + patch.sag + std::sqrt(half2) + q.norm();
+  for (int round = 0; round < 60; ++round) {
+    const Vector3d x = q + t * d;
+    const double along = x.dot(patch.axis);
+    const Vector3d side = x - along * patch.axis;
+    const double across = side.norm();
+    const double value = across * (across + 2 * patch.kappa) + along * along - rest;
+    const double slope =
+        2 * (along * d.dot(patch.axis) + (across > 0 ? (1 + patch.kappa / across) * side.dot(d) : 0));
+    if (!(slope > 0)) break;
+    const double step = value / slope;
+    t -= step;
+    if (!(step > 1e-16 * (1 + std::abs(t)))) break;
+  }
+  return t;
+}
+
+// The outward normal where the ray leaves the continued patch.
+Vector3d exitNormal(const Patch& patch, PatchKind kind, const Radii& radii, const Vector3d& y,
+                    const Vector3d& d) {
+  Vector3d n = y + exitHeight(patch, kind, radii, y, d) * d - centre(patch, kind, radii);
+  if (kind == PatchKind::edge) {
+    const Vector3d side = n - n.dot(patch.axis) * patch.axis;
+    if (side.norm() > 0) n += patch.kappa * side.normalized();
+  }
+  return n.normalized();
+}
+
+// A convex polygon that shrinks around a minimum.
+class Fence {
+ public:
+  explicit Fence(double half) : corners_{{-half, -half}, {half, -half}, {half, half}, {-half, half}} {}
+
+  // Keeps what lies on the far side of the line through `a`, seen along `uphill`.
+  void cut(const Vector2d& a, const Vector2d& uphill) {
+    kept_.clear();
+    for (std::size_t k = 0; k < corners_.size(); ++k) {
+      const Vector2d &p = corners_[k], &q = corners_[(k + 1) % corners_.size()];
+      const double atP = uphill.dot(p - a), atQ = uphill.dot(q - a);
+      if (atP <= 0) kept_.push_back(p);
+      if ((atP < 0 && atQ > 0) || (atP > 0 && atQ < 0)) kept_.push_back(p + atP / (atP - atQ) * (q - p));
+    }
+    corners_.swap(kept_);
+  }
+
+  bool isSpent() const { return corners_.size() < 3; }
+
+  bool holds(const Vector2d& a) const {
+    for (std::size_t k = 0; k < corners_.size(); ++k) {
+      const Vector2d side = corners_[(k + 1) % corners_.size()] - corners_[k], to = a - corners_[k];
+      if (!(side.x() * to.y() - side.y() * to.x() > 0)) return false;
+    }
+    return true;
+  }
+
+  Vector2d centroid() const {
+    Vector2d sum = Vector2d::Zero(), mean = Vector2d::Zero();
+    double area = 0;
+    for (std::size_t k = 1; k + 1 < corners_.size(); ++k) {
+      const Vector2d b = corners_[k] - corners_[0], c = corners_[k + 1] - corners_[0];
+      const double part = b.x() * c.y() - b.y() * c.x();
+      area += part, sum += part * (b + c) / 3;
+    }
+    for (const Vector2d& corner : corners_) mean += corner / static_cast<double>(corners_.size());
+    return area > 0 ? Vector2d(corners_[0] + sum / area) : mean;
+  }
+
+ private:
+  std::vector<Vector2d> corners_, kept_;
+};
+
+}  // namespace
+
+SurfaceHeight surfaceHeight(const StpBv& volume, const Vector3d& y, const Vector3d& d, int hint) {
+  // Of all supporting planes that the ray can meet, normals along d + a with a across d, the one met first is
+  // the surface's. With H the support function of length one along d, the height is H(d + a) - (d + a).y:
+  // convex in a, its gradient the part across d of x - y, x the surface point with that normal. A plane
+  // leaves half of the normals; a patch whose own exit has one of its own normals is the answer.
+  const Vector3d e = d.unitOrthogonal(), f = d.cross(e);
+  const double reach = 2 * volume.enclosingRadius() + (y - volume.centre()).norm();
+  // The plane that the ray meets first is at least r from y and the way there at most `reach`.
+  Fence fence(2 * reach / std::max(volume.radii().r, 1e-8 * reach));
+  SurfaceHeight best{std::numeric_limits<double>::infinity(), hint, 0};
+  // What rounds a surface point: its own coordinates, and rho times the rounding of its normal.
+  const double rounding = 1e-15 * (reach + volume.radii().R + y.norm());
+  Vector2d a = Vector2d::Zero();
+  int index = hint;
+  for (int step = 1; step <= 400; ++step) {
+    const Vector3d along = d + a.x() * e + a.y() * f;
+    const double stretch = along.norm();
+    const Vector3d n = along / stretch;
+    index = volume.owner(n, index);
+    const Patch& patch = volume.patch(index);
+    const PatchKind kind = volume.kind(index);
+    const double height =
+        stretch * (n.dot(patch.anchor - y) + supportAboveAnchor(patch, kind, volume.radii(), n));
+    best.planes = step;
+    if (height < best.height) best.height = height, best.patch = index;
+    const Vector3d over = corePoint(patch, kind, volume.radii(), n) + volume.radii().r * n - y;
+    const Vector2d uphill(over.dot(e), over.dot(f));
+    if (uphill.norm() <= rounding) break;
+    fence.cut(a, uphill);
+    if (fence.isSpent()) break;
+    // The patch's own exit is the answer where it is inside the patch; every third step makes sure of
+    // progress.
+    const Vector3d exit = exitNormal(patch, kind, volume.radii(), y, d);
+    const double slope = exit.dot(d);
+    const Vector2d target(exit.dot(e) / slope, exit.dot(f) / slope);
+    if (slope > 0 && step % 3 != 0 && fence.holds(target)) {
+      a = target;
+    } else {
+      a = fence.centroid(), index = -1;  // as a rule far away
+    }
+  }
+  return best;
+}
+
+}  // namespace fcl_stpbv
