@@ -3,6 +3,7 @@
 
 #include "fcl_stpbv/adapter/distance_callback.h"
 #include "fcl_stpbv/adapter/fcl_distance.h"
+#include "fcl_stpbv/adapter/fcl_hessian.h"
 #include "fcl_stpbv/adapter/pair_distance.h"
 #include "fcl_stpbv/adapter/proximity.h"
 #include "fcl_stpbv/adapter/stp_bv_geometry.h"

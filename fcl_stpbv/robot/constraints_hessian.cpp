@@ -1,7 +1,7 @@
 // Second derivatives of the rows of CollisionConstraints along a vector; see constraints.h.
 #include <algorithm>
 
-#include "fcl_stpbv/distance/hessian.h"
+#include "fcl_stpbv/adapter/fcl_hessian.h"
 #include "fcl_stpbv/robot/constraints.h"
 
 namespace fcl_stpbv {
@@ -29,13 +29,16 @@ bool CollisionConstraints::rowChange(std::size_t row, double* change) {
   const Witness witness = ask(row);
   if (witness.status == DistanceStatus::invalid) return true;
   DistanceHessian second;
-  if (!r.first || !hessian(*r.first, pose_[at(r.a)], *r.second, pose_[at(r.b)], found_[row], second))
-    return false;
+  const Eigen::Isometry3d &pose1 = pose_[at(r.a)], &pose2 = pose_[at(r.b)];
+  const bool known = r.first ? hessian(*r.first, pose1, *r.second, pose2, found_[row], second)
+                             : hessian(*geometry_->bodies[at(r.a)].geometry, pose1, this->second(pairs_[row]), pose2,
+                                       answers_[row], second);
+  if (!known) return false;
   Eigen::Matrix<double, 12, 1> twists;
   const Twist none;
   const Twist& velocity1 = rate_.link[at(geometry_->bodies[at(r.a)].link)];
   const Twist& velocity2 = pairs_[row].obstacle ? none : rate_.link[at(geometry_->bodies[at(r.b)].link)];
-  twists << about(pose_[at(r.a)].translation(), velocity1), about(pose_[at(r.b)].translation(), velocity2);
+  twists << about(pose1.translation(), velocity1), about(pose2.translation(), velocity2);
 
   const Vector3d& n = witness.normal;
   const Vector3d turn = second.normal * twists;

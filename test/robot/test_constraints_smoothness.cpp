@@ -1,4 +1,9 @@
 // J(q) is continuous, and its change along a vector is what hessianVector() says.
+#include <fcl/geometry/bvh/BVH_model.h>
+#include <fcl/geometry/shape/box.h>
+#include <fcl/geometry/shape/capsule.h>
+#include <fcl/geometry/shape/cylinder.h>
+
 #include <catch2/catch.hpp>
 
 #include "fcl_stpbv/adapter/stp_bv_geometry.h"
@@ -191,4 +196,49 @@ TEST_CASE(
   constraints.hessianVector(q, weights, u, hu);
   constraints.hessianVector(q, weights, v, hv);
   CHECK(v.dot(hu) == Approx(u.dot(hv)).epsilon(1e-8));
+}
+
+TEST_CASE(
+    "Hessian-vector products of rows against plain shapes and a mesh are closed forms, not differences") {
+  const Problem p = problem(robots()[0], BaseMotion::floating);
+  const auto mesh = std::make_shared<fcl::BVHModel<fcl::OBBRSSd>>();
+  mesh->beginModel();
+  mesh->addTriangle({-1, -1, 0}, {1, -1, 0.1}, {-1, 1, 0.2});
+  mesh->addTriangle({1, -1, 0.1}, {1, 1, 0}, {-1, 1, 0.2});
+  mesh->endModel();
+  const std::vector<std::shared_ptr<fcl::CollisionGeometryd>> shapes{
+      std::make_shared<fcl::Boxd>(0.3, 0.2, 0.4), std::make_shared<fcl::Cylinderd>(0.1, 0.5),
+      std::make_shared<fcl::Capsuled>(0.1, 0.5), mesh};
+  ConstraintOptions options;
+  for (std::size_t i = 0; i < shapes.size(); ++i) {
+    fcl::CollisionObjectd object(shapes[i], Random(i).rotation(),
+                                 Eigen::Vector3d(2.5 * std::cos(1.5 * static_cast<double>(i)),
+                                                 2.5 * std::sin(1.5 * static_cast<double>(i)), 0.5));
+    options.obstacles.push_back(obstacleOf(object, "shape"));
+  }
+  const std::vector<CheckedPair> pairs =
+      obstaclePairs(*p.model, *p.geometry, static_cast<int>(shapes.size()), true);
+  CollisionConstraints constraints(p.kinematics, p.geometry, pairs, options);
+  const SecondOrder found = secondOrder(constraints, *p.kinematics, 100);
+  INFO(found.compared << " compared, " << found.seams << " across a seam");
+  CHECK(found.worst < kSecond);
+  CHECK(found.compared > 500);
+  CHECK(found.seams < found.compared / 50);
+
+  // A closed form is symmetric to rounding, differences to about 1e-9.
+  Random random(3);
+  double worst = 0;
+  for (int trial = 0; trial < 20; ++trial) {
+    const Eigen::VectorXd q = randomConfiguration(*p.kinematics, random),
+                          weights = Eigen::VectorXd::Ones(constraints.rows()),
+                          u = randomDirection(q.size(), random), v = randomDirection(q.size(), random);
+    Eigen::VectorXd hu(q.size()), hv(q.size()), d(constraints.rows());
+    constraints.evaluate(q, d);
+    if (d.minCoeff() < 0) continue;  // deep answers may have no second derivative
+    constraints.hessianVector(q, weights, u, hu);
+    constraints.hessianVector(q, weights, v, hv);
+    worst = std::max(worst, std::abs(v.dot(hu) - u.dot(hv)) / (1 + hu.norm() + hv.norm()));
+  }
+  CHECK(worst > 0);
+  CHECK(worst < 1e-13);
 }

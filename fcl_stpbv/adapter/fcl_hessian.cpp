@@ -1,0 +1,71 @@
+#include "fcl_stpbv/adapter/fcl_hessian.h"
+
+#include <array>
+
+#include "fcl_stpbv/adapter/element_tree.h"
+#include "fcl_stpbv/adapter/fcl_shapes.h"
+
+namespace fcl_stpbv {
+namespace {
+
+using Eigen::Vector3d;
+
+/// The body that an answer is about in the frame of its geometry: a simple shape, or an element of a mesh or
+/// a tree.
+class OtherBody {
+ public:
+  OtherBody(const fcl::CollisionGeometryd& geometry, std::intptr_t element, const Vector3d& point) {
+    Vector3d place;
+    known_ = shapeOf(geometry, shape_);
+    if (known_ || !ElementTree(geometry).find(element, point, shape_, place)) return;
+    known_ = true;
+    if (shape_.kind != ShapeKind::box) return;
+    // A cell away from its tree's origin: its corners, so that both turn about the same point.
+    for (int i = 0; i < 8; ++i)
+      corner_[static_cast<std::size_t>(i)] =
+          place + Vector3d(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1).cwiseProduct(shape_.size);
+    shape_ = Shape::polytopeOf(corner_.data(), 8);
+  }
+  OtherBody(const OtherBody&) = delete;
+  OtherBody& operator=(const OtherBody&) = delete;
+
+  bool known() const { return known_; }
+  const Shape& shape() const { return shape_; }
+
+ private:
+  bool known_ = false;
+  Shape shape_;
+  std::array<Vector3d, 8> corner_;
+};
+
+}  // namespace
+
+bool hessian(const fcl::CollisionGeometryd& geometry1, const fcl::Transform3d& pose1,
+             const fcl::CollisionGeometryd& geometry2, const fcl::Transform3d& pose2, const DistanceAnswer& d,
+             DistanceHessian& result) {
+  const StpBvGeometry* a = asStpBv(&geometry1);
+  const StpBvGeometry* b = asStpBv(&geometry2);
+  if (d.status == DistanceStatus::invalid || (!a && !b)) return false;
+  Distance found;
+  found.status = d.status;
+  found.distance = d.distance;
+  found.normal = d.normal;
+  found.point = d.points;
+  found.patch = d.patch;
+  if (a && b) return hessian(a->volume(), pose1, b->volume(), pose2, found, result);
+  const std::size_t which = a ? 1 : 0;
+  const fcl::Transform3d& pose = a ? pose2 : pose1;
+  const OtherBody other(a ? geometry2 : geometry1, d.element[which],
+                        pose.linear().transpose() * (d.points[which] - pose.translation()));
+  if (!other.known()) return false;
+  return a ? hessian(a->volume(), pose1, other.shape(), pose2, found, result)
+           : hessian(other.shape(), pose1, b->volume(), pose2, found, result);
+}
+
+bool hessian(const fcl::CollisionObjectd& object1, const fcl::CollisionObjectd& object2,
+             const DistanceAnswer& d, DistanceHessian& result) {
+  return hessian(*object1.collisionGeometry(), object1.getTransform(), *object2.collisionGeometry(),
+                 object2.getTransform(), d, result);
+}
+
+}  // namespace fcl_stpbv

@@ -1,0 +1,184 @@
+// Second derivatives through the drop-in against differences of its gradient: shapes, meshes, octrees.
+#include <fcl/config.h>
+#include <fcl/geometry/bvh/BVH_model.h>
+#include <fcl/geometry/shape/box.h>
+#include <fcl/geometry/shape/capsule.h>
+#include <fcl/geometry/shape/cone.h>
+#include <fcl/geometry/shape/cylinder.h>
+#include <fcl/geometry/shape/ellipsoid.h>
+#include <fcl/geometry/shape/halfspace.h>
+#include <fcl/geometry/shape/sphere.h>
+#if FCL_HAVE_OCTOMAP
+#include <fcl/geometry/octree/octree.h>
+#endif
+
+#include <catch2/catch.hpp>
+
+#include "fcl_stpbv/adapter/fcl_hessian.h"
+#include "test/shapes.h"
+
+using namespace fcl_stpbv;
+using namespace fcl_stpbv::test;
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+namespace {
+
+using Geometry = std::shared_ptr<const fcl::CollisionGeometryd>;
+
+Geometry link() {
+  return std::make_shared<StpBvGeometry>(StpBv::build(randomHull(20, {0.2, 0.15, 0.1}, 3), {0.02, 2}));
+}
+
+// Hills whose faces, edges and tops all get to be nearest.
+Geometry hills() {
+  constexpr std::size_t kSide = 8;
+  auto mesh = std::make_shared<fcl::BVHModel<fcl::OBBRSSd>>();
+  std::vector<Vector3d> points;
+  std::vector<fcl::Triangle> triangles;
+  Random random(4);
+  for (std::size_t i = 0; i <= kSide; ++i)
+    for (std::size_t j = 0; j <= kSide; ++j)
+      points.emplace_back(0.3 * static_cast<double>(i) - 1.2, 0.3 * static_cast<double>(j) - 1.2,
+                          random.uniform(-0.1, 0.1));
+  for (std::size_t i = 0; i < kSide; ++i)
+    for (std::size_t j = 0; j < kSide; ++j) {
+      const std::size_t p = i * (kSide + 1) + j, q = p + kSide + 1;
+      triangles.emplace_back(p, q, p + 1);
+      triangles.emplace_back(q, q + 1, p + 1);
+    }
+  mesh->beginModel();
+  mesh->addSubModel(points, triangles);
+  mesh->endModel();
+  return mesh;
+}
+
+#if FCL_HAVE_OCTOMAP
+Geometry cells() {
+  auto tree = std::make_shared<octomap::OcTree>(0.1);
+  Random random(5);
+  for (int i = 0; i < 60; ++i)
+    tree->updateNode(octomap::point3d(static_cast<float>(random.uniform(-0.5, 0.5)),
+                                      static_cast<float>(random.uniform(-0.5, 0.5)),
+                                      static_cast<float>(random.uniform(-0.5, 0.5))),
+                     true);
+  return std::make_shared<fcl::OcTreed>(tree);
+}
+#endif
+
+Isometry3d moved(const Isometry3d& p, int component, double step) {
+  Isometry3d result = p;
+  if (component < 3)
+    result.translation()[component] += step;
+  else
+    result.linear() = Eigen::AngleAxisd(step, Vector3d::Unit(component - 3)).toRotationMatrix() * p.linear();
+  return result;
+}
+
+struct Compared {
+  double worst = 0;
+  int poses = 0, seams = 0, none = 0;
+};
+
+// The Hessian at one pose against differences of the gradient; poses where the one-sided differences part, or
+// another element takes over, are counted and left out.
+void compare(const fcl::CollisionGeometryd& a, const Isometry3d& poseA, const fcl::CollisionGeometryd& b,
+             const Isometry3d& poseB, Compared& all) {
+  constexpr double kStep = 4e-6;
+  const DistanceAnswer d = distance(a, poseA, b, poseB);
+  DistanceHessian h;
+  if (!hessian(a, poseA, b, poseB, d, h)) {
+    ++all.none;
+    return;
+  }
+  Eigen::Matrix<double, 12, 12> second;
+  bool smooth = true;
+  for (int k = 0; k < 12; ++k) {
+    Eigen::Matrix<double, 12, 1> g[5];
+    for (int s = 0; s < 5; ++s) {
+      const double step = (s - 2) * kStep;
+      const Isometry3d pa = k < 6 ? moved(poseA, k, step) : poseA,
+                       pb = k < 6 ? poseB : moved(poseB, k - 6, step);
+      const DistanceAnswer side = distance(a, pa, b, pb);
+      g[s] << side.gradient[0], side.gradient[1];
+      smooth = smooth && side.element == d.element;
+    }
+    second.col(k) = (8 * (g[3] - g[1]) - (g[4] - g[0])) / (12 * kStep);
+    const auto ahead = (g[4] - g[2]) / (2 * kStep), behind = (g[2] - g[0]) / (2 * kStep);
+    // Third derivatives over the step are a thousandth of this.
+    smooth = smooth && (ahead - behind).norm() <= 1e-2 * (1 + second.col(k).norm());
+  }
+  if (!smooth) {
+    ++all.seams;
+    return;
+  }
+  const Eigen::Matrix<double, 12, 12> symmetric = 0.5 * (second + second.transpose());
+  all.worst = std::max(all.worst,
+                       (symmetric - h.matrix).cwiseAbs().maxCoeff() / (1 + h.matrix.cwiseAbs().maxCoeff()));
+  ++all.poses;
+}
+
+}  // namespace
+
+TEST_CASE("the Hessian through the drop-in is the change of its gradient, for shapes, triangles and cells") {
+  const Geometry body = link();
+  std::vector<Geometry> others{std::make_shared<fcl::Sphered>(0.1),
+                               std::make_shared<fcl::Capsuled>(0.1, 0.3),
+                               std::make_shared<fcl::Ellipsoidd>(0.1, 0.2, 0.3),
+                               std::make_shared<fcl::Boxd>(0.3, 0.2, 0.4),
+                               std::make_shared<fcl::Cylinderd>(0.1, 0.3),
+                               std::make_shared<fcl::Coned>(0.1, 0.3),
+                               std::make_shared<fcl::Halfspaced>(Vector3d(0, 0, 1), 0.1),
+                               link(),
+                               hills()};
+#if FCL_HAVE_OCTOMAP
+  others.push_back(cells());
+#endif
+  for (const Geometry& other : others) {
+    Random random(7);
+    Compared all;
+    for (int i = 0; i < 60; ++i) {
+      const Isometry3d poseB = pose(random.rotation(), 0.5 * random.direction());
+      Isometry3d poseA = poseB * pose(random.rotation(), random.uniform(0.5, 1.2) * random.direction());
+      // Down to a gap of 5 cm, or of the slightest penetration.
+      const double gap = i % 3 == 0 ? -0.01 : 0.05;
+      for (int round = 0; round < 3; ++round) {
+        const DistanceAnswer d = distance(*body, poseA, *other, poseB);
+        poseA.translation() += (d.distance - gap) * d.normal;
+      }
+      compare(*body, poseA, *other, poseB, all);
+      compare(*other, poseB, *body, poseA, all);
+    }
+    INFO("type " << other->getNodeType() << ": " << all.poses << " compared, " << all.seams << " on a seam, "
+                 << all.none << " without");
+    CHECK(all.worst <
+          1e-7);  // rounding of the gradient, some 1e-15, over the step, and the step to the fourth
+    CHECK(all.poses >= 40);
+  }
+}
+
+TEST_CASE("there is no Hessian of two plain shapes, of no answer, and of an element that is not there") {
+  const Geometry body = link(), ground = hills(), ball = std::make_shared<fcl::Sphered>(0.1);
+  const Isometry3d at = Isometry3d::Identity(), above = pose(Eigen::Matrix3d::Identity(), {0, 0, 1});
+  DistanceHessian h;
+  CHECK_FALSE(hessian(*ball, at, *ball, above, distance(*ball, at, *ball, above), h));
+  CHECK_FALSE(hessian(*body, at, *ball, above, DistanceAnswer{}, h));
+  DistanceAnswer d = distance(*body, above, *ground, at);
+  CHECK(hessian(*body, above, *ground, at, d, h));
+  d.element[1] = 100000;
+  CHECK_FALSE(hessian(*body, above, *ground, at, d, h));
+  d.element[1] = -1;
+  CHECK_FALSE(hessian(*body, above, *ground, at, d, h));
+}
+
+TEST_CASE("the Hessian of two objects is that of their geometries at their poses") {
+  const auto body = std::make_shared<StpBvGeometry>(StpBv::build(box(0.2, 0.3, 0.4)));
+  const fcl::CollisionObjectd one(body, pose(Eigen::Matrix3d::Identity(), {0, 0, 0})),
+      two(std::make_shared<fcl::Boxd>(0.1, 0.2, 0.3), pose(Random(3).rotation(), {0, 0.1, 1}));
+  const DistanceAnswer d = distance(one, two);
+  DistanceHessian h, same;
+  REQUIRE(hessian(one, two, d, h));
+  REQUIRE(hessian(*one.collisionGeometry(), one.getTransform(), *two.collisionGeometry(), two.getTransform(),
+                  d, same));
+  CHECK(h.matrix == same.matrix);
+}
