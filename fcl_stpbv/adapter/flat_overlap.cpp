@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "fcl_stpbv/adapter/meridian.h"
 #include "fcl_stpbv/distance/first_corners.h"
 #include "fcl_stpbv/distance/polytope.h"
 
@@ -73,10 +74,17 @@ Distance flatOverlap(const Shape& a, const Eigen::Isometry3d& poseA, const Shape
 
   const auto solved = [&](double depth) { return -d.gap - depth <= std::max(rounding, 0.5 * kRelative * depth); };
   double upper = 0.0;  // the cores overlap
+  Meridian plane;
+  if (commonMeridian(a, b, d.rotation, d.translation, plane)) {
+    // As deep towards all generators as towards one: more than a polytope has room for, in the plane an edge.
+    const MeridianDepth inner = meridianDepth(plane, rounding, [&](const Vector3d& m) { return d.furthest(m); });
+    upper = std::min(upper, -inner.depth);
+    d.onA = inner.onA;
+  }
   std::array<Difference::Point, kPoints> point;
   std::array<Difference::Point, 4> first;
   // Rounding may spoil a polytope, of slivers along edges and generators: another start makes other faces.
-  for (int attempt = 0; attempt < kAttempts && !(attempt > 0 && solved(-upper)); ++attempt) {
+  for (int attempt = 0; attempt < kAttempts && !solved(-upper); ++attempt) {
     const Matrix3d turn = Eigen::AngleAxisd(attempt, Vector3d(0.48, 0.6, 0.64)).toRotationMatrix();
     if (!firstCorners([&](const Vector3d& m) { return d.furthest(turn * m); }, rounding, first)) break;
     std::copy(first.begin(), first.end(), point.begin());
