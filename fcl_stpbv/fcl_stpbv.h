@@ -11,6 +11,7 @@
 #include "fcl_stpbv/distance/hessian.h"
 #include "fcl_stpbv/distance/shape_distance.h"
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/volume/compare.h"
 #include "fcl_stpbv/volume/measure.h"
 #include "fcl_stpbv/volume/qhull_file.h"
 #include "fcl_stpbv/volume/reduce.h"

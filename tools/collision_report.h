@@ -9,11 +9,13 @@
 
 #include "fcl_stpbv/robot/constraints.h"
 #include "fcl_stpbv/robot/pair_list.h"
+#include "tools/published_polyhedra.h"
 
 namespace fcl_stpbv::tools {
 
 struct ReportRequest {
   std::string urdf, srdf, pose, obstacles;  ///< "" where not given; pose is a state's name or a JSON file
+  std::string polyhedra;                    ///< folder of published ones, "" for none
   GeometryOptions geometry;
   bool flatObstacles = false;  ///< the scene's meshes stay convex polyhedra
   PairListOptions search;
@@ -47,6 +49,7 @@ struct CollisionReport {
   std::shared_ptr<const Kinematics> kinematics;
   std::vector<Obstacle> obstacles;
   std::vector<std::string> warnings;
+  std::vector<PolyhedronReport> polyhedra;  ///< one a body, or none where none were asked for
   std::vector<PairReport> pairs;  ///< checked ones first, closest first
   std::vector<PairEntry> list;    ///< what the search found
   std::string pose;               ///< "" where each pair is in its own closest configuration

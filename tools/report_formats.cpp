@@ -52,6 +52,25 @@ const char* statusName(DistanceStatus status) {
   }
 }
 
+// The meshes' volumes beside those of their published polyhedra, those that differ most first.
+std::string polyhedra(const CollisionReport& report) {
+  std::vector<std::size_t> order;
+  for (std::size_t i = 0; i < report.polyhedra.size(); ++i)
+    if (!report.polyhedra[i].file.empty()) order.push_back(i);
+  if (order.empty()) return "";
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) {
+    return report.polyhedra[i].difference > report.polyhedra[j].difference;
+  });
+  std::string text = format("\n%zu meshes have a published polyhedron\n%-44s %14s %11s %21s\n", order.size(), "link",
+                            "surfaces [um]", "vertices", "without a partner");
+  for (const std::size_t i : order) {
+    const PolyhedronReport& p = report.polyhedra[i];
+    text += format("%-44s %14.3f %5d, %4d %15d, %4d\n", report.geometry->bodies[i].name.c_str(), p.difference * 1e6,
+                   p.meshVertices, p.vertices, p.meshAlone, p.alone);
+  }
+  return text + "two figures: the mesh's, the polyhedron's; surfaces: how far the two volumes are apart\n";
+}
+
 std::string quoted(const std::string& text) {
   if (text.find_first_of(",\"\n") == std::string::npos) return text;
   std::string out = "\"";
@@ -89,6 +108,7 @@ std::string toText(const CollisionReport& report, std::size_t top) {
             steepest(pair) + "\n";
   }
   text += "\ncover: how much closer the two smooth surfaces are than their hulls, along the normal\n";
+  text += polyhedra(report);
   for (const PairReport& pair : report.pairs) {
     if (!pair.contradictsSrdf()) continue;
     text += "\nThe SRDF leaves out " + pair.link1 + " - " + pair.link2 + " as " + pair.srdfReason +
@@ -109,7 +129,8 @@ std::string toJson(const CollisionReport& report) {
   json["pose"] = report.pose.empty() ? nlohmann::json() : nlohmann::json(report.pose);
   json["warnings"] = report.warnings;
   json["links"] = nlohmann::json::array();
-  for (const Body& body : report.geometry->bodies) {
+  for (std::size_t i = 0; i < report.geometry->bodies.size(); ++i) {
+    const Body& body = report.geometry->bodies[i];
     nlohmann::json link{{"name", body.name}, {"file", body.file}};
     if (body.volume) {
       link["vertices"] = body.volume->vertexCount();
@@ -118,6 +139,14 @@ std::string toJson(const CollisionReport& report) {
       link["R"] = body.volume->radii().R;
       link["over_cover_max"] = body.cover.max;
       link["over_cover_mean"] = body.cover.mean;
+    }
+    if (i < report.polyhedra.size() && !report.polyhedra[i].file.empty()) {
+      const PolyhedronReport& p = report.polyhedra[i];
+      link["polyhedron"] = {{"file", p.file},
+                            {"vertices", p.vertices},
+                            {"without_partner", p.alone},
+                            {"mesh_without_partner", p.meshAlone},
+                            {"surface_difference", p.difference}};
     }
     json["links"].push_back(link);
   }

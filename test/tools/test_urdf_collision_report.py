@@ -211,6 +211,47 @@ class Report(unittest.TestCase):
         self.assertEqual(done.returncode, 2, done.stderr)
         self.assertIn("49995000 pairs of 10000 links", done.stderr)
 
+    def box(self, name, side):
+        corners = [(x, y, z) for x in (-side, side) for y in (-side, side) for z in (-side, side)]
+        return self.put(name, "".join("v %g %g %g\n" % c for c in corners)
+                        + "f 1 2 4 3\nf 5 7 8 6\nf 1 5 6 2\nf 3 4 8 7\nf 1 3 7 5\nf 2 6 8 4\n")
+
+    def test_meshes_are_compared_with_the_polyhedra_published_for_them(self):
+        mesh = '<mesh filename="file://%s"/>'
+        robot = self.robot(link("a", mesh % self.box("first.obj", 0.1)) + link("b", mesh % self.box("second.obj", 0.1))
+                           + joint("j", "a", "b") + link("c", '<box size="1 1 1"/>') + joint("k", "b", "c"))
+        os.mkdir(os.path.join(self.folder.name, "published"))
+        corners = [(x, y, z) for x in (-0.1, 0.1) for y in (-0.1, 0.1) for z in (-0.1, 0.101)]
+        corners.append((0, 0, 0))  # inside: no vertex
+        self.put("published/first-ch.txt", "3\n%d 0 0\n" % len(corners) + "".join("%g %g %g\n" % c for c in corners))
+        arguments = [robot, "--samples", "5", "--polyhedra", os.path.join(self.folder.name, "published")]
+        report = json.loads(self.run_tool(*arguments, "--format", "json").stdout)
+        found = report["links"][0]["polyhedron"]
+        self.assertEqual((found["vertices"], found["without_partner"], found["mesh_without_partner"]), (8, 4, 4))
+        self.assertAlmostEqual(found["surface_difference"], 0.001, delta=1e-6)  # the lid's, but for its curvature
+        self.assertNotIn("polyhedron", report["links"][1])
+        self.assertNotIn("polyhedron", report["links"][2])
+        text = self.run_tool(*arguments).stdout
+        self.assertIn("1 meshes have a published polyhedron", text)
+        self.assertRegex(text, r"\na +999\.\d+ +8, +8 +4, +4\n")
+
+    def test_a_folder_without_a_polyhedron_of_the_robot_is_refused(self):
+        for folder in (self.folder.name, "/nowhere"):
+            done = self.humanoid("--polyhedra", folder)
+            self.assertEqual(done.returncode, 2, done.stderr)
+            self.assertIn("--polyhedra " + folder, done.stderr)
+
+    @unittest.skipUnless(os.path.isdir(SHARED), "skipped: no ../shared/robots")
+    def test_jvrc1s_meshes_and_polyhedra_differ_by_their_last_digit(self):
+        jvrc = os.path.join(SHARED, "jvrc_description")
+        done = self.run_tool(jvrc + "/urdf/jvrc1.urdf", "--package-path", SHARED, "--samples", "1", "--format", "json",
+                             "--polyhedra", jvrc + "/convex/jvrc1")
+        found = {each["name"]: each["polyhedron"] for each in json.loads(done.stdout)["links"] if "polyhedron" in each}
+        self.assertEqual(len(found), 35)
+        self.assertLess(max(each["surface_difference"] for each in found.values()), 0.7e-6)
+        self.assertEqual(sum(each["mesh_without_partner"] for each in found.values()), 0)
+        self.assertEqual(sum(each["without_partner"] for each in found.values()), 5)
+
     @unittest.skipUnless(os.path.isdir(SHARED), "skipped: no ../shared/robots")
     def test_pairs_that_pandas_srdf_leaves_out_are_ours_too_or_come_with_a_collision(self):
         panda = os.path.join(SHARED, "panda_description")
