@@ -40,9 +40,9 @@ int chooseNeighbour(const StpBv& volume, int patch, const Vector3d& x) {
   const double length = d.norm();
   int choice = patch;
   double most = kOnSeam * length;
-  for (const StpBv::Seam* s = volume.seamsBegin(patch); s != volume.seamsEnd(patch); ++s) {
-    const double outside = d.dot(s->normal) - s->limit * length;
-    if (outside > most) most = outside, choice = s->neighbour;
+  for (const Seam s : volume.seams(patch)) {
+    const double outside = d.dot(s.normal) - s.limit * length;
+    if (outside > most) most = outside, choice = s.neighbour;
   }
   return choice;
 }
@@ -59,8 +59,8 @@ bool contains(const StpBv::Ring& ring, int v) { return std::find(ring.begin(), r
 
 /// Whether two patches share a seam, or are a face and one of its vertices, whose regions share a corner.
 bool areNeighbours(const StpBv& volume, int p, int q) {
-  for (const StpBv::Seam* s = volume.seamsBegin(p); s != volume.seamsEnd(p); ++s)
-    if (s->neighbour == q) return true;
+  for (const Seam s : volume.seams(p))
+    if (s.neighbour == q) return true;
   if (volume.kind(p) == PatchKind::face) std::swap(p, q);
   if (volume.kind(p) != PatchKind::vertex || volume.kind(q) != PatchKind::face) return false;
   return contains(volume.faces()[static_cast<std::size_t>(q - volume.facePatch(0))], p);

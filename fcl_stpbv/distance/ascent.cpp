@@ -67,13 +67,6 @@ Sample climbArc(const BodyPair& pair, const Sample& x, const Vector3d& to, const
 }  // namespace
 
 FCL_STPBV_VECTORIZED
-bool nearRegion(const StpBv& body, int patch, const Vector3d& n, double slack) {
-  for (const StpBv::Seam* seam = body.seamsBegin(patch); seam != body.seamsEnd(patch); ++seam)
-    if (n.dot(seam->normal) - seam->limit > slack) return false;
-  return true;
-}
-
-FCL_STPBV_VECTORIZED
 bool settle(const BodyPair& pair, Sample& x, Vector3d& next, Work& work) {
   const PosedPatch a = pair.patchA(x.patch[0]), b = pair.patchB(x.patch[1]);
   const double flat2 = pair.acrossRounding() * pair.acrossRounding();
@@ -81,8 +74,7 @@ bool settle(const BodyPair& pair, Sample& x, Vector3d& next, Work& work) {
   ++work.pairs;
   for (int attempt = 0; attempt < 2; ++attempt) {  // two tori may need a second go for the last digits
     next = n = widestNormal(a, b, n);
-    if (!nearRegion(pair.a(), x.patch[0], n, kOnSeam) ||
-        !nearRegion(pair.b(), x.patch[1], pair.opposite(n), kOnSeam))
+    if (pair.a().outside(x.patch[0], n) > kOnSeam || pair.b().outside(x.patch[1], pair.opposite(n)) > kOnSeam)
       return false;
     const Sample there = BodyPair::sample(n, x.patch, a, b);
     // Deep inside each other the pair's other maximum may lie in the same regions; it must not be a step
@@ -92,6 +84,30 @@ bool settle(const BodyPair& pair, Sample& x, Vector3d& next, Work& work) {
       x = there;
       return true;
     }
+  }
+  return false;
+}
+
+FCL_STPBV_VECTORIZED
+bool hop(const BodyPair& pair, Sample& x, Work& work) {
+  constexpr int kTries = 12;  // one to three are usual
+  const double flat2 = pair.acrossRounding() * pair.acrossRounding();
+  PosedPatch a = pair.patchA(x.patch[0]), b = pair.patchB(x.patch[1]);
+  for (int i = 0; i < kTries; ++i) {
+    ++work.pairs;
+    x.n = widestNormal(a, b, x.n);
+    const Crossing overA = pair.a().crossing(x.patch[0], x.n);
+    const Crossing overB = pair.b().crossing(x.patch[1], pair.opposite(x.n));
+    if (std::max(overA.past, overB.past) <= kOnSeam) {
+      x = BodyPair::sample(x.n, x.patch, a, b);
+      if (x.across.squaredNorm() <= flat2) return true;
+      continue;  // two tori may need a second go for the last digits
+    }
+    ++work.steps;
+    if (overA.past >= overB.past)
+      a = pair.patchA(x.patch[0] = overA.neighbour);
+    else
+      b = pair.patchB(x.patch[1] = overB.neighbour);
   }
   return false;
 }
@@ -110,13 +126,13 @@ bool settleBeside(const BodyPair& pair, Sample& x, Work& work) {
       return true;
     };
     if (patchA != x.patch[0] && tryPair(x.patch[1])) return true;
-    for (const StpBv::Seam* s = pair.b().seamsBegin(x.patch[1]); s != pair.b().seamsEnd(x.patch[1]); ++s)
-      if (opposite.dot(s->normal) > s->limit && tryPair(s->neighbour)) return true;
+    for (const Seam s : pair.b().seams(x.patch[1]))
+      if (opposite.dot(s.normal) > s.limit && tryPair(s.neighbour)) return true;
     return false;
   };
   if (tryBeside(x.patch[0])) return true;
-  for (const StpBv::Seam* s = pair.a().seamsBegin(x.patch[0]); s != pair.a().seamsEnd(x.patch[0]); ++s)
-    if (next.dot(s->normal) > s->limit && tryBeside(s->neighbour)) return true;
+  for (const Seam s : pair.a().seams(x.patch[0]))
+    if (next.dot(s.normal) > s.limit && tryBeside(s.neighbour)) return true;
   return false;
 }
 

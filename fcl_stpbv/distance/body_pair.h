@@ -4,8 +4,10 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <array>
+#include <limits>
 
 #include "fcl_stpbv/distance/patch_pair.h"
+#include "fcl_stpbv/distance/rotation.h"
 #include "fcl_stpbv/volume/stp_bv.h"
 
 namespace fcl_stpbv {
@@ -18,6 +20,12 @@ struct Sample {
   double core;               ///< gap between the cores' supporting planes, s(n) + r_A + r_B (m)
   Eigen::Vector3d across;    ///< gradient of the gap on the sphere: core points' difference across `n` (m)
   Eigen::Vector3d point;     ///< the first core's point (m)
+
+  /// A start for `settle` and `hop`, which any gap is better than.
+  static Sample unevaluated(const Eigen::Vector3d& n, const std::array<int, 2>& patch) {
+    const Eigen::Vector3d none(0, 0, 0);
+    return {n, patch, -std::numeric_limits<double>::infinity(), none, none};
+  }
 };
 
 /// Both bodies in the first one's frame: however far the pair is from the world's origin, only the bodies'
@@ -25,23 +33,27 @@ struct Sample {
 class BodyPair {
  public:
   /// `rotation` and `translation` place the second body in the first one's frame; `rotation` is orthonormal.
-  BodyPair(const StpBv& a, const StpBv& b, const Eigen::Matrix3d& rotation,
-           const Eigen::Vector3d& translation);
+  BodyPair(const StpBv& a, const StpBv& b, const Rotation& rotation, const Eigen::Vector3d& translation)
+      : a_(a), b_(b), rotation_(rotation), translation_(translation) {
+    constexpr double kRounding = 8.0 * std::numeric_limits<double>::epsilon();
+    gapRounding_ = kRounding * (a.extent() + b.extent() + translation.lpNorm<1>());
+    acrossRounding_ = gapRounding_ + kRounding * (a.radii().rho + b.radii().rho);
+  }
 
   const StpBv& a() const { return a_; }
   const StpBv& b() const { return b_; }
-  const Eigen::Matrix3d& rotation() const { return rotation_; }
+  const Rotation& rotation() const { return rotation_; }
   const Eigen::Vector3d& translation() const { return translation_; }
 
   /// The second body's outward normal, in its own frame, where the first body's is `n`.
-  Eigen::Vector3d opposite(const Eigen::Vector3d& n) const { return -(rotation_.transpose() * n); }
+  Eigen::Vector3d opposite(const Eigen::Vector3d& n) const { return rotation_.inverse(-n); }
 
-  PosedPatch patchA(int patch) const { return {a_.patch(patch), a_.kind(patch), a_.radii()}; }
+  PosedPatch patchA(int patch) const { return {a_.patch(patch), a_.kind(patch), &a_.radii()}; }
   PosedPatch patchB(int patch) const {
     const Patch& p = b_.patch(patch);
     return {{rotation_ * p.anchor + translation_, rotation_ * p.axis, p.kappa, p.sag},
             b_.kind(patch),
-            b_.radii()};
+            &b_.radii()};
   }
 
   /// The gap along `n` when these two patches own it; the second form for patches already posed.
@@ -52,6 +64,12 @@ class BodyPair {
                        const PosedPatch& b) {
     const CoreGap gap = coreGap(a, b, n);
     return {n, patch, gap.value, gap.across(n), gap.point};
+  }
+
+  /// Patches near those that own `n` and its opposite: of the vertices furthest along them.
+  std::array<int, 2> near(const Eigen::Vector3d& n) const {
+    const auto vertex = [](const StpBv& body, const Eigen::Vector3d& m) { return body.climb(body.vertexNear(m), m.cast<float>()); };
+    return {vertex(a_, n), vertex(b_, opposite(n))};
   }
 
   /// The gap along `n`; the owners are looked for from `hint`. Adds the patches that changed to `steps`.
@@ -70,7 +88,7 @@ class BodyPair {
  private:
   const StpBv& a_;
   const StpBv& b_;
-  Eigen::Matrix3d rotation_;
+  Rotation rotation_;
   Eigen::Vector3d translation_;
   double gapRounding_;
   double acrossRounding_;

@@ -25,7 +25,7 @@ struct EdgeView {
 /// of metres, so it is written with the half length h, h^2 = rho^2 - kappa^2 = sag (rho + kappa). Near the
 /// smallest R kappa is small, and that form would divide by little.
 EdgeView viewEdge(const PosedPatch& edge, const Vector3d& n) {
-  const double rho = edge.radii.rho, kappa = edge.patch.kappa, sag = edge.patch.sag;
+  const double rho = edge.radii->rho, kappa = edge.patch.kappa, sag = edge.patch.sag;
   EdgeView e;
   e.v = n.dot(edge.patch.axis);
   e.c = std::sqrt(std::max(1.0 - e.v * e.v, 1e-30));
@@ -52,20 +52,9 @@ CoreView viewCore(const PosedPatch& p, const Vector3d& n) {
   }
   if (p.kind == PatchKind::face) {
     const Vector3d d = n - p.patch.axis;
-    return {0.5 * p.radii.rho * d.squaredNorm(), p.radii.rho * d};
+    return {0.5 * p.radii->rho * d.squaredNorm(), p.radii->rho * d};
   }
   return {};
-}
-
-Vector3d normalizedOr(const Vector3d& d, const Vector3d& otherwise) {
-  const double length2 = d.squaredNorm();
-  return length2 > std::numeric_limits<double>::min() ? Vector3d(d / std::sqrt(length2)) : otherwise;
-}
-
-/// Two points (sphere against sphere): along the line of centres. The margin of a vertex and the bulge of a
-/// face both sit in the centres, a face's being `rho` behind its anchor.
-Vector3d pointPoint(const PosedPatch& a, const PosedPatch& b, const Vector3d& n) {
-  return normalizedOr(centre(b.patch, b.kind, b.radii) - centre(a.patch, a.kind, a.radii), n);
 }
 
 /// A circle and a point (torus against sphere). `d` runs from the first centre to the second; which of the
@@ -88,7 +77,7 @@ Vector3d circlePoint(const Patch& circle, const Vector3d& d, const Vector3d& n) 
 
 /// Whether `n` lies between the two cones that end an edge's region (docs/theory.md, 3).
 bool withinBand(const PosedPatch& edge, const Vector3d& n) {
-  const double rho = edge.radii.rho, v = n.dot(edge.patch.axis);
+  const double rho = edge.radii->rho, v = n.dot(edge.patch.axis);
   return rho * rho * v * v <= edge.patch.sag * (rho + edge.patch.kappa);
 }
 
@@ -102,7 +91,7 @@ Vector3d circleCircle(const PosedPatch& a, const PosedPatch& b, Vector3d n) {
   constexpr double kConverged = 2e-16;  // predicted next step, in rad: the rounding of a unit vector
   constexpr double kSmall = 1e-15;      // square of a last step
   constexpr double kCrossing = 0.1;  // sine between the axes from which their common normal is a good start
-  const double rhoA = a.radii.rho, rhoB = b.radii.rho;
+  const double rhoA = a.radii->rho, rhoB = b.radii->rho;
   const Vector3d middles = b.patch.anchor - a.patch.anchor;
 
   // Regions of edges are narrow bands around the planes across them; crossing bands meet at the axes' common
@@ -171,21 +160,20 @@ CoreGap coreGap(const PosedPatch& a, const PosedPatch& b, const Vector3d& n) {
 }
 
 FCL_STPBV_VECTORIZED
-Vector3d widestNormal(const PosedPatch& a, const PosedPatch& b, const Vector3d& n) {
+Vector3d widestNormalOfEdge(const PosedPatch& a, const PosedPatch& b, const Vector3d& n) {
   const bool circleA = a.kind == PatchKind::edge, circleB = b.kind == PatchKind::edge;
   if (circleA && circleB) return circleCircle(a, b, n);
-  if (!circleA && !circleB) return pointPoint(a, b, n);
-  const Vector3d d = centre(b.patch, b.kind, b.radii) - centre(a.patch, a.kind, a.radii);
+  const Vector3d d = centre(b.patch, b.kind, *b.radii) - centre(a.patch, a.kind, *a.radii);
   return circlePoint(circleA ? a.patch : b.patch, d, n);
 }
 
 Eigen::Matrix3d coreCurvature(const PosedPatch& p, const Vector3d& n) {
   if (p.kind == PatchKind::vertex) return Eigen::Matrix3d::Zero();
   const Eigen::Matrix3d tangent = Eigen::Matrix3d::Identity() - n * n.transpose();
-  if (p.kind == PatchKind::face) return p.radii.rho * tangent;
+  if (p.kind == PatchKind::face) return p.radii->rho * tangent;
   const EdgeView e = viewEdge(p, n);
   const Vector3d v = p.patch.axis.cross(n) / e.c, w = n.cross(v);
-  return e.around * v * v.transpose() + p.radii.rho * w * w.transpose();
+  return e.around * v * v.transpose() + p.radii->rho * w * w.transpose();
 }
 
 }  // namespace fcl_stpbv

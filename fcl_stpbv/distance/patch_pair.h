@@ -2,6 +2,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
+#include <limits>
 
 #include "fcl_stpbv/volume/patch.h"
 
@@ -11,7 +13,7 @@ namespace fcl_stpbv {
 struct PosedPatch {
   Patch patch;
   PatchKind kind;
-  Radii radii;
+  const Radii* radii;  ///< the body's
 };
 
 /// The gap between two patches along one normal, without their margins.
@@ -31,10 +33,25 @@ CoreGap coreGap(const PosedPatch& a, const PosedPatch& b, const Eigen::Vector3d&
 /// The unit normal at which the gap is widest, seen from `n`: closed form for spheres and one torus, Newton
 /// on the sphere for two tori (docs/theory.md, 5). Where every normal is as good (coincident centres), `n`
 /// itself.
-Eigen::Vector3d widestNormal(const PosedPatch& a, const PosedPatch& b, const Eigen::Vector3d& n);
+inline Eigen::Vector3d widestNormal(const PosedPatch& a, const PosedPatch& b, const Eigen::Vector3d& n);
+
+/// The same where at least one of the patches is an edge's.
+Eigen::Vector3d widestNormalOfEdge(const PosedPatch& a, const PosedPatch& b, const Eigen::Vector3d& n);
 
 /// Radii of curvature of the patch's core at its outward normal `n`, as a matrix on the tangent plane: the
 /// second derivative of its support function (m).
 Eigen::Matrix3d coreCurvature(const PosedPatch& p, const Eigen::Vector3d& n);
+
+/// `d` of unit length, or `otherwise` where it has none.
+inline Eigen::Vector3d normalizedOr(const Eigen::Vector3d& d, const Eigen::Vector3d& otherwise) {
+  const double length2 = d.squaredNorm();
+  return length2 > std::numeric_limits<double>::min() ? Eigen::Vector3d(d / std::sqrt(length2)) : otherwise;
+}
+
+inline Eigen::Vector3d widestNormal(const PosedPatch& a, const PosedPatch& b, const Eigen::Vector3d& n) {
+  if (a.kind == PatchKind::edge || b.kind == PatchKind::edge) return widestNormalOfEdge(a, b, n);
+  // Two spheres: along the line of their centres, a face's being `rho` behind its anchor; a vertex has no axis.
+  return normalizedOr((b.patch.anchor - b.radii->rho * b.patch.axis) - (a.patch.anchor - a.radii->rho * a.patch.axis), n);
+}
 
 }  // namespace fcl_stpbv

@@ -25,29 +25,6 @@ void climb(const StpBv& a, const Vector3d& d, int& i, const StpBv& b, const Vect
   }
 }
 
-/// Up to three vertices of a patch: its point, its edge's ends, or three of its face's.
-struct Corners {
-  int count = 1;
-  std::array<int, 3> vertex{0, 0, 0};
-
-  Corners(const StpBv& body, int patch) {
-    if (patch < body.vertexCount()) {
-      vertex[0] = patch;
-    } else if (patch < body.facePatch(0)) {
-      const auto& ends = body.edges()[static_cast<std::size_t>(patch - body.edgePatch(0))].vertex;
-      vertex = {ends[0], ends[1], 0};
-      count = 2;
-    } else if (patch < body.facePatch(body.faceCount())) {
-      const auto& ring = body.faces()[static_cast<std::size_t>(patch - body.facePatch(0))];
-      vertex = {ring[0], ring[ring.size() / 3], ring[2 * ring.size() / 3]};
-      count = 3;
-    } else {
-      vertex[0] =
-          body.seamsBegin(patch)->neighbour;  // a further part of an edge: its first seam leads to an end
-    }
-  }
-};
-
 /// Up to four points of the difference of the two bodies, reduced to those that span the point nearest the
 /// origin.
 class Simplex {
@@ -201,20 +178,6 @@ VertexSearch searchVertices(const BodyPair& pair, const Vector3d& n) {
   simplex.add(difference(pair, i, j));
   simplex.add(difference(pair, a.beside(i, n.cast<float>(), 1.0f), j));
   simplex.add(difference(pair, i, b.beside(j, m.cast<float>(), 1.0f)));
-  Vector3d v = n;
-  descend(pair, simplex, v, result);
-  return result;
-}
-
-FCL_STPBV_VECTORIZED
-VertexSearch searchVertices(const BodyPair& pair, const Vector3d& n, const std::array<int, 2>& patch) {
-  const Corners a(pair.a(), patch[0]), b(pair.b(), patch[1]);
-  VertexSearch result;
-  const auto [i, j] = result.vertex = {a.vertex[0], b.vertex[0]};
-  Simplex simplex;
-  for (int k = 0; k < a.count; ++k) simplex.add(difference(pair, a.vertex[static_cast<std::size_t>(k)], j));
-  for (int k = 1; k < b.count && simplex.count < 3; ++k)
-    simplex.add(difference(pair, i, b.vertex[static_cast<std::size_t>(k)]));
   Vector3d v = n;
   descend(pair, simplex, v, result);
   return result;

@@ -15,14 +15,12 @@ struct VertexSearch {
 };
 
 /// Unit normal of the widest gap between the two point sets (Gilbert, Johnson, Keerthi 1988): the paper's
-/// first step (IV.B), done without any other library. Starts from the normal `n`, or from the corners of a
-/// patch pair where they now are. A hint only: it may be off where the STP-BV's own triangulation is not
+/// first step (IV.B), done without any other library. Starts from the normal `n`. A hint only: it may be off where the STP-BV's own triangulation is not
 /// convex.
 ///
 /// The normal of a polyhedral witness falls into the region of the smooth patch of the same name: an edge's
 /// cone is centred on the plane across it, a face's region holds its plane's normal (paper IV.C, IV.D).
 VertexSearch searchVertices(const BodyPair& pair, const Eigen::Vector3d& n);
-VertexSearch searchVertices(const BodyPair& pair, const Eigen::Vector3d& n, const std::array<int, 2>& patch);
 
 /// A point of the second core less one of the first, about as far against the unit vector `n` as any: the
 /// difference of two vertices.

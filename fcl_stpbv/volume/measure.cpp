@@ -85,8 +85,8 @@ double edgeVolume(const StpBv& volume, int edge) {
 // A direction across the edge that its patch owns.
 Vector3d acrossEdge(const StpBv& volume, int patch) {
   Vector3d sum = Vector3d::Zero(), last = Vector3d::Zero();
-  for (const StpBv::Seam* seam = volume.seamsBegin(patch); seam != volume.seamsEnd(patch); ++seam)
-    if (seam->limit == 0) sum -= seam->normal, last = seam->normal;
+  for (const Seam seam : volume.seams(patch))
+    if (seam.limit == 0) sum -= seam.normal, last = seam.normal;
   const Vector3d& u = volume.patch(patch).axis;
   if (sum.norm() > 1e-6) return sum.normalized();
   return last.norm() > 0 ? Vector3d(u.cross(last)) : Vector3d(u.unitOrthogonal());
@@ -110,8 +110,7 @@ Vector3d stationaryNormal(const StpBv& volume, int index, const Vector3d& p) {
   if (length > (kind == PatchKind::vertex ? 1e-12 * volume.enclosingRadius() : 0.0)) return g / length;
   if (kind == PatchKind::face) return patch.axis;
   Vector3d inside = Vector3d::Zero();
-  for (const StpBv::Seam* seam = volume.seamsBegin(index); seam != volume.seamsEnd(index); ++seam)
-    inside -= seam->normal;
+  for (const Seam seam : volume.seams(index)) inside -= seam.normal;
   return inside.norm() > 0 ? Vector3d(inside.normalized()) : Vector3d(Vector3d::UnitZ());
 }
 

@@ -161,23 +161,6 @@ StpBv::Ptr StpBv::assemble(std::vector<Vector3d> vertices, std::vector<Ring> fac
   return volume;
 }
 
-double StpBv::outside(int patch, const Vector3d& n) const {
-  double worst = -2;
-  for (const Seam* seam = seamsBegin(patch); seam != seamsEnd(patch); ++seam)
-    worst = std::max(worst, n.dot(seam->normal) - seam->limit);
-  return worst;
-}
-
-std::size_t StpBv::cell(const Vector3d& n) const {
-  const double x = std::abs(n.x()), y = std::abs(n.y()), z = std::abs(n.z());
-  const int axis = x >= y ? (x >= z ? 0 : 2) : (y >= z ? 1 : 2);
-  const int second = axis == 2 ? 0 : axis + 1, third = axis == 0 ? 2 : axis - 1;
-  const double half = 0.5 * cells_, scale = half / std::abs(n[axis]);
-  const auto slot = [&](double along) { return std::clamp(static_cast<int>(along * scale + half), 0, cells_ - 1); };
-  const int side = 2 * axis + (n[axis] < 0);
-  return static_cast<std::size_t>((side * cells_ + slot(n[second])) * cells_ + slot(n[third]));
-}
-
 FCL_STPBV_VECTORIZED
 int StpBv::owner(const Vector3d& n, int hint) const {
   if (!(n.squaredNorm() > 0)) return 0;  // zero or NaN: no direction, any patch
@@ -187,16 +170,10 @@ int StpBv::owner(const Vector3d& n, int hint) const {
   // The step over the worst seam goes down the height n.C over the core's admissible centres C, so it does
   // not come back; the bound only stops a walk among regions narrower than rounding.
   for (int step = 0; step < 64 + patchCount(); ++step) {
-    const Seam* over = nullptr;
-    double worst = kSeamRounding;
-    for (const Seam *seam = seamsBegin(current), *end = seamsEnd(current); seam != end; ++seam) {
-      const double past = n.dot(seam->normal) - seam->limit;
-      over = past > worst ? seam : over;  // as selections: the branch would be mispredicted
-      worst = std::max(worst, past);
-    }
-    if (over == nullptr) return current;
-    if (worst < least) least = worst, best = current;
-    current = over->neighbour;
+    const Crossing over = crossing(current, n);
+    if (over.past <= kSeamRounding) return current;
+    if (over.past < least) least = over.past, best = current;
+    current = over.neighbour;
   }
   for (int patch = 0; patch < patchCount(); ++patch) {
     const double past = outside(patch, n);
@@ -225,7 +202,7 @@ std::size_t StpBv::memory() const {
   std::size_t bytes = sizeof *this + vertices_.capacity() * sizeof(Vector3d) +
                       edges_.capacity() * sizeof(Edge) + faces_.capacity() * sizeof(Ring) +
                       faceNormals_.capacity() * sizeof(Vector3d) + patches_.capacity() * sizeof(Patch) +
-                      seams_.capacity() * sizeof(Seam) + seamStart_.capacity() * sizeof(std::int32_t) +
+                      seams_.capacity() * sizeof(SeamBlock) +
                       stars_.capacity() * sizeof(VertexStar) + (table_.capacity() + vertexTable_.capacity()) * sizeof(std::int32_t);
   for (const Ring& ring : faces_) bytes += ring.capacity() * sizeof(int);
   return bytes;

@@ -2,13 +2,17 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <vector>
 
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/volume/patch.h"
+#include "fcl_stpbv/volume/seam.h"
 #include "fcl_stpbv/volume/vertex_star.h"
 
 namespace fcl_stpbv {
@@ -39,14 +43,6 @@ class StpBv {
     double turn;
   };
 
-  /// One side of a patch's region of normals: `n` is inside iff `n.normal <= limit`; past it lies
-  /// `neighbour`.
-  struct Seam {
-    Eigen::Vector3d normal;
-    double limit;
-    int neighbour;
-  };
-
   /// Rolls a ball of radius `R - r` over the cloud (paper IV.A, Algorithm 1). Points that it cannot touch are
   /// inside and drop out; cospherical ones share one k-gon face.
   /// @throws Error for an empty cloud, a coordinate that is not finite, r < 0, R <= r, or R below the
@@ -69,28 +65,35 @@ class StpBv {
   /// Unit outward normal of a face's big sphere at one of the face's vertices: a corner where regions meet.
   Eigen::Vector3d corner(int face, int vertex) const;
 
-  int vertexCount() const { return static_cast<int>(vertices_.size()); }
-  int edgeCount() const { return static_cast<int>(edges_.size()); }
-  int faceCount() const { return static_cast<int>(faces_.size()); }
+  int vertexCount() const { return firstEdge_; }
+  int edgeCount() const { return firstFace_ - firstEdge_; }
+  int faceCount() const { return firstPart_ - firstFace_; }
 
   /// Patches are numbered vertices first, then edges, then faces, then the further parts of edges that turn
   /// by more than half a turn: each patch's region of normals is the intersection of its seams' sides.
   int patchCount() const { return static_cast<int>(patches_.size()); }
-  int edgePatch(int edge) const { return vertexCount() + edge; }
-  int facePatch(int face) const { return vertexCount() + edgeCount() + face; }
+  int edgePatch(int edge) const { return firstEdge_ + edge; }
+  int facePatch(int face) const { return firstFace_ + face; }
   PatchKind kind(int patch) const {
-    return patch < vertexCount()                                     ? PatchKind::vertex
-           : patch < facePatch(0) || patch >= facePatch(faceCount()) ? PatchKind::edge
-                                                                     : PatchKind::face;
+    return patch < firstEdge_                          ? PatchKind::vertex
+           : patch < firstFace_ || patch >= firstPart_ ? PatchKind::edge
+                                                       : PatchKind::face;
   }
   const Patch& patch(int index) const { return patches_[static_cast<std::size_t>(index)]; }
 
   /// The seams around a patch's region of normals (paper III.D).
-  const Seam* seamsBegin(int patch) const {
-    return seams_.data() + seamStart_[static_cast<std::size_t>(patch)];
-  }
-  const Seam* seamsEnd(int patch) const {
-    return seams_.data() + seamStart_[static_cast<std::size_t>(patch) + 1];
+  Seams seams(int patch) const { return {seams_.data(), patch}; }
+
+  /// The seam of the patch that `n` passes furthest.
+  Crossing crossing(int patch, const Eigen::Vector3d& n) const {
+    Crossing most{-std::numeric_limits<double>::infinity(), -1};
+    for (std::int32_t block = patch; block >= 0;) {
+      const SeamBlock& seams = seams_[static_cast<std::size_t>(block)];
+      const double past = seams.past(n);
+      if (past > most.past) most = {past, seams.neighbour[SeamBlock::slotOf(past)]};
+      block = seams.next;
+    }
+    return most;
   }
 
   /// Rounding of a rise along `d`, of the sum of its components.
@@ -126,8 +129,8 @@ class StpBv {
     return star.neighbour[star.steepest(d, 2.0f * length) & (VertexStar::kSize - 1)];
   }
 
-  /// How far `n` lies outside the patch's region: the largest `n.normal - limit`, <= 0 inside.
-  double outside(int patch, const Eigen::Vector3d& n) const;
+  /// How far `n` lies outside the patch's region, <= 0 inside.
+  double outside(int patch, const Eigen::Vector3d& n) const { return crossing(patch, n).past; }
 
   /// A vertex about as far along the unit vector `n` as any, from a direction table.
   int vertexNear(const Eigen::Vector3d& n) const { return vertexTable_[cell(n)]; }
@@ -147,6 +150,9 @@ class StpBv {
   const Eigen::Vector3d& centre() const { return centre_; }
   double enclosingRadius() const { return enclosingRadius_; }
 
+  /// A bound on the coordinates of surface points, for bounds on rounding (m).
+  double extent() const { return extent_; }
+
   /// Memory this volume holds, in bytes.
   std::size_t memory() const;
 
@@ -162,22 +168,32 @@ class StpBv {
   void makeSeams();
   void makeStars();
   void makeTable();
-  std::size_t cell(const Eigen::Vector3d& n) const;
+
+  /// The cell of a direction, not zero: the sphere as an octahedron, whose lower half is folded out to a square.
+  std::size_t cell(const Eigen::Vector3d& n) const {
+    const double half = 0.5 * cells_, scale = half / n.lpNorm<1>();
+    const double x = n.x() * scale, y = n.y() * scale;
+    const double folded = n.z() < 0.0 ? 1.0 : 0.0;  // as a factor: the branch would be mispredicted
+    const double u = x + folded * (std::copysign(half - std::abs(y), x) - x);
+    const double v = y + folded * (std::copysign(half - std::abs(x), y) - y);
+    const auto slot = [&](double along) { return std::clamp(static_cast<int>(along + half), 0, cells_ - 1); };
+    return static_cast<std::size_t>(slot(u) * cells_ + slot(v));
+  }
 
   Radii radii_{};
   std::vector<Eigen::Vector3d> vertices_;
   std::vector<Edge> edges_;
   std::vector<Ring> faces_;
   std::vector<Eigen::Vector3d> faceNormals_;  // unit, at each ring's first vertex
+  int firstEdge_ = 0, firstFace_ = 0, firstPart_ = 0;  // patches of that kind begin here
   std::vector<Patch> patches_;
-  std::vector<Seam> seams_;
-  std::vector<std::int32_t> seamStart_;
+  std::vector<SeamBlock> seams_;           // one a patch, then the further ones
   std::vector<VertexStar> stars_;          // one a vertex, then the further ones
-  std::vector<std::int32_t> table_;        // patch owning the middle of each cell of a cube map of directions
+  std::vector<std::int32_t> table_;        // patch owning the middle of each cell of a map of directions
   std::vector<std::int32_t> vertexTable_;  // vertex furthest along the middle of each such cell
-  int cells_ = 1;                          // cells along a cube's side in the tables
+  int cells_ = 1;                          // cells along a side of the map
   Eigen::Vector3d centre_{0, 0, 0};
-  double enclosingRadius_ = 0;
+  double enclosingRadius_ = 0, extent_ = 0;
 };
 
 }  // namespace fcl_stpbv

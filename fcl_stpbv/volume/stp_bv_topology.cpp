@@ -39,6 +39,7 @@ StpBv::Ptr StpBv::make(std::vector<Vector3d> vertices, std::vector<Ring> faces, 
   // A ball smaller than rho is itself an intersection of balls of radius rho, so it holds the core with the
   // vertices.
   volume->enclosingRadius_ = ball.radius + options.r;
+  volume->extent_ = ball.centre.lpNorm<1>() + volume->enclosingRadius_;
   volume->makeEdges();
   volume->makePatches();
   volume->makeSeams();
@@ -58,7 +59,7 @@ void StpBv::makeEdges() {
   }
   faceNormals_.shrink_to_fit();
   if (faces_.empty()) {
-    if (vertexCount() == 2) edges_.push_back({{0, 1}, {-1, -1}, kTwoPi});
+    if (vertices_.size() == 2) edges_.push_back({{0, 1}, {-1, -1}, kTwoPi});
     return;
   }
   const std::vector<HalfEdge> halfEdges = pairHalfEdges(vertices_, faces_, faceNormals_, radii_.rho);
@@ -87,6 +88,9 @@ void StpBv::makePatches() {
     return Patch{middle.cast<double>(), along.normalized().cast<double>(), static_cast<double>(kappa),
                  static_cast<double>(half * half / (rho + kappa))};
   };
+  firstEdge_ = static_cast<int>(vertices_.size());
+  firstFace_ = firstEdge_ + static_cast<int>(edges_.size());
+  firstPart_ = firstFace_ + static_cast<int>(faces_.size());
   std::size_t further = 0;
   for (const Edge& edge : edges_) further += static_cast<std::size_t>(partsOf(edge) - 1);
   patches_.reserve(vertices_.size() + edges_.size() + faces_.size() + further);
@@ -132,13 +136,20 @@ void StpBv::makeSeams() {
       all.push_back({parts[k], {-forward, 0, parts[k - 1]}});
     }
   }
-  seamStart_.assign(patches_.size() + 1, 0);
-  for (const auto& [patch, seam] : all) ++seamStart_[static_cast<std::size_t>(patch) + 1];
-  for (std::size_t i = 0; i < patches_.size(); ++i) seamStart_[i + 1] += seamStart_[i];
-  seams_.resize(all.size());
-  std::vector<std::int32_t> next(seamStart_.begin(), seamStart_.end() - 1);
-  for (const auto& [patch, seam] : all)
-    seams_[static_cast<std::size_t>(next[static_cast<std::size_t>(patch)]++)] = seam;
+  seams_.resize(patches_.size());
+  std::vector<std::size_t> last(patches_.size()), filled(patches_.size(), 0);  // block with room, and seams in it
+  std::iota(last.begin(), last.end(), std::size_t{0});
+  for (const auto& [patch, seam] : all) {
+    const auto p = static_cast<std::size_t>(patch);
+    if (filled[p] == SeamBlock::kSize) {
+      seams_[last[p]].next = static_cast<std::int32_t>(seams_.size());
+      last[p] = seams_.size();
+      filled[p] = 0;
+      seams_.emplace_back();
+    }
+    seams_[last[p]].set(filled[p]++, seam);
+  }
+  seams_.shrink_to_fit();
 }
 
 void StpBv::makeStars() {
@@ -168,26 +179,24 @@ void StpBv::makeStars() {
 void StpBv::makeTable() {
   // About four patches a cell: a walk from there crosses one or two seams, and the table stays in the
   // first-level cache.
-  cells_ = std::clamp(static_cast<int>(std::sqrt(patchCount() / 4.0)), 1, 64);
+  cells_ = std::clamp(static_cast<int>(std::sqrt(1.5 * patchCount())), 2, 160);
   const std::size_t cells = static_cast<std::size_t>(cells_);
-  table_.reserve(6 * cells * cells);
-  vertexTable_.reserve(6 * cells * cells);
+  table_.reserve(cells * cells);
+  vertexTable_.reserve(cells * cells);
   int last = 0;
-  for (std::size_t side = 0; side < 6; ++side)
-    for (std::size_t i = 0; i < cells; ++i)
-      for (std::size_t j = 0; j < cells; ++j) {
-        const int axis = static_cast<int>(side / 2);
-        Vector3d n;
-        n[axis] = side % 2 == 0 ? 1 : -1;
-        n[(axis + 1) % 3] = (2 * static_cast<double>(i) + 1) / static_cast<double>(cells) - 1;
-        n[(axis + 2) % 3] = (2 * static_cast<double>(j) + 1) / static_cast<double>(cells) - 1;
-        n.normalize();
-        last = owner(n, last);
-        table_.push_back(last);
-        int corner = last;  // one of the patch: its own point, else by an edge's first seam, which leads to an end
-        while (corner >= vertexCount()) corner = seamsBegin(corner)->neighbour;
-        vertexTable_.push_back(climb(corner, n.cast<float>()));
-      }
+  for (std::size_t i = 0; i < cells; ++i)
+    for (std::size_t j = 0; j < cells; ++j) {
+      const double x = (2 * static_cast<double>(i) + 1) / static_cast<double>(cells) - 1;
+      const double y = (2 * static_cast<double>(j) + 1) / static_cast<double>(cells) - 1;
+      Vector3d n(x, y, 1 - std::abs(x) - std::abs(y));
+      if (n.z() < 0) n.x() = std::copysign(1 - std::abs(y), x), n.y() = std::copysign(1 - std::abs(x), y);
+      n.normalize();
+      last = owner(n, last);
+      table_.push_back(last);
+      int corner = last;  // one of the patch: its own point, else by an edge's first seam, which leads to an end
+      while (corner >= vertexCount()) corner = (*seams(corner).begin()).neighbour;
+      vertexTable_.push_back(climb(corner, n.cast<float>()));
+    }
 }
 
 }  // namespace fcl_stpbv

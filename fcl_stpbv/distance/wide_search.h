@@ -1,0 +1,28 @@
+// The whole search for the widest gap, for pairs where hopping from patch pair to patch pair does not get there.
+#pragma once
+
+#include "fcl_stpbv/distance/ascent.h"
+#include "fcl_stpbv/distance/distance.h"
+
+namespace fcl_stpbv {
+
+/// The widest gap.
+struct Found {
+  Sample at;
+  DistanceStatus status;
+  double bound;  ///< for cores that overlap: along no normal is their gap wider (m)
+};
+
+/// Where a search starts.
+struct Start {
+  Eigen::Vector3d n;         ///< unit
+  std::array<int, 2> patch;  ///< patches near those that own it; -1: not known
+  bool overlap;              ///< whether the cores are likely to overlap
+};
+
+/// Searches from the polyhedra's closest features, from corners around the origin where the cores overlap, or, where
+/// rounding defeats both, by cutting the normals left. `settled` says that `found.at` is a maximum between cores that
+/// overlap, of which there may be others.
+void searchWidely(const BodyPair& pair, const Start& start, bool settled, Found& found, Work& work);
+
+}  // namespace fcl_stpbv

@@ -1,0 +1,101 @@
+// The seams around a patch's region of normals, packed to be tested four at a time.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+
+namespace fcl_stpbv {
+
+/// One side of a patch's region of normals: `n` is inside iff `n.normal <= limit`; past it lies `neighbour`.
+struct Seam {
+  Eigen::Vector3d normal;
+  double limit;
+  int neighbour;
+};
+
+/// The seam that a normal passes furthest: `past` is the largest `n.normal - limit`, <= 0 inside all of them.
+struct Crossing {
+  double past;
+  int neighbour;
+};
+
+/// Up to four seams of one patch; an unused one holds for any normal. A patch with more has another block, which
+/// `next` names.
+struct SeamBlock {
+  static constexpr std::size_t kSize = 4;
+  using Doubles = double __attribute__((vector_size(16)));
+  using Integers = std::int64_t __attribute__((vector_size(16)));
+
+  std::array<Doubles, 2> x{}, y{}, z{}, limit{Doubles{2, 2}, Doubles{2, 2}};
+  std::array<std::int32_t, kSize> neighbour{-1, -1, -1, -1};
+  std::int32_t next = -1;
+
+  void set(std::size_t slot, const Seam& seam) {
+    x[slot / 2][slot % 2] = seam.normal.x();
+    y[slot / 2][slot % 2] = seam.normal.y();
+    z[slot / 2][slot % 2] = seam.normal.z();
+    limit[slot / 2][slot % 2] = seam.limit;
+    neighbour[slot] = seam.neighbour;
+  }
+  Seam seam(std::size_t slot) const {
+    const std::size_t i = slot / 2, k = slot % 2;
+    return {Eigen::Vector3d(x[i][k], y[i][k], z[i][k]), limit[i][k], neighbour[slot]};
+  }
+
+  /// The largest `n.normal - limit` of the four, its slot in place of the two least bits: no branches, two seams at
+  /// once.
+  double past(const Eigen::Vector3d& n) const {
+    constexpr std::array<Integers, 2> slots{Integers{0, 1}, Integers{2, 3}};
+    const auto keys = [&](std::size_t half) {
+      const Doubles p = n.x() * x[half] + n.y() * y[half] + n.z() * z[half] - limit[half];
+      Integers key;
+      std::memcpy(&key, &p, sizeof key);
+      key = (key & ~std::int64_t{kSize - 1}) | slots[half];
+      Doubles tagged;
+      std::memcpy(&tagged, &key, sizeof key);
+      return tagged;
+    };
+    const Doubles low = keys(0), high = keys(1), larger = low > high ? low : high;
+    return larger[0] > larger[1] ? larger[0] : larger[1];
+  }
+
+  /// The slot in what `past` gave.
+  static std::size_t slotOf(double past) {
+    std::uint64_t key;
+    std::memcpy(&key, &past, sizeof key);
+    return key & (kSize - 1);
+  }
+};
+
+/// The seams of one patch, one by one.
+class Seams {
+ public:
+  class Iterator {
+   public:
+    Iterator(const SeamBlock* blocks, std::int32_t block) : blocks_(blocks), block_(block) {}
+    Seam operator*() const { return blocks_[block_].seam(slot_); }
+    Iterator& operator++() {
+      if (++slot_ == SeamBlock::kSize || blocks_[block_].neighbour[slot_] < 0) block_ = blocks_[block_].next, slot_ = 0;
+      return *this;
+    }
+    bool operator!=(const Iterator& other) const { return block_ != other.block_ || slot_ != other.slot_; }
+
+   private:
+    const SeamBlock* blocks_;
+    std::int32_t block_;
+    std::size_t slot_ = 0;
+  };
+
+  Seams(const SeamBlock* blocks, int patch) : blocks_(blocks), first_(blocks[patch].neighbour[0] < 0 ? -1 : patch) {}
+  Iterator begin() const { return {blocks_, first_}; }
+  Iterator end() const { return {blocks_, -1}; }
+
+ private:
+  const SeamBlock* blocks_;
+  std::int32_t first_;
+};
+
+}  // namespace fcl_stpbv
