@@ -92,8 +92,9 @@ Distance distance(const StpBv& a, const Isometry3d& poseA, const StpBv& b, const
   Work work;
   // After a large motion between overlapping cores a hop rarely leads to a maximum.
   const bool settled = !(start.overlap && start.patch[0] < 0) && hop(pair, found.at, work);
-  // Cores that all but touch: a patch reaches past its seam by the rounding of a normal, `rho` times that in metres, which
-  // is a part of the gap and turns the normal by as much. The wide search starts from the vertices, which do not reach.
+  // Cores that all but touch: a patch reaches past its seam by the rounding of a normal, `rho` times that in
+  // metres, which is a part of the gap and turns the normal by as much. The wide search starts from the
+  // vertices, which do not reach past theirs.
   constexpr double kTouching = 1e6;
   if (!settled || !(found.at.core > kTouching * pair.acrossRounding()))
     searchWidely(pair, start, settled && !(found.at.core > 0.0), found, work);

@@ -51,7 +51,8 @@ inline Eigen::Vector3d normalizedOr(const Eigen::Vector3d& d, const Eigen::Vecto
 inline Eigen::Vector3d widestNormal(const PosedPatch& a, const PosedPatch& b, const Eigen::Vector3d& n) {
   if (a.kind == PatchKind::edge || b.kind == PatchKind::edge) return widestNormalOfEdge(a, b, n);
   // Two spheres: along the line of their centres, a face's being `rho` behind its anchor; a vertex has no axis.
-  return normalizedOr((b.patch.anchor - b.radii->rho * b.patch.axis) - (a.patch.anchor - a.radii->rho * a.patch.axis), n);
+  const Eigen::Vector3d from = a.patch.anchor - a.radii->rho * a.patch.axis;
+  return normalizedOr(b.patch.anchor - b.radii->rho * b.patch.axis - from, n);
 }
 
 }  // namespace fcl_stpbv

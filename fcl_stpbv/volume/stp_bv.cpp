@@ -203,7 +203,8 @@ std::size_t StpBv::memory() const {
                       edges_.capacity() * sizeof(Edge) + faces_.capacity() * sizeof(Ring) +
                       faceNormals_.capacity() * sizeof(Vector3d) + patches_.capacity() * sizeof(Patch) +
                       seams_.capacity() * sizeof(SeamBlock) +
-                      stars_.capacity() * sizeof(VertexStar) + (table_.capacity() + vertexTable_.capacity()) * sizeof(std::int32_t);
+                      stars_.capacity() * sizeof(VertexStar) +
+                      (table_.capacity() + vertexTable_.capacity()) * sizeof(std::int32_t);
   for (const Ring& ring : faces_) bytes += ring.capacity() * sizeof(int);
   return bytes;
 }
