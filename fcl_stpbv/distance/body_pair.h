@@ -67,12 +67,7 @@ class BodyPair {
   }
 
   /// Patches near those that own `n` and its opposite: of the vertices furthest along them.
-  std::array<int, 2> near(const Eigen::Vector3d& n) const {
-    const auto vertex = [](const StpBv& body, const Eigen::Vector3d& m) {
-      return body.climb(body.vertexNear(m), m.cast<float>());
-    };
-    return {vertex(a_, n), vertex(b_, opposite(n))};
-  }
+  std::array<int, 2> near(const Eigen::Vector3d& n) const;
 
   /// The gap along `n`; the owners are looked for from `hint`. Adds the patches that changed to `steps`.
   Sample sampleFrom(const Eigen::Vector3d& n, const std::array<int, 2>& hint, int& steps) const;
