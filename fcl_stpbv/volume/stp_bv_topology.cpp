@@ -18,8 +18,8 @@ using Eigen::Vector3d;
 constexpr double kTwoPi = 6.283185307179586476925;
 
 // An edge that turns by more is cut into parts: the seams of a region past half a turn do not intersect in
-// it. A flat plate's rim turns by nearly half a turn and should stay whole.
-constexpr double kWidestPart = 3.15;
+// it, however little it is past. A flat plate's rim turns by nearly half a turn and stays whole.
+constexpr double kWidestPart = 0.5 * kTwoPi;
 
 int partsOf(const StpBv::Edge& edge) {
   return edge.face[0] < 0 || edge.turn <= kWidestPart ? 1 : static_cast<int>(std::ceil(edge.turn / 2.2));

@@ -86,6 +86,27 @@ TEST_CASE("The support function equals the definition by all pairs and triples o
   }
 }
 
+TEST_CASE("An edge that turns by a little more than half a turn owns all its normals") {
+  // Flat obtuse triangles: the longest side turns by half a turn and more, the less so the larger R. Around the plate's
+  // normals that side is what is highest.
+  for (const double apex : {0.03, 0.05, 0.08, 0.095, 0.0999})
+    for (const double R : {1.0, 10.0, 100.0, 1e4, 1e6}) {
+      INFO("apex " << apex << ", R = " << R);
+      const Cloud points{{0, 0, 0}, {0.2, 0, 0}, {0.1, apex, 0}};
+      const StpBv::Ptr volume = StpBv::build(points, {0.01, R});
+      Random random(7);
+      double worst = 0;
+      for (int k = 0; k < 400; ++k) {
+        const double tilt = std::pow(10, -random.uniform(0, 8));
+        const Vector3d n = (Vector3d::UnitZ() + tilt * random.direction()).normalized();
+        const long double expected = bruteSupport(points, 0.01, R, n);
+        worst = std::max(worst, static_cast<double>(std::abs(volume->support(n) - expected)));
+      }
+      CHECK(worst <= 2e-15 * (1 + R));
+      CHECK(verify(*volume, points).message == "ok");
+    }
+}
+
 TEST_CASE("A built volume verifies itself from the smallest radius to a million metres") {
   std::vector<Named> clouds = smallClouds();
   clouds.push_back({"32-gon disc", disc(0.1, 32)});
