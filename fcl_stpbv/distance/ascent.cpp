@@ -69,7 +69,6 @@ Sample climbArc(const BodyPair& pair, const Sample& x, const Vector3d& to, const
 FCL_STPBV_VECTORIZED
 bool settle(const BodyPair& pair, Sample& x, Vector3d& next, Work& work) {
   const PosedPatch a = pair.patchA(x.patch[0]), b = pair.patchB(x.patch[1]);
-  const double flat2 = pair.acrossRounding() * pair.acrossRounding();
   Vector3d n = x.n;
   ++work.pairs;
   for (int attempt = 0; attempt < 2; ++attempt) {  // two tori may need a second go for the last digits
@@ -80,7 +79,7 @@ bool settle(const BodyPair& pair, Sample& x, Vector3d& next, Work& work) {
     // Deep inside each other the pair's other maximum may lie in the same regions; it must not be a step
     // down.
     if (there.core < x.core - pair.gapRounding()) return false;
-    if (there.across.squaredNorm() <= flat2) {
+    if (pair.isStationary(there)) {
       x = there;
       return true;
     }
@@ -91,7 +90,6 @@ bool settle(const BodyPair& pair, Sample& x, Vector3d& next, Work& work) {
 FCL_STPBV_VECTORIZED
 bool hop(const BodyPair& pair, Sample& x, Work& work) {
   constexpr int kTries = 12;  // one to three are usual
-  const double flat2 = pair.acrossRounding() * pair.acrossRounding();
   PosedPatch a = pair.patchA(x.patch[0]), b = pair.patchB(x.patch[1]);
   for (int i = 0; i < kTries; ++i) {
     ++work.pairs;
@@ -100,7 +98,7 @@ bool hop(const BodyPair& pair, Sample& x, Work& work) {
     const Crossing overB = pair.b().crossing(x.patch[1], pair.opposite(x.n));
     if (std::max(overA.past, overB.past) <= kOnSeam) {
       x = BodyPair::sample(x.n, x.patch, a, b);
-      if (x.across.squaredNorm() <= flat2) return true;
+      if (pair.isStationary(x)) return true;
       continue;  // two tori may need a second go for the last digits
     }
     ++work.steps;
@@ -138,11 +136,10 @@ bool settleBeside(const BodyPair& pair, Sample& x, Work& work) {
 
 FCL_STPBV_VECTORIZED
 bool ascend(const BodyPair& pair, Sample& x, Work& work) {
-  const double flat2 = pair.acrossRounding() * pair.acrossRounding();
   for (int i = 0; i < kMaxPairs; ++i) {
     Vector3d next;
     if (settle(pair, x, next, work)) return true;
-    if (x.across.squaredNorm() <= flat2) return true;  // on a seam, to rounding
+    if (pair.isStationary(x)) return true;  // on a seam, to rounding
 
     Sample y;
     if (next.dot(x.n) > 0.1) {

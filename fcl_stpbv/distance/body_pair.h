@@ -82,6 +82,11 @@ class BodyPair {
   /// as far (m).
   double acrossRounding() const { return acrossRounding_; }
 
+  /// Whether the gap is as wide as it gets near the sample's normal: its gradient is rounding.
+  bool isStationary(const Sample& s) const {
+    return s.across.squaredNorm() <= acrossRounding_ * acrossRounding_;
+  }
+
  private:
   const StpBv& a_;
   const StpBv& b_;

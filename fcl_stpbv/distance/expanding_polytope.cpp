@@ -35,10 +35,6 @@ std::array<Vector3d, 3> around(const Vector3d& n) {
   return {e, f - 0.5 * e, -f - 0.5 * e};
 }
 
-bool isMaximum(const BodyPair& pair, const Sample& x) {
-  return x.across.squaredNorm() <= pair.acrossRounding() * pair.acrossRounding();
-}
-
 /// The points supporting normals a little off a maximum: what the polytope would find last, and with them it
 /// is close to the surface there.
 std::array<Vector3d, 3> pointsAround(const BodyPair& pair, const Sample& top, Work& work) {
@@ -66,8 +62,6 @@ class Search {
   void add(const Vector3d& p) {
     if (polytope_.sound()) polytope_.expand(p);
   }
-
-  bool sound() const { return polytope_.sound(); }
 
   /// Expands where the surface is nearest; true once nothing is nearer than the maximum in `x`.
   bool run(double& bound) {
@@ -134,7 +128,7 @@ bool expandPolytope(const BodyPair& pair, Sample& x, double& bound, Work& work) 
   for (std::size_t i = 0; i < 3; ++i) ring[i] = vertexDifference(pair, (x.n - kRing * m[i]).normalized());
   Search search(pair, {ring[0], ring[1], ring[2], vertexDifference(pair, -x.n)}, Polytope::Origin::anywhere,
                 x, work);
-  if (isMaximum(pair, x))
+  if (pair.isStationary(x))
     search.addTop(x);
   else
     search.add(vertexDifference(pair, x.n));

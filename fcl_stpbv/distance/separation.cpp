@@ -29,15 +29,14 @@ CoreContact separateCores(const BodyPair& pair, Sample& x, Work& work) {
 }
 
 bool bisectToWidest(const BodyPair& pair, Sample& x, Work& work) {
-  const double flat2 = pair.acrossRounding() * pair.acrossRounding();
   NormalCone cone(x.core * x.n + x.across);
-  if (!cone.cut(x.across)) return x.across.squaredNorm() <= flat2;
+  if (!cone.cut(x.across)) return pair.isStationary(x);
   Sample flattest = x;
   for (int i = 0; i < NormalCone::kMaxCuts - 1; ++i) {
     Sample trial = pair.sampleFrom(cone.middle(), x.patch, work.steps);
     if (trial.core > x.core) x = trial;
     if (trial.core > 0.0 && trial.across.squaredNorm() < flattest.across.squaredNorm()) flattest = trial;
-    if (flattest.across.squaredNorm() <= flat2) break;
+    if (pair.isStationary(flattest)) break;
     const Vector3d gradient = trial.core > 0.0 ? trial.across : Vector3d(trial.core * trial.n + trial.across);
     Vector3d next;
     if (trial.core > 0.0 && settle(pair, trial, next, work)) {
@@ -49,7 +48,7 @@ bool bisectToWidest(const BodyPair& pair, Sample& x, Work& work) {
   // The gap is flat at its top, so its gradient tells the better normal where the values are equal to
   // rounding.
   if (flattest.core >= x.core - pair.gapRounding()) x = flattest;
-  return x.across.squaredNorm() <= flat2;
+  return pair.isStationary(x);
 }
 
 }  // namespace fcl_stpbv

@@ -17,8 +17,7 @@ namespace {
 /// From any start along which the cores are apart: the widest gap.
 Found climb(const BodyPair& pair, Sample x, Work& work) {
   if (!ascend(pair, x, work) && !settleBeside(pair, x, work)) bisectToWidest(pair, x, work);
-  const bool flat = x.across.squaredNorm() <= pair.acrossRounding() * pair.acrossRounding();
-  return {x, flat ? DistanceStatus::exact : DistanceStatus::bounded, 0.0};
+  return {x, pair.isStationary(x) ? DistanceStatus::exact : DistanceStatus::bounded, 0.0};
 }
 
 /// From the polyhedra's closest features to the smooth ones (paper IV.B), and on from there.
