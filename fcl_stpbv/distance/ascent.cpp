@@ -9,10 +9,6 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// A normal this far past a seam still counts as inside: it is rounded to 2e-16 itself, as is the dot product
-/// that tells, and both patches agree there to the second order.
-constexpr double kOnSeam = 1e-15;
-
 constexpr int kMaxPairs =
     40;  // two to four are usual; see docs/theory.md, 5 for what follows when they do not do
 
@@ -69,10 +65,11 @@ Sample climbArc(const BodyPair& pair, const Sample& x, const Vector3d& to, const
 FCL_STPBV_VECTORIZED
 bool settle(const BodyPair& pair, Sample& x, Vector3d& next, Work& work) {
   const PosedPatch a = pair.patchA(x.patch[0]), b = pair.patchB(x.patch[1]);
-  Vector3d n = x.n;
+  Packed n = pack(x.n);
   ++work.pairs;
   for (int attempt = 0; attempt < 2; ++attempt) {  // two tori may need a second go for the last digits
-    next = n = widestNormal(a, b, n);
+    n = widestNormal(a, b, n).unit();
+    next = unpack(n);
     if (pair.a().outside(x.patch[0], n) > kOnSeam || pair.b().outside(x.patch[1], pair.opposite(n)) > kOnSeam)
       return false;
     const Sample there = BodyPair::sample(n, x.patch, a, b);
@@ -83,29 +80,6 @@ bool settle(const BodyPair& pair, Sample& x, Vector3d& next, Work& work) {
       x = there;
       return true;
     }
-  }
-  return false;
-}
-
-FCL_STPBV_VECTORIZED
-bool hop(const BodyPair& pair, Sample& x, Work& work) {
-  constexpr int kTries = 12;  // one to three are usual
-  PosedPatch a = pair.patchA(x.patch[0]), b = pair.patchB(x.patch[1]);
-  for (int i = 0; i < kTries; ++i) {
-    ++work.pairs;
-    x.n = widestNormal(a, b, x.n);
-    const Crossing overA = pair.a().crossing(x.patch[0], x.n);
-    const Crossing overB = pair.b().crossing(x.patch[1], pair.opposite(x.n));
-    if (std::max(overA.past, overB.past) <= kOnSeam) {
-      x = BodyPair::sample(x.n, x.patch, a, b);
-      if (pair.isStationary(x)) return true;
-      continue;  // two tori may need a second go for the last digits
-    }
-    ++work.steps;
-    if (overA.past >= overB.past)
-      a = pair.patchA(x.patch[0] = overA.neighbour);
-    else
-      b = pair.patchB(x.patch[1] = overB.neighbour);
   }
   return false;
 }

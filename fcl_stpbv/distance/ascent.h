@@ -11,14 +11,13 @@ struct Work {
   int steps = 0;  ///< patches changed
 };
 
+/// A normal this far past a seam still counts as inside: it is rounded to 2e-16 itself, as is the dot product
+/// that tells, and both patches agree there to the second order.
+constexpr double kOnSeam = 1e-15;
+
 /// True when the widest normal of the sample's own patch pair stays in the regions of both: then it is a
 /// maximum of the gap. On success `x` is moved there; otherwise `next` is that normal.
 bool settle(const BodyPair& pair, Sample& x, Eigen::Vector3d& next, Work& work);
-
-/// Settles on a patch pair near the sample's own: over the seam that the widest normal passes furthest, on either
-/// body, to the next pair, without a look at the gap. A maximum that it finds between cores apart is the only
-/// one; that it does not find one, as between overlapping cores, proves nothing.
-bool hop(const BodyPair& pair, Sample& x, Work& work);
 
 /// Like `settle`, of the patches across the seams that the way to the sample's own widest normal crosses: for
 /// a maximum in a region so narrow (an edge's is its length over R wide) that the gap grows by less than its

@@ -21,10 +21,13 @@ struct Sample {
   Eigen::Vector3d across;    ///< gradient of the gap on the sphere: core points' difference across `n` (m)
   Eigen::Vector3d point;     ///< the first core's point (m)
 
-  /// A start for `settle` and `hop`, which any gap is better than.
+  /// A start for `settle`, which any gap is better than.
   static Sample unevaluated(const Eigen::Vector3d& n, const std::array<int, 2>& patch) {
-    const Eigen::Vector3d none(0, 0, 0);
-    return {n, patch, -std::numeric_limits<double>::infinity(), none, none};
+    Sample s;
+    s.n = n;
+    s.patch = patch;
+    s.core = -std::numeric_limits<double>::infinity();
+    return s;
   }
 };
 
@@ -33,37 +36,44 @@ struct Sample {
 class BodyPair {
  public:
   /// `rotation` and `translation` place the second body in the first one's frame; `rotation` is orthonormal.
-  BodyPair(const StpBv& a, const StpBv& b, const Rotation& rotation, const Eigen::Vector3d& translation)
+  BodyPair(const StpBv& a, const StpBv& b, const Rotation& rotation, const Packed& translation)
       : a_(a), b_(b), rotation_(rotation), translation_(translation) {
     constexpr double kRounding = 8.0 * std::numeric_limits<double>::epsilon();
-    gapRounding_ = kRounding * (a.extent() + b.extent() + translation.lpNorm<1>());
+    gapRounding_ = kRounding * (a.extent() + b.extent() + unpack(translation).lpNorm<1>());
     acrossRounding_ = gapRounding_ + kRounding * (a.radii().rho + b.radii().rho);
   }
 
   const StpBv& a() const { return a_; }
   const StpBv& b() const { return b_; }
   const Rotation& rotation() const { return rotation_; }
-  const Eigen::Vector3d& translation() const { return translation_; }
+  Eigen::Vector3d translation() const { return unpack(translation_); }
 
   /// The second body's outward normal, in its own frame, where the first body's is `n`.
-  Eigen::Vector3d opposite(const Eigen::Vector3d& n) const { return rotation_.inverse(-n); }
+  Eigen::Vector3d opposite(const Eigen::Vector3d& n) const { return rotation_.inverse(Eigen::Vector3d(-n)); }
+  Packed opposite(const Packed& n) const { return rotation_.inverse(-n); }
 
-  PosedPatch patchA(int patch) const { return {a_.patch(patch), a_.kind(patch), &a_.radii()}; }
+  PosedPatch patchA(int patch) const {
+    const Patch& p = a_.patch(patch);
+    return {pack(p.anchor), pack(p.axis), p.kappa, p.sag, a_.kind(patch), &a_.radii()};
+  }
   PosedPatch patchB(int patch) const {
     const Patch& p = b_.patch(patch);
-    return {{rotation_ * p.anchor + translation_, rotation_ * p.axis, p.kappa, p.sag},
+    return {rotation_ * pack(p.anchor) + translation_,
+            rotation_ * pack(p.axis),
+            p.kappa,
+            p.sag,
             b_.kind(patch),
             &b_.radii()};
   }
 
   /// The gap along `n` when these two patches own it; the second form for patches already posed.
   Sample sample(const Eigen::Vector3d& n, const std::array<int, 2>& patch) const {
-    return sample(n, patch, patchA(patch[0]), patchB(patch[1]));
+    return sample(pack(n), patch, patchA(patch[0]), patchB(patch[1]));
   }
-  static Sample sample(const Eigen::Vector3d& n, const std::array<int, 2>& patch, const PosedPatch& a,
+  static Sample sample(const Packed& n, const std::array<int, 2>& patch, const PosedPatch& a,
                        const PosedPatch& b) {
     const CoreGap gap = coreGap(a, b, n);
-    return {n, patch, gap.value, gap.across(n), gap.point};
+    return {unpack(n), patch, gap.value, unpack(gap.across), unpack(gap.point)};
   }
 
   /// Patches near those that own `n` and its opposite: of the vertices furthest along them.
@@ -91,7 +101,7 @@ class BodyPair {
   const StpBv& a_;
   const StpBv& b_;
   Rotation rotation_;
-  Eigen::Vector3d translation_;
+  Packed translation_;
   double gapRounding_;
   double acrossRounding_;
 };

@@ -6,6 +6,7 @@
 
 #include "fcl_stpbv/distance/ascent.h"
 #include "fcl_stpbv/distance/body_pair.h"
+#include "fcl_stpbv/distance/orthonormal.h"
 #include "fcl_stpbv/distance/wide_search.h"
 #include "fcl_stpbv/vectorized.h"
 
@@ -18,31 +19,10 @@ namespace {
 
 constexpr std::array<int, 2> kNoHint{-1, -1};
 
-/// Makes the nearly orthonormal axes of a rotation orthonormal: poses come from integrated joints, files and single
-/// precision. False for axes that are not finite or no rotation's.
-bool orthonormalize(Vector3d& x, Vector3d& y, Vector3d& z) {
-  constexpr double kFine = 4e-15;  // the rounding of the product of two rotations
-  constexpr double kOneStep = 1e-8, kRotation = 0.1;
-  for (int i = 0; i < 5; ++i) {
-    const double xx = x.dot(x) - 1.0, yy = y.dot(y) - 1.0, zz = z.dot(z) - 1.0;
-    const double xy = x.dot(y), yz = y.dot(z), zx = z.dot(x);
-    const double off2 = xx * xx + yy * yy + zz * zz + 2.0 * (xy * xy + yz * yz + zx * zx);
-    if (!(off2 < kRotation * kRotation)) return false;  // also what is not a number
-    if (off2 <= kFine * kFine) return true;
-    // Newton for the polar factor, q (3 - q^T q) / 2: the error squares.
-    const Vector3d dx = xx * x + xy * y + zx * z, dy = xy * x + yy * y + yz * z, dz = zx * x + yz * y + zz * z;
-    x -= 0.5 * dx;
-    y -= 0.5 * dy;
-    z -= 0.5 * dz;
-    if (off2 <= kOneStep * kOneStep) return true;
-  }
-  return true;
-}
-
 /// `n` of unit length, without the root where it is already close.
-Vector3d renormalized(const Vector3d& n) {
-  const double length2 = n.squaredNorm();
-  return std::abs(length2 - 1.0) < 1e-8 ? Vector3d((1.5 - 0.5 * length2) * n) : n.normalized();
+Packed renormalized(const Packed& n) {
+  const double length2 = dot(n, n);
+  return n * (std::abs(length2 - 1.0) < 1e-8 ? 1.5 - 0.5 * length2 : 1.0 / std::sqrt(length2));
 }
 
 /// The first guess when nothing is remembered: from centre to centre.
@@ -52,22 +32,51 @@ Vector3d centreLine(const BodyPair& pair) {
   return length > 0.0 ? Vector3d(d / length) : Vector3d::UnitX();
 }
 
-/// The patches that `memory` names, which a small motion carries along with the bodies; after a large one the
-/// world's normal is the better memory, and none are named.
-std::array<int, 2> carried(const BodyPair& pair, const Vector3d& n, const std::array<int, 2>& memory) {
-  constexpr double kSmallMotion = 0.1;  // rad from the last normal to the region of the patch, which has moved
-  const auto near = [](const StpBv& body, int patch, const Vector3d& m) {
-    return patch >= 0 && patch < body.patchCount() && body.outside(patch, m) <= kSmallMotion;
+/// Whether the bodies have turned by so little under the last normal that the patches which owned it are near
+/// those that do now; after a large motion the normal alone is the better memory.
+bool turnedLittle(const BodyPair& pair, const Packed& n, const PairCache& cache) {
+  constexpr double kLittle = 0.1;  // rad
+  const auto little = [](const StpBv& body, int patch, const Packed& now, const Eigen::Vector3f& then) {
+    const Packed turn = now - pack(then.cast<double>());
+    return patch >= 0 && patch < body.patchCount() && (dot(turn, turn) <= kLittle * kLittle || then.isZero());
   };
-  return near(pair.a(), memory[0], n) && near(pair.b(), memory[1], pair.opposite(n)) ? memory : kNoHint;
+  return little(pair.a(), cache.patch[0], n, cache.seen[0]) &&
+         little(pair.b(), cache.patch[1], pair.opposite(n), cache.seen[1]);
 }
 
 Start startOf(const BodyPair& pair, const Rotation& toWorld, const PairCache* cache) {
-  const Vector3d last = cache ? toWorld.inverse(cache->normal) : Vector3d(0, 0, 0);
-  const double length2 = last.squaredNorm();
+  const Packed last = cache ? toWorld.inverse(pack(cache->normal)) : Packed{};
+  const double length2 = dot(last, last);
   if (!(length2 > 0.25 && length2 < 4.0)) return {centreLine(pair), kNoHint, false};
-  const Vector3d n = renormalized(last);
-  return {n, carried(pair, n, cache->patch), cache->overlap};
+  const Packed n = renormalized(last);
+  return {unpack(n), turnedLittle(pair, n, *cache) ? cache->patch : kNoHint, cache->overlap};
+}
+
+/// Settles on a patch pair near the given one: over the seam that the widest normal passes furthest, on
+/// either body, to the next pair, without a look at the gap. A maximum that it finds between cores apart is
+/// the only one; that it does not find one, as between overlapping cores, proves nothing.
+bool hop(const BodyPair& pair, const Eigen::Vector3d& from, std::array<int, 2> patch, Sample& x, Work& work) {
+  constexpr int kTries = 12;  // one to three are usual
+  PosedPatch a = pair.patchA(patch[0]), b = pair.patchB(patch[1]);
+  Packed n = pack(from);
+  for (int i = 0; i < kTries; ++i) {
+    ++work.pairs;
+    const Heading to = widestNormal(a, b, n);
+    n = to.unit();
+    const Crossing overA = pair.a().crossing(patch[0], to.d, to.length),
+                   overB = pair.b().crossing(patch[1], pair.opposite(to.d), to.length);
+    if (std::max(overA.past, overB.past) <= kOnSeam * to.length) {
+      x = BodyPair::sample(n, patch, a, b);
+      if (pair.isStationary(x)) return true;
+      continue;  // two tori may need a second go for the last digits
+    }
+    ++work.steps;
+    if (overA.past >= overB.past)
+      a = pair.patchA(patch[0] = overA.neighbour);
+    else
+      b = pair.patchB(patch[1] = overB.neighbour);
+  }
+  return false;
 }
 
 }  // namespace
@@ -79,19 +88,25 @@ Distance distance(const StpBv& a, const Isometry3d& poseA, const StpBv& b, const
   Distance result;
   result.lower = -std::numeric_limits<double>::infinity();
   result.upper = std::numeric_limits<double>::infinity();
-  const Rotation toWorld(poseA.linear());
-  Vector3d x = toWorld.inverse(poseB.linear().col(0)), y = toWorld.inverse(poseB.linear().col(1)),
-           z = toWorld.inverse(poseB.linear().col(2));
-  const Vector3d translation = toWorld.inverse(poseB.translation() - poseA.translation());
-  if (!orthonormalize(x, y, z) || !(translation.squaredNorm() < kHuge)) return result;
+  const Rotation toWorld(poseA);
+  Rotation rotation(toWorld.inverse(column(poseB, 0)), toWorld.inverse(column(poseB, 1)),
+                    toWorld.inverse(column(poseB, 2)));
+  if (!rotation.orthonormal()) {
+    Eigen::Matrix3d matrix = rotation.matrix();
+    if (!makeOrthonormal(matrix)) return result;
+    rotation = Rotation(matrix);
+  }
+  const Packed originA = column(poseA, 3), translation = toWorld.inverse(column(poseB, 3) - originA);
+  if (!(dot(translation, translation) < kHuge)) return result;
 
-  const BodyPair pair(a, b, Rotation(x, y, z), translation);
+  const BodyPair pair(a, b, rotation, translation);
   const Start start = startOf(pair, toWorld, cache);
-  Found found{Sample::unevaluated(start.n, start.patch[0] >= 0 ? start.patch : pair.near(start.n)),
-              DistanceStatus::exact, 0.0};
+  const bool carried = start.patch[0] >= 0;
+  Found found;
   Work work;
   // After a large motion between overlapping cores a hop rarely leads to a maximum.
-  const bool settled = !(start.overlap && start.patch[0] < 0) && hop(pair, found.at, work);
+  const bool settled = (carried || !start.overlap) &&
+                       hop(pair, start.n, carried ? start.patch : pair.near(start.n), found.at, work);
   // Cores that all but touch: a patch reaches past its seam by the rounding of a normal, `rho` times that in
   // metres, which is a part of the gap and turns the normal by as much. The wide search starts from the
   // vertices, which do not reach past theirs.
@@ -108,15 +123,17 @@ Distance distance(const StpBv& a, const Isometry3d& poseA, const StpBv& b, const
       pair.margins();
   result.distance = result.lower;
   result.patch = at.patch;
-  result.normal = renormalized(toWorld * at.n);
-  result.point[0] = poseA.translation() + toWorld * (at.point + a.radii().r * at.n);
-  result.point[1] = poseA.translation() + toWorld * (at.point + at.across + (at.core - b.radii().r) * at.n);
+  const Packed n = pack(at.n), pointA = pack(at.point), pointB = pointA + pack(at.across) + at.core * n;
+  result.normal = unpack(renormalized(toWorld * n));
+  result.point[0] = unpack(originA + toWorld * (pointA + a.radii().r * n));
+  result.point[1] = unpack(originA + toWorld * (pointB - b.radii().r * n));
   result.patchPairs = work.pairs;
   result.patchSteps = work.steps;
   if (cache) {
     cache->normal = result.normal;
     cache->patch = result.patch;
     cache->overlap = at.core <= 0.0;
+    cache->seen = {unpack(n).cast<float>(), unpack(pair.opposite(n)).cast<float>()};
   }
   return result;
 }

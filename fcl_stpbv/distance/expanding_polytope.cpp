@@ -47,6 +47,34 @@ std::array<Vector3d, 3> pointsAround(const BodyPair& pair, const Sample& top, Wo
   return points;
 }
 
+/// Three points around a maximum, as many off it and one behind: the faces between them close a surface
+/// around the origin.
+struct Crown {
+  std::array<Vector3d, 3> top, ring;
+  Vector3d behind;
+
+  /// Whether all faces but the one between the top's points are at least `depth` from the origin, and so no
+  /// direction leads out of the body sooner but through that one. Nothing else is asked of the points: a
+  /// closed surface whose faces all have the origin on their inner side is met by every ray from it.
+  bool holds(double depth) const {
+    const auto beyond = [&](const Vector3d& p, const Vector3d& q, const Vector3d& r) {
+      const Packed corner = pack(p), normal = cross(pack(q) - corner, pack(r) - corner);
+      const double height = dot(normal, corner);
+      return height > 0.0 && height * height >= depth * depth * dot(normal, normal);
+    };
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
+      if (!beyond(top[i], top[j], ring[k]) || !beyond(ring[j], top[i], ring[k]) ||
+          !beyond(ring[i], ring[j], behind))
+        return false;
+    }
+    return true;
+  }
+
+  /// Distance from the origin of the face between the top's points.
+  double topDistance() const { return -(top[1] - top[0]).cross(top[2] - top[0]).normalized().dot(top[0]); }
+};
+
 class Search {
  public:
   Search(const BodyPair& pair, const std::array<Vector3d, 4>& corner, Polytope::Origin origin, Sample& x,
@@ -54,8 +82,8 @@ class Search {
       : pair_(pair), polytope_(corner, origin), x_(x), work_(work) {}
 
   /// Takes in the points around a maximum; the face between them needs no look.
-  void addTop(const Sample& top) {
-    for (const Vector3d& p : pointsAround(pair_, top, work_)) add(p);
+  void addTop(const std::array<Vector3d, 3>& points) {
+    for (const Vector3d& p : points) add(p);
     least_ = std::min(least_, polytope_.putLastAside());
   }
 
@@ -99,7 +127,7 @@ class Search {
       least_ = std::min(least_, nearest.distance);
       polytope_.putAside();
     } else if (another) {
-      addTop(trial);
+      addTop(pointsAround(pair_, trial, work_));
     }
     return true;
   }
@@ -124,12 +152,23 @@ bool expandPolytope(const BodyPair& pair, Sample& x, double& bound, Work& work) 
   // Three points off the normal and one behind; beside the points around a maximum at the normal they make
   // sides flat enough not to come nearer to the origin than the top does, on most bodies.
   const std::array<Vector3d, 3> m = around(x.n);
-  std::array<Vector3d, 3> ring;
-  for (std::size_t i = 0; i < 3; ++i) ring[i] = vertexDifference(pair, (x.n - kRing * m[i]).normalized());
-  Search search(pair, {ring[0], ring[1], ring[2], vertexDifference(pair, -x.n)}, Polytope::Origin::anywhere,
+  Crown crown;
+  for (std::size_t i = 0; i < 3; ++i)
+    crown.ring[i] = vertexDifference(pair, (x.n - kRing * m[i]).normalized());
+  crown.behind = vertexDifference(pair, -x.n);
+  const bool top = pair.isStationary(x);
+  if (top) {
+    crown.top = pointsAround(pair, x, work);
+    const double depth = -x.core - pair.gapRounding();
+    if (crown.holds(depth)) {
+      bound = -std::max(0.0, std::min(crown.topDistance(), depth));
+      return true;
+    }
+  }
+  Search search(pair, {crown.ring[0], crown.ring[1], crown.ring[2], crown.behind}, Polytope::Origin::anywhere,
                 x, work);
-  if (pair.isStationary(x))
-    search.addTop(x);
+  if (top)
+    search.addTop(crown.top);
   else
     search.add(vertexDifference(pair, x.n));
   if (search.run(bound)) return true;

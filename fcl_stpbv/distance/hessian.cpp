@@ -25,7 +25,8 @@ Matrix3d cross(const Vector3d& v) {
 /// curvature of the surface, zero along `n`.
 Matrix3d surfaceCurvature(const StpBv& body, const Isometry3d& pose, int patch, const Vector3d& n) {
   const Patch& p = body.patch(patch);
-  const PosedPatch posed{{p.anchor, pose.linear() * p.axis, p.kappa, p.sag}, body.kind(patch), &body.radii()};
+  const PosedPatch posed{pack(p.anchor), pack(pose.linear() * p.axis), p.kappa, p.sag, body.kind(patch),
+                         &body.radii()};
   return coreCurvature(posed, n) + body.radii().r * (Matrix3d::Identity() - n * n.transpose());
 }
 

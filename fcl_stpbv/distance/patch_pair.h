@@ -1,58 +1,76 @@
-// Two patches in one frame: the gap between them along a normal, and the normal where it is widest.
+// The normal along which two patches are furthest apart.
 #pragma once
 
 #include <Eigen/Core>
 #include <cmath>
 #include <limits>
 
-#include "fcl_stpbv/volume/patch.h"
+#include "fcl_stpbv/distance/core_gap.h"
 
 namespace fcl_stpbv {
 
-/// A patch with all that its formula needs, in whatever frame its anchor and axis are given.
-struct PosedPatch {
-  Patch patch;
-  PatchKind kind;
-  const Radii* radii;  ///< the body's
-};
-
-/// The gap between two patches along one normal, without their margins.
-struct CoreGap {
-  double value;                ///< between the supporting planes, `s(n) + r_A + r_B` (m)
-  Eigen::Vector3d point;       ///< the first patch's, in the patches' frame (m)
-  Eigen::Vector3d difference;  ///< from it to the second patch's (m)
-
-  /// Gradient of the gap over the sphere of normals: what of the points' difference lies across `n` (m).
-  Eigen::Vector3d across(const Eigen::Vector3d& n) const { return difference - difference.dot(n) * n; }
-};
-
-/// The gap along the unit normal `n` from `a` to `b`, the patches continued over the whole sphere of normals
-/// (docs/theory.md, 5).
-CoreGap coreGap(const PosedPatch& a, const PosedPatch& b, const Eigen::Vector3d& n);
-
-/// The unit normal at which the gap is widest, seen from `n`: closed form for spheres and one torus, Newton
-/// on the sphere for two tori (docs/theory.md, 5). Where every normal is as good (coincident centres), `n`
-/// itself.
-inline Eigen::Vector3d widestNormal(const PosedPatch& a, const PosedPatch& b, const Eigen::Vector3d& n);
-
-/// The same where at least one of the patches is an edge's.
-Eigen::Vector3d widestNormalOfEdge(const PosedPatch& a, const PosedPatch& b, const Eigen::Vector3d& n);
+/// Turns `n` to the widest normal of two edges' patches: two tori, in closed form but for a few passes where
+/// their axes cross, else by Newton on the sphere (docs/theory.md, 5).
+void turnToWidestOfEdges(const PosedPatch& a, const PosedPatch& b, Packed& n);
 
 /// Radii of curvature of the patch's core at its outward normal `n`, as a matrix on the tangent plane: the
 /// second derivative of its support function (m).
 Eigen::Matrix3d coreCurvature(const PosedPatch& p, const Eigen::Vector3d& n);
 
-/// `d` of unit length, or `otherwise` where it has none.
-inline Eigen::Vector3d normalizedOr(const Eigen::Vector3d& d, const Eigen::Vector3d& otherwise) {
-  const double length2 = d.squaredNorm();
-  return length2 > std::numeric_limits<double>::min() ? Eigen::Vector3d(d / std::sqrt(length2)) : otherwise;
+/// A direction not yet made a unit vector: what is asked of it first, on which side of seams it lies, does
+/// not wait for the division.
+struct Heading {
+  Packed d;
+  double length;  ///< of `d`, positive
+
+  Packed unit() const { return d / length; }
+};
+
+/// The heading of `d`, or the unit vector `otherwise` where it has none.
+inline Heading headingOr(const Packed& d, const Packed& otherwise) {
+  using Limits = std::numeric_limits<double>;
+  const double length2 = dot(d, d);
+  if (!(length2 > Limits::min())) return {otherwise, 1.0};
+  if (length2 > Limits::max()) {  // bodies of astronomic size
+    const Packed small = 1e-150 * d;
+    return {small, std::sqrt(dot(small, small))};
+  }
+  return {d, std::sqrt(length2)};
 }
 
-inline Eigen::Vector3d widestNormal(const PosedPatch& a, const PosedPatch& b, const Eigen::Vector3d& n) {
-  if (a.kind == PatchKind::edge || b.kind == PatchKind::edge) return widestNormalOfEdge(a, b, n);
-  // Two spheres: along the line of their centres, a face's being `rho` behind its anchor; a vertex has no axis.
-  const Eigen::Vector3d from = a.patch.anchor - a.radii->rho * a.patch.axis;
-  return normalizedOr(b.patch.anchor - b.radii->rho * b.patch.axis - from, n);
+/// A circle and a point (torus against sphere). `d` runs from the first centre to the second; which of the
+/// two the circle belongs to does not matter, since it only enters through `kappa |P n|`.
+inline Heading circlePoint(const PosedPatch& circle, const Packed& d, const Packed& n) {
+  const double along = dot(d, circle.axis);
+  Packed across = d - along * circle.axis;
+  double distance2 = dot(across, across);
+  const double length2 = along * along + distance2;
+  if (distance2 < 0.5 * length2) {
+    // A point near the axis' line leaves rounding along it in `across`, which the large `kappa` would
+    // magnify.
+    across -= dot(across, circle.axis) * circle.axis;
+    distance2 = dot(across, across);
+  }
+  if (!(distance2 > 1e-30 * length2)) {  // on the axis: any direction across is as good, so the last one
+    const Packed e = headingOr(n - dot(n, circle.axis) * circle.axis, n).unit();
+    return headingOr(along * circle.axis + circle.kappa * e, n);
+  }
+  const double distance = std::sqrt(distance2);
+  return headingOr(distance * along * circle.axis + (distance + circle.kappa) * across, n);
+}
+
+/// The normal at which the gap is widest, the patches continued over the whole sphere of normals, seen from
+/// the unit vector `n`: closed form for spheres and one torus (docs/theory.md, 5). Where every normal is as
+/// good (coincident centres), `n` itself.
+inline Heading widestNormal(const PosedPatch& a, const PosedPatch& b, const Packed& n) {
+  const bool circleA = a.kind == PatchKind::edge, circleB = b.kind == PatchKind::edge;
+  if (circleA && circleB) {
+    Packed widest = n;
+    turnToWidestOfEdges(a, b, widest);
+    return {widest, 1.0};
+  }
+  const Packed d = b.centre() - a.centre();
+  return circleA || circleB ? circlePoint(circleA ? a : b, d, n) : headingOr(d, n);
 }
 
 }  // namespace fcl_stpbv

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <limits>
+
+#include "fcl_stpbv/distance/packed.h"
 
 namespace fcl_stpbv {
 
@@ -17,10 +19,9 @@ class Polytope {
   static constexpr Index kNone = 0xffff;
 
   struct Face {
-    std::array<Index, 3> corner;  // counter-clockwise from outside; corner[0] is kNone once the face is gone
-    std::array<Index, 3> across;  // what lies across the side from corner k to the next: face * 4 + its side
-    Eigen::Vector3d normal;       // unit, outward
-    double distance;              // of its plane from the origin, negative with the origin beyond it
+    Eigen::Vector3d normal;       ///< unit, outward
+    double distance;              ///< of its plane from the origin, negative with the origin beyond it
+    std::array<Index, 3> corner;  ///< counter-clockwise from outside
   };
 
   /// Whether the origin must be inside from the start; rounding that puts it outside then ends the search.
@@ -28,8 +29,8 @@ class Polytope {
 
   explicit Polytope(const std::array<Eigen::Vector3d, 4>& corner, Origin origin = Origin::inside)
       : origin_(origin) {
-    for (const Eigen::Vector3d& p : corner) point_[static_cast<std::size_t>(points_++)] = p;
-    const bool flip = (corner[1] - corner[0]).cross(corner[2] - corner[0]).dot(corner[3] - corner[0]) > 0.0;
+    for (const Eigen::Vector3d& p : corner) point_[at(points_++)] = pack(p);
+    const bool flip = dot(cross(point(1) - point(0), point(2) - point(0)), point(3) - point(0)) > 0.0;
     const Index i1 = flip ? 2 : 1, i2 = flip ? 1 : 2;
     sound_ = set(0, 0, i1, i2) && set(1, 0, i2, 3) && set(2, i2, i1, 3) && set(3, i1, 0, 3);
     faces_ = 4;
@@ -45,9 +46,7 @@ class Polytope {
     nearest_ = 0;
     for (std::size_t i = 1; i < static_cast<std::size_t>(faces_); ++i)
       if (rank_[i] < rank_[nearest_]) nearest_ = i;
-    Face f = face_[nearest_];
-    f.distance = rank_[nearest_];
-    return f;
+    return {unpack(face_[nearest_].normal), rank_[nearest_], face_[nearest_].corner};
   }
 
   /// Takes the face that nearest() gave out of the search.
@@ -57,8 +56,8 @@ class Polytope {
   /// is none.
   double putLastAside() {
     for (std::size_t i = 0; i < static_cast<std::size_t>(faces_); ++i)
-      if (const Face& f = face_[i]; f.corner[0] != kNone && f.corner[0] >= points_ - 3 &&
-                                    f.corner[1] >= points_ - 3 && f.corner[2] >= points_ - 3) {
+      if (const Triangle& f = face_[i]; f.corner[0] != kNone && f.corner[0] >= points_ - 3 &&
+                                        f.corner[1] >= points_ - 3 && f.corner[2] >= points_ - 3) {
         rank_[i] = std::numeric_limits<double>::infinity();
         return f.distance;
       }
@@ -67,10 +66,11 @@ class Polytope {
 
   /// Takes `p` into the hull. False where it is inside already, or in a face's plane to rounding, or without
   /// room.
-  bool expand(const Eigen::Vector3d& p) {
+  bool expand(const Eigen::Vector3d& outside) {
     if (points_ == kMaxPoints) return sound_ = false;
-    const double size = p.lpNorm<1>();
-    const auto sees = [&](int i) { return face(i).normal.dot(p) - face(i).distance > flat_[at(i)] * size; };
+    const Packed p = pack(outside);
+    const double size = outside.lpNorm<1>();
+    const auto sees = [&](int i) { return dot(face(i).normal, p) - face(i).distance > face(i).flat * size; };
     int first = static_cast<int>(nearest_);
     if (face(first).corner[0] == kNone || !sees(first))
       for (first = 0; first < faces_ && (face(first).corner[0] == kNone || !sees(first));) ++first;
@@ -82,7 +82,7 @@ class Polytope {
     std::array<Index, kMaxFaces> horizon;
     int opened = 0, sides = 0;
     const auto enter = [&](int i, int side, int count) {
-      Face& f = face(i);
+      Triangle& f = face(i);
       for (int k = count; k > 0; --k) open[at(opened++)] = f.across[at(kTurn[at(side + k)])];
       f.corner[0] = kNone;
       rank_[at(i)] = std::numeric_limits<double>::infinity();
@@ -102,6 +102,14 @@ class Polytope {
   }
 
  private:
+  struct Triangle {
+    Packed normal;                // unit, outward
+    double distance;              // of its plane from the origin
+    double flat;                  // height over it, as a part of a point's size, that is rounding
+    std::array<Index, 3> corner;  // counter-clockwise from outside; corner[0] is kNone once the face is gone
+    std::array<Index, 3> across;  // what lies across the side from corner k to the next: face * 4 + its side
+  };
+
   static constexpr int kMaxPoints =
       400;  // some 20 are usual, hundreds where all directions are nearly as good
   static constexpr int kMaxFaces = 2 * kMaxPoints;
@@ -111,8 +119,8 @@ class Polytope {
   static constexpr std::array<int, 6> kTurn{0, 1, 2, 0, 1, 2};  // sides modulo 3
 
   static std::size_t at(int i) { return static_cast<std::size_t>(i); }
-  Face& face(int i) { return face_[at(i)]; }
-  const Eigen::Vector3d& point(int i) const { return point_[at(i)]; }
+  Triangle& face(int i) { return face_[at(i)]; }
+  const Packed& point(int i) const { return point_[at(i)]; }
 
   void join(int i, int side, int j, int other) {
     face(i).across[at(side)] = static_cast<Index>(4 * j + other);
@@ -120,7 +128,7 @@ class Polytope {
   }
 
   /// Faces from the sides of a horizon to `p`. False where rounding has torn the horizon.
-  bool close(const Eigen::Vector3d& p, const Index* horizon, int sides) {
+  bool close(const Packed& p, const Index* horizon, int sides) {
     if (sides < 3) return false;
     const Index index = static_cast<Index>(points_);
     point_[at(points_++)] = p;
@@ -145,22 +153,21 @@ class Polytope {
   }
 
   bool set(int i, Index a, Index b, Index c) {
-    const Eigen::Vector3d e = point(b) - point(a), f = point(c) - point(a);
-    const Eigen::Vector3d normal = e.cross(f);
-    const double length = normal.norm();
-    if (!(length > 1e-14 * (e.squaredNorm() + f.squaredNorm()))) return false;
-    face(i).corner = {a, b, c};
-    face(i).normal = normal / length;
-    face(i).distance = rank_[at(i)] = face(i).normal.dot(point(a));
+    const Packed e = point(b) - point(a), f = point(c) - point(a), normal = cross(e, f);
+    const double length = std::sqrt(dot(normal, normal)), sides2 = dot(e, e) + dot(f, f);
+    if (!(length > 1e-14 * sides2)) return false;
+    Triangle& t = face(i);
+    t.corner = {a, b, c};
+    t.normal = normal / length;
+    t.distance = rank_[at(i)] = dot(t.normal, point(a));
     // A sliver's normal is as much less certain as it is narrow.
-    flat_[at(i)] = kFlat * std::min((e.squaredNorm() + f.squaredNorm()) / length, kNarrow);
+    t.flat = kFlat * std::min(sides2 / length, kNarrow);
     // Else the origin is on the surface, to rounding.
-    return origin_ == Origin::anywhere || face(i).distance >= 0.0;
+    return origin_ == Origin::anywhere || t.distance >= 0.0;
   }
 
-  std::array<Eigen::Vector3d, kMaxPoints> point_;
-  std::array<Face, kMaxFaces> face_;
-  std::array<double, kMaxFaces> flat_;  // height over it, as a part of a point's size, that is rounding
+  std::array<Packed, kMaxPoints> point_;
+  std::array<Triangle, kMaxFaces> face_;
   std::array<double, kMaxFaces> rank_;  // distance, or infinity for a face put aside or gone
   std::array<Index, kMaxFaces> free_;
   Origin origin_;

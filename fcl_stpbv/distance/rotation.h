@@ -2,52 +2,57 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
-#include <cstring>
+#include <Eigen/Geometry>
+
+#include "fcl_stpbv/distance/packed.h"
 
 namespace fcl_stpbv {
 
-/// A 3x3 matrix, its columns and its rows as a pair and a single number each: `m v` and `m^T v` are then sums of three
-/// multiples without a sum across, which would cost more than the multiplications.
+/// A 3x3 matrix, its columns and its rows: `m v` and `m^T v` are then sums of three multiples without a sum
+/// across, which would cost more than the multiplications.
 class Rotation {
  public:
   /// From its columns.
-  Rotation(const Eigen::Vector3d& x, const Eigen::Vector3d& y, const Eigen::Vector3d& z)
-      : Rotation(x.data(), y.data(), z.data()) {}
-
-  /// Of a matrix whose columns are contiguous.
-  template <typename Matrix>
-  explicit Rotation(const Matrix& m) : Rotation(m.col(0).data(), m.col(1).data(), m.col(2).data()) {}
-
-  Eigen::Vector3d operator*(const Eigen::Vector3d& v) const { return columns_.combined(v); }
-  Eigen::Vector3d inverse(const Eigen::Vector3d& v) const { return rows_.combined(v); }
-
- private:
-  Rotation(const double* x, const double* y, const double* z) {
-    columns_ = {{load(x), load(y), load(z)}, {x[2], y[2], z[2]}};
-    const auto& [p, q, r] = columns_.xy;
-    rows_ = {{Pair{p[0], q[0]}, Pair{p[1], q[1]}, Pair{x[2], y[2]}}, {r[0], r[1], z[2]}};
+  Rotation(const Packed& x, const Packed& y, const Packed& z) : columns_{x, y, z} {
+    const Packed even = __builtin_shufflevector(x, y, 0, 4, 2, 6),
+                 odd = __builtin_shufflevector(x, y, 1, 5, 3, 7);
+    rows_[0] = __builtin_shufflevector(even, z, 0, 1, 4, 7);
+    rows_[1] = __builtin_shufflevector(odd, z, 0, 1, 5, 7);
+    rows_[2] = __builtin_shufflevector(even, z, 2, 3, 6, 7);
   }
 
-  using Pair = double __attribute__((vector_size(16)));
+  /// A pose's.
+  explicit Rotation(const Eigen::Isometry3d& pose)
+      : Rotation(column(pose, 0), column(pose, 1), column(pose, 2)) {}
 
-  struct Vectors {
-    std::array<Pair, 3> xy;
-    std::array<double, 3> z;
+  explicit Rotation(const Eigen::Matrix3d& m) : Rotation(pack(m.col(0)), pack(m.col(1)), pack(m.col(2))) {}
 
-    Eigen::Vector3d combined(const Eigen::Vector3d& v) const {
-      const Pair pair = v.x() * xy[0] + v.y() * xy[1] + v.z() * xy[2];
-      Eigen::Vector3d sum;
-      std::memcpy(sum.data(), &pair, sizeof pair);
-      sum.z() = v.x() * z[0] + v.y() * z[1] + v.z() * z[2];
-      return sum;
-    }
-  };
+  /// Whether the columns are orthonormal to the rounding of a product of two rotations.
+  bool orthonormal() const {
+    constexpr double kFine = 4e-15;
+    const Packed x = inverse(columns_[0]) - Packed{1, 0, 0, 0}, y = inverse(columns_[1]) - Packed{0, 1, 0, 0},
+                 z = inverse(columns_[2]) - Packed{0, 0, 1, 0}, squares = x * x + y * y + z * z;
+    return squares[0] + squares[1] + squares[2] <= kFine * kFine;
+  }
 
-  static Pair load(const double* two) {
-    Pair pair;
-    std::memcpy(&pair, two, sizeof pair);
-    return pair;
+  /// The columns.
+  Eigen::Matrix3d matrix() const {
+    Eigen::Matrix3d m;
+    m << unpack(columns_[0]), unpack(columns_[1]), unpack(columns_[2]);
+    return m;
+  }
+
+  Packed operator*(const Packed& v) const { return sum(columns_, v); }
+  Packed inverse(const Packed& v) const { return sum(rows_, v); }
+  Eigen::Vector3d operator*(const Eigen::Vector3d& v) const { return unpack(sum(columns_, v)); }
+  Eigen::Vector3d inverse(const Eigen::Vector3d& v) const { return unpack(sum(rows_, v)); }
+
+ private:
+  using Vectors = Packed[3];
+
+  template <typename Vector>
+  static Packed sum(const Vectors& m, const Vector& v) {
+    return v[0] * m[0] + v[1] * m[1] + v[2] * m[2];
   }
 
   Vectors columns_, rows_;

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "fcl_stpbv/distance/orthonormal.h"
 #include "fcl_stpbv/distance/shape_overlap.h"
 
 namespace fcl_stpbv {
@@ -14,19 +15,6 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 namespace {
-
-/// Newton for the polar factor, q (3 - q^T q) / 2: the error squares. False for what is no rotation.
-bool makeOrthonormal(Matrix3d& q) {
-  constexpr double kRotation = 0.1, kFine = 2e-15;
-  for (int i = 0; i < 5; ++i) {
-    const Matrix3d error = q.transpose() * q - Matrix3d::Identity();
-    const double size = error.norm();
-    if (!(size < kRotation)) return false;  // also what is not a number
-    if (size <= kFine) break;
-    q -= 0.5 * q * error;
-  }
-  return true;
-}
 
 /// From the remembered normal, else from the volume's centre to the shape's.
 StartNormal startOf(const ShapeQuery& q, const Vector3d& remembered, int patch) {

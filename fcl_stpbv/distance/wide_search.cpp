@@ -43,7 +43,8 @@ bool polyhedralStart(const BodyPair& pair, const VertexSearch& search, Found& fo
 bool overlapAround(const BodyPair& pair, Sample x, Found& found, Work& work) {
   found = {x, DistanceStatus::local, 0.0};
   if (!(x.core < 0.0) || !expandPolytope(pair, found.at, found.bound, work)) return false;
-  ascend(pair, found.at, work);  // a sample that the polytope met may be next to the top only
+  if (!pair.isStationary(found.at))
+    ascend(pair, found.at, work);  // the polytope met one next to the top only
   return found.at.core <= 0.0;
 }
 

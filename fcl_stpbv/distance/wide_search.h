@@ -9,8 +9,8 @@ namespace fcl_stpbv {
 /// The widest gap.
 struct Found {
   Sample at;
-  DistanceStatus status;
-  double bound;  ///< for cores that overlap: along no normal is their gap wider (m)
+  DistanceStatus status = DistanceStatus::exact;
+  double bound = 0.0;  ///< for cores that overlap: along no normal is their gap wider (m)
 };
 
 /// Where a search starts.

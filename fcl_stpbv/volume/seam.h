@@ -26,39 +26,38 @@ struct Crossing {
 /// `next` names.
 struct SeamBlock {
   static constexpr std::size_t kSize = 4;
-  using Doubles = double __attribute__((vector_size(16)));
-  using Integers = std::int64_t __attribute__((vector_size(16)));
+  using Doubles = double __attribute__((vector_size(32)));
+  using Integers = std::int64_t __attribute__((vector_size(32)));
 
-  std::array<Doubles, 2> x{}, y{}, z{}, limit{Doubles{2, 2}, Doubles{2, 2}};
+  Doubles x{}, y{}, z{}, limit{2, 2, 2, 2};
   std::array<std::int32_t, kSize> neighbour{-1, -1, -1, -1};
   std::int32_t next = -1;
 
   void set(std::size_t slot, const Seam& seam) {
-    x[slot / 2][slot % 2] = seam.normal.x();
-    y[slot / 2][slot % 2] = seam.normal.y();
-    z[slot / 2][slot % 2] = seam.normal.z();
-    limit[slot / 2][slot % 2] = seam.limit;
+    x[slot] = seam.normal.x();
+    y[slot] = seam.normal.y();
+    z[slot] = seam.normal.z();
+    limit[slot] = seam.limit;
     neighbour[slot] = seam.neighbour;
   }
   Seam seam(std::size_t slot) const {
-    const std::size_t i = slot / 2, k = slot % 2;
-    return {Eigen::Vector3d(x[i][k], y[i][k], z[i][k]), limit[i][k], neighbour[slot]};
+    return {Eigen::Vector3d(x[slot], y[slot], z[slot]), limit[slot], neighbour[slot]};
   }
 
-  /// The largest `n.normal - limit` of the four, its slot in place of the two least bits: no branches, two seams at
-  /// once.
-  double past(const Eigen::Vector3d& n) const {
-    constexpr std::array<Integers, 2> slots{Integers{0, 1}, Integers{2, 3}};
-    const auto keys = [&](std::size_t half) {
-      const Doubles p = n.x() * x[half] + n.y() * y[half] + n.z() * z[half] - limit[half];
-      Integers key;
-      std::memcpy(&key, &p, sizeof key);
-      key = (key & ~std::int64_t{kSize - 1}) | slots[half];
-      Doubles tagged;
-      std::memcpy(&tagged, &key, sizeof key);
-      return tagged;
-    };
-    const Doubles low = keys(0), high = keys(1), larger = low > high ? low : high;
+  /// The largest `n.normal - limit` of the four, its slot in place of the two least bits: no branches, all
+  /// seams at once. `n` is anything with three numbers; for one of another length than 1 the value is that
+  /// many times as large.
+  template <typename Vector>
+  double past(const Vector& n, double length = 1.0) const {
+    constexpr Integers slots{0, 1, 2, 3};
+    const Doubles p = n[0] * x + n[1] * y + n[2] * z - length * limit;
+    Integers key;
+    std::memcpy(&key, &p, sizeof key);
+    key = (key & ~std::int64_t{kSize - 1}) | slots;
+    Doubles tagged;
+    std::memcpy(&tagged, &key, sizeof key);
+    const Doubles other = __builtin_shufflevector(tagged, tagged, 2, 3, 0, 1);
+    const Doubles larger = tagged > other ? tagged : other;
     return larger[0] > larger[1] ? larger[0] : larger[1];
   }
 

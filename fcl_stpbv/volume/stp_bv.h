@@ -84,12 +84,14 @@ class StpBv {
   /// The seams around a patch's region of normals (paper III.D).
   Seams seams(int patch) const { return {seams_.data(), patch}; }
 
-  /// The seam of the patch that `n` passes furthest.
-  Crossing crossing(int patch, const Eigen::Vector3d& n) const {
+  /// The seam of the patch that `n`, anything with three numbers, passes furthest: `length` times as far as a
+  /// unit vector would.
+  template <typename Vector>
+  Crossing crossing(int patch, const Vector& n, double length = 1.0) const {
     Crossing most{-std::numeric_limits<double>::infinity(), -1};
     for (std::int32_t block = patch; block >= 0;) {
       const SeamBlock& seams = seams_[static_cast<std::size_t>(block)];
-      const double past = seams.past(n);
+      const double past = seams.past(n, length);
       if (past > most.past) most = {past, seams.neighbour[SeamBlock::slotOf(past)]};
       block = seams.next;
     }
@@ -130,7 +132,10 @@ class StpBv {
   }
 
   /// How far `n` lies outside the patch's region, <= 0 inside.
-  double outside(int patch, const Eigen::Vector3d& n) const { return crossing(patch, n).past; }
+  template <typename Vector>
+  double outside(int patch, const Vector& n) const {
+    return crossing(patch, n).past;
+  }
 
   /// A vertex about as far along the unit vector `n` as any, from a direction table.
   int vertexNear(const Eigen::Vector3d& n) const { return vertexTable_[cell(n)]; }

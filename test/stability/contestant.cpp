@@ -109,18 +109,18 @@ class Heuristic : public Contestant {
     }
     const Matrix3d toA = at.a.linear().transpose();
     const BodyPair pair(a_.volume(), b_.volume(), Rotation(Matrix3d(toA * at.b.linear())),
-                        toA * (at.b.translation() - at.a.translation()));
+                        pack(toA * (at.b.translation() - at.a.translation())));
     const PosedPatch p = pair.patchA(mapped[0]), q = pair.patchB(mapped[1]);
-    const Vector3d n = widestNormal(p, q, toA * witness.direction);
-    const CoreGap gap = coreGap(p, q, n);
+    const Packed widest = widestNormal(p, q, pack(toA * witness.direction)).unit();
+    const Vector3d n = unpack(widest);
+    const CoreGap gap = coreGap(p, q, widest);
     answer.kind = Answer::Kind::distance;
     answer.distance = gap.value - pair.margins();
     put(at.a.linear() * n, answer.normal);
-    const Radii &ra = a_.volume().radii(), &rb = b_.volume().radii();
-    const Vector3d y = corePoint(p.patch, p.kind, ra, n) + ra.r * n;
-    const Vector3d z = corePoint(q.patch, q.kind, rb, -n) - rb.r * n;
+    const Radii& ra = a_.volume().radii();
+    const Vector3d y = corePoint(a_.volume().patch(mapped[0]), p.kind, ra, n) + ra.r * n;
     put(at.a * y, answer.point[0]);
-    put(at.a * z, answer.point[1]);
+    put(at.a * Vector3d(y + unpack(gap.across) + answer.distance * n), answer.point[1]);
     answer.hasPoints = true;
     return answer;
   }

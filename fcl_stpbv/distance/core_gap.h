@@ -1,0 +1,82 @@
+// Two patches in one frame, and the gap between their cores along a normal.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "fcl_stpbv/distance/packed.h"
+#include "fcl_stpbv/volume/patch.h"
+
+namespace fcl_stpbv {
+
+/// A patch with all that its formula needs, in whatever frame its anchor and axis are given.
+struct PosedPatch {
+  Packed anchor, axis;
+  double kappa, sag;
+  PatchKind kind;
+  const Radii* radii;  ///< the body's
+
+  /// Centre of the patch's point or circle (m); a vertex has no axis.
+  Packed centre() const { return kind == PatchKind::face ? Packed(anchor - radii->rho * axis) : anchor; }
+};
+
+/// An edge's core seen along a normal that leans by `v` along the edge.
+struct EdgeView {
+  double v;       // n.u
+  double c;       // sqrt(1 - v^2)
+  double around;  // radius of curvature around the edge, rho - kappa / c
+  double rise;    // height of the supporting plane above the edge's middle
+  Packed offset;  // core point, from the edge's middle
+};
+
+/// The lengths of docs/theory.md, 2 without their cancellation: `rho c - kappa` is a centimetre against tens
+/// of metres, so it is written with the half length h, h^2 = rho^2 - kappa^2 = sag (rho + kappa). Near the
+/// smallest R kappa is small, and that form would divide by little.
+inline EdgeView viewEdge(const PosedPatch& edge, const Packed& n) {
+  const double rho = edge.radii->rho, kappa = edge.kappa, sag = edge.sag;
+  EdgeView e;
+  e.v = dot(n, edge.axis);
+  const double c2 = std::max(1.0 - e.v * e.v, 1e-30), along = rho * e.v;
+  e.c = std::sqrt(c2);
+  e.around = kappa > 0.5 * rho ? (sag * (rho + kappa) - along * along) / (rho * c2 + kappa * e.c)
+                               : rho - kappa / e.c;
+  e.rise = sag + kappa * e.v * e.v / (1.0 + e.c);
+  e.offset = along * edge.axis + e.around * (n - e.v * edge.axis);
+  return e;
+}
+
+/// Height of the core's supporting plane above the patch's anchor, and its point from there.
+struct CoreView {
+  double rise = 0.0;
+  Packed offset{};
+};
+
+inline CoreView viewCore(const PosedPatch& p, const Packed& n) {
+  if (p.kind == PatchKind::edge) {
+    const EdgeView e = viewEdge(p, n);
+    return {e.rise, e.offset};
+  }
+  if (p.kind == PatchKind::face) {
+    const Packed d = n - p.axis;
+    return {0.5 * p.radii->rho * dot(d, d), p.radii->rho * d};
+  }
+  return {};
+}
+
+/// The gap between two patches along one normal, without their margins.
+struct CoreGap {
+  double value;   ///< between the supporting planes, `s(n) + r_A + r_B` (m)
+  Packed point;   ///< the first patch's, in the patches' frame (m)
+  Packed across;  ///< gradient over the sphere of normals: the points' difference across the normal (m)
+};
+
+/// The gap along the unit normal `n` from `a` to `b`, the patches continued over the whole sphere of normals
+/// (docs/theory.md, 5).
+inline CoreGap coreGap(const PosedPatch& a, const PosedPatch& b, const Packed& n) {
+  const CoreView viewA = viewCore(a, n), viewB = viewCore(b, -n);
+  const Packed anchors = b.anchor - a.anchor, difference = anchors + viewB.offset - viewA.offset;
+  return {dot(n, anchors) - viewA.rise - viewB.rise, a.anchor + viewA.offset,
+          difference - dot(difference, n) * n};
+}
+
+}  // namespace fcl_stpbv
