@@ -129,6 +129,10 @@ Distance distance(const StpBv& a, const Isometry3d& poseA, const StpBv& b, const
   result.point[1] = unpack(originA + toWorld * (pointB - b.radii().r * n));
   result.patchPairs = work.pairs;
   result.patchSteps = work.steps;
+  if (carried) {
+    a.prefetchBeside(at.patch[0]);
+    b.prefetchBeside(at.patch[1]);
+  }
   if (cache) {
     cache->normal = result.normal;
     cache->patch = result.patch;
