@@ -17,12 +17,14 @@ namespace {
 /// The gap is `n.d - rise` with `rise = sag + kappa (1 - c)` for each circle, so at the widest normal
 /// `d - t_A u_A - t_B u_B = core n` with `t = kappa v / c`. Times `u_A` and `u_B` these are two equations for
 /// the leans, linear but for `c` and `core`, which hang on the leans to the second order only: each pass with
-/// those of the last one gains as many digits as `v^2` has. False where that is not so; `n` is then a better
-/// start than it was.
+/// those of the last one gains as many digits as `v^2` has. False where that is not so, or where `n` is the answer
+/// already: axes that cross at a small angle magnify its rounding, and Newton's method has less. `n` is then a
+/// better start than it was.
 bool leanFromCommonNormal(const PosedPatch& a, const PosedPatch& b, const Packed& d, Packed& n) {
   constexpr double kCrossing2 = 0.01;   // squared sine between the axes
   constexpr int kPasses = 4;            // three are usual
   constexpr double kConverged = 2e-16;  // predicted next change of a lean: the rounding of a unit vector
+  constexpr double kAgain = 1e-8;       // rad: asked once more from its own answer, whose rounding was too much
   const Packed &p = a.axis, &q = b.axis;
   Packed m = cross(p, q);
   const double sine2 = dot(m, m), cosine = dot(m, n);
@@ -42,8 +44,9 @@ bool leanFromCommonNormal(const PosedPatch& a, const PosedPatch& b, const Packed
     if (!(lean2 < 0.25)) return false;
     const double upright = std::sqrt(1.0 - lean2);
     if (change2 * change2 <= kConverged * kConverged * last2) {
-      n = upright * m + fa * p + fb * q;
-      return true;
+      const Packed widest = upright * m + fa * p + fb * q, turn = widest - n;
+      n = widest;
+      return dot(turn, turn) > kAgain * kAgain;
     }
     last2 = change2;
     ka = kappaA / std::sqrt(1.0 - va * va);
