@@ -20,9 +20,8 @@ struct PosedPatch {
   Packed centre() const { return kind == PatchKind::face ? Packed(anchor - radii->rho * axis) : anchor; }
 };
 
-/// An edge's core seen along a normal that leans by `v` along the edge.
+/// An edge's core seen along a normal that leans by `v = n.u` along the edge.
 struct EdgeView {
-  double v;       // n.u
   double c;       // sqrt(1 - v^2)
   double around;  // radius of curvature around the edge, rho - kappa / c
   double rise;    // height of the supporting plane above the edge's middle
@@ -34,14 +33,13 @@ struct EdgeView {
 /// smallest R kappa is small, and that form would divide by little.
 inline EdgeView viewEdge(const PosedPatch& edge, const Packed& n) {
   const double rho = edge.radii->rho, kappa = edge.kappa, sag = edge.sag;
+  const double v = dot(n, edge.axis), c2 = std::max(1.0 - v * v, 1e-30), along = rho * v;
   EdgeView e;
-  e.v = dot(n, edge.axis);
-  const double c2 = std::max(1.0 - e.v * e.v, 1e-30), along = rho * e.v;
   e.c = std::sqrt(c2);
   e.around = kappa > 0.5 * rho ? (sag * (rho + kappa) - along * along) / (rho * c2 + kappa * e.c)
                                : rho - kappa / e.c;
-  e.rise = sag + kappa * e.v * e.v / (1.0 + e.c);
-  e.offset = along * edge.axis + e.around * (n - e.v * edge.axis);
+  e.rise = sag + kappa * v * v / (1.0 + e.c);
+  e.offset = along * edge.axis + e.around * (n - v * edge.axis);
   return e;
 }
 

@@ -117,8 +117,7 @@ class Heuristic : public Contestant {
     answer.kind = Answer::Kind::distance;
     answer.distance = gap.value - pair.margins();
     put(at.a.linear() * n, answer.normal);
-    const Radii& ra = a_.volume().radii();
-    const Vector3d y = corePoint(a_.volume().patch(mapped[0]), p.kind, ra, n) + ra.r * n;
+    const Vector3d y = unpack(gap.point) + a_.volume().radii().r * n;
     put(at.a * y, answer.point[0]);
     put(at.a * Vector3d(y + unpack(gap.across) + answer.distance * n), answer.point[1]);
     answer.hasPoints = true;
