@@ -92,6 +92,11 @@ class BodyPair {
   /// as far (m).
   double acrossRounding() const { return acrossRounding_; }
 
+  /// Cores nearer than this all but touch: a patch reaches past its seam by the rounding of a normal, `rho`
+  /// times that in metres, which is a part of the gap and turns the normal by as much. What starts from the
+  /// vertices, which do not reach past theirs, is safe from it (m).
+  double touching() const { return 1e6 * acrossRounding_; }
+
   /// Whether the gap is as wide as it gets near the sample's normal: its gradient is rounding.
   bool isStationary(const Sample& s) const {
     return s.across.squaredNorm() <= acrossRounding_ * acrossRounding_;

@@ -17,8 +17,6 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr std::array<int, 2> kNoHint{-1, -1};
-
 /// `n` of unit length, without the root where it is already close.
 Packed renormalized(const Packed& n) {
   const double length2 = dot(n, n);
@@ -47,34 +45,81 @@ bool turnedLittle(const BodyPair& pair, const Packed& n, const PairCache& cache)
 Start startOf(const BodyPair& pair, const Rotation& toWorld, const PairCache* cache) {
   const Packed last = cache ? toWorld.inverse(pack(cache->normal)) : Packed{};
   const double length2 = dot(last, last);
-  if (!(length2 > 0.25 && length2 < 4.0)) return {centreLine(pair), kNoHint, false};
-  const Packed n = renormalized(last);
-  return {unpack(n), turnedLittle(pair, n, *cache) ? cache->patch : kNoHint, cache->overlap};
+  const bool known = length2 > 0.25 && length2 < 4.0;
+  const Vector3d n = known ? unpack(renormalized(last)) : centreLine(pair);
+  const bool near = known && turnedLittle(pair, pack(n), *cache);
+  return {n, near ? cache->patch : pair.near(n), near};
 }
 
-/// Settles on a patch pair near the given one: over the seam that the widest normal passes furthest, on
-/// either body, to the next pair, without a look at the gap. A maximum that it finds between cores apart is
-/// the only one; that it does not find one, as between overlapping cores, proves nothing.
-bool hop(const BodyPair& pair, const Eigen::Vector3d& from, std::array<int, 2> patch, Sample& x, Work& work) {
-  constexpr int kTries = 12;  // one to three are usual
-  PosedPatch a = pair.patchA(patch[0]), b = pair.patchB(patch[1]);
-  Packed n = pack(from);
-  for (int i = 0; i < kTries; ++i) {
-    ++work.pairs;
-    const Heading to = widestNormal(a, b, n);
-    n = to.unit();
-    const Crossing overA = pair.a().crossing(patch[0], to.d, to.length),
-                   overB = pair.b().crossing(patch[1], pair.opposite(to.d), to.length);
-    if (std::max(overA.past, overB.past) <= kOnSeam * to.length) {
-      x = BodyPair::sample(n, patch, a, b);
-      if (pair.isStationary(x)) return true;
-      continue;  // two tori may need a second go for the last digits
-    }
-    ++work.steps;
+/// The seam around a patch that the way from the unit normal `n` along the tangent `h` meets first: `past` is
+/// the inverse of how far off it is, negative where the way meets none.
+Crossing ahead(const StpBv& body, int patch, const Packed& n, const Packed& h) {
+  constexpr double kAtOnce = 1e-12;  // rad; `n` may be past the seam already
+  Crossing first{-1.0, -1};
+  for (const Seam s : body.seams(patch)) {
+    const Packed normal = pack(s.normal);
+    const double nearness = dot(normal, h) / std::max(s.limit - dot(normal, n), kAtOnce);
+    if (nearness > first.past) first = {nearness, s.neighbour};
+  }
+  return first;
+}
+
+/// Two patches along a normal, as a search goes from one to the next.
+struct Visit {
+  std::array<int, 2> patch;
+  PosedPatch a, b;
+  Packed n;
+
+  void cross(const BodyPair& pair, const Crossing& overA, const Crossing& overB) {
     if (overA.past >= overB.past)
       a = pair.patchA(patch[0] = overA.neighbour);
     else
       b = pair.patchB(patch[1] = overB.neighbour);
+  }
+
+  /// Over the first seam uphill, for patches whose gap has no maximum on this side of the sphere, as two
+  /// vertices that overlap. Along an edge the gap bends so much that only the way across it leads anywhere.
+  /// False where no seam is ahead.
+  bool climb(const BodyPair& pair) {
+    Packed up = coreGap(a, b, n).across;
+    for (const PosedPatch* p : {&a, &b})
+      if (p->kind == PatchKind::edge) up -= dot(up, p->axis) * p->axis;
+    const Packed h = headingOr(up, n).unit();
+    const Crossing overA = ahead(pair.a(), patch[0], n, h),
+                   overB = ahead(pair.b(), patch[1], pair.opposite(n), pair.opposite(h));
+    const double nearness = std::max(overA.past, overB.past);
+    if (!(nearness > 0.0)) return false;
+    n = headingOr(nearness * n + h, n).unit();
+    cross(pair, overA, overB);
+    return true;
+  }
+};
+
+/// Settles on a patch pair near the given one: over the seam that the widest normal passes furthest, on
+/// either body, to the next pair, without a look at the gap. A maximum that it finds between cores apart is
+/// the only one; that it does not find one proves nothing.
+bool hop(const BodyPair& pair, const Start& start, Sample& x, Work& work) {
+  constexpr int kTries = 12;  // one to three are usual
+  Visit at{start.patch, pair.patchA(start.patch[0]), pair.patchB(start.patch[1]), pack(start.n)};
+  for (int i = 0; i < kTries; ++i) {
+    ++work.pairs;
+    const Heading to = widestNormal(at.a, at.b, at.n);
+    const Crossing overA = pair.a().crossing(at.patch[0], to.d, to.length),
+                   overB = pair.b().crossing(at.patch[1], pair.opposite(to.d), to.length);
+    const bool turnsBack = !(dot(to.d, at.n) > 0.0);
+    if (std::max(overA.past, overB.past) <= kOnSeam * to.length) {
+      at.n = to.unit();
+      x = BodyPair::sample(at.n, at.patch, at.a, at.b);
+      if (pair.isStationary(x)) return true;
+      continue;  // two tori may need a second go for the last digits
+    }
+    ++work.steps;
+    if (!turnsBack) {
+      at.n = to.unit();
+      at.cross(pair, overA, overB);
+    } else if (!at.climb(pair)) {
+      return false;
+    }
   }
   return false;
 }
@@ -101,18 +146,11 @@ Distance distance(const StpBv& a, const Isometry3d& poseA, const StpBv& b, const
 
   const BodyPair pair(a, b, rotation, translation);
   const Start start = startOf(pair, toWorld, cache);
-  const bool carried = start.patch[0] >= 0;
   Found found;
   Work work;
-  // After a large motion between overlapping cores a hop rarely leads to a maximum.
-  const bool settled = (carried || !start.overlap) &&
-                       hop(pair, start.n, carried ? start.patch : pair.near(start.n), found.at, work);
-  // Cores that all but touch: a patch reaches past its seam by the rounding of a normal, `rho` times that in
-  // metres, which is a part of the gap and turns the normal by as much. The wide search starts from the
-  // vertices, which do not reach past theirs.
-  constexpr double kTouching = 1e6;
-  if (!settled || !(found.at.core > kTouching * pair.acrossRounding()))
-    searchWidely(pair, start, settled && !(found.at.core > 0.0), found, work);
+  const bool settled = hop(pair, start, found.at, work);
+  if (!settled || !(found.at.core > pair.touching()))
+    searchWidely(pair, start, settled && found.at.core < -pair.touching(), found, work);
 
   const Sample& at = found.at;
   result.status = found.status;
@@ -129,14 +167,13 @@ Distance distance(const StpBv& a, const Isometry3d& poseA, const StpBv& b, const
   result.point[1] = unpack(originA + toWorld * (pointB - b.radii().r * n));
   result.patchPairs = work.pairs;
   result.patchSteps = work.steps;
-  if (carried) {
+  if (start.near) {
     a.prefetchBeside(at.patch[0]);
     b.prefetchBeside(at.patch[1]);
   }
   if (cache) {
     cache->normal = result.normal;
     cache->patch = result.patch;
-    cache->overlap = at.core <= 0.0;
     cache->seen = {unpack(n).cast<float>(), unpack(pair.opposite(n)).cast<float>()};
   }
   return result;

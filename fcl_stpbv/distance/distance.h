@@ -50,7 +50,6 @@ struct Distance {
 struct PairCache {
   Eigen::Vector3d normal{0, 0, 0};   ///< last normal, world frame; zero: none
   std::array<int, 2> patch{-1, -1};  ///< last patches; -1: none
-  bool overlap = false;              ///< whether the cores overlapped
   /// The last normal seen by each body, its own frame, outward; zero: not known.
   std::array<Eigen::Vector3f, 2> seen{Eigen::Vector3f(0, 0, 0), Eigen::Vector3f(0, 0, 0)};
 };

@@ -22,6 +22,8 @@ class Polytope {
     Eigen::Vector3d normal;       ///< unit, outward
     double distance;              ///< of its plane from the origin, negative with the origin beyond it
     std::array<Index, 3> corner;  ///< counter-clockwise from outside
+
+    bool has(Index point) const { return corner[0] == point || corner[1] == point || corner[2] == point; }
   };
 
   /// Whether the origin must be inside from the start; rounding that puts it outside then ends the search.
@@ -52,17 +54,8 @@ class Polytope {
   /// Takes the face that nearest() gave out of the search.
   void putAside() { rank_[nearest_] = std::numeric_limits<double>::infinity(); }
 
-  /// The same for the face between the last three points taken in; gives its distance, or infinity if there
-  /// is none.
-  double putLastAside() {
-    for (std::size_t i = 0; i < static_cast<std::size_t>(faces_); ++i)
-      if (const Triangle& f = face_[i]; f.corner[0] != kNone && f.corner[0] >= points_ - 3 &&
-                                        f.corner[1] >= points_ - 3 && f.corner[2] >= points_ - 3) {
-        rank_[i] = std::numeric_limits<double>::infinity();
-        return f.distance;
-      }
-    return std::numeric_limits<double>::infinity();
-  }
+  /// The point taken in last.
+  Index lastPoint() const { return static_cast<Index>(points_ - 1); }
 
   /// Takes `p` into the hull. False where it is inside already, or in a face's plane to rounding, or without
   /// room.

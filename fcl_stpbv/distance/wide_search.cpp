@@ -42,7 +42,12 @@ bool polyhedralStart(const BodyPair& pair, const VertexSearch& search, Found& fo
 /// proves it.
 bool overlapAround(const BodyPair& pair, Sample x, Found& found, Work& work) {
   found = {x, DistanceStatus::local, 0.0};
-  if (!(x.core < 0.0) || !expandPolytope(pair, found.at, found.bound, work)) return false;
+  const bool proven = x.core < 0.0 && expandPolytope(pair, found.at, found.bound, work);
+  if (found.at.core > 0.0) {
+    found = climb(pair, found.at, work);
+    return true;
+  }
+  if (!proven) return false;
   if (!pair.isStationary(found.at))
     ascend(pair, found.at, work);  // the polytope met one next to the top only
   return found.at.core <= 0.0;
@@ -54,14 +59,14 @@ Found solveOverlap(const BodyPair& pair, const Vector3d& n, const std::array<int
                    const VertexSearch& search, Work& work) {
   Sample x = pair.sampleFrom(n, patch, work.steps);
   Vector3d ignored;
-  const bool top = settle(pair, x, ignored, work);
+  settle(pair, x, ignored, work);
   if (x.core > 0.0) return climb(pair, x, work);  // apart, by less than the search's rounding
   double bound = 0.0;
   const auto fromCorners = [&] {
     return search.surrounded && expandPolytope(pair, search.corner, x, bound, work);
   };
   const auto fromTop = [&] { return expandPolytope(pair, x, bound, work); };
-  if (top ? !fromTop() && !fromCorners() : !fromCorners() && !fromTop()) leastPenetration(pair, x, work);
+  if (!fromTop() && !fromCorners()) leastPenetration(pair, x, work);
   if (x.core > 0.0) return climb(pair, x, work);
   ascend(pair, x, work);
   return {x, DistanceStatus::local, bound};
@@ -71,10 +76,7 @@ Found solveOverlap(const BodyPair& pair, const Vector3d& n, const std::array<int
 
 FCL_STPBV_VECTORIZED
 void searchWidely(const BodyPair& pair, const Start& start, bool settled, Found& found, Work& work) {
-  if (settled ? overlapAround(pair, found.at, found, work)
-              : start.overlap &&
-                    overlapAround(pair, pair.sampleFrom(start.n, start.patch, work.steps), found, work))
-    return;
+  if (settled && overlapAround(pair, found.at, found, work)) return;
   const VertexSearch search = searchVertices(pair, start.n);
   if (polyhedralStart(pair, search, found, work)) return;
   if (search.surrounded) {

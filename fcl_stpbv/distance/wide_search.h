@@ -16,13 +16,13 @@ struct Found {
 /// Where a search starts.
 struct Start {
   Eigen::Vector3d n;         ///< unit
-  std::array<int, 2> patch;  ///< patches near those that own it; -1: not known
-  bool overlap;              ///< whether the cores are likely to overlap
+  std::array<int, 2> patch;  ///< patches near those that own it
+  bool near;                 ///< whether the answer is likely to be near
 };
 
-/// Searches from the polyhedra's closest features, from corners around the origin where the cores overlap, or, where
-/// rounding defeats both, by cutting the normals left. `settled` says that `found.at` is a maximum between cores that
-/// overlap, of which there may be others.
+/// Searches from the polyhedra's closest features, from corners around the origin where the cores overlap,
+/// or, where rounding defeats both, by cutting the normals left. `settled` says that `found.at` is a maximum
+/// between cores that overlap; others may be wider.
 void searchWidely(const BodyPair& pair, const Start& start, bool settled, Found& found, Work& work);
 
 }  // namespace fcl_stpbv

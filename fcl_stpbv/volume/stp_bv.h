@@ -98,8 +98,8 @@ class StpBv {
     return most;
   }
 
-  /// Has the patches past this one's seams brought near the processor, for a query that is likely to go there next;
-  /// a small volume is there anyway.
+  /// Has the patches past this one's seams brought near the processor, for a query that is likely to go there
+  /// next; a small volume is there anyway.
   void prefetchBeside(int patch) const {
     constexpr std::size_t kSmall = 2000;  // patches: half a megabyte
     if (patches_.size() < kSmall) return;
@@ -107,9 +107,9 @@ class StpBv {
       const std::size_t i = static_cast<std::size_t>(std::max(beside, 0));
       __builtin_prefetch(&patches_[i]);
       const SeamBlock& seams = seams_[i];
-      for (const void* part : {static_cast<const void*>(&seams.x), static_cast<const void*>(&seams.z),
-                               static_cast<const void*>(&seams.neighbour)})
-        __builtin_prefetch(part);
+      __builtin_prefetch(&seams.x);
+      __builtin_prefetch(&seams.z);
+      __builtin_prefetch(&seams.neighbour);
     }
   }
 

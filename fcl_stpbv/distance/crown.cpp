@@ -1,0 +1,153 @@
+#include "fcl_stpbv/distance/crown.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "fcl_stpbv/distance/polytope_search.h"
+#include "fcl_stpbv/vectorized.h"
+
+namespace fcl_stpbv {
+
+namespace {
+
+constexpr std::size_t kMaxCorners = 4;
+
+/// Three points of the difference, counter-clockwise from outside.
+struct Triangle {
+  Packed p, q, r;
+
+  Packed normal() const { return cross(q - p, r - p); }
+
+  /// Whether its plane has the origin on its inner side, at least this far away.
+  bool beyond(double distance) const {
+    const Packed m = normal();
+    const double height = dot(m, p);
+    return height > 0.0 && height * height >= distance * distance * dot(m, m);
+  }
+
+  /// Square of its plane's distance from the origin.
+  double distance2() const {
+    const Packed m = normal();
+    const double height = dot(m, p);
+    return height * height / dot(m, m);
+  }
+};
+
+/// A patch's vertices, up to four of a face's.
+struct Vertices {
+  std::array<int, kMaxCorners> index{};
+  std::size_t count = 0;
+};
+
+Vertices verticesOf(const StpBv& body, int patch) {
+  if (body.kind(patch) == PatchKind::vertex) return {{patch}, 1};
+  if (body.kind(patch) == PatchKind::edge) {
+    if (patch >= body.facePatch(body.faceCount())) return {};  // a further part of one
+    const auto& end = body.edges()[static_cast<std::size_t>(patch - body.edgePatch(0))].vertex;
+    return {{end[0], end[1]}, 2};
+  }
+  const StpBv::Ring& ring = body.faces()[static_cast<std::size_t>(patch - body.facePatch(0))];
+  Vertices v;
+  v.count = std::min(ring.size(), kMaxCorners);
+  for (std::size_t i = 0; i < v.count; ++i) v.index[i] = ring[i * ring.size() / v.count];
+  return v;
+}
+
+/// Which of some points is nearest to `target`.
+template <typename Point>
+Packed nearestOf(std::size_t count, const Point& point, const Packed& target) {
+  Packed nearest = point(0);
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < count; ++i) {
+    const Packed p = point(i), d = p - target;
+    if (dot(d, d) < least) least = dot(d, d), nearest = p;
+  }
+  return nearest;
+}
+
+/// A point of the difference about as far against `n`, of any length, as any: from the tables of directions
+/// alone.
+Packed about(const BodyPair& pair, const Packed& n) {
+  return pair.patchB(pair.b().vertexNear(pair.opposite(unpack(n)))).anchor -
+         pair.patchA(pair.a().vertexNear(unpack(n))).anchor;
+}
+
+}  // namespace
+
+Corners cornersAround(const BodyPair& pair, const Sample& top) {
+  Vertices a = verticesOf(pair.a(), top.patch[0]), b = verticesOf(pair.b(), top.patch[1]);
+  const auto onA = [&](std::size_t i) { return pair.patchA(a.index[i]).anchor; };
+  const auto onB = [&](std::size_t i) { return pair.patchB(b.index[i]).anchor; };
+  Corners c;
+  if (a.count == 2 && b.count == 2) {
+    c.point = {onB(0) - onA(0), onB(0) - onA(1), onB(1) - onA(1), onB(1) - onA(0)};
+    c.count = 4;
+  } else if (a.count > 2) {
+    const Packed pointB = pack(top.point) + pack(top.across) + top.core * pack(top.n);
+    const Packed nearest = nearestOf(b.count, onB, pointB);
+    for (c.count = 0; c.count < a.count; ++c.count) c.point[c.count] = nearest - onA(c.count);
+  } else if (b.count > 2) {
+    const Packed nearest = nearestOf(a.count, onA, pack(top.point));
+    for (c.count = 0; c.count < b.count; ++c.count) c.point[c.count] = onB(c.count) - nearest;
+  }
+  return c;
+}
+
+bool isAlone(const BodyPair& pair, const Sample& top, double distance) {
+  constexpr double kSafe = 1.1;     // second order
+  constexpr double kLevel = 1e-14;  // rounding of 1 - cos^2
+  const double depth = -top.core, cosine = distance / depth,
+               sine = std::sqrt(std::max(1.0 - cosine * cosine, kLevel));
+  const auto curvature = [&](const StpBv& body, int patch) {
+    return body.kind(patch) == PatchKind::face ? body.radii().rho : 0.0;
+  };
+  double radius = curvature(pair.a(), top.patch[0]) + curvature(pair.b(), top.patch[1]);
+  if (pair.a().kind(top.patch[0]) == PatchKind::edge && pair.b().kind(top.patch[1]) == PatchKind::edge) {
+    const double along = dot(pair.patchA(top.patch[0]).axis, pair.patchB(top.patch[1]).axis),
+                 rhoA = pair.a().radii().rho, rhoB = pair.b().radii().rho;
+    radius = rhoA * rhoB * (1.0 - along * along) / (rhoA + rhoB);
+  }
+  const double inside =
+      -std::max(pair.a().outside(top.patch[0], top.n), pair.b().outside(top.patch[1], pair.opposite(top.n)));
+  return inside * radius > kSafe * 2.0 * depth * sine;
+}
+
+FCL_STPBV_VECTORIZED
+bool crownProves(const BodyPair& pair, const Sample& top, double& bound) {
+  constexpr double kRing = 0.55;   // rad from the top's normal to those of the points beyond its feature
+  constexpr double kClose = 1e-3;  // of the depth: where the surface is this near, no other maximum has room
+  const double depth = -top.core - pair.gapRounding();
+  auto [corner, count] = cornersAround(pair, top);
+  if (count == 0 || !(depth > 0.0)) return false;
+  const Packed n = pack(top.n), summit = top.core * n + pack(top.across);
+  if (dot(cross(corner[1] - corner[0], corner[2] - corner[1]), n) > 0.0)
+    std::reverse(corner.begin(), corner.begin() + static_cast<std::ptrdiff_t>(count));
+
+  double least2 = depth * depth;
+  std::array<Packed, kMaxCorners> ring;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Packed &p = corner[i], &q = corner[(i + 1) % count], side = q - p;
+    const Triangle roof{p, q, summit};
+    if (!roof.beyond((1.0 - kClose) * depth)) return false;
+    least2 = std::min(least2, roof.distance2());
+    ring[i] = about(pair, std::sqrt(dot(side, side)) * n - kRing * cross(n, side));
+    const Triangle wall{q, p, ring[i]};
+    if (wall.beyond(depth)) continue;
+    ring[i] = pack(vertexDifference(pair, unpack(-wall.normal())));
+    if (!Triangle{q, p, ring[i]}.beyond(depth)) return false;
+  }
+  if (!isAlone(pair, top, std::sqrt(least2))) return false;
+  const Packed behind = about(pair, -n);
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t j = (i + 1) % count;
+    if (!Triangle{corner[j], ring[i], ring[j]}.beyond(depth) ||
+        !Triangle{ring[j], ring[i], behind}.beyond(depth))
+      return false;
+  }
+  bound = -std::sqrt(least2);
+  return true;
+}
+
+}  // namespace fcl_stpbv

@@ -1,0 +1,39 @@
+// Whether a maximum of the gap between overlapping cores is the widest: a proof by a closed surface around
+// it.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "fcl_stpbv/distance/body_pair.h"
+
+namespace fcl_stpbv {
+
+/// Up to four points of the difference of the two cores, second less first.
+struct Corners {
+  std::array<Packed, 4> point;
+  std::size_t count = 0;
+};
+
+/// The corners, in order, of the difference's feature that a maximum is on: of a face against a vertex, or of
+/// two edges that cross. Of a face against more than a vertex those against the vertex nearest to the
+/// maximum. None of other features, which are rarely one.
+Corners cornersAround(const BodyPair& pair, const Sample& top);
+
+/// Whether no other maximum, less deep than `top`, has room outside a triangle with the top's point for a
+/// corner, its plane `distance` from the origin. Its own point would be as near to the origin, so within `2
+/// depth sin(a)` of the top's, `cos(a) = distance / depth`; true where all that is so near belongs to the
+/// top's own patches, which have one maximum.
+bool isAlone(const BodyPair& pair, const Sample& top, double distance);
+
+/// Closes a surface of a dozen triangles around the origin: from the maximum to the corners of its feature,
+/// from there to points beyond that, and together behind. They lie in the difference of the cores, which is
+/// convex, so no direction leads out of it sooner than through the nearest of them. True where that is one at
+/// the top and leaves no room for another maximum; along no normal is the gap of the cores then more than
+/// `bound` (m, negative).
+///
+/// Of the points nothing is asked but that every triangle has the origin on its inner side: each ray from
+/// there then meets the surface.
+bool crownProves(const BodyPair& pair, const Sample& top, double& bound);
+
+}  // namespace fcl_stpbv
