@@ -6,14 +6,6 @@ namespace fcl_stpbv {
 using Eigen::Vector3d;
 
 FCL_STPBV_VECTORIZED
-std::array<int, 2> BodyPair::near(const Vector3d& n) const {
-  const auto vertex = [](const StpBv& body, const Vector3d& m) {
-    return body.climb(body.vertexNear(m), m.cast<float>());
-  };
-  return {vertex(a_, n), vertex(b_, opposite(n))};
-}
-
-FCL_STPBV_VECTORIZED
 Sample BodyPair::sampleFrom(const Vector3d& n, const std::array<int, 2>& hint, int& steps) const {
   const std::array<int, 2> patch{a_.owner(n, hint[0]), b_.owner(opposite(n), hint[1])};
   steps += (hint[0] >= 0 && patch[0] != hint[0]) + (hint[1] >= 0 && patch[1] != hint[1]);

@@ -76,8 +76,11 @@ class BodyPair {
     return {unpack(n), patch, gap.value, unpack(gap.across), unpack(gap.point)};
   }
 
-  /// Patches near those that own `n` and its opposite: of the vertices furthest along them.
-  std::array<int, 2> near(const Eigen::Vector3d& n) const;
+  /// Patches near those that own `n`, of any length, and its opposite: of vertices about as far along them as
+  /// any.
+  std::array<int, 2> near(const Eigen::Vector3d& n) const {
+    return {a_.vertexNear(n), b_.vertexNear(opposite(n))};
+  }
 
   /// The gap along `n`; the owners are looked for from `hint`. Adds the patches that changed to `steps`.
   Sample sampleFrom(const Eigen::Vector3d& n, const std::array<int, 2>& hint, int& steps) const;

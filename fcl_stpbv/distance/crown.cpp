@@ -70,8 +70,8 @@ Packed nearestOf(std::size_t count, const Point& point, const Packed& target) {
 /// A point of the difference about as far against `n`, of any length, as any: from the tables of directions
 /// alone.
 Packed about(const BodyPair& pair, const Packed& n) {
-  return pair.patchB(pair.b().vertexNear(pair.opposite(unpack(n)))).anchor -
-         pair.patchA(pair.a().vertexNear(unpack(n))).anchor;
+  const std::array<int, 2> vertex = pair.near(unpack(n));
+  return pair.patchB(vertex[1]).anchor - pair.patchA(vertex[0]).anchor;
 }
 
 }  // namespace
@@ -116,9 +116,11 @@ bool isAlone(const BodyPair& pair, const Sample& top, double distance) {
 
 FCL_STPBV_VECTORIZED
 bool crownProves(const BodyPair& pair, const Sample& top, double& bound) {
-  constexpr double kRing = 0.55;   // rad from the top's normal to those of the points beyond its feature
+  constexpr double kRing = 0.7;    // rad from the top's normal to those of the points beyond its feature
   constexpr double kClose = 1e-3;  // of the depth: where the surface is this near, no other maximum has room
+  constexpr double kDeep = 0.25;   // of the smaller body's radius: deeper, so few triangles hardly ever do
   const double depth = -top.core - pair.gapRounding();
+  if (depth > kDeep * std::min(pair.a().enclosingRadius(), pair.b().enclosingRadius())) return false;
   auto [corner, count] = cornersAround(pair, top);
   if (count == 0 || !(depth > 0.0)) return false;
   const Packed n = pack(top.n), summit = top.core * n + pack(top.across);

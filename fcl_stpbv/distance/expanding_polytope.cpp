@@ -22,7 +22,7 @@ constexpr double kNear = 0.03;
 constexpr double kClose = 1e-3;
 
 /// Tilt of the normals of points that the polytope gets at first around a maximum, and further off (rad).
-constexpr double kRing = 0.2;
+constexpr double kRing = 0.8;
 
 /// Normals of one maximum found twice differ by less (rad).
 constexpr double kSame = 1e-7;

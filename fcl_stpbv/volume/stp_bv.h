@@ -152,7 +152,7 @@ class StpBv {
     return crossing(patch, n).past;
   }
 
-  /// A vertex about as far along the unit vector `n` as any, from a direction table.
+  /// A vertex about as far along `n`, of any length, as any, from a direction table.
   int vertexNear(const Eigen::Vector3d& n) const { return vertexTable_[cell(n)]; }
 
   /// The patch whose region holds the unit normal `n`, found by walking over the seams from `hint` (any

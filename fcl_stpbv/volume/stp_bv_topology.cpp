@@ -177,9 +177,9 @@ void StpBv::makeStars() {
 }
 
 void StpBv::makeTable() {
-  // About four patches a cell: a walk from there crosses one or two seams, and the table stays in the
-  // first-level cache.
-  cells_ = std::clamp(static_cast<int>(std::sqrt(1.5 * patchCount())), 2, 160);
+  // Three cells a patch, up to millions: the vertex of a direction's cell is nearly always the furthest along
+  // it.
+  cells_ = std::clamp(static_cast<int>(std::sqrt(3.0 * patchCount())), 2, 1000);
   const std::size_t cells = static_cast<std::size_t>(cells_);
   table_.reserve(cells * cells);
   vertexTable_.reserve(cells * cells);
