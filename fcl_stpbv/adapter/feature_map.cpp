@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fcl_stpbv/vectorized.h"
+
 namespace fcl_stpbv {
 namespace {
 
@@ -38,13 +40,8 @@ Vector3d towards(const StpBv& volume, int index, const Vector3d& x) {
 int chooseNeighbour(const StpBv& volume, int patch, const Vector3d& x) {
   const Vector3d d = towards(volume, patch, x);
   const double length = d.norm();
-  int choice = patch;
-  double most = kOnSeam * length;
-  for (const Seam s : volume.seams(patch)) {
-    const double outside = d.dot(s.normal) - s.limit * length;
-    if (outside > most) most = outside, choice = s.neighbour;
-  }
-  return choice;
+  const Crossing over = volume.crossing(patch, d, length);
+  return over.past > kOnSeam * length ? over.neighbour : patch;
 }
 
 /// The core's point nearest to `x` as far as this patch knows.
@@ -82,6 +79,7 @@ MappingCounts& MappingCounts::operator+=(const MappingCounts& other) {
   return *this;
 }
 
+FCL_STPBV_VECTORIZED
 std::array<int, 2> mapFeatures(const StpBvGeometry& a, const Isometry3d& poseA, const StpBvGeometry& b,
                                const Isometry3d& poseB, const PolyhedralWitness& witness) {
   if (witness.verdict != PolyhedralWitness::Verdict::separated) return {-1, -1};

@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/vectorized.h"
 #include "fcl_stpbv/volume/rolling_ball.h"
 
 namespace fcl_stpbv {
@@ -186,6 +187,7 @@ int HullGraph::climb(const Eigen::Vector3d& direction, int from) const {
   return from;
 }
 
+FCL_STPBV_VECTORIZED
 int HullGraph::extremeVertex(const Eigen::Vector3d& direction, int from) const {
   if (!table_.empty()) return climb(direction, from >= 0 ? from : table_[cellOf(direction)]);
   double height = -std::numeric_limits<double>::infinity();
