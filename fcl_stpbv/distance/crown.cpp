@@ -100,10 +100,11 @@ bool isAlone(const BodyPair& pair, const Sample& top, double distance) {
   constexpr double kLevel = 1e-14;  // rounding of 1 - cos^2
   const double depth = -top.core, cosine = distance / depth,
                sine = std::sqrt(std::max(1.0 - cosine * cosine, kLevel));
-  const auto curvature = [&](const StpBv& body, int patch) {
+  // Least radius of curvature of the difference there, at least.
+  const auto onFace = [&](const StpBv& body, int patch) {
     return body.kind(patch) == PatchKind::face ? body.radii().rho : 0.0;
   };
-  double radius = curvature(pair.a(), top.patch[0]) + curvature(pair.b(), top.patch[1]);
+  double radius = onFace(pair.a(), top.patch[0]) + onFace(pair.b(), top.patch[1]);
   if (pair.a().kind(top.patch[0]) == PatchKind::edge && pair.b().kind(top.patch[1]) == PatchKind::edge) {
     const double along = dot(pair.patchA(top.patch[0]).axis, pair.patchB(top.patch[1]).axis),
                  rhoA = pair.a().radii().rho, rhoB = pair.b().radii().rho;
@@ -117,7 +118,7 @@ bool isAlone(const BodyPair& pair, const Sample& top, double distance) {
 FCL_STPBV_VECTORIZED
 bool crownProves(const BodyPair& pair, const Sample& top, double& bound) {
   constexpr double kRing = 0.7;    // rad from the top's normal to those of the points beyond its feature
-  constexpr double kClose = 1e-3;  // of the depth: where the surface is this near, no other maximum has room
+  constexpr double kClose = 1e-3;  // of the depth: by how much the bound may fall short of it
   constexpr double kDeep = 0.25;   // of the smaller body's radius: deeper, so few triangles hardly ever do
   const double depth = -top.core - pair.gapRounding();
   if (depth > kDeep * std::min(pair.a().enclosingRadius(), pair.b().enclosingRadius())) return false;
