@@ -82,6 +82,11 @@ class BodyPair {
     return {a_.vertexNear(n), b_.vertexNear(opposite(n))};
   }
 
+  /// Second body's vertex less the first one's: a point of the difference of the cores.
+  Packed vertexDifference(const std::array<int, 2>& vertex) const {
+    return patchB(vertex[1]).anchor - patchA(vertex[0]).anchor;
+  }
+
   /// The gap along `n`; the owners are looked for from `hint`. Adds the patches that changed to `steps`.
   Sample sampleFrom(const Eigen::Vector3d& n, const std::array<int, 2>& hint, int& steps) const;
 

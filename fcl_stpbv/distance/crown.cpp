@@ -69,26 +69,23 @@ Packed nearestOf(std::size_t count, const Point& point, const Packed& target) {
 
 /// A point of the difference about as far against `n`, of any length, as any: from the tables of directions
 /// alone.
-Packed about(const BodyPair& pair, const Packed& n) {
-  const std::array<int, 2> vertex = pair.near(unpack(n));
-  return pair.patchB(vertex[1]).anchor - pair.patchA(vertex[0]).anchor;
-}
+Packed about(const BodyPair& pair, const Packed& n) { return pair.vertexDifference(pair.near(unpack(n))); }
 
 }  // namespace
 
 Corners cornersAround(const BodyPair& pair, const Sample& top) {
-  Vertices a = verticesOf(pair.a(), top.patch[0]), b = verticesOf(pair.b(), top.patch[1]);
+  const Vertices a = verticesOf(pair.a(), top.patch[0]), b = verticesOf(pair.b(), top.patch[1]);
   const auto onA = [&](std::size_t i) { return pair.patchA(a.index[i]).anchor; };
   const auto onB = [&](std::size_t i) { return pair.patchB(b.index[i]).anchor; };
   Corners c;
   if (a.count == 2 && b.count == 2) {
     c.point = {onB(0) - onA(0), onB(0) - onA(1), onB(1) - onA(1), onB(1) - onA(0)};
     c.count = 4;
-  } else if (a.count > 2) {
+  } else if (a.count > 2 && b.count > 0) {
     const Packed pointB = pack(top.point) + pack(top.across) + top.core * pack(top.n);
     const Packed nearest = nearestOf(b.count, onB, pointB);
     for (c.count = 0; c.count < a.count; ++c.count) c.point[c.count] = nearest - onA(c.count);
-  } else if (b.count > 2) {
+  } else if (b.count > 2 && a.count > 0) {
     const Packed nearest = nearestOf(a.count, onA, pack(top.point));
     for (c.count = 0; c.count < b.count; ++c.count) c.point[c.count] = onB(c.count) - nearest;
   }
@@ -118,7 +115,6 @@ bool isAlone(const BodyPair& pair, const Sample& top, double distance) {
 FCL_STPBV_VECTORIZED
 bool crownProves(const BodyPair& pair, const Sample& top, double& bound) {
   constexpr double kRing = 0.7;    // rad from the top's normal to those of the points beyond its feature
-  constexpr double kClose = 1e-3;  // of the depth: by how much the bound may fall short of it
   constexpr double kDeep = 0.25;   // of the smaller body's radius: deeper, so few triangles hardly ever do
   const double depth = -top.core - pair.gapRounding();
   if (depth > kDeep * std::min(pair.a().enclosingRadius(), pair.b().enclosingRadius())) return false;

@@ -9,6 +9,9 @@
 
 namespace fcl_stpbv {
 
+/// Part of the depth by which a bound on it may fall short.
+constexpr double kClose = 1e-3;
+
 /// Up to four points of the difference of the two cores, second less first.
 struct Corners {
   std::array<Packed, 4> point;

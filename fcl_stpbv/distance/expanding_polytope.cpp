@@ -18,10 +18,7 @@ namespace {
 /// Where the polytope is this much of the depth from the surface, a maximum is likely to be next to it.
 constexpr double kNear = 0.03;
 
-/// Where it is this near, the maximum that its normal leads to is the only one there.
-constexpr double kClose = 1e-3;
-
-/// Tilt of the normals of points that the polytope gets at first around a maximum, and further off (rad).
+/// Tilt from the start's normal of those whose points the polytope begins with (rad).
 constexpr double kRing = 0.8;
 
 /// Normals of one maximum found twice differ by less (rad).
@@ -44,14 +41,12 @@ class Search {
 
   /// Takes in the point of the maximum in `x`.
   bool addTop() {
-    if (!polytope_.sound() || !polytope_.expand(furthest(x_))) return false;
+    if (!add(furthest(x_))) return false;
     top_ = polytope_.lastPoint();
     return true;
   }
 
-  void add(const Vector3d& p) {
-    if (polytope_.sound()) polytope_.expand(p);
-  }
+  bool add(const Vector3d& p) { return polytope_.sound() && polytope_.expand(p); }
 
   /// Expands where the surface is nearest; true once nothing is nearer than the maximum in `x`.
   bool run(double& bound) {

@@ -133,10 +133,7 @@ class Simplex {
   }
 };
 
-Vector3d difference(const BodyPair& pair, int i, int j) {
-  return pair.rotation() * pair.b().vertices()[static_cast<std::size_t>(j)] + pair.translation() -
-         pair.a().vertices()[static_cast<std::size_t>(i)];
-}
+Vector3d difference(const BodyPair& pair, int i, int j) { return unpack(pair.vertexDifference({i, j})); }
 
 /// Nears the simplex to the origin until its features are those that face each other.
 void descend(const BodyPair& pair, Simplex& simplex, Vector3d& v, VertexSearch& result) {

@@ -38,11 +38,11 @@ bool polyhedralStart(const BodyPair& pair, const VertexSearch& search, Found& fo
   return true;
 }
 
-/// Cores that overlap, from a normal with its gap: their widest gap as far as the polytope around that normal
-/// proves it.
-bool overlapAround(const BodyPair& pair, Sample x, Found& found, Work& work) {
-  found = {x, DistanceStatus::local, 0.0};
-  const bool proven = x.core < 0.0 && expandPolytope(pair, found.at, found.bound, work);
+/// Cores that overlap, from a maximum in `found`: their widest gap as far as the polytope around that proves
+/// it.
+bool overlapAround(const BodyPair& pair, Found& found, Work& work) {
+  found.status = DistanceStatus::local;
+  const bool proven = expandPolytope(pair, found.at, found.bound, work);
   if (found.at.core > 0.0) {
     found = climb(pair, found.at, work);
     return true;
@@ -76,7 +76,7 @@ Found solveOverlap(const BodyPair& pair, const Vector3d& n, const std::array<int
 
 FCL_STPBV_VECTORIZED
 void searchWidely(const BodyPair& pair, const Start& start, bool settled, Found& found, Work& work) {
-  if (settled && overlapAround(pair, found.at, found, work)) return;
+  if (settled && overlapAround(pair, found, work)) return;
   const VertexSearch search = searchVertices(pair, start.n);
   if (polyhedralStart(pair, search, found, work)) return;
   if (search.surrounded) {
