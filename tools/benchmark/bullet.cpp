@@ -43,21 +43,19 @@ class Bullet : public Method {
     fill(b_, bodies.b->hull());
   }
 
-  Answer query(const Isometry3d& a, const Isometry3d& b) override {
+  void query(const Isometry3d& a, const Isometry3d& b, Answer& answer) override {
     btGjkPairDetector detector(&a_, &b_, &simplex_, nullptr);
     btGjkPairDetector::ClosestPointInput input;
     input.m_transformA = toBullet(a);
     input.m_transformB = toBullet(b);
     btPointCollector result;
     detector.getClosestPoints(input, result, nullptr);
-    Answer answer;
     answer.outcome = !result.m_hasResult ? Outcome::overlap : Outcome::apart;
     answer.distance = result.m_distance;
     const auto back = [](const btVector3& v) { return Vector3d(v.x(), v.y(), v.z()); };
     answer.normal = -back(result.m_normalOnBInWorld);
     answer.point[1] = back(result.m_pointInWorld);
     answer.point[0] = answer.point[1] - answer.distance * answer.normal;
-    return answer;
   }
 
  private:

@@ -44,7 +44,8 @@ Jump largestJump(Method& method, int steps) {
   bool known = false;
   for (int k = 0; k <= steps; ++k) {
     const Isometry3d pose = rocked(static_cast<double>(k) / steps);
-    const Answer answer = method.query(Isometry3d::Identity(), pose);
+    Answer answer;
+    method.query(Isometry3d::Identity(), pose, answer);
     const Eigen::Matrix<double, 6, 1> g = gradientOf(answer, pose);
     if (answer.outcome != Outcome::apart || !g.allFinite()) {
       ++jump.failed;

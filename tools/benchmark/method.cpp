@@ -28,17 +28,16 @@ class Fcl : public Method {
     request_.distance_tolerance = tolerance;
   }
 
-  Answer query(const Isometry3d& a, const Isometry3d& b) override {
+  void query(const Isometry3d& a, const Isometry3d& b, Answer& answer) override {
     fcl::DistanceResultd result;
-    Answer answer;
+    answer = {};
     try {
       answer.distance = fcl::distance(bodies_.a.get(), a, bodies_.b.get(), b, request_, result);
     } catch (const std::exception&) {
-      return answer;  // FCL throws where its own checks fail
+      return;  // FCL throws where its own checks fail
     }
     answer.outcome = answer.distance > 0 ? Outcome::apart : Outcome::overlap;
     answer.point = {result.nearest_points[0], result.nearest_points[1]};
-    return answer;
   }
 
  private:
@@ -51,17 +50,15 @@ class GapStop : public Method {
   GapStop(const Bodies& bodies, bool warm)
       : Method("FCL with gap stop", warm ? "warm" : "cold", false), bodies_(bodies), warm_(warm) {}
 
-  Answer query(const Isometry3d& a, const Isometry3d& b) override {
+  void query(const Isometry3d& a, const Isometry3d& b, Answer& answer) override {
     const PolyhedralWitness w = polyhedralWitness(bodies_.a->hull(), a, bodies_.b->hull(), b, start_);
     if (warm_) start_ = w.start();
-    Answer answer;
     answer.outcome = w.verdict == PolyhedralWitness::Verdict::separated     ? Outcome::apart
                      : w.verdict == PolyhedralWitness::Verdict::overlapping ? Outcome::overlap
                                                                             : Outcome::failed;
     answer.distance = w.upper;
     answer.point = w.point;
     answer.normal = w.direction;
-    return answer;
   }
 
  private:
@@ -79,15 +76,13 @@ class ThroughFcl : public Method {
  public:
   explicit ThroughFcl(const Bodies& bodies) : Method("STP-BV through FCL", "cold", true), bodies_(bodies) {}
 
-  Answer query(const Isometry3d& a, const Isometry3d& b) override {
+  void query(const Isometry3d& a, const Isometry3d& b, Answer& answer) override {
     const DistanceAnswer d = distance(*bodies_.a, a, *bodies_.b, b);
-    Answer answer;
     answer.outcome = outcomeOf(d.status, d.distance);
     answer.distance = d.distance;
     answer.point = d.points;
     answer.normal = d.normal;
     answer.gradient = d.gradient;
-    return answer;
   }
 
  private:
@@ -98,15 +93,13 @@ class Warm : public Method {
  public:
   explicit Warm(const Bodies& bodies) : Method("STP-BV warm", "warm", true), bodies_(bodies) {}
 
-  Answer query(const Isometry3d& a, const Isometry3d& b) override {
+  void query(const Isometry3d& a, const Isometry3d& b, Answer& answer) override {
     const Distance d = distance(bodies_.a->volume(), a, bodies_.b->volume(), b, &cache_);
-    Answer answer;
     answer.outcome = outcomeOf(d.status, d.distance);
     answer.distance = d.distance;
     answer.point = d.point;
     answer.normal = d.normal;
     answer.gradient = {d.gradient(0, a.translation()), d.gradient(1, b.translation())};
-    return answer;
   }
 
  private:

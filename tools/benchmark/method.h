@@ -43,7 +43,8 @@ class Method {
   Method(std::string itsName, std::string itsSetting, bool isSmooth)
       : name(std::move(itsName)), setting(std::move(itsSetting)), smooth(isSmooth) {}
   virtual ~Method() = default;
-  virtual Answer query(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) = 0;
+  /// Overwrites `answer`, in its place: a copy of it would be timed along with the query.
+  virtual void query(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b, Answer& answer) = 0;
 
   const std::string name, setting;
   const bool smooth;  ///< asks about the STP-BVs; else about the polyhedra

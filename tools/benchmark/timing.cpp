@@ -37,11 +37,11 @@ void runBlock(Method& method, const Poses& poses, std::vector<Answer>& answers, 
   const std::size_t n = poses.a.size();
   const double start = ownTime();
   if (!everyQuery) {
-    for (std::size_t i = 0; i < n; ++i) answers[i] = method.query(poses.a[i], poses.b[i]);
+    for (std::size_t i = 0; i < n; ++i) method.query(poses.a[i], poses.b[i], answers[i]);
   } else {
     for (std::size_t i = 0; i < n; ++i) {
       const Clock::time_point before = Clock::now();
-      answers[i] = method.query(poses.a[i], poses.b[i]);
+      method.query(poses.a[i], poses.b[i], answers[i]);
       const double t = nanoseconds(before, Clock::now()) - clock;
       if (times) times->query.push_back(std::max(0.0, t));
     }
