@@ -11,18 +11,25 @@ using Eigen::Vector3d;
 
 namespace {
 
+/// `1 / sqrt(1 - x)`: for small `x` its series to rounding, which is there sooner than a root and a division.
+double inverseRoot(double x) {
+  constexpr double kSmall = 1e-3;  // the next term is 2e-19
+  if (x > kSmall) return 1.0 / std::sqrt(1.0 - x);
+  const double x2 = x * x;
+  return (1.0 + 1.0 / 2 * x) + x2 * ((3.0 / 8 + 5.0 / 16 * x) + x2 * (35.0 / 128 + 63.0 / 256 * x));
+}
+
 /// Two circles whose axes cross: regions of edges are narrow bands around the planes across them, crossing
 /// bands meet at the axes' common normal `m`, and the widest normal leans from it by little.
 ///
 /// The gap is `n.d - rise` with `rise = sag + kappa (1 - c)` for each circle, so at the widest normal
 /// `d - t_A u_A - t_B u_B = core n` with `t = kappa v / c`. Times `u_A` and `u_B` these are two equations for
-/// the leans, linear but for `c` and `core`, which hang on the leans to the second order only: each pass with
-/// those of the last one gains as many digits as `v^2` has. False where that is not so, or where `n` is the answer
-/// already: axes that cross at a small angle magnify its rounding, and Newton's method has less. `n` is then a
-/// better start than it was.
+/// the leans `v`, solved by Newton's method from upright on (docs/theory.md, 5). False where the leans are
+/// not small, or where `n` is the answer already: axes that cross at a small angle magnify its rounding, and
+/// Newton's method on the sphere has less. `n` is then a better start than it was.
 bool leanFromCommonNormal(const PosedPatch& a, const PosedPatch& b, const Packed& d, Packed& n) {
   constexpr double kCrossing2 = 0.01;   // squared sine between the axes
-  constexpr int kPasses = 4;            // three are usual
+  constexpr int kPasses = 5;            // two are usual
   constexpr double kConverged = 2e-16;  // predicted next change of a lean: the rounding of a unit vector
   constexpr double kAgain = 1e-8;       // rad: asked once more from its own answer, whose rounding was too much
   const Packed &p = a.axis, &q = b.axis;
@@ -30,28 +37,30 @@ bool leanFromCommonNormal(const PosedPatch& a, const PosedPatch& b, const Packed
   const double sine2 = dot(m, m), cosine = dot(m, n);
   if (!(sine2 > kCrossing2 && cosine * cosine > 0.25 * sine2)) return false;
   m *= (cosine > 0.0 ? 1.0 : -1.0) / std::sqrt(sine2);
-  const double along = dot(p, q), dm = dot(d, m), dp = dot(d, p), dq = dot(d, q), kappaA = a.kappa,
-               kappaB = b.kappa;
-  double core = dm, ka = kappaA, kb = kappaB, va = 0.0, vb = 0.0, last2 = 1.0;
+  const double along = dot(p, q), dm = dot(d, m), dp = dot(d, p), dq = dot(d, q), across2 = 1.0 / sine2;
+
+  double va = 0.0, vb = 0.0, secA = 1.0, secB = 1.0, core = dm, leftA = dp, leftB = dq;
   for (int i = 0; i < kPasses; ++i) {
-    const double det = core * (core + ka + kb) + ka * kb * sine2;
+    const double ka = a.kappa * secA, kb = b.kappa * secB, mixed = along - va * vb, aa = core + ka,
+                 bb = core + kb, ab = kb * secB * secB * mixed, ba = ka * secA * secA * mixed,
+                 det = aa * bb - ab * ba;
     if (!(det > 0.0)) return false;
-    const double wa = ((core + kb) * dp - kb * along * dq) / det,
-                 wb = ((core + ka) * dq - ka * along * dp) / det;
-    const double change2 = (wa - va) * (wa - va) + (wb - vb) * (wb - vb);
-    va = wa, vb = wb;
-    const double fa = (va - along * vb) / sine2, fb = (vb - along * va) / sine2, lean2 = va * fa + vb * fb;
+    const double da = (bb * leftA - ab * leftB) / det, db = (aa * leftB - ba * leftA) / det;
+    va += da, vb += db;
+    const double fa = (va - along * vb) * across2, fb = (vb - along * va) * across2,
+                 lean2 = va * fa + vb * fb, change2 = da * da + db * db;
     if (!(lean2 < 0.25)) return false;
-    const double upright = std::sqrt(1.0 - lean2);
-    if (change2 * change2 <= kConverged * kConverged * last2) {
+    const double upright = (1.0 - lean2) * inverseRoot(lean2);
+    if (4.0 * lean2 * change2 * change2 <= kConverged * kConverged) {
       const Packed widest = upright * m + fa * p + fb * q, turn = widest - n;
       n = widest;
       return dot(turn, turn) > kAgain * kAgain;
     }
-    last2 = change2;
-    ka = kappaA / std::sqrt(1.0 - va * va);
-    kb = kappaB / std::sqrt(1.0 - vb * vb);
-    core = upright * dm + fa * dp + fb * dq - ka * va * va - kb * vb * vb;
+    secA = inverseRoot(va * va), secB = inverseRoot(vb * vb);
+    const double ta = a.kappa * va * secA, tb = b.kappa * vb * secB;
+    core = upright * dm + fa * dp + fb * dq - ta * va - tb * vb;
+    leftA = dp - ta - along * tb - core * va;
+    leftB = dq - tb - along * ta - core * vb;
   }
   return false;
 }
