@@ -22,8 +22,8 @@ struct Crossing {
   int neighbour;
 };
 
-/// Up to four seams of one patch; an unused one holds for any normal. A patch with more has another block, which
-/// `next` names.
+/// Up to four seams of one patch; an unused one holds for any normal. A patch with more has another block,
+/// which `next` names among the further ones.
 struct SeamBlock {
   static constexpr std::size_t kSize = 4;
   using Doubles = double __attribute__((vector_size(32)));
@@ -43,6 +43,9 @@ struct SeamBlock {
   Seam seam(std::size_t slot) const {
     return {Eigen::Vector3d(x[slot], y[slot], z[slot]), limit[slot], neighbour[slot]};
   }
+
+  /// The patch's block after this one, null for none.
+  const SeamBlock* after(const SeamBlock* further) const { return next < 0 ? nullptr : further + next; }
 
   /// The largest `n.normal - limit` of the four, its slot in place of the two least bits: no branches, all
   /// seams at once. `n` is anything with three numbers; for one of another length than 1 the value is that
@@ -74,27 +77,29 @@ class Seams {
  public:
   class Iterator {
    public:
-    Iterator(const SeamBlock* blocks, std::int32_t block) : blocks_(blocks), block_(block) {}
-    Seam operator*() const { return blocks_[block_].seam(slot_); }
+    Iterator(const SeamBlock* block, const SeamBlock* further) : block_(block), further_(further) {}
+    Seam operator*() const { return block_->seam(slot_); }
     Iterator& operator++() {
-      if (++slot_ == SeamBlock::kSize || blocks_[block_].neighbour[slot_] < 0) block_ = blocks_[block_].next, slot_ = 0;
+      if (++slot_ < SeamBlock::kSize && block_->neighbour[slot_] >= 0) return *this;
+      block_ = block_->after(further_);
+      slot_ = 0;
       return *this;
     }
     bool operator!=(const Iterator& other) const { return block_ != other.block_ || slot_ != other.slot_; }
 
    private:
-    const SeamBlock* blocks_;
-    std::int32_t block_;
+    const SeamBlock *block_, *further_;
     std::size_t slot_ = 0;
   };
 
-  Seams(const SeamBlock* blocks, int patch) : blocks_(blocks), first_(blocks[patch].neighbour[0] < 0 ? -1 : patch) {}
-  Iterator begin() const { return {blocks_, first_}; }
-  Iterator end() const { return {blocks_, -1}; }
+  /// From the patch's first block and the further ones of all patches.
+  Seams(const SeamBlock& first, const SeamBlock* further)
+      : first_(first.neighbour[0] < 0 ? nullptr : &first), further_(further) {}
+  Iterator begin() const { return {first_, further_}; }
+  Iterator end() const { return {nullptr, further_}; }
 
  private:
-  const SeamBlock* blocks_;
-  std::int32_t first_;
+  const SeamBlock *first_, *further_;
 };
 
 }  // namespace fcl_stpbv

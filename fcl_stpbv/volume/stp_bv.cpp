@@ -201,9 +201,9 @@ Vector3d StpBv::corner(int face, int vertex) const {
 std::size_t StpBv::memory() const {
   std::size_t bytes = sizeof *this + vertices_.capacity() * sizeof(Vector3d) +
                       edges_.capacity() * sizeof(Edge) + faces_.capacity() * sizeof(Ring) +
-                      faceNormals_.capacity() * sizeof(Vector3d) + patches_.capacity() * sizeof(Patch) +
-                      seams_.capacity() * sizeof(SeamBlock) +
-                      stars_.capacity() * sizeof(VertexStar) +
+                      faceNormals_.capacity() * sizeof(Vector3d) +
+                      patches_.capacity() * sizeof(BoundedPatch) +
+                      furtherSeams_.capacity() * sizeof(SeamBlock) + stars_.capacity() * sizeof(VertexStar) +
                       (table_.capacity() + vertexTable_.capacity()) * sizeof(std::int32_t);
   for (const Ring& ring : faces_) bytes += ring.capacity() * sizeof(int);
   return bytes;

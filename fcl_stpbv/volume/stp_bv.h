@@ -79,37 +79,37 @@ class StpBv {
            : patch < firstFace_ || patch >= firstPart_ ? PatchKind::edge
                                                        : PatchKind::face;
   }
-  const Patch& patch(int index) const { return patches_[static_cast<std::size_t>(index)]; }
+  const Patch& patch(int index) const { return patches_[static_cast<std::size_t>(index)].patch; }
 
   /// The seams around a patch's region of normals (paper III.D).
-  Seams seams(int patch) const { return {seams_.data(), patch}; }
+  Seams seams(int patch) const {
+    return {patches_[static_cast<std::size_t>(patch)].seams, furtherSeams_.data()};
+  }
 
   /// The seam of the patch that `n`, anything with three numbers, passes furthest: `length` times as far as a
   /// unit vector would.
   template <typename Vector>
   Crossing crossing(int patch, const Vector& n, double length = 1.0) const {
     Crossing most{-std::numeric_limits<double>::infinity(), -1};
-    for (std::int32_t block = patch; block >= 0;) {
-      const SeamBlock& seams = seams_[static_cast<std::size_t>(block)];
-      const double past = seams.past(n, length);
-      if (past > most.past) most = {past, seams.neighbour[SeamBlock::slotOf(past)]};
-      block = seams.next;
-    }
+    const SeamBlock* block = &patches_[static_cast<std::size_t>(patch)].seams;
+    do {
+      const double past = block->past(n, length);
+      if (past > most.past) most = {past, block->neighbour[SeamBlock::slotOf(past)]};
+      block = block->after(furtherSeams_.data());
+    } while (block);
     return most;
   }
 
   /// Has the patches past this one's seams brought near the processor, for a query that is likely to go there
   /// next; a small volume is there anyway.
   void prefetchBeside(int patch) const {
-    constexpr std::size_t kSmall = 2000;  // patches: half a megabyte
+    constexpr std::size_t kSmall = 100;  // patches: half of the nearest cache
+    constexpr std::size_t kLine = 64;    // bytes
     if (patches_.size() < kSmall) return;
-    for (const std::int32_t beside : seams_[static_cast<std::size_t>(patch)].neighbour) {
-      const std::size_t i = static_cast<std::size_t>(std::max(beside, 0));
-      __builtin_prefetch(&patches_[i]);
-      const SeamBlock& seams = seams_[i];
-      __builtin_prefetch(&seams.x);
-      __builtin_prefetch(&seams.z);
-      __builtin_prefetch(&seams.neighbour);
+    for (const std::int32_t beside : patches_[static_cast<std::size_t>(patch)].seams.neighbour) {
+      const auto* there =
+          reinterpret_cast<const char*>(&patches_[static_cast<std::size_t>(std::max(beside, 0))]);
+      for (std::size_t at = 0; at < sizeof(BoundedPatch); at += kLine) __builtin_prefetch(there + at);
     }
   }
 
@@ -180,6 +180,12 @@ class StpBv {
   static double smallestR(const std::vector<Eigen::Vector3d>& points, double r);
 
  private:
+  /// A patch and the first seams around it side by side, since a query reads both.
+  struct BoundedPatch {
+    Patch patch;
+    SeamBlock seams;
+  };
+
   StpBv() = default;
   static Ptr make(std::vector<Eigen::Vector3d> vertices, std::vector<Ring> faces,
                   const StpBvOptions& options);
@@ -206,8 +212,8 @@ class StpBv {
   std::vector<Ring> faces_;
   std::vector<Eigen::Vector3d> faceNormals_;  // unit, at each ring's first vertex
   int firstEdge_ = 0, firstFace_ = 0, firstPart_ = 0;  // patches of that kind begin here
-  std::vector<Patch> patches_;
-  std::vector<SeamBlock> seams_;           // one a patch, then the further ones
+  std::vector<BoundedPatch> patches_;
+  std::vector<SeamBlock> furtherSeams_;    // of patches with more than four
   std::vector<VertexStar> stars_;          // one a vertex, then the further ones
   std::vector<std::int32_t> table_;        // patch owning the middle of each cell of a map of directions
   std::vector<std::int32_t> vertexTable_;  // vertex furthest along the middle of each such cell

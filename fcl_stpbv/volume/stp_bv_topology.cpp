@@ -2,6 +2,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -94,12 +95,12 @@ void StpBv::makePatches() {
   std::size_t further = 0;
   for (const Edge& edge : edges_) further += static_cast<std::size_t>(partsOf(edge) - 1);
   patches_.reserve(vertices_.size() + edges_.size() + faces_.size() + further);
-  for (const Vector3d& p : vertices_) patches_.push_back({p, Vector3d::Zero(), 0, 0});
-  for (const Edge& edge : edges_) patches_.push_back(edgePatchOf(edge));
+  for (const Vector3d& p : vertices_) patches_.push_back({{p, Vector3d::Zero(), 0, 0}, {}});
+  for (const Edge& edge : edges_) patches_.push_back({edgePatchOf(edge), {}});
   for (std::size_t f = 0; f < faces_.size(); ++f)
-    patches_.push_back({at(faces_[f][0]), faceNormals_[f], 0, 0});
+    patches_.push_back({{at(faces_[f][0]), faceNormals_[f], 0, 0}, {}});
   for (const Edge& edge : edges_)
-    for (int part = 1; part < partsOf(edge); ++part) patches_.push_back(edgePatchOf(edge));
+    for (int part = 1; part < partsOf(edge); ++part) patches_.push_back({edgePatchOf(edge), {}});
 }
 
 void StpBv::makeSeams() {
@@ -136,20 +137,23 @@ void StpBv::makeSeams() {
       all.push_back({parts[k], {-forward, 0, parts[k - 1]}});
     }
   }
-  seams_.resize(patches_.size());
-  std::vector<std::size_t> last(patches_.size()), filled(patches_.size(), 0);  // block with room, and seams in it
-  std::iota(last.begin(), last.end(), std::size_t{0});
+  constexpr std::size_t kFirst = std::numeric_limits<std::size_t>::max();
+  std::vector<std::size_t> last(patches_.size(), kFirst),
+      filled(patches_.size(), 0);  // block with room, seams in it
   for (const auto& [patch, seam] : all) {
     const auto p = static_cast<std::size_t>(patch);
+    const auto block = [&]() -> SeamBlock& {
+      return last[p] == kFirst ? patches_[p].seams : furtherSeams_[last[p]];
+    };
     if (filled[p] == SeamBlock::kSize) {
-      seams_[last[p]].next = static_cast<std::int32_t>(seams_.size());
-      last[p] = seams_.size();
+      block().next = static_cast<std::int32_t>(furtherSeams_.size());
+      last[p] = furtherSeams_.size();
       filled[p] = 0;
-      seams_.emplace_back();
+      furtherSeams_.emplace_back();
     }
-    seams_[last[p]].set(filled[p]++, seam);
+    block().set(filled[p]++, seam);
   }
-  seams_.shrink_to_fit();
+  furtherSeams_.shrink_to_fit();
 }
 
 void StpBv::makeStars() {
