@@ -11,7 +11,7 @@ bool distanceCallback(fcl::CollisionObjectd* object1, fcl::CollisionObjectd* obj
   if (!query.done) {
     ++query.pairs;
     QueryContext context;
-    context.mapping = &query.mapping;
+    context.mapping = query.mapping;
     if (query.caches) context.cache = &query.caches->of(object1, object2);
     const DistanceAnswer answer = distance(*object1, *object2, context);
     if (answer.status == DistanceStatus::invalid)

@@ -16,19 +16,37 @@ namespace {
 using fcl::CollisionGeometryd;
 using fcl::Transform3d;
 
-/// Two STP-BVs: from the last answer if there is one, else from FCL's polyhedral witness (paper IV.B).
-Distance smoothDistance(const StpBvGeometry& a, const Transform3d& poseA, const StpBvGeometry& b,
-                        const Transform3d& poseB, const QueryContext& context) {
-  if (context.cache && context.cache->normal.squaredNorm() > 0)
-    return distance(a.volume(), poseA, b.volume(), poseB, context.cache);
+/// A start from FCL's polyhedral witness (paper IV.B), which the solver goes on from by hopping: cheaper than
+/// the last of GJK's steps and than the choice of neighbours, so both are left out.
+PairCache startFromFcl(const StpBvGeometry& a, const Transform3d& poseA, const StpBvGeometry& b,
+                       const Transform3d& poseB) {
+  constexpr double kGap = 0.9;  // of the distance: any plane well between the two
+  const PolyhedralWitness witness = polyhedralWitness(a.hull(), poseA, b.hull(), poseB, {}, kGap);
+  if (witness.verdict != PolyhedralWitness::Verdict::separated) return {witness.direction};
+  return {witness.direction, {a.patchOf(witness.feature[0]), b.patchOf(witness.feature[1])}};
+}
 
+/// The same start from the exact witness, mapped in full, and counted.
+Distance countedDistance(const StpBvGeometry& a, const Transform3d& poseA, const StpBvGeometry& b,
+                         const Transform3d& poseB, PairCache& start, MappingCounts& counts) {
   const PolyhedralWitness witness = polyhedralWitness(a.hull(), poseA, b.hull(), poseB);
   const std::array<int, 2> mapped = mapFeatures(a, poseA, b, poseB, witness);
-  PairCache start{witness.direction, mapped};
+  start = {witness.direction, mapped};
   const Distance found = distance(a.volume(), poseA, b.volume(), poseB, &start);
-  if (context.mapping) countMapping(a.volume(), poseA, b.volume(), poseB, mapped, found, *context.mapping);
-  if (context.cache) *context.cache = start;
+  countMapping(a.volume(), poseA, b.volume(), poseB, mapped, found, counts);
   return found;
+}
+
+/// Two STP-BVs: from the last answer if there is one, else from FCL's witness.
+Distance smoothDistance(const StpBvGeometry& a, const Transform3d& poseA, const StpBvGeometry& b,
+                        const Transform3d& poseB, const QueryContext& context) {
+  PairCache start;
+  PairCache& cache = context.cache ? *context.cache : start;
+  if (!(cache.normal.squaredNorm() > 0)) {
+    if (context.mapping) return countedDistance(a, poseA, b, poseB, cache, *context.mapping);
+    cache = startFromFcl(a, poseA, b, poseB);
+  }
+  return distance(a.volume(), poseA, b.volume(), poseB, &cache);
 }
 
 /// An STP-BV and anything else, in either order: the same query, so the same answer from the other side.

@@ -52,7 +52,9 @@ struct ProximityCounts {
 /// What a query may remember and report; all optional, all owned by the caller.
 struct QueryContext {
   PairCache* cache = nullptr;        ///< starts the query near the pair's last answer instead of asking FCL
-  MappingCounts* mapping = nullptr;  ///< gets the outcome of the feature mapping, for queries that ask FCL
+  /// Gets the outcome of the feature mapping, for queries that ask FCL: from the exact witness then, which
+  /// takes longer.
+  MappingCounts* mapping = nullptr;
   ProximityCounts* proximity = nullptr;  ///< gets what a question about a threshold took
 };
 

@@ -6,6 +6,7 @@
 #include "fcl_stpbv/adapter/fcl_gjk.h"
 #include "fcl_stpbv/adapter/posed_hulls.h"
 #include "fcl_stpbv/adapter/simplex.h"
+#include "fcl_stpbv/vectorized.h"
 
 namespace fcl_stpbv {
 namespace {
@@ -71,8 +72,9 @@ int verticesOf(const Simplex& s, int SimplexCorner::*vertex, std::array<int, 3>&
 
 }  // namespace
 
+FCL_STPBV_VECTORIZED
 PolyhedralWitness polyhedralWitness(const HullGraph& a, const Eigen::Isometry3d& poseA, const HullGraph& b,
-                                    const Eigen::Isometry3d& poseB, const WitnessStart& start) {
+                                    const Eigen::Isometry3d& poseB, const WitnessStart& start, double gap) {
   using Verdict = PolyhedralWitness::Verdict;
   PolyhedralWitness result;
   result.vertices = {{{-1, -1, -1}, {-1, -1, -1}}};
@@ -107,7 +109,7 @@ PolyhedralWitness polyhedralWitness(const HullGraph& a, const Eigen::Isometry3d&
     n = -near.point / length;
     const SimplexCorner next = pair.support(n);
     lower = std::max(lower, -next.point.dot(n));
-    if (upper - lower <= kGapTolerance * (1 + upper) || holds(trial, next)) break;
+    if (upper - lower <= std::max(kGapTolerance * (1 + upper), gap * upper) || holds(trial, next)) break;
     simplex.size = 0;
     for (int i = 0; i < trial.size; ++i) simplex.add(trial.corner[static_cast<std::size_t>(i)]);
     simplex.add(next);

@@ -38,8 +38,9 @@ struct PolyhedralWitness {
 /// The intersection test is FCL's own GJK, on a support function that climbs from the last vertex, in
 /// coordinates relative to A and scaled to about 1 because libccd's tolerances are absolute. Its distance
 /// loop is replaced: FCL stops where two norms agree, which is no proof of convergence (docs/fcl.md); here
-/// the duality gap decides.
+/// the duality gap decides. It stops once that is at most `gap` times the distance; 0 is to rounding.
 PolyhedralWitness polyhedralWitness(const HullGraph& a, const Eigen::Isometry3d& poseA, const HullGraph& b,
-                                    const Eigen::Isometry3d& poseB, const WitnessStart& start = {});
+                                    const Eigen::Isometry3d& poseB, const WitnessStart& start = {},
+                                    double gap = 0.0);
 
 }  // namespace fcl_stpbv

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "fcl_stpbv/vectorized.h"
+
 namespace fcl_stpbv {
 namespace {
 
@@ -75,6 +77,7 @@ void keep(const Simplex& s, const Candidate& best, Simplex& reduced) {
 
 }  // namespace
 
+FCL_STPBV_VECTORIZED
 NearestPoint reduceToNearest(const Simplex& s, Simplex& reduced) {
   Candidate best{};
   switch (s.size) {

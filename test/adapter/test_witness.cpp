@@ -153,6 +153,30 @@ TEST_CASE("the polyhedral witness does not depend on scale, place or start") {
   }
 }
 
+TEST_CASE("a witness that stops early keeps its bounds, for less work") {
+  Random random(12);
+  const HullGraph hull(randomHull(100, {0.3, 0.2, 0.1}, 3));
+  constexpr double kRounding = 1e-15;  // of points less than a metre away
+  long supports = 0, exactSupports = 0;
+  for (int i = 0; i < 500; ++i) {
+    const Isometry3d poseA = pose(random.rotation(), Vector3d::Zero());
+    const Isometry3d poseB = pose(random.rotation(), random.uniform(0.75, 1.0) * random.direction());
+    const PolyhedralWitness exact = polyhedralWitness(hull, poseA, hull, poseB);
+    REQUIRE(exact.verdict == Verdict::separated);
+    exactSupports += exact.supports;
+    for (const double gap : {0.01, 0.9}) {
+      const PolyhedralWitness w = polyhedralWitness(hull, poseA, hull, poseB, {}, gap);
+      REQUIRE(w.verdict == Verdict::separated);
+      REQUIRE(w.upper - w.lower <= gap * w.upper + kRounding);
+      REQUIRE(w.lower <= exact.upper + kRounding);
+      REQUIRE(w.upper >= exact.lower - kRounding);
+      REQUIRE(std::abs((w.point[1] - w.point[0]).norm() - w.upper) <= kRounding);
+      supports += w.supports;
+    }
+  }
+  CHECK(supports < 2 * exactSupports);
+}
+
 TEST_CASE("touching and nearly touching hulls keep both bounds") {
   Random random(13);
   const HullGraph cube(box(0.2, 0.2, 0.2));
