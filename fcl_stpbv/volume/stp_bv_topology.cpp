@@ -2,7 +2,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -137,21 +136,20 @@ void StpBv::makeSeams() {
       all.push_back({parts[k], {-forward, 0, parts[k - 1]}});
     }
   }
-  constexpr std::size_t kFirst = std::numeric_limits<std::size_t>::max();
-  std::vector<std::size_t> last(patches_.size(), kFirst),
-      filled(patches_.size(), 0);  // block with room, seams in it
+  std::vector<std::int32_t> last(patches_.size(), -1);  // further block with room, -1: the patch's first
   for (const auto& [patch, seam] : all) {
     const auto p = static_cast<std::size_t>(patch);
     const auto block = [&]() -> SeamBlock& {
-      return last[p] == kFirst ? patches_[p].seams : furtherSeams_[last[p]];
+      return last[p] < 0 ? patches_[p].seams : furtherSeams_[static_cast<std::size_t>(last[p])];
     };
-    if (filled[p] == SeamBlock::kSize) {
-      block().next = static_cast<std::int32_t>(furtherSeams_.size());
-      last[p] = furtherSeams_.size();
-      filled[p] = 0;
+    if (block().neighbour.back() >= 0) {  // full
+      const auto next = static_cast<std::int32_t>(furtherSeams_.size());
+      block().next = next;
+      last[p] = next;
       furtherSeams_.emplace_back();
     }
-    block().set(filled[p]++, seam);
+    const auto& taken = block().neighbour;
+    block().set(static_cast<std::size_t>(std::find(taken.begin(), taken.end(), -1) - taken.begin()), seam);
   }
   furtherSeams_.shrink_to_fit();
 }
