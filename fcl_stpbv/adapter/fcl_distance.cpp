@@ -9,6 +9,7 @@
 #include "fcl_stpbv/adapter/flat_pair.h"
 #include "fcl_stpbv/adapter/other_geometry.h"
 #include "fcl_stpbv/adapter/polyhedral_witness.h"
+#include "fcl_stpbv/vectorized.h"
 
 namespace fcl_stpbv {
 namespace {
@@ -22,7 +23,6 @@ PairCache startFromFcl(const StpBvGeometry& a, const Transform3d& poseA, const S
                        const Transform3d& poseB) {
   constexpr double kGap = 0.9;  // of the distance: any plane well between the two
   const PolyhedralWitness witness = polyhedralWitness(a.hull(), poseA, b.hull(), poseB, {}, kGap);
-  if (witness.verdict != PolyhedralWitness::Verdict::separated) return {witness.direction};
   return {witness.direction, {a.patchOf(witness.feature[0]), b.patchOf(witness.feature[1])}};
 }
 
@@ -125,6 +125,7 @@ bool finite(const Transform3d& pose) { return pose.matrix().topRows<3>().allFini
 
 }  // namespace
 
+FCL_STPBV_VECTORIZED
 DistanceAnswer inFclTerms(const Distance& found, const Transform3d& pose1, const Transform3d& pose2) {
   DistanceAnswer answer;
   answer.status = found.status;
@@ -143,12 +144,15 @@ DistanceAnswer inFclTerms(const Distance& found, const Transform3d& pose1, const
 DistanceAnswer distance(const CollisionGeometryd& geometry1, const Transform3d& pose1,
                         const CollisionGeometryd& geometry2, const Transform3d& pose2,
                         const QueryContext& context) {
-  DistanceAnswer answer;
   const StpBvGeometry* a = asStpBv(&geometry1);
   const StpBvGeometry* b = asStpBv(&geometry2);
-  if (a && b)
-    answer = inFclTerms(smoothDistance(*a, pose1, *b, pose2, context), pose1, pose2);
-  else if (!finite(pose1) || !finite(pose2))
+  if (a && b) {
+    DistanceAnswer answer = inFclTerms(smoothDistance(*a, pose1, *b, pose2, context), pose1, pose2);
+    answer.geometry = {&geometry1, &geometry2};
+    return answer;
+  }
+  DistanceAnswer answer;
+  if (!finite(pose1) || !finite(pose2))
     answer = {};  // FCL may loop or assert on these
   else if (!mixedDistance(a, geometry1, pose1, b, geometry2, pose2, context, answer) &&
            !flatPair(geometry1, pose1, geometry2, pose2, answer))

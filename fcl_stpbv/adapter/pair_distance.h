@@ -14,21 +14,22 @@ class PairDistance {
  public:
   using Geometry = std::shared_ptr<const fcl::CollisionGeometryd>;
 
-  PairDistance(Geometry geometry1, Geometry geometry2)
-      : geometry1_(std::move(geometry1)), geometry2_(std::move(geometry2)) {}
+  /// `mapping`, optional, gets how good FCL's features were as starts, and makes the queries that ask FCL
+  /// slower.
+  PairDistance(Geometry geometry1, Geometry geometry2, MappingCounts* mapping = nullptr)
+      : geometry1_(std::move(geometry1)), geometry2_(std::move(geometry2)), mapping_(mapping) {}
 
   DistanceAnswer operator()(const fcl::Transform3d& pose1, const fcl::Transform3d& pose2) {
-    return distance(*geometry1_, pose1, *geometry2_, pose2, {&cache_, &mapping_});
+    return distance(*geometry1_, pose1, *geometry2_, pose2, {&cache_, mapping_});
   }
 
   /// Makes the next query start from FCL's witness again.
   void forget() { cache_ = {}; }
-  const MappingCounts& mapping() const { return mapping_; }
 
  private:
   Geometry geometry1_, geometry2_;
   PairCache cache_;
-  MappingCounts mapping_;
+  MappingCounts* mapping_;
 };
 
 }  // namespace fcl_stpbv

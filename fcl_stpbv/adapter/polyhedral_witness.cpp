@@ -107,9 +107,11 @@ PolyhedralWitness polyhedralWitness(const HullGraph& a, const Eigen::Isometry3d&
     best = 1 - best;
     upper = length;
     n = -near.point / length;
+    const double enough = std::max(kGapTolerance * (1 + upper), gap * upper);
+    if (upper - lower <= enough) break;
     const SimplexCorner next = pair.support(n);
     lower = std::max(lower, -next.point.dot(n));
-    if (upper - lower <= std::max(kGapTolerance * (1 + upper), gap * upper) || holds(trial, next)) break;
+    if (upper - lower <= enough || holds(trial, next)) break;
     simplex.size = 0;
     for (int i = 0; i < trial.size; ++i) simplex.add(trial.corner[static_cast<std::size_t>(i)]);
     simplex.add(next);

@@ -17,27 +17,16 @@ void toCcd(const Vector3d& v, ccd_vec3_t* out) { ccdVec3Set(out, v[0], v[1], v[2
 
 }  // namespace
 
-PosedHulls::PosedHulls(const HullGraph& a, const Eigen::Isometry3d& poseA, const HullGraph& b,
-                       const Eigen::Isometry3d& poseB, const std::array<int, 2>& startVertices)
-    : a_(a), b_(b), lastA_(startVertices[0]), lastB_(startVertices[1]) {
-  rotation_ = poseA.linear().transpose() * poseB.linear();
-  offset_ =
-      poseA.linear().transpose() * (poseB.translation() - poseA.translation() + poseB.linear() * b.centre()) -
-      a.centre();
-  double size = std::max(a.radius() + b.radius(), offset_.norm() / kFar);
-  if (!rotation_.allFinite() || !offset_.allFinite() || !std::isfinite(size)) return;
+void PosedHulls::fit() {
+  const Vector3d far = unpack(offset_);
+  double size = std::max(a_.radius() + b_.radius(), far.lpNorm<1>() / kFar);
+  if (!far.allFinite() || !std::isfinite(size)) return;  // nor is the offset where the rotation is not
   if (!(size > 0)) size = 1;  // two points on one spot
   int exponent = 0;
   std::frexp(size, &exponent);
   scale_ = std::ldexp(1.0, -exponent);
   offset_ *= scale_;
   usable_ = std::isfinite(scale_) && scale_ > 0;
-}
-
-SimplexCorner PosedHulls::support(const Vector3d& n) {
-  ++supports_;
-  const int va = climbA(n), vb = climbB(n);
-  return {pointA(va) - pointB(vb), va, vb};
 }
 
 void PosedHulls::ccdSupportA(const void* pair, const ccd_vec3_t* direction, ccd_vec3_t* point) {

@@ -134,8 +134,7 @@ Distance distance(const StpBv& a, const Isometry3d& poseA, const StpBv& b, const
   result.lower = -std::numeric_limits<double>::infinity();
   result.upper = std::numeric_limits<double>::infinity();
   const Rotation toWorld(poseA);
-  Rotation rotation(toWorld.inverse(column(poseB, 0)), toWorld.inverse(column(poseB, 1)),
-                    toWorld.inverse(column(poseB, 2)));
+  Rotation rotation = toWorld.relative(poseB);
   if (!rotation.orthonormal()) {
     Eigen::Matrix3d matrix = rotation.matrix();
     if (!makeOrthonormal(matrix)) return result;

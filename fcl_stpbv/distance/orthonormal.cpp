@@ -1,7 +1,10 @@
 #include "fcl_stpbv/distance/orthonormal.h"
 
+#include "fcl_stpbv/vectorized.h"
+
 namespace fcl_stpbv {
 
+FCL_STPBV_VECTORIZED
 bool makeOrthonormal(Eigen::Matrix3d& q) {
   constexpr double kRotation = 0.1, kFine = 2e-15;
   // Newton for the polar factor, q (3 - q^T q) / 2: the error squares.

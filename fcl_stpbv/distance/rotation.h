@@ -27,6 +27,11 @@ class Rotation {
 
   explicit Rotation(const Eigen::Matrix3d& m) : Rotation(pack(m.col(0)), pack(m.col(1)), pack(m.col(2))) {}
 
+  /// The rotation of `pose` as seen from this one's frame: this one's inverse times it.
+  Rotation relative(const Eigen::Isometry3d& pose) const {
+    return {inverse(column(pose, 0)), inverse(column(pose, 1)), inverse(column(pose, 2))};
+  }
+
   /// Whether the columns are orthonormal to the rounding of a product of two rotations.
   bool orthonormal() const {
     constexpr double kFine = 4e-15;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -48,16 +49,21 @@ Motion paperMotion(double degrees, double step, int queries, double nearest) {
   return motion;
 }
 
-/// Nanoseconds a query, the best of five passes over the motion.
-template <typename Query>
-double nanoseconds(const Motion& motion, Query query) {
-  double best = 1e300;
-  for (int pass = 0; pass < 5; ++pass) {
-    const auto start = std::chrono::steady_clock::now();
-    for (std::size_t i = 0; i < motion.a.size(); ++i) query(motion.a[i], motion.b[i]);
-    const std::chrono::duration<double, std::nano> spent = std::chrono::steady_clock::now() - start;
-    best = std::min(best, spent.count() / static_cast<double>(motion.a.size()));
-  }
+using Query = std::function<double(const Isometry3d&, const Isometry3d&)>;
+
+/// Nanoseconds a query of each way to ask, the best of nine passes over the motion. The ways take turns, so
+/// that what slows the machine for a while slows all of them.
+std::vector<double> nanoseconds(const Motion& motion, const std::vector<Query>& ways) {
+  std::vector<double> best(ways.size(), 1e300);
+  double sum = 0;  // keeps the compiler from dropping queries
+  for (int pass = 0; pass < 9; ++pass)
+    for (std::size_t k = 0; k < ways.size(); ++k) {
+      const auto start = std::chrono::steady_clock::now();
+      for (std::size_t i = 0; i < motion.a.size(); ++i) sum += ways[k](motion.a[i], motion.b[i]);
+      const std::chrono::duration<double, std::nano> spent = std::chrono::steady_clock::now() - start;
+      best[k] = std::min(best[k], spent.count() / static_cast<double>(motion.a.size()));
+    }
+  if (!std::isfinite(sum)) std::printf(" !");
   return best;
 }
 
@@ -95,31 +101,30 @@ void report(const char* name, const Cloud& cloud, int queries) {
       distance(g, motion.a[i], g, motion.b[i], {nullptr, &counts});
     std::printf("%-12s %-5s |", name, large ? "large" : "small");
     print(counts);
-    double sum = 0;  // keeps the compiler from dropping queries
 
     fcl::DistanceRequestd request;
     request.distance_tolerance = 1e-10;
-    const double fclTime = nanoseconds(motion, [&](const Isometry3d& a, const Isometry3d& b) {
-      fcl::DistanceResultd result;
-      sum += fcl::distance(&g, a, &g, b, request, result);
-    });
-    const double witness = nanoseconds(motion, [&](const Isometry3d& a, const Isometry3d& b) {
-      sum += polyhedralWitness(g.hull(), a, g.hull(), b).upper;
-    });
     WitnessStart start;
-    const double warmWitness = nanoseconds(motion, [&](const Isometry3d& a, const Isometry3d& b) {
-      const PolyhedralWitness w = polyhedralWitness(g.hull(), a, g.hull(), b, start);
-      start = w.start();
-      sum += w.upper;
-    });
-    const double cold = nanoseconds(
-        motion, [&](const Isometry3d& a, const Isometry3d& b) { sum += distance(g, a, g, b).distance; });
     PairCache cache;
-    const double warm = nanoseconds(motion, [&](const Isometry3d& a, const Isometry3d& b) {
-      sum += distance(g, a, g, b, {&cache, nullptr}).distance;
-    });
-    std::printf(" %6.0f | %5.0f %5.0f (%.2f) | %5.0f %5.0f%s\n", fclTime, witness, warmWitness,
-                witness / fclTime, cold, warm, std::isfinite(sum) ? "" : " !");
+    const std::vector<double> ns = nanoseconds(
+        motion, {[&](const Isometry3d& a, const Isometry3d& b) {
+                   fcl::DistanceResultd result;
+                   return fcl::distance(&g, a, &g, b, request, result);
+                 },
+                 [&](const Isometry3d& a, const Isometry3d& b) {
+                   return polyhedralWitness(g.hull(), a, g.hull(), b).upper;
+                 },
+                 [&](const Isometry3d& a, const Isometry3d& b) {
+                   const PolyhedralWitness w = polyhedralWitness(g.hull(), a, g.hull(), b, start);
+                   start = w.start();
+                   return w.upper;
+                 },
+                 [&](const Isometry3d& a, const Isometry3d& b) { return distance(g, a, g, b).distance; },
+                 [&](const Isometry3d& a, const Isometry3d& b) {
+                   return distance(g, a, g, b, {&cache, nullptr}).distance;
+                 }});
+    std::printf(" %6.0f | %5.0f %5.0f (%.2f) | %5.0f %5.0f (%.2f)\n", ns[0], ns[1], ns[2], ns[1] / ns[0],
+                ns[3], ns[4], ns[3] / ns[0]);
   }
 }
 
@@ -139,7 +144,7 @@ int main(int argc, char** argv) {
       {"hull of 200", randomHull(200, {0.2, 0.15, 0.1}, 3)}};
   std::printf(
       "features mapped right, neighbour, farther, none (%%) | ns a query: fcl::distance | witness cold, warm "
-      "(cold/fcl) | fcl_stpbv::distance cold, warm\n");
+      "(cold/fcl) | fcl_stpbv::distance cold, warm (cold/fcl)\n");
   for (const auto& [name, cloud] : shapes) report(name, cloud, queries);
   std::printf("centres 3.8 to 7.6 enclosing radii apart\n");
   for (const auto& [name, cloud] : shapes) reportApart(name, cloud, queries, 3.8, 7.6);

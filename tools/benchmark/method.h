@@ -32,7 +32,8 @@ struct Answer {
   double distance = 0;
   std::array<Eigen::Vector3d, 2> point{Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(0, 0, 0)};
   Eigen::Vector3d normal{0, 0, 0};
-  std::array<TwistGradient, 2> gradient;  ///< of the methods that have one
+  std::array<TwistGradient, 2> gradient{TwistGradient::Zero(),
+                                        TwistGradient::Zero()};  ///< where a method has one
 
   Eigen::Vector3d direction() const { return normal.isZero() ? (point[1] - point[0]).normalized() : normal; }
 };
