@@ -1,6 +1,7 @@
 #include "tools/benchmark/summary.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "tools/benchmark/reference_answer.h"
@@ -50,7 +51,34 @@ Figures measure(const Bodies& bodies, const Step& step, std::uint64_t seed, Summ
   return {median(times[0].block), median(ratio)};
 }
 
-double rounded(double x, double unit) { return std::round(x / unit) * unit; }
+/// What a warm query costs where the bodies overlap, in parts of one where they are apart: by up to both
+/// margins and deeper. Medians.
+struct OverlapCost {
+  double withinMargins, deeper;
+};
+
+OverlapCost overlapCost(const Bodies& bodies, std::uint64_t seed) {
+  constexpr int kTimed = 60;  // blocks, each query timed by itself
+  std::vector<MethodPtr> methods;
+  methods.push_back(stpBvWarm(bodies));
+  GeodesicMotion motion(smallStep(), seed);
+  const double margins = bodies.a->volume().radii().r + bodies.b->volume().radii().r;
+  std::vector<std::size_t> depthOf;  // 0: apart, 1: within the margins, 2: deeper
+  std::vector<Times> times = timed(methods, motion, kTimed, GeodesicMotion::kCycle, true,
+                                   [&](std::size_t, const Poses&, const std::vector<Answer>& answers) {
+                                     for (const Answer& a : answers)
+                                       depthOf.push_back(a.distance > 0 ? 0 : a.distance > -margins ? 1 : 2);
+                                   });
+  std::array<std::vector<double>, 3> ns;
+  for (std::size_t i = 0; i < depthOf.size(); ++i) ns[depthOf[i]].push_back(times[0].query[i]);
+  const double apart = median(ns[0]);
+  return {median(ns[1]) / apart, median(ns[2]) / apart};
+}
+
+double rounded(double x, int digits) {
+  const double unit = std::pow(10.0, digits);
+  return std::round(x * unit) / unit;
+}
 
 }  // namespace
 
@@ -64,13 +92,16 @@ Summary summarise(std::uint64_t seed) {
   const Figures small12 = run(b12, smallStep()), large12 = run(b12, largeStep());
   const Figures small162 = run(b162, smallStep()), large162 = run(b162, largeStep());
   const Figures small2562 = run(b2562, smallStep()), large2562 = run(b2562, largeStep());
-  summary.figures["speedup_small_162"] = rounded(small162.speedup, 0.01);
-  summary.figures["speedup_large_162"] = rounded(large162.speedup, 0.01);
-  summary.figures["speedup_small_12"] = rounded(small12.speedup, 0.01);
-  summary.figures["ns_small_162"] = rounded(small162.ns, 1);
-  summary.figures["ns_large_162"] = rounded(large162.ns, 1);
+  summary.figures["speedup_small_162"] = rounded(small162.speedup, 2);
+  summary.figures["speedup_large_162"] = rounded(large162.speedup, 2);
+  summary.figures["speedup_small_12"] = rounded(small12.speedup, 2);
+  summary.figures["ns_small_162"] = rounded(small162.ns, 0);
+  summary.figures["ns_large_162"] = rounded(large162.ns, 0);
   summary.figures["growth_12_2562"] =
-      rounded(std::max(small2562.ns / small12.ns, large2562.ns / large12.ns), 0.01);
+      rounded(std::max(small2562.ns / small12.ns, large2562.ns / large12.ns), 2);
+  const OverlapCost overlap = overlapCost(b162, seed);
+  summary.figures["cost_within_margins_162"] = rounded(overlap.withinMargins, 2);
+  summary.figures["cost_deeper_162"] = rounded(overlap.deeper, 2);
   summary.figures["normal_error_max"] = worst.normal;
   summary.figures["distance_error_max"] = worst.distance;
   return summary;

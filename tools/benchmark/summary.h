@@ -1,4 +1,4 @@
-// The eight figures that say in one line how fast and how accurate the solver is.
+// The figures that say in one line how fast and how accurate the solver is.
 #pragma once
 
 #include <cstdint>
