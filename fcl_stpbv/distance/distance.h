@@ -37,9 +37,10 @@ struct Distance {
   /// Derivative of the distance with respect to the twist of body `which` (0 or 1) about `origin`, the
   /// position of that body's frame (paper eq. 2; docs/theory.md, 6).
   TwistGradient gradient(int which, const Eigen::Vector3d& origin) const {
-    const Eigen::Vector3d n = which == 0 ? Eigen::Vector3d(-normal) : normal;
+    const Eigen::Vector3d n = (which == 0 ? -1.0 : 1.0) * normal;
     TwistGradient g;
-    g << n, (point[static_cast<std::size_t>(which)] - origin).cross(n);
+    g.head<3>() = n;
+    g.tail<3>() = (point[static_cast<std::size_t>(which)] - origin).cross(n);
     return g;
   }
 };
