@@ -123,6 +123,19 @@ bool flatPair(const CollisionGeometryd& geometry1, const Transform3d& pose1,
 
 bool finite(const Transform3d& pose) { return pose.matrix().topRows<3>().allFinite(); }
 
+/// Any pair but two STP-BVs.
+DistanceAnswer otherDistance(const StpBvGeometry* a, const CollisionGeometryd& geometry1,
+                             const Transform3d& pose1, const StpBvGeometry* b,
+                             const CollisionGeometryd& geometry2, const Transform3d& pose2,
+                             const QueryContext& context) {
+  DistanceAnswer answer;
+  if (!finite(pose1) || !finite(pose2)) return answer;  // FCL may loop or assert on these
+  if (mixedDistance(a, geometry1, pose1, b, geometry2, pose2, context, answer) ||
+      flatPair(geometry1, pose1, geometry2, pose2, answer))
+    return answer;
+  return fallbackDistance(geometry1, pose1, geometry2, pose2);
+}
+
 }  // namespace
 
 FCL_STPBV_VECTORIZED
@@ -146,17 +159,8 @@ DistanceAnswer distance(const CollisionGeometryd& geometry1, const Transform3d& 
                         const QueryContext& context) {
   const StpBvGeometry* a = asStpBv(&geometry1);
   const StpBvGeometry* b = asStpBv(&geometry2);
-  if (a && b) {
-    DistanceAnswer answer = inFclTerms(smoothDistance(*a, pose1, *b, pose2, context), pose1, pose2);
-    answer.geometry = {&geometry1, &geometry2};
-    return answer;
-  }
-  DistanceAnswer answer;
-  if (!finite(pose1) || !finite(pose2))
-    answer = {};  // FCL may loop or assert on these
-  else if (!mixedDistance(a, geometry1, pose1, b, geometry2, pose2, context, answer) &&
-           !flatPair(geometry1, pose1, geometry2, pose2, answer))
-    answer = fallbackDistance(geometry1, pose1, geometry2, pose2);
+  DistanceAnswer answer = a && b ? inFclTerms(smoothDistance(*a, pose1, *b, pose2, context), pose1, pose2)
+                                 : otherDistance(a, geometry1, pose1, b, geometry2, pose2, context);
   answer.geometry = {&geometry1, &geometry2};
   return answer;
 }
