@@ -79,8 +79,7 @@ Corners cornersAround(const BodyPair& pair, const Sample& top) {
   const auto onB = [&](std::size_t i) { return pair.patchB(b.index[i]).anchor; };
   Corners c;
   if (a.count == 2 && b.count == 2) {
-    c.point = {onB(0) - onA(0), onB(0) - onA(1), onB(1) - onA(1), onB(1) - onA(0)};
-    c.count = 4;
+    for (const std::size_t i : {0u, 1u, 3u, 2u}) c.point[c.count++] = onB(i / 2) - onA(i % 2);
   } else if (a.count > 2 && b.count > 0) {
     const Packed pointB = pack(top.point) + pack(top.across) + top.core * pack(top.n);
     const Packed nearest = nearestOf(b.count, onB, pointB);
@@ -122,10 +121,10 @@ bool crownProves(const BodyPair& pair, const Sample& top, double& bound) {
   if (count == 0 || !(depth > 0.0)) return false;
   const Packed n = pack(top.n), summit = top.core * n + pack(top.across);
   if (dot(cross(corner[1] - corner[0], corner[2] - corner[1]), n) > 0.0)
-    std::reverse(corner.begin(), corner.begin() + static_cast<std::ptrdiff_t>(count));
+    std::reverse(corner, corner + count);
 
   double least2 = depth * depth;
-  std::array<Packed, kMaxCorners> ring;
+  Packed ring[kMaxCorners];
   for (std::size_t i = 0; i < count; ++i) {
     const Packed &p = corner[i], &q = corner[(i + 1) % count], side = q - p;
     const Triangle roof{p, q, summit};

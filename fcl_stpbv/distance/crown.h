@@ -2,7 +2,6 @@
 // it.
 #pragma once
 
-#include <array>
 #include <cstddef>
 
 #include "fcl_stpbv/distance/body_pair.h"
@@ -14,7 +13,7 @@ constexpr double kClose = 1e-3;
 
 /// Up to four points of the difference of the two cores, second less first.
 struct Corners {
-  std::array<Packed, 4> point;
+  Packed point[4];
   std::size_t count = 0;
 };
 

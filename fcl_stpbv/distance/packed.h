@@ -10,8 +10,10 @@ namespace fcl_stpbv {
 /// Three numbers side by side; the fourth means nothing. With Eigen's three, sums and products take two
 /// instructions each and a cross product a dozen; its four would change their alignment with the caller's
 /// compiler flags. Only functions that are compiled into their callers take or return one by value: how it is
-/// passed depends on those flags too.
-using Packed = double __attribute__((vector_size(32)));
+/// passed depends on those flags too. The alignment is written down since it would depend on them as well,
+/// while functions compiled for wider instructions (vectorized.h) rely on it; in a template's argument, a
+/// `std::array`'s say, it would be lost.
+using Packed = double __attribute__((vector_size(32), aligned(32)));
 
 inline Packed pack(const Eigen::Vector3d& v) { return Packed{v.x(), v.y(), v.z(), v.z()}; }
 /// A column of a pose's matrix: an axis, or with 3 the origin.

@@ -159,7 +159,7 @@ class Polytope {
     return origin_ == Origin::anywhere || t.distance >= 0.0;
   }
 
-  std::array<Packed, kMaxPoints> point_;
+  Packed point_[kMaxPoints];
   std::array<Triangle, kMaxFaces> face_;
   std::array<double, kMaxFaces> rank_;  // distance, or infinity for a face put aside or gone
   std::array<Index, kMaxFaces> free_;

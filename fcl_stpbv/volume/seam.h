@@ -26,7 +26,7 @@ struct Crossing {
 /// which `next` names among the further ones.
 struct SeamBlock {
   static constexpr std::size_t kSize = 4;
-  using Doubles = double __attribute__((vector_size(32)));
+  using Doubles = double __attribute__((vector_size(32), aligned(32)));  // aligned for any compiler flags
   using Integers = std::int64_t __attribute__((vector_size(32)));
 
   Doubles x{}, y{}, z{}, limit{2, 2, 2, 2};
@@ -71,6 +71,7 @@ struct SeamBlock {
     return key & (kSize - 1);
   }
 };
+static_assert(alignof(SeamBlock) == 32);
 
 /// The seams of one patch, one by one.
 class Seams {
