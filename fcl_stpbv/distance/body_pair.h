@@ -87,6 +87,9 @@ class BodyPair {
     return patchB(vertex[1]).anchor - patchA(vertex[0]).anchor;
   }
 
+  /// The same of the bodies' centres.
+  Packed centreDifference() const { return rotation_ * pack(b_.centre()) + translation_ - pack(a_.centre()); }
+
   /// The gap along `n`; the owners are looked for from `hint`. Adds the patches that changed to `steps`.
   Sample sampleFrom(const Eigen::Vector3d& n, const std::array<int, 2>& hint, int& steps) const;
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "fcl_stpbv/distance/ball_crown.h"
 #include "fcl_stpbv/distance/polytope_search.h"
 #include "fcl_stpbv/vectorized.h"
 
@@ -113,30 +114,36 @@ bool isAlone(const BodyPair& pair, const Sample& top, double distance) {
 
 FCL_STPBV_VECTORIZED
 bool crownProves(const BodyPair& pair, const Sample& top, double& bound) {
-  constexpr double kRing = 0.7;    // rad from the top's normal to those of the points beyond its feature
-  constexpr double kDeep = 0.25;   // of the smaller body's radius: deeper, so few triangles hardly ever do
+  constexpr double kRing = 0.7;   // rad from the top's normal to those of the points beyond its feature
+  constexpr double kDeep = 0.25;  // of the smaller body's radius: deeper, so few triangles hardly ever do
   const double depth = -top.core - pair.gapRounding();
-  if (depth > kDeep * std::min(pair.a().enclosingRadius(), pair.b().enclosingRadius())) return false;
-  auto [corner, count] = cornersAround(pair, top);
+  auto corners = cornersAround(pair, top);
+  auto& [corner, count] = corners;
   if (count == 0 || !(depth > 0.0)) return false;
   const Packed n = pack(top.n), summit = top.core * n + pack(top.across);
-  if (dot(cross(corner[1] - corner[0], corner[2] - corner[1]), n) > 0.0)
-    std::reverse(corner, corner + count);
+  if (dot(cross(corner[1] - corner[0], corner[2] - corner[1]), n) > 0.0) std::reverse(corner, corner + count);
 
   double least2 = depth * depth;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Triangle roof{corner[i], corner[(i + 1) % count], summit};
+    if (!roof.beyond((1.0 - kClose) * depth)) return false;
+    least2 = std::min(least2, roof.distance2());
+  }
+  if (!isAlone(pair, top, std::sqrt(least2))) return false;
+  bound = -std::sqrt(least2);
+  const double innerRadius = pair.a().innerRadius() + pair.b().innerRadius();
+  if (ballCloses(pair.centreDifference(), innerRadius, corners, n, depth)) return true;
+
+  if (depth > kDeep * std::min(pair.a().enclosingRadius(), pair.b().enclosingRadius())) return false;
   Packed ring[kMaxCorners];
   for (std::size_t i = 0; i < count; ++i) {
     const Packed &p = corner[i], &q = corner[(i + 1) % count], side = q - p;
-    const Triangle roof{p, q, summit};
-    if (!roof.beyond((1.0 - kClose) * depth)) return false;
-    least2 = std::min(least2, roof.distance2());
     ring[i] = about(pair, std::sqrt(dot(side, side)) * n - kRing * cross(n, side));
     const Triangle wall{q, p, ring[i]};
     if (wall.beyond(depth)) continue;
     ring[i] = pack(vertexDifference(pair, unpack(-wall.normal())));
     if (!Triangle{q, p, ring[i]}.beyond(depth)) return false;
   }
-  if (!isAlone(pair, top, std::sqrt(least2))) return false;
   const Packed behind = about(pair, -n);
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t j = (i + 1) % count;
@@ -144,7 +151,6 @@ bool crownProves(const BodyPair& pair, const Sample& top, double& bound) {
         !Triangle{ring[j], ring[i], behind}.beyond(depth))
       return false;
   }
-  bound = -std::sqrt(least2);
   return true;
 }
 

@@ -28,11 +28,11 @@ Corners cornersAround(const BodyPair& pair, const Sample& top);
 /// top's own patches, which have one maximum.
 bool isAlone(const BodyPair& pair, const Sample& top, double distance);
 
-/// Closes a surface of a dozen triangles around the origin: from the maximum to the corners of its feature,
-/// from there to points beyond that, and together behind. They lie in the difference of the cores, which is
-/// convex, so no direction leads out of it sooner than through the nearest of them. True where that is one at
-/// the top and leaves no room for another maximum; along no normal is the gap of the cores then more than
-/// `bound` (m, negative).
+/// Closes a surface around the origin: from the maximum to the corners of its feature, and from there over a
+/// ball inside or, where that is too small, in a dozen triangles to points beyond the corners and one behind.
+/// All of it lies in the difference of the cores, which is convex, so no direction leads out of it sooner
+/// than through the nearest plane. True where that is one at the top and leaves no room for another maximum;
+/// along no normal is the gap of the cores then more than `bound` (m, negative).
 ///
 /// Of the points nothing is asked but that every triangle has the origin on its inner side: each ray from
 /// there then meets the surface.

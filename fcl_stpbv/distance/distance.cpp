@@ -25,7 +25,7 @@ Packed renormalized(const Packed& n) {
 
 /// The first guess when nothing is remembered: from centre to centre.
 Vector3d centreLine(const BodyPair& pair) {
-  const Vector3d d = pair.rotation() * pair.b().centre() + pair.translation() - pair.a().centre();
+  const Vector3d d = unpack(pair.centreDifference());
   const double length = d.norm();
   return length > 0.0 ? Vector3d(d / length) : Vector3d::UnitX();
 }
@@ -51,19 +51,6 @@ Start startOf(const BodyPair& pair, const Rotation& toWorld, const PairCache* ca
   return {n, near ? cache->patch : pair.near(n), near};
 }
 
-/// The seam around a patch that the way from the unit normal `n` along the tangent `h` meets first: `past` is
-/// the inverse of how far off it is, negative where the way meets none.
-Crossing ahead(const StpBv& body, int patch, const Packed& n, const Packed& h) {
-  constexpr double kAtOnce = 1e-12;  // rad; `n` may be past the seam already
-  Crossing first{-1.0, -1};
-  for (const Seam s : body.seams(patch)) {
-    const Packed normal = pack(s.normal);
-    const double nearness = dot(normal, h) / std::max(s.limit - dot(normal, n), kAtOnce);
-    if (nearness > first.past) first = {nearness, s.neighbour};
-  }
-  return first;
-}
-
 /// Two patches along a normal, as a search goes from one to the next.
 struct Visit {
   std::array<int, 2> patch;
@@ -77,18 +64,18 @@ struct Visit {
       b = pair.patchB(patch[1] = overB.neighbour);
   }
 
-  /// Over the first seam uphill, for patches whose gap has no maximum on this side of the sphere, as two
-  /// vertices that overlap. Along an edge the gap bends so much that only the way across it leads anywhere.
-  /// False where no seam is ahead.
+  /// Over the first seam uphill, for patches whose gap has its maximum far off or none on this side of the
+  /// sphere, as two vertices that overlap. Along an edge the gap bends so much that only the way across it
+  /// leads anywhere. False where no seam is ahead.
   bool climb(const BodyPair& pair) {
     Packed up = coreGap(a, b, n).across;
     for (const PosedPatch* p : {&a, &b})
       if (p->kind == PatchKind::edge) up -= dot(up, p->axis) * p->axis;
     const Packed h = headingOr(up, n).unit();
-    const Crossing overA = ahead(pair.a(), patch[0], n, h),
-                   overB = ahead(pair.b(), patch[1], pair.opposite(n), pair.opposite(h));
+    const Crossing overA = pair.a().ahead(patch[0], n, h),
+                   overB = pair.b().ahead(patch[1], pair.opposite(n), pair.opposite(h));
     const double nearness = std::max(overA.past, overB.past);
-    if (!(nearness > 0.0)) return false;
+    if (!(nearness > std::numeric_limits<double>::min())) return false;
     n = headingOr(nearness * n + h, n).unit();
     cross(pair, overA, overB);
     return true;
@@ -99,14 +86,15 @@ struct Visit {
 /// either body, to the next pair, without a look at the gap. A maximum that it finds between cores apart is
 /// the only one; that it does not find one proves nothing.
 bool hop(const BodyPair& pair, const Start& start, Sample& x, Work& work) {
-  constexpr int kTries = 12;  // one to three are usual
+  constexpr int kTries = 12;    // one to three are usual
+  constexpr double kFar = 0.3;  // cosine of the turn after which the seam passed furthest says little
   Visit at{start.patch, pair.patchA(start.patch[0]), pair.patchB(start.patch[1]), pack(start.n)};
   for (int i = 0; i < kTries; ++i) {
     ++work.pairs;
     const Heading to = widestNormal(at.a, at.b, at.n);
     const Crossing overA = pair.a().crossing(at.patch[0], to.d, to.length),
                    overB = pair.b().crossing(at.patch[1], pair.opposite(to.d), to.length);
-    const bool turnsBack = !(dot(to.d, at.n) > 0.0);
+    const bool straysFar = !(dot(to.d, at.n) > kFar * to.length);
     if (std::max(overA.past, overB.past) <= kOnSeam * to.length) {
       at.n = to.unit();
       x = BodyPair::sample(at.n, at.patch, at.a, at.b);
@@ -114,7 +102,7 @@ bool hop(const BodyPair& pair, const Start& start, Sample& x, Work& work) {
       continue;  // two tori may need a second go for the last digits
     }
     ++work.steps;
-    if (!turnsBack) {
+    if (!straysFar) {
       at.n = to.unit();
       at.cross(pair, overA, overB);
     } else if (!at.climb(pair)) {

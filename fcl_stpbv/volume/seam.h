@@ -47,13 +47,38 @@ struct SeamBlock {
   /// The patch's block after this one, null for none.
   const SeamBlock* after(const SeamBlock* further) const { return next < 0 ? nullptr : further + next; }
 
-  /// The largest `n.normal - limit` of the four, its slot in place of the two least bits: no branches, all
-  /// seams at once. `n` is anything with three numbers; for one of another length than 1 the value is that
-  /// many times as large.
+  /// The largest `n.normal - limit` of the four, its slot in place of the two least bits. `n` is anything
+  /// with three numbers; for one of another length than 1 the value is that many times as large.
   template <typename Vector>
   double past(const Vector& n, double length = 1.0) const {
+    return largest(along(n) - length * limit);
+  }
+
+  /// The inverse of how far off the seam is that the way from the unit normal `n` along the tangent `h` meets
+  /// first, with its slot likewise; next to nothing or less where it meets none.
+  template <typename Vector>
+  double ahead(const Vector& n, const Vector& h) const {
+    constexpr double kAtOnce = 1e-12;  // rad; `n` may be past the seam already
+    const Doubles room = limit - along(n), least = Doubles{} + kAtOnce;
+    return largest(along(h) / (room > least ? room : least));
+  }
+
+  /// The slot in what `past` or `ahead` gave.
+  static std::size_t slotOf(double tagged) {
+    std::uint64_t key;
+    std::memcpy(&key, &tagged, sizeof key);
+    return key & (kSize - 1);
+  }
+
+ private:
+  template <typename Vector>
+  Doubles along(const Vector& n) const {
+    return n[0] * x + n[1] * y + n[2] * z;
+  }
+
+  /// No branches, all seams at once.
+  static double largest(const Doubles& p) {
     constexpr Integers slots{0, 1, 2, 3};
-    const Doubles p = n[0] * x + n[1] * y + n[2] * z - length * limit;
     Integers key;
     std::memcpy(&key, &p, sizeof key);
     key = (key & ~std::int64_t{kSize - 1}) | slots;
@@ -62,13 +87,6 @@ struct SeamBlock {
     const Doubles other = __builtin_shufflevector(tagged, tagged, 2, 3, 0, 1);
     const Doubles larger = tagged > other ? tagged : other;
     return larger[0] > larger[1] ? larger[0] : larger[1];
-  }
-
-  /// The slot in what `past` gave.
-  static std::size_t slotOf(double past) {
-    std::uint64_t key;
-    std::memcpy(&key, &past, sizeof key);
-    return key & (kSize - 1);
   }
 };
 static_assert(alignof(SeamBlock) == 32);

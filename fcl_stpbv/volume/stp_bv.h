@@ -90,14 +90,14 @@ class StpBv {
   /// unit vector would.
   template <typename Vector>
   Crossing crossing(int patch, const Vector& n, double length = 1.0) const {
-    Crossing most{-std::numeric_limits<double>::infinity(), -1};
-    const SeamBlock* block = &patches_[static_cast<std::size_t>(patch)].seams;
-    do {
-      const double past = block->past(n, length);
-      if (past > most.past) most = {past, block->neighbour[SeamBlock::slotOf(past)]};
-      block = block->after(furtherSeams_.data());
-    } while (block);
-    return most;
+    return most(patch, [&](const SeamBlock& block) { return block.past(n, length); });
+  }
+
+  /// The seam of the patch that the way from the unit normal `n` along the tangent `h` meets first: `past` is
+  /// the inverse of how far off it is, next to nothing or less where there is none.
+  template <typename Vector>
+  Crossing ahead(int patch, const Vector& n, const Vector& h) const {
+    return most(patch, [&](const SeamBlock& block) { return block.ahead(n, h); });
   }
 
   /// Has the patches past this one's seams brought near the processor, for a query that is likely to go there
@@ -170,6 +170,9 @@ class StpBv {
   const Eigen::Vector3d& centre() const { return centre_; }
   double enclosingRadius() const { return enclosingRadius_; }
 
+  /// Radius of a ball about `centre()` inside the vertices' hull, 0 where there is none (m).
+  double innerRadius() const { return innerRadius_; }
+
   /// A bound on the coordinates of surface points, for bounds on rounding (m).
   double extent() const { return extent_; }
 
@@ -186,10 +189,24 @@ class StpBv {
     SeamBlock seams;
   };
 
+  /// The largest of what the blocks of a patch's seams give for themselves, and past which seam that is.
+  template <typename Measure>
+  Crossing most(int patch, const Measure& measure) const {
+    Crossing most{-std::numeric_limits<double>::infinity(), -1};
+    const SeamBlock* block = &patches_[static_cast<std::size_t>(patch)].seams;
+    do {
+      const double tagged = measure(*block);
+      if (tagged > most.past) most = {tagged, block->neighbour[SeamBlock::slotOf(tagged)]};
+      block = block->after(furtherSeams_.data());
+    } while (block);
+    return most;
+  }
+
   StpBv() = default;
   static Ptr make(std::vector<Eigen::Vector3d> vertices, std::vector<Ring> faces,
                   const StpBvOptions& options);
   void makeEdges();
+  void makeInnerRadius();
   void makePatches();
   void makeSeams();
   void makeStars();
@@ -219,7 +236,7 @@ class StpBv {
   std::vector<std::int32_t> vertexTable_;  // vertex furthest along the middle of each such cell
   int cells_ = 1;                          // cells along a side of the map
   Eigen::Vector3d centre_{0, 0, 0};
-  double enclosingRadius_ = 0, extent_ = 0;
+  double enclosingRadius_ = 0, innerRadius_ = 0, extent_ = 0;
 };
 
 }  // namespace fcl_stpbv

@@ -2,6 +2,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -41,6 +42,7 @@ StpBv::Ptr StpBv::make(std::vector<Vector3d> vertices, std::vector<Ring> faces, 
   volume->enclosingRadius_ = ball.radius + options.r;
   volume->extent_ = ball.centre.lpNorm<1>() + volume->enclosingRadius_;
   volume->makeEdges();
+  volume->makeInnerRadius();
   volume->makePatches();
   volume->makeSeams();
   volume->makeStars();
@@ -73,6 +75,27 @@ void StpBv::makeEdges() {
                       {e.face, halfEdges[static_cast<std::size_t>(e.twin)].face},
                       e.turn});
   }
+}
+
+/// The least distance from the centre to a triangle's plane: the triangles' surface is closed, so where all
+/// have the centre on their inner side a ball of that radius is inside it.
+void StpBv::makeInnerRadius() {
+  constexpr double kRounding = 16 * std::numeric_limits<double>::epsilon();
+  double least = faces_.empty() ? 0.0 : std::numeric_limits<double>::infinity();
+  for (const Ring& ring : faces_) {
+    const auto from = [&](const Vector3d& origin, std::size_t corner) -> Vector3d {
+      return vertices_[static_cast<std::size_t>(ring[corner])] - origin;
+    };
+    const Vector3d& first = vertices_[static_cast<std::size_t>(ring[0])];
+    for (std::size_t k = 2; k < ring.size(); ++k) {
+      const Vector3d p = from(first, k - 1), q = from(first, k), normal = p.cross(q);
+      const double area = normal.norm(), sliver = p.norm() * q.norm() / area;
+      const double height = from(centre_, 0).dot(normal) / area - kRounding * sliver * extent_;
+      if (!(height > 0.0)) return;
+      least = std::min(least, height);
+    }
+  }
+  innerRadius_ = least;
 }
 
 void StpBv::makePatches() {
