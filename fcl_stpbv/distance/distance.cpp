@@ -23,7 +23,7 @@ Packed renormalized(const Packed& n) {
   return n * (std::abs(length2 - 1.0) < 1e-8 ? 1.5 - 0.5 * length2 : 1.0 / std::sqrt(length2));
 }
 
-/// The first guess when nothing is remembered: from centre to centre.
+/// The first guess when nothing near is remembered: from centre to centre.
 Vector3d centreLine(const BodyPair& pair) {
   const Vector3d d = unpack(pair.centreDifference());
   const double length = d.norm();
@@ -31,7 +31,7 @@ Vector3d centreLine(const BodyPair& pair) {
 }
 
 /// Whether the bodies have turned by so little under the last normal that the patches which owned it are near
-/// those that do now; after a large motion the normal alone is the better memory.
+/// those that do now.
 bool turnedLittle(const BodyPair& pair, const Packed& n, const PairCache& cache) {
   constexpr double kLittle = 0.1;  // rad
   const auto little = [](const StpBv& body, int patch, const Packed& now, const Eigen::Vector3f& then) {
@@ -45,10 +45,12 @@ bool turnedLittle(const BodyPair& pair, const Packed& n, const PairCache& cache)
 Start startOf(const BodyPair& pair, const Rotation& toWorld, const PairCache* cache) {
   const Packed last = cache ? toWorld.inverse(pack(cache->normal)) : Packed{};
   const double length2 = dot(last, last);
-  const bool known = length2 > 0.25 && length2 < 4.0;
-  const Vector3d n = known ? unpack(renormalized(last)) : centreLine(pair);
-  const bool near = known && turnedLittle(pair, pack(n), *cache);
-  return {n, near ? cache->patch : pair.near(n), near};
+  if (length2 > 0.25 && length2 < 4.0) {
+    const Packed n = renormalized(last);
+    if (turnedLittle(pair, n, *cache)) return {unpack(n), cache->patch, true};
+  }
+  const Vector3d n = centreLine(pair);
+  return {n, pair.near(n), false};
 }
 
 /// Two patches along a normal, as a search goes from one to the next.
