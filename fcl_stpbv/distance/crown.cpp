@@ -72,6 +72,32 @@ Packed nearestOf(std::size_t count, const Point& point, const Packed& target) {
 /// alone.
 Packed about(const BodyPair& pair, const Packed& n) { return pair.vertexDifference(pair.near(unpack(n))); }
 
+/// Whether triangles from the corners of a feature to as many points beyond it and one behind, each with its
+/// plane at least `depth` from the origin, close the surface.
+bool trianglesClose(const BodyPair& pair, const Corners& corners, const Packed& n, double depth) {
+  constexpr double kRing = 0.7;   // rad from the top's normal to those of the points beyond its feature
+  constexpr double kDeep = 0.25;  // of the smaller body's radius: deeper, so few triangles hardly ever do
+  if (depth > kDeep * std::min(pair.a().enclosingRadius(), pair.b().enclosingRadius())) return false;
+  const auto& [corner, count] = corners;
+  Packed ring[kMaxCorners];
+  for (std::size_t i = 0; i < count; ++i) {
+    const Packed &p = corner[i], &q = corner[(i + 1) % count], side = q - p;
+    ring[i] = about(pair, std::sqrt(dot(side, side)) * n - kRing * cross(n, side));
+    const Triangle wall{q, p, ring[i]};
+    if (wall.beyond(depth)) continue;
+    ring[i] = pack(vertexDifference(pair, unpack(-wall.normal())));
+    if (!Triangle{q, p, ring[i]}.beyond(depth)) return false;
+  }
+  const Packed behind = about(pair, -n);
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t j = (i + 1) % count;
+    if (!Triangle{corner[j], ring[i], ring[j]}.beyond(depth) ||
+        !Triangle{ring[j], ring[i], behind}.beyond(depth))
+      return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 Corners cornersAround(const BodyPair& pair, const Sample& top) {
@@ -114,8 +140,6 @@ bool isAlone(const BodyPair& pair, const Sample& top, double distance) {
 
 FCL_STPBV_VECTORIZED
 bool crownProves(const BodyPair& pair, const Sample& top, double& bound) {
-  constexpr double kRing = 0.7;   // rad from the top's normal to those of the points beyond its feature
-  constexpr double kDeep = 0.25;  // of the smaller body's radius: deeper, so few triangles hardly ever do
   const double depth = -top.core - pair.gapRounding();
   auto corners = cornersAround(pair, top);
   auto& [corner, count] = corners;
@@ -130,27 +154,11 @@ bool crownProves(const BodyPair& pair, const Sample& top, double& bound) {
     least2 = std::min(least2, roof.distance2());
   }
   if (!isAlone(pair, top, std::sqrt(least2))) return false;
-  bound = -std::sqrt(least2);
   const double innerRadius = pair.a().innerRadius() + pair.b().innerRadius();
-  if (ballCloses(pair.centreDifference(), innerRadius, corners, n, depth)) return true;
-
-  if (depth > kDeep * std::min(pair.a().enclosingRadius(), pair.b().enclosingRadius())) return false;
-  Packed ring[kMaxCorners];
-  for (std::size_t i = 0; i < count; ++i) {
-    const Packed &p = corner[i], &q = corner[(i + 1) % count], side = q - p;
-    ring[i] = about(pair, std::sqrt(dot(side, side)) * n - kRing * cross(n, side));
-    const Triangle wall{q, p, ring[i]};
-    if (wall.beyond(depth)) continue;
-    ring[i] = pack(vertexDifference(pair, unpack(-wall.normal())));
-    if (!Triangle{q, p, ring[i]}.beyond(depth)) return false;
-  }
-  const Packed behind = about(pair, -n);
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::size_t j = (i + 1) % count;
-    if (!Triangle{corner[j], ring[i], ring[j]}.beyond(depth) ||
-        !Triangle{ring[j], ring[i], behind}.beyond(depth))
-      return false;
-  }
+  if (!ballCloses(pair.centreDifference(), innerRadius, corners, n, depth) &&
+      !trianglesClose(pair, corners, n, depth))
+    return false;
+  bound = -std::sqrt(least2);
   return true;
 }
 
