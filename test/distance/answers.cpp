@@ -20,9 +20,11 @@ int main(int argc, char** argv) {
     const StpBv &a = *bodies[static_cast<std::size_t>(random.below(6))],
                 &b = *bodies[static_cast<std::size_t>(random.below(6))];
     // Apart, touching and overlapping; then a small step on with what the first answer left.
-    const Eigen::Isometry3d poseA = pose(random.rotation(), random.direction());
-    const Eigen::Vector3d away = random.uniform(0.02, 0.8) * random.direction();
-    const Eigen::Isometry3d poseB = pose(random.rotation(), poseA.translation() + away);
+    // One number after the other: compilers differ in which argument of a call they look at first.
+    const Eigen::Matrix3d turnA = random.rotation(), turnB = random.rotation();
+    const Eigen::Vector3d at = random.direction(), towards = random.direction();
+    const Eigen::Isometry3d poseA = pose(turnA, at),
+                            poseB = pose(turnB, at + random.uniform(0.02, 0.8) * towards);
     PairCache cache;
     for (const double step : {0.0, 0.02}) {
       const Eigen::Isometry3d there = pose(poseB.linear() * random.rotation(step), poseB.translation());
