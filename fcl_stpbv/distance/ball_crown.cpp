@@ -8,7 +8,7 @@ namespace fcl_stpbv {
 
 FCL_STPBV_VECTORIZED
 bool ballCloses(const Packed& centre, double radius, const Corners& corners, const Packed& n, double depth) {
-  Packed wall[4];  // unit outward normal of the plane over a side that touches the ball
+  Packed wall[Corners::kMost];  // unit outward normal of the plane over a side that touches the ball
   for (std::size_t i = 0; i < corners.count; ++i) {
     const Packed &p = corners.point[i], side = corners.point[(i + 1) % corners.count] - p;
     const double side2 = dot(side, side);

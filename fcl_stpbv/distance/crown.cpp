@@ -13,8 +13,6 @@ namespace fcl_stpbv {
 
 namespace {
 
-constexpr std::size_t kMaxCorners = 4;
-
 /// Three points of the difference, counter-clockwise from outside.
 struct Triangle {
   Packed p, q, r;
@@ -38,7 +36,7 @@ struct Triangle {
 
 /// A patch's vertices, up to four of a face's.
 struct Vertices {
-  std::array<int, kMaxCorners> index{};
+  std::array<int, Corners::kMost> index{};
   std::size_t count = 0;
 };
 
@@ -51,7 +49,7 @@ Vertices verticesOf(const StpBv& body, int patch) {
   }
   const StpBv::Ring& ring = body.faces()[static_cast<std::size_t>(patch - body.facePatch(0))];
   Vertices v;
-  v.count = std::min(ring.size(), kMaxCorners);
+  v.count = std::min(ring.size(), Corners::kMost);
   for (std::size_t i = 0; i < v.count; ++i) v.index[i] = ring[i * ring.size() / v.count];
   return v;
 }
@@ -79,7 +77,7 @@ bool trianglesClose(const BodyPair& pair, const Corners& corners, const Packed& 
   constexpr double kDeep = 0.25;  // of the smaller body's radius: deeper, so few triangles hardly ever do
   if (depth > kDeep * std::min(pair.a().enclosingRadius(), pair.b().enclosingRadius())) return false;
   const auto& [corner, count] = corners;
-  Packed ring[kMaxCorners];
+  Packed ring[Corners::kMost];
   for (std::size_t i = 0; i < count; ++i) {
     const Packed &p = corner[i], &q = corner[(i + 1) % count], side = q - p;
     ring[i] = about(pair, std::sqrt(dot(side, side)) * n - kRing * cross(n, side));

@@ -13,7 +13,8 @@ constexpr double kClose = 1e-3;
 
 /// Up to four points of the difference of the two cores, second less first.
 struct Corners {
-  Packed point[4];
+  static constexpr std::size_t kMost = 4;
+  Packed point[kMost];
   std::size_t count = 0;
 };
 

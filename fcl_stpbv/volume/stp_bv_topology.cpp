@@ -81,16 +81,14 @@ void StpBv::makeEdges() {
 /// have the centre on their inner side a ball of that radius is inside it.
 void StpBv::makeInnerRadius() {
   constexpr double kRounding = 16 * std::numeric_limits<double>::epsilon();
+  const auto at = [&](int i) -> const Vector3d& { return vertices_[static_cast<std::size_t>(i)]; };
   double least = faces_.empty() ? 0.0 : std::numeric_limits<double>::infinity();
   for (const Ring& ring : faces_) {
-    const auto from = [&](const Vector3d& origin, std::size_t corner) -> Vector3d {
-      return vertices_[static_cast<std::size_t>(ring[corner])] - origin;
-    };
-    const Vector3d& first = vertices_[static_cast<std::size_t>(ring[0])];
+    const Vector3d& first = at(ring[0]);
     for (std::size_t k = 2; k < ring.size(); ++k) {
-      const Vector3d p = from(first, k - 1), q = from(first, k), normal = p.cross(q);
+      const Vector3d p = at(ring[k - 1]) - first, q = at(ring[k]) - first, normal = p.cross(q);
       const double area = normal.norm(), sliver = p.norm() * q.norm() / area;
-      const double height = from(centre_, 0).dot(normal) / area - kRounding * sliver * extent_;
+      const double height = (first - centre_).dot(normal) / area - kRounding * sliver * extent_;
       if (!(height > 0.0)) return;
       least = std::min(least, height);
     }

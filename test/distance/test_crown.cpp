@@ -4,6 +4,8 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
+#include <utility>
+#include <vector>
 
 #include "fcl_stpbv/distance/ball_crown.h"
 #include "test/shapes.h"
