@@ -18,7 +18,7 @@ constexpr double kOnSeam = 1e-12;
 /// Direction from the patch's point or circle of centres to `x`: the normal at the patch's point nearest to
 /// `x` (docs/theory.md, 5, one circle). Not unit.
 Vector3d towards(const StpBv& volume, int index, const Vector3d& x) {
-  const Patch& patch = volume.patch(index);
+  const Patch patch = volume.patch(index);
   switch (volume.kind(index)) {
     case PatchKind::edge: {
       const Vector3d d = x - patch.anchor;
@@ -40,7 +40,7 @@ Vector3d towards(const StpBv& volume, int index, const Vector3d& x) {
 int chooseNeighbour(const StpBv& volume, int patch, const Vector3d& x) {
   const Vector3d d = towards(volume, patch, x);
   const double length = d.norm();
-  const Crossing over = volume.crossing(patch, d, length);
+  const Crossing over = volume.patches().crossing(patch, pack(d), length);
   return over.past > kOnSeam * length ? over.neighbour : patch;
 }
 

@@ -52,18 +52,12 @@ class BodyPair {
   Eigen::Vector3d opposite(const Eigen::Vector3d& n) const { return rotation_.inverse(Eigen::Vector3d(-n)); }
   Packed opposite(const Packed& n) const { return rotation_.inverse(-n); }
 
-  PosedPatch patchA(int patch) const {
-    const Patch& p = a_.patch(patch);
-    return {pack(p.anchor), pack(p.axis), p.kappa, p.sag, a_.kind(patch), &a_.radii()};
-  }
+  PosedPatch patchA(int patch) const { return ownPatch(a_, patch); }
   PosedPatch patchB(int patch) const {
-    const Patch& p = b_.patch(patch);
-    return {rotation_ * pack(p.anchor) + translation_,
-            rotation_ * pack(p.axis),
-            p.kappa,
-            p.sag,
-            b_.kind(patch),
-            &b_.radii()};
+    PosedPatch p = ownPatch(b_, patch);
+    p.anchor = rotation_ * p.anchor + translation_;
+    p.axis = rotation_ * p.axis;
+    return p;
   }
 
   /// The gap along `n` when these two patches own it; the second form for patches already posed.
@@ -84,7 +78,8 @@ class BodyPair {
 
   /// Second body's vertex less the first one's: a point of the difference of the cores.
   Packed vertexDifference(const std::array<int, 2>& vertex) const {
-    return patchB(vertex[1]).anchor - patchA(vertex[0]).anchor;
+    return rotation_ * pack(b_.patches().vertex(vertex[1]).point) + translation_ -
+           pack(a_.patches().vertex(vertex[0]).point);
   }
 
   /// The same of the bodies' centres.
@@ -114,6 +109,20 @@ class BodyPair {
   }
 
  private:
+  /// A patch in its body's own frame.
+  static PosedPatch ownPatch(const StpBv& body, int patch) {
+    const PatchTable& patches = body.patches();
+    const PatchKind kind = patches.kind(patch);
+    if (kind == PatchKind::vertex)
+      return {pack(patches.vertex(patch).point), Packed{}, 0, 0, kind, &body.radii()};
+    if (kind == PatchKind::edge) {
+      const EdgeRecord& e = patches.edge(patch);
+      return {e.middle, e.axis, e.middle[3], e.axis[3], kind, &body.radii()};
+    }
+    const FaceRecord& f = patches.face(patch);
+    return {pack(f.anchor), pack(f.normal), 0, 0, kind, &body.radii()};
+  }
+
   const StpBv& a_;
   const StpBv& b_;
   Rotation rotation_;

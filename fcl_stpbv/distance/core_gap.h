@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fcl_stpbv/distance/packed.h"
+#include "fcl_stpbv/packed.h"
 #include "fcl_stpbv/volume/patch.h"
 
 namespace fcl_stpbv {
@@ -12,7 +12,7 @@ namespace fcl_stpbv {
 /// A patch with all that its formula needs, in whatever frame its anchor and axis are given.
 struct PosedPatch {
   Packed anchor, axis;
-  double kappa, sag;
+  double kappa, sine;
   PatchKind kind;
   const Radii* radii;  ///< the body's
 
@@ -29,17 +29,16 @@ struct EdgeView {
 };
 
 /// The lengths of docs/theory.md, 2 without their cancellation: `rho c - kappa` is a centimetre against tens
-/// of metres, so it is written with the half length h, h^2 = rho^2 - kappa^2 = sag (rho + kappa). Near the
-/// smallest R kappa is small, and that form would divide by little.
+/// of metres, so it is written with the edge's sine s, rho^2 - kappa^2 = rho^2 s^2. Near the smallest R
+/// kappa is small, and that form would divide by little.
 inline EdgeView viewEdge(const PosedPatch& edge, const Packed& n) {
-  const double rho = edge.radii->rho, kappa = edge.kappa, sag = edge.sag;
-  const double v = dot(n, edge.axis), c2 = std::max(1.0 - v * v, 1e-30), along = rho * v;
+  const double rho = edge.radii->rho, kappa = edge.kappa, s = edge.sine;
+  const double v = dot(n, edge.axis), c2 = std::max(1.0 - v * v, 1e-30), rho2 = rho * rho;
   EdgeView e;
   e.c = std::sqrt(c2);
-  e.around = kappa > 0.5 * rho ? (sag * (rho + kappa) - along * along) / (rho * c2 + kappa * e.c)
-                               : rho - kappa / e.c;
-  e.rise = sag + kappa * v * v / (1.0 + e.c);
-  e.offset = along * edge.axis + e.around * (n - v * edge.axis);
+  e.around = kappa > 0.5 * rho ? rho2 * ((s - v) * (s + v)) / (rho * c2 + kappa * e.c) : rho - kappa / e.c;
+  e.rise = rho2 * s * s / (rho + kappa) + kappa * v * v / (1.0 + e.c);
+  e.offset = rho * v * edge.axis + e.around * (n - v * edge.axis);
   return e;
 }
 

@@ -41,16 +41,22 @@ struct Vertices {
 };
 
 Vertices verticesOf(const StpBv& body, int patch) {
-  if (body.kind(patch) == PatchKind::vertex) return {{patch}, 1};
-  if (body.kind(patch) == PatchKind::edge) {
-    if (patch >= body.facePatch(body.faceCount())) return {};  // a further part of one
-    const auto& end = body.edges()[static_cast<std::size_t>(patch - body.edgePatch(0))].vertex;
-    return {{end[0], end[1]}, 2};
+  const PatchTable& patches = body.patches();
+  if (patches.kind(patch) == PatchKind::vertex) return {{patch}, 1};
+  if (patches.kind(patch) == PatchKind::edge) {
+    const EdgeRecord& edge = patches.edge(patch);
+    return {{edge.past(1), edge.past(0)}, 2};
   }
-  const StpBv::Ring& ring = body.faces()[static_cast<std::size_t>(patch - body.facePatch(0))];
   Vertices v;
-  v.count = std::min(ring.size(), Corners::kMost);
-  for (std::size_t i = 0; i < v.count; ++i) v.index[i] = ring[i * ring.size() / v.count];
+  const auto& side = patches.face(patch).side;
+  if (side.back() >= 0) {  // in the record, which is at hand; a triangle's last side is there twice
+    v.count = side[3] == side[2] ? 3 : 4;
+    for (std::size_t i = 0; i < v.count; ++i) v.index[i] = patches.startOf(side[i]);
+  } else {
+    const StpBv::Ring& ring = body.faces()[static_cast<std::size_t>(patch - body.facePatch(0))];
+    v.count = Corners::kMost;
+    for (std::size_t i = 0; i < v.count; ++i) v.index[i] = ring[i * ring.size() / v.count];
+  }
   return v;
 }
 

@@ -30,16 +30,19 @@ Vector3d centreLine(const BodyPair& pair) {
   return length > 0.0 ? Vector3d(d / length) : Vector3d::UnitX();
 }
 
-/// Whether the bodies have turned by so little under the last normal that the patches which owned it are near
-/// those that do now.
-bool turnedLittle(const BodyPair& pair, const Packed& n, const PairCache& cache) {
-  constexpr double kLittle = 0.1;  // rad
-  const auto little = [](const StpBv& body, int patch, const Packed& now, const Eigen::Vector3f& then) {
-    const Packed turn = now - pack(then.cast<double>());
-    return patch >= 0 && patch < body.patchCount() && (dot(turn, turn) <= kLittle * kLittle || then.isZero());
-  };
-  return little(pair.a(), cache.patch[0], n, cache.seen[0]) &&
-         little(pair.b(), cache.patch[1], pair.opposite(n), cache.seen[1]);
+/// A patch near the one that owns the unit normal `now`, from the one that owned `then`: itself, or after a
+/// turn wider than a patch the one past the seam passed furthest. -1 after a large turn.
+int nearby(const StpBv& body, int patch, const Packed& now, const Eigen::Vector3f& then) {
+  constexpr double kLarge = 0.1;  // rad
+  constexpr double kWide = 3.0;   // squares of as wide a turn, over all patches: a quarter of the sphere
+  if (patch < 0 || patch >= body.patchCount()) return -1;
+  if (then.isZero()) return patch;
+  const Packed turn = now - pack(then.cast<double>());
+  const double turn2 = dot(turn, turn);
+  if (!(turn2 <= kLarge * kLarge)) return -1;
+  if (turn2 * body.patchCount() <= kWide) return patch;
+  const Crossing over = body.patches().crossing(patch, now, 1.0);
+  return over.past > 0.0 ? over.neighbour : patch;
 }
 
 Start startOf(const BodyPair& pair, const Rotation& toWorld, const PairCache* cache) {
@@ -47,7 +50,9 @@ Start startOf(const BodyPair& pair, const Rotation& toWorld, const PairCache* ca
   const double length2 = dot(last, last);
   if (length2 > 0.25 && length2 < 4.0) {
     const Packed n = renormalized(last);
-    if (turnedLittle(pair, n, *cache)) return {unpack(n), cache->patch, true};
+    const std::array<int, 2> patch{nearby(pair.a(), cache->patch[0], n, cache->seen[0]),
+                                   nearby(pair.b(), cache->patch[1], pair.opposite(n), cache->seen[1])};
+    if (patch[0] >= 0 && patch[1] >= 0) return {unpack(n), patch, true};
   }
   const Vector3d n = centreLine(pair);
   return {n, pair.near(n), false};
@@ -74,8 +79,8 @@ struct Visit {
     for (const PosedPatch* p : {&a, &b})
       if (p->kind == PatchKind::edge) up -= dot(up, p->axis) * p->axis;
     const Packed h = headingOr(up, n).unit();
-    const Crossing overA = pair.a().ahead(patch[0], n, h),
-                   overB = pair.b().ahead(patch[1], pair.opposite(n), pair.opposite(h));
+    const Crossing overA = pair.a().patches().ahead(patch[0], n, h),
+                   overB = pair.b().patches().ahead(patch[1], pair.opposite(n), pair.opposite(h));
     const double nearness = std::max(overA.past, overB.past);
     if (!(nearness > std::numeric_limits<double>::min())) return false;
     n = headingOr(nearness * n + h, n).unit();
@@ -94,8 +99,8 @@ bool hop(const BodyPair& pair, const Start& start, Sample& x, Work& work) {
   for (int i = 0; i < kTries; ++i) {
     ++work.pairs;
     const Heading to = widestNormal(at.a, at.b, at.n);
-    const Crossing overA = pair.a().crossing(at.patch[0], to.d, to.length),
-                   overB = pair.b().crossing(at.patch[1], pair.opposite(to.d), to.length);
+    const Crossing overA = pair.a().patches().crossing(at.patch[0], to.d, to.length),
+                   overB = pair.b().patches().crossing(at.patch[1], pair.opposite(to.d), to.length);
     const bool straysFar = !(dot(to.d, at.n) > kFar * to.length);
     if (std::max(overA.past, overB.past) <= kOnSeam * to.length) {
       at.n = to.unit();
@@ -157,8 +162,8 @@ Distance distance(const StpBv& a, const Isometry3d& poseA, const StpBv& b, const
   result.patchPairs = work.pairs;
   result.patchSteps = work.steps;
   if (start.near) {
-    a.prefetchBeside(at.patch[0]);
-    b.prefetchBeside(at.patch[1]);
+    a.patches().prefetchBeside(at.patch[0]);
+    b.patches().prefetchBeside(at.patch[1]);
   }
   if (cache) {
     cache->normal = result.normal;

@@ -24,8 +24,8 @@ Matrix3d cross(const Vector3d& v) {
 /// Second derivative of the body's support function at its outward normal `n`, world axes: the radii of
 /// curvature of the surface, zero along `n`.
 Matrix3d surfaceCurvature(const StpBv& body, const Isometry3d& pose, int patch, const Vector3d& n) {
-  const Patch& p = body.patch(patch);
-  const PosedPatch posed{pack(p.anchor), pack(pose.linear() * p.axis), p.kappa, p.sag, body.kind(patch),
+  const Patch p = body.patch(patch);
+  const PosedPatch posed{pack(p.anchor), pack(pose.linear() * p.axis), p.kappa, p.sine, body.kind(patch),
                          &body.radii()};
   return coreCurvature(posed, n) + body.radii().r * (Matrix3d::Identity() - n * n.transpose());
 }

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "fcl_stpbv/distance/packed.h"
+#include "fcl_stpbv/packed.h"
 
 namespace fcl_stpbv {
 

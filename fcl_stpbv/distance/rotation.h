@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-#include "fcl_stpbv/distance/packed.h"
+#include "fcl_stpbv/packed.h"
 
 namespace fcl_stpbv {
 

@@ -23,7 +23,7 @@ struct VolumeView {
 
 /// Looks at one patch along `n`, its formula continued past its own region of normals.
 inline VolumeView viewPatch(const StpBv& body, const Eigen::Vector3d& n, int index) {
-  const Patch& patch = body.patch(index);
+  const Patch patch = body.patch(index);
   const PatchKind kind = body.kind(index);
   const Radii core{0.0, body.radii().rho, body.radii().rho};
   return {n, index, patch.anchor, supportAboveAnchor(patch, kind, core, n),
@@ -46,7 +46,7 @@ inline Eigen::Matrix3d curvatureRadii(const StpBv& body, const VolumeView& view)
   if (kind == PatchKind::vertex) return Eigen::Matrix3d::Zero();
   Eigen::Matrix3d w = rho * Eigen::Matrix3d::Identity();
   if (kind == PatchKind::edge) {
-    const Patch& patch = body.patch(view.patch);
+    const Patch patch = body.patch(view.patch);
     const double v = view.n.dot(patch.axis);
     const double c = std::sqrt(std::max(1.0 - v * v, 1e-30));
     const Eigen::Vector3d around = patch.axis.cross(view.n) / c;

@@ -39,7 +39,7 @@ Vector3d vectorArea(const Region& region) {
 
 double faceVolume(const StpBv& volume, const Region& region) {
   double sum = 0;
-  const Patch& patch = volume.patch(region.patch);
+  const Patch patch = volume.patch(region.patch);
   const Vector3d anchor = patch.anchor - volume.centre();
   for (const Arc& arc : region.boundary) {
     const int pieces = std::max(1, static_cast<int>(std::ceil(arc.turn / 0.5)));
@@ -62,20 +62,20 @@ double faceVolume(const StpBv& volume, const Region& region) {
 // With n = cos(a) w + sin(a) u the surface element is R (R cos a - kappa) da dphi and h = n.I + R - kappa cos
 // a.
 double edgeVolume(const StpBv& volume, int edge) {
-  const Patch& patch = volume.patch(volume.edgePatch(edge));
+  const Patch patch = volume.patch(volume.edgePatch(edge));
   const Radii& radii = volume.radii();
   const Arc arc = edgeArc(volume, edge);
   const Vector3d middle = patch.anchor - volume.centre();
   const Vector3d sumOfW = arc.axis.cross(arc.start - arc.at(1));
-  const double half2 = patch.sag * (radii.rho + patch.kappa);
-  const double limit = std::asin(std::min(1.0, std::sqrt(half2) / radii.rho));
+  const double half = halfLength(patch, radii), half2 = half * half;
+  const double limit = std::asin(std::min(1.0, patch.sine));
   double sum = 0;
   for (const auto& [t, weight] : kGauss) {
     const double a = limit * (2 * t - 1), c = std::cos(a), s = std::sin(a);
     // rho c - kappa without cancellation.
     const double over = (half2 - radii.rho * radii.rho * s * s) / (radii.rho * c + patch.kappa);
     const double height =
-        arc.turn * (s * arc.axis.dot(middle) + radii.r + patch.sag + patch.kappa * s * s / (1 + c)) +
+        arc.turn * (s * arc.axis.dot(middle) + radii.r + sag(patch, radii) + patch.kappa * s * s / (1 + c)) +
         c * sumOfW.dot(middle);
     sum += weight * 2 * limit * (radii.r * c + over) * height;
   }
@@ -95,7 +95,7 @@ Vector3d acrossEdge(const StpBv& volume, int patch) {
 // The normal at the patch's point farthest along n.p - h(n): towards p from the farthest centre. Where all
 // normals of a point, or all directions across an edge, serve alike, one that the patch owns.
 Vector3d stationaryNormal(const StpBv& volume, int index, const Vector3d& p) {
-  const Patch& patch = volume.patch(index);
+  const Patch patch = volume.patch(index);
   const PatchKind kind = volume.kind(index);
   Vector3d g = p - centre(patch, kind, volume.radii());
   if (kind == PatchKind::edge) {
@@ -149,7 +149,7 @@ double signedDistance(const StpBv& volume, const Vector3d& point) {
     const double past = volume.outside(index, n);
     if (past > kNear) continue;
     const int owner = past <= 0 ? index : volume.owner(n, index);
-    const Patch& patch = volume.patch(owner);
+    const Patch patch = volume.patch(owner);
     best = std::max(
         best, n.dot(point - patch.anchor) - supportAboveAnchor(patch, volume.kind(owner), volume.radii(), n));
   }

@@ -69,13 +69,13 @@ constexpr std::array<TrianglePoint, 7> kTriangle{{{1.0 / 3, 1.0 / 3, 1.0 / 3, kW
 // Mean height of a spindle over its own segment: an arc of radius R.
 double meanOverSegment(const StpBv& volume) {
   const Radii& radii = volume.radii();
-  const Patch& patch = volume.patch(volume.edgePatch(0));
-  const double half = std::sqrt(patch.sag * (radii.rho + patch.kappa));
+  const Patch patch = volume.patch(volume.edgePatch(0));
+  const double half = halfLength(patch, radii);
   constexpr int kPieces = 1000;
   double sum = 0;
   for (int k = 0; k < kPieces; ++k) {
     const double s = half * (2 * (k + 0.5) / kPieces - 1);
-    sum += radii.r + patch.sag - s * s / (radii.R + std::sqrt(radii.R * radii.R - s * s));
+    sum += radii.r + sag(patch, radii) - s * s / (radii.R + std::sqrt(radii.R * radii.R - s * s));
   }
   return sum / kPieces;
 }

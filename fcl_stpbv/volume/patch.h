@@ -19,7 +19,7 @@ struct Patch {
   Eigen::Vector3d
       axis;      ///< vertex: 0; edge: unit u from its first to its second vertex; face: (anchor - C)/rho
   double kappa;  ///< radius of the circle of centres, sqrt(rho^2 - l^2/4) for an edge, else 0
-  double sag;    ///< edge: rho - kappa, height of the core's arc over the edge's middle, else 0
+  double sine;   ///< edge: l/2 over rho, how far normals lean along it at most, else 0
 };
 
 /// The radii all patches of one body share.
@@ -29,6 +29,15 @@ struct Radii {
   double rho;  ///< R - r, radius of the balls whose intersection is the core (m)
 };
 
+/// Half the length of an edge (m).
+inline double halfLength(const Patch& edge, const Radii& radii) { return radii.rho * edge.sine; }
+
+/// Height of the core's arc over an edge's middle, rho - kappa without its cancellation (m).
+inline double sag(const Patch& edge, const Radii& radii) {
+  const double half = halfLength(edge, radii);
+  return half * half / (radii.rho + edge.kappa);
+}
+
 /// Height of the patch's supporting plane with unit normal `n` above its anchor, margin included (m).
 /// Free of cancellation for any R (docs/theory.md, 2).
 inline double supportAboveAnchor(const Patch& patch, PatchKind kind, const Radii& radii,
@@ -37,7 +46,7 @@ inline double supportAboveAnchor(const Patch& patch, PatchKind kind, const Radii
     case PatchKind::edge: {
       const double v = n.dot(patch.axis);
       const double v2 = std::min(v * v, 1.0);
-      return radii.r + patch.sag + patch.kappa * v2 / (1.0 + std::sqrt(1.0 - v2));
+      return radii.r + sag(patch, radii) + patch.kappa * v2 / (1.0 + std::sqrt(1.0 - v2));
     }
     case PatchKind::face:
       return radii.r + 0.5 * radii.rho * (n - patch.axis).squaredNorm();
@@ -58,17 +67,16 @@ inline Eigen::Vector3d corePoint(const Patch& patch, PatchKind kind, const Radii
   switch (kind) {
     case PatchKind::edge: {
       // rho n - kappa w = rho v u + (rho c - kappa) w with c = |n - v u| = sqrt(1 - v^2). For large rho the
-      // bracket is the small difference of large numbers and is written with the edge's half length h
-      // instead, rho^2 - kappa^2 = h^2; near the smallest R kappa is small and that form would divide by
-      // little.
+      // bracket is the small difference of large numbers and is written with the sine s instead,
+      // rho^2 - kappa^2 = rho^2 s^2; near the smallest R kappa is small and that form would divide by little.
       const double v = n.dot(patch.axis);
       const Eigen::Vector3d side = n - v * patch.axis;
       const double c = side.norm();
       if (!(c > 0.0)) return patch.anchor + radii.rho * v * patch.axis;
       double across = radii.rho * c - patch.kappa;
       if (patch.kappa > 0.5 * radii.rho) {
-        const double h2 = patch.sag * (radii.rho + patch.kappa), t = radii.rho * v;
-        across = (h2 - t * t) / (radii.rho * c + patch.kappa);
+        const double s = patch.sine, stretch = radii.rho * radii.rho / (radii.rho * c + patch.kappa);
+        across = (s - v) * (s + v) * stretch;
       }
       return patch.anchor + radii.rho * v * patch.axis + (across / c) * side;
     }

@@ -150,7 +150,7 @@ class Writer {
     line(volume_.edgeCount() + triangleCount_ - volume_.faceCount());
     for (int e = 0; e < volume_.edgeCount(); ++e) {
       const auto& [v, f, turn] = volume_.edges()[index(e)];
-      const Patch& patch = volume_.patch(volume_.edgePatch(e));
+      const Patch patch = volume_.patch(volume_.edgePatch(e));
       torus(true, v[0], v[1], patch.anchor, patch.kappa);
       line(triangleAt(f[0], v[0]), sideNormal(f[0], v[0], v[1]));
       line(triangleAt(f[1], v[1]), sideNormal(f[1], v[1], v[0]));

@@ -64,7 +64,7 @@ double farthestOut(const StpBv& volume, const std::vector<Vector3d>& points) {
     out = std::max(out, tree.highest(touched, normal, curvature, 0, &near).height);
   };
   for (int f = 0; f < volume.faceCount(); ++f) {
-    const Patch& face = volume.patch(volume.facePatch(f));
+    const Patch face = volume.patch(volume.facePatch(f));
     consider(face.anchor, face.axis);
   }
   constexpr double kWide = 0.3;  // rad between two normals that are tried
@@ -144,7 +144,7 @@ StpBv::Ptr StpBv::assemble(std::vector<Vector3d> vertices, std::vector<Ring> fac
   std::vector<int> near;
   const double tolerance = 4 * touchTolerance(volume->vertices_);
   for (int f = 0; f < volume->faceCount(); ++f) {
-    const Patch& face = volume->patch(volume->facePatch(f));
+    const Patch face = volume->patch(volume->facePatch(f));
     const auto top = tree.highest(face.anchor, face.axis, 1 / volume->radii_.rho, tolerance, &near);
     if (top.height > tolerance)
       throw Error("vertex " + std::to_string(top.index) + " lies " + number(top.height) +
@@ -164,13 +164,14 @@ StpBv::Ptr StpBv::assemble(std::vector<Vector3d> vertices, std::vector<Ring> fac
 FCL_STPBV_VECTORIZED
 int StpBv::owner(const Vector3d& n, int hint) const {
   if (!(n.squaredNorm() > 0)) return 0;  // zero or NaN: no direction, any patch
+  const Packed along = pack(n);
   int current = hint >= 0 ? hint : table_[cell(n)];
   int best = current;
   double least = std::numeric_limits<double>::infinity();
   // The step over the worst seam goes down the height n.C over the core's admissible centres C, so it does
   // not come back; the bound only stops a walk among regions narrower than rounding.
   for (int step = 0; step < 64 + patchCount(); ++step) {
-    const Crossing over = crossing(current, n);
+    const Crossing over = patches_.crossing(current, along, 1.0);
     if (over.past <= kSeamRounding) return current;
     if (over.past < least) least = over.past, best = current;
     current = over.neighbour;
@@ -201,9 +202,8 @@ Vector3d StpBv::corner(int face, int vertex) const {
 std::size_t StpBv::memory() const {
   std::size_t bytes = sizeof *this + vertices_.capacity() * sizeof(Vector3d) +
                       edges_.capacity() * sizeof(Edge) + faces_.capacity() * sizeof(Ring) +
-                      faceNormals_.capacity() * sizeof(Vector3d) +
-                      patches_.capacity() * sizeof(BoundedPatch) +
-                      furtherSeams_.capacity() * sizeof(SeamBlock) + stars_.capacity() * sizeof(VertexStar) +
+                      faceNormals_.capacity() * sizeof(Vector3d) + patches_.memory() +
+                      stars_.capacity() * sizeof(VertexStar) +
                       (table_.capacity() + vertexTable_.capacity()) * sizeof(std::int32_t);
   for (const Ring& ring : faces_) bytes += ring.capacity() * sizeof(int);
   return bytes;

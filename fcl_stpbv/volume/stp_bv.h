@@ -11,8 +11,7 @@
 #include <vector>
 
 #include "fcl_stpbv/error.h"
-#include "fcl_stpbv/volume/patch.h"
-#include "fcl_stpbv/volume/seam.h"
+#include "fcl_stpbv/volume/patch_table.h"
 #include "fcl_stpbv/volume/vertex_star.h"
 
 namespace fcl_stpbv {
@@ -65,53 +64,21 @@ class StpBv {
   /// Unit outward normal of a face's big sphere at one of the face's vertices: a corner where regions meet.
   Eigen::Vector3d corner(int face, int vertex) const;
 
-  int vertexCount() const { return firstEdge_; }
-  int edgeCount() const { return firstFace_ - firstEdge_; }
-  int faceCount() const { return firstPart_ - firstFace_; }
+  int vertexCount() const { return static_cast<int>(vertices_.size()); }
+  int edgeCount() const { return static_cast<int>(edges_.size()); }
+  int faceCount() const { return static_cast<int>(faces_.size()); }
 
-  /// Patches are numbered vertices first, then edges, then faces, then the further parts of edges that turn
-  /// by more than half a turn: each patch's region of normals is the intersection of its seams' sides.
-  int patchCount() const { return static_cast<int>(patches_.size()); }
-  int edgePatch(int edge) const { return firstEdge_ + edge; }
-  int facePatch(int face) const { return firstFace_ + face; }
-  PatchKind kind(int patch) const {
-    return patch < firstEdge_                          ? PatchKind::vertex
-           : patch < firstFace_ || patch >= firstPart_ ? PatchKind::edge
-                                                       : PatchKind::face;
-  }
-  const Patch& patch(int index) const { return patches_[static_cast<std::size_t>(index)].patch; }
+  /// Patches are numbered vertices first, then edges, then the further parts of edges that turn by more than
+  /// half a turn, then faces: each patch's region of normals is the intersection of its seams' sides.
+  int patchCount() const { return patches_.count(); }
+  int edgePatch(int edge) const { return patches_.firstEdge() + edge; }
+  int facePatch(int face) const { return patches_.firstFace() + face; }
+  PatchKind kind(int patch) const { return patches_.kind(patch); }
+  Patch patch(int index) const { return patches_.patch(index); }
+  const PatchTable& patches() const { return patches_; }
 
   /// The seams around a patch's region of normals (paper III.D).
-  Seams seams(int patch) const {
-    return {patches_[static_cast<std::size_t>(patch)].seams, furtherSeams_.data()};
-  }
-
-  /// The seam of the patch that `n`, anything with three numbers, passes furthest: `length` times as far as a
-  /// unit vector would.
-  template <typename Vector>
-  Crossing crossing(int patch, const Vector& n, double length = 1.0) const {
-    return most(patch, [&](const SeamBlock& block) { return block.past(n, length); });
-  }
-
-  /// The seam of the patch that the way from the unit normal `n` along the tangent `h` meets first: `past` is
-  /// the inverse of how far off it is, next to nothing or less where there is none.
-  template <typename Vector>
-  Crossing ahead(int patch, const Vector& n, const Vector& h) const {
-    return most(patch, [&](const SeamBlock& block) { return block.ahead(n, h); });
-  }
-
-  /// Has the patches past this one's seams brought near the processor, for a query that is likely to go there
-  /// next; a small volume is there anyway.
-  void prefetchBeside(int patch) const {
-    constexpr std::size_t kSmall = 100;  // patches: half of the nearest cache
-    constexpr std::size_t kLine = 64;    // bytes
-    if (patches_.size() < kSmall) return;
-    for (const std::int32_t beside : patches_[static_cast<std::size_t>(patch)].seams.neighbour) {
-      const auto* there =
-          reinterpret_cast<const char*>(&patches_[static_cast<std::size_t>(std::max(beside, 0))]);
-      for (std::size_t at = 0; at < sizeof(BoundedPatch); at += kLine) __builtin_prefetch(there + at);
-    }
-  }
+  PatchTable::Seams seams(int patch) const { return patches_.seams(patch); }
 
   /// Rounding of a rise along `d`, of the sum of its components.
   static constexpr float kLevel = 1e-6f;
@@ -146,10 +113,9 @@ class StpBv {
     return star.neighbour[star.steepest(d, 2.0f * length) & (VertexStar::kSize - 1)];
   }
 
-  /// How far `n` lies outside the patch's region, <= 0 inside.
-  template <typename Vector>
-  double outside(int patch, const Vector& n) const {
-    return crossing(patch, n).past;
+  /// How far the unit normal `n` lies outside the patch's region, <= 0 inside.
+  double outside(int patch, const Eigen::Vector3d& n) const {
+    return patches_.crossing(patch, pack(n), 1.0).past;
   }
 
   /// A vertex about as far along `n`, of any length, as any, from a direction table.
@@ -183,32 +149,12 @@ class StpBv {
   static double smallestR(const std::vector<Eigen::Vector3d>& points, double r);
 
  private:
-  /// A patch and the first seams around it side by side, since a query reads both.
-  struct BoundedPatch {
-    Patch patch;
-    SeamBlock seams;
-  };
-
-  /// The largest of what the blocks of a patch's seams give for themselves, and past which seam that is.
-  template <typename Measure>
-  Crossing most(int patch, const Measure& measure) const {
-    Crossing most{-std::numeric_limits<double>::infinity(), -1};
-    const SeamBlock* block = &patches_[static_cast<std::size_t>(patch)].seams;
-    do {
-      const double tagged = measure(*block);
-      if (tagged > most.past) most = {tagged, block->neighbour[SeamBlock::slotOf(tagged)]};
-      block = block->after(furtherSeams_.data());
-    } while (block);
-    return most;
-  }
-
   StpBv() = default;
   static Ptr make(std::vector<Eigen::Vector3d> vertices, std::vector<Ring> faces,
                   const StpBvOptions& options);
   void makeEdges();
   void makeInnerRadius();
   void makePatches();
-  void makeSeams();
   void makeStars();
   void makeTable();
 
@@ -228,9 +174,7 @@ class StpBv {
   std::vector<Edge> edges_;
   std::vector<Ring> faces_;
   std::vector<Eigen::Vector3d> faceNormals_;  // unit, at each ring's first vertex
-  int firstEdge_ = 0, firstFace_ = 0, firstPart_ = 0;  // patches of that kind begin here
-  std::vector<BoundedPatch> patches_;
-  std::vector<SeamBlock> furtherSeams_;    // of patches with more than four
+  PatchTable patches_;
   std::vector<VertexStar> stars_;          // one a vertex, then the further ones
   std::vector<std::int32_t> table_;        // patch owning the middle of each cell of a map of directions
   std::vector<std::int32_t> vertexTable_;  // vertex furthest along the middle of each such cell

@@ -22,8 +22,23 @@ constexpr double kTwoPi = 6.283185307179586476925;
 // it, however little it is past. A flat plate's rim turns by nearly half a turn and stays whole.
 constexpr double kWidestPart = 0.5 * kTwoPi;
 
-int partsOf(const StpBv::Edge& edge) {
-  return edge.face[0] < 0 || edge.turn <= kWidestPart ? 1 : static_cast<int>(std::ceil(edge.turn / 2.2));
+std::size_t partsOf(const StpBv::Edge& edge) {
+  return edge.face[0] < 0 || edge.turn <= kWidestPart ? 1
+                                                      : static_cast<std::size_t>(std::ceil(edge.turn / 2.2));
+}
+
+/// An edge's patch with its two vertices past it. kappa = sqrt(rho^2 - l^2/4) (paper, Theorem 3.1), as a
+/// product and in long double: near the smallest R half of the digits cancel.
+EdgeRecord withoutWalls(const Vector3d& first, const Vector3d& second, const StpBv::Edge& edge,
+                        long double rho) {
+  using Vector = Eigen::Matrix<long double, 3, 1>;
+  const Vector start = first.cast<long double>(), along = second.cast<long double>() - start;
+  const long double half = along.norm() / 2;
+  const auto kappa = static_cast<double>(std::sqrt(std::max(0.0L, (rho - half) * (rho + half))));
+  const auto sine = static_cast<double>(half / rho);
+  const Vector3d middle = (start + along / 2).cast<double>(), u = along.normalized().cast<double>();
+  const Wall wall{{}, {edge.vertex[1], edge.vertex[0]}};
+  return {withFourth(pack(middle), kappa), withFourth(pack(u), sine), {wall, wall}};
 }
 
 }  // namespace
@@ -44,7 +59,6 @@ StpBv::Ptr StpBv::make(std::vector<Vector3d> vertices, std::vector<Ring> faces, 
   volume->makeEdges();
   volume->makeInnerRadius();
   volume->makePatches();
-  volume->makeSeams();
   volume->makeStars();
   volume->makeTable();
   return volume;
@@ -98,81 +112,42 @@ void StpBv::makeInnerRadius() {
 
 void StpBv::makePatches() {
   const auto at = [&](int i) -> const Vector3d& { return vertices_[static_cast<std::size_t>(i)]; };
-  const auto edgePatchOf = [&](const Edge& edge) {
-    // kappa = sqrt(rho^2 - l^2/4) (paper, Theorem 3.1), as a product and in long double: near the smallest R
-    // half of the digits cancel.
-    using Vector = Eigen::Matrix<long double, 3, 1>;
-    const Vector along = at(edge.vertex[1]).cast<long double>() - at(edge.vertex[0]).cast<long double>();
-    const long double half = along.norm() / 2, rho = radii_.rho;
-    const long double kappa = std::sqrt(std::max(0.0L, (rho - half) * (rho + half)));
-    const Vector middle = at(edge.vertex[0]).cast<long double>() + along / 2;
-    return Patch{middle.cast<double>(), along.normalized().cast<double>(), static_cast<double>(kappa),
-                 static_cast<double>(half * half / (rho + kappa))};
-  };
-  firstEdge_ = static_cast<int>(vertices_.size());
-  firstFace_ = firstEdge_ + static_cast<int>(edges_.size());
-  firstPart_ = firstFace_ + static_cast<int>(faces_.size());
-  std::size_t further = 0;
-  for (const Edge& edge : edges_) further += static_cast<std::size_t>(partsOf(edge) - 1);
-  patches_.reserve(vertices_.size() + edges_.size() + faces_.size() + further);
-  for (const Vector3d& p : vertices_) patches_.push_back({{p, Vector3d::Zero(), 0, 0}, {}});
-  for (const Edge& edge : edges_) patches_.push_back({edgePatchOf(edge), {}});
-  for (std::size_t f = 0; f < faces_.size(); ++f)
-    patches_.push_back({{at(faces_[f][0]), faceNormals_[f], 0, 0}, {}});
-  for (const Edge& edge : edges_)
-    for (int part = 1; part < partsOf(edge); ++part) patches_.push_back({edgePatchOf(edge), {}});
-}
-
-void StpBv::makeSeams() {
-  std::vector<std::pair<int, Seam>> all;  // (patch, seam)
-  const auto at = [&](int i) -> const Vector3d& { return vertices_[static_cast<std::size_t>(i)]; };
-  int further = facePatch(faceCount());
+  std::size_t count = 0;
+  for (const Edge& edge : edges_) count += partsOf(edge);
+  std::vector<EdgeRecord> records(count);
+  const std::int32_t firstEdge = vertexCount(), firstFace = firstEdge + static_cast<std::int32_t>(count);
+  std::int32_t further = firstEdge + edgeCount();
   for (int e = 0; e < edgeCount(); ++e) {
     const Edge& edge = edges_[static_cast<std::size_t>(e)];
-    const Vector3d along = at(edge.vertex[1]) - at(edge.vertex[0]), u = along.normalized();
-    const double sine = 0.5 * along.norm() / radii_.rho;  // of the cone's half angle (docs/theory.md, 3)
-    std::vector<int> parts{edgePatch(e)};
-    for (int k = 1; k < partsOf(edge); ++k) parts.push_back(further++);
-
-    all.push_back({edge.vertex[0], {u, -sine, parts.front()}});
-    all.push_back({edge.vertex[1], {-u, -sine, parts.back()}});
-    for (const int part : parts) {
-      all.push_back({part, {u, sine, edge.vertex[1]}});
-      all.push_back({part, {-u, sine, edge.vertex[0]}});
-    }
+    const Vector3d along = at(edge.vertex[1]) - at(edge.vertex[0]);
+    const EdgeRecord whole = withoutWalls(at(edge.vertex[0]), at(edge.vertex[1]), edge, radii_.rho);
+    std::vector<std::int32_t> parts{firstEdge + e};
+    while (parts.size() < partsOf(edge)) parts.push_back(further++);
+    const auto recordOf = [&](std::size_t part) -> EdgeRecord& {
+      return records[static_cast<std::size_t>(parts[part] - firstEdge)];
+    };
+    for (std::size_t k = 0; k < parts.size(); ++k) recordOf(k) = whole;
     if (edge.face[0] < 0) continue;
 
+    const auto setWall = [&](std::size_t part, std::size_t k, const Vector3d& normal, std::int32_t past) {
+      EdgeRecord& record = recordOf(part);
+      record.wall[k].normal = {normal.x(), normal.y(), normal.z()};
+      record.wall[1].past[k] = past;
+    };
     // Planes through the edge and the two faces' ball centres, their normals pointing out of the faces.
     const Vector3d leave = along.cross(corner(edge.face[0], edge.vertex[0])).normalized();
     const Vector3d arrive = -along.cross(corner(edge.face[1], edge.vertex[0])).normalized();
-    all.push_back({facePatch(edge.face[0]), {leave, 0, parts.front()}});
-    all.push_back({facePatch(edge.face[1]), {arrive, 0, parts.back()}});
-    all.push_back({parts.front(), {-leave, 0, facePatch(edge.face[0])}});
-    all.push_back({parts.back(), {-arrive, 0, facePatch(edge.face[1])}});
-    const Vector3d start = leave.cross(u);
+    setWall(0, 0, -leave, firstFace + edge.face[0]);
+    setWall(parts.size() - 1, 1, -arrive, firstFace + edge.face[1]);
+    const Vector3d start = leave.cross(along.normalized());
     for (std::size_t k = 1; k < parts.size(); ++k) {
       const double angle = edge.turn * static_cast<double>(k) / static_cast<double>(parts.size());
       const Vector3d forward = std::cos(angle) * leave - std::sin(angle) * start;
-      all.push_back({parts[k - 1], {forward, 0, parts[k]}});
-      all.push_back({parts[k], {-forward, 0, parts[k - 1]}});
+      setWall(k - 1, 1, forward, parts[k]);
+      setWall(k, 0, -forward, parts[k - 1]);
     }
   }
-  std::vector<std::int32_t> last(patches_.size(), -1);  // further block with room, -1: the patch's first
-  for (const auto& [patch, seam] : all) {
-    const auto p = static_cast<std::size_t>(patch);
-    const auto block = [&]() -> SeamBlock& {
-      return last[p] < 0 ? patches_[p].seams : furtherSeams_[static_cast<std::size_t>(last[p])];
-    };
-    if (block().neighbour.back() >= 0) {  // full
-      const auto next = static_cast<std::int32_t>(furtherSeams_.size());
-      block().next = next;
-      last[p] = next;
-      furtherSeams_.emplace_back();
-    }
-    const auto& taken = block().neighbour;
-    block().set(static_cast<std::size_t>(std::find(taken.begin(), taken.end(), -1) - taken.begin()), seam);
-  }
-  furtherSeams_.shrink_to_fit();
+  patches_ = PatchTable(vertices_, std::move(records), faces_, faceNormals_);
 }
 
 void StpBv::makeStars() {
@@ -216,7 +191,8 @@ void StpBv::makeTable() {
       n.normalize();
       last = owner(n, last);
       table_.push_back(last);
-      int corner = last;  // one of the patch: its own point, else by an edge's first seam, which leads to an end
+      int corner =
+          last;  // one of the patch: its own point, else by an edge's first seam, which leads to an end
       while (corner >= vertexCount()) corner = (*seams(corner).begin()).neighbour;
       vertexTable_.push_back(climb(corner, n.cast<float>()));
     }

@@ -31,9 +31,9 @@ double exitHeight(const Patch& patch, PatchKind kind, const Radii& radii, const 
   }
   // The distance to the circle's farthest point is convex along the ray: Newton from beyond comes down
   // monotonically.
-  const double half2 = patch.sag * (radii.rho + patch.kappa);
+  const double half = halfLength(patch, radii), half2 = half * half;
   const double rest = radii.r * (radii.R + radii.rho) + half2;  // R^2 - kappa^2
-  double t = radii.r + patch.sag + std::sqrt(half2) + q.norm();
+  double t = radii.r + sag(patch, radii) + half + q.norm();
   for (int round = 0; round < 60; ++round) {
     const Vector3d x = q + t * d;
     const double along = x.dot(patch.axis);
@@ -125,7 +125,7 @@ SurfaceHeight surfaceHeight(const StpBv& volume, const Vector3d& y, const Vector
     const double stretch = along.norm();
     const Vector3d n = along / stretch;
     index = volume.owner(n, index);
-    const Patch& patch = volume.patch(index);
+    const Patch patch = volume.patch(index);
     const PatchKind kind = volume.kind(index);
     const double height =
         stretch * (n.dot(patch.anchor - y) + supportAboveAnchor(patch, kind, volume.radii(), n));

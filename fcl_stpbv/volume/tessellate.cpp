@@ -54,10 +54,7 @@ class Tessellator {
   void addEdge(int e) {
     const Arc arc = edgeArc(volume_, e);
     const int patch = volume_.edgePatch(e);
-    const double sine =
-        std::sqrt(volume_.patch(patch).sag * (volume_.radii().rho + volume_.patch(patch).kappa)) /
-        volume_.radii().rho;
-    const double half = std::asin(std::min(1.0, sine));
+    const double half = std::asin(std::min(1.0, volume_.patch(patch).sine));
     const int round = steps(arc.turn), along = steps(2 * half);
     const auto at = [&](int i, int j) {
       const double tilt = half * (2.0 * j / along - 1);

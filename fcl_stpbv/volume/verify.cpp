@@ -42,7 +42,7 @@ double containmentOf(const StpBv& volume, const std::vector<Vector3d>& cloud, do
   const PointTree tree(own);
   std::vector<int> near;
   for (int f = 0; f < volume.faceCount(); ++f) {
-    const Patch& face = volume.patch(volume.facePatch(f));
+    const Patch face = volume.patch(volume.facePatch(f));
     worst = std::max(worst, tree.highest(face.anchor, face.axis, 1 / volume.radii().rho, 0, &near).height);
   }
   if (cloud.empty()) return worst;
@@ -59,7 +59,7 @@ double containmentOf(const StpBv& volume, const std::vector<Vector3d>& cloud, do
 // points (m): a height e over a face of width w tilts it by e/w, which a large rho magnifies.
 double tiltOf(const StpBv& volume, int f) {
   const StpBv::Ring& ring = volume.faces()[static_cast<std::size_t>(f)];
-  const Patch& face = volume.patch(volume.facePatch(f));
+  const Patch face = volume.patch(volume.facePatch(f));
   double height = 0;
   for (const int i : ring) {
     const Vector3d q = at(volume, i) - face.anchor;

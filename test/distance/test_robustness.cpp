@@ -272,7 +272,7 @@ TEST_CASE("The band of an edge 2 mm long at R = 1e6 m, 2e-9 rad wide, is found f
   for (int i = 0; i < 20000; ++i) {
     const int e = random.below(b->edgeCount());
     const StpBv::Edge& edge = b->edges()[static_cast<std::size_t>(e)];
-    const Patch& patch = b->patch(b->edgePatch(e));
+    const Patch patch = b->patch(b->edgePatch(e));
     const double length = (b->vertices()[static_cast<std::size_t>(edge.vertex[0])] -
                            b->vertices()[static_cast<std::size_t>(edge.vertex[1])])
                               .norm();

@@ -1,0 +1,58 @@
+// What a query reads of a vertex, an edge and a face, each in one or two lines of memory.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "fcl_stpbv/packed.h"
+
+namespace fcl_stpbv {
+
+/// Half of what bounds an edge's region of normals: the plane to a face or to another part of the edge.
+struct Wall {
+  std::array<double, 3> normal;      ///< unit, out of the region
+  std::array<std::int32_t, 2> past;  ///< patches: the first wall's past the seams of the second vertex and of
+                                     ///< the first, the second wall's past the two walls
+};
+
+/// An edge's patch (patch.h) with the four seams around it; a spindle has no walls, and the vertices twice.
+/// All seams of a volume are edges': vertices and faces name their sides. An edge has two, each one of its
+/// ends and one of its walls; a side's number is where that wall lies among all records, in bytes.
+struct alignas(64) EdgeRecord {
+  Packed middle;  ///< fourth: kappa
+  Packed axis;    ///< fourth: sine
+  std::array<Wall, 2> wall;
+
+  static std::int32_t side(std::size_t edge, std::size_t end) {
+    return static_cast<std::int32_t>(edge * sizeof(EdgeRecord) + offsetof(EdgeRecord, wall) +
+                                     end * sizeof(Wall));
+  }
+  bool hasWalls() const { return past(2) != past(0); }
+  std::int32_t past(std::size_t seam) const { return wall[seam / 2].past[seam % 2]; }
+};
+static_assert(sizeof(EdgeRecord) == 128);
+
+/// Sides of one patch; what is unused repeats the last.
+struct Sides {
+  static constexpr std::size_t kSize = 8;
+  std::array<std::int32_t, kSize> side;
+  std::int32_t next;  ///< of the patch's further sides, -1: none
+};
+
+struct alignas(64) VertexRecord {
+  Eigen::Vector3d point;
+  Sides sides;
+};
+static_assert(sizeof(VertexRecord) == 64);
+
+struct alignas(64) FaceRecord {
+  static constexpr std::size_t kSize = 4;
+  Eigen::Vector3d anchor, normal;
+  std::array<std::int32_t, kSize> side;  ///< in the ring's order; of more than four the last one is ~ the
+                                         ///< place of the further sides
+};
+static_assert(sizeof(FaceRecord) == 64);
+
+}  // namespace fcl_stpbv

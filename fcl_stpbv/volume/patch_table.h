@@ -1,0 +1,255 @@
+// A volume's patches and the seams between them, laid out for a query.
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <vector>
+
+#include "fcl_stpbv/packed.h"
+#include "fcl_stpbv/volume/patch.h"
+#include "fcl_stpbv/volume/patch_record.h"
+
+namespace fcl_stpbv {
+
+/// One side of a patch's region of normals: `n` is inside iff `n.normal <= limit`; past it lies `neighbour`.
+struct Seam {
+  Eigen::Vector3d normal;
+  double limit;
+  int neighbour;
+};
+
+/// The seam that a normal passes furthest: `past` is the largest `n.normal - limit`, <= 0 inside all of them.
+struct Crossing {
+  double past;
+  int neighbour;
+};
+
+/// Patches by number: vertices, then edges with their further parts, then faces. Seams are tested four at a
+/// time.
+class PatchTable {
+ public:
+  class Seams;
+
+  PatchTable() = default;
+
+  /// Joins vertices, edges and faces by the neighbours that the edges name. A face is its vertices
+  /// counter-clockwise and the unit normal at the first one.
+  /// @throws Error for more edges than can be numbered.
+  PatchTable(const std::vector<Eigen::Vector3d>& vertices, std::vector<EdgeRecord> edges,
+             const std::vector<std::vector<int>>& faces, const std::vector<Eigen::Vector3d>& normals);
+
+  int firstEdge() const { return firstEdge_; }
+  int firstFace() const { return firstFace_; }
+  int count() const { return firstFace_ + static_cast<int>(faces_.size()); }
+  PatchKind kind(int patch) const {
+    return patch < firstEdge_ ? PatchKind::vertex : patch < firstFace_ ? PatchKind::edge : PatchKind::face;
+  }
+
+  const VertexRecord& vertex(int patch) const { return vertices_[static_cast<std::size_t>(patch)]; }
+  const EdgeRecord& edge(int patch) const { return edges_[static_cast<std::size_t>(patch - firstEdge_)]; }
+  const FaceRecord& face(int patch) const { return faces_[static_cast<std::size_t>(patch - firstFace_)]; }
+
+  Patch patch(int index) const;
+  Seams seams(int patch) const;
+
+  /// The vertex at a side's end; of a face's sides, counter-clockwise, the one where it begins.
+  int startOf(std::int32_t side) const { return edgeOf(side).past(isSecond(side) ? 0 : 1); }
+
+  /// The seam of the patch that `n` passes furthest: `length` times as far as a unit vector would.
+  Crossing crossing(int patch, const Packed& n, double length) const {
+    const Packed to = withFourth(n, length);
+    return most(patch, [&](const auto& pastAll) { return pastAll(to); });
+  }
+
+  /// The seam of the patch that the way from the unit normal `n` along the tangent `h` meets first: `past` is
+  /// the inverse of how far off it is, next to nothing or less where there is none.
+  Crossing ahead(int patch, const Packed& n, const Packed& h) const {
+    constexpr double kAtOnce = 1e-12;  // rad; `n` may be past the seam already
+    const Packed at = withFourth(n, 1.0), to = withFourth(h, 0.0), least = Packed{} + kAtOnce;
+    return most(patch, [&](const auto& pastAll) { return pastAll(to) / larger(-pastAll(at), least); });
+  }
+
+  /// Has the records past the patch's seams brought near the processor, for a query that is likely to go
+  /// there next; a small volume's are there anyway.
+  void prefetchBeside(int patch) const {
+    constexpr int kSmall = 100;  // patches: half of the nearest cache
+    if (count() < kSmall) return;
+    switch (kind(patch)) {
+      case PatchKind::vertex:
+        for (const std::int32_t side : vertex(patch).sides.side) prefetch(edgeOf(side));
+        break;
+      case PatchKind::edge:
+        for (const std::size_t k : {0u, 1u}) {
+          const EdgeRecord& e = edge(patch);
+          prefetch(vertex(e.past(k)));
+          if (e.past(2 + k) >= firstFace_) prefetch(face(e.past(2 + k)));
+        }
+        break;
+      case PatchKind::face:
+        for (std::size_t k = 0; k < 3; ++k) prefetch(edgeOf(face(patch).side[k]));
+    }
+  }
+
+  /// Memory it holds, in bytes.
+  std::size_t memory() const {
+    return vertices_.capacity() * sizeof(VertexRecord) + edges_.capacity() * sizeof(EdgeRecord) +
+           faces_.capacity() * sizeof(FaceRecord) + further_.capacity() * sizeof(Sides);
+  }
+
+ private:
+  static std::size_t bytes(std::int32_t side) { return static_cast<std::uint32_t>(side); }
+  static bool isSecond(std::int32_t side) { return bytes(side) & sizeof(Wall); }
+  int edgeAt(std::int32_t side) const { return firstEdge_ + side / static_cast<int>(sizeof(EdgeRecord)); }
+  const char* records() const { return reinterpret_cast<const char*>(edges_.data()); }
+  const EdgeRecord& edgeOf(std::int32_t side) const {
+    return *reinterpret_cast<const EdgeRecord*>(records() + (bytes(side) & ~(sizeof(EdgeRecord) - 1)));
+  }
+  const Wall& wallOf(std::int32_t side) const {
+    return *reinterpret_cast<const Wall*>(records() + bytes(side));
+  }
+
+  template <typename Record>
+  static void prefetch(const Record& record) {
+    constexpr std::size_t kLine = 64;  // bytes
+    const char* there = reinterpret_cast<const char*>(&record);
+    for (std::size_t at = 0; at < sizeof record; at += kLine) __builtin_prefetch(there + at);
+  }
+
+  /// A seam as its normal and less its limit, so that times a unit vector and 1 it is how far that is past.
+  Packed seamAtVertex(std::int32_t side) const {
+    static constexpr PackedBits opposite[2] = {{}, kOpposite3};
+    PackedBits bits;
+    std::memcpy(&bits, reinterpret_cast<const char*>(opposite) + (bytes(side) & sizeof(Wall)), sizeof bits);
+    return fromBits(bitsOf(edgeOf(side).axis) ^ bits);
+  }
+  /// The same for a wall, whose limit is 0.
+  static Packed seamOf(const Wall& wall) {
+    PackedBits bits;
+    std::memcpy(&bits, &wall, sizeof bits);
+    return fromBits(bits & PackedBits{-1, -1, -1, 0});
+  }
+
+  /// How far `n`, with its length fourth, is past each of four sides' seams, of a vertex or of a face.
+  Packed pastSidesAtVertex(const std::int32_t* side, const Packed& n) const {
+    return sums(seamAtVertex(side[0]) * n, seamAtVertex(side[1]) * n, seamAtVertex(side[2]) * n,
+                seamAtVertex(side[3]) * n);
+  }
+  Packed pastSidesAtFace(const std::int32_t* side, const Packed& n) const {
+    const Packed m = -n;  // walls face the other way
+    return sums(seamOf(wallOf(side[0])) * m, seamOf(wallOf(side[1])) * m, seamOf(wallOf(side[2])) * m,
+                seamOf(wallOf(side[3])) * m);
+  }
+  /// And past the four seams of an edge, in the order of `EdgeRecord::past`.
+  static Packed pastSidesOf(const EdgeRecord& edge, const Packed& n) {
+    const Packed second = edge.axis * fromBits(bitsOf(n) ^ kOppositeFourth),
+                 first = fromBits(bitsOf(second) ^ kOpposite3);
+    if (!edge.hasWalls()) return sums(second, first, second, first);
+    return sums(second, first, seamOf(edge.wall[0]) * n, seamOf(edge.wall[1]) * n);
+  }
+
+  /// Numbers with their places from `first` on, below eight, for their three least bits.
+  static Packed tagged(const Packed& v, std::int64_t first) {
+    constexpr PackedBits places{0, 1, 2, 3};
+    return fromBits((bitsOf(v) & ~std::int64_t{Sides::kSize - 1}) | (places + first));
+  }
+  static std::size_t placeOf(double tagged) {
+    std::uint64_t key;
+    std::memcpy(&key, &tagged, sizeof key);
+    return key & (Sides::kSize - 1);
+  }
+
+  /// The largest of what the patch's seams give for themselves, and past which seam that is. `measure` makes
+  /// four numbers from what gives how far anything is past four seams.
+  template <typename Measure>
+  Crossing most(int patch, const Measure& measure) const {
+    if (patch < firstEdge_) return mostOf<PatchKind::vertex>(vertex(patch).sides, measure);
+    if (patch < firstFace_) {
+      const EdgeRecord& e = edge(patch);
+      const Packed four = measure([&](const Packed& n) { return pastSidesOf(e, n); });
+      const double past = largest(tagged(four, 0));
+      return {past, e.past(placeOf(past))};
+    }
+    std::array<std::int32_t, FaceRecord::kSize> side = face(patch).side;
+    const std::int32_t next = ~side.back();
+    if (next >= 0) side[3] = side[2];
+    const Packed four = measure([&](const Packed& n) { return pastSidesAtFace(side.data(), n); });
+    const double past = largest(tagged(four, 0));
+    const Crossing first{past, edgeAt(side[placeOf(past)])};
+    if (next < 0) return first;
+    const Crossing further = mostOf<PatchKind::face>(further_[static_cast<std::size_t>(next)], measure);
+    return first.past >= further.past ? first : further;
+  }
+
+  /// The same of eight sides and those that follow.
+  template <PatchKind kind, typename Measure>
+  Crossing mostOf(const Sides& first, const Measure& measure) const {
+    const auto mostOfEight = [&](const Sides& sides) -> Crossing {
+      const auto four = [&](std::size_t k) {
+        const std::int32_t* side = sides.side.data() + k;
+        return tagged(measure([&](const Packed& n) {
+                        return kind == PatchKind::vertex ? pastSidesAtVertex(side, n)
+                                                         : pastSidesAtFace(side, n);
+                      }),
+                      static_cast<std::int64_t>(k));
+      };
+      const double past = largest(larger(four(0), four(4)));
+      return {past, edgeAt(sides.side[placeOf(past)])};
+    };
+    Crossing most = mostOfEight(first);
+    for (std::int32_t next = first.next; next >= 0;) {
+      const Sides& sides = further_[static_cast<std::size_t>(next)];
+      const Crossing other = mostOfEight(sides);
+      if (other.past > most.past) most = other;
+      next = sides.next;
+    }
+    return most;
+  }
+
+  Seam seam(int patch, std::int32_t side) const;
+  void joinSides(std::vector<std::vector<std::int32_t>>& atVertex,
+                 std::vector<std::vector<std::int32_t>>& atFace);
+  std::int32_t addFurther(const std::vector<std::int32_t>& sides, std::size_t from);
+
+  int firstEdge_ = 0, firstFace_ = 0;
+  std::vector<VertexRecord> vertices_;
+  std::vector<EdgeRecord> edges_;  // a volume of one vertex has one, whose seam holds for any normal
+  std::vector<FaceRecord> faces_;
+  std::vector<Sides> further_;  // of vertices with more than eight, of faces with more than four
+};
+
+/// The seams of one patch, one by one.
+class PatchTable::Seams {
+ public:
+  class Iterator {
+   public:
+    Iterator(const PatchTable& table, int patch);
+    explicit Iterator(const PatchTable& table) : table_(table) {}
+    Seam operator*() const { return table_.seam(patch_, *side_); }
+    Iterator& operator++();
+    bool operator!=(const Iterator& other) const { return side_ != other.side_; }
+
+   private:
+    void take(const std::int32_t* sides, std::size_t size);
+
+    const PatchTable& table_;
+    int patch_ = -1;
+    const std::int32_t *side_ = nullptr, *end_ = nullptr;
+    std::int32_t next_ = -1;
+  };
+
+  Seams(const PatchTable& table, int patch) : table_(table), patch_(patch) {}
+  Iterator begin() const { return {table_, patch_}; }
+  Iterator end() const { return Iterator(table_); }
+
+ private:
+  const PatchTable& table_;
+  int patch_;
+};
+
+inline PatchTable::Seams PatchTable::seams(int patch) const { return {*this, patch}; }
+
+}  // namespace fcl_stpbv
