@@ -7,6 +7,11 @@
 #include <cstring>
 #include <limits>
 
+// Without the processor's wider registers GCC remarks on how such a vector is passed: it never is, only
+// functions compiled into their callers take or return one by value.
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wpsabi"
+
 namespace fcl_stpbv {
 
 /// Three numbers side by side; the fourth means nothing unless it is said what. With Eigen's three, sums and
@@ -76,3 +81,5 @@ inline double largest(const Packed& v) {
 }
 
 }  // namespace fcl_stpbv
+
+#pragma GCC diagnostic pop

@@ -13,6 +13,9 @@
 #include "fcl_stpbv/volume/patch.h"
 #include "fcl_stpbv/volume/patch_record.h"
 
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wpsabi"  // packed.h says why
+
 namespace fcl_stpbv {
 
 /// One side of a patch's region of normals: `n` is inside iff `n.normal <= limit`; past it lies `neighbour`.
@@ -253,3 +256,5 @@ class PatchTable::Seams {
 inline PatchTable::Seams PatchTable::seams(int patch) const { return {*this, patch}; }
 
 }  // namespace fcl_stpbv
+
+#pragma GCC diagnostic pop
