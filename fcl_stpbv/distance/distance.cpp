@@ -125,6 +125,10 @@ FCL_STPBV_VECTORIZED
 Distance distance(const StpBv& a, const Isometry3d& poseA, const StpBv& b, const Isometry3d& poseB,
                   PairCache* cache) {
   constexpr double kHuge = 1e300;  // squares must not overflow
+  if (cache) {
+    a.patches().prefetchBeyond(cache->patch[0]);
+    b.patches().prefetchBeyond(cache->patch[1]);
+  }
   Distance result;
   result.lower = -std::numeric_limits<double>::infinity();
   result.upper = std::numeric_limits<double>::infinity();

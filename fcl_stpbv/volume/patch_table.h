@@ -93,7 +93,37 @@ class PatchTable {
         }
         break;
       case PatchKind::face:
-        for (std::size_t k = 0; k < 3; ++k) prefetch(edgeOf(face(patch).side[k]));
+        prefetchEdgesOf(face(patch));
+    }
+  }
+
+  /// The same of what lies past those in turn, as far as they are at hand: for the start of a query, when
+  /// those fetched at the end of the last one have come. It pays where a volume does not stay near.
+  void prefetchBeyond(int patch) const {
+    constexpr int kLarge = 3000;  // patches: half a megabyte
+    if (count() < kLarge || patch < 0 || patch >= count()) return;
+    switch (kind(patch)) {
+      case PatchKind::vertex:
+        for (const std::int32_t side : vertex(patch).sides.side) {
+          const EdgeRecord& e = edgeOf(side);
+          prefetch(vertex(e.past(isSecond(side) ? 1 : 0)));
+          if (e.past(2) >= firstFace_) prefetch(face(e.past(2)));
+        }
+        break;
+      case PatchKind::edge:
+        for (const std::size_t k : {0u, 1u}) {
+          const EdgeRecord& e = edge(patch);
+          for (const std::int32_t side : vertex(e.past(k)).sides.side) prefetch(edgeOf(side).axis);
+          if (e.past(2 + k) >= firstFace_) prefetchEdgesOf(face(e.past(2 + k)));
+        }
+        break;
+      case PatchKind::face:
+        for (std::size_t k = 0; k < 3; ++k) {
+          const std::int32_t side = face(patch).side[k];
+          const int over = edgeOf(side).past(isSecond(side) ? 2 : 3);
+          prefetch(vertex(startOf(side)));
+          if (over >= firstFace_) prefetch(face(over));
+        }
     }
   }
 
@@ -120,6 +150,10 @@ class PatchTable {
     constexpr std::size_t kLine = 64;  // bytes
     const char* there = reinterpret_cast<const char*>(&record);
     for (std::size_t at = 0; at < sizeof record; at += kLine) __builtin_prefetch(there + at);
+  }
+
+  void prefetchEdgesOf(const FaceRecord& face) const {
+    for (std::size_t k = 0; k < 3; ++k) prefetch(edgeOf(face.side[k]));
   }
 
   /// A seam as its normal and less its limit, so that times a unit vector and 1 it is how far that is past.
