@@ -236,10 +236,10 @@ TEST_CASE("Every normal belongs to one region and every walk finds it") {
   }
 }
 
-TEST_CASE("A volume takes at most 2 kB of memory a vertex") {
+TEST_CASE("A volume takes at most 1.1 kB of memory a vertex") {
   for (const int subdivisions : {1, 2, 4}) {
     const StpBv::Ptr volume = StpBv::build(geodesicSphere(0.2, subdivisions));
-    CHECK(volume->memory() <= 2048 * static_cast<std::size_t>(volume->vertexCount()));
+    CHECK(volume->memory() <= 1126 * static_cast<std::size_t>(volume->vertexCount()));
   }
 }
 
