@@ -191,8 +191,8 @@ void StpBv::makeTable() {
       n.normalize();
       last = owner(n, last);
       table_.push_back(last);
-      int corner =
-          last;  // one of the patch: its own point, else by an edge's first seam, which leads to an end
+      // A vertex of the patch: itself, else over an edge's first seam, which leads to an end.
+      int corner = last;
       while (corner >= vertexCount()) corner = (*seams(corner).begin()).neighbour;
       vertexTable_.push_back(climb(corner, n.cast<float>()));
     }
