@@ -70,8 +70,8 @@ bool settle(const BodyPair& pair, Sample& x, Vector3d& next, Work& work) {
   for (int attempt = 0; attempt < 2; ++attempt) {  // two tori may need a second go for the last digits
     n = widestNormal(a, b, n).unit();
     next = unpack(n);
-    if (pair.a().patches().crossing(x.patch[0], n, 1.0).past > kOnSeam ||
-        pair.b().patches().crossing(x.patch[1], pair.opposite(n), 1.0).past > kOnSeam)
+    if (pair.a().patches().crossing(x.patch[0], n).past > kOnSeam ||
+        pair.b().patches().crossing(x.patch[1], pair.opposite(n)).past > kOnSeam)
       return false;
     const Sample there = BodyPair::sample(n, x.patch, a, b);
     // Deep inside each other the pair's other maximum may lie in the same regions; it must not be a step

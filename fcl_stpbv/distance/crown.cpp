@@ -48,10 +48,10 @@ Vertices verticesOf(const StpBv& body, int patch) {
     return {{edge.past(1), edge.past(0)}, 2};
   }
   Vertices v;
-  const auto& side = patches.face(patch).side;
-  if (side.back() >= 0) {  // in the record, which is at hand; a triangle's last side is there twice
-    v.count = side[3] == side[2] ? 3 : 4;
-    for (std::size_t i = 0; i < v.count; ++i) v.index[i] = patches.startOf(side[i]);
+  const FaceRecord& face = patches.face(patch);
+  if (face.further() < 0) {  // all in the record, which is at hand
+    v.count = face.count();
+    for (std::size_t i = 0; i < v.count; ++i) v.index[i] = patches.startOf(face.side[i]);
   } else {
     const StpBv::Ring& ring = body.faces()[static_cast<std::size_t>(patch - body.facePatch(0))];
     v.count = Corners::kMost;

@@ -23,11 +23,11 @@ Packed renormalized(const Packed& n) {
   return n * (std::abs(length2 - 1.0) < 1e-8 ? 1.5 - 0.5 * length2 : 1.0 / std::sqrt(length2));
 }
 
-/// The first guess when nothing near is remembered: from centre to centre.
-Vector3d centreLine(const BodyPair& pair) {
-  const Vector3d d = unpack(pair.centreDifference());
-  const double length = d.norm();
-  return length > 0.0 ? Vector3d(d / length) : Vector3d::UnitX();
+/// The first guess when nothing near is remembered: from centre to centre. The tables are asked for a
+/// direction of any length, as what they name is waited for longer than its root.
+Start fromCentres(const BodyPair& pair) {
+  const Heading h = headingOr(pair.centreDifference(), Packed{1, 0, 0, 0});
+  return {unpack(h.unit()), pair.near(unpack(h.d)), false};
 }
 
 /// A patch near the one that owns the unit normal `now`, from the one that owned `then`: itself, or after a
@@ -41,7 +41,7 @@ int nearby(const StpBv& body, int patch, const Packed& now, const Eigen::Vector3
   const double turn2 = dot(turn, turn);
   if (!(turn2 <= kLarge * kLarge)) return -1;
   if (turn2 * body.patchCount() <= kWide) return patch;
-  const Crossing over = body.patches().crossing(patch, now, 1.0);
+  const Crossing over = body.patches().crossing(patch, now);
   return over.past > 0.0 ? over.neighbour : patch;
 }
 
@@ -54,8 +54,7 @@ Start startOf(const BodyPair& pair, const Rotation& toWorld, const PairCache* ca
                                    nearby(pair.b(), cache->patch[1], pair.opposite(n), cache->seen[1])};
     if (patch[0] >= 0 && patch[1] >= 0) return {unpack(n), patch, true};
   }
-  const Vector3d n = centreLine(pair);
-  return {n, pair.near(n), false};
+  return fromCentres(pair);
 }
 
 /// Two patches along a normal, as a search goes from one to the next.
@@ -63,12 +62,16 @@ struct Visit {
   std::array<int, 2> patch;
   PosedPatch a, b;
   Packed n;
+  bool far;  ///< from the last query's: nothing here was fetched ahead
 
   void cross(const BodyPair& pair, const Crossing& overA, const Crossing& overB) {
-    if (overA.past >= overB.past)
+    if (overA.past >= overB.past) {
       a = pair.patchA(patch[0] = overA.neighbour);
-    else
+      if (far) pair.a().patches().prefetchBeside(patch[0]);
+    } else {
       b = pair.patchB(patch[1] = overB.neighbour);
+      if (far) pair.b().patches().prefetchBeside(patch[1]);
+    }
   }
 
   /// Over the first seam uphill, for patches whose gap has its maximum far off or none on this side of the
@@ -95,7 +98,11 @@ struct Visit {
 bool hop(const BodyPair& pair, const Start& start, Sample& x, Work& work) {
   constexpr int kTries = 12;    // one to three are usual
   constexpr double kFar = 0.3;  // cosine of the turn after which the seam passed furthest says little
-  Visit at{start.patch, pair.patchA(start.patch[0]), pair.patchB(start.patch[1]), pack(start.n)};
+  Visit at{start.patch, pair.patchA(start.patch[0]), pair.patchB(start.patch[1]), pack(start.n), !start.near};
+  if (at.far) {
+    pair.a().patches().prefetchBeside(at.patch[0]);
+    pair.b().patches().prefetchBeside(at.patch[1]);
+  }
   for (int i = 0; i < kTries; ++i) {
     ++work.pairs;
     const Heading to = widestNormal(at.a, at.b, at.n);
@@ -125,10 +132,6 @@ FCL_STPBV_VECTORIZED
 Distance distance(const StpBv& a, const Isometry3d& poseA, const StpBv& b, const Isometry3d& poseB,
                   PairCache* cache) {
   constexpr double kHuge = 1e300;  // squares must not overflow
-  if (cache) {
-    a.patches().prefetchBeyond(cache->patch[0]);
-    b.patches().prefetchBeyond(cache->patch[1]);
-  }
   Distance result;
   result.lower = -std::numeric_limits<double>::infinity();
   result.upper = std::numeric_limits<double>::infinity();
@@ -166,8 +169,8 @@ Distance distance(const StpBv& a, const Isometry3d& poseA, const StpBv& b, const
   result.patchPairs = work.pairs;
   result.patchSteps = work.steps;
   if (start.near) {
-    a.patches().prefetchBeside(at.patch[0]);
-    b.patches().prefetchBeside(at.patch[1]);
+    a.patches().prefetchAround(at.patch[0]);
+    b.patches().prefetchAround(at.patch[1]);
   }
   if (cache) {
     cache->normal = result.normal;

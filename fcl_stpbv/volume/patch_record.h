@@ -50,8 +50,12 @@ static_assert(sizeof(VertexRecord) == 64);
 struct alignas(64) FaceRecord {
   static constexpr std::size_t kSize = 4;
   Eigen::Vector3d anchor, normal;
-  std::array<std::int32_t, kSize> side;  ///< in the ring's order; of more than four the last one is ~ the
-                                         ///< place of the further sides
+  std::array<std::int32_t, kSize> side;  ///< in the ring's order, a triangle's last one twice; of more than
+                                         ///< four the last one is ~ the place of the further sides
+
+  /// How many of the sides are here, and the place of those that are not, -1: none.
+  std::size_t count() const { return side[3] < 0 || side[3] == side[2] ? 3 : 4; }
+  std::int32_t further() const { return side[3] < 0 ? ~side[3] : -1; }
 };
 static_assert(sizeof(FaceRecord) == 64);
 

@@ -125,8 +125,8 @@ PatchTable::Seams::Iterator::Iterator(const PatchTable& table, int patch) : tabl
       take(own.data(), table.edge(patch).hasWalls() ? 4 : 2);
       break;
     case PatchKind::face:
-      next_ = std::max(~table.face(patch).side[3], -1);
-      take(table.face(patch).side.data(), next_ < 0 ? 4 : 3);
+      next_ = table.face(patch).further();
+      take(table.face(patch).side.data(), table.face(patch).count());
   }
 }
 

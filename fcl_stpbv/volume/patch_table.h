@@ -63,7 +63,7 @@ class PatchTable {
   int startOf(std::int32_t side) const { return edgeOf(side).past(isSecond(side) ? 0 : 1); }
 
   /// The seam of the patch that `n` passes furthest: `length` times as far as a unit vector would.
-  Crossing crossing(int patch, const Packed& n, double length) const {
+  Crossing crossing(int patch, const Packed& n, double length = 1.0) const {
     const Packed to = withFourth(n, length);
     return most(patch, [&](const auto& pastAll) { return pastAll(to); });
   }
@@ -97,11 +97,11 @@ class PatchTable {
     }
   }
 
-  /// The same of what lies past those in turn, as far as they are at hand: for the start of a query, when
-  /// those fetched at the end of the last one have come. It pays where a volume does not stay near.
-  void prefetchBeyond(int patch) const {
+  /// The same and, of a volume too large to stay near, of what lies past those records in turn.
+  void prefetchAround(int patch) const {
     constexpr int kLarge = 3000;  // patches: half a megabyte
-    if (count() < kLarge || patch < 0 || patch >= count()) return;
+    prefetchBeside(patch);
+    if (count() < kLarge) return;
     switch (kind(patch)) {
       case PatchKind::vertex:
         for (const std::int32_t side : vertex(patch).sides.side) {
@@ -149,6 +149,7 @@ class PatchTable {
   static void prefetch(const Record& record) {
     constexpr std::size_t kLine = 64;  // bytes
     const char* there = reinterpret_cast<const char*>(&record);
+    asm volatile("");  // GCC leaves out calls of functions that do nothing but prefetch
     for (std::size_t at = 0; at < sizeof record; at += kLine) __builtin_prefetch(there + at);
   }
 
@@ -170,15 +171,15 @@ class PatchTable {
     return fromBits(bits & PackedBits{-1, -1, -1, 0});
   }
 
-  /// How far `n`, with its length fourth, is past each of four sides' seams, of a vertex or of a face.
-  Packed pastSidesAtVertex(const std::int32_t* side, const Packed& n) const {
-    return sums(seamAtVertex(side[0]) * n, seamAtVertex(side[1]) * n, seamAtVertex(side[2]) * n,
-                seamAtVertex(side[3]) * n);
-  }
-  Packed pastSidesAtFace(const std::int32_t* side, const Packed& n) const {
-    const Packed m = -n;  // walls face the other way
-    return sums(seamOf(wallOf(side[0])) * m, seamOf(wallOf(side[1])) * m, seamOf(wallOf(side[2])) * m,
-                seamOf(wallOf(side[3])) * m);
+  /// How far `n`, with its length fourth, is past each of four sides' seams, of a vertex or of a face: the
+  /// walls face the other way there.
+  template <PatchKind kind>
+  Packed pastSides(const std::int32_t* side, const Packed& n) const {
+    const Packed to = kind == PatchKind::face ? -n : n;
+    const auto past = [&](std::size_t k) {
+      return (kind == PatchKind::face ? seamOf(wallOf(side[k])) : seamAtVertex(side[k])) * to;
+    };
+    return sums(past(0), past(1), past(2), past(3));
   }
   /// And past the four seams of an edge, in the order of `EdgeRecord::past`.
   static Packed pastSidesOf(const EdgeRecord& edge, const Packed& n) {
@@ -210,31 +211,23 @@ class PatchTable {
       const double past = largest(tagged(four, 0));
       return {past, e.past(placeOf(past))};
     }
+    const std::int32_t further = face(patch).further();
     std::array<std::int32_t, FaceRecord::kSize> side = face(patch).side;
-    const std::int32_t next = ~side.back();
-    if (next >= 0) side[3] = side[2];
-    const Packed four = measure([&](const Packed& n) { return pastSidesAtFace(side.data(), n); });
-    const double past = largest(tagged(four, 0));
-    const Crossing first{past, edgeAt(side[placeOf(past)])};
-    if (next < 0) return first;
-    const Crossing further = mostOf<PatchKind::face>(further_[static_cast<std::size_t>(next)], measure);
-    return first.past >= further.past ? first : further;
+    if (further >= 0) side[3] = side[2];
+    const double past = largest(ofFour<PatchKind::face>(side.data(), 0, measure));
+    const Crossing here{past, edgeAt(side[placeOf(past)])};
+    if (further < 0) return here;
+    const Crossing there = mostOf<PatchKind::face>(further_[static_cast<std::size_t>(further)], measure);
+    return here.past >= there.past ? here : there;
   }
 
   /// The same of eight sides and those that follow.
   template <PatchKind kind, typename Measure>
   Crossing mostOf(const Sides& first, const Measure& measure) const {
     const auto mostOfEight = [&](const Sides& sides) -> Crossing {
-      const auto four = [&](std::size_t k) {
-        const std::int32_t* side = sides.side.data() + k;
-        return tagged(measure([&](const Packed& n) {
-                        return kind == PatchKind::vertex ? pastSidesAtVertex(side, n)
-                                                         : pastSidesAtFace(side, n);
-                      }),
-                      static_cast<std::int64_t>(k));
-      };
-      const double past = largest(larger(four(0), four(4)));
-      return {past, edgeAt(sides.side[placeOf(past)])};
+      const std::int32_t* side = sides.side.data();
+      const double past = largest(larger(ofFour<kind>(side, 0, measure), ofFour<kind>(side, 4, measure)));
+      return {past, edgeAt(side[placeOf(past)])};
     };
     Crossing most = mostOfEight(first);
     for (std::int32_t next = first.next; next >= 0;) {
@@ -244,6 +237,12 @@ class PatchTable {
       next = sides.next;
     }
     return most;
+  }
+
+  /// What the seams of four sides from `first` on give, with their places.
+  template <PatchKind kind, typename Measure>
+  Packed ofFour(const std::int32_t* side, std::int64_t first, const Measure& measure) const {
+    return tagged(measure([&](const Packed& n) { return pastSides<kind>(side + first, n); }), first);
   }
 
   Seam seam(int patch, std::int32_t side) const;

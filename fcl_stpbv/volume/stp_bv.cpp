@@ -171,7 +171,7 @@ int StpBv::owner(const Vector3d& n, int hint) const {
   // The step over the worst seam goes down the height n.C over the core's admissible centres C, so it does
   // not come back; the bound only stops a walk among regions narrower than rounding.
   for (int step = 0; step < 64 + patchCount(); ++step) {
-    const Crossing over = patches_.crossing(current, along, 1.0);
+    const Crossing over = patches_.crossing(current, along);
     if (over.past <= kSeamRounding) return current;
     if (over.past < least) least = over.past, best = current;
     current = over.neighbour;

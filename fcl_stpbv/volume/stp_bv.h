@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <memory>
 #include <vector>
 
@@ -114,9 +113,7 @@ class StpBv {
   }
 
   /// How far the unit normal `n` lies outside the patch's region, <= 0 inside.
-  double outside(int patch, const Eigen::Vector3d& n) const {
-    return patches_.crossing(patch, pack(n), 1.0).past;
-  }
+  double outside(int patch, const Eigen::Vector3d& n) const { return patches_.crossing(patch, pack(n)).past; }
 
   /// A vertex about as far along `n`, of any length, as any, from a direction table.
   int vertexNear(const Eigen::Vector3d& n) const { return vertexTable_[cell(n)]; }

@@ -175,9 +175,10 @@ void StpBv::makeStars() {
 }
 
 void StpBv::makeTable() {
-  // Three cells a patch, up to millions: the vertex of a direction's cell is nearly always the furthest along
-  // it.
-  cells_ = std::clamp(static_cast<int>(std::sqrt(3.0 * patchCount())), 2, 1000);
+  // Three cells a patch: the vertex of a direction's cell is nearly always the furthest along it. But one of
+  // a large volume, where the table would be read from far away; up to millions.
+  const double count = std::min(3.0 * patchCount(), patchCount() + 2000.0);
+  cells_ = std::clamp(static_cast<int>(std::sqrt(count)), 2, 1000);
   const std::size_t cells = static_cast<std::size_t>(cells_);
   table_.reserve(cells * cells);
   vertexTable_.reserve(cells * cells);
