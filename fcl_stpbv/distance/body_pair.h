@@ -82,7 +82,10 @@ class BodyPair {
            pack(a_.patches().vertex(vertex[0]).point);
   }
 
-  /// The same of the bodies' centres.
+  /// One about as far against `n`, of any length, as any: from the tables of directions alone.
+  Packed differenceAgainst(const Eigen::Vector3d& n) const { return vertexDifference(near(n)); }
+
+  /// Second body's centre less the first one's.
   Packed centreDifference() const { return rotation_ * pack(b_.centre()) + translation_ - pack(a_.centre()); }
 
   /// The gap along `n`; the owners are looked for from `hint`. Adds the patches that changed to `steps`.

@@ -72,10 +72,6 @@ Packed nearestOf(std::size_t count, const Point& point, const Packed& target) {
   return nearest;
 }
 
-/// A point of the difference about as far against `n`, of any length, as any: from the tables of directions
-/// alone.
-Packed about(const BodyPair& pair, const Packed& n) { return pair.vertexDifference(pair.near(unpack(n))); }
-
 /// Whether triangles from the corners of a feature to as many points beyond it and one behind, each with its
 /// plane at least `depth` from the origin, close the surface.
 bool trianglesClose(const BodyPair& pair, const Corners& corners, const Packed& n, double depth) {
@@ -86,13 +82,13 @@ bool trianglesClose(const BodyPair& pair, const Corners& corners, const Packed& 
   Packed ring[Corners::kMost];
   for (std::size_t i = 0; i < count; ++i) {
     const Packed &p = corner[i], &q = corner[(i + 1) % count], side = q - p;
-    ring[i] = about(pair, std::sqrt(dot(side, side)) * n - kRing * cross(n, side));
+    ring[i] = pair.differenceAgainst(unpack(std::sqrt(dot(side, side)) * n - kRing * cross(n, side)));
     const Triangle wall{q, p, ring[i]};
     if (wall.beyond(depth)) continue;
     ring[i] = pack(vertexDifference(pair, unpack(-wall.normal())));
     if (!Triangle{q, p, ring[i]}.beyond(depth)) return false;
   }
-  const Packed behind = about(pair, -n);
+  const Packed behind = pair.differenceAgainst(unpack(-n));
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t j = (i + 1) % count;
     if (!Triangle{corner[j], ring[i], ring[j]}.beyond(depth) ||

@@ -150,6 +150,10 @@ Distance distance(const StpBv& a, const Isometry3d& poseA, const StpBv& b, const
   Found found;
   Work work;
   const bool settled = hop(pair, start, found.at, work);
+  if (settled && start.near) {
+    a.patches().prefetchAround(found.at.patch[0]);
+    b.patches().prefetchAround(found.at.patch[1]);
+  }
   if (!settled || !(found.at.core > pair.touching()))
     searchWidely(pair, start, settled && found.at.core < -pair.touching(), found, work);
 
@@ -168,10 +172,6 @@ Distance distance(const StpBv& a, const Isometry3d& poseA, const StpBv& b, const
   result.point[1] = unpack(originA + toWorld * (pointB - b.radii().r * n));
   result.patchPairs = work.pairs;
   result.patchSteps = work.steps;
-  if (start.near) {
-    a.patches().prefetchAround(at.patch[0]);
-    b.patches().prefetchAround(at.patch[1]);
-  }
   if (cache) {
     cache->normal = result.normal;
     cache->patch = result.patch;

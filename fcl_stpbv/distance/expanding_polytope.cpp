@@ -67,10 +67,11 @@ class Search {
   }
 
  private:
-  /// Far from the surface vertices will do; they are the cheapest points of the difference.
+  /// Far from the surface vertices will do, even such as the tables name; they are the cheapest points of the
+  /// difference.
   bool expandToVertex(const Polytope::Face& nearest) {
     if (!(nearest.distance > 0.0)) return false;
-    const Vector3d vertex = vertexDifference(pair_, -nearest.normal);
+    const Vector3d vertex = unpack(pair_.differenceAgainst(-nearest.normal));
     return nearest.normal.dot(vertex) > (1.0 + kNear) * nearest.distance && polytope_.expand(vertex);
   }
 
@@ -121,8 +122,8 @@ bool expandPolytope(const BodyPair& pair, Sample& x, double& bound, Work& work) 
   if (top && crownProves(pair, x, bound)) return true;
   const std::array<Vector3d, 3> m = around(x.n);
   std::array<Vector3d, 4> corner;
-  for (std::size_t i = 0; i < 3; ++i) corner[i] = vertexDifference(pair, (x.n - kRing * m[i]).normalized());
-  corner[3] = vertexDifference(pair, -x.n);
+  for (std::size_t i = 0; i < 3; ++i) corner[i] = unpack(pair.differenceAgainst(x.n - kRing * m[i]));
+  corner[3] = unpack(pair.differenceAgainst(-x.n));
   Search search(pair, corner, Polytope::Origin::anywhere, x, work);
   const Corners known = cornersAround(pair, x);
   for (std::size_t i = 0; i < known.count; ++i) search.add(unpack(known.point[i]));
