@@ -55,7 +55,7 @@ class BodyPair {
   PosedPatch patchA(int patch) const { return ownPatch(a_, patch); }
   PosedPatch patchB(int patch) const {
     PosedPatch p = ownPatch(b_, patch);
-    p.anchor = rotation_ * p.anchor + translation_;
+    p.anchor = placed(p.anchor);
     p.axis = rotation_ * p.axis;
     return p;
   }
@@ -78,15 +78,14 @@ class BodyPair {
 
   /// Second body's vertex less the first one's: a point of the difference of the cores.
   Packed vertexDifference(const std::array<int, 2>& vertex) const {
-    return rotation_ * pack(b_.patches().vertex(vertex[1]).point) + translation_ -
-           pack(a_.patches().vertex(vertex[0]).point);
+    return placed(pack(b_.patches().vertex(vertex[1]).point)) - pack(a_.patches().vertex(vertex[0]).point);
   }
 
   /// One about as far against `n`, of any length, as any: from the tables of directions alone.
   Packed differenceAgainst(const Eigen::Vector3d& n) const { return vertexDifference(near(n)); }
 
   /// Second body's centre less the first one's.
-  Packed centreDifference() const { return rotation_ * pack(b_.centre()) + translation_ - pack(a_.centre()); }
+  Packed centreDifference() const { return placed(pack(b_.centre())) - pack(a_.centre()); }
 
   /// The gap along `n`; the owners are looked for from `hint`. Adds the patches that changed to `steps`.
   Sample sampleFrom(const Eigen::Vector3d& n, const std::array<int, 2>& hint, int& steps) const;
@@ -112,6 +111,9 @@ class BodyPair {
   }
 
  private:
+  /// A point of the second body in the first one's frame.
+  Packed placed(const Packed& p) const { return rotation_ * p + translation_; }
+
   /// A patch in its body's own frame.
   static PosedPatch ownPatch(const StpBv& body, int patch) {
     const PatchTable& patches = body.patches();

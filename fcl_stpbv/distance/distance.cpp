@@ -150,9 +150,9 @@ Distance distance(const StpBv& a, const Isometry3d& poseA, const StpBv& b, const
   Found found;
   Work work;
   const bool settled = hop(pair, start, found.at, work);
-  if (settled && start.near) {
-    a.patches().prefetchAround(found.at.patch[0]);
-    b.patches().prefetchAround(found.at.patch[1]);
+  if (settled && start.near) {  // what is around a patch that stays has been fetched
+    if (found.at.patch[0] != cache->patch[0]) a.patches().prefetchAround(found.at.patch[0]);
+    if (found.at.patch[1] != cache->patch[1]) b.patches().prefetchAround(found.at.patch[1]);
   }
   if (!settled || !(found.at.core > pair.touching()))
     searchWidely(pair, start, settled && found.at.core < -pair.touching(), found, work);

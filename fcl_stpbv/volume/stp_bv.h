@@ -97,14 +97,6 @@ class StpBv {
     return best > enough ? over : vertex;
   }
 
-  /// The vertex furthest along `d` to single precision, from `vertex` on.
-  int climb(int vertex, const Eigen::Vector3f& d) const {
-    const float level = kLevel * d.lpNorm<1>();
-    for (int over, step = vertexCount(); step > 0 && (over = uphill(vertex, d, level)) != vertex; --step)
-      vertex = over;
-    return vertex;
-  }
-
   /// A neighbour of the vertex, itself highest along `d`, that is least below it. `length` is at least that
   /// of `d`.
   int beside(int vertex, const Eigen::Vector3f& d, float length) const {
@@ -154,6 +146,14 @@ class StpBv {
   void makePatches();
   void makeStars();
   void makeTable();
+
+  /// The vertex furthest along `d` to single precision, from `vertex` on.
+  int climb(int vertex, const Eigen::Vector3f& d) const {
+    const float level = kLevel * d.lpNorm<1>();
+    for (int over, step = vertexCount(); step > 0 && (over = uphill(vertex, d, level)) != vertex; --step)
+      vertex = over;
+    return vertex;
+  }
 
   /// The cell of a direction, not zero: the sphere as an octahedron, whose lower half is folded out to a square.
   std::size_t cell(const Eigen::Vector3d& n) const {

@@ -26,19 +26,20 @@ struct Hull {
     Hull h;
     h.n = some.direction();
     h.depth = std::pow(10.0, some.uniform(-3, -0.5));
-    h.radius = some.uniform(0.5, 2.0) * h.depth * std::pow(10.0, some.uniform(0, 1));
+    // Each number by itself: which of an expression's is drawn first is the compiler's choice.
+    const double radius = some.uniform(0.5, 2.0), decade = some.uniform(0, 1);
+    h.radius = radius * h.depth * std::pow(10.0, decade);
     const double size = h.depth * std::pow(10.0, some.uniform(-2, 0.5)),
                  below = size * std::pow(10.0, some.uniform(-3, 0));
     const Vector3d out = -h.n, x = out.unitOrthogonal(), y = out.cross(x);
-    h.centre =
-        (h.depth - h.radius - below) * out + size * (some.uniform(-2, 2) * x + some.uniform(-2, 2) * y);
+    const double alongX = some.uniform(-2, 2), alongY = some.uniform(-2, 2);
+    h.centre = (h.depth - h.radius - below) * out + size * (alongX * x + alongY * y);
     h.corners.count = some.uniform(0, 1) < 0.5 ? 3 : 4;
     const double step = 2 * M_PI / static_cast<double>(h.corners.count), start = some.uniform(0, step);
     for (std::size_t i = 0; i < h.corners.count; ++i) {
       const double angle = start + step * (static_cast<double>(i) + some.uniform(-0.2, 0.2)),
-                   far = size * some.uniform(0.5, 2);
-      h.corners.point[i] = pack((h.depth - 0.1 * below * some.uniform(0, 1)) * out +
-                                far * (std::cos(angle) * x + std::sin(angle) * y));
+                   far = size * some.uniform(0.5, 2), height = h.depth - 0.1 * below * some.uniform(0, 1);
+      h.corners.point[i] = pack(height * out + far * (std::cos(angle) * x + std::sin(angle) * y));
     }
     return h;
   }
@@ -67,8 +68,9 @@ struct Hull {
 double leastSupport(const Hull& h, Random& some) {
   double least = std::numeric_limits<double>::infinity();
   for (int start = 0; start < 12; ++start) {
-    Vector3d best =
-        start < 10 ? (-h.n + some.uniform(0, 1) * some.direction()).normalized() : some.direction();
+    const double spread = some.uniform(0, 1);
+    const Vector3d any = some.direction();
+    Vector3d best = start < 10 ? Vector3d((-h.n + spread * any).normalized()) : any;
     double here = h.support(best);
     for (double reach = 0.5; reach > 1e-7; reach *= 0.9) {
       const Vector3d m = (best + reach * some.direction()).normalized();
