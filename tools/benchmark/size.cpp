@@ -51,7 +51,8 @@ Chart sizeChart(const ChartOptions& options) {
   chart.height = 520;
   std::string plot =
       "set multiplot layout 1,2 margins 0.075,0.985,0.215,0.93 spacing 0.07\nset logscale xy\n"
-      "set xlabel 'vertices'\nset xrange [9:14000]\nset xtics (12,42,162,642,2562,10242)\n";
+      "set xlabel 'vertices'\nset xrange [9:14000]\nset yrange [50:4e6]\nset xtics "
+      "(12,42,162,642,2562,10242)\n";
   for (const Step& step : {smallStep(), largeStep()}) {
     std::map<std::string, std::string> data;
     for (int subdivisions = 0; subdivisions <= 5; ++subdivisions) {
