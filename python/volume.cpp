@@ -3,7 +3,7 @@
 #include "fcl_stpbv/robot/mesh_file.h"
 #include "fcl_stpbv/volume/measure.h"
 #include "fcl_stpbv/volume/stp_bv.h"
-#include "fcl_stpbv/volume/stpbv_file.h"
+#include "fcl_stpbv/io/stpbv_file.h"
 #include "fcl_stpbv/volume/tessellate.h"
 #include "fcl_stpbv/volume/verify.h"
 #include "parts.h"

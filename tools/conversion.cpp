@@ -10,11 +10,11 @@
 
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/robot/mesh_file.h"
-#include "fcl_stpbv/volume/qhull_file.h"
-#include "fcl_stpbv/volume/sch_file.h"
-#include "fcl_stpbv/volume/stpbv_file.h"
+#include "fcl_stpbv/io/qhull_file.h"
+#include "fcl_stpbv/io/sch_file.h"
+#include "fcl_stpbv/io/stpbv_file.h"
 #include "fcl_stpbv/volume/tessellate.h"
-#include "fcl_stpbv/volume/text_scanner.h"
+#include "fcl_stpbv/io/text_scanner.h"
 #include "fcl_stpbv/volume/verify.h"
 
 namespace fcl_stpbv::tools {

@@ -11,12 +11,12 @@
 #include <random>
 
 #include "fcl_stpbv/adapter/polyhedral_witness.h"
-#include "tools/posed_robot.h"
+#include "fcl_stpbv/report/posed_robot.h"
 
 namespace {
 
 using namespace fcl_stpbv;
-using namespace fcl_stpbv::tools;
+using namespace fcl_stpbv::report;
 
 constexpr double kMm = 1e3;
 constexpr double kDegree = 180 / M_PI;

@@ -6,13 +6,13 @@
 #include <iostream>
 
 #include "fcl_stpbv/error.h"
-#include "fcl_stpbv/volume/atomic_write.h"
-#include "tools/posture_formats.h"
+#include "fcl_stpbv/io/atomic_write.h"
+#include "fcl_stpbv/report/posture_formats.h"
 
 namespace {
 
 using namespace fcl_stpbv;
-using namespace fcl_stpbv::tools;
+using namespace fcl_stpbv::report;
 
 enum Exit { kFeasible = 0, kInfeasible = 1, kUsage = 2 };
 

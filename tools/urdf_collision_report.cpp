@@ -9,14 +9,15 @@
 #include <memory>
 
 #include "fcl_stpbv/error.h"
-#include "fcl_stpbv/volume/atomic_write.h"
+#include "fcl_stpbv/io/atomic_write.h"
 #include "tools/progress_bar.h"
-#include "tools/report_formats.h"
+#include "fcl_stpbv/report/report_formats.h"
 
 namespace {
 
 using namespace fcl_stpbv;
-using namespace fcl_stpbv::tools;
+using namespace fcl_stpbv::report;
+using fcl_stpbv::tools::ProgressBar;
 
 enum Exit { kClear = 0, kCollision = 1, kUsage = 2 };
 

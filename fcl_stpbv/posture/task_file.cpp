@@ -5,7 +5,7 @@
 
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/posture/task.h"
-#include "fcl_stpbv/volume/text_scanner.h"
+#include "fcl_stpbv/io/text_scanner.h"
 
 namespace fcl_stpbv {
 namespace {

@@ -13,7 +13,7 @@
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/robot/mesh_file.h"
 #include "fcl_stpbv/volume/reduce.h"
-#include "fcl_stpbv/volume/text_scanner.h"
+#include "fcl_stpbv/io/text_scanner.h"
 
 namespace fcl_stpbv {
 namespace {

@@ -12,7 +12,7 @@
 
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/robot/mesh_file.h"
-#include "fcl_stpbv/volume/atomic_write.h"
+#include "fcl_stpbv/io/atomic_write.h"
 
 namespace fcl_stpbv {
 namespace {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "fcl_stpbv/error.h"
-#include "fcl_stpbv/volume/text_scanner.h"
+#include "fcl_stpbv/io/text_scanner.h"
 
 namespace fcl_stpbv {
 namespace {

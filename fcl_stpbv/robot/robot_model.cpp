@@ -16,7 +16,7 @@
 #include "fcl_stpbv/robot/capsule_fit.h"
 #include "fcl_stpbv/robot/urdf_check.h"
 #include "fcl_stpbv/robot/xml_text.h"
-#include "fcl_stpbv/volume/text_scanner.h"
+#include "fcl_stpbv/io/text_scanner.h"
 
 namespace fcl_stpbv {
 namespace {

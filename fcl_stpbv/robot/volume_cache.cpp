@@ -7,9 +7,9 @@
 #include <sstream>
 
 #include "fcl_stpbv/error.h"
-#include "fcl_stpbv/volume/atomic_write.h"
-#include "fcl_stpbv/volume/stpbv_file.h"
-#include "fcl_stpbv/volume/text_scanner.h"
+#include "fcl_stpbv/io/atomic_write.h"
+#include "fcl_stpbv/io/stpbv_file.h"
+#include "fcl_stpbv/io/text_scanner.h"
 
 namespace fcl_stpbv {
 namespace {

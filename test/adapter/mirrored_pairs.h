@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "fcl_stpbv/adapter/stp_bv_geometry.h"
-#include "test/shapes.h"
+#include "test/reference/shapes.h"
 
 namespace fcl_stpbv::test {
 

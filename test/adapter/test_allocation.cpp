@@ -13,7 +13,7 @@
 
 #include "fcl_stpbv/adapter/distance_callback.h"
 #include "fcl_stpbv/adapter/pair_distance.h"
-#include "test/shapes.h"
+#include "test/reference/shapes.h"
 
 static std::atomic<long> allocations{0};
 

@@ -13,7 +13,7 @@
 #include <string>
 
 #include "fcl_stpbv/adapter/distance_callback.h"
-#include "test/shapes.h"
+#include "test/reference/shapes.h"
 
 using namespace fcl_stpbv;
 using namespace fcl_stpbv::test;

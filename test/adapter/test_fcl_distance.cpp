@@ -13,9 +13,9 @@
 #include "fcl_stpbv/adapter/fcl_shapes.h"
 #include "fcl_stpbv/adapter/pair_distance.h"
 #include "fcl_stpbv/volume/measure.h"
-#include "test/adapter/hard_cases.h"
+#include "test/reference/hard_cases.h"
 #include "test/adapter/mirrored_pairs.h"
-#include "test/shapes.h"
+#include "test/reference/shapes.h"
 
 using namespace fcl_stpbv;
 using namespace fcl_stpbv::test;

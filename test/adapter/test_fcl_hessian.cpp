@@ -15,7 +15,7 @@
 #include <catch2/catch.hpp>
 
 #include "fcl_stpbv/adapter/fcl_hessian.h"
-#include "test/shapes.h"
+#include "test/reference/shapes.h"
 
 using namespace fcl_stpbv;
 using namespace fcl_stpbv::test;

@@ -17,7 +17,7 @@
 #include "fcl_stpbv/adapter/fcl_shapes.h"
 #include "fcl_stpbv/adapter/flat_overlap.h"
 #include "fcl_stpbv/adapter/hull_geometry.h"
-#include "test/shapes.h"
+#include "test/reference/shapes.h"
 
 using namespace fcl_stpbv;
 using namespace fcl_stpbv::test;

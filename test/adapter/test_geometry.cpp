@@ -6,7 +6,7 @@
 
 #include "fcl_stpbv/adapter/stp_bv_geometry.h"
 #include "fcl_stpbv/error.h"
-#include "test/shapes.h"
+#include "test/reference/shapes.h"
 
 using namespace fcl_stpbv;
 using namespace fcl_stpbv::test;

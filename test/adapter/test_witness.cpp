@@ -2,9 +2,9 @@
 #include <cmath>
 
 #include "fcl_stpbv/adapter/polyhedral_witness.h"
-#include "test/adapter/hard_cases.h"
+#include "test/reference/hard_cases.h"
 #include "test/adapter/mirrored_pairs.h"
-#include "test/shapes.h"
+#include "test/reference/shapes.h"
 
 using namespace fcl_stpbv;
 using namespace fcl_stpbv::test;

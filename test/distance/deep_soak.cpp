@@ -11,8 +11,8 @@
 #include <string>
 
 #include "fcl_stpbv/distance/distance.h"
-#include "test/distance/reference.h"
-#include "test/shapes.h"
+#include "test/reference/reference.h"
+#include "test/reference/shapes.h"
 
 using namespace fcl_stpbv;
 using namespace fcl_stpbv::test;

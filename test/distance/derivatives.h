@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "fcl_stpbv/distance/hessian.h"
-#include "test/distance/shape_reference.h"
+#include "test/reference/shape_reference.h"
 
 namespace fcl_stpbv::test {
 

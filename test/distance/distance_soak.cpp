@@ -16,7 +16,7 @@
 
 #include "fcl_stpbv/distance/distance.h"
 #include "fcl_stpbv/volume/stp_bv.h"
-#include "test/shapes.h"
+#include "test/reference/shapes.h"
 
 namespace {
 

@@ -12,7 +12,7 @@
 
 #include "fcl_stpbv/distance/hessian.h"
 #include "fcl_stpbv/distance/shape_distance.h"
-#include "test/distance/shape_reference.h"
+#include "test/reference/shape_reference.h"
 
 using namespace fcl_stpbv;
 using namespace fcl_stpbv::test;

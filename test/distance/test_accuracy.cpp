@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "fcl_stpbv/distance/distance.h"
-#include "test/distance/reference.h"
-#include "test/shapes.h"
+#include "test/reference/reference.h"
+#include "test/reference/shapes.h"
 
 using namespace fcl_stpbv;
 using namespace fcl_stpbv::test;

@@ -6,7 +6,7 @@
 #include <new>
 
 #include "fcl_stpbv/distance/distance.h"
-#include "test/shapes.h"
+#include "test/reference/shapes.h"
 
 static std::atomic<long> allocations{0};
 

@@ -6,7 +6,7 @@
 #include <functional>
 
 #include "fcl_stpbv/distance/distance.h"
-#include "test/shapes.h"
+#include "test/reference/shapes.h"
 
 using namespace fcl_stpbv;
 using namespace fcl_stpbv::test;

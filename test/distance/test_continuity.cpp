@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "fcl_stpbv/distance/distance.h"
-#include "test/shapes.h"
+#include "test/reference/shapes.h"
 
 using namespace fcl_stpbv;
 using namespace fcl_stpbv::test;

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "fcl_stpbv/distance/ball_crown.h"
-#include "test/shapes.h"
+#include "test/reference/shapes.h"
 
 using namespace fcl_stpbv;
 using namespace fcl_stpbv::test;

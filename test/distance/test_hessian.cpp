@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "fcl_stpbv/distance/hessian.h"
-#include "test/shapes.h"
+#include "test/reference/shapes.h"
 
 using namespace fcl_stpbv;
 using namespace fcl_stpbv::test;

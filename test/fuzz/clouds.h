@@ -3,7 +3,7 @@
 #pragma once
 
 #include "fcl_stpbv/volume/stp_bv.h"
-#include "test/shapes.h"
+#include "test/reference/shapes.h"
 
 namespace fcl_stpbv::fuzz {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "test/shapes.h"
+#include "test/reference/shapes.h"
 
 namespace fcl_stpbv::fuzz {
 

@@ -5,7 +5,7 @@
 #include "fcl_stpbv/posture/placement.h"
 #include "fcl_stpbv/posture/stability.h"
 #include "test/posture/scenes.h"
-#include "test/shapes.h"
+#include "test/reference/shapes.h"
 
 using namespace fcl_stpbv;
 using namespace fcl_stpbv::test;

@@ -4,7 +4,7 @@
 #include "fcl_stpbv/posture/find_posture.h"
 #include "fcl_stpbv/robot/constraints.h"
 #include "fcl_stpbv/robot/pair_list.h"
-#include "test/posture/mesh_check.h"
+#include "test/reference/mesh_check.h"
 #include "test/posture/scenes.h"
 
 using namespace fcl_stpbv;

@@ -11,7 +11,7 @@
 #include "fcl_stpbv/adapter/fcl_distance.h"
 #include "fcl_stpbv/adapter/polyhedral_witness.h"
 #include "fcl_stpbv/robot/mesh_file.h"
-#include "test/distance/reference.h"
+#include "test/reference/reference.h"
 
 using namespace fcl_stpbv;
 using namespace fcl_stpbv::test;

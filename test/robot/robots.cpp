@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 
-#include "test/volume/volume_files.h"
+#include "test/reference/volume_files.h"
 
 namespace fcl_stpbv::test {
 

@@ -8,7 +8,7 @@
 #include "fcl_stpbv/robot/constraints.h"
 #include "fcl_stpbv/robot/link_geometry.h"
 #include "fcl_stpbv/robot/robot_model.h"
-#include "test/shapes.h"
+#include "test/reference/shapes.h"
 
 namespace fcl_stpbv::test {
 

@@ -6,7 +6,7 @@
 
 #include "fcl_stpbv/robot/constraints.h"
 #include "test/robot/robots.h"
-#include "test/shapes.h"
+#include "test/reference/shapes.h"
 
 static std::atomic<long> allocations{0};
 

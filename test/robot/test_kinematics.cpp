@@ -4,7 +4,7 @@
 #include "fcl_stpbv/robot/kinematics.h"
 #include "test/robot/robots.h"
 #include "test/robot/urdf_texts.h"
-#include "test/shapes.h"
+#include "test/reference/shapes.h"
 
 using namespace fcl_stpbv;
 using namespace fcl_stpbv::test;

@@ -8,8 +8,8 @@
 #include "fcl_stpbv/robot/pair_search.h"
 #include "test/robot/robots.h"
 #include "test/robot/urdf_texts.h"
-#include "test/shapes.h"
-#include "test/volume/volume_files.h"
+#include "test/reference/shapes.h"
+#include "test/reference/volume_files.h"
 
 using namespace fcl_stpbv;
 using namespace fcl_stpbv::test;

@@ -6,7 +6,7 @@
 #include "fcl_stpbv/robot/robot_model.h"
 #include "fcl_stpbv/robot/srdf.h"
 #include "test/robot/urdf_texts.h"
-#include "test/volume/volume_files.h"
+#include "test/reference/volume_files.h"
 
 using namespace fcl_stpbv;
 using namespace fcl_stpbv::test;

@@ -5,9 +5,9 @@
 #include <limits>
 #include <stdexcept>
 
-#include "test/stability/isolated.h"
-#include "test/stability/polyhedra.h"
-#include "test/stability/suite.h"
+#include "test/reference/stability/isolated.h"
+#include "test/reference/stability/polyhedra.h"
+#include "test/reference/stability/suite.h"
 
 using namespace fcl_stpbv;
 using namespace fcl_stpbv::stability;

@@ -6,8 +6,8 @@
 
 #include "fcl_stpbv/volume/stp_bv.h"
 #include "fcl_stpbv/volume/verify.h"
-#include "test/shapes.h"
-#include "test/volume/brute_support.h"
+#include "test/reference/shapes.h"
+#include "test/reference/brute_support.h"
 
 using namespace fcl_stpbv;
 using namespace fcl_stpbv::test;

@@ -8,7 +8,7 @@
 #include "fcl_stpbv/volume/stp_bv.h"
 #include "fcl_stpbv/volume/surface_height.h"
 #include "fcl_stpbv/volume/tessellate.h"
-#include "test/shapes.h"
+#include "test/reference/shapes.h"
 
 using namespace fcl_stpbv;
 using namespace fcl_stpbv::test;

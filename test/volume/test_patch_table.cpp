@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "fcl_stpbv/volume/stp_bv.h"
-#include "test/shapes.h"
+#include "test/reference/shapes.h"
 
 using namespace fcl_stpbv;
 using namespace fcl_stpbv::test;

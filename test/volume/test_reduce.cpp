@@ -6,7 +6,7 @@
 #include "fcl_stpbv/volume/measure.h"
 #include "fcl_stpbv/volume/reduce.h"
 #include "fcl_stpbv/volume/verify.h"
-#include "test/shapes.h"
+#include "test/reference/shapes.h"
 
 using namespace fcl_stpbv;
 using namespace fcl_stpbv::test;

@@ -1,0 +1,146 @@
+// Volumes from and to sch-core's format; see sch_file.h.
+#include "fcl_stpbv/io/sch_file.h"
+
+#include <cmath>
+#include <numeric>
+#include <ostream>
+#include <utility>
+
+#include "fcl_stpbv/io/atomic_write.h"
+#include "fcl_stpbv/io/sch_data.h"
+#include "fcl_stpbv/io/text_scanner.h"
+
+namespace fcl_stpbv {
+namespace {
+
+using Eigen::Vector3d;
+using Triangle = std::array<int, 3>;
+
+// A double's shortest exact form takes up to 17 digits; a file whose longest number has this many was not
+// rounded.
+constexpr int kFullDigits = 15;
+
+// The k-gon behind a fan: sides between triangles that name each other fall away.
+class Fans {
+ public:
+  Fans(const sch::File& file, const std::vector<Triangle>& triangles) : file_(file), triangles_(triangles) {
+    leader_.resize(triangles.size());
+    std::iota(leader_.begin(), leader_.end(), std::size_t{0});
+    for (std::size_t f = 0; f < triangles.size(); ++f) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        if (isInner(f, k)) leader_[leader(index(file.faces[f].side[k].id))] = leader(f);
+      }
+    }
+  }
+
+  std::vector<StpBv::Ring> rings() {
+    std::vector<std::vector<std::size_t>> groups(triangles_.size());
+    std::vector<std::size_t> order;  // as the groups' first triangles stand in the file
+    for (std::size_t f = 0; f < triangles_.size(); ++f) {
+      std::vector<std::size_t>& group = groups[leader(f)];
+      if (group.empty()) order.push_back(leader(f));
+      group.push_back(f);
+    }
+    std::vector<StpBv::Ring> rings;
+    next_.assign(file_.vertices.size(), -1);
+    for (std::size_t first : order) rings.push_back(ring(groups[first]));
+    return rings;
+  }
+
+ private:
+  std::size_t index(int id) const { return static_cast<std::size_t>(id - file_.firstFace()); }
+  bool isInner(std::size_t f, std::size_t k) const { return file_.faces[f].side[k].id < file_.firstTorus(); }
+
+  std::size_t leader(std::size_t f) {
+    while (leader_[f] != f) f = leader_[f] = leader_[leader_[f]];
+    return f;
+  }
+
+  StpBv::Ring ring(const std::vector<std::size_t>& group) {
+    std::size_t sides = 0;
+    for (std::size_t f : group) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        if (isInner(f, k)) continue;
+        next_[static_cast<std::size_t>(triangles_[f][k])] = triangles_[f][(k + 1) % 3];
+        ++sides;
+      }
+    }
+    StpBv::Ring ring;
+    const int start = triangles_[group[0]][0];
+    for (int v = start; v >= 0 && ring.size() < sides;) {
+      ring.push_back(v);
+      v = std::exchange(next_[static_cast<std::size_t>(v)], -1);
+      if (v == start) break;
+    }
+    if (ring.size() != sides) {
+      file_.fail(file_.faces[group[0]].line, "the triangles of this face do not make up one polygon");
+    }
+    return ring;
+  }
+
+  const sch::File& file_;
+  const std::vector<Triangle>& triangles_;
+  std::vector<std::size_t> leader_;
+  std::vector<int> next_;  // along the ring at hand
+};
+
+// A rebuilt volume must reach as far as each face of the file says, within the file's digits: no less, or a
+// vertex lies outside one of the file's balls, and no more, or it lies inside.
+void compare(const sch::File& file, const StpBv& volume) {
+  for (const sch::Face& face : file.faces) {
+    const Vector3d middle = (face.corner[0] + face.corner[1] + face.corner[2]) / 3;
+    const Vector3d n = (middle - face.centre).normalized();
+    const double claimed = n.dot(face.centre) + face.radius;
+    constexpr double kSlack = 8;  // the centre's three coordinates, and the radii
+    const double tolerance =
+        kSlack * file.rounding() * (face.centre.norm() + face.radius + face.corner[0].norm());
+    const double off = volume.support(n) - claimed;
+    if (std::abs(off) > tolerance) {
+      file.fail(face.line, "the volume of the file's vertices is " + toDecimal(off) +
+                               " m off this face's sphere; a vertex is missing or damaged");
+    }
+  }
+}
+
+StpBv::Ptr fromText(const std::string& text, const std::string& name) {
+  const sch::File file = sch::parse(text, name);
+  const std::vector<Triangle> triangles = sch::check(file);
+  const StpBvOptions options{file.r, file.R};
+  std::vector<Vector3d> vertices;
+  for (const sch::Vertex& vertex : file.vertices) vertices.push_back(vertex.centre);
+
+  StpBv::Ptr volume;
+  if (file.digits >= kFullDigits) {
+    try {
+      volume = StpBv::assemble(vertices, Fans(file, triangles).rings(), options);
+    } catch (const Error&) {
+      // Another writer may see four points on one ball where we see two triangles, or the other way round.
+    }
+  }
+  try {
+    if (!volume) volume = StpBv::build(vertices, options);
+  } catch (const Error& error) {
+    throw Error(name + ": " + error.what());
+  }
+  compare(file, *volume);
+  return volume;
+}
+
+}  // namespace
+
+StpBv::Ptr loadSch(const std::string& path) { return fromText(readText(path), path); }
+
+StpBv::Ptr loadSch(std::istream& in, const std::string& name) { return fromText(readText(in, name), name); }
+
+bool looksLikeSch(std::string_view text) {
+  TextScanner in(text, "");
+  try {
+    const double r = in.number(""), R = in.number("");
+    in.count("", 1, 1);
+    return r >= 0 && R > r;
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+}  // namespace fcl_stpbv

@@ -1,0 +1,161 @@
+// See text_scanner.h.
+#include "fcl_stpbv/io/text_scanner.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <istream>
+#include <iterator>
+#include <limits>
+
+#include "fcl_stpbv/error.h"
+
+namespace fcl_stpbv {
+namespace {
+
+constexpr std::size_t kLongestQuote = 40;  // a message stays on one line whatever the file holds
+
+bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == '\v' || c == '\f'; }
+
+// The token as a message may show it: short and printable.
+std::string quoted(std::string_view token) {
+  std::string text = "'";
+  for (char c : token.substr(0, kLongestQuote)) text += (c >= ' ' && c <= '~') ? c : '?';
+  return text + (token.size() > kLongestQuote ? "...'" : "'");
+}
+
+int significantDigits(std::string_view token) {
+  int digits = 0;
+  for (char c : token) {
+    if (c == 'e' || c == 'E') break;
+    if (c >= '1' && c <= '9') ++digits;
+    if (c == '0' && digits > 0) ++digits;
+  }
+  return digits;
+}
+
+}  // namespace
+
+std::string readText(const std::string& path) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored)) throw Error(path + ": is a folder, expected a file");
+  if (!std::filesystem::exists(path, ignored)) throw Error(path + ": no such file");
+  std::ifstream in(path, std::ios::binary);
+  if (!in) throw Error(path + ": cannot be opened for reading; check its permissions");
+  return readText(in, path);
+}
+
+std::string readText(std::istream& in, const std::string& name) {
+  std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  if (in.bad()) throw Error(name + ": reading failed");
+  return text;
+}
+
+void appendNumber(std::string& text, double value) {
+  char buffer[32];
+  const auto result = std::to_chars(buffer, buffer + sizeof buffer, value);
+  text.append(buffer, result.ptr);
+}
+
+std::string toDecimal(double value) {
+  std::string text;
+  appendNumber(text, value);
+  return text;
+}
+
+void appendVector(std::string& text, const Eigen::Vector3d& v) {
+  appendNumber(text, v.x());
+  text += ' ';
+  appendNumber(text, v.y());
+  text += ' ';
+  appendNumber(text, v.z());
+}
+
+void TextScanner::fail(const std::string& message) const {
+  throw Error(name_ + ":" + std::to_string(line_) + ": " + message);
+}
+
+void TextScanner::skipBlanks() {
+  for (; at_ < text_.size() && isBlank(text_[at_]); ++at_) line_ += text_[at_] == '\n';
+}
+
+bool TextScanner::atEnd() {
+  skipBlanks();
+  return at_ == text_.size();
+}
+
+std::string_view TextScanner::token(std::string_view what) {
+  if (atEnd()) fail("the file ends here, expected " + std::string(what));
+  const std::size_t start = at_;
+  while (at_ < text_.size() && !isBlank(text_[at_])) ++at_;
+  return text_.substr(start, at_ - start);
+}
+
+double TextScanner::number(std::string_view what) {
+  const std::string_view word = token(what);
+  // from_chars takes no leading plus sign, other writers may print one.
+  const std::string_view digits = word.substr(word.size() > 1 && word[0] == '+' ? 1 : 0);
+  double value = 0;
+  const auto result = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  const bool whole = result.ptr == digits.data() + digits.size();
+  if (result.ec != std::errc() || !whole || !std::isfinite(value)) {
+    fail("got " + quoted(word) + ", expected " + std::string(what) + ", a finite number");
+  }
+  digits_ = std::max(digits_, significantDigits(digits));
+  return value;
+}
+
+Eigen::Vector3d TextScanner::vector(std::string_view what) {
+  const double x = number(what);
+  const double y = number(what);
+  const double z = number(what);
+  return {x, y, z};
+}
+
+long TextScanner::integer(std::string_view what, long least, long most) {
+  const std::string_view word = token(what);
+  long value = 0;
+  const auto result = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (result.ec != std::errc() || result.ptr != word.data() + word.size() || value < least || value > most) {
+    fail("got " + quoted(word) + ", expected " + std::string(what) + ", a whole number from " +
+         std::to_string(least) + " to " + std::to_string(most));
+  }
+  return value;
+}
+
+int TextScanner::count(std::string_view what, int least, std::size_t bytesEach) {
+  const long value = integer(what, least, std::numeric_limits<int>::max());
+  // The last item may go without the blank behind it.
+  const std::size_t fits = (text_.size() - at_ + 1) / bytesEach;
+  if (static_cast<std::size_t>(value) > fits) {
+    fail("says " + std::to_string(value) + " as " + std::string(what) +
+         ", but the rest of the file has room for " + std::to_string(fits) + " at most");
+  }
+  return static_cast<int>(value);
+}
+
+void TextScanner::keyword(std::string_view word) {
+  const std::string expected = "the word '" + std::string(word) + "'";
+  const std::string_view got = token(expected);
+  if (got != word) fail("got " + quoted(got) + ", expected " + expected);
+}
+
+void TextScanner::end() {
+  if (atEnd()) return;
+  fail("got " + quoted(token("")) + ", expected the end of the file");
+}
+
+std::string_view TextScanner::restOfLine() {
+  const std::size_t start = at_;
+  while (at_ < text_.size() && text_[at_] != '\n') ++at_;
+  const std::string_view rest = text_.substr(start, at_ - start);
+  if (at_ < text_.size()) {
+    ++at_;
+    ++line_;
+  }
+  return rest;
+}
+
+}  // namespace fcl_stpbv

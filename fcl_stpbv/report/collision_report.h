@@ -1,0 +1,68 @@
+// What urdf_collision_report finds out about a robot, apart from how it is written down.
+#pragma once
+
+#include <Eigen/Core>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "fcl_stpbv/robot/constraints.h"
+#include "fcl_stpbv/robot/pair_list.h"
+#include "fcl_stpbv/report/published_polyhedra.h"
+
+namespace fcl_stpbv::report {
+
+struct ReportRequest {
+  std::string urdf, srdf, pose, obstacles;  ///< "" where not given; pose is a state's name or a JSON file
+  std::string polyhedra;                    ///< folder of published ones, "" for none
+  GeometryOptions geometry;
+  bool flatObstacles = false;  ///< the scene's meshes stay convex polyhedra
+  PairListOptions search;
+};
+
+/// One pair of links, or a link and an obstacle, in the posture asked for or in its closest configuration.
+struct PairReport {
+  std::string link1, link2;
+  bool obstacle = false;   ///< link2 is an obstacle's name
+  std::string reason;      ///< what the search says
+  std::string srdfReason;  ///< what the SRDF says, "" where it says nothing
+  bool checked = true;     ///< false where the SRDF or, without one, the search leaves the pair of links out
+  DistanceAnswer answer;
+  int body1 = -1, body2 = -1;  ///< the closest bodies; body2 of an obstacle counts on from the robot's
+  std::map<std::string, double> gradient;
+  double overCover1 = 0, overCover2 = 0;  ///< of the two surfaces over their hulls along the normal (m)
+  double hullDistance = 0;  ///< of the two hulls, NaN where they overlap or are not both hulls (m)
+  double minDistance = 0;   ///< least found by the search (m)
+  double probabilityBound = 1;
+  double security = 0, influence = 0;
+  Eigen::VectorXd configuration;  ///< of `answer`
+  Eigen::VectorXd closest;        ///< where minDistance was found
+
+  /// The reason's contradiction of the SRDF: it leaves the pair out as never or adjacent, and it collides.
+  bool contradictsSrdf() const;
+};
+
+struct CollisionReport {
+  std::shared_ptr<const RobotModel> robot;
+  std::shared_ptr<const RobotGeometry> geometry;
+  std::shared_ptr<const Kinematics> kinematics;
+  std::vector<Obstacle> obstacles;
+  std::vector<std::string> warnings;
+  std::vector<PolyhedronReport> polyhedra;  ///< one a body, or none where none were asked for
+  std::vector<PairReport> pairs;  ///< checked ones first, closest first
+  std::vector<PairEntry> list;    ///< what the search found
+  std::string pose;               ///< "" where each pair is in its own closest configuration
+  int checked = 0, colliding = 0;
+  double minDistance = 0;               ///< of the checked pairs (m)
+  double nsPerPair = 0, usPerTick = 0;  ///< of all checked pairs with their Jacobian, in small steps
+};
+
+/// What is known about the closest of some pairs of bodies at the pair's configuration: answer, bodies,
+/// gradient, covers and the hulls' distance. `report` has the robot and its obstacles.
+void measurePair(const CollisionReport& report, const std::vector<CheckedPair>& bodies, PairReport& pair);
+
+/// @throws Error naming the file or the argument.
+CollisionReport makeReport(const ReportRequest& request);
+
+}  // namespace fcl_stpbv::report

@@ -1,0 +1,92 @@
+// Text and JSON; see posture_formats.h.
+#include "fcl_stpbv/report/posture_formats.h"
+
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+namespace fcl_stpbv::report {
+namespace {
+
+using nlohmann::json;
+
+template <class... Values>
+std::string format(const char* pattern, Values... values) {
+  char text[512];
+  std::snprintf(text, sizeof text, pattern, values...);
+  return text;
+}
+
+json list(const std::vector<Violation>& violations) {
+  json items = json::array();
+  for (const Violation& v : violations) items.push_back({{"constraint", v.name}, {"amount", v.amount}});
+  return items;
+}
+
+std::string run(const Posture& posture) {
+  return format("%.1f ms, %d iterations, %d start%s, %ld distances, %ld gradients, cost %.4f",
+                posture.seconds * 1e3, posture.iterations, posture.starts, posture.starts == 1 ? "" : "s",
+                posture.distanceCalls, posture.gradientCalls, posture.cost);
+}
+
+std::string bulleted(const std::vector<Violation>& violations) {
+  std::string text;
+  for (const Violation& v : violations) text += "  " + v.name + format(": %.3g", v.amount) + "\n";
+  return text;
+}
+
+}  // namespace
+
+std::string toText(const PostureReport& report) {
+  const Posture& posture = report.posture;
+  std::size_t obstacles = 0;
+  for (const CheckedPair& pair : report.pairs) obstacles += pair.obstacle;
+  std::string text = posture.feasible ? "feasible" : "not feasible";
+  text += " (" + posture.status + "): " + run(posture) + "\n";
+  text += format("%zu pairs, %zu of them with obstacles\n", report.pairs.size(), obstacles);
+  if (report.withoutCollisions)
+    text += std::string("without collisions ") +
+            (report.withoutCollisions->feasible ? "feasible: " : "not feasible: ") +
+            run(*report.withoutCollisions) + "\n";
+  if (!posture.feasible) {
+    text += "violated in the best posture found (m, rad):\n" + bulleted(posture.violations);
+    text +=
+        "cannot hold together, with what each misses where all miss least:\n" + bulleted(posture.conflict);
+    for (const std::string& limit : posture.conflictLimits) text += "  at its limit: " + limit + "\n";
+  }
+  if (!posture.active.empty()) text += "active:\n";
+  for (const std::string& name : posture.active) text += "  " + name + "\n";
+  text += "posture (rad, m):\n";
+  for (int i = 0; i < report.kinematics->size(); ++i)
+    text += format("  %-24s %10.6f\n", report.kinematics->names()[static_cast<std::size_t>(i)].c_str(),
+                   posture.q[i]);
+  return text;
+}
+
+std::string toJson(const PostureReport& report) {
+  const Posture& posture = report.posture;
+  json q = json::object();
+  for (int i = 0; i < report.kinematics->size(); ++i)
+    q[report.kinematics->names()[static_cast<std::size_t>(i)]] = posture.q[i];
+  json document{{"feasible", posture.feasible},
+                {"status", posture.status},
+                {"seconds", posture.seconds},
+                {"iterations", posture.iterations},
+                {"starts", posture.starts},
+                {"distance_calls", posture.distanceCalls},
+                {"gradient_calls", posture.gradientCalls},
+                {"pairs", report.pairs.size()},
+                {"cost", posture.cost},
+                {"q", q},
+                {"violations", list(posture.violations)},
+                {"active", posture.active},
+                {"conflict", list(posture.conflict)},
+                {"conflict_limits", posture.conflictLimits}};
+  if (report.withoutCollisions)
+    document["without_collisions"] = {{"feasible", report.withoutCollisions->feasible},
+                                      {"seconds", report.withoutCollisions->seconds},
+                                      {"iterations", report.withoutCollisions->iterations},
+                                      {"cost", report.withoutCollisions->cost}};
+  return document.dump(1, ' ', false, json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace fcl_stpbv::report

@@ -1,0 +1,26 @@
+// A posture that was looked for, written down.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "fcl_stpbv/posture/find_posture.h"
+
+namespace fcl_stpbv::report {
+
+/// What find_posture found out.
+struct PostureReport {
+  PostureScene scene;
+  PostureTask task;
+  std::shared_ptr<const Kinematics> kinematics;
+  std::vector<CheckedPair> pairs;
+  Posture posture;
+  std::optional<Posture> withoutCollisions;  ///< the same task with no pair checked, where there are pairs
+};
+
+std::string toText(const PostureReport& report);
+std::string toJson(const PostureReport& report);
+/// The page of a collision report, with the robot in its posture among the obstacles.
+std::string toHtml(const PostureReport& report);
+
+}  // namespace fcl_stpbv::report

@@ -1,0 +1,37 @@
+// The page of a posture: that of a collision report, of one configuration; see posture_formats.h.
+#include <algorithm>
+
+#include "fcl_stpbv/report/posture_formats.h"
+#include "fcl_stpbv/report/report_formats.h"
+
+namespace fcl_stpbv::report {
+
+std::string toHtml(const PostureReport& report) {
+  CollisionReport page;
+  page.robot = report.scene.robot;
+  page.geometry = report.scene.geometry;
+  page.kinematics = report.kinematics;
+  page.obstacles = report.scene.obstacles;
+  page.pose = report.posture.feasible ? "feasible" : "not feasible";
+  page.minDistance = std::numeric_limits<double>::infinity();
+  const auto nameOf = [&](int body) { return page.geometry->bodies[static_cast<std::size_t>(body)].name; };
+  for (const CheckedPair& both : report.pairs) {
+    PairReport pair;
+    pair.link1 = nameOf(both.body);
+    pair.link2 =
+        both.obstacle ? page.obstacles[static_cast<std::size_t>(both.other)].name : nameOf(both.other);
+    pair.reason = both.obstacle ? "obstacle" : "self";
+    pair.configuration = pair.closest = report.posture.q;
+    measurePair(page, {both}, pair);
+    pair.minDistance = pair.answer.distance;
+    page.minDistance = std::min(page.minDistance, pair.minDistance);
+    ++page.checked;
+    page.colliding += pair.minDistance < report.task.collisionMargin;
+    page.pairs.push_back(std::move(pair));
+  }
+  std::stable_sort(page.pairs.begin(), page.pairs.end(),
+                   [](const PairReport& a, const PairReport& b) { return a.minDistance < b.minDistance; });
+  return toHtml(page, "posture for " + report.task.path);
+}
+
+}  // namespace fcl_stpbv::report

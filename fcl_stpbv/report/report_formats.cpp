@@ -1,0 +1,208 @@
+// Text, JSON, CSV and SRDF; see report_formats.h.
+#include "fcl_stpbv/report/report_formats.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "fcl_stpbv/io/text_scanner.h"
+
+namespace fcl_stpbv::report {
+namespace {
+
+constexpr double kMm = 1e3;
+
+template <class... Values>
+std::string format(const char* pattern, Values... values) {
+  char text[512];
+  std::snprintf(text, sizeof text, pattern, values...);
+  return text;
+}
+
+std::string steepest(const PairReport& pair) {
+  const auto top =
+      std::max_element(pair.gradient.begin(), pair.gradient.end(),
+                       [](const auto& a, const auto& b) { return std::abs(a.second) < std::abs(b.second); });
+  return top == pair.gradient.end() ? "" : format("%+.3f ", top->second) + top->first;
+}
+
+nlohmann::json numbers(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+
+nlohmann::json joints(const Eigen::VectorXd& q, const Kinematics& kinematics) {
+  nlohmann::json json = nlohmann::json::object();
+  for (int i = 0; i < kinematics.size(); ++i) json[kinematics.names()[static_cast<std::size_t>(i)]] = q[i];
+  return json;
+}
+
+nlohmann::json orNull(double value) {
+  return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json();
+}
+
+const char* statusName(DistanceStatus status) {
+  switch (status) {
+    case DistanceStatus::exact:
+      return "exact";
+    case DistanceStatus::local:
+      return "local";
+    case DistanceStatus::bounded:
+      return "bounded";
+    default:
+      return "invalid";
+  }
+}
+
+// The meshes' volumes beside those of their published polyhedra, those that differ most first.
+std::string polyhedra(const CollisionReport& report) {
+  std::vector<std::size_t> order;
+  for (std::size_t i = 0; i < report.polyhedra.size(); ++i)
+    if (!report.polyhedra[i].file.empty()) order.push_back(i);
+  if (order.empty()) return "";
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) {
+    return report.polyhedra[i].difference > report.polyhedra[j].difference;
+  });
+  std::string text = format("\n%zu meshes have a published polyhedron\n%-44s %14s %11s %21s\n", order.size(), "link",
+                            "surfaces [um]", "vertices", "without a partner");
+  for (const std::size_t i : order) {
+    const PolyhedronReport& p = report.polyhedra[i];
+    text += format("%-44s %14.3f %5d, %4d %15d, %4d\n", report.geometry->bodies[i].name.c_str(), p.difference * 1e6,
+                   p.meshVertices, p.vertices, p.meshAlone, p.alone);
+  }
+  return text + "two figures: the mesh's, the polyhedron's; surfaces: how far the two volumes are apart\n";
+}
+
+std::string quoted(const std::string& text) {
+  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  std::string out = "\"";
+  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return out + "\"";
+}
+
+}  // namespace
+
+std::string toText(const CollisionReport& report, std::size_t top) {
+  std::string text = report.robot->name + ": " + std::to_string(report.robot->links.size()) + " links, " +
+                     std::to_string(report.geometry->bodies.size()) + " bodies, " +
+                     std::to_string(report.kinematics->size()) + " coordinates\n";
+  std::map<std::string, int> reasons;
+  for (const PairReport& pair : report.pairs) ++reasons[pair.reason];
+  text += std::to_string(report.pairs.size()) + " pairs:";
+  for (const auto& [reason, count] : reasons) text += " " + std::to_string(count) + " " + reason + ",";
+  text.back() = '\n';
+  text += std::to_string(report.checked) + " checked, " + std::to_string(report.colliding) +
+          " of them in collision";
+  text += report.pose.empty() ? " in their closest configurations found\n"
+                              : " in the posture " + report.pose + "\n";
+  if (report.checked > 0)
+    text += format("%.1f us for all checked pairs with gradients, %.0f ns a pair\n", report.usPerTick,
+                   report.nsPerPair);
+  text += format("\n%-44s %11s %11s %11s %-16s %s\n", "pair", "STP-BV [mm]", "hulls [mm]", "cover [mm]",
+                 "reason", "steepest joint [m/rad]");
+  std::size_t shown = 0;
+  for (const PairReport& pair : report.pairs) {
+    if (!pair.checked || shown++ >= top) break;
+    const std::string hull = std::isfinite(pair.hullDistance) ? format("%.3f", pair.hullDistance * kMm) : "-";
+    text += format("%-44s %11.3f %11s %11.3f %-16s ", (pair.link1 + " - " + pair.link2).c_str(),
+                   pair.answer.distance * kMm, hull.c_str(), (pair.overCover1 + pair.overCover2) * kMm,
+                   pair.reason.c_str()) +
+            steepest(pair) + "\n";
+  }
+  text += "\ncover: how much closer the two smooth surfaces are than their hulls, along the normal\n";
+  text += polyhedra(report);
+  for (const PairReport& pair : report.pairs) {
+    if (!pair.contradictsSrdf()) continue;
+    text += "\nThe SRDF leaves out " + pair.link1 + " - " + pair.link2 + " as " + pair.srdfReason +
+            "; found: " + pair.reason + format(", %.3f mm at", pair.minDistance * kMm);
+    for (const auto& [joint, slope] : pair.gradient) {
+      const auto& names = report.kinematics->names();
+      const auto k = std::find(names.begin(), names.end(), joint) - names.begin();
+      text += " " + joint + format("=%.4f", pair.closest[k]);
+    }
+  }
+  if (text.back() != '\n') text += "\n";
+  return text;
+}
+
+std::string toJson(const CollisionReport& report) {
+  nlohmann::json json;
+  json["robot"] = report.robot->name;
+  json["pose"] = report.pose.empty() ? nlohmann::json() : nlohmann::json(report.pose);
+  json["warnings"] = report.warnings;
+  json["links"] = nlohmann::json::array();
+  for (std::size_t i = 0; i < report.geometry->bodies.size(); ++i) {
+    const Body& body = report.geometry->bodies[i];
+    nlohmann::json link{{"name", body.name}, {"file", body.file}};
+    if (body.volume) {
+      link["vertices"] = body.volume->vertexCount();
+      link["vertices_unreduced"] = (body.full ? body.full : body.volume)->vertexCount();
+      link["r"] = body.volume->radii().r;
+      link["R"] = body.volume->radii().R;
+      link["over_cover_max"] = body.cover.max;
+      link["over_cover_mean"] = body.cover.mean;
+    }
+    if (i < report.polyhedra.size() && !report.polyhedra[i].file.empty()) {
+      const PolyhedronReport& p = report.polyhedra[i];
+      link["polyhedron"] = {{"file", p.file},
+                            {"vertices", p.vertices},
+                            {"without_partner", p.alone},
+                            {"mesh_without_partner", p.meshAlone},
+                            {"surface_difference", p.difference}};
+    }
+    json["links"].push_back(link);
+  }
+  json["pairs"] = nlohmann::json::array();
+  for (const PairReport& pair : report.pairs) {
+    json["pairs"].push_back({{"link1", pair.link1},
+                             {"link2", pair.link2},
+                             {"obstacle", pair.obstacle},
+                             {"reason", pair.reason},
+                             {"srdf_reason", pair.srdfReason},
+                             {"checked", pair.checked},
+                             {"distance", orNull(pair.answer.distance)},
+                             {"status", statusName(pair.answer.status)},
+                             {"continuous", pair.answer.continuous},
+                             {"point1", numbers(pair.answer.points[0])},
+                             {"point2", numbers(pair.answer.points[1])},
+                             {"normal", numbers(pair.answer.normal)},
+                             {"gradient", pair.gradient},
+                             {"over_cover1", pair.overCover1},
+                             {"over_cover2", pair.overCover2},
+                             {"hull_distance", orNull(pair.hullDistance)},
+                             {"min_distance", orNull(pair.minDistance)},
+                             {"closest", joints(pair.closest, *report.kinematics)},
+                             {"probability_bound", pair.probabilityBound},
+                             {"security_distance", pair.security},
+                             {"influence_distance", pair.influence}});
+  }
+  json["summary"] = {{"pairs_total", report.pairs.size()},
+                     {"checked", report.checked},
+                     {"disabled", static_cast<int>(report.pairs.size()) - report.checked},
+                     {"min_distance", orNull(report.minDistance)},
+                     {"colliding", report.colliding},
+                     {"ns_per_pair", report.nsPerPair},
+                     {"us_per_tick", report.usPerTick}};
+  return json.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+}
+
+std::string toCsv(const CollisionReport& report) {
+  std::string text =
+      "link1,link2,reason,srdf_reason,checked,distance,hull_distance,over_cover1,over_cover2,min_distance,"
+      "point1_x,point1_y,point1_z,point2_x,point2_y,point2_z,normal_x,normal_y,normal_z\n";
+  for (const PairReport& pair : report.pairs) {
+    text += quoted(pair.link1) + "," + quoted(pair.link2) + "," + pair.reason + "," + pair.srdfReason + "," +
+            (pair.checked ? "1" : "0");
+    for (double value :
+         {pair.answer.distance, pair.hullDistance, pair.overCover1, pair.overCover2, pair.minDistance})
+      text += "," + (std::isfinite(value) ? toDecimal(value) : std::string());
+    for (const Eigen::Vector3d& v : {pair.answer.points[0], pair.answer.points[1], pair.answer.normal})
+      for (int i = 0; i < 3; ++i) text += "," + toDecimal(v[i]);
+    text += "\n";
+  }
+  return text;
+}
+
+std::string toSrdfText(const CollisionReport& report, const std::string& path) {
+  return withPairs(path, report.robot->name, toSrdf(*report.robot, report.list));
+}
+
+}  // namespace fcl_stpbv::report

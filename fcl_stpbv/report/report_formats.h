@@ -1,0 +1,20 @@
+// A collision report written down.
+#pragma once
+
+#include <string>
+
+#include "fcl_stpbv/report/collision_report.h"
+
+namespace fcl_stpbv::report {
+
+/// For people: a summary and the `top` closest pairs.
+std::string toText(const CollisionReport& report, std::size_t top);
+std::string toJson(const CollisionReport& report);
+std::string toCsv(const CollisionReport& report);
+/// The SRDF (at `path`, "" for none) with the pairs that need no check.
+std::string toSrdfText(const CollisionReport& report, const std::string& path);
+/// One page with all it needs inside: table, heat map, and the robot in 3-D. The title follows the robot's
+/// name.
+std::string toHtml(const CollisionReport& report, const std::string& title = "self-collision report");
+
+}  // namespace fcl_stpbv::report

@@ -1,0 +1,102 @@
+// A file is written whole or not at all.
+#include "fcl_stpbv/io/atomic_write.h"
+
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+#include <csignal>
+#include <filesystem>
+
+#include "fcl_stpbv/error.h"
+#include "test/reference/shapes.h"
+#include "test/reference/volume_files.h"
+
+using namespace fcl_stpbv;
+using namespace fcl_stpbv::test;
+using Names = std::vector<std::string>;
+
+TEST_CASE("a file is made and replaced, and keeps its permissions") {
+  const TemporaryFolder folder;
+  atomicWrite(folder / "a", "one");
+  CHECK(contentOf(folder / "a") == "one");
+  ::chmod((folder / "a").c_str(), 0640);
+  atomicWrite(folder / "a", "two");
+  CHECK(contentOf(folder / "a") == "two");
+  struct stat status {};
+  REQUIRE(::stat((folder / "a").c_str(), &status) == 0);
+  CHECK((status.st_mode & 0777) == 0640);
+  CHECK(folder.files() == Names{"a"});
+}
+
+TEST_CASE("a symbolic link is followed and stays a link") {
+  const TemporaryFolder folder;
+  std::filesystem::create_symlink("real", folder / "link");
+  atomicWrite(folder / "link", "one");
+  CHECK(std::filesystem::is_symlink(folder / "link"));
+  CHECK(contentOf(folder / "real") == "one");
+}
+
+TEST_CASE("a place that cannot be written is refused by name") {
+  const TemporaryFolder folder;
+  const auto write = [](const std::string& path) { atomicWrite(path, "text"); };
+  CHECK(refusal(write, folder / "none/a").find(folder / "none/a: cannot be written") == 0);
+  CHECK(refusal(write, folder / "").find("cannot be written") != std::string::npos);
+  CHECK(folder.files().empty());
+}
+
+TEST_CASE("a device is written straight and stays what it is") {
+  atomicWrite("/dev/null", "text");
+  CHECK(std::filesystem::is_character_file("/dev/null"));
+}
+
+TEST_CASE("a write that fails half way leaves the old file and nothing else") {
+  const TemporaryFolder folder;
+  atomicWrite(folder / "a", "old");
+  const pid_t child = ::fork();
+  REQUIRE(child >= 0);
+  if (child == 0) {
+    const rlimit limit{1000, 1000};
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+    try {
+      atomicWrite(folder / "a", std::string(100000, 'x'));
+    } catch (const Error&) {
+      ::_exit(7);
+    }
+    ::_exit(1);
+  }
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  CHECK(WIFEXITED(status));
+  CHECK(WEXITSTATUS(status) == 7);
+  CHECK(contentOf(folder / "a") == "old");
+  CHECK(folder.files() == Names{"a"});
+}
+
+TEST_CASE("a run that is interrupted leaves a whole file and nothing else") {
+  const TemporaryFolder folder;
+  const std::string one(300000, '1'), two(300000, '2');
+  atomicWrite(folder / "a", one);
+  Random random(5);
+  for (int signal : {SIGINT, SIGTERM, SIGHUP, SIGINT, SIGTERM, SIGHUP}) {
+    const pid_t child = ::fork();
+    REQUIRE(child >= 0);
+    if (child == 0) {
+      std::signal(signal, SIG_DFL);
+      for (;;) {
+        atomicWrite(folder / "a", two);
+        atomicWrite(folder / "a", one);
+      }
+    }
+    ::usleep(static_cast<useconds_t>(20000 + random.below(20000)));
+    ::kill(child, signal);
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    CHECK(WIFSIGNALED(status));
+    const std::string content = contentOf(folder / "a");
+    CHECK((content == one || content == two));
+    CHECK(folder.files() == Names{"a"});
+  }
+}

@@ -1,0 +1,236 @@
+// sch-core's format: what we write means the same to its reader, what others wrote loads, damaged files are
+// refused.
+#include "fcl_stpbv/io/sch_file.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+#include "fcl_stpbv/io/sch_data.h"
+#include "fcl_stpbv/io/stpbv_file.h"
+#include "fcl_stpbv/volume/verify.h"
+#include "test/reference/shapes.h"
+#include "test/reference/volume_files.h"
+
+using namespace fcl_stpbv;
+using namespace fcl_stpbv::test;
+using Eigen::Vector3d;
+
+namespace {
+
+const char* const kSamples[] = {"cube2x2.txt", "s2x2.txt", "sample_stp_p.txt", "sample_stpbv1.txt",
+                                "sample_stpbv2.txt"};
+
+std::string saved(const StpBv& volume) {
+  std::ostringstream out;
+  saveSch(out, volume);
+  return out.str();
+}
+
+StpBv::Ptr loaded(const std::string& text) {
+  std::istringstream in(text);
+  return loadSch(in, "file");
+}
+
+// The support function as a reader of the format takes it: from the file's own numbers, in the feature whose
+// borders hold the direction best.
+class Reader {
+ public:
+  explicit Reader(const std::string& text) : file_(sch::parse(text, "file")) {}
+
+  double support(const Vector3d& v) {
+    worst_ = std::numeric_limits<double>::infinity();
+    for (const sch::Vertex& vertex : file_.vertices) {
+      double outside = -1;
+      for (const sch::Border& cone : vertex.tori) outside = std::max(outside, cone.cosine - v.dot(cone.axis));
+      take(outside, v.dot(vertex.centre) + vertex.radius);
+    }
+    for (const sch::Face& face : file_.faces) {
+      double outside = -1;
+      for (const sch::Border& side : face.side) outside = std::max(outside, -v.dot(side.axis));
+      take(outside, v.dot(face.centre) + face.radius);
+    }
+    for (const sch::Torus& torus : file_.tori) {
+      if (!torus.real) continue;
+      double outside = -1;
+      for (const sch::Border& cone : torus.cone) outside = std::max(outside, v.dot(cone.axis) - cone.cosine);
+      for (const sch::Border& plane : torus.plane) outside = std::max(outside, v.dot(plane.axis));
+      const double along = v.dot(torus.axis);
+      take(outside,
+           v.dot(torus.middle) - torus.circle * std::sqrt(std::max(0.0, 1 - along * along)) + torus.tube);
+    }
+    return best_;
+  }
+
+  /// How far the direction asked last is outside the feature taken, at most rounding where the features tile
+  /// the sphere.
+  double outside() const { return worst_; }
+
+  /// What the file's digits make of a support value: the sum of numbers as large as a face's centre and
+  /// radius.
+  double rounding() const {
+    double farthest = 0;
+    for (const sch::Face& face : file_.faces) farthest = std::max(farthest, face.centre.norm());
+    return 4 * file_.rounding() * (farthest + file_.R);
+  }
+
+ private:
+  void take(double outside, double value) {
+    if (outside < worst_) worst_ = outside, best_ = value;
+  }
+
+  sch::File file_;
+  double worst_ = 0, best_ = 0;
+};
+
+std::string replacedAt(std::string text, std::size_t token, const std::string& with) {
+  std::size_t at = 0;
+  const char* const blanks = " \n\r\t";
+  for (std::size_t i = 0;; ++i) {
+    at = text.find_first_not_of(blanks, at);
+    REQUIRE(at != std::string::npos);
+    const std::size_t end = std::min(text.find_first_of(blanks, at), text.size());
+    if (i == token) return text.replace(at, end - at, with);
+    at = end;
+  }
+}
+
+std::size_t tokens(const std::string& text) {
+  std::istringstream in(text);
+  std::string token;
+  std::size_t count = 0;
+  while (in >> token) ++count;
+  return count;
+}
+
+}  // namespace
+
+TEST_CASE("a volume through sch-core's format is the same bit by bit") {
+  for (const auto& [name, volume] : volumesForSch()) {
+    INFO(name);
+    const std::string text = saved(*volume);
+    CHECK(looksLikeSch(text));
+    const StpBv::Ptr back = loaded(text);
+    CHECK(back->vertices() == volume->vertices());
+    CHECK(back->faces() == volume->faces());
+    CHECK(saved(*back) == text);
+    CHECK(verify(*back).ok);
+  }
+}
+
+TEST_CASE("a written file means the same surface to a reader of its numbers") {
+  for (const auto& [name, volume] : volumesForSch()) {
+    INFO(name);
+    Reader reader(saved(*volume));
+    const double rounding = 1e-15 * 4 * (volume->radii().R + volume->centre().norm());
+    Random random(3);
+    for (int i = 0; i < 1000; ++i) {
+      const Vector3d n = random.direction();
+      CHECK(std::abs(reader.support(n) - volume->support(n)) <= rounding);
+      CHECK(reader.outside() < 1e-12);
+    }
+  }
+}
+
+TEST_CASE("files of sch-creator load, with the surface they describe within their digits") {
+  const std::string folder = sharedFolder("sch_samples");
+  if (folder.empty()) {
+    WARN("skipped: ../shared/sch_samples is missing");
+    return;
+  }
+  for (const char* const sample : kSamples) {
+    INFO(sample);
+    Reader reader(contentOf(folder + "/" + sample));
+    const StpBv::Ptr volume = loadSch(folder + "/" + sample);
+    const StpBv::Ptr rebuilt = StpBv::build(volume->vertices(), {volume->radii().r, volume->radii().R});
+    CHECK(verify(*volume).ok);
+    Random random(4);
+    double worst = 0;
+    for (int i = 0; i < 2000; ++i) {
+      const Vector3d n = random.direction();
+      const double claimed = reader.support(n);
+      worst = std::max(worst, std::abs(claimed - volume->support(n)));
+      worst = std::max(worst, std::abs(claimed - rebuilt->support(n)));
+    }
+    CHECK(worst <= reader.rounding());
+    // What we make of it reads back exactly.
+    CHECK(loaded(saved(*volume))->vertices() == volume->vertices());
+  }
+}
+
+TEST_CASE("what the format cannot hold is said, not written") {
+  const TemporaryFolder folder;
+  const auto save = [&](const StpBv::Ptr& volume) {
+    return refusal([&](const std::string& path) { saveSch(path, *volume); }, folder / "a.txt");
+  };
+  CHECK(save(StpBv::build({{0, 0, 0}})).find("one or two vertices") != std::string::npos);
+  CHECK(save(StpBv::build({{0, 0, 0}, {1, 0, 0}})).find("one or two vertices") != std::string::npos);
+  CHECK(save(StpBv::build({{0, 0, 0}, {1, 0, 0}, {0.5, 0.1, 0}})).find("more than half a turn") !=
+        std::string::npos);
+  CHECK(folder.files().empty());
+}
+
+TEST_CASE("a file of sch-core's cut off anywhere is refused") {
+  const std::string text = saved(*StpBv::build(box(0.2, 0.3, 0.5)));
+  const std::size_t lastToken = text.find_last_of(' ');
+  for (std::size_t length = 0; length <= lastToken; ++length) {
+    INFO(length);
+    CHECK(refusal(loaded, text.substr(0, length)).find("file:") == 0);
+  }
+  const std::string folder = sharedFolder("sch_samples");
+  for (const char* const sample : kSamples) {
+    if (folder.empty()) break;
+    const std::string whole = contentOf(folder + "/" + sample);
+    CHECK(refusal(loaded, whole.substr(0, whole.size() / 2)).find("file:") == 0);
+  }
+}
+
+TEST_CASE("a number changed anywhere is refused") {
+  const std::string text = saved(*StpBv::build(box(0.2, 0.3, 0.5)));
+  const std::size_t count = tokens(text);
+  std::string accepted;
+  for (std::size_t token = 0; token < count; ++token) {
+    for (const char* const other : {"0.017", "5", "-1", "1000000000", "nan", "x"}) {
+      const std::string damaged = replacedAt(text, token, other);
+      if (damaged == text) continue;
+      const std::string message = refusal(loaded, damaged);
+      if (message.find("file:") != 0) accepted += std::to_string(token) + " -> " + other + "\n";
+    }
+  }
+  CHECK(accepted == "");
+}
+
+TEST_CASE("a file of sch-core's with flipped bits is refused or still holds a volume") {
+  Random random(43);
+  const std::string texts[] = {saved(*StpBv::build(box(0.2, 0.3, 0.5))),
+                               saved(*StpBv::build(randomHull(30, {0.1, 0.2, 0.3}, 3), {0.01, 2}))};
+  for (int i = 0; i < 2000; ++i) {
+    std::string text = texts[i % 2];
+    char& c = text[static_cast<std::size_t>(random.below(static_cast<int>(text.size())))];
+    c = static_cast<char>(c ^ (1 << random.below(8)));
+    try {
+      const StpBv::Ptr volume = loaded(text);
+      CHECK(verify(*volume).ok);
+    } catch (const Error& error) {
+      CHECK(std::string(error.what()).find("file") == 0);
+    }
+  }
+}
+
+TEST_CASE("damaged fields of sch-core's format are refused with their line") {
+  const std::string text = saved(*StpBv::build(box(0.2, 0.3, 0.5)));
+  const auto check = [&](std::size_t token, const std::string& with, const std::string& place,
+                         const std::string& expected) {
+    const std::string message = refusal(loaded, replacedAt(text, token, with));
+    INFO(message);
+    CHECK(message.find(place) == 0);
+    CHECK(message.find(expected) != std::string::npos);
+  };
+  check(0, "-1", "file:1:", "0 <= r < R");
+  check(2, "1000000000", "file:2:", "room for");
+  check(3, "0.02", "file:3:", "radius");
+  check(7, "4", "file:", "");
+  check(8, "7", "file:3:", "no torus");
+  check(10, "0.5", "file:3:", "unit vector");
+}

@@ -1,0 +1,53 @@
+// An independent answer to check every query against: long double, straight from the definition, no topology.
+//
+// A volume is the intersection of all balls of radius R that hold the margin spheres (docs/theory.md, 1), so
+// its support is h(n) = R + min n.C over the centres C within rho = R - r of every point. That minimum has at
+// most three active points and is found by adding the point its ball misses most. Nothing here is shared with
+// the library.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <vector>
+
+#include "test/reference/shapes.h"
+
+namespace fcl_stpbv::test {
+
+using Vector3L = Eigen::Matrix<long double, 3, 1>;
+
+/// A volume's points in world coordinates and its radii (m).
+struct ReferenceBody {
+  std::vector<Vector3L> points;
+  long double r;
+  long double R;
+};
+
+ReferenceBody referenceBody(const Cloud& points, double r, double R,
+                            const Eigen::Isometry3d& pose = Eigen::Isometry3d::Identity());
+
+/// Support value along the unit vector `n`; the core's point there (the surface's less `r n`) goes to
+/// `corePoint`. Good to about 1e-19 (|p| + R).
+long double referenceSupport(const ReferenceBody& body, const Vector3L& n, Vector3L* corePoint = nullptr);
+
+struct ReferenceDistance {
+  long double
+      distance;     ///< signed gap along `normal`: a lower bound of the signed distance, whatever `normal` is
+  long double gap;  ///< what the distance of the core points allows beyond that: the proof that it is right
+  Vector3L normal;  ///< unit, from a to b
+  Vector3L point[2];  ///< witness points on the surfaces
+};
+
+/// The distance of two volumes whose cores are apart along `towards`, any rough direction from a to b with
+/// that property: a plane cut through the middle of the normals still possible, in the gnomonic plane of
+/// `towards`, until they are one to rounding. The answer proves itself by its `gap`.
+ReferenceDistance referenceDistance(const ReferenceBody& a, const ReferenceBody& b, const Vector3L& towards);
+
+/// Signed gap between the supporting planes with normal `n`, from a to b (docs/theory.md, 5).
+long double referenceGap(const ReferenceBody& a, const ReferenceBody& b, const Vector3L& n);
+
+/// The widest gap over a dense set of `count` directions: what the best separating translation is compared to
+/// where the bodies are deep in each other.
+long double widestGapOverDirections(const ReferenceBody& a, const ReferenceBody& b, int count);
+
+}  // namespace fcl_stpbv::test

@@ -1,0 +1,153 @@
+#include "test/reference/shape_reference.h"
+
+#include <cmath>
+#include <limits>
+
+namespace fcl_stpbv::test {
+
+namespace {
+using Matrix3L = Eigen::Matrix<long double, 3, 3>;
+using Vector2L = Eigen::Matrix<long double, 2, 1>;
+
+/// Furthest point of a shape along `d` in its own frame, from the shape's numbers.
+Vector3L furthest(const TestShape& test, const Vector3L& d) {
+  const Shape& s = test.shape;
+  const long double across = std::sqrt(d.x() * d.x() + d.y() * d.y());
+  const long double radius = s.radius, half = s.half;
+  const Vector3L rim(across > 0 ? radius * d.x() / across : radius, across > 0 ? radius * d.y() / across : 0,
+                     0);
+  if (test.name == "sphere") return Vector3L(0, 0, 0);
+  if (test.name == "capsule") return Vector3L(0, 0, d.z() < 0 ? -half : half);
+  if (test.name == "cylinder") return rim + Vector3L(0, 0, d.z() < 0 ? -half : half);
+  if (test.name == "cone") {
+    const Vector3L top(0, 0, half), low = rim - Vector3L(0, 0, half);
+    return d.dot(top) > d.dot(low) ? top : low;
+  }
+  if (test.name == "ellipsoid") {
+    const Vector3L e = s.size.cast<long double>().cwiseProduct(d);
+    return s.size.cast<long double>().cwiseProduct(e) / e.norm();
+  }
+  const Eigen::Vector3d* best = nullptr;
+  for (const Eigen::Vector3d& p : *test.vertices)
+    if (!best || d.dot(p.cast<long double>()) > d.dot(best->cast<long double>())) best = &p;
+  return best->cast<long double>();
+}
+
+}  // namespace
+
+const std::vector<std::string>& boundedShapes() {
+  static const std::vector<std::string> names{"sphere", "capsule",  "box",  "triangle",
+                                              "convex", "cylinder", "cone", "ellipsoid"};
+  return names;
+}
+
+TestShape randomShape(const std::string& name, Random& random) {
+  const auto size = [&] { return std::exp(random.uniform(std::log(0.02), std::log(0.6))); };
+  TestShape t{name, {}, std::make_shared<Cloud>()};
+  if (name == "sphere") t.shape = Shape::sphere(size());
+  if (name == "capsule") t.shape = Shape::capsule(size(), size());
+  if (name == "cylinder") t.shape = Shape::cylinderOf(size(), size());
+  if (name == "cone") t.shape = Shape::coneOf(size(), size());
+  if (name == "ellipsoid") t.shape = Shape::ellipsoidOf({size(), size(), size()});
+  if (name == "halfspace") t.shape = Shape::halfspaceOf(random.direction(), random.uniform(-0.3, 0.3));
+  if (name == "plane") t.shape = Shape::planeOf(random.direction(), random.uniform(-0.3, 0.3));
+  if (name == "box") {
+    const Eigen::Vector3d sides(size(), size(), size());
+    t.shape = Shape::boxOf(sides);
+    *t.vertices = box(sides.x(), sides.y(), sides.z());
+  }
+  if (name == "triangle") {
+    *t.vertices = randomHull(3, {size(), size(), size()}, static_cast<std::uint64_t>(random.below(1 << 30)));
+    t.shape = Shape::triangleOf((*t.vertices)[0], (*t.vertices)[1], (*t.vertices)[2]);
+  }
+  if (name == "convex") {
+    const int kind = random.below(3);
+    *t.vertices = kind == 0   ? geodesicSphere(size(), 1)
+                  : kind == 1 ? cylinder(size(), size(), 12)
+                              : randomHull(20, {size(), size(), size()},
+                                           static_cast<std::uint64_t>(random.below(1 << 30)));
+    t.shape = Shape::polytopeOf(t.vertices->data(), static_cast<int>(t.vertices->size()));
+  }
+  return t;
+}
+
+ReferenceShape TestShape::posed(const Eigen::Isometry3d& pose) const {
+  Matrix3L rotation = pose.linear().cast<long double>();
+  for (int i = 0; i < 4; ++i) rotation = (rotation * 3 - rotation * rotation.transpose() * rotation) / 2;
+  const Vector3L translation = pose.translation().cast<long double>();
+  const TestShape self = *this;
+  return {[=](const Vector3L& d) -> Vector3L {
+            return rotation * furthest(self, rotation.transpose() * d) + translation;
+          },
+          shape.margin};
+}
+
+ReferenceAnswer referenceDistance(const ReferenceBody& a, const ReferenceShape& b, const Vector3L& towards) {
+  struct Trial {
+    Vector3L n, difference;
+    long double gap;
+  };
+  const auto look = [&](const Vector3L& n) {
+    Vector3L ya;
+    const long double h = referenceSupport(a, n, &ya) - a.r;
+    const Vector3L yb = b.support(-n);
+    return Trial{n, yb - ya, n.dot(yb) - h};
+  };
+  Trial x = look(towards.normalized());
+  Trial best = x;
+  const Vector3L z = x.gap > 0 ? x.n : x.difference.normalized();
+  const Vector3L e1 = z.unitOrthogonal(), e2 = z.cross(e1);
+  std::vector<Vector2L> region{{-1e4L, -1e4L}, {1e4L, -1e4L}, {1e4L, 1e4L}, {-1e4L, 1e4L}};
+  for (int i = 0; i < 300; ++i) {
+    const Vector3L g = x.gap > 0 ? Vector3L(x.difference - x.difference.dot(x.n) * x.n) : x.difference;
+    const auto side = [&](const Vector2L& c) { return g.dot(z + c.x() * e1 + c.y() * e2); };
+    std::vector<Vector2L> kept;
+    for (std::size_t k = 0; k < region.size(); ++k) {
+      const Vector2L &from = region[k], &to = region[(k + 1) % region.size()];
+      const long double f = side(from), t = side(to);
+      if (f >= 0) kept.push_back(from);
+      if ((f < 0) != (t < 0)) kept.push_back(from + (to - from) * (f / (f - t)));
+    }
+    if (kept.size() < 3) break;
+    region = kept;
+    long double area = 0, size = 0;
+    Vector2L sum(0, 0);
+    for (std::size_t k = 1; k + 1 < region.size(); ++k) {
+      const Vector2L p = region[k] - region[0], q = region[k + 1] - region[0];
+      const long double w = p.x() * q.y() - p.y() * q.x();
+      area += w;
+      sum += w * (p + q) / 3;
+      size = std::max({size, p.norm(), q.norm()});
+    }
+    if (!(area > 0)) break;
+    const Vector2L at = region[0] + sum / area;
+    x = look((z + at.x() * e1 + at.y() * e2).normalized());
+    if (x.gap > best.gap) best = x;
+    // What is left can raise the gap by no more than its width times the farthest lever.
+    if (size * x.difference.norm() < 1e-16L * (1 + at.squaredNorm())) break;
+  }
+  return {best.gap - a.r - b.margin, best.n, !(best.gap > 0)};
+}
+
+long double widestGapOverDirections(const ReferenceBody& a, const ReferenceShape& b, int count) {
+  const auto gap = [&](const Vector3L& n) {
+    return n.dot(b.support(-n)) - b.margin - referenceSupport(a, n);
+  };
+  long double best = -std::numeric_limits<long double>::infinity();
+  Vector3L top(0, 0, 1);
+  const long double golden = std::acos(-1.0L) * (3 - std::sqrt(5.0L));
+  for (int i = 0; i < count; ++i) {  // Fibonacci spiral
+    const long double z = 1 - (2 * i + 1) / static_cast<long double>(count), w = std::sqrt(1 - z * z);
+    const Vector3L n(w * std::cos(golden * i), w * std::sin(golden * i), z);
+    if (gap(n) > best) best = gap(n), top = n;
+  }
+  Random random(7);
+  for (long double step = 3 / std::sqrt(static_cast<long double>(count)); step > 1e-9L; step *= 0.7L)
+    for (int i = 0; i < 12; ++i) {
+      const Vector3L n = (top + step * random.direction().cast<long double>()).normalized();
+      if (gap(n) > best) best = gap(n), top = n;
+    }
+  return best;
+}
+
+}  // namespace fcl_stpbv::test

@@ -1,0 +1,151 @@
+// The figures of docs/fcl.md: how often FCL's features map to the right patches, and what a query costs.
+// Usage: adapter_figures [queries]
+#include <fcl/narrowphase/distance.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <functional>
+#include <utility>
+#include <vector>
+
+#include "fcl_stpbv/adapter/fcl_distance.h"
+#include "test/reference/shapes.h"
+
+using namespace fcl_stpbv;
+using namespace fcl_stpbv::test;
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+namespace {
+
+struct Motion {
+  std::vector<Isometry3d> a, b;
+};
+
+/// The paper's motion (V.B): both bodies turn about three axes, the distance of their centres goes to and
+/// fro.
+Motion paperMotion(double degrees, double step, int queries, double nearest) {
+  const double angle = degrees * std::acos(-1.0) / 180;
+  const auto turn = [&](double f) {
+    return Eigen::Matrix3d(Eigen::AngleAxisd(angle * f, Vector3d::UnitX()) *
+                           Eigen::AngleAxisd(0.77 * angle * f, Vector3d::UnitY()) *
+                           Eigen::AngleAxisd(1.31 * angle * f, Vector3d::UnitZ()));
+  };
+  Motion motion;
+  Eigen::Matrix3d ra = Eigen::Matrix3d::Identity(), rb = ra;
+  double d = nearest, sign = 1;
+  for (int i = 0; i < queries; ++i) {
+    ra = turn(1) * ra;
+    rb = turn(-0.83) * rb;
+    d += sign * step;
+    if (d > nearest + 0.42) sign = -1;
+    if (d < nearest) sign = 1;
+    motion.a.push_back(pose(ra, {0, 0, 0}));
+    motion.b.push_back(pose(rb, {d, 0.01, 0.02}));
+  }
+  return motion;
+}
+
+using Query = std::function<double(const Isometry3d&, const Isometry3d&)>;
+
+/// Nanoseconds a query of each way to ask, the best of nine passes over the motion. The ways take turns, so
+/// that what slows the machine for a while slows all of them.
+std::vector<double> nanoseconds(const Motion& motion, const std::vector<Query>& ways) {
+  std::vector<double> best(ways.size(), 1e300);
+  double sum = 0;  // keeps the compiler from dropping queries
+  for (int pass = 0; pass < 9; ++pass)
+    for (std::size_t k = 0; k < ways.size(); ++k) {
+      const auto start = std::chrono::steady_clock::now();
+      for (std::size_t i = 0; i < motion.a.size(); ++i) sum += ways[k](motion.a[i], motion.b[i]);
+      const std::chrono::duration<double, std::nano> spent = std::chrono::steady_clock::now() - start;
+      best[k] = std::min(best[k], spent.count() / static_cast<double>(motion.a.size()));
+    }
+  if (!std::isfinite(sum)) std::printf(" !");
+  return best;
+}
+
+/// Shares of the mapped queries, and of all those without features.
+void print(const MappingCounts& counts) {
+  const double mapped = 0.01 * static_cast<double>(counts.total() - counts.unmapped);
+  std::printf(" %6.2f %5.2f %6.3f %5.2f |", static_cast<double>(counts.right) / mapped,
+              static_cast<double>(counts.neighbour) / mapped, static_cast<double>(counts.farther) / mapped,
+              100 * static_cast<double>(counts.unmapped) / static_cast<double>(counts.total()));
+}
+
+/// Mapping over random poses with the centres `near` to `far` enclosing radii apart.
+void reportApart(const char* name, const Cloud& cloud, int queries, double near, double far) {
+  const StpBvGeometry g(StpBv::build(cloud, {0.01, 10.0}));
+  Random random(1);
+  MappingCounts counts;
+  for (int i = 0; i < queries; ++i) {
+    const double d = g.volume().enclosingRadius() * random.uniform(near, far);
+    const Isometry3d a = pose(random.rotation(), {0, 0, 0}),
+                     b = pose(random.rotation(), d * random.direction());
+    distance(g, a, g, b, {nullptr, &counts});
+  }
+  std::printf("%-12s apart |", name);
+  print(counts);
+  std::printf("\n");
+}
+
+void report(const char* name, const Cloud& cloud, int queries) {
+  const StpBvGeometry g(StpBv::build(cloud, {0.01, 10.0}));
+  const double nearest = 1.9 * g.volume().enclosingRadius();
+  for (const bool large : {true, false}) {
+    const Motion motion = paperMotion(large ? 20 : 1, large ? 0.02 : 0.001, queries, nearest);
+    MappingCounts counts;
+    for (std::size_t i = 0; i < motion.a.size(); ++i)
+      distance(g, motion.a[i], g, motion.b[i], {nullptr, &counts});
+    std::printf("%-12s %-5s |", name, large ? "large" : "small");
+    print(counts);
+
+    fcl::DistanceRequestd request;
+    request.distance_tolerance = 1e-10;
+    WitnessStart start;
+    PairCache cache;
+    const std::vector<double> ns = nanoseconds(
+        motion, {[&](const Isometry3d& a, const Isometry3d& b) {
+                   fcl::DistanceResultd result;
+                   return fcl::distance(&g, a, &g, b, request, result);
+                 },
+                 [&](const Isometry3d& a, const Isometry3d& b) {
+                   return polyhedralWitness(g.hull(), a, g.hull(), b).upper;
+                 },
+                 [&](const Isometry3d& a, const Isometry3d& b) {
+                   const PolyhedralWitness w = polyhedralWitness(g.hull(), a, g.hull(), b, start);
+                   start = w.start();
+                   return w.upper;
+                 },
+                 [&](const Isometry3d& a, const Isometry3d& b) { return distance(g, a, g, b).distance; },
+                 [&](const Isometry3d& a, const Isometry3d& b) {
+                   return distance(g, a, g, b, {&cache, nullptr}).distance;
+                 }});
+    std::printf(" %6.0f | %5.0f %5.0f (%.2f) | %5.0f %5.0f (%.2f)\n", ns[0], ns[1], ns[2], ns[1] / ns[0],
+                ns[3], ns[4], ns[3] / ns[0]);
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const int queries = argc > 1 ? std::atoi(argv[1]) : 20000;
+  const std::vector<std::pair<const char*, Cloud>> shapes{
+      {"geodesic 12", geodesicSphere(0.2, 0)},
+      {"geodesic 42", geodesicSphere(0.2, 1)},
+      {"geodesic 162", geodesicSphere(0.2, 2)},
+      {"geodesic 642", geodesicSphere(0.2, 3)},
+      {"geodesic 2562", geodesicSphere(0.2, 4)},
+      {"box", box(0.2, 0.3, 0.4)},
+      {"cylinder", cylinder(0.1, 0.4)},
+      {"plate", plate(0.3, 0.2)},
+      {"hull of 200", randomHull(200, {0.2, 0.15, 0.1}, 3)}};
+  std::printf(
+      "features mapped right, neighbour, farther, none (%%) | ns a query: fcl::distance | witness cold, warm "
+      "(cold/fcl) | fcl_stpbv::distance cold, warm (cold/fcl)\n");
+  for (const auto& [name, cloud] : shapes) report(name, cloud, queries);
+  std::printf("centres 3.8 to 7.6 enclosing radii apart\n");
+  for (const auto& [name, cloud] : shapes) reportApart(name, cloud, queries, 3.8, 7.6);
+}

@@ -1,0 +1,246 @@
+// posture_study: does a continuous gradient pay? The same optimiser, tasks and starts with four sources of
+// distances; numbers as CSV, performance profiles as SVG, a table on standard output (docs/posture.md).
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <functional>
+#include <iostream>
+#include <limits>
+#include <map>
+
+#include "fcl_stpbv/posture/find_posture.h"
+#include "test/reference/mesh_check.h"
+#include "tools/bench/chart.h"
+#include "tools/bench/posture_study/hull_rows.h"
+#include "tools/bench/posture_study/tasks.h"
+
+namespace {
+
+using namespace fcl_stpbv;
+using namespace fcl_stpbv::tools;
+using benchmark::text;
+
+struct Method {
+  const char* name;
+  const char* look;  // in gnuplot
+  bool smooth;
+  HullDistance hulls;
+  bool rounded;
+};
+constexpr Method kMethods[] = {
+    {"STP-BV", "lc rgb '#1f4e96'", true, HullDistance::exact, true},
+    {"hulls, rounded, exact", "lc rgb '#55a868'", false, HullDistance::exact, true},
+    {"hulls, rounded, FCL", "lc rgb '#dd8452'", false, HullDistance::fcl, true},
+    {"hulls, plain FCL", "lc rgb '#c44e52'", false, HullDistance::fcl, false}};
+constexpr std::size_t kCount = std::size(kMethods);
+constexpr double kInfluence = 0.2;  // m, as find_posture has it
+
+struct Result {
+  bool solved = false, clear = false;
+  Posture posture;
+  bool good() const { return solved && clear; }
+};
+
+struct Row {
+  std::uint64_t seed;
+  std::string family;
+  bool feasible = false;
+  std::array<Result, kCount> results;
+};
+
+PostureScene loadRobot() {
+  const std::string data = FCL_STPBV_SOURCE_DIR "/data/hrp2_style/hrp2_style";
+  PostureScene scene;
+  scene.robot = std::make_shared<const RobotModel>(loadUrdf(data + ".urdf"));
+  scene.srdf = std::make_shared<const Srdf>(loadSrdf(data + ".srdf", *scene.robot));
+  scene.geometry = std::make_shared<const RobotGeometry>(loadGeometry(*scene.robot));
+  return scene;
+}
+
+PostureSetup setUpFor(const Method& method, const PostureTask& task, const PostureScene& scene) {
+  if (method.smooth) return setUp(task, scene, kInfluence);
+  PostureSetup setup = setUpWithoutCollisions(task, scene);
+  setup.pairs = pairsOf(task, scene);
+  const double rounding = method.rounded ? GeometryOptions().radii.r : 0.0;
+  setup.problem->add(std::make_shared<HullRows>(std::make_shared<const Kinematics>(scene.robot, task.base),
+                                                scene.geometry, setup.pairs, scene.obstacles, method.hulls,
+                                                rounding, kInfluence));
+  return setup;
+}
+
+class Study {
+ public:
+  Study(int starts, int searchStarts, double tolerance)
+      : scene_(loadRobot()), check_(scene_.robot, nullptr, {}), searchStarts_(searchStarts) {
+    options_.starts = starts;
+    options_.solver.costTolerance = tolerance;
+  }
+
+  Row run(std::uint64_t seed) {
+    const RandomTask random = randomTask(seed);
+    scene_.obstacles = random.obstacles;
+    check_.setObstacles(random.obstacles);
+    Row row{seed, random.family, false, {}};
+    for (std::size_t m = 0; m < kCount; ++m) row.results[m] = solve(kMethods[m], random.task, options_);
+    row.feasible = row.results[0].good();
+    // An STP-BV holds the rounded hull, which holds the hull: what can be done with the first can with all.
+    PostureOptions search = options_;
+    search.starts = searchStarts_;
+    if (!row.feasible) row.feasible = solve(kMethods[0], random.task, search).good();
+    return row;
+  }
+
+ private:
+  Result solve(const Method& method, const PostureTask& task, const PostureOptions& options) {
+    PostureSetup setup = setUpFor(method, task, scene_);
+    Result result;
+    result.posture = findPosture(setup, options);
+    result.solved = result.posture.feasible;
+    result.clear = result.solved && check_
+                                        .collisions(setup.problem->kinematics(), result.posture.q,
+                                                    test::linksOf(setup.pairs, *scene_.geometry))
+                                        .empty();
+    return result;
+  }
+
+  PostureScene scene_;
+  test::MeshCheck check_;
+  PostureOptions options_;
+  int searchStarts_;
+};
+
+double middle(std::vector<double> values) {
+  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
+  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2),
+                   values.end());
+  return values[values.size() / 2];
+}
+
+void printTable(const std::vector<Row>& rows, int starts) {
+  const auto feasible = std::count_if(rows.begin(), rows.end(), [](const Row& row) { return row.feasible; });
+  std::printf("%zu tasks, %d of them known to be feasible\n\n", rows.size(), static_cast<int>(feasible));
+  std::printf(
+      "| distances | solved at the first start | within %d | hits a mesh | iterations | distances | ms | "
+      "cost above the best |\n",
+      starts);
+  std::puts("|---|---|---|---|---|---|---|---|");
+  for (std::size_t m = 0; m < kCount; ++m) {
+    int first = 0, within = 0, hits = 0;
+    std::vector<double> iterations, calls, seconds, costs;
+    for (const Row& row : rows) {
+      const Result& result = row.results[m];
+      hits += result.solved && !result.clear;
+      if (!row.feasible || !result.good()) continue;
+      ++within;
+      first += result.posture.starts == 1;
+      const bool all =
+          std::all_of(row.results.begin(), row.results.end(), [](const Result& r) { return r.good(); });
+      if (!all) continue;  // medians over the same tasks for all methods
+      iterations.push_back(result.posture.iterations);
+      calls.push_back(static_cast<double>(result.posture.distanceCalls));
+      seconds.push_back(result.posture.seconds);
+      double best = std::numeric_limits<double>::infinity();
+      for (const Result& r : row.results) best = std::min(best, r.posture.cost);
+      costs.push_back(result.posture.cost / best - 1);
+    }
+    const double share = 100.0 / static_cast<double>(std::max<std::ptrdiff_t>(1, feasible));
+    std::printf("| %s | %.1f %% | %.1f %% | %d | %.0f | %.0f | %.1f | %.1f %% |\n", kMethods[m].name,
+                first * share, within * share, hits, middle(iterations), middle(calls), 1e3 * middle(seconds),
+                100 * middle(costs));
+  }
+  std::map<std::string, std::array<int, kCount + 1>> families;
+  for (const Row& row : rows) {
+    if (!row.feasible) continue;
+    ++families[row.family][kCount];
+    for (std::size_t m = 0; m < kCount; ++m) families[row.family][m] += row.results[m].good();
+  }
+  std::puts("");
+  for (const auto& [family, counts] : families) {
+    std::printf("%s: %d feasible;", family.c_str(), counts[kCount]);
+    for (std::size_t m = 0; m < kCount; ++m)
+      std::printf(" %s %d%s", kMethods[m].name, counts[m], m + 1 < kCount ? "," : "\n");
+  }
+}
+
+// For each method the share of the feasible tasks that it solves within a factor of the best method.
+std::string profile(const std::vector<Row>& rows, const std::string& title,
+                    const std::function<double(const Posture&)>& effort) {
+  std::string blocks, plots;
+  for (std::size_t m = 0; m < kCount; ++m) {
+    std::vector<double> ratios;
+    double tasks = 0;
+    for (const Row& row : rows) {
+      if (!row.feasible) continue;
+      ++tasks;
+      double best = std::numeric_limits<double>::infinity();
+      for (const Result& r : row.results)
+        if (r.good()) best = std::min(best, effort(r.posture));
+      if (row.results[m].good()) ratios.push_back(effort(row.results[m].posture) / best);
+    }
+    std::sort(ratios.begin(), ratios.end());
+    const std::string block = "$" + title + std::to_string(m);
+    blocks += block + " << EOD\n1 0\n";
+    for (std::size_t i = 0; i < ratios.size(); ++i)
+      blocks += text("%.6g %.6g\n", ratios[i], 100 * static_cast<double>(i + 1) / tasks);
+    blocks += text("1000 %.6g\nEOD\n", 100 * static_cast<double>(ratios.size()) / tasks);
+    plots += text("%s%s with steps lw 2 %s title '%s'", m ? ", " : "plot ", block.c_str(), kMethods[m].look,
+                  kMethods[m].name);
+  }
+  return blocks + "set title '" + title + "'\n" + plots + "\n";
+}
+
+benchmark::Chart chartOf(const std::vector<Row>& rows, int starts) {
+  benchmark::Chart chart;
+  chart.name = "posture_profile";
+  chart.header = "seed,family,feasible,distances,solved,clear,starts,iterations,calls,seconds,cost";
+  for (const Row& row : rows)
+    for (std::size_t m = 0; m < kCount; ++m) {
+      const Result& r = row.results[m];
+      chart.rows.push_back(text("%d,%s,%d,\"%s\",%d,%d,%d,%d,%ld,%.3g,%.6g", static_cast<int>(row.seed),
+                                row.family.c_str(), row.feasible, kMethods[m].name, r.solved, r.clear,
+                                r.posture.starts, r.posture.iterations, r.posture.distanceCalls,
+                                r.posture.seconds, r.posture.cost));
+    }
+  chart.height = 460;
+  chart.plot =
+      "set multiplot layout 1,3 margins 0.07,0.985,0.24,0.9 spacing 0.06\nset logscale x\nset xrange [1:20]\n"
+      "set yrange [0:100]\nset xlabel 'factor of the best'\nset ylabel 'solved (%)'\nset key bottom right\n" +
+      profile(rows, "iterations", [](const Posture& p) { return static_cast<double>(p.iterations); }) +
+      "unset ylabel\nunset label 1\n" +
+      profile(rows, "distances", [](const Posture& p) { return static_cast<double>(p.distanceCalls); }) +
+      profile(rows, "time", [](const Posture& p) { return p.seconds; }) + "unset multiplot";
+  chart.caption = text(
+      "Share of the feasible ones of %zu random tasks solved within %d starts, free of collisions of the "
+      "meshes",
+      rows.size(), starts);
+  return chart;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Postures for random tasks, with and without continuous gradients", "posture_study");
+  app.set_version_flag("--version", "posture_study " FCL_STPBV_VERSION);
+  int tasks = 240, starts = 5, searchStarts = 100;
+  double tolerance = SolverOptions().costTolerance;
+  std::string folder;
+  app.add_option("--tasks", tasks, "Random tasks")->capture_default_str()->check(CLI::Range(1, 100000));
+  app.add_option("--starts", starts, "Starts of each")->capture_default_str()->check(CLI::Range(1, 1000));
+  app.add_option("--search-starts", searchStarts, "Starts before a task counts as infeasible")
+      ->capture_default_str();
+  app.add_option("--tolerance", tolerance, "Relative change of the cost to stop at")->capture_default_str();
+  app.add_option("-o,--output", folder, "Folder for posture_profile.csv and .svg");
+  CLI11_PARSE(app, argc, argv);
+  try {
+    if (!folder.empty()) benchmark::requireGnuplot();
+    Study study(starts, searchStarts, tolerance);
+    std::vector<Row> rows;
+    for (int seed = 0; seed < tasks; ++seed) rows.push_back(study.run(static_cast<std::uint64_t>(seed)));
+    printTable(rows, starts);
+    if (!folder.empty()) benchmark::write(chartOf(rows, starts), folder, true);
+  } catch (const std::exception& error) {
+    std::cerr << "posture_study: " << error.what() << std::endl;
+    return 2;
+  }
+}

@@ -1,0 +1,90 @@
+#include "tools/bench/timing.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <ctime>
+
+namespace fcl_stpbv::benchmark {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double nanoseconds(Clock::time_point from, Clock::time_point to) {
+  return std::chrono::duration<double, std::nano>(to - from).count();
+}
+
+/// What reading the clock costs.
+double clockTime() {
+  std::vector<double> times(2001);
+  for (double& t : times) {
+    const Clock::time_point start = Clock::now();
+    t = nanoseconds(start, Clock::now());
+  }
+  return median(times);
+}
+
+/// Time this thread has run (ns): without the time others had the core.
+double ownTime() {
+  timespec t{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return 1e9 * static_cast<double>(t.tv_sec) + static_cast<double>(t.tv_nsec);
+}
+
+void runBlock(Method& method, const Poses& poses, std::vector<Answer>& answers, double clock, Times* times,
+              bool everyQuery) {
+  const std::size_t n = poses.a.size();
+  const double start = ownTime();
+  if (!everyQuery) {
+    for (std::size_t i = 0; i < n; ++i) method.query(poses.a[i], poses.b[i], answers[i]);
+  } else {
+    for (std::size_t i = 0; i < n; ++i) {
+      const Clock::time_point before = Clock::now();
+      method.query(poses.a[i], poses.b[i], answers[i]);
+      const double t = nanoseconds(before, Clock::now()) - clock;
+      if (times) times->query.push_back(std::max(0.0, t));
+    }
+  }
+  if (times)
+    times->block.push_back((ownTime() - start) / static_cast<double>(n) - (everyQuery ? 2 * clock : 0));
+}
+
+}  // namespace
+
+double percentile(std::vector<double>& values, double p) {
+  if (values.empty()) return std::nan("");
+  const auto k = static_cast<std::ptrdiff_t>(p * static_cast<double>(values.size() - 1) + 0.5);
+  std::nth_element(values.begin(), values.begin() + k, values.end());
+  return values[static_cast<std::size_t>(k)];
+}
+
+double median(std::vector<double> values) { return percentile(values, 0.5); }
+
+double spread(std::vector<double> values) {
+  const double low = percentile(values, 0.25), middle = percentile(values, 0.5);
+  return 0.5 * (percentile(values, 0.75) - low) / middle;
+}
+
+std::vector<Times> timed(const std::vector<MethodPtr>& methods, GeodesicMotion& motion, int blocks,
+                         int length, bool everyQuery, const Watch& watch, double seconds) {
+  std::vector<Times> times(methods.size());
+  std::vector<Answer> answers(static_cast<std::size_t>(length));
+  Poses poses;
+  std::vector<double> spent(methods.size(), 0);  // s
+  const double clock = everyQuery ? clockTime() : 0;
+  for (int block = -1; block < blocks; ++block) {
+    motion.next(poses, length);
+    for (std::size_t k = 0; k < methods.size(); ++k) {
+      const std::size_t m = block % 2 ? methods.size() - 1 - k : k;
+      if (spent[m] > seconds) continue;
+      const double start = ownTime();
+      runBlock(*methods[m], poses, answers, clock, block < 0 ? nullptr : &times[m], everyQuery);
+      spent[m] += 1e-9 * (ownTime() - start);
+      if (watch && block >= 0) watch(m, poses, answers);
+    }
+  }
+  return times;
+}
+
+}  // namespace fcl_stpbv::benchmark
