@@ -1,4 +1,5 @@
-// Everything a user of the drop-in needs: volumes and their files, exact distance and derivatives, the FCL side.
+// Everything a user of the drop-in needs: volumes and their files, exact distance and derivatives, the FCL
+// side.
 #pragma once
 
 #include "fcl_stpbv/adapter/distance_callback.h"
@@ -11,12 +12,12 @@
 #include "fcl_stpbv/distance/hessian.h"
 #include "fcl_stpbv/distance/shape_distance.h"
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/io/qhull_file.h"
+#include "fcl_stpbv/io/sch_file.h"
+#include "fcl_stpbv/io/stpbv_file.h"
 #include "fcl_stpbv/volume/compare.h"
 #include "fcl_stpbv/volume/measure.h"
-#include "fcl_stpbv/io/qhull_file.h"
 #include "fcl_stpbv/volume/reduce.h"
-#include "fcl_stpbv/io/sch_file.h"
 #include "fcl_stpbv/volume/stp_bv.h"
-#include "fcl_stpbv/io/stpbv_file.h"
 #include "fcl_stpbv/volume/tessellate.h"
 #include "fcl_stpbv/volume/verify.h"

@@ -3,7 +3,8 @@
 #include "parts.h"
 
 PYBIND11_MODULE(fcl_stpbv, module) {
-  module.doc() = "Distances with continuous gradients between sphere-torus-patch bounding volumes. Metres, radians.";
+  module.doc() =
+      "Distances with continuous gradients between sphere-torus-patch bounding volumes. Metres, radians.";
   module.attr("__version__") = FCL_STPBV_VERSION;
   pybind11::register_exception<fcl_stpbv::Error>(module, "Error", PyExc_RuntimeError);
   fcl_stpbv::addVolume(module);

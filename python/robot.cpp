@@ -34,7 +34,8 @@ class PythonRobot {
     ConstraintOptions constraintOptions;
     constraintOptions.influence = influence;
     constraints_ = std::make_unique<CollisionConstraints>(
-        kinematics_, geometry, selfPairs(*model, *geometry, srdf.empty() ? nullptr : &srdf_), constraintOptions);
+        kinematics_, geometry, selfPairs(*model, *geometry, srdf.empty() ? nullptr : &srdf_),
+        constraintOptions);
   }
 
   const Kinematics& kinematics() const { return *kinematics_; }
@@ -86,13 +87,14 @@ void addRobot(py::module_& module) {
            py::arg("influence") = std::numeric_limits<double>::infinity(),
            "Loads a URDF; pairs that the SRDF disables (without one, adjacent links) are left out.\n"
            "base: \"fixed\", \"planar\" or \"floating\". influence: farther pairs are constant (m).")
-      .def_property_readonly("names", [](const PythonRobot& robot) { return robot.kinematics().names(); },
-                             "of the coordinates")
+      .def_property_readonly(
+          "names", [](const PythonRobot& robot) { return robot.kinematics().names(); }, "of the coordinates")
       .def_property_readonly("rows", &PythonRobot::rowNames, "names of the pairs, in the order of d")
       .def_property_readonly("lower", [](const PythonRobot& robot) { return robot.kinematics().lower(); })
       .def_property_readonly("upper", [](const PythonRobot& robot) { return robot.kinematics().upper(); })
       .def_property_readonly("neutral", [](const PythonRobot& robot) { return robot.kinematics().neutral(); })
-      .def("configuration", &PythonRobot::configuration, py::arg("state"), "q of one of the SRDF's group states.")
+      .def("configuration", &PythonRobot::configuration, py::arg("state"),
+           "q of one of the SRDF's group states.")
       .def("distances", &PythonRobot::distances, py::arg("q"), "d(q), one row a pair (m).")
       .def("evaluate", &PythonRobot::evaluate, py::arg("q"), "(d(q), J(q)), J dense, a row a pair.");
 }

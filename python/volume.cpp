@@ -1,9 +1,9 @@
 // Volumes and their distance in Python.
 #include "fcl_stpbv/distance/distance.h"
+#include "fcl_stpbv/io/stpbv_file.h"
 #include "fcl_stpbv/robot/mesh_file.h"
 #include "fcl_stpbv/volume/measure.h"
 #include "fcl_stpbv/volume/stp_bv.h"
-#include "fcl_stpbv/io/stpbv_file.h"
 #include "fcl_stpbv/volume/tessellate.h"
 #include "fcl_stpbv/volume/verify.h"
 #include "parts.h"
@@ -17,7 +17,8 @@ namespace {
 std::shared_ptr<StpBv> held(const StpBv::Ptr& volume) { return std::const_pointer_cast<StpBv>(volume); }
 
 Eigen::Isometry3d toPose(const Eigen::Matrix4d& matrix) {
-  if (matrix.row(3) != Eigen::RowVector4d(0, 0, 0, 1)) throw py::value_error("pose: its last row must be 0 0 0 1");
+  if (matrix.row(3) != Eigen::RowVector4d(0, 0, 0, 1))
+    throw py::value_error("pose: its last row must be 0 0 0 1");
   Eigen::Isometry3d pose;
   pose.matrix() = matrix;
   return pose;
@@ -50,14 +51,17 @@ void addStpBv(py::module_& module) {
       .def_static(
           "load", [](const std::string& path) { return held(loadStpBv(path)); }, py::arg("path"))
       .def(
-          "save", [](const StpBv& volume, const std::string& path) { saveStpBv(path, volume); }, py::arg("path"))
+          "save", [](const StpBv& volume, const std::string& path) { saveStpBv(path, volume); },
+          py::arg("path"))
       .def_property_readonly("r", [](const StpBv& volume) { return volume.radii().r; })
       .def_property_readonly("R", [](const StpBv& volume) { return volume.radii().R; })
       .def_property_readonly("vertices", [](const StpBv& volume) { return toArray(volume.vertices()); })
-      .def_property_readonly("faces", [](const StpBv& volume) { return volume.faces(); },
-                             "Lists of vertex indices, counter-clockwise seen from outside.")
+      .def_property_readonly(
+          "faces", [](const StpBv& volume) { return volume.faces(); },
+          "Lists of vertex indices, counter-clockwise seen from outside.")
       .def(
-          "support", [](const StpBv& volume, const Eigen::Vector3d& n) { return volume.support(n.normalized()); },
+          "support",
+          [](const StpBv& volume, const Eigen::Vector3d& n) { return volume.support(n.normalized()); },
           py::arg("direction"))
       .def(
           "surface_point",
@@ -84,12 +88,16 @@ void addStpBv(py::module_& module) {
 
 void addDistance(py::module_& module) {
   py::enum_<DistanceStatus>(module, "Status")
-      .value("exact", DistanceStatus::exact, "to rounding: apart, touching, or overlapping by at most r1 + r2")
-      .value("local", DistanceStatus::local, "deeper: a locally best way out; the true value is in [lower, upper]")
-      .value("bounded", DistanceStatus::bounded, "not solved to rounding; the true value is in [lower, upper]")
+      .value("exact", DistanceStatus::exact,
+             "to rounding: apart, touching, or overlapping by at most r1 + r2")
+      .value("local", DistanceStatus::local,
+             "deeper: a locally best way out; the true value is in [lower, upper]")
+      .value("bounded", DistanceStatus::bounded,
+             "not solved to rounding; the true value is in [lower, upper]")
       .value("invalid", DistanceStatus::invalid, "a pose is not a finite rotation and translation");
 
-  py::class_<PairCache>(module, "PairCache", "Starts a pair's next query near its last answer.").def(py::init<>());
+  py::class_<PairCache>(module, "PairCache", "Starts a pair's next query near its last answer.")
+      .def(py::init<>());
 
   py::class_<PlacedDistance>(module, "Distance", "Answer to a query. World frame.")
       .def_readonly("status", &PlacedDistance::status)
@@ -117,9 +125,10 @@ void addDistance(py::module_& module) {
         return py::str("<Distance: {} m, {}>").format(d.distance, py::cast(d.status).attr("name"));
       });
 
-  module.def("distance", &ask, py::arg("first"), py::arg("first_pose"), py::arg("second"), py::arg("second_pose"),
-             py::arg("cache") = static_cast<PairCache*>(nullptr),
-             "Signed distance of two volumes at 4x4 poses. Poses that are no rigid motion give Status.invalid.");
+  module.def(
+      "distance", &ask, py::arg("first"), py::arg("first_pose"), py::arg("second"), py::arg("second_pose"),
+      py::arg("cache") = static_cast<PairCache*>(nullptr),
+      "Signed distance of two volumes at 4x4 poses. Poses that are no rigid motion give Status.invalid.");
 }
 
 }  // namespace

@@ -9,12 +9,12 @@
 #include <vector>
 
 #include "fcl_stpbv/error.h"
-#include "fcl_stpbv/robot/mesh_file.h"
 #include "fcl_stpbv/io/qhull_file.h"
 #include "fcl_stpbv/io/sch_file.h"
 #include "fcl_stpbv/io/stpbv_file.h"
-#include "fcl_stpbv/volume/tessellate.h"
 #include "fcl_stpbv/io/text_scanner.h"
+#include "fcl_stpbv/robot/mesh_file.h"
+#include "fcl_stpbv/volume/tessellate.h"
 #include "fcl_stpbv/volume/verify.h"
 
 namespace fcl_stpbv::tools {

@@ -10,8 +10,8 @@
 
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/io/atomic_write.h"
-#include "tools/progress_bar.h"
 #include "fcl_stpbv/report/report_formats.h"
+#include "tools/progress_bar.h"
 
 namespace {
 
@@ -81,8 +81,9 @@ void describe(CLI::App& app, Arguments& a) {
       ->type_name("NAME")
       ->expected(1)
       ->take_all();
-  app.add_option("--polyhedra", request.polyhedra,
-                 "Folder of polyhedra published for the meshes, MESH-ch.txt or MESH.otp: tells how far they differ")
+  app.add_option(
+         "--polyhedra", request.polyhedra,
+         "Folder of polyhedra published for the meshes, MESH-ch.txt or MESH.otp: tells how far they differ")
       ->type_name("FOLDER");
   app.add_flag("--visual", request.geometry.visual, "Use the visual shapes");
   app.add_option("--top", a.top, "Pairs in the text")->capture_default_str();

@@ -1,10 +1,10 @@
 // The README's ten lines, between two boxes, and the second derivatives of docs/fcl.md.
-#include "fcl_stpbv/adapter/distance_callback.h"
-#include "fcl_stpbv/adapter/fcl_hessian.h"
-
 #include <fcl/broadphase/broadphase_dynamic_AABB_tree.h>
 
 #include <cstdio>
+
+#include "fcl_stpbv/adapter/distance_callback.h"
+#include "fcl_stpbv/adapter/fcl_hessian.h"
 
 int main() {
   std::vector<Eigen::Vector3d> points;
@@ -35,7 +35,8 @@ const bool known = fcl_stpbv::hessian(*data.result.object[0], *data.result.objec
 
   std::printf("distance %.6f m\n", data.result.distance);
   const auto& found = data.result;
-  const bool good = known && second.matrix.allFinite() && found.status == fcl_stpbv::DistanceStatus::exact && found.distance > 0.27 && found.distance < 0.28 &&
-                    found.lower <= found.distance && found.distance <= found.upper;
+  const bool good = known && second.matrix.allFinite() && found.status == fcl_stpbv::DistanceStatus::exact &&
+                    found.distance > 0.27 && found.distance < 0.28 && found.lower <= found.distance &&
+                    found.distance <= found.upper;
   return good ? 0 : 1;
 }

@@ -19,7 +19,8 @@ class Mine : public PostureRows {
   Kind kind() const override { return Kind::atLeast; }
   int size() const override { return 1; }
   std::string name(int) const override { return "mine"; }
-  void evaluate(const Point& at, Eigen::Ref<Eigen::VectorXd> values, Eigen::Ref<RowMatrix> jacobian) override {
+  void evaluate(const Point& at, Eigen::Ref<Eigen::VectorXd> values,
+                Eigen::Ref<RowMatrix> jacobian) override {
     values[0] = at.x[0] + 1;
     jacobian(0, 0) = 1;
   }

@@ -46,10 +46,10 @@ struct DistanceData {
   bool done = false;      ///< set it to stop the search
   /// Stop at the first pair in contact, as FCL's own callback does; else the deepest pair is found.
   bool stopAtContact = false;
-  PairCaches* caches = nullptr;  ///< optional: makes repeated queries of a slowly moving scene faster
+  PairCaches* caches = nullptr;      ///< optional: makes repeated queries of a slowly moving scene faster
   MappingCounts* mapping = nullptr;  ///< optional: gets how good FCL's features were as starts; slower
-  std::size_t pairs = 0;         ///< pairs asked
-  std::size_t invalid = 0;       ///< of these, pairs without an answer, left out of the result
+  std::size_t pairs = 0;             ///< pairs asked
+  std::size_t invalid = 0;           ///< of these, pairs without an answer, left out of the result
 
   /// Forgets everything found, keeps the settings, caches and counts.
   void clear() {

@@ -29,7 +29,8 @@ OrientedBox boxAround(const fcl::KDOP<double, N>& bv) {  // its first three slab
   return {0.5 * (low + high), Matrix3d::Identity(), 0.5 * (high - low)};
 }
 
-/// Rounding in FCL's fitting of a bounding volume may leave a triangle's corner outside by this part of its size.
+/// Rounding in FCL's fitting of a bounding volume may leave a triangle's corner outside by this part of its
+/// size.
 constexpr double kFit = 1e-9;
 
 template <typename BV>
@@ -103,7 +104,8 @@ int treeChildren(const fcl::OcTreed& tree, const Node& node, std::array<Node, 8>
 }  // namespace
 
 ElementTree::ElementTree(const fcl::CollisionGeometryd& geometry) : geometry_(geometry) {
-  any_ = withMesh(geometry, [](const auto& mesh) { return mesh.getNumBVs() > 0 && mesh.vertices; }, false);
+  any_ = withMesh(
+      geometry, [](const auto& mesh) { return mesh.getNumBVs() > 0 && mesh.vertices; }, false);
 #if FCL_HAVE_OCTOMAP
   if (const fcl::OcTreed* tree = asOcTree(geometry)) any_ = tree->getRoot() != nullptr;
 #endif
@@ -111,10 +113,12 @@ ElementTree::ElementTree(const fcl::CollisionGeometryd& geometry) : geometry_(ge
 
 Node ElementTree::root() const {
 #if FCL_HAVE_OCTOMAP
-  if (const fcl::OcTreed* tree = asOcTree(geometry_)) return treeNode(*tree, tree->getRoot(), tree->getRootBV());
+  if (const fcl::OcTreed* tree = asOcTree(geometry_))
+    return treeNode(*tree, tree->getRoot(), tree->getRootBV());
 #endif
   const Node none{-1, true, nullptr, {Vector3d::Zero(), Matrix3d::Zero(), Vector3d::Zero()}};
-  return withMesh(geometry_, [](const auto& mesh) { return meshNode(mesh, 0); }, none);
+  return withMesh(
+      geometry_, [](const auto& mesh) { return meshNode(mesh, 0); }, none);
 }
 
 int ElementTree::children(const Node& node, std::array<Node, 8>& child) const {
@@ -142,7 +146,8 @@ bool ElementTree::element(const Node& leaf, Shape& shape, Vector3d& place) const
   }
 #endif
   place.setZero();
-  shape = withMesh(geometry_, [&](const auto& mesh) { return meshElement(mesh, leaf.id); }, Shape{});
+  shape = withMesh(
+      geometry_, [&](const auto& mesh) { return meshElement(mesh, leaf.id); }, Shape{});
   return true;
 }
 
@@ -152,7 +157,9 @@ bool ElementTree::find(std::intptr_t id, const Vector3d& x, Shape& shape, Vector
   if (!node.handle) {  // a mesh: any id within bounds
     const bool within = withMesh(
         geometry_,
-        [&](const auto& mesh) { return id >= 0 && id < (mesh.tri_indices ? mesh.num_tris : mesh.num_vertices); },
+        [&](const auto& mesh) {
+          return id >= 0 && id < (mesh.tri_indices ? mesh.num_tris : mesh.num_vertices);
+        },
         false);
     return within && element({id, true, nullptr, node.box}, shape, place);
   }

@@ -20,14 +20,15 @@ struct OrientedBox {
   double reach(const Eigen::Vector3d& n) const { return half.dot((axes.transpose() * n).cwiseAbs()); }
 };
 
-/// A view of a BVHModel of any bounding volume or of an OcTree; the geometry must outlive it. Allocates nothing.
+/// A view of a BVHModel of any bounding volume or of an OcTree; the geometry must outlive it. Allocates
+/// nothing.
 class ElementTree {
  public:
   struct Node {
-    std::intptr_t id;     ///< of an element as FCL's `b1`, `b2` name it; else of the inner node
+    std::intptr_t id;  ///< of an element as FCL's `b1`, `b2` name it; else of the inner node
     bool leaf;
-    const void* handle;   ///< a tree's node
-    OrientedBox box;      ///< holds all that is below, in the geometry's frame
+    const void* handle;  ///< a tree's node
+    OrientedBox box;     ///< holds all that is below, in the geometry's frame
   };
 
   explicit ElementTree(const fcl::CollisionGeometryd& geometry);

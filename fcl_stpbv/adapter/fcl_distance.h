@@ -31,8 +31,9 @@ struct DistanceAnswer {
   std::array<int, 2> patch{-1, -1};  ///< of the STP-BVs; -1 for any other geometry
   /// Nearest triangle or cell of a mesh or tree, FCL's `b1`, `b2`; -1 for any other geometry.
   std::array<std::intptr_t, 2> element{-1, -1};
-  /// Distance to the next triangle or cell (m), infinite where there is none: the nearest one can switch once both
-  /// have come nearer to each other by the difference. Equal where the nearest point is on a shared edge or corner.
+  /// Distance to the next triangle or cell (m), infinite where there is none: the nearest one can switch once
+  /// both have come nearer to each other by the difference. Equal where the nearest point is on a shared edge
+  /// or corner.
   double runnerUp = std::numeric_limits<double>::infinity();
   /// Whether distance and gradient are continuous over motions: true for an STP-BV against one or a
   /// simple shape; false for meshes and trees, whose nearest element switches, and where FCL
@@ -51,7 +52,7 @@ struct ProximityCounts {
 
 /// What a query may remember and report; all optional, all owned by the caller.
 struct QueryContext {
-  PairCache* cache = nullptr;        ///< starts the query near the pair's last answer instead of asking FCL
+  PairCache* cache = nullptr;  ///< starts the query near the pair's last answer instead of asking FCL
   /// Gets the outcome of the feature mapping, for queries that ask FCL: from the exact witness then, which
   /// takes longer.
   MappingCounts* mapping = nullptr;
@@ -62,8 +63,9 @@ struct QueryContext {
 ///
 /// An STP-BV against one, or against any other FCL geometry in either order: exact and signed, with status,
 /// bounds and derivatives. Two other shapes, one of them bounded: signed, by this library's own GJK, and at
-/// overlap by an expanding polytope (flat_overlap.h), `continuous` false. Any other pair: `fcl::distance`, unsigned, with tolerance 1e-10, exceptions caught; status
-/// `bounded`, `continuous` false, 0 for touching or overlapping geometries.
+/// overlap by an expanding polytope (flat_overlap.h), `continuous` false. Any other pair: `fcl::distance`,
+/// unsigned, with tolerance 1e-10, exceptions caught; status `bounded`, `continuous` false, 0 for touching or
+/// overlapping geometries.
 DistanceAnswer distance(const fcl::CollisionGeometryd& geometry1, const fcl::Transform3d& pose1,
                         const fcl::CollisionGeometryd& geometry2, const fcl::Transform3d& pose2,
                         const QueryContext& context = {});
@@ -80,8 +82,8 @@ DistanceAnswer inFclTerms(const Distance& found, const fcl::Transform3d& pose1,
 /// included.
 ///
 /// Differs from FCL where FCL sets traps (docs/fcl.md): `result` holds this pair and no earlier one, the
-/// distance of convex shapes is always signed, no field is left uninitialised. Overlap that FCL answers about, and
-/// a query that has no answer, is -1, FCL's own value for them.
+/// distance of convex shapes is always signed, no field is left uninitialised. Overlap that FCL answers
+/// about, and a query that has no answer, is -1, FCL's own value for them.
 double distance(const fcl::CollisionObjectd* object1, const fcl::CollisionObjectd* object2,
                 const fcl::DistanceRequestd& request, fcl::DistanceResultd& result);
 double distance(const fcl::CollisionGeometryd* geometry1, const fcl::Transform3d& pose1,

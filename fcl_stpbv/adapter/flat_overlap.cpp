@@ -72,12 +72,15 @@ Distance flatOverlap(const Shape& a, const Eigen::Isometry3d& poseA, const Shape
                           (d.translation.norm() + a.centre.norm() + a.reach + b.centre.norm() + b.reach);
   if (!(rounding < 1e100)) return result;
 
-  const auto solved = [&](double depth) { return -d.gap - depth <= std::max(rounding, 0.5 * kRelative * depth); };
+  const auto solved = [&](double depth) {
+    return -d.gap - depth <= std::max(rounding, 0.5 * kRelative * depth);
+  };
   double upper = 0.0;  // the cores overlap
   Meridian plane;
   if (commonMeridian(a, b, d.rotation, d.translation, plane)) {
     // As deep towards all generators as towards one: more than a polytope has room for, in the plane an edge.
-    const MeridianDepth inner = meridianDepth(plane, rounding, [&](const Vector3d& m) { return d.furthest(m); });
+    const MeridianDepth inner =
+        meridianDepth(plane, rounding, [&](const Vector3d& m) { return d.furthest(m); });
     upper = std::min(upper, -inner.depth);
     d.onA = inner.onA;
   }

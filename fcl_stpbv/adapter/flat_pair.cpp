@@ -17,7 +17,8 @@ constexpr int kSteps = 120;  // polytopes take a dozen, round bodies some thirty
 
 enum class Outcome { told, overlap, unknown };
 
-/// GJK between the cores in the first body's frame: only the bodies' own coordinates and their mutual distance enter.
+/// GJK between the cores in the first body's frame: only the bodies' own coordinates and their mutual
+/// distance enter.
 struct Search {
   const Shape &a, &b;
   Matrix3d rotation;
@@ -28,7 +29,8 @@ struct Search {
   Vector3d n{0, 0, 0}, v{0, 0, 0};
   double lower = -std::numeric_limits<double>::infinity(), upper = -lower;
 
-  Search(const Shape& first, const Eigen::Isometry3d& poseA, const Shape& second, const Eigen::Isometry3d& poseB)
+  Search(const Shape& first, const Eigen::Isometry3d& poseA, const Shape& second,
+         const Eigen::Isometry3d& poseB)
       : a(first),
         b(second),
         rotation(poseA.linear().transpose() * poseB.linear()),

@@ -13,8 +13,8 @@ namespace fcl_stpbv {
 Distance flatDistance(const Shape& a, const Eigen::Isometry3d& poseA, const Shape& b,
                       const Eigen::Isometry3d& poseB);
 
-/// Whether the two shapes are certainly farther apart than `x` (m): the same search, ended as soon as one of its
-/// bounds tells. Overlapping shapes are asked for their depth where `x` is negative.
+/// Whether the two shapes are certainly farther apart than `x` (m): the same search, ended as soon as one of
+/// its bounds tells. Overlapping shapes are asked for their depth where `x` is negative.
 bool flatFartherThan(double x, const Shape& a, const Eigen::Isometry3d& poseA, const Shape& b,
                      const Eigen::Isometry3d& poseB);
 

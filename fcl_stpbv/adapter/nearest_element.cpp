@@ -50,11 +50,13 @@ void NearestElement::visit(const ElementTree::Node& node, double bound) {
   for (std::size_t i = 0; i < count; ++i) {
     near[i] = lowerBound(child[i].box);
     order[i] = i;
-    for (std::size_t j = i; j > 0 && near[order[j]] < near[order[j - 1]]; --j) std::swap(order[j], order[j - 1]);
+    for (std::size_t j = i; j > 0 && near[order[j]] < near[order[j - 1]]; --j)
+      std::swap(order[j], order[j - 1]);
   }
   for (std::size_t k = 0; k < count; ++k) {
     const std::size_t i = order[k];
-    visit(child[i], k == 0 ? near[i] : std::max(near[i], lowerBound(child[i].box)));  // with the new best normal
+    visit(child[i],
+          k == 0 ? near[i] : std::max(near[i], lowerBound(child[i].box)));  // with the new best normal
   }
 }
 

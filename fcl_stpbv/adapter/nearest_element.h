@@ -8,8 +8,8 @@
 
 namespace fcl_stpbv {
 
-/// One STP-BV against the elements of one mesh or tree: a walk down the hierarchy, near branches first, that leaves
-/// out what cannot be one of the nearest two. Lives on the stack of one query.
+/// One STP-BV against the elements of one mesh or tree: a walk down the hierarchy, near branches first, that
+/// leaves out what cannot be one of the nearest two. Lives on the stack of one query.
 class NearestElement {
  public:
   NearestElement(const StpBv& volume, const Eigen::Isometry3d& poseVolume, const ElementTree& elements,
@@ -24,8 +24,8 @@ class NearestElement {
  private:
   void visit(const ElementTree::Node& node, double bound);
   void offer(const Shape& element, const Eigen::Vector3d& place, std::intptr_t id);
-  /// A lower bound of the distance to anything in `box` (m): by the volume's enclosing ball, and by the gap along the
-  /// best normal so far (docs/theory.md, 5: any normal gives one).
+  /// A lower bound of the distance to anything in `box` (m): by the volume's enclosing ball, and by the gap
+  /// along the best normal so far (docs/theory.md, 5: any normal gives one).
   double lowerBound(const OrientedBox& box) const;
   double lowerBound(const Shape& element, const Eigen::Vector3d& place) const;
 

@@ -21,7 +21,7 @@ void PosedHulls::fit() {
   const Vector3d far = unpack(offset_);
   double size = std::max(a_.radius() + b_.radius(), far.lpNorm<1>() / kFar);
   if (!far.allFinite() || !std::isfinite(size)) return;  // nor is the offset where the rotation is not
-  if (!(size > 0)) size = 1;  // two points on one spot
+  if (!(size > 0)) size = 1;                             // two points on one spot
   int exponent = 0;
   std::frexp(size, &exponent);
   scale_ = std::ldexp(1.0, -exponent);

@@ -80,7 +80,8 @@ class Side {
  private:
   bool isBody() const { return body_.volume || isShape_; }
   Part part(const ElementTree::Node& node) const {
-    return {{inFrame_ * node.box.centre, inFrame_.linear() * node.box.axes, node.box.half}, 0.0, node.leaf, node};
+    return {
+        {inFrame_ * node.box.centre, inFrame_.linear() * node.box.axes, node.box.half}, 0.0, node.leaf, node};
   }
 
   ElementTree tree_;
@@ -89,8 +90,8 @@ class Side {
   bool isShape_ = false;
 };
 
-/// No more than the distance of two boxes with balls swept over them: the widest gap along the line of their centres
-/// and their axes (m).
+/// No more than the distance of two boxes with balls swept over them: the widest gap along the line of their
+/// centres and their axes (m).
 double gapOf(const Side::Part& a, const Side::Part& b) {
   const Vector3d d = b.box.centre - a.box.centre;
   const double length = d.norm();
@@ -128,7 +129,8 @@ class Walk {
     for (std::size_t i = 0; i < count; ++i) {
       gap[i] = bound(first ? child[i] : a, first ? b : child[i]);
       order[i] = i;
-      for (std::size_t j = i; j > 0 && gap[order[j]] < gap[order[j - 1]]; --j) std::swap(order[j], order[j - 1]);
+      for (std::size_t j = i; j > 0 && gap[order[j]] < gap[order[j - 1]]; --j)
+        std::swap(order[j], order[j - 1]);
     }
     for (std::size_t k = 0; k < count; ++k) {
       const Side::Part& next = child[order[k]];

@@ -26,7 +26,8 @@ StpBvGeometry::StpBvGeometry(StpBv::Ptr volume) : StpBvGeometry(volume, HullGrap
 // FCL's check of the mesh would throw on degenerate volumes, and everything else it checks holds by
 // construction.
 StpBvGeometry::StpBvGeometry(StpBv::Ptr volume, HullGraph hull)
-    : fcl::Convexd(fclVertices(hull, volume->vertices()), hull.faceCount(), fclFaces(hull), /*throw_if_invalid=*/false),
+    : fcl::Convexd(fclVertices(hull, volume->vertices()), hull.faceCount(), fclFaces(hull),
+                   /*throw_if_invalid=*/false),
       volume_(std::move(volume)),
       hull_(std::move(hull)) {
   nameFaces();

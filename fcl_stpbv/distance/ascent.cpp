@@ -1,7 +1,8 @@
 #include "fcl_stpbv/distance/ascent.h"
-#include "fcl_stpbv/vectorized.h"
 
 #include <cmath>
+
+#include "fcl_stpbv/vectorized.h"
 
 namespace fcl_stpbv {
 

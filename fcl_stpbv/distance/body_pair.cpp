@@ -1,4 +1,5 @@
 #include "fcl_stpbv/distance/body_pair.h"
+
 #include "fcl_stpbv/vectorized.h"
 
 namespace fcl_stpbv {

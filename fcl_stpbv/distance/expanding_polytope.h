@@ -7,11 +7,11 @@
 
 namespace fcl_stpbv {
 
-/// Grows a polytope inside the difference of the two cores where its surface is nearest to the origin (van den
-/// Bergen 2001, "expanding polytope"), from around `x.n`. Leaves the maximum of the gap with the least overlap
-/// in `x`, and in `bound` what holds for all: along no normal is the gap of the cores more than this (m, not
-/// positive). False when rounding, the size of the polytope or a gap between the cores
-/// stopped it; `x` and the bound hold all the same.
+/// Grows a polytope inside the difference of the two cores where its surface is nearest to the origin (van
+/// den Bergen 2001, "expanding polytope"), from around `x.n`. Leaves the maximum of the gap with the least
+/// overlap in `x`, and in `bound` what holds for all: along no normal is the gap of the cores more than this
+/// (m, not positive). False when rounding, the size of the polytope or a gap between the cores stopped it;
+/// `x` and the bound hold all the same.
 bool expandPolytope(const BodyPair& pair, Sample& x, double& bound, Work& work);
 
 /// The same from four points of the difference around the origin.

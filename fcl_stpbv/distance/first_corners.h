@@ -8,9 +8,9 @@
 
 namespace fcl_stpbv {
 
-/// Four points of the body that span a volume, each furthest along some direction. `furthest(m)` gives the body's
-/// point furthest along `m`, as anything with a member `w`, the point itself. False where the body is flat to
-/// `rounding` (m); it has then been asked along both normals of the flat.
+/// Four points of the body that span a volume, each furthest along some direction. `furthest(m)` gives the
+/// body's point furthest along `m`, as anything with a member `w`, the point itself. False where the body is
+/// flat to `rounding` (m); it has then been asked along both normals of the flat.
 template <typename Point, typename Furthest>
 bool firstCorners(Furthest&& furthest, double rounding, std::array<Point, 4>& c) {
   using Eigen::Vector3d;

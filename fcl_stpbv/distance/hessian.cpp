@@ -37,8 +37,8 @@ Matrix3d bend(const Vector3d& a, const Vector3d& n) {
 
 bool owns(const StpBv& body, int patch) { return patch >= 0 && patch < body.patchCount(); }
 
-/// Inverse of -s_nn = W_A + W_B + delta (docs/theory.md, 6) on the ways in world axes that body 2 leaves open, zero
-/// on the others: there W_B is infinite. False unless positive definite, as at a maximum of s.
+/// Inverse of -s_nn = W_A + W_B + delta (docs/theory.md, 6) on the ways in world axes that body 2 leaves
+/// open, zero on the others: there W_B is infinite. False unless positive definite, as at a maximum of s.
 bool invert(const Matrix3d& curvatureA, double distance, const NormalFreedom& b, Matrix3d& inverse) {
   inverse.setZero();
   if (b.count == 0) return true;
@@ -49,7 +49,8 @@ bool invert(const Matrix3d& curvatureA, double distance, const NormalFreedom& b,
     inverse = t1 * t1.transpose() / m11;
     return true;
   }
-  const double m22 = t2.dot(curvatureA * t2) + b.along[1] + distance, m12 = t1.dot(curvatureA * t2) + b.between;
+  const double m22 = t2.dot(curvatureA * t2) + b.along[1] + distance,
+               m12 = t1.dot(curvatureA * t2) + b.between;
   const double det = m11 * m22 - m12 * m12;
   if (!(det > 1e-14 * m11 * m22) || !(m11 > 0.0)) return false;
   inverse = (m22 * t1 * t1.transpose() + m11 * t2 * t2.transpose() -
@@ -63,8 +64,8 @@ bool invert(const Matrix3d& curvatureA, double distance, const NormalFreedom& b,
 ///     n = exp(w_B) (n0 + tau),   s = n.(o_B - o_A) - h_B(body 2's normal) - h_A(n seen from body 1)
 ///
 /// so only body 1's radii of curvature, always finite, meet the twists, and body 2's only `tau`.
-bool secondOrder(const Matrix3d& curvatureA, const NormalFreedom& b, const Isometry3d& poseA, const Isometry3d& poseB,
-                 const Distance& d, DistanceHessian& result) {
+bool secondOrder(const Matrix3d& curvatureA, const NormalFreedom& b, const Isometry3d& poseA,
+                 const Isometry3d& poseB, const Distance& d, DistanceHessian& result) {
   Matrix3d inverse;
   if (!invert(curvatureA, d.distance, b, inverse)) return false;
   const Vector3d& n = d.normal;
@@ -94,8 +95,8 @@ bool secondOrder(const Matrix3d& curvatureA, const NormalFreedom& b, const Isome
   result.normal = turn;
   result.normal.block<3, 3>(0, 9) += spin;
 
-  // Body 1's point moves with it and slides by its radii of curvature times the turn of the normal against it;
-  // body 2's is the distance away along the normal.
+  // Body 1's point moves with it and slides by its radii of curvature times the turn of the normal against
+  // it; body 2's is the distance away along the normal.
   const Eigen::Matrix<double, 3, 12> against = turn + carried;
   result.point[0] = curvatureA * against;
   result.point[0].block<3, 3>(0, 0) += Matrix3d::Identity();
@@ -115,8 +116,8 @@ Distance exchanged(Distance d) {
 }
 void exchange(DistanceHessian& h) {
   Eigen::Matrix<double, 12, 12> matrix;
-  matrix << h.matrix.bottomRightCorner<6, 6>(), h.matrix.bottomLeftCorner<6, 6>(), h.matrix.topRightCorner<6, 6>(),
-      h.matrix.topLeftCorner<6, 6>();
+  matrix << h.matrix.bottomRightCorner<6, 6>(), h.matrix.bottomLeftCorner<6, 6>(),
+      h.matrix.topRightCorner<6, 6>(), h.matrix.topLeftCorner<6, 6>();
   h.matrix = matrix;
   const auto columns = [](auto& m) {
     const Eigen::Matrix<double, 3, 6> first = m.template leftCols<6>();
@@ -143,26 +144,27 @@ bool hessian(const StpBv& a, const Isometry3d& poseA, const StpBv& b, const Isom
   return secondOrder(surfaceCurvature(a, poseA, d.patch[0], n), every, poseA, poseB, d, result);
 }
 
-bool hessian(const StpBv& volume, const Isometry3d& poseVolume, const Shape& shape, const Isometry3d& poseShape,
-             const Distance& d, DistanceHessian& result) {
+bool hessian(const StpBv& volume, const Isometry3d& poseVolume, const Shape& shape,
+             const Isometry3d& poseShape, const Distance& d, DistanceHessian& result) {
   if (d.status != DistanceStatus::exact || !owns(volume, d.patch[0])) return false;
   const Matrix3d& q = poseShape.linear();
   // A face's or an edge's normal is good to the rounding of its corners placed beside the volume.
   const double rounding =
-      1e-13 * shape.reach + 32.0 * std::numeric_limits<double>::epsilon() *
-                                ((poseShape.translation() - poseVolume.translation()).norm() + volume.centre().norm() +
-                                 volume.enclosingRadius() + shape.centre.norm() + shape.reach);
+      1e-13 * shape.reach +
+      32.0 * std::numeric_limits<double>::epsilon() *
+          ((poseShape.translation() - poseVolume.translation()).norm() + volume.centre().norm() +
+           volume.enclosingRadius() + shape.centre.norm() + shape.reach);
   NormalFreedom freedom;
-  if (!normalFreedom(shape, -(q.transpose() * d.normal), q.transpose() * (d.point[1] - poseShape.translation()),
-                     rounding, freedom))
+  if (!normalFreedom(shape, -(q.transpose() * d.normal),
+                     q.transpose() * (d.point[1] - poseShape.translation()), rounding, freedom))
     return false;
   for (Vector3d& way : freedom.way) way = q * way;
-  return secondOrder(surfaceCurvature(volume, poseVolume, d.patch[0], d.normal), freedom, poseVolume, poseShape, d,
-                     result);
+  return secondOrder(surfaceCurvature(volume, poseVolume, d.patch[0], d.normal), freedom, poseVolume,
+                     poseShape, d, result);
 }
 
-bool hessian(const Shape& shape, const Isometry3d& poseShape, const StpBv& volume, const Isometry3d& poseVolume,
-             const Distance& d, DistanceHessian& result) {
+bool hessian(const Shape& shape, const Isometry3d& poseShape, const StpBv& volume,
+             const Isometry3d& poseVolume, const Distance& d, DistanceHessian& result) {
   if (!hessian(volume, poseVolume, shape, poseShape, exchanged(d), result)) return false;
   exchange(result);
   return true;

@@ -11,8 +11,8 @@ namespace fcl_stpbv {
 
 /// What a small motion of both bodies does to an answer, to the next order than its gradient. Columns are the
 /// 12 components of both twists, [linear; angular] of body 1 about its origin, then of body 2; world axes.
-/// The distance is piecewise C2: on a seam between patches, or between a shape's faces, edges and corners, these
-/// are the values of one side.
+/// The distance is piecewise C2: on a seam between patches, or between a shape's faces, edges and corners,
+/// these are the values of one side.
 struct DistanceHessian {
   /// Along poses with origins `o + v t` and rotations `exp(w t) R`, the distance's second derivative is
   /// `twists^T matrix twists`; symmetric.
@@ -29,8 +29,9 @@ struct DistanceHessian {
 bool hessian(const StpBv& a, const Eigen::Isometry3d& poseA, const StpBv& b, const Eigen::Isometry3d& poseB,
              const Distance& d, DistanceHessian& result);
 
-/// The same for a simple shape, in either order, where `d` is `exact`. Flat features keep the normal, edges and
-/// generators let it turn one way: what the bodies' motion alone does not settle is the maximum over those ways.
+/// The same for a simple shape, in either order, where `d` is `exact`. Flat features keep the normal, edges
+/// and generators let it turn one way: what the bodies' motion alone does not settle is the maximum over
+/// those ways.
 bool hessian(const StpBv& volume, const Eigen::Isometry3d& poseVolume, const Shape& shape,
              const Eigen::Isometry3d& poseShape, const Distance& d, DistanceHessian& result);
 bool hessian(const Shape& shape, const Eigen::Isometry3d& poseShape, const StpBv& volume,

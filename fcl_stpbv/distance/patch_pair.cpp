@@ -1,9 +1,10 @@
 #include "fcl_stpbv/distance/patch_pair.h"
-#include "fcl_stpbv/vectorized.h"
 
 #include <Eigen/Geometry>
 #include <cmath>
 #include <limits>
+
+#include "fcl_stpbv/vectorized.h"
 
 namespace fcl_stpbv {
 
@@ -31,7 +32,7 @@ bool leanFromCommonNormal(const PosedPatch& a, const PosedPatch& b, const Packed
   constexpr double kCrossing2 = 0.01;   // squared sine between the axes
   constexpr int kPasses = 5;            // two are usual
   constexpr double kConverged = 2e-16;  // predicted next change of a lean: the rounding of a unit vector
-  constexpr double kAgain = 1e-8;       // rad: asked once more from its own answer, whose rounding was too much
+  constexpr double kAgain = 1e-8;  // rad: asked once more from its own answer, whose rounding was too much
   const Packed &p = a.axis, &q = b.axis;
   Packed m = cross(p, q);
   const double sine2 = dot(m, m), cosine = dot(m, n);

@@ -106,7 +106,8 @@ class Polytope {
   static constexpr int kMaxPoints =
       400;  // some 20 are usual, hundreds where all directions are nearly as good
   static constexpr int kMaxFaces = 2 * kMaxPoints;
-  static constexpr double kNarrow = 300.0;  // more would leave out points that a flat face of the bodies needs
+  static constexpr double kNarrow =
+      300.0;                              // more would leave out points that a flat face of the bodies needs
   static constexpr double kFlat = 1e-15;  // of a point: this near to a face's plane is in it, to rounding
 
   static constexpr std::array<int, 6> kTurn{0, 1, 2, 0, 1, 2};  // sides modulo 3

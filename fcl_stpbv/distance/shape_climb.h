@@ -180,7 +180,8 @@ bool climb(const StpBv& body, const Feature& feature, ClimbPoint& x, const Round
     if (!accepted) {
       if (flat <= rounded) return true;
       if (y.view.patch != x.view.patch) {
-        // The step went over a seam, past which the gap bends otherwise: as the patch there tells it from here.
+        // The step went over a seam, past which the gap bends otherwise: as the patch there tells it from
+        // here.
         const ClimbPoint there = climbPoint(viewPatch(body, x.view.n, y.view.patch), feature);
         const ClimbPoint z =
             climbPoint(body, feature, newtonTarget(body, there, feature.direction()), y.view.patch, steps);
@@ -191,7 +192,8 @@ bool climb(const StpBv& body, const Feature& feature, ClimbPoint& x, const Round
       }
       if (!(sine > 1e-15) || !(start > 0.0)) return false;
       double low = 0.0, high = 1.0, lowSlope = start, highSlope = slope(y);
-      // Over a seam of the volume Newton may overshoot down to where gaps are equal to rounding: the flatter is it.
+      // Over a seam of the volume Newton may overshoot down to where gaps are equal to rounding: the flatter
+      // is it.
       const auto better = [&](const ClimbPoint& p, const ClimbPoint& than) {
         return p.gap > than.gap + rounding.gap ||
                (p.gap >= than.gap - rounding.gap && p.across.norm() < than.across.norm());

@@ -52,8 +52,8 @@ NormalFreedom ofVertices(int count, const Vertex& vertex, const Vector3d& m, dou
   return noWay();
 }
 
-/// A disc's rim: a circle of this radius around z. Near the axis the normal says little about the place on the rim,
-/// so the point `x` tells it.
+/// A disc's rim: a circle of this radius around z. Near the axis the normal says little about the place on
+/// the rim, so the point `x` tells it.
 NormalFreedom ofRim(const Vector3d& m, const Vector3d& x, double radius, double across) {
   const Vector3d out(x.x(), x.y(), 0.0);
   Vector3d around = Vector3d::UnitZ().cross(out.norm() > 0.0 ? out : m);
@@ -76,7 +76,8 @@ NormalFreedom ofCone(const Shape& s, const Vector3d& m, const Vector3d& x, doubl
   const double towardsApex = m.z() * height - across * s.radius;
   if (towardsApex > rounding) return ofBall(m, 0.0);
   if (!(height > 0.0) || towardsApex < -rounding) return ofRim(m, x, s.radius, across);
-  const double down = (x - Vector3d(0, 0, s.half)).norm();  // the generator, which curves by more the further down
+  const double down =
+      (x - Vector3d(0, 0, s.half)).norm();  // the generator, which curves by more the further down
   return {1, {Vector3d::UnitZ().cross(m) / across, kNone}, {down * s.radius / height, 0.0}, 0.0};
 }
 
@@ -95,7 +96,8 @@ bool ofEllipsoid(const Shape& s, const Vector3d& m, NormalFreedom& result) {
 
 }  // namespace
 
-bool normalFreedom(const Shape& s, const Vector3d& m, const Vector3d& x, double rounding, NormalFreedom& result) {
+bool normalFreedom(const Shape& s, const Vector3d& m, const Vector3d& x, double rounding,
+                   NormalFreedom& result) {
   result = noWay();
   switch (s.kind) {
     case ShapeKind::point:
@@ -114,10 +116,12 @@ bool normalFreedom(const Shape& s, const Vector3d& m, const Vector3d& x, double 
           m, rounding);
       return true;
     case ShapeKind::triangle:
-      result = ofVertices(3, [&](int i) { return s.corner[static_cast<std::size_t>(i)]; }, m, rounding);
+      result = ofVertices(
+          3, [&](int i) { return s.corner[static_cast<std::size_t>(i)]; }, m, rounding);
       return true;
     case ShapeKind::polytope:
-      result = ofVertices(s.vertexCount, [&](int i) { return s.vertices[i]; }, m, rounding);
+      result = ofVertices(
+          s.vertexCount, [&](int i) { return s.vertices[i]; }, m, rounding);
       return true;
     case ShapeKind::cylinder:
       result = ofCylinder(s, m, x, rounding);

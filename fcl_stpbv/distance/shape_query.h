@@ -46,9 +46,10 @@ struct StartNormal {
   int patch;
 };
 
-/// Which of two is the nearer one. Next to a seam gaps differ by the square of how far their normals do, less than
-/// rounding: then that one which fewer of the shape's points, or less far, face the body more than.
-bool isNearer(const ShapeQuery& q, const Nearest& x, const Nearest& than, const Eigen::Vector3d* points, int count);
+/// Which of two is the nearer one. Next to a seam gaps differ by the square of how far their normals do, less
+/// than rounding: then that one which fewer of the shape's points, or less far, face the body more than.
+bool isNearer(const ShapeQuery& q, const Nearest& x, const Nearest& than, const Eigen::Vector3d* points,
+              int count);
 
 /// Any feature that has a gradient, from a start.
 template <typename Feature>

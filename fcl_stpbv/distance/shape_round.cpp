@@ -73,7 +73,8 @@ class ConeSide {
     x.bend = cos_ * e.dot(difference) - turning.dot(curvatureRadii(q.body, x.view) * turning);
     return x;
   }
-  /// Where the slope is zero between `x` and `y`, which is `turn` away, by halving that mends its steps (Illinois).
+  /// Where the slope is zero between `x` and `y`, which is `turn` away, by halving that mends its steps
+  /// (Illinois).
   State between(ShapeQuery& q, const State& x, const State& y, double turn) const {
     double low = 0.0, high = turn, lowWeight = x.slope, highWeight = y.slope;
     State best = std::abs(x.slope) < std::abs(y.slope) ? x : y;
@@ -102,10 +103,11 @@ class ConeSide {
   double slant_, cos_ = 1, sin_ = 0;
 };
 
-/// The rim's nearest point by its angle around the axis, from the side the body's point is on: Newton on the distance
-/// to one of its points. Where the normal is nearly the axis it says nothing about the place on the rim, but each
-/// point has its own normal to the last digit.
-Nearest nearestByAngle(ShapeQuery& q, const Vector3d& middle, const Vector3d& axis, const StartNormal& start) {
+/// The rim's nearest point by its angle around the axis, from the side the body's point is on: Newton on the
+/// distance to one of its points. Where the normal is nearly the axis it says nothing about the place on the
+/// rim, but each point has its own normal to the last digit.
+Nearest nearestByAngle(ShapeQuery& q, const Vector3d& middle, const Vector3d& axis,
+                       const StartNormal& start) {
   constexpr int kSteps = 20;
   const Vector3d up = viewVolume(q.body, start.n, start.patch, q.steps).point - middle;
   Vector3d e = up - up.dot(axis) * axis;
@@ -147,7 +149,8 @@ Nearest nearestOnRim(ShapeQuery& q, const Vector3d& middle, const Vector3d& axis
     if (out.norm() > 0.0) from.n = (start.n - kTilt * out.normalized()).normalized();
   }
   const Nearest found = nearestOn(q, RimFeature{middle, axis, q.shape.radius}, from);
-  constexpr double kNearAxis = 0.1;  // sine; rounding of the normal is then ten times that of the point on the rim
+  constexpr double kNearAxis =
+      0.1;  // sine; rounding of the normal is then ten times that of the point on the rim
   if ((found.n - found.n.dot(axis) * axis).norm() > kNearAxis) return found;
   const Nearest refined = nearestByAngle(q, middle, axis, {found.n, found.patch});
   return refined.apart ? refined : found;

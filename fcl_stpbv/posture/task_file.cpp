@@ -4,8 +4,8 @@
 #include <set>
 
 #include "fcl_stpbv/error.h"
-#include "fcl_stpbv/posture/task.h"
 #include "fcl_stpbv/io/text_scanner.h"
+#include "fcl_stpbv/posture/task.h"
 
 namespace fcl_stpbv {
 namespace {

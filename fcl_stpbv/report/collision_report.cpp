@@ -120,7 +120,8 @@ class Maker {
       poseOf(request_.pose, *report_.kinematics, srdf());  // refused before the work
     report_.geometry = std::make_shared<const RobotGeometry>(loadGeometry(*report_.robot, request_.geometry));
     report_.warnings = report_.geometry->warnings;
-    if (!request_.polyhedra.empty()) report_.polyhedra = comparePolyhedra(*report_.geometry, request_.polyhedra);
+    if (!request_.polyhedra.empty())
+      report_.polyhedra = comparePolyhedra(*report_.geometry, request_.polyhedra);
     if (request_.obstacles.empty()) return;
     const auto scene = std::make_shared<const RobotModel>(loadUrdf(request_.obstacles));
     GeometryOptions options = request_.geometry;

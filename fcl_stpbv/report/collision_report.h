@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "fcl_stpbv/report/published_polyhedra.h"
 #include "fcl_stpbv/robot/constraints.h"
 #include "fcl_stpbv/robot/pair_list.h"
-#include "fcl_stpbv/report/published_polyhedra.h"
 
 namespace fcl_stpbv::report {
 
@@ -50,9 +50,9 @@ struct CollisionReport {
   std::vector<Obstacle> obstacles;
   std::vector<std::string> warnings;
   std::vector<PolyhedronReport> polyhedra;  ///< one a body, or none where none were asked for
-  std::vector<PairReport> pairs;  ///< checked ones first, closest first
-  std::vector<PairEntry> list;    ///< what the search found
-  std::string pose;               ///< "" where each pair is in its own closest configuration
+  std::vector<PairReport> pairs;            ///< checked ones first, closest first
+  std::vector<PairEntry> list;              ///< what the search found
+  std::string pose;                         ///< "" where each pair is in its own closest configuration
   int checked = 0, colliding = 0;
   double minDistance = 0;               ///< of the checked pairs (m)
   double nsPerPair = 0, usPerTick = 0;  ///< of all checked pairs with their Jacobian, in small steps

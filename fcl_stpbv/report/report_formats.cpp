@@ -61,12 +61,12 @@ std::string polyhedra(const CollisionReport& report) {
   std::stable_sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) {
     return report.polyhedra[i].difference > report.polyhedra[j].difference;
   });
-  std::string text = format("\n%zu meshes have a published polyhedron\n%-44s %14s %11s %21s\n", order.size(), "link",
-                            "surfaces [um]", "vertices", "without a partner");
+  std::string text = format("\n%zu meshes have a published polyhedron\n%-44s %14s %11s %21s\n", order.size(),
+                            "link", "surfaces [um]", "vertices", "without a partner");
   for (const std::size_t i : order) {
     const PolyhedronReport& p = report.polyhedra[i];
-    text += format("%-44s %14.3f %5d, %4d %15d, %4d\n", report.geometry->bodies[i].name.c_str(), p.difference * 1e6,
-                   p.meshVertices, p.vertices, p.meshAlone, p.alone);
+    text += format("%-44s %14.3f %5d, %4d %15d, %4d\n", report.geometry->bodies[i].name.c_str(),
+                   p.difference * 1e6, p.meshVertices, p.vertices, p.meshAlone, p.alone);
   }
   return text + "two figures: the mesh's, the polyhedron's; surfaces: how far the two volumes are apart\n";
 }

@@ -1,14 +1,14 @@
 // The page's data; see report_formats.h and report_page.h.
+#include <fcl/geometry/shape/convex.h>
+
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include <fcl/geometry/shape/convex.h>
-
 #include "fcl_stpbv/adapter/stp_bv_geometry.h"
-#include "fcl_stpbv/volume/tessellate.h"
 #include "fcl_stpbv/report/report_formats.h"
 #include "fcl_stpbv/report/report_page.h"
+#include "fcl_stpbv/volume/tessellate.h"
 
 namespace fcl_stpbv::report {
 namespace {
@@ -26,7 +26,8 @@ double rounded(double value) { return std::round(value * 1e5) / 1e5; }
 std::vector<Eigen::Vector3d> pointsOf(const fcl::CollisionGeometryd& geometry) {
   const Eigen::Vector3d half = (geometry.aabb_local.max_ - geometry.aabb_local.min_) / 2;
   std::vector<Eigen::Vector3d> points;
-  if (geometry.getNodeType() == fcl::GEOM_CONVEX) return static_cast<const fcl::Convexd&>(geometry).getVertices();
+  if (geometry.getNodeType() == fcl::GEOM_CONVEX)
+    return static_cast<const fcl::Convexd&>(geometry).getVertices();
   const bool round = geometry.getNodeType() != fcl::GEOM_BOX;
   constexpr int kSides = 12;
   for (int i = 0; i < (round ? kSides : 4); ++i) {

@@ -76,9 +76,9 @@ class CollisionConstraints {
   void evaluate(const ConstVector& q, Vector d, Eigen::Ref<Eigen::MatrixXd> jacobian);
 
   /// Sum over the rows of weight times (Hessian of d) times v: the change of J as q moves along v. Closed
-  /// form where one body is an STP-BV (docs/robot.md), on a seam that of one side, for a mesh or a tree that of its
-  /// nearest triangle or cell; central differences of J for other pairs, smooth constraints and the few answers that
-  /// have no second derivative.
+  /// form where one body is an STP-BV (docs/robot.md), on a seam that of one side, for a mesh or a tree that
+  /// of its nearest triangle or cell; central differences of J for other pairs, smooth constraints and the
+  /// few answers that have no second derivative.
   void hessianVector(const ConstVector& q, const ConstVector& weights, const ConstVector& v, Vector out);
 
   /// What the last evaluation found for a pair; status `invalid` where its spheres were enough.

@@ -31,8 +31,8 @@ bool CollisionConstraints::rowChange(std::size_t row, double* change) {
   DistanceHessian second;
   const Eigen::Isometry3d &pose1 = pose_[at(r.a)], &pose2 = pose_[at(r.b)];
   const bool known = r.first ? hessian(*r.first, pose1, *r.second, pose2, found_[row], second)
-                             : hessian(*geometry_->bodies[at(r.a)].geometry, pose1, this->second(pairs_[row]), pose2,
-                                       answers_[row], second);
+                             : hessian(*geometry_->bodies[at(r.a)].geometry, pose1, this->second(pairs_[row]),
+                                       pose2, answers_[row], second);
   if (!known) return false;
   Eigen::Matrix<double, 12, 1> twists;
   const Twist none;

@@ -11,9 +11,9 @@
 
 #include "fcl_stpbv/adapter/hull_geometry.h"
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/io/text_scanner.h"
 #include "fcl_stpbv/robot/mesh_file.h"
 #include "fcl_stpbv/volume/reduce.h"
-#include "fcl_stpbv/io/text_scanner.h"
 
 namespace fcl_stpbv {
 namespace {

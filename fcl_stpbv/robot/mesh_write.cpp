@@ -11,8 +11,8 @@
 #include <string_view>
 
 #include "fcl_stpbv/error.h"
-#include "fcl_stpbv/robot/mesh_file.h"
 #include "fcl_stpbv/io/atomic_write.h"
+#include "fcl_stpbv/robot/mesh_file.h"
 
 namespace fcl_stpbv {
 namespace {

@@ -13,10 +13,10 @@
 #include <unordered_map>
 
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/io/text_scanner.h"
 #include "fcl_stpbv/robot/capsule_fit.h"
 #include "fcl_stpbv/robot/urdf_check.h"
 #include "fcl_stpbv/robot/xml_text.h"
-#include "fcl_stpbv/io/text_scanner.h"
 
 namespace fcl_stpbv {
 namespace {

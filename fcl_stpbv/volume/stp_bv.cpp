@@ -6,12 +6,12 @@
 #include <cstdio>
 #include <limits>
 
+#include "fcl_stpbv/vectorized.h"
 #include "fcl_stpbv/volume/minimum_ball.h"
 #include "fcl_stpbv/volume/point_tree.h"
 #include "fcl_stpbv/volume/regions.h"
 #include "fcl_stpbv/volume/rolling_ball.h"
 #include "fcl_stpbv/volume/verify.h"
-#include "fcl_stpbv/vectorized.h"
 
 namespace fcl_stpbv {
 namespace {

@@ -155,7 +155,8 @@ class StpBv {
     return vertex;
   }
 
-  /// The cell of a direction, not zero: the sphere as an octahedron, whose lower half is folded out to a square.
+  /// The cell of a direction, not zero: the sphere as an octahedron, whose lower half is folded out to a
+  /// square.
   std::size_t cell(const Eigen::Vector3d& n) const {
     const double half = 0.5 * cells_, scale = half / n.lpNorm<1>();
     const double x = n.x() * scale, y = n.y() * scale;

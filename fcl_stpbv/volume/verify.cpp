@@ -95,7 +95,8 @@ SeamGap seamGapOf(const StpBv& volume, double rounding) {
       const Vector3d w = arc.at(k / 8.0);
       compare(volume.edgePatch(e), edge.vertex[0], cosine * w - sine * arc.axis, rounding);
       compare(volume.edgePatch(e), edge.vertex[1], cosine * w + sine * arc.axis, rounding);
-      if (k > 0 && k < 8) compare(volume.edgePatch(e), volume.owner(w), w, rounding);  // the region holds its arc
+      if (k > 0 && k < 8)
+        compare(volume.edgePatch(e), volume.owner(w), w, rounding);  // the region holds its arc
     }
     if (edge.face[0] < 0) continue;
     for (const int face : edge.face) {

@@ -26,8 +26,8 @@ struct VertexStar {
     neighbour[slot] = to;
   }
 
-  /// How steeply the steepest edge rises along `d`, as the bits of a float with the edge's slot in place of the
-  /// three least ones: as integers they compare as positive floats do. No branches, four edges at once.
+  /// How steeply the steepest edge rises along `d`, as the bits of a float with the edge's slot in place of
+  /// the three least ones: as integers they compare as positive floats do. No branches, four edges at once.
   std::int32_t steepest(const Eigen::Vector3f& d, float lift = 0.0f) const {
     constexpr std::array<Integers, 2> slots{Integers{0, 1, 2, 3}, Integers{4, 5, 6, 7}};
     const auto rises = [&](std::size_t half) {

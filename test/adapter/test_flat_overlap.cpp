@@ -29,7 +29,8 @@ namespace {
 /// Separating axes in long double: the widest gap over face normals and cross products of edges.
 double boxGap(const Vector3d& sidesA, const Isometry3d& a, const Vector3d& sidesB, const Isometry3d& b) {
   using Vector3l = Eigen::Matrix<long double, 3, 1>;
-  const Eigen::Matrix<long double, 3, 3> u = a.linear().cast<long double>(), v = b.linear().cast<long double>();
+  const Eigen::Matrix<long double, 3, 3> u = a.linear().cast<long double>(),
+                                         v = b.linear().cast<long double>();
   const Vector3l t = b.translation().cast<long double>() - a.translation().cast<long double>();
   const Vector3l h = sidesA.cast<long double>() / 2, k = sidesB.cast<long double>() / 2;
   long double best = -1e30L;
@@ -50,7 +51,8 @@ double boxGap(const Vector3d& sidesA, const Isometry3d& a, const Vector3d& sides
 }
 
 /// The gap of two shapes along `n`, by support points of the placed bodies.
-double gapAlong(const Shape& a, const Isometry3d& poseA, const Shape& b, const Isometry3d& poseB, const Vector3d& n) {
+double gapAlong(const Shape& a, const Isometry3d& poseA, const Shape& b, const Isometry3d& poseB,
+                const Vector3d& n) {
   const Vector3d p = poseA * a.support(poseA.linear().transpose() * n);
   const Vector3d q = poseB * b.support(-(poseB.linear().transpose() * n));
   return n.dot(q - p) - a.margin - b.margin;
@@ -80,7 +82,8 @@ TEST_CASE("overlapping boxes: the widest gap over the separating axes") {
   for (int i = 0; i < 1000; ++i) {
     CAPTURE(i);
     const Isometry3d a = pose(random.rotation(), random.direction());
-    const Isometry3d b = pose(random.rotation(), a.translation() + random.uniform(0, 0.3) * random.direction());
+    const Isometry3d b =
+        pose(random.rotation(), a.translation() + random.uniform(0, 0.3) * random.direction());
     const double truth = boxGap(s, a, t, b);
     if (!(truth < 0)) continue;
     ++overlapping;
@@ -111,7 +114,8 @@ TEST_CASE("balls, capsules, half spaces and planes overlap by their closed forms
     const DistanceAnswer d = distance(box, a, ball, b);
     checkConsistent(d, distance(ball, b, box, a));
     CHECK(std::abs(d.distance + (half - x.cwiseAbs()).minCoeff() + 0.2) <= 1e-14);
-    const Isometry3d c = pose(random.rotation(), a.translation() + random.uniform(1e-3, 0.3) * random.direction());
+    const Isometry3d c =
+        pose(random.rotation(), a.translation() + random.uniform(1e-3, 0.3) * random.direction());
     const DistanceAnswer balls = distance(ball, a, small, c);
     checkConsistent(balls, distance(small, c, ball, a));
     CHECK(std::abs(balls.distance - ((c.translation() - a.translation()).norm() - 0.3)) <= 1e-14);
@@ -132,7 +136,9 @@ TEST_CASE("balls, capsules, half spaces and planes overlap by their closed forms
   }
 }
 
-TEST_CASE("every two bounded shapes: bounds that no direction breaks, the tolerance is met, also 1 km from the origin") {
+TEST_CASE(
+    "every two bounded shapes: bounds that no direction breaks, the tolerance is met, also 1 km from the "
+    "origin") {
   const std::vector<std::shared_ptr<fcl::CollisionGeometryd>> shapes{
       std::make_shared<fcl::Capsuled>(0.1, 0.4),
       std::make_shared<fcl::Boxd>(0.3, 0.2, 0.1),
@@ -141,7 +147,8 @@ TEST_CASE("every two bounded shapes: bounds that no direction breaks, the tolera
       std::make_shared<fcl::Ellipsoidd>(0.1, 0.2, 0.3),
       std::make_shared<fcl::Sphered>(0.2),
       hullGeometry(randomHull(30, {0.2, 0.15, 0.1}, 9)),
-      std::make_shared<fcl::TrianglePd>(Vector3d(0.2, 0, 0.01), Vector3d(-0.1, 0.2, 0), Vector3d(-0.1, -0.2, 0))};
+      std::make_shared<fcl::TrianglePd>(Vector3d(0.2, 0, 0.01), Vector3d(-0.1, 0.2, 0),
+                                        Vector3d(-0.1, -0.2, 0))};
   Random random(3);
   int loose = 0, overlapping = 0;
   for (const auto& first : shapes)
@@ -152,8 +159,9 @@ TEST_CASE("every two bounded shapes: bounds that no direction breaks, the tolera
         REQUIRE((shapeOf(*first, s) && shapeOf(*second, t)));
         const double far = i % 3 == 2 ? 1000 : 1;
         const Isometry3d a = pose(random.rotation(), far * random.direction());
-        const Isometry3d b = i == 0 ? pose(random.rotation(), a.translation())
-                                    : pose(random.rotation(), a.translation() + random.uniform(0, 0.1) * random.direction());
+        const Isometry3d b =
+            i == 0 ? pose(random.rotation(), a.translation())
+                   : pose(random.rotation(), a.translation() + random.uniform(0, 0.1) * random.direction());
         const DistanceAnswer d = distance(*first, a, *second, b);
         checkConsistent(d, distance(*second, b, *first, a), far);
         if (!(d.distance < 0)) continue;  // two triangles may miss each other
@@ -204,7 +212,8 @@ TEST_CASE("a ball in a cone, a cylinder or a spheroid is exact, on the axis, bes
   }
 }
 
-TEST_CASE("two bodies of revolution on parallel axes are exact, and proven to a hundred times the tilt of others") {
+TEST_CASE(
+    "two bodies of revolution on parallel axes are exact, and proven to a hundred times the tilt of others") {
   const std::vector<std::shared_ptr<fcl::CollisionGeometryd>> shapes{
       std::make_shared<fcl::Capsuled>(0.1, 0.6), std::make_shared<fcl::Cylinderd>(0.1, 0.6),
       std::make_shared<fcl::Coned>(0.2, 0.3), std::make_shared<fcl::Ellipsoidd>(0.1, 0.1, 0.3)};
@@ -218,11 +227,14 @@ TEST_CASE("two bodies of revolution on parallel axes are exact, and proven to a 
           Shape s, t;
           REQUIRE((shapeOf(*first, s) && shapeOf(*second, t)));
           const Isometry3d a = pose(random.rotation(), random.direction());
-          const Eigen::Matrix3d spin = Eigen::AngleAxisd(random.uniform(0, 6), Vector3d::UnitZ()).toRotationMatrix();
-          const Isometry3d b = a * pose(spin * random.rotation(tilt), spin * Vector3d(off, 0, random.uniform(-0.1, 0.1)));
+          const Eigen::Matrix3d spin =
+              Eigen::AngleAxisd(random.uniform(0, 6), Vector3d::UnitZ()).toRotationMatrix();
+          const Isometry3d b =
+              a * pose(spin * random.rotation(tilt), spin * Vector3d(off, 0, random.uniform(-0.1, 0.1)));
           const DistanceAnswer d = distance(*first, a, *second, b);
           checkConsistent(d, distance(*second, b, *first, a));
-          if (s.kind == ShapeKind::segment && t.kind == ShapeKind::segment) continue;  // cores without a volume
+          if (s.kind == ShapeKind::segment && t.kind == ShapeKind::segment)
+            continue;  // cores without a volume
           if (tilt == 0) CHECK(d.status == DistanceStatus::exact);
           CHECK(d.upper - d.lower <= 2e-15 + 2 * tilt);
           CHECK(std::abs(gapAlong(s, a, t, b, d.normal) - d.distance) <= 2e-15);
@@ -267,7 +279,8 @@ TEST_CASE("identical, pointlike and barely overlapping boxes") {
   const fcl::Sphered ball(0.1);
   CHECK(distance(ball, here, ball, here).distance == -0.2);
   CHECK(distance(fcl::Boxd(0, 0, 0), here, box, here).distance == Approx(-0.1).margin(1e-15));
-  const DistanceAnswer d = distance(box, here, box, pose(Eigen::Matrix3d::Identity(), {0.2 - 1e-9, 0.01, 0.02}));
+  const DistanceAnswer d =
+      distance(box, here, box, pose(Eigen::Matrix3d::Identity(), {0.2 - 1e-9, 0.01, 0.02}));
   CHECK(std::abs(d.distance + 1e-9) <= 1e-15);
   CHECK((d.normal - Vector3d::UnitX()).norm() <= 1e-9);
 }
@@ -280,7 +293,8 @@ TEST_CASE("overlapping hulls: the widest gap over all normals that three vertice
     const auto p = randomHull(count, {0.2, 0.15, 0.1}, static_cast<unsigned>(2 * i + 1));
     const auto q = randomHull(count, {0.1, 0.2, 0.15}, static_cast<unsigned>(2 * i + 2));
     const Isometry3d a = pose(random.rotation(), random.direction());
-    const Isometry3d b = pose(random.rotation(), a.translation() + random.uniform(0, 0.1) * random.direction());
+    const Isometry3d b =
+        pose(random.rotation(), a.translation() + random.uniform(0, 0.1) * random.direction());
     std::vector<Vector3d> x, y, sidesX, sidesY;
     for (const Vector3d& v : p) x.push_back(a * v - a.translation());
     for (const Vector3d& v : q) y.push_back(b * v - a.translation());
@@ -297,8 +311,7 @@ TEST_CASE("overlapping hulls: the widest gap over all normals that three vertice
       for (std::size_t j = 0; j < points->size(); ++j)
         for (std::size_t k = 0; k < j; ++k) {
           sides->push_back((*points)[j] - (*points)[k]);
-          for (std::size_t l = 0; l < k; ++l)
-            test(sides->back().cross((*points)[l] - (*points)[k]));
+          for (std::size_t l = 0; l < k; ++l) test(sides->back().cross((*points)[l] - (*points)[k]));
         }
     for (const Vector3d& e : sidesX)
       for (const Vector3d& f : sidesY) test(e.cross(f));

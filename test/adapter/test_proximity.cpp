@@ -54,7 +54,9 @@ Kind mesh(const char* name) {
   for (int t = 0; t < model->num_tris; ++t) {
     const fcl::Triangle& i = model->tri_indices[t];
     kind.parts.push_back(
-        {nullptr, Shape::triangleOf(model->vertices[i[0]], model->vertices[i[1]], model->vertices[i[2]]), {0, 0, 0}});
+        {nullptr,
+         Shape::triangleOf(model->vertices[i[0]], model->vertices[i[1]], model->vertices[i[2]]),
+         {0, 0, 0}});
   }
   return kind;
 }
@@ -76,7 +78,8 @@ std::vector<Kind> everyKind() {
   shape("cylinder", std::make_shared<fcl::Cylinderd>(0.1, 0.3));
   shape("cone", std::make_shared<fcl::Coned>(0.1, 0.3));
   shape("convex", hullGeometry(randomHull(40, {0.1, 0.2, 0.15}, 5)));
-  shape("triangle", std::make_shared<fcl::TrianglePd>(Vector3d(0.2, 0, 0), Vector3d(-0.1, 0.2, 0), Vector3d(0, -0.2, 0.1)));
+  shape("triangle", std::make_shared<fcl::TrianglePd>(Vector3d(0.2, 0, 0), Vector3d(-0.1, 0.2, 0),
+                                                      Vector3d(0, -0.2, 0.1)));
   shape("half space", std::make_shared<fcl::Halfspaced>(Vector3d(0, 0, 1), 0.1));
   shape("plane", std::make_shared<fcl::Planed>(Vector3d(0, 0, 1), 0.1));
   all.push_back(mesh<fcl::OBBRSSd>("mesh of OBBRSS"));
@@ -128,7 +131,8 @@ Distance leastBetween(const Kind& first, const Isometry3d& a, const Kind& second
 
 }  // namespace
 
-TEST_CASE("farther than a little less than the distance, not farther than a little more, for every two kinds") {
+TEST_CASE(
+    "farther than a little less than the distance, not farther than a little more, for every two kinds") {
   const auto kinds = everyKind();
   Random random(1);
   int apart = 0, overlapping = 0, unknown = 0;
@@ -138,8 +142,11 @@ TEST_CASE("farther than a little less than the distance, not farther than a litt
         CAPTURE(first.name, second.name, i);
         const double far = i == 3 ? 1000 : 1;  // m from the world's origin
         const Isometry3d a = pose(random.rotation(), far * random.direction());
-        const Isometry3d b = pose(random.rotation(), a.translation() + random.uniform(0.2, 0.9) * random.direction());
-        const auto farther = [&](double x) { return isFartherThan(x, *first.geometry, a, *second.geometry, b); };
+        const Isometry3d b =
+            pose(random.rotation(), a.translation() + random.uniform(0.2, 0.9) * random.direction());
+        const auto farther = [&](double x) {
+          return isFartherThan(x, *first.geometry, a, *second.geometry, b);
+        };
         const Distance d = leastBetween(first, a, second, b);
         if (d.status == DistanceStatus::invalid) {  // two planes
           ++unknown;
@@ -148,7 +155,8 @@ TEST_CASE("farther than a little less than the distance, not farther than a litt
         }
         ++(d.lower > 0 ? apart : overlapping);
         CAPTURE(d.lower, d.upper);
-        // A depth of round bodies is good to 1e-6 of it: an ulp in a cell's place may move its bounds by that.
+        // A depth of round bodies is good to 1e-6 of it: an ulp in a cell's place may move its bounds by
+        // that.
         const double slack = 1e-12 * far + (d.lower < 0 ? 1e-6 * -d.lower : 0);
         CHECK(farther(d.lower - slack));
         CHECK_FALSE(farther(d.upper + slack));
@@ -159,7 +167,9 @@ TEST_CASE("farther than a little less than the distance, not farther than a litt
   CHECK(unknown == 16);
 }
 
-TEST_CASE("what is asked for a threshold: one bound far away, few elements near it, and none beyond the first within") {
+TEST_CASE(
+    "what is asked for a threshold: one bound far away, few elements near it, and none beyond the first "
+    "within") {
   const auto kinds = everyKind();
   Random random(2);
   long pairs = 0, solvedBelow = 0, solvedAbove = 0, asked = 0;
@@ -218,7 +228,8 @@ TEST_CASE("the remembered normal's planes answer the next question alone") {
   }
 }
 
-TEST_CASE("a pose that is none, or a geometry without anything in it, is not certainly farther than anything") {
+TEST_CASE(
+    "a pose that is none, or a geometry without anything in it, is not certainly farther than anything") {
   const auto kinds = everyKind();
   Isometry3d broken = Isometry3d::Identity(), scaled = Isometry3d::Identity();
   broken.translation().x() = std::nan("");

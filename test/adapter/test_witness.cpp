@@ -2,8 +2,8 @@
 #include <cmath>
 
 #include "fcl_stpbv/adapter/polyhedral_witness.h"
-#include "test/reference/hard_cases.h"
 #include "test/adapter/mirrored_pairs.h"
+#include "test/reference/hard_cases.h"
 #include "test/reference/shapes.h"
 
 using namespace fcl_stpbv;

@@ -47,7 +47,8 @@ std::vector<int> DerivativePair::signature(const Poses& at, const Distance& d) c
   const auto side = [&](double x) { names.push_back(x > kLevel ? 1 : x < -kLevel ? -1 : 0); };
   if (s.kind == ShapeKind::segment || s.kind == ShapeKind::cylinder || s.kind == ShapeKind::cone) side(m.z());
   if (s.kind == ShapeKind::cylinder || s.kind == ShapeKind::cone) side(across);
-  if (s.kind == ShapeKind::cone) side((2 * s.half * m.z() - s.radius * across) / std::hypot(2 * s.half, s.radius));
+  if (s.kind == ShapeKind::cone)
+    side((2 * s.half * m.z() - s.radius * across) / std::hypot(2 * s.half, s.radius));
   if (s.unbounded()) side(s.normal.dot(m));
   return names;
 }

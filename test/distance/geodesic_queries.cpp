@@ -5,8 +5,8 @@
 #include <string>
 
 #include "fcl_stpbv/distance/distance.h"
-#include "test/reference/shapes.h"
 #include "test/reference/motion.h"
+#include "test/reference/shapes.h"
 
 using namespace fcl_stpbv;
 

@@ -1,8 +1,8 @@
 // shape_soak POSES SEED [SHAPE]: random poses of an STP-BV against each simple shape, all against the
 // independent reference, in both orders, with gradient and Hessian against differences and the turn of the
 // normal against its Lipschitz bound. Prints one line a shape and fails on any error above 1e-12 m (1e-9 for
-// cone and ellipsoid), any difference between the orders, witness points that do not face each other, and any bound
-// exceeded.
+// cone and ellipsoid), any difference between the orders, witness points that do not face each other, and any
+// bound exceeded.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -82,11 +82,12 @@ struct Derivatives {
   double turn = 0;      ///< turn of the normal under a translation (docs/theory.md, 6)
 };
 
-/// Along a random twist of the shape over +-h. The second derivative jumps at seams: so a central difference of the
-/// distance may be off by half a step times what the three Hessians there differ, and one of the gradient lies
-/// between them. False where something that the Hessians do not show, a feature smaller than the step, spoils it.
-bool differences(const Body& body, const Shape& shape, const Isometry3d& base, const Isometry3d& at, const Distance& d,
-                 const Eigen::Matrix<double, 6, 1>& twist, double h, Derivatives& parts) {
+/// Along a random twist of the shape over +-h. The second derivative jumps at seams: so a central difference
+/// of the distance may be off by half a step times what the three Hessians there differ, and one of the
+/// gradient lies between them. False where something that the Hessians do not show, a feature smaller than
+/// the step, spoils it.
+bool differences(const Body& body, const Shape& shape, const Isometry3d& base, const Isometry3d& at,
+                 const Distance& d, const Eigen::Matrix<double, 6, 1>& twist, double h, Derivatives& parts) {
   const double core = d.distance + body.r + shape.margin;
   const auto rates = [&](const Isometry3d& there, const Distance& e, double& speed, double& second) {
     DistanceHessian hessian;
@@ -108,7 +109,8 @@ bool differences(const Body& body, const Shape& shape, const Isometry3d& base, c
     value[k] = e.distance;
     if (!rates(there, e, speed[k], second[k])) return true;
   }
-  const double low = std::min({second[0], second[1], second[2]}), high = std::max({second[0], second[1], second[2]});
+  const double low = std::min({second[0], second[1], second[2]}),
+               high = std::max({second[0], second[1], second[2]});
   const double error = std::abs((value[2] - value[0]) / (2 * h) - speed[1]);
   const double rounding = 8 * 2.2e-16 * (4 + at.translation().norm()) / h;
   Derivatives here;
@@ -116,7 +118,8 @@ bool differences(const Body& body, const Shape& shape, const Isometry3d& base, c
   if (0.5 * h * (high - low) < rounding) here.smooth = error;
   const double between = (speed[2] - speed[0]) / (2 * h);
   // The core's point moves rho an ulp of the normal, the normal that over the cores' distance.
-  const double rounded = 16 * 2.2e-16 * (body.volume->radii().rho + 4) * (1 + (shape.unbounded() ? 0 : 1 / core)) / h;
+  const double rounded =
+      16 * 2.2e-16 * (body.volume->radii().rho + 4) * (1 + (shape.unbounded() ? 0 : 1 / core)) / h;
   here.second = std::max({0.0, between - high, low - between}) / (0.1 * (high - low) + rounded);
   parts.smooth = here.smooth;
   parts.gradient = here.gradient;
@@ -161,8 +164,10 @@ int main(int argc, char** argv) {
   bool good = true;
   std::vector<std::string> names = boundedShapes();
   names.insert(names.end(), {"halfspace", "plane"});
-  std::printf("| shape | exact | bounded | overlap | missed | swapped | error (m) | deep (m) | askew | gradient | of allowed | "
-              "second | turn | ns a query |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
+  std::printf(
+      "| shape | exact | bounded | overlap | missed | swapped | error (m) | deep (m) | askew | gradient | of "
+      "allowed | "
+      "second | turn | ns a query |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
   for (const std::string& name : names) {
     if (!only.empty() && only != name) continue;
     Random random(static_cast<std::uint64_t>(seed));
@@ -186,8 +191,8 @@ int main(int argc, char** argv) {
         if (d.status == DistanceStatus::exact && d.distance + body.r + shape.shape.margin > 1e-13) {
           ++missed;
         }
-        // Nothing but directions is left to ask: none may be wider than the bound, or than the answer by more than
-        // its search leaves, and along its own normal the answer is what the supports say.
+        // Nothing but directions is left to ask: none may be wider than the bound, or than the answer by more
+        // than its search leaves, and along its own normal the answer is what the supports say.
         const ReferenceBody a = referenceBody(body.cloud, body.r, body.R, base);
         const ReferenceShape b = shape.posed(at);
         const auto widest = static_cast<double>(widestGapOverDirections(a, b, 500));
@@ -197,8 +202,9 @@ int main(int argc, char** argv) {
         if (widest - d.distance > 1e-6 * (1e-3 - widest) || widest - d.upper > 1e-12 ||
             std::abs(along - d.distance) > 1e-12) {
           ++missed;
-          std::printf("  %s %d: deep, body %d distance %.17g upper %.17g widest %.17g along %.17g\n", name.c_str(), i,
-                      static_cast<int>(&body - all.data()), d.distance, d.upper, widest, along);
+          std::printf("  %s %d: deep, body %d distance %.17g upper %.17g widest %.17g along %.17g\n",
+                      name.c_str(), i, static_cast<int>(&body - all.data()), d.distance, d.upper, widest,
+                      along);
         }
         continue;
       }
@@ -227,9 +233,9 @@ int main(int argc, char** argv) {
       askew = std::max(askew, off / (16 * 2.2e-16 * (body.volume->radii().rho + 4)));
       worst = std::max(worst, error);
     }
-    std::printf("| %s | %d | %d | %d | %d | %d | %.1e | %.1e | %.2f | %.1e | %.2f | %.3f | %.3f | %.0f |\n", name.c_str(), exact,
-                bounded, overlap, missed, swapped, worst, deep, askew, most.smooth, most.gradient, most.second, most.turn,
-                time / poses);
+    std::printf("| %s | %d | %d | %d | %d | %d | %.1e | %.1e | %.2f | %.1e | %.2f | %.3f | %.3f | %.0f |\n",
+                name.c_str(), exact, bounded, overlap, missed, swapped, worst, deep, askew, most.smooth,
+                most.gradient, most.second, most.turn, time / poses);
     std::fflush(stdout);
     const double allowed = name == "cone" || name == "ellipsoid" ? 1e-9 : 1e-12;
     good = good && missed == 0 && bounded == 0 && worst <= allowed && swapped == 0 && askew <= 1 &&

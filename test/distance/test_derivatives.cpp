@@ -23,11 +23,10 @@ std::vector<std::string> others() {
 }
 
 const std::vector<StpBv::Ptr>& volumes() {
-  static const std::vector<StpBv::Ptr> all{StpBv::build(randomHull(20, {0.2, 0.15, 0.1}, 3), {0.01, 2}),
-                                           StpBv::build(box(0.3, 0.2, 0.1), {0.02, 10}),
-                                           StpBv::build(cylinder(0.1, 0.4, 12), {0.01, 1}),
-                                           StpBv::build({{0, 0, -0.1}, {0, 0, 0.2}}, {0.02, 0.5}),
-                                           StpBv::build({{0.1, 0, 0}}, {0.05, 1})};
+  static const std::vector<StpBv::Ptr> all{
+      StpBv::build(randomHull(20, {0.2, 0.15, 0.1}, 3), {0.01, 2}),
+      StpBv::build(box(0.3, 0.2, 0.1), {0.02, 10}), StpBv::build(cylinder(0.1, 0.4, 12), {0.01, 1}),
+      StpBv::build({{0, 0, -0.1}, {0, 0, 0.2}}, {0.02, 0.5}), StpBv::build({{0.1, 0, 0}}, {0.05, 1})};
   return all;
 }
 
@@ -84,7 +83,8 @@ Rates ratesOf(const Distance& d, const DistanceHessian& h, const Poses& at, cons
 
 }  // namespace
 
-TEST_CASE("away from seams gradient, Hessian and the velocities of normal and points are central differences") {
+TEST_CASE(
+    "away from seams gradient, Hessian and the velocities of normal and points are central differences") {
   Random random(17);
   for (const std::string& name : others()) {
     int compared = 0;
@@ -131,7 +131,8 @@ TEST_CASE("away from seams gradient, Hessian and the velocities of normal and po
       CHECK((normal - rates.normal).norm() <= 4 * rounding.point + 1e-10 * scale * lever);
       for (int p = 0; p < 2; ++p) {
         const Vector3d point = central([&](int k) { return side[k].point[static_cast<std::size_t>(p)]; });
-        CHECK((point - rates.point[p]).norm() <= 4 * rounding.point * (1 + pair.rho()) + 1e-10 * scale * lever);
+        CHECK((point - rates.point[p]).norm() <=
+              4 * rounding.point * (1 + pair.rho()) + 1e-10 * scale * lever);
       }
       ++compared;
     }
@@ -176,7 +177,8 @@ TEST_CASE("at a seam the gradient is continuous and each side has its own one-si
       const double core = over.distance + pair.margins();
       const Rounding exact(pair, over, 1);
       CHECK(std::abs(under.distance - over.distance) <= exact.distance + 4 * (high - low));
-      CHECK((gradientOf(under, below) - gradientOf(over, above)).norm() <= 8 * exact.point + 10 * (high - low) / core);
+      CHECK((gradientOf(under, below) - gradientOf(over, above)).norm() <=
+            8 * exact.point + 10 * (high - low) / core);
 
       double second[2];
       bool whole = true;
@@ -200,7 +202,8 @@ TEST_CASE("at a seam the gradient is continuous and each side has its own one-si
         }
         if (!whole) break;
         const auto sided = [&](const auto& value) {
-          return (sign * (-25 * value(0) + 48 * value(1) - 36 * value(2) + 16 * value(3) - 3 * value(4)) / (12 * step))
+          return (sign * (-25 * value(0) + 48 * value(1) - 36 * value(2) + 16 * value(3) - 3 * value(4)) /
+                  (12 * step))
               .eval();
         };
         using Number = Eigen::Matrix<double, 1, 1>;

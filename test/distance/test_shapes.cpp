@@ -22,7 +22,8 @@ std::vector<std::string> allShapes() {
 }  // namespace
 
 TEST_CASE("along fine paths the normal never turns faster than theory allows, for every pair of shapes") {
-  // docs/theory.md, 6: a translation eps turns n by at most eps / (delta + r1 + r2), and a flat body has r = 0.
+  // docs/theory.md, 6: a translation eps turns n by at most eps / (delta + r1 + r2), and a flat body has r =
+  // 0.
   const std::vector<StpBv::Ptr> volumes{
       StpBv::build(box(0.3, 0.2, 0.1), {0.01, 10}), StpBv::build(geodesicSphere(0.2, 1), {0.01, 1}),
       StpBv::build(plate(0.3, 0.2), {0.005, 10}), StpBv::build(cylinder(0.1, 0.4, 16), {0.02, 100}),
@@ -38,8 +39,9 @@ TEST_CASE("along fine paths the normal never turns faster than theory allows, fo
       const Eigen::Matrix3d turn =
           path % 3 == 0 ? Eigen::Matrix3d(random.rotation(random.below(2) ? 0 : 1e-6)) : random.rotation();
       Vector3d way = random.direction();
-      Isometry3d at = pose(turn, path % 3 == 0 ? Vector3d(random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1), 2)
-                                               : Vector3d(2 * random.direction()));
+      Isometry3d at =
+          pose(turn, path % 3 == 0 ? Vector3d(random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1), 2)
+                                   : Vector3d(2 * random.direction()));
       const double gap = path % 2 ? random.uniform(-0.8, 0) * margins : random.uniform(1e-4, 0.05);
       const auto ask = [&] { return distance(volume, Isometry3d::Identity(), shape.shape, at); };
       Distance last = ask();
@@ -119,7 +121,8 @@ TEST_CASE("the two orders of a pair are one answer, mirrored") {
 
 TEST_CASE("deep in each other: bounds on both sides of the widest gap that a dense search finds") {
   // The spindle's differences with segments and triangles are nearly flat.
-  const std::vector<std::pair<Cloud, double>> bodies{{box(0.3, 0.2, 0.1), 10}, {{{0, 0, 0}, {0.3, 0, 0}}, 0.5}};
+  const std::vector<std::pair<Cloud, double>> bodies{{box(0.3, 0.2, 0.1), 10},
+                                                     {{{0, 0, 0}, {0.3, 0, 0}}, 0.5}};
   Random random(13);
   int deep = 0;
   for (const std::string& name : boundedShapes())

@@ -7,12 +7,12 @@
 #include <stdexcept>
 
 #include "fcl_stpbv/distance/distance.h"
-#include "fcl_stpbv/robot/mesh_file.h"
-#include "fcl_stpbv/robot/robot_model.h"
-#include "fcl_stpbv/robot/srdf.h"
 #include "fcl_stpbv/io/qhull_file.h"
 #include "fcl_stpbv/io/sch_file.h"
 #include "fcl_stpbv/io/stpbv_file.h"
+#include "fcl_stpbv/robot/mesh_file.h"
+#include "fcl_stpbv/robot/robot_model.h"
+#include "fcl_stpbv/robot/srdf.h"
 #include "test/fuzz/clouds.h"
 #include "test/robot/urdf_texts.h"
 

@@ -1,6 +1,4 @@
 // A file is written whole or not at all.
-#include "fcl_stpbv/io/atomic_write.h"
-
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
@@ -11,6 +9,7 @@
 #include <filesystem>
 
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/io/atomic_write.h"
 #include "test/reference/shapes.h"
 #include "test/reference/volume_files.h"
 

@@ -1,9 +1,8 @@
 // Clouds of points in qhull's formats.
-#include "fcl_stpbv/io/qhull_file.h"
-
 #include <catch2/catch.hpp>
 #include <filesystem>
 
+#include "fcl_stpbv/io/qhull_file.h"
 #include "fcl_stpbv/volume/stp_bv.h"
 #include "test/reference/volume_files.h"
 

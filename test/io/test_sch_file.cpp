@@ -1,13 +1,12 @@
 // sch-core's format: what we write means the same to its reader, what others wrote loads, damaged files are
 // refused.
-#include "fcl_stpbv/io/sch_file.h"
-
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
 #include <sstream>
 
 #include "fcl_stpbv/io/sch_data.h"
+#include "fcl_stpbv/io/sch_file.h"
 #include "fcl_stpbv/io/stpbv_file.h"
 #include "fcl_stpbv/volume/verify.h"
 #include "test/reference/shapes.h"

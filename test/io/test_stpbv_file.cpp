@@ -1,10 +1,9 @@
 // The library's own format: exact, deterministic, and damaged files are refused.
-#include "fcl_stpbv/io/stpbv_file.h"
-
 #include <catch2/catch.hpp>
 #include <locale>
 #include <sstream>
 
+#include "fcl_stpbv/io/stpbv_file.h"
 #include "fcl_stpbv/volume/verify.h"
 #include "test/reference/shapes.h"
 #include "test/reference/volume_files.h"

@@ -4,8 +4,8 @@
 #include "fcl_stpbv/posture/find_posture.h"
 #include "fcl_stpbv/robot/constraints.h"
 #include "fcl_stpbv/robot/pair_list.h"
-#include "test/reference/mesh_check.h"
 #include "test/posture/scenes.h"
+#include "test/reference/mesh_check.h"
 
 using namespace fcl_stpbv;
 using namespace fcl_stpbv::test;

@@ -5,9 +5,9 @@
 #include <catch2/catch.hpp>
 
 #include "fcl_stpbv/robot/constraints.h"
+#include "test/reference/shapes.h"
 #include "test/robot/robots.h"
 #include "test/robot/urdf_texts.h"
-#include "test/reference/shapes.h"
 
 using namespace fcl_stpbv;
 using namespace fcl_stpbv::test;

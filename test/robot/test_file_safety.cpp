@@ -13,9 +13,9 @@
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/robot/mesh_file.h"
 #include "fcl_stpbv/robot/robot_model.h"
-#include "test/robot/urdf_texts.h"
 #include "test/reference/shapes.h"
 #include "test/reference/volume_files.h"
+#include "test/robot/urdf_texts.h"
 
 using namespace fcl_stpbv;
 using namespace fcl_stpbv::test;

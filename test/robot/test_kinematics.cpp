@@ -2,9 +2,9 @@
 #include <catch2/catch.hpp>
 
 #include "fcl_stpbv/robot/kinematics.h"
+#include "test/reference/shapes.h"
 #include "test/robot/robots.h"
 #include "test/robot/urdf_texts.h"
-#include "test/reference/shapes.h"
 
 using namespace fcl_stpbv;
 using namespace fcl_stpbv::test;

@@ -3,13 +3,13 @@
 #include <filesystem>
 
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/io/stpbv_file.h"
 #include "fcl_stpbv/robot/constraints.h"
 #include "fcl_stpbv/robot/mesh_file.h"
-#include "fcl_stpbv/io/stpbv_file.h"
 #include "fcl_stpbv/volume/verify.h"
+#include "test/reference/volume_files.h"
 #include "test/robot/robots.h"
 #include "test/robot/urdf_texts.h"
-#include "test/reference/volume_files.h"
 
 using namespace fcl_stpbv;
 using namespace fcl_stpbv::test;

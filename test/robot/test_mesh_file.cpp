@@ -1,6 +1,4 @@
 // Meshes in and out: every format gives the same points, broken files are refused by name.
-#include "fcl_stpbv/robot/mesh_file.h"
-
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <filesystem>
@@ -9,6 +7,7 @@
 
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/io/qhull_file.h"
+#include "fcl_stpbv/robot/mesh_file.h"
 #include "fcl_stpbv/volume/stp_bv.h"
 #include "test/reference/shapes.h"
 #include "test/reference/volume_files.h"

@@ -6,10 +6,10 @@
 
 #include "fcl_stpbv/robot/pair_list.h"
 #include "fcl_stpbv/robot/pair_search.h"
-#include "test/robot/robots.h"
-#include "test/robot/urdf_texts.h"
 #include "test/reference/shapes.h"
 #include "test/reference/volume_files.h"
+#include "test/robot/robots.h"
+#include "test/robot/urdf_texts.h"
 
 using namespace fcl_stpbv;
 using namespace fcl_stpbv::test;

@@ -5,8 +5,8 @@
 #include "fcl_stpbv/robot/package_path.h"
 #include "fcl_stpbv/robot/robot_model.h"
 #include "fcl_stpbv/robot/srdf.h"
-#include "test/robot/urdf_texts.h"
 #include "test/reference/volume_files.h"
+#include "test/robot/urdf_texts.h"
 
 using namespace fcl_stpbv;
 using namespace fcl_stpbv::test;

@@ -6,8 +6,8 @@
 
 #include "fcl_stpbv/volume/stp_bv.h"
 #include "fcl_stpbv/volume/verify.h"
-#include "test/reference/shapes.h"
 #include "test/reference/brute_support.h"
+#include "test/reference/shapes.h"
 
 using namespace fcl_stpbv;
 using namespace fcl_stpbv::test;
@@ -87,8 +87,8 @@ TEST_CASE("The support function equals the definition by all pairs and triples o
 }
 
 TEST_CASE("An edge that turns by a little more than half a turn owns all its normals") {
-  // Flat obtuse triangles: the longest side turns by half a turn and more, the less so the larger R. Around the plate's
-  // normals that side is what is highest.
+  // Flat obtuse triangles: the longest side turns by half a turn and more, the less so the larger R. Around
+  // the plate's normals that side is what is highest.
   for (const double apex : {0.03, 0.05, 0.08, 0.095, 0.0999})
     for (const double R : {1.0, 10.0, 100.0, 1e4, 1e6}) {
       INFO("apex " << apex << ", R = " << R);

@@ -26,7 +26,8 @@ void row(const char* name, const Cloud& points, double R = 10) {
   std::sort(seconds.begin(), seconds.end());
   const double vertices = volume->vertexCount(), median = seconds[2];
   std::printf("| %s | %zu | %.0f | %.3f | %.2f | %.0f |\n", name, points.size(), vertices, median,
-              1e6 * median / (vertices * std::log2(vertices + 1)), static_cast<double>(volume->memory()) / vertices);
+              1e6 * median / (vertices * std::log2(vertices + 1)),
+              static_cast<double>(volume->memory()) / vertices);
   std::fflush(stdout);
 }
 
@@ -40,8 +41,11 @@ Cloud onSphere(int count) {
 }  // namespace
 
 int main() {
-  std::printf("| cloud | points | vertices | seconds, median of 5 | us / (V log2 V) | bytes a vertex |\n|---|---|---|---|---|---|\n");
-  for (int subdivisions = 1; subdivisions <= 5; ++subdivisions) row("geodesic sphere", geodesicSphere(0.2, subdivisions));
+  std::printf(
+      "| cloud | points | vertices | seconds, median of 5 | us / (V log2 V) | bytes a vertex "
+      "|\n|---|---|---|---|---|---|\n");
+  for (int subdivisions = 1; subdivisions <= 5; ++subdivisions)
+    row("geodesic sphere", geodesicSphere(0.2, subdivisions));
   for (const int count : {100, 1000, 10000, 100000}) row("random on a sphere", onSphere(count));
   for (const double over : {1e-2, 1e-9}) {
     const Cloud points = onSphere(10000);

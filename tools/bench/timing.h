@@ -5,8 +5,8 @@
 #include <functional>
 #include <vector>
 
-#include "tools/bench/method.h"
 #include "test/reference/motion.h"
+#include "tools/bench/method.h"
 
 namespace fcl_stpbv::benchmark {
 
