@@ -16,6 +16,7 @@
 #include "test/adapter/mirrored_pairs.h"
 #include "test/reference/hard_cases.h"
 #include "test/reference/shapes.h"
+#include "test/reference/source_folder.h"
 
 using namespace fcl_stpbv;
 using namespace fcl_stpbv::test;
@@ -45,7 +46,7 @@ fcl::DistanceResultd dirtyResult() {
 
 TEST_CASE("sharp polyhedra's known distances come out within the over-cover, with a closed certificate") {
   std::vector<HardCase> cases = equalNormCases();
-  for (const HardCase& c : fieldCases(FCL_STPBV_SOURCE_DIR "/data/hard_cases/fcl_field_cases.txt"))
+  for (const HardCase& c : fieldCases(test::sourceFolder() + "/data/hard_cases/fcl_field_cases.txt"))
     cases.push_back(c);
   for (const HardCase& c : cases)
     for (const StpBvOptions options : {StpBvOptions{0.0, 1000.0}, StpBvOptions{1e-3, 200.0}}) {

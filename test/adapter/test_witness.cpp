@@ -5,6 +5,7 @@
 #include "test/adapter/mirrored_pairs.h"
 #include "test/reference/hard_cases.h"
 #include "test/reference/shapes.h"
+#include "test/reference/source_folder.h"
 
 using namespace fcl_stpbv;
 using namespace fcl_stpbv::test;
@@ -40,7 +41,8 @@ TEST_CASE("the polyhedral witness is right where FCL stops on equal norms") {
 }
 
 TEST_CASE("the polyhedral witness calls the field cases overlapping or touching") {
-  const std::vector<HardCase> cases = fieldCases(FCL_STPBV_SOURCE_DIR "/data/hard_cases/fcl_field_cases.txt");
+  const std::vector<HardCase> cases =
+      fieldCases(test::sourceFolder() + "/data/hard_cases/fcl_field_cases.txt");
   REQUIRE(cases.size() == 8);
   for (const HardCase& c : cases) {
     CAPTURE(c.name);

@@ -1,10 +1,12 @@
 // See scenes.h.
 #include "test/posture/scenes.h"
 
+#include "test/reference/source_folder.h"
+
 namespace fcl_stpbv::test {
 namespace {
 
-const std::string kData = FCL_STPBV_SOURCE_DIR "/data/";
+const std::string kData = test::sourceFolder() + "/data/";
 
 }  // namespace
 

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "fcl_stpbv/posture/task.h"
-#include "test/robot/robots.h"
+#include "test/reference/robots.h"
 
 namespace fcl_stpbv::test {
 

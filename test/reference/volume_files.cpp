@@ -8,6 +8,7 @@
 #include <iterator>
 
 #include "test/reference/shapes.h"
+#include "test/reference/source_folder.h"
 
 namespace fcl_stpbv::test {
 namespace fs = std::filesystem;
@@ -36,7 +37,7 @@ std::vector<NamedVolume> volumesOfEveryKind() {
 }
 
 std::string sharedFolder(const std::string& name) {
-  const fs::path folder = fs::path(FCL_STPBV_SOURCE_DIR).parent_path() / "shared" / name;
+  const fs::path folder = fs::path(sourceFolder()).parent_path() / "shared" / name;
   return fs::is_directory(folder) ? folder.string() : "";
 }
 

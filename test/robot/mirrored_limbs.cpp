@@ -12,6 +12,7 @@
 #include "fcl_stpbv/adapter/polyhedral_witness.h"
 #include "fcl_stpbv/robot/mesh_file.h"
 #include "test/reference/reference.h"
+#include "test/reference/source_folder.h"
 
 using namespace fcl_stpbv;
 using namespace fcl_stpbv::test;
@@ -30,7 +31,7 @@ int main(int argc, char** argv) {
   std::vector<Limb> limbs;
   for (const char* link : {"LLEG_LINK2.stl", "LLEG_LINK3.dae", "LLEG_LINK5.obj", "LARM_LINK2.stl",
                            "LARM_LINK4.stl", "LARM_LINK6.stl"}) {
-    const std::string file = std::string(FCL_STPBV_SOURCE_DIR) + "/data/hrp2_style/meshes/" + link;
+    const std::string file = test::sourceFolder() + "/data/hrp2_style/meshes/" + link;
     Limb limb{StpBv::build(loadPoints(file)), StpBv::build(loadPoints(file, mirror)), nullptr, nullptr};
     limb.leftGeometry = std::make_shared<StpBvGeometry>(limb.left);
     limb.rightGeometry = std::make_shared<StpBvGeometry>(limb.right);

@@ -5,8 +5,8 @@
 #include <catch2/catch.hpp>
 
 #include "fcl_stpbv/robot/constraints.h"
+#include "test/reference/robots.h"
 #include "test/reference/shapes.h"
-#include "test/robot/robots.h"
 #include "test/robot/urdf_texts.h"
 
 using namespace fcl_stpbv;

@@ -5,8 +5,8 @@
 #include <new>
 
 #include "fcl_stpbv/robot/constraints.h"
+#include "test/reference/robots.h"
 #include "test/reference/shapes.h"
-#include "test/robot/robots.h"
 
 static std::atomic<long> allocations{0};
 

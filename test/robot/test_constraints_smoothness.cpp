@@ -7,7 +7,7 @@
 #include <catch2/catch.hpp>
 
 #include "fcl_stpbv/adapter/stp_bv_geometry.h"
-#include "test/robot/robots.h"
+#include "test/reference/robots.h"
 
 using namespace fcl_stpbv;
 using namespace fcl_stpbv::test;

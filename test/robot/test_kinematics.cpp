@@ -2,8 +2,8 @@
 #include <catch2/catch.hpp>
 
 #include "fcl_stpbv/robot/kinematics.h"
+#include "test/reference/robots.h"
 #include "test/reference/shapes.h"
-#include "test/robot/robots.h"
 #include "test/robot/urdf_texts.h"
 
 using namespace fcl_stpbv;

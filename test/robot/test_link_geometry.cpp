@@ -7,8 +7,8 @@
 #include "fcl_stpbv/robot/constraints.h"
 #include "fcl_stpbv/robot/mesh_file.h"
 #include "fcl_stpbv/volume/verify.h"
+#include "test/reference/robots.h"
 #include "test/reference/volume_files.h"
-#include "test/robot/robots.h"
 #include "test/robot/urdf_texts.h"
 
 using namespace fcl_stpbv;

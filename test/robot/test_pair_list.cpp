@@ -6,9 +6,9 @@
 
 #include "fcl_stpbv/robot/pair_list.h"
 #include "fcl_stpbv/robot/pair_search.h"
+#include "test/reference/robots.h"
 #include "test/reference/shapes.h"
 #include "test/reference/volume_files.h"
-#include "test/robot/robots.h"
 #include "test/robot/urdf_texts.h"
 
 using namespace fcl_stpbv;

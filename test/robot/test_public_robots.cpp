@@ -6,8 +6,8 @@
 #include "fcl_stpbv/robot/mesh_file.h"
 #include "fcl_stpbv/volume/compare.h"
 #include "test/reference/reference.h"
+#include "test/reference/robots.h"
 #include "test/reference/volume_files.h"
-#include "test/robot/robots.h"
 
 using namespace fcl_stpbv;
 using namespace fcl_stpbv::test;

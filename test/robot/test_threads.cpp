@@ -16,7 +16,7 @@
 #include "fcl_stpbv/adapter/hull_geometry.h"
 #include "fcl_stpbv/adapter/proximity.h"
 #include "fcl_stpbv/robot/constraints.h"
-#include "test/robot/robots.h"
+#include "test/reference/robots.h"
 
 namespace fcl_stpbv::test {
 namespace {

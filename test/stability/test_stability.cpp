@@ -5,6 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "test/reference/source_folder.h"
 #include "test/reference/stability/isolated.h"
 #include "test/reference/stability/polyhedra.h"
 #include "test/reference/stability/suite.h"
@@ -68,9 +69,9 @@ Verdict verdictOf(const Answer& answer) {
 
 TEST_CASE("Queries on STP-BVs fail on none of the hard cases") {
   const int seed = GENERATE(1, 2, 3);
-  const Results results =
-      runSuite(allSituations(static_cast<std::uint64_t>(seed), FCL_STPBV_HARD_CASES, false),
-               {"stpbv_fcl", "stpbv_warm"});
+  const Results results = runSuite(
+      allSituations(static_cast<std::uint64_t>(seed), test::sourceFolder() + "/data/hard_cases", false),
+      {"stpbv_fcl", "stpbv_warm"});
   REQUIRE(results.methods.size() == 2);
   REQUIRE(results.situations.size() > 400);
   for (std::size_t m = 0; m < 2; ++m)
@@ -84,7 +85,7 @@ TEST_CASE("Queries on STP-BVs fail on none of the hard cases") {
 
 TEST_CASE("The published cases are there, each with what its report says") {
   std::vector<Situation> reports;
-  addReports(reports, FCL_STPBV_HARD_CASES);
+  addReports(reports, test::sourceFolder() + "/data/hard_cases");
   int cited = 0;
   for (const Situation& s : reports) cited += s.group == "published reports" && !s.source.empty();
   CHECK(cited >= 20);

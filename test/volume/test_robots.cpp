@@ -5,12 +5,13 @@
 #include "fcl_stpbv/io/qhull_file.h"
 #include "fcl_stpbv/volume/stp_bv.h"
 #include "fcl_stpbv/volume/verify.h"
+#include "test/reference/source_folder.h"
 
 using namespace fcl_stpbv;
 namespace fs = std::filesystem;
 
 TEST_CASE("All 35 links of JVRC-1 build and verify at R = 10 m and just above their smallest R") {
-  const fs::path folder = fs::path(FCL_STPBV_SOURCE_DIR) / "../shared/robots/jvrc_description/convex/jvrc1";
+  const fs::path folder = fs::path(test::sourceFolder()) / "../shared/robots/jvrc_description/convex/jvrc1";
   if (!fs::exists(folder)) {
     WARN("skipped: " << folder << " is not there");
     return;

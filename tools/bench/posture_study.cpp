@@ -11,6 +11,7 @@
 
 #include "fcl_stpbv/posture/find_posture.h"
 #include "test/reference/mesh_check.h"
+#include "test/reference/source_folder.h"
 #include "tools/bench/chart.h"
 #include "tools/bench/posture_study/hull_rows.h"
 #include "tools/bench/posture_study/tasks.h"
@@ -50,7 +51,7 @@ struct Row {
 };
 
 PostureScene loadRobot() {
-  const std::string data = FCL_STPBV_SOURCE_DIR "/data/hrp2_style/hrp2_style";
+  const std::string data = fcl_stpbv::test::sourceFolder() + "/data/hrp2_style/hrp2_style";
   PostureScene scene;
   scene.robot = std::make_shared<const RobotModel>(loadUrdf(data + ".urdf"));
   scene.srdf = std::make_shared<const Srdf>(loadSrdf(data + ".srdf", *scene.robot));

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <stdexcept>
 
+#include "test/reference/source_folder.h"
 #include "test/reference/stability/suite.h"
 
 using namespace fcl_stpbv::stability;
@@ -15,8 +16,9 @@ namespace {
 
 /// The published cases: in the source tree, or where an installed tool finds them.
 std::string hardCases() {
+  const std::string source = fcl_stpbv::test::sourceFolder() + "/data/hard_cases";
   std::error_code ignored;
-  if (std::filesystem::is_directory(FCL_STPBV_HARD_CASES, ignored)) return FCL_STPBV_HARD_CASES;
+  if (std::filesystem::is_directory(source, ignored)) return source;
   const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", ignored);
   return self.parent_path().parent_path() / "share/fcl_stpbv/hard_cases";
 }

@@ -1,15 +1,16 @@
 // See robots.h.
-#include "test/robot/robots.h"
+#include "test/reference/robots.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
 
+#include "test/reference/source_folder.h"
 #include "test/reference/volume_files.h"
 
 namespace fcl_stpbv::test {
 
 std::vector<TestRobot> robots() {
-  const std::string data = FCL_STPBV_SOURCE_DIR "/data/hrp2_style/hrp2_style";
+  const std::string data = sourceFolder() + "/data/hrp2_style/hrp2_style";
   std::vector<TestRobot> list{{"hrp2_style", data + ".urdf", data + ".srdf", {}}};
   const std::string shared = sharedFolder("robots");
   if (shared.empty()) {
