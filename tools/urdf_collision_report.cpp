@@ -1,5 +1,6 @@
 // urdf_collision_report: which links of a robot come how close, and which pairs need no check.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <exception>
@@ -86,7 +87,7 @@ void describe(CLI::App& app, Arguments& a) {
          "Folder of polyhedra published for the meshes, MESH-ch.txt or MESH.otp: tells how far they differ")
       ->type_name("FOLDER");
   app.add_flag("--visual", request.geometry.visual, "Use the visual shapes");
-  app.add_option("--top", a.top, "Pairs in the text")->capture_default_str();
+  app.add_option("--top", a.top, "Lines of each list in the text, and warnings shown")->capture_default_str();
   app.add_option("--margin", request.search.margin, "A distance not above it counts as a collision")
       ->capture_default_str();
   app.add_option("--prove", request.search.proofSeconds, "Seconds to spend on proofs that pairs never meet")
@@ -156,6 +157,14 @@ class Stages {
   std::unique_ptr<ProgressBar> bar_;
 };
 
+void warn(const std::vector<std::string>& warnings, std::size_t top) {
+  for (std::size_t i = 0; i < std::min(top, warnings.size()); ++i)
+    std::cerr << "urdf_collision_report: " << warnings[i] << "\n";
+  if (warnings.size() > top)
+    std::cerr << "urdf_collision_report: ... and " << warnings.size() - top
+              << " more warnings (--top; the JSON has all)\n";
+}
+
 int run(Arguments& a) {
   checkOutput(a);
   for (const std::string& link : a.links) readLink(link, a.request.geometry);
@@ -170,9 +179,7 @@ int run(Arguments& a) {
   a.request.geometry.progress = a.request.search.progress = std::ref(stages);
   const CollisionReport report = makeReport(a.request);
   stages.clear();
-  if (!a.quiet)
-    for (const std::string& warning : report.warnings)
-      std::cerr << "urdf_collision_report: " << warning << std::endl;
+  if (!a.quiet) warn(report.warnings, a.top);
   const std::string text = written(report, a);
   if (a.output.empty())
     std::cout << text << std::flush;

@@ -158,6 +158,7 @@ class Maker {
                 entry.obstacle ? pairsWithObstacle(*report_.geometry, entry.link1, entry.link2)
                                : pairsOfLinks(*report_.geometry, entry.link1, entry.link2),
                 pair);
+    pair.colliding = pair.answer.distance <= request_.search.margin;
     report_.pairs.push_back(std::move(pair));
   }
 
@@ -170,7 +171,7 @@ class Maker {
     for (const PairReport& pair : report_.pairs) {
       if (!pair.checked) continue;
       ++report_.checked;
-      report_.colliding += pair.answer.distance <= request_.search.margin;
+      report_.colliding += pair.colliding;
       report_.minDistance = std::min(report_.minDistance, pair.answer.distance);
     }
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 #include <map>
 #include <memory>
 #include <string>
@@ -29,11 +30,17 @@ struct PairReport {
   std::string srdfReason;  ///< what the SRDF says, "" where it says nothing
   bool checked = true;     ///< false where the SRDF or, without one, the search leaves the pair of links out
   DistanceAnswer answer;
+  bool colliding = false;      ///< the distance is not above the margin asked for
   int body1 = -1, body2 = -1;  ///< the closest bodies; body2 of an obstacle counts on from the robot's
   std::map<std::string, double> gradient;
   double overCover1 = 0, overCover2 = 0;  ///< of the two surfaces over their hulls along the normal (m)
   double hullDistance = 0;  ///< of the two hulls, NaN where they overlap or are not both hulls (m)
-  double minDistance = 0;   ///< least found by the search (m)
+  /// Of the two triangle meshes, NaN where it is not known (m).
+  double meshDistance = std::numeric_limits<double>::quiet_NaN();
+  /// What a collision comes from: "meshes meet", "hull only" or "margin only"; "" where it is not known or
+  /// there is none.
+  std::string cause;
+  double minDistance = 0;  ///< least found by the search (m)
   double probabilityBound = 1;
   double security = 0, influence = 0;
   Eigen::VectorXd configuration;  ///< of `answer`

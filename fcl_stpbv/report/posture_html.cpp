@@ -26,7 +26,8 @@ std::string toHtml(const PostureReport& report) {
     pair.minDistance = pair.answer.distance;
     page.minDistance = std::min(page.minDistance, pair.minDistance);
     ++page.checked;
-    page.colliding += pair.minDistance < report.task.collisionMargin;
+    pair.colliding = pair.minDistance < report.task.collisionMargin;
+    page.colliding += pair.colliding;
     page.pairs.push_back(std::move(pair));
   }
   std::stable_sort(page.pairs.begin(), page.pairs.end(),

@@ -52,8 +52,13 @@ const char* statusName(DistanceStatus status) {
   }
 }
 
+// What a list cut after `top` lines ends with.
+std::string unshown(std::size_t all, std::size_t top) {
+  return all > top ? "... and " + std::to_string(all - top) + " more (--top)\n" : "";
+}
+
 // The meshes' volumes beside those of their published polyhedra, those that differ most first.
-std::string polyhedra(const CollisionReport& report) {
+std::string polyhedra(const CollisionReport& report, std::size_t top) {
   std::vector<std::size_t> order;
   for (std::size_t i = 0; i < report.polyhedra.size(); ++i)
     if (!report.polyhedra[i].file.empty()) order.push_back(i);
@@ -63,12 +68,31 @@ std::string polyhedra(const CollisionReport& report) {
   });
   std::string text = format("\n%zu meshes have a published polyhedron\n%-44s %14s %11s %21s\n", order.size(),
                             "link", "surfaces [um]", "vertices", "without a partner");
-  for (const std::size_t i : order) {
+  for (std::size_t k = 0; k < std::min(top, order.size()); ++k) {
+    const std::size_t i = order[k];
     const PolyhedronReport& p = report.polyhedra[i];
     text += format("%-44s %14.3f %5d, %4d %15d, %4d\n", report.geometry->bodies[i].name.c_str(),
                    p.difference * 1e6, p.meshVertices, p.vertices, p.meshAlone, p.alone);
   }
-  return text + "two figures: the mesh's, the polyhedron's; surfaces: how far the two volumes are apart\n";
+  return text + unshown(order.size(), top) +
+         "two figures: the mesh's, the polyhedron's; surfaces: how far the two volumes are apart\n";
+}
+
+// Pairs that the SRDF leaves out and that collide, each with where.
+std::string contradictions(const CollisionReport& report, std::size_t top) {
+  std::string text;
+  std::size_t count = 0;
+  for (const PairReport& pair : report.pairs) {
+    if (!pair.contradictsSrdf() || count++ >= top) continue;
+    text += "\nThe SRDF leaves out " + pair.link1 + " - " + pair.link2 + " as " + pair.srdfReason +
+            "; found: " + pair.reason + format(", %.3f mm at", pair.minDistance * kMm);
+    for (const auto& [joint, slope] : pair.gradient) {
+      const auto& names = report.kinematics->names();
+      const auto k = std::find(names.begin(), names.end(), joint) - names.begin();
+      text += " " + joint + format("=%.4f", pair.closest[k]);
+    }
+  }
+  return count == 0 ? "" : text + "\n" + unshown(count, top);
 }
 
 std::string quoted(const std::string& text) {
@@ -107,20 +131,9 @@ std::string toText(const CollisionReport& report, std::size_t top) {
                    pair.reason.c_str()) +
             steepest(pair) + "\n";
   }
+  text += unshown(static_cast<std::size_t>(report.checked), top);
   text += "\ncover: how much closer the two smooth surfaces are than their hulls, along the normal\n";
-  text += polyhedra(report);
-  for (const PairReport& pair : report.pairs) {
-    if (!pair.contradictsSrdf()) continue;
-    text += "\nThe SRDF leaves out " + pair.link1 + " - " + pair.link2 + " as " + pair.srdfReason +
-            "; found: " + pair.reason + format(", %.3f mm at", pair.minDistance * kMm);
-    for (const auto& [joint, slope] : pair.gradient) {
-      const auto& names = report.kinematics->names();
-      const auto k = std::find(names.begin(), names.end(), joint) - names.begin();
-      text += " " + joint + format("=%.4f", pair.closest[k]);
-    }
-  }
-  if (text.back() != '\n') text += "\n";
-  return text;
+  return text + polyhedra(report, top) + contradictions(report, top);
 }
 
 std::string toJson(const CollisionReport& report) {
@@ -168,6 +181,8 @@ std::string toJson(const CollisionReport& report) {
                              {"over_cover1", pair.overCover1},
                              {"over_cover2", pair.overCover2},
                              {"hull_distance", orNull(pair.hullDistance)},
+                             {"mesh_distance", orNull(pair.meshDistance)},
+                             {"cause", pair.cause},
                              {"min_distance", orNull(pair.minDistance)},
                              {"closest", joints(pair.closest, *report.kinematics)},
                              {"probability_bound", pair.probabilityBound},

@@ -7,7 +7,7 @@
 
 namespace fcl_stpbv::report {
 
-/// For people: a summary and the `top` closest pairs.
+/// For people: a summary and the first `top` lines of each list, the closest pairs first.
 std::string toText(const CollisionReport& report, std::size_t top);
 std::string toJson(const CollisionReport& report);
 std::string toCsv(const CollisionReport& report);

@@ -1,113 +1,178 @@
-// The page's data; see report_formats.h and report_page.h.
-#include <fcl/geometry/shape/convex.h>
-
+// The page's data; see report_formats.h and page/. Shapes and postures go in as 16-bit numbers, all in one
+// packed block.
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <map>
 #include <nlohmann/json.hpp>
 
-#include "fcl_stpbv/adapter/stp_bv_geometry.h"
+#include "fcl_stpbv/report/outline.h"
+#include "fcl_stpbv/report/packed_text.h"
+#include "fcl_stpbv/report/page_files.h"
 #include "fcl_stpbv/report/report_formats.h"
-#include "fcl_stpbv/report/report_page.h"
-#include "fcl_stpbv/volume/tessellate.h"
 
 namespace fcl_stpbv::report {
 namespace {
 
 using nlohmann::json;
 
-// Coarse: a page with thirty links stays below a few megabytes and turns smoothly.
-constexpr double kAngle = 0.7;
-// Margin that a primitive is drawn with (m).
-constexpr double kPrimitiveRadius = 1e-3;
+// What a drawn body may lack, as a part of its size: an edge rounded by r = 1 cm on a link of 30 cm gets
+// three steps.
+constexpr double kTolerance = 1.0 / 500;
+// Corners of a body: enough for the tolerance on links of robots, and a bound on the page.
+constexpr int kMostCorners = 400;
+constexpr double kSteps = 65535;
 
-double rounded(double value) { return std::round(value * 1e5) / 1e5; }
-
-// What FCL's shapes look like, near enough for a picture: the hull of points of their surface.
-std::vector<Eigen::Vector3d> pointsOf(const fcl::CollisionGeometryd& geometry) {
-  const Eigen::Vector3d half = (geometry.aabb_local.max_ - geometry.aabb_local.min_) / 2;
-  std::vector<Eigen::Vector3d> points;
-  if (geometry.getNodeType() == fcl::GEOM_CONVEX)
-    return static_cast<const fcl::Convexd&>(geometry).getVertices();
-  const bool round = geometry.getNodeType() != fcl::GEOM_BOX;
-  constexpr int kSides = 12;
-  for (int i = 0; i < (round ? kSides : 4); ++i) {
-    const double angle = round ? 2 * M_PI * i / kSides : M_PI / 4 + M_PI / 2 * i;
-    const double x = round ? std::cos(angle) : std::copysign(1.0, std::cos(angle));
-    const double y = round ? std::sin(angle) : std::copysign(1.0, std::sin(angle));
-    const bool tapered =
-        geometry.getNodeType() == fcl::GEOM_SPHERE || geometry.getNodeType() == fcl::GEOM_CAPSULE;
-    for (double z : {-1.0, -0.7, 0.7, 1.0}) {
-      const double width = tapered && std::abs(z) == 1.0 ? 0.4 : 1.0;
-      points.emplace_back(half.x() * x * width, half.y() * y * width, half.z() * z);
-    }
-  }
-  return points;
+template <class Number>
+std::string base64(const std::vector<Number>& values) {
+  return report::base64(values.data(), values.size() * sizeof(Number));
 }
 
-json shapeOf(const std::string& name, const fcl::CollisionGeometryd& geometry, bool obstacle) {
-  const StpBvGeometry* smooth = asStpBv(&geometry);
-  const StpBv::Ptr primitive =
-      smooth ? nullptr
-             : StpBv::build(pointsOf(geometry), {kPrimitiveRadius, 10 + 100 * geometry.aabb_radius});
-  const TriangleMesh mesh = tessellate(smooth ? smooth->volume() : *primitive, kAngle);
-  json shape{{"name", name}, {"obstacle", obstacle}, {"v", json::array()}, {"t", json::array()}};
+// Corners as steps within the body's box, triangles as indices.
+json shapeOf(const fcl::CollisionGeometryd& geometry) {
+  const TriangleMesh mesh = outline(geometry, kTolerance * geometry.aabb_radius, kMostCorners);
+  Eigen::Vector3d low(0, 0, 0), high(0, 0, 0);
+  if (!mesh.vertices.empty()) low = high = mesh.vertices[0];
+  for (const Eigen::Vector3d& v : mesh.vertices) {
+    low = low.cwiseMin(v);
+    high = high.cwiseMax(v);
+  }
+  const Eigen::Vector3d step = (high - low) / kSteps;
+  std::vector<std::uint16_t> corners, triangles;
   for (const Eigen::Vector3d& v : mesh.vertices)
-    shape["v"].push_back({rounded(v.x()), rounded(v.y()), rounded(v.z())});
-  for (const auto& t : mesh.triangles) shape["t"].push_back(t);
-  return shape;
+    for (int i = 0; i < 3; ++i)
+      corners.push_back(static_cast<std::uint16_t>(step[i] > 0 ? std::lround((v[i] - low[i]) / step[i]) : 0));
+  for (const auto& t : mesh.triangles)
+    for (const int v : t) triangles.push_back(static_cast<std::uint16_t>(v));
+  return {{"low", {low.x(), low.y(), low.z()}},
+          {"step", {step.x(), step.y(), step.z()}},
+          {"corners", base64(corners)},
+          {"triangles", base64(triangles)}};
 }
 
 json rowsOf(const Eigen::Isometry3d& pose) {
   json rows = json::array();
   for (int i = 0; i < 3; ++i)
-    for (int k = 0; k < 4; ++k) rows.push_back(rounded(pose(i, k)));
+    for (int k = 0; k < 4; ++k) rows.push_back(pose(i, k));
   return rows;
 }
 
-// Poses of all bodies and obstacles at a configuration.
-json posesAt(const CollisionReport& report, const Eigen::VectorXd& q) {
+// Bodies and obstacles, each with its shape; equal shapes are held once.
+class Bodies {
+ public:
+  explicit Bodies(const CollisionReport& report) {
+    for (const Body& body : report.geometry->bodies)
+      add(body.name, report.robot->links[static_cast<std::size_t>(body.link)].name, body.link, body.pose,
+          *body.geometry);
+    for (const Obstacle& obstacle : report.obstacles)
+      add(obstacle.name, obstacle.name, -1, obstacle.pose, *obstacle.geometry);
+  }
+  json shapes = json::array(), list = json::array();
+
+ private:
+  void add(const std::string& name, const std::string& owner, int link, const Eigen::Isometry3d& pose,
+           const fcl::CollisionGeometryd& geometry) {
+    json shape = shapeOf(geometry);
+    const auto [known, isNew] = known_.emplace(shape.dump(), shapes.size());
+    if (isNew) shapes.push_back(std::move(shape));
+    list.push_back({{"name", name},
+                    {"owner", owner},
+                    {"link", link},
+                    {"obstacle", link < 0},
+                    {"at", rowsOf(pose)},
+                    {"shape", known->second}});
+  }
+
+  std::map<std::string, std::size_t> known_;
+};
+
+// The links' poses in all the postures that pairs are in: position and quaternion, in 16-bit steps.
+json posturesOf(const CollisionReport& report, const std::vector<Eigen::VectorXd>& configurations) {
+  constexpr double kMost = 32767;
+  std::vector<Eigen::Isometry3d> poses;
   Kinematics::State state = report.kinematics->makeState();
-  report.kinematics->forward(q, state);
-  json poses = json::array();
-  for (const Body& body : report.geometry->bodies)
-    poses.push_back(rowsOf(state.link[static_cast<std::size_t>(body.link)] * body.pose));
-  for (const Obstacle& obstacle : report.obstacles) poses.push_back(rowsOf(obstacle.pose));
-  return poses;
+  double far = 1e-3;
+  for (const Eigen::VectorXd& q : configurations) {
+    report.kinematics->forward(q, state);
+    for (const Eigen::Isometry3d& pose : state.link) {
+      poses.push_back(pose);
+      far = std::max(far, pose.translation().lpNorm<Eigen::Infinity>());
+    }
+  }
+  const double step = far / kMost;
+  std::vector<std::int16_t> values;
+  for (const Eigen::Isometry3d& pose : poses) {
+    for (int i = 0; i < 3; ++i)
+      values.push_back(static_cast<std::int16_t>(std::lround(pose.translation()[i] / step)));
+    const Eigen::Vector4d turn = Eigen::Quaterniond(pose.linear()).normalized().coeffs();  // x, y, z, w
+    for (int i = 0; i < 4; ++i) values.push_back(static_cast<std::int16_t>(std::lround(turn[i] * kMost)));
+  }
+  return {{"links", report.robot->links.size()}, {"step", step}, {"values", base64(values)}};
 }
 
-// "</script>" in a name must not end the script.
-std::string inScript(std::string text) {
-  for (std::size_t i = text.find('<'); i != std::string::npos; i = text.find('<', i))
-    text.replace(i, 1, "\\u003c");
-  return text;
+// To eight digits: what nobody reads off a page, and what compresses badly.
+void shorten(json& value) {
+  if (value.is_number_float()) {
+    const double x = value.get<double>();
+    const double places = 7 - std::floor(std::log10(std::max(std::abs(x), 1e-12)));
+    const double scale = std::pow(10, std::max(0.0, places));
+    if (std::isfinite(x)) value = std::round(x * scale) / scale;
+  } else if (value.is_structured()) {
+    for (json& item : value) shorten(item);
+  }
+}
+
+json dataOf(const CollisionReport& report, const std::string& title) {
+  json data = json::parse(toJson(report));
+  data["title"] = title;
+  data["joints"] = report.kinematics->names();
+  std::vector<Eigen::VectorXd> configurations;
+  for (std::size_t i = 0; i < report.pairs.size(); ++i) {
+    const PairReport& pair = report.pairs[i];
+    auto found = std::find(configurations.begin(), configurations.end(), pair.configuration);
+    if (found == configurations.end()) found = configurations.insert(found, pair.configuration);
+    json& item = data["pairs"][i];
+    item["posture"] = found - configurations.begin();
+    item["cover"] = pair.overCover1 + pair.overCover2;
+    item["colliding"] = pair.colliding;
+    item["contradicts_srdf"] = pair.contradictsSrdf();
+    item.erase("closest");
+  }
+  if (configurations.empty()) configurations.push_back(report.kinematics->neutral());
+  data["configurations"] = json::array();
+  for (const Eigen::VectorXd& q : configurations)
+    data["configurations"].push_back(std::vector<double>(q.data(), q.data() + q.size()));
+  shorten(data);
+  Bodies bodies(report);
+  data["shapes"] = std::move(bodies.shapes);
+  data["bodies"] = std::move(bodies.list);
+  data["postures"] = posturesOf(report, configurations);
+  return data;
+}
+
+// `text` with what is to be put in place of each @NAME@.
+std::string filled(std::string_view text, const std::map<std::string_view, std::string>& parts) {
+  std::string out;
+  while (!text.empty()) {
+    const std::size_t at = text.find('@');
+    out += text.substr(0, at);
+    if (at == std::string_view::npos) break;
+    text.remove_prefix(at + 1);
+    const std::size_t end = text.find('@');
+    out += parts.at(text.substr(0, end));
+    text.remove_prefix(end + 1);
+  }
+  return out;
 }
 
 }  // namespace
 
 std::string toHtml(const CollisionReport& report, const std::string& title) {
-  json data = json::parse(toJson(report));
-  data["title"] = title;
-  data["bodies"] = json::array();
-  for (const Body& body : report.geometry->bodies)
-    data["bodies"].push_back(shapeOf(body.name, *body.geometry, false));
-  for (const Obstacle& obstacle : report.obstacles)
-    data["bodies"].push_back(shapeOf(obstacle.name, *obstacle.geometry, true));
-  data["poses"] = json::array();
-  std::vector<Eigen::VectorXd> known;
-  for (std::size_t i = 0; i < report.pairs.size(); ++i) {
-    const PairReport& pair = report.pairs[i];
-    const auto found = std::find(known.begin(), known.end(), pair.configuration);
-    json& item = data["pairs"][i];
-    item["pose"] = found - known.begin();
-    item["body1"] = pair.body1;
-    item["body2"] = pair.body2;
-    item["cover"] = pair.overCover1 + pair.overCover2;
-    item.erase("closest");
-    if (found != known.end()) continue;
-    known.push_back(pair.configuration);
-    data["poses"].push_back(posesAt(report, pair.configuration));
-  }
-  return kPageHead + inScript(data.dump(-1, ' ', false, json::error_handler_t::replace)) + kPageTail;
+  const std::string data = dataOf(report, title).dump(-1, ' ', false, json::error_handler_t::replace);
+  return filled(kPageHtml, {{"STYLE", std::string(kPageStyle)},
+                            {"SCRIPT", std::string(kPageScript)},
+                            {"THREE", packed(std::string(kPageThree))},
+                            {"REPORT", packed(data)}});
 }
 
 }  // namespace fcl_stpbv::report

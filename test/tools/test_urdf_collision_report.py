@@ -166,6 +166,19 @@ class Report(unittest.TestCase):
         self.assertIn("The SRDF leaves out CHEST_LINK1 - LARM_LINK5 as Never; found: sometimes", done.stdout)
         self.assertIn("LARM_JOINT3=", done.stdout)
 
+    def test_top_cuts_every_list_of_the_text_and_says_what_is_left(self):
+        links = ["CHEST_LINK1"] + [f"{side}{limb}" for side in "LR" for limb in ("ARM_LINK5", "ARM_LINK6", "LEG_LINK3")]
+        wrong = self.put("wrong.srdf", '<robot name="hrp2_style">' + "".join(
+            f'<disable_collisions link1="{a}" link2="{b}" reason="Never"/>' for i, a in enumerate(links) for b in links[:i]) + "</robot>")
+        arguments = [ROBOT + ".urdf", "--srdf", wrong, "--samples", "200"]
+        whole, cut = (self.run_tool(*arguments, "--top", top).stdout for top in ("1000", "2"))
+        said = whole.count("The SRDF leaves out")
+        self.assertGreater(said, 3)
+        self.assertEqual(cut.count("The SRDF leaves out"), 2)
+        self.assertIn(f"... and {said - 2} more (--top)", cut)
+        self.assertNotIn("more (--top)", whole)
+        self.assertLess(len(cut.splitlines()), 20)
+
     def test_overlapping_primitives_are_a_collision(self):
         box = '<box size="1 1 1"/>'
         urdf = self.robot(link("a", box) + link("b") + link("c", box) + link("d", box)

@@ -1,0 +1,15 @@
+// Data as text that a page can hold.
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+namespace fcl_stpbv::report {
+
+std::string base64(const void* data, std::size_t size);
+
+/// The text compressed as a gzip file, in base64: what a browser's DecompressionStream opens. The same text
+/// gives the same bytes.
+std::string packed(const std::string& text);
+
+}  // namespace fcl_stpbv::report

@@ -1,0 +1,16 @@
+# Writes a C++ file that holds text files as constants of page_files.h. Each argument NAME=FILE;FILE... is one constant.
+#   cmake -DOUT=page_files.cpp "-DkPageHtml=page.html" "-DkPageScript=a.js;b.js" ... -P embed.cmake
+set(cpp "#include \"fcl_stpbv/report/page_files.h\"\n\nnamespace fcl_stpbv::report {\n")
+foreach(name kPageHtml kPageStyle kPageScript kPageThree)
+  string(APPEND cpp "\nconst std::string_view ${name} =")
+  foreach(file ${${name}})
+    file(READ ${file} text)
+    string(FIND "${text}" ")embedded" clash)
+    if(NOT clash EQUAL -1)
+      message(FATAL_ERROR "${file}: holds the text that ends a raw string")
+    endif()
+    string(APPEND cpp " R\"embedded(${text}\n)embedded\"")
+  endforeach()
+  string(APPEND cpp ";\n")
+endforeach()
+file(WRITE ${OUT} "${cpp}\n}  // namespace fcl_stpbv::report\n")

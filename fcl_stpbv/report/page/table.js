@@ -1,0 +1,145 @@
+// The table of pairs: columns that sort, a search and four filters. Filters that would have nothing to choose are not shown.
+const COLUMNS = [
+  { key: 'link1', label: 'Link 1', text: true, width: 19 },
+  { key: 'link2', label: 'Link 2', text: true, width: 19 },
+  { key: 'distance', label: 'STP-BV mm', title: 'Distance of the two smooth volumes; negative: they overlap', width: 10 },
+  { key: 'hull_distance', label: 'Hulls mm', title: 'Distance of the convex hulls', width: 9 },
+  { key: 'mesh_distance', label: 'Meshes mm', title: 'Distance of the triangle meshes', width: 9.5 },
+  { key: 'cover', label: 'Cover mm', title: 'How much closer the volumes are than their hulls, along the normal', width: 8 },
+  { key: 'cause', label: 'Cause', title: 'What meets: the meshes, only their hulls, or only the margins around them', text: true, width: 15 },
+  { key: 'reason', label: 'Reason', title: 'What the search for collisions says', text: true, width: 17.5 },
+  { key: 'srdf_reason', label: 'SRDF', title: 'What the SRDF says', text: true, width: 10 }
+];
+
+const CAUSE_REAL = 'meshes meet';  // the other causes are the covers' own
+
+const STATES = {
+  checked: ['checked', p => p.checked],
+  colliding: ['in collision', p => p.checked && p.colliding],
+  skipped: ['not checked', p => !p.checked],
+  contradicts: ['contradicts the SRDF', p => p.contradicts_srdf],
+  kinked: ['gradient may jump', p => p.checked && !p.continuous]
+};
+
+class PairTable {
+  constructor(pairs, onSelect) {
+    this.pairs = pairs;
+    this.onSelect = onSelect;
+    this.selected = -1;
+    this.sort = { key: null, sign: 1 };
+    const known = { hull_distance: 1, mesh_distance: 1, cause: 1, srdf_reason: 1 };
+    this.columns = COLUMNS.filter(c => !known[c.key] || pairs.some(p => p[c.key] !== null && p[c.key] !== ''));
+    this.makeHead();
+    this.makeFilters();
+    this.rows = pairs.map((pair, i) => this.makeRow(pair, i));
+    byId('tablebox').onkeydown = e => this.step(e);
+    this.fill();
+  }
+
+  makeHead() {
+    const all = this.columns.reduce((sum, c) => sum + c.width, 0);
+    for (const column of this.columns) {
+      const col = make('col');
+      col.style.width = `${100 * column.width / all}%`;
+      document.querySelector('#table colgroup').append(col);
+      const head = make('th', column.text ? '' : 'n', column.label);
+      head.title = column.title || '';
+      head.tabIndex = 0;
+      head.dataset.key = column.key;
+      head.onclick = () => this.sortBy(column.key);
+      head.onkeydown = e => { if (e.key === 'Enter') this.sortBy(column.key); };
+      document.querySelector('#table thead tr').append(head);
+    }
+  }
+
+  makeRow(pair, i) {
+    const row = make('tr', pair.checked ? pair.colliding ? 'hit' : '' : 'off');
+    row.dataset.pair = i;
+    for (const { key, text } of this.columns) {
+      const cell = make('td', text ? '' : key === 'distance' ? 'n d' : 'n', text ? pair[key] : mm(pair[key]));
+      if (text) cell.title = pair[key];
+      if (key === 'cause' && pair.cause) cell.replaceChildren(make('b', `cause ${pair.cause === CAUSE_REAL ? 'hit' : ''}`, pair.cause));
+      row.append(cell);
+    }
+    row.onclick = () => this.onSelect(i);
+    return row;
+  }
+
+  makeFilters() {
+    const choices = (id, label, values, names = {}) => {
+      const select = byId(id);
+      select.append(new Option(label, ''), ...values.map(v => new Option(names[v] || v, v)));
+      select.hidden = values.length < 1;
+      select.onchange = () => this.fill();
+    };
+    const values = key => [...new Set(this.pairs.map(p => p[key]).filter(v => v))].sort();
+    choices('link', 'Any link', [...new Set(this.pairs.flatMap(p => [p.link1, p.link2]))].sort());
+    choices('state', 'All pairs', Object.keys(STATES).filter(s => this.pairs.some(STATES[s][1])),
+      Object.fromEntries(Object.entries(STATES).map(([key, [name]]) => [key, name])));
+    choices('reason', 'Any reason', values('reason'));
+    choices('cause', 'Any cause', values('cause'));
+    byId('search').oninput = () => this.fill();
+    byId('clear').onclick = () => {
+      for (const id of ['search', 'link', 'state', 'reason', 'cause']) byId(id).value = '';
+      this.fill();
+    };
+  }
+
+  // Every word of the search is part of one of the two names.
+  passes(pair) {
+    const words = byId('search').value.toLowerCase().split(/\s+/), names = `${pair.link1} ${pair.link2}`.toLowerCase();
+    const { value: link } = byId('link'), { value: state } = byId('state');
+    return words.every(word => names.includes(word)) && (!link || pair.link1 === link || pair.link2 === link) &&
+      (!state || STATES[state][1](pair)) && ['reason', 'cause'].every(id => !byId(id).value || pair[id] === byId(id).value);
+  }
+
+  sortBy(key) {
+    this.sort = { key, sign: this.sort.key === key ? -this.sort.sign : 1 };
+    this.fill();
+  }
+
+  // Rows that pass the filters, in order. What is not known comes last either way.
+  fill() {
+    this.order = this.pairs.map((_, i) => i).filter(i => this.passes(this.pairs[i]));
+    const { key, sign } = this.sort, missing = v => v === null || v === undefined || v === '';
+    if (key) this.order.sort((a, b) => {
+      const x = this.pairs[a][key], y = this.pairs[b][key];
+      if (missing(x) || missing(y)) return missing(x) - missing(y);
+      return sign * (typeof x === 'string' ? x.localeCompare(y) : x - y);
+    });
+    document.querySelector('#table tbody').replaceChildren(...this.order.map(i => this.rows[i]));
+    for (const head of document.querySelectorAll('#table th')) {
+      if (head.dataset.key === key) head.setAttribute('aria-sort', sign > 0 ? 'ascending' : 'descending');
+      else head.removeAttribute('aria-sort');
+    }
+    const set = ['search', 'link', 'state', 'reason', 'cause'].filter(id => {
+      byId(id).classList.toggle('set', byId(id).value !== '');
+      return byId(id).value !== '';
+    });
+    byId('clear').hidden = !set.length;
+    byId('count').textContent = set.length ? `${this.order.length} of ${this.pairs.length} pairs` : `${this.pairs.length} pairs`;
+    byId('nothing').hidden = this.order.length > 0;
+    byId('nothing').textContent = this.pairs.length ? 'No pair passes these filters.' : 'The report has no pairs.';
+  }
+
+  mark(i) {
+    if (this.rows[this.selected]) this.rows[this.selected].classList.remove('sel');
+    this.selected = i;
+    this.rows[i].classList.add('sel');
+  }
+
+  // Up and down arrows walk through the rows.
+  step(event) {
+    const way = { ArrowDown: 1, ArrowUp: -1 }[event.key];
+    if (!way) return;
+    event.preventDefault();
+    const next = this.order[Math.max(0, Math.min(this.order.length - 1, this.order.indexOf(this.selected) + way))];
+    if (next === undefined) return;
+    this.onSelect(next);
+    this.rows[next].scrollIntoView({ block: 'nearest' });
+  }
+}
+
+function causeTag(cause) {
+  return make('span', `tag ${cause === CAUSE_REAL ? 'hit' : 'warn'}`, cause);
+}

@@ -1,0 +1,13 @@
+// The page's own files and three.js, as text inside the program (made by page/embed.cmake).
+#pragma once
+
+#include <string_view>
+
+namespace fcl_stpbv::report {
+
+extern const std::string_view kPageHtml;  ///< with @STYLE@, @SCRIPT@, @THREE@ and @REPORT@ to fill in
+extern const std::string_view kPageStyle;
+extern const std::string_view kPageScript;
+extern const std::string_view kPageThree;  ///< three.js and its orbit controls
+
+}  // namespace fcl_stpbv::report
