@@ -23,12 +23,12 @@ function showWarnings(warnings) {
 
 // Links, those whose volume exceeds their mesh most first.
 function showLinks(links) {
-  const columns = [['name', 'Link'], ['volume_excess', 'Volume over mesh mm'], ['hull_excess', 'Hull over mesh mm'], ['over_cover_max', 'Volume over hull mm'],
+  const columns = [['name', 'Link'], ['volume_excess', 'Volume over mesh mm'], ['hull_excess', 'Hull over mesh mm'], ['over_cover_max', 'Volume over hull mm'], ['volume_ratio', 'Volume / mesh'],
     ['r', 'r mm'], ['R', 'R m'], ['vertices', 'Vertices']].filter(([key]) => links.some(link => link[key] !== null && link[key] !== undefined));
   const worst = link => link.volume_excess ?? link.over_cover_max ?? -1;
   byId('links').hidden = columns.length < 2;
   for (const [key, label] of columns) document.querySelector('#linktable thead tr').append(make('th', key === 'name' ? '' : 'n', label));
-  const text = (key, v) => v === null || v === undefined ? '–' : key === 'vertices' ? String(v) : key === 'R' ? v.toFixed(2) : mm(v);
+  const text = (key, v) => v === null || v === undefined ? '–' : key === 'vertices' ? String(v) : key === 'R' || key === 'volume_ratio' ? v.toFixed(2) : mm(v);
   for (const link of [...links].sort((a, b) => worst(b) - worst(a))) {
     const row = make('tr');
     for (const [key] of columns) row.append(make('td', key === 'name' ? '' : 'n', key === 'name' ? link.name : text(key, link[key])));
