@@ -1,0 +1,196 @@
+// See mesh_solid.h.
+#include "fcl_stpbv/parts/mesh_solid.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+namespace fcl_stpbv {
+namespace {
+
+using Eigen::Vector3d;
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+Vector3d nearestOnSegment(const Vector3d& a, const Vector3d& b, const Vector3d& p) {
+  const Vector3d along = b - a;
+  const double length2 = along.squaredNorm();
+  if (!(length2 > 0)) return a;
+  return a + std::clamp((p - a).dot(along) / length2, 0.0, 1.0) * along;
+}
+
+// Directions for rays: none along an axis or a plane that a designer would choose.
+const std::array<Vector3d, 8>& rayDirections() {
+  static const std::array<Vector3d, 8> directions = [] {
+    std::array<Vector3d, 8> list;
+    for (std::size_t k = 0; k < list.size(); ++k) {  // spread by the golden angle
+      const double z = 0.873 - 0.217 * static_cast<double>(k),
+                   turn = 0.317 + 2.399963 * static_cast<double>(k);
+      const double across = std::sqrt(1 - z * z);
+      list[k] = Vector3d(across * std::cos(turn), across * std::sin(turn), z);
+    }
+    return list;
+  }();
+  return directions;
+}
+
+enum class RayHit { none, up, down, unclear };
+
+// Whether the ray from the origin along `d` crosses a triangle, and which way the triangle faces it. `scale`
+// bounds the corners' coordinates.
+RayHit rayHit(const Vector3d& a, const Vector3d& b, const Vector3d& c, const Vector3d& d, double scale) {
+  constexpr double kRounding = 1e-14;  // a generous few units in the last place of products of three
+  const double area = kRounding * scale * scale, volume = kRounding * scale * scale * scale;
+  const std::array<double, 3> w{d.dot(b.cross(c)), d.dot(c.cross(a)), d.dot(a.cross(b))};
+  const auto [least, most] = std::minmax_element(w.begin(), w.end());
+  if (*least<-area&& * most> area) return RayHit::none;
+  if (std::max({d.dot(a), d.dot(b), d.dot(c)}) < -kRounding * scale) return RayHit::none;  // all behind
+  const bool up = *least > area, down = *most < -area;
+  if (!up && !down) return RayHit::unclear;
+  const double height = a.dot(b.cross(c));
+  if (std::abs(height) <= volume) return RayHit::unclear;
+  if ((height > 0) != up) return RayHit::none;  // behind
+  return up ? RayHit::up : RayHit::down;
+}
+
+}  // namespace
+
+Vector3d nearestOf(const Triangle& triangle, const Vector3d& p) {
+  const auto& [a, b, c] = triangle;
+  const Vector3d u = b - a, v = c - a, n = u.cross(v), w = p - a;
+  const double n2 = n.squaredNorm();
+  if (n2 > 0) {  // barycentric coordinates of the foot on the plane
+    const double beta = w.cross(v).dot(n) / n2, gamma = u.cross(w).dot(n) / n2;
+    if (beta >= 0 && gamma >= 0 && beta + gamma <= 1) return a + beta * u + gamma * v;
+  }
+  Vector3d best = nearestOnSegment(a, b, p);
+  for (const Vector3d& other : {nearestOnSegment(b, c, p), nearestOnSegment(c, a, p)})
+    if ((other - p).squaredNorm() < (best - p).squaredNorm()) best = other;
+  return best;
+}
+
+MeshSolid::MeshSolid(const TriangleMesh& mesh) : pieces_(meshPieces(mesh)) {
+  triangles_.reserve(pieces_.triangles.size());
+  for (const std::array<int, 3>& t : pieces_.triangles)
+    triangles_.push_back(
+        {pieces_.vertices[at(t[0])], pieces_.vertices[at(t[1])], pieces_.vertices[at(t[2])]});
+  order_.resize(triangles_.size());
+  std::iota(order_.begin(), order_.end(), 0);
+  nodes_.reserve(triangles_.size());
+  build(0, static_cast<int>(order_.size()));
+}
+
+int MeshSolid::build(int begin, int end) {
+  constexpr int kLeaf = 4;
+  const int number = static_cast<int>(nodes_.size());
+  Node node{Vector3d::Constant(std::numeric_limits<double>::infinity()),
+            Vector3d::Constant(-std::numeric_limits<double>::infinity()), begin, end};
+  for (int i = begin; i < end; ++i) {
+    for (const Vector3d& p : triangles_[at(order_[at(i)])]) {
+      node.low = node.low.cwiseMin(p);
+      node.high = node.high.cwiseMax(p);
+    }
+  }
+  nodes_.push_back(node);
+  if (end - begin <= kLeaf) return number;
+  Eigen::Index axis;
+  (node.high - node.low).maxCoeff(&axis);
+  const int middle = begin + (end - begin) / 2;
+  const auto along = [&](int t) {
+    const Triangle& x = triangles_[at(t)];
+    return x[0][axis] + x[1][axis] + x[2][axis];
+  };
+  std::nth_element(order_.begin() + begin, order_.begin() + middle, order_.begin() + end,
+                   [&](int s, int t) { return along(s) < along(t); });
+  const int left = build(begin, middle), right = build(middle, end);
+  nodes_[at(number)].left = left;
+  nodes_[at(number)].right = right;
+  return number;
+}
+
+MeshSolid::Nearest MeshSolid::nearest(const Vector3d& p, int guess) const {
+  double best = std::numeric_limits<double>::infinity();
+  int found = guess;
+  if (guess >= 0) best = (nearestOf(triangles_[at(guess)], p) - p).squaredNorm();
+  const auto away = [&](int node) {
+    const Node& n = nodes_[at(node)];
+    return (n.low - p).cwiseMax(p - n.high).cwiseMax(0.0).squaredNorm();
+  };
+  std::array<std::pair<double, int>, 64> open;  // halved at each level: no deeper than 32
+  std::size_t count = 0;
+  open[count++] = {away(0), 0};
+  while (count > 0) {
+    const auto [least, number] = open[--count];
+    if (least >= best) continue;
+    const Node& node = nodes_[at(number)];
+    if (node.left < 0) {
+      for (int i = node.begin; i < node.end; ++i) {
+        const double d = (nearestOf(triangles_[at(order_[at(i)])], p) - p).squaredNorm();
+        if (d < best) best = d, found = order_[at(i)];
+      }
+      continue;
+    }
+    std::pair<double, int> near{away(node.left), node.left}, far{away(node.right), node.right};
+    if (far.first < near.first) std::swap(near, far);
+    open[count++] = far;
+    open[count++] = near;
+  }
+  return {std::sqrt(best), found};
+}
+
+template <class Visit>
+bool MeshSolid::alongRay(const Vector3d& p, const Vector3d& direction, Visit visit) const {
+  const Vector3d inverse = direction.cwiseInverse();
+  const double slack = 1e-12 * (high() - low()).norm();  // boxes a little larger: no triangle is missed
+  std::array<int, 64> open;
+  std::size_t count = 0;
+  open[count++] = 0;
+  while (count > 0) {
+    const Node& node = nodes_[at(open[--count])];
+    const Vector3d s = (node.low.array() - slack - p.array()) * inverse.array();
+    const Vector3d t = (node.high.array() + slack - p.array()) * inverse.array();
+    if (s.cwiseMin(t).maxCoeff() > s.cwiseMax(t).minCoeff() || s.cwiseMax(t).minCoeff() < 0) continue;
+    if (node.left >= 0) {
+      open[count++] = node.left;
+      open[count++] = node.right;
+      continue;
+    }
+    for (int i = node.begin; i < node.end; ++i)
+      if (!visit(order_[at(i)])) return false;
+  }
+  return true;
+}
+
+MeshSolid::Side MeshSolid::side(const Vector3d& p, const Vector3d& direction) const {
+  const double scale = (high() - p).cwiseAbs().cwiseMax((p - low()).cwiseAbs()).norm();
+  std::vector<std::pair<int, int>> counts;  // crossings of each piece met, up less down
+  const bool clear = alongRay(p, direction, [&](int t) {
+    const int piece = pieces_.piece[at(t)];
+    if (!pieces_.closed[at(piece)]) return true;
+    const Triangle& x = triangles_[at(t)];
+    const RayHit found = rayHit(x[0] - p, x[1] - p, x[2] - p, direction, scale);
+    if (found == RayHit::none) return true;
+    if (found == RayHit::unclear) return false;
+    auto place = std::find_if(counts.begin(), counts.end(), [&](const auto& c) { return c.first == piece; });
+    if (place == counts.end()) place = counts.insert(place, {piece, 0});
+    place->second += found == RayHit::up ? 1 : -1;
+    return true;
+  });
+  if (!clear) return Side::unsure;
+  const bool enclosed =
+      std::any_of(counts.begin(), counts.end(), [](const auto& c) { return c.second != 0; });
+  return enclosed ? Side::enclosed : Side::outside;
+}
+
+MeshSolid::Side MeshSolid::side(const Vector3d& p) const {
+  if ((p.array() < low().array()).any() || (p.array() > high().array()).any()) return Side::outside;
+  for (const Vector3d& direction : rayDirections()) {
+    const Side found = side(p, direction);
+    if (found != Side::unsure) return found;
+  }
+  return Side::unsure;
+}
+
+}  // namespace fcl_stpbv

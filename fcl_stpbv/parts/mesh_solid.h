@@ -1,0 +1,63 @@
+// Distance of a point from a triangle mesh, and whether the mesh encloses it.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <limits>
+#include <vector>
+
+#include "fcl_stpbv/parts/mesh_pieces.h"
+
+namespace fcl_stpbv {
+
+using Triangle = std::array<Eigen::Vector3d, 3>;
+
+/// Point of a triangle nearest to `p`; the triangle may be a segment or a point. To rounding, and always a
+/// point of the triangle, so that a distance made of it is never too small by more than rounding.
+Eigen::Vector3d nearestOf(const Triangle& triangle, const Eigen::Vector3d& p);
+
+/// A mesh as a solid: its triangles and all that its closed pieces enclose. The solid's boundary lies in the
+/// triangles, so bodies that stay outside each other are as far apart as their triangles are.
+class MeshSolid {
+ public:
+  enum class Side { outside, enclosed, unsure };
+
+  /// @throws Error as meshPieces() does.
+  explicit MeshSolid(const TriangleMesh& mesh);
+
+  const std::vector<Triangle>& triangles() const { return triangles_; }
+  const MeshPieces& pieces() const { return pieces_; }
+  /// Whether every piece is closed, so that the mesh has an inside everywhere.
+  bool closed() const { return pieces_.closedPieces() == pieces_.pieces(); }
+  const Eigen::Vector3d& low() const { return nodes_[0].low; }
+  const Eigen::Vector3d& high() const { return nodes_[0].high; }
+
+  struct Nearest {
+    double distance;  ///< from the surface (m)
+    int triangle;
+  };
+  /// `guess` is a triangle that is probably near, or -1.
+  Nearest nearest(const Eigen::Vector3d& p, int guess = -1) const;
+
+  /// Which side of the closed pieces a point is on, by crossings of a ray. `unsure` is for points on the
+  /// surface to rounding, and where every ray tried touches an edge.
+  Side side(const Eigen::Vector3d& p) const;
+
+ private:
+  struct Node {
+    Eigen::Vector3d low, high;
+    int begin, end;  // among order_
+    int left = -1, right = -1;
+  };
+  int build(int begin, int end);
+  template <class Visit>
+  bool alongRay(const Eigen::Vector3d& p, const Eigen::Vector3d& direction, Visit visit) const;
+  Side side(const Eigen::Vector3d& p, const Eigen::Vector3d& direction) const;
+
+  MeshPieces pieces_;
+  std::vector<Triangle> triangles_;
+  std::vector<int> order_;
+  std::vector<Node> nodes_;
+};
+
+}  // namespace fcl_stpbv

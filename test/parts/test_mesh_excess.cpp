@@ -1,0 +1,161 @@
+// Distance from meshes, their insides, and the bound on how far a surface is from a mesh.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "fcl_stpbv/error.h"
+#include "fcl_stpbv/parts/mesh_excess.h"
+#include "test/reference/mesh_reference.h"
+#include "test/reference/solids.h"
+
+using namespace fcl_stpbv;
+using namespace fcl_stpbv::test;
+using Catch::Matchers::Contains;
+
+namespace {
+
+constexpr double kRounding = 1e-14;  // m, of coordinates below 1 m
+
+std::vector<std::pair<std::string, TriangleMesh>> closedMeshes() {
+  Random random(3);
+  const TriangleMesh ball = torusMesh(0.12, 0.03, 24, 12);
+  return {{"an L", lShape()},
+          {"a fine L, shaken", shaken(lShape(), 1e-3, random)},
+          {"a ring", ball},
+          {"a ring inside out", turned(ball)},
+          {"two boxes that cross",
+           together({boxMesh({0, 0, 0}, {0.1, 0.1, 0.1}), boxMesh({0.05, 0.05, 0.02}, {0.2, 0.08, 0.08})})}};
+}
+
+Eigen::Vector3d pointAround(const TriangleMesh& mesh, Random& random) {
+  Eigen::Vector3d low = mesh.vertices[0], high = low;
+  for (const Eigen::Vector3d& v : mesh.vertices) low = low.cwiseMin(v), high = high.cwiseMax(v);
+  Eigen::Vector3d p;
+  for (int k = 0; k < 3; ++k) p[k] = random.uniform(low[k] - 0.01, high[k] + 0.01);
+  return p;
+}
+
+}  // namespace
+
+TEST_CASE("the distance from a mesh is that of its nearest triangle") {
+  Random random(5);
+  for (const auto& [name, mesh] : closedMeshes()) {
+    INFO(name);
+    const MeshSolid solid(mesh);
+    double worst = 0;
+    for (int i = 0; i < 500; ++i) {
+      const Eigen::Vector3d p = pointAround(mesh, random);
+      worst = std::max(worst, std::abs(solid.nearest(p).distance - referenceDistance(mesh, p)));
+      worst =
+          std::max(worst, std::abs(solid.nearest(p, random.below(12)).distance - referenceDistance(mesh, p)));
+    }
+    CHECK(worst < kRounding);
+  }
+}
+
+TEST_CASE("a mesh encloses what its winding number says, whichever way its faces point") {
+  Random random(7);
+  for (const auto& [name, mesh] : closedMeshes()) {
+    INFO(name);
+    const MeshSolid solid(mesh);
+    CHECK(solid.closed());
+    int enclosed = 0, wrong = 0;
+    for (int i = 0; i < 2000; ++i) {
+      const Eigen::Vector3d p = pointAround(mesh, random);
+      const bool inside = std::abs(referenceWinding(mesh, p)) > 0.5;
+      enclosed += inside;
+      wrong += solid.side(p) != (inside ? MeshSolid::Side::enclosed : MeshSolid::Side::outside);
+    }
+    CHECK(enclosed > 100);
+    CHECK(wrong == 0);
+  }
+}
+
+TEST_CASE("single flipped faces are turned to agree with their neighbours") {
+  TriangleMesh mesh = lShape();
+  for (std::size_t t = 0; t < mesh.triangles.size(); t += 3)
+    std::swap(mesh.triangles[t][0], mesh.triangles[t][1]);
+  const MeshSolid solid(mesh);
+  CHECK(solid.closed());
+  CHECK(solid.side({0.02, 0.02, 0.02}) == MeshSolid::Side::enclosed);
+  CHECK(solid.side({0.1, 0.1, 0.02}) == MeshSolid::Side::outside);
+}
+
+TEST_CASE("a shell inside another is enclosed, cavity or not") {
+  const TriangleMesh inner = boxMesh({0.04, 0.04, 0.04}, {0.06, 0.06, 0.06}),
+                     outer = boxMesh({0, 0, 0}, {0.1, 0.1, 0.1});
+  for (const TriangleMesh& nested : {inner, turned(inner)})
+    CHECK(MeshSolid(together({outer, nested})).side({0.05, 0.051, 0.0502}) == MeshSolid::Side::enclosed);
+}
+
+TEST_CASE("a mesh with a hole encloses nothing, and a point on a surface is on no side for sure") {
+  const MeshSolid open(bowl(0.1, 8));
+  CHECK_FALSE(open.closed());
+  CHECK(open.pieces().closedPieces() == 0);
+  CHECK(open.side({0, 0, -0.05}) == MeshSolid::Side::outside);
+  CHECK(MeshSolid(lShape()).side({0.025, 0.03, 0.05}) == MeshSolid::Side::unsure);
+}
+
+TEST_CASE("the excess of a hull over a closed mesh, and over open ones, lies between its bounds") {
+  Random random(11);
+  auto meshes = closedMeshes();
+  meshes.push_back({"a bowl", bowl(0.1, 10)});
+  meshes.push_back({"a bowl beside a ring", together({bowl(0.1, 6), torusMesh(0.2, 0.02, 20, 8)})});
+  for (const auto& [name, mesh] : meshes) {
+    const MeshSolid solid(mesh);
+    TriangleMesh hull;
+    for (const Triangle& t : hullTriangles(mesh.vertices)) {
+      const int n = static_cast<int>(hull.vertices.size());
+      hull.vertices.insert(hull.vertices.end(), t.begin(), t.end());
+      hull.triangles.push_back({n, n + 1, n + 2});
+    }
+    for (const bool filled : {true, false}) {
+      INFO(name << (filled ? ", filled" : ""));
+      const auto truth = [&](const Eigen::Vector3d& p) {
+        return filled ? referenceSolidDistance(mesh, p) : referenceDistance(mesh, p);
+      };
+      ExcessOptions options;
+      options.filled = filled;
+      const MeshExcess excess = hullExcess(mesh.vertices, solid, options);
+      CHECK(excess.upper - excess.lower <= options.absolute + options.relative * excess.lower);
+      CHECK(truth(excess.where) >= excess.lower - kRounding);
+      double seen = 0;
+      for (int i = 0; i < 1000; ++i) seen = std::max(seen, truth(pointOn(hull, random)));
+      CHECK(seen <= excess.upper);
+      CHECK(seen > 0.5 * excess.lower);
+    }
+  }
+}
+
+TEST_CASE(
+    "the hull of an L is farthest from it where its long face is as far from one arm as from the other") {
+  ExcessOptions exact;
+  exact.absolute = 1e-9;
+  exact.relative = 1e-9;
+  const MeshExcess excess = hullExcess(lShape().vertices, MeshSolid(lShape()), exact);
+  const double truth = 0.075;  // at (0.125, 0.125), from both arms
+  CHECK(excess.lower <= truth + 1e-9);
+  CHECK(excess.upper >= truth - kRounding);
+  CHECK(excess.upper - excess.lower < 2e-9);
+}
+
+TEST_CASE("a bound that may not take long is wider and still holds") {
+  ExcessOptions few;
+  few.queries = 100;
+  const MeshSolid ring(torusMesh(0.12, 0.03, 24, 12));
+  const MeshExcess rough = hullExcess(torusMesh(0.12, 0.03, 24, 12).vertices, ring, few);
+  const MeshExcess fine = hullExcess(torusMesh(0.12, 0.03, 24, 12).vertices, ring);
+  CHECK(rough.upper >= fine.lower);
+  CHECK(rough.lower <= fine.upper);
+}
+
+TEST_CASE("a mesh without triangles, or with coordinates that are no numbers, is refused in one message") {
+  CHECK_THROWS_WITH(MeshSolid({{{0, 0, 0}}, {}}), Contains("no triangles"));
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  CHECK_THROWS_WITH(MeshSolid({{{0, 0, 0}, {1, 0, nan}, {0, 1, 0}}, {{0, 1, 2}}}), Contains("finite"));
+  CHECK_THROWS_WITH(MeshSolid({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 3}}}), Contains("does not exist"));
+}
