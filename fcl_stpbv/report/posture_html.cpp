@@ -18,6 +18,7 @@ std::string toHtml(const PostureReport& report) {
   for (const CheckedPair& both : report.pairs) {
     PairReport pair;
     pair.link1 = nameOf(both.body);
+    pair.obstacle = both.obstacle;
     pair.link2 =
         both.obstacle ? page.obstacles[static_cast<std::size_t>(both.other)].name : nameOf(both.other);
     pair.reason = both.obstacle ? "obstacle" : "self";

@@ -77,6 +77,7 @@ class FindPosture(unittest.TestCase):
         self.assertEqual(data["summary"]["colliding"], 0)
         self.assertGreaterEqual(data["pairs"][0]["distance"], 0)
         self.assertEqual(len(data["configurations"]), 1)
+        self.assertIn("lower_door", [pair["link2"] for pair in data["pairs"] if pair["obstacle"]])
         self.assertIn("upper_door", [body["name"] for body in data["bodies"] if body["obstacle"]])
         careless = self.run_task(self.pick_can(), "--format", "html", "--ignore-collisions")
         self.assertEqual(page_data(careless.stdout)["summary"]["colliding"], 7)

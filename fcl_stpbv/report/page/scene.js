@@ -72,6 +72,7 @@ class Scene {
     this.material = {};
     for (const kind of ['link', 'first', 'second']) this.material[kind] = new THREE.MeshLambertMaterial({ color: COLOUR[kind] });
     this.material.obstacle = new THREE.MeshLambertMaterial({ color: COLOUR.obstacle, transparent: true, opacity: 0.38, depthWrite: false });
+    this.material.pickedObstacle = new THREE.MeshLambertMaterial({ color: COLOUR.second, transparent: true, opacity: 0.5, depthWrite: false });
     this.material.ghost = ghostMaterial(0x6f8296);
     const geometries = report.shapes.map(smoothGeometry);
     this.bodies = report.bodies.map(body => {
@@ -155,10 +156,13 @@ class Scene {
   }
 
   recolour() {
+    // Two links that overlap are drawn clear: one may be inside the other.
+    const overlap = !!this.pair && this.pair.distance < 0, clear = { transparent: overlap, depthWrite: !overlap, opacity: overlap ? 0.6 : 1 };
+    for (const kind of ['first', 'second']) Object.assign(this.material[kind], clear);
     this.report.bodies.forEach((body, i) => {
       const side = this.side(body), mesh = this.bodies[i];
       mesh.visible = side >= 0 || this.show !== 'pair' || !this.pair;
-      mesh.material = side >= 0 ? this.material[side === 0 ? 'first' : 'second']
+      mesh.material = side >= 0 ? this.material[side === 0 ? 'first' : body.obstacle ? 'pickedObstacle' : 'second']
         : this.show === 'context' && this.pair ? this.material.ghost : this.material[body.obstacle ? 'obstacle' : 'link'];
       mesh.renderOrder = mesh.material.transparent ? 1 : 0;
     });
