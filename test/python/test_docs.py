@@ -1,4 +1,4 @@
-"""Runs every Python block of the documentation, from the project's folder."""
+"""Runs the Python blocks of each page of the documentation in order, in one namespace, from the project's folder."""
 import os
 import pathlib
 import re
@@ -7,16 +7,17 @@ import pytest
 
 DATA = pathlib.Path(os.environ.get("FCL_STPBV_DATA", pathlib.Path(__file__).parents[2] / "data"))
 PROJECT = DATA.parent
-PAGES = [PROJECT / "README.md", *sorted((PROJECT / "docs").glob("*.md"))]
-BLOCKS = [(page.name, block) for page in PAGES
-          for block in re.findall(r"^```python\n(.*?)^```", page.read_text(), re.DOTALL | re.MULTILINE)]
+PAGES = {page: re.findall(r"^```python\n(.*?)^```", page.read_text(), re.DOTALL | re.MULTILINE)
+         for page in [PROJECT / "README.md", *sorted((PROJECT / "docs").glob("*.md"))]}
 
 
 def test_there_are_blocks():
-    assert len(BLOCKS) >= 2
+    assert sum(len(blocks) for blocks in PAGES.values()) >= 2
 
 
-@pytest.mark.parametrize("page,block", BLOCKS)
-def test_a_block_runs(page, block, monkeypatch):
+@pytest.mark.parametrize("page", [page for page, blocks in PAGES.items() if blocks], ids=lambda page: page.name)
+def test_the_blocks_of_a_page_run_in_order(page, monkeypatch):
     monkeypatch.chdir(PROJECT)
-    exec(compile(block, page, "exec"), {})
+    namespace = {}
+    for block in PAGES[page]:
+        exec(compile(block, page.name, "exec"), namespace)
