@@ -1,28 +1,12 @@
 // The work of a query, counted: a solver that slows down fails here whatever the machine does beside it.
 #include <algorithm>
-#include <atomic>
 #include <catch2/catch.hpp>
-#include <cstdlib>
-#include <new>
 #include <string>
 
 #include "fcl_stpbv/distance/distance.h"
+#include "test/reference/allocations.h"
 #include "test/reference/motion.h"
 #include "test/reference/shapes.h"
-
-static std::atomic<long> allocations{0};
-
-void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* p = std::malloc(size)) return p;
-  throw std::bad_alloc();
-}
-void* operator new(std::size_t size, const std::nothrow_t&) noexcept {  // as std::stable_sort asks
-  ++allocations;
-  return std::malloc(size);
-}
-void operator delete(void* p) noexcept { std::free(p); }
-void operator delete(void* p, std::size_t) noexcept { std::free(p); }
 
 using namespace fcl_stpbv;
 using namespace fcl_stpbv::test;

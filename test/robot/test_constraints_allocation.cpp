@@ -1,26 +1,10 @@
 // An evaluation allocates nothing after construction: this program counts every operator new.
-#include <atomic>
 #include <catch2/catch.hpp>
-#include <cstdlib>
-#include <new>
 
 #include "fcl_stpbv/robot/constraints.h"
+#include "test/reference/allocations.h"
 #include "test/reference/robots.h"
 #include "test/reference/shapes.h"
-
-static std::atomic<long> allocations{0};
-
-void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* p = std::malloc(size)) return p;
-  throw std::bad_alloc();
-}
-void* operator new(std::size_t size, const std::nothrow_t&) noexcept {  // as std::stable_sort asks
-  ++allocations;
-  return std::malloc(size);
-}
-void operator delete(void* p) noexcept { std::free(p); }
-void operator delete(void* p, std::size_t) noexcept { std::free(p); }
 
 using namespace fcl_stpbv;
 using namespace fcl_stpbv::test;

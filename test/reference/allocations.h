@@ -1,0 +1,11 @@
+// Counts the allocations of a program that links fcl_stpbv_allocations.
+#pragma once
+
+#include <atomic>
+
+namespace fcl_stpbv::test {
+
+/// Calls of operator new since the program started, in all threads.
+extern std::atomic<long> allocations;
+
+}  // namespace fcl_stpbv::test
