@@ -4,8 +4,11 @@
 
 Needs the Debian packages chromium, chromium-driver and python3-selenium (tools/install_packages).
 """
+import base64
+import gzip
 import json
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -111,20 +114,36 @@ class Page(unittest.TestCase):
 
     def open(self, urdf, *arguments, view=""):
         """Writes the report's page and opens it; the exit status must be that of a report."""
-        page = os.path.join(self.folder.name, "report.html")
+        page = self.path("report.html")
         done = subprocess.run([PROGRAM, urdf, "--samples", "10", "--format", "html", "--no-cache", "-o", page, *arguments],
                               capture_output=True, text=True)
         self.assertIn(done.returncode, (0, 1), done.stderr)
-        self.browser.get("about:blank")
-        self.browser.get(f"file://{page}{view}")
-        WebDriverWait(self.browser, 60).until(lambda b: b.execute_script("return document.body.dataset.ready") == "yes")
+        self.show(view)
         return os.path.getsize(page)
+
+    def show(self, view=""):
+        self.browser.get("about:blank")
+        self.browser.get(f"file://{self.path('report.html')}{view}")
+        WebDriverWait(self.browser, 60).until(lambda b: b.execute_script("return document.body.dataset.ready") == "yes")
+
+    def reopen(self, change):
+        """Opens the page again with other data in it."""
+        with open(self.path("report.html"), encoding="utf-8") as file:
+            before, block, after = re.split('(?<=id="packed-report">)([^<]*)', file.read())
+        data = json.loads(gzip.decompress(base64.b64decode(block)))
+        change(data)
+        with open(self.path("report.html"), "w", encoding="utf-8") as file:
+            file.write(before + base64.b64encode(gzip.compress(json.dumps(data).encode())).decode() + after)
+        self.show()
+
+    def path(self, name):
+        return os.path.join(self.folder.name, name)
 
     def humanoid(self, *arguments, **view):
         return self.open(ROBOT + ".urdf", "--srdf", ROBOT + ".srdf", "--pose", "zero", *arguments, **view)
 
     def put(self, name, text):
-        path = os.path.join(self.folder.name, name)
+        path = self.path(name)
         with open(path, "w", encoding="utf-8") as file:
             file.write(text)
         return path
@@ -277,14 +296,25 @@ class Page(unittest.TestCase):
         self.click("#table tbody tr")
         self.assertEqual(self.script("return scene.report.bodies.filter(b => b.obstacle && scene.side(b) === 1).length"), 1)
 
-    def test_a_report_without_pairs_opens(self):
-        urdf = self.put("one.urdf", '<robot name="one"><link name="only"><collision><geometry><sphere radius="0.1"/></geometry></collision>'
-                        '</link></robot>')
-        done = subprocess.run([PROGRAM, urdf, "--format", "html"], capture_output=True, text=True)
-        if done.returncode == 2:  # nothing to check is refused
-            return
-        self.open(urdf)
+    def test_a_view_of_a_pair_that_is_not_there_shows_the_first(self):
+        self.humanoid(view="#pair=9999&show=pair")
+        self.assertEqual(self.script("return document.body.dataset.selected"), "0")
+        self.assertEqual(self.script("return scene.bodies.filter(m => m.visible).length"), 2)
+
+    def test_a_page_without_pairs_opens(self):
+        # The tools refuse to report nothing; a page whose data has no pairs must still open.
+        self.humanoid()
+        self.reopen(lambda data: data["pairs"].clear())
         self.assertIn("no pairs", self.browser.find_element(By.ID, "nothing").text)
+        self.assertGreater(self.pixels()["link"], 5000)
+
+    def test_the_cause_filter_keeps_the_pairs_of_one_cause(self):
+        self.humanoid()
+        causes = ["meshes meet", "hull only", "margin only"]
+        self.reopen(lambda data: [pair.update(cause=causes[i % 3]) for i, pair in enumerate(data["pairs"])])
+        Select(self.browser.find_element(By.ID, "cause")).select_by_value("hull only")
+        self.assertEqual(len(self.rows()), 155)
+        self.assertTrue(all("hull only" in row for row in self.rows()))
 
 
 if __name__ == "__main__":
