@@ -65,6 +65,18 @@ std::string number(double value) {
   return text;
 }
 
+void check(Report& report, const Points& points, const ConversionOptions& options) {
+  if (options.verify) {
+    const Verification verification = verify(*report.volume, points);
+    report.verified = verification.ok;
+    report.verification = verification.message;
+  }
+  if (options.measure) {
+    report.overCover = overCover(*report.volume, points);
+    report.cubicMetres = enclosedVolume(*report.volume);
+  }
+}
+
 }  // namespace
 
 Report convert(const std::string& input, const ConversionOptions& options) {
@@ -82,14 +94,10 @@ Report convert(const std::string& input, const ConversionOptions& options) {
     report.buildSeconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   }
   report.points = points.size();
-  if (options.verify) {
-    const Verification verification = verify(*report.volume, points);
-    report.verified = verification.ok;
-    report.verification = verification.message;
-  }
-  if (options.measure) {
-    report.overCover = overCover(*report.volume, points);
-    report.cubicMetres = enclosedVolume(*report.volume);
+  try {
+    check(report, points, options);
+  } catch (const Error& error) {
+    throw Error(input + ": " + error.what());
   }
   return report;
 }

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "fcl_stpbv/volume/exact_sign.h"
+
 namespace fcl_stpbv {
 namespace {
 
@@ -136,8 +138,9 @@ int TouchingBall::side(const Eigen::Vector3d& p) const {
   const Exact& e = exact();
   const Vec<Quad> q = difference<Quad>(p, anchor_);
   const double value = static_cast<double>(e.kappa * dot(q, q) / 2 + dot(q, e.m));
-  const double zero = 64 * kQuadEpsilon * condition_ * length;
-  return value > zero ? 1 : value < -zero ? -1 : 0;
+  const double unsure = 64 * kQuadEpsilon * e.condition * length;
+  if (std::abs(value) > unsure) return value > 0 ? 1 : -1;
+  return exactSide({anchor_, b_, c_, radius_}, p);
 }
 
 int TouchingBall::turn(const Eigen::Vector3d& p, const Eigen::Vector3d& q, const Eigen::Vector3d& s) const {
@@ -154,8 +157,9 @@ int TouchingBall::turn(const Eigen::Vector3d& p, const Eigen::Vector3d& q, const
   const Vec<Quad> o = difference<Quad>(p, anchor_);
   const Vec<Quad> m{e.m.x + e.kappa * o.x, e.m.y + e.kappa * o.y, e.m.z + e.kappa * o.z};
   const double d = static_cast<double>(dot(m, cross(difference<Quad>(q, p), difference<Quad>(s, p))));
-  const double zero = 64 * kQuadEpsilon * condition_ * size;
-  return d > zero ? 1 : d < -zero ? -1 : 0;
+  const double unsure = 64 * kQuadEpsilon * e.condition * size;
+  if (std::abs(d) > unsure) return d > 0 ? 1 : -1;
+  return exactTurn({anchor_, b_, c_, radius_}, p, q, s);
 }
 
 }  // namespace fcl_stpbv

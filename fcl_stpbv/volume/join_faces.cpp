@@ -50,26 +50,22 @@ Ring boundary(const std::vector<Ring>& faces, const std::vector<HalfEdge>& halfE
   return ring;
 }
 
-// On a convex hull a vertex with two faces lies inside an edge, extreme by rounding alone.
-void dropFlatVertices(std::vector<Ring>* faces) {
-  for (bool again = true; again;) {
-    again = false;
-    std::vector<int> uses;
-    for (const Ring& ring : *faces)
-      for (const int i : ring) {
-        if (static_cast<std::size_t>(i) >= uses.size()) uses.resize(static_cast<std::size_t>(i) + 1, 0);
-        ++uses[static_cast<std::size_t>(i)];
-      }
-    for (Ring& ring : *faces) {
-      const std::size_t before = ring.size();
-      for (std::size_t k = 0; k < ring.size() && ring.size() > 3;)
-        if (uses[static_cast<std::size_t>(ring[k])] == 2)
-          ring.erase(ring.begin() + static_cast<std::ptrdiff_t>(k));
-        else
-          ++k;
-      again = again || ring.size() != before;
-    }
+// Whether one ball will do for all corners of a joined face: each within `tolerance` of it, and its normals
+// along each side as they must be.
+bool isSound(const std::vector<Vector3d>& points, const Ring& ring, double radius, long double tolerance) {
+  const auto at = [&](std::size_t k) -> const Vector3d& {
+    return points[static_cast<std::size_t>(ring[k % ring.size()])];
+  };
+  const std::array<int, 3> t = wideTriangle(points, ring);
+  const TouchingBall ball(points[static_cast<std::size_t>(t[0])], points[static_cast<std::size_t>(t[1])],
+                          points[static_cast<std::size_t>(t[2])], radius);
+  if (!ball.valid()) return false;
+  for (std::size_t k = 0; k < ring.size(); ++k) {
+    const long double here = ball.height(at(k)), next = ball.height(at(k + 1));
+    if (std::abs(here) > tolerance || std::abs(next - here) > kJoinTilt * (at(k + 1) - at(k)).norm())
+      return false;
   }
+  return true;
 }
 
 }  // namespace
@@ -95,13 +91,10 @@ std::vector<Ring> joinFaces(const std::vector<Vector3d>& points, std::vector<Rin
   }
   const std::vector<HalfEdge> halfEdges = pairHalfEdges(points, faces, normals, radius);
 
-  // One face in place of two must not tilt either: a height at the level of rounding is a tilt where the face
-  // is narrow, as between near-duplicates, and near the smallest radius the balls of opposite faces nearly
-  // coincide.
-  constexpr double kTilt = 1e-10;
+  // Height alone does not tell: near the smallest radius the balls of opposite faces nearly coincide.
   const auto onOneBall = [&](std::size_t seed, std::size_t f) {
     const Vector3d tilt = balls[seed].normalAt(at(faces[f][0])) - normals[f];
-    return tilt.norm() <= kTilt && std::all_of(faces[f].begin(), faces[f].end(), [&](int i) {
+    return tilt.norm() <= kJoinTilt && std::all_of(faces[f].begin(), faces[f].end(), [&](int i) {
              return std::abs(balls[seed].height(at(i))) <= tolerance;
            });
   };
@@ -130,12 +123,11 @@ std::vector<Ring> joinFaces(const std::vector<Vector3d>& points, std::vector<Rin
   std::vector<Ring> joined;
   for (const std::vector<std::size_t>& members : groups) {
     Ring ring = members.size() > 1 ? boundary(faces, halfEdges, first, group, members) : Ring();
-    if (!ring.empty())
+    if (!ring.empty() && isSound(points, ring, radius, tolerance))
       joined.push_back(std::move(ring));
     else
       for (const std::size_t f : members) joined.push_back(faces[f]);
   }
-  if (std::isinf(radius)) dropFlatVertices(&joined);
   for (Ring& ring : joined) std::rotate(ring.begin(), std::min_element(ring.begin(), ring.end()), ring.end());
   std::sort(joined.begin(), joined.end());
   return joined;

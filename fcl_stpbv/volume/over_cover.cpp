@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "fcl_stpbv/volume/ball_side.h"
 #include "fcl_stpbv/volume/hull_excess.h"
 #include "fcl_stpbv/volume/measure.h"
 #include "fcl_stpbv/volume/surface_height.h"
@@ -83,14 +84,16 @@ double meanOverSegment(const StpBv& volume) {
 }  // namespace
 
 HullExcess::HullExcess(const std::vector<Vector3d>& points) : points_(points) {
-  RolledHull hull = rollBall(points);
+  const double flat = flatRadius(points);
+  RolledHull hull = rollBall(points, flat);
   faces_ = std::move(hull.faces);
   ends_ = std::move(hull.vertices);
   for (const std::vector<int>& ring : faces_) {
     const std::array<int, 3> wide = wideTriangle(points_, ring);
-    normals_.push_back((at(wide[1]) - at(wide[0])).cross(at(wide[2]) - at(wide[0])).normalized());
+    // The builder's own ball: the cross product of a sliver's sides is rounding.
+    normals_.push_back(TouchingBall(at(wide[0]), at(wide[1]), at(wide[2]), flat).normalAt(at(ring[0])));
   }
-  halfEdges_ = pairHalfEdges(points_, faces_, normals_, std::numeric_limits<double>::infinity());
+  halfEdges_ = pairHalfEdges(points_, faces_, normals_, flat);
 }
 
 double HullExcess::max(const StpBv& volume) const {

@@ -158,7 +158,7 @@ bool Roller::isLone(int a, int b) const {
 
 // A point that the ball leaves before it has rolled by `rest` and that is back inside by then; -1 where there
 // is none. Such a point is out for less than the whole roll: if for less than half a turn it is one of those
-// `aside` of the edge, else it is out after half a turn.
+// `aside` of the edge, else it is out in the middle of the roll.
 int Roller::leftOnTheWay(int a, int b, const Vector3d& across, double rest) {
   const Vector3d edge = at(b) - at(a), u = edge.normalized(), side = u.cross(across);
   std::vector<int> aside;
@@ -176,11 +176,12 @@ int Roller::leftOnTheWay(int a, int b, const Vector3d& across, double rest) {
     const double angle = leavingAngle(a, b, across, i);
     if (angle >= 0 && angle < first) left = i, first = angle;
   }
-  if (left >= 0 || rest < 0.5 * kTwoPi) return left;
+  if (left >= 0 || rest < 0.5 * kTwoPi - 1e-6) return left;
   const double half = 0.5 * curvature_ * edge.norm();
-  const Vector3d opposite = -half * u - std::sqrt(std::max(0.0, 1 - half * half)) * across;
+  const Vector3d middle = -half * u + std::sqrt(std::max(0.0, 1 - half * half)) *
+                                          (std::cos(0.5 * rest) * across + std::sin(0.5 * rest) * side);
   const double tolerance = 4e-15 * extent_;
-  const PointTree::Highest top = tree_.highest(at(a), opposite, curvature_, tolerance, &near_);
+  const PointTree::Highest top = tree_.highest(at(a), middle, curvature_, tolerance, &near_);
   return top.height > tolerance ? top.index : -1;
 }
 
@@ -295,13 +296,15 @@ int Roller::addFace(Ring ring) {
 
 // Finds a first face; false where the cloud has none (one point, two points, or collinear ones).
 bool Roller::start() {
-  // Directions of no special relation to any cloud made by hand, so that no two points tie.
-  const Vector3d directions[] = {{0.5270462766947299, -0.3713906763541037, 0.7643977126843163},
-                                 {-0.2113248654051871, 0.6317811293741526, 0.7457841219436127},
-                                 {0.8191520442889918, 0.4067366430758002, -0.4039724532302116}};
-  for (const Vector3d& d : directions) {
+  // Points nearer to each other than rounding can tell may be touched in the wrong order: then come from
+  // elsewhere, along a spiral that has no special relation to any cloud made by hand.
+  constexpr int kTries = 64;
+  constexpr double kGolden = 2.399963229728653;  // rad, from one to the next
+  for (int k = 0; k < kTries; ++k) {
+    const double z = 0.7643977126843163 - 1.7 * k / kTries, side = std::sqrt(1 - z * z);
+    const Vector3d d(side * std::cos(kGolden * k - 0.6), side * std::sin(kGolden * k - 0.6), z);
     Vector3d normal;
-    const int a = touchFirst(d.normalized(), &normal);
+    const int a = touchFirst(d, &normal);
     removeTwins(a);
     const int b = touchSecond(a, normal);
     if (b < 0) {
@@ -324,7 +327,7 @@ bool Roller::start() {
     try {
       addFace(pivot(a, b, across, c));
       return true;
-    } catch (const Error&) {  // two points tied for the first touch: come from elsewhere
+    } catch (const Error&) {  // the edge from a to b is none
     }
   }
   throw Error(
@@ -463,17 +466,15 @@ RolledHull rollOnce(const std::vector<Vector3d>& points, double radius) {
 
 }  // namespace
 
+double flatRadius(const std::vector<Vector3d>& points) {
+  Vector3d low = points[0], high = points[0];
+  for (const Vector3d& p : points) low = low.cwiseMin(p), high = high.cwiseMax(p);
+  const double extent = (high - low).norm();
+  return extent > 0 ? 1e15 * extent : 1;
+}
+
 RolledHull rollBall(const std::vector<Vector3d>& points, double radius) {
-  if (!std::isinf(radius)) return rollOnce(points, radius);
-  try {
-    return rollOnce(points, radius);
-  } catch (const Error&) {
-    // A flat cloud off its plane, or a row off its line, by rounding has no convex hull worth the name. A
-    // ball of 1e12 extents leaves out what sticks out of the rest by less than about 1e-13 extents.
-    Vector3d low = points[0], high = points[0];
-    for (const Vector3d& p : points) low = low.cwiseMin(p), high = high.cwiseMax(p);
-    return rollOnce(points, 1e12 * (high - low).norm());
-  }
+  return rollOnce(points, std::isinf(radius) ? flatRadius(points) : radius);
 }
 
 }  // namespace fcl_stpbv

@@ -24,6 +24,11 @@ struct RolledHull {
 RolledHull rollBall(const std::vector<Eigen::Vector3d>& points,
                     double radius = std::numeric_limits<double>::infinity());
 
+/// Radius of a ball that bulges over the cloud by less than its coordinates' rounding: what rollBall() rolls
+/// in place of a plane. Unlike a plane it has no point on a side of one of its triangles but the two ends, so
+/// no vertex of the convex hull lies inside a side or a flat face.
+double flatRadius(const std::vector<Eigen::Vector3d>& points);
+
 /// The half-edges of a closed surface of rings: which one lies on the other side of each.
 struct HalfEdge {
   int face, corner;  ///< runs from ring[corner] to the next vertex of faces[face]
@@ -41,6 +46,11 @@ std::vector<HalfEdge> pairHalfEdges(const std::vector<Eigen::Vector3d>& points,
 
 /// Three vertices of a ring that make a large triangle, so that they fix the face's ball well.
 std::array<int, 3> wideTriangle(const std::vector<Eigen::Vector3d>& points, const std::vector<int>& ring);
+
+/// Angle by which the normals of a face of more than three corners may be off (rad), a few thousand
+/// roundings: where more is needed the face stays in triangles, which are exact. Its seams then part by at
+/// most this times the ball's radius.
+constexpr double kJoinTilt = 1e-12;
 
 /// Height up to which a point counts as touching a face's ball (m): a few roundings of the cloud's
 /// coordinates.

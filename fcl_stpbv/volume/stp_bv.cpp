@@ -83,12 +83,15 @@ double farthestOut(const StpBv& volume, const std::vector<Vector3d>& points) {
 }
 
 // Clusters of points that differ by a few roundings can defeat the builder. The result is then wrong by far
-// more than rounding, so wide bounds tell it; a wrong volume must not leave the builder.
-void refuseBroken(const StpBv& volume, const std::vector<Vector3d>& points) {
+// more than rounding, so wide bounds tell it; a wrong volume must not leave the builder. `others` are the
+// points that are no vertices.
+void refuseBroken(const StpBv& volume, const std::vector<Vector3d>& points,
+                  const std::vector<Vector3d>& others) {
   const Verification check = verify(volume);
-  const double size = volume.enclosingRadius();
-  if (check.containment <= 1e-9 * size && farthestOut(volume, points) <= 1e-9 * size &&
-      std::abs(check.solidAngleError) <= 1e-6 && check.seamGap <= 1e-3 * size)
+  const double size = volume.enclosingRadius(), off = 1e-9 * size + 2 * touchTolerance(points);
+  const double shift = 1e-3 * size + off + 64 * std::numeric_limits<double>::epsilon() * volume.radii().rho;
+  if (check.containment <= off && (others.empty() || farthestOut(volume, others) <= off) &&
+      std::abs(check.solidAngleError) <= 1e-6 && check.seamGap <= shift)
     return;
   throw Error(
       "the points are too close to each other to be told apart: merge those closer together than about " +
@@ -115,7 +118,10 @@ StpBv::Ptr StpBv::build(const std::vector<Vector3d>& points, const StpBvOptions&
   for (Ring& ring : hull.faces)
     for (int& i : ring) i = newIndex[static_cast<std::size_t>(i)];
   const Ptr volume = make(std::move(vertices), std::move(hull.faces), options);
-  refuseBroken(*volume, points);
+  std::vector<Vector3d> others;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (newIndex[i] < 0) others.push_back(points[i]);
+  refuseBroken(*volume, points, others);
   return volume;
 }
 

@@ -93,4 +93,73 @@ CloudCase nastyCloud(Random& random) {
   return c;
 }
 
+CloudCase nearDegenerateCloud(Random& random) {
+  CloudCase c;
+  const auto anywhere = [&] {
+    return Vector3d(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+  };
+  const int kind = random.below(6), count = 4 + random.below(7);
+  for (int i = 0; i < count; ++i) c.points.push_back(anywhere());
+  const auto pick = [&]() -> const Vector3d& {
+    return c.points[static_cast<std::size_t>(random.below(count))];
+  };
+  const auto off = [&](double least, double most) {
+    return std::pow(10.0, random.uniform(least, most)) * random.direction();
+  };
+  switch (kind) {
+    case 0:  // points nearly on the lines through others
+      for (int k = 1 + random.below(4); k > 0; --k) {
+        const Vector3d a = pick(), b = pick();
+        c.points.push_back(a + random.uniform(-0.5, 1.5) * (b - a) + off(-17, -7));
+      }
+      break;
+    case 1:  // slivers: doubles of points, slid along by little and off by far less
+      for (int k = 1 + random.below(4); k > 0; --k) {
+        const Vector3d a = pick(), b = pick();
+        c.points.push_back(a + 1e-9 * std::pow(10.0, random.uniform(-3, 1)) * (b - a) + off(-18, -10));
+      }
+      break;
+    case 2:  // vertices doubled
+      for (int k = 1 + random.below(4); k > 0; --k) c.points.push_back(pick() + off(-8.5, -7.5));
+      break;
+    case 3:  // in one plane, to rounding or nearly
+      for (Vector3d& p : c.points) p.z() = 0.3 * p.x() - 0.2 * p.y();
+      if (random.below(2))
+        for (Vector3d& p : c.points) p += off(-18, -9);
+      break;
+    case 4:  // on one sphere, some with their opposites and mirror images
+      for (Vector3d& p : c.points) p.normalize();
+      for (int k = random.below(4); k > 0; --k) {
+        const Vector3d p = pick();
+        c.points.push_back(random.below(2) ? Vector3d(-p) : Vector3d(p.x(), -p.y(), p.z()));
+      }
+      break;
+    default:  // a box and points in its sides and edges
+      c.points = test::box(2, random.uniform(0.1, 2), random.uniform(0.001, 1));
+      for (int k = random.below(6); k > 0; --k) {
+        const Vector3d a = c.points[static_cast<std::size_t>(random.below(8))],
+                       b = c.points[static_cast<std::size_t>(random.below(8))];
+        c.points.push_back(a + random.uniform(0, 1) * (b - a));
+      }
+      break;
+  }
+  const double scale = std::pow(10.0, random.uniform(-2, 0));
+  const Eigen::Matrix3d turn = random.below(2) ? random.rotation() : Eigen::Matrix3d::Identity();
+  const Vector3d offset = random.below(2) ? Vector3d(scale * anywhere()) : Vector3d(Vector3d::Zero());
+  const int rounding = random.below(4);
+  for (Vector3d& p : c.points) {
+    p = scale * (turn * p) + offset;
+    if (rounding == 0) p = p.cast<float>().cast<double>();
+    if (rounding == 1)  // millimetres in float32, scaled
+      p = 0.001 * (1000 * p).cast<float>().cast<double>();
+    if (rounding == 2)  // a text file with six decimals
+      for (int k = 0; k < 3; ++k) p[k] = 1e-6 * std::round(1e6 * p[k]);
+  }
+  c.radii.r = random.below(4) == 0 ? 0 : 0.01;
+  c.radii.R = random.below(2)
+                  ? 10
+                  : StpBv::smallestR(c.points, c.radii.r) * (1 + std::pow(10.0, random.uniform(-6, 3)));
+  return c;
+}
+
 }  // namespace fcl_stpbv::fuzz

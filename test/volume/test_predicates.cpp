@@ -24,6 +24,21 @@ TEST_CASE("A point a millionth of rounding off the ball is told apart from one o
   CHECK(ball.side({std::nextafter(0.1, 0), -0.2, 0.3}) == -1);
 }
 
+TEST_CASE("The side of a ball through a sliver is decided where quadruple precision cannot") {
+  // Three corners of a rectangle of aspect 2^-67. Its fourth corner is on every ball through them; next to
+  // it, points are off by less than 1e-43 m, along the short side.
+  const double width = std::ldexp(1, -70), step = std::ldexp(1, -75);
+  for (const double radius : {0.1, 10.0, 1e6, 1e15}) {
+    const TouchingBall ball({0.125, 0, 0}, {0, 0, 0}, {0, -width, 0}, radius);
+    REQUIRE(ball.valid());
+    CHECK(ball.side({0.125, -width, 0}) == 0);
+    CHECK(ball.side({0.125, -width - step, 0}) == 1);
+    CHECK(ball.side({0.125, -width + step, 0}) == -1);
+    CHECK(ball.turn({0.125, 0, 0}, {0, 0, 0}, {0, -width, 0}) == 1);
+    CHECK(ball.turn({0.125, 0, 0}, {0, -width, 0}, {0, 0, 0}) == -1);
+  }
+}
+
 TEST_CASE("An infinite radius makes the ball the plane through its points") {
   const TouchingBall plane({0, 0, 1}, {1, 0, 1}, {0, 1, 1}, std::numeric_limits<double>::infinity());
   CHECK((plane.normal() - Vector3d(0, 0, 1)).norm() == 0);

@@ -1,0 +1,79 @@
+#include "test/fuzz/cloud_check.h"
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+#include "fcl_stpbv/error.h"
+#include "fcl_stpbv/volume/measure.h"
+#include "fcl_stpbv/volume/verify.h"
+#include "test/reference/ball_hull_check.h"
+
+namespace fcl_stpbv::fuzz {
+
+using Eigen::Vector3d;
+
+namespace {
+
+std::string number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", value);
+  return text;
+}
+
+// Normals at random, of planes through three points, and next to those.
+std::vector<Vector3d> normalsFor(const test::Cloud& points, test::Random& random) {
+  std::vector<Vector3d> normals;
+  const auto pick = [&] {
+    return points[static_cast<std::size_t>(random.below(static_cast<int>(points.size())))];
+  };
+  for (int k = 0; k < 6; ++k) {
+    normals.push_back(random.direction());
+    const Vector3d a = pick(), n = (pick() - a).cross(pick() - a);
+    if (!(n.norm() > 0)) continue;
+    normals.push_back(n.normalized());
+    normals.push_back(
+        (n.normalized() + std::pow(10.0, random.uniform(-12, -1)) * random.direction()).normalized());
+  }
+  return normals;
+}
+
+}  // namespace
+
+std::string complaintAbout(const CloudCase& c, test::Random& random) {
+  StpBv::Ptr volume;
+  OverCover over{};
+  try {
+    volume = StpBv::build(c.points, c.radii);
+    over = overCover(*volume, c.points);
+  } catch (const Error& e) {
+    return std::string("refused: ") + e.what();
+  }
+  const Verification found = verify(*volume, c.points, c.radii.r);
+  if (!found.ok) return "verify: " + found.message;
+
+  // Points as close as the rounding of their coordinates count as one, and on a joined face heights of as
+  // much as 32 roundings are left. Where faces are joined, claimed points are 1e-12 of the radius off along
+  // the surface; and a normal is a unit vector but for a rounding, which rho multiplies.
+  constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+  double largest = 0;
+  for (const Vector3d& p : c.points) largest = std::max(largest, p.cwiseAbs().maxCoeff());
+  const double size = volume->enclosingRadius(), rho = c.radii.R - c.radii.r;
+  const double allowed = 64 * kEpsilon * (largest + size) + 1e-12 * size + 8 * kEpsilon * rho;
+  for (const Vector3d& n : normalsFor(c.points, random)) {
+    const Vector3d x = volume->surfacePoint(n) - c.radii.r * n;
+    const test::BallHullClaim claim = test::checkBallHull(c.points, rho, n, x);
+    if (!(claim.outside <= allowed)) return "a point is " + number(claim.outside) + " m outside the core";
+    if (!(claim.beyond <= allowed)) return "the core is " + number(claim.beyond) + " m too large";
+    double hull = -std::numeric_limits<double>::infinity();
+    for (const Vector3d& p : c.points) hull = std::max(hull, n.dot(p - x));
+    if (!(c.radii.r - hull <= over.max + allowed))
+      return "the over-cover is " + number(c.radii.r - hull - over.max) + " m too small";
+  }
+  if (!(over.mean >= c.radii.r - allowed && over.mean <= over.max + allowed))
+    return "the mean over-cover is " + number(over.mean) + " m";
+  return {};
+}
+
+}  // namespace fcl_stpbv::fuzz
