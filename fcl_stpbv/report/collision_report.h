@@ -20,6 +20,7 @@ struct ReportRequest {
   GeometryOptions geometry;
   bool flatObstacles = false;  ///< the scene's meshes stay convex polyhedra
   PairListOptions search;
+  bool skipInvalid = false;  ///< go on without the shapes that are wrong
 };
 
 /// One pair of links, or a link and an obstacle, in the posture asked for or in its closest configuration.
@@ -56,6 +57,7 @@ struct CollisionReport {
   std::shared_ptr<const Kinematics> kinematics;
   std::vector<Obstacle> obstacles;
   std::vector<std::string> warnings;
+  std::vector<std::string> skipped;         ///< shapes left out as wrong, which nothing was checked against
   std::vector<PolyhedronReport> polyhedra;  ///< one a body, or none where none were asked for
   std::vector<PairReport> pairs;            ///< checked ones first, closest first
   std::vector<PairEntry> list;              ///< what the search found

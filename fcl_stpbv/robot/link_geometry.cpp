@@ -20,49 +20,40 @@ namespace {
 
 using Points = std::vector<Eigen::Vector3d>;
 
-std::string withScale(const std::string& bytes, const Eigen::Vector3d& scale) {
-  std::string content;
-  appendVector(content, scale);
-  return content + '\n' + bytes;
+StpBvOptions radiiOf(const GeometryOptions& options, const std::string& link) {
+  const auto own = options.links.find(link);
+  return own == options.links.end() ? options.radii : own->second;
 }
 
-// What the cache knows a mesh by: the file's bytes, or for glTF, which keeps its vertices in other files, the
-// points.
-std::string contentOf(const std::string& path, const Eigen::Vector3d& scale) {
-  const bool several = path.size() > 5 && path.compare(path.size() - 5, 5, ".gltf") == 0;
-  if (!several) return withScale(readText(path), scale);
-  std::string points;
-  for (const Eigen::Vector3d& p : loadPoints(path)) {
-    appendVector(points, p);
-    points += '\n';
+bool isFlat(const GeometryOptions& options, const std::string& link) {
+  return options.flat || options.flatLinks.count(link) > 0;
+}
+
+void checkNames(const RobotModel& robot, const GeometryOptions& options, LoadFaults& faults) {
+  std::set<std::string> names = options.flatLinks;
+  for (const auto& entry : options.links) names.insert(entry.first);
+  for (const auto& entry : options.budgets) names.insert(entry.first);
+  for (const std::string& name : names) {
+    if (robot.link(name) < 0)
+      faults.errors.push_back(robot.path + ": options were given for a link '" + name + "' it does not have");
   }
-  return withScale(points, scale);
 }
 
-class Loader {
+class Builder {
  public:
-  Loader(const RobotModel& robot, const GeometryOptions& options)
-      : robot_(robot),
-        options_(options),
-        paths_(robot.path, options.packagePath),
-        cache_(options.cacheFolder) {}
+  Builder(const RobotModel& robot, const GeometryOptions& options, LoadFaults& faults)
+      : robot_(robot), options_(options), faults_(faults), cache_(options.cacheFolder) {}
 
-  RobotGeometry load() {
-    checkNames();
-    const bool visual = options_.visual || onlyVisual();
-    const auto shapes = [&](const LinkModel& link) -> const std::vector<ShapeModel>& {
-      return visual ? link.visual : link.collision;
-    };
-    std::size_t done = 0, all = 0;
-    for (const LinkModel& link : robot_.links) all += shapes(link).size();
-    if (all == 0)
-      geometry_.warnings.push_back(robot_.path + ": no link has a " + (visual ? "visual" : "collision") +
-                                   " shape, so there is nothing to check.");
-    for (std::size_t l = 0; l < robot_.links.size(); ++l) {
-      int number = 0;
-      for (const ShapeModel& shape : shapes(robot_.links[l])) {
-        if (options_.progress) options_.progress(done++, all, robot_.links[l].name);
-        add(static_cast<int>(l), ++number, shape);
+  RobotGeometry build(const ShapeSources& sources) {
+    geometry_.warnings = sources.warnings;
+    std::size_t done = 0;
+    for (const ShapeSource& source : sources.shapes) {
+      const std::string& link = robot_.links[static_cast<std::size_t>(source.link)].name;
+      if (options_.progress) options_.progress(done++, sources.shapes.size(), link);
+      try {
+        add(link, source);
+      } catch (const Error& error) {
+        faults_.shapes.push_back(source.shape->place + ": " + error.what());
       }
     }
     geometry_.fromCache = cache_.hits();
@@ -70,53 +61,26 @@ class Loader {
   }
 
  private:
-  void checkNames() const {
-    const auto check = [&](const std::string& name) {
-      if (robot_.link(name) < 0)
-        throw Error(robot_.path + ": options were given for a link '" + name + "' it does not have");
-    };
-    for (const auto& entry : options_.links) check(entry.first);
-    for (const auto& entry : options_.budgets) check(entry.first);
-    for (const std::string& link : options_.flatLinks) check(link);
-  }
-
-  bool onlyVisual() {
-    const auto count = [&](std::vector<ShapeModel> LinkModel::*shapes) {
-      return std::count_if(robot_.links.begin(), robot_.links.end(),
-                           [&](const LinkModel& link) { return !(link.*shapes).empty(); });
-    };
-    const auto collision = count(&LinkModel::collision), visual = count(&LinkModel::visual);
-    if (collision > 0 || visual == 0) return false;
-    geometry_.warnings.push_back(robot_.path + ": no link has a collision shape; the visual shapes of " +
-                                 std::to_string(visual) + " links are used instead.");
-    return true;
-  }
-
-  void add(int link, int number, const ShapeModel& shape) {
-    const std::string& name = robot_.links[static_cast<std::size_t>(link)].name;
+  void add(const std::string& link, const ShapeSource& source) {
     Body body;
-    body.link = link;
-    body.name = number == 1 ? name : name + "#" + std::to_string(number);
-    body.pose = shape.pose;
-    try {
-      if (shape.kind == ShapeModel::Kind::mesh)
-        addMesh(name, shape, body);
-      else
-        addPrimitive(shape, body);
-    } catch (const Error& error) {
-      throw Error(robot_.path + ": link '" + name + "': " + error.what());
-    }
+    body.link = source.link;
+    body.name = source.number == 1 ? link : link + "#" + std::to_string(source.number);
+    body.pose = source.shape->pose;
+    body.file = source.file;
+    if (source.shape->kind == ShapeModel::Kind::mesh)
+      addMesh(link, source, body);
+    else
+      addPrimitive(*source.shape, body);
     body.centre = body.pose * body.centre;
     geometry_.bodies.push_back(std::move(body));
   }
 
-  void addMesh(const std::string& link, const ShapeModel& shape, Body& body) {
-    body.file = paths_.resolve(shape.mesh);
+  void addMesh(const std::string& link, const ShapeSource& source, Body& body) {
     try {
-      if (options_.flat || options_.flatLinks.count(link) > 0)
-        addHull(shape, body);
+      if (isFlat(options_, link))
+        addHull(source, body);
       else
-        addVolume(link, shape, body);
+        addVolume(link, source, body);
     } catch (const Error& error) {
       const std::string message = error.what();
       const bool named = message.find(body.file) != std::string::npos;
@@ -124,8 +88,8 @@ class Loader {
     }
   }
 
-  static void addHull(const ShapeModel& shape, Body& body) {
-    const auto hull = hullGeometry(loadPoints(body.file, shape.scale));
+  static void addHull(const ShapeSource& source, Body& body) {
+    const auto hull = hullGeometry(source.points());
     body.centre = hull->aabb_center;
     body.radius = 0;
     for (const Eigen::Vector3d& v : hull->getVertices())
@@ -133,19 +97,17 @@ class Loader {
     body.geometry = hull;
   }
 
-  void addVolume(const std::string& link, const ShapeModel& shape, Body& body) {
-    const auto own = options_.links.find(link);
-    StpBvOptions radii = own == options_.links.end() ? options_.radii : own->second;
+  void addVolume(const std::string& link, const ShapeSource& source, Body& body) {
+    StpBvOptions radii = radiiOf(options_, link);
     const auto budgetOf = options_.budgets.find(link);
     const double budget = budgetOf == options_.budgets.end() ? options_.overCoverBudget : budgetOf->second;
-    const std::string content = contentOf(body.file, shape.scale);
     const auto build = [&] {
-      body.volume = cache_.volume(content, radii,
-                                  [&] { return StpBv::build(loadPoints(body.file, shape.scale), radii); });
+      body.volume =
+          cache_.volume(source.content, radii, [&] { return StpBv::build(source.points(), radii); });
     };
     build();
     body.cover = overCover(*body.volume);
-    if (budget > 0) reduceTo(budget, loadPoints(body.file, shape.scale), content, radii, build, body);
+    if (budget > 0) reduceTo(budget, source.points(), source.content, radii, build, body);
     body.geometry = std::make_shared<StpBvGeometry>(body.volume);
     body.centre = body.volume->centre();
     body.radius = body.volume->enclosingRadius();
@@ -192,7 +154,7 @@ class Loader {
 
   const RobotModel& robot_;
   const GeometryOptions& options_;
-  PackagePath paths_;
+  LoadFaults& faults_;
   VolumeCache cache_;
   RobotGeometry geometry_;
 };
@@ -212,8 +174,27 @@ std::pair<int, int> RobotGeometry::of(int link) const {
   return {static_cast<int>(range.first - bodies.begin()), static_cast<int>(range.second - bodies.begin())};
 }
 
+ShapeSources readGeometry(const RobotModel& robot, const GeometryOptions& options, LoadFaults& faults) {
+  checkNames(robot, options, faults);
+  const VolumeCache cache(options.cacheFolder);
+  const IsCached isCached = [&](const std::string& link, const std::string& content) {
+    return !isFlat(options, link) && cache.has(content, radiiOf(options, link));
+  };
+  return readShapes(robot, options.visual, options.packagePath, isCached, faults);
+}
+
+RobotGeometry buildGeometry(const RobotModel& robot, const GeometryOptions& options,
+                            const ShapeSources& sources, LoadFaults& faults) {
+  return Builder(robot, options, faults).build(sources);
+}
+
 RobotGeometry loadGeometry(const RobotModel& robot, const GeometryOptions& options) {
-  return Loader(robot, options).load();
+  LoadFaults faults;
+  const ShapeSources sources = readGeometry(robot, options, faults);
+  faults.refuse();
+  RobotGeometry geometry = buildGeometry(robot, options, sources, faults);
+  faults.refuse();
+  return geometry;
 }
 
 }  // namespace fcl_stpbv
