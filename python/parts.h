@@ -6,7 +6,10 @@
 #include <pybind11/stl.h>
 
 #include <Eigen/Core>
+#include <string>
 #include <vector>
+
+#include "fcl_stpbv/error.h"
 
 namespace fcl_stpbv {
 
@@ -14,6 +17,12 @@ using PointArray = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
 
 void addVolume(pybind11::module_& module);
 void addRobot(pybind11::module_& module);
+
+/// @throws Error naming the argument.
+template <class Numbers>
+void requireFinite(const Numbers& numbers, const char* name) {
+  if (!numbers.allFinite()) throw Error(std::string(name) + ": holds a number that is not finite");
+}
 
 inline std::vector<Eigen::Vector3d> toPoints(const Eigen::Ref<const PointArray>& array) {
   std::vector<Eigen::Vector3d> points;

@@ -71,6 +71,7 @@ class PythonRobot {
       throw Error("q: got " + std::to_string(q.size()) + " coordinates, expected " +
                   std::to_string(kinematics_->size()));
     }
+    requireFinite(q, "q");
   }
 
   Srdf srdf_;

@@ -1,4 +1,7 @@
 // Volumes and their distance in Python.
+#include <algorithm>
+#include <limits>
+
 #include "fcl_stpbv/distance/distance.h"
 #include "fcl_stpbv/io/stpbv_file.h"
 #include "fcl_stpbv/robot/mesh_file.h"
@@ -37,6 +40,13 @@ PlacedDistance ask(const StpBv& a, const Eigen::Matrix4d& poseA, const StpBv& b,
   return {distance(a, first, b, second, cache), first.translation(), second.translation()};
 }
 
+Eigen::Vector3d direction(const Eigen::Vector3d& n) {
+  requireFinite(n, "direction");
+  const Eigen::Vector3d scaled = n / std::max(n.cwiseAbs().maxCoeff(), std::numeric_limits<double>::min());
+  if (scaled.isZero()) throw Error("direction: is zero, expected a vector of any other length");
+  return scaled.normalized();
+}
+
 void addStpBv(py::module_& module) {
   py::class_<StpBv, std::shared_ptr<StpBv>>(module, "StpBv", "A volume; immutable. Its own frame.")
       .def_static(
@@ -61,15 +71,18 @@ void addStpBv(py::module_& module) {
           "Lists of vertex indices, counter-clockwise seen from outside.")
       .def(
           "support",
-          [](const StpBv& volume, const Eigen::Vector3d& n) { return volume.support(n.normalized()); },
+          [](const StpBv& volume, const Eigen::Vector3d& n) { return volume.support(direction(n)); },
           py::arg("direction"))
       .def(
           "surface_point",
-          [](const StpBv& volume, const Eigen::Vector3d& n) { return volume.surfacePoint(n.normalized()); },
+          [](const StpBv& volume, const Eigen::Vector3d& n) { return volume.surfacePoint(direction(n)); },
           py::arg("direction"), "The surface point with this outward normal.")
       .def(
           "signed_distance",
-          [](const StpBv& volume, const Eigen::Vector3d& point) { return signedDistance(volume, point); },
+          [](const StpBv& volume, const Eigen::Vector3d& point) {
+            requireFinite(point, "point");
+            return signedDistance(volume, point);
+          },
           py::arg("point"))
       .def(
           "over_cover",

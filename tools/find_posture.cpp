@@ -8,13 +8,16 @@
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/io/atomic_write.h"
 #include "fcl_stpbv/report/posture_formats.h"
+#include "fcl_stpbv/report/robot_files.h"
+#include "tools/number_check.h"
 
 namespace {
 
 using namespace fcl_stpbv;
 using namespace fcl_stpbv::report;
+using namespace fcl_stpbv::tools;
 
-enum Exit { kFeasible = 0, kInfeasible = 1, kUsage = 2 };
+enum Exit { kFeasible = 0, kInfeasible = 1, kUsage = 2, kPartly = 3 };
 
 constexpr const char* kDescription =
     "A posture of a robot that does a task free of collisions, by constrained optimisation with the smooth "
@@ -29,13 +32,14 @@ Examples:
   find_posture hrp2_style.urdf pick_can.json --srdf hrp2_style.srdf --obstacles fridge.urdf
   find_posture robot.urdf task.json --starts 20 --format json -o posture.json
 
-Exit status: 0 a posture was found; 1 none was found; 2 the command line or an input is wrong.)";
+Exit status: 0 a posture was found; 1 none was found; 2 the command line or an input is wrong; 3 a posture was
+found, but --skip-invalid left shapes out.)";
 
 struct Arguments {
   std::string urdf, task, srdf, obstacles, format = "text", output;
   GeometryOptions geometry;
   PostureOptions options;
-  bool careless = false, noCache = false, quiet = false;
+  bool skipInvalid = false, careless = false, noCache = false, quiet = false;
 };
 
 void describe(CLI::App& app, Arguments& a) {
@@ -51,37 +55,39 @@ void describe(CLI::App& app, Arguments& a) {
   app.add_option("--starts", a.options.starts, "Starts to try: the task's own, then random ones near it")
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();
-  app.add_option("--seed", a.options.seed, "Of the random starts")->capture_default_str();
+  app.add_option("--seed", a.options.seed, "Of the random starts")
+      ->check(wholeNumber())
+      ->capture_default_str();
   app.add_option("-r", a.geometry.radii.r, "Radius of the small spheres, the margin")
-      ->check(CLI::NonNegativeNumber)
+      ->check(numberIn(0, kLargest))
       ->capture_default_str();
   app.add_option("-R", a.geometry.radii.R, "Radius of the big spheres")
-      ->check(CLI::PositiveNumber)
+      ->check(numberIn(0, kLargestR, false))
       ->capture_default_str();
   app.add_option("--format", a.format, "text, json or html")
       ->check(CLI::IsMember({"text", "json", "html"}))
       ->capture_default_str();
   app.add_option("-o,--output", a.output, "File to write instead of standard output")->type_name("OUT");
   app.add_flag("--ignore-collisions", a.careless, "Solve without the pairs, which are reported all the same");
+  app.add_flag("--skip-invalid", a.skipInvalid,
+               "Go on without the shapes that are wrong; exit status 3, not 0");
   app.add_flag("--no-cache", a.noCache, "Build every volume, keep none in the cache folder");
   app.add_flag("-q,--quiet", a.quiet, "No warnings");
 }
 
-PostureScene load(const Arguments& a) {
-  PostureScene scene;
-  scene.robot = std::make_shared<const RobotModel>(loadUrdf(a.urdf));
-  if (!a.srdf.empty()) scene.srdf = std::make_shared<const Srdf>(loadSrdf(a.srdf, *scene.robot));
-  scene.geometry = std::make_shared<const RobotGeometry>(loadGeometry(*scene.robot, a.geometry));
-  std::vector<std::string> warnings = scene.geometry->warnings;
-  if (!a.obstacles.empty()) {
-    const auto model = std::make_shared<const RobotModel>(loadUrdf(a.obstacles));
-    const RobotGeometry bodies = loadGeometry(*model, a.geometry);
-    scene.obstacles = obstaclesOf(model, bodies);
-    warnings.insert(warnings.end(), bodies.warnings.begin(), bodies.warnings.end());
-  }
+void load(const Arguments& a, PostureReport& report) {
+  RobotLoader loader({a.urdf, a.srdf, a.obstacles, a.geometry, a.geometry, a.skipInvalid});
+  loader.read();
+  loader.build();
+  PostureScene& scene = report.scene;
+  scene.robot = loader.robot();
+  scene.srdf = loader.srdf();
+  scene.geometry = loader.geometry();
+  if (loader.scene()) scene.obstacles = obstaclesOf(loader.scene(), loader.sceneGeometry());
+  report.warnings = loader.warnings();
+  report.skipped = loader.skipped();
   if (!a.quiet)
-    for (const std::string& warning : warnings) std::cerr << "find_posture: " << warning << std::endl;
-  return scene;
+    for (const std::string& warning : report.warnings) std::cerr << "find_posture: " << warning << std::endl;
 }
 
 int run(Arguments& a) {
@@ -90,7 +96,7 @@ int run(Arguments& a) {
   if (a.noCache) a.geometry.cacheFolder.clear();
   PostureReport report;
   report.task = loadTask(a.task);
-  report.scene = load(a);
+  load(a, report);
   PostureSetup setup = setUp(report.task, report.scene);
   if (a.careless) setup.problem = setUpWithoutCollisions(report.task, report.scene).problem;
   report.kinematics = std::make_shared<const Kinematics>(setup.problem->kinematics());
@@ -103,11 +109,9 @@ int run(Arguments& a) {
   const std::string text = a.format == "json"   ? toJson(report)
                            : a.format == "html" ? toHtml(report)
                                                 : toText(report);
-  if (a.output.empty())
-    std::cout << text << std::flush;
-  else
-    atomicWrite(a.output, text);
-  return report.posture.feasible ? kFeasible : kInfeasible;
+  writeOutput(a.output, text);
+  if (!report.posture.feasible) return kInfeasible;
+  return report.skipped.empty() ? kFeasible : kPartly;
 }
 
 }  // namespace

@@ -12,15 +12,16 @@
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/io/atomic_write.h"
 #include "fcl_stpbv/report/report_formats.h"
+#include "tools/number_check.h"
 #include "tools/progress_bar.h"
 
 namespace {
 
 using namespace fcl_stpbv;
 using namespace fcl_stpbv::report;
-using fcl_stpbv::tools::ProgressBar;
+using namespace fcl_stpbv::tools;
 
-enum Exit { kClear = 0, kCollision = 1, kUsage = 2 };
+enum Exit { kClear = 0, kCollision = 1, kUsage = 2, kPartly = 3 };
 
 constexpr const char* kDescription =
     "Distances between the links of a robot, each covered by its sphere-torus-patch bounding volume "
@@ -36,7 +37,8 @@ Examples:
   urdf_collision_report robot.urdf --package-path ~/ws/src --samples 10000 --format srdf -o robot.srdf
   urdf_collision_report robot.urdf --srdf robot.srdf --format html -o report.html
 
-Exit status: 0 no checked pair in collision; 1 a collision found; 2 the command line or an input is wrong.)";
+Exit status: 0 no checked pair in collision; 1 a collision found; 2 the command line or an input is wrong;
+3 no collision found, but --skip-invalid left shapes out.)";
 
 struct Arguments {
   ReportRequest request;
@@ -59,20 +61,22 @@ void describe(CLI::App& app, Arguments& a) {
   app.add_option("--samples", request.search.samples, "Random configurations")
       ->check(CLI::Range(1, 100000000))
       ->capture_default_str();
-  app.add_option("--seed", request.search.seed, "Of the random configurations")->capture_default_str();
+  app.add_option("--seed", request.search.seed, "Of the random configurations")
+      ->check(wholeNumber())
+      ->capture_default_str();
   app.add_option("--obstacles", request.obstacles, "URDF of a scene to keep clear of")->type_name("FILE");
   app.add_option("-r,--r", a.r,
                  "Radius of the small spheres, the margin, or 'auto': a twentieth of each link's smallest "
                  "width, 1 cm at most")
       ->type_name("LENGTH|auto")
-      ->check(CLI::NonNegativeNumber | CLI::IsMember({"auto"}))
+      ->check(numberIn(0, kLargest) | CLI::IsMember({"auto"}))
       ->capture_default_str();
   app.add_option("-R,--R", a.R,
                  "Radius of the big spheres, or 'auto': so large that they add no more than r; without it "
                  "auto where r is, "
                  "else 10")
       ->type_name("LENGTH|auto")
-      ->check(CLI::PositiveNumber | CLI::IsMember({"auto"}));
+      ->check(numberIn(0, kLargestR, false) | CLI::IsMember({"auto"}));
   app.add_option("--primitives", a.primitives,
                  "smooth: spheres, capsules, boxes and cylinders get smooth covers where a pair has no "
                  "smooth body; flat: none")
@@ -81,7 +85,7 @@ void describe(CLI::App& app, Arguments& a) {
   app.add_option(
          "--over-cover", request.geometry.overCoverBudget,
          "Most that a volume may exceed its mesh's hull by; spends it on fewer vertices, 0 for no limit")
-      ->check(CLI::NonNegativeNumber)
+      ->check(numberIn(0, kLargest))
       ->capture_default_str();
   app.add_option("--link", a.links, "Values of a single link; may be given again")
       ->type_name("NAME=r,R[,OVER_COVER]")
@@ -98,11 +102,14 @@ void describe(CLI::App& app, Arguments& a) {
          "Folder of polyhedra published for the meshes, MESH-ch.txt or MESH.otp: tells how far they differ")
       ->type_name("FOLDER");
   app.add_flag("--visual", request.geometry.visual, "Use the visual shapes");
-  app.add_option("--top", a.top, "Lines of each list in the text, and warnings shown")->capture_default_str();
+  app.add_option("--top", a.top, "Lines of each list in the text, and warnings shown")
+      ->check(wholeNumber())
+      ->capture_default_str();
   app.add_option("--margin", request.search.margin, "A distance not above it counts as a collision")
+      ->check(numberIn(-kLargest, kLargest))
       ->capture_default_str();
   app.add_option("--prove", request.search.proofSeconds, "Seconds to spend on proofs that pairs never meet")
-      ->check(CLI::NonNegativeNumber)
+      ->check(numberIn(0, kLargest))
       ->capture_default_str();
   app.add_option("--format", a.format, "text, json, csv, srdf or html")
       ->check(CLI::IsMember({"text", "json", "csv", "srdf", "html"}))
@@ -111,6 +118,8 @@ void describe(CLI::App& app, Arguments& a) {
   app.add_option("--threads", request.search.threads, "Threads for the samples")
       ->check(CLI::Range(1, 256))
       ->capture_default_str();
+  app.add_flag("--skip-invalid", request.skipInvalid,
+               "Go on without the shapes that are wrong; exit status 3, not 0");
   app.add_flag("--no-cache", a.noCache, "Build every volume, keep none in the cache folder");
   app.add_flag("-q,--quiet", a.quiet, "No progress bar and no warnings");
 }
@@ -124,7 +133,7 @@ std::string written(const CollisionReport& report, const Arguments& a) {
 }
 
 void checkOutput(const Arguments& a) {
-  if (a.output.empty()) return;
+  if (a.output.empty() || a.output == "-") return;
   std::error_code ignored;
   const std::filesystem::path parent = std::filesystem::path(a.output).parent_path();
   if (std::filesystem::is_directory(a.output, ignored))
@@ -202,11 +211,9 @@ int run(Arguments& a) {
   stages.clear();
   if (!a.quiet) warn(report.warnings, a.top);
   const std::string text = written(report, a);
-  if (a.output.empty())
-    std::cout << text << std::flush;
-  else
-    atomicWrite(a.output, text);
-  return report.colliding > 0 ? kCollision : kClear;
+  writeOutput(a.output, text);
+  if (report.colliding > 0) return kCollision;
+  return report.skipped.empty() ? kClear : kPartly;
 }
 
 }  // namespace

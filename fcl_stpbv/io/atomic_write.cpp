@@ -8,23 +8,33 @@
 
 #include <atomic>
 #include <cerrno>
+#include <charconv>
+#include <chrono>
 #include <csignal>
 #include <cstring>
 #include <ctime>
 #include <filesystem>
+#include <initializer_list>
 
 #include "fcl_stpbv/error.h"
 
 namespace fcl_stpbv {
 namespace {
 
-// Holds back the signals that end a process, until the temporary file is renamed or removed.
+// Temporary files are named by process and number, whatever they become: no name gets too long.
+constexpr std::string_view kTemporary = ".fcl_stpbv-", kTemporaryEnd = ".tmp";
+
+// Signals that come with an error of write().
+constexpr std::initializer_list<int> kOfWrites = {SIGXFSZ, SIGPIPE};
+// And those that end a process otherwise: held back until the temporary file is renamed or removed.
+constexpr std::initializer_list<int> kAll = {SIGXFSZ, SIGPIPE, SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGXCPU};
+
 class SignalsHeld {
  public:
-  SignalsHeld() {
+  explicit SignalsHeld(std::initializer_list<int> signals) {
     sigset_t held;
     sigemptyset(&held);
-    for (int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGXFSZ, SIGXCPU, SIGPIPE}) sigaddset(&held, signal);
+    for (int signal : signals) sigaddset(&held, signal);
     pthread_sigmask(SIG_BLOCK, &held, &before_);
   }
   ~SignalsHeld() {
@@ -32,7 +42,7 @@ class SignalsHeld {
     // it would end the process without a word. The same goes for a pipe nobody reads.
     sigset_t reported;
     sigemptyset(&reported);
-    for (int signal : {SIGXFSZ, SIGPIPE}) {
+    for (int signal : kOfWrites) {
       if (sigismember(&before_, signal) == 0) sigaddset(&reported, signal);
     }
     const timespec now{0, 0};
@@ -61,12 +71,28 @@ int writeAll(int file, std::string_view content) {
   return 0;
 }
 
+// Opening a pipe waits for its reader, and a full one for room; whoever gets tired of it may interrupt.
 void writeStraight(const std::string& path, std::string_view content) {
+  const SignalsHeld held(kOfWrites);
   const int file = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
   if (file < 0) refuse(path, errno);
   int error = writeAll(file, content);
   if (::close(file) != 0 && error == 0) error = errno;
   if (error != 0) refuse(path, error);
+}
+
+// The number of an open descriptor that the path names, or -1.
+int descriptorOf(const std::string& path) {
+  if (path == "/dev/stdout") return STDOUT_FILENO;
+  if (path == "/dev/stderr") return STDERR_FILENO;
+  for (const std::string_view folder : {"/dev/fd/", "/proc/self/fd/"}) {
+    if (path.compare(0, folder.size(), folder) != 0) continue;
+    int number = -1;
+    const char* const end = path.data() + path.size();
+    const auto result = std::from_chars(path.data() + folder.size(), end, number);
+    return result.ec == std::errc() && result.ptr == end ? number : -1;
+  }
+  return -1;
 }
 
 // The file that `path` stands for, symbolic links followed even where the last one hangs in the air.
@@ -83,50 +109,90 @@ std::string target(const std::string& path) {
   return file.string();
 }
 
+std::string folderOf(const std::string& path) {
+  const std::string parent = std::filesystem::path(path).parent_path().string();
+  return parent.empty() ? "." : parent;
+}
+
 // A new file beside `path`; its name is left in `name`.
-int openBeside(const std::string& path, std::string& name) {
+int openBeside(const std::string& path, mode_t mode, std::string& name) {
   static std::atomic<unsigned> serial{0};
   for (;;) {
-    name = path + ".tmp" + std::to_string(::getpid()) + "-" + std::to_string(serial++);
-    const int file = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    name = folderOf(path) + "/" + std::string(kTemporary) + std::to_string(::getpid()) + "-" +
+           std::to_string(serial++) + std::string(kTemporaryEnd);
+    const int file = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
     if (file >= 0 || errno != EEXIST) return file;
   }
 }
 
 // Makes the rename itself survive a power cut. Some file systems cannot; the file is whole all the same.
 void syncFolder(const std::string& path) {
-  const std::filesystem::path parent = std::filesystem::path(path).parent_path();
-  const int folder = ::open(parent.empty() ? "." : parent.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  const int folder = ::open(folderOf(path).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (folder < 0) return;
   ::fsync(folder);
   ::close(folder);
 }
 
-}  // namespace
-
-void atomicWrite(const std::string& path, std::string_view content) {
-  const SignalsHeld held;
-  const std::string file = target(path);
-  struct stat old {};
-  const bool exists = ::stat(file.c_str(), &old) == 0;
-  if (exists && S_ISDIR(old.st_mode)) refuse(path, EISDIR);
-  if (exists && !S_ISREG(old.st_mode)) return writeStraight(file, content);
-  // A rename would replace a file that its owner made read-only.
-  if (exists && ::access(file.c_str(), W_OK) != 0) refuse(path, errno);
-
+// `old` is the file to be replaced whose permissions stay, or null.
+void replace(const std::string& file, std::string_view content, mode_t mode, const struct stat* old) {
+  const SignalsHeld held(kAll);
   std::string temporary;
-  const int out = openBeside(file, temporary);
-  if (out < 0) refuse(path, errno);
+  const int out = openBeside(file, mode, temporary);
+  if (out < 0) refuse(file, errno);
   int error = writeAll(out, content);
-  if (error == 0 && exists && ::fchmod(out, old.st_mode & 07777) != 0) error = errno;
+  if (error == 0 && old && ::fchmod(out, old->st_mode & 07777) != 0) error = errno;
   if (error == 0 && ::fsync(out) != 0) error = errno;
   if (::close(out) != 0 && error == 0) error = errno;
   if (error == 0 && ::rename(temporary.c_str(), file.c_str()) != 0) error = errno;
   if (error != 0) {
     ::unlink(temporary.c_str());
-    refuse(path, error);
+    refuse(file, error);
   }
   syncFolder(file);
+}
+
+}  // namespace
+
+void atomicWrite(const std::string& path, std::string_view content) {
+  const int descriptor = descriptorOf(path);
+  if (descriptor >= 0) {
+    const SignalsHeld held(kOfWrites);
+    if (const int error = writeAll(descriptor, content)) refuse(path, error);
+    return;
+  }
+  struct stat old {};
+  const bool exists = ::stat(path.c_str(), &old) == 0;
+  if (exists && S_ISDIR(old.st_mode)) refuse(path, EISDIR);
+  if (exists && !S_ISREG(old.st_mode)) return writeStraight(path, content);
+  const std::string file = target(path);
+  // A rename would replace a file that its owner made read-only.
+  if (exists && ::access(file.c_str(), W_OK) != 0) refuse(path, errno);
+  replace(file, content, 0666, exists ? &old : nullptr);
+}
+
+void atomicWriteOwn(const std::string& path, std::string_view content) {
+  replace(path, content, 0600, nullptr);
+}
+
+void sweepTemporaries(const std::string& folder) {
+  namespace fs = std::filesystem;
+  constexpr auto kOld = std::chrono::hours(1);  // no write takes that long
+  std::error_code error;
+  for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
+    const std::string name = at->path().filename().string();
+    const bool ours =
+        name.size() > kTemporary.size() + kTemporaryEnd.size() &&
+        name.compare(0, kTemporary.size(), kTemporary) == 0 &&
+        name.compare(name.size() - kTemporaryEnd.size(), kTemporaryEnd.size(), kTemporaryEnd) == 0;
+    std::error_code ignored;
+    if (ours && fs::file_time_type::clock::now() - fs::last_write_time(at->path(), ignored) > kOld &&
+        !ignored)
+      fs::remove(at->path(), ignored);
+  }
+}
+
+void writeOutput(const std::string& path, std::string_view content) {
+  atomicWrite(path.empty() || path == "-" ? "/dev/stdout" : path, content);
 }
 
 }  // namespace fcl_stpbv

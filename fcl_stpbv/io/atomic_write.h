@@ -9,8 +9,21 @@ namespace fcl_stpbv {
 /// Puts `content` into `path`: a temporary file in the same folder, fsync, rename. Signals that would end the
 /// process are held back in the calling thread for that moment, so Ctrl-C leaves no temporary file behind (a
 /// program with more threads has to block them there itself). A symbolic link is followed, an existing file
-/// keeps its permissions; a device or pipe is written straight.
+/// keeps its permissions. A device, a pipe, or an open descriptor (/dev/stdout, /dev/fd/3) is written
+/// straight and can be interrupted.
 /// @throws Error naming the file and the reason.
 void atomicWrite(const std::string& path, std::string_view content);
+
+/// The same for a file that nobody else may change: only its owner may write it, and whatever has its name, a
+/// link or a pipe, is replaced rather than written to.
+/// @throws Error as above.
+void atomicWriteOwn(const std::string& path, std::string_view content);
+
+/// Removes temporary files that killed processes left in `folder` more than an hour ago.
+void sweepTemporaries(const std::string& folder);
+
+/// Where a tool's result goes: to standard output for "" and "-", else to the file.
+/// @throws Error also where standard output cannot be written.
+void writeOutput(const std::string& path, std::string_view content);
 
 }  // namespace fcl_stpbv

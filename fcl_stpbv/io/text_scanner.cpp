@@ -7,7 +7,6 @@
 #include <filesystem>
 #include <fstream>
 #include <istream>
-#include <iterator>
 #include <limits>
 
 #include "fcl_stpbv/error.h"
@@ -38,17 +37,28 @@ int significantDigits(std::string_view token) {
 
 }  // namespace
 
-std::string readText(const std::string& path) {
+std::string readText(const std::string& path, std::size_t mostBytes) {
   std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) throw Error(path + ": is a folder, expected a file");
-  if (!std::filesystem::exists(path, ignored)) throw Error(path + ": no such file");
-  std::ifstream in(path, std::ios::binary);
+  const std::string file = path == "-" ? "/dev/stdin" : path;
+  if (std::filesystem::is_directory(file, ignored)) throw Error(path + ": is a folder, expected a file");
+  if (!std::filesystem::exists(file, ignored)) throw Error(path + ": no such file");
+  std::ifstream in(file, std::ios::binary);
   if (!in) throw Error(path + ": cannot be opened for reading; check its permissions");
-  return readText(in, path);
+  return readText(in, path, mostBytes);
 }
 
-std::string readText(std::istream& in, const std::string& name) {
-  std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+std::string readText(std::istream& in, const std::string& name, std::size_t mostBytes) {
+  constexpr std::size_t kPiece = 1 << 16;
+  std::string text;
+  for (std::size_t got = kPiece; got == kPiece;) {
+    const std::size_t before = text.size();
+    text.resize(before + kPiece);
+    in.read(text.data() + before, kPiece);
+    got = static_cast<std::size_t>(in.gcount());
+    text.resize(before + got);
+    if (text.size() > mostBytes)
+      throw Error(name + ": larger than the " + std::to_string(mostBytes >> 20) + " MB that are read");
+  }
   if (in.bad()) throw Error(name + ": reading failed");
   return text;
 }

@@ -10,11 +10,16 @@
 
 namespace fcl_stpbv {
 
-/// The whole text of a file. @throws Error naming the file when it cannot be read.
-std::string readText(const std::string& path);
+/// Far more than any mesh or volume takes: 100 million vertices as text.
+constexpr std::size_t kMostBytes = std::size_t(8) << 30;
 
-/// The rest of a stream; `name` stands for it in messages. @throws Error when reading fails.
-std::string readText(std::istream& in, const std::string& name);
+/// The whole text of a file, of standard input for "-", or of a pipe up to where its writer closes it. A file
+/// that does not end is refused past `mostBytes`.
+/// @throws Error naming the file when it cannot be read or is larger.
+std::string readText(const std::string& path, std::size_t mostBytes = kMostBytes);
+
+/// The rest of a stream; `name` stands for it in messages. @throws Error when reading fails, or as above.
+std::string readText(std::istream& in, const std::string& name, std::size_t mostBytes = kMostBytes);
 
 /// Appends the shortest decimal that reads back as exactly this double.
 void appendNumber(std::string& text, double value);

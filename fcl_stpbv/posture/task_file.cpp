@@ -6,6 +6,7 @@
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/io/text_scanner.h"
 #include "fcl_stpbv/posture/task.h"
+#include "fcl_stpbv/robot/json_text.h"
 
 namespace fcl_stpbv {
 namespace {
@@ -176,12 +177,7 @@ void readCollisions(const Field& field, PostureTask& task) {
 }  // namespace
 
 PostureTask parseTask(const std::string& text, const std::string& path) {
-  json document;
-  try {
-    document = json::parse(text);
-  } catch (const json::exception& error) {
-    throw Error(path + ": is no JSON (" + error.what() + ")");
-  }
+  const json document = parseJson(text, path);
   const Field root = Field::top(document, path);
   root.object({"base", "start", "cost", "placements", "stability", "collisions"});
   PostureTask task;

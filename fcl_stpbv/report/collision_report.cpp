@@ -6,13 +6,13 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
-#include <nlohmann/json.hpp>
 
 #include "fcl_stpbv/adapter/fcl_shapes.h"
 #include "fcl_stpbv/adapter/flat_pair.h"
 #include "fcl_stpbv/error.h"
-#include "fcl_stpbv/io/text_scanner.h"
 #include "fcl_stpbv/report/pair_cause.h"
+#include "fcl_stpbv/report/robot_files.h"
+#include "fcl_stpbv/robot/json_text.h"
 #include "fcl_stpbv/robot/smooth_pairs.h"
 
 namespace fcl_stpbv::report {
@@ -22,21 +22,28 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 // A configuration from a JSON object of joints' values, or a list of all coordinates.
 Eigen::VectorXd poseFromJson(const std::string& path, const Kinematics& kinematics) {
+  // A joint value larger than any robot's is a mistake, and past 1e9 its sine has no exact digit left.
+  constexpr double kMost = 1e6;
+  const auto values = [&](const nlohmann::json& json) {
+    const auto list = json.is_array() ? json.get<std::vector<double>>() : std::vector{json.get<double>()};
+    for (const double value : list)
+      if (!(std::abs(value) <= kMost)) throw Error(path + ": a joint's value must be from -1e6 to 1e6");
+    return list;
+  };
   try {
-    const nlohmann::json json = nlohmann::json::parse(readText(path));
+    const nlohmann::json json = readJson(path);
+    if (json.is_array()) {
+      const std::vector<double> all = values(json);
+      if (static_cast<int>(all.size()) != kinematics.size())
+        throw Error(path + ": has " + std::to_string(all.size()) + " values, the robot has " +
+                    std::to_string(kinematics.size()) + " coordinates");
+      return Eigen::Map<const Eigen::VectorXd>(all.data(), kinematics.size());
+    }
     Srdf::State state;
     state.name = path;
-    if (json.is_array()) {
-      const auto values = json.get<std::vector<double>>();
-      if (static_cast<int>(values.size()) != kinematics.size())
-        throw Error(path + ": has " + std::to_string(values.size()) + " values, the robot has " +
-                    std::to_string(kinematics.size()) + " coordinates");
-      return Eigen::Map<const Eigen::VectorXd>(values.data(), kinematics.size());
-    }
     for (const auto& [joint, value] : json.items()) {
       if (kinematics.robot().joint(joint) < 0) throw Error(path + ": the robot has no joint '" + joint + "'");
-      state.joints[joint] =
-          value.is_array() ? value.get<std::vector<double>>() : std::vector<double>{value.get<double>()};
+      state.joints[joint] = values(value);
     }
     return kinematics.configuration(state);
   } catch (const nlohmann::json::exception& error) {
@@ -134,34 +141,37 @@ class Maker {
  private:
   const Srdf* srdf() const { return request_.srdf.empty() ? nullptr : &srdf_; }
 
-  void load() {
-    report_.robot = std::make_shared<const RobotModel>(loadUrdf(request_.urdf));
-    if (srdf()) srdf_ = loadSrdf(request_.srdf, *report_.robot);
-    report_.kinematics = std::make_shared<const Kinematics>(report_.robot);
-    if (!request_.pose.empty())
-      poseOf(request_.pose, *report_.kinematics, srdf());  // refused before the work
-    RobotGeometry bodies = loadGeometry(*report_.robot, request_.geometry);
-    const std::shared_ptr<const RobotModel> scene = loadScene();
-    if (!request_.flatPrimitives) cover(bodies);
-    report_.geometry = std::make_shared<const RobotGeometry>(std::move(bodies));
-    report_.warnings = report_.geometry->warnings;
-    report_.warnings.insert(report_.warnings.end(), sceneGeometry_.warnings.begin(),
-                            sceneGeometry_.warnings.end());
-    if (!request_.polyhedra.empty())
-      report_.polyhedra = comparePolyhedra(*report_.geometry, request_.polyhedra);
-    if (scene) report_.obstacles = obstaclesOf(scene, sceneGeometry_);
+  RobotFiles files() const {
+    RobotFiles files{request_.urdf,     request_.srdf,     request_.obstacles,
+                     request_.geometry, request_.geometry, request_.skipInvalid};
+    files.sceneGeometry.links.clear();  // these name the robot's
+    files.sceneGeometry.budgets.clear();
+    files.sceneGeometry.flatLinks.clear();
+    files.sceneGeometry.flat = request_.flatObstacles;
+    return files;
   }
 
-  std::shared_ptr<const RobotModel> loadScene() {
-    if (request_.obstacles.empty()) return nullptr;
-    const auto scene = std::make_shared<const RobotModel>(loadUrdf(request_.obstacles));
-    GeometryOptions options = request_.geometry;
-    options.links.clear();  // these name the robot's
-    options.budgets.clear();
-    options.flatLinks.clear();
-    options.flat = request_.flatObstacles;
-    sceneGeometry_ = loadGeometry(*scene, options);
-    return scene;
+  void load() {
+    RobotLoader loader(files());
+    loader.read();
+    report_.robot = loader.robot();
+    if (loader.srdf()) srdf_ = *loader.srdf();
+    std::vector<std::string>& errors = loader.faults().errors;
+    if (errors.empty()) {
+      report_.kinematics = std::make_shared<const Kinematics>(report_.robot);
+      if (!request_.pose.empty())
+        LoadFaults::gather(errors, [&] { poseOf(request_.pose, *report_.kinematics, srdf()); });
+    }
+    loader.build();
+    RobotGeometry bodies = *loader.geometry();
+    sceneGeometry_ = loader.sceneGeometry();
+    if (!request_.flatPrimitives) cover(bodies);
+    report_.geometry = std::make_shared<const RobotGeometry>(std::move(bodies));
+    report_.skipped = loader.skipped();
+    report_.warnings = loader.warnings();
+    if (!request_.polyhedra.empty())
+      report_.polyhedra = comparePolyhedra(*report_.geometry, request_.polyhedra);
+    if (loader.scene()) report_.obstacles = obstaclesOf(loader.scene(), sceneGeometry_);
   }
 
   void cover(RobotGeometry& bodies) {

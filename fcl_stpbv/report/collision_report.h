@@ -22,6 +22,7 @@ struct ReportRequest {
   bool flatObstacles = false;   ///< the scene's meshes stay convex polyhedra
   bool flatPrimitives = false;  ///< primitives get no smooth cover where a pair needs one (smooth_pairs.h)
   PairListOptions search;
+  bool skipInvalid = false;  ///< go on without the shapes that are wrong
 };
 
 /// One pair of links, or a link and an obstacle, in the posture asked for or in its closest configuration.
@@ -63,6 +64,7 @@ struct CollisionReport {
   std::vector<Obstacle> obstacles;
   std::vector<std::string> warnings;
   std::vector<MeshFit> fits;                ///< one a body
+  std::vector<std::string> skipped;         ///< shapes left out as wrong, which nothing was checked against
   std::vector<PolyhedronReport> polyhedra;  ///< one a body, or none where none were asked for
   std::vector<PairReport> pairs;            ///< checked ones first, closest first
   std::vector<PairEntry> list;              ///< what the search found

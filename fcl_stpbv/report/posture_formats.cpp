@@ -42,6 +42,7 @@ std::string toText(const PostureReport& report) {
   for (const CheckedPair& pair : report.pairs) obstacles += pair.obstacle;
   std::string text = posture.feasible ? "feasible" : "not feasible";
   text += " (" + posture.status + "): " + run(posture) + "\n";
+  for (const std::string& shape : report.skipped) text += "LEFT OUT, NOT CHECKED: " + shape + "\n";
   text += format("%zu pairs, %zu of them with obstacles\n", report.pairs.size(), obstacles);
   if (report.withoutCollisions)
     text += std::string("without collisions ") +
@@ -77,6 +78,8 @@ std::string toJson(const PostureReport& report) {
                 {"pairs", report.pairs.size()},
                 {"cost", posture.cost},
                 {"q", q},
+                {"warnings", report.warnings},
+                {"skipped", report.skipped},
                 {"violations", list(posture.violations)},
                 {"active", posture.active},
                 {"conflict", list(posture.conflict)},

@@ -15,6 +15,8 @@ struct PostureReport {
   std::shared_ptr<const Kinematics> kinematics;
   std::vector<CheckedPair> pairs;
   Posture posture;
+  std::vector<std::string> warnings;
+  std::vector<std::string> skipped;          ///< shapes left out as wrong, which nothing was checked against
   std::optional<Posture> withoutCollisions;  ///< the same task with no pair checked, where there are pairs
 };
 

@@ -13,6 +13,8 @@ std::string toHtml(const PostureReport& report) {
   page.kinematics = report.kinematics;
   page.obstacles = report.scene.obstacles;
   page.pose = report.posture.feasible ? "feasible" : "not feasible";
+  page.warnings = report.warnings;
+  page.skipped = report.skipped;
   page.minDistance = std::numeric_limits<double>::infinity();
   const auto nameOf = [&](int body) { return page.geometry->bodies[static_cast<std::size_t>(body)].name; };
   for (const CheckedPair& both : report.pairs) {

@@ -133,6 +133,7 @@ std::string toText(const CollisionReport& report, std::size_t top) {
   std::string text = report.robot->name + ": " + std::to_string(report.robot->links.size()) + " links, " +
                      std::to_string(report.geometry->bodies.size()) + " bodies, " +
                      std::to_string(report.kinematics->size()) + " coordinates\n";
+  for (const std::string& shape : report.skipped) text += "LEFT OUT, NOT CHECKED: " + shape + "\n";
   std::map<std::string, int> reasons;
   for (const PairReport& pair : report.pairs) ++reasons[pair.reason];
   text += std::to_string(report.pairs.size()) + " pairs:";
@@ -167,6 +168,7 @@ std::string toJson(const CollisionReport& report) {
   json["robot"] = report.robot->name;
   json["pose"] = report.pose.empty() ? nlohmann::json() : nlohmann::json(report.pose);
   json["warnings"] = report.warnings;
+  json["skipped"] = report.skipped;
   json["links"] = nlohmann::json::array();
   for (std::size_t i = 0; i < report.geometry->bodies.size(); ++i) {
     const Body& body = report.geometry->bodies[i];
@@ -237,6 +239,7 @@ std::string toCsv(const CollisionReport& report) {
       "link1,link2,reason,srdf_reason,checked,cause,distance,mesh_distance,hull_distance,over_cover1,over_"
       "cover2,min_distance,"
       "point1_x,point1_y,point1_z,point2_x,point2_y,point2_z,normal_x,normal_y,normal_z\n";
+  for (const std::string& shape : report.skipped) text += "," + quoted("left out: " + shape) + ",0\n";
   for (const PairReport& pair : report.pairs) {
     text += quoted(pair.link1) + "," + quoted(pair.link2) + "," + pair.reason + "," + pair.srdfReason + "," +
             (pair.checked ? "1" : "0") + "," + pair.cause;
@@ -251,7 +254,7 @@ std::string toCsv(const CollisionReport& report) {
 }
 
 std::string toSrdfText(const CollisionReport& report, const std::string& path) {
-  return withPairs(path, report.robot->name, toSrdf(*report.robot, report.list));
+  return withPairs(path, report.robot->name, toSrdf(*report.robot, report.list), report.skipped);
 }
 
 }  // namespace fcl_stpbv::report

@@ -28,6 +28,7 @@ void joinCapsules(std::vector<ShapeModel>& shapes) {
     const int bottom = sphereAt(shapes, shapes[i].pose * -half, shapes[i].size.x());
     if (top < 0 || bottom < 0 || top == bottom) continue;
     shapes[i].kind = ShapeModel::Kind::capsule;
+    for (const int end : {top, bottom}) shapes[i].elements += shapes[static_cast<std::size_t>(end)].elements;
     shapes.erase(shapes.begin() + std::max(top, bottom));
     shapes.erase(shapes.begin() + std::min(top, bottom));
     i = static_cast<std::size_t>(-1);  // indices moved: look again from the start

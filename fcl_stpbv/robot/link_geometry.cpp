@@ -17,30 +17,35 @@
 namespace fcl_stpbv {
 namespace {
 
-class Loader {
- public:
-  Loader(const RobotModel& robot, const GeometryOptions& options)
-      : robot_(robot),
-        options_(options),
-        paths_(robot.path, options.packagePath),
-        cache_(options.cacheFolder) {}
+bool isFlat(const GeometryOptions& options, const std::string& link) {
+  return options.flat || options.flatLinks.count(link) > 0;
+}
 
-  RobotGeometry load() {
-    checkNames();
-    const bool visual = options_.visual || onlyVisual();
-    const auto shapes = [&](const LinkModel& link) -> const std::vector<ShapeModel>& {
-      return visual ? link.visual : link.collision;
-    };
-    std::size_t done = 0, all = 0;
-    for (const LinkModel& link : robot_.links) all += shapes(link).size();
-    if (all == 0)
-      geometry_.warnings.push_back(robot_.path + ": no link has a " + (visual ? "visual" : "collision") +
-                                   " shape, so there is nothing to check.");
-    for (std::size_t l = 0; l < robot_.links.size(); ++l) {
-      int number = 0;
-      for (const ShapeModel& shape : shapes(robot_.links[l])) {
-        if (options_.progress) options_.progress(done++, all, robot_.links[l].name);
-        add(static_cast<int>(l), ++number, shape);
+void checkNames(const RobotModel& robot, const GeometryOptions& options, LoadFaults& faults) {
+  std::set<std::string> names = options.flatLinks;
+  for (const auto& entry : options.links) names.insert(entry.first);
+  for (const auto& entry : options.budgets) names.insert(entry.first);
+  for (const std::string& name : names) {
+    if (robot.link(name) < 0)
+      faults.errors.push_back(robot.path + ": options were given for a link '" + name + "' it does not have");
+  }
+}
+
+class Builder {
+ public:
+  Builder(const RobotModel& robot, const GeometryOptions& options, LoadFaults& faults)
+      : robot_(robot), options_(options), faults_(faults), cache_(options.cacheFolder) {}
+
+  RobotGeometry build(const ShapeSources& sources) {
+    geometry_.warnings = sources.warnings;
+    std::size_t done = 0;
+    for (const ShapeSource& source : sources.shapes) {
+      const std::string& link = robot_.links[static_cast<std::size_t>(source.link)].name;
+      if (options_.progress) options_.progress(done++, sources.shapes.size(), link);
+      try {
+        add(link, source);
+      } catch (const Error& error) {
+        faults_.shapes.push_back(source.shape->place + ": " + error.what());
       }
     }
     geometry_.fromCache = cache_.hits();
@@ -48,54 +53,27 @@ class Loader {
   }
 
  private:
-  void checkNames() const {
-    const auto check = [&](const std::string& name) {
-      if (robot_.link(name) < 0)
-        throw Error(robot_.path + ": options were given for a link '" + name + "' it does not have");
-    };
-    for (const auto& entry : options_.links) check(entry.first);
-    for (const auto& entry : options_.budgets) check(entry.first);
-    for (const std::string& link : options_.flatLinks) check(link);
-  }
-
-  bool onlyVisual() {
-    const auto count = [&](std::vector<ShapeModel> LinkModel::*shapes) {
-      return std::count_if(robot_.links.begin(), robot_.links.end(),
-                           [&](const LinkModel& link) { return !(link.*shapes).empty(); });
-    };
-    const auto collision = count(&LinkModel::collision), visual = count(&LinkModel::visual);
-    if (collision > 0 || visual == 0) return false;
-    geometry_.warnings.push_back(robot_.path + ": no link has a collision shape; the visual shapes of " +
-                                 std::to_string(visual) + " links are used instead.");
-    return true;
-  }
-
-  void add(int link, int number, const ShapeModel& shape) {
-    const std::string& name = robot_.links[static_cast<std::size_t>(link)].name;
+  void add(const std::string& link, const ShapeSource& source) {
     Body body;
-    body.link = link;
-    body.name = number == 1 ? name : name + "#" + std::to_string(number);
-    body.pose = shape.pose;
-    try {
-      if (shape.kind == ShapeModel::Kind::mesh)
-        addMesh(name, shape, body);
-      else
-        addPrimitive(name, shape, body);
-    } catch (const Error& error) {
-      throw Error(robot_.path + ": link '" + name + "': " + error.what());
-    }
+    body.link = source.link;
+    body.name = source.number == 1 ? link : link + "#" + std::to_string(source.number);
+    body.pose = source.shape->pose;
+    body.file = source.file;
+    body.scale = source.shape->scale;
+    if (source.shape->kind == ShapeModel::Kind::mesh)
+      addMesh(link, source, body);
+    else
+      addPrimitive(link, *source.shape, body);
     body.centre = body.pose * body.centre;
     geometry_.bodies.push_back(std::move(body));
   }
 
-  void addMesh(const std::string& link, const ShapeModel& shape, Body& body) {
-    body.file = paths_.resolve(shape.mesh);
-    body.scale = shape.scale;
+  void addMesh(const std::string& link, const ShapeSource& source, Body& body) {
     try {
-      if (options_.flat || options_.flatLinks.count(link) > 0)
-        addHull(body);
+      if (isFlat(options_, link))
+        addHull(source, body);
       else
-        makeVolume(options_, link, cache_, body);
+        makeVolume(options_, link, source, cache_, body);
     } catch (const Error& error) {
       const std::string message = error.what();
       const bool named = message.find(body.file) != std::string::npos;
@@ -103,8 +81,8 @@ class Loader {
     }
   }
 
-  static void addHull(Body& body) {
-    const auto hull = hullGeometry(loadPoints(body.file, body.scale));
+  static void addHull(const ShapeSource& source, Body& body) {
+    const auto hull = hullGeometry(source.points());
     body.centre = hull->aabb_center;
     body.radius = 0;
     for (const Eigen::Vector3d& v : hull->getVertices())
@@ -136,7 +114,7 @@ class Loader {
 
   const RobotModel& robot_;
   const GeometryOptions& options_;
-  PackagePath paths_;
+  LoadFaults& faults_;
   VolumeCache cache_;
   RobotGeometry geometry_;
 };
@@ -156,8 +134,28 @@ std::pair<int, int> RobotGeometry::of(int link) const {
   return {static_cast<int>(range.first - bodies.begin()), static_cast<int>(range.second - bodies.begin())};
 }
 
+ShapeSources readGeometry(const RobotModel& robot, const GeometryOptions& options, LoadFaults& faults) {
+  checkNames(robot, options, faults);
+  const VolumeCache cache(options.cacheFolder);
+  const IsCached isCached = [&](const std::string& link, const std::string& content) {
+    return !isFlat(options, link) && !areFitted(options, link) &&
+           cache.has(content, radiiFor(options, link, nullptr));
+  };
+  return readShapes(robot, options.visual, options.packagePath, isCached, faults);
+}
+
+RobotGeometry buildGeometry(const RobotModel& robot, const GeometryOptions& options,
+                            const ShapeSources& sources, LoadFaults& faults) {
+  return Builder(robot, options, faults).build(sources);
+}
+
 RobotGeometry loadGeometry(const RobotModel& robot, const GeometryOptions& options) {
-  return Loader(robot, options).load();
+  LoadFaults faults;
+  const ShapeSources sources = readGeometry(robot, options, faults);
+  faults.refuse();
+  RobotGeometry geometry = buildGeometry(robot, options, sources, faults);
+  faults.refuse();
+  return geometry;
 }
 
 }  // namespace fcl_stpbv

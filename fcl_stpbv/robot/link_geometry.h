@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "fcl_stpbv/adapter/stp_bv_geometry.h"
-#include "fcl_stpbv/robot/package_path.h"
 #include "fcl_stpbv/robot/robot_model.h"
+#include "fcl_stpbv/robot/shape_source.h"
 #include "fcl_stpbv/robot/volume_cache.h"
 #include "fcl_stpbv/volume/measure.h"
 
@@ -66,7 +66,14 @@ struct RobotGeometry {
 /// Reads the meshes and builds the volumes; primitives stay as they are until coverPrimitives()
 /// (smooth_pairs.h). A link without collision shapes has no body; where the whole robot has none, its visual
 /// shapes are taken with a warning.
-/// @throws Error naming the URDF, the link, the file and what would work.
+/// @throws Error listing all that is wrong, each naming the URDF, the link, the file and what would work;
+/// what can be told before a volume is built is told before.
 RobotGeometry loadGeometry(const RobotModel& robot, const GeometryOptions& options = {});
+
+/// The same in two steps, for callers with several robots to load or with shapes to leave out: what is wrong
+/// is added to `faults` for the caller to refuse, and shapes that are wrong are left out.
+ShapeSources readGeometry(const RobotModel& robot, const GeometryOptions& options, LoadFaults& faults);
+RobotGeometry buildGeometry(const RobotModel& robot, const GeometryOptions& options,
+                            const ShapeSources& sources, LoadFaults& faults);
 
 }  // namespace fcl_stpbv

@@ -3,7 +3,6 @@
 
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/io/text_scanner.h"
-#include "fcl_stpbv/robot/mesh_file.h"
 #include "fcl_stpbv/volume/reduce.h"
 
 namespace fcl_stpbv {
@@ -11,31 +10,13 @@ namespace {
 
 using Points = std::vector<Eigen::Vector3d>;
 
-std::string withScale(const std::string& bytes, const Eigen::Vector3d& scale) {
-  std::string content;
-  appendVector(content, scale);
-  return content + '\n' + bytes;
-}
-
-// What the cache knows a mesh by: the file's bytes, or for glTF, which keeps its vertices in other files, the
-// points.
-std::string contentOf(const std::string& path, const Eigen::Vector3d& scale) {
-  const bool several = path.size() > 5 && path.compare(path.size() - 5, 5, ".gltf") == 0;
-  if (!several) return withScale(readText(path), scale);
-  std::string points;
-  for (const Eigen::Vector3d& p : loadPoints(path)) {
-    appendVector(points, p);
-    points += '\n';
-  }
-  return withScale(points, scale);
-}
-
 // One mesh on its way to a volume; the points are read when they are needed, which with a warm cache may be
 // never.
 class VolumeMaker {
  public:
-  VolumeMaker(const GeometryOptions& options, const std::string& link, VolumeCache& cache, Body& body)
-      : cache_(cache), body_(body), content_(contentOf(body.file, body.scale)) {
+  VolumeMaker(const GeometryOptions& options, const std::string& link, const ShapeSource& source,
+              VolumeCache& cache, Body& body)
+      : source_(source), cache_(cache), body_(body) {
     body_.radii = radiiFor(options, link, [this] { return sizeOf(points()); });
   }
 
@@ -49,14 +30,11 @@ class VolumeMaker {
   }
 
  private:
-  const Points& points() {
-    if (points_.empty()) points_ = loadPoints(body_.file, body_.scale);
-    return points_;
-  }
+  const Points& points() const { return source_.points(); }
 
   void build() {
     body_.volume =
-        cache_.volume(content_, body_.radii, [this] { return StpBv::build(points(), body_.radii); });
+        cache_.volume(source_.content, body_.radii, [this] { return StpBv::build(points(), body_.radii); });
   }
 
   void reduceTo(double budget) {
@@ -70,7 +48,7 @@ class VolumeMaker {
     if (body_.cover.max > budget)
       throw Error("no R keeps its over-cover within " + toDecimal(budget) +
                   " m with r = " + toDecimal(radii.r) + " m; give a larger budget or a smaller r");
-    const StpBv::Ptr few = cache_.volume(content_ + "\nreduced to " + toDecimal(budget), radii,
+    const StpBv::Ptr few = cache_.volume(source_.content + "\nreduced to " + toDecimal(budget), radii,
                                          [&] { return reduce(points(), radii, budget); });
     if (few->vertexCount() >= body_.volume->vertexCount()) return;
     body_.full = body_.volume;
@@ -78,27 +56,31 @@ class VolumeMaker {
     body_.cover = overCover(*few, points());
   }
 
+  const ShapeSource& source_;
   VolumeCache& cache_;
   Body& body_;
-  std::string content_;
-  Points points_;
 };
 
 }  // namespace
+
+bool areFitted(const GeometryOptions& options, const std::string& link) {
+  return options.links.count(link) == 0 && (options.fitr || options.fitR);
+}
 
 StpBvOptions radiiFor(const GeometryOptions& options, const std::string& link,
                       const std::function<BodySize()>& size) {
   const auto own = options.links.find(link);
   if (own != options.links.end()) return own->second;
-  if (!options.fitr && !options.fitR) return options.radii;
+  if (!areFitted(options, link)) return options.radii;
   const BodySize known = size();
   const double r = options.fitr ? fittedRadii(known).r : options.radii.r;
   return {r, options.fitR ? fittedR(known.ball, r) : options.radii.R};
 }
 
-void makeVolume(const GeometryOptions& options, const std::string& link, VolumeCache& cache, Body& body) {
+void makeVolume(const GeometryOptions& options, const std::string& link, const ShapeSource& source,
+                VolumeCache& cache, Body& body) {
   const auto budget = options.budgets.find(link);
-  VolumeMaker(options, link, cache, body)
+  VolumeMaker(options, link, source, cache, body)
       .make(budget == options.budgets.end() ? options.overCoverBudget : budget->second);
 }
 

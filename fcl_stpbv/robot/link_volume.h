@@ -6,13 +6,16 @@
 
 namespace fcl_stpbv {
 
+/// Whether r or R of a link's bodies follow the body's size.
+bool areFitted(const GeometryOptions& options, const std::string& link);
+
 /// r and R of a link's bodies: the link's own, those for all links, or what fits the body (GeometryOptions).
 /// `size` is only asked where they are fitted.
 StpBvOptions radiiFor(const GeometryOptions& options, const std::string& link,
                       const std::function<BodySize()>& size);
 
-/// Makes `body`, whose `file` and `scale` are known, the volume of its mesh. @throws Error without the file's
-/// name.
-void makeVolume(const GeometryOptions& options, const std::string& link, VolumeCache& cache, Body& body);
+/// Makes `body` the volume of its mesh. @throws Error without the file's name.
+void makeVolume(const GeometryOptions& options, const std::string& link, const ShapeSource& source,
+                VolumeCache& cache, Body& body);
 
 }  // namespace fcl_stpbv

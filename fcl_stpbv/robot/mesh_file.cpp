@@ -23,6 +23,7 @@
 #include "fcl_stpbv/io/text_scanner.h"
 #include "fcl_stpbv/robot/child_process.h"
 #include "fcl_stpbv/robot/ply_check.h"
+#include "fcl_stpbv/robot/text_mesh_check.h"
 
 namespace fcl_stpbv {
 namespace {
@@ -94,6 +95,8 @@ void checkReadable(const std::string& path, const Vector3d& scale) {
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored)) throw Error(path + ": is a folder, expected a file");
   if (!std::filesystem::exists(path, ignored)) throw Error(path + ": no such file");
+  if (!std::filesystem::is_regular_file(path, ignored))
+    throw Error(path + ": is a pipe or a device, expected a file");
 }
 
 std::string lowerExtension(const std::string& path) {
@@ -128,15 +131,15 @@ void checkFaces(const aiScene& scene, const std::string& path) {
   }
 }
 
-/// Opens whole files only, no pipes or devices that a mesh may name, and lets reading take in proportion to
-/// their sizes.
+/// Opens the mesh and, for glTF, the whole files beside or below it that hold its vertices: nothing elsewhere
+/// that a mesh may name, no materials, no pipes or devices. Lets reading take in proportion to their sizes.
 class Files : public Assimp::DefaultIOSystem {
  public:
-  explicit Files(ChildLimits& limits) : limits_(limits) {}
+  Files(const std::string& mesh, ChildLimits& limits) : mesh_(mesh), limits_(limits) {}
 
   bool Exists(const char* path) const override {
     std::error_code ignored;
-    return std::filesystem::is_regular_file(path, ignored);
+    return std::filesystem::is_regular_file(path, ignored) && (path == mesh_ || isPart(path));
   }
   Assimp::IOStream* Open(const char* path, const char* mode) override {
     std::error_code ignored;
@@ -146,12 +149,30 @@ class Files : public Assimp::DefaultIOSystem {
   }
 
  private:
+  bool isPart(const std::string& path) const {
+    namespace fs = std::filesystem;
+    if (lowerExtension(mesh_) != ".gltf") return false;
+    std::error_code ignored;
+    const fs::path part = fs::canonical(path, ignored);
+    // Of a mesh that is a link also what is beside its target.
+    for (const fs::path& folder : {fs::canonical(fs::absolute(mesh_, ignored).parent_path(), ignored),
+                                   fs::canonical(mesh_, ignored).parent_path()}) {
+      const fs::path inside = part.lexically_relative(folder);
+      if (!part.empty() && !folder.empty() && !inside.empty() && *inside.begin() != "..") return true;
+    }
+    return false;
+  }
+
+  const std::string mesh_;
   ChildLimits& limits_;
   std::set<std::string> seen_;
 };
 
 const aiScene& read(Assimp::Importer& importer, const std::string& path) {
-  if (isPly(path)) checkPly(readText(path), path);
+  if (isPly(path))
+    checkPly(readText(path), path);
+  else
+    checkTextMesh(readText(path), lowerExtension(path), path);
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
   const aiScene* scene = importer.ReadFile(path, 0);
   if (scene != nullptr) {
@@ -183,7 +204,7 @@ namespace {
 /// assimp trusts what it reads: counts that fill the memory, loops, depths that overflow the stack.
 TriangleMesh readMesh(const std::string& path, const Vector3d& scale, ChildLimits& limits) {
   Assimp::Importer importer;
-  importer.SetIOHandler(new Files(limits));  // which deletes it
+  importer.SetIOHandler(new Files(path, limits));  // which deletes it
   const aiScene& scene = read(importer, path);
   Gatherer gatherer(path, scale);
   std::vector<std::pair<const aiNode*, aiMatrix4x4>> open{{scene.mRootNode, aiMatrix4x4()}};

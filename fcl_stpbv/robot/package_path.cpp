@@ -57,7 +57,9 @@ PackagePath::PackagePath(const std::string& urdf, std::vector<std::string> folde
   for (std::string& folder : splitAtColons(std::getenv("ROS_PACKAGE_PATH")))
     folders_.push_back(std::move(folder));
   std::error_code error;
-  fs::path folder = fs::absolute(urdf, error).lexically_normal().parent_path();
+  // What comes through a pipe has no folder of its own; its relative names are of the working folder.
+  const bool pipe = fs::exists(urdf, error) && !fs::is_regular_file(urdf, error);
+  fs::path folder = fs::absolute(pipe ? "-" : urdf, error).lexically_normal().parent_path();
   urdfFolder_ = folder.string();
   for (; !folder.empty(); folder = folder.parent_path()) {
     above_.push_back(folder.string());

@@ -1,93 +1,35 @@
-// Reading through urdfdom; see robot_model.h.
+// From a URDF's elements to the model; see robot_model.h.
 #include "fcl_stpbv/robot/robot_model.h"
-
-#include <console_bridge/console.h>
-#include <urdf_model/model.h>
-#include <urdf_parser/urdf_parser.h>
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <mutex>
-#include <set>
-#include <unordered_map>
 
 #include "fcl_stpbv/error.h"
-#include "fcl_stpbv/io/text_scanner.h"
 #include "fcl_stpbv/robot/capsule_fit.h"
+#include "fcl_stpbv/robot/mimic_chain.h"
 #include "fcl_stpbv/robot/urdf_check.h"
+#include "fcl_stpbv/robot/urdf_element.h"
+#include "fcl_stpbv/robot/urdf_words.h"
 #include "fcl_stpbv/robot/xml_text.h"
 
 namespace fcl_stpbv {
 namespace {
 
-using Names = std::unordered_map<std::string, int>;
-
-// urdfdom says what is wrong with a file on the console only. This keeps it for the exception's message.
-class Listener : public console_bridge::OutputHandler {
- public:
-  Listener() : guard_(mutex()) { console_bridge::useOutputHandler(this); }
-  ~Listener() override { console_bridge::restorePreviousOutputHandler(); }
-  void log(const std::string& text, console_bridge::LogLevel level, const char*, int) override {
-    if (level >= console_bridge::CONSOLE_BRIDGE_LOG_ERROR && heard_.size() < 1000)
-      heard_ += (heard_.empty() ? "" : "; ") + text;
-  }
-  const std::string& heard() const { return heard_; }
-
- private:
-  static std::mutex& mutex() {
-    static std::mutex one;  // the console's handler is one for the whole process
-    return one;
-  }
-  std::lock_guard<std::mutex> guard_;
-  std::string heard_;
-};
-
-// urdfdom's links own their children: a chain of thousands would be destroyed recursively, a loop never.
-class Parsed {
- public:
-  explicit Parsed(urdf::ModelInterfaceSharedPtr model) : model_(std::move(model)) {}
-  ~Parsed() {
-    for (auto& [name, link] : model_->links_) {
-      link->child_links.clear();
-      link->child_joints.clear();
-    }
-  }
-  Parsed(const Parsed&) = delete;
-  Parsed& operator=(const Parsed&) = delete;
-  const urdf::ModelInterface* operator->() const { return model_.get(); }
-
- private:
-  urdf::ModelInterfaceSharedPtr model_;
-};
-
-urdf::ModelInterfaceSharedPtr readUrdf(const std::string& xml, const std::string& path) {
-  Listener listener;
-  std::string reason;
-  try {
-    urdf::ModelInterfaceSharedPtr model = urdf::parseURDF(xml);
-    if (model) return model;
-  } catch (const std::exception& error) {
-    reason = error.what();
-  }
-  const std::string& heard = listener.heard().empty() ? reason : listener.heard();
-  throw Error(path + ": not a URDF that can be read" + (heard.empty() ? "" : " (" + heard + ")"));
-}
+using tinyxml2::XMLElement;
 
 Eigen::Vector3d toEigen(const urdf::Vector3& v) { return {v.x, v.y, v.z}; }
 
-Eigen::Isometry3d toEigen(const urdf::Pose& pose, const std::string& where) {
+Eigen::Isometry3d toEigen(const urdf::Pose& pose) {
   const Eigen::Quaterniond rotation(pose.rotation.w, pose.rotation.x, pose.rotation.y, pose.rotation.z);
   const Eigen::Vector3d position = toEigen(pose.position);
   if (!position.allFinite() || !rotation.coeffs().allFinite() || !(rotation.norm() > 0.5))
-    throw Error(where + ": its origin is not finite");
+    throw Error("its origin is not finite");
   return Eigen::Translation3d(position) * rotation.normalized();
 }
 
-ShapeModel toShape(const urdf::Geometry& geometry, const urdf::Pose& origin, bool capsule,
-                   const std::string& where) {
+ShapeModel toShape(const urdf::Geometry& geometry, const urdf::Pose& origin, bool capsule) {
   ShapeModel shape;
-  shape.pose = toEigen(origin, where);
+  shape.pose = toEigen(origin);
   if (geometry.type == urdf::Geometry::SPHERE) {
     shape.kind = ShapeModel::Kind::sphere;
     shape.size.x() = static_cast<const urdf::Sphere&>(geometry).radius;
@@ -102,41 +44,70 @@ ShapeModel toShape(const urdf::Geometry& geometry, const urdf::Pose& origin, boo
     const auto& mesh = static_cast<const urdf::Mesh&>(geometry);
     shape.mesh = mesh.filename;
     shape.scale = toEigen(mesh.scale);
+    if (shape.mesh.empty()) throw Error("its mesh has an empty file name");
     if (!shape.scale.allFinite() || (shape.scale.array() == 0).any())
-      throw Error(where + ": the scale of " + shape.mesh + " is 0 or not finite; give three other numbers");
+      throw Error("the scale of " + shape.mesh + " is 0 or not finite; give three other numbers");
     return shape;
   }
   if (!shape.size.allFinite() || (shape.size.array() < 0).any() || !(shape.size.x() > 0))
-    throw Error(where + ": a shape's sizes must be finite and larger than 0");
+    throw Error("a shape's sizes must be finite and larger than 0");
   return shape;
 }
 
-LinkModel toLink(const urdf::Link& link, const CapsuleNames& capsules, const std::string& path) {
-  const std::string where = path + ": link '" + link.name + "'";
-  LinkModel model;
-  model.name = link.name;
-  int index = 0;
-  for (const auto& collision : link.collision_array) {
-    const bool capsule = capsules.count({link.name, index++}) > 0;
-    if (collision && collision->geometry)
-      model.collision.push_back(toShape(*collision->geometry, collision->origin, capsule, where));
+ShapeModel readShape(const XMLElement& element, const std::string& place) {
+  try {
+    checkShapeWords(element);
+    const urdf::CollisionSharedPtr read = readShapeElement(element);
+    const bool capsule = element.FirstChildElement("geometry")->FirstChildElement("capsule") != nullptr;
+    ShapeModel shape = toShape(*read->geometry, read->origin, capsule);
+    shape.place = place;
+    return shape;
+  } catch (const Error& error) {
+    throw Error(place + ": " + error.what());
   }
-  for (const auto& visual : link.visual_array) {
-    if (visual && visual->geometry)
-      model.visual.push_back(toShape(*visual->geometry, visual->origin, false, where));
-  }
-  joinCapsules(model.collision);
-  joinCapsules(model.visual);
-  if (link.inertial) {
-    model.mass = link.inertial->mass;
-    model.centreOfMass = toEigen(link.inertial->origin.position);
-    if (!std::isfinite(model.mass) || model.mass < 0 || !model.centreOfMass.allFinite())
-      throw Error(where + ": its mass must be finite and not negative, its centre of mass finite");
-  }
-  return model;
 }
 
-JointType toType(const urdf::Joint& joint, const std::string& where) {
+// `use` is "collision" or "visual".
+std::vector<ShapeModel> readShapes(const XMLElement& link, const char* use, const std::string& path,
+                                   std::vector<std::string>& faults) {
+  std::vector<ShapeModel> shapes;
+  int number = 0;
+  for (const XMLElement* e = link.FirstChildElement(use); e; e = e->NextSiblingElement(use)) {
+    const std::string place =
+        xmlPlace(*e, path) + "link '" + link.Attribute("name") + "', " + use + " " + std::to_string(++number);
+    LoadFaults::gather(faults, [&] { shapes.push_back(readShape(*e, place)); });
+  }
+  joinCapsules(shapes);
+  return shapes;
+}
+
+void readInertial(const XMLElement& element, LinkModel& link) {
+  const urdf::InertialSharedPtr inertial = readInertialElement(element);
+  const Eigen::Vector3d centre = toEigen(inertial->origin.position);
+  if (!std::isfinite(inertial->mass) || inertial->mass < 0 || !centre.allFinite())
+    throw Error("its mass must be finite and not negative, its centre of mass finite");
+  link.mass = inertial->mass;
+  link.centreOfMass = centre;
+}
+
+LinkModel readLink(const XMLElement& element, const std::string& path, RobotModel& robot,
+                   LoadFaults& faults) {
+  LinkModel link;
+  link.name = element.Attribute("name");
+  link.collision = readShapes(element, "collision", path, faults.shapes);
+  link.visual = readShapes(element, "visual", path, robot.visualFaults);
+  if (const XMLElement* inertial = element.FirstChildElement("inertial")) {
+    try {
+      readInertial(*inertial, link);
+    } catch (const Error& error) {
+      faults.warnings.push_back(xmlPlace(*inertial, path) + "link '" + link.name +
+                                "' counts as without mass: " + error.what());
+    }
+  }
+  return link;
+}
+
+JointType toType(const urdf::Joint& joint) {
   switch (joint.type) {
     case urdf::Joint::FIXED:
       return JointType::fixed;
@@ -151,11 +122,11 @@ JointType toType(const urdf::Joint& joint, const std::string& where) {
     case urdf::Joint::FLOATING:
       return JointType::floating;
     default:
-      throw Error(where + ": is of no type that URDF knows");
+      throw Error("is of no type that URDF knows");
   }
 }
 
-void readLimits(const urdf::Joint& joint, JointModel& model, const std::string& where) {
+void readLimits(const urdf::Joint& joint, JointModel& model) {
   if (model.type == JointType::continuous) {
     model.lower = -M_PI;
     model.upper = M_PI;
@@ -164,52 +135,88 @@ void readLimits(const urdf::Joint& joint, JointModel& model, const std::string& 
     model.upper = joint.limits->upper;
   }
   if (!std::isfinite(model.lower) || !std::isfinite(model.upper) || model.lower > model.upper)
-    throw Error(where + ": its limits must be finite, and the lower one not above the upper one");
+    throw Error("its limits must be finite, and the lower one not above the upper one");
 }
 
-JointModel toJoint(const urdf::Joint& joint, const Names& links, const std::string& path) {
-  const std::string where = path + ": joint '" + joint.name + "'";
+struct ReadJoint {
   JointModel model;
-  model.name = joint.name;
-  model.type = toType(joint, where);
-  model.parent = links.at(joint.parent_link_name);
-  model.child = links.at(joint.child_link_name);
-  model.origin = toEigen(joint.parent_to_joint_origin_transform, where);
+  Follower follower;
+};
+
+ReadJoint readJoint(const XMLElement& element, const UrdfTree& tree) {
+  checkJointWords(element);
+  const urdf::JointSharedPtr read = readJointElement(element);
+  ReadJoint joint;
+  JointModel& model = joint.model;
+  model.name = element.Attribute("name");
+  model.type = toType(*read);
+  model.parent = tree.index.at(element.FirstChildElement("parent")->Attribute("link"));
+  model.child = tree.index.at(element.FirstChildElement("child")->Attribute("link"));
+  model.origin = toEigen(read->parent_to_joint_origin_transform);
   if (model.type != JointType::fixed && model.type != JointType::floating) {
-    model.axis = toEigen(joint.axis);
+    model.axis = toEigen(read->axis);
     if (!model.axis.allFinite() || !(model.axis.norm() > 1e-9))
-      throw Error(where + ": its axis has no direction; give one such as 0 0 1");
+      throw Error("its axis has no direction; give one such as 0 0 1");
     model.axis.normalize();
-    readLimits(joint, model, where);
+    readLimits(*read, model);
   }
-  return model;
+  joint.follower.joint = model.name;
+  if (read->mimic)
+    joint.follower = {model.name, read->mimic->joint_name, read->mimic->multiplier, read->mimic->offset};
+  return joint;
 }
 
-// Each follower is tied to the joint at the end of its chain.
-void resolveMimics(const std::vector<const urdf::Joint*>& parsed, RobotModel& robot) {
-  for (std::size_t j = 0; j < parsed.size(); ++j) {
-    double multiplier = 1, offset = 0;
-    const urdf::Joint* at = parsed[j];
-    for (std::size_t steps = 0; at->mimic; ++steps) {
-      const std::string where = robot.path + ": joint '" + parsed[j]->name + "'";
-      const int next = robot.joint(at->mimic->joint_name);
-      if (next < 0) throw Error(where + ": mimics '" + at->mimic->joint_name + "', which does not exist");
-      if (steps > parsed.size()) throw Error(where + ": mimics itself through others; break the loop");
-      offset += multiplier * at->mimic->offset;
-      multiplier *= at->mimic->multiplier;
-      at = parsed[static_cast<std::size_t>(next)];
-    }
-    if (at == parsed[j] || robot.joints[j].type == JointType::fixed) continue;
-    JointModel& joint = robot.joints[j];
-    const int master = robot.joint(at->name);
-    const auto single = [](JointType t) { return t >= JointType::revolute && t <= JointType::prismatic; };
-    if (!single(joint.type) || !single(robot.joints[static_cast<std::size_t>(master)].type) ||
-        !std::isfinite(multiplier) || !std::isfinite(offset)) {
-      throw Error(robot.path + ": joint '" + joint.name + "': only a joint with one axis can mimic another " +
-                  "one, by finite numbers");
-    }
-    joint.mimic = Mimic{master, multiplier, offset};
+// @throws Error without the joint's place.
+void setMimic(const Mimic& end, int joint, RobotModel& robot) {
+  JointModel& model = robot.joints[static_cast<std::size_t>(joint)];
+  if (end.joint == joint || model.type == JointType::fixed) return;
+  const auto single = [](const JointModel& m) {
+    return m.type >= JointType::revolute && m.type <= JointType::prismatic;
+  };
+  if (!single(model) || !single(robot.joints[static_cast<std::size_t>(end.joint)]) ||
+      !std::isfinite(end.multiplier) || !std::isfinite(end.offset))
+    throw Error("only a joint with one axis can mimic another one, by finite numbers");
+  model.mimic = end;
+}
+
+void readJoints(const UrdfTree& tree, RobotModel& robot, LoadFaults& faults) {
+  std::vector<Follower> followers;
+  std::vector<std::string> places;
+  const auto gather = [&](const std::string& place, const auto& work) {
+    LoadFaults::gather(faults.errors, [&] {
+      try {
+        work();
+      } catch (const Error& error) {
+        throw Error(place + ": " + error.what());
+      }
+    });
+  };
+  for (const XMLElement* e : tree.joints) {
+    const std::string place = xmlPlace(*e, robot.path) + "joint '" + e->Attribute("name") + "'";
+    gather(place, [&] {
+      const ReadJoint joint = readJoint(*e, tree);
+      robot.links[static_cast<std::size_t>(joint.model.child)].parentJoint =
+          static_cast<int>(robot.joints.size());
+      robot.joints.push_back(joint.model);
+      followers.push_back(joint.follower);
+      places.push_back(place);
+    });
   }
+  MimicChains chains(followers);
+  for (std::size_t j = 0; j < followers.size(); ++j) {
+    if (!followers[j].mimics.empty())
+      gather(places[j], [&] { setMimic(chains.end(j), static_cast<int>(j), robot); });
+  }
+}
+
+// The text counted on its own: no element may have gone missing on the way into the model.
+void checkAllThere(int collisions, const RobotModel& robot, std::size_t refused) {
+  std::size_t kept = refused;
+  for (const LinkModel& link : robot.links)
+    for (const ShapeModel& shape : link.collision) kept += static_cast<std::size_t>(shape.elements);
+  if (kept != static_cast<std::size_t>(collisions))
+    throw Error(robot.path + ": has " + std::to_string(collisions) + " <collision> elements, of which " +
+                std::to_string(kept) + " were read; give links and shapes names of their own");
 }
 
 template <class Items>
@@ -219,37 +226,47 @@ int indexOf(const Items& items, const std::string& name) {
   return found == items.end() ? -1 : static_cast<int>(found - items.begin());
 }
 
+template <class Load>
+RobotModel orRefuse(Load load) {
+  LoadFaults faults;
+  RobotModel robot = load(faults);
+  faults.refuse();
+  return robot;
+}
+
 }  // namespace
 
 int RobotModel::link(const std::string& linkName) const { return indexOf(links, linkName); }
 int RobotModel::joint(const std::string& jointName) const { return indexOf(joints, jointName); }
 
-RobotModel parseUrdf(const std::string& text, const std::string& path) {
-  const CheckedUrdf checked = checkUrdf(text, path);
-  const Parsed parsed(readUrdf(checked.xml, path));
+RobotModel parseUrdf(const std::string& text, const std::string& path, LoadFaults& faults) {
+  tinyxml2::XMLDocument document;
+  parseXml(text, path, document);
+  const XMLElement& root = *document.RootElement();
+  if (std::string(root.Name()) != "robot")
+    throw Error(path + ": its root element is <" + root.Name() + ">, expected <robot>");
   RobotModel robot;
-  robot.name = parsed->getName();
+  robot.name = requiredAttribute(root, "name", path);
   robot.path = path;
-  Names index;
-  for (const std::string& name : checked.links) {
-    index[name] = static_cast<int>(robot.links.size());
-    robot.links.push_back(toLink(*parsed->links_.at(name), checked.capsules, path));
-  }
-  std::vector<const urdf::Joint*> joints;
-  for (const std::string& name : checked.joints) {
-    joints.push_back(parsed->joints_.at(name).get());
-    robot.joints.push_back(toJoint(*joints.back(), index, path));
-    robot.links[static_cast<std::size_t>(robot.joints.back().child)].parentJoint =
-        static_cast<int>(robot.joints.size()) - 1;
-  }
-  resolveMimics(joints, robot);
+  const int collisions = checkPlaces(root, path, faults);
+  const UrdfTree tree = readTree(root, path, faults);
+  const std::size_t errors = faults.errors.size(), refused = faults.shapes.size();
+  for (const XMLElement* link : tree.links) robot.links.push_back(readLink(*link, path, robot, faults));
+  if (errors == 0) checkAllThere(collisions, robot, faults.shapes.size() - refused);
+  readJoints(tree, robot, faults);
   return robot;
 }
 
+RobotModel parseUrdf(const std::string& text, const std::string& path) {
+  return orRefuse([&](LoadFaults& faults) { return parseUrdf(text, path, faults); });
+}
+
+RobotModel loadUrdf(const std::string& path, LoadFaults& faults) {
+  return parseUrdf(readXml(path), path, faults);
+}
+
 RobotModel loadUrdf(const std::string& path) {
-  tinyxml2::XMLDocument refused;
-  loadXml(path, refused);  // names the file's own lines in messages
-  return parseUrdf(readText(path), path);
+  return orRefuse([&](LoadFaults& faults) { return loadUrdf(path, faults); });
 }
 
 }  // namespace fcl_stpbv

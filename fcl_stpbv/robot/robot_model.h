@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "fcl_stpbv/robot/load_faults.h"
+
 namespace fcl_stpbv {
 
 enum class JointType { fixed, revolute, continuous, prismatic, planar, floating };
@@ -35,6 +37,8 @@ struct ShapeModel {
   Eigen::Vector3d size{0, 0, 0};   ///< box: sides; else radius and length (without a capsule's caps) (m)
   std::string mesh;                ///< as the URDF names it
   Eigen::Vector3d scale{1, 1, 1};  ///< of the mesh, negative mirrors
+  int elements = 1;   ///< of the URDF that became this shape: 3 for a capsule joined from its parts
+  std::string place;  ///< for messages: file, line, link and which of its shapes
 };
 
 struct LinkModel {
@@ -50,6 +54,8 @@ struct RobotModel {
   std::string path;                ///< of the URDF
   std::vector<LinkModel> links;    ///< parents before their children; the root first
   std::vector<JointModel> joints;  ///< in the order of the file
+  std::vector<std::string>
+      visualFaults;  ///< visual shapes that cannot be read; no matter until they are used
 
   /// Index by name, -1 if there is none.
   int link(const std::string& name) const;
@@ -57,11 +63,17 @@ struct RobotModel {
 };
 
 /// Reads a URDF. A cylinder with a sphere of its radius at either end is a capsule, and so is `<capsule>`.
-/// @throws Error naming the file, the link or the joint and what is wrong with it: links that form a loop or
-/// have two parents, a mimic joint that follows itself, limits that exclude each other, numbers that are not
-/// finite.
+/// Every `<collision>` element of the text is in the model, or the robot is refused; nothing else in the file
+/// can take one away. A bad `<inertial>` is a warning, and the link counts as without mass.
+/// @throws Error naming all that is wrong, each with its line: links that form a loop or have two parents, a
+/// mimic joint that follows itself, limits that exclude each other, numbers that are not finite, words that
+/// look misspelt.
 RobotModel loadUrdf(const std::string& path);
+/// The same, but what is wrong is added to `faults` for the caller to refuse. Shapes that cannot be read are
+/// not in the model then, and where there are errors the model is only fit to look for more of them.
+RobotModel loadUrdf(const std::string& path, LoadFaults& faults);
 /// The same from a text; `path` stands for it in messages.
 RobotModel parseUrdf(const std::string& text, const std::string& path);
+RobotModel parseUrdf(const std::string& text, const std::string& path, LoadFaults& faults);
 
 }  // namespace fcl_stpbv

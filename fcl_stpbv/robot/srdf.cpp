@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <sstream>
 #include <unordered_set>
 
@@ -14,46 +15,76 @@ namespace {
 
 using tinyxml2::XMLElement;
 
+// Elements of SRDF that nothing here reads.
+const std::set<std::string_view> kOthers = {"group",
+                                            "end_effector",
+                                            "passive_joint",
+                                            "joint_property",
+                                            "link_sphere_approximation",
+                                            "chain",
+                                            "group_state",
+                                            "virtual_joint",
+                                            "disable_default_collisions",
+                                            "enable_collisions",
+                                            "disable_collisions"};
+
 class Reader {
  public:
-  Reader(const std::string& path, const RobotModel& robot) : path_(path) {
+  Reader(const std::string& path, const RobotModel& robot, LoadFaults& faults)
+      : path_(path), robot_(robot), faults_(faults) {
     for (const LinkModel& link : robot.links) links_.insert(link.name);
-    for (const JointModel& joint : robot.joints) joints_.insert(joint.name);
   }
 
   Srdf read() {
     tinyxml2::XMLDocument document;
     loadXml(path_, document);
-    Srdf srdf;
-    srdf.path = path_;
-    for (const XMLElement* e = document.RootElement()->FirstChildElement(); e; e = e->NextSiblingElement()) {
-      const std::string_view name = e->Name();
-      if (name == "disable_collisions") srdf.disabled.push_back(pair(*e));
-      if (name == "enable_collisions") srdf.enabled.push_back(pair(*e));
-      if (name == "disable_default_collisions") srdf.defaultsOff.push_back(link(*e, "link"));
-      if (name == "group_state") srdf.states.push_back(state(*e));
-      if (name == "virtual_joint") {
-        srdf.baseJoint = requiredAttribute(*e, "name", path_);
-        srdf.baseType = requiredAttribute(*e, "type", path_);
-      }
-    }
-    return srdf;
+    srdf_.path = path_;
+    const XMLElement& root = *document.RootElement();
+    if (std::string_view(root.Name()) != "robot")
+      throw Error(xmlPlace(root, path_) + "its root element is <" + root.Name() + ">, expected <robot>");
+    const char* name = root.Attribute("name");
+    if (name && name != robot_.name)
+      warn(root, std::string("is of the robot '") + name + "', used for '" + robot_.name + "'");
+    for (const XMLElement* e = root.FirstChildElement(); e; e = e->NextSiblingElement())
+      LoadFaults::gather(faults_.errors, [&] { take(*e); });
+    return std::move(srdf_);
   }
 
  private:
-  [[noreturn]] void fail(const XMLElement& e, const std::string& message) const {
-    throw Error(path_ + ":" + std::to_string(e.GetLineNum()) + ": " + message);
+  void take(const XMLElement& e) {
+    const std::string_view name = e.Name();
+    if (name == "disable_collisions") addPair(e, srdf_.disabled);
+    if (name == "enable_collisions") addPair(e, srdf_.enabled);
+    if (name == "disable_default_collisions" && known(e, "link"))
+      srdf_.defaultsOff.push_back(e.Attribute("link"));
+    if (name == "group_state") srdf_.states.push_back(state(e));
+    if (name == "virtual_joint") {
+      srdf_.baseJoint = requiredAttribute(e, "name", path_);
+      srdf_.baseType = requiredAttribute(e, "type", path_);
+    }
+    if (kOthers.count(name) == 0 && name.find(':') == std::string_view::npos) {
+      const bool pair = e.Attribute("link1") || e.Attribute("link2");
+      warn(e, "<" + std::string(name) + "> is no element of SRDF and counts for nothing" +
+                  (pair ? "; is it a misspelt <disable_collisions>?" : ""));
+    }
   }
 
-  std::string link(const XMLElement& e, const char* attribute) const {
-    std::string name = requiredAttribute(e, attribute, path_);
-    if (!links_.count(name)) fail(e, "the robot has no link '" + name + "'; is this another robot's SRDF?");
-    return name;
+  void warn(const XMLElement& e, const std::string& message) {
+    srdf_.warnings.push_back(xmlPlace(e, path_) + message);
   }
 
-  Srdf::Pair pair(const XMLElement& e) const {
+  bool known(const XMLElement& e, const char* attribute) {
+    const std::string name = requiredAttribute(e, attribute, path_);
+    if (links_.count(name)) return true;
+    warn(e, "<" + std::string(e.Name()) + "> counts for nothing, as the robot has no link '" + name + "'");
+    return false;
+  }
+
+  void addPair(const XMLElement& e, std::vector<Srdf::Pair>& pairs) {
+    const bool first = known(e, "link1"), second = known(e, "link2");
     const char* reason = e.Attribute("reason");
-    return {link(e, "link1"), link(e, "link2"), reason && *reason ? reason : "User"};
+    if (first && second)
+      pairs.push_back({e.Attribute("link1"), e.Attribute("link2"), reason && *reason ? reason : "User"});
   }
 
   Srdf::State state(const XMLElement& e) const {
@@ -66,13 +97,17 @@ class Reader {
       std::vector<double>& list = state.joints[requiredAttribute(*j, "name", path_)];
       for (double value; values >> value;) list.push_back(value);
       const bool finite = std::all_of(list.begin(), list.end(), [](double v) { return std::isfinite(v); });
-      if (list.empty() || !finite || !values.eof()) fail(*j, "a joint's value must be finite numbers");
+      if (list.empty() || !finite || !values.eof())
+        throw Error(xmlPlace(*j, path_) + "a joint's value must be finite numbers");
     }
     return state;
   }
 
-  std::string path_;
-  std::unordered_set<std::string> links_, joints_;
+  const std::string& path_;
+  const RobotModel& robot_;
+  LoadFaults& faults_;
+  std::unordered_set<std::string> links_;
+  Srdf srdf_;
 };
 
 bool same(const Srdf::Pair& pair, const std::string& a, const std::string& b) {
@@ -103,10 +138,19 @@ const Srdf::State& Srdf::state(const std::string& name) const {
               (known.empty() ? "it has none" : "there are: " + known));
 }
 
-Srdf loadSrdf(const std::string& path, const RobotModel& robot) { return Reader(path, robot).read(); }
+Srdf loadSrdf(const std::string& path, const RobotModel& robot, LoadFaults& faults) {
+  return Reader(path, robot, faults).read();
+}
+
+Srdf loadSrdf(const std::string& path, const RobotModel& robot) {
+  LoadFaults faults;
+  Srdf srdf = loadSrdf(path, robot, faults);
+  faults.refuse();
+  return srdf;
+}
 
 std::string withPairs(const std::string& path, const std::string& robotName,
-                      const std::vector<Srdf::Pair>& pairs) {
+                      const std::vector<Srdf::Pair>& pairs, const std::vector<std::string>& comments) {
   tinyxml2::XMLDocument document;
   if (path.empty()) {
     document.InsertEndChild(document.NewDeclaration());
@@ -122,6 +166,12 @@ std::string withPairs(const std::string& path, const std::string& robotName,
     const char* reason = e->Attribute("reason");
     if (reason && std::string_view(reason) != "User") root->DeleteChild(e);
     e = next;
+  }
+  for (std::string comment : comments) {
+    comment = " Left out, not checked: " + comment + " ";
+    for (std::size_t at; (at = comment.find("--")) != std::string::npos;)
+      comment[at] = '~';  // ends a comment
+    root->InsertEndChild(document.NewComment(comment.c_str()));
   }
   for (const Srdf::Pair& pair : pairs) {
     XMLElement* e = document.NewElement("disable_collisions");

@@ -24,6 +24,9 @@ struct Srdf {
   std::vector<std::string> defaultsOff;  ///< disable_default_collisions: links checked only where enabled
   std::vector<State> states;             ///< group_state
   std::string baseJoint, baseType;       ///< virtual_joint, "" without one
+  /// Whole sentences, to be told to the user: entries for links that the robot does not have, which count for
+  /// nothing as in MoveIt; elements that SRDF does not know; the name of another robot.
+  std::vector<std::string> warnings;
 
   /// Whether the pair is to be left out, and why; "" where it is to be checked.
   std::string reasonToSkip(const std::string& link1, const std::string& link2) const;
@@ -31,12 +34,14 @@ struct Srdf {
   const State& state(const std::string& name) const;
 };
 
-/// Reads an SRDF; names must exist in `robot`. @throws Error naming the file and the line.
+/// Reads an SRDF for `robot`. @throws Error listing all that is wrong, each with its line.
 Srdf loadSrdf(const std::string& path, const RobotModel& robot);
+/// The same, but what is wrong is added to `faults` for the caller to refuse.
+Srdf loadSrdf(const std::string& path, const RobotModel& robot, LoadFaults& faults);
 
 /// The SRDF at `path` (a bare one where `path` is "") with its disable_collisions replaced by `pairs`.
-/// Entries of the reason "User" and everything else stay as they are.
+/// Entries of the reason "User" and everything else stay as they are. Each of `comments` goes before them.
 std::string withPairs(const std::string& path, const std::string& robotName,
-                      const std::vector<Srdf::Pair>& pairs);
+                      const std::vector<Srdf::Pair>& pairs, const std::vector<std::string>& comments = {});
 
 }  // namespace fcl_stpbv

@@ -1,11 +1,8 @@
 // See urdf_check.h.
 #include "fcl_stpbv/robot/urdf_check.h"
 
-#include <string>
-#include <unordered_map>
 #include <unordered_set>
 
-#include "fcl_stpbv/error.h"
 #include "fcl_stpbv/robot/xml_text.h"
 
 namespace fcl_stpbv {
@@ -13,13 +10,25 @@ namespace {
 
 using tinyxml2::XMLElement;
 
+// Time and memory grow with the square of the number of bodies; the largest published robots have some
+// hundreds.
+constexpr std::size_t kMostLinks = 20000;
+
 struct Tree {
   std::vector<std::string> links;  // in the order of the file
-  std::unordered_set<std::string> known;
-  std::vector<std::string> joints;
+  std::unordered_map<std::string, const XMLElement*> known;
+  std::unordered_set<std::string> jointNames;
+  std::vector<const XMLElement*> joints;
   std::unordered_map<std::string, std::string> jointOf, parentOf;        // of a child link
   std::unordered_map<std::string, std::vector<std::string>> childrenOf;  // in the order of the file
 };
+
+void addLink(Tree& tree, const XMLElement& element, const std::string& path) {
+  const std::string name = requiredAttribute(element, "name", path);
+  if (!tree.known.emplace(name, &element).second)
+    throw Error(xmlPlace(element, path) + "two links are named '" + name + "'; rename one");
+  tree.links.push_back(name);
+}
 
 std::string linkOf(const XMLElement& joint, const char* end, const std::string& where) {
   const XMLElement* element = joint.FirstChildElement(end);
@@ -30,7 +39,9 @@ std::string linkOf(const XMLElement& joint, const char* end, const std::string& 
 
 void addJoint(Tree& tree, const XMLElement& element, const std::string& path) {
   const std::string joint = requiredAttribute(element, "name", path);
-  const std::string where = path + ": joint '" + joint + "'";
+  const std::string where = xmlPlace(element, path) + "joint '" + joint + "'";
+  if (!tree.jointNames.insert(joint).second)
+    throw Error(xmlPlace(element, path) + "two joints are named '" + joint + "'; rename one");
   const std::string parent = linkOf(element, "parent", where), child = linkOf(element, "child", where);
   for (const std::string& link : {parent, child}) {
     if (!tree.known.count(link))
@@ -38,29 +49,26 @@ void addJoint(Tree& tree, const XMLElement& element, const std::string& path) {
   }
   const auto [other, isNew] = tree.jointOf.emplace(child, joint);
   if (!isNew) {
-    throw Error(path + ": link '" + child + "' is the child of two joints, '" + other->second + "' and '" +
-                joint + "'; a URDF is a tree, remove one");
+    throw Error(xmlPlace(element, path) + "link '" + child + "' is the child of two joints, '" +
+                other->second + "' and '" + joint + "'; a URDF is a tree, remove one");
   }
-  tree.joints.push_back(joint);
+  tree.joints.push_back(&element);
   tree.parentOf[child] = parent;
   tree.childrenOf[parent].push_back(child);
 }
 
-Tree readTree(const XMLElement& robot, const std::string& path) {
+Tree readNames(const XMLElement& robot, const std::string& path, LoadFaults& faults) {
   Tree tree;
-  for (const XMLElement* e = robot.FirstChildElement("link"); e; e = e->NextSiblingElement("link")) {
-    const std::string name = requiredAttribute(*e, "name", path);
-    if (!tree.known.insert(name).second)
-      throw Error(path + ": two links are named '" + name + "'; rename one");
-    tree.links.push_back(name);
-  }
-  if (tree.links.empty()) throw Error(path + ": has no links; give a URDF with at least one <link>");
-  std::unordered_set<std::string> joints;
-  for (const XMLElement* e = robot.FirstChildElement("joint"); e; e = e->NextSiblingElement("joint")) {
-    addJoint(tree, *e, path);
-    if (!joints.insert(tree.joints.back()).second)
-      throw Error(path + ": two joints are named '" + tree.joints.back() + "'; rename one");
-  }
+  for (const XMLElement* e = robot.FirstChildElement("link"); e; e = e->NextSiblingElement("link"))
+    LoadFaults::gather(faults.errors, [&] { addLink(tree, *e, path); });
+  if (tree.links.empty())
+    faults.errors.push_back(path + ": has no links; give a URDF with at least one <link>");
+  if (tree.links.size() > kMostLinks)
+    faults.errors.push_back(path + ": has " + std::to_string(tree.links.size()) + " links, more than the " +
+                            std::to_string(kMostLinks) + " that are read");
+  if (tree.links.empty() || tree.links.size() > kMostLinks) faults.refuse();
+  for (const XMLElement* e = robot.FirstChildElement("joint"); e; e = e->NextSiblingElement("joint"))
+    LoadFaults::gather(faults.errors, [&] { addJoint(tree, *e, path); });
   return tree;
 }
 
@@ -101,39 +109,20 @@ std::vector<std::string> inTreeOrder(const Tree& tree, const std::string& path) 
   return order;
 }
 
-CapsuleNames capsulesToCylinders(XMLElement& robot) {
-  CapsuleNames capsules;
-  for (XMLElement* link = robot.FirstChildElement("link"); link; link = link->NextSiblingElement("link")) {
-    for (const char* use : {"collision", "visual"}) {
-      int index = 0;
-      for (XMLElement* e = link->FirstChildElement(use); e; e = e->NextSiblingElement(use), ++index) {
-        XMLElement* geometry = e->FirstChildElement("geometry");
-        XMLElement* capsule = geometry ? geometry->FirstChildElement("capsule") : nullptr;
-        if (!capsule) continue;
-        capsule->SetName("cylinder");
-        if (std::string(use) == "collision") capsules.emplace(link->Attribute("name"), index);
-      }
-    }
-  }
-  return capsules;
-}
-
 }  // namespace
 
-CheckedUrdf checkUrdf(const std::string& text, const std::string& path) {
-  tinyxml2::XMLDocument document;
-  parseXml(text, path, document);
-  XMLElement& robot = *document.RootElement();
-  if (std::string(robot.Name()) != "robot")
-    throw Error(path + ": its root element is <" + robot.Name() + ">, expected <robot>");
-  const Tree tree = readTree(robot, path);
-  CheckedUrdf checked;
-  checked.links = inTreeOrder(tree, path);
+UrdfTree readTree(const XMLElement& robot, const std::string& path, LoadFaults& faults) {
+  const std::size_t before = faults.errors.size();
+  const Tree tree = readNames(robot, path, faults);
+  std::vector<std::string> order = tree.links;
+  if (faults.errors.size() == before)
+    LoadFaults::gather(faults.errors, [&] { order = inTreeOrder(tree, path); });
+  UrdfTree checked;
   checked.joints = tree.joints;
-  checked.capsules = capsulesToCylinders(robot);
-  tinyxml2::XMLPrinter printer(nullptr, true);
-  robot.Accept(&printer);
-  checked.xml = printer.CStr();
+  for (const std::string& link : order) {
+    checked.index[link] = static_cast<int>(checked.links.size());
+    checked.links.push_back(tree.known.at(link));
+  }
   return checked;
 }
 

@@ -1,25 +1,25 @@
-// What urdfdom does not check: the tree of names, and words newer than it.
+// The tree of links and joints that a URDF's elements form, by their names.
 #pragma once
 
-#include <set>
+#include <tinyxml2.h>
+
 #include <string>
-#include <utility>
+#include <unordered_map>
 #include <vector>
+
+#include "fcl_stpbv/robot/load_faults.h"
 
 namespace fcl_stpbv {
 
-/// A link's name and the index of its collision element.
-using CapsuleNames = std::set<std::pair<std::string, int>>;
-
-/// A URDF whose links form one tree.
-struct CheckedUrdf {
-  std::string xml;                  ///< written anew: urdfdom never sees the file's own bytes
-  std::vector<std::string> links;   ///< parents before their children
-  std::vector<std::string> joints;  ///< in the order of the file
-  CapsuleNames capsules;            ///< written as cylinders, which this urdfdom knows
+struct UrdfTree {
+  std::vector<const tinyxml2::XMLElement*> links;   ///< parents before their children
+  std::vector<const tinyxml2::XMLElement*> joints;  ///< in the order of the file
+  std::unordered_map<std::string, int> index;       ///< of the links
 };
 
-/// @throws Error naming the file and the link or joint at fault.
-CheckedUrdf checkUrdf(const std::string& text, const std::string& path);
+/// What is wrong becomes `faults.errors`, each naming the line and the link or joint; then joints may be
+/// missing and links come in the order of the file.
+/// @throws Error where nothing can be looked at: no links, or more than 20,000.
+UrdfTree readTree(const tinyxml2::XMLElement& robot, const std::string& path, LoadFaults& faults);
 
 }  // namespace fcl_stpbv

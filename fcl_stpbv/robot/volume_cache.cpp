@@ -1,6 +1,10 @@
 // See volume_cache.h.
 #include "fcl_stpbv/robot/volume_cache.h"
 
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include <cstdint>
 #include <cstdlib>
 #include <filesystem>
@@ -17,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // Changes when the builder gives other volumes for the same points.
-constexpr std::string_view kVersion = "fcl_stpbv volume cache 2\n";
+constexpr std::string_view kVersion = "fcl_stpbv volume cache 3\n";
 
 // Two streams of 64 bits: FNV-1a, and the same steps over a mixed state. Guards against accidents, not
 // against somebody who may write into the user's own cache.
@@ -35,6 +39,31 @@ std::string digest(std::string_view text) {
   return hex;
 }
 
+// The name of an entry's file without its ending: the digest of what it was built from.
+std::string keyOf(const std::string& path) { return fs::path(path).stem().string(); }
+
+// An open entry, or -1: of a link, a pipe or a device, and of a file that somebody else may have written.
+int openEntry(const std::string& path) {
+  const int file = ::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+  struct stat about {};
+  if (file >= 0 && ::fstat(file, &about) == 0 && S_ISREG(about.st_mode) &&
+      (about.st_uid == ::geteuid() || about.st_uid == 0) && (about.st_mode & (S_IWGRP | S_IWOTH)) == 0)
+    return file;
+  if (file >= 0) ::close(file);
+  return -1;
+}
+
+std::string readEntry(const std::string& path) {
+  const int file = openEntry(path);
+  if (file < 0) return "";
+  std::string text;
+  char piece[1 << 16];
+  for (ssize_t got = 0; (got = ::read(file, piece, sizeof piece)) > 0;)
+    text.append(piece, static_cast<std::size_t>(got));
+  ::close(file);
+  return text;
+}
+
 }  // namespace
 
 std::string VolumeCache::defaultFolder() {
@@ -44,16 +73,26 @@ std::string VolumeCache::defaultFolder() {
   return home && fs::path(home).is_absolute() ? (fs::path(home) / ".cache" / "fcl_stpbv").string() : "";
 }
 
-StpBv::Ptr VolumeCache::volume(std::string_view content, const StpBvOptions& options,
-                               const std::function<StpBv::Ptr()>& build) {
-  if (folder_.empty()) return build();
+std::string VolumeCache::pathOf(std::string_view content, const StpBvOptions& options) const {
   std::string key(kVersion);
   appendNumber(key, options.r);
   key += ' ';
   appendNumber(key, options.R);
   key += '\n';
   key += content;
-  const std::string path = (fs::path(folder_) / (digest(key) + ".stpbv")).string();
+  return (fs::path(folder_) / (digest(key) + ".stpbv")).string();
+}
+
+bool VolumeCache::has(std::string_view content, const StpBvOptions& options) const {
+  const int file = folder_.empty() ? -1 : openEntry(pathOf(content, options));
+  if (file >= 0) ::close(file);
+  return file >= 0;
+}
+
+StpBv::Ptr VolumeCache::volume(std::string_view content, const StpBvOptions& options,
+                               const std::function<StpBv::Ptr()>& build) {
+  if (folder_.empty()) return build();
+  const std::string path = pathOf(content, options);
   StpBv::Ptr volume = load(path);
   if (volume) {
     ++hits_;
@@ -64,14 +103,12 @@ StpBv::Ptr VolumeCache::volume(std::string_view content, const StpBvOptions& opt
   return volume;
 }
 
-// An entry is a line with the digest of the rest, then the volume's own format.
+// An entry is a line with the digest of its key and the rest, then the volume's own format.
 StpBv::Ptr VolumeCache::load(const std::string& path) const {
   try {
-    std::error_code ignored;
-    if (!fs::is_regular_file(path, ignored)) return nullptr;
-    const std::string text = readText(path);
+    const std::string text = readEntry(path);
     const std::size_t line = text.find('\n');
-    if (line == std::string::npos || digest(std::string_view(text).substr(line + 1)) != text.substr(0, line))
+    if (line == std::string::npos || digest(keyOf(path) + text.substr(line)) != text.substr(0, line))
       return nullptr;
     std::istringstream in(text.substr(line + 1));
     return loadStpBv(in, path);
@@ -80,13 +117,16 @@ StpBv::Ptr VolumeCache::load(const std::string& path) const {
   }
 }
 
-void VolumeCache::keep(const std::string& path, const StpBv& volume) const {
+void VolumeCache::keep(const std::string& path, const StpBv& volume) {
   try {
     std::error_code ignored;
     fs::create_directories(folder_, ignored);
+    if (!swept_) sweepTemporaries(folder_);
+    swept_ = true;
     std::ostringstream out;
     saveStpBv(out, volume);
-    atomicWrite(path, digest(out.str()) + "\n" + out.str());
+    const std::string text = "\n" + out.str();
+    atomicWriteOwn(path, digest(keyOf(path) + text) + text);
   } catch (const std::exception&) {
     return;  // built again next time
   }

@@ -11,6 +11,10 @@ namespace fcl_stpbv {
 
 /// A folder of built volumes. Any number of processes may share it. Whatever goes wrong with it, a missing or
 /// read-only folder, a damaged entry, is cured by building anew and never reported.
+///
+/// Entries are believed where they carry the digest of what they were built from and of themselves, belong to
+/// the user or to root, and can be written by nobody else: only who may already act as the user can forge
+/// one.
 class VolumeCache {
  public:
   /// The usual place: $XDG_CACHE_HOME/fcl_stpbv, else ~/.cache/fcl_stpbv; "" where neither is known.
@@ -23,13 +27,18 @@ class VolumeCache {
   StpBv::Ptr volume(std::string_view content, const StpBvOptions& options,
                     const std::function<StpBv::Ptr()>& build);
 
+  /// Whether there is an entry for it; a damaged one counts.
+  bool has(std::string_view content, const StpBvOptions& options) const;
+
   int hits() const { return hits_; }
 
  private:
+  std::string pathOf(std::string_view content, const StpBvOptions& options) const;
   StpBv::Ptr load(const std::string& path) const;
-  void keep(const std::string& path, const StpBv& volume) const;
+  void keep(const std::string& path, const StpBv& volume);
 
   std::string folder_;
+  bool swept_ = false;
   int hits_ = 0;
 };
 

@@ -1,7 +1,9 @@
 // See xml_text.h.
 #include "fcl_stpbv/robot/xml_text.h"
 
-#include <filesystem>
+#include <algorithm>
+#include <string>
+#include <vector>
 
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/io/text_scanner.h"
@@ -25,6 +27,37 @@ void refuseDocumentType(const tinyxml2::XMLDocument& document, const std::string
   }
 }
 
+bool isXacro(const tinyxml2::XMLElement& element, std::vector<std::string>& prefixes) {
+  bool found = false;
+  for (const tinyxml2::XMLAttribute* a = element.FirstAttribute(); a; a = a->Next()) {
+    const std::string_view attribute = a->Name(), value = a->Value();
+    if (attribute.substr(0, 6) == "xmlns:") {
+      if (value.find("xacro") != std::string_view::npos)
+        prefixes.push_back(std::string(attribute.substr(6)) + ":");
+      continue;
+    }
+    found = found || value.find("${") != std::string_view::npos || value.find("$(") != std::string_view::npos;
+  }
+  const std::string_view name = element.Name();
+  return found || std::any_of(prefixes.begin(), prefixes.end(), [&](const std::string& prefix) {
+           return name.substr(0, prefix.size()) == prefix;
+         });
+}
+
+void refuseXacro(const tinyxml2::XMLElement& root, const std::string& name) {
+  std::vector<std::string> prefixes{"xacro:"};
+  std::vector<const tinyxml2::XMLElement*> open{&root};
+  while (!open.empty()) {
+    const tinyxml2::XMLElement& at = *open.back();
+    open.pop_back();
+    if (isXacro(at, prefixes))
+      throw Error(xmlPlace(at, name) + "<" + at.Name() + "> is xacro, not plain XML; run 'xacro " + name +
+                  " > robot.urdf' first");
+    for (const tinyxml2::XMLElement* e = at.LastChildElement(); e; e = e->PreviousSiblingElement())
+      if (std::string_view(e->Name()) != "gazebo") open.push_back(e);
+  }
+}
+
 }  // namespace
 
 void parseXml(std::string_view text, const std::string& name, tinyxml2::XMLDocument& document) {
@@ -41,18 +74,17 @@ void parseXml(std::string_view text, const std::string& name, tinyxml2::XMLDocum
   refuseDocumentType(document, name);
   const tinyxml2::XMLElement* root = document.RootElement();
   if (!root) throw Error(name + ": holds no XML element");
-  if (text.find("<xacro:") != std::string_view::npos)
-    throw Error(name + ": is xacro, not plain XML; run 'xacro " + name + " > robot.urdf' first");
+  refuseXacro(*root, name);
 }
 
+std::string xmlPlace(const tinyxml2::XMLElement& element, const std::string& name) {
+  return at(name, element.GetLineNum());
+}
+
+std::string readXml(const std::string& path) { return readText(path, kMaxBytes); }
+
 void loadXml(const std::string& path, tinyxml2::XMLDocument& document) {
-  std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) throw Error(path + ": is a folder, expected a file");
-  if (!std::filesystem::exists(path, ignored)) throw Error(path + ": no such file");
-  if (std::filesystem::is_regular_file(path, ignored) &&
-      std::filesystem::file_size(path, ignored) > kMaxBytes)
-    throw Error(path + ": larger than 64 MB, which no robot description needs");
-  parseXml(readText(path), path, document);
+  parseXml(readXml(path), path, document);
 }
 
 std::string requiredAttribute(const tinyxml2::XMLElement& element, const char* attribute,

@@ -9,9 +9,16 @@
 namespace fcl_stpbv {
 
 /// Parses `text` into `document`. Refused: more than 64 MB, NUL bytes, a document type (nothing in URDF needs
-/// entities of its own), elements nested too deep, and xacro that was not expanded.
+/// entities of its own), elements nested too deep, and xacro that was not expanded: elements of its
+/// namespace, and `${...}` or `$(...)` in an attribute, but within `<gazebo>`, which nothing here reads.
 /// @throws Error "name:line: ..." saying what is wrong.
 void parseXml(std::string_view text, const std::string& name, tinyxml2::XMLDocument& document);
+
+/// "name:line: ", where the element begins.
+std::string xmlPlace(const tinyxml2::XMLElement& element, const std::string& name);
+
+/// The text of a file, bounded in size as above. @throws Error naming the file.
+std::string readXml(const std::string& path);
 
 /// Reads a file and parses it. @throws Error naming the file.
 void loadXml(const std::string& path, tinyxml2::XMLDocument& document);

@@ -88,3 +88,21 @@ def test_a_robots_jacobian_is_what_differences_say(tmp_path, monkeypatch):
     np.testing.assert_allclose(jacobian @ direction, slope, atol=1e-6)
     with pytest.raises(fcl_stpbv.Error, match="coordinates"):
         robot.distances(q[:-1])
+
+
+@pytest.mark.parametrize("bad", [math.nan, math.inf, -math.inf])
+def test_numbers_that_are_not_finite_raise(bad):
+    volume = box()
+    for ask in (volume.support, volume.surface_point, volume.signed_distance):
+        with pytest.raises(fcl_stpbv.Error, match="not finite"):
+            ask([bad, 0, 0])
+    with pytest.raises(fcl_stpbv.Error, match="zero"):
+        volume.support([0, 0, 0])
+    assert volume.support([1e300, 0, 0]) == pytest.approx(volume.support([1, 0, 0]), abs=1e-15)
+    folder = DATA / "hrp2_style"
+    robot = fcl_stpbv.Robot(str(folder / "hrp2_style.urdf"), str(folder / "hrp2_style.srdf"))
+    q = robot.neutral.copy()
+    q[3] = bad
+    for ask in (robot.evaluate, robot.distances):
+        with pytest.raises(fcl_stpbv.Error, match="q"):
+            ask(q)

@@ -1,0 +1,54 @@
+// See mimic_chain.h.
+#include "fcl_stpbv/robot/mimic_chain.h"
+
+#include "fcl_stpbv/error.h"
+
+namespace fcl_stpbv {
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+}  // namespace
+
+MimicChains::MimicChains(std::vector<Follower> joints) : joints_(std::move(joints)) {
+  std::unordered_map<std::string, int> index;
+  for (std::size_t j = 0; j < joints_.size(); ++j) index[joints_[j].joint] = static_cast<int>(j);
+  for (const Follower& joint : joints_) {
+    const auto found = joint.mimics.empty() ? index.end() : index.find(joint.mimics);
+    next_.push_back(found == index.end() ? -1 : found->second);
+  }
+  end_.resize(joints_.size());
+  state_.resize(joints_.size(), State::open);
+}
+
+void MimicChains::follow(std::size_t joint) {
+  std::vector<std::size_t> chain;
+  int next = static_cast<int>(joint);
+  for (; next >= 0 && state_[at(next)] == State::open; next = next_[at(next)]) {
+    state_[at(next)] = State::entered;
+    chain.push_back(at(next));
+  }
+  // Of a loop's joints none is ever done.
+  if (next >= 0 && state_[at(next)] == State::entered) return;
+  for (; !chain.empty(); chain.pop_back()) tie(chain.back());
+}
+
+void MimicChains::tie(std::size_t joint) {
+  state_[joint] = State::done;
+  end_[joint] = {static_cast<int>(joint), 1, 0};
+  if (next_[joint] < 0) return;
+  const Mimic& ahead = end_[at(next_[joint])];
+  const double multiplier = joints_[joint].multiplier;
+  end_[joint] = {ahead.joint, multiplier * ahead.multiplier,
+                 multiplier * ahead.offset + joints_[joint].offset};
+}
+
+Mimic MimicChains::end(std::size_t joint) {
+  follow(joint);
+  if (state_[joint] != State::done) throw Error("mimics itself through others; break the loop");
+  const Follower& last = joints_[at(end_[joint].joint)];
+  if (!last.mimics.empty()) throw Error("mimics '" + last.mimics + "', which does not exist");
+  return end_[joint];
+}
+
+}  // namespace fcl_stpbv

@@ -1,0 +1,41 @@
+// Mimic joints that follow joints which follow others.
+#pragma once
+
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "fcl_stpbv/robot/robot_model.h"
+
+namespace fcl_stpbv {
+
+/// A joint as the URDF writes it.
+struct Follower {
+  std::string joint;
+  std::string mimics;  ///< the joint it follows, "" for none
+  double multiplier = 1, offset = 0;
+};
+
+/// Finds the joint at the end of each chain, every joint visited once however long the chains are.
+class MimicChains {
+ public:
+  explicit MimicChains(std::vector<Follower> joints);
+
+  /// What the value of a joint is, in that of the joint at its chain's end; of a joint that follows none, its
+  /// own value.
+  /// @throws Error where the chain has no end, without the joint's place.
+  Mimic end(std::size_t joint);
+
+ private:
+  enum class State { open, entered, done };
+
+  void follow(std::size_t joint);
+  void tie(std::size_t joint);
+
+  std::vector<Follower> joints_;
+  std::vector<int> next_;  // -1 for none
+  std::vector<Mimic> end_;
+  std::vector<State> state_;
+};
+
+}  // namespace fcl_stpbv

@@ -1,0 +1,109 @@
+// See shape_source.h.
+#include "fcl_stpbv/robot/shape_source.h"
+
+#include <algorithm>
+
+#include "fcl_stpbv/error.h"
+#include "fcl_stpbv/io/text_scanner.h"
+#include "fcl_stpbv/robot/mesh_file.h"
+#include "fcl_stpbv/robot/package_path.h"
+
+namespace fcl_stpbv {
+namespace {
+
+using Shapes = std::vector<ShapeModel> LinkModel::*;
+
+// The file's bytes and the scale; for glTF, which keeps its vertices in other files, the points.
+std::string contentOf(const ShapeSource& source) {
+  std::string content;
+  appendVector(content, source.shape->scale);
+  content += '\n';
+  const std::string& path = source.file;
+  const bool several = path.size() > 5 && path.compare(path.size() - 5, 5, ".gltf") == 0;
+  if (!several) return content + readText(path);
+  for (const Eigen::Vector3d& p : source.points()) {
+    appendVector(content, p);
+    content += '\n';
+  }
+  return content;
+}
+
+std::size_t linksWith(const RobotModel& robot, Shapes shapes) {
+  return static_cast<std::size_t>(
+      std::count_if(robot.links.begin(), robot.links.end(),
+                    [&](const LinkModel& link) { return !(link.*shapes).empty(); }));
+}
+
+class Reader {
+ public:
+  Reader(const RobotModel& robot, const std::vector<std::string>& packagePath, LoadFaults& faults)
+      : robot_(robot), paths_(robot.path, packagePath), faults_(faults) {}
+
+  ShapeSources read(bool visual, const IsCached& isCached) {
+    const Shapes shapes = choose(visual);
+    for (std::size_t l = 0; l < robot_.links.size(); ++l) {
+      int number = 0;
+      for (const ShapeModel& shape : robot_.links[l].*shapes) {
+        ShapeSource source;
+        source.link = static_cast<int>(l);
+        source.number = ++number;
+        source.shape = &shape;
+        add(std::move(source), isCached);
+      }
+    }
+    return std::move(sources_);
+  }
+
+ private:
+  Shapes choose(bool visual) {
+    const std::size_t collision = linksWith(robot_, &LinkModel::collision);
+    const std::size_t visuals = linksWith(robot_, &LinkModel::visual);
+    // A robot whose collision shapes are all wrong is no robot without.
+    const bool instead = !visual && collision == 0 && faults_.shapes.empty() && visuals > 0;
+    if (instead)
+      warn("no link has a collision shape; the visual shapes of " + std::to_string(visuals) +
+           " links are used instead.");
+    const bool visible = visual || instead;
+    if (visible)
+      faults_.shapes.insert(faults_.shapes.end(), robot_.visualFaults.begin(), robot_.visualFaults.end());
+    if ((visible ? visuals : collision) == 0)
+      warn(std::string("no link has a ") + (visible ? "visual" : "collision") +
+           " shape, so there is nothing to check.");
+    return visible ? &LinkModel::visual : &LinkModel::collision;
+  }
+
+  void warn(const std::string& message) { sources_.warnings.push_back(robot_.path + ": " + message); }
+
+  void add(ShapeSource source, const IsCached& isCached) {
+    try {
+      if (source.shape->kind == ShapeModel::Kind::mesh) {
+        source.file = paths_.resolve(source.shape->mesh);
+        source.content = contentOf(source);
+        if (!isCached(robot_.links[static_cast<std::size_t>(source.link)].name, source.content))
+          source.points();
+      }
+      sources_.shapes.push_back(std::move(source));
+    } catch (const Error& error) {
+      faults_.shapes.push_back(source.shape->place + ": " + error.what());
+    }
+  }
+
+  const RobotModel& robot_;
+  PackagePath paths_;
+  LoadFaults& faults_;
+  ShapeSources sources_;
+};
+
+}  // namespace
+
+const std::vector<Eigen::Vector3d>& ShapeSource::points() const {
+  if (points_.empty()) points_ = loadPoints(file, shape->scale);
+  return points_;
+}
+
+ShapeSources readShapes(const RobotModel& robot, bool visual, const std::vector<std::string>& packagePath,
+                        const IsCached& isCached, LoadFaults& faults) {
+  return Reader(robot, packagePath, faults).read(visual, isCached);
+}
+
+}  // namespace fcl_stpbv

@@ -1,0 +1,43 @@
+// The shapes of a robot before anything is built from them: which count, and their files found and read.
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "fcl_stpbv/robot/robot_model.h"
+
+namespace fcl_stpbv {
+
+/// One shape of one link; of a mesh, its file.
+struct ShapeSource {
+  int link = -1;
+  int number = 1;  ///< of the link's shapes, from 1
+  const ShapeModel* shape = nullptr;
+  std::string file;     ///< "" for a primitive
+  std::string content;  ///< what the volume cache knows the mesh by
+
+  /// The mesh's points, scaled; read when first asked for and kept. @throws Error naming the file.
+  const std::vector<Eigen::Vector3d>& points() const;
+
+ private:
+  mutable std::vector<Eigen::Vector3d> points_;
+};
+
+/// Whether a volume of the link (by name) built from this content need not be built again.
+using IsCached = std::function<bool(const std::string& link, const std::string& content)>;
+
+struct ShapeSources {
+  std::vector<ShapeSource> shapes;    ///< in the order of the links; they point into the robot's model
+  std::vector<std::string> warnings;  ///< whole sentences, to be told to the user
+};
+
+/// Finds all meshes of a robot and reads those that are not cached. What is wrong is added to
+/// `faults.shapes`, and the shape is left out. `faults` holds what was wrong with the robot's URDF.
+/// @param visual the visual shapes; they are taken as well, with a warning, where the robot has no collision
+/// shape at all.
+ShapeSources readShapes(const RobotModel& robot, bool visual, const std::vector<std::string>& packagePath,
+                        const IsCached& isCached, LoadFaults& faults);
+
+}  // namespace fcl_stpbv

@@ -1,0 +1,13 @@
+// Damage in meshes written as text that assimp reads past: cut lines, decimal commas, indices of no vertex.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace fcl_stpbv {
+
+/// Checks OBJ, text STL, OFF and COLLADA, told by `extension` (".obj", lower case); others pass.
+/// @throws Error "name:line: ..." saying what is wrong.
+void checkTextMesh(std::string_view text, const std::string& extension, const std::string& name);
+
+}  // namespace fcl_stpbv

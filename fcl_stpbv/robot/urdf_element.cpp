@@ -1,0 +1,134 @@
+// See urdf_element.h.
+#include "fcl_stpbv/robot/urdf_element.h"
+
+#include <console_bridge/console.h>
+#include <urdf_model/model.h>
+#include <urdf_parser/urdf_parser.h>
+
+#include <algorithm>
+#include <initializer_list>
+#include <mutex>
+#include <string>
+#include <string_view>
+
+#include "fcl_stpbv/error.h"
+
+namespace fcl_stpbv {
+namespace {
+
+using tinyxml2::XMLElement;
+
+// urdfdom says what is wrong on the console only. This keeps it for the exception's message.
+class Listener : public console_bridge::OutputHandler {
+ public:
+  Listener() : guard_(mutex()) { console_bridge::useOutputHandler(this); }
+  ~Listener() override { console_bridge::restorePreviousOutputHandler(); }
+  void log(const std::string& text, console_bridge::LogLevel level, const char*, int) override {
+    if (level >= console_bridge::CONSOLE_BRIDGE_LOG_ERROR && heard_.empty()) heard_ = text.substr(0, 1000);
+  }
+  const std::string& heard() const { return heard_; }
+
+ private:
+  static std::mutex& mutex() {
+    static std::mutex one;  // the console's handler is one for the whole process
+    return one;
+  }
+  std::lock_guard<std::mutex> guard_;
+  std::string heard_;  // the first thing said: what follows are its consequences
+};
+
+// A robot of nothing but the element in question.
+class SmallRobot {
+ public:
+  SmallRobot() : robot_(add(document_, "robot")) { robot_->SetAttribute("name", "r"); }
+
+  XMLElement* add(const char* element, const char* name) {
+    XMLElement* made = add(*robot_, element);
+    made->SetAttribute("name", name);
+    return made;
+  }
+  XMLElement* add(tinyxml2::XMLNode& parent, const char* element) {
+    return parent.InsertEndChild(document_.NewElement(element))->ToElement();
+  }
+  XMLElement* copy(XMLElement& parent, const XMLElement* element) {
+    return element ? parent.InsertEndChild(element->DeepClone(&document_))->ToElement() : nullptr;
+  }
+
+  // Null where urdfdom refuses the whole; why is left in `reason`.
+  urdf::ModelInterfaceSharedPtr parse(std::string& reason) const {
+    tinyxml2::XMLPrinter printer(nullptr, true);
+    robot_->Accept(&printer);
+    const Listener listener;
+    urdf::ModelInterfaceSharedPtr model;
+    try {
+      model = urdf::parseURDF(printer.CStr());
+      reason = listener.heard();
+    } catch (const std::exception& error) {
+      reason = error.what();
+    }
+    return model;
+  }
+
+ private:
+  tinyxml2::XMLDocument document_;
+  XMLElement* robot_;
+};
+
+[[noreturn]] void refuse(const std::string& reason) {
+  throw Error(reason.empty() ? "urdfdom cannot read it" : reason);
+}
+
+// urdfdom wants an effort and a velocity, which nothing here needs.
+void copyLimit(SmallRobot& robot, XMLElement& joint, const XMLElement* limit) {
+  XMLElement* copy = robot.copy(joint, limit);
+  if (!copy) return;
+  for (const char* unused : {"effort", "velocity"}) copy->SetAttribute(unused, "0");
+}
+
+}  // namespace
+
+urdf::CollisionSharedPtr readShapeElement(const XMLElement& shape) {
+  SmallRobot robot;
+  XMLElement* link = robot.add("link", "l");
+  XMLElement* collision = robot.add(*link, "collision");
+  robot.copy(*collision, shape.FirstChildElement("origin"));
+  XMLElement* geometry = robot.copy(*collision, shape.FirstChildElement("geometry"));
+  XMLElement* capsule = geometry ? geometry->FirstChildElement("capsule") : nullptr;
+  if (capsule) capsule->SetName("cylinder");
+  std::string reason;
+  const urdf::ModelInterfaceSharedPtr model = robot.parse(reason);
+  const auto read = model ? model->getLink("l") : nullptr;
+  if (!read || read->collision_array.size() != 1 || !read->collision_array[0]->geometry) refuse(reason);
+  return read->collision_array[0];
+}
+
+urdf::InertialSharedPtr readInertialElement(const XMLElement& inertial) {
+  SmallRobot robot;
+  robot.copy(*robot.add("link", "l"), &inertial);
+  std::string reason;
+  const urdf::ModelInterfaceSharedPtr model = robot.parse(reason);
+  const auto read = model ? model->getLink("l") : nullptr;
+  if (!read || !read->inertial) refuse(reason);
+  return read->inertial;
+}
+
+urdf::JointSharedPtr readJointElement(const XMLElement& joint) {
+  SmallRobot robot;
+  robot.add("link", "a");
+  robot.add("link", "b");
+  XMLElement* copy = robot.add("joint", "j");
+  const char* type = joint.Attribute("type");
+  if (type) copy->SetAttribute("type", type);
+  robot.add(*copy, "parent")->SetAttribute("link", "a");
+  robot.add(*copy, "child")->SetAttribute("link", "b");
+  for (const char* part : {"origin", "axis", "mimic"}) robot.copy(*copy, joint.FirstChildElement(part));
+  copyLimit(robot, *copy, joint.FirstChildElement("limit"));
+  std::string reason;
+  const urdf::ModelInterfaceSharedPtr model = robot.parse(reason);
+  const auto read =
+      model ? model->joints_.find("j") : std::map<std::string, urdf::JointSharedPtr>::iterator();
+  if (!model || read == model->joints_.end()) refuse(reason);
+  return read->second;
+}
+
+}  // namespace fcl_stpbv

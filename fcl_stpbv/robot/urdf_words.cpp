@@ -1,0 +1,130 @@
+// See urdf_words.h.
+#include "fcl_stpbv/robot/urdf_words.h"
+
+#include <algorithm>
+#include <initializer_list>
+#include <string_view>
+#include <vector>
+
+#include "fcl_stpbv/robot/xml_text.h"
+
+namespace fcl_stpbv {
+namespace {
+
+using tinyxml2::XMLElement;
+using Words = std::vector<std::string_view>;
+
+/// An element that counts, and all of its attributes.
+struct Known {
+  std::string_view element;
+  Words attributes;
+};
+
+// Speed and acceleration limits are written by several tools and used by none here.
+const std::vector<Known> kInJoint = {
+    {"origin", {"xyz", "rpy"}},
+    {"parent", {"link"}},
+    {"child", {"link"}},
+    {"axis", {"xyz"}},
+    {"limit", {"lower", "upper", "effort", "velocity", "acceleration", "deceleration", "jerk"}},
+    {"mimic", {"joint", "multiplier", "offset"}}};
+const std::vector<Known> kInShape = {{"origin", {"xyz", "rpy"}}, {"geometry", {"name"}}};
+const std::vector<Known> kInGeometry = {{"box", {"size"}},
+                                        {"sphere", {"radius"}},
+                                        {"cylinder", {"radius", "length"}},
+                                        {"capsule", {"radius", "length"}},
+                                        {"mesh", {"filename", "scale"}}};
+
+bool holds(const Words& words, std::string_view word) {
+  return std::find(words.begin(), words.end(), word) != words.end();
+}
+
+bool ofOtherTools(std::string_view name) { return name.find(':') != std::string_view::npos; }
+
+std::string listed(const Words& words) {
+  std::string text;
+  for (const std::string_view word : words) text += (text.empty() ? "" : ", ") + std::string(word);
+  return text.empty() ? "none" : text;
+}
+
+void checkAttributes(const XMLElement& element, const Known& known) {
+  for (const tinyxml2::XMLAttribute* a = element.FirstAttribute(); a; a = a->Next()) {
+    if (!holds(known.attributes, a->Name()) && !ofOtherTools(a->Name()))
+      throw Error("<" + std::string(known.element) + "> has an attribute '" + a->Name() +
+                  "' that URDF does not know there; it knows " + listed(known.attributes));
+  }
+}
+
+// An element of an unknown name is let pass, as other tools add their own, unless it says what a known one
+// would say.
+void checkUnknown(const XMLElement& element, const std::vector<Known>& list) {
+  for (const Known& known : list) {
+    for (const std::string_view attribute : known.attributes) {
+      if (attribute != "name" && element.Attribute(std::string(attribute).c_str()))
+        throw Error("<" + std::string(element.Name()) + "> is no element of URDF, yet has '" +
+                    std::string(attribute) + "'; is it a misspelt <" + std::string(known.element) + ">?");
+    }
+  }
+}
+
+// How many of the children count.
+int checkChildren(const XMLElement& parent, const std::vector<Known>& list) {
+  int count = 0;
+  Words seen;
+  for (const XMLElement* e = parent.FirstChildElement(); e; e = e->NextSiblingElement()) {
+    const std::string_view name = e->Name();
+    if (ofOtherTools(name)) continue;
+    const auto known =
+        std::find_if(list.begin(), list.end(), [&](const Known& one) { return one.element == name; });
+    if (known == list.end()) {
+      checkUnknown(*e, list);
+      continue;
+    }
+    if (holds(seen, name)) throw Error("has two <" + std::string(name) + ">; remove one");
+    seen.push_back(name);
+    checkAttributes(*e, *known);
+    ++count;
+  }
+  return count;
+}
+
+bool named(const tinyxml2::XMLNode* node, std::string_view name) {
+  return node && node->ToElement() && node->Value() == name;
+}
+
+}  // namespace
+
+void checkShapeWords(const XMLElement& shape) {
+  checkChildren(shape, kInShape);
+  const XMLElement* geometry = shape.FirstChildElement("geometry");
+  if (!geometry) throw Error("has no <geometry>; give it one, or remove the element");
+  if (checkChildren(*geometry, kInGeometry) > 1)
+    throw Error("its <geometry> holds several shapes; give each a <" + std::string(shape.Name()) +
+                "> of its own");
+}
+
+void checkJointWords(const XMLElement& joint) { checkChildren(joint, kInJoint); }
+
+int checkPlaces(const XMLElement& robot, const std::string& path, LoadFaults& faults) {
+  int collisions = 0;
+  std::vector<const XMLElement*> open{&robot};
+  while (!open.empty()) {
+    const XMLElement& at = *open.back();
+    open.pop_back();
+    const bool link = named(&at, "link") && at.Parent() == &robot;
+    const bool shape = (named(&at, "collision") || named(&at, "visual")) && named(at.Parent(), "link") &&
+                       at.Parent()->Parent() == &robot;
+    for (const XMLElement* e = at.FirstChildElement(); e; e = e->NextSiblingElement()) {
+      const std::string_view name = e->Name();
+      if (name == "gazebo") continue;
+      if ((name == "collision" && !link) || (name == "geometry" && !shape))
+        faults.errors.push_back(xmlPlace(*e, path) + "<" + std::string(name) + "> within <" + at.Name() +
+                                ">, where no robot has one; is <" + at.Name() + "> misspelt?");
+      collisions += name == "collision" && link;
+      open.push_back(e);
+    }
+  }
+  return collisions;
+}
+
+}  // namespace fcl_stpbv

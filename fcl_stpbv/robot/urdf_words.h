@@ -1,0 +1,25 @@
+// Words of a URDF that urdfdom reads past without a word: misspelt names, doubles, shapes in the wrong place.
+#pragma once
+
+#include <tinyxml2.h>
+
+#include <string>
+
+#include "fcl_stpbv/robot/load_faults.h"
+
+namespace fcl_stpbv {
+
+/// Checks a `<collision>` or `<visual>`: one geometry of one shape, at most one origin, and no attribute or
+/// element that looks like a misspelt one. Names with a prefix (`drake:...`) are other tools' own.
+/// @throws Error saying what is wrong, without the element's place.
+void checkShapeWords(const tinyxml2::XMLElement& shape);
+
+/// Checks a `<joint>` in the same way.
+void checkJointWords(const tinyxml2::XMLElement& joint);
+
+/// Finds `<collision>` and `<geometry>` where no robot has them, outside `<gazebo>`, whose content is the
+/// simulator's. Each is an entry of `faults.errors`.
+/// @returns the number of `<collision>` elements of links.
+int checkPlaces(const tinyxml2::XMLElement& robot, const std::string& path, LoadFaults& faults);
+
+}  // namespace fcl_stpbv

@@ -1,0 +1,144 @@
+// What is wrong with a robot's files is told all at once, by name and line, and costs nothing else.
+#include <catch2/catch.hpp>
+
+#include "fcl_stpbv/error.h"
+#include "fcl_stpbv/robot/link_geometry.h"
+#include "fcl_stpbv/robot/srdf.h"
+#include "test/reference/volume_files.h"
+#include "test/robot/urdf_texts.h"
+
+using namespace fcl_stpbv;
+using namespace fcl_stpbv::test;
+using Catch::Matchers::Contains;
+
+namespace {
+
+const std::string kBox = "<collision><geometry><box size=\"1 1 1\"/></geometry></collision>";
+
+std::string refused(const std::string& text) {
+  return refusal([](const std::string& t) { parseUrdf(t, "small.urdf"); }, text);
+}
+std::size_t shapesIn(const std::string& insideLink) {
+  return parseUrdf(robot("<link name=\"a\">" + insideLink + "</link>"), "small.urdf")
+      .links[0]
+      .collision.size();
+}
+
+}  // namespace
+
+TEST_CASE("what is not a collision shape costs no collision shape") {
+  for (const char* broken :
+       {"<visual/>", "<visual><geometry/></visual>",
+        "<visual><geometry><mesh filename=\"m.stl\" scale=\"1\"/></geometry></visual>",
+        "<visual><geometry><box size=\"1 1 1\"/></geometry><material/></visual>", "<inertial/>",
+        "<inertial><mass value=\"heavy\"/></inertial>", "<material/>", "<contact><stiffness/></contact>"}) {
+    CAPTURE(broken);
+    CHECK(shapesIn(broken + kBox + kBox) == 2);
+    CHECK(shapesIn(kBox + broken + kBox) == 2);
+  }
+}
+
+TEST_CASE("each collision element that is lost is named, with its line") {
+  const std::string text =
+      robot("\n<link name=\"a\">\n" + kBox +
+            "\n<collision/>\n<collision><geometry/></collision>"
+            "\n<collision><geometry><box size=\"1 1\"/></geometry></collision>"
+            "\n<collision><geometry><sphere radius=\"0\"/></geometry></collision>"
+            "\n<collision><geometry><mesh filename=\"m\" scale=\"1\"/></geometry></collision>"
+            "\n<collision><origin xyz=\"0 0\"/><geometry><sphere radius=\"1\"/></geometry></collision>"
+            "\n<collision><geometry><sphere radius=\"1\"/><sphere radius=\"2\"/></geometry></collision>"
+            "\n</link>");
+  const std::string message = refused(text);
+  for (int i = 2; i <= 8; ++i)
+    CHECK_THAT(message, Contains("small.urdf:" + std::to_string(i + 3) + ": link 'a', collision " +
+                                 std::to_string(i)));
+  CHECK_THAT(message, Contains("7 things are wrong") && Contains("has no <geometry>"));
+}
+
+TEST_CASE("words that look misspelt are refused, those of other tools are not") {
+  const std::string box = "<geometry><box size=\"1 1 1\"/></geometry>";
+  CHECK_THAT(refused(robot(link("a", "<mesh filename=\"m\" scael=\"1 1 1\"/>"))), Contains("'scael'"));
+  CHECK_THAT(
+      refused(robot("<link name=\"a\"><collision><orign xyz=\"0 0 1\"/>" + box + "</collision></link>")),
+      Contains("<orign>"));
+  CHECK_THAT(refused(robot("<link name=\"a\"><colision>" + box + "</colision></link>")),
+             Contains("<colision>"));
+  CHECK_THAT(refused(robot("<lnk name=\"a\"><collision>" + box + "</collision></lnk>" + link("b"))),
+             Contains("<lnk>"));
+  CHECK(shapesIn("<collision concave=\"yes\" x:y=\"1\"><x:proximity/><contact/>" + box + "</collision>") ==
+        1);
+  CHECK(parseUrdf(robot(link("a") + "<gazebo><collision><geometry/></collision></gazebo>"), "g.urdf")
+            .links.size() == 1);
+}
+
+TEST_CASE("xacro is told by its elements and attributes, not by comments, texts or a bare declaration") {
+  const auto accepted = [](const std::string& body) {
+    parseUrdf(body, "small.urdf");
+    return true;
+  };
+  CHECK(accepted("<robot name=\"r\" xmlns:xacro=\"http://ros.org/wiki/xacro\">" + link("a") + "</robot>"));
+  CHECK(accepted(robot("<!-- <xacro:macro name=\"m\"/> ${x} -->" + link("a"))));
+  CHECK(accepted(robot("<gazebo><![CDATA[<xacro:if value=\"${x}\"/>]]></gazebo>" + link("a"))));
+  CHECK(accepted(robot("<gazebo reference=\"a\"><plugin filename=\"$(find x)\"/></gazebo>" + link("a"))));
+  CHECK_THAT(refused(robot("\n<xacro:include filename=\"x\"/>" + link("a"))),
+             Contains(":3: ") && Contains("xacro"));
+  CHECK_THAT(
+      refused("<robot name=\"r\" xmlns:x=\"http://ros.org/wiki/xacro\"><x:macro/>" + link("a") + "</robot>"),
+      Contains("<x:macro> is xacro"));
+  CHECK_THAT(refused(robot(link("a", "<sphere radius=\"${r}\"/>"))), Contains("xacro"));
+  CHECK_THAT(refused(robot(link("a", "<mesh filename=\"$(find x)/m.stl\"/>"))), Contains("xacro"));
+}
+
+TEST_CASE("all that is wrong with a robot is told at once, before a volume is built") {
+  const TemporaryFolder folder;
+  put(folder / "good.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 2 4\n");
+  put(folder / "bad.obj", "no mesh");
+  put(folder / "r.urdf",
+      robot(link("a", "<mesh filename=\"good.obj\"/>") + link("b", "<sphere radius=\"0\"/>") +
+            link("c", "<mesh filename=\"missing.obj\"/>") + link("d", "<mesh filename=\"bad.obj\"/>") +
+            "<joint name=\"j\" type=\"revolute\"><parent link=\"a\"/><child link=\"b\"/>"
+            "<limit lower=\"1\" upper=\"-1\"/></joint>" +
+            joint("k", "bendy", "a", "c") + joint("l", "fixed", "a", "d")));
+  put(folder / "r.srdf",
+      "<robot name=\"small\">\n<group_state name=\"s\"><joint name=\"j\" "
+      "value=\"x\"/></group_state></robot>");
+  LoadFaults faults;
+  const RobotModel model = loadUrdf(folder / "r.urdf", faults);
+  loadSrdf(folder / "r.srdf", model, faults);
+  GeometryOptions options;
+  options.cacheFolder.clear();
+  options.progress = [](std::size_t, std::size_t, const std::string&) { FAIL("a volume is built"); };
+  options.budgets["nobody"] = 1;
+  readGeometry(model, options, faults);
+  const std::string message = refusal([&](const std::string&) { faults.refuse(); }, "");
+  for (const char* part : {"7 things are wrong", "link 'b', collision 1", "missing.obj: no such file",
+                           "bad.obj", "joint 'j'", "limits", "bendy", "r.srdf:2", "'nobody'"})
+    CHECK_THAT(message, Contains(part));
+}
+
+TEST_CASE("entries of an SRDF for links that the robot does not have are warnings, and count for nothing") {
+  const TemporaryFolder folder;
+  const RobotModel model =
+      parseUrdf(robot(link("a") + link("b") + joint("j", "revolute", "a", "b")), "small.urdf");
+  put(folder / "s.srdf",
+      "<robot name=\"large\">\n<disable_collisions link1=\"a\" link2=\"z\"/>\n"
+      "<disable_collision link1=\"a\" link2=\"b\"/>\n<group name=\"g\"/></robot>");
+  const Srdf srdf = loadSrdf(folder / "s.srdf", model);
+  CHECK(srdf.disabled.empty());
+  REQUIRE(srdf.warnings.size() == 3);
+  CHECK_THAT(srdf.warnings[0], Contains("s.srdf:1") && Contains("'large'") && Contains("'small'"));
+  CHECK_THAT(srdf.warnings[1], Contains("s.srdf:2") && Contains("'z'"));
+  CHECK_THAT(srdf.warnings[2], Contains("s.srdf:3") && Contains("<disable_collision>") &&
+                                   Contains("misspelt <disable_collisions>"));
+}
+
+TEST_CASE("visual shapes that are wrong matter only where they are used") {
+  const RobotModel model =
+      parseUrdf(robot("<link name=\"a\">" + kBox +
+                      "<visual><geometry><sphere radius=\"0\"/></geometry></visual></link>"),
+                "v.urdf");
+  GeometryOptions options;
+  CHECK(loadGeometry(model, options).bodies.size() == 1);
+  options.visual = true;
+  CHECK_THAT(refusal([&](const std::string&) { loadGeometry(model, options); }, ""), Contains("visual 1"));
+}

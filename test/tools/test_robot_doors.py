@@ -1,0 +1,161 @@
+"""What comes in and goes out of the tools on robots: bad shapes, numbers and files are told and never read as clear.
+
+    test_robot_doors.py URDF_COLLISION_REPORT FIND_POSTURE
+"""
+import base64
+import gzip
+import json
+import os
+import re
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+REPORT, POSTURE = sys.argv[1:3]
+
+
+def link(name, *geometries):
+    shapes = "".join(f"<collision><geometry>{g}</geometry></collision>" for g in geometries)
+    return f'<link name="{name}">{shapes}</link>'
+
+
+def joint(name, parent, child, offset):
+    return (f'<joint name="{name}" type="revolute"><parent link="{parent}"/><child link="{child}"/>'
+            f'<origin xyz="{offset} 0 0"/><limit lower="-1" upper="1" effort="1" velocity="1"/></joint>')
+
+
+def robot(*first):
+    return ('<robot name="r">' + link("a", '<sphere radius="0.1"/>', *first) + link("b", '<sphere radius="0.1"/>') +
+            link("c", '<sphere radius="0.1"/>') + joint("j", "a", "b", 1) + joint("k", "b", "c", 1) + '</robot>')
+
+
+def readable(text, form):
+    """The output of a format; of a page, what its packed report says."""
+    if form != "html":
+        return text
+    return gzip.decompress(base64.b64decode(re.search('id="packed-report">([^<]*)<', text).group(1))).decode()
+
+
+BAD = ['<sphere radius="0"/>', '<mesh filename="missing.stl"/>']
+TASK = '{"base": "fixed", "placements": []}'
+
+
+class Doors(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        self.good = self.put("good.urdf", robot())
+        self.bad = self.put("bad.urdf", robot(*BAD))
+        self.task = self.put("task.json", TASK)
+        self.environment = dict(os.environ, XDG_CACHE_HOME=os.path.join(self.folder.name, "cache"))
+
+    def put(self, name, text):
+        path = os.path.join(self.folder.name, name)
+        with open(path, "w") as file:
+            file.write(text)
+        return path
+
+    def run_tool(self, *command, **options):
+        return subprocess.run(command, capture_output=True, text=True, env=self.environment, timeout=120, **options)
+
+    def shell(self, command):
+        return subprocess.run(["bash", "-c", command], capture_output=True, text=True, env=self.environment,
+                              timeout=120)
+
+    def refused(self, *command, names):
+        done = self.run_tool(*command)
+        self.assertEqual(done.returncode, 2, done)
+        self.assertEqual(done.stdout, "", done)
+        for name in names:
+            self.assertIn(name, done.stderr)
+
+    def test_all_shapes_that_are_wrong_are_told_at_once_and_nothing_is_written(self):
+        for command in ([REPORT, self.bad], [POSTURE, self.bad, self.task]):
+            self.refused(*command, names=["link 'a', collision 2", "link 'a', collision 3", "missing.stl"])
+
+    def test_skip_invalid_names_what_it_left_out_in_every_format_and_never_exits_0(self):
+        for form in ("text", "json", "csv", "srdf", "html"):
+            done = self.run_tool(REPORT, self.bad, "--skip-invalid", "--samples", "20", "--format", form)
+            self.assertEqual(done.returncode, 3, done.stderr)
+            for number in (2, 3):
+                self.assertIn(f"link 'a', collision {number}", readable(done.stdout, form), form)
+        for form in ("text", "json", "html"):
+            done = self.run_tool(POSTURE, self.bad, self.task, "--skip-invalid", "--format", form)
+            self.assertEqual(done.returncode, 3, done.stderr)
+            self.assertIn("link 'a', collision 2", readable(done.stdout, form), form)
+        self.assertEqual(self.run_tool(REPORT, self.good, "--skip-invalid", "--samples", "20").returncode, 0)
+
+    def test_a_robot_without_bodies_is_not_clear(self):
+        empty = self.put("empty.urdf", '<robot name="r"><link name="a"/></robot>')
+        broken = self.put("broken.urdf", '<robot name="r">' + link("a", *BAD) + "</robot>")
+        for command in ([REPORT], [POSTURE]):
+            more = [self.task] if command == [POSTURE] else []
+            self.refused(*command, empty, *more, names=["no link has a shape"])
+            self.refused(*command, broken, *more, "--skip-invalid", names=["no link has a shape"])
+
+    def test_numbers_that_are_none_or_out_of_range_are_refused(self):
+        for option in ("--margin", "-r", "-R", "--prove", "--over-cover"):
+            for value in ("nan", "inf", "-inf", "1e300", "1,5"):
+                self.refused(REPORT, self.good, option + "=" + value if option[1] == "-" else option + value,
+                             names=[option])
+        for value in ("-1", "1e9", "nan"):
+            self.refused(REPORT, self.good, "--seed", value, names=["--seed"])
+            self.refused(POSTURE, self.good, self.task, "--seed", value, names=["--seed"])
+        self.refused(REPORT, self.good, "--link", "a=nan,1", names=["--link"])
+        for pose in ('{"j": 1e300}', '{"j": 0, "j": 1}', '{"nobody": 0}', '[0]', '{"j": null}', "nan"):
+            self.refused(REPORT, self.good, "--pose", self.put("pose.json", pose), names=["pose.json"])
+        for task in ('{"placements": [], "placements": []}', '{"placements": [], "x": 1}'):
+            self.refused(POSTURE, self.good, self.put("bad.json", task), names=["bad.json"])
+
+    def test_an_srdf_that_does_not_fit_is_warned_of_and_hides_no_pair(self):
+        srdf = self.put("other.srdf", '<robot name="other"><disable_collision link1="a" link2="c"/>'
+                                      '<disable_collisions link1="a" link2="z"/></robot>')
+        done = self.run_tool(REPORT, self.good, "--srdf", srdf, "--samples", "20", "--format", "json")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        for part in ("'other'", "<disable_collision>", "'z'"):
+            self.assertIn(part, done.stderr)
+            self.assertTrue(any(part in warning for warning in json.loads(done.stdout)["warnings"]))
+
+    def test_output_goes_to_files_pipes_and_descriptors_and_a_failed_write_is_a_failure(self):
+        run = f"{REPORT} {self.good} --samples 20 --format csv -q"
+        whole = self.shell(run).stdout
+        self.assertIn("link1,link2", whole)
+        head = whole.splitlines()[0]
+        for command in (f"{run} -o -", f"{run} -o /dev/stdout", f"{run} -o /dev/stdout | cat", f"{run} -o /dev/fd/3 3>&1",
+                        f"{run} -o >(cat >&2) 2>&1; sleep 0.2"):
+            done = self.shell(command)
+            self.assertIn(head, done.stdout + done.stderr, command)
+        for command in (f"{run} > /dev/full", f"{run} -o /dev/full", f"{POSTURE} {self.good} {self.task} > /dev/full"):
+            done = self.shell(command)
+            self.assertEqual(done.returncode, 2, command)
+            self.assertIn("cannot be written", done.stderr)
+
+    def test_input_comes_from_pipes_too(self):
+        for command in (f"cat {self.good} | {REPORT} -", f"cat {self.good} | {REPORT} /dev/stdin",
+                        f"{REPORT} - < {self.good}", f"{REPORT} <(cat {self.good})"):
+            done = self.shell(command + " --samples 20")
+            self.assertEqual(done.returncode, 0, done.stderr)
+
+    def test_a_pipe_that_nobody_reads_or_writes_is_left_by_a_signal(self):
+        fifo = os.path.join(self.folder.name, "fifo")
+        os.mkfifo(fifo)
+        for command in ([REPORT, self.good, "--samples", "20", "-o", fifo], [REPORT, fifo]):
+            for number in (signal.SIGINT, signal.SIGTERM):
+                process = subprocess.Popen(command, env=self.environment, stderr=subprocess.DEVNULL)
+                time.sleep(0.7)
+                process.send_signal(number)
+                self.assertEqual(process.wait(timeout=20), -number)
+        self.assertEqual(sorted(os.listdir(self.folder.name)), ["bad.urdf", "fifo", "good.urdf", "task.json"])
+
+    def test_a_name_of_255_bytes_is_written(self):
+        path = os.path.join(self.folder.name, "n" * 255)
+        done = self.run_tool(REPORT, self.good, "--samples", "20", "-o", path)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertTrue(os.path.getsize(path) > 0)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
