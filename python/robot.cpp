@@ -85,7 +85,7 @@ void addRobot(py::module_& module) {
            py::arg("urdf"), py::arg("srdf") = "", py::kw_only(), py::arg("r") = 0.01, py::arg("R") = 10.0,
            py::arg("base") = "fixed", py::arg("package_path") = std::vector<std::string>{},
            py::arg("influence") = std::numeric_limits<double>::infinity(),
-           "Loads a URDF; pairs that the SRDF disables (without one, adjacent links) are left out.\n"
+           "Loads a URDF; pairs that the SRDF disables (without one, adjacent and rigid links) are left out.\n"
            "base: \"fixed\", \"planar\" or \"floating\". influence: farther pairs are constant (m).")
       .def_property_readonly(
           "names", [](const PythonRobot& robot) { return robot.kinematics().names(); }, "of the coordinates")

@@ -29,7 +29,9 @@ Examples:
   find_posture hrp2_style.urdf pick_can.json --srdf hrp2_style.srdf --obstacles fridge.urdf
   find_posture robot.urdf task.json --starts 20 --format json -o posture.json
 
-Exit status: 0 a posture was found; 1 none was found; 2 the command line or an input is wrong.)";
+Without an SRDF the robot's own pairs are found as urdf_collision_report does.
+
+Exit status: 0 a posture was found; 1 none was found; 2 the command line or an input is wrong, or no pair is checked.)";
 
 struct Arguments {
   std::string urdf, task, srdf, obstacles, format = "text", output;
@@ -79,6 +81,7 @@ PostureScene load(const Arguments& a) {
     scene.obstacles = obstaclesOf(model, bodies);
     warnings.insert(warnings.end(), bodies.warnings.begin(), bodies.warnings.end());
   }
+  if (!scene.srdf) scene.selfPairs = searchedPairs(scene.robot, scene.geometry);
   if (!a.quiet)
     for (const std::string& warning : warnings) std::cerr << "find_posture: " << warning << std::endl;
   return scene;
@@ -92,6 +95,9 @@ int run(Arguments& a) {
   report.task = loadTask(a.task);
   report.scene = load(a);
   PostureSetup setup = setUp(report.task, report.scene);
+  if (!a.careless)
+    requirePairs(setup.pairs.size(), *report.scene.robot,
+                 "the task and the robot's joints leave none; --ignore-collisions solves without");
   if (a.careless) setup.problem = setUpWithoutCollisions(report.task, report.scene).problem;
   report.kinematics = std::make_shared<const Kinematics>(setup.problem->kinematics());
   report.pairs = setup.pairs;
