@@ -44,7 +44,7 @@ Joining Adjacency::of(int link1, int link2) const {
   const JointPath path = jointPath(robot_, link1, link2);
   // Of the last joint that moves: its origin and the part it leads to.
   const JointModel* last = nullptr;
-  Eigen::Vector3d origin;
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();
   int link = link1;
   for (std::size_t i = 0; i < path.joints.size(); ++i) {
     const JointModel& joint = robot_.joints[at(path.joints[i])];

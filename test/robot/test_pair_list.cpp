@@ -210,10 +210,11 @@ Arm folded() {
                        const std::string& origin) {
     return joint(name, "revolute", parent, child, "<origin xyz=\"" + origin + "\"/><axis xyz=\"0 0 1\"/>");
   };
+  const auto ball = [](const std::string& radius) { return "<sphere radius=\"" + radius + "\"/>"; };
+  const std::string bar = "<box size=\"0.6 0.02 0.02\"/>";
   const std::string text = robot(
-      link("a", "<sphere radius=\"0.1\"/>") + link("b", "<box size=\"0.6 0.02 0.02\"/>") + link("elbow") +
-      link("c", "<sphere radius=\"0.05\"/>") + link("d", "<sphere radius=\"0.05\"/>") +
-      turn("j1", "a", "b", "0 0 0") + turn("j2", "b", "elbow", "0.3 0 0") +
+      link("a", ball("0.1")) + link("b", bar) + link("elbow") + link("c", ball("0.05")) +
+      link("d", ball("0.05")) + turn("j1", "a", "b", "0 0 0") + turn("j2", "b", "elbow", "0.3 0 0") +
       joint("j3", "fixed", "elbow", "c", "<origin xyz=\"-0.25 0 0\"/>") + turn("j4", "b", "d", "0 0 0.05"));
   const auto model = std::make_shared<const RobotModel>(parseUrdf(text, "folded.urdf"));
   GeometryOptions options;

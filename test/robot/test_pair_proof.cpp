@@ -6,7 +6,7 @@
 #include "fcl_stpbv/robot/pair_proof.h"
 #include "fcl_stpbv/robot/pair_search.h"
 #include "test/robot/bound_trials.h"
-#include "test/robot/robots.h"
+#include "test/reference/robots.h"
 #include "test/robot/urdf_texts.h"
 
 using namespace fcl_stpbv;
