@@ -5,8 +5,8 @@
 
 #include "fcl_stpbv/robot/pair_proof.h"
 #include "fcl_stpbv/robot/pair_search.h"
-#include "test/robot/bound_trials.h"
 #include "test/reference/robots.h"
+#include "test/robot/bound_trials.h"
 #include "test/robot/urdf_texts.h"
 
 using namespace fcl_stpbv;
