@@ -83,13 +83,14 @@ class PythonRobot {
 
 void addRobot(py::module_& module) {
   py::class_<PythonRobot>(module, "Robot", "Distances d(q) and Jacobian J(q) of a robot's pairs of bodies.")
-      .def(py::init<const std::string&, const std::string&, double, double, const std::string&,
-                    std::vector<std::string>, double>(),
-           py::arg("urdf"), py::arg("srdf") = "", py::kw_only(), py::arg("r") = 0.01, py::arg("R") = 10.0,
-           py::arg("base") = "fixed", py::arg("package_path") = std::vector<std::string>{},
-           py::arg("influence") = std::numeric_limits<double>::infinity(),
-           "Loads a URDF; pairs that the SRDF disables (without one, adjacent links) are left out.\n"
-           "base: \"fixed\", \"planar\" or \"floating\". influence: farther pairs are constant (m).")
+      .def(
+          py::init<const std::string&, const std::string&, double, double, const std::string&,
+                   std::vector<std::string>, double>(),
+          py::arg("urdf"), py::arg("srdf") = "", py::kw_only(), py::arg("r") = 0.01, py::arg("R") = 10.0,
+          py::arg("base") = "fixed", py::arg("package_path") = std::vector<std::string>{},
+          py::arg("influence") = std::numeric_limits<double>::infinity(),
+          "Loads a URDF; pairs that the SRDF disables (without one, adjacent and rigid links) are left out.\n"
+          "base: \"fixed\", \"planar\" or \"floating\". influence: farther pairs are constant (m).")
       .def_property_readonly(
           "names", [](const PythonRobot& robot) { return robot.kinematics().names(); }, "of the coordinates")
       .def_property_readonly("rows", &PythonRobot::rowNames, "names of the pairs, in the order of d")

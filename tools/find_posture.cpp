@@ -32,8 +32,10 @@ Examples:
   find_posture hrp2_style.urdf pick_can.json --srdf hrp2_style.srdf --obstacles fridge.urdf
   find_posture robot.urdf task.json --starts 20 --format json -o posture.json
 
-Exit status: 0 a posture was found; 1 none was found; 2 the command line or an input is wrong; 3 a posture was
-found, but --skip-invalid left shapes out.)";
+Without an SRDF the robot's own pairs are found as urdf_collision_report does.
+
+Exit status: 0 a posture was found; 1 none was found; 2 the command line or an input is wrong, or no pair is checked;
+3 a posture was found, but --skip-invalid left shapes out.)";
 
 struct Arguments {
   std::string urdf, task, srdf, obstacles, format = "text", output;
@@ -84,6 +86,7 @@ void load(const Arguments& a, PostureReport& report) {
   scene.srdf = loader.srdf();
   scene.geometry = loader.geometry();
   if (loader.scene()) scene.obstacles = obstaclesOf(loader.scene(), loader.sceneGeometry());
+  if (!scene.srdf) scene.selfPairs = searchedPairs(scene.robot, scene.geometry);
   report.warnings = loader.warnings();
   report.skipped = loader.skipped();
   if (!a.quiet)
@@ -98,6 +101,9 @@ int run(Arguments& a) {
   report.task = loadTask(a.task);
   load(a, report);
   PostureSetup setup = setUp(report.task, report.scene);
+  if (!a.careless)
+    requirePairs(setup.pairs.size(), *report.scene.robot,
+                 "the task and the robot's joints leave none; --ignore-collisions solves without");
   if (a.careless) setup.problem = setUpWithoutCollisions(report.task, report.scene).problem;
   report.kinematics = std::make_shared<const Kinematics>(setup.problem->kinematics());
   report.pairs = setup.pairs;

@@ -29,23 +29,23 @@ constexpr const char* kDescription =
 
 constexpr const char* kFooter =
     R"(With --pose the pairs are reported in that posture, else each in the closest configuration that the samples
-and the descents from them found. Pairs that the SRDF leaves out, or without one adjacent links and those in collision
-in the zero posture or always, are not checked; their figures are reported all the same. Lengths are in metres.
+and the descents from them found. Pairs that the SRDF leaves out, or without one adjacent and rigidly joined links and
+those found in collision everywhere, are not checked; their figures are reported all the same. Lengths are in metres.
 
 Examples:
   urdf_collision_report robot.urdf --srdf robot.srdf --pose zero
   urdf_collision_report robot.urdf --package-path ~/ws/src --samples 10000 --format srdf -o robot.srdf
   urdf_collision_report robot.urdf --srdf robot.srdf --format html -o report.html
 
-Exit status: 0 no checked pair in collision; 1 a collision found; 2 the command line or an input is wrong;
-3 no collision found, but --skip-invalid left shapes out.)";
+Exit status: 0 no checked pair in collision; 1 a collision found; 2 the command line or an input is wrong, or no
+pair is checked; 3 no collision found, but --skip-invalid left shapes out.)";
 
 struct Arguments {
   ReportRequest request;
   std::string format = "text", output, r = "auto", R, primitives = "smooth";
   std::vector<std::string> links, flat;
   std::size_t top = 20;
-  bool noCache = false, quiet = false;
+  bool disableDefault = false, noCache = false, quiet = false;
 };
 
 void describe(CLI::App& app, Arguments& a) {
@@ -58,6 +58,9 @@ void describe(CLI::App& app, Arguments& a) {
       ->expected(1)
       ->take_all();
   app.add_option("--pose", request.pose, "A group_state of the SRDF, or a JSON file of joint values");
+  app.add_option(
+      "--neutral", request.neutral,
+      "The neutral posture, as --pose; all joints at zero, or at the limit nearest to it, unless given");
   app.add_option("--samples", request.search.samples, "Random configurations")
       ->check(CLI::Range(1, 100000000))
       ->capture_default_str();
@@ -111,6 +114,8 @@ void describe(CLI::App& app, Arguments& a) {
   app.add_option("--prove", request.search.proofSeconds, "Seconds to spend on proofs that pairs never meet")
       ->check(numberIn(0, kLargest))
       ->capture_default_str();
+  app.add_flag("--disable-default", a.disableDefault,
+               "Let an SRDF leave out the pairs that collide in the neutral posture but are clear in others");
   app.add_option("--format", a.format, "text, json, csv, srdf or html")
       ->check(CLI::IsMember({"text", "json", "csv", "srdf", "html"}))
       ->capture_default_str();
@@ -127,7 +132,7 @@ void describe(CLI::App& app, Arguments& a) {
 std::string written(const CollisionReport& report, const Arguments& a) {
   if (a.format == "json") return toJson(report);
   if (a.format == "csv") return toCsv(report);
-  if (a.format == "srdf") return toSrdfText(report, a.request.srdf);
+  if (a.format == "srdf") return toSrdfText(report, a.request.srdf, a.disableDefault);
   if (a.format == "html") return toHtml(report);
   return toText(report, a.top);
 }

@@ -5,6 +5,7 @@
 
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/posture/collision_rows.h"
+#include "fcl_stpbv/robot/pair_list.h"
 
 namespace fcl_stpbv {
 namespace {
@@ -30,14 +31,46 @@ bool isOf(const Obstacle& obstacle, const std::string& link) {
   return obstacle.name == link || obstacle.name.compare(0, link.size() + 1, link + "#") == 0;
 }
 
+std::vector<int> linksNamed(const std::vector<std::string>& names, const PostureScene& scene,
+                            const std::string& where) {
+  std::vector<int> links;
+  for (const std::string& name : names) links.push_back(linkNamed(name, scene, where));
+  return links;
+}
+
+// An empty list holds all.
+bool holds(const std::vector<int>& links, int link) {
+  return links.empty() || std::find(links.begin(), links.end(), link) != links.end();
+}
+
+// The pairs of the robot's own bodies but for those that the task ignores.
+std::vector<CheckedPair> ownPairs(const PostureTask& task, const PostureScene& scene) {
+  std::vector<CheckedPair> pairs = scene.selfPairs ? *scene.selfPairs
+                                   : scene.srdf ? selfPairs(*scene.robot, *scene.geometry, scene.srdf.get())
+                                                : searchedPairs(scene.robot, scene.geometry);
+  for (std::size_t i = 0; i < task.ignore.size(); ++i) {
+    if (!task.ignore[i].self) continue;
+    const std::string here = task.path + ": collisions.ignore[" + std::to_string(i) + "]";
+    const std::vector<int> some = linksNamed(task.ignore[i].links, scene, here + ".links");
+    const std::vector<int> others = linksNamed(*task.ignore[i].self, scene, here + ".self");
+    const auto ignored = [&](const CheckedPair& pair) {
+      const int a = scene.geometry->bodies[static_cast<std::size_t>(pair.body)].link;
+      const int b = scene.geometry->bodies[static_cast<std::size_t>(pair.other)].link;
+      return (holds(some, a) && holds(others, b)) || (holds(some, b) && holds(others, a));
+    };
+    pairs.erase(std::remove_if(pairs.begin(), pairs.end(), ignored), pairs.end());
+  }
+  return pairs;
+}
+
 // Which of some pairs with obstacles these lists name.
 std::vector<bool> named(const std::vector<LinkObstacles>& lists, const std::vector<CheckedPair>& pairs,
                         const PostureScene& scene, const std::string& where) {
   std::vector<bool> found(pairs.size(), false);
   for (std::size_t i = 0; i < lists.size(); ++i) {
+    if (!lists[i].withObstacles()) continue;
     const std::string here = where + "[" + std::to_string(i) + "]";
-    std::vector<int> links;
-    for (const std::string& link : lists[i].links) links.push_back(linkNamed(link, scene, here + ".links"));
+    const std::vector<int> links = linksNamed(lists[i].links, scene, here + ".links");
     for (const std::string& name : lists[i].obstacles) {
       if (std::none_of(scene.obstacles.begin(), scene.obstacles.end(),
                        [&](const Obstacle& o) { return isOf(o, name); }))
@@ -48,7 +81,7 @@ std::vector<bool> named(const std::vector<LinkObstacles>& lists, const std::vect
       const int link = scene.geometry->bodies[static_cast<std::size_t>(pairs[p].body)].link;
       const Obstacle& obstacle = scene.obstacles[static_cast<std::size_t>(pairs[p].other)];
       const std::vector<std::string>& names = lists[i].obstacles;
-      const bool linkToo = links.empty() || std::find(links.begin(), links.end(), link) != links.end();
+      const bool linkToo = holds(links, link);
       const bool obstacleToo =
           names.empty() ||
           std::any_of(names.begin(), names.end(), [&](const auto& name) { return isOf(obstacle, name); });
@@ -70,6 +103,15 @@ PostureCost costOf(const PostureTask& task, const Kinematics& kinematics, const 
 }
 
 }  // namespace
+
+std::vector<CheckedPair> searchedPairs(std::shared_ptr<const RobotModel> robot,
+                                       std::shared_ptr<const RobotGeometry> geometry) {
+  PairListOptions options;  // which pairs never meet need not be known: they are checked
+  options.descents = options.randomDescents = 0;
+  options.proofBoxes = 0;
+  const auto kinematics = std::make_shared<const Kinematics>(std::move(robot));
+  return checkedPairs(*geometry, pairList(kinematics, geometry, nullptr, options));
+}
 
 Eigen::VectorXd startOf(const PostureTask& task, const PostureScene& scene, const Kinematics& kinematics) {
   if (!task.state.empty() && !scene.srdf)
@@ -96,7 +138,7 @@ Eigen::VectorXd startOf(const PostureTask& task, const PostureScene& scene, cons
 
 std::vector<CheckedPair> pairsOf(const PostureTask& task, const PostureScene& scene) {
   std::vector<CheckedPair> pairs;
-  if (task.selfCollisions) pairs = selfPairs(*scene.robot, *scene.geometry, scene.srdf.get());
+  if (task.selfCollisions) pairs = ownPairs(task, scene);
   const std::vector<CheckedPair> all =
       obstaclePairs(*scene.robot, *scene.geometry, scene.obstacles.size(), task.base != BaseMotion::fixed);
   const std::vector<bool> wanted = named(task.pairs, all, scene, task.path + ": collisions.pairs");

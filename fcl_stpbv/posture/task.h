@@ -3,6 +3,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,11 +21,23 @@ struct PostureScene {
   std::shared_ptr<const RobotGeometry> geometry;
   std::shared_ptr<const Srdf> srdf;  ///< null without one
   std::vector<Obstacle> obstacles;
+  /// The robot's own pairs that are checked, such as searchedPairs(); none: those that the SRDF leaves, or
+  /// without one searched for anew by each task.
+  std::optional<std::vector<CheckedPair>> selfPairs = std::nullopt;
 };
 
-/// All pairs of some links with some obstacles. An empty list stands for all of its kind.
+/// The robot's own pairs to be checked where there is no SRDF: all but those that the tree of joints or the
+/// samples of pairList() leave out. Takes a second or so for a humanoid.
+std::vector<CheckedPair> searchedPairs(std::shared_ptr<const RobotModel> robot,
+                                       std::shared_ptr<const RobotGeometry> geometry);
+
+/// All pairs of some links with some obstacles, or where `self` is given with some other links of the robot;
+/// both where both are. An empty list stands for all of its kind.
 struct LinkObstacles {
   std::vector<std::string> links, obstacles;
+  std::optional<std::vector<std::string>> self;
+
+  bool withObstacles() const { return !self || !obstacles.empty(); }
 };
 
 struct PostureTask {

@@ -154,14 +154,17 @@ void readStability(const Field& field, PostureTask& task) {
   if (task.contacts.empty()) field["contacts"].refuse("at least one contact");
 }
 
-std::vector<LinkObstacles> readPairs(const Field& field) {
+std::vector<std::string> textsOf(const Field& item, const char* key) {
+  return item.has(key) ? item[key].texts() : std::vector<std::string>{};
+}
+
+// `keys` are links, obstacles and perhaps self.
+std::vector<LinkObstacles> readPairs(const Field& field, const std::set<std::string>& keys) {
   std::vector<LinkObstacles> lists;
-  for (const Field& item : field.list("objects with the keys links, obstacles")) {
-    item.object({"links", "obstacles"});
-    LinkObstacles both;
-    if (item.has("links")) both.links = item["links"].texts();
-    if (item.has("obstacles")) both.obstacles = item["obstacles"].texts();
-    lists.push_back(both);
+  for (const Field& item : field.list("objects")) {
+    item.object(keys);
+    lists.push_back({textsOf(item, "links"), textsOf(item, "obstacles"), {}});
+    if (item.has("self")) lists.back().self = item["self"].texts();
   }
   return lists;
 }
@@ -170,8 +173,8 @@ void readCollisions(const Field& field, PostureTask& task) {
   field.object({"margin", "self", "pairs", "ignore"});
   if (field.has("margin")) task.collisionMargin = field["margin"].number(-1, 1);
   if (field.has("self")) task.selfCollisions = field["self"].boolean();
-  if (field.has("pairs")) task.pairs = readPairs(field["pairs"]);
-  if (field.has("ignore")) task.ignore = readPairs(field["ignore"]);
+  if (field.has("pairs")) task.pairs = readPairs(field["pairs"], {"links", "obstacles"});
+  if (field.has("ignore")) task.ignore = readPairs(field["ignore"], {"links", "obstacles", "self"});
 }
 
 }  // namespace

@@ -51,11 +51,14 @@ Eigen::VectorXd poseFromJson(const std::string& path, const Kinematics& kinemati
   }
 }
 
-Eigen::VectorXd poseOf(const std::string& pose, const Kinematics& kinematics, const Srdf* srdf) {
+// `option` is the argument that asks for the posture.
+Eigen::VectorXd poseOf(const std::string& option, const std::string& pose, const Kinematics& kinematics,
+                       const Srdf* srdf) {
   std::error_code ignored;
   if (std::filesystem::is_regular_file(pose, ignored)) return poseFromJson(pose, kinematics);
   if (!srdf)
-    throw Error("--pose " + pose + ": no such file, and no SRDF with postures; give --srdf or a JSON file");
+    throw Error(option + " " + pose +
+                ": no such file, and no SRDF with postures; give --srdf or a JSON file");
   return kinematics.configuration(srdf->state(pose));
 }
 
@@ -121,6 +124,7 @@ class Maker {
     load();
     PairListOptions search = request_.search;
     search.obstacles = report_.obstacles;
+    search.neutral = neutral_;
     report_.list = pairList(report_.kinematics, report_.geometry, srdf(), search);
     const bool posed = !request_.pose.empty();
     causes_ =
@@ -130,9 +134,11 @@ class Maker {
     warnOfOpenMeshes();
     report_.pose = request_.pose;
     const Eigen::VectorXd q =
-        posed ? poseOf(request_.pose, *report_.kinematics, srdf()) : report_.kinematics->neutral();
+        posed ? poseOf("--pose", request_.pose, *report_.kinematics, srdf()) : report_.kinematics->neutral();
     for (const PairEntry& entry : report_.list) addPair(entry, posed ? q : entry.closest);
     summarise();
+    requirePairs(static_cast<std::size_t>(report_.checked), *report_.robot, countsOf(report_.list));
+    warnOfNeutral();
     warnOfKinks();
     measure(q);
     return std::move(report_);
@@ -157,11 +163,7 @@ class Maker {
     report_.robot = loader.robot();
     if (loader.srdf()) srdf_ = *loader.srdf();
     std::vector<std::string>& errors = loader.faults().errors;
-    if (errors.empty()) {
-      report_.kinematics = std::make_shared<const Kinematics>(report_.robot);
-      if (!request_.pose.empty())
-        LoadFaults::gather(errors, [&] { poseOf(request_.pose, *report_.kinematics, srdf()); });
-    }
+    if (errors.empty()) LoadFaults::gather(errors, [&] { readPostures(); });
     loader.build();
     RobotGeometry bodies = *loader.geometry();
     sceneGeometry_ = loader.sceneGeometry();
@@ -172,6 +174,13 @@ class Maker {
     if (!request_.polyhedra.empty())
       report_.polyhedra = comparePolyhedra(*report_.geometry, request_.polyhedra);
     if (loader.scene()) report_.obstacles = obstaclesOf(loader.scene(), sceneGeometry_);
+  }
+
+  void readPostures() {
+    report_.kinematics = std::make_shared<const Kinematics>(report_.robot);
+    if (!request_.pose.empty()) poseOf("--pose", request_.pose, *report_.kinematics, srdf());
+    neutral_ = request_.neutral.empty() ? report_.kinematics->neutral()
+                                        : poseOf("--neutral", request_.neutral, *report_.kinematics, srdf());
   }
 
   void cover(RobotGeometry& bodies) {
@@ -194,20 +203,18 @@ class Maker {
         entry.obstacle ? report_.obstacles[at(entry.link2)].name : report_.robot->links[at(entry.link2)].name;
     pair.reason = reasonText(entry.reason);
     if (srdf() && !entry.obstacle) pair.srdfReason = srdf_.reasonToSkip(pair.link1, pair.link2);
-    pair.checked = entry.obstacle ? true
-                   : srdf()
-                       ? pair.srdfReason.empty()
-                       : entry.reason == PairReason::sometimes || entry.reason == PairReason::neverSampled ||
-                             entry.reason == PairReason::neverProven;
+    pair.checked = entry.obstacle || (srdf() ? pair.srdfReason.empty() : checkedWithoutSrdf(entry.reason));
+    const bool explained = entry.reason == PairReason::adjacent || entry.reason == PairReason::rigid ||
+                           entry.reason == PairReason::neverSampled ||
+                           entry.reason == PairReason::neverProven;
+    pair.contradictsSrdf = (pair.srdfReason == "Never" || pair.srdfReason == "Adjacent") && !explained;
     pair.minDistance = entry.minDistance;
     pair.probabilityBound = entry.probabilityBound();
     pair.security = entry.security;
     pair.influence = entry.influence;
     pair.configuration = q;
     pair.closest = entry.closest;
-    const std::vector<CheckedPair> bodies =
-        entry.obstacle ? pairsWithObstacle(*report_.geometry, entry.link1, entry.link2)
-                       : pairsOfLinks(*report_.geometry, entry.link1, entry.link2);
+    const std::vector<CheckedPair> bodies = bodiesOf(*report_.geometry, entry);
     measurePair(report_, bodies, pair);
     pair.colliding = pair.answer.distance <= request_.search.margin;
     explain(bodies, pair);
@@ -240,6 +247,22 @@ class Maker {
       if (pair.colliding) ++report_.causes[pair.cause];
       report_.minDistance = std::min(report_.minDistance, pair.answer.distance);
     }
+  }
+
+  void warnOfNeutral() {
+    NeutralPosture& found = report_.neutral;
+    found = judgeNeutral(report_.kinematics, report_.geometry, report_.list, neutral_, srdf(),
+                         request_.search.margin);
+    if (found.colliding == 0) return;
+    std::string warning =
+        request_.urdf + ": in the neutral posture (" +
+        (request_.neutral.empty() ? "all joints at zero, or at the limit nearest to it" : request_.neutral) +
+        ") the bodies of " + std::to_string(found.colliding) + " pairs of links meet that are not adjacent";
+    if (found.better.size() > 0)
+      warning += "; those of " + std::to_string(found.collidingThere) + " do in another posture: " +
+                 (found.state.empty() ? "neutral.better in the JSON, which --neutral takes from a file"
+                                      : "give --neutral " + found.state);
+    report_.warnings.push_back(warning + ".");
   }
 
   void warnOfKinks() {
@@ -294,17 +317,13 @@ class Maker {
 
   const ReportRequest& request_;
   Srdf srdf_;
+  Eigen::VectorXd neutral_;
   RobotGeometry sceneGeometry_;
   CollisionReport report_;
   std::unique_ptr<PairCauses> causes_;
 };
 
 }  // namespace
-
-bool PairReport::contradictsSrdf() const {
-  return (srdfReason == "Never" && reason != "never (sampled)" && reason != "never (proven)") ||
-         (srdfReason == "Adjacent" && reason != "adjacent");
-}
 
 void measurePair(const CollisionReport& report, const std::vector<CheckedPair>& bodies, PairReport& pair) {
   ConstraintOptions options;

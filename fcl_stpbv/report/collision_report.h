@@ -11,13 +11,15 @@
 #include "fcl_stpbv/report/mesh_fit.h"
 #include "fcl_stpbv/report/published_polyhedra.h"
 #include "fcl_stpbv/robot/constraints.h"
+#include "fcl_stpbv/robot/neutral_posture.h"
 #include "fcl_stpbv/robot/pair_list.h"
 
 namespace fcl_stpbv::report {
 
 struct ReportRequest {
   std::string urdf, srdf, pose, obstacles;  ///< "" where not given; pose is a state's name or a JSON file
-  std::string polyhedra;                    ///< folder of published ones, "" for none
+  std::string neutral;    ///< the same, "" for all joints at zero or at the limit nearest to it
+  std::string polyhedra;  ///< folder of published ones, "" for none
   GeometryOptions geometry;
   bool flatObstacles = false;   ///< the scene's meshes stay convex polyhedra
   bool flatPrimitives = false;  ///< primitives get no smooth cover where a pair needs one (smooth_pairs.h)
@@ -53,8 +55,7 @@ struct PairReport {
   Eigen::VectorXd configuration;  ///< of `answer`
   Eigen::VectorXd closest;        ///< where minDistance was found
 
-  /// The reason's contradiction of the SRDF: it leaves the pair out as never or adjacent, and it collides.
-  bool contradictsSrdf() const;
+  bool contradictsSrdf = false;  ///< which leaves the pair out as never or adjacent, and it collides
 };
 
 struct CollisionReport {
@@ -68,7 +69,8 @@ struct CollisionReport {
   std::vector<PolyhedronReport> polyhedra;  ///< one a body, or none where none were asked for
   std::vector<PairReport> pairs;            ///< checked ones first, closest first
   std::vector<PairEntry> list;              ///< what the search found
-  std::string pose;                         ///< "" where each pair is in its own closest configuration
+  NeutralPosture neutral;
+  std::string pose;  ///< "" where each pair is in its own closest configuration
   int checked = 0, colliding = 0;
   std::map<std::string, int> causes;    ///< of the checked pairs in collision, how many of each
   double minDistance = 0;               ///< of the checked pairs (m)

@@ -107,7 +107,7 @@ std::string contradictions(const CollisionReport& report, std::size_t top) {
   std::string text;
   std::size_t count = 0;
   for (const PairReport& pair : report.pairs) {
-    if (!pair.contradictsSrdf() || count++ >= top) continue;
+    if (!pair.contradictsSrdf || count++ >= top) continue;
     text += "\nThe SRDF leaves out " + pair.link1 + " - " + pair.link2 + " as " + pair.srdfReason +
             "; found: " + pair.reason + (pair.cause.empty() ? "" : ", " + pair.cause) +
             format(", %.3f mm at", pair.minDistance * kMm);
@@ -147,13 +147,13 @@ std::string toText(const CollisionReport& report, std::size_t top) {
   if (report.checked > 0)
     text += format("%.1f us for all checked pairs with gradients, %.0f ns a pair\n", report.usPerTick,
                    report.nsPerPair);
-  text += format("\n%-44s %11s %11s %11s %-16s %s\n", "pair", "STP-BV [mm]", "hulls [mm]", "cover [mm]",
+  text += format("\n%-44s %11s %11s %11s %-26s %s\n", "pair", "STP-BV [mm]", "hulls [mm]", "cover [mm]",
                  "reason", "steepest joint [m/rad]");
   std::size_t shown = 0;
   for (const PairReport& pair : report.pairs) {
     if (!pair.checked || shown++ >= top) break;
     const std::string hull = std::isfinite(pair.hullDistance) ? format("%.3f", pair.hullDistance * kMm) : "-";
-    text += format("%-44s %11.3f %11s %11.3f %-16s ", (pair.link1 + " - " + pair.link2).c_str(),
+    text += format("%-44s %11.3f %11s %11.3f %-26s ", (pair.link1 + " - " + pair.link2).c_str(),
                    pair.answer.distance * kMm, hull.c_str(), (pair.overCover1 + pair.overCover2) * kMm,
                    pair.reason.c_str()) +
             steepest(pair) + "\n";
@@ -167,6 +167,11 @@ std::string toJson(const CollisionReport& report) {
   nlohmann::json json;
   json["robot"] = report.robot->name;
   json["pose"] = report.pose.empty() ? nlohmann::json() : nlohmann::json(report.pose);
+  json["neutral"] = {{"colliding", report.neutral.colliding}};
+  if (report.neutral.better.size() > 0)
+    json["neutral"].update({{"better", joints(report.neutral.better, *report.kinematics)},
+                            {"better_state", report.neutral.state},
+                            {"better_colliding", report.neutral.collidingThere}});
   json["warnings"] = report.warnings;
   json["skipped"] = report.skipped;
   json["links"] = nlohmann::json::array();
@@ -241,8 +246,8 @@ std::string toCsv(const CollisionReport& report) {
       "point1_x,point1_y,point1_z,point2_x,point2_y,point2_z,normal_x,normal_y,normal_z\n";
   for (const std::string& shape : report.skipped) text += "," + quoted("left out: " + shape) + ",0\n";
   for (const PairReport& pair : report.pairs) {
-    text += quoted(pair.link1) + "," + quoted(pair.link2) + "," + pair.reason + "," + pair.srdfReason + "," +
-            (pair.checked ? "1" : "0") + "," + pair.cause;
+    text += quoted(pair.link1) + "," + quoted(pair.link2) + "," + quoted(pair.reason) + "," +
+            pair.srdfReason + "," + (pair.checked ? "1" : "0") + "," + pair.cause;
     for (double value : {pair.answer.distance, pair.meshDistance, pair.hullDistance, pair.overCover1,
                          pair.overCover2, pair.minDistance})
       text += "," + (std::isfinite(value) ? toDecimal(value) : std::string());
@@ -253,8 +258,8 @@ std::string toCsv(const CollisionReport& report) {
   return text;
 }
 
-std::string toSrdfText(const CollisionReport& report, const std::string& path) {
-  return withPairs(path, report.robot->name, toSrdf(*report.robot, report.list), report.skipped);
+std::string toSrdfText(const CollisionReport& report, const std::string& path, bool defaultToo) {
+  return withPairs(path, report.robot->name, toSrdf(*report.robot, report.list, defaultToo), report.skipped);
 }
 
 }  // namespace fcl_stpbv::report

@@ -135,7 +135,7 @@ json dataOf(const CollisionReport& report, const std::string& title) {
     item["posture"] = found - configurations.begin();
     item["cover"] = pair.overCover1 + pair.overCover2;
     item["colliding"] = pair.colliding;
-    item["contradicts_srdf"] = pair.contradictsSrdf();
+    item["contradicts_srdf"] = pair.contradictsSrdf;
     item.erase("closest");
   }
   if (configurations.empty()) configurations.push_back(report.kinematics->neutral());

@@ -1,35 +1,16 @@
 // See checked_pairs.h.
 #include "fcl_stpbv/robot/checked_pairs.h"
 
-#include <algorithm>
-
+#include "fcl_stpbv/error.h"
+#include "fcl_stpbv/robot/adjacency.h"
 #include "fcl_stpbv/robot/kinematics.h"
 
 namespace fcl_stpbv {
 namespace {
 
-bool hasBody(const RobotGeometry& geometry, int link) {
-  const auto [first, last] = geometry.of(link);
-  return first < last;
-}
-
 int parentOf(const RobotModel& robot, int link) {
   const int joint = robot.links[static_cast<std::size_t>(link)].parentJoint;
   return joint < 0 ? -1 : robot.joints[static_cast<std::size_t>(joint)].parent;
-}
-
-// The links above, up to and with the first that has a body.
-std::vector<int> reach(const RobotModel& robot, const RobotGeometry& geometry, int link) {
-  std::vector<int> links;
-  for (int at = parentOf(robot, link); at >= 0; at = parentOf(robot, at)) {
-    links.push_back(at);
-    if (hasBody(geometry, at)) break;
-  }
-  return links;
-}
-
-bool holds(const std::vector<int>& links, int link) {
-  return std::find(links.begin(), links.end(), link) != links.end();
 }
 
 }  // namespace
@@ -57,23 +38,17 @@ std::vector<Obstacle> obstaclesOf(std::shared_ptr<const RobotModel> scene, const
   return obstacles;
 }
 
-bool adjacent(const RobotModel& robot, const RobotGeometry& geometry, int link1, int link2) {
-  const std::vector<int> above1 = reach(robot, geometry, link1), above2 = reach(robot, geometry, link2);
-  if (holds(above1, link2) || holds(above2, link1)) return true;
-  return std::any_of(above1.begin(), above1.end(),
-                     [&](int link) { return !hasBody(geometry, link) && holds(above2, link); });
-}
-
 std::vector<CheckedPair> selfPairs(const RobotModel& robot, const RobotGeometry& geometry, const Srdf* srdf) {
   std::vector<CheckedPair> pairs;
   const int count = static_cast<int>(geometry.bodies.size());
+  const Adjacency adjacency(robot, geometry);
   const auto linkOf = [&](int body) { return geometry.bodies[static_cast<std::size_t>(body)].link; };
   const auto nameOf = [&](int body) { return robot.links[static_cast<std::size_t>(linkOf(body))].name; };
   for (int i = 0; i < count; ++i) {
     for (int j = i + 1; j < count; ++j) {
       if (linkOf(i) == linkOf(j)) continue;
       const bool skip = srdf ? !srdf->reasonToSkip(nameOf(i), nameOf(j)).empty()
-                             : adjacent(robot, geometry, linkOf(i), linkOf(j));
+                             : adjacency.of(linkOf(i), linkOf(j)) != Joining::separate;
       if (!skip) pairs.push_back({i, j, false});
     }
   }
@@ -94,6 +69,19 @@ std::vector<CheckedPair> pairsWithObstacle(const RobotGeometry& geometry, int li
   const auto [first, last] = geometry.of(link);
   for (int i = first; i < last; ++i) pairs.push_back({i, obstacle, true});
   return pairs;
+}
+
+std::vector<CheckedPair> bodiesOf(const RobotGeometry& geometry, const LinkPair& pair) {
+  return pair.obstacle ? pairsWithObstacle(geometry, pair.link1, pair.link2)
+                       : pairsOfLinks(geometry, pair.link1, pair.link2);
+}
+
+void requirePairs(std::size_t checked, const RobotModel& robot, const std::string& why) {
+  if (checked > 0) return;
+  throw Error(
+      robot.path + ": no pair of bodies is checked (" + why +
+      "), so that nothing can be said about collisions; give an SRDF that leaves pairs to be checked, or "
+      "obstacles");
 }
 
 bool moves(const RobotModel& robot, int link, bool baseMoves) {

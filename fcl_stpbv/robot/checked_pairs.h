@@ -19,6 +19,13 @@ struct CheckedPair {
   bool obstacle = false;
 };
 
+/// Two links, or a link and an obstacle.
+struct LinkPair {
+  int link1;
+  int link2;  ///< link, or index among the obstacles
+  bool obstacle = false;
+};
+
 /// Something that stands still in the world.
 struct Obstacle {
   std::string name;
@@ -35,11 +42,8 @@ Obstacle obstacleOf(const fcl::CollisionObjectd& object, const std::string& name
 /// The bodies of a scene's URDF, its joints at their neutral values.
 std::vector<Obstacle> obstaclesOf(std::shared_ptr<const RobotModel> scene, const RobotGeometry& geometry);
 
-/// Whether two links are joined by a joint, links without bodies between them not counting.
-bool adjacent(const RobotModel& robot, const RobotGeometry& geometry, int link1, int link2);
-
 /// All pairs of bodies of different links, without those that `srdf` leaves out; without an SRDF (null),
-/// without those of adjacent links.
+/// without those of adjacent and rigidly joined links (adjacency.h).
 std::vector<CheckedPair> selfPairs(const RobotModel& robot, const RobotGeometry& geometry, const Srdf* srdf);
 
 /// Every body of one link against every body of the other.
@@ -47,6 +51,14 @@ std::vector<CheckedPair> pairsOfLinks(const RobotGeometry& geometry, int link1, 
 
 /// Every body of a link against one obstacle.
 std::vector<CheckedPair> pairsWithObstacle(const RobotGeometry& geometry, int link, int obstacle);
+
+/// The bodies behind a pair of links, or of a link and an obstacle.
+std::vector<CheckedPair> bodiesOf(const RobotGeometry& geometry, const LinkPair& pair);
+
+/// Refuses to go on without any pair to check: nothing checked is not clear. `why` says what became of all
+/// pairs.
+/// @throws Error naming the robot's file and what would work, unless `checked` is above 0.
+void requirePairs(std::size_t checked, const RobotModel& robot, const std::string& why);
 
 /// Whether a joint, or the base, moves the link.
 bool moves(const RobotModel& robot, int link, bool baseMoves = false);

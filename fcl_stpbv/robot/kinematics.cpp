@@ -94,9 +94,7 @@ Kinematics::Kinematics(std::shared_ptr<const RobotModel> robot, BaseMotion base)
   }
   lower_ = Eigen::Map<const Eigen::VectorXd>(lowerList_.data(), size());
   upper_ = Eigen::Map<const Eigen::VectorXd>(upperList_.data(), size());
-  neutral_.setZero(size());
-  for (int i = 0; i < size(); ++i)
-    if (lower_[i] > 0 || upper_[i] < 0) neutral_[i] = (lower_[i] + upper_[i]) / 2;
+  neutral_ = Eigen::VectorXd::Zero(size()).cwiseMax(lower_).cwiseMin(upper_);
 }
 
 void Kinematics::addCoordinates(const std::string& name, JointType type, double lower, double upper) {

@@ -63,7 +63,7 @@ class Kinematics {
   const Eigen::VectorXd& upper() const { return upper_; }
   const std::vector<Motion>& motions() const { return motions_; }
 
-  /// All zero, or the middle of its limits for a coordinate that cannot be zero.
+  /// All zero, clamped into the limits.
   const Eigen::VectorXd& neutral() const { return neutral_; }
   /// The neutral configuration with what a group_state says. @throws Error naming state and joint.
   Eigen::VectorXd configuration(const Srdf::State& state) const;

@@ -1,13 +1,19 @@
-// See pair_list.h.
+// See pair_list.h. Each stage takes the pairs that those before it could not decide: the tree of joints, the
+// neutral configuration, random samples, descents from the closest ones, a short proof, random descents,
+// longer proofs.
 #include "fcl_stpbv/robot/pair_list.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
-#include <limits>
+#include <map>
 #include <random>
 #include <tuple>
 
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/robot/adjacency.h"
+#include "fcl_stpbv/robot/pair_proof.h"
+#include "fcl_stpbv/robot/pair_samples.h"
 #include "fcl_stpbv/robot/pair_search.h"
 
 namespace fcl_stpbv {
@@ -15,33 +21,30 @@ namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-// Without the standard library's distributions, which differ from one to another.
-double uniform(std::mt19937_64& random, double low, double high) {
-  return low + static_cast<double>(random() >> 11) * 0x1p-53 * (high - low);
-}
-
 class Search {
  public:
   Search(std::shared_ptr<const Kinematics> kinematics, std::shared_ptr<const RobotGeometry> geometry,
          const PairListOptions& options)
-      : kinematics_(std::move(kinematics)), geometry_(std::move(geometry)), options_(options) {}
+      : kinematics_(std::move(kinematics)), geometry_(std::move(geometry)), options_(options) {
+    neutral_ = options.neutral.size() > 0 ? options.neutral : kinematics_->neutral();
+  }
 
   std::vector<PairEntry> run(const Srdf* srdf) {
     enumerate(srdf);
+    PairSampler all = sampler([](const PairEntry&) { return true; });
+    const Eigen::VectorXd least = all.distances(neutral_);
+    for (std::size_t e = 0; e < list_.size(); ++e)
+      list_[e].neutralDistance = list_[e].minDistance = least[static_cast<Eigen::Index>(e)];
     sample();
-    for (std::size_t i = 0; i < open_.size(); ++i) {
-      tell("descents", i, open_.size());
-      if (open_[i].entry->reason == PairReason::neverSampled) descend(open_[i]);
-    }
     prove();
     for (PairEntry& entry : list_) propose(entry);
     return std::move(list_);
   }
 
  private:
-  struct Open {  // a pair still to be decided
+  struct Open {  // a pair that no proof has decided yet
     PairEntry* entry;
-    std::vector<std::pair<double, Eigen::VectorXd>> closest;  // samples, closest first
+    PairProof proof;
   };
 
   void tell(const char* what, std::size_t done, std::size_t all) const {
@@ -50,37 +53,41 @@ class Search {
 
   void enumerate(const Srdf* srdf) {
     const RobotModel& robot = kinematics_->robot();
+    const Adjacency adjacency(robot, *geometry_);
     const int links = static_cast<int>(robot.links.size());
     const auto none = [&](int link) { return geometry_->of(link).first == geometry_->of(link).second; };
-    const auto add = [&](int first, int second, bool obstacle) {
+    const auto add = [&](const LinkPair& pair, PairReason reason) {
       PairEntry entry;
-      entry.link1 = first;
-      entry.link2 = second;
-      entry.obstacle = obstacle;
-      entry.closest = kinematics_->neutral();
+      static_cast<LinkPair&>(entry) = pair;
+      entry.reason = reason;
+      entry.closest = neutral_;
       list_.push_back(entry);
     };
     for (int i = 0; i < links; ++i) {
       for (int j = i + 1; j < links; ++j) {
         if (none(i) || none(j)) continue;
-        add(i, j, false);
-        const std::string &name1 = robot.links[at(i)].name, &name2 = robot.links[at(j)].name;
-        if (srdf && srdf->reasonToSkip(name1, name2) == "User")
-          list_.back().reason = PairReason::user;
-        else if (adjacent(robot, *geometry_, i, j))
-          list_.back().reason = PairReason::adjacent;
+        const Joining joining = adjacency.of(i, j);
+        const bool user =
+            srdf && srdf->reasonToSkip(robot.links[at(i)].name, robot.links[at(j)].name) == "User";
+        add({i, j}, user                           ? PairReason::user
+                    : joining == Joining::rigid    ? PairReason::rigid
+                    : joining == Joining::adjacent ? PairReason::adjacent
+                                                   : PairReason::sometimes);
       }
     }
     const auto& motions = kinematics_->motions();
     const bool baseMoves = !motions.empty() && motions.front().joint < 0;
     for (int i = 0; i < links; ++i)
       for (int o = 0; o < static_cast<int>(options_.obstacles.size()); ++o)
-        if (!none(i) && moves(robot, i, baseMoves)) add(i, o, true);
+        if (!none(i) && moves(robot, i, baseMoves)) add({i, o, true}, PairReason::sometimes);
   }
 
-  std::vector<CheckedPair> bodiesOf(const PairEntry& entry) const {
-    return entry.obstacle ? pairsWithObstacle(*geometry_, entry.link1, entry.link2)
-                          : pairsOfLinks(*geometry_, entry.link1, entry.link2);
+  template <class Wanted>
+  PairSampler sampler(Wanted wanted) const {
+    std::vector<LinkPair> pairs;
+    for (const PairEntry& entry : list_)
+      if (wanted(entry)) pairs.push_back(entry);
+    return PairSampler(kinematics_, geometry_, pairs, options_.obstacles, options_.threads);
   }
 
   PairSearch searchOf(const PairEntry& entry) const {
@@ -89,133 +96,110 @@ class Search {
                : PairSearch(kinematics_, geometry_, entry.link1, entry.link2);
   }
 
-  // Distances of all pairs of bodies at once, then the least of each pair of links.
+  // The pairs that the tree left open are judged by samples; those found clear go on to descents and proofs.
   void sample() {
-    std::vector<CheckedPair> pairs;
-    std::vector<std::size_t> entryOf;
-    for (std::size_t e = 0; e < list_.size(); ++e) {
-      for (const CheckedPair& pair : bodiesOf(list_[e])) {
-        pairs.push_back(pair);
-        entryOf.push_back(e);
-      }
-    }
-    ConstraintOptions settings;
-    settings.threads = options_.threads;
-    settings.obstacles = options_.obstacles;
-    CollisionConstraints neutral(kinematics_, geometry_, pairs, settings);
-    Eigen::VectorXd d(neutral.rows()), least(static_cast<Eigen::Index>(list_.size()));
-    const auto leastOf = [&](CollisionConstraints& constraints, const std::vector<std::size_t>& owner,
-                             const Eigen::VectorXd& q) {
-      constraints.evaluate(q, d);
-      least.setConstant(std::numeric_limits<double>::infinity());
-      for (Eigen::Index row = 0; row < d.size(); ++row) {
-        double& value = least[static_cast<Eigen::Index>(owner[static_cast<std::size_t>(row)])];
-        value = std::min(value, d[row]);
-      }
-    };
-    leastOf(neutral, entryOf, kinematics_->neutral());
-    for (std::size_t e = 0; e < list_.size(); ++e) {
-      PairEntry& entry = list_[e];
-      entry.neutralDistance = entry.minDistance = least[static_cast<Eigen::Index>(e)];
-      if (entry.reason == PairReason::sometimes && !entry.obstacle &&
-          entry.neutralDistance <= options_.margin)
-        entry.reason = PairReason::byDefault;
-    }
-    // From here on the pairs that are still open only.
-    std::vector<CheckedPair> openPairs;
-    std::vector<std::size_t> owner;
-    for (std::size_t p = 0; p < pairs.size(); ++p) {
-      if (list_[entryOf[p]].reason != PairReason::sometimes) continue;
-      openPairs.push_back(pairs[p]);
-      owner.push_back(entryOf[p]);
-    }
+    std::vector<PairEntry*> open;
     for (PairEntry& entry : list_)
-      if (entry.reason == PairReason::sometimes) open_.push_back({&entry, {}});
-    if (openPairs.empty()) return;
-    CollisionConstraints constraints(kinematics_, geometry_, openPairs, settings);
-    d.resize(constraints.rows());
-    std::mt19937_64 random(options_.seed);
-    for (int s = 0; s < options_.samples; ++s) {
-      if (s % 50 == 0) tell("samples", at(s), at(options_.samples));
-      const Eigen::VectorXd q = randomConfiguration(random);
-      leastOf(constraints, owner, q);
-      for (Open& open : open_) note(open, least[open.entry - list_.data()], q);
+      if (entry.reason == PairReason::sometimes) open.push_back(&entry);
+    PairSampler random = sampler([](const PairEntry& e) { return e.reason == PairReason::sometimes; });
+    const std::vector<PairSamples> found =
+        random.sample(options_.samples, options_.seed, options_.margin, options_.descents,
+                      [&](int done) { tell("samples", at(done), at(options_.samples)); });
+    std::vector<std::size_t> clear;
+    for (std::size_t i = 0; i < open.size(); ++i) {
+      judge(*open[i], found[i]);
+      if (open[i]->reason == PairReason::neverSampled) clear.push_back(i);
     }
-    for (Open& open : open_) {
-      PairEntry& entry = *open.entry;
-      if (entry.collisions == 0)
-        entry.reason = PairReason::neverSampled;
-      else if (entry.collisions >= options_.alwaysFraction * entry.samples)
-        entry.reason = PairReason::always;
+    if (options_.proofBoxes > 0 || options_.proofSeconds > 0)
+      scene_ = proofScene(kinematics_, geometry_, options_.obstacles, options_.margin);
+    for (std::size_t i = 0; i < clear.size(); ++i) {
+      tell("descents", i, clear.size());
+      settle(*open[clear[i]], found[clear[i]]);
     }
   }
 
-  Eigen::VectorXd randomConfiguration(std::mt19937_64& random) const {
-    Eigen::VectorXd q(kinematics_->size());
-    for (Eigen::Index i = 0; i < q.size(); ++i)  // a floating joint has no limits: a metre around
-      q[i] = uniform(random, std::max(kinematics_->lower()[i], -1e3) < -999 ? -1 : kinematics_->lower()[i],
-                     std::min(kinematics_->upper()[i], 1e3) > 999 ? 1 : kinematics_->upper()[i]);
-    return q;
-  }
-
-  void note(Open& open, double distance, const Eigen::VectorXd& q) const {
-    PairEntry& entry = *open.entry;
-    ++entry.samples;
-    entry.collisions += distance <= options_.margin;
-    if (distance < entry.minDistance) {
-      entry.minDistance = distance;
-      entry.closest = q;
+  void judge(PairEntry& entry, const PairSamples& found) {
+    entry.samples = found.samples;
+    entry.collisions = found.collisions;
+    note(entry, found.closest.front().first, found.closest.front().second);
+    if (!entry.obstacle && entry.neutralDistance <= options_.margin) {
+      Eigen::VectorXd q = found.farthest;
+      const bool clears =
+          found.largest > options_.margin || searchOf(entry).climb(q, options_.margin) > options_.margin;
+      entry.reason = clears ? PairReason::defaultClears : PairReason::byDefault;
+    } else if (entry.neutralDistance > options_.margin && entry.collisions == 0) {
+      entry.reason = PairReason::neverSampled;
+    } else if (entry.collisions >= options_.alwaysFraction * entry.samples) {
+      entry.reason = PairReason::always;
     }
-    if (entry.collisions > 0) return;  // decided
-    auto& closest = open.closest;
-    if (closest.size() == at(options_.descents) && (closest.empty() || distance >= closest.back().first))
-      return;
-    const auto place = std::upper_bound(closest.begin(), closest.end(), distance,
-                                        [](double value, const auto& item) { return value < item.first; });
-    closest.insert(place, {distance, q});
-    if (closest.size() > at(options_.descents)) closest.pop_back();
   }
 
-  void descend(Open& open) {
-    PairEntry& entry = *open.entry;
+  bool note(PairEntry& entry, double distance, const Eigen::VectorXd& q) const {
+    if (distance >= entry.minDistance) return false;
+    entry.minDistance = distance;
+    entry.closest = q;
+    return true;
+  }
+
+  // Descents from the closest samples, a short proof, descents from random configurations, until one of them
+  // decides.
+  void settle(PairEntry& entry, const PairSamples& found) {
     PairSearch search = searchOf(entry);
-    for (auto& [start, q] : open.closest) {
+    const auto descend = [&](Eigen::VectorXd q) {
       const double reached = search.descend(q, options_.margin);
-      if (reached >= entry.minDistance) continue;
-      entry.minDistance = reached;
-      entry.closest = q;
-      entry.byDescent = true;
-      if (reached <= options_.margin) {
-        entry.reason = PairReason::sometimes;
-        return;
-      }
-    }
+      entry.byDescent |= note(entry, reached, q);
+      if (reached <= options_.margin) entry.reason = PairReason::sometimes;
+      return reached <= options_.margin;
+    };
+    for (int i = 0; i < options_.descents && at(i) < found.closest.size(); ++i)
+      if (descend(found.closest[at(i)].second)) return;
+    Open open{&entry, {}};
+    if (scene_.kinematics) open.proof = unproven(scene_, entry);
+    if (scene_.kinematics && advance(open, options_.proofBoxes)) return;
+    // Each pair has its own random numbers, whatever became of those before it.
+    std::mt19937_64 random(options_.seed +
+                           0x9e3779b97f4a7c15u * (1 + static_cast<std::size_t>(&entry - list_.data())));
+    for (int i = 0; i < options_.randomDescents; ++i)
+      if (descend(randomConfiguration(*kinematics_, random))) return;
+    open_.push_back(std::move(open));
   }
 
-  // What is left of the time is shared evenly among the pairs still open, the ones farthest apart first.
+  // Goes on with a proof; whether that decided the pair.
+  bool advance(Open& open, long boxes) {
+    const long before = open.proof.boxes;
+    open.proof = provePair(scene_, *open.entry, std::move(open.proof.open), boxes);
+    open.proof.boxes += before;
+    PairEntry& entry = *open.entry;
+    entry.boxes = open.proof.boxes;
+    if (open.proof.collision) {
+      entry.reason = PairReason::sometimes;
+      note(entry, searchOf(entry).distance(*open.proof.collision), *open.proof.collision);
+      return true;
+    }
+    if (open.proof.proven()) entry.reason = PairReason::neverProven;
+    return open.proof.proven();
+  }
+
+  // Rounds over the pairs still open with twice the boxes each time, so that the ones that take few are
+  // decided first.
   void prove() {
-    if (!(options_.proofSeconds > 0)) return;
-    std::vector<PairEntry*> never;
-    for (PairEntry& entry : list_)
-      if (entry.reason == PairReason::neverSampled) never.push_back(&entry);
-    std::stable_sort(never.begin(), never.end(),
-                     [](const PairEntry* a, const PairEntry* b) { return a->minDistance > b->minDistance; });
     using Clock = std::chrono::steady_clock;
-    const Clock::time_point end = Clock::now() + std::chrono::duration_cast<Clock::duration>(
-                                                     std::chrono::duration<double>(options_.proofSeconds));
-    for (std::size_t i = 0; i < never.size(); ++i) {
-      tell("proofs", i, never.size());
-      const Clock::time_point now = Clock::now();
-      PairSearch search = searchOf(*never[i]);
-      Eigen::VectorXd q;
-      const auto proof =
-          search.prove(options_.margin, now + (end - now) / static_cast<long>(never.size() - i), q);
-      if (proof == PairSearch::Proof::clear) never[i]->reason = PairReason::neverProven;
-      if (proof == PairSearch::Proof::collision) {
-        never[i]->reason = PairReason::sometimes;
-        never[i]->closest = q;
-        never[i]->minDistance = search.distance(q);
-      }
+    constexpr long kBoxesAtOnce = 500;  // some 10 ms
+    const auto end = Clock::now() + std::chrono::duration<double>(options_.proofSeconds);
+    const std::size_t all = open_.size();
+    for (long round = kBoxesAtOnce; !open_.empty() && options_.proofSeconds > 0; round *= 2) {
+      const auto decided = [&](Open& open) {
+        tell("proofs", all - open_.size(), all);
+        for (long boxes = 0; boxes < round; boxes += kBoxesAtOnce) {
+          if (Clock::now() >= end) return false;
+          const long before = open.proof.boxes;
+          if (advance(open, kBoxesAtOnce)) return true;
+          if (open.proof.boxes == before) return false;  // nothing a box could cover
+        }
+        return false;
+      };
+      open_.erase(std::remove_if(open_.begin(), open_.end(), decided), open_.end());
+      if (Clock::now() >= end) return;
     }
   }
 
@@ -229,48 +213,30 @@ class Search {
   std::shared_ptr<const Kinematics> kinematics_;
   std::shared_ptr<const RobotGeometry> geometry_;
   const PairListOptions& options_;
+  Eigen::VectorXd neutral_;
   std::vector<PairEntry> list_;
+  ProofScene scene_;
   std::vector<Open> open_;
 };
 
-}  // namespace
-
-const char* srdfReason(PairReason reason) {
-  switch (reason) {
+// In MoveIt's words. What no joint can change is said by how it is: "Always" or "Never" in collision.
+const char* srdfReason(const PairEntry& entry) {
+  switch (entry.reason) {
     case PairReason::adjacent:
       return "Adjacent";
-    case PairReason::byDefault:
-      return "Default";
+    case PairReason::rigid:
+      return entry.neutralDistance > 0 ? "Never" : "Always";
     case PairReason::always:
       return "Always";
-    case PairReason::user:
-      return "User";
     case PairReason::neverSampled:
     case PairReason::neverProven:
       return "Never";
     default:
-      return "";
+      return "Default";
   }
 }
 
-const char* reasonText(PairReason reason) {
-  switch (reason) {
-    case PairReason::adjacent:
-      return "adjacent";
-    case PairReason::byDefault:
-      return "default";
-    case PairReason::always:
-      return "always";
-    case PairReason::user:
-      return "user";
-    case PairReason::neverSampled:
-      return "never (sampled)";
-    case PairReason::neverProven:
-      return "never (proven)";
-    default:
-      return "sometimes";
-  }
-}
+}  // namespace
 
 std::vector<PairEntry> pairList(std::shared_ptr<const Kinematics> kinematics,
                                 std::shared_ptr<const RobotGeometry> geometry, const Srdf* srdf,
@@ -292,12 +258,31 @@ std::vector<PairEntry> pairList(std::shared_ptr<const Kinematics> kinematics,
   return Search(std::move(kinematics), std::move(geometry), options).run(srdf);
 }
 
-std::vector<Srdf::Pair> toSrdf(const RobotModel& robot, const std::vector<PairEntry>& list) {
+std::vector<CheckedPair> checkedPairs(const RobotGeometry& geometry, const std::vector<PairEntry>& list) {
+  std::vector<CheckedPair> pairs;
+  for (const PairEntry& entry : list) {
+    if (!checkedWithoutSrdf(entry.reason)) continue;
+    const std::vector<CheckedPair> bodies = bodiesOf(geometry, entry);
+    pairs.insert(pairs.end(), bodies.begin(), bodies.end());
+  }
+  return pairs;
+}
+
+std::string countsOf(const std::vector<PairEntry>& list) {
+  std::map<PairReason, int> counts;
+  for (const PairEntry& entry : list) ++counts[entry.reason];
+  std::string text;
+  for (const auto& [reason, count] : counts)
+    text += (text.empty() ? "" : ", ") + std::to_string(count) + " " + reasonText(reason);
+  return text;
+}
+
+std::vector<Srdf::Pair> toSrdf(const RobotModel& robot, const std::vector<PairEntry>& list, bool defaultToo) {
   std::vector<Srdf::Pair> pairs;
   for (const PairEntry& entry : list) {
     if (entry.obstacle || entry.reason == PairReason::sometimes || entry.reason == PairReason::user) continue;
-    Srdf::Pair pair{robot.links[at(entry.link1)].name, robot.links[at(entry.link2)].name,
-                    srdfReason(entry.reason)};
+    if (entry.reason == PairReason::defaultClears && !defaultToo) continue;
+    Srdf::Pair pair{robot.links[at(entry.link1)].name, robot.links[at(entry.link2)].name, srdfReason(entry)};
     if (pair.link2 < pair.link1) std::swap(pair.link1, pair.link2);
     pairs.push_back(std::move(pair));
   }

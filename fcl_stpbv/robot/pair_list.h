@@ -12,45 +12,34 @@
 #include "fcl_stpbv/robot/checked_pairs.h"
 #include "fcl_stpbv/robot/kinematics.h"
 #include "fcl_stpbv/robot/link_geometry.h"
+#include "fcl_stpbv/robot/pair_reason.h"
 
 namespace fcl_stpbv {
-
-enum class PairReason {
-  sometimes,     ///< collides in some configuration, which is given; to be checked
-  adjacent,      ///< joined by a joint
-  byDefault,     ///< collides in the neutral configuration
-  always,        ///< collides in nearly every sample
-  user,          ///< left out by the user's SRDF
-  neverSampled,  ///< no collision in any sample, nor in descents from the closest ones
-  neverProven,   ///< no collision within the joint limits
-};
-
-/// "Adjacent", "Default", "Always", "User", "Never", or "" for a pair to be checked, as in an SRDF.
-const char* srdfReason(PairReason reason);
-/// For people and reports: "never (proven)" and the like.
-const char* reasonText(PairReason reason);
 
 struct PairListOptions {
   int samples = 2000;
   std::uint64_t seed = 1;
-  int descents = 3;   ///< from this many of a pair's closest samples
+  int descents = 3;  ///< from this many of a pair's closest samples
+  int randomDescents =
+      500;  ///< from this many random configurations, for a pair found clear so far and not proven
+  long proofBoxes = 200;    ///< looked at for each pair found clear so far
+  double proofSeconds = 0;  ///< time for further proofs in all; a pair that is not decided then stays sampled
   double margin = 0;  ///< a distance not above it is a collision (m); FCL's own answers are 0 at overlap
   double alwaysFraction = 0.95;  ///< of the samples in collision, as MoveIt has it
-  double proofSeconds = 0;       ///< time to spend on proofs in all; a pair that is not decided stays sampled
+  Eigen::VectorXd neutral;       ///< the neutral configuration; empty for Kinematics::neutral()
   int threads = 1;
   std::vector<Obstacle> obstacles;  ///< each is a pair with each link that joints or the base move
   std::function<void(std::size_t, std::size_t, const std::string&)> progress;
 };
 
-struct PairEntry {
-  int link1, link2;       ///< link2: index among the obstacles where that is what it is
-  bool obstacle = false;  ///< such an entry is never left out as adjacent or by default
+struct PairEntry : LinkPair {  ///< a pair with an obstacle is never left out as adjacent or by default
   PairReason reason = PairReason::sometimes;
   int samples = 0, collisions = 0;
   double minDistance = 0;   ///< least found (m); that of the neutral configuration where nothing was sampled
   Eigen::VectorXd closest;  ///< the configuration it was found in
   bool byDescent = false;   ///< found by a descent, not by a sample
   double neutralDistance = 0;          ///< in the neutral configuration (m)
+  long boxes = 0;                      ///< looked at by proofs
   double security = 0, influence = 0;  ///< proposed for an optimiser or a controller (m)
 
   /// With this confidence, 95 %, a random configuration collides with less than this probability: 3/n where
@@ -59,7 +48,7 @@ struct PairEntry {
 };
 
 /// All pairs of links that have bodies, then those with obstacles. Deterministic for a seed, but for proofs
-/// that their time cuts short.
+/// that `proofSeconds` cuts short.
 ///
 /// `srdf` (or null) gives the user's own entries, of the reason "User" and of enable_collisions; its other
 /// entries are found anew. @throws Error for a robot with more pairs than memory (4 GB) holds.
@@ -67,8 +56,15 @@ std::vector<PairEntry> pairList(std::shared_ptr<const Kinematics> kinematics,
                                 std::shared_ptr<const RobotGeometry> geometry, const Srdf* srdf,
                                 const PairListOptions& options = {});
 
+/// The pairs of bodies that such a list leaves to be checked where there is no SRDF.
+std::vector<CheckedPair> checkedPairs(const RobotGeometry& geometry, const std::vector<PairEntry>& list);
+
+/// How many pairs there are of each reason, such as "3 adjacent, 1 rigid".
+std::string countsOf(const std::vector<PairEntry>& list);
+
 /// The pairs of links to leave out, sorted by the links' names, for withPairs(). The user's own are not among
-/// them.
-std::vector<Srdf::Pair> toSrdf(const RobotModel& robot, const std::vector<PairEntry>& list);
+/// them. Those that collide in the neutral configuration and are clear in others only with `defaultToo`.
+std::vector<Srdf::Pair> toSrdf(const RobotModel& robot, const std::vector<PairEntry>& list,
+                               bool defaultToo = false);
 
 }  // namespace fcl_stpbv

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "fcl_stpbv/robot/joint_path.h"
+
 namespace fcl_stpbv {
 namespace {
 
@@ -17,14 +19,6 @@ double reachOf(const RobotGeometry& geometry, int link) {
   for (int i = first; i < last; ++i)
     reach = std::max(reach, geometry.bodies[at(i)].centre.norm() + geometry.bodies[at(i)].radius);
   return reach;
-}
-
-std::vector<int> jointsAbove(const RobotModel& robot, int link) {
-  std::vector<int> joints;
-  for (int j = robot.links[at(link)].parentJoint; j >= 0;
-       j = robot.links[at(robot.joints[at(j)].parent)].parentJoint)
-    joints.push_back(j);
-  return joints;
 }
 
 ConstraintOptions withObstacle(const Obstacle& obstacle) {
@@ -65,11 +59,7 @@ PairSearch::PairSearch(std::shared_ptr<const Kinematics> kinematics,
 // most the way along the links plus the body's reach. An obstacle is fixed to the root link.
 void PairSearch::boundSlopes(int link1, double reach1, int link2, double reach2) {
   const RobotModel& robot = kinematics_->robot();
-  std::vector<int> up1 = jointsAbove(robot, link1), up2 = jointsAbove(robot, link2);
-  while (!up1.empty() && !up2.empty() && up1.back() == up2.back()) {
-    up1.pop_back();
-    up2.pop_back();
-  }
+  const JointPath joints = jointPath(robot, link1, link2);
   struct Part {
     int joint;
     double length;
@@ -86,8 +76,7 @@ void PairSearch::boundSlopes(int link1, double reach1, int link2, double reach2)
     }
     return joint.origin.translation().norm() + slide;
   };
-  for (int j : up1) path.push_back({j, lengthOf(j)});
-  for (auto j = up2.rbegin(); j != up2.rend(); ++j) path.push_back({*j, lengthOf(*j)});
+  for (int j : joints.joints) path.push_back({j, lengthOf(j)});
   double total = 0;
   for (const Part& part : path) total += part.length;
 
@@ -98,7 +87,7 @@ void PairSearch::boundSlopes(int link1, double reach1, int link2, double reach2)
         lipschitz_[k] = std::numeric_limits<double>::infinity();
   double before = 0;  // from link1 to this part
   for (std::size_t i = 0; i < path.size(); ++i) {
-    const bool on1 = i < up1.size();  // the joint's child is then on the side of link1
+    const bool on1 = i < joints.up;  // the joint's child is then on the side of link1
     const JointModel& joint = robot.joints[at(path[i].joint)];
     const double to1 = before + (on1 ? 0 : path[i].length) + reach1;
     const double to2 = total - before - (on1 ? 0 : path[i].length) + reach2;
@@ -124,13 +113,6 @@ double PairSearch::distance(const Eigen::VectorXd& q) {
   return d_.minCoeff();
 }
 
-// Of the distance where it was last asked for: below it where a query was not solved to rounding.
-double PairSearch::lowerBound() const {
-  double least = std::numeric_limits<double>::infinity();
-  for (int row = 0; row < constraints_.rows(); ++row) least = std::min(least, constraints_.answer(row).lower);
-  return least;
-}
-
 double PairSearch::distanceAndGradient(const Eigen::VectorXd& q) {
   constraints_.evaluateValues(q, d_, values_);
   Eigen::Index row;
@@ -142,23 +124,25 @@ double PairSearch::distanceAndGradient(const Eigen::VectorXd& q) {
   return least;
 }
 
-double PairSearch::descend(Eigen::VectorXd& q, double margin) {
+// Projected steps along the gradient, `sign` -1 downhill and 1 uphill.
+template <class Arrived>
+double PairSearch::follow(Eigen::VectorXd& q, double sign, Arrived arrived) {
   constexpr int kSteps = 200;
-  constexpr double kEnough = 1e-6;  // m; a descent that gains less than this has arrived
+  constexpr double kEnough = 1e-6;  // m; steps that gain less than this have arrived
   double step = 0.1, d = distanceAndGradient(q);
-  for (int i = 0; i < kSteps && d > margin; ++i) {
-    const Eigen::VectorXd slope = gradient_;
+  for (int i = 0; i < kSteps && !arrived(d); ++i) {
+    const Eigen::VectorXd slope = sign * gradient_;
     if (!(slope.norm() > 1e-12)) break;
     bool better = false;
     for (int half = 0; half < 30 && !better; ++half) {
       const Eigen::VectorXd next =
-          (q - step / slope.norm() * slope).cwiseMax(kinematics_->lower()).cwiseMin(kinematics_->upper());
+          (q + step / slope.norm() * slope).cwiseMax(kinematics_->lower()).cwiseMin(kinematics_->upper());
       const double there = distanceAndGradient(next);
-      const double promised = slope.dot(q - next);
+      const double promised = slope.dot(next - q);
       if (promised <= 0) return d;  // held by the limits
-      if (there < d - 1e-4 * promised) {
+      const double gain = sign * (there - d);
+      if (gain > 1e-4 * promised) {
         better = true;
-        const double gain = d - there;
         q = next;
         d = there;
         step = std::min(1.0, step * 2);
@@ -172,45 +156,12 @@ double PairSearch::descend(Eigen::VectorXd& q, double margin) {
   return d;
 }
 
-PairSearch::Proof PairSearch::prove(double margin, std::chrono::steady_clock::time_point until,
-                                    Eigen::VectorXd& q) {
-  for (double slope : lipschitz_)
-    if (!std::isfinite(slope)) return Proof::undecided;
-  struct Box {
-    Eigen::VectorXd middle, half;
-  };
-  const Eigen::Index size = static_cast<Eigen::Index>(coordinates_.size());
-  Box all{Eigen::VectorXd(size), Eigen::VectorXd(size)};
-  for (Eigen::Index k = 0; k < size; ++k) {
-    const int c = coordinates_[static_cast<std::size_t>(k)];
-    all.middle[k] = (kinematics_->lower()[c] + kinematics_->upper()[c]) / 2;
-    all.half[k] = (kinematics_->upper()[c] - kinematics_->lower()[c]) / 2;
-  }
-  const Eigen::Map<const Eigen::VectorXd> slopes(lipschitz_.data(), size);
-  Eigen::VectorXd at = kinematics_->neutral();
-  std::vector<Box> open{all};
-  while (!open.empty()) {
-    if (std::chrono::steady_clock::now() >= until) return Proof::undecided;
-    Box box = std::move(open.back());
-    open.pop_back();
-    for (Eigen::Index k = 0; k < size; ++k) at[coordinates_[static_cast<std::size_t>(k)]] = box.middle[k];
-    const double d = distance(at);
-    if (d <= margin) {
-      q = at;
-      return Proof::collision;
-    }
-    Eigen::Index widest = 0;
-    const Eigen::VectorXd change = slopes.cwiseProduct(box.half);
-    if (lowerBound() - change.sum() > margin) continue;
-    change.maxCoeff(&widest);
-    box.half[widest] /= 2;
-    Box other = box;
-    box.middle[widest] -= box.half[widest];
-    other.middle[widest] += box.half[widest];
-    open.push_back(std::move(box));
-    open.push_back(std::move(other));
-  }
-  return Proof::clear;
+double PairSearch::descend(Eigen::VectorXd& q, double margin) {
+  return follow(q, -1, [margin](double d) { return d <= margin; });
+}
+
+double PairSearch::climb(Eigen::VectorXd& q, double margin) {
+  return follow(q, 1, [margin](double d) { return d > margin; });
 }
 
 }  // namespace fcl_stpbv

@@ -1,9 +1,8 @@
-// The least distance of one pair of links, or of a link and an obstacle, over the joint box: descent, and a
-// proof by branch and bound.
+// The distance of one pair of links, or of a link and an obstacle, as a function of the joints between them:
+// where it is least and largest nearby, and how fast it can change.
 #pragma once
 
 #include <Eigen/Core>
-#include <chrono>
 #include <memory>
 #include <vector>
 
@@ -14,8 +13,6 @@ namespace fcl_stpbv {
 /// One pair as a function of the coordinates between them.
 class PairSearch {
  public:
-  enum class Proof { clear, collision, undecided };
-
   PairSearch(std::shared_ptr<const Kinematics> kinematics, std::shared_ptr<const RobotGeometry> geometry,
              int link1, int link2);
   /// A link and something that stands still.
@@ -29,21 +26,25 @@ class PairSearch {
   /// more. Gives the distance reached; q becomes where.
   double descend(Eigen::VectorXd& q, double margin);
 
-  /// Whether the distance exceeds `margin` all over the joint box: cut into boxes until in each the distance
-  /// at the middle, less what the joints can change it by within the box, exceeds it (a Lipschitz bound:
-  /// docs/robot.md). On `collision` q is one.
-  Proof prove(double margin, std::chrono::steady_clock::time_point until, Eigen::VectorXd& q);
+  /// The same uphill, until the distance exceeds `margin` or grows no more.
+  double climb(Eigen::VectorXd& q, double margin);
 
   /// Bound on the change of the distance per unit of each coordinate between the links, infinite where there
   /// is none.
   const std::vector<double>& lipschitz() const { return lipschitz_; }
   const std::vector<int>& coordinates() const { return coordinates_; }
 
+  /// With the answers of the last distance asked for.
+  const CollisionConstraints& constraints() const { return constraints_; }
+  /// Makes the next distance independent of those before, to the last bit.
+  void forget() { constraints_.forget(); }
+
  private:
   PairSearch(std::shared_ptr<const Kinematics> kinematics, std::shared_ptr<const RobotGeometry> geometry,
              std::vector<CheckedPair> pairs, ConstraintOptions options);
   double distanceAndGradient(const Eigen::VectorXd& q);
-  double lowerBound() const;
+  template <class Arrived>
+  double follow(Eigen::VectorXd& q, double sign, Arrived arrived);
   void boundSlopes(int link1, double reach1, int link2, double reach2);
 
   std::shared_ptr<const Kinematics> kinematics_;

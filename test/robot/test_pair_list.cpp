@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 
+#include "fcl_stpbv/robot/neutral_posture.h"
 #include "fcl_stpbv/robot/pair_list.h"
 #include "fcl_stpbv/robot/pair_search.h"
 #include "test/reference/robots.h"
@@ -121,6 +122,7 @@ TEST_CASE("what is proven never stays apart in samples and descents of another s
     INFO(robot.name);
     PairListOptions options;
     options.samples = 200;
+    options.randomDescents = 0;
     const auto isProven = [](const PairEntry& entry) { return entry.reason == PairReason::neverProven; };
     std::vector<PairEntry> list;
     std::ptrdiff_t proven = 0;
@@ -183,6 +185,7 @@ TEST_CASE("the list is the same for the same seed, sorted, and keeps the user's 
   const Srdf srdf = loadSrdf(robot.srdf, *loaded.model);
   PairListOptions options;
   options.samples = 100;
+  options.randomDescents = 20;
   const std::vector<PairEntry> once = pairList(arm.kinematics, arm.geometry, &srdf, options);
   options.threads = 2;
   const std::vector<PairEntry> again = pairList(arm.kinematics, arm.geometry, &srdf, options);
@@ -198,4 +201,116 @@ TEST_CASE("the list is the same for the same seed, sorted, and keeps the user's 
   for (std::size_t i = 1; i < pairs.size(); ++i)
     CHECK(std::make_pair(pairs[i - 1].link1, pairs[i - 1].link2) <
           std::make_pair(pairs[i].link1, pairs[i].link2));
+}
+
+namespace {
+
+// A ball, a bar that turns about its middle, a ball on the bar that touches the first one at zero and swings
+// away, and one that stays in the first one however it turns.
+Arm folded() {
+  const auto turn = [](const std::string& name, const std::string& parent, const std::string& child,
+                       const std::string& origin) {
+    return joint(name, "revolute", parent, child, "<origin xyz=\"" + origin + "\"/><axis xyz=\"0 0 1\"/>");
+  };
+  const auto ball = [](const std::string& radius) { return "<sphere radius=\"" + radius + "\"/>"; };
+  const std::string bar = "<box size=\"0.6 0.02 0.02\"/>";
+  const std::string text = robot(
+      link("a", ball("0.1")) + link("b", bar) + link("elbow") + link("c", ball("0.05")) +
+      link("d", ball("0.05")) + turn("j1", "a", "b", "0 0 0") + turn("j2", "b", "elbow", "0.3 0 0") +
+      joint("j3", "fixed", "elbow", "c", "<origin xyz=\"-0.25 0 0\"/>") + turn("j4", "b", "d", "0 0 0.05"));
+  const auto model = std::make_shared<const RobotModel>(parseUrdf(text, "folded.urdf"));
+  GeometryOptions options;
+  options.cacheFolder.clear();
+  return armFrom(model, loadGeometry(*model, options));
+}
+
+const PairEntry& entryOf(const Arm& arm, const std::vector<PairEntry>& list, const std::string& one,
+                         const std::string& other) {
+  const RobotModel& robot = arm.kinematics->robot();
+  const int a = robot.link(one), b = robot.link(other);
+  return *std::find_if(list.begin(), list.end(), [&](const PairEntry& e) {
+    return !e.obstacle && ((e.link1 == a && e.link2 == b) || (e.link1 == b && e.link2 == a));
+  });
+}
+
+}  // namespace
+
+TEST_CASE("what collides in the neutral posture stays checked where some posture clears it") {
+  const Arm arm = folded();
+  for (const int samples : {1, 50}) {  // one sample leaves it to the climb
+    PairListOptions options;
+    options.samples = samples;
+    const std::vector<PairEntry> list = pairList(arm.kinematics, arm.geometry, nullptr, options);
+    CHECK(entryOf(arm, list, "a", "c").reason == PairReason::defaultClears);
+    CHECK(entryOf(arm, list, "a", "d").reason == PairReason::byDefault);
+    const auto writes = [&](bool defaultToo, const std::string& other) {
+      const std::vector<Srdf::Pair> pairs = toSrdf(arm.kinematics->robot(), list, defaultToo);
+      return std::count_if(pairs.begin(), pairs.end(), [&](const Srdf::Pair& p) {
+        return p.link1 == "a" && p.link2 == other && p.reason == "Default";
+      });
+    };
+    CHECK(writes(false, "c") == 0);
+    CHECK(writes(true, "c") == 1);
+    CHECK(writes(false, "d") == 1);
+    const std::vector<CheckedPair> checked = checkedPairs(*arm.geometry, list);
+    CHECK(std::any_of(checked.begin(), checked.end(), [&](const CheckedPair& pair) {
+      return arm.geometry->bodies[static_cast<std::size_t>(pair.body)].name == "a" &&
+             arm.geometry->bodies[static_cast<std::size_t>(pair.other)].name == "c";
+    }));
+  }
+}
+
+TEST_CASE("another neutral posture is another default, and a better one is suggested") {
+  const Arm arm = folded();
+  PairListOptions options;
+  options.samples = 50;
+  options.neutral = arm.kinematics->neutral();
+  options.neutral[arm.kinematics->coordinate("j2")] = 1;
+  const std::vector<PairEntry> list = pairList(arm.kinematics, arm.geometry, nullptr, options);
+  CHECK(entryOf(arm, list, "a", "c").reason == PairReason::sometimes);
+  Srdf srdf;
+  srdf.states = {{"open", "arm", {{"j2", {1.0}}}}};
+  const NeutralPosture zero =
+      judgeNeutral(arm.kinematics, arm.geometry, list, arm.kinematics->neutral(), &srdf, 0);
+  CHECK(zero.state == "open");
+  CHECK(zero.collidingThere < zero.colliding);
+  const NeutralPosture bare =
+      judgeNeutral(arm.kinematics, arm.geometry, list, arm.kinematics->neutral(), nullptr, 0);
+  CHECK(bare.state.empty());
+  CHECK(bare.collidingThere == zero.collidingThere);
+  REQUIRE(bare.better.size() == arm.kinematics->size());
+  CHECK(judgeNeutral(arm.kinematics, arm.geometry, list, bare.better, nullptr, 0).colliding ==
+        bare.collidingThere);
+}
+
+TEST_CASE(
+    "collisions in far corners of the joints' ranges are found with the default options, whatever the seed") {
+  const TestRobot robot = robots()[0];
+  LoadedRobot loaded = load(robot);
+  const Arm arm = armFrom(loaded.model, std::move(loaded.geometry));
+  const std::vector<std::pair<std::string, std::string>> rare{{"RLEG_LINK5", "CHEST_LINK1"},
+                                                              {"LLEG_LINK5", "CHEST_LINK1"},
+                                                              {"RLEG_LINK1", "LARM_LINK4"},
+                                                              {"RLEG_LINK3", "HEAD_LINK1"}};
+  const auto isRare = [&](const std::string& a, const std::string& b) {
+    return std::any_of(rare.begin(), rare.end(), [&](const auto& pair) {
+      return (pair.first == a && pair.second == b) || (pair.first == b && pair.second == a);
+    });
+  };
+  Srdf srdf;  // these pairs only
+  for (const LinkModel& one : loaded.model->links)
+    for (const LinkModel& other : loaded.model->links)
+      if (!isRare(one.name, other.name)) srdf.disabled.push_back({one.name, other.name, "User"});
+  for (const std::uint64_t seed : {1, 2, 3, 4, 5}) {
+    PairListOptions options;
+    options.seed = seed;
+    const std::vector<PairEntry> list = pairList(arm.kinematics, arm.geometry, &srdf, options);
+    for (const auto& [one, other] : rare) {
+      INFO(one << " - " << other << ", seed " << seed);
+      const PairEntry& entry = entryOf(arm, list, one, other);
+      CHECK(entry.reason == PairReason::sometimes);
+      PairSearch search(arm.kinematics, arm.geometry, entry.link1, entry.link2);
+      CHECK(search.distance(entry.closest) <= 0);
+    }
+  }
 }

@@ -15,6 +15,8 @@ import unittest
 PROGRAM, SOURCE = sys.argv[1:3]
 ROBOT = os.path.join(SOURCE, "data/hrp2_style/hrp2_style")
 FRIDGE = os.path.join(SOURCE, "data/fridge")
+ARM = os.path.join(SOURCE, "test/tools/six_joint_arm.urdf")
+REACH = os.path.join(SOURCE, "test/tools/reach.json")
 
 
 def page_data(page):
@@ -113,6 +115,45 @@ class FindPosture(unittest.TestCase):
         self.assertEqual(self.run_tool().returncode, 2)
         self.assertEqual(self.run_task(self.pick_can(), "--format", "xml").returncode, 2)
         self.assertEqual(self.run_tool("--help").returncode, 0)
+
+    def arm(self, collisions):
+        with open(REACH, encoding="utf-8") as file:
+            task = json.load(file)
+        task["collisions"] = collisions
+        path = os.path.join(self.folder.name, "reach.json")
+        with open(path, "w", encoding="utf-8") as file:
+            json.dump(task, file)
+        return path
+
+    def test_an_arm_is_posed_from_its_bare_urdf(self):
+        run = self.run_tool(ARM, REACH, "--format", "json")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        answer = json.loads(run.stdout)
+        self.assertIs(answer["feasible"], True)
+        # 21 pairs; six are adjacent, and the flange cannot leave the first part of the wrist.
+        self.assertEqual(answer["pairs"], 14)
+
+    def test_a_task_ignores_pairs_of_links(self):
+        def pairs(ignore):
+            run = self.run_tool(ARM, self.arm({"ignore": ignore}), "--format", "json")
+            self.assertEqual(run.returncode, 0, run.stderr)
+            return json.loads(run.stdout)["pairs"]
+        self.assertEqual(pairs([{"links": ["base"], "self": ["forearm"]}]), 13)
+        self.assertEqual(pairs([{"links": ["forearm"], "self": ["base"]}]), 13)
+        self.assertEqual(pairs([{"links": ["base"], "self": []}]), 14 - 5)
+        wrong = self.run_tool(ARM, self.arm({"ignore": [{"links": ["base"]}, {"self": ["nobody"]}]}))
+        self.assertEqual(wrong.returncode, 2)
+        self.assertIn("collisions.ignore[1].self", wrong.stderr)
+
+    def test_nothing_to_check_is_no_answer(self):
+        out = os.path.join(self.folder.name, "posture.json")
+        for none in ({"self": False}, {"ignore": [{"self": []}]}):
+            run = self.run_tool(ARM, self.arm(none), "-o", out)
+            self.assertEqual(run.returncode, 2)
+            self.assertIn("no pair of bodies is checked", run.stderr)
+            self.assertIn("six_joint_arm.urdf", run.stderr)
+            self.assertFalse(os.path.exists(out))
+        self.assertEqual(self.run_tool(ARM, self.arm({"self": False}), "--ignore-collisions").returncode, 0)
 
     def test_the_fridge_is_what_its_script_writes(self):
         run = subprocess.run([sys.executable, f"{FRIDGE}/make_fridge.py", "--check"], capture_output=True, text=True)

@@ -22,8 +22,8 @@ def link(name, geometry=""):
     return f'<link name="{name}">{shape}</link>'
 
 
-def joint(name, parent, child, kind="revolute"):
-    return (f'<joint name="{name}" type="{kind}"><parent link="{parent}"/><child link="{child}"/>'
+def joint(name, parent, child, kind="revolute", origin="0 0 0"):
+    return (f'<joint name="{name}" type="{kind}"><parent link="{parent}"/><child link="{child}"/><origin xyz="{origin}"/>'
             '<limit lower="-1" upper="1" effort="1" velocity="1"/></joint>')
 
 
@@ -182,10 +182,55 @@ class Report(unittest.TestCase):
     def test_overlapping_primitives_are_a_collision(self):
         box = '<box size="1 1 1"/>'
         urdf = self.robot(link("a", box) + link("b") + link("c", box) + link("d", box)
-                          + joint("j1", "a", "b") + joint("j2", "b", "c") + joint("j3", "c", "d"))
+                          + joint("j1", "a", "b") + joint("j2", "b", "c") + joint("j3", "c", "d")
+                          + link("far", box) + joint("j4", "d", "far", origin="9 0 0"))
         report = json.loads(self.run_tool(urdf, "--format", "json", "--samples", "10").stdout)
         reasons = {(p["link1"], p["link2"]): p["reason"] for p in report["pairs"]}
         self.assertEqual(reasons[("a", "d")], "default")
+
+    def test_nothing_checked_is_not_clear(self):
+        ball = '<sphere radius="0.1"/>'
+        urdf = self.robot(link("a", ball) + link("b", ball) + joint("j", "a", "b"))
+        output = os.path.join(self.folder.name, "out")
+        for form in ("text", "json", "csv", "srdf", "html"):
+            done = self.run_tool(urdf, "--format", form, "-o", output)
+            self.assertEqual(done.returncode, 2, form)
+            self.assertIn("no pair of bodies is checked (1 adjacent)", done.stderr)
+            self.assertIn(urdf, done.stderr)
+            self.assertFalse(os.path.exists(output))
+        everything = self.put("all.srdf", '<robot name="small"><disable_collisions link1="a" link2="b" reason="User"/></robot>')
+        self.assertEqual(self.run_tool(urdf, "--srdf", everything).returncode, 2)
+
+    def folded(self):
+        """A ball, a bar that turns about its middle, and a ball at the bar's end that is folded back into the first one."""
+        return self.robot(link("a", '<sphere radius="0.1"/>') + link("b", '<box size="0.02 0.6 0.02"/>') + link("elbow")
+                          + link("c", '<sphere radius="0.05"/>') + joint("j1", "a", "b") + joint("j2", "b", "elbow", origin="0 0.3 0")
+                          + joint("j3", "elbow", "c", "fixed", "0 -0.25 0"))
+
+    def test_a_default_pair_that_clears_elsewhere_stays_checked_unless_asked_for(self):
+        urdf = self.folded()
+        report = json.loads(self.run_tool(urdf, "--format", "json").stdout)
+        pair = {(p["link1"], p["link2"]): p for p in report["pairs"]}[("a", "c")]
+        self.assertEqual((pair["reason"], pair["checked"]), ("default (clears elsewhere)", True))
+        self.assertNotIn("Default", self.run_tool(urdf, "--format", "srdf").stdout)
+        self.assertIn('link1="a" link2="c" reason="Default"', self.run_tool(urdf, "--format", "srdf", "--disable-default").stdout)
+        rows = list(csv.DictReader(io.StringIO(self.run_tool(urdf, "--format", "csv").stdout)))
+        self.assertIn("default (clears elsewhere)", [row["reason"] for row in rows])
+
+    def test_a_neutral_posture_in_collision_is_told_with_a_better_one(self):
+        urdf = self.folded()
+        states = self.put("states.srdf", '<robot name="small"><group name="all"/><group_state name="open" group="all">'
+                          '<joint name="j2" value="1"/></group_state></robot>')
+        done = self.run_tool(urdf, "--srdf", states)
+        self.assertIn("give --neutral open", done.stderr)
+        again = self.run_tool(urdf, "--srdf", states, "--neutral", "open", "--format", "json")
+        self.assertNotIn("neutral", again.stderr)
+        self.assertEqual({p["reason"] for p in json.loads(again.stdout)["pairs"]}, {"adjacent", "sometimes"})
+        bare = json.loads(self.run_tool(urdf, "--format", "json").stdout)
+        self.assertEqual((bare["neutral"]["colliding"], bare["neutral"]["better_colliding"]), (1, 0))
+        better = self.put("better.json", json.dumps(bare["neutral"]["better"]))
+        self.assertEqual(json.loads(self.run_tool(urdf, "--neutral", better, "--format", "json").stdout)["neutral"]["colliding"], 0)
+        self.assertEqual(self.run_tool(urdf, "--neutral", "nowhere").returncode, 2)
 
     def test_what_cannot_be_read_exits_with_2_and_one_clear_message(self):
         bomb = '<!DOCTYPE r [<!ENTITY a "aa"><!ENTITY b "&a;&a;">]><robot name="x">&b;</robot>'
@@ -228,7 +273,7 @@ class Report(unittest.TestCase):
     def test_meshes_are_compared_with_the_polyhedra_published_for_them(self):
         mesh = '<mesh filename="file://%s"/>'
         robot = self.robot(link("a", mesh % self.box("first.obj", 0.1)) + link("b", mesh % self.box("second.obj", 0.1))
-                           + joint("j", "a", "b") + link("c", '<box size="1 1 1"/>') + joint("k", "b", "c"))
+                           + joint("j", "a", "b") + link("c", '<box size="1 1 1"/>') + joint("k", "b", "c", origin="9 0 0"))
         os.mkdir(os.path.join(self.folder.name, "published"))
         corners = [(x, y, z) for x in (-0.1, 0.1) for y in (-0.1, 0.1) for z in (-0.1, 0.101)]
         corners.append((0, 0, 0))  # inside: no vertex

@@ -1,0 +1,34 @@
+// What docs/proofs.md shows, for the robot in data/hrp2_style: run in that folder.
+#include <cstdio>
+#include <exception>
+
+#include "fcl_stpbv/robot/pair_proof.h"
+
+using namespace fcl_stpbv;
+
+namespace {
+
+int run() {
+  const auto robot = std::make_shared<const RobotModel>(loadUrdf("hrp2_style.urdf"));
+  const auto geometry = std::make_shared<const RobotGeometry>(loadGeometry(*robot));
+  const auto kinematics = std::make_shared<const Kinematics>(robot);
+  // clang-format off
+const ProofScene scene = proofScene(kinematics, geometry, {}, 0.0);   // once for all pairs
+const LinkPair pair{robot->link("BODY"), robot->link("HEAD_LINK1")};
+PairProof proof = unproven(scene, pair);                              // one box: all joints' ranges
+while (!proof.open.empty()) proof = provePair(scene, pair, proof.open, 1000);
+  // clang-format on
+  std::printf("%s\n", proof.proven() ? "proven" : "collides");
+  return proof.proven() ? 0 : 1;
+}
+
+}  // namespace
+
+int main() {
+  try {
+    return run();
+  } catch (const std::exception& e) {
+    std::fprintf(stderr, "%s\n", e.what());
+    return 1;
+  }
+}

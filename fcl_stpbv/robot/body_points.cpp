@@ -1,0 +1,89 @@
+// See body_points.h.
+#include "fcl_stpbv/robot/body_points.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fcl_stpbv/adapter/fcl_shapes.h"
+#include "fcl_stpbv/adapter/stp_bv_geometry.h"
+#include "fcl_stpbv/volume/measure.h"
+
+namespace fcl_stpbv {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr int kRimCorners = 24;  // a polygon around a rim is then 0.9 % wider than it
+
+void addRim(double radius, double z, std::vector<Vector3d>& points) {
+  const double around = radius / std::cos(M_PI / kRimCorners);
+  for (int k = 0; k < kRimCorners; ++k) {
+    const double angle = 2 * M_PI * k / kRimCorners;
+    points.emplace_back(around * std::cos(angle), around * std::sin(angle), z);
+  }
+}
+
+void addBox(const Vector3d& half, std::vector<Vector3d>& points) {
+  for (int k = 0; k < 8; ++k)
+    points.emplace_back(k & 1 ? half.x() : -half.x(), k & 2 ? half.y() : -half.y(),
+                        k & 4 ? half.z() : -half.z());
+}
+
+std::vector<Vector3d> cornersOf(const Shape& shape) {
+  std::vector<Vector3d> points;
+  switch (shape.kind) {
+    case ShapeKind::point:
+      points.emplace_back(0, 0, 0);
+      break;
+    case ShapeKind::segment:
+      points = {Vector3d(0, 0, -shape.half), Vector3d(0, 0, shape.half)};
+      break;
+    case ShapeKind::box:
+    case ShapeKind::ellipsoid:
+      addBox(shape.size, points);
+      break;
+    case ShapeKind::triangle:
+      points.assign(shape.corner.begin(), shape.corner.end());
+      break;
+    case ShapeKind::polytope:
+      points.assign(shape.vertices, shape.vertices + shape.vertexCount);
+      break;
+    case ShapeKind::cylinder:
+      addRim(shape.radius, -shape.half, points);
+      addRim(shape.radius, shape.half, points);
+      break;
+    case ShapeKind::cone:
+      addRim(shape.radius, -shape.half, points);
+      points.emplace_back(0, 0, shape.half);
+      break;
+    default:  // unbounded
+      break;
+  }
+  return points;
+}
+
+}  // namespace
+
+std::optional<BodyPoints> bodyPoints(const fcl::CollisionGeometryd& geometry, const Eigen::Isometry3d& pose) {
+  BodyPoints body;
+  Shape shape;
+  if (const StpBvGeometry* smooth = asStpBv(&geometry)) {
+    body.points = smooth->volume().vertices();
+    body.radius = overCover(smooth->volume()).max;
+  } else if (shapeOf(geometry, shape)) {
+    body.points = cornersOf(shape);
+    body.radius = shape.margin;
+  }
+  if (body.points.empty()) return std::nullopt;
+  Vector3d low = Vector3d::Constant(INFINITY), high = -low;
+  for (Vector3d& point : body.points) {
+    point = pose * point;
+    low = low.cwiseMin(point);
+    high = high.cwiseMax(point);
+  }
+  body.centre = (low + high) / 2;
+  for (const Vector3d& point : body.points) body.reach = std::max(body.reach, (point - body.centre).norm());
+  return body;
+}
+
+}  // namespace fcl_stpbv

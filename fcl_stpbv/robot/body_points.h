@@ -1,0 +1,25 @@
+// A body as points with a ball around each: their convex hull holds it, so that what clears these clears the
+// body.
+#pragma once
+
+#include <fcl/geometry/collision_geometry.h>
+
+#include <Eigen/Geometry>
+#include <optional>
+#include <vector>
+
+namespace fcl_stpbv {
+
+struct BodyPoints {
+  std::vector<Eigen::Vector3d> points;  ///< at least one (m)
+  double radius = 0;                    ///< of the ball around each (m)
+  Eigen::Vector3d centre{0, 0, 0};      ///< of a sphere that holds the points
+  double reach = 0;                     ///< its radius (m)
+};
+
+/// An STP-BV by its vertices and its largest over-cover, a polyhedron by its vertices, a sphere and a capsule
+/// exactly, a cylinder and a cone by polygons around their rims, an ellipsoid by its box. Nothing for meshes,
+/// trees and what is unbounded. In the frame that `pose` leads to.
+std::optional<BodyPoints> bodyPoints(const fcl::CollisionGeometryd& geometry, const Eigen::Isometry3d& pose);
+
+}  // namespace fcl_stpbv

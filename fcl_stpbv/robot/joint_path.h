@@ -1,0 +1,21 @@
+// The joints between two links of a robot's tree.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "fcl_stpbv/robot/robot_model.h"
+
+namespace fcl_stpbv {
+
+/// Joints from one link up to where the ways to the root meet, then down to the other one. Fixed joints are
+/// among them.
+struct JointPath {
+  std::vector<int> joints;
+  std::size_t up =
+      0;  ///< this many at the front are passed from child to parent, the others from parent to child
+};
+
+JointPath jointPath(const RobotModel& robot, int link1, int link2);
+
+}  // namespace fcl_stpbv

@@ -1,0 +1,40 @@
+// See neutral_posture.h.
+#include "fcl_stpbv/robot/neutral_posture.h"
+
+#include <random>
+
+#include "fcl_stpbv/robot/pair_samples.h"
+
+namespace fcl_stpbv {
+
+NeutralPosture judgeNeutral(std::shared_ptr<const Kinematics> kinematics,
+                            std::shared_ptr<const RobotGeometry> geometry, const std::vector<PairEntry>& list,
+                            const Eigen::VectorXd& neutral, const Srdf* srdf, double margin) {
+  constexpr int kRandom = 200;  // some 0.1 s for a humanoid
+  std::vector<LinkPair> pairs;
+  for (const PairEntry& entry : list)
+    if (!entry.obstacle && entry.reason != PairReason::adjacent && entry.reason != PairReason::rigid)
+      pairs.push_back(entry);
+  PairSampler sampler(kinematics, geometry, pairs, {}, 1);
+  const auto collidingAt = [&](const Eigen::VectorXd& q) {
+    return static_cast<int>((sampler.distances(q).array() <= margin).count());
+  };
+  NeutralPosture found;
+  found.colliding = collidingAt(neutral);
+  found.collidingThere = found.colliding;
+  const auto consider = [&](const Eigen::VectorXd& q, const std::string& state) {
+    if (found.collidingThere == 0) return;
+    const int colliding = collidingAt(q);
+    if (colliding >= found.collidingThere) return;
+    found.collidingThere = colliding;
+    found.better = q;
+    found.state = state;
+  };
+  if (srdf)
+    for (const Srdf::State& state : srdf->states) consider(kinematics->configuration(state), state.name);
+  std::mt19937_64 random(1);
+  for (int i = 0; i < kRandom; ++i) consider(randomConfiguration(*kinematics, random), "");
+  return found;
+}
+
+}  // namespace fcl_stpbv

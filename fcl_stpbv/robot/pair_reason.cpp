@@ -1,0 +1,35 @@
+// See pair_reason.h.
+#include "fcl_stpbv/robot/pair_reason.h"
+
+namespace fcl_stpbv {
+
+const char* reasonText(PairReason reason) {
+  switch (reason) {
+    case PairReason::sometimes:
+      return "sometimes";
+    case PairReason::adjacent:
+      return "adjacent";
+    case PairReason::rigid:
+      return "rigid";
+    case PairReason::byDefault:
+      return "default";
+    case PairReason::defaultClears:
+      return "default (clears elsewhere)";
+    case PairReason::always:
+      return "always";
+    case PairReason::user:
+      return "user";
+    case PairReason::neverSampled:
+      return "never (sampled)";
+    case PairReason::neverProven:
+      return "never (proven)";
+  }
+  return "";
+}
+
+bool checkedWithoutSrdf(PairReason reason) {
+  return reason == PairReason::sometimes || reason == PairReason::defaultClears ||
+         reason == PairReason::neverSampled || reason == PairReason::neverProven;
+}
+
+}  // namespace fcl_stpbv

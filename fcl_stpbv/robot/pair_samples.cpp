@@ -1,0 +1,93 @@
+// See pair_samples.h.
+#include "fcl_stpbv/robot/pair_samples.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace fcl_stpbv {
+namespace {
+
+using Eigen::Index;
+
+std::vector<CheckedPair> allBodies(const RobotGeometry& geometry, const std::vector<LinkPair>& pairs) {
+  std::vector<CheckedPair> bodies;
+  for (const LinkPair& pair : pairs)
+    for (const CheckedPair& both : bodiesOf(geometry, pair)) bodies.push_back(both);
+  return bodies;
+}
+
+ConstraintOptions optionsOf(const std::vector<Obstacle>& obstacles, int threads) {
+  ConstraintOptions options;
+  options.obstacles = obstacles;
+  options.threads = threads;
+  return options;
+}
+
+// Keeps the closest `keep` of the distances noted.
+void note(double distance, const Eigen::VectorXd& q, std::size_t keep, PairSamples& pair) {
+  auto& closest = pair.closest;
+  if (closest.size() == keep && distance >= closest.back().first) return;
+  const auto place = std::upper_bound(closest.begin(), closest.end(), distance,
+                                      [](double value, const auto& item) { return value < item.first; });
+  closest.insert(place, {distance, q});
+  if (closest.size() > keep) closest.pop_back();
+}
+
+}  // namespace
+
+Eigen::VectorXd randomConfiguration(const Kinematics& kinematics, std::mt19937_64& random) {
+  Eigen::VectorXd q(kinematics.size());
+  for (Index i = 0; i < q.size(); ++i) {
+    const double low = std::isfinite(kinematics.lower()[i]) ? kinematics.lower()[i] : -1;
+    const double high = std::isfinite(kinematics.upper()[i]) ? kinematics.upper()[i] : 1;
+    // Without the standard library's distributions, which differ from one to another.
+    q[i] = low + static_cast<double>(random() >> 11) * 0x1p-53 * (high - low);
+  }
+  return q;
+}
+
+PairSampler::PairSampler(std::shared_ptr<const Kinematics> kinematics,
+                         std::shared_ptr<const RobotGeometry> geometry, const std::vector<LinkPair>& pairs,
+                         const std::vector<Obstacle>& obstacles, int threads)
+    : kinematics_(kinematics),
+      constraints_(kinematics, geometry, allBodies(*geometry, pairs), optionsOf(obstacles, threads)),
+      rows_(constraints_.rows()),
+      least_(static_cast<Index>(pairs.size())) {
+  for (std::size_t p = 0; p < pairs.size(); ++p)
+    pairOf_.insert(pairOf_.end(), bodiesOf(*geometry, pairs[p]).size(), static_cast<Index>(p));
+}
+
+const Eigen::VectorXd& PairSampler::distances(const Eigen::VectorXd& q) {
+  constraints_.evaluate(q, rows_);
+  least_.setConstant(std::numeric_limits<double>::infinity());
+  for (Index row = 0; row < rows_.size(); ++row) {
+    double& value = least_[pairOf_[static_cast<std::size_t>(row)]];
+    value = std::min(value, rows_[row]);
+  }
+  return least_;
+}
+
+std::vector<PairSamples> PairSampler::sample(int count, std::uint64_t seed, double margin, int keep,
+                                             const std::function<void(int)>& progress) {
+  std::vector<PairSamples> found(static_cast<std::size_t>(least_.size()));
+  std::mt19937_64 random(seed);
+  for (int s = 0; s < count && !found.empty(); ++s) {
+    if (s % 50 == 0) progress(s);
+    const Eigen::VectorXd q = randomConfiguration(*kinematics_, random);
+    distances(q);
+    for (std::size_t p = 0; p < found.size(); ++p) {
+      PairSamples& pair = found[p];
+      const double d = least_[static_cast<Index>(p)];
+      ++pair.samples;
+      pair.collisions += d <= margin;
+      note(d, q, static_cast<std::size_t>(std::max(1, keep)), pair);
+      if (pair.farthest.size() == 0 || d > pair.largest) {
+        pair.largest = d;
+        pair.farthest = q;
+      }
+    }
+  }
+  return found;
+}
+
+}  // namespace fcl_stpbv

@@ -1,0 +1,48 @@
+// What the neutral configuration and random ones say about pairs of links.
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <memory>
+#include <random>
+#include <utility>
+#include <vector>
+
+#include "fcl_stpbv/robot/constraints.h"
+
+namespace fcl_stpbv {
+
+/// Uniform within the limits; coordinates without limits within 1 rad or m around zero. The same with every
+/// compiler.
+Eigen::VectorXd randomConfiguration(const Kinematics& kinematics, std::mt19937_64& random);
+
+/// What the samples said about one pair.
+struct PairSamples {
+  int samples = 0, collisions = 0;
+  std::vector<std::pair<double, Eigen::VectorXd>>
+      closest;               ///< the closest ones with their distances, closest first
+  double largest = 0;        ///< (m)
+  Eigen::VectorXd farthest;  ///< where that was
+};
+
+/// Distances of many pairs of links at once.
+class PairSampler {
+ public:
+  PairSampler(std::shared_ptr<const Kinematics> kinematics, std::shared_ptr<const RobotGeometry> geometry,
+              const std::vector<LinkPair>& pairs, const std::vector<Obstacle>& obstacles, int threads);
+
+  /// Least distance over the bodies of each pair (m).
+  const Eigen::VectorXd& distances(const Eigen::VectorXd& q);
+
+  /// Random configurations; the `keep` closest of each pair are kept, at least one.
+  std::vector<PairSamples> sample(int count, std::uint64_t seed, double margin, int keep,
+                                  const std::function<void(int)>& progress);
+
+ private:
+  std::shared_ptr<const Kinematics> kinematics_;
+  std::vector<Eigen::Index> pairOf_;  // of each row
+  CollisionConstraints constraints_;
+  Eigen::VectorXd rows_, least_;
+};
+
+}  // namespace fcl_stpbv

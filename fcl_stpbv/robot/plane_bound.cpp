@@ -1,0 +1,288 @@
+// See plane_bound.h. With the plane's link at rest, a point x of a body goes to E_1 E_2 ... E_m x, E_i the
+// motion about joint i's axis in the middle of the box, the outermost one m applied first: all axes and the
+// normal n stay those of the middle. One turn moves a point y, r = y - origin, along n by sin(t) (n x a).r -
+// (1 - cos(t)) (n.r - (n.a)(a.r)).
+#include "fcl_stpbv/robot/plane_bound.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace fcl_stpbv {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// Of what a joint pushes, the part that is linear in its range counts half when a coordinate is chosen to be
+// cut: that part halves, the others fall to a quarter.
+constexpr double kLinearShare = 0.5;
+
+// Links that the plane is tried on, and steps that improve its normal.
+constexpr std::size_t kReferences = 2;
+constexpr int kSteps = 4;
+
+}  // namespace
+
+void PlaneBound::set(const std::vector<BoxJoint>& joints, const BodyPoints& first, const BodyPoints& second) {
+  joints_.clear();
+  shared_ = false;
+  for (const BoxJoint& joint : joints) {
+    for (const Outward& other : joints_) shared_ |= other.joint.slot == joint.slot;
+    const double half = std::min(joint.half, M_PI);
+    joints_.push_back(
+        {joint, std::sin(std::min(half, M_PI / 2)), 1 - std::cos(half), 2 * std::sin(half / 2), 0});
+  }
+  first_.body = &first;
+  second_.body = &second;
+}
+
+// The joints before the plane's link, seen from there, lead to the first body, the others to the second.
+void PlaneBound::fixTo(std::size_t reference) {
+  first_.joints.assign(joints_.rend() - static_cast<std::ptrdiff_t>(reference), joints_.rend());
+  second_.joints.assign(joints_.begin() + static_cast<std::ptrdiff_t>(reference), joints_.end());
+  for (Outward& o : first_.joints) o.outwardRate = o.joint.up ? o.joint.rate : -o.joint.rate;
+  for (Outward& o : second_.joints) o.outwardRate = o.joint.up ? -o.joint.rate : o.joint.rate;
+}
+
+void PlaneBound::prepare(const Vector3d& n, const Side& side) {
+  const std::size_t m = side.joints.size();
+  turned_.resize(m);
+  tilt_.resize(m);
+  way_.resize(m);
+  coupled_.resize(m * m);
+  coupling_.resize(m * m);
+  lever_.resize(m);
+  reach_.resize(m);
+  moved_.resize(m + 1);
+  share_.resize(m);
+  bestShare_.resize(m);
+  double way = 0;
+  const BoxJoint* outer = nullptr;
+  for (std::size_t i = m; i-- > 0;) {
+    const BoxJoint& joint = side.joints[i].joint;
+    turned_[i] = joint.slides ? Vector3d(Vector3d::Zero()) : Vector3d(n.cross(joint.axis));
+    tilt_[i] = turned_[i].norm();
+    if (joint.slides) {
+      way += joint.half;
+    } else {
+      if (outer) way += (outer->origin - joint.origin).norm();
+      outer = &joint;
+    }
+    way_[i] = way;
+  }
+  for (std::size_t i = 0; i < m; ++i) {
+    for (std::size_t l = i + 1; l < m; ++l) {
+      const BoxJoint& joint = side.joints[l].joint;
+      coupled_[i * m + l] = turned_[i].cross(joint.axis);
+      coupling_[i * m + l] = joint.slides ? std::abs(turned_[i].dot(joint.axis)) : coupled_[i * m + l].norm();
+    }
+  }
+}
+
+// Most that the joints push any point of the body along the normal: the chord of each turn.
+double PlaneBound::mostPush(const Side& side) const {
+  const std::size_t m = side.joints.size();
+  double sum = 0, moved = 0, fromOuter = -1;
+  for (std::size_t i = m; i-- > 0;) {
+    const Outward& o = side.joints[i];
+    if (o.joint.slides) {
+      moved += o.joint.half;
+      sum += o.joint.half;
+      continue;
+    }
+    const Vector3d r = side.body->centre - o.joint.origin;
+    if (fromOuter < 0) fromOuter = r.norm() + side.body->reach;
+    const double reach =
+        std::min(o.joint.axis.cross(r).norm() + side.body->reach + moved, fromOuter + way_[i]);
+    sum += o.chord * tilt_[i] * reach;
+    moved += o.chord * reach;
+  }
+  return sum;
+}
+
+// Most that the joints push the point x along n; share_ gets each joint's part.
+double PlaneBound::push(const Vector3d& n, const Side& side, const Vector3d& x) {
+  const std::size_t m = side.joints.size();
+  double fromOuter = -1;
+  moved_[m] = 0;
+  for (std::size_t i = m; i-- > 0;) {
+    const Outward& o = side.joints[i];
+    if (o.joint.slides) {
+      moved_[i] = moved_[i + 1] + o.joint.half;
+      continue;
+    }
+    const Vector3d r = x - o.joint.origin;
+    if (fromOuter < 0) fromOuter = r.norm();
+    lever_[i] = o.joint.axis.cross(r).norm();
+    reach_[i] = std::min(lever_[i] + moved_[i + 1], fromOuter + way_[i]);
+    moved_[i] = moved_[i + 1] + o.chord * reach_[i];
+  }
+  std::fill(share_.begin(), share_.end(), 0.0);
+  double sum = 0, uncapped = 0;
+  for (std::size_t i = 0; i < m; ++i) {
+    const Outward& o = side.joints[i];
+    if (o.joint.slides) {
+      const double slide = o.joint.half * std::abs(n.dot(o.joint.axis));
+      share_[i] += kLinearShare * slide;
+      sum += slide;
+      uncapped += slide;
+      continue;
+    }
+    const Vector3d r = x - o.joint.origin;
+    const double linear = o.sine * std::abs(turned_[i].dot(r));
+    const double bulge = o.bulge * std::max(0.0, n.dot(o.joint.axis) * o.joint.axis.dot(r) - n.dot(r));
+    double total = linear + bulge;
+    share_[i] += kLinearShare * linear + bulge;
+    for (std::size_t l = i + 1; l < m; ++l) {
+      const Outward& outer = side.joints[l];
+      const double coupling = coupling_[i * m + l];
+      double both;
+      if (outer.joint.slides) {
+        both = outer.joint.half * (o.sine * coupling + o.bulge * tilt_[i]);
+      } else {
+        const double exact = outer.sine * std::abs(coupled_[i * m + l].dot(x - outer.joint.origin)) +
+                             coupling * (outer.bulge * lever_[l] + outer.chord * moved_[l + 1]);
+        const double most = outer.chord * reach_[l];
+        both = o.sine * std::min(exact, coupling * most) + o.bulge * tilt_[i] * most;
+      }
+      total += both;
+      share_[i] += both / 2;
+      share_[l] += both / 2;
+    }
+    sum += std::min(total, o.chord * tilt_[i] * reach_[i]);
+    uncapped += total;
+  }
+  return shared_ ? std::min(sum, uncapped - together(n, side, x)) : sum;
+}
+
+// What is saved where one coordinate moves several joints: their linear parts then add up with their signs,
+// once sin(t) is taken as t with an error of at most half - sin(half).
+double PlaneBound::together(const Vector3d& n, const Side& side, const Vector3d& x) const {
+  const std::size_t m = side.joints.size();
+  double saved = 0;
+  for (std::size_t i = 0; i < m; ++i) {
+    const int slot = side.joints[i].joint.slot;
+    const auto same = [&](std::size_t l) { return side.joints[l].joint.slot == slot; };
+    bool firstOfSlot = true;
+    for (std::size_t l = 0; l < i; ++l) firstOfSlot &= !same(l);
+    if (!firstOfSlot) continue;
+    double apart = 0, slope = 0, bend = 0;
+    for (std::size_t l = i; l < m; ++l) {
+      if (!same(l)) continue;
+      const Outward& o = side.joints[l];
+      const double along = o.joint.slides ? n.dot(o.joint.axis) : turned_[l].dot(x - o.joint.origin);
+      slope += o.outwardRate * along;
+      apart += (o.joint.slides ? o.joint.half : o.sine) * std::abs(along);
+      if (!o.joint.slides) bend += (o.joint.half - o.sine) * std::abs(along);
+    }
+    const Outward& o = side.joints[i];
+    const double half = o.joint.rate == 0 ? 0 : o.joint.half / std::abs(o.joint.rate);
+    saved += std::max(0.0, apart - (half * std::abs(slope) + bend));
+  }
+  return saved;
+}
+
+// Bound on the support function of the body along n over the box. Adds the shares of the point that decides.
+double PlaneBound::support(const Vector3d& n, const Side& side, Eigen::VectorXd& shares) {
+  prepare(n, side);
+  const std::vector<Vector3d>& points = side.body->points;
+  const double most = mostPush(side);
+  std::size_t highest = 0;
+  double top = -kInfinity;
+  for (std::size_t v = 0; v < points.size(); ++v) {
+    const double height = n.dot(points[v]);
+    if (height <= top) continue;
+    top = height;
+    highest = v;
+  }
+  double best = top + push(n, side, points[highest]);
+  bestShare_ = share_;
+  for (std::size_t v = 0; v < points.size(); ++v) {
+    const double height = n.dot(points[v]);
+    if (v == highest || height + most <= best) continue;
+    const double reached = height + push(n, side, points[v]);
+    if (reached <= best) continue;
+    best = reached;
+    bestShare_ = share_;
+  }
+  for (std::size_t i = 0; i < side.joints.size(); ++i) shares[side.joints[i].joint.slot] += bestShare_[i];
+  return best + side.body->radius;
+}
+
+double PlaneBound::gapAlong(const Vector3d& n, std::size_t reference, Eigen::VectorXd& shares) {
+  fixTo(reference);
+  shares.setZero();
+  return -support(-n, second_, shares) - support(n, first_, shares);
+}
+
+// The point farthest along n that the joints bring the body to, in first order.
+Vector3d PlaneBound::farthest(const Vector3d& n, const Side& side) const {
+  const auto motion = [](const BoxJoint& joint, const Vector3d& x) -> Vector3d {
+    return joint.slides ? joint.axis : Vector3d(joint.axis.cross(x - joint.origin));
+  };
+  double best = -kInfinity;
+  Vector3d point = Vector3d::Zero();
+  for (const Vector3d& x : side.body->points) {
+    double reached = n.dot(x);
+    for (const Outward& o : side.joints) reached += o.joint.half * std::abs(n.dot(motion(o.joint, x)));
+    if (reached <= best) continue;
+    best = reached;
+    point = x;
+  }
+  const Vector3d x = point;
+  for (const Outward& o : side.joints) {
+    const Vector3d along = motion(o.joint, x);
+    point += (o.joint.slides ? o.joint.half : o.sine) * (n.dot(along) > 0 ? along : Vector3d(-along));
+  }
+  return point + side.body->radius * n;
+}
+
+// The links that the plane is best fixed to, as the nearest points alone tell.
+void PlaneBound::rank(const Vector3d& n, const std::array<Vector3d, 2>& nearest) {
+  order_.clear();
+  for (std::size_t reference = 0; reference <= joints_.size(); ++reference) {
+    fixTo(reference);
+    prepare(n, first_);
+    double loss = push(n, first_, nearest[0]);
+    prepare(-n, second_);
+    loss += push(-n, second_, nearest[1]);
+    order_.emplace_back(loss, reference);
+  }
+  std::sort(order_.begin(), order_.end());
+  order_.resize(std::min(order_.size(), kReferences));
+}
+
+double PlaneBound::gap(const Vector3d& normal, const std::array<Vector3d, 2>& nearest, double enough,
+                       Eigen::VectorXd& shares) {
+  trial_.resize(shares.size());
+  double best = -kInfinity;
+  const auto tryOut = [&](const Vector3d& n, std::size_t reference) {
+    const double found = gapAlong(n, reference, trial_);
+    if (found <= best) return;
+    best = found;
+    shares = trial_;
+  };
+  rank(normal, nearest);
+  for (const auto& [unused, reference] : order_) {
+    tryOut(normal, reference);
+    // Towards the shortest difference of two points that the bodies are brought to, as GJK does.
+    Vector3d shortest = normal * std::max(1e-6, normal.dot(nearest[1] - nearest[0]));
+    for (int step = 0; step < kSteps && best <= enough; ++step) {
+      const Vector3d n = shortest.normalized();
+      const Vector3d corner = farthest(-n, second_) - farthest(n, first_);
+      if (step == 0 && n.dot(corner) > 0) shortest = n.dot(corner) * n;
+      const Vector3d edge = corner - shortest;
+      const double part = std::clamp(-shortest.dot(edge) / edge.squaredNorm(), 0.0, 1.0);
+      if (!(part > 0)) break;
+      shortest += part * edge;
+      if (!(shortest.norm() > 0)) break;
+      if (step % 2 == 1) tryOut(shortest.normalized(), reference);
+    }
+    if (best > enough) break;
+  }
+  return best;
+}
+
+}  // namespace fcl_stpbv

@@ -1,0 +1,119 @@
+// Proofs over joint boxes: no bound above a sample's distance, pieces that make the same whole in any order.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <random>
+
+#include "fcl_stpbv/robot/pair_proof.h"
+#include "fcl_stpbv/robot/pair_search.h"
+#include "test/reference/robots.h"
+#include "test/robot/bound_trials.h"
+#include "test/robot/urdf_texts.h"
+
+using namespace fcl_stpbv;
+using namespace fcl_stpbv::test;
+
+namespace {
+
+bool same(const JointBox& a, const JointBox& b) { return a.lower == b.lower && a.upper == b.upper; }
+
+bool same(const PairProof& a, const PairProof& b) {
+  return a.boxes == b.boxes && a.collision.has_value() == b.collision.has_value() &&
+         (!a.collision || *a.collision == *b.collision) && a.open.size() == b.open.size() &&
+         std::equal(a.open.begin(), a.open.end(), b.open.begin(),
+                    [](const JointBox& x, const JointBox& y) { return same(x, y); });
+}
+
+ProofScene humanoid() {
+  LoadedRobot loaded = load(robots()[0]);
+  return proofScene(std::make_shared<const Kinematics>(loaded.model),
+                    std::make_shared<const RobotGeometry>(std::move(loaded.geometry)), {}, 0);
+}
+
+LinkPair pairNamed(const ProofScene& scene, const std::string& one, const std::string& other) {
+  const RobotModel& robot = scene.kinematics->robot();
+  return {robot.link(one), robot.link(other)};
+}
+
+}  // namespace
+
+TEST_CASE("no distance in a box is below the box's bound") {
+  Random random(5);
+  const ProofScene primitives = primitiveScene();
+  const BoundTrials simple = tryBounds(primitives, movingPairs(primitives), 3000, random);
+  CHECK(simple.samples == 24000);
+  CHECK(simple.violations == 0);
+  CHECK(simple.useful > 0.2);  // or it would say nothing
+  const ProofScene robot = humanoid();
+  const BoundTrials meshes = tryBounds(robot, movingPairs(robot), 2000, random);
+  CHECK(meshes.violations == 0);
+  CHECK(meshes.useful > 0.2);
+}
+
+TEST_CASE("a proof in pieces is the proof in one, and its pieces are put together in any order") {
+  const ProofScene scene = primitiveScene();
+  std::mt19937 shuffle(3);
+  int proven = 0;
+  for (const LinkPair& pair : movingPairs(scene)) {
+    const PairProof start = unproven(scene, pair);
+    const PairProof whole = provePair(scene, pair, start.open, 3000);
+    PairProof resumed = start;
+    for (int piece = 0; piece < 3000 && !resumed.open.empty() && resumed.boxes < 3000; ++piece) {
+      const long before = resumed.boxes;
+      resumed = provePair(scene, pair, std::move(resumed.open), std::min(7L, 3000 - before));
+      resumed.boxes += before;
+    }
+    CHECK(same(whole, resumed));
+    proven += whole.proven();
+    // Each box of an early state on its own, as workers would have them.
+    std::vector<PairProof> pieces;
+    for (const JointBox& box : provePair(scene, pair, start.open, 20).open)
+      pieces.push_back(provePair(scene, pair, {box}, 50));
+    if (pieces.size() < 3) continue;
+    PairProof inOrder, nested;
+    for (const PairProof& piece : pieces) inOrder = merge(inOrder, piece);
+    for (std::size_t i = pieces.size(); i-- > 0;) nested = merge(pieces[i], nested);
+    CHECK(same(inOrder, nested));
+    for (int round = 0; round < 5; ++round) {
+      std::shuffle(pieces.begin(), pieces.end(), shuffle);
+      PairProof left, right;
+      for (std::size_t i = 0; i < pieces.size(); ++i) {
+        PairProof& half = i < pieces.size() / 2 ? left : right;
+        half = merge(pieces[i], half);
+      }
+      CHECK(same(merge(right, left), inOrder));
+    }
+  }
+  CHECK(proven > 0);
+}
+
+TEST_CASE("a collision that a proof finds is one, and ends it") {
+  const ProofScene scene = humanoid();
+  const LinkPair pair = pairNamed(scene, "CHEST_LINK1", "LARM_LINK5");
+  const PairProof proof = provePair(scene, pair, unproven(scene, pair).open, 20000);
+  REQUIRE(proof.collision);
+  CHECK(proof.open.empty());
+  CHECK_FALSE(proof.proven());
+  PairSearch search(scene.kinematics, scene.geometry, pair.link1, pair.link2);
+  CHECK(search.distance(*proof.collision) <= 0);
+  CHECK((*proof.collision - scene.kinematics->lower()).minCoeff() >= 0);
+  CHECK((scene.kinematics->upper() - *proof.collision).minCoeff() >= 0);
+}
+
+TEST_CASE("joints without limits leave a pair unproven, a rigid pair needs one box") {
+  const std::string ball = "<sphere radius=\"0.1\"/>";
+  const auto model = std::make_shared<const RobotModel>(
+      parseUrdf(robot(link("a", ball) + link("b", ball) + link("c", ball) + joint("f", "floating", "a", "b") +
+                      joint("g", "fixed", "a", "c", "<origin xyz=\"1 0 0\"/>")),
+                "small.urdf"));
+  GeometryOptions options;
+  options.cacheFolder.clear();
+  const ProofScene scene =
+      proofScene(std::make_shared<const Kinematics>(model),
+                 std::make_shared<const RobotGeometry>(loadGeometry(*model, options)), {}, 0);
+  const PairProof floating = provePair(scene, {0, 1}, unproven(scene, {0, 1}).open, 100);
+  CHECK(floating.boxes == 0);
+  CHECK(floating.open.size() == 1);
+  const PairProof rigid = provePair(scene, {0, 2}, unproven(scene, {0, 2}).open, 100);
+  CHECK(rigid.boxes == 1);
+  CHECK(rigid.proven());
+}

@@ -1,0 +1,178 @@
+// proof_boxes: how many boxes of joint values a proof takes that two links never meet, by the joints' levers
+// alone and by planes fixed to a link between them (docs/proofs.md).
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <exception>
+
+#include "fcl_stpbv/robot/pair_list.h"
+#include "fcl_stpbv/robot/pair_proof.h"
+#include "fcl_stpbv/robot/pair_search.h"
+#include "tools/bench/chart.h"
+
+namespace {
+
+using namespace fcl_stpbv;
+using Clock = std::chrono::steady_clock;
+
+double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+struct Taken {
+  bool proven = false, collides = false;
+  long boxes = 0;
+  double seconds = 0;
+};
+
+// The bound before planes: the distance in the middle less what each joint's lever can change it by.
+Taken byLevers(const ProofScene& scene, const PairEntry& entry, long most) {
+  PairSearch search(scene.kinematics, scene.geometry, entry.link1, entry.link2);
+  const std::vector<int>& coordinates = search.coordinates();
+  const Eigen::Map<const Eigen::VectorXd> levers(search.lipschitz().data(),
+                                                 static_cast<Eigen::Index>(search.lipschitz().size()));
+  std::vector<JointBox> open = unproven(scene, entry).open;
+  Eigen::VectorXd q = scene.kinematics->neutral();
+  Taken taken;
+  const Clock::time_point start = Clock::now();
+  while (!open.empty() && taken.boxes < most) {
+    JointBox box = std::move(open.back());
+    open.pop_back();
+    ++taken.boxes;
+    const Eigen::VectorXd change = levers.cwiseProduct(box.upper - box.lower) / 2;
+    for (std::size_t k = 0; k < coordinates.size(); ++k)
+      q[coordinates[k]] = (box.lower + box.upper)[static_cast<Eigen::Index>(k)] / 2;
+    const double d = search.distance(q);
+    taken.collides = d <= 0;
+    if (taken.collides) break;
+    if (d - change.sum() > 0) continue;
+    Eigen::Index widest;
+    change.maxCoeff(&widest);
+    JointBox other = box;
+    box.upper[widest] = other.lower[widest] = (box.lower + box.upper)[widest] / 2;
+    open.push_back(std::move(box));
+    open.push_back(std::move(other));
+  }
+  taken.seconds = since(start);
+  taken.proven = open.empty() && !taken.collides;
+  return taken;
+}
+
+Taken byPlanes(const ProofScene& scene, const PairEntry& entry, long most) {
+  const Clock::time_point start = Clock::now();
+  const PairProof proof = provePair(scene, entry, unproven(scene, entry).open, most);
+  return {proof.proven(), proof.collision.has_value(), proof.boxes, since(start)};
+}
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0;
+  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2),
+                   values.end());
+  return values[values.size() / 2];
+}
+
+struct Arguments {
+  std::string urdf, folder;
+  std::vector<std::string> packagePath;
+  long before = 300000, boxes = 20000;
+  int descents = 500;
+};
+
+// The share of pairs decided within a number of boxes, as a curve.
+std::string curve(std::vector<long> boxes, std::size_t all) {
+  std::sort(boxes.begin(), boxes.end());
+  std::string rows;
+  for (std::size_t i = 0; i < boxes.size(); ++i)
+    rows += benchmark::text("%ld %.6f\n", boxes[i],
+                            100.0 * static_cast<double>(i + 1) / static_cast<double>(all));
+  return rows;
+}
+
+int run(const Arguments& a) {
+  const auto robot = std::make_shared<const RobotModel>(loadUrdf(a.urdf));
+  GeometryOptions options;
+  options.packagePath = a.packagePath;
+  const auto geometry = std::make_shared<const RobotGeometry>(loadGeometry(*robot, options));
+  const auto kinematics = std::make_shared<const Kinematics>(robot);
+  PairListOptions search;
+  search.proofBoxes = 0;
+  search.randomDescents = a.descents;
+  Clock::time_point start = Clock::now();
+  const std::vector<PairEntry> list = pairList(kinematics, geometry, nullptr, search);
+  std::printf("%s: %s; %.1f s for samples and descents\n", robot->name.c_str(), countsOf(list).c_str(),
+              since(start));
+  const ProofScene scene = proofScene(kinematics, geometry, {}, 0);
+  std::vector<double> fewer, faster, fewerOfMany, perBox;
+  std::vector<long> before, now;
+  std::size_t pairs = 0, oldProven = 0, newProven = 0, collide = 0;
+  double oldSeconds = 0, newSeconds = 0;
+  std::printf("%-44s %10s %10s %10s %10s\n", "pair", "levers", "s", "planes", "s");
+  for (const PairEntry& entry : list) {
+    if (entry.reason != PairReason::neverSampled) continue;
+    ++pairs;
+    const Taken levers = byLevers(scene, entry, a.before), planes = byPlanes(scene, entry, a.boxes);
+    const auto shown = [](const Taken& t) { return t.proven ? "" : t.collides ? "x" : ">"; };
+    std::printf("%-44s %10s %10.3f %10s %10.4f\n",
+                (robot->links[static_cast<std::size_t>(entry.link1)].name + " - " +
+                 robot->links[static_cast<std::size_t>(entry.link2)].name)
+                    .c_str(),
+                (shown(levers) + std::to_string(levers.boxes)).c_str(), levers.seconds,
+                (shown(planes) + std::to_string(planes.boxes)).c_str(), planes.seconds);
+    oldProven += levers.proven;
+    newProven += planes.proven;
+    collide += planes.collides || levers.collides;
+    oldSeconds += levers.seconds;
+    newSeconds += planes.seconds;
+    perBox.push_back(1e6 * planes.seconds / static_cast<double>(planes.boxes));
+    if (levers.proven) before.push_back(levers.boxes);
+    if (planes.proven) now.push_back(planes.boxes);
+    if (!levers.proven || !planes.proven) continue;
+    fewer.push_back(static_cast<double>(levers.boxes) / static_cast<double>(planes.boxes));
+    if (levers.boxes < 100) continue;
+    fewerOfMany.push_back(fewer.back());
+    faster.push_back(levers.seconds / planes.seconds);
+  }
+  std::printf(
+      "of %zu pairs found clear: levers prove %zu within %ld boxes (%.1f s), planes %zu within %ld (%.1f s), "
+      "%zu collide\n",
+      pairs, oldProven, a.before, oldSeconds, newProven, a.boxes, newSeconds, collide);
+  std::printf(
+      "both prove %zu: median %.0f times fewer boxes; the %zu that levers take 100 boxes or more for: median "
+      "%.0f "
+      "times fewer, %.0f times faster; %.0f us a box\n",
+      fewer.size(), median(fewer), fewerOfMany.size(), median(fewerOfMany), median(faster), median(perBox));
+  if (a.folder.empty()) return 0;
+  benchmark::Chart chart;
+  chart.name = "proof_boxes";
+  chart.header = "bound,boxes";
+  for (const long boxes : before) chart.rows.push_back(benchmark::text("levers,%ld", boxes));
+  for (const long boxes : now) chart.rows.push_back(benchmark::text("planes,%ld", boxes));
+  chart.plot = "$levers << EOD\n" + curve(before, pairs) + "EOD\n$planes << EOD\n" + curve(now, pairs) +
+               "EOD\nset logscale x\nset xlabel 'boxes'\nset ylabel 'pairs proven (%)'\nset yrange "
+               "[0:100]\nset key top left\n"
+               "plot $levers using 1:2 with steps lw 2 title 'levers', $planes using 1:2 with steps lw 2 "
+               "title 'planes'\n";
+  chart.caption =
+      benchmark::text("%zu pairs of %s that samples and descents find clear, up to %ld and %ld boxes each",
+                      pairs, robot->name.c_str(), a.before, a.boxes);
+  return benchmark::write(chart, a.folder, true) ? 0 : 1;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Boxes that proofs take, by levers and by planes", "proof_boxes");
+  Arguments a;
+  app.add_option("ROBOT", a.urdf, "The robot's URDF")->required();
+  app.add_option("--package-path", a.packagePath, "Folder that holds packages")->expected(1)->take_all();
+  app.add_option("--before", a.before, "Most boxes of the levers for a pair")->capture_default_str();
+  app.add_option("--boxes", a.boxes, "Most boxes of the planes for a pair")->capture_default_str();
+  app.add_option("--descents", a.descents, "Random descents for a pair before that")->capture_default_str();
+  app.add_option("-o,--output", a.folder, "Folder for the chart");
+  CLI11_PARSE(app, argc, argv);
+  try {
+    return run(a);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "proof_boxes: %s\n", error.what());
+    return 2;
+  }
+}
