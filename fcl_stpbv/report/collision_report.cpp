@@ -230,7 +230,7 @@ class Maker {
       pair.meshDistance = found.meshDistance;
       pair.cause = found.cause;
     }
-    if (pair.cause.empty() && pair.contradictsSrdf())
+    if (pair.cause.empty() && pair.contradictsSrdf)
       pair.cause = causes_->explain(bodies, pair.closest, margin).cause;
   }
 
