@@ -5,6 +5,7 @@
 
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/robot/constraints.h"
+#include "fcl_stpbv/robot/smooth_pairs.h"
 #include "parts.h"
 
 namespace py = pybind11;
@@ -29,13 +30,14 @@ class PythonRobot {
     GeometryOptions options;
     options.radii = {r, R};
     options.packagePath = std::move(packagePath);
-    const auto geometry = std::make_shared<const RobotGeometry>(loadGeometry(*model, options));
+    RobotGeometry bodies = loadGeometry(*model, options);
+    const std::vector<CheckedPair> pairs = selfPairs(*model, bodies, srdf.empty() ? nullptr : &srdf_);
+    coverPrimitives(pairs, bodies);
+    const auto geometry = std::make_shared<const RobotGeometry>(std::move(bodies));
     kinematics_ = std::make_shared<const Kinematics>(model, baseMotion(base));
     ConstraintOptions constraintOptions;
     constraintOptions.influence = influence;
-    constraints_ = std::make_unique<CollisionConstraints>(
-        kinematics_, geometry, selfPairs(*model, *geometry, srdf.empty() ? nullptr : &srdf_),
-        constraintOptions);
+    constraints_ = std::make_unique<CollisionConstraints>(kinematics_, geometry, pairs, constraintOptions);
   }
 
   const Kinematics& kinematics() const { return *kinematics_; }

@@ -40,7 +40,7 @@ Exit status: 0 no checked pair in collision; 1 a collision found; 2 the command 
 
 struct Arguments {
   ReportRequest request;
-  std::string format = "text", output;
+  std::string format = "text", output, r = "auto", R, primitives = "smooth";
   std::vector<std::string> links, flat;
   std::size_t top = 20;
   bool noCache = false, quiet = false;
@@ -61,11 +61,22 @@ void describe(CLI::App& app, Arguments& a) {
       ->capture_default_str();
   app.add_option("--seed", request.search.seed, "Of the random configurations")->capture_default_str();
   app.add_option("--obstacles", request.obstacles, "URDF of a scene to keep clear of")->type_name("FILE");
-  app.add_option("-r", request.geometry.radii.r, "Radius of the small spheres, the margin")
-      ->check(CLI::NonNegativeNumber)
+  app.add_option("-r,--r", a.r,
+                 "Radius of the small spheres, the margin, or 'auto': a twentieth of each link's smallest "
+                 "width, 1 cm at most")
+      ->type_name("LENGTH|auto")
+      ->check(CLI::NonNegativeNumber | CLI::IsMember({"auto"}))
       ->capture_default_str();
-  app.add_option("-R", request.geometry.radii.R, "Radius of the big spheres")
-      ->check(CLI::PositiveNumber)
+  app.add_option("-R,--R", a.R,
+                 "Radius of the big spheres, or 'auto': so large that they add no more than r; without it "
+                 "auto where r is, "
+                 "else 10")
+      ->type_name("LENGTH|auto")
+      ->check(CLI::PositiveNumber | CLI::IsMember({"auto"}));
+  app.add_option("--primitives", a.primitives,
+                 "smooth: spheres, capsules, boxes and cylinders get smooth covers where a pair has no "
+                 "smooth body; flat: none")
+      ->check(CLI::IsMember({"smooth", "flat"}))
       ->capture_default_str();
   app.add_option(
          "--over-cover", request.geometry.overCoverBudget,
@@ -139,6 +150,14 @@ void readLink(const std::string& text, GeometryOptions& options) {
   if (values.size() == 3) options.budgets[name] = values[2];
 }
 
+// Lengths or "auto"; R follows r where it is not given.
+void setRadii(const Arguments& a, GeometryOptions& geometry) {
+  geometry.fitr = a.r == "auto";
+  geometry.fitR = a.R.empty() ? geometry.fitr : a.R == "auto";
+  if (!geometry.fitr) geometry.radii.r = std::stod(a.r);
+  if (!geometry.fitR && !a.R.empty()) geometry.radii.R = std::stod(a.R);
+}
+
 // A bar for each of the stages; its steps are only known when it begins.
 class Stages {
  public:
@@ -167,6 +186,8 @@ void warn(const std::vector<std::string>& warnings, std::size_t top) {
 
 int run(Arguments& a) {
   checkOutput(a);
+  setRadii(a, a.request.geometry);
+  a.request.flatPrimitives = a.primitives == "flat";
   for (const std::string& link : a.links) readLink(link, a.request.geometry);
   for (const std::string& link : a.flat) {
     if (link == "obstacles")

@@ -7,6 +7,7 @@
 #include "fcl_stpbv/robot/constraints.h"
 #include "fcl_stpbv/robot/link_geometry.h"
 #include "fcl_stpbv/robot/robot_model.h"
+#include "fcl_stpbv/robot/smooth_pairs.h"
 #include "fcl_stpbv/robot/srdf.h"
 
 using namespace fcl_stpbv;
@@ -34,6 +35,11 @@ GeometryOptions options;
 options.radii = {0.01, 10};                                        // r, R of every link
 auto geometry   = std::make_shared<const RobotGeometry>(loadGeometry(*robot, options));
 auto kinematics = std::make_shared<const Kinematics>(robot);       // or BaseMotion::floating
+  // clang-format on
+
+  RobotGeometry bodies = loadGeometry(*robot, options);
+  // clang-format off
+coverPrimitives(selfPairs(*robot, bodies, srdf.get()), bodies);    // bodies: a RobotGeometry, or one and that of a scene
   // clang-format on
 
   Eigen::VectorXd q = Eigen::VectorXd::Zero(kinematics->size());

@@ -8,9 +8,12 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "fcl_stpbv/adapter/polyhedral_witness.h"
+#include "fcl_stpbv/adapter/fcl_shapes.h"
+#include "fcl_stpbv/adapter/flat_pair.h"
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/io/text_scanner.h"
+#include "fcl_stpbv/report/pair_cause.h"
+#include "fcl_stpbv/robot/smooth_pairs.h"
 
 namespace fcl_stpbv::report {
 namespace {
@@ -49,44 +52,58 @@ Eigen::VectorXd poseOf(const std::string& pose, const Kinematics& kinematics, co
   return kinematics.configuration(srdf->state(pose));
 }
 
-// A body or an obstacle in its place. Its hull is that of all the mesh's points, also under a reduced volume.
+// Height of the supporting plane with the unit normal `n` over the geometry's origin (m).
+double supportOf(const fcl::CollisionGeometryd& geometry, const Eigen::Vector3d& n) {
+  if (const StpBvGeometry* smooth = asStpBv(&geometry)) return smooth->volume().support(n);
+  Shape shape;
+  return shapeOf(geometry, shape) ? n.dot(shape.support(n)) + shape.margin : 0;
+}
+
+// A body or an obstacle in its place, and what it covers: a primitive, or as a polyhedron the hull of all the
+// mesh's points, also under a reduced volume.
 struct Placed {
-  const StpBvGeometry* smooth;
-  std::shared_ptr<const StpBvGeometry> full;
+  const fcl::CollisionGeometryd* body;
+  std::shared_ptr<const fcl::CollisionGeometryd> hull;
   Eigen::Isometry3d pose;
 
-  const HullGraph& hull() const { return full ? full->hull() : smooth->hull(); }
   double cover(const Eigen::Vector3d& normal) const {
-    if (!smooth || normal.isZero()) return 0;
+    if (normal.isZero() || !asStpBv(body)) return 0;
     const Eigen::Vector3d n = pose.linear().transpose() * normal;
-    double height = -std::numeric_limits<double>::infinity();
-    for (const Eigen::Vector3d& v : (full ? full.get() : smooth)->volume().vertices())
-      height = std::max(height, n.dot(v));
-    return smooth->volume().support(n) - height;
+    Shape covered;
+    if (!shapeOf(*hull, covered)) return 0;
+    return supportOf(*body, n) - n.dot(covered.support(n)) - covered.margin;
   }
 };
 
 Placed placed(const Body& body, const Kinematics::State& state) {
-  return {asStpBv(body.geometry.get()), body.full ? std::make_shared<StpBvGeometry>(body.full) : nullptr,
-          state.link[at(body.link)] * body.pose};
+  std::shared_ptr<const fcl::CollisionGeometryd> hull = body.geometry;
+  if (body.primitive) hull = body.primitive;
+  if (body.full) hull = std::make_shared<StpBvGeometry>(body.full);
+  return {body.geometry.get(), hull, state.link[at(body.link)] * body.pose};
+}
+
+Placed placed(const Obstacle& obstacle) {
+  return {obstacle.geometry.get(), obstacle.primitive ? obstacle.primitive : obstacle.geometry,
+          obstacle.pose};
 }
 
 void covers(const CollisionReport& report, const CheckedPair& both, const Kinematics::State& state,
             PairReport& pair) {
   const Placed first = placed(report.geometry->bodies[at(both.body)], state);
-  Placed second;
-  if (both.obstacle) {
-    const Obstacle& obstacle = report.obstacles[at(both.other)];
-    second = {asStpBv(obstacle.geometry.get()), nullptr, obstacle.pose};
-  } else {
-    second = placed(report.geometry->bodies[at(both.other)], state);
-  }
+  const Placed second = both.obstacle ? placed(report.obstacles[at(both.other)])
+                                      : placed(report.geometry->bodies[at(both.other)], state);
   pair.overCover1 = first.cover(pair.answer.normal);
   pair.overCover2 = second.cover(-pair.answer.normal);
+  const auto margin = [](const Placed& body) {
+    const StpBvGeometry* smooth = asStpBv(body.body);
+    return smooth ? smooth->volume().radii().r : 0.0;
+  };
+  pair.lipschitz = 1 / (margin(first) + margin(second));
   pair.hullDistance = std::numeric_limits<double>::quiet_NaN();
-  if (!first.smooth || !second.smooth) return;
-  const PolyhedralWitness witness = polyhedralWitness(first.hull(), first.pose, second.hull(), second.pose);
-  if (witness.verdict == PolyhedralWitness::Verdict::separated) pair.hullDistance = witness.upper;
+  Shape a, b;
+  if (!shapeOf(*first.hull, a) || !shapeOf(*second.hull, b)) return;
+  const Distance hulls = flatDistance(a, first.pose, b, second.pose);
+  if (hulls.status != DistanceStatus::invalid && hulls.distance > 0) pair.hullDistance = hulls.distance;
 }
 
 class Maker {
@@ -99,6 +116,11 @@ class Maker {
     search.obstacles = report_.obstacles;
     report_.list = pairList(report_.kinematics, report_.geometry, srdf(), search);
     const bool posed = !request_.pose.empty();
+    causes_ =
+        std::make_unique<PairCauses>(report_.kinematics, report_.geometry, report_.obstacles, sceneGeometry_);
+    for (const Body& body : report_.geometry->bodies)
+      report_.fits.push_back(meshFit(body, causes_->exact(body)));
+    warnOfOpenMeshes();
     report_.pose = request_.pose;
     const Eigen::VectorXd q =
         posed ? poseOf(request_.pose, *report_.kinematics, srdf()) : report_.kinematics->neutral();
@@ -118,11 +140,20 @@ class Maker {
     report_.kinematics = std::make_shared<const Kinematics>(report_.robot);
     if (!request_.pose.empty())
       poseOf(request_.pose, *report_.kinematics, srdf());  // refused before the work
-    report_.geometry = std::make_shared<const RobotGeometry>(loadGeometry(*report_.robot, request_.geometry));
+    RobotGeometry bodies = loadGeometry(*report_.robot, request_.geometry);
+    const std::shared_ptr<const RobotModel> scene = loadScene();
+    if (!request_.flatPrimitives) cover(bodies);
+    report_.geometry = std::make_shared<const RobotGeometry>(std::move(bodies));
     report_.warnings = report_.geometry->warnings;
+    report_.warnings.insert(report_.warnings.end(), sceneGeometry_.warnings.begin(),
+                            sceneGeometry_.warnings.end());
     if (!request_.polyhedra.empty())
       report_.polyhedra = comparePolyhedra(*report_.geometry, request_.polyhedra);
-    if (request_.obstacles.empty()) return;
+    if (scene) report_.obstacles = obstaclesOf(scene, sceneGeometry_);
+  }
+
+  std::shared_ptr<const RobotModel> loadScene() {
+    if (request_.obstacles.empty()) return nullptr;
     const auto scene = std::make_shared<const RobotModel>(loadUrdf(request_.obstacles));
     GeometryOptions options = request_.geometry;
     options.links.clear();  // these name the robot's
@@ -130,9 +161,19 @@ class Maker {
     options.flatLinks.clear();
     options.flat = request_.flatObstacles;
     sceneGeometry_ = loadGeometry(*scene, options);
-    report_.warnings.insert(report_.warnings.end(), sceneGeometry_.warnings.begin(),
-                            sceneGeometry_.warnings.end());
-    report_.obstacles = obstaclesOf(scene, sceneGeometry_);
+    return scene;
+  }
+
+  void cover(RobotGeometry& bodies) {
+    constexpr std::size_t kMostBodies = 5000;  // pairList() refuses a robot with more before long
+    if (bodies.bodies.size() > kMostBodies) return;
+    std::vector<CheckedPair> pairs = selfPairs(*report_.robot, bodies, srdf());
+    const auto& motions = report_.kinematics->motions();
+    const bool baseMoves = !motions.empty() && motions.front().joint < 0;
+    const std::vector<CheckedPair> around =
+        obstaclePairs(*report_.robot, bodies, sceneGeometry_.bodies.size(), baseMoves);
+    pairs.insert(pairs.end(), around.begin(), around.end());
+    coverPrimitives(pairs, bodies, &sceneGeometry_);
   }
 
   void addPair(const PairEntry& entry, const Eigen::VectorXd& q) {
@@ -154,12 +195,26 @@ class Maker {
     pair.influence = entry.influence;
     pair.configuration = q;
     pair.closest = entry.closest;
-    measurePair(report_,
-                entry.obstacle ? pairsWithObstacle(*report_.geometry, entry.link1, entry.link2)
-                               : pairsOfLinks(*report_.geometry, entry.link1, entry.link2),
-                pair);
+    const std::vector<CheckedPair> bodies =
+        entry.obstacle ? pairsWithObstacle(*report_.geometry, entry.link1, entry.link2)
+                       : pairsOfLinks(*report_.geometry, entry.link1, entry.link2);
+    measurePair(report_, bodies, pair);
     pair.colliding = pair.answer.distance <= request_.search.margin;
+    explain(bodies, pair);
     report_.pairs.push_back(std::move(pair));
+  }
+
+  // Where the volumes meet, or come closer than what they exceed their hulls by: farther apart the volumes'
+  // distance says enough. A contradiction is explained where it was found.
+  void explain(const std::vector<CheckedPair>& bodies, PairReport& pair) {
+    const double margin = request_.search.margin;
+    if (pair.answer.distance <= std::max(margin, pair.overCover1 + pair.overCover2)) {
+      const PairCause found = causes_->explain(bodies, pair.configuration, margin);
+      pair.meshDistance = found.meshDistance;
+      pair.cause = found.cause;
+    }
+    if (pair.cause.empty() && pair.contradictsSrdf())
+      pair.cause = causes_->explain(bodies, pair.closest, margin).cause;
   }
 
   void summarise() {
@@ -172,6 +227,7 @@ class Maker {
       if (!pair.checked) continue;
       ++report_.checked;
       report_.colliding += pair.colliding;
+      if (pair.colliding) ++report_.causes[pair.cause];
       report_.minDistance = std::min(report_.minDistance, pair.answer.distance);
     }
   }
@@ -185,6 +241,17 @@ class Maker {
           request_.urdf + ": " + std::to_string(kinked) +
           " checked pairs have no smooth body, so their gradients may jump (\"continuous\" "
           "is false in the JSON).");
+  }
+
+  void warnOfOpenMeshes() {
+    const auto& bodies = report_.geometry->bodies;
+    const auto open = std::count_if(bodies.begin(), bodies.end(),
+                                    [&](const Body& body) { return !causes_->exact(body).closed(); });
+    if (open > 0)
+      report_.warnings.push_back(
+          request_.urdf + ": " + std::to_string(open) +
+          " meshes are not closed: whether another lies inside one of them is judged by its "
+          "winding number, and their volume is not known.");
   }
 
   // As a controller runs: small steps around the posture, everything warm.
@@ -219,6 +286,7 @@ class Maker {
   Srdf srdf_;
   RobotGeometry sceneGeometry_;
   CollisionReport report_;
+  std::unique_ptr<PairCauses> causes_;
 };
 
 }  // namespace

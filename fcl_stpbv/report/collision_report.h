@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "fcl_stpbv/report/mesh_fit.h"
 #include "fcl_stpbv/report/published_polyhedra.h"
 #include "fcl_stpbv/robot/constraints.h"
 #include "fcl_stpbv/robot/pair_list.h"
@@ -18,7 +19,8 @@ struct ReportRequest {
   std::string urdf, srdf, pose, obstacles;  ///< "" where not given; pose is a state's name or a JSON file
   std::string polyhedra;                    ///< folder of published ones, "" for none
   GeometryOptions geometry;
-  bool flatObstacles = false;  ///< the scene's meshes stay convex polyhedra
+  bool flatObstacles = false;   ///< the scene's meshes stay convex polyhedra
+  bool flatPrimitives = false;  ///< primitives get no smooth cover where a pair needs one (smooth_pairs.h)
   PairListOptions search;
 };
 
@@ -34,11 +36,15 @@ struct PairReport {
   int body1 = -1, body2 = -1;  ///< the closest bodies; body2 of an obstacle counts on from the robot's
   std::map<std::string, double> gradient;
   double overCover1 = 0, overCover2 = 0;  ///< of the two surfaces over their hulls along the normal (m)
-  double hullDistance = 0;  ///< of the two hulls, NaN where they overlap or are not both hulls (m)
-  /// Of the two triangle meshes, NaN where it is not known (m).
+  double hullDistance = 0;                ///< of the two hulls or primitives, NaN where they overlap (m)
+  /// Most that the normal turns by a metre of relative translation, from contact on: 1/(r1 + r2), infinite
+  /// where neither body has an r (docs/theory.md, 6).
+  double lipschitz = std::numeric_limits<double>::infinity();
+  /// Of the meshes and primitives themselves, 0 where they meet (m); NaN where it was not measured, the
+  /// volumes being farther apart than they exceed the hulls.
   double meshDistance = std::numeric_limits<double>::quiet_NaN();
-  /// What a collision comes from: "meshes meet", "hull only" or "margin only"; "" where it is not known or
-  /// there is none.
+  /// "meshes meet", "hull only" or "margin only" (pair_cause.h): what the collision comes from, or the one
+  /// that contradicts the SRDF, in `closest`; "" without one.
   std::string cause;
   double minDistance = 0;  ///< least found by the search (m)
   double probabilityBound = 1;
@@ -56,11 +62,13 @@ struct CollisionReport {
   std::shared_ptr<const Kinematics> kinematics;
   std::vector<Obstacle> obstacles;
   std::vector<std::string> warnings;
+  std::vector<MeshFit> fits;                ///< one a body
   std::vector<PolyhedronReport> polyhedra;  ///< one a body, or none where none were asked for
   std::vector<PairReport> pairs;            ///< checked ones first, closest first
   std::vector<PairEntry> list;              ///< what the search found
   std::string pose;                         ///< "" where each pair is in its own closest configuration
   int checked = 0, colliding = 0;
+  std::map<std::string, int> causes;    ///< of the checked pairs in collision, how many of each
   double minDistance = 0;               ///< of the checked pairs (m)
   double nsPerPair = 0, usPerTick = 0;  ///< of all checked pairs with their Jacobian, in small steps
 };

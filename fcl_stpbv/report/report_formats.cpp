@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <numeric>
 
 #include "fcl_stpbv/io/text_scanner.h"
 
@@ -57,6 +58,29 @@ std::string unshown(std::size_t all, std::size_t top) {
   return all > top ? "... and " + std::to_string(all - top) + " more (--top)\n" : "";
 }
 
+// How far hulls and volumes exceed meshes, worst first.
+std::string fits(const CollisionReport& report, std::size_t top) {
+  std::vector<std::size_t> order(report.fits.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) {
+    return report.fits[i].volumeExcess > report.fits[j].volumeExcess;
+  });
+  const std::string rest = unshown(order.size(), top);
+  if (order.size() > top) order.resize(top);
+  std::string text = format("\n%-44s %11s %13s %9s %8s %8s\n", "link", "hull [mm]", "volume [mm]", "ratio",
+                            "r [mm]", "R [m]");
+  for (const std::size_t i : order) {
+    const MeshFit& fit = report.fits[i];
+    const Body& body = report.geometry->bodies[i];
+    text += format("%-44s %11.3f %13.3f ", body.name.c_str(), fit.hullExcess * kMm, fit.volumeExcess * kMm) +
+            (std::isfinite(fit.volumeRatio) ? format("%9.3f", fit.volumeRatio) : format("%9s", "-")) +
+            (body.volume ? format(" %8.3f %8.3f\n", body.volume->radii().r * kMm, body.volume->radii().R)
+                         : format(" %8s %8s\n", "-", "-"));
+  }
+  return text + rest +
+         "hull, volume: at most so far are their surfaces from the mesh; ratio: the volume's to the mesh's\n";
+}
+
 // The meshes' volumes beside those of their published polyhedra, those that differ most first.
 std::string polyhedra(const CollisionReport& report, std::size_t top) {
   std::vector<std::size_t> order;
@@ -85,7 +109,8 @@ std::string contradictions(const CollisionReport& report, std::size_t top) {
   for (const PairReport& pair : report.pairs) {
     if (!pair.contradictsSrdf() || count++ >= top) continue;
     text += "\nThe SRDF leaves out " + pair.link1 + " - " + pair.link2 + " as " + pair.srdfReason +
-            "; found: " + pair.reason + format(", %.3f mm at", pair.minDistance * kMm);
+            "; found: " + pair.reason + (pair.cause.empty() ? "" : ", " + pair.cause) +
+            format(", %.3f mm at", pair.minDistance * kMm);
     for (const auto& [joint, slope] : pair.gradient) {
       const auto& names = report.kinematics->names();
       const auto k = std::find(names.begin(), names.end(), joint) - names.begin();
@@ -117,6 +142,7 @@ std::string toText(const CollisionReport& report, std::size_t top) {
           " of them in collision";
   text += report.pose.empty() ? " in their closest configurations found\n"
                               : " in the posture " + report.pose + "\n";
+  for (const auto& [cause, count] : report.causes) text += "  " + std::to_string(count) + " " + cause + "\n";
   if (report.checked > 0)
     text += format("%.1f us for all checked pairs with gradients, %.0f ns a pair\n", report.usPerTick,
                    report.nsPerPair);
@@ -133,7 +159,7 @@ std::string toText(const CollisionReport& report, std::size_t top) {
   }
   text += unshown(static_cast<std::size_t>(report.checked), top);
   text += "\ncover: how much closer the two smooth surfaces are than their hulls, along the normal\n";
-  return text + polyhedra(report, top) + contradictions(report, top);
+  return text + fits(report, top) + polyhedra(report, top) + contradictions(report, top);
 }
 
 std::string toJson(const CollisionReport& report) {
@@ -152,6 +178,11 @@ std::string toJson(const CollisionReport& report) {
       link["R"] = body.volume->radii().R;
       link["over_cover_max"] = body.cover.max;
       link["over_cover_mean"] = body.cover.mean;
+    }
+    if (i < report.fits.size()) {
+      link["hull_excess"] = report.fits[i].hullExcess;
+      link["volume_excess"] = report.fits[i].volumeExcess;
+      link["volume_ratio"] = orNull(report.fits[i].volumeRatio);
     }
     if (i < report.polyhedra.size() && !report.polyhedra[i].file.empty()) {
       const PolyhedronReport& p = report.polyhedra[i];
@@ -183,6 +214,7 @@ std::string toJson(const CollisionReport& report) {
                              {"hull_distance", orNull(pair.hullDistance)},
                              {"mesh_distance", orNull(pair.meshDistance)},
                              {"cause", pair.cause},
+                             {"lipschitz", orNull(pair.lipschitz)},
                              {"min_distance", orNull(pair.minDistance)},
                              {"closest", joints(pair.closest, *report.kinematics)},
                              {"probability_bound", pair.probabilityBound},
@@ -194,6 +226,7 @@ std::string toJson(const CollisionReport& report) {
                      {"disabled", static_cast<int>(report.pairs.size()) - report.checked},
                      {"min_distance", orNull(report.minDistance)},
                      {"colliding", report.colliding},
+                     {"causes", report.causes},
                      {"ns_per_pair", report.nsPerPair},
                      {"us_per_tick", report.usPerTick}};
   return json.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
@@ -201,13 +234,14 @@ std::string toJson(const CollisionReport& report) {
 
 std::string toCsv(const CollisionReport& report) {
   std::string text =
-      "link1,link2,reason,srdf_reason,checked,distance,hull_distance,over_cover1,over_cover2,min_distance,"
+      "link1,link2,reason,srdf_reason,checked,cause,distance,mesh_distance,hull_distance,over_cover1,over_"
+      "cover2,min_distance,"
       "point1_x,point1_y,point1_z,point2_x,point2_y,point2_z,normal_x,normal_y,normal_z\n";
   for (const PairReport& pair : report.pairs) {
     text += quoted(pair.link1) + "," + quoted(pair.link2) + "," + pair.reason + "," + pair.srdfReason + "," +
-            (pair.checked ? "1" : "0");
-    for (double value :
-         {pair.answer.distance, pair.hullDistance, pair.overCover1, pair.overCover2, pair.minDistance})
+            (pair.checked ? "1" : "0") + "," + pair.cause;
+    for (double value : {pair.answer.distance, pair.meshDistance, pair.hullDistance, pair.overCover1,
+                         pair.overCover2, pair.minDistance})
       text += "," + (std::isfinite(value) ? toDecimal(value) : std::string());
     for (const Eigen::Vector3d& v : {pair.answer.points[0], pair.answer.points[1], pair.answer.normal})
       for (int i = 0; i < 3; ++i) text += "," + toDecimal(v[i]);

@@ -36,8 +36,12 @@ bool holds(const std::vector<int>& links, int link) {
 
 Obstacle obstacleOf(const fcl::CollisionObjectd& object, const std::string& name) {
   const auto& geometry = object.collisionGeometry();
-  return {name, geometry, object.getTransform(), object.getTransform() * geometry->aabb_center,
-          geometry->aabb_radius};
+  return {name,
+          geometry,
+          object.getTransform(),
+          object.getTransform() * geometry->aabb_center,
+          geometry->aabb_radius,
+          nullptr};
 }
 
 std::vector<Obstacle> obstaclesOf(std::shared_ptr<const RobotModel> scene, const RobotGeometry& geometry) {
@@ -47,7 +51,8 @@ std::vector<Obstacle> obstaclesOf(std::shared_ptr<const RobotModel> scene, const
   std::vector<Obstacle> obstacles;
   for (const Body& body : geometry.bodies) {
     const Eigen::Isometry3d& link = state.link[static_cast<std::size_t>(body.link)];
-    obstacles.push_back({body.name, body.geometry, link * body.pose, link * body.centre, body.radius});
+    obstacles.push_back(
+        {body.name, body.geometry, link * body.pose, link * body.centre, body.radius, body.primitive});
   }
   return obstacles;
 }

@@ -26,6 +26,8 @@ struct Obstacle {
   Eigen::Isometry3d pose;
   Eigen::Vector3d centre;  ///< of a sphere that holds it, in the world (m)
   double radius = 0;
+  std::shared_ptr<const fcl::CollisionGeometryd>
+      primitive;  ///< the primitive under its smooth cover, else null
 };
 
 Obstacle obstacleOf(const fcl::CollisionObjectd& object, const std::string& name);

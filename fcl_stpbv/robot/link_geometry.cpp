@@ -11,33 +11,11 @@
 
 #include "fcl_stpbv/adapter/hull_geometry.h"
 #include "fcl_stpbv/error.h"
-#include "fcl_stpbv/io/text_scanner.h"
+#include "fcl_stpbv/robot/link_volume.h"
 #include "fcl_stpbv/robot/mesh_file.h"
-#include "fcl_stpbv/volume/reduce.h"
 
 namespace fcl_stpbv {
 namespace {
-
-using Points = std::vector<Eigen::Vector3d>;
-
-std::string withScale(const std::string& bytes, const Eigen::Vector3d& scale) {
-  std::string content;
-  appendVector(content, scale);
-  return content + '\n' + bytes;
-}
-
-// What the cache knows a mesh by: the file's bytes, or for glTF, which keeps its vertices in other files, the
-// points.
-std::string contentOf(const std::string& path, const Eigen::Vector3d& scale) {
-  const bool several = path.size() > 5 && path.compare(path.size() - 5, 5, ".gltf") == 0;
-  if (!several) return withScale(readText(path), scale);
-  std::string points;
-  for (const Eigen::Vector3d& p : loadPoints(path)) {
-    appendVector(points, p);
-    points += '\n';
-  }
-  return withScale(points, scale);
-}
 
 class Loader {
  public:
@@ -102,7 +80,7 @@ class Loader {
       if (shape.kind == ShapeModel::Kind::mesh)
         addMesh(name, shape, body);
       else
-        addPrimitive(shape, body);
+        addPrimitive(name, shape, body);
     } catch (const Error& error) {
       throw Error(robot_.path + ": link '" + name + "': " + error.what());
     }
@@ -112,11 +90,12 @@ class Loader {
 
   void addMesh(const std::string& link, const ShapeModel& shape, Body& body) {
     body.file = paths_.resolve(shape.mesh);
+    body.scale = shape.scale;
     try {
       if (options_.flat || options_.flatLinks.count(link) > 0)
-        addHull(shape, body);
+        addHull(body);
       else
-        addVolume(link, shape, body);
+        makeVolume(options_, link, cache_, body);
     } catch (const Error& error) {
       const std::string message = error.what();
       const bool named = message.find(body.file) != std::string::npos;
@@ -124,8 +103,8 @@ class Loader {
     }
   }
 
-  static void addHull(const ShapeModel& shape, Body& body) {
-    const auto hull = hullGeometry(loadPoints(body.file, shape.scale));
+  static void addHull(Body& body) {
+    const auto hull = hullGeometry(loadPoints(body.file, body.scale));
     body.centre = hull->aabb_center;
     body.radius = 0;
     for (const Eigen::Vector3d& v : hull->getVertices())
@@ -133,61 +112,26 @@ class Loader {
     body.geometry = hull;
   }
 
-  void addVolume(const std::string& link, const ShapeModel& shape, Body& body) {
-    const auto own = options_.links.find(link);
-    StpBvOptions radii = own == options_.links.end() ? options_.radii : own->second;
-    const auto budgetOf = options_.budgets.find(link);
-    const double budget = budgetOf == options_.budgets.end() ? options_.overCoverBudget : budgetOf->second;
-    const std::string content = contentOf(body.file, shape.scale);
-    const auto build = [&] {
-      body.volume = cache_.volume(content, radii,
-                                  [&] { return StpBv::build(loadPoints(body.file, shape.scale), radii); });
-    };
-    build();
-    body.cover = overCover(*body.volume);
-    if (budget > 0) reduceTo(budget, loadPoints(body.file, shape.scale), content, radii, build, body);
-    body.geometry = std::make_shared<StpBvGeometry>(body.volume);
-    body.centre = body.volume->centre();
-    body.radius = body.volume->enclosingRadius();
-  }
-
-  template <class Build>
-  void reduceTo(double budget, const Points& points, const std::string& content, StpBvOptions& radii,
-                const Build& build, Body& body) {
-    constexpr double kLargest = 1e5;  // beyond it a big sphere is flat to rounding
-    body.cover = overCover(*body.volume, points);
-    for (; body.cover.max > budget && radii.R < kLargest; body.cover = overCover(*body.volume, points)) {
-      radii.R *= 2;  // the over-cover falls towards r
-      build();
-    }
-    if (body.cover.max > budget)
-      throw Error("no R keeps its over-cover within " + toDecimal(budget) +
-                  " m with r = " + toDecimal(radii.r) + " m; give a larger budget or a smaller r");
-    const StpBv::Ptr few = cache_.volume(content + "\nreduced to " + toDecimal(budget), radii,
-                                         [&] { return reduce(points, radii, budget); });
-    if (few->vertexCount() >= body.volume->vertexCount()) return;
-    body.full = body.volume;
-    body.volume = few;
-    body.cover = overCover(*few, points);
-  }
-
-  static void addPrimitive(const ShapeModel& shape, Body& body) {
+  void addPrimitive(const std::string& link, const ShapeModel& shape, Body& body) const {
     const Eigen::Vector3d& size = shape.size;
+    BodySize own;
     body.centre.setZero();
     if (shape.kind == ShapeModel::Kind::sphere) {
       body.geometry = std::make_shared<fcl::Sphered>(size.x());
-      body.radius = size.x();
+      own = {2 * size.x(), size.x()};
     } else if (shape.kind == ShapeModel::Kind::capsule) {
       body.geometry = std::make_shared<fcl::Capsuled>(size.x(), size.y());
-      body.radius = size.x() + size.y() / 2;
+      own = {2 * size.x(), size.x() + size.y() / 2};
     } else if (shape.kind == ShapeModel::Kind::box) {
       body.geometry = std::make_shared<fcl::Boxd>(size);
-      body.radius = size.norm() / 2;
+      own = {size.minCoeff(), size.norm() / 2};
     } else {
       body.geometry = std::make_shared<fcl::Cylinderd>(size.x(), size.y());
-      body.radius = std::hypot(size.x(), size.y() / 2);
+      own = {std::min(2 * size.x(), size.y()), std::hypot(size.x(), size.y() / 2)};
     }
     body.geometry->computeLocalAABB();
+    body.radius = own.ball;
+    body.radii = radiiFor(options_, link, [&] { return own; });
   }
 
   const RobotModel& robot_;

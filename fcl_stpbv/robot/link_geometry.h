@@ -20,8 +20,9 @@
 namespace fcl_stpbv {
 
 struct GeometryOptions {
-  StpBvOptions radii;                         ///< of every link's volumes
-  std::map<std::string, StpBvOptions> links;  ///< of single links, by name
+  StpBvOptions radii;               ///< of every link's volumes
+  bool fitr = false, fitR = false;  ///< r, R of each body that fit its size instead (fitted_radii.h)
+  std::map<std::string, StpBvOptions> links;  ///< of single links, by name: these win
   /// Most that a volume may exceed the hull of its mesh by (m), 0 for any. With one a volume gets few
   /// vertices (reduce()) and a larger r to cover the others; R is doubled first until all vertices keep to
   /// the budget. The budget must be above r.
@@ -42,12 +43,15 @@ struct Body {
   std::string name;        ///< the link's, with #2, #3 ... for its further shapes
   Eigen::Isometry3d pose;  ///< in the link's frame
   std::shared_ptr<fcl::CollisionGeometryd> geometry;
-  StpBv::Ptr volume;       ///< null for a primitive and for a flat mesh
-  StpBv::Ptr full;         ///< the volume of all the mesh's points where `volume` is a reduced one, else null
-  std::string file;        ///< "" for a primitive
+  StpBvOptions radii;  ///< those asked for, or fitted; where a primitive is flat, those of its cover to be
+  StpBv::Ptr volume;   ///< null for a flat primitive and for a flat mesh
+  StpBv::Ptr full;     ///< the volume of all the mesh's points where `volume` is a reduced one, else null
+  std::shared_ptr<fcl::CollisionGeometryd> primitive;  ///< the primitive under its smooth cover, else null
+  std::string file;                                    ///< "" for a primitive
+  Eigen::Vector3d scale{1, 1, 1};                      ///< of the mesh
   Eigen::Vector3d centre;  ///< of a sphere that holds the body, in the link's frame
   double radius = 0;       ///< of that sphere (m)
-  OverCover cover{0, 0};   ///< what the volume exceeds the hull of the mesh by (m)
+  OverCover cover{0, 0};   ///< what the volume exceeds the mesh's hull or the primitive by (m)
 };
 
 struct RobotGeometry {
@@ -59,8 +63,9 @@ struct RobotGeometry {
   std::pair<int, int> of(int link) const;
 };
 
-/// Reads the meshes and builds the volumes. A link without collision shapes has no body; where the whole
-/// robot has none, its visual shapes are taken with a warning.
+/// Reads the meshes and builds the volumes; primitives stay as they are until coverPrimitives()
+/// (smooth_pairs.h). A link without collision shapes has no body; where the whole robot has none, its visual
+/// shapes are taken with a warning.
 /// @throws Error naming the URDF, the link, the file and what would work.
 RobotGeometry loadGeometry(const RobotModel& robot, const GeometryOptions& options = {});
 

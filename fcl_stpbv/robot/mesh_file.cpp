@@ -220,27 +220,27 @@ std::vector<T> take(const char*& bytes) {
 
 TriangleMesh loadMesh(const std::string& path, const Vector3d& scale) {
   checkReadable(path, scale);
+  TriangleMesh mesh;
+  if (const std::optional<std::string> text = qhullText(path)) {
+    mesh.vertices = parseQhullPoints(*text, path);
+    for (Vector3d& point : mesh.vertices) point = point.cwiseProduct(scale);
+    return mesh;
+  }
   const std::string bytes = inChildProcess(path, [&](ChildLimits& limits) {
-    const TriangleMesh mesh = readMesh(path, scale, limits);
+    const TriangleMesh read = readMesh(path, scale, limits);
     std::string all;
-    append(all, mesh.vertices);
-    append(all, mesh.triangles);
+    append(all, read.vertices);
+    append(all, read.triangles);
     return all;
   });
   const char* at = bytes.data();
-  TriangleMesh mesh;
   mesh.vertices = take<Vector3d>(at);
   mesh.triangles = take<std::array<int, 3>>(at);
   return mesh;
 }
 
 std::vector<Vector3d> loadPoints(const std::string& path, const Vector3d& scale) {
-  checkReadable(path, scale);
-  const std::optional<std::string> text = qhullText(path);
-  if (!text) return loadMesh(path, scale).vertices;
-  std::vector<Vector3d> points = parseQhullPoints(*text, path);
-  for (Vector3d& point : points) point = point.cwiseProduct(scale);
-  return points;
+  return loadMesh(path, scale).vertices;
 }
 
 }  // namespace fcl_stpbv

@@ -16,11 +16,13 @@ namespace fcl_stpbv {
 /// COLLADA's `unit` is applied, so lengths are in metres. Its `up_axis` is not, as in rviz and MoveIt, for
 /// which robot descriptions are made: a point's x stays x. Other formats state no unit and are taken as
 /// metres. assimp stores single precision: a coordinate of 1 m is good to 0.06 um.
+///
+/// Of a qhull polyhedron or point file (`*-ch.txt`, `*.otp`, told by their content; double precision and as
+/// many points as the file holds) the points alone, without triangles.
 /// @throws Error naming the file and what would work.
 TriangleMesh loadMesh(const std::string& path, const Eigen::Vector3d& scale = {1, 1, 1});
 
-/// The points of a mesh file, or those of a qhull polyhedron or point file (`*-ch.txt`, `*.otp`; double
-/// precision and as many as the file holds), told apart by their content.
+/// The points of such a file.
 /// @throws Error naming the file and what would work.
 std::vector<Eigen::Vector3d> loadPoints(const std::string& path, const Eigen::Vector3d& scale = {1, 1, 1});
 

@@ -248,6 +248,70 @@ class Report(unittest.TestCase):
         self.assertIn("1 meshes have a published polyhedron", text)
         self.assertRegex(text, r"\na +999\.\d+ +8, +8 +4, +4\n")
 
+    def boxes(self, name, side, *middles):
+        """One mesh of several boxes."""
+        text = ""
+        for k, middle in enumerate(middles):
+            corners = [[m + c for m, c in zip(middle, (x, y, z))] for x in (-side, side) for y in (-side, side) for z in (-side, side)]
+            text += "".join("v %.9g %.9g %.9g\n" % tuple(c) for c in corners)
+            for face in ((1, 2, 4, 3), (5, 7, 8, 6), (1, 5, 6, 2), (3, 4, 8, 7), (1, 3, 7, 5), (2, 6, 8, 4)):
+                text += "f " + " ".join(str(v + 8 * k) for v in face) + "\n"
+        return '<mesh filename="file://%s"/>' % self.put(name, text)
+
+    def test_a_collision_is_explained_by_the_meshes(self):
+        srdf, pose = self.put("none.srdf", '<robot name="small"/>'), self.put("pose.json", "{}")
+        gate = self.boxes("gate.obj", 0.1, (-0.3, 0, 0), (0.3, 0, 0))  # its hull spans the gap of 0.4 m
+        far = self.boxes("far.obj", 0.01, (5, 0, 0))
+        # Where the small box is: its distance from the gate, and why the volumes meet.
+        cases = {(0, 0, 0): (0.15, "hull only"), (0, 0, 0.155): (None, "margin only"), (0.3, 0.14, 0): (0, "meshes meet"),
+                 (0.3, 0, 0): (0, "meshes meet"), (0.3, 0.155, 0): (0.005, "margin only"), (0.3, 0, 0.4): (None, "")}
+        for middle, (distance, cause) in cases.items():
+            robot = self.robot(link("a", gate) + link("b", far) + link("c", self.boxes("small.obj", 0.05, middle))
+                               + joint("j", "a", "b") + joint("k", "b", "c"))
+            done = self.run_tool(robot, "--srdf", srdf, "--pose", pose, "-r", "0.01", "--samples", "1", "--format", "json")
+            report = json.loads(done.stdout)
+            pair = next(p for p in report["pairs"] if (p["link1"], p["link2"]) == ("a", "c"))
+            self.assertEqual(pair["cause"], cause, middle)
+            self.assertEqual(done.returncode, 1 if cause else 0)
+            self.assertEqual(report["summary"]["causes"], {cause: 1} if cause else {})
+            self.assertEqual(pair["lipschitz"], 50)
+            if distance is not None:
+                self.assertAlmostEqual(pair["mesh_distance"], distance, delta=1e-6)  # the file's single precision
+            text = self.run_tool(robot, "--srdf", srdf, "--pose", pose, "-r", "0.01", "--samples", "1").stdout
+            self.assertIn("1 " + cause if cause else "0 of them in collision", text)
+        rows = list(csv.DictReader(io.StringIO(self.run_tool(robot, "--srdf", srdf, "--pose", pose, "--format", "csv").stdout)))
+        self.assertLessEqual({"cause", "mesh_distance"}, set(rows[0]))
+
+    def test_primitives_are_covered_where_a_pair_has_no_smooth_body(self):
+        urdf = self.robot("".join(link("l%d" % i, shape) for i, shape in enumerate((
+            '<box size="0.1 0.2 0.3"/>', '<capsule radius="0.05" length="0.2"/>', '<cylinder radius="0.05" length="0.2"/>',
+            '<sphere radius="0.05"/>', '<box size="0.1 0.1 0.1"/>', '<capsule radius="0.02" length="0.1"/>')))
+            + "".join(joint("j%d" % i, "l%d" % (i - 1), "l%d" % i) for i in range(1, 6)))
+        smooth = json.loads(self.run_tool(urdf, "--samples", "5", "--format", "json").stdout)
+        self.assertTrue(all(pair["continuous"] for pair in smooth["pairs"] if pair["reason"] != "adjacent"))
+        covers = [link for link in smooth["links"] if "r" in link]
+        self.assertTrue(0 < len(covers) < 6)
+        self.assertTrue(all(link["over_cover_max"] < 0.03 for link in covers))
+        flat = json.loads(self.run_tool(urdf, "--samples", "5", "--primitives", "flat", "--format", "json").stdout)
+        self.assertFalse(any(pair["continuous"] for pair in flat["pairs"]))
+        self.assertEqual(self.run_tool(urdf, "--primitives", "round").returncode, 2)
+
+    def test_r_fits_the_link_unless_it_is_given(self):
+        thin, thick = self.boxes("thin.obj", 0.005, (0, 0, 0)), self.boxes("thick.obj", 0.5, (0, 0, 0))
+        urdf = self.robot(link("thin", thin) + link("thick", thick) + joint("j", "thin", "thick"))
+        def radii(*arguments):
+            links = json.loads(self.run_tool(urdf, "--samples", "1", "--format", "json", *arguments).stdout)["links"]
+            return [(link["r"], link["R"]) for link in links]
+        (r1, R1), (r2, R2) = radii()
+        self.assertAlmostEqual(r1, 0.0005, delta=1e-9)  # a twentieth of 1 cm
+        self.assertEqual(r2, 0.01)
+        self.assertEqual(radii("--r", "auto", "--R", "auto"), [(r1, R1), (r2, R2)])
+        self.assertEqual(radii("-r", "0.003"), [(0.003, 10)] * 2)
+        self.assertEqual(radii("-R", "7"), [(r1, 7), (r2, 7)])
+        self.assertEqual(radii("--link", "thin=0.002,5"), [(0.002, 5), (r2, R2)])
+        for wrong in ("automatic", "-0.1", "nan", "0.1x"):
+            self.assertEqual(self.run_tool(urdf, "-r", wrong).returncode, 2, wrong)
+
     def test_a_folder_without_a_polyhedron_of_the_robot_is_refused(self):
         for folder in (self.folder.name, "/nowhere"):
             done = self.humanoid("--polyhedra", folder)
@@ -258,7 +322,7 @@ class Report(unittest.TestCase):
     def test_jvrc1s_meshes_and_polyhedra_differ_by_their_last_digit(self):
         jvrc = os.path.join(SHARED, "jvrc_description")
         done = self.run_tool(jvrc + "/urdf/jvrc1.urdf", "--package-path", SHARED, "--samples", "1", "--format", "json",
-                             "--polyhedra", jvrc + "/convex/jvrc1")
+                             "-r", "0.01", "--polyhedra", jvrc + "/convex/jvrc1")
         found = {each["name"]: each["polyhedron"] for each in json.loads(done.stdout)["links"] if "polyhedron" in each}
         self.assertEqual(len(found), 35)
         self.assertLess(max(each["surface_difference"] for each in found.values()), 0.7e-6)

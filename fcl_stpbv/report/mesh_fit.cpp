@@ -1,0 +1,26 @@
+// See mesh_fit.h.
+#include "fcl_stpbv/report/mesh_fit.h"
+
+#include "fcl_stpbv/parts/mesh_excess.h"
+
+namespace fcl_stpbv::report {
+
+MeshFit meshFit(const Body& body, const ExactBody& exact) {
+  MeshFit fit;
+  if (exact.mesh()) {
+    ExcessOptions options;
+    options.relative = 0.02;  // a report's figure, not a proof's
+    options.queries = 20000;  // a tenth of a second
+    options.filled = false;
+    const MeshExcess excess = hullExcess(exact.mesh()->vertices, MeshSolid(*exact.mesh()), options);
+    fit.hullExcess = excess.upper;
+    fit.hullExcessSeen = excess.lower;
+  }
+  fit.volumeExcess = fit.hullExcess + body.cover.max;
+  if (body.volume)
+    fit.volumeRatio =
+        enclosedVolume(*body.volume) / (body.primitive ? body.primitive->computeVolume() : exact.volume());
+  return fit;
+}
+
+}  // namespace fcl_stpbv::report

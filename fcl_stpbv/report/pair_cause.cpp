@@ -1,0 +1,74 @@
+// See pair_cause.h.
+#include "fcl_stpbv/report/pair_cause.h"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+
+#include "fcl_stpbv/adapter/proximity.h"
+
+namespace fcl_stpbv::report {
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+}  // namespace
+
+PairCauses::PairCauses(std::shared_ptr<const Kinematics> kinematics,
+                       std::shared_ptr<const RobotGeometry> robot, std::vector<Obstacle> obstacles,
+                       const RobotGeometry& scene)
+    : kinematics_(std::move(kinematics)),
+      robot_(std::move(robot)),
+      obstacles_(std::move(obstacles)),
+      scene_(scene) {}
+
+const ExactBody& PairCauses::exact(const Body& body) {
+  std::unique_ptr<ExactBody>& place = exact_[&body];
+  if (!place) place = std::make_unique<ExactBody>(body);
+  return *place;
+}
+
+PairCauses::Placed PairCauses::first(const CheckedPair& pair, const Kinematics::State& state) {
+  const Body& body = robot_->bodies[at(pair.body)];
+  return {&exact(body), state.link[at(body.link)] * body.pose};
+}
+
+PairCauses::Placed PairCauses::second(const CheckedPair& pair, const Kinematics::State& state) {
+  if (pair.obstacle) return {&exact(scene_.bodies[at(pair.other)]), obstacles_[at(pair.other)].pose};
+  return first({pair.other, pair.body}, state);
+}
+
+PairCause PairCauses::explain(const std::vector<CheckedPair>& bodies, const Eigen::VectorXd& q,
+                              double margin) {
+  ConstraintOptions options;
+  options.obstacles = obstacles_;
+  CollisionConstraints constraints(kinematics_, robot_, bodies, options);
+  Eigen::VectorXd d(constraints.rows());
+  constraints.evaluate(q, d);
+  std::vector<int> order(bodies.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return d[a] < d[b]; });
+  PairCause found{std::numeric_limits<double>::infinity(), ""};
+  bool hulls = false;
+  for (const int row : order) {
+    const Placed a = first(bodies[at(row)], constraints.state()),
+                 b = second(bodies[at(row)], constraints.state());
+    if (d[row] <= margin) {
+      if (found.cause.empty()) found.cause = kMarginOnly;
+      hulls = hulls || !isFartherThan(margin, a.body->hull(), a.pose, b.body->hull(), b.pose);
+    }
+    // A volume contains its mesh, so meshes are at least as far apart as their volumes.
+    if (d[row] >= found.meshDistance) continue;
+    const double least = std::max(0.0, constraints.answer(row).lower);
+    found.meshDistance =
+        std::min(found.meshDistance, meshDistance(*a.body, a.pose, *b.body, b.pose, least).upper);
+  }
+  if (found.cause.empty()) return found;
+  if (found.meshDistance <= std::max(0.0, margin))
+    found.cause = kMeshesMeet;
+  else if (hulls)
+    found.cause = kHullOnly;
+  return found;
+}
+
+}  // namespace fcl_stpbv::report

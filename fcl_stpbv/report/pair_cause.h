@@ -1,0 +1,52 @@
+// What a collision of two links comes from: their meshes, hulls fatter than the meshes, or the margins r and
+// R.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "fcl_stpbv/report/mesh_distance.h"
+#include "fcl_stpbv/robot/constraints.h"
+
+namespace fcl_stpbv::report {
+
+inline constexpr const char* kMeshesMeet = "meshes meet";
+inline constexpr const char* kHullOnly = "hull only";      ///< the convex hulls meet, the meshes do not
+inline constexpr const char* kMarginOnly = "margin only";  ///< neither do the hulls
+/// What is found about a pair of links, or a link and an obstacle, in one configuration.
+struct PairCause {
+  double meshDistance = 0;  ///< least of all pairs of their bodies, 0 where two of them meet (m)
+  std::string cause;        ///< one of the above; "" where the volumes are farther apart than the margin
+};
+
+/// Measures the meshes behind volumes. Each file is read again when it is first needed, and kept.
+class PairCauses {
+ public:
+  /// `scene`: the bodies behind `obstacles`, in their order.
+  PairCauses(std::shared_ptr<const Kinematics> kinematics, std::shared_ptr<const RobotGeometry> robot,
+             std::vector<Obstacle> obstacles, const RobotGeometry& scene);
+
+  /// A distance not above `margin` (m) is a collision, of volumes, hulls and meshes alike, but meshes meet at
+  /// 0 at the latest where it is negative. `bodies` are those of one pair of links.
+  PairCause explain(const std::vector<CheckedPair>& bodies, const Eigen::VectorXd& q, double margin);
+
+  const ExactBody& exact(const Body& body);
+
+ private:
+  struct Placed {
+    const ExactBody* body;
+    Eigen::Isometry3d pose;
+  };
+  Placed first(const CheckedPair& pair, const Kinematics::State& state);
+  Placed second(const CheckedPair& pair, const Kinematics::State& state);
+
+  std::shared_ptr<const Kinematics> kinematics_;
+  std::shared_ptr<const RobotGeometry> robot_;
+  std::vector<Obstacle> obstacles_;
+  const RobotGeometry& scene_;
+  std::map<const Body*, std::unique_ptr<ExactBody>> exact_;
+};
+
+}  // namespace fcl_stpbv::report

@@ -1,0 +1,37 @@
+// See fitted_radii.h.
+#include "fcl_stpbv/robot/fitted_radii.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fcl_stpbv/adapter/fcl_distance.h"
+#include "fcl_stpbv/adapter/hull_geometry.h"
+
+namespace fcl_stpbv {
+
+BodySize sizeOf(const std::vector<Eigen::Vector3d>& points) {
+  BodySize size;
+  size.ball = StpBv::smallestR(points, 0);
+  // The smallest width is how deep the hull is in itself: the shortest way out of its difference with itself.
+  const auto hull = hullGeometry(points);
+  const DistanceAnswer self =
+      distance(*hull, fcl::Transform3d::Identity(), *hull, fcl::Transform3d::Identity());
+  size.width = std::clamp(-self.upper, 0.0, 2 * size.ball);
+  return size;
+}
+
+StpBvOptions fittedRadii(const BodySize& size) {
+  constexpr double kWidth = 1.0 / 20, kBall = 1.0 / 250, kMost = StpBvOptions().r;
+  const double r = std::min(kMost, std::max(kWidth * size.width, kBall * size.ball));
+  return {r, fittedR(size.ball, r)};
+}
+
+// Where the surface is highest over the hull, a big ball of radius rho = R - r touches points of a ball of
+// radius b: its centre is at least sqrt(rho^2 - b^2) from their hull, so the surface at most r + rho - that.
+double fittedR(double ball, double r) {
+  constexpr double kBall = 1.0 / 200;
+  const double bulge = std::max(r, kBall * ball);
+  return bulge > 0 ? r + (ball * ball + bulge * bulge) / (2 * bulge) : StpBvOptions().R;
+}
+
+}  // namespace fcl_stpbv

@@ -1,0 +1,105 @@
+// See link_volume.h.
+#include "fcl_stpbv/robot/link_volume.h"
+
+#include "fcl_stpbv/error.h"
+#include "fcl_stpbv/io/text_scanner.h"
+#include "fcl_stpbv/robot/mesh_file.h"
+#include "fcl_stpbv/volume/reduce.h"
+
+namespace fcl_stpbv {
+namespace {
+
+using Points = std::vector<Eigen::Vector3d>;
+
+std::string withScale(const std::string& bytes, const Eigen::Vector3d& scale) {
+  std::string content;
+  appendVector(content, scale);
+  return content + '\n' + bytes;
+}
+
+// What the cache knows a mesh by: the file's bytes, or for glTF, which keeps its vertices in other files, the
+// points.
+std::string contentOf(const std::string& path, const Eigen::Vector3d& scale) {
+  const bool several = path.size() > 5 && path.compare(path.size() - 5, 5, ".gltf") == 0;
+  if (!several) return withScale(readText(path), scale);
+  std::string points;
+  for (const Eigen::Vector3d& p : loadPoints(path)) {
+    appendVector(points, p);
+    points += '\n';
+  }
+  return withScale(points, scale);
+}
+
+// One mesh on its way to a volume; the points are read when they are needed, which with a warm cache may be
+// never.
+class VolumeMaker {
+ public:
+  VolumeMaker(const GeometryOptions& options, const std::string& link, VolumeCache& cache, Body& body)
+      : cache_(cache), body_(body), content_(contentOf(body.file, body.scale)) {
+    body_.radii = radiiFor(options, link, [this] { return sizeOf(points()); });
+  }
+
+  void make(double budget) {
+    build();
+    body_.cover = overCover(*body_.volume);
+    if (budget > 0) reduceTo(budget);
+    body_.geometry = std::make_shared<StpBvGeometry>(body_.volume);
+    body_.centre = body_.volume->centre();
+    body_.radius = body_.volume->enclosingRadius();
+  }
+
+ private:
+  const Points& points() {
+    if (points_.empty()) points_ = loadPoints(body_.file, body_.scale);
+    return points_;
+  }
+
+  void build() {
+    body_.volume =
+        cache_.volume(content_, body_.radii, [this] { return StpBv::build(points(), body_.radii); });
+  }
+
+  void reduceTo(double budget) {
+    constexpr double kLargest = 1e5;  // beyond it a big sphere is flat to rounding
+    StpBvOptions& radii = body_.radii;
+    body_.cover = overCover(*body_.volume, points());
+    for (; body_.cover.max > budget && radii.R < kLargest; body_.cover = overCover(*body_.volume, points())) {
+      radii.R *= 2;  // the over-cover falls towards r
+      build();
+    }
+    if (body_.cover.max > budget)
+      throw Error("no R keeps its over-cover within " + toDecimal(budget) +
+                  " m with r = " + toDecimal(radii.r) + " m; give a larger budget or a smaller r");
+    const StpBv::Ptr few = cache_.volume(content_ + "\nreduced to " + toDecimal(budget), radii,
+                                         [&] { return reduce(points(), radii, budget); });
+    if (few->vertexCount() >= body_.volume->vertexCount()) return;
+    body_.full = body_.volume;
+    body_.volume = few;
+    body_.cover = overCover(*few, points());
+  }
+
+  VolumeCache& cache_;
+  Body& body_;
+  std::string content_;
+  Points points_;
+};
+
+}  // namespace
+
+StpBvOptions radiiFor(const GeometryOptions& options, const std::string& link,
+                      const std::function<BodySize()>& size) {
+  const auto own = options.links.find(link);
+  if (own != options.links.end()) return own->second;
+  if (!options.fitr && !options.fitR) return options.radii;
+  const BodySize known = size();
+  const double r = options.fitr ? fittedRadii(known).r : options.radii.r;
+  return {r, options.fitR ? fittedR(known.ball, r) : options.radii.R};
+}
+
+void makeVolume(const GeometryOptions& options, const std::string& link, VolumeCache& cache, Body& body) {
+  const auto budget = options.budgets.find(link);
+  VolumeMaker(options, link, cache, body)
+      .make(budget == options.budgets.end() ? options.overCoverBudget : budget->second);
+}
+
+}  // namespace fcl_stpbv

@@ -1,0 +1,18 @@
+// The STP-BV of a link's mesh: its radii, the budget for its over-cover, and the cache.
+#pragma once
+
+#include "fcl_stpbv/robot/fitted_radii.h"
+#include "fcl_stpbv/robot/link_geometry.h"
+
+namespace fcl_stpbv {
+
+/// r and R of a link's bodies: the link's own, those for all links, or what fits the body (GeometryOptions).
+/// `size` is only asked where they are fitted.
+StpBvOptions radiiFor(const GeometryOptions& options, const std::string& link,
+                      const std::function<BodySize()>& size);
+
+/// Makes `body`, whose `file` and `scale` are known, the volume of its mesh. @throws Error without the file's
+/// name.
+void makeVolume(const GeometryOptions& options, const std::string& link, VolumeCache& cache, Body& body);
+
+}  // namespace fcl_stpbv
