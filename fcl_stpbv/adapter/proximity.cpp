@@ -5,9 +5,8 @@
 
 #include "fcl_stpbv/adapter/element_tree.h"
 #include "fcl_stpbv/adapter/fcl_shapes.h"
-#include "fcl_stpbv/adapter/flat_overlap.h"
-#include "fcl_stpbv/adapter/flat_pair.h"
 #include "fcl_stpbv/distance/shape_distance.h"
+#include "fcl_stpbv/distance/shape_pair.h"
 
 namespace fcl_stpbv {
 
@@ -151,11 +150,7 @@ class Walk {
     if (!a_.body(leafA, a) || !b_.body(leafB, b)) return true;  // a free cell
     if (!a_.unbounded() && !b_.unbounded() && rememberedPlaneTells(a, b)) return true;
     if (counts_) ++counts_->solved;
-    if (!a.volume && !b.volume) {
-      if (a_.unbounded()) return planeDistance(a.shape, a.pose, b.shape, b.pose).lower > x_;
-      if (b_.unbounded()) return planeDistance(b.shape, b.pose, a.shape, a.pose).lower > x_;
-      return flatFartherThan(x_, a.shape, a.pose, b.shape, b.pose);
-    }
+    if (!a.volume && !b.volume) return fcl_stpbv::isFartherThan(x_, a.shape, a.pose, b.shape, b.pose);
     const Distance d = !b.volume   ? distance(*a.volume, a.pose, b.shape, b.pose, &cache_)
                        : !a.volume ? distance(a.shape, a.pose, *b.volume, b.pose, &cache_)
                                    : distance(*a.volume, a.pose, *b.volume, b.pose, &cache_);

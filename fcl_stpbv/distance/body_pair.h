@@ -6,8 +6,8 @@
 #include <array>
 #include <limits>
 
+#include "fcl_stpbv/convex/relative_pose.h"
 #include "fcl_stpbv/distance/patch_pair.h"
-#include "fcl_stpbv/distance/rotation.h"
 #include "fcl_stpbv/volume/stp_bv.h"
 
 namespace fcl_stpbv {
@@ -35,28 +35,26 @@ struct Sample {
 /// own coordinates and their mutual distance enter.
 class BodyPair {
  public:
-  /// `rotation` and `translation` place the second body in the first one's frame; `rotation` is orthonormal.
-  BodyPair(const StpBv& a, const StpBv& b, const Rotation& rotation, const Packed& translation)
-      : a_(a), b_(b), rotation_(rotation), translation_(translation) {
+  /// `pose` is valid, and outlives the pair.
+  BodyPair(const StpBv& a, const StpBv& b, const RelativePose& pose) : a_(a), b_(b), pose_(pose) {
     constexpr double kRounding = 8.0 * std::numeric_limits<double>::epsilon();
-    gapRounding_ = kRounding * (a.extent() + b.extent() + unpack(translation).lpNorm<1>());
+    gapRounding_ = kRounding * (a.extent() + b.extent() + unpack(pose.translation).lpNorm<1>());
     acrossRounding_ = gapRounding_ + kRounding * (a.radii().rho + b.radii().rho);
   }
 
   const StpBv& a() const { return a_; }
   const StpBv& b() const { return b_; }
-  const Rotation& rotation() const { return rotation_; }
-  Eigen::Vector3d translation() const { return unpack(translation_); }
+  const RelativePose& pose() const { return pose_; }
 
   /// The second body's outward normal, in its own frame, where the first body's is `n`.
-  Eigen::Vector3d opposite(const Eigen::Vector3d& n) const { return rotation_.inverse(Eigen::Vector3d(-n)); }
-  Packed opposite(const Packed& n) const { return rotation_.inverse(-n); }
+  Eigen::Vector3d opposite(const Eigen::Vector3d& n) const { return pose_.opposite(n); }
+  Packed opposite(const Packed& n) const { return pose_.opposite(n); }
 
   PosedPatch patchA(int patch) const { return ownPatch(a_, patch); }
   PosedPatch patchB(int patch) const {
     PosedPatch p = ownPatch(b_, patch);
-    p.anchor = placed(p.anchor);
-    p.axis = rotation_ * p.axis;
+    p.anchor = pose_.placed(p.anchor);
+    p.axis = pose_.rotation * p.axis;
     return p;
   }
 
@@ -78,14 +76,15 @@ class BodyPair {
 
   /// Second body's vertex less the first one's: a point of the difference of the cores.
   Packed vertexDifference(const std::array<int, 2>& vertex) const {
-    return placed(pack(b_.patches().vertex(vertex[1]).point)) - pack(a_.patches().vertex(vertex[0]).point);
+    return pose_.placed(pack(b_.patches().vertex(vertex[1]).point)) -
+           pack(a_.patches().vertex(vertex[0]).point);
   }
 
   /// One about as far against `n`, of any length, as any: from the tables of directions alone.
   Packed differenceAgainst(const Eigen::Vector3d& n) const { return vertexDifference(near(n)); }
 
   /// Second body's centre less the first one's.
-  Packed centreDifference() const { return placed(pack(b_.centre())) - pack(a_.centre()); }
+  Packed centreDifference() const { return pose_.placed(pack(b_.centre())) - pack(a_.centre()); }
 
   /// The gap along `n`; the owners are looked for from `hint`. Adds the patches that changed to `steps`.
   Sample sampleFrom(const Eigen::Vector3d& n, const std::array<int, 2>& hint, int& steps) const;
@@ -111,9 +110,6 @@ class BodyPair {
   }
 
  private:
-  /// A point of the second body in the first one's frame.
-  Packed placed(const Packed& p) const { return rotation_ * p + translation_; }
-
   /// A patch in its body's own frame.
   static PosedPatch ownPatch(const StpBv& body, int patch) {
     const PatchTable& patches = body.patches();
@@ -130,8 +126,7 @@ class BodyPair {
 
   const StpBv& a_;
   const StpBv& b_;
-  Rotation rotation_;
-  Packed translation_;
+  const RelativePose& pose_;
   double gapRounding_;
   double acrossRounding_;
 };

@@ -6,7 +6,6 @@
 
 #include "fcl_stpbv/distance/ascent.h"
 #include "fcl_stpbv/distance/body_pair.h"
-#include "fcl_stpbv/distance/orthonormal.h"
 #include "fcl_stpbv/distance/wide_search.h"
 #include "fcl_stpbv/vectorized.h"
 
@@ -131,22 +130,12 @@ bool hop(const BodyPair& pair, const Start& start, Sample& x, Work& work) {
 FCL_STPBV_VECTORIZED
 Distance distance(const StpBv& a, const Isometry3d& poseA, const StpBv& b, const Isometry3d& poseB,
                   PairCache* cache) {
-  constexpr double kHuge = 1e300;  // squares must not overflow
   Distance result;
-  result.lower = -std::numeric_limits<double>::infinity();
-  result.upper = std::numeric_limits<double>::infinity();
-  const Rotation toWorld(poseA);
-  Rotation rotation = toWorld.relative(poseB);
-  if (!rotation.orthonormal()) {
-    Eigen::Matrix3d matrix = rotation.matrix();
-    if (!makeOrthonormal(matrix)) return result;
-    rotation = Rotation(matrix);
-  }
-  const Packed originA = column(poseA, 3), translation = toWorld.inverse(column(poseB, 3) - originA);
-  if (!(dot(translation, translation) < kHuge)) return result;
+  const RelativePose pose(poseA, poseB);
+  if (!pose.valid) return result;
 
-  const BodyPair pair(a, b, rotation, translation);
-  const Start start = startOf(pair, toWorld, cache);
+  const BodyPair pair(a, b, pose);
+  const Start start = startOf(pair, pose.toWorld, cache);
   Found found;
   Work work;
   const bool settled = hop(pair, start, found.at, work);
@@ -167,9 +156,9 @@ Distance distance(const StpBv& a, const Isometry3d& poseA, const StpBv& b, const
   result.distance = result.lower;
   result.patch = at.patch;
   const Packed n = pack(at.n), pointA = pack(at.point), pointB = pointA + pack(at.across) + at.core * n;
-  result.normal = unpack(renormalized(toWorld * n));
-  result.point[0] = unpack(originA + toWorld * (pointA + a.radii().r * n));
-  result.point[1] = unpack(originA + toWorld * (pointB - b.radii().r * n));
+  result.normal = unpack(renormalized(pose.toWorld * n));
+  result.point[0] = unpack(pose.origin + pose.toWorld * (pointA + a.radii().r * n));
+  result.point[1] = unpack(pose.origin + pose.toWorld * (pointB - b.radii().r * n));
   result.patchPairs = work.pairs;
   result.patchSteps = work.steps;
   if (cache) {

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <array>
+#include <limits>
 
 #include "fcl_stpbv/volume/stp_bv.h"
 
@@ -25,8 +26,10 @@ using TwistGradient = Eigen::Matrix<double, 6, 1, Eigen::DontAlign>;
 struct Distance {
   DistanceStatus status = DistanceStatus::invalid;
   double distance = 0;  ///< signed: negative where the bodies overlap
-  double lower = 0;     ///< certified: the gap between the two supporting planes of `normal`
-  double upper = 0;     ///< certified: from the distance of the cores' points, or how deep they are at least
+  /// Certified: the gap between the two supporting planes of `normal`.
+  double lower = -std::numeric_limits<double>::infinity();
+  /// Certified: from the distance of the cores' points, or how deep they are at least.
+  double upper = std::numeric_limits<double>::infinity();
   Eigen::Vector3d normal{0, 0, 0};  ///< unit, from body 1 to body 2
   std::array<Eigen::Vector3d, 2> point{Eigen::Vector3d(0, 0, 0),
                                        Eigen::Vector3d(0, 0, 0)};  ///< witness points, on the smooth surfaces

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "fcl_stpbv/convex/epa.h"
 #include "fcl_stpbv/distance/crown.h"
-#include "fcl_stpbv/distance/polytope.h"
 #include "fcl_stpbv/distance/polytope_search.h"
 #include "fcl_stpbv/vectorized.h"
 
@@ -50,20 +50,20 @@ class Search {
 
   /// Expands where the surface is nearest; true once nothing is nearer than the maximum in `x`.
   bool run(double& bound) {
-    while (polytope_.sound()) {
-      const Polytope::Face nearest = polytope_.nearest();
+    bool proven = false;
+    expandAtNearest(polytope_, [&](const Polytope::Face& nearest) {
       // The polytope lies inside the difference, so with the origin inside it no direction leads out sooner.
       bound = -std::max(0.0, std::min(least_, nearest.distance));
-      if (-x_.core - nearest.distance <= pair_.gapRounding()) return true;
+      proven = -x_.core - nearest.distance <= pair_.gapRounding();
+      if (proven) return false;
       if (nearest.has(top_) && -x_.core - nearest.distance <= kClose * nearest.distance &&
           isAlone(pair_, x_, nearest.distance)) {
         putAside(nearest);
-        continue;
+        return true;
       }
-      if (expandToVertex(nearest)) continue;
-      if (!expandToSurface(nearest)) return false;
-    }
-    return false;
+      return expandToVertex(nearest) || expandToSurface(nearest);
+    });
+    return proven;
   }
 
  private:

@@ -4,8 +4,8 @@
 #include <limits>
 #include <utility>
 
+#include "fcl_stpbv/convex/shape_curvature.h"
 #include "fcl_stpbv/distance/patch_pair.h"
-#include "fcl_stpbv/distance/shape_feature.h"
 
 namespace fcl_stpbv {
 

@@ -54,14 +54,14 @@ void leastPenetration(const BodyPair& pair, Sample& x, Work& work) {
     const Vector3d d(code % 3 - 1, code / 3 % 3 - 1, code / 9 - 1);
     if (code == 13) continue;
     tryNormal(d.normalized(), kNoHint);
-    tryNormal(pair.rotation() * d.normalized(), kNoHint);
+    tryNormal(pair.pose().rotation * d.normalized(), kNoHint);
   }
   const StpBv &a = pair.a(), &b = pair.b();
   const int strideA = 1 + a.faceCount() / kFaces, strideB = 1 + b.faceCount() / kFaces;
   for (int f = 0; f < a.faceCount(); f += strideA)
     tryNormal(a.patch(a.facePatch(f)).axis, {a.facePatch(f), -1});
   for (int f = 0; f < b.faceCount(); f += strideB)
-    tryNormal(-(pair.rotation() * b.patch(b.facePatch(f)).axis), {-1, b.facePatch(f)});
+    tryNormal(-(pair.pose().rotation * b.patch(b.facePatch(f)).axis), {-1, b.facePatch(f)});
 
   for (Sample& start : starts) {
     ascend(pair, start, work);

@@ -14,9 +14,9 @@ struct VertexSearch {
   std::array<Eigen::Vector3d, 4> corner;  ///< set where `surrounded`
 };
 
-/// Unit normal of the widest gap between the two point sets (Gilbert, Johnson, Keerthi 1988): the paper's
-/// first step (IV.B), done without any other library. Starts from the normal `n`. A hint only: it may be off
-/// where the STP-BV's own triangulation is not convex.
+/// Unit normal of the widest gap between the two point sets: the paper's first step (IV.B), by GJK
+/// (convex/gjk.h). Starts from the normal `n`. A hint only: it may be off where the STP-BV's own
+/// triangulation is not convex.
 ///
 /// The normal of a polyhedral witness falls into the region of the smooth patch of the same name: an edge's
 /// cone is centred on the plane across it, a face's region holds its plane's normal (paper IV.C, IV.D).

@@ -1,49 +1,58 @@
 #include "fcl_stpbv/distance/separation.h"
 
-#include "fcl_stpbv/distance/normal_cone.h"
+#include "fcl_stpbv/convex/direction_cone.h"
 
 namespace fcl_stpbv {
 
 using Eigen::Vector3d;
 
+namespace {
+
+DirectionTrial asTrial(const Sample& s) { return {s.n, s.core, s.core * s.n + s.across}; }
+
+}  // namespace
+
 CoreContact separateCores(const BodyPair& pair, Sample& x, Work& work) {
   const double touch = pair.gapRounding();
   Sample trial = x;
-  Vector3d difference = trial.core * trial.n + trial.across;
+  const auto touches = [&] { return asTrial(trial).difference.norm() <= touch; };
   if (trial.core > touch) return CoreContact::apart;
-  if (difference.norm() <= touch) return CoreContact::touching;
+  if (touches()) return CoreContact::touching;
 
-  NormalCone cone(difference);
-  for (int i = 0; i < NormalCone::kMaxCuts; ++i) {
-    trial = pair.sampleFrom(cone.middle(), trial.patch, work.steps);
-    if (trial.core > x.core) x = trial;
-    if (x.core > touch) return CoreContact::apart;
-    difference = trial.core * trial.n + trial.across;
-    if (difference.norm() <= touch) {
-      x = trial;
-      return CoreContact::touching;
-    }
-    if (!cone.cut(difference)) break;
-  }
-  return CoreContact::overlap;
+  bisectDirections(
+      asTrial(trial), 0.0,
+      [&](const Vector3d& n) {
+        trial = pair.sampleFrom(n, trial.patch, work.steps);
+        if (trial.core > x.core) x = trial;
+        return asTrial(trial);
+      },
+      [&](const DirectionTrial&) { return x.core > touch || touches(); });
+  if (x.core > touch) return CoreContact::apart;
+  if (!touches()) return CoreContact::overlap;
+  x = trial;
+  return CoreContact::touching;
 }
 
 bool bisectToWidest(const BodyPair& pair, Sample& x, Work& work) {
-  NormalCone cone(x.core * x.n + x.across);
-  if (!cone.cut(x.across)) return pair.isStationary(x);
-  Sample flattest = x;
-  for (int i = 0; i < NormalCone::kMaxCuts - 1; ++i) {
-    Sample trial = pair.sampleFrom(cone.middle(), x.patch, work.steps);
-    if (trial.core > x.core) x = trial;
-    if (trial.core > 0.0 && trial.across.squaredNorm() < flattest.across.squaredNorm()) flattest = trial;
-    if (pair.isStationary(flattest)) break;
-    const Vector3d gradient = trial.core > 0.0 ? trial.across : Vector3d(trial.core * trial.n + trial.across);
-    Vector3d next;
-    if (trial.core > 0.0 && settle(pair, trial, next, work)) {
-      x = trial;
-      return true;
-    }
-    if (!cone.cut(gradient)) break;
+  Sample flattest = x, trial = x;
+  bool settled = false;
+  bisectDirections(
+      asTrial(x), 0.0,
+      [&](const Vector3d& n) {
+        trial = pair.sampleFrom(n, x.patch, work.steps);
+        if (trial.core > x.core) x = trial;
+        if (trial.core > 0.0 && trial.across.squaredNorm() < flattest.across.squaredNorm()) flattest = trial;
+        return asTrial(trial);
+      },
+      [&](const DirectionTrial&) {
+        if (pair.isStationary(flattest)) return true;
+        Vector3d next;
+        settled = trial.core > 0.0 && settle(pair, trial, next, work);
+        return settled;
+      });
+  if (settled) {
+    x = trial;
+    return true;
   }
   // The gap is flat at its top, so its gradient tells the better normal where the values are equal to
   // rounding.

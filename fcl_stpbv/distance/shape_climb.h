@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "fcl_stpbv/distance/normal_cone.h"
+#include "fcl_stpbv/convex/direction_cone.h"
 #include "fcl_stpbv/distance/volume_view.h"
 
 namespace fcl_stpbv {
@@ -121,14 +121,15 @@ bool findGap(const StpBv& body, const Feature& feature, ClimbPoint& x, double to
     }
     return false;
   }
-  NormalCone cone(difference(x));
-  for (int i = 0; i < NormalCone::kMaxCuts; ++i) {
-    x = climbPoint(body, feature, cone.middle(), x.view.patch, steps);
-    if (x.gap > touch) return true;
-    const Eigen::Vector3d next = difference(x);
-    if (!(next.norm() > touch) || !cone.cut(next)) return false;
-  }
-  return false;
+  const auto asTrial = [&] { return DirectionTrial{x.view.n, x.gap, difference(x)}; };
+  bisectDirections(
+      asTrial(), touch,
+      [&](const Eigen::Vector3d& n) {
+        x = climbPoint(body, feature, n, x.view.patch, steps);
+        return asTrial();
+      },
+      [&](const DirectionTrial& t) { return t.gap > touch; });
+  return x.gap > touch;
 }
 
 /// Newton's step on the sphere (docs/theory.md, 6): the matrix W_A + W_B + gap, positive while there is a

@@ -5,13 +5,11 @@
 #include <limits>
 #include <utility>
 
-#include "fcl_stpbv/distance/orthonormal.h"
 #include "fcl_stpbv/distance/shape_overlap.h"
 
 namespace fcl_stpbv {
 
 using Eigen::Isometry3d;
-using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 namespace {
@@ -96,18 +94,12 @@ Found solve(ShapeQuery& q, const StartNormal& start) {
 
 Distance distance(const StpBv& volume, const Isometry3d& poseVolume, const Shape& shape,
                   const Isometry3d& poseShape, PairCache* cache) {
-  constexpr double kHuge = 1e300;  // squares must not overflow
   Distance result;
-  result.lower = -std::numeric_limits<double>::infinity();
-  result.upper = std::numeric_limits<double>::infinity();
-  Matrix3d rotation = poseVolume.linear().transpose() * poseShape.linear();
-  const Vector3d translation =
-      poseVolume.linear().transpose() * (poseShape.translation() - poseVolume.translation());
-  if (!shape.valid() || !makeOrthonormal(rotation) || !(translation.squaredNorm() < kHuge)) return result;
+  const RelativePose pose(poseVolume, poseShape);
+  if (!shape.valid() || !pose.valid) return result;
 
-  ShapeQuery q(volume, shape, rotation, translation);
-  const Vector3d remembered =
-      cache ? Vector3d(poseVolume.linear().transpose() * cache->normal) : Vector3d(0, 0, 0);
+  ShapeQuery q(volume, shape, pose);
+  const Vector3d remembered = cache ? pose.toWorld.inverse(cache->normal) : Vector3d(0, 0, 0);
   const Found found = solve(q, startOf(q, remembered, cache ? cache->patch[0] : -1));
 
   const Nearest& x = found.at;
@@ -117,9 +109,9 @@ Distance distance(const StpBv& volume, const Isometry3d& poseVolume, const Shape
   result.distance = result.lower = x.gap - margins;
   result.upper = std::max(found.upper, x.gap) - margins;
   result.patch = {view.patch, -1};
-  result.normal = (poseVolume.linear() * x.n).normalized();
-  result.point[0] = poseVolume * Vector3d(view.point + volume.radii().r * x.n);
-  result.point[1] = poseVolume * Vector3d(x.y - shape.margin * x.n);
+  result.normal = pose.normalInWorld(x.n);
+  result.point[0] = pose.inWorld(view.point + volume.radii().r * x.n);
+  result.point[1] = pose.inWorld(x.y - shape.margin * x.n);
   result.patchPairs = q.pairs;
   result.patchSteps = q.steps;
   if (cache) {

@@ -6,16 +6,15 @@
 
 namespace fcl_stpbv {
 
-using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-ShapeQuery::ShapeQuery(const StpBv& a, const Shape& s, const Matrix3d& r, const Vector3d& t)
-    : body(a), shape(s), rotation(r), translation(t) {
+ShapeQuery::ShapeQuery(const StpBv& a, const Shape& s, const RelativePose& p)
+    : body(a), shape(s), pose(p), rotation(p.rotation.matrix()), translation(unpack(p.translation)) {
   constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
   // Coordinates up to the bodies' extents and mutual distance, a dozen operations.
-  rounding.gap =
-      8.0 * kEpsilon *
-      (a.centre().lpNorm<1>() + a.enclosingRadius() + t.lpNorm<1>() + s.centre.lpNorm<1>() + s.reach);
+  rounding.gap = 8.0 * kEpsilon *
+                 (a.centre().lpNorm<1>() + a.enclosingRadius() + translation.lpNorm<1>() +
+                  s.centre.lpNorm<1>() + s.reach);
   rounding.across = rounding.gap + 8.0 * kEpsilon * a.radii().rho;
 }
 

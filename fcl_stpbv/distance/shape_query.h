@@ -3,7 +3,8 @@
 
 #include <array>
 
-#include "fcl_stpbv/distance/shape.h"
+#include "fcl_stpbv/convex/relative_pose.h"
+#include "fcl_stpbv/convex/shape.h"
 #include "fcl_stpbv/distance/shape_climb.h"
 
 namespace fcl_stpbv {
@@ -13,20 +14,20 @@ namespace fcl_stpbv {
 struct ShapeQuery {
   const StpBv& body;
   const Shape& shape;
-  Eigen::Matrix3d rotation;     ///< shape's frame to the body's, orthonormal
+  const RelativePose& pose;     ///< of the shape in the body's frame
+  Eigen::Matrix3d rotation;     ///< the same
   Eigen::Vector3d translation;  ///< m
   Rounding rounding;
   int pairs = 0;  ///< Newton steps and closed forms, the work done
   int steps = 0;  ///< patches changed
 
-  ShapeQuery(const StpBv& body, const Shape& shape, const Eigen::Matrix3d& rotation,
-             const Eigen::Vector3d& translation);
+  ShapeQuery(const StpBv& body, const Shape& shape, const RelativePose& pose);
 
   /// The shape's core point furthest against `n`, the one that faces a body in that direction.
   Eigen::Vector3d facing(const Eigen::Vector3d& n) const {
-    return rotation * shape.support(-(rotation.transpose() * n)) + translation;
+    return pose.placed(shape.support(pose.opposite(n)));
   }
-  Eigen::Vector3d posed(const Eigen::Vector3d& p) const { return rotation * p + translation; }
+  Eigen::Vector3d posed(const Eigen::Vector3d& p) const { return pose.placed(p); }
 };
 
 /// Where the cores are nearest to each other, as far as a search knows.

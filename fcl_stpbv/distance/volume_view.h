@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "fcl_stpbv/convex/support.h"
 #include "fcl_stpbv/volume/stp_bv.h"
 
 namespace fcl_stpbv {
@@ -37,6 +38,20 @@ inline VolumeView viewVolume(const StpBv& body, const Eigen::Vector3d& n, int hi
   steps += index != hint;
   return viewPatch(body, n, index);
 }
+
+/// An STP-BV's core as a body of the support concept (convex/support.h). Looks for each normal's patch from
+/// the last.
+struct StpBvCore {
+  const StpBv& body;
+  int patch;   ///< the last one; -1: none
+  int& steps;  ///< counts patches changed
+
+  SupportPoint supportPoint(const Eigen::Vector3d& n) {
+    const VolumeView view = viewVolume(body, n, patch, steps);
+    patch = view.patch;
+    return {view.point, view.anchor, view.rise, view.patch};
+  }
+};
 
 /// Derivative of the core's point with the normal, d y = W d n (docs/theory.md, 6: radii of curvature beyond
 /// the core).

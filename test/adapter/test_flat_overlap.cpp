@@ -15,7 +15,7 @@
 
 #include "fcl_stpbv/adapter/fcl_distance.h"
 #include "fcl_stpbv/adapter/fcl_shapes.h"
-#include "fcl_stpbv/adapter/flat_overlap.h"
+#include "fcl_stpbv/distance/shape_pair.h"
 #include "fcl_stpbv/adapter/hull_geometry.h"
 #include "test/reference/shapes.h"
 
@@ -316,7 +316,7 @@ TEST_CASE("overlapping hulls: the widest gap over all normals that three vertice
     for (const Vector3d& e : sidesX)
       for (const Vector3d& f : sidesY) test(e.cross(f));
     if (!(truth < 0)) continue;
-    const Distance d = flatOverlap(Shape::polytopeOf(p.data(), static_cast<int>(p.size())), a,
+    const Distance d = distance(Shape::polytopeOf(p.data(), static_cast<int>(p.size())), a,
                                    Shape::polytopeOf(q.data(), static_cast<int>(q.size())), b);
     CHECK(d.status == DistanceStatus::exact);
     CHECK(std::abs(d.distance - truth) <= 1e-14);

@@ -6,7 +6,7 @@
 #include <memory>
 #include <string>
 
-#include "fcl_stpbv/distance/shape.h"
+#include "fcl_stpbv/convex/shape.h"
 #include "test/reference/reference.h"
 
 namespace fcl_stpbv::test {

@@ -17,6 +17,8 @@ class Polytope {
  public:
   using Index = std::uint16_t;
   static constexpr Index kNone = 0xffff;
+  static constexpr int kMaxPoints =
+      400;  ///< some 20 are usual, hundreds where all directions are nearly as good
 
   struct Face {
     Eigen::Vector3d normal;       ///< unit, outward
@@ -103,8 +105,6 @@ class Polytope {
     std::array<Index, 3> across;  // what lies across the side from corner k to the next: face * 4 + its side
   };
 
-  static constexpr int kMaxPoints =
-      400;  // some 20 are usual, hundreds where all directions are nearly as good
   static constexpr int kMaxFaces = 2 * kMaxPoints;
   static constexpr double kNarrow =
       300.0;                              // more would leave out points that a flat face of the bodies needs

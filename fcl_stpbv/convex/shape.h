@@ -4,6 +4,8 @@
 #include <Eigen/Core>
 #include <array>
 
+#include "fcl_stpbv/convex/support.h"
+
 namespace fcl_stpbv {
 
 enum class ShapeKind {
@@ -54,6 +56,12 @@ struct Shape {
   /// The core's point furthest along `d` (any length), one of them where there are several. Bounded kinds
   /// only.
   Eigen::Vector3d support(const Eigen::Vector3d& d) const;
+
+  /// The same, as the searches ask for it.
+  SupportPoint supportPoint(const Eigen::Vector3d& n) const {
+    const Eigen::Vector3d p = support(n);
+    return {p, p, 0.0, -1};
+  }
 
   bool unbounded() const { return kind == ShapeKind::halfspace || kind == ShapeKind::plane; }
 };

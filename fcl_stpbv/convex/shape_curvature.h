@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <array>
 
-#include "fcl_stpbv/distance/shape.h"
+#include "fcl_stpbv/convex/shape.h"
 
 namespace fcl_stpbv {
 

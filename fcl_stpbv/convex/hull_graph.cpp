@@ -1,4 +1,4 @@
-#include "fcl_stpbv/adapter/hull_graph.h"
+#include "fcl_stpbv/convex/hull_graph.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>

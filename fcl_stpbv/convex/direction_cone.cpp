@@ -1,4 +1,4 @@
-#include "fcl_stpbv/distance/normal_cone.h"
+#include "fcl_stpbv/convex/direction_cone.h"
 
 #include <Eigen/Geometry>
 #include <cmath>
@@ -7,7 +7,7 @@ namespace fcl_stpbv {
 
 using Eigen::Vector3d;
 
-NormalCone::NormalCone(const Vector3d& pole) {
+DirectionCone::DirectionCone(const Vector3d& pole) {
   constexpr double kRim =
       1e-8;  // rays on the equator itself would leave opposite corners with no arc between them
   const Vector3d z = pole.normalized();
@@ -21,7 +21,7 @@ NormalCone::NormalCone(const Vector3d& pole) {
   corner_[3] = -y + kRim * z;
 }
 
-bool NormalCone::cut(const Vector3d& g) {
+bool DirectionCone::cut(const Vector3d& g) {
   // One pass round the polygon (Sutherland and Hodgman, 1974). A convex polygon gains at most one corner.
   std::array<Vector3d, kMaxCuts + 4> kept;
   int keptCount = 0;
@@ -45,7 +45,7 @@ bool NormalCone::cut(const Vector3d& g) {
   return true;
 }
 
-Vector3d NormalCone::middle() const {
+Vector3d DirectionCone::middle() const {
   // Centroid of the polygon through the corners, fanned out from the first one.
   Vector3d sum(0, 0, 0);
   for (int i = 1; i + 1 < count_; ++i) {

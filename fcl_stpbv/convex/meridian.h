@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "fcl_stpbv/distance/shape.h"
+#include "fcl_stpbv/convex/shape.h"
 
 namespace fcl_stpbv {
 
@@ -17,10 +17,8 @@ struct Meridian {
 };
 
 /// The meridian plane of two cores of revolution, as if on parallel axes, or of a point, A, and one. False
-/// for any other pair, or axes that are not nearly parallel. `rotation` and `translation` place B in A's
-/// frame.
-bool commonMeridian(const Shape& a, const Shape& b, const Eigen::Matrix3d& rotation,
-                    const Eigen::Vector3d& translation, Meridian& plane);
+/// for any other pair, or axes that are not nearly parallel.
+bool commonMeridian(const Shape& a, const Shape& b, const RelativePose& pose, Meridian& plane);
 
 /// Where a polygon inside the difference comes nearest to the origin.
 struct MeridianDepth {

@@ -1,4 +1,4 @@
-#include "fcl_stpbv/distance/shape_feature.h"
+#include "fcl_stpbv/convex/shape_curvature.h"
 
 #include <Eigen/Geometry>
 #include <cmath>

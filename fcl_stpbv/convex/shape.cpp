@@ -1,4 +1,4 @@
-#include "fcl_stpbv/distance/shape.h"
+#include "fcl_stpbv/convex/shape.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "fcl_stpbv/adapter/meridian.h"
+#include "fcl_stpbv/convex/meridian.h"
 
 #include <optional>
 
@@ -27,11 +27,11 @@ std::optional<Vector3d> axisOf(const Shape& s) {
 
 }  // namespace
 
-bool commonMeridian(const Shape& a, const Shape& b, const Eigen::Matrix3d& rotation,
-                    const Vector3d& translation, Meridian& plane) {
+bool commonMeridian(const Shape& a, const Shape& b, const RelativePose& pose, Meridian& plane) {
   const std::optional<Vector3d> axisA = axisOf(a), axisB = axisOf(b);
   if (!axisA || !axisB || b.kind == ShapeKind::point) return false;
-  plane.along = (rotation * *axisB).normalized();
+  plane.along = (pose.rotation * *axisB).normalized();
+  const Vector3d translation = unpack(pose.translation);
   const Vector3d aside = translation - translation.dot(plane.along) * plane.along;
   plane.across =
       aside.cross(plane.along).cross(plane.along).normalized();  // nothing along the axis, not even rounding
