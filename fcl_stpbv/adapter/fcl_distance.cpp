@@ -1,3 +1,5 @@
+// The drop-in distance: two STP-BVs by the core's query, an STP-BV and any other geometry by
+// other_geometry.h, two simple shapes by distance/shape_pair.h, and what is left by FCL itself.
 #include "fcl_stpbv/adapter/fcl_distance.h"
 
 #include <utility>
@@ -88,15 +90,13 @@ bool shapeDistance(const CollisionGeometryd& geometry1, const Transform3d& pose1
   return true;
 }
 
-bool finite(const Transform3d& pose) { return pose.matrix().topRows<3>().allFinite(); }
-
-/// Any pair but two STP-BVs.
-DistanceAnswer otherDistance(const StpBvGeometry* a, const CollisionGeometryd& geometry1,
-                             const Transform3d& pose1, const StpBvGeometry* b,
-                             const CollisionGeometryd& geometry2, const Transform3d& pose2,
+/// Any pair but two STP-BVs. A pose next to a rigid one is taken for the nearest, any other has no answer,
+/// whatever the geometries: FCL may loop or assert on it.
+DistanceAnswer otherDistance(const StpBvGeometry* a, const CollisionGeometryd& geometry1, Transform3d pose1,
+                             const StpBvGeometry* b, const CollisionGeometryd& geometry2, Transform3d pose2,
                              const QueryContext& context) {
   DistanceAnswer answer;
-  if (!finite(pose1) || !finite(pose2)) return answer;  // FCL may loop or assert on these
+  if (!makeRigid(pose1) || !makeRigid(pose2)) return answer;
   if (mixedDistance(a, geometry1, pose1, b, geometry2, pose2, context, answer) ||
       shapeDistance(geometry1, pose1, geometry2, pose2, answer))
     return answer;

@@ -1,3 +1,10 @@
+// FCL's witness with a stop that proves convergence.
+//
+// 1. A first supporting plane from the start's direction. If it separates the hulls, FCL's test would end
+// there too.
+// 2. Else FCL's own GJK intersection test (fcl_gjk.h) leads to a simplex.
+// 3. This library's GJK goes on from there until the duality gap is small enough (convex/gjk.h).
+// 4. The simplex's vertices name the features that hold the witness points.
 #include "fcl_stpbv/adapter/polyhedral_witness.h"
 
 #include <algorithm>

@@ -33,7 +33,8 @@ class PosedHulls {
     fit();
   }
 
-  /// Whether the poses are rigid and every coordinate is finite and small enough for products of three of them.
+  /// Whether the poses are rigid and every coordinate is finite and small enough for products of three of
+  /// them.
   bool usable() const { return usable_; }
   double scale() const { return scale_; }                     ///< scaled = metres * scale
   Eigen::Vector3d offset() const { return unpack(offset_); }  ///< B's centre, scaled
@@ -48,7 +49,9 @@ class PosedHulls {
   }
 
   Eigen::Vector3d pointA(int v) const { return scale_ * a_.point(v); }
-  Eigen::Vector3d pointB(int v) const { return unpack(offset_ + scale_ * (pose_.rotation * pack(b_.point(v)))); }
+  Eigen::Vector3d pointB(int v) const {
+    return unpack(offset_ + scale_ * (pose_.rotation * pack(b_.point(v))));
+  }
 
   /// The same as callbacks for libccd, which sees both objects as this struct.
   static void ccdSupportA(const void* pair, const ccd_vec3_t* direction, ccd_vec3_t* point);
@@ -67,9 +70,7 @@ class PosedHulls {
   void fit();
 
   int climbA(const Eigen::Vector3d& n) { return lastA_ = a_.extremeVertex(n, lastA_); }
-  int climbB(const Eigen::Vector3d& n) {
-    return lastB_ = b_.extremeVertex(pose_.opposite(n), lastB_);
-  }
+  int climbB(const Eigen::Vector3d& n) { return lastB_ = b_.extremeVertex(pose_.opposite(n), lastB_); }
 
   // What libccd was given, a ring: its simplex holds only points of its last few steps.
   static constexpr int kLog = 64;

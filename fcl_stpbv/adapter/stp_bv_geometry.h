@@ -23,7 +23,6 @@ class StpBvGeometry : public fcl::Convexd {
   explicit StpBvGeometry(StpBv::Ptr volume);
 
   const StpBv& volume() const { return *volume_; }
-  const StpBv::Ptr& volumePtr() const { return volume_; }
 
   /// The polyhedron, with vertex `v` of FCL's `getVertices()` as its vertex `v`.
   const HullGraph& hull() const { return hull_; }

@@ -1,3 +1,5 @@
+// A cone of directions as a polygon on the sphere: cuts clip it (Sutherland and Hodgman 1974), its middle is
+// the centroid of its corners' triangles.
 #include "fcl_stpbv/convex/direction_cone.h"
 
 #include <Eigen/Geometry>

@@ -1,3 +1,10 @@
+// A convex hull's features and how to climb its edges.
+//
+// 1. Roll a plane around the points: the rolling ball with R infinite gives the hull's facets
+// (volume/rolling_ball.h).
+// 2. Name its edges and the faces around each vertex.
+// 3. Support: hill climbing from the last vertex (as FCL's), eight neighbours at once; a table of directions
+// names a start.
 #include "fcl_stpbv/convex/hull_graph.h"
 
 #include <Eigen/Geometry>

@@ -1,3 +1,4 @@
+// The plane in which two bodies of revolution on parallel axes come nearest to leaving each other.
 #include "fcl_stpbv/convex/meridian.h"
 
 #include <optional>

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <limits>
 
 #include "fcl_stpbv/packed.h"
 
@@ -41,7 +42,8 @@ class Rotation {
     const Packed x = cross(columns_[1], columns_[2]) - columns_[0],
                  y = cross(columns_[2], columns_[0]) - columns_[1],
                  z = cross(columns_[0], columns_[1]) - columns_[2], squares = x * x + y * y + z * z;
-    return squares[0] + squares[1] + squares[2] <= kFine * kFine && dot(columns_[0], columns_[0]) > 0.5;  // not zero
+    return squares[0] + squares[1] + squares[2] <= kFine * kFine &&
+           dot(columns_[0], columns_[0]) > 0.5;  // not zero
   }
   static constexpr double kFine = 2e-15;
 
@@ -71,12 +73,28 @@ class Rotation {
 /// False for any other one: stretched, sheared, mirrored or not finite.
 bool makeRotation(Rotation& rotation);
 
+/// Rounds a fresh pose's rotation as `makeRotation` does where it is off by more than rounding. False for a
+/// pose that is no rigid motion.
+inline bool makeRigid(Eigen::Isometry3d& pose) {
+  constexpr double kHuge = 1e150;  // squares must not overflow
+  Rotation rotation(pose);
+  if (!rotation.isFine()) {
+    if (!makeRotation(rotation)) return false;
+    pose.linear() = rotation.matrix();
+  }
+  return pose.translation().cwiseAbs().maxCoeff() < kHuge;
+}
+
+/// Bound on what rounding does to a gap between two cores in the first one's frame, as a part of `size`, the
+/// bodies' coordinates and the second one's origin there, summed (docs/theory.md, 5).
+constexpr double kGapRounding = 40.0 * std::numeric_limits<double>::epsilon();
+
 /// A pair of bodies in the first one's frame: however far the pair is from the world's origin, only the
 /// bodies' own coordinates and their mutual distance enter.
 struct RelativePose {
-  Rotation toWorld;    ///< first body's frame to the world's
+  Rotation toWorld;      ///< first body's frame to the world's
   Packed origin{};       ///< of the first body's frame, in the world (m)
-  Rotation rotation;   ///< second body's frame to the first one's
+  Rotation rotation;     ///< second body's frame to the first one's
   Packed translation{};  ///< the second body's origin in the first one's frame (m)
   bool valid =
       false;  ///< both poses are rotations, or next to one, with finite translations not too far apart

@@ -1,3 +1,4 @@
+// Support functions of the simple shapes, each in closed form (Ericson, Real-Time Collision Detection, 9.5).
 #include "fcl_stpbv/convex/shape.h"
 
 #include <algorithm>

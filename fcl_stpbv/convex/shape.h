@@ -60,7 +60,7 @@ struct Shape {
   /// The same, as the searches ask for it.
   SupportPoint supportPoint(const Eigen::Vector3d& n) const {
     const Eigen::Vector3d p = support(n);
-    return {p, p, 0.0, -1};
+    return {n, -1, p, 0.0, p};
   }
 
   bool unbounded() const { return kind == ShapeKind::halfspace || kind == ShapeKind::plane; }

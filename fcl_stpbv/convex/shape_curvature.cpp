@@ -1,3 +1,5 @@
+// Which normals the feature of a shape has, and how its surface curves there: face, edge, corner, rim,
+// generator, or all round.
 #include "fcl_stpbv/convex/shape_curvature.h"
 
 #include <Eigen/Geometry>
@@ -12,25 +14,25 @@ namespace {
 const Vector3d kNone(0, 0, 0);
 
 /// Normals across the line along `t`, of a surface that curves by `radius` around it.
-NormalFreedom aroundLine(const Vector3d& m, const Vector3d& t, double radius) {
+NormalCone aroundLine(const Vector3d& m, const Vector3d& t, double radius) {
   return {1, {t.cross(m).normalized(), kNone}, {radius, 0.0}, 0.0};
 }
 
-NormalFreedom noWay() { return {0, {kNone, kNone}, {0.0, 0.0}, 0.0}; }
+NormalCone noWay() { return {0, {kNone, kNone}, {0.0, 0.0}, 0.0}; }
 
-NormalFreedom ofBall(const Vector3d& m, double radius) {
+NormalCone ofBall(const Vector3d& m, double radius) {
   const Vector3d e = m.unitOrthogonal();
   return {2, {e, m.cross(e)}, {radius, radius}, 0.0};
 }
 
-NormalFreedom ofSegment(const Vector3d& m, double half, double margin, double rounding) {
+NormalCone ofSegment(const Vector3d& m, double half, double margin, double rounding) {
   return half * std::abs(m.z()) > rounding || !(half > 0.0) ? ofBall(m, margin)
                                                             : aroundLine(m, Vector3d::UnitZ(), margin);
 }
 
 /// A face, an edge or a corner: whatever vertices lie furthest along `m`.
 template <typename Vertex>
-NormalFreedom ofVertices(int count, const Vertex& vertex, const Vector3d& m, double rounding) {
+NormalCone ofVertices(int count, const Vertex& vertex, const Vector3d& m, double rounding) {
   double most = m.dot(vertex(0));
   for (int i = 1; i < count; ++i) most = std::max(most, m.dot(vertex(i)));
   const auto furthest = [&](const auto& measure, Vector3d& best) {
@@ -54,14 +56,14 @@ NormalFreedom ofVertices(int count, const Vertex& vertex, const Vector3d& m, dou
 
 /// A disc's rim: a circle of this radius around z. Near the axis the normal says little about the place on
 /// the rim, so the point `x` tells it.
-NormalFreedom ofRim(const Vector3d& m, const Vector3d& x, double radius, double across) {
+NormalCone ofRim(const Vector3d& m, const Vector3d& x, double radius, double across) {
   const Vector3d out(x.x(), x.y(), 0.0);
   Vector3d around = Vector3d::UnitZ().cross(out.norm() > 0.0 ? out : m);
   around = (around - around.dot(m) * m).normalized();
   return {2, {around, m.cross(around)}, {radius / across, 0.0}, 0.0};
 }
 
-NormalFreedom ofCylinder(const Shape& s, const Vector3d& m, const Vector3d& x, double rounding) {
+NormalCone ofCylinder(const Shape& s, const Vector3d& m, const Vector3d& x, double rounding) {
   if (!(s.radius > 0.0)) return ofSegment(m, s.half, 0.0, rounding);
   const double across = std::hypot(m.x(), m.y());
   if (s.radius * across <= rounding) return noWay();
@@ -69,7 +71,7 @@ NormalFreedom ofCylinder(const Shape& s, const Vector3d& m, const Vector3d& x, d
   return ofRim(m, x, s.radius, across);
 }
 
-NormalFreedom ofCone(const Shape& s, const Vector3d& m, const Vector3d& x, double rounding) {
+NormalCone ofCone(const Shape& s, const Vector3d& m, const Vector3d& x, double rounding) {
   if (!(s.radius > 0.0)) return ofSegment(m, s.half, 0.0, rounding);
   const double across = std::hypot(m.x(), m.y()), height = 2.0 * s.half;
   if (s.radius * across <= rounding && (m.z() < 0.0 || !(height > 0.0))) return noWay();
@@ -81,7 +83,7 @@ NormalFreedom ofCone(const Shape& s, const Vector3d& m, const Vector3d& x, doubl
   return {1, {Vector3d::UnitZ().cross(m) / across, kNone}, {down * s.radius / height, 0.0}, 0.0};
 }
 
-bool ofEllipsoid(const Shape& s, const Vector3d& m, NormalFreedom& result) {
+bool ofEllipsoid(const Shape& s, const Vector3d& m, NormalCone& result) {
   const Vector3d squares = s.size.cwiseProduct(s.size), e = squares.cwiseProduct(m);
   const double h = std::sqrt(m.dot(e));
   if (!(h > 1e-9 * s.reach)) return false;
@@ -96,8 +98,7 @@ bool ofEllipsoid(const Shape& s, const Vector3d& m, NormalFreedom& result) {
 
 }  // namespace
 
-bool normalFreedom(const Shape& s, const Vector3d& m, const Vector3d& x, double rounding,
-                   NormalFreedom& result) {
+bool normalCone(const Shape& s, const Vector3d& m, const Vector3d& x, double rounding, NormalCone& result) {
   result = noWay();
   switch (s.kind) {
     case ShapeKind::point:

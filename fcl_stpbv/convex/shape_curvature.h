@@ -10,7 +10,7 @@ namespace fcl_stpbv {
 
 /// The normals that a face (one), an edge or a generator (a circle), a corner, a rim or a round surface (all
 /// near) can have, next to one of them. Frame and units of the shape.
-struct NormalFreedom {
+struct NormalCone {
   int count = 0;                       ///< ways to turn: 0, 1 or 2
   std::array<Eigen::Vector3d, 2> way;  ///< unit, across the normal and each other
   /// Radii of curvature, the derivative of the surface point with the normal, along and between the ways (m).
@@ -21,7 +21,7 @@ struct NormalFreedom {
 /// What the shape shows along its outward unit normal `m`, at the point `x` of its surface. Two features that
 /// both have the normal, to `rounding` (m), are taken for the flatter one. False where the curvature is not
 /// finite, as at the rim of an ellipsoid without thickness.
-bool normalFreedom(const Shape& shape, const Eigen::Vector3d& m, const Eigen::Vector3d& x, double rounding,
-                   NormalFreedom& result);
+bool normalCone(const Shape& shape, const Eigen::Vector3d& m, const Eigen::Vector3d& x, double rounding,
+                NormalCone& result);
 
 }  // namespace fcl_stpbv

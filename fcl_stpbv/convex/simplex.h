@@ -52,7 +52,7 @@ struct NearestPoint {
   bool inside;  ///< the origin is inside a tetrahedron, or on the simplex to rounding
 };
 
-namespace detail {
+namespace simplex_face {
 
 using SimplexPoints = std::array<Eigen::Vector3d, 4>;
 
@@ -140,28 +140,28 @@ inline bool nearestOnTetrahedron(const SimplexPoints& s, SimplexFace& best, std:
   return true;
 }
 
-}  // namespace detail
+}  // namespace simplex_face
 
 /// Finds the point of `simplex` nearest to the origin, and puts the corners that hold it into `reduced`;
 /// their weights are positive and sum to 1.
 template <typename Corner>
 NearestPoint reduceToNearest(const Simplex<Corner>& simplex, Simplex<Corner>& reduced) {
-  detail::SimplexPoints s;
+  simplex_face::SimplexPoints s;
   for (std::size_t i = 0; i < static_cast<std::size_t>(simplex.size); ++i) s[i] = simplex.corner[i].w;
-  detail::SimplexFace best{};
+  simplex_face::SimplexFace best{};
   switch (simplex.size) {
     case 1:
-      best = detail::nearestOnCorner(s, 0);
+      best = simplex_face::nearestOnCorner(s, 0);
       break;
     case 2:
-      best = detail::nearestOnEdge(s, 0, 1);
+      best = simplex_face::nearestOnEdge(s, 0, 1);
       break;
     case 3:
-      best = detail::nearestOnTriangle(s, 0, 1, 2);
+      best = simplex_face::nearestOnTriangle(s, 0, 1, 2);
       break;
     default: {
       std::array<double, 4> weight;
-      if (!detail::nearestOnTetrahedron(s, best, weight)) {
+      if (!simplex_face::nearestOnTetrahedron(s, best, weight)) {
         reduced = simplex;
         reduced.weight = weight;
         return {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(0, 0, 0), true};

@@ -8,15 +8,16 @@
 
 namespace fcl_stpbv {
 
-/// A convex core along an outward unit normal `n`, in the body's frame.
+/// A convex core along an outward unit normal, in the body's frame.
 struct SupportPoint {
-  Eigen::Vector3d point;   ///< the core's point furthest along `n`
-  Eigen::Vector3d anchor;  ///< some point near it, of small coordinates,
-  double rise = 0;         ///< and the height of the supporting plane above it, without cancellation (m)
-  int patch = -1;          ///< patch of an STP-BV that it is on
+  Eigen::Vector3d n;       ///< the normal
+  int patch;               ///< patch of an STP-BV that owns it; -1 for any other body
+  Eigen::Vector3d anchor;  ///< a point near the core's point, of small coordinates
+  double rise;             ///< height of the supporting plane above it, free of cancellation (m)
+  Eigen::Vector3d point;   ///< the core's point furthest along the normal
 
   /// Height of `y` above the supporting plane (m).
-  double gap(const Eigen::Vector3d& n, const Eigen::Vector3d& y) const { return n.dot(y - anchor) - rise; }
+  double gap(const Eigen::Vector3d& y) const { return n.dot(y - anchor) - rise; }
 };
 
 /// The difference B - A of two convex cores in A's frame, by its support points.
@@ -39,7 +40,7 @@ class ConvexDifference {
   /// The corner furthest against the unit vector `n`, from A to B.
   Corner support(const Eigen::Vector3d& n) {
     const SupportPoint p = a_.supportPoint(n), q = b_.supportPoint(pose_.opposite(n));
-    return {pose_.placed(q.point) - p.point, p.point, p.gap(n, pose_.placed(q.anchor)) - q.rise};
+    return {pose_.placed(q.point) - p.point, p.point, p.gap(pose_.placed(q.anchor)) - q.rise};
   }
 
  private:

@@ -10,7 +10,7 @@
 #include "fcl_stpbv/distance/patch_pair.h"
 #include "fcl_stpbv/volume/stp_bv.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 
 /// What the two bodies look like along one normal: the exact gap there and its gradient. Frame of the first
 /// body.
@@ -38,7 +38,9 @@ class BodyPair {
   /// `pose` is valid, and outlives the pair.
   BodyPair(const StpBv& a, const StpBv& b, const RelativePose& pose) : a_(a), b_(b), pose_(pose) {
     constexpr double kRounding = 8.0 * std::numeric_limits<double>::epsilon();
-    gapRounding_ = kRounding * (a.extent() + b.extent() + unpack(pose.translation).lpNorm<1>());
+    const double size = a.extent() + b.extent() + unpack(pose.translation).lpNorm<1>();
+    gapRounding_ = kRounding * size;
+    certificateRounding_ = kGapRounding * size;
     acrossRounding_ = gapRounding_ + kRounding * (a.radii().rho + b.radii().rho);
   }
 
@@ -50,9 +52,9 @@ class BodyPair {
   Eigen::Vector3d opposite(const Eigen::Vector3d& n) const { return pose_.opposite(n); }
   Packed opposite(const Packed& n) const { return pose_.opposite(n); }
 
-  PosedPatch patchA(int patch) const { return ownPatch(a_, patch); }
+  PosedPatch patchA(int patch) const { return posedPatch(a_, patch); }
   PosedPatch patchB(int patch) const {
-    PosedPatch p = ownPatch(b_, patch);
+    PosedPatch p = posedPatch(b_, patch);
     p.anchor = pose_.placed(p.anchor);
     p.axis = pose_.rotation * p.axis;
     return p;
@@ -95,9 +97,9 @@ class BodyPair {
   /// Rounding of a gap: coordinates up to the bodies' extents and mutual distance, a dozen operations (m).
   double gapRounding() const { return gapRounding_; }
 
-  /// Rounding of `Sample::across`: a unit normal is only good to an ulp, and a face's point moves `rho` times
-  /// as far (m).
-  double acrossRounding() const { return acrossRounding_; }
+  /// Bound on the rounding of a gap, of the poses that lead to it too: what a certificate is rounded outward
+  /// by (m).
+  double certificateRounding() const { return certificateRounding_; }
 
   /// Cores nearer than this all but touch: a patch reaches past its seam by the rounding of a normal, `rho`
   /// times that in metres, which is a part of the gap and turns the normal by as much. What starts from the
@@ -110,25 +112,13 @@ class BodyPair {
   }
 
  private:
-  /// A patch in its body's own frame.
-  static PosedPatch ownPatch(const StpBv& body, int patch) {
-    const PatchTable& patches = body.patches();
-    const PatchKind kind = patches.kind(patch);
-    if (kind == PatchKind::vertex)
-      return {pack(patches.vertex(patch).point), Packed{}, 0, 0, kind, &body.radii()};
-    if (kind == PatchKind::edge) {
-      const EdgeRecord& e = patches.edge(patch);
-      return {e.middle, e.axis, e.middle[3], e.axis[3], kind, &body.radii()};
-    }
-    const FaceRecord& f = patches.face(patch);
-    return {pack(f.anchor), pack(f.normal), 0, 0, kind, &body.radii()};
-  }
-
   const StpBv& a_;
   const StpBv& b_;
   const RelativePose& pose_;
   double gapRounding_;
-  double acrossRounding_;
+  double certificateRounding_;
+  double acrossRounding_;  // of `Sample::across`: a normal is good to an ulp, a face's point moves `rho`
+                           // times as far
 };
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

@@ -15,7 +15,8 @@ enum class DistanceStatus {
   exact,    ///< the signed distance to rounding: separated, touching, or penetrating by at most r1 + r2
   local,    ///< deeper: a locally best separating translation; the true value lies in [lower, upper]
   bounded,  ///< not solved to rounding; the true value lies in [lower, upper]
-  invalid,  ///< a pose is not a finite rotation and translation; bounds are infinite, everything else is zero
+  invalid,  ///< a pose is no rigid motion, each entry of its rotation to 1e-6; bounds are infinite,
+            ///< everything else is zero
 };
 
 /// [linear; angular] derivative with respect to a body's twist about the body's origin, world axes.
@@ -26,9 +27,11 @@ using TwistGradient = Eigen::Matrix<double, 6, 1, Eigen::DontAlign>;
 struct Distance {
   DistanceStatus status = DistanceStatus::invalid;
   double distance = 0;  ///< signed: negative where the bodies overlap
-  /// Certified: the gap between the two supporting planes of `normal`.
+  /// Certified: the gap between the two supporting planes of `normal`, rounded down.
   double lower = -std::numeric_limits<double>::infinity();
-  /// Certified: from the distance of the cores' points, or how deep they are at least.
+  /// Certified: from the distance of the cores' points, or how deep they are at least, rounded up. Both
+  /// bounds are rounded by more than arithmetic can be off, so `lower <= truth <= upper` holds as it stands
+  /// (docs/theory.md, 5).
   double upper = std::numeric_limits<double>::infinity();
   Eigen::Vector3d normal{0, 0, 0};  ///< unit, from body 1 to body 2
   std::array<Eigen::Vector3d, 2> point{Eigen::Vector3d(0, 0, 0),

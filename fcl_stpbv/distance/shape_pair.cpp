@@ -54,14 +54,17 @@ bool comesFirst(const Shape& a, const Isometry3d& poseA, const Shape& b, const I
 struct Pair {
   const Shape &a, &b;
   RelativePose pose;
-  double rounding = 0.0;  ///< of a gap (m)
+  double rounding = 0.0;     ///< of a gap (m)
+  double certificate = 0.0;  ///< bound on it, of the poses that lead to it too (m)
   bool valid = false;
 
   Pair(const Shape& first, const Isometry3d& poseA, const Shape& second, const Isometry3d& poseB)
       : a(first), b(second), pose(poseA, poseB) {
     if (!pose.valid || !a.valid() || !b.valid() || (a.unbounded() && b.unbounded())) return;
-    rounding = 8.0 * std::numeric_limits<double>::epsilon() *
-               (unpack(pose.translation).norm() + a.centre.norm() + a.reach + b.centre.norm() + b.reach);
+    const double size = unpack(pose.translation).lpNorm<1>() + a.centre.lpNorm<1>() + a.reach +
+                        b.centre.lpNorm<1>() + b.reach;
+    rounding = 8.0 * std::numeric_limits<double>::epsilon() * size;
+    certificate = kGapRounding * (size + a.margin + b.margin);
     valid = rounding < 1e100;  // squares of squares must not overflow
   }
 
@@ -98,8 +101,9 @@ Distance separated(const Pair& p) {
   Distance result = inWorld(p, found.n, found.simplex.weighted(&Corner::onA), found.v);
   const double upper = std::max(found.upper, lower);
   result.status = upper - lower <= p.rounding ? DistanceStatus::exact : DistanceStatus::bounded;
-  result.distance = result.upper = upper - p.margins();
-  result.lower = lower - p.margins();
+  result.distance = upper - p.margins();
+  result.lower = lower - p.margins() - p.certificate;
+  result.upper = result.distance + p.certificate;
   return result;
 }
 
@@ -118,8 +122,9 @@ Distance overlapping(const Pair& p) {
   Distance result = inWorld(p, epa.n, epa.onA, epa.gap * epa.n);
   const double upper = std::max(epa.bound, epa.gap);
   result.status = upper - epa.gap <= p.rounding ? DistanceStatus::exact : DistanceStatus::bounded;
-  result.distance = result.lower = epa.gap - p.margins();
-  result.upper = upper - p.margins();
+  result.distance = epa.gap - p.margins();
+  result.lower = result.distance - p.certificate;
+  result.upper = upper - p.margins() + p.certificate;
   return result;
 }
 
@@ -130,7 +135,9 @@ Distance besidePlane(const Pair& p) {
     const double gap = n.dot(q) - offset;
     Distance result = inWorld(p, n, q - gap * n, gap * n);
     result.status = DistanceStatus::exact;
-    result.distance = result.lower = result.upper = gap - p.b.margin;
+    result.distance = gap - p.b.margin;
+    result.lower = result.distance - p.certificate;
+    result.upper = result.distance + p.certificate;
     return result;
   };
   const Vector3d n = p.a.normal.normalized();
@@ -152,8 +159,8 @@ bool isFarther(double x, const Pair& p) {
   if (p.a.unbounded()) return besidePlane(p).lower > x;
   const double core = x + p.margins();
   const Gjk found =
-      p.search([&](double lower, double upper) { return lower > core + p.rounding || upper <= core; });
-  if (found.lower > core) return true;  // along whatever normal, apart or not
+      p.search([&](double lower, double upper) { return lower > core + p.certificate || upper <= core; });
+  if (found.lower > core + p.certificate) return true;  // along whatever normal, apart or not
   if (found.verdict != Gjk::Verdict::overlap && found.upper <= core) return false;
   return core < 0.0 && overlapping(p).lower > x;
 }

@@ -5,9 +5,9 @@
 
 #include "fcl_stpbv/convex/relative_pose.h"
 #include "fcl_stpbv/convex/shape.h"
-#include "fcl_stpbv/distance/shape_climb.h"
+#include "fcl_stpbv/distance/shape_ascent.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 
 /// The pair in the STP-BV's frame: however far it is from the world's origin, only the bodies' own
 /// coordinates and their mutual distance enter.
@@ -55,9 +55,9 @@ bool isNearer(const ShapeQuery& q, const Nearest& x, const Nearest& than, const 
 /// Any feature that has a gradient, from a start.
 template <typename Feature>
 Nearest nearestOn(ShapeQuery& q, const Feature& feature, const StartNormal& start) {
-  ClimbPoint x = climbPoint(q.body, feature, start.n, start.patch, q.steps);
+  AscentPoint x = ascentPoint(q.body, feature, start.n, start.patch, q.steps);
   Nearest found;
-  found.apart = climb(q.body, feature, x, q.rounding, q.pairs, q.steps);
+  found.apart = ascendFeature(q.body, feature, x, q.rounding, q.pairs, q.steps);
   found.n = x.view.n;
   found.patch = x.view.patch;
   found.y = x.feature.point;
@@ -94,4 +94,4 @@ Nearest nearestOnPlane(ShapeQuery& q, const Eigen::Vector3d& onPlane, const Eige
 /// then the gap is the distance of the cores, whatever the search did (docs/theory.md, 5).
 bool certified(ShapeQuery& q, const Nearest& found);
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

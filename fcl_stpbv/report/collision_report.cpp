@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "fcl_stpbv/adapter/fcl_shapes.h"
-#include "fcl_stpbv/adapter/flat_pair.h"
+#include "fcl_stpbv/distance/shape_pair.h"
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/io/text_scanner.h"
 #include "fcl_stpbv/report/pair_cause.h"
@@ -102,7 +102,7 @@ void covers(const CollisionReport& report, const CheckedPair& both, const Kinema
   pair.hullDistance = std::numeric_limits<double>::quiet_NaN();
   Shape a, b;
   if (!shapeOf(*first.hull, a) || !shapeOf(*second.hull, b)) return;
-  const Distance hulls = flatDistance(a, first.pose, b, second.pose);
+  const Distance hulls = distance(a, first.pose, b, second.pose);
   if (hulls.status != DistanceStatus::invalid && hulls.distance > 0) pair.hullDistance = hulls.distance;
 }
 

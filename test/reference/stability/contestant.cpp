@@ -8,6 +8,8 @@
 
 namespace fcl_stpbv::stability {
 
+using namespace fcl_stpbv::detail;
+
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 

@@ -7,10 +7,11 @@
 #include <utility>
 #include <vector>
 
-#include "fcl_stpbv/distance/ball_crown.h"
+#include "fcl_stpbv/distance/certificate.h"
 #include "test/reference/shapes.h"
 
 using namespace fcl_stpbv;
+using namespace fcl_stpbv::detail;
 using namespace fcl_stpbv::test;
 using Eigen::Vector3d;
 
@@ -20,7 +21,7 @@ namespace {
 struct Hull {
   Vector3d n, centre;
   double depth, radius;
-  Corners corners;
+  FeatureCorners corners;
 
   static Hull random(Random& some) {
     Hull h;
@@ -44,7 +45,7 @@ struct Hull {
     return h;
   }
 
-  bool closes() const { return ballCloses(pack(centre), radius, corners, pack(n), depth); }
+  bool closes() const { return closesOverBall(pack(centre), radius, corners, pack(n), depth); }
 
   /// How far the hull, with the maximum's point, reaches along `m`.
   double support(const Vector3d& m) const {
@@ -54,7 +55,7 @@ struct Hull {
   }
 
   /// The nearest of the planes from the maximum's point over each side of the feature.
-  double roof() const {
+  double side() const {
     double least = depth;
     for (std::size_t i = 0; i < corners.count; ++i) {
       const Vector3d p = unpack(corners.point[i]), q = unpack(corners.point[(i + 1) % corners.count]);
@@ -88,17 +89,17 @@ TEST_CASE("A ball and the corners of a feature prove a depth") {
   int proven = 0, refuted = 0;
   for (int i = 0; i < 30000; ++i) {
     const Hull h = Hull::random(some);
-    const double roof = h.roof();
-    if (!(roof > 0.9 * h.depth)) continue;
+    const double side = h.side();
+    if (!(side > 0.9 * h.depth)) continue;
     const bool closes = h.closes();
     if (!closes && refuted > 300) continue;
     const double least = leastSupport(h, some);
     if (closes) {
       ++proven;
-      INFO("hull " << i << ", depth " << h.depth << ", roof " << roof);
-      CHECK(least >= roof * (1 - 1e-12));
+      INFO("hull " << i << ", depth " << h.depth << ", side " << side);
+      CHECK(least >= side * (1 - 1e-12));
     } else {
-      refuted += least < roof * (1 - 1e-6);
+      refuted += least < side * (1 - 1e-6);
     }
   }
   CHECK(proven > 300);

@@ -1,15 +1,25 @@
-#include "fcl_stpbv/distance/crown.h"
+// The optimality certificate of a maximum between overlapping cores (docs/theory.md, 5, "Deeper").
+//
+// 1. A side: triangles from the maximum's own point to the corners of the feature that it is on. They are as
+// far from
+//    the origin as the maximum is deep, but for a part that leaves no room for another maximum.
+// 2. From the sides of that feature a closed surface over a ball inside both cores, or where the ball is too
+// small a
+//    dozen triangles to points beyond the corners and one behind.
+// 3. All of it lies in the difference of the cores, which is convex. So if every plane of it is as far from
+// the origin
+//    as the maximum is deep, no direction leads out sooner.
+#include "fcl_stpbv/distance/certificate.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 
-#include "fcl_stpbv/distance/ball_crown.h"
-#include "fcl_stpbv/distance/polytope_search.h"
+#include "fcl_stpbv/distance/vertex_gjk.h"
 #include "fcl_stpbv/vectorized.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 
 namespace {
 
@@ -36,7 +46,7 @@ struct Triangle {
 
 /// A patch's vertices, up to four of a face's.
 struct Vertices {
-  std::array<int, Corners::kMost> index{};
+  std::array<int, FeatureCorners::kMost> index{};
   std::size_t count = 0;
 };
 
@@ -54,7 +64,7 @@ Vertices verticesOf(const StpBv& body, int patch) {
     for (std::size_t i = 0; i < v.count; ++i) v.index[i] = patches.startOf(face.side[i]);
   } else {
     const StpBv::Ring& ring = body.faces()[static_cast<std::size_t>(patch - body.facePatch(0))];
-    v.count = Corners::kMost;
+    v.count = FeatureCorners::kMost;
     for (std::size_t i = 0; i < v.count; ++i) v.index[i] = ring[i * ring.size() / v.count];
   }
   return v;
@@ -74,12 +84,12 @@ Packed nearestOf(std::size_t count, const Point& point, const Packed& target) {
 
 /// Whether triangles from the corners of a feature to as many points beyond it and one behind, each with its
 /// plane at least `depth` from the origin, close the surface.
-bool trianglesClose(const BodyPair& pair, const Corners& corners, const Packed& n, double depth) {
+bool closesWithTriangles(const BodyPair& pair, const FeatureCorners& corners, const Packed& n, double depth) {
   constexpr double kRing = 0.7;   // rad from the top's normal to those of the points beyond its feature
   constexpr double kDeep = 0.25;  // of the smaller body's radius: deeper, so few triangles hardly ever do
   if (depth > kDeep * std::min(pair.a().enclosingRadius(), pair.b().enclosingRadius())) return false;
   const auto& [corner, count] = corners;
-  Packed ring[Corners::kMost];
+  Packed ring[FeatureCorners::kMost];
   for (std::size_t i = 0; i < count; ++i) {
     const Packed &p = corner[i], &q = corner[(i + 1) % count], side = q - p;
     ring[i] = pair.differenceAgainst(unpack(std::sqrt(dot(side, side)) * n - kRing * cross(n, side)));
@@ -100,11 +110,11 @@ bool trianglesClose(const BodyPair& pair, const Corners& corners, const Packed& 
 
 }  // namespace
 
-Corners cornersAround(const BodyPair& pair, const Sample& top) {
+FeatureCorners cornersAround(const BodyPair& pair, const Sample& top) {
   const Vertices a = verticesOf(pair.a(), top.patch[0]), b = verticesOf(pair.b(), top.patch[1]);
   const auto onA = [&](std::size_t i) { return pair.patchA(a.index[i]).anchor; };
   const auto onB = [&](std::size_t i) { return pair.patchB(b.index[i]).anchor; };
-  Corners c;
+  FeatureCorners c;
   if (a.count == 2 && b.count == 2) {
     for (const std::size_t i : {0u, 1u, 3u, 2u}) c.point[c.count++] = onB(i / 2) - onA(i % 2);
   } else if (a.count > 2 && b.count > 0) {
@@ -118,7 +128,7 @@ Corners cornersAround(const BodyPair& pair, const Sample& top) {
   return c;
 }
 
-bool isAlone(const BodyPair& pair, const Sample& top, double distance) {
+bool isOnlyMaximum(const BodyPair& pair, const Sample& top, double distance) {
   constexpr double kSafe = 1.1;     // second order
   constexpr double kLevel = 1e-14;  // rounding of 1 - cos^2
   const double depth = -top.core, cosine = distance / depth,
@@ -139,7 +149,33 @@ bool isAlone(const BodyPair& pair, const Sample& top, double distance) {
 }
 
 FCL_STPBV_VECTORIZED
-bool crownProves(const BodyPair& pair, const Sample& top, double& bound) {
+bool closesOverBall(const Packed& centre, double radius, const FeatureCorners& corners, const Packed& n,
+                    double depth) {
+  Packed wall[FeatureCorners::kMost];  // unit outward normal of the plane over a side that touches the ball
+  for (std::size_t i = 0; i < corners.count; ++i) {
+    const Packed &p = corners.point[i], side = corners.point[(i + 1) % corners.count] - p;
+    const double side2 = dot(side, side);
+    const Packed in = centre - p - dot(centre - p, side) / side2 * side;
+    const double in2 = dot(in, in), tangent2 = in2 - radius * radius;
+    if (!(tangent2 > 0.0)) return false;
+    wall[i] = (std::sqrt(tangent2 / side2) * cross(in, side) - radius * in) / in2;
+    if (!(dot(wall[i], p) >= depth)) return false;
+  }
+  for (std::size_t i = 0; i < corners.count; ++i) {
+    const std::size_t j = (i + 1) % corners.count;
+    const Packed &p = corners.point[j], turn = cross(wall[i], wall[j]);
+    if (!(dot(turn, n) < 0.0)) return false;
+    // From wall to wall the cone's normals go along a circle, on which the planes' distance from the origin
+    // is a sine: the least is at an end unless the sine's own least is between them.
+    const bool rises = dot(centre, cross(wall[i], p)) <= 0.0, falls = dot(centre, cross(wall[j], p)) >= 0.0,
+               halfTurn = !(dot(turn, p - centre) > 0.0);
+    if (!(halfTurn ? rises && falls : rises || falls)) return false;
+  }
+  return true;
+}
+
+FCL_STPBV_VECTORIZED
+bool provesWidest(const BodyPair& pair, const Sample& top, double& bound) {
   const double depth = -top.core - pair.gapRounding();
   auto corners = cornersAround(pair, top);
   auto& [corner, count] = corners;
@@ -149,17 +185,17 @@ bool crownProves(const BodyPair& pair, const Sample& top, double& bound) {
 
   double least2 = depth * depth;
   for (std::size_t i = 0; i < count; ++i) {
-    const Triangle roof{corner[i], corner[(i + 1) % count], summit};
-    if (!roof.beyond((1.0 - kClose) * depth)) return false;
-    least2 = std::min(least2, roof.distance2());
+    const Triangle side{corner[i], corner[(i + 1) % count], summit};
+    if (!side.beyond((1.0 - kClose) * depth)) return false;
+    least2 = std::min(least2, side.distance2());
   }
-  if (!isAlone(pair, top, std::sqrt(least2))) return false;
+  if (!isOnlyMaximum(pair, top, std::sqrt(least2))) return false;
   const double innerRadius = pair.a().innerRadius() + pair.b().innerRadius();
-  if (!ballCloses(pair.centreDifference(), innerRadius, corners, n, depth) &&
-      !trianglesClose(pair, corners, n, depth))
+  if (!closesOverBall(pair.centreDifference(), innerRadius, corners, n, depth) &&
+      !closesWithTriangles(pair, corners, n, depth))
     return false;
   bound = -std::sqrt(least2);
   return true;
 }
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

@@ -3,10 +3,10 @@
 
 #include "fcl_stpbv/distance/body_pair.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 
 /// What a search over the two point sets found.
-struct VertexSearch {
+struct VertexGjk {
   bool apart = false;       ///< a gap, widest along `n`
   bool surrounded = false;  ///< four points of the difference, second set minus first, with the origin inside
   Eigen::Vector3d n{0, 0, 0};
@@ -20,10 +20,10 @@ struct VertexSearch {
 ///
 /// The normal of a polyhedral witness falls into the region of the smooth patch of the same name: an edge's
 /// cone is centred on the plane across it, a face's region holds its plane's normal (paper IV.C, IV.D).
-VertexSearch searchVertices(const BodyPair& pair, const Eigen::Vector3d& n);
+VertexGjk vertexGjk(const BodyPair& pair, const Eigen::Vector3d& n);
 
 /// A point of the second core less one of the first, about as far against the unit vector `n` as any: the
 /// difference of two vertices.
 Eigen::Vector3d vertexDifference(const BodyPair& pair, const Eigen::Vector3d& n);
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

@@ -1,13 +1,13 @@
 // GJK on the vertices of two STP-BVs, whose support points are found by climbing the two edge graphs side by
 // side.
-#include "fcl_stpbv/distance/polytope_search.h"
+#include "fcl_stpbv/distance/vertex_gjk.h"
 
 #include <limits>
 
 #include "fcl_stpbv/convex/gjk.h"
 #include "fcl_stpbv/vectorized.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 
 using Eigen::Vector3d;
 
@@ -60,7 +60,7 @@ class VertexDifference {
 }  // namespace
 
 FCL_STPBV_VECTORIZED
-VertexSearch searchVertices(const BodyPair& pair, const Vector3d& n) {
+VertexGjk vertexGjk(const BodyPair& pair, const Vector3d& n) {
   using Corner = VertexDifference::Corner;
   constexpr int kSteps = 20;
   constexpr double kGap =
@@ -78,7 +78,7 @@ VertexSearch searchVertices(const BodyPair& pair, const Vector3d& n) {
   start.add(corner(i, pair.b().beside(j, pair.opposite(n).cast<float>(), 1.0f)));
   const auto found = gjk(difference, start, n, kRounding, kSteps,
                          [](double lower, double upper) { return upper - lower <= kGap * upper; });
-  VertexSearch result;
+  VertexGjk result;
   result.vertex = difference.vertex();
   result.n = found.n;
   const bool overlap = found.verdict == GjkResult<Corner>::Verdict::overlap;
@@ -95,4 +95,4 @@ Vector3d vertexDifference(const BodyPair& pair, const Vector3d& n) {
   return difference.difference(difference.vertex());
 }
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

@@ -1,12 +1,65 @@
 // Monotone Newton ascent of the gap between an STP-BV's core and one smooth feature of another body.
+//
+// 1. From a normal without a gap, find one with a gap by bisection of the directions left.
+// 2. Newton's step on the sphere; one that does not raise the gap is cut back along its great circle to where
+// the slope
+//    is about zero, by a bracketed secant.
+// 3. Stop where the gradient is rounding.
 #pragma once
 
+#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 
 #include "fcl_stpbv/convex/direction_cone.h"
-#include "fcl_stpbv/distance/volume_view.h"
+#include "fcl_stpbv/convex/support.h"
+#include "fcl_stpbv/distance/patch_pair.h"
+#include "fcl_stpbv/volume/stp_bv.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
+
+/// Looks at one patch along the unit normal `n`, its formula continued past its own region of normals. Body
+/// frame.
+inline SupportPoint viewPatch(const StpBv& body, const Eigen::Vector3d& n, int index) {
+  const PosedPatch patch = posedPatch(body, index);
+  const CoreView view = viewCore(patch, pack(n));
+  return {n, index, unpack(patch.anchor), view.rise, unpack(patch.anchor + view.offset)};
+}
+
+/// Looks at the volume along `n`; the owner is sought from the patch `hint` (-1: anywhere). Counts patches
+/// changed.
+inline SupportPoint viewVolume(const StpBv& body, const Eigen::Vector3d& n, int hint, int& steps) {
+  const int index = body.owner(n, hint);
+  steps += index != hint;
+  return viewPatch(body, n, index);
+}
+
+/// An STP-BV's core as a body of the support concept (convex/support.h). Looks for each normal's patch from
+/// the last.
+struct StpBvCore {
+  const StpBv& body;
+  int patch;   ///< the last one; -1: none
+  int& steps;  ///< counts patches changed
+
+  SupportPoint supportPoint(const Eigen::Vector3d& n) {
+    const SupportPoint view = viewVolume(body, n, patch, steps);
+    patch = view.patch;
+    return view;
+  }
+};
+
+/// Radii of curvature of the core there: the derivative of its point with the normal (m).
+inline Eigen::Matrix3d curvatureRadii(const StpBv& body, const SupportPoint& view) {
+  return coreCurvature(posedPatch(body, view.patch), view.n);
+}
+
+/// Scale below which numbers about one pair are rounding.
+struct Rounding {
+  double gap;          ///< of a gap (m)
+  double certificate;  ///< bound on it, of the poses that lead to it too (m)
+  double across;  ///< of a difference of core points across the normal: a face's moves rho per ulp of it (m)
+};
 
 /// What a feature of the other body shows along the opposite normal. Each also tells what rounding of a unit
 /// normal does to its point, `wobble` (m), beyond that of the coordinates.
@@ -71,17 +124,17 @@ struct EllipsoidFeature {
 };
 
 /// One trial normal of a climb.
-struct ClimbPoint {
-  VolumeView view;
+struct AscentPoint {
+  SupportPoint view;
   FeatureView feature;
   double gap = 0;
   Eigen::Vector3d across;  ///< gradient of the gap on the sphere, or on the great circle of a line
 };
 
 template <typename Feature>
-ClimbPoint climbPoint(const VolumeView& view, const Feature& feature) {
+AscentPoint ascentPoint(const SupportPoint& view, const Feature& feature) {
   const Eigen::Vector3d& n = view.n;
-  ClimbPoint x{view, feature.along(n), 0.0, Eigen::Vector3d(0, 0, 0)};
+  AscentPoint x{view, feature.along(n), 0.0, Eigen::Vector3d(0, 0, 0)};
   x.gap = x.view.gap(x.feature.point);
   const Eigen::Vector3d difference = x.feature.point - x.view.point;
   x.across = difference - difference.dot(n) * n;
@@ -90,16 +143,18 @@ ClimbPoint climbPoint(const VolumeView& view, const Feature& feature) {
 }
 
 template <typename Feature>
-ClimbPoint climbPoint(const StpBv& body, const Feature& feature, const Eigen::Vector3d& n, int hint,
-                      int& steps) {
-  return climbPoint(viewVolume(body, n, hint, steps), feature);
+AscentPoint ascentPoint(const StpBv& body, const Feature& feature, const Eigen::Vector3d& n, int hint,
+                        int& steps) {
+  return ascentPoint(viewVolume(body, n, hint, steps), feature);
 }
 
 /// A normal with a gap, by halving what directions are left (docs/theory.md, 5: points of a trial that fails
 /// rule out half of all directions). False when there is none.
 template <typename Feature>
-bool findGap(const StpBv& body, const Feature& feature, ClimbPoint& x, double touch, int& steps) {
-  const auto difference = [&](const ClimbPoint& y) -> Eigen::Vector3d { return y.gap * y.view.n + y.across; };
+bool findGap(const StpBv& body, const Feature& feature, AscentPoint& x, double touch, int& steps) {
+  const auto difference = [&](const AscentPoint& y) -> Eigen::Vector3d {
+    return y.gap * y.view.n + y.across;
+  };
   if (x.gap > touch) return true;
   if (!(difference(x).norm() > touch)) return false;
   if (const Eigen::Vector3d* t = feature.direction()) {
@@ -110,8 +165,8 @@ bool findGap(const StpBv& body, const Feature& feature, ClimbPoint& x, double to
     double low = -kQuarter, high = kQuarter;
     for (int i = 0; i < kHalvings && high > low; ++i) {
       const double angle = 0.5 * (low + high);
-      x = climbPoint(body, feature, (std::cos(angle) * e1 + std::sin(angle) * e2).normalized(), x.view.patch,
-                     steps);
+      x = ascentPoint(body, feature, (std::cos(angle) * e1 + std::sin(angle) * e2).normalized(), x.view.patch,
+                      steps);
       if (x.gap > touch) return true;
       const Eigen::Vector3d next = difference(x);
       if (!(next.norm() > touch)) return false;
@@ -125,7 +180,7 @@ bool findGap(const StpBv& body, const Feature& feature, ClimbPoint& x, double to
   bisectDirections(
       asTrial(), touch,
       [&](const Eigen::Vector3d& n) {
-        x = climbPoint(body, feature, n, x.view.patch, steps);
+        x = ascentPoint(body, feature, n, x.view.patch, steps);
         return asTrial();
       },
       [&](const DirectionTrial& t) { return t.gap > touch; });
@@ -134,7 +189,7 @@ bool findGap(const StpBv& body, const Feature& feature, ClimbPoint& x, double to
 
 /// Newton's step on the sphere (docs/theory.md, 6): the matrix W_A + W_B + gap, positive while there is a
 /// gap.
-inline Eigen::Vector3d newtonTarget(const StpBv& body, const ClimbPoint& x, const Eigen::Vector3d* line) {
+inline Eigen::Vector3d newtonTarget(const StpBv& body, const AscentPoint& x, const Eigen::Vector3d* line) {
   const Eigen::Vector3d& n = x.view.n;
   Eigen::Vector3d e1;
   if (line) {
@@ -158,8 +213,8 @@ inline Eigen::Vector3d newtonTarget(const StpBv& body, const ClimbPoint& x, cons
 /// Newton step that does not is cut back to where the slope along it is about zero, found by a bracketed
 /// secant (the gap is C1).
 template <typename Feature>
-bool climb(const StpBv& body, const Feature& feature, ClimbPoint& x, const Rounding& rounding, int& pairs,
-           int& steps) {
+bool ascendFeature(const StpBv& body, const Feature& feature, AscentPoint& x, const Rounding& rounding,
+                   int& pairs, int& steps) {
   constexpr int kSteps = 60, kTrials = 40;
   constexpr double kFlat = 0.05;  // of the slope at the start; the next Newton step does the rest
   if (!findGap(body, feature, x, rounding.gap, steps)) return false;
@@ -169,11 +224,11 @@ bool climb(const StpBv& body, const Feature& feature, ClimbPoint& x, const Round
     if (flat <= 0.25 * rounded) return true;
     ++pairs;
     const Eigen::Vector3d to = newtonTarget(body, x, feature.direction());
-    ClimbPoint y = climbPoint(body, feature, to, x.view.patch, steps);
+    AscentPoint y = ascentPoint(body, feature, to, x.view.patch, steps);
     const Eigen::Vector3d cross = x.view.n.cross(to);
     const double sine = cross.norm();
     const Eigen::Vector3d pole = sine > 0.0 ? Eigen::Vector3d(cross / sine) : cross;
-    const auto slope = [&](const ClimbPoint& p) { return p.across.dot(pole.cross(p.view.n)); };
+    const auto slope = [&](const AscentPoint& p) { return p.across.dot(pole.cross(p.view.n)); };
     const double start = slope(x);
     const bool flatter = y.across.norm() < 0.5 * flat;
     // Near the top gaps differ by rounding only, and the gradient is the judge.
@@ -183,9 +238,9 @@ bool climb(const StpBv& body, const Feature& feature, ClimbPoint& x, const Round
       if (y.view.patch != x.view.patch) {
         // The step went over a seam, past which the gap bends otherwise: as the patch there tells it from
         // here.
-        const ClimbPoint there = climbPoint(viewPatch(body, x.view.n, y.view.patch), feature);
-        const ClimbPoint z =
-            climbPoint(body, feature, newtonTarget(body, there, feature.direction()), y.view.patch, steps);
+        const AscentPoint there = ascentPoint(viewPatch(body, x.view.n, y.view.patch), feature);
+        const AscentPoint z =
+            ascentPoint(body, feature, newtonTarget(body, there, feature.direction()), y.view.patch, steps);
         if (z.across.norm() < 0.5 * flat && z.gap >= x.gap - rounding.gap) {
           x = z;
           continue;
@@ -195,18 +250,18 @@ bool climb(const StpBv& body, const Feature& feature, ClimbPoint& x, const Round
       double low = 0.0, high = 1.0, lowSlope = start, highSlope = slope(y);
       // Over a seam of the volume Newton may overshoot down to where gaps are equal to rounding: the flatter
       // is it.
-      const auto better = [&](const ClimbPoint& p, const ClimbPoint& than) {
+      const auto better = [&](const AscentPoint& p, const AscentPoint& than) {
         return p.gap > than.gap + rounding.gap ||
                (p.gap >= than.gap - rounding.gap && p.across.norm() < than.across.norm());
       };
-      ClimbPoint best = better(y, x) ? y : x;
+      AscentPoint best = better(y, x) ? y : x;
       bool grew = better(y, x);
       for (int k = 0; k < kTrials; ++k) {
         double at = 0.5 * (low + high);
         if (highSlope < 0.0 && k % 3 != 2) at = low + (high - low) * lowSlope / (lowSlope - highSlope);
         if (!(at > low && at < high)) break;
         Eigen::Vector3d m = ((1.0 - at) * x.view.n + at * to).normalized();
-        const ClimbPoint mid = climbPoint(body, feature, m, x.view.patch, steps);
+        const AscentPoint mid = ascentPoint(body, feature, m, x.view.patch, steps);
         const double here = slope(mid);
         if (better(mid, best)) {
           best = mid;
@@ -230,4 +285,4 @@ bool climb(const StpBv& body, const Feature& feature, ClimbPoint& x, const Round
   return x.across.norm() <= rounding.across + feature.wobble(x.view.n);
 }
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail
