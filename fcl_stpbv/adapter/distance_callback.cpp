@@ -1,3 +1,4 @@
+// The callback: asks each pair that the broadphase offers and keeps the closest.
 #include "fcl_stpbv/adapter/distance_callback.h"
 
 #include <algorithm>

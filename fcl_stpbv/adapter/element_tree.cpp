@@ -1,3 +1,4 @@
+// One view of FCL's meshes, of any bounding volume, and of its octrees: boxes, children, elements.
 #include "fcl_stpbv/adapter/element_tree.h"
 
 #include <fcl/config.h>

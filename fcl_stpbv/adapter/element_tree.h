@@ -6,7 +6,7 @@
 #include <array>
 #include <cstdint>
 
-#include "fcl_stpbv/distance/shape.h"
+#include "fcl_stpbv/convex/shape.h"
 
 namespace fcl_stpbv {
 

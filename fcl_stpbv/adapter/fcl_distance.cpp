@@ -1,14 +1,14 @@
+// The drop-in distance: two STP-BVs by the core's query, an STP-BV and any other geometry by
+// other_geometry.h, two simple shapes by distance/shape_pair.h, and what is left by FCL itself.
 #include "fcl_stpbv/adapter/fcl_distance.h"
 
-#include <algorithm>
 #include <utility>
 
 #include "fcl_stpbv/adapter/fcl_fallback.h"
 #include "fcl_stpbv/adapter/fcl_shapes.h"
-#include "fcl_stpbv/adapter/flat_overlap.h"
-#include "fcl_stpbv/adapter/flat_pair.h"
 #include "fcl_stpbv/adapter/other_geometry.h"
 #include "fcl_stpbv/adapter/polyhedral_witness.h"
+#include "fcl_stpbv/distance/shape_pair.h"
 #include "fcl_stpbv/vectorized.h"
 
 namespace fcl_stpbv {
@@ -80,58 +80,25 @@ bool mixedDistance(const StpBvGeometry* a, const CollisionGeometryd& geometry1, 
   return true;
 }
 
-/// One order of each pair, whatever the caller's: kind, then size, then place.
-bool comesFirst(const Shape& a, const Transform3d& poseA, const Shape& b, const Transform3d& poseB) {
-  if (a.unbounded() != b.unbounded()) return a.unbounded();
-  if (a.kind != b.kind) return a.kind < b.kind;
-  if (a.reach != b.reach) return a.reach < b.reach;
-  if (a.margin != b.margin) return a.margin < b.margin;
-  if (a.vertexCount != b.vertexCount) return a.vertexCount < b.vertexCount;
-  if (a.radius != b.radius) return a.radius < b.radius;
-  if (a.half != b.half) return a.half < b.half;
-  for (int i = 0; i < 3; ++i) {
-    if (a.size[i] != b.size[i]) return a.size[i] < b.size[i];
-    if (a.centre[i] != b.centre[i]) return a.centre[i] < b.centre[i];
-  }
-  const double* x = poseA.data();
-  const double* y = poseB.data();
-  return std::lexicographical_compare(x, x + 16, y, y + 16);
-}
-
-/// Two shapes, neither an STP-BV: the same query for both orders.
-bool flatPair(const CollisionGeometryd& geometry1, const Transform3d& pose1,
-              const CollisionGeometryd& geometry2, const Transform3d& pose2, DistanceAnswer& answer) {
+/// Two simple shapes, neither an STP-BV.
+bool shapeDistance(const CollisionGeometryd& geometry1, const Transform3d& pose1,
+                   const CollisionGeometryd& geometry2, const Transform3d& pose2, DistanceAnswer& answer) {
   Shape a, b;
   if (!shapeOf(geometry1, a) || !shapeOf(geometry2, b)) return false;
-  Transform3d poseA = pose1, poseB = pose2;
-  const bool swapped = !comesFirst(a, pose1, b, pose2);
-  if (swapped) {
-    std::swap(a, b);
-    std::swap(poseA, poseB);
-  }
-  Distance found = a.unbounded() ? planeDistance(a, poseA, b, poseB) : flatDistance(a, poseA, b, poseB);
-  if (found.status == DistanceStatus::invalid) found = flatOverlap(a, poseA, b, poseB);
-  if (found.status == DistanceStatus::invalid) return false;
-  if (swapped) {
-    found.normal = -found.normal;
-    std::swap(found.point[0], found.point[1]);
-  }
-  answer = inFclTerms(found, pose1, pose2);
+  answer = inFclTerms(distance(a, pose1, b, pose2), pose1, pose2);
   answer.continuous = false;
   return true;
 }
 
-bool finite(const Transform3d& pose) { return pose.matrix().topRows<3>().allFinite(); }
-
-/// Any pair but two STP-BVs.
-DistanceAnswer otherDistance(const StpBvGeometry* a, const CollisionGeometryd& geometry1,
-                             const Transform3d& pose1, const StpBvGeometry* b,
-                             const CollisionGeometryd& geometry2, const Transform3d& pose2,
+/// Any pair but two STP-BVs. A pose next to a rigid one is taken for the nearest, any other has no answer,
+/// whatever the geometries: FCL may loop or assert on it.
+DistanceAnswer otherDistance(const StpBvGeometry* a, const CollisionGeometryd& geometry1, Transform3d pose1,
+                             const StpBvGeometry* b, const CollisionGeometryd& geometry2, Transform3d pose2,
                              const QueryContext& context) {
   DistanceAnswer answer;
-  if (!finite(pose1) || !finite(pose2)) return answer;  // FCL may loop or assert on these
+  if (!makeRigid(pose1) || !makeRigid(pose2)) return answer;
   if (mixedDistance(a, geometry1, pose1, b, geometry2, pose2, context, answer) ||
-      flatPair(geometry1, pose1, geometry2, pose2, answer))
+      shapeDistance(geometry1, pose1, geometry2, pose2, answer))
     return answer;
   return fallbackDistance(geometry1, pose1, geometry2, pose2);
 }

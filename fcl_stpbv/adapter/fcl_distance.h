@@ -63,9 +63,9 @@ struct QueryContext {
 ///
 /// An STP-BV against one, or against any other FCL geometry in either order: exact and signed, with status,
 /// bounds and derivatives. Two other shapes, one of them bounded: signed, by this library's own GJK, and at
-/// overlap by an expanding polytope (flat_overlap.h), `continuous` false. Any other pair: `fcl::distance`,
-/// unsigned, with tolerance 1e-10, exceptions caught; status `bounded`, `continuous` false, 0 for touching or
-/// overlapping geometries.
+/// overlap by an expanding polytope (distance/shape_pair.h), `continuous` false. Any other pair:
+/// `fcl::distance`, unsigned, with tolerance 1e-10, exceptions caught; status `bounded`, `continuous` false,
+/// 0 for touching or overlapping geometries.
 DistanceAnswer distance(const fcl::CollisionGeometryd& geometry1, const fcl::Transform3d& pose1,
                         const fcl::CollisionGeometryd& geometry2, const fcl::Transform3d& pose2,
                         const QueryContext& context = {});

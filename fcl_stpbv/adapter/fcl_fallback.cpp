@@ -1,3 +1,5 @@
+// FCL's own distance, unsigned, for pairs that this library has no answer to, kept from what FCL does not
+// survive.
 #include "fcl_stpbv/adapter/fcl_fallback.h"
 
 #include <fcl/config.h>
@@ -7,8 +9,11 @@
 #include <fcl/geometry/octree/octree.h>
 #endif
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
+
+#include "fcl_stpbv/adapter/fcl_shapes.h"
 
 namespace fcl_stpbv {
 namespace {
@@ -18,13 +23,25 @@ constexpr double kTolerance = 1e-10;
 // Witness points that do not span the distance to this part of it are not witness points.
 constexpr double kConsistent = 1e-6;
 
+/// A mesh with a root, whose corners are numbers: libccd asserts on what is none.
 template <typename BV>
-bool hasTriangles(const fcl::CollisionGeometryd& geometry) {
-  return static_cast<const fcl::BVHModel<BV>&>(geometry).getNumBVs() > 0;
+bool isSoundMesh(const fcl::CollisionGeometryd& geometry) {
+  const auto& mesh = static_cast<const fcl::BVHModel<BV>&>(geometry);
+  if (!(mesh.getNumBVs() > 0) || !mesh.vertices) return false;
+  return std::all_of(mesh.vertices, mesh.vertices + mesh.num_vertices,
+                     [](const Eigen::Vector3d& p) { return p.allFinite(); });
+}
+
+/// A shape of finite sizes, none negative. FCL divides by an ellipsoid's.
+bool isSoundShape(const fcl::CollisionGeometryd& geometry) {
+  Shape shape;
+  if (!shapeOf(geometry, shape) || !shape.valid()) return false;
+  return shape.kind != ShapeKind::ellipsoid || shape.size.minCoeff() > 0.0;
 }
 
 /// FCL dereferences null for half of its types: it has no support function for planes and half spaces, and no
-/// root for empty meshes and trees. Of meshes it measures these three.
+/// root for empty meshes and trees. Of meshes it measures these three. libccd ends the process where a number
+/// is none.
 bool fclSurvives(const fcl::CollisionGeometryd& geometry) {
   switch (geometry.getNodeType()) {
     case fcl::GEOM_BOX:
@@ -34,13 +51,13 @@ bool fclSurvives(const fcl::CollisionGeometryd& geometry) {
     case fcl::GEOM_CONE:
     case fcl::GEOM_CYLINDER:
     case fcl::GEOM_CONVEX:
-      return true;
+      return isSoundShape(geometry);
     case fcl::BV_RSS:
-      return hasTriangles<fcl::RSSd>(geometry);
+      return isSoundMesh<fcl::RSSd>(geometry);
     case fcl::BV_kIOS:
-      return hasTriangles<fcl::kIOSd>(geometry);
+      return isSoundMesh<fcl::kIOSd>(geometry);
     case fcl::BV_OBBRSS:
-      return hasTriangles<fcl::OBBRSSd>(geometry);
+      return isSoundMesh<fcl::OBBRSSd>(geometry);
 #if FCL_HAVE_OCTOMAP
     case fcl::GEOM_OCTREE:
       return static_cast<const fcl::OcTreed&>(geometry).getRoot() != nullptr;

@@ -1,3 +1,4 @@
+// Second derivatives for FCL geometries: finds the body that an answer is about and asks distance/hessian.h.
 #include "fcl_stpbv/adapter/fcl_hessian.h"
 
 #include <array>

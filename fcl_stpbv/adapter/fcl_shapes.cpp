@@ -1,3 +1,4 @@
+// One case for each of FCL's simple geometries.
 #include "fcl_stpbv/adapter/fcl_shapes.h"
 
 #include <fcl/geometry/shape/box.h>

@@ -3,7 +3,7 @@
 
 #include <fcl/geometry/collision_geometry.h>
 
-#include "fcl_stpbv/distance/shape.h"
+#include "fcl_stpbv/convex/shape.h"
 
 namespace fcl_stpbv {
 

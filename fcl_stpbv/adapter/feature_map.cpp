@@ -1,12 +1,22 @@
+// The paper's map from polyhedral features to smooth patches (IV.B to IV.D), and a count of how often it is
+// right.
+//
+// 1. Each feature of the hulls names the patch of the same name.
+// 2. Where the other body's witness point lies outside that patch's Voronoi region, take the neighbour on
+// that side.
+// 3. The same once more with the smooth points that these patches give.
 #include "fcl_stpbv/adapter/feature_map.h"
 
 #include <algorithm>
 #include <cmath>
 
+#include "fcl_stpbv/distance/patch_pair.h"
 #include "fcl_stpbv/vectorized.h"
 
 namespace fcl_stpbv {
 namespace {
+
+using namespace detail;
 
 using Eigen::Isometry3d;
 using Eigen::Matrix3d;
@@ -15,41 +25,24 @@ using Eigen::Vector3d;
 // A normal this far past a seam is on it: both patches agree there, and neither mapping is wrong.
 constexpr double kOnSeam = 1e-12;
 
-/// Direction from the patch's point or circle of centres to `x`: the normal at the patch's point nearest to
-/// `x` (docs/theory.md, 5, one circle). Not unit.
-Vector3d towards(const StpBv& volume, int index, const Vector3d& x) {
-  const Patch patch = volume.patch(index);
-  switch (volume.kind(index)) {
-    case PatchKind::edge: {
-      const Vector3d d = x - patch.anchor;
-      const double along = d.dot(patch.axis);
-      const Vector3d across = d - along * patch.axis;
-      const double length = across.norm();
-      return length > 0 ? Vector3d(along * patch.axis + (1 + patch.kappa / length) * across) : d;
-    }
-    case PatchKind::face:
-      return x - patch.anchor + volume.radii().rho * patch.axis;
-    case PatchKind::vertex:
-      break;
-  }
-  return x - patch.anchor;
+/// Normal at the patch's point nearest to `x`: the widest one of the patch and a point (docs/theory.md, 5).
+UnnormalizedNormal towards(const StpBv& volume, int index, const Vector3d& x) {
+  const PosedPatch point{pack(x), Packed{}, 0, 0, PatchKind::vertex, &volume.radii()};
+  return widestNormal(posedPatch(volume, index), point, Packed{1, 0, 0, 0});
 }
 
 /// One step from a patch to the neighbour on whose side `x` lies, if `x` is outside the patch's Voronoi
 /// region.
 int chooseNeighbour(const StpBv& volume, int patch, const Vector3d& x) {
-  const Vector3d d = towards(volume, patch, x);
-  const double length = d.norm();
-  const Crossing over = volume.patches().crossing(patch, pack(d), length);
-  return over.past > kOnSeam * length ? over.neighbour : patch;
+  const UnnormalizedNormal to = towards(volume, patch, x);
+  const Crossing over = volume.patches().crossing(patch, to.d, to.length);
+  return over.past > kOnSeam * to.length ? over.neighbour : patch;
 }
 
 /// The core's point nearest to `x` as far as this patch knows.
 Vector3d nearestCorePoint(const StpBv& volume, int patch, const Vector3d& x) {
-  const Vector3d d = towards(volume, patch, x);
-  const double length = d.norm();
-  if (!(length > 0)) return x;
-  return corePoint(volume.patch(patch), volume.kind(patch), volume.radii(), d / length);
+  const PosedPatch posed = posedPatch(volume, patch);
+  return unpack(posed.anchor + viewCore(posed, towards(volume, patch, x).unit()).offset);
 }
 
 bool contains(const StpBv::Ring& ring, int v) { return std::find(ring.begin(), ring.end(), v) != ring.end(); }

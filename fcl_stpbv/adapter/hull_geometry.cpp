@@ -1,3 +1,4 @@
+// A hull's vertices and faces in the format of fcl::Convexd.
 #include "fcl_stpbv/adapter/hull_geometry.h"
 
 namespace fcl_stpbv {

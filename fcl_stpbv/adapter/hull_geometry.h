@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "fcl_stpbv/adapter/hull_graph.h"
+#include "fcl_stpbv/convex/hull_graph.h"
 
 namespace fcl_stpbv {
 

@@ -1,3 +1,5 @@
+// Branch and bound down FCL's hierarchy: near branches first, and what cannot hold one of the nearest two is
+// left out.
 #include "fcl_stpbv/adapter/nearest_element.h"
 
 #include <algorithm>

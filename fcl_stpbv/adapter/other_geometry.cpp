@@ -1,3 +1,4 @@
+// A simple shape is solved at once; a mesh or a tree by its nearest element.
 #include "fcl_stpbv/adapter/other_geometry.h"
 
 #include "fcl_stpbv/adapter/fcl_shapes.h"

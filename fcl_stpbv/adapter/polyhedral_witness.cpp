@@ -1,3 +1,10 @@
+// FCL's witness with a stop that proves convergence.
+//
+// 1. A first supporting plane from the start's direction. If it separates the hulls, FCL's test would end
+// there too.
+// 2. Else FCL's own GJK intersection test (fcl_gjk.h) leads to a simplex.
+// 3. This library's GJK goes on from there until the duality gap is small enough (convex/gjk.h).
+// 4. The simplex's vertices name the features that hold the witness points.
 #include "fcl_stpbv/adapter/polyhedral_witness.h"
 
 #include <algorithm>
@@ -5,7 +12,7 @@
 
 #include "fcl_stpbv/adapter/fcl_gjk.h"
 #include "fcl_stpbv/adapter/posed_hulls.h"
-#include "fcl_stpbv/adapter/simplex.h"
+#include "fcl_stpbv/convex/gjk.h"
 #include "fcl_stpbv/vectorized.h"
 
 namespace fcl_stpbv {
@@ -22,7 +29,7 @@ constexpr double kGapTolerance = 1e-15;
 constexpr double kMinWeight = 1e-12;
 
 /// FCL's intersection test from the first direction; its simplex with the vertices behind each corner.
-Simplex runFclGjk(PosedHulls& pair) {
+Simplex<HullCorner> runFclGjk(PosedHulls& pair) {
   ccd_t ccd;
   CCD_INIT(&ccd);
   ccd.support1 = &PosedHulls::ccdSupportA;
@@ -33,25 +40,17 @@ Simplex runFclGjk(PosedHulls& pair) {
   // The verdict it returns rests on absolute tolerances; the caller's own loop decides from the simplex.
   fcl::detail::libccd_extension::__ccdGJK(&pair, &pair, &ccd, &found);
 
-  Simplex simplex;
+  Simplex<HullCorner> simplex;
   for (int i = 0; i < ccdSimplexSize(&found); ++i) {
     const ccd_support_t* corner = ccdSimplexPoint(&found, i);
     const int va = pair.loggedVertexA(corner->v1), vb = pair.loggedVertexB(corner->v2);
-    simplex.add({pair.pointA(va) - pair.pointB(vb), va, vb});
+    simplex.add({pair.pointB(vb) - pair.pointA(va), -std::numeric_limits<double>::infinity(), va, vb});
   }
   return simplex;
 }
 
-bool holds(const Simplex& s, const SimplexCorner& c) {
-  for (int i = 0; i < s.size; ++i) {
-    const SimplexCorner& other = s.corner[static_cast<std::size_t>(i)];
-    if (other.vertexA == c.vertexA && other.vertexB == c.vertexB) return true;
-  }
-  return false;
-}
-
 /// The distinct vertices of one body in the simplex, heaviest first; how many.
-int verticesOf(const Simplex& s, int SimplexCorner::*vertex, std::array<int, 3>& out) {
+int verticesOf(const Simplex<HullCorner>& s, int HullCorner::*vertex, std::array<int, 3>& out) {
   std::array<double, 3> weight{};
   int count = 0;
   for (std::size_t i = 0; i < static_cast<std::size_t>(s.size); ++i) {
@@ -87,49 +86,28 @@ PolyhedralWitness polyhedralWitness(const HullGraph& a, const Eigen::Isometry3d&
   n.normalize();
   pair.setFirstDirection(n);
 
-  // The distance loop of GJK on A - B: v the simplex's point nearest to the origin, n = -v/|v| the direction
-  // from A to B. Any n gives the lower bound, any v the upper; they meet at the answer (docs/theory.md, 5,
-  // for a polytope).
-  Simplex simplex, reduced[2];
-  double upper = std::numeric_limits<double>::infinity();
-  simplex.add(pair.support(n));
-  double lower = -simplex.corner[0].point.dot(n);
   // Where the first plane separates the hulls already, FCL's intersection test would end at that same point.
-  if (!(lower > 0)) simplex = runFclGjk(pair);
-  int best = 0;  // which of `reduced` holds the nearest point so far
-  bool inside = false;
-  for (int step = 0; step < kMaxSteps; ++step) {
-    Simplex& trial = reduced[1 - best];
-    const NearestPoint near = reduceToNearest(simplex, trial);
-    inside = near.inside;
-    const double length = near.point.norm();
-    if (inside || !(length < upper)) break;  // no progress: rounding
-    best = 1 - best;
-    upper = length;
-    n = -near.point / length;
-    const double enough = std::max(kGapTolerance * (1 + upper), gap * upper);
-    if (upper - lower <= enough) break;
-    const SimplexCorner next = pair.support(n);
-    lower = std::max(lower, -next.point.dot(n));
-    if (upper - lower <= enough || holds(trial, next)) break;
-    simplex.size = 0;
-    for (int i = 0; i < trial.size; ++i) simplex.add(trial.corner[static_cast<std::size_t>(i)]);
-    simplex.add(next);
-  }
+  Simplex<HullCorner> first;
+  first.add(pair.support(n));
+  if (!(first.corner[0].gap > 0)) first = runFclGjk(pair);
+  const auto found = gjk(pair, first, n, 0.0, kMaxSteps, [&](double lower, double upper) {
+    return upper - lower <= std::max(kGapTolerance * (1 + upper), gap * upper);
+  });
 
   result.supports = pair.supports();
-  result.direction = poseA.linear() * n;
-  if (inside || !std::isfinite(upper)) {
-    if (inside) result.verdict = Verdict::overlapping;
+  result.direction = poseA.linear() * found.n;
+  if (found.verdict == GjkResult<HullCorner>::Verdict::overlap) {
+    result.verdict = Verdict::overlapping;
     return result;
   }
+  if (!std::isfinite(found.upper)) return result;
   const double metres = 1 / pair.scale();
-  result.lower = std::max(0.0, std::min(lower, upper)) * metres;
-  result.upper = upper * metres;
-  result.verdict = lower > 0        ? Verdict::separated
-                   : upper <= 1e-12 ? Verdict::overlapping  // touching to rounding
-                                    : Verdict::failed;
-  const Simplex& answer = reduced[best];
+  result.lower = std::max(0.0, std::min(found.lower, found.upper)) * metres;
+  result.upper = found.upper * metres;
+  result.verdict = found.lower > 0        ? Verdict::separated
+                   : found.upper <= 1e-12 ? Verdict::overlapping  // touching to rounding
+                                          : Verdict::failed;
+  const Simplex<HullCorner>& answer = found.simplex;
   Vector3d pa(0, 0, 0), pb(0, 0, 0);
   for (std::size_t i = 0; i < static_cast<std::size_t>(answer.size); ++i) {
     pa += answer.weight[i] * pair.pointA(answer.corner[i].vertexA);
@@ -137,8 +115,8 @@ PolyhedralWitness polyhedralWitness(const HullGraph& a, const Eigen::Isometry3d&
   }
   const Vector3d centre = poseA * a.centre();
   result.point = {centre + poseA.linear() * (metres * pa), centre + poseA.linear() * (metres * pb)};
-  const int countA = verticesOf(answer, &SimplexCorner::vertexA, result.vertices[0]);
-  const int countB = verticesOf(answer, &SimplexCorner::vertexB, result.vertices[1]);
+  const int countA = verticesOf(answer, &HullCorner::vertexA, result.vertices[0]);
+  const int countB = verticesOf(answer, &HullCorner::vertexB, result.vertices[1]);
   result.feature = {a.featureOf(result.vertices[0].data(), countA),
                     b.featureOf(result.vertices[1].data(), countB)};
   return result;

@@ -4,7 +4,7 @@
 #include <Eigen/Geometry>
 #include <array>
 
-#include "fcl_stpbv/adapter/hull_graph.h"
+#include "fcl_stpbv/convex/hull_graph.h"
 
 namespace fcl_stpbv {
 

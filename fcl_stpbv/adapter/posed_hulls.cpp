@@ -1,3 +1,4 @@
+// The scale of a pair, and libccd's callbacks.
 #include "fcl_stpbv/adapter/posed_hulls.h"
 
 #include <cmath>

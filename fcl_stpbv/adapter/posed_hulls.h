@@ -6,11 +6,17 @@
 #include <Eigen/Geometry>
 #include <array>
 
-#include "fcl_stpbv/adapter/hull_graph.h"
-#include "fcl_stpbv/adapter/simplex.h"
-#include "fcl_stpbv/distance/rotation.h"
+#include "fcl_stpbv/convex/hull_graph.h"
+#include "fcl_stpbv/convex/relative_pose.h"
 
 namespace fcl_stpbv {
+
+/// A point of the difference B - A, and the vertices that it is made of.
+struct HullCorner {
+  Eigen::Vector3d w{0, 0, 0};
+  double gap = 0;
+  int vertexA = -1, vertexB = -1;
+};
 
 /// A pair of hulls in A's frame, origin at A's centre, lengths divided by a power of two so that the pair is
 /// about 1.
@@ -21,23 +27,31 @@ class PosedHulls {
  public:
   PosedHulls(const HullGraph& a, const Eigen::Isometry3d& poseA, const HullGraph& b,
              const Eigen::Isometry3d& poseB, const std::array<int, 2>& startVertices)
-      : PosedHulls(a, poseA, b, poseB, Rotation(poseA), startVertices) {}
+      : a_(a), b_(b), pose_(poseA, poseB), lastA_(startVertices[0]), lastB_(startVertices[1]) {
+    if (!pose_.valid) return;
+    offset_ = pose_.placed(pack(b.centre())) - pack(a.centre());
+    fit();
+  }
 
-  /// Whether every coordinate is finite and small enough for products of three of them.
+  /// Whether the poses are rigid and every coordinate is finite and small enough for products of three of
+  /// them.
   bool usable() const { return usable_; }
   double scale() const { return scale_; }                     ///< scaled = metres * scale
   Eigen::Vector3d offset() const { return unpack(offset_); }  ///< B's centre, scaled
   int supports() const { return supports_; }
 
-  /// The difference's point farthest along `n`, scaled: farthest point of A along n minus B's along -n.
-  SimplexCorner support(const Eigen::Vector3d& n) {
+  /// The difference's point farthest against `n`, scaled: B's farthest point along -n minus A's along n.
+  HullCorner support(const Eigen::Vector3d& n) {
     ++supports_;
     const int va = climbA(n), vb = climbB(n);
-    return {pointA(va) - pointB(vb), va, vb};
+    const Eigen::Vector3d w = pointB(vb) - pointA(va);
+    return {w, n.dot(w), va, vb};
   }
 
   Eigen::Vector3d pointA(int v) const { return scale_ * a_.point(v); }
-  Eigen::Vector3d pointB(int v) const { return unpack(offset_ + scale_ * (rotation_ * pack(b_.point(v)))); }
+  Eigen::Vector3d pointB(int v) const {
+    return unpack(offset_ + scale_ * (pose_.rotation * pack(b_.point(v))));
+  }
 
   /// The same as callbacks for libccd, which sees both objects as this struct.
   static void ccdSupportA(const void* pair, const ccd_vec3_t* direction, ccd_vec3_t* point);
@@ -52,25 +66,11 @@ class PosedHulls {
   int loggedVertexB(const ccd_vec3_t& point) const;
 
  private:
-  PosedHulls(const HullGraph& a, const Eigen::Isometry3d& poseA, const HullGraph& b,
-             const Eigen::Isometry3d& poseB, const Rotation& toWorld, const std::array<int, 2>& startVertices)
-      : a_(a),
-        b_(b),
-        rotation_(toWorld.relative(poseB)),
-        offset_(toWorld.inverse(column(poseB, 3) - column(poseA, 3)) + rotation_ * pack(b.centre()) -
-                pack(a.centre())),
-        lastA_(startVertices[0]),
-        lastB_(startVertices[1]) {
-    fit();
-  }
-
   /// Chooses the scale.
   void fit();
 
   int climbA(const Eigen::Vector3d& n) { return lastA_ = a_.extremeVertex(n, lastA_); }
-  int climbB(const Eigen::Vector3d& n) {
-    return lastB_ = b_.extremeVertex(rotation_.inverse(Eigen::Vector3d(-n)), lastB_);
-  }
+  int climbB(const Eigen::Vector3d& n) { return lastB_ = b_.extremeVertex(pose_.opposite(n), lastB_); }
 
   // What libccd was given, a ring: its simplex holds only points of its last few steps.
   static constexpr int kLog = 64;
@@ -82,8 +82,8 @@ class PosedHulls {
 
   const HullGraph& a_;
   const HullGraph& b_;
-  Rotation rotation_;  // B's frame to A's
-  Packed offset_;
+  RelativePose pose_;  // B's frame to A's
+  Packed offset_{};
   Eigen::Vector3d first_{1, 0, 0};
   double scale_ = 1;
   bool usable_ = false;

@@ -1,3 +1,9 @@
+// Farther than a threshold?
+//
+// 1. Boxes around both geometries.
+// 2. Down both hierarchies, near children first.
+// 3. Of two bodies the gap along the remembered normal.
+// 4. A search that ends as soon as its bounds tell.
 #include "fcl_stpbv/adapter/proximity.h"
 
 #include <algorithm>
@@ -5,16 +11,14 @@
 
 #include "fcl_stpbv/adapter/element_tree.h"
 #include "fcl_stpbv/adapter/fcl_shapes.h"
-#include "fcl_stpbv/adapter/flat_overlap.h"
-#include "fcl_stpbv/adapter/flat_pair.h"
 #include "fcl_stpbv/distance/shape_distance.h"
+#include "fcl_stpbv/distance/shape_pair.h"
 
 namespace fcl_stpbv {
 
 namespace {
 
 using Eigen::Isometry3d;
-using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 /// A single body of a pair: an STP-BV or a shape, placed in the world.
@@ -27,6 +31,10 @@ struct Body {
   double support(const Vector3d& n) const {
     const Vector3d m = pose.linear().transpose() * n;
     return volume ? volume->support(m) : m.dot(shape.support(m)) + shape.margin;
+  }
+  /// Bound on its coordinates, for rounding (m).
+  double extent() const {
+    return volume ? volume->extent() : shape.centre.lpNorm<1>() + shape.reach + shape.margin;
   }
 };
 
@@ -151,11 +159,7 @@ class Walk {
     if (!a_.body(leafA, a) || !b_.body(leafB, b)) return true;  // a free cell
     if (!a_.unbounded() && !b_.unbounded() && rememberedPlaneTells(a, b)) return true;
     if (counts_) ++counts_->solved;
-    if (!a.volume && !b.volume) {
-      if (a_.unbounded()) return planeDistance(a.shape, a.pose, b.shape, b.pose).lower > x_;
-      if (b_.unbounded()) return planeDistance(b.shape, b.pose, a.shape, a.pose).lower > x_;
-      return flatFartherThan(x_, a.shape, a.pose, b.shape, b.pose);
-    }
+    if (!a.volume && !b.volume) return fcl_stpbv::isFartherThan(x_, a.shape, a.pose, b.shape, b.pose);
     const Distance d = !b.volume   ? distance(*a.volume, a.pose, b.shape, b.pose, &cache_)
                        : !a.volume ? distance(a.shape, a.pose, *b.volume, b.pose, &cache_)
                                    : distance(*a.volume, a.pose, *b.volume, b.pose, &cache_);
@@ -167,8 +171,9 @@ class Walk {
     const double length = cache_.normal.norm();
     if (!(length > 0.5 && length < 2.0)) return false;
     if (counts_) ++counts_->bounds;
-    const Vector3d n = cache_.normal / length;
-    return n.dot(b.pose.translation() - a.pose.translation()) - a.support(n) - b.support(-n) > x_;
+    const Vector3d n = cache_.normal / length, d = b.pose.translation() - a.pose.translation();
+    const double rounding = kGapRounding * (d.lpNorm<1>() + a.extent() + b.extent());
+    return n.dot(d) - a.support(n) - b.support(-n) > x_ + rounding;
   }
 
   double x_;
@@ -177,18 +182,13 @@ class Walk {
   ProximityCounts* counts_ = nullptr;
 };
 
-bool isPose(const Isometry3d& pose) {
-  constexpr double kRotation = 1e-6;  // bounds take the transpose for the inverse
-  return (pose.linear().transpose() * pose.linear() - Matrix3d::Identity()).norm() < kRotation &&
-         std::isfinite(pose.translation().sum());
-}
-
 }  // namespace
 
-bool isFartherThan(double x, const fcl::CollisionGeometryd& geometry1, const fcl::Transform3d& pose1,
-                   const fcl::CollisionGeometryd& geometry2, const fcl::Transform3d& pose2,
+bool isFartherThan(double x, const fcl::CollisionGeometryd& geometry1, const fcl::Transform3d& given1,
+                   const fcl::CollisionGeometryd& geometry2, const fcl::Transform3d& given2,
                    const QueryContext& context) {
-  if (!isPose(pose1) || !isPose(pose2)) return false;
+  Isometry3d pose1 = given1, pose2 = given2;
+  if (!makeRigid(pose1) || !makeRigid(pose2)) return false;  // bounds take the transpose for the inverse
   Isometry3d between = Isometry3d::Identity();
   between.linear() = pose1.linear().transpose() * pose2.linear();
   between.translation() = pose1.linear().transpose() * (pose2.translation() - pose1.translation());

@@ -1,3 +1,4 @@
+// The hull's features get the names of the volume's patches: faces by their vertices, edges by their ends.
 #include "fcl_stpbv/adapter/stp_bv_geometry.h"
 
 #include <algorithm>

@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "fcl_stpbv/adapter/hull_graph.h"
+#include "fcl_stpbv/convex/hull_graph.h"
 #include "fcl_stpbv/volume/stp_bv.h"
 
 namespace fcl_stpbv {
@@ -23,7 +23,6 @@ class StpBvGeometry : public fcl::Convexd {
   explicit StpBvGeometry(StpBv::Ptr volume);
 
   const StpBv& volume() const { return *volume_; }
-  const StpBv::Ptr& volumePtr() const { return volume_; }
 
   /// The polyhedron, with vertex `v` of FCL's `getVertices()` as its vertex `v`.
   const HullGraph& hull() const { return hull_; }

@@ -1,10 +1,20 @@
+// Ascent of the gap s(n) over the sphere of normals (docs/theory.md, 5).
+//
+// 1. Solve the pair of patches that own the normal. If its widest normal is in both regions, that is a
+// maximum.
+// 2. Else go towards it along a great circle as far as the gap grows, to where its slope is about zero, and
+// again.
+// 3. Where the gap grows by less than its rounding, try the patches across the region boundaries on the way,
+// and
+//    last the bisection of the directions left, which cannot fail (convex/direction_cone.h).
 #include "fcl_stpbv/distance/ascent.h"
 
 #include <cmath>
 
+#include "fcl_stpbv/convex/direction_cone.h"
 #include "fcl_stpbv/vectorized.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 
 using Eigen::Vector3d;
 
@@ -19,7 +29,8 @@ double slopeAlong(const Sample& m, const Vector3d& pole) { return m.across.dot(p
 /// A normal on the arc from `x` towards `to` where the gap has grown and its slope along the arc is about
 /// zero. The slope is continuous, so a bracket of its sign always shrinks on a maximum; `x` itself when the
 /// gap cannot grow.
-Sample climbArc(const BodyPair& pair, const Sample& x, const Vector3d& to, const Sample* atEnd, Work& work) {
+Sample ascendArc(const BodyPair& pair, const Sample& x, const Vector3d& to, const Sample* atEnd,
+                 SearchWork& work) {
   constexpr int kTrials = 60;     // bisection alone would go from 1 rad to an ulp
   constexpr double kFlat = 0.05;  // of the slope at the start; the next patch pair does the rest exactly
   const Vector3d cross = x.n.cross(to);
@@ -61,10 +72,12 @@ Sample climbArc(const BodyPair& pair, const Sample& x, const Vector3d& to, const
   return high.core > low.core ? high : low;
 }
 
+DirectionTrial asTrial(const Sample& s) { return {s.n, s.core, s.core * s.n + s.across}; }
+
 }  // namespace
 
 FCL_STPBV_VECTORIZED
-bool settle(const BodyPair& pair, Sample& x, Vector3d& next, Work& work) {
+bool settle(const BodyPair& pair, Sample& x, Vector3d& next, SearchWork& work) {
   const PosedPatch a = pair.patchA(x.patch[0]), b = pair.patchB(x.patch[1]);
   Packed n = pack(x.n);
   ++work.pairs;
@@ -86,7 +99,7 @@ bool settle(const BodyPair& pair, Sample& x, Vector3d& next, Work& work) {
   return false;
 }
 
-bool settleBeside(const BodyPair& pair, Sample& x, Work& work) {
+bool settleBeside(const BodyPair& pair, Sample& x, SearchWork& work) {
   Vector3d next;
   if (settle(pair, x, next, work)) return true;
   const Vector3d opposite = pair.opposite(next);
@@ -111,7 +124,7 @@ bool settleBeside(const BodyPair& pair, Sample& x, Work& work) {
 }
 
 FCL_STPBV_VECTORIZED
-bool ascend(const BodyPair& pair, Sample& x, Work& work) {
+bool ascend(const BodyPair& pair, Sample& x, SearchWork& work) {
   for (int i = 0; i < kMaxPairs; ++i) {
     Vector3d next;
     if (settle(pair, x, next, work)) return true;
@@ -120,14 +133,14 @@ bool ascend(const BodyPair& pair, Sample& x, Work& work) {
     Sample y;
     if (next.dot(x.n) > 0.1) {
       const Sample atEnd = pair.sampleFrom(next, x.patch, work.steps);
-      y = climbArc(pair, x, next, &atEnd, work);
+      y = ascendArc(pair, x, next, &atEnd, work);
     } else {
       y = x;
     }
     if (!(y.core > x.core)) {
       // Only deep inside each other, or at rounding: the pair's maximum is not uphill; follow the gradient
       // instead.
-      y = climbArc(pair, x, (x.n + x.across.normalized()).normalized(), nullptr, work);
+      y = ascendArc(pair, x, (x.n + x.across.normalized()).normalized(), nullptr, work);
       if (!(y.core > x.core)) return false;
     }
     x = y;
@@ -135,4 +148,52 @@ bool ascend(const BodyPair& pair, Sample& x, Work& work) {
   return false;
 }
 
-}  // namespace fcl_stpbv
+CoreContact separateCores(const BodyPair& pair, Sample& x, SearchWork& work) {
+  const double touch = pair.gapRounding();
+  Sample trial = x;
+  const auto touches = [&] { return asTrial(trial).difference.norm() <= touch; };
+  if (trial.core > touch) return CoreContact::apart;
+  if (touches()) return CoreContact::touching;
+
+  bisectDirections(
+      asTrial(trial), 0.0,
+      [&](const Vector3d& n) {
+        trial = pair.sampleFrom(n, trial.patch, work.steps);
+        if (trial.core > x.core) x = trial;
+        return asTrial(trial);
+      },
+      [&](const DirectionTrial&) { return x.core > touch || touches(); });
+  if (x.core > touch) return CoreContact::apart;
+  if (!touches()) return CoreContact::overlap;
+  x = trial;
+  return CoreContact::touching;
+}
+
+bool bisectToWidest(const BodyPair& pair, Sample& x, SearchWork& work) {
+  Sample flattest = x, trial = x;
+  bool settled = false;
+  bisectDirections(
+      asTrial(x), 0.0,
+      [&](const Vector3d& n) {
+        trial = pair.sampleFrom(n, x.patch, work.steps);
+        if (trial.core > x.core) x = trial;
+        if (trial.core > 0.0 && trial.across.squaredNorm() < flattest.across.squaredNorm()) flattest = trial;
+        return asTrial(trial);
+      },
+      [&](const DirectionTrial&) {
+        if (pair.isStationary(flattest)) return true;
+        Vector3d next;
+        settled = trial.core > 0.0 && settle(pair, trial, next, work);
+        return settled;
+      });
+  if (settled) {
+    x = trial;
+    return true;
+  }
+  // The gap is flat at its top, so its gradient tells the better normal where the values are equal to
+  // rounding.
+  if (flattest.core >= x.core - pair.gapRounding()) x = flattest;
+  return pair.isStationary(x);
+}
+
+}  // namespace fcl_stpbv::detail

@@ -1,8 +1,9 @@
+// The gap of two STP-BVs along any normal: its patches' owners are found by a walk from a hint.
 #include "fcl_stpbv/distance/body_pair.h"
 
 #include "fcl_stpbv/vectorized.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 
 using Eigen::Vector3d;
 
@@ -13,4 +14,4 @@ Sample BodyPair::sampleFrom(const Vector3d& n, const std::array<int, 2>& hint, i
   return sample(n, patch);
 }
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

@@ -6,11 +6,11 @@
 #include <array>
 #include <limits>
 
+#include "fcl_stpbv/convex/relative_pose.h"
 #include "fcl_stpbv/distance/patch_pair.h"
-#include "fcl_stpbv/distance/rotation.h"
 #include "fcl_stpbv/volume/stp_bv.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 
 /// What the two bodies look like along one normal: the exact gap there and its gradient. Frame of the first
 /// body.
@@ -35,28 +35,28 @@ struct Sample {
 /// own coordinates and their mutual distance enter.
 class BodyPair {
  public:
-  /// `rotation` and `translation` place the second body in the first one's frame; `rotation` is orthonormal.
-  BodyPair(const StpBv& a, const StpBv& b, const Rotation& rotation, const Packed& translation)
-      : a_(a), b_(b), rotation_(rotation), translation_(translation) {
+  /// `pose` is valid, and outlives the pair.
+  BodyPair(const StpBv& a, const StpBv& b, const RelativePose& pose) : a_(a), b_(b), pose_(pose) {
     constexpr double kRounding = 8.0 * std::numeric_limits<double>::epsilon();
-    gapRounding_ = kRounding * (a.extent() + b.extent() + unpack(translation).lpNorm<1>());
+    const double size = a.extent() + b.extent() + unpack(pose.translation).lpNorm<1>();
+    gapRounding_ = kRounding * size;
+    certificateRounding_ = kGapRounding * size;
     acrossRounding_ = gapRounding_ + kRounding * (a.radii().rho + b.radii().rho);
   }
 
   const StpBv& a() const { return a_; }
   const StpBv& b() const { return b_; }
-  const Rotation& rotation() const { return rotation_; }
-  Eigen::Vector3d translation() const { return unpack(translation_); }
+  const RelativePose& pose() const { return pose_; }
 
   /// The second body's outward normal, in its own frame, where the first body's is `n`.
-  Eigen::Vector3d opposite(const Eigen::Vector3d& n) const { return rotation_.inverse(Eigen::Vector3d(-n)); }
-  Packed opposite(const Packed& n) const { return rotation_.inverse(-n); }
+  Eigen::Vector3d opposite(const Eigen::Vector3d& n) const { return pose_.opposite(n); }
+  Packed opposite(const Packed& n) const { return pose_.opposite(n); }
 
-  PosedPatch patchA(int patch) const { return ownPatch(a_, patch); }
+  PosedPatch patchA(int patch) const { return posedPatch(a_, patch); }
   PosedPatch patchB(int patch) const {
-    PosedPatch p = ownPatch(b_, patch);
-    p.anchor = placed(p.anchor);
-    p.axis = rotation_ * p.axis;
+    PosedPatch p = posedPatch(b_, patch);
+    p.anchor = pose_.placed(p.anchor);
+    p.axis = pose_.rotation * p.axis;
     return p;
   }
 
@@ -78,14 +78,15 @@ class BodyPair {
 
   /// Second body's vertex less the first one's: a point of the difference of the cores.
   Packed vertexDifference(const std::array<int, 2>& vertex) const {
-    return placed(pack(b_.patches().vertex(vertex[1]).point)) - pack(a_.patches().vertex(vertex[0]).point);
+    return pose_.placed(pack(b_.patches().vertex(vertex[1]).point)) -
+           pack(a_.patches().vertex(vertex[0]).point);
   }
 
   /// One about as far against `n`, of any length, as any: from the tables of directions alone.
   Packed differenceAgainst(const Eigen::Vector3d& n) const { return vertexDifference(near(n)); }
 
   /// Second body's centre less the first one's.
-  Packed centreDifference() const { return placed(pack(b_.centre())) - pack(a_.centre()); }
+  Packed centreDifference() const { return pose_.placed(pack(b_.centre())) - pack(a_.centre()); }
 
   /// The gap along `n`; the owners are looked for from `hint`. Adds the patches that changed to `steps`.
   Sample sampleFrom(const Eigen::Vector3d& n, const std::array<int, 2>& hint, int& steps) const;
@@ -96,9 +97,9 @@ class BodyPair {
   /// Rounding of a gap: coordinates up to the bodies' extents and mutual distance, a dozen operations (m).
   double gapRounding() const { return gapRounding_; }
 
-  /// Rounding of `Sample::across`: a unit normal is only good to an ulp, and a face's point moves `rho` times
-  /// as far (m).
-  double acrossRounding() const { return acrossRounding_; }
+  /// Bound on the rounding of a gap, of the poses that lead to it too: what a certificate is rounded outward
+  /// by (m).
+  double certificateRounding() const { return certificateRounding_; }
 
   /// Cores nearer than this all but touch: a patch reaches past its seam by the rounding of a normal, `rho`
   /// times that in metres, which is a part of the gap and turns the normal by as much. What starts from the
@@ -111,29 +112,13 @@ class BodyPair {
   }
 
  private:
-  /// A point of the second body in the first one's frame.
-  Packed placed(const Packed& p) const { return rotation_ * p + translation_; }
-
-  /// A patch in its body's own frame.
-  static PosedPatch ownPatch(const StpBv& body, int patch) {
-    const PatchTable& patches = body.patches();
-    const PatchKind kind = patches.kind(patch);
-    if (kind == PatchKind::vertex)
-      return {pack(patches.vertex(patch).point), Packed{}, 0, 0, kind, &body.radii()};
-    if (kind == PatchKind::edge) {
-      const EdgeRecord& e = patches.edge(patch);
-      return {e.middle, e.axis, e.middle[3], e.axis[3], kind, &body.radii()};
-    }
-    const FaceRecord& f = patches.face(patch);
-    return {pack(f.anchor), pack(f.normal), 0, 0, kind, &body.radii()};
-  }
-
   const StpBv& a_;
   const StpBv& b_;
-  Rotation rotation_;
-  Packed translation_;
+  const RelativePose& pose_;
   double gapRounding_;
-  double acrossRounding_;
+  double certificateRounding_;
+  double acrossRounding_;  // of `Sample::across`: a normal is good to an ulp, a face's point moves `rho`
+                           // times as far
 };
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

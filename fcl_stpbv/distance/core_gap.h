@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "fcl_stpbv/packed.h"
-#include "fcl_stpbv/volume/patch.h"
+#include "fcl_stpbv/volume/stp_bv.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 
 /// A patch with all that its formula needs, in whatever frame its anchor and axis are given.
 struct PosedPatch {
@@ -19,6 +19,20 @@ struct PosedPatch {
   /// Centre of the patch's point or circle (m); a vertex has no axis.
   Packed centre() const { return kind == PatchKind::face ? Packed(anchor - radii->rho * axis) : anchor; }
 };
+
+/// A patch in its body's own frame.
+inline PosedPatch posedPatch(const StpBv& body, int patch) {
+  const PatchTable& patches = body.patches();
+  const PatchKind kind = patches.kind(patch);
+  if (kind == PatchKind::vertex)
+    return {pack(patches.vertex(patch).point), Packed{}, 0, 0, kind, &body.radii()};
+  if (kind == PatchKind::edge) {
+    const EdgeRecord& e = patches.edge(patch);
+    return {e.middle, e.axis, e.middle[3], e.axis[3], kind, &body.radii()};
+  }
+  const FaceRecord& f = patches.face(patch);
+  return {pack(f.anchor), pack(f.normal), 0, 0, kind, &body.radii()};
+}
 
 /// An edge's core seen along a normal that leans by `v = n.u` along the edge.
 struct EdgeView {
@@ -76,4 +90,4 @@ inline CoreGap coreGap(const PosedPatch& a, const PosedPatch& b, const Packed& n
           difference - dot(difference, n) * n};
 }
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

@@ -1,3 +1,18 @@
+// Exact signed distance of two STP-BVs by a feature walk over their patches (docs/theory.md, 5).
+//
+// Mirtich's V-Clip walks the Voronoi regions of two polyhedra's features (ACM Transactions on Graphics 17(3),
+// 1998); the smooth Voronoi regions of an STP-BV are regions of normals, its patches' normal cones.
+// 1. Start from the last answer's patches, else from the line of centres.
+// 2. Solve the pair of patches: the normal of its widest gap, in closed form or by two Newton passes
+// (patch_pair.h).
+// 3. If that normal is in both normal cones, it is the answer while the cores are apart: any maximum is the
+// only one.
+// 4. Else cross the one region boundary, on either body, that it passes furthest, and go to 2.
+// 5. A pair that holds no maximum on this side of the sphere leads nowhere: go uphill to the first boundary
+// in the way.
+// 6. After a dozen pairs, or between cores that overlap, the whole search takes over (wide_search.h).
+// This path is apart from GJK and EPA for speed: it evaluates one closed form per step, and no support
+// function.
 #include "fcl_stpbv/distance/distance.h"
 
 #include <algorithm>
@@ -6,7 +21,6 @@
 
 #include "fcl_stpbv/distance/ascent.h"
 #include "fcl_stpbv/distance/body_pair.h"
-#include "fcl_stpbv/distance/orthonormal.h"
 #include "fcl_stpbv/distance/wide_search.h"
 #include "fcl_stpbv/vectorized.h"
 
@@ -17,6 +31,8 @@ using Eigen::Vector3d;
 
 namespace {
 
+using namespace detail;
+
 /// `n` of unit length, without the root where it is already close.
 Packed renormalized(const Packed& n) {
   const double length2 = dot(n, n);
@@ -25,8 +41,8 @@ Packed renormalized(const Packed& n) {
 
 /// The first guess when nothing near is remembered: from centre to centre. The tables are asked for a
 /// direction of any length, as what they name is waited for longer than its root.
-Start fromCentres(const BodyPair& pair) {
-  const Heading h = headingOr(pair.centreDifference(), Packed{1, 0, 0, 0});
+SearchStart fromCentres(const BodyPair& pair) {
+  const UnnormalizedNormal h = unnormalizedOr(pair.centreDifference(), Packed{1, 0, 0, 0});
   return {unpack(h.unit()), pair.near(unpack(h.d)), false};
 }
 
@@ -45,7 +61,7 @@ int nearby(const StpBv& body, int patch, const Packed& now, const Eigen::Vector3
   return over.past > 0.0 ? over.neighbour : patch;
 }
 
-Start startOf(const BodyPair& pair, const Rotation& toWorld, const PairCache* cache) {
+SearchStart startOf(const BodyPair& pair, const Rotation& toWorld, const PairCache* cache) {
   const Packed last = cache ? toWorld.inverse(pack(cache->normal)) : Packed{};
   const double length2 = dot(last, last);
   if (length2 > 0.25 && length2 < 4.0) {
@@ -58,7 +74,7 @@ Start startOf(const BodyPair& pair, const Rotation& toWorld, const PairCache* ca
 }
 
 /// Two patches along a normal, as a search goes from one to the next.
-struct Visit {
+struct SearchState {
   std::array<int, 2> patch;
   PosedPatch a, b;
   Packed n;
@@ -77,16 +93,16 @@ struct Visit {
   /// Over the first seam uphill, for patches whose gap has its maximum far off or none on this side of the
   /// sphere, as two vertices that overlap. Along an edge the gap bends so much that only the way across it
   /// leads anywhere. False where no seam is ahead.
-  bool climb(const BodyPair& pair) {
+  bool crossUphill(const BodyPair& pair) {
     Packed up = coreGap(a, b, n).across;
     for (const PosedPatch* p : {&a, &b})
       if (p->kind == PatchKind::edge) up -= dot(up, p->axis) * p->axis;
-    const Packed h = headingOr(up, n).unit();
+    const Packed h = unnormalizedOr(up, n).unit();
     const Crossing overA = pair.a().patches().ahead(patch[0], n, h),
                    overB = pair.b().patches().ahead(patch[1], pair.opposite(n), pair.opposite(h));
     const double nearness = std::max(overA.past, overB.past);
     if (!(nearness > std::numeric_limits<double>::min())) return false;
-    n = headingOr(nearness * n + h, n).unit();
+    n = unnormalizedOr(nearness * n + h, n).unit();
     cross(pair, overA, overB);
     return true;
   }
@@ -95,17 +111,18 @@ struct Visit {
 /// Settles on a patch pair near the given one: over the seam that the widest normal passes furthest, on
 /// either body, to the next pair, without a look at the gap. A maximum that it finds between cores apart is
 /// the only one; that it does not find one proves nothing.
-bool hop(const BodyPair& pair, const Start& start, Sample& x, Work& work) {
+bool walkFeatures(const BodyPair& pair, const SearchStart& start, Sample& x, SearchWork& work) {
   constexpr int kTries = 12;    // one to three are usual
   constexpr double kFar = 0.3;  // cosine of the turn after which the seam passed furthest says little
-  Visit at{start.patch, pair.patchA(start.patch[0]), pair.patchB(start.patch[1]), pack(start.n), !start.near};
+  SearchState at{start.patch, pair.patchA(start.patch[0]), pair.patchB(start.patch[1]), pack(start.n),
+                 !start.near};
   if (at.far) {
     pair.a().patches().prefetchBeside(at.patch[0]);
     pair.b().patches().prefetchBeside(at.patch[1]);
   }
   for (int i = 0; i < kTries; ++i) {
     ++work.pairs;
-    const Heading to = widestNormal(at.a, at.b, at.n);
+    const UnnormalizedNormal to = widestNormal(at.a, at.b, at.n);
     const Crossing overA = pair.a().patches().crossing(at.patch[0], to.d, to.length),
                    overB = pair.b().patches().crossing(at.patch[1], pair.opposite(to.d), to.length);
     const bool straysFar = !(dot(to.d, at.n) > kFar * to.length);
@@ -119,7 +136,7 @@ bool hop(const BodyPair& pair, const Start& start, Sample& x, Work& work) {
     if (!straysFar) {
       at.n = to.unit();
       at.cross(pair, overA, overB);
-    } else if (!at.climb(pair)) {
+    } else if (!at.crossUphill(pair)) {
       return false;
     }
   }
@@ -131,25 +148,15 @@ bool hop(const BodyPair& pair, const Start& start, Sample& x, Work& work) {
 FCL_STPBV_VECTORIZED
 Distance distance(const StpBv& a, const Isometry3d& poseA, const StpBv& b, const Isometry3d& poseB,
                   PairCache* cache) {
-  constexpr double kHuge = 1e300;  // squares must not overflow
   Distance result;
-  result.lower = -std::numeric_limits<double>::infinity();
-  result.upper = std::numeric_limits<double>::infinity();
-  const Rotation toWorld(poseA);
-  Rotation rotation = toWorld.relative(poseB);
-  if (!rotation.orthonormal()) {
-    Eigen::Matrix3d matrix = rotation.matrix();
-    if (!makeOrthonormal(matrix)) return result;
-    rotation = Rotation(matrix);
-  }
-  const Packed originA = column(poseA, 3), translation = toWorld.inverse(column(poseB, 3) - originA);
-  if (!(dot(translation, translation) < kHuge)) return result;
+  const RelativePose pose(poseA, poseB);
+  if (!pose.valid) return result;
 
-  const BodyPair pair(a, b, rotation, translation);
-  const Start start = startOf(pair, toWorld, cache);
-  Found found;
-  Work work;
-  const bool settled = hop(pair, start, found.at, work);
+  const BodyPair pair(a, b, pose);
+  const SearchStart start = startOf(pair, pose.toWorld, cache);
+  WidestGap found;
+  SearchWork work;
+  const bool settled = walkFeatures(pair, start, found.at, work);
   if (settled && start.near) {  // what is around a patch that stays has been fetched
     if (found.at.patch[0] != cache->patch[0]) a.patches().prefetchAround(found.at.patch[0]);
     if (found.at.patch[1] != cache->patch[1]) b.patches().prefetchAround(found.at.patch[1]);
@@ -159,17 +166,17 @@ Distance distance(const StpBv& a, const Isometry3d& poseA, const StpBv& b, const
 
   const Sample& at = found.at;
   result.status = found.status;
-  result.lower = at.core - pair.margins();
-  result.upper =
-      (found.status == DistanceStatus::local ? std::max(found.bound, at.core)
-                                             : std::sqrt(at.core * at.core + at.across.squaredNorm())) -
-      pair.margins();
-  result.distance = result.lower;
+  const double upper = found.status == DistanceStatus::local
+                           ? std::max(found.bound, at.core)
+                           : std::sqrt(at.core * at.core + at.across.squaredNorm());
+  result.distance = at.core - pair.margins();
+  result.lower = result.distance - pair.certificateRounding();
+  result.upper = upper - pair.margins() + 2.0 * pair.certificateRounding();
   result.patch = at.patch;
   const Packed n = pack(at.n), pointA = pack(at.point), pointB = pointA + pack(at.across) + at.core * n;
-  result.normal = unpack(renormalized(toWorld * n));
-  result.point[0] = unpack(originA + toWorld * (pointA + a.radii().r * n));
-  result.point[1] = unpack(originA + toWorld * (pointB - b.radii().r * n));
+  result.normal = unpack(renormalized(pose.toWorld * n));
+  result.point[0] = unpack(pose.origin + pose.toWorld * (pointA + a.radii().r * n));
+  result.point[1] = unpack(pose.origin + pose.toWorld * (pointB - b.radii().r * n));
   result.patchPairs = work.pairs;
   result.patchSteps = work.steps;
   if (cache) {

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <array>
+#include <limits>
 
 #include "fcl_stpbv/volume/stp_bv.h"
 
@@ -14,7 +15,8 @@ enum class DistanceStatus {
   exact,    ///< the signed distance to rounding: separated, touching, or penetrating by at most r1 + r2
   local,    ///< deeper: a locally best separating translation; the true value lies in [lower, upper]
   bounded,  ///< not solved to rounding; the true value lies in [lower, upper]
-  invalid,  ///< a pose is not a finite rotation and translation; bounds are infinite, everything else is zero
+  invalid,  ///< a pose is no rigid motion, each entry of its rotation to 1e-6; bounds are infinite,
+            ///< everything else is zero
 };
 
 /// [linear; angular] derivative with respect to a body's twist about the body's origin, world axes.
@@ -25,8 +27,12 @@ using TwistGradient = Eigen::Matrix<double, 6, 1, Eigen::DontAlign>;
 struct Distance {
   DistanceStatus status = DistanceStatus::invalid;
   double distance = 0;  ///< signed: negative where the bodies overlap
-  double lower = 0;     ///< certified: the gap between the two supporting planes of `normal`
-  double upper = 0;     ///< certified: from the distance of the cores' points, or how deep they are at least
+  /// Certified: the gap between the two supporting planes of `normal`, rounded down.
+  double lower = -std::numeric_limits<double>::infinity();
+  /// Certified: from the distance of the cores' points, or how deep they are at least, rounded up. Both
+  /// bounds are rounded by more than arithmetic can be off, so `lower <= truth <= upper` holds as it stands
+  /// (docs/theory.md, 5).
+  double upper = std::numeric_limits<double>::infinity();
   Eigen::Vector3d normal{0, 0, 0};  ///< unit, from body 1 to body 2
   std::array<Eigen::Vector3d, 2> point{Eigen::Vector3d(0, 0, 0),
                                        Eigen::Vector3d(0, 0, 0)};  ///< witness points, on the smooth surfaces

@@ -1,11 +1,18 @@
+// Second derivatives of the distance (docs/theory.md, 6).
+//
+// 1. The normal is carried by body 2 and turns in it by what maximises the gap; flat features keep it, edges
+// let it turn
+//    one way.
+// 2. The distance is a maximum over these turns, so its second derivative is s_qq - s_qn s_nn^-1 s_nq.
+// 3. Normal and witness points follow from the turn.
 #include "fcl_stpbv/distance/hessian.h"
 
 #include <cmath>
 #include <limits>
 #include <utility>
 
+#include "fcl_stpbv/convex/shape_curvature.h"
 #include "fcl_stpbv/distance/patch_pair.h"
-#include "fcl_stpbv/distance/shape_feature.h"
 
 namespace fcl_stpbv {
 
@@ -14,6 +21,8 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 namespace {
+
+using namespace detail;
 
 Matrix3d cross(const Vector3d& v) {
   Matrix3d m;
@@ -24,9 +33,8 @@ Matrix3d cross(const Vector3d& v) {
 /// Second derivative of the body's support function at its outward normal `n`, world axes: the radii of
 /// curvature of the surface, zero along `n`.
 Matrix3d surfaceCurvature(const StpBv& body, const Isometry3d& pose, int patch, const Vector3d& n) {
-  const Patch p = body.patch(patch);
-  const PosedPatch posed{pack(p.anchor), pack(pose.linear() * p.axis), p.kappa, p.sine, body.kind(patch),
-                         &body.radii()};
+  PosedPatch posed = posedPatch(body, patch);
+  posed.axis = pack(pose.linear() * unpack(posed.axis));
   return coreCurvature(posed, n) + body.radii().r * (Matrix3d::Identity() - n * n.transpose());
 }
 
@@ -39,7 +47,7 @@ bool owns(const StpBv& body, int patch) { return patch >= 0 && patch < body.patc
 
 /// Inverse of -s_nn = W_A + W_B + delta (docs/theory.md, 6) on the ways in world axes that body 2 leaves
 /// open, zero on the others: there W_B is infinite. False unless positive definite, as at a maximum of s.
-bool invert(const Matrix3d& curvatureA, double distance, const NormalFreedom& b, Matrix3d& inverse) {
+bool invert(const Matrix3d& curvatureA, double distance, const NormalCone& b, Matrix3d& inverse) {
   inverse.setZero();
   if (b.count == 0) return true;
   const Vector3d &t1 = b.way[0], &t2 = b.way[1];
@@ -64,7 +72,7 @@ bool invert(const Matrix3d& curvatureA, double distance, const NormalFreedom& b,
 ///     n = exp(w_B) (n0 + tau),   s = n.(o_B - o_A) - h_B(body 2's normal) - h_A(n seen from body 1)
 ///
 /// so only body 1's radii of curvature, always finite, meet the twists, and body 2's only `tau`.
-bool secondOrder(const Matrix3d& curvatureA, const NormalFreedom& b, const Isometry3d& poseA,
+bool secondOrder(const Matrix3d& curvatureA, const NormalCone& b, const Isometry3d& poseA,
                  const Isometry3d& poseB, const Distance& d, DistanceHessian& result) {
   Matrix3d inverse;
   if (!invert(curvatureA, d.distance, b, inverse)) return false;
@@ -140,7 +148,7 @@ bool hessian(const StpBv& a, const Isometry3d& poseA, const StpBv& b, const Isom
   const Vector3d& n = d.normal;
   const Vector3d t1 = n.unitOrthogonal(), t2 = n.cross(t1);
   const Matrix3d w = surfaceCurvature(b, poseB, d.patch[1], -n);
-  const NormalFreedom every{2, {t1, t2}, {t1.dot(w * t1), t2.dot(w * t2)}, t1.dot(w * t2)};
+  const NormalCone every{2, {t1, t2}, {t1.dot(w * t1), t2.dot(w * t2)}, t1.dot(w * t2)};
   return secondOrder(surfaceCurvature(a, poseA, d.patch[0], n), every, poseA, poseB, d, result);
 }
 
@@ -154,9 +162,9 @@ bool hessian(const StpBv& volume, const Isometry3d& poseVolume, const Shape& sha
       32.0 * std::numeric_limits<double>::epsilon() *
           ((poseShape.translation() - poseVolume.translation()).norm() + volume.centre().norm() +
            volume.enclosingRadius() + shape.centre.norm() + shape.reach);
-  NormalFreedom freedom;
-  if (!normalFreedom(shape, -(q.transpose() * d.normal),
-                     q.transpose() * (d.point[1] - poseShape.translation()), rounding, freedom))
+  NormalCone freedom;
+  if (!normalCone(shape, -(q.transpose() * d.normal), q.transpose() * (d.point[1] - poseShape.translation()),
+                  rounding, freedom))
     return false;
   for (Vector3d& way : freedom.way) way = q * way;
   return secondOrder(surfaceCurvature(volume, poseVolume, d.patch[0], d.normal), freedom, poseVolume,

@@ -4,8 +4,8 @@
 #include <Eigen/Core>
 #include <array>
 
+#include "fcl_stpbv/convex/shape.h"
 #include "fcl_stpbv/distance/distance.h"
-#include "fcl_stpbv/distance/shape.h"
 
 namespace fcl_stpbv {
 

@@ -1,3 +1,9 @@
+// The widest normal of two edges' patches, two tori (docs/theory.md, 5).
+//
+// 1. Axes that cross: two equations for how far the normal leans along each edge, solved by Newton's method
+// from
+//    the axes' common normal. Two passes are usual.
+// 2. Axes nearly parallel, or wide bands: Newton's method on the sphere of normals.
 #include "fcl_stpbv/distance/patch_pair.h"
 
 #include <Eigen/Geometry>
@@ -6,7 +12,7 @@
 
 #include "fcl_stpbv/vectorized.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 
 using Eigen::Vector3d;
 
@@ -91,7 +97,7 @@ void turnToWidestOfEdges(const PosedPatch& a, const PosedPatch& b, Packed& n) {
     const EdgeView va = viewEdge(a, n), vb = viewEdge(b, -n);
     const double core = dot(n, middles) - va.rise - vb.rise;
     if (core < bestGap && lastStep2 > 1e-14) {  // shorter steps differ by rounding only
-      n = headingOr(bestPull, best).unit();
+      n = unnormalizedOr(bestPull, best).unit();
       bestGap = -std::numeric_limits<double>::infinity();
       lastStep2 = kUnknown;
       continue;
@@ -111,7 +117,7 @@ void turnToWidestOfEdges(const PosedPatch& a, const PosedPatch& b, Packed& n) {
     const double g1 = dot(y, e1), g2 = dot(y, e2);
     const double det = m11 * m22 - m12 * m12;
     if (!(det > 0.0 && m22 > 0.0)) {
-      const Packed next = headingOr(bestPull, n).unit(), step = next - n;
+      const Packed next = unnormalizedOr(bestPull, n).unit(), step = next - n;
       const bool still = dot(step, step) < 1e-30;
       n = next;
       if (still) break;
@@ -138,4 +144,4 @@ Eigen::Matrix3d coreCurvature(const PosedPatch& p, const Vector3d& n) {
   return e.around * v * v.transpose() + p.radii->rho * w * w.transpose();
 }
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

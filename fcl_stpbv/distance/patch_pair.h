@@ -7,7 +7,7 @@
 
 #include "fcl_stpbv/distance/core_gap.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 
 /// Turns `n` to the widest normal of two edges' patches: two tori, in closed form but for a few passes where
 /// their axes cross, else by Newton on the sphere (docs/theory.md, 5).
@@ -19,7 +19,7 @@ Eigen::Matrix3d coreCurvature(const PosedPatch& p, const Eigen::Vector3d& n);
 
 /// A direction not yet made a unit vector: what is asked of it first, on which side of seams it lies, does
 /// not wait for the division.
-struct Heading {
+struct UnnormalizedNormal {
   Packed d;
   double length;  ///< of `d`, positive
 
@@ -27,7 +27,7 @@ struct Heading {
 };
 
 /// The heading of `d`, or the unit vector `otherwise` where it has none.
-inline Heading headingOr(const Packed& d, const Packed& otherwise) {
+inline UnnormalizedNormal unnormalizedOr(const Packed& d, const Packed& otherwise) {
   using Limits = std::numeric_limits<double>;
   const double length2 = dot(d, d);
   if (!(length2 > Limits::min())) return {otherwise, 1.0};
@@ -40,7 +40,7 @@ inline Heading headingOr(const Packed& d, const Packed& otherwise) {
 
 /// A circle and a point (torus against sphere). `d` runs from the first centre to the second; which of the
 /// two the circle belongs to does not matter, since it only enters through `kappa |P n|`.
-inline Heading circlePoint(const PosedPatch& circle, const Packed& d, const Packed& n) {
+inline UnnormalizedNormal circlePoint(const PosedPatch& circle, const Packed& d, const Packed& n) {
   const double along = dot(d, circle.axis);
   Packed across = d - along * circle.axis;
   double distance2 = dot(across, across);
@@ -52,17 +52,17 @@ inline Heading circlePoint(const PosedPatch& circle, const Packed& d, const Pack
     distance2 = dot(across, across);
   }
   if (!(distance2 > 1e-30 * length2)) {  // on the axis: any direction across is as good, so the last one
-    const Packed e = headingOr(n - dot(n, circle.axis) * circle.axis, n).unit();
-    return headingOr(along * circle.axis + circle.kappa * e, n);
+    const Packed e = unnormalizedOr(n - dot(n, circle.axis) * circle.axis, n).unit();
+    return unnormalizedOr(along * circle.axis + circle.kappa * e, n);
   }
   const double distance = std::sqrt(distance2);
-  return headingOr(distance * along * circle.axis + (distance + circle.kappa) * across, n);
+  return unnormalizedOr(distance * along * circle.axis + (distance + circle.kappa) * across, n);
 }
 
 /// The normal at which the gap is widest, the patches continued over the whole sphere of normals, seen from
 /// the unit vector `n`: closed form for spheres and one torus (docs/theory.md, 5). Where every normal is as
 /// good (coincident centres), `n` itself.
-inline Heading widestNormal(const PosedPatch& a, const PosedPatch& b, const Packed& n) {
+inline UnnormalizedNormal widestNormal(const PosedPatch& a, const PosedPatch& b, const Packed& n) {
   const bool circleA = a.kind == PatchKind::edge, circleB = b.kind == PatchKind::edge;
   if (circleA && circleB) {
     Packed widest = n;
@@ -70,7 +70,7 @@ inline Heading widestNormal(const PosedPatch& a, const PosedPatch& b, const Pack
     return {widest, 1.0};
   }
   const Packed d = b.centre() - a.centre();
-  return circleA || circleB ? circlePoint(circleA ? a : b, d, n) : headingOr(d, n);
+  return circleA || circleB ? circlePoint(circleA ? a : b, d, n) : unnormalizedOr(d, n);
 }
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

@@ -1,3 +1,12 @@
+// An STP-BV against a simple shape.
+//
+// 1. Search the shape's nearest feature, kind by kind (shape_query.h), from the remembered normal or the line
+// of centres.
+// 2. Test the answer against the whole shape. If it holds, it is exact.
+// 3. Else bisect the directions left with support points of the two whole bodies (convex/direction_cone.h):
+// slow, sure.
+//    From the normal found, a feature search again proves the last digits.
+// 4. Cores that overlap: EPA (convex/epa.h).
 #include "fcl_stpbv/distance/shape_distance.h"
 
 #include <algorithm>
@@ -5,16 +14,19 @@
 #include <limits>
 #include <utility>
 
-#include "fcl_stpbv/distance/orthonormal.h"
-#include "fcl_stpbv/distance/shape_overlap.h"
+#include "fcl_stpbv/convex/direction_cone.h"
+#include "fcl_stpbv/convex/epa.h"
+#include "fcl_stpbv/convex/support.h"
+#include "fcl_stpbv/distance/shape_query.h"
 
 namespace fcl_stpbv {
 
 using Eigen::Isometry3d;
-using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 namespace {
+
+using namespace detail;
 
 /// From the remembered normal, else from the volume's centre to the shape's.
 StartNormal startOf(const ShapeQuery& q, const Vector3d& remembered, int patch) {
@@ -68,17 +80,105 @@ Nearest nearestOnShape(ShapeQuery& q, const StartNormal& start) {
   return nearestOnHalfspace(q);
 }
 
-struct Found {
+/// What the cut search found.
+struct LeastOverlap {
+  Nearest at;    ///< the best normal seen; `gap` is the true gap along it
+  double bound;  ///< no normal has a wider one (m)
+  bool overlap;  ///< the cores have a common point, beyond rounding
+  bool solved;   ///< the remaining normals are one to rounding
+};
+
+/// The gap along one normal between the two whole cores, and the difference of the points that tell it.
+struct Trial {
+  Nearest at;
+  Vector3d difference;
+};
+
+Trial trialAlong(ShapeQuery& q, const Vector3d& n, int hint) {
+  const SupportPoint view = viewVolume(q.body, n, hint, q.steps);
+  Trial trial;
+  trial.at.n = n;
+  trial.at.patch = view.patch;
+  trial.at.y = q.facing(n);
+  trial.at.gap = view.gap(trial.at.y);
+  trial.at.corners = 1;
+  trial.difference = trial.at.y - view.point;
+  ++q.pairs;
+  return trial;
+}
+
+/// To the top of the hill that the search ended on, where rounding or the size of the polytope stopped it:
+/// tries normals around the best one, nearer and nearer.
+template <typename Search>
+void climbToLeastOverlap(Search& epa) {
+  constexpr int kTrials = 4000;
+  double step = 0.02;  // rad
+  for (int trials = 0; step > 1e-9 && trials < kTrials;) {
+    const Vector3d n = epa.n, e = n.unitOrthogonal(), f = n.cross(e);
+    const double gap = epa.gap;
+    for (int k = 0; k < 8 && epa.gap <= gap; ++k, ++trials) {
+      const double angle = 0.785398163397448 * k + 40.0 * step;  // turned a little each round
+      epa.look((n + step * (std::cos(angle) * e + std::sin(angle) * f)).normalized());
+    }
+    if (epa.gap <= gap) step *= 0.5;
+  }
+}
+
+/// Halves the convex cone of remaining normals until it is one normal to rounding, with support points of the
+/// two whole bodies alone (docs/theory.md, 5). Slow, sure.
+LeastOverlap widestGapByCuts(ShapeQuery& q, const StartNormal& start) {
+  Trial trial = trialAlong(q, start.n, start.patch);
+  LeastOverlap best{trial.at, trial.difference.norm(), false, false};
+  if (!(best.bound > q.rounding.gap)) return {trial.at, best.bound, false, true};  // touching
+  const auto asTrial = [&] { return DirectionTrial{trial.at.n, trial.at.gap, trial.difference}; };
+  constexpr auto never = [](const DirectionTrial&) { return false; };
+  best.solved = !bisectDirections(
+      asTrial(), 0.25 * q.rounding.gap,
+      [&](const Vector3d& n) {
+        trial = trialAlong(q, n, trial.at.patch);
+        best.bound = std::min(best.bound, trial.difference.norm());
+        if (trial.at.gap > best.at.gap) best.at = trial.at;
+        return asTrial();
+      },
+      never);
+  best.at.apart = best.at.gap > 0.0;
+  best.overlap = best.at.gap < -q.rounding.gap;
+  return best;
+}
+
+/// How deep overlapping cores are in each other: grows a polytope inside their difference where its surface
+/// is nearest to the origin (van den Bergen 2001). `at` is the normal with the least overlap seen, `bound`
+/// holds for every normal.
+LeastOverlap leastOverlap(ShapeQuery& q, const StartNormal& start) {
+  StpBvCore core{q.body, start.patch, q.steps};
+  using Difference = ConvexDifference<StpBvCore, const Shape>;
+  Difference difference(core, q.shape, q.pose);
+  Epa<Difference> epa(difference, q.rounding.gap);
+  epa.look(start.n);
+  if (!epa.run()) climbToLeastOverlap(epa);
+  // The strictly convex body's point is the only one; of a face the shape gave a corner, so take what is
+  // opposite.
+  LeastOverlap best{{}, std::max(epa.bound, epa.gap), true, epa.solved()};
+  const SupportPoint onBody = core.supportPoint(epa.n);
+  best.at.n = epa.n;
+  best.at.patch = onBody.patch;
+  best.at.gap = epa.gap;
+  best.at.y = onBody.point + epa.gap * epa.n;
+  best.at.corners = 1;
+  return best;
+}
+
+struct Solution {
   Nearest at;
   DistanceStatus status;
   double upper;  ///< of the cores' gap (m)
 };
 
-Found solve(ShapeQuery& q, const StartNormal& start) {
+Solution solve(ShapeQuery& q, const StartNormal& start) {
   Nearest found = nearestOnShape(q, start);
   if (q.shape.unbounded()) return {found, DistanceStatus::exact, found.gap};
   if (certified(q, found)) return {found, DistanceStatus::exact, found.gap};
-  const WidestGap cuts = widestGapByCuts(q, found.apart ? StartNormal{found.n, found.patch} : start);
+  const LeastOverlap cuts = widestGapByCuts(q, found.apart ? StartNormal{found.n, found.patch} : start);
   if (!cuts.overlap) {
     // Near the answer now; a feature search from here proves it to the last digit.
     found = nearestOnShape(q, {cuts.at.n, cuts.at.patch});
@@ -88,7 +188,7 @@ Found solve(ShapeQuery& q, const StartNormal& start) {
     const bool proven = upper - cuts.at.gap <= q.rounding.gap;
     return {cuts.at, proven ? DistanceStatus::exact : DistanceStatus::bounded, upper};
   }
-  const WidestGap deep = leastOverlap(q, {cuts.at.n, cuts.at.patch});
+  const LeastOverlap deep = leastOverlap(q, {cuts.at.n, cuts.at.patch});
   return {deep.at, DistanceStatus::local, std::max(deep.bound, deep.at.gap)};
 }
 
@@ -96,30 +196,25 @@ Found solve(ShapeQuery& q, const StartNormal& start) {
 
 Distance distance(const StpBv& volume, const Isometry3d& poseVolume, const Shape& shape,
                   const Isometry3d& poseShape, PairCache* cache) {
-  constexpr double kHuge = 1e300;  // squares must not overflow
   Distance result;
-  result.lower = -std::numeric_limits<double>::infinity();
-  result.upper = std::numeric_limits<double>::infinity();
-  Matrix3d rotation = poseVolume.linear().transpose() * poseShape.linear();
-  const Vector3d translation =
-      poseVolume.linear().transpose() * (poseShape.translation() - poseVolume.translation());
-  if (!shape.valid() || !makeOrthonormal(rotation) || !(translation.squaredNorm() < kHuge)) return result;
+  const RelativePose pose(poseVolume, poseShape);
+  if (!shape.valid() || !pose.valid) return result;
 
-  ShapeQuery q(volume, shape, rotation, translation);
-  const Vector3d remembered =
-      cache ? Vector3d(poseVolume.linear().transpose() * cache->normal) : Vector3d(0, 0, 0);
-  const Found found = solve(q, startOf(q, remembered, cache ? cache->patch[0] : -1));
+  ShapeQuery q(volume, shape, pose);
+  const Vector3d remembered = cache ? pose.toWorld.inverse(cache->normal) : Vector3d(0, 0, 0);
+  const Solution found = solve(q, startOf(q, remembered, cache ? cache->patch[0] : -1));
 
   const Nearest& x = found.at;
   const double margins = volume.radii().r + shape.margin;
-  const VolumeView view = viewVolume(volume, x.n, x.patch, q.steps);
+  const SupportPoint view = viewVolume(volume, x.n, x.patch, q.steps);
   result.status = found.status;
-  result.distance = result.lower = x.gap - margins;
-  result.upper = std::max(found.upper, x.gap) - margins;
+  result.distance = x.gap - margins;
+  result.lower = result.distance - q.rounding.certificate;
+  result.upper = std::max(found.upper, x.gap) - margins + 2.0 * q.rounding.certificate;
   result.patch = {view.patch, -1};
-  result.normal = (poseVolume.linear() * x.n).normalized();
-  result.point[0] = poseVolume * Vector3d(view.point + volume.radii().r * x.n);
-  result.point[1] = poseVolume * Vector3d(x.y - shape.margin * x.n);
+  result.normal = pose.normalInWorld(x.n);
+  result.point[0] = pose.inWorld(view.point + volume.radii().r * x.n);
+  result.point[1] = pose.inWorld(x.y - shape.margin * x.n);
   result.patchPairs = q.pairs;
   result.patchSteps = q.steps;
   if (cache) {

@@ -1,8 +1,8 @@
 // Exact signed distance between an STP-BV and a simple convex body, and point queries.
 #pragma once
 
+#include "fcl_stpbv/convex/shape.h"
 #include "fcl_stpbv/distance/distance.h"
-#include "fcl_stpbv/distance/shape.h"
 
 namespace fcl_stpbv {
 

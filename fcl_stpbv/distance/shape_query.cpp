@@ -1,21 +1,27 @@
+// The nearest point of a plane, a segment, a triangle and a polytope to an STP-BV's core, and the test that
+// it is one.
+//
+// A polytope's is found by GJK with a smooth body (Gilbert, Johnson, Keerthi 1988; Wolfe 1976): up to four
+// corners, the nearest point of their hull, and the corner that faces the body most, until none does more
+// than that point.
 #include "fcl_stpbv/distance/shape_query.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 
-using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-ShapeQuery::ShapeQuery(const StpBv& a, const Shape& s, const Matrix3d& r, const Vector3d& t)
-    : body(a), shape(s), rotation(r), translation(t) {
+ShapeQuery::ShapeQuery(const StpBv& a, const Shape& s, const RelativePose& p)
+    : body(a), shape(s), pose(p), rotation(p.rotation.matrix()), translation(unpack(p.translation)) {
   constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
   // Coordinates up to the bodies' extents and mutual distance, a dozen operations.
-  rounding.gap =
-      8.0 * kEpsilon *
-      (a.centre().lpNorm<1>() + a.enclosingRadius() + t.lpNorm<1>() + s.centre.lpNorm<1>() + s.reach);
+  const double size =
+      a.centre().lpNorm<1>() + a.enclosingRadius() + translation.lpNorm<1>() + s.centre.lpNorm<1>() + s.reach;
+  rounding.gap = 8.0 * kEpsilon * size;
+  rounding.certificate = kGapRounding * (size + s.margin);
   rounding.across = rounding.gap + 8.0 * kEpsilon * a.radii().rho;
 }
 
@@ -30,7 +36,7 @@ bool isNearer(const ShapeQuery& q, const Nearest& x, const Nearest& than, const 
 }
 
 Nearest nearestOnPlane(ShapeQuery& q, const Vector3d& onPlane, const Vector3d& n, int hint) {
-  const VolumeView view = viewVolume(q.body, n, hint, q.steps);
+  const SupportPoint view = viewVolume(q.body, n, hint, q.steps);
   Nearest found;
   found.n = n;
   found.patch = view.patch;
@@ -117,7 +123,7 @@ Nearest nearestOnTriangle(ShapeQuery& q, const Vector3d& a, const Vector3d& b, c
 
 bool certified(ShapeQuery& q, const Nearest& found) {
   if (!found.apart) return false;
-  const VolumeView view = viewVolume(q.body, found.n, found.patch, q.steps);
+  const SupportPoint view = viewVolume(q.body, found.n, found.patch, q.steps);
   if (!q.shape.unbounded()) {
     const Vector3d w = q.facing(found.n);
     if (found.n.dot(found.y - w) > q.rounding.gap) return false;
@@ -128,4 +134,78 @@ bool certified(ShapeQuery& q, const Nearest& found) {
   return across <= 2.0 * q.rounding.across || std::hypot(found.gap, across) - found.gap <= q.rounding.gap;
 }
 
-}  // namespace fcl_stpbv
+namespace {
+
+/// Up to four corners of the polytope, and the nearest point of their hull.
+class CornerSet {
+ public:
+  bool holds(const Vector3d& p) const {
+    return std::find(corner_.begin(), corner_.begin() + count_, p) != corner_.begin() + count_;
+  }
+  void add(const Vector3d& p) { corner_[static_cast<std::size_t>(count_++)] = p; }
+
+  Nearest nearest(ShapeQuery& q, const StartNormal& start) {
+    const Nearest found = search(q, start);
+    if (found.apart) reduce(found);
+    return found;
+  }
+
+ private:
+  const Vector3d& at(int i) const { return corner_[static_cast<std::size_t>(i)]; }
+
+  Nearest search(ShapeQuery& q, const StartNormal& start) const {
+    if (count_ == 1) {
+      Nearest found = nearestOn(q, PointFeature{corner_[0]}, start);
+      found.corner[0] = 0;
+      return found;
+    }
+    if (count_ == 2) return nearestOnSegment(q, corner_[0], corner_[1], start);
+    if (count_ == 3) return nearestOnTriangle(q, corner_[0], corner_[1], corner_[2], start);
+    // The fourth is the new one, and the nearest point lies on a face that has it.
+    constexpr std::array<std::array<int, 3>, 3> kFaces{{{0, 1, 3}, {1, 2, 3}, {2, 0, 3}}};
+    Nearest best;
+    for (const auto& face : kFaces) {
+      Nearest next = nearestOnTriangle(q, at(face[0]), at(face[1]), at(face[2]), start);
+      for (int& corner : next.corner) corner = face[static_cast<std::size_t>(corner)];
+      if (!next.apart) return next;
+      if (!best.apart || isNearer(q, next, best, corner_.data(), 4)) best = next;
+    }
+    return best;
+  }
+
+  void reduce(const Nearest& found) {
+    const auto old = corner_;
+    count_ = found.corners;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(count_); ++i)
+      corner_[i] = old[static_cast<std::size_t>(found.corner[i])];
+  }
+
+  std::array<Vector3d, 4> corner_{Vector3d(0, 0, 0), Vector3d(0, 0, 0), Vector3d(0, 0, 0), Vector3d(0, 0, 0)};
+  int count_ = 0;
+};
+
+}  // namespace
+
+Nearest nearestOnPolytope(ShapeQuery& q, const StartNormal& start) {
+  if (q.shape.kind == ShapeKind::triangle)
+    return nearestOnTriangle(q, q.posed(q.shape.corner[0]), q.posed(q.shape.corner[1]),
+                             q.posed(q.shape.corner[2]), start);
+  constexpr int kRounds = 60;  // a handful is usual; each lowers the distance, so none can come again
+  CornerSet set;
+  set.add(q.facing(start.n));
+  Nearest found = set.nearest(q, start);
+  Vector3d w = q.facing(found.n);
+  for (int i = 0; i < kRounds && found.apart; ++i) {
+    if (found.n.dot(found.y - w) <= 0.5 * q.rounding.gap || set.holds(w)) break;
+    set.add(w);
+    const Nearest next = set.nearest(q, {found.n, found.patch});
+    const Vector3d facing = q.facing(next.n);
+    const std::array<Vector3d, 2> both{w, facing};
+    if (next.apart && !isNearer(q, next, found, both.data(), 2)) break;  // rounding
+    found = next;
+    w = facing;
+  }
+  return found;
+}
+
+}  // namespace fcl_stpbv::detail

@@ -3,30 +3,31 @@
 
 #include <array>
 
-#include "fcl_stpbv/distance/shape.h"
-#include "fcl_stpbv/distance/shape_climb.h"
+#include "fcl_stpbv/convex/relative_pose.h"
+#include "fcl_stpbv/convex/shape.h"
+#include "fcl_stpbv/distance/shape_ascent.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 
 /// The pair in the STP-BV's frame: however far it is from the world's origin, only the bodies' own
 /// coordinates and their mutual distance enter.
 struct ShapeQuery {
   const StpBv& body;
   const Shape& shape;
-  Eigen::Matrix3d rotation;     ///< shape's frame to the body's, orthonormal
+  const RelativePose& pose;     ///< of the shape in the body's frame
+  Eigen::Matrix3d rotation;     ///< the same
   Eigen::Vector3d translation;  ///< m
   Rounding rounding;
   int pairs = 0;  ///< Newton steps and closed forms, the work done
   int steps = 0;  ///< patches changed
 
-  ShapeQuery(const StpBv& body, const Shape& shape, const Eigen::Matrix3d& rotation,
-             const Eigen::Vector3d& translation);
+  ShapeQuery(const StpBv& body, const Shape& shape, const RelativePose& pose);
 
   /// The shape's core point furthest against `n`, the one that faces a body in that direction.
   Eigen::Vector3d facing(const Eigen::Vector3d& n) const {
-    return rotation * shape.support(-(rotation.transpose() * n)) + translation;
+    return pose.placed(shape.support(pose.opposite(n)));
   }
-  Eigen::Vector3d posed(const Eigen::Vector3d& p) const { return rotation * p + translation; }
+  Eigen::Vector3d posed(const Eigen::Vector3d& p) const { return pose.placed(p); }
 };
 
 /// Where the cores are nearest to each other, as far as a search knows.
@@ -54,9 +55,9 @@ bool isNearer(const ShapeQuery& q, const Nearest& x, const Nearest& than, const 
 /// Any feature that has a gradient, from a start.
 template <typename Feature>
 Nearest nearestOn(ShapeQuery& q, const Feature& feature, const StartNormal& start) {
-  ClimbPoint x = climbPoint(q.body, feature, start.n, start.patch, q.steps);
+  AscentPoint x = ascentPoint(q.body, feature, start.n, start.patch, q.steps);
   Nearest found;
-  found.apart = climb(q.body, feature, x, q.rounding, q.pairs, q.steps);
+  found.apart = ascendFeature(q.body, feature, x, q.rounding, q.pairs, q.steps);
   found.n = x.view.n;
   found.patch = x.view.patch;
   found.y = x.feature.point;
@@ -93,4 +94,4 @@ Nearest nearestOnPlane(ShapeQuery& q, const Eigen::Vector3d& onPlane, const Eige
 /// then the gap is the distance of the cores, whatever the search did (docs/theory.md, 5).
 bool certified(ShapeQuery& q, const Nearest& found);
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

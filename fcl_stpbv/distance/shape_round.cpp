@@ -4,7 +4,7 @@
 
 #include "fcl_stpbv/distance/shape_query.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 
 using Eigen::Vector3d;
 
@@ -59,7 +59,7 @@ class ConeSide {
  private:
   struct State {
     Vector3d e;
-    VolumeView view;
+    SupportPoint view;
     double gap, slope, bend;  // and its derivatives by the angle around the axis
   };
 
@@ -216,4 +216,4 @@ Nearest nearestOnCone(ShapeQuery& q, const StartNormal& start) {
   return rim;
 }
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

@@ -1,27 +1,35 @@
+// The whole search for the widest gap of two STP-BVs, for the few pairs where the feature walk does not get
+// there.
+//
+// 1. A maximum between cores that overlap: prove that it is the widest, or find the one that is (overlap.h).
+// 2. GJK on the vertices gives the polyhedra's closest features, whose patches are a start (paper IV.B).
+// Solve there.
+// 3. Else ascend from there (ascent.h).
+// 4. Where the vertices' difference surrounds the origin, the cores overlap: step 1 from there.
+// 5. Where rounding defeats both, bisect the directions left: a plane between the cores, a common point, or
+// overlap.
 #include "fcl_stpbv/distance/wide_search.h"
 
 #include <algorithm>
 
-#include "fcl_stpbv/distance/expanding_polytope.h"
-#include "fcl_stpbv/distance/penetration.h"
-#include "fcl_stpbv/distance/polytope_search.h"
-#include "fcl_stpbv/distance/separation.h"
+#include "fcl_stpbv/distance/overlap.h"
+#include "fcl_stpbv/distance/vertex_gjk.h"
 #include "fcl_stpbv/vectorized.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 
 using Eigen::Vector3d;
 
 namespace {
 
 /// From any start along which the cores are apart: the widest gap.
-Found climb(const BodyPair& pair, Sample x, Work& work) {
+WidestGap ascendToWidest(const BodyPair& pair, Sample x, SearchWork& work) {
   if (!ascend(pair, x, work) && !settleBeside(pair, x, work)) bisectToWidest(pair, x, work);
   return {x, pair.isStationary(x) ? DistanceStatus::exact : DistanceStatus::bounded, 0.0};
 }
 
 /// From the polyhedra's closest features to the smooth ones (paper IV.B), and on from there.
-bool polyhedralStart(const BodyPair& pair, const VertexSearch& search, Found& found, Work& work) {
+bool polyhedralStart(const BodyPair& pair, const VertexGjk& search, WidestGap& found, SearchWork& work) {
   if (!search.apart) return false;
   const Vector3d& n = search.n;
   Sample x = Sample::unevaluated(
@@ -34,17 +42,17 @@ bool polyhedralStart(const BodyPair& pair, const VertexSearch& search, Found& fo
   }
   x = pair.sample(n, x.patch);
   if (!(x.core > 0.0)) return false;
-  found = climb(pair, x, work);
+  found = ascendToWidest(pair, x, work);
   return true;
 }
 
 /// Cores that overlap, from a maximum in `found`: their widest gap as far as the polytope around that proves
 /// it.
-bool overlapAround(const BodyPair& pair, Found& found, Work& work) {
+bool overlapAround(const BodyPair& pair, WidestGap& found, SearchWork& work) {
   found.status = DistanceStatus::local;
   const bool proven = expandPolytope(pair, found.at, found.bound, work);
   if (found.at.core > 0.0) {
-    found = climb(pair, found.at, work);
+    found = ascendToWidest(pair, found.at, work);
     return true;
   }
   if (!proven) return false;
@@ -55,19 +63,19 @@ bool overlapAround(const BodyPair& pair, Found& found, Work& work) {
 
 /// Cores that overlap: the least separating translation, from any normal. A search that was not surrounded
 /// has no corners to start from.
-Found solveOverlap(const BodyPair& pair, const Vector3d& n, const std::array<int, 2>& patch,
-                   const VertexSearch& search, Work& work) {
+WidestGap solveOverlap(const BodyPair& pair, const Vector3d& n, const std::array<int, 2>& patch,
+                       const VertexGjk& search, SearchWork& work) {
   Sample x = pair.sampleFrom(n, patch, work.steps);
   Vector3d ignored;
   settle(pair, x, ignored, work);
-  if (x.core > 0.0) return climb(pair, x, work);  // apart, by less than the search's rounding
+  if (x.core > 0.0) return ascendToWidest(pair, x, work);  // apart, by less than the search's rounding
   double bound = 0.0;
   const auto fromCorners = [&] {
     return search.surrounded && expandPolytope(pair, search.corner, x, bound, work);
   };
   const auto fromTop = [&] { return expandPolytope(pair, x, bound, work); };
   if (!fromTop() && !fromCorners()) leastPenetration(pair, x, work);
-  if (x.core > 0.0) return climb(pair, x, work);
+  if (x.core > 0.0) return ascendToWidest(pair, x, work);
   ascend(pair, x, work);
   return {x, DistanceStatus::local, bound};
 }
@@ -75,9 +83,10 @@ Found solveOverlap(const BodyPair& pair, const Vector3d& n, const std::array<int
 }  // namespace
 
 FCL_STPBV_VECTORIZED
-void searchWidely(const BodyPair& pair, const Start& start, bool settled, Found& found, Work& work) {
+void searchWidely(const BodyPair& pair, const SearchStart& start, bool settled, WidestGap& found,
+                  SearchWork& work) {
   if (settled && overlapAround(pair, found, work)) return;
-  const VertexSearch search = searchVertices(pair, start.n);
+  const VertexGjk search = vertexGjk(pair, start.n);
   if (polyhedralStart(pair, search, found, work)) return;
   if (search.surrounded) {
     found = solveOverlap(pair, start.n, start.patch, search, work);
@@ -86,7 +95,7 @@ void searchWidely(const BodyPair& pair, const Start& start, bool settled, Found&
   Sample x = pair.sampleFrom(start.n, start.patch, work.steps);
   switch (separateCores(pair, x, work)) {
     case CoreContact::apart:
-      found = climb(pair, x, work);
+      found = ascendToWidest(pair, x, work);
       break;
     case CoreContact::touching:
       found = {x, DistanceStatus::exact, 0.0};
@@ -96,4 +105,4 @@ void searchWidely(const BodyPair& pair, const Start& start, bool settled, Found&
   }
 }
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

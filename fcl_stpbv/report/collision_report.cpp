@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "fcl_stpbv/adapter/fcl_shapes.h"
-#include "fcl_stpbv/adapter/flat_pair.h"
+#include "fcl_stpbv/distance/shape_pair.h"
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/report/pair_cause.h"
 #include "fcl_stpbv/report/robot_files.h"
@@ -112,7 +112,7 @@ void covers(const CollisionReport& report, const CheckedPair& both, const Kinema
   pair.hullDistance = std::numeric_limits<double>::quiet_NaN();
   Shape a, b;
   if (!shapeOf(*first.hull, a) || !shapeOf(*second.hull, b)) return;
-  const Distance hulls = flatDistance(a, first.pose, b, second.pose);
+  const Distance hulls = distance(a, first.pose, b, second.pose);
   if (hulls.status != DistanceStatus::invalid && hulls.distance > 0) pair.hullDistance = hulls.distance;
 }
 

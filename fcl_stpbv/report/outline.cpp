@@ -9,8 +9,8 @@
 #include <functional>
 
 #include "fcl_stpbv/adapter/fcl_shapes.h"
-#include "fcl_stpbv/adapter/hull_graph.h"
 #include "fcl_stpbv/adapter/stp_bv_geometry.h"
+#include "fcl_stpbv/convex/hull_graph.h"
 
 namespace fcl_stpbv::report {
 namespace {

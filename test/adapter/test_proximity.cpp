@@ -19,8 +19,6 @@
 #include <cmath>
 
 #include "fcl_stpbv/adapter/fcl_shapes.h"
-#include "fcl_stpbv/adapter/flat_overlap.h"
-#include "fcl_stpbv/adapter/flat_pair.h"
 #include "fcl_stpbv/adapter/hull_geometry.h"
 #include "fcl_stpbv/adapter/proximity.h"
 #include "fcl_stpbv/distance/shape_distance.h"
@@ -108,10 +106,7 @@ Distance between(const Part& p, Isometry3d a, const Part& q, Isometry3d b) {
   if (p.volume && q.volume) return distance(*p.volume, a, *q.volume, b);
   if (p.volume) return distance(*p.volume, a, q.shape, b);
   if (q.volume) return distance(p.shape, a, *q.volume, b);
-  if (p.shape.unbounded()) return planeDistance(p.shape, a, q.shape, b);
-  if (q.shape.unbounded()) return planeDistance(q.shape, b, p.shape, a);
-  const Distance d = flatDistance(p.shape, a, q.shape, b);
-  return d.status != DistanceStatus::invalid ? d : flatOverlap(p.shape, a, q.shape, b);
+  return distance(p.shape, a, q.shape, b);
 }
 
 /// Over all pairs of bodies.

@@ -33,6 +33,51 @@ Vector3L furthest(const TestShape& test, const Vector3L& d) {
   return best->cast<long double>();
 }
 
+/// One normal tried: the gap of the cores along it, and the difference of the points that tell it.
+struct Trial {
+  Vector3L n, difference;
+  long double gap;
+};
+
+/// The widest gap by halving what normals are left, in the gnomonic plane of the first one.
+template <typename Look>
+ReferenceAnswer widestGap(const Look& look, long double margins, const Vector3L& towards) {
+  Trial x = look(towards.normalized());
+  Trial best = x;
+  const Vector3L z = x.gap > 0 ? x.n : x.difference.normalized();
+  const Vector3L e1 = z.unitOrthogonal(), e2 = z.cross(e1);
+  std::vector<Vector2L> region{{-1e4L, -1e4L}, {1e4L, -1e4L}, {1e4L, 1e4L}, {-1e4L, 1e4L}};
+  for (int i = 0; i < 300; ++i) {
+    const Vector3L g = x.gap > 0 ? Vector3L(x.difference - x.difference.dot(x.n) * x.n) : x.difference;
+    const auto side = [&](const Vector2L& c) { return g.dot(z + c.x() * e1 + c.y() * e2); };
+    std::vector<Vector2L> kept;
+    for (std::size_t k = 0; k < region.size(); ++k) {
+      const Vector2L &from = region[k], &to = region[(k + 1) % region.size()];
+      const long double f = side(from), t = side(to);
+      if (f >= 0) kept.push_back(from);
+      if ((f < 0) != (t < 0)) kept.push_back(from + (to - from) * (f / (f - t)));
+    }
+    if (kept.size() < 3) break;
+    region = kept;
+    long double area = 0, size = 0;
+    Vector2L sum(0, 0);
+    for (std::size_t k = 1; k + 1 < region.size(); ++k) {
+      const Vector2L p = region[k] - region[0], q = region[k + 1] - region[0];
+      const long double w = p.x() * q.y() - p.y() * q.x();
+      area += w;
+      sum += w * (p + q) / 3;
+      size = std::max({size, p.norm(), q.norm()});
+    }
+    if (!(area > 0)) break;
+    const Vector2L at = region[0] + sum / area;
+    x = look((z + at.x() * e1 + at.y() * e2).normalized());
+    if (x.gap > best.gap) best = x;
+    // What is left can raise the gap by no more than its width times the farthest lever.
+    if (size * x.difference.norm() < 1e-16L * (1 + at.squaredNorm())) break;
+  }
+  return {best.gap - margins, best.n, !(best.gap > 0)};
+}
+
 }  // namespace
 
 const std::vector<std::string>& boundedShapes() {
@@ -83,50 +128,25 @@ ReferenceShape TestShape::posed(const Eigen::Isometry3d& pose) const {
 }
 
 ReferenceAnswer referenceDistance(const ReferenceBody& a, const ReferenceShape& b, const Vector3L& towards) {
-  struct Trial {
-    Vector3L n, difference;
-    long double gap;
-  };
   const auto look = [&](const Vector3L& n) {
     Vector3L ya;
     const long double h = referenceSupport(a, n, &ya) - a.r;
     const Vector3L yb = b.support(-n);
     return Trial{n, yb - ya, n.dot(yb) - h};
   };
-  Trial x = look(towards.normalized());
-  Trial best = x;
-  const Vector3L z = x.gap > 0 ? x.n : x.difference.normalized();
-  const Vector3L e1 = z.unitOrthogonal(), e2 = z.cross(e1);
-  std::vector<Vector2L> region{{-1e4L, -1e4L}, {1e4L, -1e4L}, {1e4L, 1e4L}, {-1e4L, 1e4L}};
-  for (int i = 0; i < 300; ++i) {
-    const Vector3L g = x.gap > 0 ? Vector3L(x.difference - x.difference.dot(x.n) * x.n) : x.difference;
-    const auto side = [&](const Vector2L& c) { return g.dot(z + c.x() * e1 + c.y() * e2); };
-    std::vector<Vector2L> kept;
-    for (std::size_t k = 0; k < region.size(); ++k) {
-      const Vector2L &from = region[k], &to = region[(k + 1) % region.size()];
-      const long double f = side(from), t = side(to);
-      if (f >= 0) kept.push_back(from);
-      if ((f < 0) != (t < 0)) kept.push_back(from + (to - from) * (f / (f - t)));
-    }
-    if (kept.size() < 3) break;
-    region = kept;
-    long double area = 0, size = 0;
-    Vector2L sum(0, 0);
-    for (std::size_t k = 1; k + 1 < region.size(); ++k) {
-      const Vector2L p = region[k] - region[0], q = region[k + 1] - region[0];
-      const long double w = p.x() * q.y() - p.y() * q.x();
-      area += w;
-      sum += w * (p + q) / 3;
-      size = std::max({size, p.norm(), q.norm()});
-    }
-    if (!(area > 0)) break;
-    const Vector2L at = region[0] + sum / area;
-    x = look((z + at.x() * e1 + at.y() * e2).normalized());
-    if (x.gap > best.gap) best = x;
-    // What is left can raise the gap by no more than its width times the farthest lever.
-    if (size * x.difference.norm() < 1e-16L * (1 + at.squaredNorm())) break;
-  }
-  return {best.gap - a.r - b.margin, best.n, !(best.gap > 0)};
+  return widestGap(look, a.r + b.margin, towards);
+}
+
+ReferenceAnswer referenceDistance(const ReferenceShape& a, const ReferenceShape& b, const Vector3L& towards) {
+  const auto look = [&](const Vector3L& n) {
+    const Vector3L d = b.support(-n) - a.support(n);
+    return Trial{n, d, n.dot(d)};
+  };
+  return widestGap(look, a.margin + b.margin, towards);
+}
+
+long double referenceGap(const ReferenceShape& a, const ReferenceShape& b, const Vector3L& n) {
+  return n.dot(b.support(-n) - a.support(n)) - a.margin - b.margin;
 }
 
 long double widestGapOverDirections(const ReferenceBody& a, const ReferenceShape& b, int count) {

@@ -6,7 +6,7 @@
 #include <memory>
 #include <string>
 
-#include "fcl_stpbv/distance/shape.h"
+#include "fcl_stpbv/convex/shape.h"
 #include "test/reference/reference.h"
 
 namespace fcl_stpbv::test {
@@ -38,6 +38,10 @@ struct ReferenceAnswer {
   bool overlap;
 };
 ReferenceAnswer referenceDistance(const ReferenceBody& a, const ReferenceShape& b, const Vector3L& towards);
+ReferenceAnswer referenceDistance(const ReferenceShape& a, const ReferenceShape& b, const Vector3L& towards);
+
+/// Signed gap between the supporting planes with normal `n`, from a to b.
+long double referenceGap(const ReferenceShape& a, const ReferenceShape& b, const Vector3L& n);
 
 /// Widest gap over `count` directions, polished by shrinking random steps: for cores that overlap.
 long double widestGapOverDirections(const ReferenceBody& a, const ReferenceShape& b, int count);

@@ -8,6 +8,8 @@
 
 namespace fcl_stpbv::stability {
 
+using namespace fcl_stpbv::detail;
+
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
@@ -108,8 +110,8 @@ class Heuristic : public Contestant {
       return answer;
     }
     const Matrix3d toA = at.a.linear().transpose();
-    const BodyPair pair(a_.volume(), b_.volume(), Rotation(Matrix3d(toA * at.b.linear())),
-                        pack(toA * (at.b.translation() - at.a.translation())));
+    const RelativePose pose(at.a, at.b);
+    const BodyPair pair(a_.volume(), b_.volume(), pose);
     const PosedPatch p = pair.patchA(mapped[0]), q = pair.patchB(mapped[1]);
     const Packed widest = widestNormal(p, q, pack(toA * witness.direction)).unit();
     const Vector3d n = unpack(widest);

@@ -1,0 +1,150 @@
+// EPA: how deep the origin is inside a convex set (van den Bergen 2001, "expanding polytope").
+//
+// The set is the difference B - A of two bodies' cores that overlap, known by its support points alone:
+// 1. Begin with four points of the difference that span a volume. The origin need not be inside yet.
+// 2. Take the polytope's face nearest to the origin. The polytope lies inside the difference, so once the
+// origin is
+//    inside it no direction leads out sooner than that face is far: a lower bound of the depth.
+// 3. The support point along the face's normal gives an upper one: a translation along that normal separates.
+// 4. Stop where both agree. Else expand the polytope over the point and go to 2.
+// Rounding may spoil a polytope, of slivers along edges and generators: another first tetrahedron makes other
+// faces.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "fcl_stpbv/convex/polytope.h"
+
+namespace fcl_stpbv {
+
+/// Expands `polytope` at its nearest face until `visit(face)` returns false or rounding stops it: `visit`
+/// expands it or puts the face aside.
+template <typename Visit>
+void expandAtNearest(Polytope& polytope, Visit&& visit) {
+  while (polytope.sound() && visit(polytope.nearest())) {
+  }
+}
+
+/// The least overlap of two cores. `Difference` is a ConvexDifference, or has the same `Corner` and
+/// `support`.
+template <typename Difference>
+class Epa {
+ public:
+  using Corner = typename Difference::Corner;
+
+  /// `rounding`: of a gap (m).
+  Epa(Difference& difference, double rounding) : difference_(difference), rounding_(rounding) {}
+
+  double gap = -std::numeric_limits<double>::infinity();  ///< the widest seen: minus the least overlap (m)
+  Eigen::Vector3d n{0, 0, 1};                             ///< its normal, unit, from A to B
+  Eigen::Vector3d onA{0, 0, 0};                           ///< A's point there
+  double bound = 0;                                       ///< no normal has a wider gap (m)
+
+  /// The difference's corner furthest against the unit vector `m`; remembers the least overlap.
+  Corner look(const Eigen::Vector3d& m) {
+    const Corner c = difference_.support(m);
+    if (c.gap > gap) {
+      gap = c.gap;
+      n = m;
+      onA = c.onA;
+    }
+    return c;
+  }
+
+  /// Whether both bounds agree, to 1e-6 of the depth or to rounding.
+  bool solved() const { return bound - gap <= kRelative * -bound + rounding_; }
+
+  /// Searches until the bounds agree. False where rounding or the polytope's size stopped it; both bounds
+  /// hold.
+  bool run() {
+    constexpr int kAttempts = 4;
+    for (int attempt = 0; attempt < kAttempts && !solved(); ++attempt) {
+      const Eigen::Matrix3d turn =
+          Eigen::AngleAxisd(attempt, Eigen::Vector3d(0.48, 0.6, 0.64)).toRotationMatrix();
+      Points point;
+      if (!firstCorners(turn, point)) break;
+      expand(point);
+    }
+    return solved();
+  }
+
+ private:
+  static constexpr double kRelative = 1e-6;  // of the depth, for round bodies
+  static constexpr int kMore = 16;  // steps from there for a normal to rounding, which flat faces give
+  using Points = std::array<Corner, Polytope::kMaxPoints>;
+
+  void expand(Points& point) {
+    std::size_t points = 4;
+    int more = 0;
+    Polytope polytope({point[0].w, point[1].w, point[2].w, point[3].w}, Polytope::Origin::anywhere);
+    expandAtNearest(polytope, [&](const Polytope::Face& face) {
+      bound = std::min(bound, -face.distance);
+      const double before = gap;
+      const Corner next = look(-face.normal);
+      const double open = -gap - face.distance;
+      if (gap > before || open <= rounding_)
+        onA = onFace(point[face.corner[0]], point[face.corner[1]], point[face.corner[2]],
+                     face.distance * face.normal);
+      if (face.distance > 0.0 && open <= kRelative * face.distance + rounding_ &&
+          (open <= rounding_ || ++more > kMore))
+        return false;
+      if (!(face.normal.dot(next.w) - face.distance > rounding_) || points == point.size()) return false;
+      point[points++] = next;
+      return polytope.expand(next.w);
+    });
+  }
+
+  /// A's part of the face's point nearest to the origin.
+  static Eigen::Vector3d onFace(const Corner& a, const Corner& b, const Corner& c,
+                                const Eigen::Vector3d& nearest) {
+    const Eigen::Vector3d e = b.w - a.w, f = c.w - a.w, m = e.cross(f), p = nearest - a.w;
+    const double area = m.squaredNorm();
+    Eigen::Vector3d weight(0.0, p.cross(f).dot(m) / area, e.cross(p).dot(m) / area);
+    weight[0] = 1.0 - weight[1] - weight[2];
+    weight = weight.cwiseMax(0.0);
+    if (!(weight.sum() > 0.0) || !weight.allFinite()) return a.onA;
+    weight /= weight.sum();
+    return weight[0] * a.onA + weight[1] * b.onA + weight[2] * c.onA;
+  }
+
+  /// Four points of the difference that span a volume, each furthest along some direction. False where the
+  /// difference is flat to rounding; it has then been looked at along both normals of the flat.
+  bool firstCorners(const Eigen::Matrix3d& turn, Points& c) {
+    using Eigen::Vector3d;
+    const auto furthest = [&](const Vector3d& m) { return look(-(turn * m).normalized()); };
+    const auto widen = [&](const Vector3d& m, const auto& measure, Corner& best) {
+      for (const Vector3d& d : {m, Vector3d(-m)}) {
+        const Corner p = furthest(d);
+        if (measure(p.w) > measure(best.w)) best = p;
+      }
+    };
+    // Directions in the turned frame; lengths are the same in both.
+    const auto turned = [&](const Vector3d& v) { return Vector3d(turn.transpose() * v); };
+    c[0] = furthest(Vector3d::UnitX());
+    c[1] = c[0];
+    const auto fromPoint = [&](const Vector3d& w) { return (w - c[0].w).norm(); };
+    for (int i = 0; i < 3; ++i) widen(Vector3d::Unit(i), fromPoint, c[1]);
+    if (!(fromPoint(c[1].w) > rounding_)) return false;
+    const Vector3d u = turned(c[1].w - c[0].w).normalized(), e = u.unitOrthogonal();
+    c[2] = c[0];
+    const auto fromLine = [&](const Vector3d& w) { return u.cross(turned(w - c[0].w)).norm(); };
+    widen(e, fromLine, c[2]);
+    widen(u.cross(e), fromLine, c[2]);
+    if (!(fromLine(c[2].w) > rounding_)) return false;
+    const Vector3d m = u.cross(turned(c[2].w - c[0].w)).normalized();
+    c[3] = c[0];
+    const auto fromPlane = [&](const Vector3d& w) { return std::abs(m.dot(turned(w - c[0].w))); };
+    widen(m, fromPlane, c[3]);
+    return fromPlane(c[3].w) > rounding_;
+  }
+
+  Difference& difference_;
+  double rounding_;
+};
+
+}  // namespace fcl_stpbv

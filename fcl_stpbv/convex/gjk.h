@@ -1,0 +1,83 @@
+// GJK: the point of a convex set nearest to the origin (Gilbert, Johnson, Keerthi 1988).
+//
+// The set is the difference B - A of two bodies' cores, known by its support points alone:
+// 1. Begin with a few points of the difference, or with the one that is furthest against the first normal.
+// 2. Find the point v of their simplex nearest to the origin, and drop the corners that do not hold it.
+//    A tetrahedron around the origin proves that the bodies overlap.
+// 3. |v| is an upper bound of the distance, as the distance of two points. The unit normal n along v gives a
+// lower
+//    one, n.w with w the difference's point furthest against n, as the gap of two supporting planes.
+// 4. Stop where the two bounds agree (the duality gap), where the caller has heard enough, or where rounding
+// lets
+//    nothing improve. Else take w into the simplex and go to 2.
+// The duality gap is a proof. FCL's own stop, two norms that agree, is none (docs/fcl.md).
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <limits>
+
+#include "fcl_stpbv/convex/simplex.h"
+
+namespace fcl_stpbv {
+
+/// What GJK found.
+template <typename Corner>
+struct GjkResult {
+  enum class Verdict {
+    apart,    ///< `v` is the nearest point as far as the bounds say
+    overlap,  ///< the origin is inside, or as near as rounding
+    capped,   ///< no more steps
+  };
+  Verdict verdict = Verdict::capped;
+  Simplex<Corner>
+      simplex;  ///< holds `v`; at overlap four corners around the origin, if the search had as many
+  Eigen::Vector3d v{0, 0, 0};                               ///< the difference's point nearest to the origin
+  Eigen::Vector3d n{0, 0, 0};                               ///< unit, from A to B, along `v`
+  double lower = -std::numeric_limits<double>::infinity();  ///< widest gap seen along any normal (m)
+  double upper = std::numeric_limits<double>::infinity();   ///< least distance of two points seen, `|v|` (m)
+};
+
+/// Runs GJK from the corners in `start` (none to four) and the unit normal `n`.
+///
+/// `difference.support(n)` gives the corner furthest against `n`: its point `w`, and `gap`, n.w as accurate
+/// as the bodies know it; a corner found in another way has a gap of minus infinity. `enough(lower, upper)`
+/// ends the search. Overlap within `rounding` (m) counts as overlap.
+template <typename Corner, typename Difference, typename Enough>
+GjkResult<Corner> gjk(Difference& difference, const Simplex<Corner>& start, const Eigen::Vector3d& n,
+                      double rounding, int steps, const Enough& enough) {
+  using Verdict = typename GjkResult<Corner>::Verdict;
+  GjkResult<Corner> result;
+  result.n = n;
+  Simplex<Corner> grown = start;
+  if (grown.size == 0) grown.add(difference.support(n));
+  for (std::size_t i = 0; i < static_cast<std::size_t>(grown.size); ++i)
+    result.lower = std::max(result.lower, grown.corner[i].gap);
+  for (int step = 0; step < steps; ++step) {
+    Simplex<Corner> reduced;
+    const NearestPoint nearest = reduceToNearest(grown, reduced);
+    const double length = nearest.point.norm();
+    if (nearest.inside || !(length > rounding)) {
+      result.simplex = grown;
+      result.verdict = Verdict::overlap;
+      return result;
+    }
+    result.verdict = Verdict::apart;
+    if (!(length < result.upper)) return result;  // rounding: nothing improves
+    result.simplex = reduced;
+    result.v = nearest.point;
+    result.upper = length;
+    const bool hasDirection = nearest.direction.squaredNorm() > std::numeric_limits<double>::min();
+    result.n = (hasDirection ? nearest.direction : nearest.point).normalized();
+    if (enough(result.lower, result.upper)) return result;
+    const Corner next = difference.support(result.n);
+    result.lower = std::max(result.lower, next.gap);
+    if (enough(result.lower, result.upper) || result.simplex.holds(next.w)) return result;
+    grown = result.simplex;
+    grown.add(next);
+  }
+  result.verdict = Verdict::capped;
+  return result;
+}
+
+}  // namespace fcl_stpbv

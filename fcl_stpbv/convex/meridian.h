@@ -1,0 +1,76 @@
+// Overlap of bodies of revolution on parallel axes: a plane along them tells it all.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "fcl_stpbv/convex/shape.h"
+
+namespace fcl_stpbv {
+
+/// A plane through the origin in which the difference B - A of two cores has its boundary's nearest point.
+struct Meridian {
+  Eigen::Vector3d along, across;  ///< unit and orthogonal, in A's frame
+  double slack;                   ///< the cores are within this of two that have it exactly (m)
+};
+
+/// The meridian plane of two cores of revolution, as if on parallel axes, or of a point, A, and one. False
+/// for any other pair, or axes that are not nearly parallel.
+bool commonMeridian(const Shape& a, const Shape& b, const RelativePose& pose, Meridian& plane);
+
+/// Where a polygon inside the difference comes nearest to the origin.
+struct MeridianDepth {
+  double depth = 0;              ///< at least this deep is the origin inside the difference (m)
+  Eigen::Vector3d onA{0, 0, 0};  ///< A's part of that point
+};
+
+/// Grows a polygon in the meridian plane where it is nearest to the origin, until it reaches the boundary
+/// there. `furthest(m)` is the difference's furthest point along `m`: `.w`, and A's part of it, `.onA`.
+template <typename Furthest>
+MeridianDepth meridianDepth(const Meridian& plane, double rounding, Furthest&& furthest) {
+  constexpr std::size_t kPoints = 200;  // each halves the arc it comes to lie on: enough for rounding
+  struct Point {
+    Eigen::Vector2d w;
+    Eigen::Vector3d onA;
+  };
+  std::array<Point, kPoints> point;  // counter-clockwise
+  const auto along = [&](const Eigen::Vector2d& m) {
+    const auto p = furthest(m.x() * plane.along + m.y() * plane.across);
+    return Point{{plane.along.dot(p.w), plane.across.dot(p.w)}, p.onA};
+  };
+  std::size_t points = 0;
+  for (const Eigen::Vector2d& m :
+       {Eigen::Vector2d(1, 0), Eigen::Vector2d(0, 1), Eigen::Vector2d(-1, 0), Eigen::Vector2d(0, -1)}) {
+    const Point next = along(m);
+    if (points == 0 ||
+        ((next.w - point[points - 1].w).norm() > rounding && (next.w - point[0].w).norm() > rounding))
+      point[points++] = next;
+  }
+  MeridianDepth result;
+  while (points > 2) {
+    std::size_t nearest = 0;
+    double depth = 0;
+    Eigen::Vector2d normal(0, 0);
+    for (std::size_t i = 0; i < points; ++i) {
+      const Eigen::Vector2d side = point[(i + 1) % points].w - point[i].w, n(side.y(), -side.x());
+      const double height = n.dot(point[i].w) / n.norm();
+      if (i > 0 && !(height < depth)) continue;
+      nearest = i, depth = height, normal = n.normalized();
+    }
+    const Point &p = point[nearest], &q = point[(nearest + 1) % points];
+    result.depth = depth - 2 * plane.slack;
+    const Eigen::Vector2d side = q.w - p.w;
+    const double part = std::min(1.0, std::max(0.0, -p.w.dot(side) / side.squaredNorm()));
+    result.onA = p.onA + part * (q.onA - p.onA);
+    if (points == kPoints) break;
+    const Point next = along(normal);
+    if (!(normal.dot(next.w) - depth > 0.25 * rounding)) break;
+    for (std::size_t i = points++; i > nearest + 1; --i) point[i] = point[i - 1];
+    point[nearest + 1] = next;
+  }
+  return result;
+}
+
+}  // namespace fcl_stpbv

@@ -1,0 +1,124 @@
+// Two poses checked, and the second body's place in the frame of the first one.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <limits>
+
+#include "fcl_stpbv/packed.h"
+
+namespace fcl_stpbv {
+
+/// A 3x3 matrix, its columns and its rows: `m v` and `m^T v` are then sums of three multiples without a sum
+/// across, which would cost more than the multiplications.
+class Rotation {
+ public:
+  Rotation() : Rotation(Packed{1, 0, 0, 0}, Packed{0, 1, 0, 0}, Packed{0, 0, 1, 0}) {}
+
+  /// From its columns.
+  Rotation(const Packed& x, const Packed& y, const Packed& z) : columns_{x, y, z} {
+    const Packed even = __builtin_shufflevector(x, y, 0, 4, 2, 6),
+                 odd = __builtin_shufflevector(x, y, 1, 5, 3, 7);
+    rows_[0] = __builtin_shufflevector(even, z, 0, 1, 4, 7);
+    rows_[1] = __builtin_shufflevector(odd, z, 0, 1, 5, 7);
+    rows_[2] = __builtin_shufflevector(even, z, 2, 3, 6, 7);
+  }
+
+  /// A pose's.
+  explicit Rotation(const Eigen::Isometry3d& pose)
+      : Rotation(column(pose, 0), column(pose, 1), column(pose, 2)) {}
+
+  explicit Rotation(const Eigen::Matrix3d& m) : Rotation(pack(m.col(0)), pack(m.col(1)), pack(m.col(2))) {}
+
+  /// This rotation's inverse times the other one.
+  Rotation relative(const Rotation& other) const {
+    return {inverse(other.columns_[0]), inverse(other.columns_[1]), inverse(other.columns_[2])};
+  }
+
+  /// Whether each column is the cross product of the other two, to the rounding of a product of two
+  /// rotations. True for no mirror and no number that is none. At most `kFine` from the nearest rotation then
+  /// (Frobenius).
+  bool isFine() const {
+    const Packed x = cross(columns_[1], columns_[2]) - columns_[0],
+                 y = cross(columns_[2], columns_[0]) - columns_[1],
+                 z = cross(columns_[0], columns_[1]) - columns_[2], squares = x * x + y * y + z * z;
+    return squares[0] + squares[1] + squares[2] <= kFine * kFine &&
+           dot(columns_[0], columns_[0]) > 0.5;  // not zero
+  }
+  static constexpr double kFine = 2e-15;
+
+  Eigen::Matrix3d matrix() const {
+    Eigen::Matrix3d m;
+    m << unpack(columns_[0]), unpack(columns_[1]), unpack(columns_[2]);
+    return m;
+  }
+
+  Packed operator*(const Packed& v) const { return sum(columns_, v); }
+  Packed inverse(const Packed& v) const { return sum(rows_, v); }
+  Eigen::Vector3d operator*(const Eigen::Vector3d& v) const { return unpack(sum(columns_, v)); }
+  Eigen::Vector3d inverse(const Eigen::Vector3d& v) const { return unpack(sum(rows_, v)); }
+
+ private:
+  using Vectors = Packed[3];
+
+  template <typename Vector>
+  static Packed sum(const Vectors& m, const Vector& v) {
+    return v[0] * m[0] + v[1] * m[1] + v[2] * m[2];
+  }
+
+  Vectors columns_, rows_;
+};
+
+/// Turns a matrix that is within 1e-6 of a rotation, in every entry, into the nearest rotation, to rounding.
+/// False for any other one: stretched, sheared, mirrored or not finite.
+bool makeRotation(Rotation& rotation);
+
+/// Rounds a fresh pose's rotation as `makeRotation` does where it is off by more than rounding. False for a
+/// pose that is no rigid motion.
+inline bool makeRigid(Eigen::Isometry3d& pose) {
+  constexpr double kHuge = 1e150;  // squares must not overflow
+  Rotation rotation(pose);
+  if (!rotation.isFine()) {
+    if (!makeRotation(rotation)) return false;
+    pose.linear() = rotation.matrix();
+  }
+  return pose.translation().cwiseAbs().maxCoeff() < kHuge;
+}
+
+/// Bound on what rounding does to a gap between two cores in the first one's frame, as a part of `size`, the
+/// bodies' coordinates and the second one's origin there, summed (docs/theory.md, 5).
+constexpr double kGapRounding = 40.0 * std::numeric_limits<double>::epsilon();
+
+/// A pair of bodies in the first one's frame: however far the pair is from the world's origin, only the
+/// bodies' own coordinates and their mutual distance enter.
+struct RelativePose {
+  Rotation toWorld;      ///< first body's frame to the world's
+  Packed origin{};       ///< of the first body's frame, in the world (m)
+  Rotation rotation;     ///< second body's frame to the first one's
+  Packed translation{};  ///< the second body's origin in the first one's frame (m)
+  bool valid =
+      false;  ///< both poses are rotations, or next to one, with finite translations not too far apart
+
+  RelativePose(const Eigen::Isometry3d& poseA, const Eigen::Isometry3d& poseB) : toWorld(poseA) {
+    constexpr double kHuge = 1e300;  // squares must not overflow
+    Rotation b(poseB);
+    if (!(toWorld.isFine() && b.isFine()) && !(makeRotation(toWorld) && makeRotation(b))) return;
+    origin = column(poseA, 3);
+    rotation = toWorld.relative(b);
+    translation = toWorld.inverse(column(poseB, 3) - origin);
+    valid = dot(translation, translation) < kHuge;
+  }
+
+  /// A point of the second body in the first one's frame, and the second body's direction where the first's
+  /// is `n`.
+  Packed placed(const Packed& p) const { return rotation * p + translation; }
+  Eigen::Vector3d placed(const Eigen::Vector3d& p) const { return unpack(rotation * pack(p) + translation); }
+  Packed opposite(const Packed& n) const { return rotation.inverse(-n); }
+  Eigen::Vector3d opposite(const Eigen::Vector3d& n) const { return rotation.inverse(Eigen::Vector3d(-n)); }
+
+  /// A direction and a point of the first body's frame in the world.
+  Eigen::Vector3d inWorld(const Eigen::Vector3d& p) const { return unpack(origin + toWorld * pack(p)); }
+  Eigen::Vector3d normalInWorld(const Eigen::Vector3d& n) const { return (toWorld * n).normalized(); }
+};
+
+}  // namespace fcl_stpbv

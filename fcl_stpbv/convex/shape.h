@@ -1,0 +1,69 @@
+// The simple convex bodies that an STP-BV may meet: a flat or round core and a ball around it.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+
+#include "fcl_stpbv/convex/support.h"
+
+namespace fcl_stpbv {
+
+enum class ShapeKind {
+  point,      ///< a ball, by its margin
+  segment,    ///< a capsule, by its margin
+  box,        ///< axis-aligned in its own frame
+  triangle,   ///< flat, two-sided
+  polytope,   ///< convex hull of the caller's vertices
+  cylinder,   ///< axis z, flat ends
+  cone,       ///< axis z, apex up, flat base
+  ellipsoid,  ///< axes x, y, z
+  halfspace,  ///< the side that `normal` points away from
+  plane,      ///< thin, two-sided
+};
+
+/// A convex body in its own frame, centred as FCL's shapes are. Lengths in m. One struct for all kinds: a
+/// query makes one on its stack. What it points to must outlive it.
+struct Shape {
+  ShapeKind kind = ShapeKind::point;
+  double margin = 0;                ///< radius of the ball around the core
+  double radius = 0;                ///< of a cylinder's or cone's rim
+  double half = 0;                  ///< half length along z
+  Eigen::Vector3d size{0, 0, 0};    ///< box: half sides; ellipsoid: semi-axes
+  Eigen::Vector3d normal{0, 0, 1};  ///< half space, plane: unit
+  double offset = 0;                ///< half space, plane: normal.x = offset on its surface
+  std::array<Eigen::Vector3d, 3> corner{Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(0, 0, 0),
+                                        Eigen::Vector3d(0, 0, 0)};  ///< triangle
+  const Eigen::Vector3d* vertices = nullptr;                        ///< polytope, at least one
+  int vertexCount = 0;
+  Eigen::Vector3d centre{0, 0, 0};  ///< some point of the core
+  double reach = 0;                 ///< every point of the core is within this of `centre`
+
+  static Shape sphere(double radius);
+  static Shape capsule(double radius, double length);
+  static Shape boxOf(const Eigen::Vector3d& sides);
+  static Shape triangleOf(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c);
+  static Shape polytopeOf(const Eigen::Vector3d* vertices, int count);
+  static Shape cylinderOf(double radius, double length);
+  static Shape coneOf(double radius, double length);
+  static Shape ellipsoidOf(const Eigen::Vector3d& semiAxes);
+  static Shape halfspaceOf(const Eigen::Vector3d& normal, double offset);
+  static Shape planeOf(const Eigen::Vector3d& normal, double offset);
+
+  /// Whether all lengths are finite and none is negative, and there is a vertex and a unit normal where one
+  /// is needed.
+  bool valid() const;
+
+  /// The core's point furthest along `d` (any length), one of them where there are several. Bounded kinds
+  /// only.
+  Eigen::Vector3d support(const Eigen::Vector3d& d) const;
+
+  /// The same, as the searches ask for it.
+  SupportPoint supportPoint(const Eigen::Vector3d& n) const {
+    const Eigen::Vector3d p = support(n);
+    return {n, -1, p, 0.0, p};
+  }
+
+  bool unbounded() const { return kind == ShapeKind::halfspace || kind == ShapeKind::plane; }
+};
+
+}  // namespace fcl_stpbv

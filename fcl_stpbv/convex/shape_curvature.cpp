@@ -1,0 +1,142 @@
+// Which normals the feature of a shape has, and how its surface curves there: face, edge, corner, rim,
+// generator, or all round.
+#include "fcl_stpbv/convex/shape_curvature.h"
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+namespace fcl_stpbv {
+
+using Eigen::Vector3d;
+
+namespace {
+
+const Vector3d kNone(0, 0, 0);
+
+/// Normals across the line along `t`, of a surface that curves by `radius` around it.
+NormalCone aroundLine(const Vector3d& m, const Vector3d& t, double radius) {
+  return {1, {t.cross(m).normalized(), kNone}, {radius, 0.0}, 0.0};
+}
+
+NormalCone noWay() { return {0, {kNone, kNone}, {0.0, 0.0}, 0.0}; }
+
+NormalCone ofBall(const Vector3d& m, double radius) {
+  const Vector3d e = m.unitOrthogonal();
+  return {2, {e, m.cross(e)}, {radius, radius}, 0.0};
+}
+
+NormalCone ofSegment(const Vector3d& m, double half, double margin, double rounding) {
+  return half * std::abs(m.z()) > rounding || !(half > 0.0) ? ofBall(m, margin)
+                                                            : aroundLine(m, Vector3d::UnitZ(), margin);
+}
+
+/// A face, an edge or a corner: whatever vertices lie furthest along `m`.
+template <typename Vertex>
+NormalCone ofVertices(int count, const Vertex& vertex, const Vector3d& m, double rounding) {
+  double most = m.dot(vertex(0));
+  for (int i = 1; i < count; ++i) most = std::max(most, m.dot(vertex(i)));
+  const auto furthest = [&](const auto& measure, Vector3d& best) {
+    double length = rounding;
+    for (int i = 0; i < count; ++i) {
+      const Vector3d p = vertex(i);
+      if (most - m.dot(p) > rounding || !(measure(p) > length)) continue;
+      length = measure(p);
+      best = p;
+    }
+    return length > rounding;
+  };
+  Vector3d a = vertex(0), b = a;
+  furthest([&](const Vector3d& p) { return 1.0 + rounding + m.dot(p) - most; }, a);
+  if (!furthest([&](const Vector3d& p) { return (p - a).norm(); }, b)) return ofBall(m, 0.0);
+  const Vector3d t = (b - a).normalized();
+  Vector3d c = a;
+  if (!furthest([&](const Vector3d& p) { return t.cross(p - a).norm(); }, c)) return aroundLine(m, t, 0.0);
+  return noWay();
+}
+
+/// A disc's rim: a circle of this radius around z. Near the axis the normal says little about the place on
+/// the rim, so the point `x` tells it.
+NormalCone ofRim(const Vector3d& m, const Vector3d& x, double radius, double across) {
+  const Vector3d out(x.x(), x.y(), 0.0);
+  Vector3d around = Vector3d::UnitZ().cross(out.norm() > 0.0 ? out : m);
+  around = (around - around.dot(m) * m).normalized();
+  return {2, {around, m.cross(around)}, {radius / across, 0.0}, 0.0};
+}
+
+NormalCone ofCylinder(const Shape& s, const Vector3d& m, const Vector3d& x, double rounding) {
+  if (!(s.radius > 0.0)) return ofSegment(m, s.half, 0.0, rounding);
+  const double across = std::hypot(m.x(), m.y());
+  if (s.radius * across <= rounding) return noWay();
+  if (s.half > 0.0 && s.half * std::abs(m.z()) <= rounding) return aroundLine(m, Vector3d::UnitZ(), s.radius);
+  return ofRim(m, x, s.radius, across);
+}
+
+NormalCone ofCone(const Shape& s, const Vector3d& m, const Vector3d& x, double rounding) {
+  if (!(s.radius > 0.0)) return ofSegment(m, s.half, 0.0, rounding);
+  const double across = std::hypot(m.x(), m.y()), height = 2.0 * s.half;
+  if (s.radius * across <= rounding && (m.z() < 0.0 || !(height > 0.0))) return noWay();
+  const double towardsApex = m.z() * height - across * s.radius;
+  if (towardsApex > rounding) return ofBall(m, 0.0);
+  if (!(height > 0.0) || towardsApex < -rounding) return ofRim(m, x, s.radius, across);
+  const double down =
+      (x - Vector3d(0, 0, s.half)).norm();  // the generator, which curves by more the further down
+  return {1, {Vector3d::UnitZ().cross(m) / across, kNone}, {down * s.radius / height, 0.0}, 0.0};
+}
+
+bool ofEllipsoid(const Shape& s, const Vector3d& m, NormalCone& result) {
+  const Vector3d squares = s.size.cwiseProduct(s.size), e = squares.cwiseProduct(m);
+  const double h = std::sqrt(m.dot(e));
+  if (!(h > 1e-9 * s.reach)) return false;
+  result = ofBall(m, 0.0);
+  const auto curved = [&](const Vector3d& t, const Vector3d& u) {
+    return (t.dot(squares.cwiseProduct(u)) - t.dot(e) * u.dot(e) / (h * h)) / h;
+  };
+  result.along = {curved(result.way[0], result.way[0]), curved(result.way[1], result.way[1])};
+  result.between = curved(result.way[0], result.way[1]);
+  return true;
+}
+
+}  // namespace
+
+bool normalCone(const Shape& s, const Vector3d& m, const Vector3d& x, double rounding, NormalCone& result) {
+  result = noWay();
+  switch (s.kind) {
+    case ShapeKind::point:
+      result = ofBall(m, s.margin);
+      return true;
+    case ShapeKind::segment:
+      result = ofSegment(m, s.half, s.margin, rounding);
+      return true;
+    case ShapeKind::box:
+      result = ofVertices(
+          8,
+          [&](int i) {
+            return Vector3d(i & 1 ? s.size.x() : -s.size.x(), i & 2 ? s.size.y() : -s.size.y(),
+                            i & 4 ? s.size.z() : -s.size.z());
+          },
+          m, rounding);
+      return true;
+    case ShapeKind::triangle:
+      result = ofVertices(
+          3, [&](int i) { return s.corner[static_cast<std::size_t>(i)]; }, m, rounding);
+      return true;
+    case ShapeKind::polytope:
+      result = ofVertices(
+          s.vertexCount, [&](int i) { return s.vertices[i]; }, m, rounding);
+      return true;
+    case ShapeKind::cylinder:
+      result = ofCylinder(s, m, x, rounding);
+      return true;
+    case ShapeKind::cone:
+      result = ofCone(s, m, x, rounding);
+      return true;
+    case ShapeKind::ellipsoid:
+      return ofEllipsoid(s, m, result);
+    case ShapeKind::halfspace:
+    case ShapeKind::plane:
+      break;
+  }
+  return true;
+}
+
+}  // namespace fcl_stpbv

@@ -1,0 +1,179 @@
+// The point of a small simplex nearest to the origin, and which of its corners hold it.
+//
+// 1. One corner: the corner itself. Two: the foot on the segment, clamped to its ends.
+// 2. Three: the foot on the triangle's plane by its barycentric coordinates, which are areas seen along the
+// normal.
+//    Outside the triangle, the nearest of the edges that it may lie beyond.
+// 3. Four: inside if all four signed volumes have one sign, else the nearest of the faces that the origin
+// lies beyond. Each case is decided by comparing distances, never by the sign of a small determinant alone:
+// flat and needle-shaped simplices are the rule near parallel faces (Ericson, Real-Time Collision
+// Detection, 5.1; van den Bergen 2003, 4.3).
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace fcl_stpbv {
+
+/// Up to four points of a convex set, with the barycentric weights of the one nearest to the origin.
+/// `Corner` has a member `w`, the point (m), and what else the caller needs to know about it.
+template <typename Corner>
+struct Simplex {
+  std::array<Corner, 4> corner;
+  std::array<double, 4> weight{};
+  int size = 0;
+
+  void add(const Corner& c) { corner[static_cast<std::size_t>(size++)] = c; }
+  bool holds(const Eigen::Vector3d& w) const {
+    for (std::size_t i = 0; i < static_cast<std::size_t>(size); ++i)
+      if (corner[i].w == w) return true;
+    return false;
+  }
+  /// The corners' `member`s in the same proportion as the nearest point's.
+  Eigen::Vector3d weighted(Eigen::Vector3d Corner::*member) const {
+    Eigen::Vector3d sum(0, 0, 0);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(size); ++i) sum += weight[i] * (corner[i].*member);
+    return sum;
+  }
+};
+
+/// The point of a simplex nearest to the origin.
+struct NearestPoint {
+  /// The corners' weighted sum: a point of the simplex to the rounding of coordinates, however thin the
+  /// simplex is.
+  Eigen::Vector3d point;
+  /// The way there, any length. Of a triangle near the origin its normal, which keeps its digits however near
+  /// that is.
+  Eigen::Vector3d direction;
+  bool inside;  ///< the origin is inside a tetrahedron, or on the simplex to rounding
+};
+
+namespace simplex_face {
+
+using SimplexPoints = std::array<Eigen::Vector3d, 4>;
+
+/// A face of the simplex that may hold the nearest point: its corners' numbers and their weights.
+struct SimplexFace {
+  std::array<int, 3> corner{};
+  std::array<double, 3> weight{};
+  int size = 0;
+  Eigen::Vector3d point{0, 0, 0}, direction{0, 0, 0};
+  double squared = std::numeric_limits<double>::infinity();
+};
+
+inline const Eigen::Vector3d& at(const SimplexPoints& s, int i) { return s[static_cast<std::size_t>(i)]; }
+
+inline SimplexFace nearestOnCorner(const SimplexPoints& s, int i) {
+  return {{i, 0, 0}, {1, 0, 0}, 1, at(s, i), at(s, i), at(s, i).squaredNorm()};
+}
+
+inline SimplexFace nearestOnEdge(const SimplexPoints& s, int i, int j) {
+  const Eigen::Vector3d &a = at(s, i), &b = at(s, j);
+  const Eigen::Vector3d ab = b - a;
+  const double along = -a.dot(ab), back = b.dot(ab);
+  if (!(along > 0)) return nearestOnCorner(s, i);
+  if (!(back > 0)) return nearestOnCorner(s, j);
+  const double t = along / (along + back);  // both are accurate; their sum is |ab|^2
+  const Eigen::Vector3d point = t < 0.5 ? Eigen::Vector3d(a + t * ab) : Eigen::Vector3d(b - (1 - t) * ab);
+  return {{i, j, 0}, {1 - t, t, 0}, 2, point, point, point.squaredNorm()};
+}
+
+inline SimplexFace closer(const SimplexFace& a, const SimplexFace& b) {
+  return b.squared < a.squared ? b : a;
+}
+
+inline SimplexFace nearestOnTriangle(const SimplexPoints& s, int i, int j, int k) {
+  const Eigen::Vector3d &a = at(s, i), &b = at(s, j), &c = at(s, k);
+  const Eigen::Vector3d ab = b - a, ac = c - a, normal = ab.cross(ac);
+  const double squared =
+      normal.squaredNorm();  // of the height over the longest side, times that side's square
+  const double wa = normal.dot(b.cross(c)), wb = normal.dot(c.cross(a)), wc = normal.dot(a.cross(b));
+  SimplexFace best{};
+  if (squared > 0 && wa > 0 && wb > 0 && wc > 0) {
+    const double sum = wa + wb + wc, ta = wa / sum, tb = wb / sum, tc = wc / sum;
+    const Eigen::Vector3d point = ta * a + tb * b + tc * c, foot = (normal.dot(a) / squared) * normal;
+    const double longest = std::max({ab.squaredNorm(), ac.squaredNorm(), (c - b).squaredNorm()});
+    best = {{i, j, k}, {ta, tb, tc}, 3, point, point, point.squaredNorm()};
+    if (squared >
+        longest * best.squared) {  // higher than far: the normal is better known than the way to the point
+      best.direction = foot;
+      return best;
+    }
+  }
+  // The origin projects outside, or rounding of the corners may hide that it does: the best of the edges that
+  // it may lie beyond.
+  const bool any = best.size > 0 || !(squared > 0);
+  if (any || wc <= 0) best = closer(best, nearestOnEdge(s, i, j));
+  if (any || wa <= 0) best = closer(best, nearestOnEdge(s, j, k));
+  if (any || wb <= 0) best = closer(best, nearestOnEdge(s, k, i));
+  return best;
+}
+
+/// Six times the signed volume of the tetrahedron from the origin over a triangle.
+inline double volume(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
+  return a.dot(b.cross(c));
+}
+
+/// The face of a tetrahedron nearest to the origin. False with the origin inside; `weight` are then the
+/// corners'.
+inline bool nearestOnTetrahedron(const SimplexPoints& s, SimplexFace& best, std::array<double, 4>& weight) {
+  constexpr double kFlat = 1e-10;  // volumes below this part of the larger ones say nothing about a side
+  const Eigen::Vector3d &a = s[0], &b = s[1], &c = s[2], &d = s[3];
+  // Weights of the origin: volumes opposite each corner, all of one sign inside.
+  const double va = -volume(b, c, d), vb = volume(a, c, d), vc = -volume(a, b, d), vd = volume(a, b, c);
+  const double sum = va + vb + vc + vd;
+  if ((va > 0 && vb > 0 && vc > 0 && vd > 0) || (va < 0 && vb < 0 && vc < 0 && vd < 0)) {
+    weight = {va / sum, vb / sum, vc / sum, vd / sum};
+    return false;
+  }
+  // Only faces that the origin lies beyond can hold the point; all of them where the volume is rounding.
+  const double slack = kFlat * std::abs(sum), side = sum < 0 ? -1 : 1;
+  const bool flat = !(std::abs(sum) > kFlat * (std::abs(va) + std::abs(vb) + std::abs(vc) + std::abs(vd)));
+  if (flat || side * va <= slack) best = closer(best, nearestOnTriangle(s, 1, 2, 3));
+  if (flat || side * vb <= slack) best = closer(best, nearestOnTriangle(s, 0, 2, 3));
+  if (flat || side * vc <= slack) best = closer(best, nearestOnTriangle(s, 0, 1, 3));
+  if (flat || side * vd <= slack) best = closer(best, nearestOnTriangle(s, 0, 1, 2));
+  return true;
+}
+
+}  // namespace simplex_face
+
+/// Finds the point of `simplex` nearest to the origin, and puts the corners that hold it into `reduced`;
+/// their weights are positive and sum to 1.
+template <typename Corner>
+NearestPoint reduceToNearest(const Simplex<Corner>& simplex, Simplex<Corner>& reduced) {
+  simplex_face::SimplexPoints s;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(simplex.size); ++i) s[i] = simplex.corner[i].w;
+  simplex_face::SimplexFace best{};
+  switch (simplex.size) {
+    case 1:
+      best = simplex_face::nearestOnCorner(s, 0);
+      break;
+    case 2:
+      best = simplex_face::nearestOnEdge(s, 0, 1);
+      break;
+    case 3:
+      best = simplex_face::nearestOnTriangle(s, 0, 1, 2);
+      break;
+    default: {
+      std::array<double, 4> weight;
+      if (!simplex_face::nearestOnTetrahedron(s, best, weight)) {
+        reduced = simplex;
+        reduced.weight = weight;
+        return {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(0, 0, 0), true};
+      }
+    }
+  }
+  reduced.size = best.size;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(best.size); ++i) {
+    reduced.corner[i] = simplex.corner[static_cast<std::size_t>(best.corner[i])];
+    reduced.weight[i] = best.weight[i];
+  }
+  return {best.point, best.direction, !(best.squared > 0)};
+}
+
+}  // namespace fcl_stpbv

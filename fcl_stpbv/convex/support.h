@@ -1,0 +1,52 @@
+// What a convex body shows along a normal: the one thing that GJK, EPA and the direction cone ask of it.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include "fcl_stpbv/convex/relative_pose.h"
+
+namespace fcl_stpbv {
+
+/// A convex core along an outward unit normal, in the body's frame.
+struct SupportPoint {
+  Eigen::Vector3d n;       ///< the normal
+  int patch;               ///< patch of an STP-BV that owns it; -1 for any other body
+  Eigen::Vector3d anchor;  ///< a point near the core's point, of small coordinates
+  double rise;             ///< height of the supporting plane above it, free of cancellation (m)
+  Eigen::Vector3d point;   ///< the core's point furthest along the normal
+
+  /// Height of `y` above the supporting plane (m).
+  double gap(const Eigen::Vector3d& y) const { return n.dot(y - anchor) - rise; }
+};
+
+/// The difference B - A of two convex cores in A's frame, by its support points.
+///
+/// The support concept: `A` and `B` are any types with `SupportPoint supportPoint(const Eigen::Vector3d& n)`
+/// (as Jolt's `ConvexSupport::GetSupport`): a simple shape (shape.h), or an STP-BV's core, which remembers
+/// where it looked last.
+template <typename A, typename B>
+class ConvexDifference {
+ public:
+  /// A point of the difference.
+  struct Corner {
+    Eigen::Vector3d w{0, 0, 0};    ///< the point (m)
+    Eigen::Vector3d onA{0, 0, 0};  ///< A's part of it
+    double gap = 0;                ///< between the supporting planes that it was found with (m)
+  };
+
+  ConvexDifference(A& a, B& b, const RelativePose& pose) : a_(a), b_(b), pose_(pose) {}
+
+  /// The corner furthest against the unit vector `n`, from A to B.
+  Corner support(const Eigen::Vector3d& n) {
+    const SupportPoint p = a_.supportPoint(n), q = b_.supportPoint(pose_.opposite(n));
+    return {pose_.placed(q.point) - p.point, p.point, p.gap(pose_.placed(q.anchor)) - q.rise};
+  }
+
+ private:
+  A& a_;
+  B& b_;
+  const RelativePose& pose_;
+};
+
+}  // namespace fcl_stpbv

@@ -1,0 +1,201 @@
+// The optimality certificate of a maximum between overlapping cores (docs/theory.md, 5, "Deeper").
+//
+// 1. A side: triangles from the maximum's own point to the corners of the feature that it is on. They are as
+// far from
+//    the origin as the maximum is deep, but for a part that leaves no room for another maximum.
+// 2. From the sides of that feature a closed surface over a ball inside both cores, or where the ball is too
+// small a
+//    dozen triangles to points beyond the corners and one behind.
+// 3. All of it lies in the difference of the cores, which is convex. So if every plane of it is as far from
+// the origin
+//    as the maximum is deep, no direction leads out sooner.
+#include "fcl_stpbv/distance/certificate.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "fcl_stpbv/distance/vertex_gjk.h"
+#include "fcl_stpbv/vectorized.h"
+
+namespace fcl_stpbv::detail {
+
+namespace {
+
+/// Three points of the difference, counter-clockwise from outside.
+struct Triangle {
+  Packed p, q, r;
+
+  Packed normal() const { return cross(q - p, r - p); }
+
+  /// Whether its plane has the origin on its inner side, at least this far away.
+  bool beyond(double distance) const {
+    const Packed m = normal();
+    const double height = dot(m, p);
+    return height > 0.0 && height * height >= distance * distance * dot(m, m);
+  }
+
+  /// Square of its plane's distance from the origin.
+  double distance2() const {
+    const Packed m = normal();
+    const double height = dot(m, p);
+    return height * height / dot(m, m);
+  }
+};
+
+/// A patch's vertices, up to four of a face's.
+struct Vertices {
+  std::array<int, FeatureCorners::kMost> index{};
+  std::size_t count = 0;
+};
+
+Vertices verticesOf(const StpBv& body, int patch) {
+  const PatchTable& patches = body.patches();
+  if (patches.kind(patch) == PatchKind::vertex) return {{patch}, 1};
+  if (patches.kind(patch) == PatchKind::edge) {
+    const EdgeRecord& edge = patches.edge(patch);
+    return {{edge.past(1), edge.past(0)}, 2};
+  }
+  Vertices v;
+  const FaceRecord& face = patches.face(patch);
+  if (face.further() < 0) {  // all in the record, which is at hand
+    v.count = face.count();
+    for (std::size_t i = 0; i < v.count; ++i) v.index[i] = patches.startOf(face.side[i]);
+  } else {
+    const StpBv::Ring& ring = body.faces()[static_cast<std::size_t>(patch - body.facePatch(0))];
+    v.count = FeatureCorners::kMost;
+    for (std::size_t i = 0; i < v.count; ++i) v.index[i] = ring[i * ring.size() / v.count];
+  }
+  return v;
+}
+
+/// Which of some points is nearest to `target`.
+template <typename Point>
+Packed nearestOf(std::size_t count, const Point& point, const Packed& target) {
+  Packed nearest = point(0);
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < count; ++i) {
+    const Packed p = point(i), d = p - target;
+    if (dot(d, d) < least) least = dot(d, d), nearest = p;
+  }
+  return nearest;
+}
+
+/// Whether triangles from the corners of a feature to as many points beyond it and one behind, each with its
+/// plane at least `depth` from the origin, close the surface.
+bool closesWithTriangles(const BodyPair& pair, const FeatureCorners& corners, const Packed& n, double depth) {
+  constexpr double kRing = 0.7;   // rad from the top's normal to those of the points beyond its feature
+  constexpr double kDeep = 0.25;  // of the smaller body's radius: deeper, so few triangles hardly ever do
+  if (depth > kDeep * std::min(pair.a().enclosingRadius(), pair.b().enclosingRadius())) return false;
+  const auto& [corner, count] = corners;
+  Packed ring[FeatureCorners::kMost];
+  for (std::size_t i = 0; i < count; ++i) {
+    const Packed &p = corner[i], &q = corner[(i + 1) % count], side = q - p;
+    ring[i] = pair.differenceAgainst(unpack(std::sqrt(dot(side, side)) * n - kRing * cross(n, side)));
+    const Triangle wall{q, p, ring[i]};
+    if (wall.beyond(depth)) continue;
+    ring[i] = pack(vertexDifference(pair, unpack(-wall.normal())));
+    if (!Triangle{q, p, ring[i]}.beyond(depth)) return false;
+  }
+  const Packed behind = pair.differenceAgainst(unpack(-n));
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t j = (i + 1) % count;
+    if (!Triangle{corner[j], ring[i], ring[j]}.beyond(depth) ||
+        !Triangle{ring[j], ring[i], behind}.beyond(depth))
+      return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+FeatureCorners cornersAround(const BodyPair& pair, const Sample& top) {
+  const Vertices a = verticesOf(pair.a(), top.patch[0]), b = verticesOf(pair.b(), top.patch[1]);
+  const auto onA = [&](std::size_t i) { return pair.patchA(a.index[i]).anchor; };
+  const auto onB = [&](std::size_t i) { return pair.patchB(b.index[i]).anchor; };
+  FeatureCorners c;
+  if (a.count == 2 && b.count == 2) {
+    for (const std::size_t i : {0u, 1u, 3u, 2u}) c.point[c.count++] = onB(i / 2) - onA(i % 2);
+  } else if (a.count > 2 && b.count > 0) {
+    const Packed pointB = pack(top.point) + pack(top.across) + top.core * pack(top.n);
+    const Packed nearest = nearestOf(b.count, onB, pointB);
+    for (c.count = 0; c.count < a.count; ++c.count) c.point[c.count] = nearest - onA(c.count);
+  } else if (b.count > 2 && a.count > 0) {
+    const Packed nearest = nearestOf(a.count, onA, pack(top.point));
+    for (c.count = 0; c.count < b.count; ++c.count) c.point[c.count] = onB(c.count) - nearest;
+  }
+  return c;
+}
+
+bool isOnlyMaximum(const BodyPair& pair, const Sample& top, double distance) {
+  constexpr double kSafe = 1.1;     // second order
+  constexpr double kLevel = 1e-14;  // rounding of 1 - cos^2
+  const double depth = -top.core, cosine = distance / depth,
+               sine = std::sqrt(std::max(1.0 - cosine * cosine, kLevel));
+  // Least radius of curvature of the difference there, at least.
+  const auto onFace = [&](const StpBv& body, int patch) {
+    return body.kind(patch) == PatchKind::face ? body.radii().rho : 0.0;
+  };
+  double radius = onFace(pair.a(), top.patch[0]) + onFace(pair.b(), top.patch[1]);
+  if (pair.a().kind(top.patch[0]) == PatchKind::edge && pair.b().kind(top.patch[1]) == PatchKind::edge) {
+    const double along = dot(pair.patchA(top.patch[0]).axis, pair.patchB(top.patch[1]).axis),
+                 rhoA = pair.a().radii().rho, rhoB = pair.b().radii().rho;
+    radius = rhoA * rhoB * (1.0 - along * along) / (rhoA + rhoB);
+  }
+  const double inside =
+      -std::max(pair.a().outside(top.patch[0], top.n), pair.b().outside(top.patch[1], pair.opposite(top.n)));
+  return inside * radius > kSafe * 2.0 * depth * sine;
+}
+
+FCL_STPBV_VECTORIZED
+bool closesOverBall(const Packed& centre, double radius, const FeatureCorners& corners, const Packed& n,
+                    double depth) {
+  Packed wall[FeatureCorners::kMost];  // unit outward normal of the plane over a side that touches the ball
+  for (std::size_t i = 0; i < corners.count; ++i) {
+    const Packed &p = corners.point[i], side = corners.point[(i + 1) % corners.count] - p;
+    const double side2 = dot(side, side);
+    const Packed in = centre - p - dot(centre - p, side) / side2 * side;
+    const double in2 = dot(in, in), tangent2 = in2 - radius * radius;
+    if (!(tangent2 > 0.0)) return false;
+    wall[i] = (std::sqrt(tangent2 / side2) * cross(in, side) - radius * in) / in2;
+    if (!(dot(wall[i], p) >= depth)) return false;
+  }
+  for (std::size_t i = 0; i < corners.count; ++i) {
+    const std::size_t j = (i + 1) % corners.count;
+    const Packed &p = corners.point[j], turn = cross(wall[i], wall[j]);
+    if (!(dot(turn, n) < 0.0)) return false;
+    // From wall to wall the cone's normals go along a circle, on which the planes' distance from the origin
+    // is a sine: the least is at an end unless the sine's own least is between them.
+    const bool rises = dot(centre, cross(wall[i], p)) <= 0.0, falls = dot(centre, cross(wall[j], p)) >= 0.0,
+               halfTurn = !(dot(turn, p - centre) > 0.0);
+    if (!(halfTurn ? rises && falls : rises || falls)) return false;
+  }
+  return true;
+}
+
+FCL_STPBV_VECTORIZED
+bool provesWidest(const BodyPair& pair, const Sample& top, double& bound) {
+  const double depth = -top.core - pair.gapRounding();
+  auto corners = cornersAround(pair, top);
+  auto& [corner, count] = corners;
+  if (count == 0 || !(depth > 0.0)) return false;
+  const Packed n = pack(top.n), summit = top.core * n + pack(top.across);
+  if (dot(cross(corner[1] - corner[0], corner[2] - corner[1]), n) > 0.0) std::reverse(corner, corner + count);
+
+  double least2 = depth * depth;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Triangle side{corner[i], corner[(i + 1) % count], summit};
+    if (!side.beyond((1.0 - kClose) * depth)) return false;
+    least2 = std::min(least2, side.distance2());
+  }
+  if (!isOnlyMaximum(pair, top, std::sqrt(least2))) return false;
+  const double innerRadius = pair.a().innerRadius() + pair.b().innerRadius();
+  if (!closesOverBall(pair.centreDifference(), innerRadius, corners, n, depth) &&
+      !closesWithTriangles(pair, corners, n, depth))
+    return false;
+  bound = -std::sqrt(least2);
+  return true;
+}
+
+}  // namespace fcl_stpbv::detail

@@ -1,0 +1,52 @@
+// Whether a maximum of the gap between overlapping cores is the widest one: an optimality certificate.
+#pragma once
+
+#include <cstddef>
+
+#include "fcl_stpbv/distance/body_pair.h"
+
+namespace fcl_stpbv::detail {
+
+/// Part of the depth by which a bound on it may fall short.
+constexpr double kClose = 1e-3;
+
+/// Up to four points of the difference of the two cores, second less first.
+struct FeatureCorners {
+  static constexpr std::size_t kMost = 4;
+  Packed point[kMost];
+  std::size_t count = 0;
+};
+
+/// The corners, in order, of the difference's feature that a maximum is on: of a face against a vertex, or of
+/// two edges that cross. Of a face against more than a vertex those against the vertex nearest to the
+/// maximum. None of other features, which are rarely one.
+FeatureCorners cornersAround(const BodyPair& pair, const Sample& top);
+
+/// Whether no other maximum, less deep than `top`, has room outside a triangle with the top's point for a
+/// corner, its plane `distance` from the origin. Its own point would be as near to the origin, so within `2
+/// depth sin(a)` of the top's, `cos(a) = distance / depth`; true where all that is so near belongs to the
+/// top's own patches, which have one maximum.
+bool isOnlyMaximum(const BodyPair& pair, const Sample& top, double distance);
+
+/// Closes a surface around the origin: from the maximum to the corners of its feature, and from there over a
+/// ball inside or, where that is too small, in a dozen triangles to points beyond the corners and one behind.
+/// All of it lies in the difference of the cores, which is convex, so no direction leads out of it sooner
+/// than through the nearest plane. True where that is one at the top and leaves no room for another maximum;
+/// along no normal is the gap of the cores then more than `bound` (m, negative).
+///
+/// Of the points nothing is asked but that every triangle has the origin on its inner side: each ray from
+/// there then meets the surface.
+bool provesWidest(const BodyPair& pair, const Sample& top, double& bound);
+
+/// Closes a surface around the origin from the corners of a maximum's feature over a ball that the difference
+/// holds: from each side of the feature along the plane that touches the ball, from each corner along the
+/// cone that does, and over the ball behind. True where every plane of it is at least `depth` from the
+/// origin; what is missing then is the feature alone. Round bodies, however many vertices they have, need no
+/// more, and none of their vertices is looked at (docs/theory.md, 5).
+///
+/// `centre` and `corners`, counter-clockwise from outside, are relative to the origin, `n` is the maximum's
+/// normal, away from which the feature lies (m).
+bool closesOverBall(const Packed& centre, double radius, const FeatureCorners& corners, const Packed& n,
+                    double depth);
+
+}  // namespace fcl_stpbv::detail

@@ -1,0 +1,210 @@
+// Depth of overlapping cores: EPA (convex/epa.h) on the difference of two STP-BVs, and a search from many
+// starts.
+//
+// 1. A maximum that carries its own certificate needs no more (certificate.h).
+// 2. Else a polytope grows from points around it. Far from the surface, vertices that the tables of
+// directions name
+//    will do; near it, the smooth surface's own point, and the maximum of the patches there.
+// 3. A face that the maximum found leaves no room beyond is put aside. The rest of the polytope bounds the
+// depth.
+// 4. Where rounding stops that, the best of the maxima from a fixed set of normals stands, without a bound.
+#include "fcl_stpbv/distance/overlap.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "fcl_stpbv/convex/epa.h"
+#include "fcl_stpbv/distance/certificate.h"
+#include "fcl_stpbv/distance/vertex_gjk.h"
+#include "fcl_stpbv/vectorized.h"
+
+namespace fcl_stpbv::detail {
+
+using Eigen::Vector3d;
+
+namespace {
+
+/// Where the polytope is this much of the depth from the surface, a maximum is likely to be next to it.
+constexpr double kNear = 0.03;
+
+/// Tilt from the start's normal of those whose points the polytope begins with (rad).
+constexpr double kRing = 0.8;
+
+/// Normals of one maximum found twice differ by less (rad).
+constexpr double kSame = 1e-7;
+
+/// The difference's point furthest against the sample's normal.
+Vector3d furthest(const Sample& s) { return s.core * s.n + s.across; }
+
+/// Three unit vectors across `n`, a third of a turn apart.
+std::array<Vector3d, 3> around(const Vector3d& n) {
+  const Vector3d e = n.unitOrthogonal(), f = std::sqrt(0.75) * n.cross(e);
+  return {e, f - 0.5 * e, -f - 0.5 * e};
+}
+
+/// EPA on the difference of two STP-BVs, from around a maximum of the gap.
+class CoreEpa {
+ public:
+  CoreEpa(const BodyPair& pair, const std::array<Vector3d, 4>& corner, Polytope::Origin origin, Sample& x,
+          SearchWork& work)
+      : pair_(pair), polytope_(corner, origin), x_(x), work_(work) {}
+
+  /// Takes in the point of the maximum in `x`.
+  bool addTop() {
+    if (!add(furthest(x_))) return false;
+    top_ = polytope_.lastPoint();
+    return true;
+  }
+
+  bool add(const Vector3d& p) { return polytope_.sound() && polytope_.expand(p); }
+
+  /// Expands where the surface is nearest; true once nothing is nearer than the maximum in `x`.
+  bool run(double& bound) {
+    bool proven = false;
+    expandAtNearest(polytope_, [&](const Polytope::Face& nearest) {
+      // The polytope lies inside the difference, so with the origin inside it no direction leads out sooner.
+      bound = -std::max(0.0, std::min(least_, nearest.distance));
+      proven = -x_.core - nearest.distance <= pair_.gapRounding();
+      if (proven) return false;
+      if (nearest.has(top_) && -x_.core - nearest.distance <= kClose * nearest.distance &&
+          isOnlyMaximum(pair_, x_, nearest.distance)) {
+        putAside(nearest);
+        return true;
+      }
+      return expandToVertex(nearest) || expandToSurface(nearest);
+    });
+    return proven;
+  }
+
+ private:
+  /// Far from the surface vertices will do, even such as the tables name; they are the cheapest points of the
+  /// difference.
+  bool expandToVertex(const Polytope::Face& nearest) {
+    if (!(nearest.distance > 0.0)) return false;
+    const Vector3d vertex = unpack(pair_.differenceAgainst(-nearest.normal));
+    return nearest.normal.dot(vertex) > (1.0 + kNear) * nearest.distance && polytope_.expand(vertex);
+  }
+
+  /// False where the cores turn out to be apart.
+  bool expandToSurface(const Polytope::Face& nearest) {
+    Sample trial = pair_.sampleFrom(-nearest.normal, {-1, -1}, work_.steps);
+    if (trial.core > 0.0) {
+      x_ = trial;
+      return false;
+    }
+    const Vector3d point = furthest(trial);
+    const double open = -trial.core - nearest.distance;
+    Vector3d ignored;
+    const bool top = open <= kNear * nearest.distance && settle(pair_, trial, ignored, work_);
+    const bool another = top && (trial.n - x_.n).squaredNorm() > kSame * kSame;
+    const bool better = trial.core > x_.core;
+    if (better) x_ = trial;
+    if (open <= pair_.gapRounding() || (top && open <= kClose * nearest.distance) ||
+        !((another && better && addTop()) || polytope_.expand(point)))
+      putAside(nearest);
+    return true;
+  }
+
+  void putAside(const Polytope::Face& nearest) {
+    least_ = std::min(least_, nearest.distance);
+    polytope_.putAside();
+  }
+
+  const BodyPair& pair_;
+  Polytope polytope_;
+  Sample& x_;
+  SearchWork& work_;
+  Polytope::Index top_ = Polytope::kNone;                   // point of the maximum in `x`
+  double least_ = std::numeric_limits<double>::infinity();  // distance of the faces done with
+};
+
+/// The few best of many starts, apart from each other so that they do not all lead to the same maximum.
+class Starts {
+ public:
+  void offer(const Sample& s) {
+    constexpr double kNeighbours = 0.97;  // cosine of 14 degrees
+    for (int i = 0; i < count_; ++i) {
+      Sample& kept = sample_[static_cast<std::size_t>(i)];
+      if (kept.n.dot(s.n) > kNeighbours) {
+        if (s.core > kept.core) kept = s;
+        return;
+      }
+    }
+    if (count_ < kKept) {
+      sample_[static_cast<std::size_t>(count_++)] = s;
+      return;
+    }
+    const auto worst = std::min_element(sample_.begin(), sample_.end(),
+                                        [](const Sample& p, const Sample& q) { return p.core < q.core; });
+    if (s.core > worst->core) *worst = s;
+  }
+  Sample* begin() { return sample_.data(); }
+  Sample* end() { return sample_.data() + count_; }
+
+ private:
+  static constexpr int kKept = 4;
+  std::array<Sample, kKept> sample_;
+  int count_ = 0;
+};
+
+constexpr int kFaces =
+    64;  // face normals tried per body; more faces than that are small ones of a round body
+
+}  // namespace
+
+FCL_STPBV_VECTORIZED
+bool expandPolytope(const BodyPair& pair, const std::array<Vector3d, 4>& corner, Sample& x, double& bound,
+                    SearchWork& work) {
+  return CoreEpa(pair, corner, Polytope::Origin::inside, x, work).run(bound);
+}
+
+FCL_STPBV_VECTORIZED
+bool expandPolytope(const BodyPair& pair, Sample& x, double& bound, SearchWork& work) {
+  const bool top = pair.isStationary(x);
+  if (top && provesWidest(pair, x, bound)) return true;
+  const std::array<Vector3d, 3> m = around(x.n);
+  std::array<Vector3d, 4> corner;
+  for (std::size_t i = 0; i < 3; ++i) corner[i] = unpack(pair.differenceAgainst(x.n - kRing * m[i]));
+  corner[3] = unpack(pair.differenceAgainst(-x.n));
+  CoreEpa search(pair, corner, Polytope::Origin::anywhere, x, work);
+  const FeatureCorners known = cornersAround(pair, x);
+  for (std::size_t i = 0; i < known.count; ++i) search.add(unpack(known.point[i]));
+  if (top)
+    search.addTop();
+  else if (known.count == 0)
+    search.add(vertexDifference(pair, x.n));
+  if (search.run(bound)) return true;
+  const auto from = [&](const Vector3d& n) { return furthest(pair.sampleFrom(n, {-1, -1}, work.steps)); };
+  return CoreEpa(pair, {from(m[0]), from(m[1]), from(m[2]), from(-x.n)}, Polytope::Origin::anywhere, x, work)
+      .run(bound);
+}
+
+void leastPenetration(const BodyPair& pair, Sample& x, SearchWork& work) {
+  constexpr std::array<int, 2> kNoHint{-1, -1};
+  Starts starts;
+  int ignored = 0;
+  const auto tryNormal = [&](const Vector3d& n, const std::array<int, 2>& hint) {
+    starts.offer(pair.sampleFrom(n, hint, ignored));
+  };
+  starts.offer(x);
+  for (int code = 0; code < 27; ++code) {
+    const Vector3d d(code % 3 - 1, code / 3 % 3 - 1, code / 9 - 1);
+    if (code == 13) continue;
+    tryNormal(d.normalized(), kNoHint);
+    tryNormal(pair.pose().rotation * d.normalized(), kNoHint);
+  }
+  const StpBv &a = pair.a(), &b = pair.b();
+  const int strideA = 1 + a.faceCount() / kFaces, strideB = 1 + b.faceCount() / kFaces;
+  for (int f = 0; f < a.faceCount(); f += strideA)
+    tryNormal(a.patch(a.facePatch(f)).axis, {a.facePatch(f), -1});
+  for (int f = 0; f < b.faceCount(); f += strideB)
+    tryNormal(-(pair.pose().rotation * b.patch(b.facePatch(f)).axis), {-1, b.facePatch(f)});
+
+  for (Sample& start : starts) {
+    ascend(pair, start, work);
+    if (start.core > x.core) x = start;
+  }
+}
+
+}  // namespace fcl_stpbv::detail

@@ -1,0 +1,288 @@
+// Monotone Newton ascent of the gap between an STP-BV's core and one smooth feature of another body.
+//
+// 1. From a normal without a gap, find one with a gap by bisection of the directions left.
+// 2. Newton's step on the sphere; one that does not raise the gap is cut back along its great circle to where
+// the slope
+//    is about zero, by a bracketed secant.
+// 3. Stop where the gradient is rounding.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "fcl_stpbv/convex/direction_cone.h"
+#include "fcl_stpbv/convex/support.h"
+#include "fcl_stpbv/distance/patch_pair.h"
+#include "fcl_stpbv/volume/stp_bv.h"
+
+namespace fcl_stpbv::detail {
+
+/// Looks at one patch along the unit normal `n`, its formula continued past its own region of normals. Body
+/// frame.
+inline SupportPoint viewPatch(const StpBv& body, const Eigen::Vector3d& n, int index) {
+  const PosedPatch patch = posedPatch(body, index);
+  const CoreView view = viewCore(patch, pack(n));
+  return {n, index, unpack(patch.anchor), view.rise, unpack(patch.anchor + view.offset)};
+}
+
+/// Looks at the volume along `n`; the owner is sought from the patch `hint` (-1: anywhere). Counts patches
+/// changed.
+inline SupportPoint viewVolume(const StpBv& body, const Eigen::Vector3d& n, int hint, int& steps) {
+  const int index = body.owner(n, hint);
+  steps += index != hint;
+  return viewPatch(body, n, index);
+}
+
+/// An STP-BV's core as a body of the support concept (convex/support.h). Looks for each normal's patch from
+/// the last.
+struct StpBvCore {
+  const StpBv& body;
+  int patch;   ///< the last one; -1: none
+  int& steps;  ///< counts patches changed
+
+  SupportPoint supportPoint(const Eigen::Vector3d& n) {
+    const SupportPoint view = viewVolume(body, n, patch, steps);
+    patch = view.patch;
+    return view;
+  }
+};
+
+/// Radii of curvature of the core there: the derivative of its point with the normal (m).
+inline Eigen::Matrix3d curvatureRadii(const StpBv& body, const SupportPoint& view) {
+  return coreCurvature(posedPatch(body, view.patch), view.n);
+}
+
+/// Scale below which numbers about one pair are rounding.
+struct Rounding {
+  double gap;          ///< of a gap (m)
+  double certificate;  ///< bound on it, of the poses that lead to it too (m)
+  double across;  ///< of a difference of core points across the normal: a face's moves rho per ulp of it (m)
+};
+
+/// What a feature of the other body shows along the opposite normal. Each also tells what rounding of a unit
+/// normal does to its point, `wobble` (m), beyond that of the coordinates.
+struct FeatureView {
+  Eigen::Vector3d point;
+  Eigen::Matrix3d curvature;  ///< derivative of `point` with its own outward normal (m)
+};
+
+/// A single point: a ball's centre, a corner, an apex.
+struct PointFeature {
+  Eigen::Vector3d p;
+  FeatureView along(const Eigen::Vector3d&) const { return {p, Eigen::Matrix3d::Zero()}; }
+  const Eigen::Vector3d* direction() const { return nullptr; }
+  double wobble(const Eigen::Vector3d&) const { return 0.0; }
+};
+
+/// A whole line: only normals across it have a gap, so the climb is one on a great circle.
+struct LineFeature {
+  Eigen::Vector3d p;
+  Eigen::Vector3d t;  ///< unit
+  FeatureView along(const Eigen::Vector3d&) const { return {p, Eigen::Matrix3d::Zero()}; }
+  const Eigen::Vector3d* direction() const { return &t; }
+  double wobble(const Eigen::Vector3d&) const { return 0.0; }
+};
+
+/// A circle's convex side: the rim of a disc, which is the torus formula with the other sign of kappa
+/// (docs/theory.md, 2).
+struct RimFeature {
+  Eigen::Vector3d centre;
+  Eigen::Vector3d axis;  ///< unit
+  double radius;
+  FeatureView along(const Eigen::Vector3d& n) const {
+    // Rounding along the axis is magnified by radius / c below: hence the second projection.
+    Eigen::Vector3d side = n - n.dot(axis) * axis;
+    side -= side.dot(axis) * axis;
+    const double c = side.norm();
+    if (!(c > 0.0)) return {centre, Eigen::Matrix3d::Zero()};
+    const Eigen::Vector3d around = axis.cross(n) / c;
+    return {centre - (radius / c) * side, (radius / std::max(c, kFloor)) * around * around.transpose()};
+  }
+  const Eigen::Vector3d* direction() const { return nullptr; }
+  /// Near the axis an ulp of the normal moves the point a long way along the rim.
+  double wobble(const Eigen::Vector3d& n) const {
+    return radius * std::min(1e-6, 1e-15 / (n - n.dot(axis) * axis).norm());
+  }
+
+ private:
+  static constexpr double kFloor = 1e-6;  // a too small radius still climbs, an infinite one stands still
+};
+
+/// A whole ellipsoid in the frame of the climb.
+struct EllipsoidFeature {
+  Eigen::Vector3d centre;
+  Eigen::Matrix3d axes2;  ///< Q diag(semi-axes^2) Q^T
+  FeatureView along(const Eigen::Vector3d& n) const {
+    const Eigen::Vector3d e = axes2 * n;
+    const double h = std::sqrt(std::max(n.dot(e), 1e-300));
+    return {centre - e / h, (axes2 - e * e.transpose() / (h * h)) / h};
+  }
+  const Eigen::Vector3d* direction() const { return nullptr; }
+  double wobble(const Eigen::Vector3d&) const { return 1e-15 * axes2.norm() / std::sqrt(axes2.trace()); }
+};
+
+/// One trial normal of a climb.
+struct AscentPoint {
+  SupportPoint view;
+  FeatureView feature;
+  double gap = 0;
+  Eigen::Vector3d across;  ///< gradient of the gap on the sphere, or on the great circle of a line
+};
+
+template <typename Feature>
+AscentPoint ascentPoint(const SupportPoint& view, const Feature& feature) {
+  const Eigen::Vector3d& n = view.n;
+  AscentPoint x{view, feature.along(n), 0.0, Eigen::Vector3d(0, 0, 0)};
+  x.gap = x.view.gap(x.feature.point);
+  const Eigen::Vector3d difference = x.feature.point - x.view.point;
+  x.across = difference - difference.dot(n) * n;
+  if (const Eigen::Vector3d* t = feature.direction()) x.across -= x.across.dot(*t) * *t;
+  return x;
+}
+
+template <typename Feature>
+AscentPoint ascentPoint(const StpBv& body, const Feature& feature, const Eigen::Vector3d& n, int hint,
+                        int& steps) {
+  return ascentPoint(viewVolume(body, n, hint, steps), feature);
+}
+
+/// A normal with a gap, by halving what directions are left (docs/theory.md, 5: points of a trial that fails
+/// rule out half of all directions). False when there is none.
+template <typename Feature>
+bool findGap(const StpBv& body, const Feature& feature, AscentPoint& x, double touch, int& steps) {
+  const auto difference = [&](const AscentPoint& y) -> Eigen::Vector3d {
+    return y.gap * y.view.n + y.across;
+  };
+  if (x.gap > touch) return true;
+  if (!(difference(x).norm() > touch)) return false;
+  if (const Eigen::Vector3d* t = feature.direction()) {
+    constexpr int kHalvings = 60;
+    constexpr double kQuarter = 1.57079632679489662;
+    const Eigen::Vector3d d = difference(x) - difference(x).dot(*t) * *t;
+    const Eigen::Vector3d e1 = d.normalized(), e2 = t->cross(e1);
+    double low = -kQuarter, high = kQuarter;
+    for (int i = 0; i < kHalvings && high > low; ++i) {
+      const double angle = 0.5 * (low + high);
+      x = ascentPoint(body, feature, (std::cos(angle) * e1 + std::sin(angle) * e2).normalized(), x.view.patch,
+                      steps);
+      if (x.gap > touch) return true;
+      const Eigen::Vector3d next = difference(x);
+      if (!(next.norm() > touch)) return false;
+      const double pole = std::atan2(next.dot(e2), next.dot(e1));
+      low = std::max(low, pole - kQuarter);
+      high = std::min(high, pole + kQuarter);
+    }
+    return false;
+  }
+  const auto asTrial = [&] { return DirectionTrial{x.view.n, x.gap, difference(x)}; };
+  bisectDirections(
+      asTrial(), touch,
+      [&](const Eigen::Vector3d& n) {
+        x = ascentPoint(body, feature, n, x.view.patch, steps);
+        return asTrial();
+      },
+      [&](const DirectionTrial& t) { return t.gap > touch; });
+  return x.gap > touch;
+}
+
+/// Newton's step on the sphere (docs/theory.md, 6): the matrix W_A + W_B + gap, positive while there is a
+/// gap.
+inline Eigen::Vector3d newtonTarget(const StpBv& body, const AscentPoint& x, const Eigen::Vector3d* line) {
+  const Eigen::Vector3d& n = x.view.n;
+  Eigen::Vector3d e1;
+  if (line) {
+    e1 = line->cross(n).normalized();
+  } else {
+    int smallest = 0;
+    n.cwiseAbs().minCoeff(&smallest);
+    e1 = n.cross(Eigen::Vector3d::Unit(smallest)).normalized();
+  }
+  const Eigen::Matrix3d w = curvatureRadii(body, x.view) + x.feature.curvature;
+  const double g1 = x.across.dot(e1), m11 = e1.dot(w * e1) + x.gap;
+  if (line) return (n + (m11 > 0.0 ? g1 / m11 : g1) * e1).normalized();
+  const Eigen::Vector3d e2 = n.cross(e1);
+  const double g2 = x.across.dot(e2), m22 = e2.dot(w * e2) + x.gap, m12 = e1.dot(w * e2);
+  const double det = m11 * m22 - m12 * m12;
+  if (!(det > 0.0 && m11 > 0.0)) return (n + x.across.normalized()).normalized();
+  return (n + ((m22 * g1 - m12 * g2) / det) * e1 + ((m11 * g2 - m12 * g1) / det) * e2).normalized();
+}
+
+/// Climbs from `x` to the widest gap; true when the gradient there is rounding. Each step raises the gap: a
+/// Newton step that does not is cut back to where the slope along it is about zero, found by a bracketed
+/// secant (the gap is C1).
+template <typename Feature>
+bool ascendFeature(const StpBv& body, const Feature& feature, AscentPoint& x, const Rounding& rounding,
+                   int& pairs, int& steps) {
+  constexpr int kSteps = 60, kTrials = 40;
+  constexpr double kFlat = 0.05;  // of the slope at the start; the next Newton step does the rest
+  if (!findGap(body, feature, x, rounding.gap, steps)) return false;
+  for (int i = 0; i < kSteps; ++i) {
+    const double flat = x.across.norm();
+    const double rounded = rounding.across + feature.wobble(x.view.n);
+    if (flat <= 0.25 * rounded) return true;
+    ++pairs;
+    const Eigen::Vector3d to = newtonTarget(body, x, feature.direction());
+    AscentPoint y = ascentPoint(body, feature, to, x.view.patch, steps);
+    const Eigen::Vector3d cross = x.view.n.cross(to);
+    const double sine = cross.norm();
+    const Eigen::Vector3d pole = sine > 0.0 ? Eigen::Vector3d(cross / sine) : cross;
+    const auto slope = [&](const AscentPoint& p) { return p.across.dot(pole.cross(p.view.n)); };
+    const double start = slope(x);
+    const bool flatter = y.across.norm() < 0.5 * flat;
+    // Near the top gaps differ by rounding only, and the gradient is the judge.
+    const bool accepted = flatter ? y.gap >= x.gap - rounding.gap : y.gap > x.gap && slope(y) > -0.5 * start;
+    if (!accepted) {
+      if (flat <= rounded) return true;
+      if (y.view.patch != x.view.patch) {
+        // The step went over a seam, past which the gap bends otherwise: as the patch there tells it from
+        // here.
+        const AscentPoint there = ascentPoint(viewPatch(body, x.view.n, y.view.patch), feature);
+        const AscentPoint z =
+            ascentPoint(body, feature, newtonTarget(body, there, feature.direction()), y.view.patch, steps);
+        if (z.across.norm() < 0.5 * flat && z.gap >= x.gap - rounding.gap) {
+          x = z;
+          continue;
+        }
+      }
+      if (!(sine > 1e-15) || !(start > 0.0)) return false;
+      double low = 0.0, high = 1.0, lowSlope = start, highSlope = slope(y);
+      // Over a seam of the volume Newton may overshoot down to where gaps are equal to rounding: the flatter
+      // is it.
+      const auto better = [&](const AscentPoint& p, const AscentPoint& than) {
+        return p.gap > than.gap + rounding.gap ||
+               (p.gap >= than.gap - rounding.gap && p.across.norm() < than.across.norm());
+      };
+      AscentPoint best = better(y, x) ? y : x;
+      bool grew = better(y, x);
+      for (int k = 0; k < kTrials; ++k) {
+        double at = 0.5 * (low + high);
+        if (highSlope < 0.0 && k % 3 != 2) at = low + (high - low) * lowSlope / (lowSlope - highSlope);
+        if (!(at > low && at < high)) break;
+        Eigen::Vector3d m = ((1.0 - at) * x.view.n + at * to).normalized();
+        const AscentPoint mid = ascentPoint(body, feature, m, x.view.patch, steps);
+        const double here = slope(mid);
+        if (better(mid, best)) {
+          best = mid;
+          grew = true;
+        }
+        const bool above = mid.gap >= x.gap - rounding.gap;
+        if (above && std::abs(here) <= kFlat * start) break;
+        if (above && here > 0.0) {
+          low = at;
+          lowSlope = here;
+        } else {
+          high = at;
+          highSlope = std::min(here, 0.0);
+        }
+      }
+      if (!grew) return false;
+      y = best;
+    }
+    x = y;
+  }
+  return x.across.norm() <= rounding.across + feature.wobble(x.view.n);
+}
+
+}  // namespace fcl_stpbv::detail

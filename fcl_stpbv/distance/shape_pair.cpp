@@ -1,0 +1,184 @@
+// Two simple shapes: GJK between their cores where these are apart, EPA where they overlap (convex/gjk.h,
+// epa.h).
+//
+// 1. Put the pair into one order, so that both orders of a call are the same query.
+// 2. Half spaces and planes: the gap along their normal is all there is to know.
+// 3. GJK with the duality gap as its stop. Its upper bound is the distance of two points of the bodies, its
+// lower one
+//    the gap between the supporting planes of the answer's normal.
+// 4. Overlap: bodies of revolution on parallel axes are as deep towards all generators as towards one, more
+// than EPA
+//    has room for; a polygon in the plane of their axes tells their depth. Then EPA.
+#include "fcl_stpbv/distance/shape_pair.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "fcl_stpbv/convex/epa.h"
+#include "fcl_stpbv/convex/gjk.h"
+#include "fcl_stpbv/convex/meridian.h"
+#include "fcl_stpbv/convex/support.h"
+
+namespace fcl_stpbv {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+namespace {
+
+using Difference = ConvexDifference<const Shape, const Shape>;
+using Corner = Difference::Corner;
+using Gjk = GjkResult<Corner>;
+
+/// Whether a pair comes first in the one order of both: by kind, then size, then place.
+bool comesFirst(const Shape& a, const Isometry3d& poseA, const Shape& b, const Isometry3d& poseB) {
+  if (a.unbounded() != b.unbounded()) return a.unbounded();
+  if (a.kind != b.kind) return a.kind < b.kind;
+  if (a.reach != b.reach) return a.reach < b.reach;
+  if (a.margin != b.margin) return a.margin < b.margin;
+  if (a.vertexCount != b.vertexCount) return a.vertexCount < b.vertexCount;
+  if (a.radius != b.radius) return a.radius < b.radius;
+  if (a.half != b.half) return a.half < b.half;
+  for (int i = 0; i < 3; ++i) {
+    if (a.size[i] != b.size[i]) return a.size[i] < b.size[i];
+    if (a.centre[i] != b.centre[i]) return a.centre[i] < b.centre[i];
+  }
+  const double* x = poseA.data();
+  const double* y = poseB.data();
+  return std::lexicographical_compare(x, x + 16, y, y + 16);
+}
+
+/// A pair in its one order, the first one's frame.
+struct Pair {
+  const Shape &a, &b;
+  RelativePose pose;
+  double rounding = 0.0;     ///< of a gap (m)
+  double certificate = 0.0;  ///< bound on it, of the poses that lead to it too (m)
+  bool valid = false;
+
+  Pair(const Shape& first, const Isometry3d& poseA, const Shape& second, const Isometry3d& poseB)
+      : a(first), b(second), pose(poseA, poseB) {
+    if (!pose.valid || !a.valid() || !b.valid() || (a.unbounded() && b.unbounded())) return;
+    const double size = unpack(pose.translation).lpNorm<1>() + a.centre.lpNorm<1>() + a.reach +
+                        b.centre.lpNorm<1>() + b.reach;
+    rounding = 8.0 * std::numeric_limits<double>::epsilon() * size;
+    certificate = kGapRounding * (size + a.margin + b.margin);
+    valid = rounding < 1e100;  // squares of squares must not overflow
+  }
+
+  double margins() const { return a.margin + b.margin; }
+
+  /// GJK until both bounds agree or `told(lower, upper)` says that it has heard enough.
+  template <typename Told>
+  Gjk search(const Told& told) const {
+    constexpr int kSteps = 120;  // polytopes take a dozen, round bodies some thirty
+    const Vector3d d = pose.placed(b.centre) - a.centre;
+    Difference difference(a, b, pose);
+    return gjk<Corner>(
+        difference, {}, d.norm() > rounding ? Vector3d(d.normalized()) : Vector3d::UnitX(), rounding, kSteps,
+        [&](double lower, double upper) { return upper - lower <= 0.5 * rounding || told(lower, upper); });
+  }
+};
+
+/// What a search found, in the world: `n` from A to B, `onA` a point of A's core, `toB` from there to B's
+/// core.
+Distance inWorld(const Pair& p, const Vector3d& n, const Vector3d& onA, const Vector3d& toB) {
+  Distance result;
+  result.normal = p.pose.normalInWorld(n);
+  result.point = {p.pose.inWorld(onA + p.a.margin * n), p.pose.inWorld(onA + toB - p.b.margin * n)};
+  return result;
+}
+
+/// Cores apart. `invalid` where they overlap, or no gap between them was found.
+Distance separated(const Pair& p) {
+  const Gjk found = p.search([](double, double) { return false; });
+  if (found.verdict == Gjk::Verdict::overlap) return {};
+  // Along the last normal itself, which need not be the one with the widest gap seen.
+  const double lower = Difference(p.a, p.b, p.pose).support(found.n).gap;
+  if (!(lower > 0.0)) return {};
+  Distance result = inWorld(p, found.n, found.simplex.weighted(&Corner::onA), found.v);
+  const double upper = std::max(found.upper, lower);
+  result.status = upper - lower <= p.rounding ? DistanceStatus::exact : DistanceStatus::bounded;
+  result.distance = upper - p.margins();
+  result.lower = lower - p.margins() - p.certificate;
+  result.upper = result.distance + p.certificate;
+  return result;
+}
+
+/// Cores with a common point: the shortest translation that separates them.
+Distance overlapping(const Pair& p) {
+  Difference difference(p.a, p.b, p.pose);
+  Epa<Difference> epa(difference, p.rounding);
+  Meridian plane;
+  if (commonMeridian(p.a, p.b, p.pose, plane)) {
+    const MeridianDepth inner =
+        meridianDepth(plane, p.rounding, [&](const Vector3d& m) { return epa.look(-m.normalized()); });
+    epa.bound = std::min(epa.bound, -inner.depth);
+    epa.onA = inner.onA;
+  }
+  epa.run();
+  Distance result = inWorld(p, epa.n, epa.onA, epa.gap * epa.n);
+  const double upper = std::max(epa.bound, epa.gap);
+  result.status = upper - epa.gap <= p.rounding ? DistanceStatus::exact : DistanceStatus::bounded;
+  result.distance = epa.gap - p.margins();
+  result.lower = result.distance - p.certificate;
+  result.upper = upper - p.margins() + p.certificate;
+  return result;
+}
+
+/// A half space or a plane `a`. A plane is left by the nearer side.
+Distance besidePlane(const Pair& p) {
+  const auto side = [&](const Vector3d& n, double offset) {
+    const Vector3d q = p.pose.placed(p.b.support(p.pose.opposite(n)));
+    const double gap = n.dot(q) - offset;
+    Distance result = inWorld(p, n, q - gap * n, gap * n);
+    result.status = DistanceStatus::exact;
+    result.distance = gap - p.b.margin;
+    result.lower = result.distance - p.certificate;
+    result.upper = result.distance + p.certificate;
+    return result;
+  };
+  const Vector3d n = p.a.normal.normalized();
+  const Distance one = side(n, p.a.offset);
+  if (p.a.kind != ShapeKind::plane) return one;
+  const Distance other = side(-n, -p.a.offset);
+  return other.distance > one.distance ? other : one;
+}
+
+Distance solve(const Pair& p) {
+  if (!p.valid) return {};
+  if (p.a.unbounded()) return besidePlane(p);
+  const Distance found = separated(p);
+  return found.status == DistanceStatus::invalid ? overlapping(p) : found;
+}
+
+bool isFarther(double x, const Pair& p) {
+  if (!p.valid) return false;
+  if (p.a.unbounded()) return besidePlane(p).lower > x;
+  const double core = x + p.margins();
+  const Gjk found =
+      p.search([&](double lower, double upper) { return lower > core + p.certificate || upper <= core; });
+  if (found.lower > core + p.certificate) return true;  // along whatever normal, apart or not
+  if (found.verdict != Gjk::Verdict::overlap && found.upper <= core) return false;
+  return core < 0.0 && overlapping(p).lower > x;
+}
+
+}  // namespace
+
+Distance distance(const Shape& a, const Isometry3d& poseA, const Shape& b, const Isometry3d& poseB) {
+  if (comesFirst(a, poseA, b, poseB)) return solve({a, poseA, b, poseB});
+  Distance result = solve({b, poseB, a, poseA});
+  result.normal = -result.normal;
+  std::swap(result.point[0], result.point[1]);
+  return result;
+}
+
+bool isFartherThan(double x, const Shape& a, const Isometry3d& poseA, const Shape& b,
+                   const Isometry3d& poseB) {
+  return comesFirst(a, poseA, b, poseB) ? isFarther(x, {a, poseA, b, poseB})
+                                        : isFarther(x, {b, poseB, a, poseA});
+}
+
+}  // namespace fcl_stpbv

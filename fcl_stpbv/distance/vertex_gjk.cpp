@@ -1,0 +1,98 @@
+// GJK on the vertices of two STP-BVs, whose support points are found by climbing the two edge graphs side by
+// side.
+#include "fcl_stpbv/distance/vertex_gjk.h"
+
+#include <limits>
+
+#include "fcl_stpbv/convex/gjk.h"
+#include "fcl_stpbv/vectorized.h"
+
+namespace fcl_stpbv::detail {
+
+using Eigen::Vector3d;
+
+namespace {
+
+/// The difference of the two vertex sets by its support points. Remembers the vertices it came to last.
+class VertexDifference {
+ public:
+  struct Corner {
+    Vector3d w{0, 0, 0};
+    double gap = 0;
+  };
+
+  VertexDifference(const BodyPair& pair, const Vector3d& n)
+      : pair_(pair), vertex_{pair.a().vertexNear(n), pair.b().vertexNear(pair.opposite(n))} {
+    climb(n, pair.opposite(n));
+  }
+
+  Corner support(const Vector3d& n) {
+    climb(n, pair_.opposite(n));
+    const Vector3d w = difference(vertex_);
+    return {w, n.dot(w)};
+  }
+
+  Vector3d difference(const std::array<int, 2>& vertex) const {
+    return unpack(pair_.vertexDifference(vertex));
+  }
+  const std::array<int, 2>& vertex() const { return vertex_; }
+
+ private:
+  /// To the vertices furthest along `d` and, in the second body's frame, `e`: neither body waits for the
+  /// other.
+  void climb(const Vector3d& d, const Vector3d& e) {
+    const StpBv &a = pair_.a(), &b = pair_.b();
+    const Eigen::Vector3f up = d.cast<float>(), down = e.cast<float>();
+    const float level = StpBv::kLevel * up.lpNorm<1>();
+    auto& [i, j] = vertex_;
+    for (int step = a.vertexCount() + b.vertexCount(); step > 0; --step) {
+      const int overA = a.uphill(i, up, level), overB = b.uphill(j, down, level);
+      if (overA == i && overB == j) break;
+      i = overA;
+      j = overB;
+    }
+  }
+
+  const BodyPair& pair_;
+  std::array<int, 2> vertex_;
+};
+
+}  // namespace
+
+FCL_STPBV_VECTORIZED
+VertexGjk vertexGjk(const BodyPair& pair, const Vector3d& n) {
+  using Corner = VertexDifference::Corner;
+  constexpr int kSteps = 20;
+  constexpr double kGap =
+      1e-5;  // relative; which features face each other is settled long before their distance
+  constexpr double kRounding = 1e-12;  // m
+  // The support vertices along `n`, and of either body the one beside it that is next.
+  VertexDifference difference(pair, n);
+  const auto [i, j] = difference.vertex();
+  const auto corner = [&](int u, int v) {
+    return Corner{difference.difference({u, v}), -std::numeric_limits<double>::infinity()};
+  };
+  Simplex<Corner> start;
+  start.add(corner(i, j));
+  start.add(corner(pair.a().beside(i, n.cast<float>(), 1.0f), j));
+  start.add(corner(i, pair.b().beside(j, pair.opposite(n).cast<float>(), 1.0f)));
+  const auto found = gjk(difference, start, n, kRounding, kSteps,
+                         [](double lower, double upper) { return upper - lower <= kGap * upper; });
+  VertexGjk result;
+  result.vertex = difference.vertex();
+  result.n = found.n;
+  const bool overlap = found.verdict == GjkResult<Corner>::Verdict::overlap;
+  result.apart = !overlap;
+  result.surrounded = overlap && found.simplex.size == 4;
+  if (result.surrounded)
+    for (std::size_t k = 0; k < 4; ++k) result.corner[k] = found.simplex.corner[k].w;
+  return result;
+}
+
+FCL_STPBV_VECTORIZED
+Vector3d vertexDifference(const BodyPair& pair, const Vector3d& n) {
+  const VertexDifference difference(pair, n);
+  return difference.difference(difference.vertex());
+}
+
+}  // namespace fcl_stpbv::detail

@@ -1,0 +1,29 @@
+// A normal near the answer's, from the bodies' vertices alone: GJK on the two point sets.
+#pragma once
+
+#include "fcl_stpbv/distance/body_pair.h"
+
+namespace fcl_stpbv::detail {
+
+/// What a search over the two point sets found.
+struct VertexGjk {
+  bool apart = false;       ///< a gap, widest along `n`
+  bool surrounded = false;  ///< four points of the difference, second set minus first, with the origin inside
+  Eigen::Vector3d n{0, 0, 0};
+  std::array<int, 2> vertex{0, 0};        ///< last support vertices
+  std::array<Eigen::Vector3d, 4> corner;  ///< set where `surrounded`
+};
+
+/// Unit normal of the widest gap between the two point sets: the paper's first step (IV.B), by GJK
+/// (convex/gjk.h). Starts from the normal `n`. A hint only: it may be off where the STP-BV's own
+/// triangulation is not convex.
+///
+/// The normal of a polyhedral witness falls into the region of the smooth patch of the same name: an edge's
+/// cone is centred on the plane across it, a face's region holds its plane's normal (paper IV.C, IV.D).
+VertexGjk vertexGjk(const BodyPair& pair, const Eigen::Vector3d& n);
+
+/// A point of the second core less one of the first, about as far against the unit vector `n` as any: the
+/// difference of two vertices.
+Eigen::Vector3d vertexDifference(const BodyPair& pair, const Eigen::Vector3d& n);
+
+}  // namespace fcl_stpbv::detail

@@ -1,0 +1,170 @@
+// The bounds of an answer contain the truth as they stand, and poses are judged one by one.
+#include <Eigen/SVD>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
+
+#include "fcl_stpbv/distance/shape_distance.h"
+#include "fcl_stpbv/distance/shape_pair.h"
+#include "test/reference/reference.h"
+#include "test/reference/shape_reference.h"
+
+using namespace fcl_stpbv;
+using namespace fcl_stpbv::test;
+using Eigen::Isometry3d;
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+namespace {
+
+Cloud scaled(Cloud cloud, double scale) {
+  for (Vector3d& p : cloud) p *= scale;
+  return cloud;
+}
+
+/// The pair with the first body's origin for the world's, as long double sees it: far from the world's origin
+/// the difference of the origins is what counts, and it is exact there.
+Isometry3d seenFrom(const Isometry3d& a, Isometry3d b) {
+  b.translation() -= a.translation();
+  return b;
+}
+
+Isometry3d turnOnly(const Isometry3d& a) { return pose(a.linear(), Vector3d::Zero()); }
+
+/// The nearest rotation to a matrix next to one (Kabsch).
+Matrix3d nearestRotation(const Matrix3d& m) {
+  const Eigen::JacobiSVD<Matrix3d> svd(m, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  return svd.matrixU() * svd.matrixV().transpose();
+}
+
+/// Both bounds against the truth, which is known to `slack`.
+void checkHolds(const Distance& d, long double truth, long double alongNormal, long double slack) {
+  CHECK(d.lower <= truth + slack);
+  CHECK(d.upper >= truth - slack);
+  CHECK(d.lower <= alongNormal + slack);
+  CHECK((d.lower <= d.distance && d.distance <= d.upper));
+}
+
+}  // namespace
+
+TEST_CASE(
+    "lower <= truth <= upper for two volumes of any scale, without margin, with a huge R, far from the "
+    "origin") {
+  Random random(17);
+  for (const double scale : {1e-6, 1e-2, 1.0, 1e6})
+    for (const double R : {0.6, 10.0, 1e4, 1e8})
+      for (const double r : {0.0, 0.01}) {
+        const Cloud cloudA = scaled(randomHull(30, {0.2, 0.1, 0.3}, 1), scale),
+                    cloudB = scaled(cylinder(0.1, 0.3), scale);
+        const StpBv::Ptr a = StpBv::build(cloudA, {r * scale, R * scale}),
+                         b = StpBv::build(cloudB, {0.0, R * scale});
+        for (int i = 0; i < 40; ++i) {
+          const Vector3d away =
+              i % 4 == 0 ? Vector3d(1e4 * random.direction()) : Vector3d(scale * random.direction());
+          const Isometry3d pa = pose(random.rotation(), away);
+          Isometry3d pb = pose(random.rotation(), away + 2 * scale * random.direction());
+          const Distance far = distance(*a, pa, *b, pb);
+          const double gap = random.below(3) ? scale * std::pow(10, -random.uniform(0, 9)) : -0.5 * r * scale;
+          pb.translation() += (gap - far.distance) * far.normal;
+          const Distance d = distance(*a, pa, *b, pb), e = distance(*b, pb, *a, pa);
+          if (d.status != DistanceStatus::exact)
+            continue;  // 10 km away a pair of micrometres may land anywhere
+          CAPTURE(scale, R, r, i);
+          const ReferenceBody x = referenceBody(cloudA, r * scale, R * scale, turnOnly(pa)),
+                              y = referenceBody(cloudB, 0.0, R * scale, seenFrom(pa, pb));
+          const Vector3L n = d.normal.cast<long double>().normalized();
+          const ReferenceDistance truth = referenceDistance(x, y, n);
+          if (!std::isfinite(truth.distance)) continue;
+          // The reference adds R to coordinates, in long double.
+          checkHolds(d, truth.distance, referenceGap(x, y, n),
+                     truth.gap + 1e-18L * static_cast<long double>(R * scale));
+          CHECK((e.lower <= d.upper && d.lower <= e.upper));
+        }
+      }
+}
+
+TEST_CASE("lower <= truth <= upper for a volume and each shape, and for each two shapes") {
+  Random random(23);
+  const Cloud cloud = box(0.3, 0.2, 0.1);
+  const StpBv::Ptr volume = StpBv::build(cloud, {0.01, 10});
+  int exact = 0, all = 0;
+  for (const std::string& first : boundedShapes())
+    for (const std::string& second : boundedShapes())
+      for (int i = 0; i < 12; ++i) {
+        CAPTURE(first, second, i);
+        const TestShape p = randomShape(first, random), q = randomShape(second, random);
+        const Isometry3d pa = pose(random.rotation(), random.direction());
+        Isometry3d pb = pose(random.rotation(), pa.translation() + 3 * random.direction());
+        const double gap = std::pow(10, -random.uniform(0, 6));
+        for (int k = 0; k < 3; ++k) {
+          const Distance far = distance(p.shape, pa, q.shape, pb);
+          pb.translation() += (gap - far.distance) * far.normal;
+        }
+        const Distance d = distance(p.shape, pa, q.shape, pb), e = distance(q.shape, pb, p.shape, pa);
+        const ReferenceShape x = p.posed(turnOnly(pa)), y = q.posed(seenFrom(pa, pb));
+        const Vector3L n = d.normal.cast<long double>().normalized();
+        // Where the reference halves no more, the last digits of a long double are open.
+        constexpr long double kReference = 2e-17L;
+        checkHolds(d, referenceDistance(x, y, n).distance, referenceGap(x, y, n), kReference);
+        CHECK((e.lower == d.lower && e.upper == d.upper && e.distance == d.distance));
+        exact += d.status == DistanceStatus::exact;
+        ++all;
+        if (d.status == DistanceStatus::exact)
+          CHECK(std::abs(static_cast<double>(d.distance - referenceDistance(x, y, n).distance)) <= 1e-14);
+
+        const Distance v = distance(*volume, pa, q.shape, pb);
+        if (v.status != DistanceStatus::exact) continue;
+        const ReferenceBody body = referenceBody(cloud, 0.01, 10, turnOnly(pa));
+        const Vector3L m = v.normal.cast<long double>().normalized();
+        checkHolds(v, referenceDistance(body, y, m).distance, referenceDistance(body, y, m).distance,
+                   kReference);
+      }
+  CHECK(exact >= 0.95 * all);
+}
+
+TEST_CASE("Each pose within 1e-6 of a rotation is taken for the nearest rotation, by itself") {
+  Random random(31);
+  const StpBv::Ptr a = StpBv::build(box(0.3, 0.2, 0.5), {0.01, 10}),
+                   b = StpBv::build(cylinder(0.1, 0.3), {0.0, 10});
+  const Shape shape = Shape::coneOf(0.1, 0.3), other = Shape::boxOf({0.2, 0.3, 0.1});
+  for (int i = 0; i < 200; ++i) {
+    Isometry3d pa = pose(random.rotation(), 0.3 * random.direction());
+    Isometry3d pb = pose(random.rotation(), pa.translation() + 0.9 * random.direction());
+    for (int k = 0; k < 9; ++k) {
+      pa.linear()(k / 3, k % 3) += random.uniform(-1e-6, 1e-6);
+      pb.linear()(k / 3, k % 3) += random.uniform(-1e-6, 1e-6);
+    }
+    const Isometry3d qa = pose(nearestRotation(pa.linear()), pa.translation()),
+                     qb = pose(nearestRotation(pb.linear()), pb.translation());
+    const auto check = [](const Distance& d, const Distance& e) {
+      REQUIRE(d.status == e.status);
+      CHECK(std::abs(d.distance - e.distance) <= 1e-14);
+      CHECK((d.normal - e.normal).norm() <= 1e-11);
+    };
+    check(distance(*a, pa, *b, pb), distance(*a, qa, *b, qb));
+    check(distance(*a, pa, shape, pb), distance(*a, qa, shape, qb));
+    check(distance(other, pa, shape, pb), distance(other, qa, shape, qb));
+  }
+}
+
+TEST_CASE("A pose that is stretched, sheared or mirrored has no answer, whatever the other pose is") {
+  const StpBv::Ptr a = StpBv::build(box(0.3, 0.2, 0.5), {0.01, 10});
+  const Shape shape = Shape::coneOf(0.1, 0.3), other = Shape::boxOf({0.2, 0.3, 0.1});
+  std::vector<Matrix3d> bad(7, Matrix3d::Identity());
+  bad[0] *= 2.0;
+  bad[1] *= 0.5;
+  bad[2](0, 1) = 1e-3;
+  bad[3](2, 2) = -1.0;
+  bad[4] *= -1.0;
+  bad[5] *= 1.0 + 1e-5;
+  bad[6].setZero();
+  const Isometry3d good = pose(Matrix3d::Identity(), {1, 0, 0});
+  for (const Matrix3d& first : bad)
+    for (const Matrix3d& second : bad) {
+      const Isometry3d pa = pose(first, Vector3d::Zero()), pb = pose(second, {1, 0, 0});
+      for (const auto& [x, y] : {std::make_pair(pa, good), std::make_pair(good, pa), std::make_pair(pa, pb)})
+        for (const Distance& d : {distance(*a, x, *a, y), distance(*a, x, shape, y),
+                                  distance(shape, x, *a, y), distance(shape, x, other, y)})
+          CHECK(d.status == DistanceStatus::invalid);
+    }
+}

@@ -1,0 +1,126 @@
+// A ball and the corners of a feature around the origin: where the proof holds, no direction leads out of
+// their hull sooner than over the feature.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "fcl_stpbv/distance/certificate.h"
+#include "test/reference/shapes.h"
+
+using namespace fcl_stpbv;
+using namespace fcl_stpbv::detail;
+using namespace fcl_stpbv::test;
+using Eigen::Vector3d;
+
+namespace {
+
+/// A maximum at `-depth n`, three or four corners around it and a ball below.
+struct Hull {
+  Vector3d n, centre;
+  double depth, radius;
+  FeatureCorners corners;
+
+  static Hull random(Random& some) {
+    Hull h;
+    h.n = some.direction();
+    h.depth = std::pow(10.0, some.uniform(-3, -0.5));
+    // Each number by itself: which of an expression's is drawn first is the compiler's choice.
+    const double radius = some.uniform(0.5, 2.0), decade = some.uniform(0, 1);
+    h.radius = radius * h.depth * std::pow(10.0, decade);
+    const double size = h.depth * std::pow(10.0, some.uniform(-2, 0.5)),
+                 below = size * std::pow(10.0, some.uniform(-3, 0));
+    const Vector3d out = -h.n, x = out.unitOrthogonal(), y = out.cross(x);
+    const double alongX = some.uniform(-2, 2), alongY = some.uniform(-2, 2);
+    h.centre = (h.depth - h.radius - below) * out + size * (alongX * x + alongY * y);
+    h.corners.count = some.uniform(0, 1) < 0.5 ? 3 : 4;
+    const double step = 2 * M_PI / static_cast<double>(h.corners.count), start = some.uniform(0, step);
+    for (std::size_t i = 0; i < h.corners.count; ++i) {
+      const double angle = start + step * (static_cast<double>(i) + some.uniform(-0.2, 0.2)),
+                   far = size * some.uniform(0.5, 2), height = h.depth - 0.1 * below * some.uniform(0, 1);
+      h.corners.point[i] = pack(height * out + far * (std::cos(angle) * x + std::sin(angle) * y));
+    }
+    return h;
+  }
+
+  bool closes() const { return closesOverBall(pack(centre), radius, corners, pack(n), depth); }
+
+  /// How far the hull, with the maximum's point, reaches along `m`.
+  double support(const Vector3d& m) const {
+    double most = std::max(m.dot(centre) + radius, -depth * n.dot(m));
+    for (std::size_t i = 0; i < corners.count; ++i) most = std::max(most, m.dot(unpack(corners.point[i])));
+    return most;
+  }
+
+  /// The nearest of the planes from the maximum's point over each side of the feature.
+  double side() const {
+    double least = depth;
+    for (std::size_t i = 0; i < corners.count; ++i) {
+      const Vector3d p = unpack(corners.point[i]), q = unpack(corners.point[(i + 1) % corners.count]);
+      least = std::min(least, p.dot((q - p).cross(-depth * n - p).normalized()));
+    }
+    return least;
+  }
+};
+
+/// The least support found by trying directions about the best so far, ever closer.
+double leastSupport(const Hull& h, Random& some) {
+  double least = std::numeric_limits<double>::infinity();
+  for (int start = 0; start < 12; ++start) {
+    const double spread = some.uniform(0, 1);
+    const Vector3d any = some.direction();
+    Vector3d best = start < 10 ? Vector3d((-h.n + spread * any).normalized()) : any;
+    double here = h.support(best);
+    for (double reach = 0.5; reach > 1e-7; reach *= 0.9) {
+      const Vector3d m = (best + reach * some.direction()).normalized();
+      if (h.support(m) < here) here = h.support(m), best = m;
+    }
+    least = std::min(least, here);
+  }
+  return least;
+}
+
+}  // namespace
+
+TEST_CASE("A ball and the corners of a feature prove a depth") {
+  Random some(5);
+  int proven = 0, refuted = 0;
+  for (int i = 0; i < 30000; ++i) {
+    const Hull h = Hull::random(some);
+    const double side = h.side();
+    if (!(side > 0.9 * h.depth)) continue;
+    const bool closes = h.closes();
+    if (!closes && refuted > 300) continue;
+    const double least = leastSupport(h, some);
+    if (closes) {
+      ++proven;
+      INFO("hull " << i << ", depth " << h.depth << ", side " << side);
+      CHECK(least >= side * (1 - 1e-12));
+    } else {
+      refuted += least < side * (1 - 1e-6);
+    }
+  }
+  CHECK(proven > 300);
+  CHECK(refuted > 300);  // and hulls of which it is not true are among those tried
+}
+
+TEST_CASE("The inner ball is inside the vertices' hull, and as large as the centre allows") {
+  const std::vector<std::pair<Cloud, double>> bodies{{box(0.2, 0.4, 0.6), 0.1},
+                                                     {cylinder(0.1, 0.3), 0.1 * std::cos(M_PI / 24)},
+                                                     {geodesicSphere(0.2, 3), 0.199},
+                                                     {plate(0.5, 0.5), 0.0005},
+                                                     {needle(0.5), 0.001}};
+  Random some(6);
+  for (const auto& [cloud, radius] : bodies) {
+    const StpBv::Ptr volume = StpBv::build(cloud, {0.01, 10.0});
+    CHECK(volume->innerRadius() >= 0.98 * radius);
+    for (int i = 0; i < 1000; ++i) {
+      const Vector3d m = some.direction();
+      double reach = -std::numeric_limits<double>::infinity();
+      for (const Vector3d& p : cloud) reach = std::max(reach, m.dot(p - volume->centre()));
+      CHECK(volume->innerRadius() <= reach);
+    }
+  }
+}
