@@ -129,13 +129,4 @@ void turnToWidestOfEdges(const PosedPatch& a, const PosedPatch& b, Packed& n) {
   }
 }
 
-Eigen::Matrix3d coreCurvature(const PosedPatch& p, const Vector3d& n) {
-  if (p.kind == PatchKind::vertex) return Eigen::Matrix3d::Zero();
-  const Eigen::Matrix3d tangent = Eigen::Matrix3d::Identity() - n * n.transpose();
-  if (p.kind == PatchKind::face) return p.radii->rho * tangent;
-  const EdgeView e = viewEdge(p, pack(n));
-  const Vector3d v = unpack(p.axis).cross(n) / e.c, w = n.cross(v);
-  return e.around * v * v.transpose() + p.radii->rho * w * w.transpose();
-}
-
 }  // namespace fcl_stpbv
