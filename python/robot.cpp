@@ -64,14 +64,44 @@ class PythonRobot {
     constraints_->evaluate(q, d, jacobian);
     return {std::move(d), std::move(jacobian)};
   }
+  py::tuple rates(const Eigen::VectorXd& q, const Eigen::VectorXd& qd) {
+    check(q);
+    check(qd, "qd");
+    RowRates rates = constraints_->makeRates();
+    Eigen::MatrixXd jacobian(rows(), constraints_->columns());
+    constraints_->evaluate(q, qd, rates, jacobian);
+    return py::make_tuple(std::move(rates.d), std::move(jacobian), std::move(rates.speed),
+                          std::move(rates.drift));
+  }
+  Eigen::VectorXd hessianVector(const Eigen::VectorXd& q, const Eigen::VectorXd& weights,
+                                const Eigen::VectorXd& v) {
+    check(q);
+    checkWeights(weights);
+    check(v, "v");
+    Eigen::VectorXd product(q.size());
+    constraints_->hessianVector(q, weights, v, product);
+    return product;
+  }
+  Eigen::MatrixXd hessian(const Eigen::VectorXd& q, const Eigen::VectorXd& weights) {
+    check(q);
+    checkWeights(weights);
+    CollisionConstraints::SparseHessian lower = constraints_->makeHessian();
+    constraints_->hessian(q, weights, lower);
+    return Eigen::MatrixXd(lower).selfadjointView<Eigen::Lower>();
+  }
 
  private:
-  void check(const Eigen::VectorXd& q) const {
+  void check(const Eigen::VectorXd& q, const char* name = "q") const {
     if (q.size() != kinematics_->size()) {
-      throw Error("q: got " + std::to_string(q.size()) + " coordinates, expected " +
+      throw Error(std::string(name) + ": got " + std::to_string(q.size()) + " coordinates, expected " +
                   std::to_string(kinematics_->size()));
     }
     requireFinite(q, "q");
+  }
+  void checkWeights(const Eigen::VectorXd& weights) const {
+    if (weights.size() != rows())
+      throw Error("weights: got " + std::to_string(weights.size()) + " numbers, expected one a row, " +
+                  std::to_string(rows()));
   }
 
   Srdf srdf_;
@@ -100,7 +130,14 @@ void addRobot(py::module_& module) {
       .def("configuration", &PythonRobot::configuration, py::arg("state"),
            "q of one of the SRDF's group states.")
       .def("distances", &PythonRobot::distances, py::arg("q"), "d(q), one row a pair (m).")
-      .def("evaluate", &PythonRobot::evaluate, py::arg("q"), "(d(q), J(q)), J dense, a row a pair.");
+      .def("evaluate", &PythonRobot::evaluate, py::arg("q"), "(d(q), J(q)), J dense, a row a pair.")
+      .def("rates", &PythonRobot::rates, py::arg("q"), py::arg("qd"),
+           "(d, J, dd/dt, qd' H qd): how each distance changes while q moves with velocity qd; H is its "
+           "Hessian.")
+      .def("hessian_vector", &PythonRobot::hessianVector, py::arg("q"), py::arg("weights"), py::arg("v"),
+           "Sum over the rows of weight times (Hessian of d) times v.")
+      .def("hessian", &PythonRobot::hessian, py::arg("q"), py::arg("weights"),
+           "Sum over the rows of weight times Hessian of d, symmetric: a Lagrangian's part.");
 }
 
 }  // namespace fcl_stpbv

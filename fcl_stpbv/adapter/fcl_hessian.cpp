@@ -39,11 +39,12 @@ class OtherBody {
   std::array<Vector3d, 8> corner_;
 };
 
-}  // namespace
-
-bool hessian(const fcl::CollisionGeometryd& geometry1, const fcl::Transform3d& pose1,
+/// Calls `ask` with both bodies as the core of the library knows them, in their order; false where it does
+/// not.
+template <class Ask>
+bool askBoth(const fcl::CollisionGeometryd& geometry1, const fcl::Transform3d& pose1,
              const fcl::CollisionGeometryd& geometry2, const fcl::Transform3d& pose2, const DistanceAnswer& d,
-             DistanceHessian& result) {
+             const Ask& ask) {
   const StpBvGeometry* a = asStpBv(&geometry1);
   const StpBvGeometry* b = asStpBv(&geometry2);
   if (d.status == DistanceStatus::invalid || (!a && !b)) return false;
@@ -53,14 +54,33 @@ bool hessian(const fcl::CollisionGeometryd& geometry1, const fcl::Transform3d& p
   found.normal = d.normal;
   found.point = d.points;
   found.patch = d.patch;
-  if (a && b) return hessian(a->volume(), pose1, b->volume(), pose2, found, result);
+  if (a && b) return ask(a->volume(), b->volume(), found);
   const std::size_t which = a ? 1 : 0;
   const fcl::Transform3d& pose = a ? pose2 : pose1;
   const OtherBody other(a ? geometry2 : geometry1, d.element[which],
                         pose.linear().transpose() * (d.points[which] - pose.translation()));
   if (!other.known()) return false;
-  return a ? hessian(a->volume(), pose1, other.shape(), pose2, found, result)
-           : hessian(other.shape(), pose1, b->volume(), pose2, found, result);
+  return a ? ask(a->volume(), other.shape(), found) : ask(other.shape(), b->volume(), found);
+}
+
+}  // namespace
+
+bool hessian(const fcl::CollisionGeometryd& geometry1, const fcl::Transform3d& pose1,
+             const fcl::CollisionGeometryd& geometry2, const fcl::Transform3d& pose2, const DistanceAnswer& d,
+             DistanceHessian& result) {
+  return askBoth(geometry1, pose1, geometry2, pose2, d,
+                 [&](const auto& a, const auto& b, const Distance& found) {
+                   return hessian(a, pose1, b, pose2, found, result);
+                 });
+}
+
+bool rate(const fcl::CollisionGeometryd& geometry1, const fcl::Transform3d& pose1,
+          const fcl::CollisionGeometryd& geometry2, const fcl::Transform3d& pose2, const DistanceAnswer& d,
+          const BodyTwists& twists, DistanceRate& result) {
+  return askBoth(geometry1, pose1, geometry2, pose2, d,
+                 [&](const auto& a, const auto& b, const Distance& found) {
+                   return rate(a, pose1, b, pose2, found, twists, result);
+                 });
 }
 
 bool hessian(const fcl::CollisionObjectd& object1, const fcl::CollisionObjectd& object2,

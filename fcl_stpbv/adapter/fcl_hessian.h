@@ -19,4 +19,9 @@ bool hessian(const fcl::CollisionGeometryd& geometry1, const fcl::Transform3d& p
 bool hessian(const fcl::CollisionObjectd& object1, const fcl::CollisionObjectd& object2,
              const DistanceAnswer& d, DistanceHessian& result);
 
+/// Velocities of normal and witness points, under the same conditions.
+bool rate(const fcl::CollisionGeometryd& geometry1, const fcl::Transform3d& pose1,
+          const fcl::CollisionGeometryd& geometry2, const fcl::Transform3d& pose2, const DistanceAnswer& d,
+          const BodyTwists& twists, DistanceRate& result);
+
 }  // namespace fcl_stpbv

@@ -30,12 +30,34 @@ Matrix3d cross(const Vector3d& v) {
   return m;
 }
 
-/// Second derivative of the body's support function at its outward normal `n`, world axes: the radii of
-/// curvature of the surface, zero along `n`.
-Matrix3d surfaceCurvature(const StpBv& body, const Isometry3d& pose, int patch, const Vector3d& n) {
+/// A surface's radii of curvature at a normal, the second derivative of its support function: `least` in all
+/// directions across the normal, and what an edge's patch adds around its edge and across.
+struct Curvature {
+  Vector3d normal;
+  double least;
+  Vector3d v = Vector3d::Zero(), w = Vector3d::Zero();
+  double addedV = 0, addedW = 0;
+
+  Vector3d operator*(const Vector3d& x) const {
+    return least * (x - normal.dot(x) * normal) + (addedV * v.dot(x)) * v + (addedW * w.dot(x)) * w;
+  }
+  Matrix3d matrix() const {
+    return least * (Matrix3d::Identity() - normal * normal.transpose()) + addedV * v * v.transpose() +
+           addedW * w * w.transpose();
+  }
+};
+
+/// That of the body at its outward normal `n`, world axes.
+Curvature surfaceCurvature(const StpBv& body, const Isometry3d& pose, int patch, const Vector3d& n) {
+  const Radii& radii = body.radii();
+  const PatchKind kind = body.kind(patch);
+  if (kind != PatchKind::edge) return {n, kind == PatchKind::face ? radii.R : radii.r};
   PosedPatch posed = posedPatch(body, patch);
-  posed.axis = pack(pose.linear() * unpack(posed.axis));
-  return coreCurvature(posed, n) + body.radii().r * (Matrix3d::Identity() - n * n.transpose());
+  const Vector3d axis = pose.linear() * unpack(posed.axis);
+  posed.axis = pack(axis);
+  const EdgeView e = viewEdge(posed, pack(n));
+  const Vector3d v = axis.cross(n) / e.c;
+  return {n, radii.r, v, n.cross(v), e.around, radii.rho};
 }
 
 /// `t` with `w^T t w = a.(w x (w x n))`: the bend of a rotating body's normal.
@@ -46,38 +68,61 @@ Matrix3d bend(const Vector3d& a, const Vector3d& n) {
 bool owns(const StpBv& body, int patch) { return patch >= 0 && patch < body.patchCount(); }
 
 /// Inverse of -s_nn = W_A + W_B + delta (docs/theory.md, 6) on the ways in world axes that body 2 leaves
-/// open, zero on the others: there W_B is infinite. False unless positive definite, as at a maximum of s.
-bool invert(const Matrix3d& curvatureA, double distance, const NormalCone& b, Matrix3d& inverse) {
-  inverse.setZero();
+/// open, zero on the others: there W_B is infinite.
+struct Turning {
+  Vector3d way1 = Vector3d::Zero(), way2 = Vector3d::Zero();
+  double i11 = 0, i12 = 0, i22 = 0;
+
+  Vector3d operator*(const Vector3d& x) const {
+    const double x1 = way1.dot(x), x2 = way2.dot(x);
+    return (i11 * x1 + i12 * x2) * way1 + (i12 * x1 + i22 * x2) * way2;
+  }
+  Matrix3d matrix() const {
+    return i11 * way1 * way1.transpose() + i22 * way2 * way2.transpose() +
+           i12 * (way1 * way2.transpose() + way2 * way1.transpose());
+  }
+};
+
+/// False unless positive definite, as at a maximum of s.
+bool invert(const Curvature& a, double distance, const NormalCone& b, Turning& inverse) {
+  inverse = {};
   if (b.count == 0) return true;
   const Vector3d &t1 = b.way[0], &t2 = b.way[1];
-  const double m11 = t1.dot(curvatureA * t1) + b.along[0] + distance;
-  if (b.count == 1) {
-    if (!(m11 > 0.0)) return false;
-    inverse = t1 * t1.transpose() / m11;
-    return true;
-  }
-  const double m22 = t2.dot(curvatureA * t2) + b.along[1] + distance,
-               m12 = t1.dot(curvatureA * t2) + b.between;
+  const Vector3d w1 = a * t1;
+  const double m11 = t1.dot(w1) + b.along[0] + distance;
+  if (!(m11 > 0.0)) return false;
+  inverse.way1 = t1;
+  inverse.i11 = 1.0 / m11;
+  if (b.count == 1) return true;
+  const double m22 = t2.dot(a * t2) + b.along[1] + distance, m12 = t2.dot(w1) + b.between;
   const double det = m11 * m22 - m12 * m12;
-  if (!(det > 1e-14 * m11 * m22) || !(m11 > 0.0)) return false;
-  inverse = (m22 * t1 * t1.transpose() + m11 * t2 * t2.transpose() -
-             m12 * (t1 * t2.transpose() + t2 * t1.transpose())) /
-            det;
+  if (!(det > 1e-14 * m11 * m22)) return false;
+  inverse = {t1, t2, m22 / det, -m12 / det, m11 / det};
   return true;
 }
 
-/// The normal is carried by body 2 and turns in it by `tau`, the maximum of s over the ways it may:
+/// Two bodies at an answer. The normal is carried by body 2 and turns in it by `tau`, the maximum of s over
+/// the ways it may:
 ///
 ///     n = exp(w_B) (n0 + tau),   s = n.(o_B - o_A) - h_B(body 2's normal) - h_A(n seen from body 1)
 ///
 /// so only body 1's radii of curvature, always finite, meet the twists, and body 2's only `tau`.
-bool secondOrder(const Matrix3d& curvatureA, const NormalCone& b, const Isometry3d& poseA,
-                 const Isometry3d& poseB, const Distance& d, DistanceHessian& result) {
-  Matrix3d inverse;
-  if (!invert(curvatureA, d.distance, b, inverse)) return false;
-  const Vector3d& n = d.normal;
-  const Vector3d armA = d.point[0] - poseA.translation(), fromB = d.point[0] - poseB.translation();
+struct Touch {
+  Curvature a;
+  Turning inverse;
+  Vector3d armA, fromB;  // body 1's witness point from both origins
+
+  bool set(const NormalCone& b, const Isometry3d& poseA, const Isometry3d& poseB, const Distance& d) {
+    armA = d.point[0] - poseA.translation();
+    fromB = d.point[0] - poseB.translation();
+    return invert(a, d.distance, b, inverse);
+  }
+};
+
+void secondOrder(const Touch& touch, const Isometry3d& poseA, const Isometry3d& poseB, const Distance& d,
+                 DistanceHessian& result) {
+  const Matrix3d curvatureA = touch.a.matrix();
+  const Vector3d &n = d.normal, &armA = touch.armA, &fromB = touch.fromB;
   const Matrix3d spin = -cross(n);  // w x n = spin w
 
   // What the twists do to the normal in body 1 while `tau` is zero, and to the gap's gradient.
@@ -85,7 +130,7 @@ bool secondOrder(const Matrix3d& curvatureA, const NormalCone& b, const Isometry
   carried << Matrix3d::Zero(), -spin, Matrix3d::Zero(), spin;
   mixed << -Matrix3d::Identity(), cross(armA), Matrix3d::Identity(), -cross(fromB);
   mixed -= curvatureA * carried;
-  const Eigen::Matrix<double, 3, 12> turn = inverse * mixed;
+  const Eigen::Matrix<double, 3, 12> turn = touch.inverse.matrix() * mixed;
 
   // s_qq: of n.(o_B - o_A), whose normal turns with body 2, and of -h_A, whose normal turns against body 1.
   Eigen::Matrix<double, 12, 12> h = mixed.transpose() * turn - carried.transpose() * curvatureA * carried;
@@ -112,7 +157,51 @@ bool secondOrder(const Matrix3d& curvatureA, const NormalCone& b, const Isometry
   Eigen::Matrix<double, 1, 12> gradient;
   gradient << d.gradient(0, poseA.translation()).transpose(), d.gradient(1, poseB.translation()).transpose();
   result.point[1] = result.point[0] + n * gradient + d.distance * result.normal;
-  return true;
+}
+
+/// The same along one motion of both bodies.
+void firstOrder(const Touch& touch, const Distance& d, const BodyTwists& twists, DistanceRate& result) {
+  const Vector3d wA = twists.segment<3>(3), wB = twists.segment<3>(9);
+  const Vector3d fixedA = twists.head<3>() + wA.cross(touch.armA);
+  const Vector3d apart = twists.segment<3>(6) + wB.cross(touch.fromB) - fixedA;
+  const Vector3d carried = (wB - wA).cross(d.normal);
+  const Vector3d turn = touch.inverse * (apart - touch.a * carried);
+  result.normal = turn + wB.cross(d.normal);
+  result.point[0] = fixedA + touch.a * (turn + carried);
+  result.point[1] = result.point[0] + d.normal.dot(apart) * d.normal + d.distance * result.normal;
+}
+
+/// False where the second derivatives do not exist.
+bool touchOf(const StpBv& a, const Isometry3d& poseA, const StpBv& b, const Isometry3d& poseB,
+             const Distance& d, Touch& touch) {
+  if (d.status != DistanceStatus::exact && d.status != DistanceStatus::local) return false;
+  if (!owns(a, d.patch[0]) || !owns(b, d.patch[1])) return false;
+  const Vector3d& n = d.normal;
+  const Vector3d t1 = n.unitOrthogonal(), t2 = n.cross(t1);
+  const Curvature w = surfaceCurvature(b, poseB, d.patch[1], -n);
+  const Vector3d w1 = w * t1;
+  const NormalCone every{2, {t1, t2}, {t1.dot(w1), t2.dot(w * t2)}, t2.dot(w1)};
+  touch.a = surfaceCurvature(a, poseA, d.patch[0], n);
+  return touch.set(every, poseA, poseB, d);
+}
+
+bool touchOf(const StpBv& volume, const Isometry3d& poseVolume, const Shape& shape,
+             const Isometry3d& poseShape, const Distance& d, Touch& touch) {
+  if (d.status != DistanceStatus::exact || !owns(volume, d.patch[0])) return false;
+  const Matrix3d& q = poseShape.linear();
+  // A face's or an edge's normal is good to the rounding of its corners placed beside the volume.
+  const double rounding =
+      1e-13 * shape.reach +
+      32.0 * std::numeric_limits<double>::epsilon() *
+          ((poseShape.translation() - poseVolume.translation()).norm() + volume.centre().norm() +
+           volume.enclosingRadius() + shape.centre.norm() + shape.reach);
+  NormalCone freedom;
+  if (!normalCone(shape, -(q.transpose() * d.normal), q.transpose() * (d.point[1] - poseShape.translation()),
+                  rounding, freedom))
+    return false;
+  for (Vector3d& way : freedom.way) way = q * way;
+  touch.a = surfaceCurvature(volume, poseVolume, d.patch[0], d.normal);
+  return touch.set(freedom, poseVolume, poseShape, d);
 }
 
 /// An answer and its derivatives with the bodies' names exchanged.
@@ -143,38 +232,50 @@ void exchange(DistanceHessian& h) {
 
 bool hessian(const StpBv& a, const Isometry3d& poseA, const StpBv& b, const Isometry3d& poseB,
              const Distance& d, DistanceHessian& result) {
-  if (d.status != DistanceStatus::exact && d.status != DistanceStatus::local) return false;
-  if (!owns(a, d.patch[0]) || !owns(b, d.patch[1])) return false;
-  const Vector3d& n = d.normal;
-  const Vector3d t1 = n.unitOrthogonal(), t2 = n.cross(t1);
-  const Matrix3d w = surfaceCurvature(b, poseB, d.patch[1], -n);
-  const NormalCone every{2, {t1, t2}, {t1.dot(w * t1), t2.dot(w * t2)}, t1.dot(w * t2)};
-  return secondOrder(surfaceCurvature(a, poseA, d.patch[0], n), every, poseA, poseB, d, result);
+  Touch touch;
+  if (!touchOf(a, poseA, b, poseB, d, touch)) return false;
+  secondOrder(touch, poseA, poseB, d, result);
+  return true;
 }
 
 bool hessian(const StpBv& volume, const Isometry3d& poseVolume, const Shape& shape,
              const Isometry3d& poseShape, const Distance& d, DistanceHessian& result) {
-  if (d.status != DistanceStatus::exact || !owns(volume, d.patch[0])) return false;
-  const Matrix3d& q = poseShape.linear();
-  // A face's or an edge's normal is good to the rounding of its corners placed beside the volume.
-  const double rounding =
-      1e-13 * shape.reach +
-      32.0 * std::numeric_limits<double>::epsilon() *
-          ((poseShape.translation() - poseVolume.translation()).norm() + volume.centre().norm() +
-           volume.enclosingRadius() + shape.centre.norm() + shape.reach);
-  NormalCone freedom;
-  if (!normalCone(shape, -(q.transpose() * d.normal), q.transpose() * (d.point[1] - poseShape.translation()),
-                  rounding, freedom))
-    return false;
-  for (Vector3d& way : freedom.way) way = q * way;
-  return secondOrder(surfaceCurvature(volume, poseVolume, d.patch[0], d.normal), freedom, poseVolume,
-                     poseShape, d, result);
+  Touch touch;
+  if (!touchOf(volume, poseVolume, shape, poseShape, d, touch)) return false;
+  secondOrder(touch, poseVolume, poseShape, d, result);
+  return true;
 }
 
 bool hessian(const Shape& shape, const Isometry3d& poseShape, const StpBv& volume,
              const Isometry3d& poseVolume, const Distance& d, DistanceHessian& result) {
   if (!hessian(volume, poseVolume, shape, poseShape, exchanged(d), result)) return false;
   exchange(result);
+  return true;
+}
+
+bool rate(const StpBv& a, const Isometry3d& poseA, const StpBv& b, const Isometry3d& poseB, const Distance& d,
+          const BodyTwists& twists, DistanceRate& result) {
+  Touch touch;
+  if (!touchOf(a, poseA, b, poseB, d, touch)) return false;
+  firstOrder(touch, d, twists, result);
+  return true;
+}
+
+bool rate(const StpBv& volume, const Isometry3d& poseVolume, const Shape& shape, const Isometry3d& poseShape,
+          const Distance& d, const BodyTwists& twists, DistanceRate& result) {
+  Touch touch;
+  if (!touchOf(volume, poseVolume, shape, poseShape, d, touch)) return false;
+  firstOrder(touch, d, twists, result);
+  return true;
+}
+
+bool rate(const Shape& shape, const Isometry3d& poseShape, const StpBv& volume, const Isometry3d& poseVolume,
+          const Distance& d, const BodyTwists& twists, DistanceRate& result) {
+  BodyTwists other;
+  other << twists.tail<6>(), twists.head<6>();
+  if (!rate(volume, poseVolume, shape, poseShape, exchanged(d), other, result)) return false;
+  result.normal = -result.normal;
+  std::swap(result.point[0], result.point[1]);
   return true;
 }
 

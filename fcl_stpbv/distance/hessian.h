@@ -37,4 +37,27 @@ bool hessian(const StpBv& volume, const Eigen::Isometry3d& poseVolume, const Sha
 bool hessian(const Shape& shape, const Eigen::Isometry3d& poseShape, const StpBv& volume,
              const Eigen::Isometry3d& poseVolume, const Distance& d, DistanceHessian& result);
 
+/// How an answer moves while both bodies do: what a controller asks for at every tick, at a fraction of the
+/// time of the matrices above.
+struct DistanceRate {
+  Eigen::Vector3d normal{0, 0, 0};  ///< velocity of the normal (1/s)
+  /// Velocities of the witness points, which slide on their bodies (m/s).
+  std::array<Eigen::Vector3d, 2> point{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
+};
+
+/// The velocities of both bodies, as DistanceHessian takes them: [linear; angular] of body 1 about its
+/// origin, then of body 2; world axes.
+using BodyTwists = Eigen::Matrix<double, 12, 1, Eigen::DontAlign>;
+
+/// Velocities of normal and witness points at the answer `d`: `hessian().normal * twists` and `.point[i] *
+/// twists`. False, leaving `result` alone, where hessian() is.
+bool rate(const StpBv& a, const Eigen::Isometry3d& poseA, const StpBv& b, const Eigen::Isometry3d& poseB,
+          const Distance& d, const BodyTwists& twists, DistanceRate& result);
+bool rate(const StpBv& volume, const Eigen::Isometry3d& poseVolume, const Shape& shape,
+          const Eigen::Isometry3d& poseShape, const Distance& d, const BodyTwists& twists,
+          DistanceRate& result);
+bool rate(const Shape& shape, const Eigen::Isometry3d& poseShape, const StpBv& volume,
+          const Eigen::Isometry3d& poseVolume, const Distance& d, const BodyTwists& twists,
+          DistanceRate& result);
+
 }  // namespace fcl_stpbv

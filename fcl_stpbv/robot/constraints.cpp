@@ -39,10 +39,11 @@ CollisionConstraints::CollisionConstraints(std::shared_ptr<const Kinematics> kin
   caches_.resize(pairs_.size());
   found_.resize(pairs_.size());
   answers_.resize(pairs_.size());
+  moves_.resize(pairs_.size());
   open_.resize(at(rows()));
   values_.resize(nonZeros());
-  otherValues_.resize(nonZeros());
-  scratch_.resize(rows());
+  change_.resize(nonZeros());
+  otherChange_.resize(nonZeros());
   moved_.resize(columns());
   pool_ = std::make_unique<WorkerPool>(std::max(1, options_.threads));
 }
@@ -137,11 +138,20 @@ CollisionConstraints::SparseJacobian CollisionConstraints::makeJacobian() const 
 
 void CollisionConstraints::forget() { std::fill(caches_.begin(), caches_.end(), PairCache{}); }
 
-DistanceAnswer CollisionConstraints::answer(int row) const {
+RowAnswer CollisionConstraints::answer(int row) const {
   const Row& r = rows_[at(row)];
-  if (!r.first) return answers_[at(row)];
-  DistanceAnswer answer = inFclTerms(found_[at(row)], pose_[at(r.a)], pose_[at(r.b)]);
-  answer.geometry = {geometry_->bodies[at(r.a)].geometry.get(), &second(pairs_[at(row)])};
+  RowAnswer answer;
+  DistanceAnswer& found = answer;
+  if (r.first) {
+    found = inFclTerms(found_[at(row)], pose_[at(r.a)], pose_[at(r.b)]);
+    found.geometry = {geometry_->bodies[at(r.a)].geometry.get(), &second(pairs_[at(row)])};
+  } else {
+    found = answers_[at(row)];
+  }
+  if (moving_) {
+    answer.normalVelocity = moves_[at(row)].normal;
+    answer.pointVelocity = moves_[at(row)].point;
+  }
   return answer;
 }
 
@@ -179,13 +189,28 @@ CollisionConstraints::Witness CollisionConstraints::ask(std::size_t row) {
   return {DistanceStatus::invalid, most, Eigen::Vector3d::Zero(), {}};
 }
 
+// What the last query found.
+CollisionConstraints::Witness CollisionConstraints::known(std::size_t row) const {
+  if (!rows_[row].first) {
+    const DistanceAnswer& answer = answers_[row];
+    return {answer.status, answer.distance, answer.normal, answer.points};
+  }
+  const Distance& found = found_[row];
+  return {found.status, found.distance, found.normal, found.point};
+}
+
 double CollisionConstraints::pairRow(std::size_t row, double* values) {
   const Witness witness = ask(row);
   double slope, curvature;
   const double value = bend(witness.distance, slope, curvature);
-  if (!values) return value;
+  if (values) writeRow(row, witness, slope, values);
+  return value;
+}
+
+void CollisionConstraints::writeRow(std::size_t row, const Witness& witness, double slope,
+                                    double* values) const {
   std::fill(values + rowStart_[row], values + rowStart_[row + 1], 0.0);
-  if (witness.status == DistanceStatus::invalid) return value;
+  if (witness.status == DistanceStatus::invalid) return;
   // The velocity of x along n is n.v + (x cross n).w for a motion (v, w).
   const Eigen::Vector3d n = slope * witness.normal;
   const Eigen::Vector3d along[2] = {-n, n};
@@ -195,7 +220,6 @@ double CollisionConstraints::pairRow(std::size_t row, double* values) {
     const Twist& motion = state_.motion[at(term.motion)];
     values[term.slot] += along[term.side].dot(motion.linear) + moment[term.side].dot(motion.angular);
   }
-  return value;
 }
 
 void CollisionConstraints::place(const ConstVector& q) {
@@ -209,15 +233,19 @@ void CollisionConstraints::place(const ConstVector& q) {
 
 void CollisionConstraints::compute(const ConstVector& q, double* d, double* values) {
   place(q);
-  auto work = [&](int k) {  // every n-th row, so that far and near ones are shared out
-    const std::size_t step = at(pool_->threads());
-    for (std::size_t row = at(k); row < pairs_.size(); row += step) d[row] = pairRow(row, values);
-  };
-  pool_->run(work);
+  moving_ = false;
+  eachPair([&](std::size_t row) { d[row] = pairRow(row, values); });
   for (std::size_t i = 0; i < options_.smooth.size(); ++i) {
     const std::size_t row = pairs_.size() + i;
     d[row] = options_.smooth[i].value(q, values ? values + rowStart_[row] : nullptr);
   }
+}
+
+void CollisionConstraints::spread(Eigen::Ref<Eigen::MatrixXd> jacobian) const {
+  jacobian.setZero();
+  for (int row = 0; row < rows(); ++row)
+    for (int k = rowStart_[at(row)]; k < rowStart_[at(row) + 1]; ++k)
+      jacobian(row, column_[at(k)]) = values_[k];
 }
 
 void CollisionConstraints::evaluate(const ConstVector& q, Vector d) { compute(q, d.data(), nullptr); }
@@ -232,10 +260,7 @@ void CollisionConstraints::evaluate(const ConstVector& q, Vector d, SparseJacobi
 
 void CollisionConstraints::evaluate(const ConstVector& q, Vector d, Eigen::Ref<Eigen::MatrixXd> jacobian) {
   compute(q, d.data(), values_.data());
-  jacobian.setZero();
-  for (int row = 0; row < rows(); ++row)
-    for (int k = rowStart_[at(row)]; k < rowStart_[at(row) + 1]; ++k)
-      jacobian(row, column_[at(k)]) = values_[k];
+  spread(jacobian);
 }
 
 }  // namespace fcl_stpbv

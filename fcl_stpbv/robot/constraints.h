@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "fcl_stpbv/adapter/fcl_distance.h"
+#include "fcl_stpbv/adapter/fcl_hessian.h"
 #include "fcl_stpbv/robot/checked_pairs.h"
 #include "fcl_stpbv/robot/kinematics.h"
 #include "fcl_stpbv/robot/worker_pool.h"
@@ -40,6 +41,21 @@ struct ConstraintOptions {
   int threads = 1;
 };
 
+/// What a controller asks for at every tick, row by row.
+struct RowRates {
+  Eigen::VectorXd d;      ///< (m)
+  Eigen::VectorXd speed;  ///< dd/dt = J qd (m/s)
+  /// qd' H qd, H the Hessian of d: dJ/dt qd, the second derivative of d while qd stays what it is (m/s^2).
+  Eigen::VectorXd drift;
+};
+
+/// An answer that moves: after evaluate(q, qd) with the velocities at qd, else with zeros.
+struct RowAnswer : DistanceAnswer {
+  Eigen::Vector3d normalVelocity{0, 0, 0};  ///< (1/s), world axes
+  /// Of the witness points, which slide on their bodies (m/s), world axes.
+  std::array<Eigen::Vector3d, 2> pointVelocity{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
+};
+
 /// d(q) and J(q): one row per pair of bodies, then one per smooth constraint. Each row starts its query from
 /// its last answer. One thread at a time may use one; no allocation after construction where every pair is of
 /// STP-BVs.
@@ -51,6 +67,7 @@ class CollisionConstraints {
   using Vector = Eigen::Ref<Eigen::VectorXd>;
   using ConstVector = Eigen::Ref<const Eigen::VectorXd>;
   using SparseJacobian = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+  using SparseHessian = Eigen::SparseMatrix<double>;
 
   /// @throws Error for a pair, coordinate or link that does not exist.
   CollisionConstraints(std::shared_ptr<const Kinematics> kinematics,
@@ -75,14 +92,37 @@ class CollisionConstraints {
   void evaluate(const ConstVector& q, Vector d, SparseJacobian& jacobian);
   void evaluate(const ConstVector& q, Vector d, Eigen::Ref<Eigen::MatrixXd> jacobian);
 
+  /// Room for one row's numbers each.
+  RowRates makeRates() const;
+  /// d and J at q and how they change as q moves with the velocity qd. Closed form where one body is an
+  /// STP-BV (docs/robot.md), on a seam that of one side, for a mesh or a tree that of its nearest triangle or
+  /// cell; central differences for the drift of other pairs, smooth constraints and the few answers that have
+  /// no second derivative.
+  void evaluateValues(const ConstVector& q, const ConstVector& qd, RowRates& rates, Vector values);
+  void evaluate(const ConstVector& q, const ConstVector& qd, RowRates& rates, SparseJacobian& jacobian);
+  void evaluate(const ConstVector& q, const ConstVector& qd, RowRates& rates,
+                Eigen::Ref<Eigen::MatrixXd> jacobian);
+
+  /// Most that |dJ/dt| of a row may be at the last evaluate(q, qd), in the 2-norm, whatever the patches: from
+  /// both bodies' r and R, their distance and their velocities (docs/control.md). Infinite without a
+  /// velocity, for bodies that are neither STP-BVs nor polyhedra, and where nothing bounds it.
+  double gradientRateBound(int row) const;
+
   /// Sum over the rows of weight times (Hessian of d) times v: the change of J as q moves along v. Closed
-  /// form where one body is an STP-BV (docs/robot.md), on a seam that of one side, for a mesh or a tree that
-  /// of its nearest triangle or cell; central differences of J for other pairs, smooth constraints and the
-  /// few answers that have no second derivative.
+  /// form and differences as above.
   void hessianVector(const ConstVector& q, const ConstVector& weights, const ConstVector& v, Vector out);
 
+  /// The lower triangle that a weighted sum of the rows' Hessians may fill, for hessian() to fill: columns
+  /// one after the other, rows ascending, the structure the same for ever.
+  SparseHessian makeHessian() const;
+  /// Sum over the rows of weight times Hessian of d: the constraints' part of a Lagrangian's Hessian, as
+  /// IPOPT asks for it. The first call makes room for what it needs.
+  void hessian(const ConstVector& q, const ConstVector& weights, SparseHessian& lower);
+  /// The Hessian of one row, columns() x columns(), symmetric.
+  void hessian(const ConstVector& q, int row, Eigen::Ref<Eigen::MatrixXd> full);
+
   /// What the last evaluation found for a pair; status `invalid` where its spheres were enough.
-  DistanceAnswer answer(int row) const;
+  RowAnswer answer(int row) const;
   const Kinematics::State& state() const { return state_; }
   /// Makes the next evaluation start from FCL's witness again.
   void forget();
@@ -111,12 +151,24 @@ class CollisionConstraints {
   void addSmooth(const SmoothConstraint& constraint);
   const fcl::CollisionGeometryd& second(const CheckedPair& pair) const;
   void place(const ConstVector& q);
+  template <class Work>
+  void eachPair(const Work& work);
   void compute(const ConstVector& q, double* d, double* values);
+  void spread(Eigen::Ref<Eigen::MatrixXd> jacobian) const;
   Witness ask(std::size_t row);
+  Witness known(std::size_t row) const;
   double pairRow(std::size_t row, double* values);
+  void writeRow(std::size_t row, const Witness& witness, double slope, double* values) const;
   double bend(double d, double& slope, double& curvature) const;
+  void bodyVelocities(std::size_t row, Twist& first, Twist& second) const;
+  bool move(std::size_t row);
+  bool rateRow(std::size_t row, RowRates& rates, double* values);
   bool rowChange(std::size_t row, double* change);
   void differences(const ConstVector& q, const ConstVector& v);
+  void prepareHessian(const ConstVector& q);
+  bool rowHessian(std::size_t row, Eigen::MatrixXd& h);
+  template <class Add>
+  void openHessians(const ConstVector& q, const Add& add);
 
   std::shared_ptr<const Kinematics> kinematics_;
   std::shared_ptr<const RobotGeometry> geometry_;
@@ -132,9 +184,22 @@ class CollisionConstraints {
   std::vector<PairCache> caches_;
   std::vector<Distance> found_;          // of pairs of STP-BVs
   std::vector<DistanceAnswer> answers_;  // of the other pairs
-  Eigen::VectorXd values_, otherValues_, scratch_, moved_;
-  std::vector<char> open_;  // rows whose change is left to differences
+  std::vector<DistanceRate> moves_;      // of normal and points, at the last velocity
+  bool moving_ = false;                  // whether the last evaluation had one
+  Eigen::VectorXd values_, change_, otherChange_, moved_;
+  std::vector<Kinematics::Rate> alongEach_;  // at a unit velocity of each coordinate, for hessian()
+  std::vector<char> open_;                   // rows whose change is left to differences
   std::unique_ptr<WorkerPool> pool_;
 };
+
+// Every n-th row for each thread, so that far and near ones are shared out.
+template <class Work>
+void CollisionConstraints::eachPair(const Work& work) {
+  auto share = [&](int k) {
+    const std::size_t step = static_cast<std::size_t>(pool_->threads());
+    for (std::size_t row = static_cast<std::size_t>(k); row < pairs_.size(); row += step) work(row);
+  };
+  pool_->run(share);
+}
 
 }  // namespace fcl_stpbv

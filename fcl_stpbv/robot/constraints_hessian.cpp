@@ -1,7 +1,7 @@
-// Second derivatives of the rows of CollisionConstraints along a vector; see constraints.h.
+// How the rows of CollisionConstraints change as q moves: rates, and Hessians along a vector; see
+// constraints.h.
 #include <algorithm>
 
-#include "fcl_stpbv/adapter/fcl_hessian.h"
 #include "fcl_stpbv/robot/constraints.h"
 
 namespace fcl_stpbv {
@@ -11,14 +11,95 @@ using Eigen::Vector3d;
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-// A body's velocity as DistanceHessian takes it: of the body's origin, and the angular one.
-Eigen::Matrix<double, 6, 1> about(const Vector3d& origin, const Twist& velocity) {
-  Eigen::Matrix<double, 6, 1> twist;
-  twist << velocity.linear + velocity.angular.cross(origin), velocity.angular;
-  return twist;
-}
+Vector3d velocityOf(const Vector3d& x, const Twist& body) { return body.linear + body.angular.cross(x); }
 
 }  // namespace
+
+void CollisionConstraints::bodyVelocities(std::size_t row, Twist& first, Twist& second) const {
+  first = rate_.link[at(geometry_->bodies[at(rows_[row].a)].link)];
+  second = pairs_[row].obstacle ? Twist{} : rate_.link[at(geometry_->bodies[at(rows_[row].b)].link)];
+}
+
+// Fills moves_[row] for the velocities in rate_; false where they are left to differences.
+bool CollisionConstraints::move(std::size_t row) {
+  const Row& r = rows_[row];
+  const Eigen::Isometry3d &pose1 = pose_[at(r.a)], &pose2 = pose_[at(r.b)];
+  Twist first, second;
+  bodyVelocities(row, first, second);
+  BodyTwists twists;
+  twists << velocityOf(pose1.translation(), first), first.angular, velocityOf(pose2.translation(), second),
+      second.angular;
+  return r.first ? rate(*r.first, pose1, *r.second, pose2, found_[row], twists, moves_[row])
+                 : rate(*geometry_->bodies[at(r.a)].geometry, pose1, this->second(pairs_[row]), pose2,
+                        answers_[row], twists, moves_[row]);
+}
+
+RowRates CollisionConstraints::makeRates() const {
+  const Eigen::VectorXd zeros = Eigen::VectorXd::Zero(rows());
+  return {zeros, zeros, zeros};
+}
+
+// The distance's speed is n.(u2 - u1), u the velocities of the witness points as fixed to their bodies; its
+// drift is that sum's derivative while q goes on at qd.
+bool CollisionConstraints::rateRow(std::size_t row, RowRates& rates, double* values) {
+  const Eigen::Index i = static_cast<Eigen::Index>(row);
+  const Witness witness = ask(row);
+  double slope, curvature;
+  rates.d[i] = bend(witness.distance, slope, curvature);
+  writeRow(row, witness, slope, values);
+  rates.speed[i] = rates.drift[i] = 0;
+  moves_[row] = {};
+  if (witness.status == DistanceStatus::invalid) return true;
+  Twist first, second;
+  bodyVelocities(row, first, second);
+  const Vector3d apart = velocityOf(witness.point[1], second) - velocityOf(witness.point[0], first);
+  const double speed = witness.normal.dot(apart);
+  rates.speed[i] = slope * speed;
+  if (!move(row)) return false;
+  const DistanceRate& moves = moves_[row];
+  Vector3d change = second.angular.cross(moves.point[1]) - first.angular.cross(moves.point[0]) -
+                    velocityOf(witness.point[0], rate_.drift[at(geometry_->bodies[at(rows_[row].a)].link)]);
+  if (!pairs_[row].obstacle)
+    change += velocityOf(witness.point[1], rate_.drift[at(geometry_->bodies[at(rows_[row].b)].link)]);
+  rates.drift[i] = slope * (moves.normal.dot(apart) + witness.normal.dot(change)) + curvature * speed * speed;
+  return true;
+}
+
+void CollisionConstraints::evaluateValues(const ConstVector& q, const ConstVector& qd, RowRates& rates,
+                                          Vector values) {
+  place(q);
+  kinematics_->differentiate(q, qd, state_, rate_);
+  moving_ = true;
+  std::fill(open_.begin(), open_.end(), 1);
+  eachPair([&](std::size_t row) { open_[row] = !rateRow(row, rates, values.data()); });
+  for (std::size_t i = 0; i < options_.smooth.size(); ++i) {
+    const std::size_t row = pairs_.size() + i;
+    rates.d[static_cast<Eigen::Index>(row)] = options_.smooth[i].value(q, values.data() + rowStart_[row]);
+  }
+  if (std::find(open_.begin(), open_.end(), 1) == open_.end()) return;
+  differences(q, qd);
+  for (std::size_t row = 0; row < open_.size(); ++row) {
+    if (!open_[row]) continue;
+    double speed = 0, drift = 0;
+    for (int k = rowStart_[row]; k < rowStart_[row + 1]; ++k) {
+      speed += values[k] * qd[column_[at(k)]];
+      drift += change_[k] * qd[column_[at(k)]];
+    }
+    rates.speed[static_cast<Eigen::Index>(row)] = speed;
+    rates.drift[static_cast<Eigen::Index>(row)] = drift;
+  }
+}
+
+void CollisionConstraints::evaluate(const ConstVector& q, const ConstVector& qd, RowRates& rates,
+                                    SparseJacobian& jacobian) {
+  evaluateValues(q, qd, rates, Eigen::Map<Eigen::VectorXd>(jacobian.valuePtr(), nonZeros()));
+}
+
+void CollisionConstraints::evaluate(const ConstVector& q, const ConstVector& qd, RowRates& rates,
+                                    Eigen::Ref<Eigen::MatrixXd> jacobian) {
+  evaluateValues(q, qd, rates, values_);
+  spread(jacobian);
+}
 
 // The row is slope (n.v + (x cross n).w) for each motion (v, w). Its change is the sum over what changes: the
 // normal and the witness points by the pair's own second derivatives, the motions by the kinematics, the
@@ -28,44 +109,34 @@ bool CollisionConstraints::rowChange(std::size_t row, double* change) {
   const Row& r = rows_[row];
   const Witness witness = ask(row);
   if (witness.status == DistanceStatus::invalid) return true;
-  DistanceHessian second;
-  const Eigen::Isometry3d &pose1 = pose_[at(r.a)], &pose2 = pose_[at(r.b)];
-  const bool known = r.first ? hessian(*r.first, pose1, *r.second, pose2, found_[row], second)
-                             : hessian(*geometry_->bodies[at(r.a)].geometry, pose1, this->second(pairs_[row]),
-                                       pose2, answers_[row], second);
-  if (!known) return false;
-  Eigen::Matrix<double, 12, 1> twists;
-  const Twist none;
-  const Twist& velocity1 = rate_.link[at(geometry_->bodies[at(r.a)].link)];
-  const Twist& velocity2 = pairs_[row].obstacle ? none : rate_.link[at(geometry_->bodies[at(r.b)].link)];
-  twists << about(pose1.translation(), velocity1), about(pose2.translation(), velocity2);
-
+  if (!move(row)) return false;
+  Twist first, second;
+  bodyVelocities(row, first, second);
   const Vector3d& n = witness.normal;
-  const Vector3d turn = second.normal * twists;
-  const double speed = n.dot(velocity2.linear - velocity1.linear + velocity2.angular.cross(witness.point[1]) -
-                             velocity1.angular.cross(witness.point[0]));
+  const double speed = n.dot(velocityOf(witness.point[1], second) - velocityOf(witness.point[0], first));
   double slope, curvature;
   bend(witness.distance, slope, curvature);
-  for (int side = 0; side < 2; ++side) {
-    const Vector3d& x = witness.point[at(side)];
-    const Vector3d slide = second.point[at(side)] * twists;
+  Vector3d along[2], moment[2], alongChange[2], momentChange[2];
+  for (std::size_t side = 0; side < 2; ++side) {
     const double sign = side == 0 ? -1 : 1;
-    const Vector3d along = sign * slope * n, moment = x.cross(along);
-    const Vector3d alongChange = sign * (slope * turn + curvature * speed * n);
-    const Vector3d momentChange = slide.cross(along) + x.cross(alongChange);
-    for (int t = r.firstTerm; t < r.lastTerm; ++t) {
-      const Term& term = terms_[at(t)];
-      if (term.side != side) continue;
-      const Twist& motion = state_.motion[at(term.motion)];
-      const Twist& motionChange = rate_.motion[at(term.motion)];
-      change[term.slot] += alongChange.dot(motion.linear) + momentChange.dot(motion.angular) +
-                           along.dot(motionChange.linear) + moment.dot(motionChange.angular);
-    }
+    along[side] = sign * slope * n;
+    moment[side] = witness.point[side].cross(along[side]);
+    alongChange[side] = sign * (slope * moves_[row].normal + curvature * speed * n);
+    momentChange[side] =
+        moves_[row].point[side].cross(along[side]) + witness.point[side].cross(alongChange[side]);
+  }
+  for (int t = r.firstTerm; t < r.lastTerm; ++t) {
+    const Term& term = terms_[at(t)];
+    const Twist &motion = state_.motion[at(term.motion)], &motionChange = rate_.motion[at(term.motion)];
+    change[term.slot] +=
+        alongChange[term.side].dot(motion.linear) + momentChange[term.side].dot(motion.angular) +
+        along[term.side].dot(motionChange.linear) + moment[term.side].dot(motionChange.angular);
   }
   return true;
 }
 
-// Fills the open rows' change along v.
+// Fills the open rows' part of change_, and of moves_, along v. Their answers are those at q again
+// afterwards.
 void CollisionConstraints::differences(const ConstVector& q, const ConstVector& v) {
   // Rounding in J divided by the step and what the step misses of a seam are then about equal.
   constexpr double kStep = 1e-6;
@@ -76,37 +147,46 @@ void CollisionConstraints::differences(const ConstVector& q, const ConstVector& 
     place(moved_);
     for (std::size_t row = 0; row < open_.size(); ++row) {
       if (!open_[row]) continue;
-      if (row < pairs_.size())
-        pairRow(row, values.data());
-      else
+      if (row >= pairs_.size()) {
         options_.smooth[row - pairs_.size()].value(moved_, values.data() + rowStart_[row]);
+        continue;
+      }
+      const Witness witness = ask(row);
+      double slope, curvature;
+      bend(witness.distance, slope, curvature);
+      writeRow(row, witness, slope, values.data());
+      if (witness.status == DistanceStatus::invalid) continue;
+      const double factor = far < 0 ? -0.5 / step : far > 0 ? 0.5 / step : 0;
+      moves_[row].normal += factor * witness.normal;
+      for (std::size_t side = 0; side < 2; ++side) moves_[row].point[side] += factor * witness.point[side];
     }
   };
-  rowsAt(-step, otherValues_);
-  rowsAt(step, values_);
+  for (std::size_t row = 0; row < pairs_.size(); ++row)
+    if (open_[row]) moves_[row] = {};
+  rowsAt(-step, otherChange_);
+  rowsAt(step, change_);
   for (std::size_t row = 0; row < open_.size(); ++row) {
     if (!open_[row]) continue;
     for (int k = rowStart_[row]; k < rowStart_[row + 1]; ++k)
-      values_[k] = step > 0 ? (values_[k] - otherValues_[k]) / (2 * step) : 0;
+      change_[k] = step > 0 ? (change_[k] - otherChange_[k]) / (2 * step) : 0;
   }
+  place(q);
+  for (std::size_t row = 0; row < pairs_.size(); ++row)
+    if (open_[row]) ask(row);
 }
 
 void CollisionConstraints::hessianVector(const ConstVector& q, const ConstVector& weights,
                                          const ConstVector& v, Vector out) {
   place(q);
   kinematics_->differentiate(q, v, state_, rate_);
+  moving_ = true;
   std::fill(open_.begin(), open_.end(), 1);
-  auto work = [&](int k) {
-    const std::size_t step = at(pool_->threads());
-    for (std::size_t row = at(k); row < pairs_.size(); row += step)
-      open_[row] = !rowChange(row, values_.data());
-  };
-  pool_->run(work);
+  eachPair([&](std::size_t row) { open_[row] = !rowChange(row, change_.data()); });
   if (std::find(open_.begin(), open_.end(), 1) != open_.end()) differences(q, v);
   out.setZero();
   for (int row = 0; row < rows(); ++row)
     for (int k = rowStart_[at(row)]; k < rowStart_[at(row) + 1]; ++k)
-      out[column_[at(k)]] += weights[row] * values_[k];
+      out[column_[at(k)]] += weights[row] * change_[k];
 }
 
 }  // namespace fcl_stpbv

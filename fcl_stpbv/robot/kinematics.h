@@ -51,6 +51,7 @@ class Kinematics {
   struct Rate {
     std::vector<Twist> link;    ///< velocity of each link
     std::vector<Twist> motion;  ///< change of each motion's twist
+    std::vector<Twist> drift;   ///< change of each link's velocity while that of q stays what it is
   };
 
   explicit Kinematics(std::shared_ptr<const RobotModel> robot, BaseMotion base = BaseMotion::fixed);

@@ -53,13 +53,14 @@ Matrix3d rateChange(const Vector3d& w, const Vector3d& u) {
 }  // namespace
 
 Kinematics::Rate Kinematics::makeRate() const {
-  return {std::vector<Twist>(robot_->links.size()), std::vector<Twist>(motions_.size())};
+  return {std::vector<Twist>(robot_->links.size()), std::vector<Twist>(motions_.size()),
+          std::vector<Twist>(robot_->links.size())};
 }
 
 void Kinematics::differentiate(const Eigen::Ref<const Eigen::VectorXd>& q,
                                const Eigen::Ref<const Eigen::VectorXd>& v, const State& state,
                                Rate& rate) const {
-  if (stepOf_[0] < 0) rate.link[0] = {};
+  if (stepOf_[0] < 0) rate.link[0] = rate.drift[0] = {};
   for (const Step& step : steps_) differentiate(step, q, v, state, rate);
 }
 
@@ -68,6 +69,7 @@ void Kinematics::differentiate(const Step& step, const Eigen::Ref<const Eigen::V
                                const Eigen::Ref<const Eigen::VectorXd>& v, const State& state,
                                Rate& rate) const {
   Twist velocity = step.parent < 0 ? Twist{} : rate.link[at(step.parent)];
+  Twist drift = step.parent < 0 ? Twist{} : rate.drift[at(step.parent)];
   if (step.type == JointType::floating) {
     const Twist* twist = &state.motion[at(step.motion)];
     Twist* change = &rate.motion[at(step.motion)];
@@ -83,15 +85,18 @@ void Kinematics::differentiate(const Step& step, const Eigen::Ref<const Eigen::V
       add(change[k], 1, {position.cross(turn.col(k - 3)), turn.col(k - 3)});
     }
     for (int k = 3; k < 6; ++k) add(velocity, v[step.coordinate + k], twist[k]);
+    for (int k = 0; k < 6; ++k) add(drift, v[step.coordinate + k], change[k]);
   } else if (step.type != JointType::fixed) {
     const int freedoms = step.type == JointType::planar ? 3 : 1;
     for (int k = 0; k < freedoms; ++k) {
       const Twist& twist = state.motion[at(step.motion + k)];
       rate.motion[at(step.motion + k)] = carried(velocity, twist);
       add(velocity, v[step.coordinate + k], twist);
+      add(drift, v[step.coordinate + k], rate.motion[at(step.motion + k)]);
     }
   }
   rate.link[at(step.child)] = velocity;
+  rate.drift[at(step.child)] = drift;
 }
 
 }  // namespace fcl_stpbv

@@ -81,6 +81,26 @@ def test_a_robots_jacobian_is_what_differences_say(tmp_path, monkeypatch):
     assert jacobian.shape == (len(robot.rows), len(robot.names)) == (d.size, q.size)
     # A row starts from its last answer, which changes the result by rounding only: some units of 1 m.
     np.testing.assert_allclose(robot.distances(robot.neutral), robot.evaluate(robot.neutral)[0], rtol=0, atol=1e-15)
+
+
+def test_rates_and_hessians_of_a_robot_agree_with_its_jacobian():
+    folder = DATA / "hrp2_style"
+    robot = fcl_stpbv.Robot(str(folder / "hrp2_style.urdf"), str(folder / "hrp2_style.srdf"))
+    q = robot.configuration("half_sitting")
+    qd = np.linspace(-1, 1, len(q))
+    d, jacobian, speed, drift = robot.rates(q, qd)
+    np.testing.assert_array_equal(d, robot.evaluate(q)[0])
+    np.testing.assert_allclose(speed, jacobian @ qd, rtol=0, atol=1e-13)
+    weights = np.linspace(0, 1, len(d))
+    h = robot.hessian(q, weights)
+    np.testing.assert_array_equal(h, h.T)
+    scale = 1 + abs(h).max()
+    np.testing.assert_allclose(h @ qd, robot.hessian_vector(q, weights, qd), rtol=0, atol=1e-12 * scale)
+    np.testing.assert_allclose(qd @ h @ qd, weights @ drift, rtol=0, atol=1e-11 * scale)
+    with pytest.raises(fcl_stpbv.Error, match="qd: got 1"):
+        robot.rates(q, q[:1])
+    with pytest.raises(fcl_stpbv.Error, match="weights: got 1"):
+        robot.hessian(q, d[:1])
     step, direction = 1e-6, np.random.default_rng(1).normal(size=q.size)
     slope = (robot.distances(q + step * direction) - robot.distances(q - step * direction)) / (2 * step)
     # Second derivatives jump on seams: up to step |direction|^2 (reach^2 / r + reach), reach about 1 m; most

@@ -10,7 +10,8 @@ using namespace fcl_stpbv;
 using namespace fcl_stpbv::test;
 
 TEST_CASE(
-    "distances, Jacobians and Hessian products of a humanoid allocate nothing, with threads or without") {
+    "distances, Jacobians, rates and Hessian products of a humanoid allocate nothing, with threads or "
+    "without") {
   const TestRobot robot = robots()[0];
   LoadedRobot loaded = load(robot);
   const auto kinematics = std::make_shared<const Kinematics>(loaded.model);
@@ -27,6 +28,7 @@ TEST_CASE(
     CollisionConstraints::SparseJacobian sparse = constraints.makeJacobian();
     v.setOnes();
     Random random(1);
+    RowRates rates = constraints.makeRates();
     const long before = allocations;
     for (int i = 0; i < 50; ++i) {
       for (Eigen::Index k = 0; k < q.size(); ++k)
@@ -36,6 +38,9 @@ TEST_CASE(
       constraints.evaluate(q, d, sparse);
       constraints.evaluate(q, d, dense);
       constraints.hessianVector(q, d, v, out);
+      constraints.evaluateValues(q, v, rates, values);
+      constraints.evaluate(q, v, rates, sparse);
+      constraints.evaluate(q, v, rates, dense);
     }
     CHECK(allocations == before);
   }

@@ -89,9 +89,17 @@ int main(int argc, char** argv) try {
                                                          v = Eigen::VectorXd::Ones(all.columns()), out = v;
   const Evaluate jacobian = [&](const Eigen::VectorXd& q) { all.evaluateValues(q, d, values); };
   measure(*kinematics, 1e-3, all.rows(), "d and J, small steps", jacobian);
+  RowRates rates = all.makeRates(), someRates = rates;
+  measure(*kinematics, 1e-3, all.rows(), "d, J and rates, small steps",
+          [&](const Eigen::VectorXd& q) { all.evaluateValues(q, v, rates, values); });
   measure(*kinematics, 0.5, all.rows(), "d and J, large steps", jacobian);
   measure(*kinematics, 1e-3, all.rows(), "d and J, small, influence 0.1 m",
           [&](const Eigen::VectorXd& q) { some.evaluateValues(q, d, values); });
+  measure(*kinematics, 1e-3, all.rows(), "d, J and rates, influence 0.1 m",
+          [&](const Eigen::VectorXd& q) { some.evaluateValues(q, v, someRates, values); });
+  CollisionConstraints::SparseHessian lower = all.makeHessian();
+  measure(*kinematics, 1e-3, all.rows(), "Lagrangian's Hessian, small steps",
+          [&](const Eigen::VectorXd& q) { all.hessian(q, weights, lower); });
   measure(*kinematics, 1e-3, all.rows(), "Hessian times vector, small steps",
           [&](const Eigen::VectorXd& q) { all.hessianVector(q, weights, v, out); });
   PlainFcl plain(*kinematics, *geometry, pairs);

@@ -1,0 +1,86 @@
+// How fast a row's gradient may change, from r, R and the distance alone; see constraints.h and
+// docs/control.md.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "fcl_stpbv/robot/constraints.h"
+
+namespace fcl_stpbv {
+namespace {
+
+using Eigen::Vector3d;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+Vector3d velocityOf(const Vector3d& x, const Twist& body) { return body.linear + body.angular.cross(x); }
+double across(const Vector3d& v, const Vector3d& n) { return (v - n.dot(v) * n).norm(); }
+
+/// Least and largest radius of curvature of a body's surface.
+struct Roundness {
+  double least, most;
+};
+
+/// Those of a polyhedron are 0 and infinite: its ways to turn are all or nothing, and do not enter `skew`.
+bool roundnessOf(const fcl::CollisionGeometryd& geometry, Roundness& result) {
+  if (const StpBvGeometry* smooth = asStpBv(&geometry)) {
+    result = {smooth->volume().radii().r, smooth->volume().radii().R};
+    return true;
+  }
+  result = {0, kInfinity};
+  const fcl::NODE_TYPE type = geometry.getNodeType();
+  return type == fcl::GEOM_BOX || type == fcl::GEOM_CONVEX || type == fcl::GEOM_TRIANGLE ||
+         type == fcl::GEOM_HALFSPACE;
+}
+
+}  // namespace
+
+double CollisionConstraints::gradientRateBound(int row) const {
+  const Row& r = rows_[at(row)];
+  const Witness w = known(at(row));
+  if (w.status == DistanceStatus::invalid) return 0;
+  Roundness a, b;
+  if (!moving_ || !roundnessOf(*geometry_->bodies[at(r.a)].geometry, a) ||
+      !roundnessOf(second(pairs_[at(row)]), b))
+    return kInfinity;
+  const double least = w.distance + a.least + b.least;
+  if (!(least > 0)) return kInfinity;
+  // W_A + W_B + d has eigenvalues between `least` and `most`; of a polyhedron only open ways count.
+  const double most = w.distance + (std::isinf(a.most) ? 0 : a.most) + (std::isinf(b.most) ? 0 : b.most);
+  const double ratio = std::sqrt(most / least), skew = (ratio + 1 / ratio) / 2;
+
+  Twist first, other;
+  bodyVelocities(at(row), first, other);
+  const Vector3d& n = w.normal;
+  const double spin = (other.angular - first.angular).cross(n).norm();
+  double turn = kInfinity, slide[2];
+  for (std::size_t side = 0; side < 2; ++side) {
+    const Vector3d& x = w.point[side];
+    const double apart = across(velocityOf(x, other) - velocityOf(x, first), n);
+    // The normal as body 1, then body 2, carries it, and what it turns against that.
+    const Vector3d carried = (side == 0 ? other : first).angular.cross(n);
+    turn = std::min(turn, carried.norm() + apart / least + skew * spin);
+    const double own = side == 0 ? a.most : b.most, others = w.distance + (side == 0 ? b.most : a.most);
+    slide[side] = skew * apart + std::min(own, others) * spin;
+  }
+  double slope, curvature;
+  bend(w.distance, slope, curvature);
+  const double speed = n.dot(velocityOf(w.point[1], other) - velocityOf(w.point[0], first));
+  double sum = 0;
+  for (int t = r.firstTerm; t < r.lastTerm; ++t) {
+    const Term& term = terms_[at(t)];
+    const Vector3d& x = w.point[at(term.side)];
+    const Twist &motion = state_.motion[at(term.motion)], &change = rate_.motion[at(term.motion)];
+    const Twist& body = term.side == 0 ? first : other;
+    const Vector3d lever = velocityOf(x, motion);
+    // The joint's own part: how n sees the velocity change that the joint gives to the material point at x.
+    const double own = std::abs(n.dot(velocityOf(x, change) + motion.angular.cross(velocityOf(x, body))));
+    const double entry = slope * (turn * lever.norm() + motion.angular.norm() * slide[term.side] + own) +
+                         std::abs(curvature * speed) * lever.norm();
+    sum += entry * entry;
+  }
+  return std::sqrt(sum);
+}
+
+}  // namespace fcl_stpbv

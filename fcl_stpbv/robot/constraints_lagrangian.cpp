@@ -1,0 +1,151 @@
+// The full Hessians of the rows of CollisionConstraints, and their weighted sum as IPOPT asks for it; see
+// constraints.h.
+#include <algorithm>
+
+#include "fcl_stpbv/robot/constraints.h"
+
+namespace fcl_stpbv {
+namespace {
+
+using Eigen::Vector3d;
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+// A column for each coordinate of the row: what it does to both bodies, as DistanceHessian takes it.
+using Side = Eigen::Matrix<double, 12, Eigen::Dynamic>;
+
+}  // namespace
+
+CollisionConstraints::SparseHessian CollisionConstraints::makeHessian() const {
+  std::vector<Eigen::Triplet<double>> entries;
+  for (std::size_t row = 0; row + 1 < rowStart_.size(); ++row)
+    for (int j = rowStart_[row]; j < rowStart_[row + 1]; ++j)
+      for (int i = j; i < rowStart_[row + 1]; ++i) entries.emplace_back(column_[at(i)], column_[at(j)], 0.0);
+  SparseHessian lower(columns(), columns());
+  lower.setFromTriplets(entries.begin(), entries.end());
+  return lower;
+}
+
+// Poses, and how every motion changes as each coordinate moves.
+void CollisionConstraints::prepareHessian(const ConstVector& q) {
+  if (alongEach_.empty()) alongEach_.assign(at(columns()), kinematics_->makeRate());
+  place(q);
+  moved_.setZero();
+  for (int k = 0; k < columns(); ++k) {
+    moved_[k] = 1;
+    kinematics_->differentiate(q, moved_, state_, alongEach_[at(k)]);
+    moved_[k] = 0;
+  }
+  moving_ = false;
+}
+
+// Along a line of q the poses' second derivatives are the pair's own at the bodies' twists and, by the
+// gradient, the change of those twists. Entries in the order of the row's columns.
+bool CollisionConstraints::rowHessian(std::size_t row, Eigen::MatrixXd& h) {
+  const Row& r = rows_[row];
+  const int start = rowStart_[row], count = rowStart_[row + 1] - start;
+  h.setZero(count, count);
+  const Witness witness = ask(row);
+  if (witness.status == DistanceStatus::invalid) return true;
+  DistanceHessian pair;
+  const Eigen::Isometry3d &pose1 = pose_[at(r.a)], &pose2 = pose_[at(r.b)];
+  const bool known = r.first ? fcl_stpbv::hessian(*r.first, pose1, *r.second, pose2, found_[row], pair)
+                             : fcl_stpbv::hessian(*geometry_->bodies[at(r.a)].geometry, pose1,
+                                                  second(pairs_[row]), pose2, answers_[row], pair);
+  if (!known) return false;
+  const Vector3d origin[2] = {pose1.translation(), pose2.translation()};
+  Side twists = Side::Zero(12, count);
+  for (int t = r.firstTerm; t < r.lastTerm; ++t) {
+    const Term& term = terms_[at(t)];
+    const Twist& motion = state_.motion[at(term.motion)];
+    twists.col(term.slot - start).segment<3>(6 * term.side) +=
+        motion.linear + motion.angular.cross(origin[term.side]);
+    twists.col(term.slot - start).segment<3>(6 * term.side + 3) += motion.angular;
+  }
+  h.noalias() = twists.transpose() * (pair.matrix * twists);
+  for (int t = r.firstTerm; t < r.lastTerm; ++t) {
+    const Term& term = terms_[at(t)];
+    const int i = term.slot - start;
+    const Vector3d along = (term.side == 0 ? -1 : 1) * witness.normal;
+    const Vector3d moment = witness.point[at(term.side)].cross(along);
+    const Vector3d turned = along.cross(state_.motion[at(term.motion)].angular);  // along.(w x v) = turned.v
+    for (int j = 0; j < count; ++j) {
+      const Twist& change = alongEach_[at(column_[at(start + j)])].motion[at(term.motion)];
+      const double half = (along.dot(change.linear) + moment.dot(change.angular) +
+                           turned.dot(twists.col(j).segment<3>(6 * term.side))) /
+                          2;
+      h(i, j) += half;
+      h(j, i) += half;
+    }
+  }
+  double slope, curvature;
+  bend(witness.distance, slope, curvature);
+  if (slope != 1 || curvature != 0) {
+    change_.segment(start, count).setZero();
+    writeRow(row, witness, 1.0, change_.data());
+    const auto g = change_.segment(start, count);
+    h *= slope;
+    h.noalias() += curvature * g * g.transpose();
+  }
+  h = ((h + h.transpose()) / 2).eval();  // symmetric to the last bit
+  return true;
+}
+
+// Hands add(i, j, value, row) the open rows' entries, half of each from either side of the diagonal.
+template <class Add>
+void CollisionConstraints::openHessians(const ConstVector& q, const Add& add) {
+  if (std::find(open_.begin(), open_.end(), 1) == open_.end()) return;
+  for (int j = 0; j < columns(); ++j) {
+    differences(q, Eigen::VectorXd::Unit(columns(), j));
+    for (std::size_t row = 0; row < open_.size(); ++row) {
+      if (!open_[row]) continue;
+      const auto first = column_.begin() + rowStart_[row], last = column_.begin() + rowStart_[row + 1];
+      if (!std::binary_search(first, last, j)) continue;
+      for (int k = rowStart_[row]; k < rowStart_[row + 1]; ++k)
+        add(column_[at(k)], j, change_[k], static_cast<int>(row));
+    }
+  }
+}
+
+void CollisionConstraints::hessian(const ConstVector& q, const ConstVector& weights, SparseHessian& lower) {
+  prepareHessian(q);
+  Eigen::Map<Eigen::VectorXd>(lower.valuePtr(), lower.nonZeros()).setZero();
+  Eigen::MatrixXd h;
+  for (std::size_t row = 0; row < open_.size(); ++row) {
+    const double weight = weights[static_cast<Eigen::Index>(row)];
+    open_[row] = weight != 0 && (row >= pairs_.size() || !rowHessian(row, h));
+    if (weight == 0 || open_[row]) continue;
+    const int start = rowStart_[row], count = rowStart_[row + 1] - start;
+    for (int j = 0; j < count; ++j) {
+      // The row's columns ascend as the entries of a column of `lower` do, which hold them all.
+      int place = lower.outerIndexPtr()[column_[at(start + j)]];
+      for (int i = j; i < count; ++i) {
+        while (lower.innerIndexPtr()[place] != column_[at(start + i)]) ++place;
+        lower.valuePtr()[place] += weight * h(i, j);
+      }
+    }
+  }
+  openHessians(q, [&](int i, int j, double value, int row) {
+    lower.coeffRef(std::max(i, j), std::min(i, j)) += weights[row] * (i == j ? value : value / 2);
+  });
+}
+
+void CollisionConstraints::hessian(const ConstVector& q, int row, Eigen::Ref<Eigen::MatrixXd> full) {
+  prepareHessian(q);
+  full.setZero();
+  std::fill(open_.begin(), open_.end(), 0);
+  Eigen::MatrixXd h;
+  if (at(row) < pairs_.size() && rowHessian(at(row), h)) {
+    const int start = rowStart_[at(row)];
+    for (int i = 0; i < h.rows(); ++i)
+      for (int j = 0; j < h.rows(); ++j) full(column_[at(start + i)], column_[at(start + j)]) = h(i, j);
+    return;
+  }
+  open_[at(row)] = 1;
+  openHessians(q, [&](int i, int j, double value, int) {
+    full(i, j) += value / 2;
+    full(j, i) += value / 2;
+  });
+}
+
+}  // namespace fcl_stpbv

@@ -1,0 +1,102 @@
+// See velocity_damper.h.
+#include "fcl_stpbv/robot/velocity_damper.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "fcl_stpbv/error.h"
+
+namespace fcl_stpbv {
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+void check(const Damper& damper) {
+  if (!(damper.influence > damper.security) || !std::isfinite(damper.influence))
+    throw Error("VelocityDamper: influence must be finite and larger than security");
+  if (!(damper.damping > 0)) throw Error("VelocityDamper: damping must be larger than 0");
+}
+
+}  // namespace
+
+VelocityDamper::VelocityDamper(CollisionConstraints& constraints, DamperOptions options)
+    : constraints_(constraints),
+      options_(std::move(options)),
+      dampers_(at(constraints.rows()), options_.all),
+      jacobian_(constraints.makeJacobian()),
+      rates_(constraints.makeRates()),
+      b_(Eigen::VectorXd::Zero(constraints.rows())),
+      damping_(at(constraints.rows())),
+      inside_(at(constraints.rows()), 0) {
+  check(options_.all);
+  if (!(options_.period > 0) || !(options_.barrierGain > 0))
+    throw Error("VelocityDamper: period and barrierGain must be larger than 0");
+  for (const auto& [row, damper] : options_.rows) {
+    if (row < 0 || row >= constraints.rows())
+      throw Error("VelocityDamper: there is no row " + std::to_string(row));
+    check(damper);
+    dampers_[at(row)] = damper;
+  }
+  near_.reserve(at(constraints.rows()));
+}
+
+// At the damper's own edge the row then says dd/dt >= -xi, below what the pair does.
+void VelocityDamper::enter(int row) {
+  const Damper& damper = dampers_[at(row)];
+  double& damping = damping_[at(row)];
+  damping = damper.damping;
+  const double room = rates_.d[row] - damper.security;
+  if (options_.headroom < 0 || !(room > 0)) return;
+  damping = std::max(damping,
+                     (options_.headroom - rates_.speed[row]) * (damper.influence - damper.security) / room);
+}
+
+double VelocityDamper::bound(int row) const {
+  const Damper& damper = dampers_[at(row)];
+  const double room = rates_.d[row] - damper.security, speed = rates_.speed[row];
+  const double rate = damping_[at(row)] / (damper.influence - damper.security);
+  const double allowed = -rate * room;
+  if (options_.level == DamperLevel::velocity) return allowed;
+  const double drift = rates_.drift[row];
+  if (options_.level == DamperLevel::acceleration) return (allowed - speed) / options_.period - drift;
+  return -drift - (rate + options_.barrierGain) * speed - rate * options_.barrierGain * room;
+}
+
+void VelocityDamper::update(const Eigen::Ref<const Eigen::VectorXd>& q,
+                            const Eigen::Ref<const Eigen::VectorXd>& qd) {
+  if (options_.level == DamperLevel::velocity) {
+    constraints_.evaluate(q, rates_.d, jacobian_);
+    rates_.speed.noalias() = jacobian_ * qd;
+  } else {
+    constraints_.evaluate(q, qd, rates_, jacobian_);
+  }
+  near_.clear();
+  for (int row = 0; row < constraints_.rows(); ++row) {
+    const bool inside = rates_.d[row] < dampers_[at(row)].influence;
+    if (inside && !inside_[at(row)]) enter(row);
+    inside_[at(row)] = inside;
+    b_[row] = inside ? bound(row) : -std::numeric_limits<double>::infinity();
+    if (inside) near_.push_back(row);
+  }
+}
+
+int VelocityDamper::dense(Eigen::Ref<Eigen::MatrixXd> A, Eigen::Ref<Eigen::VectorXd> b) const {
+  int count = 0;
+  for (int row : near_) {
+    A.row(count).setZero();
+    for (CollisionConstraints::SparseJacobian::InnerIterator it(jacobian_, row); it; ++it)
+      A(count, it.col()) = it.value();
+    b[count++] = b_[row];
+  }
+  return count;
+}
+
+// Of x = x0 + H^-1 A' l, A x = b while the rows stay the same: their part of dx/dt is the projection of H^-1
+// (dA/dt)' l and H^-1 A' G^-1 (db/dt - dA/dt x), G = A H^-1 A'.
+double collisionAccelerationBound(const ProgramChange& change, double smallestH, double smallestG) {
+  return change.gradient * change.multiplier / std::sqrt(smallestH) +
+         (change.bound + change.gradient * change.solution) / std::sqrt(smallestG);
+}
+
+}  // namespace fcl_stpbv

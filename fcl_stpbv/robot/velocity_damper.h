@@ -1,0 +1,88 @@
+// Collision rows for a controller's quadratic program: velocity dampers and control barriers.
+#pragma once
+
+#include <Eigen/Core>
+#include <map>
+#include <vector>
+
+#include "fcl_stpbv/robot/constraints.h"
+
+namespace fcl_stpbv {
+
+/// Brakes a pair that comes closer (Faverjon and Tournassoud, 1987): `dd/dt >= -damping (d - security) /
+/// (influence - security)` from `influence` on.
+struct Damper {
+  double influence = 0.05;  ///< d_i (m)
+  double security = 0.01;   ///< d_s, where the pair may not come closer (m)
+  double damping = 0.5;     ///< xi, the speed allowed at `influence` (m/s)
+};
+
+/// What the program's variable is, and so what the rows say of it.
+enum class DamperLevel {
+  velocity,      ///< qd: J qd >= b, the damper itself
+  acceleration,  ///< qdd: the damper's inequality for the velocity one period later
+  barrier        ///< qdd: with h = d - security, h'' + (a + g) h' + a g h >= 0, a = damping / (influence -
+                 ///< security)
+};
+
+struct DamperOptions {
+  DamperLevel level = DamperLevel::velocity;
+  Damper all;
+  std::map<int, Damper> rows;  ///< of single rows
+  /// A pair that enters faster than its damper allows gets a larger xi until it leaves: one that allows what
+  /// it does and this much more (m/s), so that no row acts on the tick on which it enters. Negative: never.
+  double headroom = 0.05;
+  double period = 1e-3;     ///< of the controller (s), for `acceleration`
+  double barrierGain = 50;  ///< g (1/s), for `barrier`
+};
+
+/// Rows `A x >= b` of all pairs, one for each row of the constraints, in a structure that never changes. Rows
+/// beyond their influence have b = -infinity. No allocation in update().
+class VelocityDamper {
+ public:
+  /// Keeps a reference to the constraints. @throws Error for lengths, speeds or rows that make no sense.
+  VelocityDamper(CollisionConstraints& constraints, DamperOptions options);
+
+  /// Rows at q, while q moves with velocity qd.
+  void update(const Eigen::Ref<const Eigen::VectorXd>& q, const Eigen::Ref<const Eigen::VectorXd>& qd);
+
+  const CollisionConstraints::SparseJacobian& A() const { return jacobian_; }
+  const Eigen::VectorXd& b() const { return b_; }
+  const Eigen::VectorXd& d() const { return rates_.d; }
+  /// Rows within their influence, ascending.
+  const std::vector<int>& near() const { return near_; }
+  /// Writes those rows one below the other and returns how many: for solvers of dense programs. `A` and `b`
+  /// have room for near().size() rows.
+  int dense(Eigen::Ref<Eigen::MatrixXd> A, Eigen::Ref<Eigen::VectorXd> b) const;
+
+  /// xi of a row: its own, or what it got on entering (m/s).
+  double damping(int row) const { return damping_[static_cast<std::size_t>(row)]; }
+
+ private:
+  void enter(int row);
+  double bound(int row) const;
+
+  CollisionConstraints& constraints_;
+  DamperOptions options_;
+  std::vector<Damper> dampers_;
+  CollisionConstraints::SparseJacobian jacobian_;
+  RowRates rates_;
+  Eigen::VectorXd b_;
+  std::vector<double> damping_;
+  std::vector<char> inside_;
+  std::vector<int> near_;
+};
+
+/// What changes per second in a quadratic program `min x'Hx/2 - f'x, A x >= b`, of the rows that act.
+struct ProgramChange {
+  double gradient = 0;    ///< most of |dA/dt|, the 2-norm over the acting rows (see gradientRateBound)
+  double bound = 0;       ///< most of |db/dt|
+  double multiplier = 0;  ///< norm of the acting rows' multipliers
+  double solution = 0;    ///< |x|
+};
+/// Most of |dx/dt| that collision rows add to what the task alone asks for, in the norm x'Hx, while the same
+/// rows act: `smallestH` is the smallest eigenvalue of H, `smallestG` that of A H^-1 A' of the acting rows
+/// (docs/control.md).
+double collisionAccelerationBound(const ProgramChange& change, double smallestH, double smallestG);
+
+}  // namespace fcl_stpbv

@@ -1,0 +1,215 @@
+// What evaluate(q, qd) says of every row, and the Hessians of rows and of a Lagrangian, against central
+// differences and each other.
+#include <fcl/geometry/shape/box.h>
+#include <fcl/geometry/shape/capsule.h>
+#include <fcl/geometry/shape/cylinder.h>
+
+#include <catch2/catch.hpp>
+
+#include "fcl_stpbv/adapter/stp_bv_geometry.h"
+#include "test/reference/robots.h"
+
+using namespace fcl_stpbv;
+using namespace fcl_stpbv::test;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace {
+
+constexpr double kStep = 1e-6;
+
+/// Everything of a row that moves, at one configuration.
+struct Moving {
+  VectorXd speed, where;  // of the row; normal and both witness points
+};
+Moving at(CollisionConstraints& constraints, const VectorXd& q, const VectorXd& qd, RowRates& rates,
+          MatrixXd& jacobian) {
+  constraints.evaluate(q, qd, rates, jacobian);
+  Moving m{rates.speed, VectorXd::Zero(9 * constraints.rows())};
+  for (int row = 0; row < static_cast<int>(constraints.pairs().size()); ++row) {
+    const RowAnswer a = constraints.answer(row);
+    m.where.segment<9>(9 * row) << a.normal, a.points[0], a.points[1];
+  }
+  return m;
+}
+
+struct Found {
+  double speed = 0, drift = 0, velocity = 0;
+  int compared = 0, seams = 0;
+};
+
+// Rows whose one-sided differences tell of a seam in between are left out and counted, and so are deep
+// answers, which may jump.
+Found compare(CollisionConstraints& constraints, const Kinematics& kinematics, int count) {
+  Random random(23);
+  Found found;
+  RowRates here = constraints.makeRates(), other = here;
+  MatrixXd jacobian(constraints.rows(), constraints.columns()), otherJacobian(jacobian);
+  const int pairs = static_cast<int>(constraints.pairs().size());
+  for (int trial = 0; trial < count; ++trial) {
+    const VectorXd q = randomConfiguration(kinematics, random), qd = randomDirection(q.size(), random);
+    const Moving now = at(constraints, q, qd, here, jacobian);
+    VectorXd velocity(now.where.size());
+    velocity.setZero();
+    for (int row = 0; row < pairs; ++row) {
+      const RowAnswer a = constraints.answer(row);
+      velocity.segment<9>(9 * row) << a.normalVelocity, a.pointVelocity[0], a.pointVelocity[1];
+    }
+    const Moving after = at(constraints, q + kStep * qd, qd, other, otherJacobian);
+    const Moving before = at(constraints, q - kStep * qd, qd, other, otherJacobian);
+    found.speed = std::max(found.speed, (jacobian * qd - here.speed).cwiseAbs().maxCoeff());
+    for (int row = 0; row < constraints.rows(); ++row) {
+      if (row < pairs && here.d[row] < -0.01) continue;
+      const auto part = [&](const VectorXd& v) { return v.segment<9>(9 * row); };
+      const double forward = (after.speed[row] - now.speed[row]) / kStep,
+                   backward = (now.speed[row] - before.speed[row]) / kStep;
+      const VectorXd goes = (part(after.where) - part(now.where)) / kStep,
+                     went = (part(now.where) - part(before.where)) / kStep;
+      if (std::abs(forward - backward) > 1e-3 * (1 + std::abs(here.drift[row])) ||
+          (goes - went).norm() > 1e-3 * (1 + part(velocity).norm())) {
+        ++found.seams;
+        continue;
+      }
+      ++found.compared;
+      found.drift = std::max(found.drift, std::abs((forward + backward) / 2 - here.drift[row]));
+      if (row < pairs && constraints.answer(row).status != DistanceStatus::invalid)
+        found.velocity = std::max(found.velocity, ((goes + went) / 2 - part(velocity)).norm());
+    }
+  }
+  return found;
+}
+
+// A central difference is off by step^2 / 6 times a third derivative, below 1e5 here where no seam is in the
+// step, and by rounding over the step: 1e-14 of the normal, and up to R times 1e-15 of a witness point on a
+// face.
+constexpr double kDifference = 1e-7;
+// J times qd against the same sum by bodies: a hundred products of size 1.
+constexpr double kRounding = 1e-13;
+
+void check(CollisionConstraints& constraints, const Kinematics& kinematics, int count) {
+  const Found found = compare(constraints, kinematics, count);
+  INFO(found.compared << " compared, " << found.seams << " across a seam");
+  CHECK(found.speed < kRounding);
+  CHECK(found.drift < kDifference);
+  CHECK(found.velocity < kDifference);
+  CHECK(found.compared > 500);
+  CHECK(found.seams < found.compared / 50);
+}
+
+/// A floating robot among plain shapes, with the bend and a constraint of its own.
+CollisionConstraints crowded(const Problem& p) {
+  const std::vector<std::shared_ptr<fcl::CollisionGeometryd>> shapes{
+      std::make_shared<fcl::Boxd>(0.3, 0.2, 0.4), std::make_shared<fcl::Cylinderd>(0.1, 0.5),
+      std::make_shared<fcl::Capsuled>(0.1, 0.5)};
+  ConstraintOptions options;
+  options.influence = 0.6;
+  for (std::size_t i = 0; i < shapes.size(); ++i) {
+    const double angle = 2.1 * static_cast<double>(i);
+    const fcl::CollisionObjectd object(shapes[i], Random(i).rotation(),
+                                       Eigen::Vector3d(1.3 * std::cos(angle), 1.3 * std::sin(angle), 0.5));
+    options.obstacles.push_back(obstacleOf(object, "shape"));
+  }
+  SmoothConstraint product;
+  product.name = "product";
+  product.coordinates = {2, 5};
+  product.value = [](const Eigen::Ref<const VectorXd>& q, double* gradient) {
+    if (gradient) {
+      gradient[0] = q[5] * q[5];
+      gradient[1] = 2 * q[2] * q[5];
+    }
+    return q[2] * q[5] * q[5];
+  };
+  options.smooth = {product};
+  std::vector<CheckedPair> pairs =
+      obstaclePairs(*p.model, *p.geometry, static_cast<int>(shapes.size()), true);
+  pairs.insert(pairs.end(), p.pairs.begin(), p.pairs.begin() + 40);
+  return CollisionConstraints(p.kinematics, p.geometry, pairs, options);
+}
+
+}  // namespace
+
+TEST_CASE("speed, drift and the velocities of normal and witness points are what differences along qd say") {
+  for (const TestRobot& robot : robots()) {
+    const Problem p = problem(robot);
+    CollisionConstraints constraints(p.kinematics, p.geometry, p.pairs);
+    INFO(robot.name);
+    check(constraints, *p.kinematics, 20);
+  }
+}
+
+TEST_CASE("rates hold for a floating base, plain shapes, the bend and constraints of one's own") {
+  const Problem p = problem(robots()[0], BaseMotion::floating);
+  CollisionConstraints constraints = crowded(p);
+  check(constraints, *p.kinematics, 40);
+}
+
+TEST_CASE("without a velocity an answer does not move") {
+  const Problem p = problem(robots()[0]);
+  CollisionConstraints constraints(p.kinematics, p.geometry, p.pairs);
+  RowRates rates = constraints.makeRates();
+  MatrixXd jacobian(constraints.rows(), constraints.columns());
+  const VectorXd q = p.kinematics->neutral(), qd = VectorXd::Ones(q.size());
+  VectorXd d(constraints.rows());
+  constraints.evaluate(q, qd, rates, jacobian);
+  CHECK(constraints.answer(0).normalVelocity.norm() + constraints.answer(0).pointVelocity[0].norm() > 0);
+  constraints.evaluate(q, d);
+  CHECK(constraints.answer(0).normalVelocity.isZero(0));
+  constraints.evaluate(q, VectorXd::Zero(q.size()), rates, jacobian);
+  CHECK(rates.speed.isZero(0));
+  CHECK(rates.drift.isZero(0));
+}
+
+TEST_CASE("a row's Hessian has the products with vectors as columns, and qd' H qd is the drift") {
+  const Problem p = problem(robots()[0], BaseMotion::floating);
+  CollisionConstraints constraints = crowded(p);
+  const int n = constraints.columns();
+  Random random(5);
+  RowRates rates = constraints.makeRates();
+  MatrixXd jacobian(constraints.rows(), n), h(n, n);
+  VectorXd product(n);
+  int closed = 0;
+  for (int trial = 0; trial < 3; ++trial) {
+    const VectorXd q = randomConfiguration(*p.kinematics, random), v = randomDirection(n, random);
+    constraints.evaluate(q, v, rates, jacobian);
+    for (int row = trial; row < constraints.rows(); row += 4) {
+      if (rates.d[row] < 0) continue;  // deep answers may have no second derivative
+      constraints.hessian(q, row, h);
+      constraints.hessianVector(q, VectorXd::Unit(constraints.rows(), row), v, product);
+      CHECK((h - h.transpose()).isZero(0));
+      // Sums of some hundred products; levers over radii of curvature make entries of up to 1e3.
+      CHECK((h * v - product).norm() < 1e-12 * (1 + h.norm()));
+      CHECK(std::abs(v.dot(h * v) - rates.drift[row]) < 1e-12 * (1 + h.norm()));
+      closed += h.norm() > 0;
+    }
+  }
+  CHECK(closed > 20);
+  // The constraint of one's own, by differences: 2 q2 q5^2 has second derivatives of size 1, the gradient's
+  // rounding over the step is 1e-10.
+  const VectorXd q = randomConfiguration(*p.kinematics, random);
+  constraints.hessian(q, constraints.rows() - 1, h);
+  CHECK(std::abs(h(2, 5) - 2 * q[5]) < 1e-8);
+  CHECK(std::abs(h(5, 5) - 2 * q[2]) < 1e-8);
+  CHECK(std::abs(h(2, 2)) < 1e-8);
+}
+
+TEST_CASE("the Lagrangian's Hessian is the weighted sum of the rows', in a structure that stays") {
+  const Problem p = problem(robots()[0], BaseMotion::floating);
+  CollisionConstraints constraints = crowded(p);
+  const int n = constraints.columns();
+  Random random(8);
+  CollisionConstraints::SparseHessian lower = constraints.makeHessian();
+  const std::vector<int> structure(lower.innerIndexPtr(), lower.innerIndexPtr() + lower.nonZeros());
+  VectorXd weights(constraints.rows());
+  for (Eigen::Index i = 0; i < weights.size(); ++i) weights[i] = i % 3 == 0 ? 0 : random.uniform(-1, 1);
+  const VectorXd q = p.kinematics->neutral() + 0.3 * randomDirection(n, random);
+  constraints.hessian(q, weights, lower);
+  MatrixXd sum = MatrixXd::Zero(n, n), h(n, n);
+  for (int row = 0; row < constraints.rows(); ++row) {
+    if (weights[row] == 0) continue;
+    constraints.hessian(q, row, h);
+    sum += weights[row] * h;
+  }
+  CHECK(std::vector<int>(lower.innerIndexPtr(), lower.innerIndexPtr() + lower.nonZeros()) == structure);
+  CHECK((MatrixXd(lower) - MatrixXd(sum.triangularView<Eigen::Lower>())).norm() < 1e-12 * (1 + sum.norm()));
+  CHECK(sum.norm() > 1);
+}

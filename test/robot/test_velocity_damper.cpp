@@ -1,0 +1,226 @@
+// The velocity damper's rows, how they come and go, and the bounds of docs/control.md.
+#include <fcl/geometry/shape/box.h>
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
+
+#include "fcl_stpbv/error.h"
+#include "fcl_stpbv/robot/velocity_damper.h"
+#include "test/reference/robots.h"
+#include "test/reference/shapes.h"
+
+using namespace fcl_stpbv;
+using namespace fcl_stpbv::test;
+using Eigen::MatrixXd;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+namespace {
+
+constexpr double kPeriod = 1e-3;
+
+/// The left arm of the robot in data/ holds a box of 14 x 10 x 6 cm over a table: one pair.
+struct Held {
+  Problem problem = fcl_stpbv::test::problem(robots()[0]);
+  VectorXd q;
+  std::unique_ptr<CollisionConstraints> constraints;
+
+  Held(double r, double R, double gap) {
+    q = problem.kinematics->neutral();
+    const auto set = [&](const char* joint, double value) {
+      q[problem.kinematics->coordinate(joint)] = value;
+    };
+    set("LARM_JOINT0", -0.6);
+    set("LARM_JOINT1", 0.25);
+    set("LARM_JOINT3", -1.2);
+    Kinematics::State state = problem.kinematics->makeState();
+    problem.kinematics->forward(q, state);
+    const int hand = problem.model->link("LARM_LINK5");
+    const Eigen::Isometry3d& at = state.link[static_cast<std::size_t>(hand)];
+    Eigen::Isometry3d level = Eigen::Isometry3d::Identity();
+    level.translation() = at * Vector3d(0, 0, -0.16);
+    Body box;
+    box.link = hand;
+    box.name = "held";
+    box.pose = at.inverse() * level;
+    box.volume = StpBv::build(test::box(0.14, 0.10, 0.06), {r, R});
+    box.geometry = std::make_shared<StpBvGeometry>(box.volume);
+    box.centre = box.pose * box.volume->centre();
+    box.radius = box.volume->enclosingRadius();
+    auto geometry = std::make_shared<RobotGeometry>();
+    geometry->bodies = {box};
+    ConstraintOptions options;
+    const auto table = std::make_shared<fcl::Boxd>(0.6, 0.8, 0.3);
+    const fcl::CollisionObjectd object(table, Eigen::Matrix3d::Identity(),
+                                       level.translation() - Vector3d(0, 0, 0.03 + r + gap + 0.15));
+    options.obstacles = {obstacleOf(object, "table")};
+    constraints = std::make_unique<CollisionConstraints>(problem.kinematics, geometry,
+                                                         std::vector<CheckedPair>{{0, 0, true}}, options);
+  }
+};
+
+}  // namespace
+
+TEST_CASE("rows at every level follow from d, J and the rates, sparse as dense") {
+  Held held(0.01, 10, 0.02);
+  const VectorXd qd = VectorXd::LinSpaced(held.q.size(), -0.3, 0.3);
+  RowRates rates = held.constraints->makeRates();
+  MatrixXd jacobian(1, held.q.size()), dense(jacobian);
+  held.constraints->evaluate(held.q, qd, rates, jacobian);
+  DamperOptions options;
+  options.headroom = -1;
+  const double rate = 0.5 / 0.04, allowed = -rate * (rates.d[0] - 0.01);
+  const auto b = [&](DamperLevel level) {
+    options.level = level;
+    VelocityDamper damper(*held.constraints, options);
+    damper.update(held.q, qd);
+    VectorXd bound(1);
+    REQUIRE(damper.dense(dense, bound) == 1);
+    CHECK((dense - jacobian).norm() < 1e-14);  // a warm start changes the rounding
+    CHECK(MatrixXd(damper.A()) == dense);
+    CHECK(damper.b()[0] == bound[0]);
+    return bound[0];
+  };
+  REQUIRE(rates.d[0] < 0.05);
+  // Sums of a handful of numbers, over the period.
+  CHECK(b(DamperLevel::velocity) == Approx(allowed).epsilon(1e-13));
+  CHECK(b(DamperLevel::acceleration) ==
+        Approx((allowed - rates.speed[0]) / kPeriod - rates.drift[0]).epsilon(1e-11));
+  CHECK(b(DamperLevel::barrier) ==
+        Approx(-rates.drift[0] - (rate + 50) * rates.speed[0] + 50 * allowed).epsilon(1e-11));
+}
+
+TEST_CASE(
+    "a row that enters does not act on that tick, however fast the pair comes, and one that is far is no "
+    "row") {
+  for (const double speed : {0.1, 0.6, 2.0}) {
+    Held held(0.01, 10, 0.08);
+    VectorXd qd = VectorXd::Zero(held.q.size());
+    VelocityDamper damper(*held.constraints, {});
+    damper.update(held.q, qd);
+    REQUIRE(damper.near().empty());
+    CHECK(damper.b()[0] == -std::numeric_limits<double>::infinity());
+    VectorXd q = held.q;
+    int ticks = 0;
+    while (damper.near().empty() && ++ticks < 3000) {
+      const VectorXd gradient = MatrixXd(damper.A()).row(0);
+      qd = -speed * gradient / gradient.squaredNorm();  // the distance shrinks at `speed`
+      q += kPeriod * qd;
+      damper.update(q, qd);
+    }
+    REQUIRE(damper.near().size() == 1);
+    CHECK((damper.A() * qd)[0] >=
+          damper.b()[0] + 0.04);  // the headroom of 0.05, less what xi is scaled by since d_i
+    const double entered = damper.damping(0);
+    CHECK(entered >= 0.5);
+    CHECK((entered > 0.5) == (speed > 0.46));
+    damper.update(q, 0 * qd);
+    CHECK(damper.damping(0) == entered);  // until it leaves
+    damper.update(held.q, qd);
+    damper.update(q, 0 * qd);
+    CHECK(damper.damping(0) == 0.5);
+  }
+}
+
+TEST_CASE("no gradient changes faster than r, R, the distance and the velocities allow") {
+  Random random(4);
+  double tightest = 0;
+  long compared = 0;
+  const auto walk = [&](CollisionConstraints& constraints, const Kinematics& kinematics, int count) {
+    RowRates rates = constraints.makeRates();
+    MatrixXd jacobian(constraints.rows(), constraints.columns());
+    VectorXd product(constraints.columns());
+    for (int trial = 0; trial < count; ++trial) {
+      const VectorXd q = randomConfiguration(kinematics, random), qd = randomDirection(q.size(), random);
+      constraints.evaluate(q, qd, rates, jacobian);
+      for (int k = 0; k < 15; ++k) {
+        const int row = random.below(constraints.rows());
+        constraints.evaluate(q, qd, rates, jacobian);
+        const double bound = constraints.gradientRateBound(row);
+        if (rates.d[row] < -0.01 || std::isinf(bound)) continue;
+        constraints.hessianVector(q, VectorXd::Unit(constraints.rows(), row), qd, product);
+        CHECK(product.norm() <= bound * (1 + 1e-9) + 1e-12);  // rounding
+        if (bound > 0) tightest = std::max(tightest, product.norm() / bound);
+        ++compared;
+      }
+    }
+  };
+  for (const TestRobot& robot : robots()) {
+    const Problem p = problem(robot);
+    CollisionConstraints constraints(p.kinematics, p.geometry, p.pairs);
+    walk(constraints, *p.kinematics, 20);
+  }
+  for (const double R : {1.0, 10.0}) {
+    Held held(0.001, R, 0.02);
+    for (int trial = 0; trial < 200; ++trial) walk(*held.constraints, *held.problem.kinematics, 1);
+  }
+  INFO("closest to its bound " << tightest);
+  CHECK(compared > 500);
+  CHECK(tightest > 0.3);  // a bound that nothing comes near would bound nothing
+  CHECK(tightest <= 1 + 1e-9);
+}
+
+// One row and H = 1, so that the program's solution is a projection and needs no solver.
+TEST_CASE(
+    "the joint acceleration that a collision row causes stays below its bound while a held box slides over a "
+    "table") {
+  Held held(0.01, 10, 0.03);
+  VelocityDamper damper(*held.constraints, {});
+  RowRates rates = held.constraints->makeRates();
+  const Eigen::Index n = held.q.size();
+  MatrixXd jacobian(1, n);
+  VectorXd q = held.q, qd = VectorXd::Zero(n), a(n);
+  double before = 0, tightest = 0, most = 0;
+  VectorXd lastQd = qd, lastTask = qd;
+  bool acted = false;
+  int ticks = 0;
+  for (int k = 0; k < 3000; ++k) {
+    const double t = k * kPeriod;
+    damper.update(q, qd);
+    a = MatrixXd(damper.A()).row(0);
+    VectorXd task(n);  // down, and to and fro with every joint at its own pace
+    for (Eigen::Index i = 0; i < n; ++i) task[i] = 0.05 * std::sin((2 + 0.3 * static_cast<double>(i)) * t);
+    held.constraints->evaluate(q, qd, rates, jacobian);
+    if (k == 0) lastTask = task;
+    task -= 0.2 * jacobian.row(0).transpose() / jacobian.row(0).squaredNorm() * std::min(1.0, t);
+    const double short_ = damper.b()[0] - a.dot(task);
+    const bool acts = short_ > 0;
+    const VectorXd x = acts ? VectorXd(task + a * short_ / a.squaredNorm()) : task;
+    held.constraints->evaluate(q, x, rates, jacobian);  // what the row does during the tick to come
+    ProgramChange change;
+    change.gradient = held.constraints->gradientRateBound(0);
+    change.bound = damper.damping(0) / 0.04 * std::abs(rates.speed[0]);
+    change.multiplier = acts ? short_ / a.squaredNorm() : 0;
+    change.solution = x.norm();
+    const double bound = collisionAccelerationBound(change, 1, a.squaredNorm());
+    if (acts && acted) {
+      const double measured = (x - lastQd).norm() / kPeriod,
+                   allowed = (task - lastTask).norm() / kPeriod + std::max(bound, before);
+      // The bound is on the derivative; over a tick the rates themselves change by a few parts in a thousand.
+      CHECK(measured <= 1.01 * allowed);
+      tightest = std::max(tightest, measured / allowed);
+      most = std::max(most, measured);
+      ++ticks;
+    }
+    before = bound;
+    acted = acts;
+    lastQd = x;
+    lastTask = task;
+    q += kPeriod * x;
+    qd = x;
+  }
+  INFO("measured up to " << most << ", at most " << tightest << " of the bound, over " << ticks << " ticks");
+  CHECK(ticks > 500);
+  CHECK(tightest > 0.05);
+}
+
+TEST_CASE("a damper that makes no sense is refused with what would work") {
+  Held held(0.01, 10, 0.02);
+  DamperOptions options;
+  options.all.influence = options.all.security;
+  CHECK_THROWS_WITH(VelocityDamper(*held.constraints, options), Catch::Contains("influence"));
+  options = {};
+  options.rows[7] = {};
+  CHECK_THROWS_WITH(VelocityDamper(*held.constraints, options), Catch::Contains("no row 7"));
+}

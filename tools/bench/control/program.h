@@ -1,0 +1,27 @@
+// The quadratic program of one tick, solved exactly.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace fcl_stpbv::benchmark {
+
+/// min x'Hx/2 - f'x subject to A x >= b, H positive definite, by Dantzig's pivoting of the dual (Bullet,
+/// after ODE): the acting rows come out exactly, and the rest is one linear solve. A row's multiplier is at
+/// most `kPenalty`: programs without a solution violate what costs least.
+class Program {
+ public:
+  static constexpr double kPenalty = 1e3;
+
+  /// False where the pivoting failed; then x is the solution without rows.
+  bool solve(const Eigen::MatrixXd& H, const Eigen::VectorXd& f, const Eigen::MatrixXd& A,
+             const Eigen::VectorXd& b, Eigen::VectorXd& x);
+  /// Of the last solution, one for each row.
+  const std::vector<double>& multipliers() const { return multiplier_; }
+
+ private:
+  std::vector<double> matrix_, side_, multiplier_, slack_, low_, high_;
+  std::vector<int> free_;
+};
+
+}  // namespace fcl_stpbv::benchmark
