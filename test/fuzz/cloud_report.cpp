@@ -6,12 +6,14 @@
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/volume/verify.h"
 #include "test/fuzz/clouds.h"
+#include "test/reference/arguments.h"
 
 using namespace fcl_stpbv;
 
 int main(int argc, char** argv) {
-  const int clouds = argc > 1 ? std::atoi(argv[1]) : 6000;
-  test::Random random(argc > 2 ? static_cast<std::uint64_t>(std::atoll(argv[2])) : 1);
+  const test::Arguments arguments(argc, argv, "[CLOUDS [SEED]]", 2);
+  const int clouds = arguments.number(1, 6000);
+  test::Random random(arguments.number(2, std::uint64_t{1}));
   int refused = 0, off = 0;
   for (int i = 0; i < clouds; ++i) {
     const fuzz::CloudCase c = fuzz::nastyCloud(random);
