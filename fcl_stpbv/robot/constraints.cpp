@@ -207,7 +207,18 @@ void CollisionConstraints::place(const ConstVector& q) {
   }
 }
 
-void CollisionConstraints::compute(const ConstVector& q, double* d, double* values) {
+void CollisionConstraints::nothingKnown(double* d, double* values) {
+  std::fill(d, d + rows(), std::numeric_limits<double>::lowest());
+  if (values) std::fill(values, values + nonZeros(), 0.0);
+  for (Distance& found : found_) found = Distance{};
+  for (DistanceAnswer& answer : answers_) answer = DistanceAnswer{};
+}
+
+bool CollisionConstraints::compute(const ConstVector& q, double* d, double* values) {
+  if (!q.allFinite()) {
+    nothingKnown(d, values);
+    return false;
+  }
   place(q);
   auto work = [&](int k) {  // every n-th row, so that far and near ones are shared out
     const std::size_t step = at(pool_->threads());
@@ -218,24 +229,26 @@ void CollisionConstraints::compute(const ConstVector& q, double* d, double* valu
     const std::size_t row = pairs_.size() + i;
     d[row] = options_.smooth[i].value(q, values ? values + rowStart_[row] : nullptr);
   }
+  return true;
 }
 
-void CollisionConstraints::evaluate(const ConstVector& q, Vector d) { compute(q, d.data(), nullptr); }
+bool CollisionConstraints::evaluate(const ConstVector& q, Vector d) { return compute(q, d.data(), nullptr); }
 
-void CollisionConstraints::evaluateValues(const ConstVector& q, Vector d, Vector values) {
-  compute(q, d.data(), values.data());
+bool CollisionConstraints::evaluateValues(const ConstVector& q, Vector d, Vector values) {
+  return compute(q, d.data(), values.data());
 }
 
-void CollisionConstraints::evaluate(const ConstVector& q, Vector d, SparseJacobian& jacobian) {
-  compute(q, d.data(), jacobian.valuePtr());
+bool CollisionConstraints::evaluate(const ConstVector& q, Vector d, SparseJacobian& jacobian) {
+  return compute(q, d.data(), jacobian.valuePtr());
 }
 
-void CollisionConstraints::evaluate(const ConstVector& q, Vector d, Eigen::Ref<Eigen::MatrixXd> jacobian) {
-  compute(q, d.data(), values_.data());
+bool CollisionConstraints::evaluate(const ConstVector& q, Vector d, Eigen::Ref<Eigen::MatrixXd> jacobian) {
+  const bool known = compute(q, d.data(), values_.data());
   jacobian.setZero();
   for (int row = 0; row < rows(); ++row)
     for (int k = rowStart_[at(row)]; k < rowStart_[at(row) + 1]; ++k)
       jacobian(row, column_[at(k)]) = values_[k];
+  return known;
 }
 
 }  // namespace fcl_stpbv

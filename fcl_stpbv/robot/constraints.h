@@ -69,11 +69,14 @@ class CollisionConstraints {
   /// A matrix of that structure, for evaluate() to fill.
   SparseJacobian makeJacobian() const;
 
-  void evaluate(const ConstVector& q, Vector d);
+  /// Distances, and with `jacobian` their derivatives. Where a coordinate of q is not finite nothing is known: each d is
+  /// the lowest of all doubles, which no optimiser takes for clear, each derivative 0, each answer() `invalid`.
+  /// @returns whether q was finite.
+  bool evaluate(const ConstVector& q, Vector d);
   /// With the nonZeros() entries of J.
-  void evaluateValues(const ConstVector& q, Vector d, Vector values);
-  void evaluate(const ConstVector& q, Vector d, SparseJacobian& jacobian);
-  void evaluate(const ConstVector& q, Vector d, Eigen::Ref<Eigen::MatrixXd> jacobian);
+  bool evaluateValues(const ConstVector& q, Vector d, Vector values);
+  bool evaluate(const ConstVector& q, Vector d, SparseJacobian& jacobian);
+  bool evaluate(const ConstVector& q, Vector d, Eigen::Ref<Eigen::MatrixXd> jacobian);
 
   /// Sum over the rows of weight times (Hessian of d) times v: the change of J as q moves along v. Closed
   /// form where one body is an STP-BV (docs/robot.md), on a seam that of one side, for a mesh or a tree that
@@ -111,7 +114,8 @@ class CollisionConstraints {
   void addSmooth(const SmoothConstraint& constraint);
   const fcl::CollisionGeometryd& second(const CheckedPair& pair) const;
   void place(const ConstVector& q);
-  void compute(const ConstVector& q, double* d, double* values);
+  bool compute(const ConstVector& q, double* d, double* values);
+  void nothingKnown(double* d, double* values);
   Witness ask(std::size_t row);
   double pairRow(std::size_t row, double* values);
   double bend(double d, double& slope, double& curvature) const;
