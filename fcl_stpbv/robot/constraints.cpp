@@ -231,7 +231,18 @@ void CollisionConstraints::place(const ConstVector& q) {
   }
 }
 
-void CollisionConstraints::compute(const ConstVector& q, double* d, double* values) {
+void CollisionConstraints::nothingKnown(double* d, double* values) {
+  std::fill(d, d + rows(), std::numeric_limits<double>::lowest());
+  if (values) std::fill(values, values + nonZeros(), 0.0);
+  for (Distance& found : found_) found = Distance{};
+  for (DistanceAnswer& answer : answers_) answer = DistanceAnswer{};
+}
+
+bool CollisionConstraints::compute(const ConstVector& q, double* d, double* values) {
+  if (!q.allFinite()) {
+    nothingKnown(d, values);
+    return false;
+  }
   place(q);
   moving_ = false;
   eachPair([&](std::size_t row) { d[row] = pairRow(row, values); });
@@ -239,6 +250,7 @@ void CollisionConstraints::compute(const ConstVector& q, double* d, double* valu
     const std::size_t row = pairs_.size() + i;
     d[row] = options_.smooth[i].value(q, values ? values + rowStart_[row] : nullptr);
   }
+  return true;
 }
 
 void CollisionConstraints::spread(Eigen::Ref<Eigen::MatrixXd> jacobian) const {
@@ -248,19 +260,20 @@ void CollisionConstraints::spread(Eigen::Ref<Eigen::MatrixXd> jacobian) const {
       jacobian(row, column_[at(k)]) = values_[k];
 }
 
-void CollisionConstraints::evaluate(const ConstVector& q, Vector d) { compute(q, d.data(), nullptr); }
+bool CollisionConstraints::evaluate(const ConstVector& q, Vector d) { return compute(q, d.data(), nullptr); }
 
-void CollisionConstraints::evaluateValues(const ConstVector& q, Vector d, Vector values) {
-  compute(q, d.data(), values.data());
+bool CollisionConstraints::evaluateValues(const ConstVector& q, Vector d, Vector values) {
+  return compute(q, d.data(), values.data());
 }
 
-void CollisionConstraints::evaluate(const ConstVector& q, Vector d, SparseJacobian& jacobian) {
-  compute(q, d.data(), jacobian.valuePtr());
+bool CollisionConstraints::evaluate(const ConstVector& q, Vector d, SparseJacobian& jacobian) {
+  return compute(q, d.data(), jacobian.valuePtr());
 }
 
-void CollisionConstraints::evaluate(const ConstVector& q, Vector d, Eigen::Ref<Eigen::MatrixXd> jacobian) {
-  compute(q, d.data(), values_.data());
+bool CollisionConstraints::evaluate(const ConstVector& q, Vector d, Eigen::Ref<Eigen::MatrixXd> jacobian) {
+  const bool known = compute(q, d.data(), values_.data());
   spread(jacobian);
+  return known;
 }
 
 }  // namespace fcl_stpbv

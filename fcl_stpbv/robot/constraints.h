@@ -86,21 +86,25 @@ class CollisionConstraints {
   /// A matrix of that structure, for evaluate() to fill.
   SparseJacobian makeJacobian() const;
 
-  void evaluate(const ConstVector& q, Vector d);
+  /// Distances, and with `jacobian` their derivatives. Where a coordinate of q is not finite nothing is
+  /// known: each d is the lowest of all doubles, which no optimiser takes for clear, each derivative 0, each
+  /// answer() `invalid`.
+  /// @returns whether q was finite.
+  bool evaluate(const ConstVector& q, Vector d);
   /// With the nonZeros() entries of J.
-  void evaluateValues(const ConstVector& q, Vector d, Vector values);
-  void evaluate(const ConstVector& q, Vector d, SparseJacobian& jacobian);
-  void evaluate(const ConstVector& q, Vector d, Eigen::Ref<Eigen::MatrixXd> jacobian);
+  bool evaluateValues(const ConstVector& q, Vector d, Vector values);
+  bool evaluate(const ConstVector& q, Vector d, SparseJacobian& jacobian);
+  bool evaluate(const ConstVector& q, Vector d, Eigen::Ref<Eigen::MatrixXd> jacobian);
 
   /// Room for one row's numbers each.
   RowRates makeRates() const;
   /// d and J at q and how they change as q moves with the velocity qd. Closed form where one body is an
   /// STP-BV (docs/robot.md), on a seam that of one side, for a mesh or a tree that of its nearest triangle or
   /// cell; central differences for the drift of other pairs, smooth constraints and the few answers that have
-  /// no second derivative.
-  void evaluateValues(const ConstVector& q, const ConstVector& qd, RowRates& rates, Vector values);
-  void evaluate(const ConstVector& q, const ConstVector& qd, RowRates& rates, SparseJacobian& jacobian);
-  void evaluate(const ConstVector& q, const ConstVector& qd, RowRates& rates,
+  /// no second derivative. A q or qd that is not finite gives what it gives above, and rates of 0.
+  bool evaluateValues(const ConstVector& q, const ConstVector& qd, RowRates& rates, Vector values);
+  bool evaluate(const ConstVector& q, const ConstVector& qd, RowRates& rates, SparseJacobian& jacobian);
+  bool evaluate(const ConstVector& q, const ConstVector& qd, RowRates& rates,
                 Eigen::Ref<Eigen::MatrixXd> jacobian);
 
   /// Most that |dJ/dt| of a row may be at the last evaluate(q, qd), in the 2-norm, whatever the patches: from
@@ -153,7 +157,8 @@ class CollisionConstraints {
   void place(const ConstVector& q);
   template <class Work>
   void eachPair(const Work& work);
-  void compute(const ConstVector& q, double* d, double* values);
+  bool compute(const ConstVector& q, double* d, double* values);
+  void nothingKnown(double* d, double* values);
   void spread(Eigen::Ref<Eigen::MatrixXd> jacobian) const;
   Witness ask(std::size_t row);
   Witness known(std::size_t row) const;

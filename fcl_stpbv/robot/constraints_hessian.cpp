@@ -65,8 +65,14 @@ bool CollisionConstraints::rateRow(std::size_t row, RowRates& rates, double* val
   return true;
 }
 
-void CollisionConstraints::evaluateValues(const ConstVector& q, const ConstVector& qd, RowRates& rates,
+bool CollisionConstraints::evaluateValues(const ConstVector& q, const ConstVector& qd, RowRates& rates,
                                           Vector values) {
+  if (!q.allFinite() || !qd.allFinite()) {
+    nothingKnown(rates.d.data(), values.data());
+    rates.speed.setZero();
+    rates.drift.setZero();
+    return false;
+  }
   place(q);
   kinematics_->differentiate(q, qd, state_, rate_);
   moving_ = true;
@@ -76,7 +82,7 @@ void CollisionConstraints::evaluateValues(const ConstVector& q, const ConstVecto
     const std::size_t row = pairs_.size() + i;
     rates.d[static_cast<Eigen::Index>(row)] = options_.smooth[i].value(q, values.data() + rowStart_[row]);
   }
-  if (std::find(open_.begin(), open_.end(), 1) == open_.end()) return;
+  if (std::find(open_.begin(), open_.end(), 1) == open_.end()) return true;
   differences(q, qd);
   for (std::size_t row = 0; row < open_.size(); ++row) {
     if (!open_[row]) continue;
@@ -88,17 +94,19 @@ void CollisionConstraints::evaluateValues(const ConstVector& q, const ConstVecto
     rates.speed[static_cast<Eigen::Index>(row)] = speed;
     rates.drift[static_cast<Eigen::Index>(row)] = drift;
   }
+  return true;
 }
 
-void CollisionConstraints::evaluate(const ConstVector& q, const ConstVector& qd, RowRates& rates,
+bool CollisionConstraints::evaluate(const ConstVector& q, const ConstVector& qd, RowRates& rates,
                                     SparseJacobian& jacobian) {
-  evaluateValues(q, qd, rates, Eigen::Map<Eigen::VectorXd>(jacobian.valuePtr(), nonZeros()));
+  return evaluateValues(q, qd, rates, Eigen::Map<Eigen::VectorXd>(jacobian.valuePtr(), nonZeros()));
 }
 
-void CollisionConstraints::evaluate(const ConstVector& q, const ConstVector& qd, RowRates& rates,
+bool CollisionConstraints::evaluate(const ConstVector& q, const ConstVector& qd, RowRates& rates,
                                     Eigen::Ref<Eigen::MatrixXd> jacobian) {
-  evaluateValues(q, qd, rates, values_);
+  const bool known = evaluateValues(q, qd, rates, values_);
   spread(jacobian);
+  return known;
 }
 
 // The row is slope (n.v + (x cross n).w) for each motion (v, w). Its change is the sum over what changes: the

@@ -7,12 +7,14 @@
 
 #include "fcl_stpbv/adapter/fcl_distance.h"
 #include "test/adapter/mirrored_pairs.h"
+#include "test/reference/arguments.h"
 
 using namespace fcl_stpbv;
 
 int main(int argc, char** argv) {
-  const long queries = argc > 1 ? std::atol(argv[1]) : 300000;
-  test::MirroredPairs pairs(argc > 2 ? static_cast<std::uint64_t>(std::atoll(argv[2])) : 1);
+  const test::Arguments arguments(argc, argv, "[QUERIES [SEED]]", 2);
+  const long queries = arguments.number(1, 300000L);
+  test::MirroredPairs pairs(arguments.number(2, std::uint64_t{1}));
   long apart = 0, solved = 0, fclWrong = 0, witnessOpen = 0, answerOpen = 0;
   double fclWorst = 0, witnessWorst = 0, answerWorst = 0;
   for (long i = 0; i < queries; ++i) {

@@ -4,13 +4,14 @@
 #include <cstdlib>
 
 #include "fcl_stpbv/distance/distance.h"
+#include "test/reference/arguments.h"
 #include "test/reference/shapes.h"
 
 using namespace fcl_stpbv;
 using namespace fcl_stpbv::test;
 
 int main(int argc, char** argv) {
-  const int count = argc > 1 ? std::atoi(argv[1]) : 1000;
+  const int count = Arguments(argc, argv, "[COUNT]", 1).number(1, 1000);
   std::vector<StpBv::Ptr> bodies;
   for (const Cloud& cloud : {box(0.3, 0.2, 0.1), plate(0.4, 0.3), needle(0.5), cylinder(0.1, 0.3),
                              geodesicSphere(0.2, 2), randomHull(60, {0.2, 0.1, 0.15}, 7)})

@@ -11,6 +11,7 @@
 #include <string>
 
 #include "fcl_stpbv/distance/distance.h"
+#include "test/reference/arguments.h"
 #include "test/reference/reference.h"
 #include "test/reference/shapes.h"
 
@@ -207,8 +208,9 @@ struct Row {
 }  // namespace
 
 int main(int argc, char** argv) {
-  const int count = argc > 1 ? std::atoi(argv[1]) : 200;
-  Random random(static_cast<std::uint64_t>(argc > 2 ? std::atoi(argv[2]) : 1));
+  const Arguments arguments(argc, argv, "[COUNT [SEED]]", 2);
+  const int count = arguments.number(1, 200);
+  Random random(arguments.number(2, std::uint64_t{1}));
   const std::vector<Body> all = bodies();
   std::map<std::string, Row> rows;
   Row total;

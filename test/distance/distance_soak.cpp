@@ -16,6 +16,7 @@
 
 #include "fcl_stpbv/distance/distance.h"
 #include "fcl_stpbv/volume/stp_bv.h"
+#include "test/reference/arguments.h"
 #include "test/reference/shapes.h"
 
 namespace {
@@ -105,8 +106,9 @@ Matrix3d parallel(Random& random, double tilt) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  const long queries = argc > 1 ? std::atol(argv[1]) : 20000;
-  const std::uint64_t seed = argc > 2 ? static_cast<std::uint64_t>(std::atoll(argv[2])) : 1;
+  const Arguments arguments(argc, argv, "[QUERIES [SEED]]", 2);
+  const long queries = arguments.number(1, 20000L);
+  const std::uint64_t seed = arguments.number(2, std::uint64_t{1});
   const double radii[] = {0.6, 1, 10, 100, 1e4, 1e6};
   const char* kinds[] = {"random", "tilt 1e-3", "tilt 1e-9", "parallel"};
   const double tilts[] = {-1, 1e-3, 1e-9, 0};

@@ -12,6 +12,7 @@
 
 #include "fcl_stpbv/distance/hessian.h"
 #include "fcl_stpbv/distance/shape_distance.h"
+#include "test/reference/arguments.h"
 #include "test/reference/shape_reference.h"
 
 using namespace fcl_stpbv;
@@ -157,9 +158,10 @@ Derivatives derivativesOf(const Body& body, const Shape& shape, const Isometry3d
 }  // namespace
 
 int main(int argc, char** argv) {
-  const int poses = argc > 1 ? std::atoi(argv[1]) : 1000;
-  const int seed = argc > 2 ? std::atoi(argv[2]) : 1;
-  const std::string only = argc > 3 ? argv[3] : "";
+  const Arguments arguments(argc, argv, "[POSES [SEED [KIND]]]", 3);
+  const int poses = arguments.number(1, 1000);
+  const int seed = arguments.number(2, 1);
+  const std::string only = arguments.text(3, "");
   const std::vector<Body> all = bodies();
   bool good = true;
   std::vector<std::string> names = boundedShapes();

@@ -5,12 +5,14 @@
 #include <cstdlib>
 
 #include "test/fuzz/cloud_check.h"
+#include "test/reference/arguments.h"
 
 using namespace fcl_stpbv;
 
 int main(int argc, char** argv) {
-  const int clouds = argc > 1 ? std::atoi(argv[1]) : 6000;
-  const std::uint64_t seed = argc > 2 ? static_cast<std::uint64_t>(std::atoll(argv[2])) : 1;
+  const test::Arguments arguments(argc, argv, "[CLOUDS [SEED]]", 2);
+  const int clouds = arguments.number(1, 6000);
+  const auto seed = arguments.number(2, std::uint64_t{1});
   int bad = 0;
   for (const auto& [name, make] :
        {std::pair{"near-degenerate", fuzz::nearDegenerateCloud}, std::pair{"nasty", fuzz::nastyCloud}}) {

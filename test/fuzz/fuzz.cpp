@@ -17,6 +17,7 @@
 #include <iterator>
 
 #include "test/fuzz/target.h"
+#include "test/reference/arguments.h"
 
 namespace {
 
@@ -69,9 +70,10 @@ int report(const Target& target, const std::string& text, const std::string& cas
 }  // namespace
 
 int main(int argc, char** argv) {
-  const double seconds = argc > 1 ? std::atof(argv[1]) : 20;
-  const std::uint64_t seed = argc > 2 ? static_cast<std::uint64_t>(std::atoll(argv[2])) : 1;
-  const std::string cases = argc > 3 ? argv[3] : ".";
+  const test::Arguments arguments(argc, argv, "[SECONDS [SEED [FOLDER]]]", 3);
+  const double seconds = arguments.number(1, 20.0, 1e-3);
+  const std::uint64_t seed = arguments.number(2, std::uint64_t{1});
+  const std::string cases = arguments.text(3, ".");
   std::string name = (std::filesystem::temp_directory_path() / "fcl_stpbv_fuzz_XXXXXX").string();
   if (!::mkdtemp(name.data())) return 1;
   folder = name;

@@ -11,6 +11,7 @@
 #include "fcl_stpbv/adapter/fcl_distance.h"
 #include "fcl_stpbv/adapter/polyhedral_witness.h"
 #include "fcl_stpbv/robot/mesh_file.h"
+#include "test/reference/arguments.h"
 #include "test/reference/reference.h"
 #include "test/reference/source_folder.h"
 
@@ -19,8 +20,9 @@ using namespace fcl_stpbv::test;
 using Eigen::Vector3d;
 
 int main(int argc, char** argv) {
-  const long queries = argc > 1 ? std::atol(argv[1]) : 300000;
-  Random random(argc > 2 ? static_cast<std::uint64_t>(std::atoll(argv[2])) : 1);
+  const Arguments arguments(argc, argv, "[QUERIES [SEED]]", 2);
+  const long queries = arguments.number(1, 300000L);
+  Random random(arguments.number(2, std::uint64_t{1}));
   const Vector3d mirror(1, -1, 1);
   const Eigen::Matrix3d across = mirror.asDiagonal();
 

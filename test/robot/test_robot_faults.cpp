@@ -1,7 +1,10 @@
 // What is wrong with a robot's files is told all at once, by name and line, and costs nothing else.
 #include <catch2/catch.hpp>
+#include <limits>
 
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/robot/constraints.h"
+#include "fcl_stpbv/robot/kinematics.h"
 #include "fcl_stpbv/robot/link_geometry.h"
 #include "fcl_stpbv/robot/srdf.h"
 #include "test/reference/volume_files.h"
@@ -141,4 +144,29 @@ TEST_CASE("visual shapes that are wrong matter only where they are used") {
   CHECK(loadGeometry(model, options).bodies.size() == 1);
   options.visual = true;
   CHECK_THAT(refusal([&](const std::string&) { loadGeometry(model, options); }, ""), Contains("visual 1"));
+}
+
+TEST_CASE(
+    "a configuration that is not finite gives pessimistic rows without NaN, status invalid, and false") {
+  const auto model = std::make_shared<const RobotModel>(parseUrdf(
+      robot(link("a", "<sphere radius=\"0.1\"/>") + link("b") + link("c", "<sphere radius=\"0.1\"/>") +
+            joint("j", "revolute", "a", "b") + joint("k", "prismatic", "b", "c", "<origin xyz=\"1 0 0\"/>")),
+      "small.urdf"));
+  const auto geometry = std::make_shared<const RobotGeometry>(loadGeometry(*model));
+  const auto kinematics = std::make_shared<const Kinematics>(model);
+  CollisionConstraints constraints(kinematics, geometry, {{0, 1}});
+  Eigen::VectorXd d(1), q = kinematics->neutral();
+  auto jacobian = constraints.makeJacobian();
+  CHECK(constraints.evaluate(q, d, jacobian));
+  CHECK(d[0] == Approx(0.8));
+  for (const double bad : {std::nan(""), HUGE_VAL, -HUGE_VAL}) {
+    q[1] = bad;
+    CHECK_FALSE(constraints.evaluate(q, d, jacobian));
+    CHECK(d[0] == std::numeric_limits<double>::lowest());
+    CHECK(Eigen::MatrixXd(jacobian).isZero(0));
+    CHECK(constraints.answer(0).status == DistanceStatus::invalid);
+    Eigen::MatrixXd dense(1, 2);
+    CHECK_FALSE(constraints.evaluate(q, d, dense));
+    CHECK(dense.isZero(0));
+  }
 }

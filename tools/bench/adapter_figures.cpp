@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "fcl_stpbv/adapter/fcl_distance.h"
+#include "test/reference/arguments.h"
 #include "test/reference/shapes.h"
 
 using namespace fcl_stpbv;
@@ -131,7 +132,7 @@ void report(const char* name, const Cloud& cloud, int queries) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  const int queries = argc > 1 ? std::atoi(argv[1]) : 20000;
+  const int queries = test::Arguments(argc, argv, "[QUERIES]", 1).number(1, 20000);
   const std::vector<std::pair<const char*, Cloud>> shapes{
       {"geodesic 12", geodesicSphere(0.2, 0)},
       {"geodesic 42", geodesicSphere(0.2, 1)},

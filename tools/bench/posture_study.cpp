@@ -232,7 +232,11 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--tolerance", tolerance, "Relative change of the cost to stop at")->capture_default_str();
   app.add_option("-o,--output", folder, "Folder for posture_profile.csv and .svg");
-  CLI11_PARSE(app, argc, argv);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
   try {
     if (!folder.empty()) benchmark::requireGnuplot();
     Study study(starts, searchStarts, tolerance);

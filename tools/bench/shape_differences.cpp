@@ -18,6 +18,7 @@
 
 #include "fcl_stpbv/adapter/fcl_distance.h"
 #include "fcl_stpbv/adapter/hull_geometry.h"
+#include "test/reference/arguments.h"
 #include "test/reference/shapes.h"
 
 using namespace fcl_stpbv;
@@ -127,7 +128,7 @@ void jumps() {
 }  // namespace
 
 int main(int argc, char** argv) {
-  const int poses = argc > 1 ? std::atoi(argv[1]) : 2000;
+  const int poses = test::Arguments(argc, argv, "[POSES]", 1).number(1, 2000);
   const fcl::Sphered ball(0.1);
   const StpBvGeometry point(StpBv::build({{0, 0, 0}}, {0.1, 10}));
   std::printf(

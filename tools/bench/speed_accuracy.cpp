@@ -59,7 +59,11 @@ int main(int argc, char** argv) {
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
   app.add_flag("--force", force, "replace earlier charts even by those of a busy machine");
-  CLI11_PARSE(app, argc, argv);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
   try {
     return summary ? printSummary(options.seed) : drawCharts(only, folder, options, force);
   } catch (const std::exception& e) {

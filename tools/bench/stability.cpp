@@ -66,7 +66,11 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--method", only, "only these methods");
   app.add_option("--list", list, "print this method's failures, case by case");
-  CLI11_PARSE(app, argc, argv);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
   try {
     const Results results = runSuite(allSituations(seed, hardCases(), !json), only);
     listFailures(results, list);

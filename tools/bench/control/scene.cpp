@@ -7,6 +7,7 @@
 
 #include "fcl_stpbv/adapter/hull_geometry.h"
 #include "fcl_stpbv/error.h"
+#include "test/reference/source_folder.h"
 
 namespace fcl_stpbv::benchmark {
 namespace {
@@ -24,7 +25,7 @@ struct Robot {
 
 const Robot& robot() {
   static const Robot loaded = [] {
-    const std::string folder = FCL_STPBV_SOURCE_DIR "/data/hrp2_style/";
+    const std::string folder = test::sourceFolder() + "/data/hrp2_style/";
     Robot r;
     r.model = std::make_shared<const RobotModel>(loadUrdf(folder + "hrp2_style.urdf"));
     r.kinematics = std::make_shared<const Kinematics>(r.model);

@@ -1,0 +1,52 @@
+// Command lines of programs that take a few plain numbers: anything else ends them with status 2, as a run
+// that tested nothing must not look like one that found nothing.
+#pragma once
+
+#include <charconv>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+#include <string_view>
+
+namespace fcl_stpbv::test {
+
+class Arguments {
+ public:
+  /// `usage` names the arguments, such as "[QUERIES [SEED]]"; `most` is how many there may be.
+  Arguments(int argc, char** argv, std::string usage, int most)
+      : count_(argc - 1), argv_(argv), usage_(std::string(argv[0]) + " " + std::move(usage)) {
+    if (count_ == 1 && (std::string_view(argv[1]) == "--help" || std::string_view(argv[1]) == "-h")) {
+      std::printf("%s\n", usage_.c_str());
+      std::exit(0);
+    }
+    if (count_ > most) refuse();
+  }
+
+  /// The argument `i`, counted from 1, or `standard` where there are fewer.
+  template <class Number>
+  Number number(int i, Number standard, Number least = 1) const {
+    if (i > count_) return standard;
+    const std::string_view word = argv_[i];
+    Number value{};
+    const auto result = std::from_chars(word.data(), word.data() + word.size(), value);
+    if (result.ec != std::errc() || result.ptr != word.data() + word.size() || !(value >= least)) refuse();
+    return value;
+  }
+  std::string text(int i, const std::string& standard) const {
+    if (i > count_) return standard;
+    if (argv_[i][0] == '-') refuse();
+    return argv_[i];
+  }
+
+ private:
+  [[noreturn]] void refuse() const {
+    std::fprintf(stderr, "usage: %s\n", usage_.c_str());
+    std::exit(2);
+  }
+
+  int count_;
+  char** argv_;
+  std::string usage_;
+};
+
+}  // namespace fcl_stpbv::test
