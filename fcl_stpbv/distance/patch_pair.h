@@ -13,6 +13,10 @@ namespace fcl_stpbv::detail {
 /// their axes cross, else by Newton on the sphere (docs/theory.md, 5).
 void turnToWidestOfEdges(const PosedPatch& a, const PosedPatch& b, Packed& n);
 
+/// Radii of curvature of the patch's core at its outward normal `n`, as a matrix on the tangent plane: the
+/// second derivative of its support function (m).
+Eigen::Matrix3d coreCurvature(const PosedPatch& p, const Eigen::Vector3d& n);
+
 /// A direction not yet made a unit vector: what is asked of it first, on which side of seams it lies, does
 /// not wait for the division.
 struct UnnormalizedNormal {
