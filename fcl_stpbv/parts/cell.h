@@ -1,0 +1,36 @@
+// The convex room that plane cuts leave to a part, and its corners inside the mesh's solid.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "fcl_stpbv/parts/mesh_solid.h"
+#include "fcl_stpbv/parts/plane_cut.h"
+
+namespace fcl_stpbv {
+
+/// A box cut by planes. Why its corners matter: an extreme point of the solid within the cell lies on the
+/// solid's surface, or it is a corner of the cell inside the solid. So the hull of the surface's triangles
+/// within the cell and of those corners holds all of the solid within the cell.
+class Cell {
+ public:
+  Cell() = default;  ///< none: for meshes that enclose nothing
+  /// The box around the mesh, a little larger.
+  explicit Cell(const MeshSolid& mesh);
+
+  /// What the plane leaves on the side its normal points to. The new corners are looked up in the mesh.
+  Cell above(const CutPlane& plane, double slack, const MeshSolid& mesh) const;
+
+  /// Corners that the mesh encloses, or that are too near its surface to tell.
+  std::vector<Eigen::Vector3d> enclosedCorners() const;
+
+ private:
+  struct Corner {
+    Eigen::Vector3d point;
+    bool enclosed;
+  };
+  std::vector<Corner> corners_;
+  std::vector<std::vector<int>> faces_;  // rings
+};
+
+}  // namespace fcl_stpbv

@@ -1,0 +1,115 @@
+// See cut_planes.h.
+#include "fcl_stpbv/parts/cut_planes.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+namespace fcl_stpbv {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr int kSteps = 12;   // cuts across an axis
+constexpr int kFacets = 30;  // flat parts tried
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+// Lowest and highest of the part along a direction.
+std::pair<double, double> reach(const Part& part, const Vector3d& n) {
+  double low = n.dot(part.hull.vertices[0]), high = low;
+  for (const Vector3d& v : part.hull.vertices) {
+    low = std::min(low, n.dot(v));
+    high = std::max(high, n.dot(v));
+  }
+  return {low, high};
+}
+
+struct Spread {
+  Eigen::Matrix3d axes;               // principal ones of the triangles' middles, by area
+  std::map<int, double> areaOfFacet;  // of the part
+};
+
+Spread spreadOf(const Part& part) {
+  Spread spread;
+  Vector3d sum = Vector3d::Zero();
+  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
+  double area = 0;
+  for (const auto& room : part.rooms) {
+    for (std::size_t t = 0; t < room->soup.triangles.size(); ++t) {
+      const auto& [i, k, l] = room->soup.triangles[t];
+      const Vector3d &a = room->soup.points[at(i)], &b = room->soup.points[at(k)],
+                     &c = room->soup.points[at(l)];
+      const double size = 0.5 * (b - a).cross(c - a).norm();
+      const Vector3d middle = (a + b + c) / 3;
+      area += size;
+      sum += size * middle;
+      squares += size * middle * middle.transpose();
+      spread.areaOfFacet[room->soup.facet[t]] += size;
+    }
+  }
+  spread.axes.setIdentity();
+  if (!(area > 0)) return spread;
+  squares -= sum * sum.transpose() / area;
+  spread.axes = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(squares).eigenvectors();
+  return spread;
+}
+
+}  // namespace
+
+std::vector<CutPlane> flatParts(const MeshSolid& mesh, double slack, std::vector<int>& facetOf) {
+  // Normals and offsets to a grid: a flat part whose triangles fall into two of its cells counts twice.
+  constexpr double kGrid = 1e-3;
+  std::map<std::array<long, 4>, int> number;
+  std::vector<CutPlane> planes;
+  std::vector<double> area;
+  facetOf.clear();
+  for (const Triangle& t : mesh.triangles()) {
+    const Vector3d n = (t[1] - t[0]).cross(t[2] - t[0]);
+    const double size = n.norm();
+    const CutPlane plane{size > 0 ? Vector3d(n / size) : Vector3d::UnitZ(),
+                         size > 0 ? n.dot(t[0]) / size : 0};
+    const auto cellOf = [](double x, double grid) { return std::lround(x / grid); };
+    const std::array<long, 4> key{cellOf(plane.normal.x(), kGrid), cellOf(plane.normal.y(), kGrid),
+                                  cellOf(plane.normal.z(), kGrid), cellOf(plane.offset, 1e3 * slack)};
+    const auto [place, isNew] = number.try_emplace(key, static_cast<int>(planes.size()));
+    if (isNew) {
+      planes.push_back(plane);
+      area.push_back(0);
+    }
+    area[at(place->second)] += size;
+    facetOf.push_back(place->second);
+  }
+  return planes;
+}
+
+std::vector<CutPlane> cutPlanes(const Part& part, const PartSpace& space) {
+  const Spread spread = spreadOf(part);
+  std::vector<CutPlane> planes;
+  std::vector<Vector3d> axes{Vector3d::UnitX(), Vector3d::UnitY(), Vector3d::UnitZ()};
+  for (int k = 0; k < 3; ++k) axes.push_back(spread.axes.col(k));
+  for (const Vector3d& n : axes) {
+    const auto [low, high] = reach(part, n);
+    if (high - low < 1e-3 * space.size) continue;
+    for (int i = 1; i <= kSteps; ++i) planes.push_back({n, low + (high - low) * i / (kSteps + 1)});
+    planes.push_back({n, n.dot(part.excess.where)});
+  }
+  std::vector<std::pair<double, int>> facets;
+  for (const auto& [facet, area] : spread.areaOfFacet) facets.push_back({area, facet});
+  std::sort(facets.rbegin(), facets.rend());
+  int taken = 0;
+  for (const auto& [area, facet] : facets) {
+    const CutPlane& plane = space.facets[at(facet)];
+    const auto [low, high] = reach(part, plane.normal);
+    if (plane.offset - low < 5e-4 * space.size || high - plane.offset < 5e-4 * space.size) continue;
+    planes.push_back(plane);
+    if (++taken == kFacets) break;
+  }
+  return planes;
+}
+
+}  // namespace fcl_stpbv

@@ -1,0 +1,17 @@
+// Planes worth trying to cut a part with.
+#pragma once
+
+#include <vector>
+
+#include "fcl_stpbv/parts/part.h"
+
+namespace fcl_stpbv {
+
+/// The mesh's flat parts, largest area first, and for each triangle which of them it belongs to.
+std::vector<CutPlane> flatParts(const MeshSolid& mesh, double slack, std::vector<int>& facetOf);
+
+/// Across the axes and the part's own principal axes in even steps, through the point that is farthest from
+/// the mesh, and along the largest flat parts: of a designed body, those that make it concave.
+std::vector<CutPlane> cutPlanes(const Part& part, const PartSpace& space);
+
+}  // namespace fcl_stpbv

@@ -1,0 +1,71 @@
+// A part of a mesh while the parts are searched for: what it holds, its hull and how far that is from the
+// mesh.
+#pragma once
+
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "fcl_stpbv/parts/cell.h"
+#include "fcl_stpbv/parts/mesh_excess.h"
+#include "fcl_stpbv/parts/part_hull.h"
+#include "fcl_stpbv/parts/plane_cut.h"
+
+namespace fcl_stpbv {
+
+/// What the search works on: the mesh, and lengths that follow from its size.
+struct PartSpace {
+  const MeshSolid& mesh;
+  double size;                   ///< of the box around the mesh (m)
+  double slack;                  ///< corners this near a plane count as on it (m)
+  double fine;                   ///< excess that the search does not look below (m)
+  std::vector<CutPlane> facets;  ///< flat parts of the mesh
+
+  explicit PartSpace(const MeshSolid& solid);
+};
+
+/// One room of the cuts: the mesh's triangles in it, and the cell's corners inside the solid.
+struct Room {
+  TriangleSoup soup;
+  Cell cell;
+  std::vector<Eigen::Vector3d> corners;
+  std::vector<CutPlane> path;  ///< the cuts that made it, normals towards it
+  int group = 0;               ///< of the mesh's pieces it began with
+};
+
+/// Rooms whose common hull is one part.
+struct Part {
+  std::vector<std::shared_ptr<const Room>> rooms;
+  PartHull hull;
+  MeshExcess excess;
+  double resolution = 0;  ///< that the excess is known to (m)
+};
+
+using PartPtr = std::shared_ptr<Part>;
+
+/// How well to know a part's excess: to `resolution`, and no better where it is above `enough` (m).
+struct Measure {
+  double resolution;
+  double enough = std::numeric_limits<double>::infinity();
+};
+
+/// Measures a part's excess anew.
+void measureAgain(Part& part, const PartSpace& space, const Measure& measure);
+
+/// The part of these rooms.
+Part makePart(std::vector<std::shared_ptr<const Room>> rooms, const PartSpace& space, const Measure& measure);
+
+/// The hull of two parts together.
+Part joined(const Part& a, const Part& b, const PartSpace& space, const Measure& measure);
+
+using Rooms = std::vector<std::shared_ptr<const Room>>;
+
+/// A part's rooms on the side the plane's normal points to, and on the other. A room with triangles on one
+/// side only stays whole, so each point of the mesh stays in a room.
+std::pair<Rooms, Rooms> cut(const Part& part, const CutPlane& plane, const PartSpace& space);
+
+/// Sum of the volumes of the two hulls that cut() would leave, without making the rooms; less than 0 where
+/// the plane leaves nothing on one side (m^3).
+double volumeOfCut(const Part& part, const CutPlane& plane, const PartSpace& space);
+
+}  // namespace fcl_stpbv

@@ -1,0 +1,77 @@
+// See part_hull.h.
+#include "fcl_stpbv/parts/part_hull.h"
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+
+#include "fcl_stpbv/parts/mesh_excess.h"
+#include "fcl_stpbv/volume/rolling_ball.h"
+
+extern "C" {
+#include <libqhull_r/qhull_ra.h>
+}
+
+namespace fcl_stpbv {
+namespace {
+
+using Eigen::Vector3d;
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+// qhull's messages, of which there is one for every flat cloud, go nowhere.
+std::FILE* nowhere() {
+  static const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen("/dev/null", "w"),
+                                                                    std::fclose);
+  return file.get();
+}
+
+bool byQhull(const std::vector<Vector3d>& points, PartHull& hull) {
+  static_assert(sizeof(Vector3d) == 3 * sizeof(coordT), "qhull reads the points as they are");
+  qhT memory;
+  qhT* qh = &memory;
+  qh_zero(qh, nowhere());
+  char command[] = "qhull Qt";
+  std::vector<Vector3d> copy(
+      points);  // qhull promises not to change them, but does not say so to the compiler
+  const int failed = qh_new_qhull(qh, 3, static_cast<int>(copy.size()), copy.data()->data(), False, command,
+                                  nowhere(), nowhere());
+  if (!failed) {
+    vertexT *vertex, **vertexp;
+    facetT* facet;
+    Vector3d middle = Vector3d::Zero();
+    FORALLvertices {
+      hull.vertices.push_back(points[at(qh_pointid(qh, vertex->point))]);
+      middle += hull.vertices.back();
+    }
+    middle /= static_cast<double>(hull.vertices.size());
+    FORALLfacets {
+      Triangle corners;
+      std::size_t k = 0;
+      FOREACHvertex_(facet->vertices) {
+        if (k < 3) corners[k++] = points[at(qh_pointid(qh, vertex->point))];
+      }
+      hull.surface.push_back(corners);
+      hull.volume +=
+          std::abs((corners[0] - middle).dot((corners[1] - middle).cross(corners[2] - middle))) / 6;
+    }
+  }
+  qh_freeqhull(qh, !qh_ALL);
+  int left, blocks;
+  qh_memfreeshort(qh, &left, &blocks);
+  return !failed;
+}
+
+}  // namespace
+
+PartHull partHull(const std::vector<Vector3d>& points) {
+  PartHull hull;
+  if (points.size() >= 4 && byQhull(points, hull)) return hull;
+  hull = {};
+  for (const int v : rollBall(points).vertices) hull.vertices.push_back(points[at(v)]);
+  hull.surface = hullTriangles(hull.vertices);
+  return hull;
+}
+
+}  // namespace fcl_stpbv

@@ -1,0 +1,20 @@
+// Convex hulls of parts, fast, for the search.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "fcl_stpbv/parts/mesh_solid.h"
+
+namespace fcl_stpbv {
+
+struct PartHull {
+  std::vector<Eigen::Vector3d> vertices;
+  std::vector<Triangle> surface;
+  double volume = 0;  ///< 0 for a flat hull (m^3)
+};
+
+/// By qhull, or for flat clouds, which qhull refuses, by the rolling ball.
+PartHull partHull(const std::vector<Eigen::Vector3d>& points);
+
+}  // namespace fcl_stpbv

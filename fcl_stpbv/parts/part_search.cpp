@@ -1,0 +1,185 @@
+// See part_search.h.
+#include "fcl_stpbv/parts/part_search.h"
+
+#include <algorithm>
+#include <limits>
+#include <tuple>
+
+#include "fcl_stpbv/parts/cut_planes.h"
+
+namespace fcl_stpbv {
+namespace {
+
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+constexpr double kResolution = 0.15;  // of the excess to be lowered: what is below does not matter yet
+
+double excessOf(const PartPtr& part) { return part->excess.lower; }
+
+std::size_t worstOf(const PartSearch::Parts& parts) {
+  const auto less = [](const PartPtr& a, const PartPtr& b) { return excessOf(a) < excessOf(b); };
+  return static_cast<std::size_t>(std::max_element(parts.begin(), parts.end(), less) - parts.begin());
+}
+
+double worstExcess(const PartSearch::Parts& parts) { return excessOf(parts[worstOf(parts)]); }
+
+}  // namespace
+
+PartSearch::Line PartSearch::line(Parts parts) const {
+  Line out;
+  out.worst = worstExcess(parts);
+  for (const PartPtr& part : parts) {  // one that was not known well may turn out the worst
+    const double needed = std::max(0.05 * out.worst, 0.5 * space_.fine);
+    if (part->excess.upper > 1.2 * out.worst + space_.fine && needed < 0.7 * part->resolution)
+      measureAgain(*part, space_, {needed});
+    out.worst = std::max(out.worst, excessOf(part));
+  }
+  for (const PartPtr& part : parts) out.volume += part->hull.volume;
+  out.parts = std::move(parts);
+  return out;
+}
+
+// The best four ways: two by a score of excess and volume, and among the others two by volume alone, which
+// tells a useful cut before the excess does.
+const std::vector<PartSearch::Split>& PartSearch::splits(const PartPtr& part) {
+  constexpr std::size_t kByVolume = 2, kByScore = 2;
+  const auto [place, isNew] = splits_.try_emplace(part.get());
+  std::vector<Split>& ways = place->second;
+  if (!isNew) return ways;
+  kept_.push_back(part);
+  const std::vector<CutPlane> planes = cutPlanes(*part, space_);
+  std::vector<std::pair<double, std::size_t>> byVolume;
+  for (std::size_t i = 0; i < planes.size(); ++i) {
+    const double volume = volumeOfCut(*part, planes[i], space_);
+    if (volume >= 0) byVolume.push_back({volume, i});
+  }
+  std::sort(byVolume.begin(), byVolume.end());
+  spent_ += static_cast<long>(planes.size());
+  std::vector<Split> best;  // by score
+  double lastVolume = -1;
+  for (const auto& [volume, i] : byVolume) {
+    const bool another =
+        volume > lastVolume * (1 + 1e-3);  // planes of nearly one place have nearly one volume
+    const bool kept = ways.size() < kByVolume && another;
+    const double left = part->hull.volume > 0 ? volume / part->hull.volume : 1, weight = 0.5 + 0.5 * left;
+    const double bar = best.size() < kByScore ? kInfinite : best.back().score;
+    auto [above, below] = cut(*part, planes[i], space_);
+    if (above.empty() || below.empty()) continue;
+    // A half that is worse than the bar allows rules the plane out.
+    const Measure measure{kResolution * excessOf(part), kept ? kInfinite : bar / weight};
+    const auto up = std::make_shared<Part>(makePart(std::move(above), space_, measure));
+    ++spent_;
+    if (excessOf(up) > measure.enough) continue;
+    const auto down = std::make_shared<Part>(makePart(std::move(below), space_, measure));
+    ++spent_;
+    const auto [less, more] = std::minmax(excessOf(up), excessOf(down));
+    const Split split{(more + 0.5 * less) * weight + 1e-5 * space_.size * left, up, down};
+    if (kept) {
+      ways.push_back(split);
+      lastVolume = volume;
+    } else if (split.score < bar) {
+      if (best.size() == kByScore) best.pop_back();
+      best.insert(std::upper_bound(best.begin(), best.end(), split,
+                                   [](const Split& a, const Split& b) { return a.score < b.score; }),
+                  split);
+    }
+  }
+  ways.insert(ways.end(), best.begin(), best.end());
+  std::sort(ways.begin(), ways.end(), [](const Split& a, const Split& b) { return a.score < b.score; });
+  return ways;
+}
+
+PartPtr PartSearch::join(const PartPtr& a, const PartPtr& b, double worst) {
+  PartPtr& found = joins_[std::minmax(a.get(), b.get())];
+  if (!found) {
+    found = std::make_shared<Part>(fcl_stpbv::joined(*a, *b, space_, {kResolution * worst}));
+    kept_.push_back(a);
+    kept_.push_back(b);
+    ++spent_;
+  }
+  return found;
+}
+
+// The two whose common hull is least far from the mesh, until few are left and no join is within the bound.
+PartSearch::Parts PartSearch::joined(Parts parts, int most, double bound) {
+  while (parts.size() > 1) {
+    double best = kInfinite;
+    std::size_t first = 0, second = 0;
+    const double worst = worstExcess(parts);
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      for (std::size_t k = i + 1; k < parts.size(); ++k) {
+        const double excess = excessOf(join(parts[i], parts[k], worst));
+        if (excess < best) best = excess, first = i, second = k;
+      }
+    }
+    if (parts.size() <= static_cast<std::size_t>(most) && best > bound) break;
+    parts[first] = join(parts[first], parts[second], worst);
+    parts.erase(parts.begin() + static_cast<std::ptrdiff_t>(second));
+  }
+  return line(std::move(parts)).parts;
+}
+
+// One more part in each line: the ways to cut the worst, of which those least far from the mesh go on, and
+// those of the least volume.
+std::vector<PartSearch::Line> PartSearch::cutOn(const std::vector<Line>& beam) {
+  constexpr std::size_t kEach = 2;
+  std::vector<Line> next;
+  for (const Line& old : beam) {
+    const std::size_t w = worstOf(old.parts);
+    for (const Split& split : splits(old.parts[w])) {
+      Parts parts = old.parts;
+      parts[w] = split.up;
+      parts.push_back(split.down);
+      next.push_back(line(std::move(parts)));
+    }
+  }
+  const auto key = [](const Line& l) { return std::tie(l.worst, l.volume); };
+  std::sort(next.begin(), next.end(), [&](const Line& a, const Line& b) { return key(a) < key(b); });
+  const auto same = [&](const Line& a, const Line& b) { return key(a) == key(b); };
+  next.erase(std::unique(next.begin(), next.end(), same), next.end());
+  if (next.size() <= 2 * kEach) return next;
+  const auto middle = next.begin() + kEach;
+  std::sort(middle, next.end(), [](const Line& a, const Line& b) { return a.volume < b.volume; });
+  next.resize(2 * kEach);
+  return next;
+}
+
+PartSearch::Parts PartSearch::improved(Parts parts, int most, double bound) {
+  while (!exhausted() && worstExcess(parts) > bound) {
+    Parts best;
+    double least = 0.99 * worstExcess(parts);
+    std::vector<Line> beam{line(parts)};
+    for (int more = 0; more < 2; ++more) {
+      beam = cutOn(beam);
+      for (const Line& tried : beam) {
+        Parts few = joined(tried.parts, most, 0.5 * bound);
+        if (worstExcess(few) >= least) continue;
+        least = worstExcess(few);
+        best = std::move(few);
+      }
+    }
+    if (best.empty()) break;
+    parts = std::move(best);
+  }
+  return parts;
+}
+
+PartSearch::Parts PartSearch::fewParts(const Parts& start, int most, double bound) {
+  bound = std::max(bound, space_.fine);
+  Parts best = start.size() > static_cast<std::size_t>(most) ? joined(start, most, bound) : start;
+  std::vector<Line> beam{line(start)};
+  const std::size_t goal = static_cast<std::size_t>(std::max(most, std::min(2 * most, 24)));
+  while (!beam.empty() && worstExcess(best) > bound && beam.front().parts.size() < goal) {
+    if (beam.front().parts.size() >= static_cast<std::size_t>(most))
+      beam.resize(1);  // on to what is joined again
+    beam = cutOn(beam);
+    for (const Line& tried : beam) {
+      const bool few = tried.parts.size() <= static_cast<std::size_t>(most);
+      if (!few && exhausted()) continue;
+      Parts parts = few ? tried.parts : joined(tried.parts, most, 0.5 * bound);
+      if (worstExcess(parts) < worstExcess(best)) best = std::move(parts);
+    }
+  }
+  return joined(improved(best, most, bound), most, bound);
+}
+
+}  // namespace fcl_stpbv

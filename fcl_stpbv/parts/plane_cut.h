@@ -1,0 +1,33 @@
+// Triangles cut in two by a plane.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+namespace fcl_stpbv {
+
+struct CutPlane {
+  Eigen::Vector3d normal{0, 0, 1};  ///< unit
+  double offset = 0;                ///< the plane is normal.x = offset (m)
+  double height(const Eigen::Vector3d& p) const { return normal.dot(p) - offset; }
+  CutPlane turned() const { return {-normal, -offset}; }
+};
+
+/// Triangles, or what cuts left of them, of one group of a mesh's pieces.
+struct TriangleSoup {
+  std::vector<Eigen::Vector3d> points;
+  std::vector<std::array<int, 3>> triangles;
+  std::vector<int> facet;  ///< of each triangle: which flat part of the mesh it belongs to
+};
+
+/// The part of the soup on the side that the normal points to. Corners within `slack` (m) of the plane count
+/// as on it. A triangle on the plane belongs to the side its normal points away from, where a solid would be.
+/// What both sides hold together is the whole soup.
+TriangleSoup above(const TriangleSoup& soup, const CutPlane& plane, double slack);
+
+/// The points of above() alone, in less time.
+void pointsAbove(const TriangleSoup& soup, const CutPlane& plane, double slack,
+                 std::vector<Eigen::Vector3d>& points);
+
+}  // namespace fcl_stpbv

@@ -1,0 +1,153 @@
+// Parts cover the mesh they are made of, keep close to it, and are no more than asked for.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "fcl_stpbv/error.h"
+#include "fcl_stpbv/parts/convex_parts.h"
+#include "fcl_stpbv/volume/measure.h"
+#include "test/reference/mesh_reference.h"
+#include "test/reference/solids.h"
+
+using namespace fcl_stpbv;
+using namespace fcl_stpbv::test;
+using Catch::Matchers::Contains;
+
+namespace {
+
+PartsOptions quick(int most) {
+  PartsOptions options;
+  options.most = most;
+  options.effort = 0.1;
+  return options;
+}
+
+// A ball with spikes: cuts through its middle meet where no triangle is.
+TriangleMesh spikyBall() {
+  TriangleMesh mesh = finer(boxMesh({-0.06, -0.06, -0.06}, {0.06, 0.06, 0.06}), 3);
+  for (Eigen::Vector3d& v : mesh.vertices) {
+    const double wave = std::sin(50 * v.x()) * std::sin(50 * v.y() + 1) * std::sin(50 * v.z() + 2);
+    v *= 1 + 0.6 * wave;
+  }
+  return mesh;
+}
+
+std::vector<StpBv::Ptr> volumesOf(const ConvexParts& parts) {
+  std::vector<StpBv::Ptr> volumes;
+  for (const ConvexPart& part : parts.parts) volumes.push_back(StpBv::build(part.points, {1e-6, 10}));
+  return volumes;
+}
+
+bool covered(const std::vector<StpBv::Ptr>& volumes, const Eigen::Vector3d& p) {
+  return std::any_of(volumes.begin(), volumes.end(),
+                     [&](const auto& volume) { return contains(*volume, p); });
+}
+
+}  // namespace
+
+TEST_CASE("parts cover every triangle, and what closed pieces enclose") {
+  Random random(19);
+  const std::vector<std::pair<std::string, TriangleMesh>> meshes{
+      {"an L", lShape()},
+      {"a ring", torusMesh(0.12, 0.03, 20, 8)},
+      {"a ball with spikes", spikyBall()},
+      {"a bowl", bowl(0.1, 6)},
+      {"a bowl and two boxes that cross",
+       together({bowl(0.1, 5), boxMesh({0, 0, 0}, {0.1, 0.1, 0.1}),
+                 turned(boxMesh({0.05, 0.05, 0.02}, {0.2, 0.08, 0.08}))})}};
+  for (const auto& [name, mesh] : meshes) {
+    INFO(name);
+    const ConvexParts parts = convexParts(mesh, quick(6));
+    CHECK(parts.parts.size() <= 6);
+    const std::vector<StpBv::Ptr> volumes = volumesOf(parts);
+    int open = 0, inside = 0, openInside = 0;
+    for (int i = 0; i < 1000; ++i) open += !covered(volumes, pointOn(mesh, random));
+    CHECK(open == 0);
+    for (int i = 0; i < 2000; ++i) {
+      const Eigen::Vector3d p = 0.5 * (pointOn(mesh, random) + pointOn(mesh, random));
+      if (parts.closedPieces < parts.pieces || std::abs(std::round(referenceWinding(mesh, p))) < 0.5)
+        continue;
+      ++inside;
+      openInside += !covered(volumes, p);
+    }
+    if (parts.closedPieces == parts.pieces) CHECK(inside > 200);
+    CHECK(openInside == 0);
+  }
+}
+
+TEST_CASE("no point of a part's hull is farther from the mesh than its bound says") {
+  Random random(23);
+  for (const TriangleMesh& mesh : {torusMesh(0.12, 0.03, 20, 8), bowl(0.1, 6)}) {
+    const ConvexParts parts = convexParts(mesh, quick(4));
+    double seen = 0, seenOpen = 0;
+    for (const ConvexPart& part : parts.parts) {
+      for (const Triangle& t : hullTriangles(part.points)) {
+        const double b = random.uniform(0, 1), c = random.uniform(0, 1 - b);
+        const Eigen::Vector3d p = (1 - b - c) * t[0] + b * t[1] + c * t[2];
+        seen = std::max(seen, referenceSolidDistance(mesh, p));
+        seenOpen = std::max(seenOpen, referenceDistance(mesh, p));
+      }
+    }
+    CHECK(seen <= parts.excess);
+    CHECK(seenOpen <= parts.openExcess);
+    CHECK(parts.openExcess >= parts.excess - 1e-4);
+  }
+}
+
+TEST_CASE("an L is two boxes, and two separate boxes are two parts") {
+  const ConvexParts l = convexParts(lShape(), quick(8));
+  CHECK(l.parts.size() == 2);
+  CHECK(l.excess < 2e-4);  // what the bound is known to
+  const ConvexParts boxes = convexParts(
+      together({boxMesh({0, 0, 0}, {0.1, 0.1, 0.1}), boxMesh({0.3, 0, 0}, {0.4, 0.1, 0.1})}), quick(8));
+  CHECK(boxes.parts.size() == 2);
+  CHECK(boxes.excess < 2e-4);
+  CHECK(convexParts(boxMesh({0, 0, 0}, {0.1, 0.2, 0.3}), quick(8)).parts.size() == 1);
+}
+
+TEST_CASE("more parts are closer, and an excess asked for takes no more parts than it needs") {
+  const TriangleMesh ring = torusMesh(0.12, 0.03, 24, 10);
+  const double one = convexParts(ring, quick(1)).excess, four = convexParts(ring, quick(4)).excess;
+  CHECK(four < 0.8 * one);
+  PartsOptions within = quick(16);
+  within.excess = 0.02;
+  const ConvexParts parts = convexParts(ring, within);
+  CHECK(parts.excess < 0.0215);  // the search's own measure is within a tenth
+  CHECK(parts.parts.size() > 2);
+  CHECK(parts.parts.size() <= 8);
+}
+
+TEST_CASE("a mesh too fine for the search is covered all the same") {
+  Random random(29);
+  const TriangleMesh fine = finer(torusMesh(0.12, 0.03, 24, 12), 2);
+  REQUIRE(fine.triangles.size() > 9000);
+  const ConvexParts parts = convexParts(fine, quick(4));
+  const std::vector<StpBv::Ptr> volumes = volumesOf(parts);
+  int open = 0;
+  for (int i = 0; i < 300; ++i) open += !covered(volumes, pointOn(fine, random));
+  CHECK(open == 0);
+}
+
+TEST_CASE("one triangle, slivers and lines are covered; no triangle at all is refused") {
+  const TriangleMesh one{{{0, 0, 0}, {0.1, 0, 0}, {0, 0.1, 0}}, {{0, 1, 2}}};
+  CHECK(convexParts(one).parts.size() == 1);
+  CHECK(convexParts({{{0, 0, 0}, {0.1, 0, 0}}, {{0, 1, 1}}}).parts.size() == 1);
+  CHECK(convexParts({{{0.1, 0, 0}}, {{0, 0, 0}}}).parts.size() == 1);
+  TriangleMesh slivers;
+  Random random(31);
+  for (int i = 0; i < 3000; ++i) {
+    const Eigen::Vector3d a(random.uniform(0, 0.1), random.uniform(0, 0.1), random.uniform(0, 0.1)),
+        b = a + 0.01 * random.direction();
+    slivers.vertices.insert(slivers.vertices.end(), {a, b, 0.5 * (a + b)});
+    slivers.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+  }
+  const std::vector<StpBv::Ptr> volumes = volumesOf(convexParts(slivers, quick(4)));
+  CHECK(std::all_of(slivers.vertices.begin(), slivers.vertices.end(),
+                    [&](const auto& v) { return covered(volumes, v); }));
+  CHECK_THROWS_WITH(convexParts({{{0, 0, 0}}, {}}), Contains("no triangles"));
+  CHECK_THROWS_WITH(convexParts(one, quick(0)), Contains("at least 1 part"));
+}
