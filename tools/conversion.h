@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "fcl_stpbv/parts/convex_parts.h"
 #include "fcl_stpbv/volume/measure.h"
 #include "fcl_stpbv/volume/stp_bv.h"
 
@@ -15,7 +16,8 @@ struct ConversionOptions {
   std::optional<double> r, R;  ///< StpBvOptions' values where not given
   double scale = 1;
   Format format = Format::stpbv;
-  std::string preview;  ///< mesh to write for a look, none if empty
+  std::string preview;                ///< mesh to write for a look, none if empty
+  std::optional<PartsOptions> parts;  ///< several volumes for one mesh
   bool verify = false;
   bool measure = true;  ///< compute over-cover and volume for the report
 };

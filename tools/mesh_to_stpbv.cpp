@@ -7,13 +7,17 @@
 #include <string>
 #include <vector>
 
+#include "fcl_stpbv/error.h"
 #include "tools/conversion.h"
 #include "tools/output_plan.h"
+#include "tools/parts_conversion.h"
 #include "tools/progress_bar.h"
 
 namespace {
 
 using namespace fcl_stpbv::tools;
+
+constexpr int kMostParts = 64;  // enough for any link, and each pair of two such links is 4096 queries
 
 enum Exit { kDone = 0, kSomeFailed = 1, kUsage = 2 };
 
@@ -30,6 +34,7 @@ Examples:
   mesh_to_stpbv part_in_mm.stl --scale 0.001 -r 0.005 -R 5 -o part.stpbv --verify
   mesh_to_stpbv meshes/*.dae -o volumes              one volume per mesh, in the folder volumes
   mesh_to_stpbv link.dae -o link.stpbv --preview link_stpbv.obj
+  mesh_to_stpbv torso.dae --parts 8 -o torso.stpbv   torso_0.stpbv, torso_1.stpbv ...: eight parts at most
   mesh_to_stpbv link.stpbv --format sch -o link.txt  the same volume for sch-core
   mesh_to_stpbv meshes/*.dae -o volumes --json -q > report.jsonl
 
@@ -64,6 +69,25 @@ void describe(CLI::App& app, Arguments& arguments) {
   app.add_option("--preview", conversion.preview,
                  "Also write the surface as a mesh: .obj, .stl, .ply or .glb")
       ->type_name("FILE");
+  const auto parts = [&]() -> fcl_stpbv::PartsOptions& {
+    if (!conversion.parts) conversion.parts.emplace().most = 0;
+    return *conversion.parts;
+  };
+  app.add_option_function<int>(
+         "--parts", [=](int most) { parts().most = most; },
+         "At most this many volumes that together cover a mesh that is not convex, each of a convex part")
+      ->check(CLI::Range(1, kMostParts))
+      ->type_name("K");
+  app.add_option_function<double>(
+         "--excess", [=](double excess) { parts().excess = excess; },
+         "As few such volumes as keep the parts' hulls this close to the mesh, about [m]")
+      ->check(CLI::PositiveNumber)
+      ->type_name("M");
+  app.add_option_function<double>(
+         "--effort", [=](double effort) { parts().effort = effort; },
+         "Search for the parts this many times as long as usual [1]")
+      ->check(CLI::Range(0.01, 1000.0))
+      ->type_name("E");
   app.add_flag("--verify", conversion.verify,
                "Check each volume before it is written; one that fails is not written");
   app.add_flag("--json", arguments.json,
@@ -75,8 +99,29 @@ void describe(CLI::App& app, Arguments& arguments) {
 
 void tell(const std::string& message) { std::cerr << "mesh_to_stpbv: " << message << std::endl; }
 
+template <class AnyReport>
+void show(const AnyReport& report, const Arguments& arguments, ProgressBar& bar) {
+  bar.clear();
+  if (arguments.json) {
+    std::cout << toJson(report) << std::endl;
+  } else if (!arguments.quiet) {
+    std::cout << toText(report) << std::endl;
+  }
+}
+
+bool runParts(const Job& job, const Arguments& arguments, ProgressBar& bar) {
+  const PartsReport report = convertToParts(job.input, job.output, arguments.conversion, arguments.force);
+  if (!report.verified)
+    throw fcl_stpbv::Error(job.input +
+                           ": not written, a volume fails its own verification: " + report.verification);
+  write(report, arguments.conversion);
+  show(report, arguments, bar);
+  return true;
+}
+
 bool runJob(const Job& job, const Arguments& arguments, ProgressBar& bar) {
   try {
+    if (arguments.conversion.parts) return runParts(job, arguments, bar);
     Report report = convert(job.input, arguments.conversion);
     report.output = job.output;
     const bool good = report.verified.value_or(true);
@@ -132,6 +177,11 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
     arguments.conversion.measure = arguments.json || !arguments.quiet;
+    if (arguments.conversion.parts && arguments.conversion.parts->most == 0) {
+      if (arguments.conversion.parts->excess == 0)
+        throw UsageError("--effort: goes with --parts or --excess");
+      arguments.conversion.parts->most = kMostParts;
+    }
     return run(arguments);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? kDone : kUsage;

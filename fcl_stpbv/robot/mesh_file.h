@@ -34,4 +34,7 @@ bool canSaveMesh(const std::string& path);
 /// @throws Error naming the file and what would work.
 void saveMesh(const std::string& path, const TriangleMesh& mesh);
 
+/// Writes several meshes as one, each in a colour of its own where the format has colours: .ply and .glb.
+void saveColoured(const std::string& path, const std::vector<TriangleMesh>& meshes);
+
 }  // namespace fcl_stpbv

@@ -6,6 +6,7 @@
 #include <array>
 #include <assimp/Exporter.hpp>
 #include <cctype>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <string_view>
@@ -57,15 +58,38 @@ std::unique_ptr<aiMesh> toAssimp(const TriangleMesh& mesh) {
   return out;
 }
 
-std::unique_ptr<aiScene> sceneOf(const TriangleMesh& mesh) {
+// Colours that differ: the hue turns by the golden section from mesh to mesh.
+aiColor4D colourOf(std::size_t mesh) {
+  const auto channel = [&](double shift) {
+    const double hue = 0.618034 * static_cast<double>(mesh) + shift;
+    return static_cast<ai_real>(0.55 + 0.4 * std::cos(6.283185307 * hue));
+  };
+  return {channel(0), channel(1.0 / 3), channel(2.0 / 3), 1};
+}
+
+void colour(aiMesh& mesh, aiMaterial& material, std::size_t number) {
+  const aiColor4D colour = colourOf(number);
+  material.AddProperty(&colour, 1, AI_MATKEY_COLOR_DIFFUSE);
+  mesh.mColors[0] = new aiColor4D[mesh.mNumVertices];
+  std::fill_n(mesh.mColors[0], mesh.mNumVertices, colour);
+}
+
+std::unique_ptr<aiScene> sceneOf(const std::vector<TriangleMesh>& meshes) {
   auto scene = std::make_unique<aiScene>();
-  scene->mNumMaterials = 1;
-  scene->mMaterials = new aiMaterial* [1] { new aiMaterial };
-  scene->mNumMeshes = 1;
-  scene->mMeshes = new aiMesh* [1] { toAssimp(mesh).release() };
+  const unsigned count = static_cast<unsigned>(meshes.size());
+  scene->mNumMaterials = scene->mNumMeshes = count;
+  scene->mMaterials = new aiMaterial*[count];
+  scene->mMeshes = new aiMesh*[count];
   scene->mRootNode = new aiNode("stpbv");
-  scene->mRootNode->mNumMeshes = 1;
-  scene->mRootNode->mMeshes = new unsigned[1]{0};
+  scene->mRootNode->mNumMeshes = count;
+  scene->mRootNode->mMeshes = new unsigned[count];
+  for (unsigned k = 0; k < count; ++k) {
+    scene->mMaterials[k] = new aiMaterial;
+    scene->mMeshes[k] = toAssimp(meshes[k]).release();
+    scene->mMeshes[k]->mMaterialIndex = k;
+    scene->mRootNode->mMeshes[k] = k;
+    if (count > 1) colour(*scene->mMeshes[k], *scene->mMaterials[k], k);
+  }
   return scene;
 }
 
@@ -73,11 +97,15 @@ std::unique_ptr<aiScene> sceneOf(const TriangleMesh& mesh) {
 
 bool canSaveMesh(const std::string& path) { return formatOf(path) != nullptr; }
 
-void saveMesh(const std::string& path, const TriangleMesh& mesh) {
+void saveMesh(const std::string& path, const TriangleMesh& mesh) { saveColoured(path, {mesh}); }
+
+void saveColoured(const std::string& path, const std::vector<TriangleMesh>& meshes) {
   const Format* format = formatOf(path);
   if (format == nullptr) throw Error(path + ": no mesh format of this name; use .obj, .stl, .ply or .glb");
-  if (mesh.triangles.empty()) throw Error(path + ": not written, the mesh has no triangles");
-  const std::unique_ptr<aiScene> scene = sceneOf(mesh);
+  const bool none =
+      std::any_of(meshes.begin(), meshes.end(), [](const auto& m) { return m.triangles.empty(); });
+  if (meshes.empty() || none) throw Error(path + ": not written, the mesh has no triangles");
+  const std::unique_ptr<aiScene> scene = sceneOf(meshes);
   Assimp::Exporter exporter;
   const aiExportDataBlob* blob = exporter.ExportToBlob(scene.get(), format->assimpId);
   if (blob == nullptr) throw Error(path + ": cannot be written (" + exporter.GetErrorString() + ")");

@@ -1,0 +1,123 @@
+// See parts_conversion.h.
+#include "tools/parts_conversion.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "fcl_stpbv/error.h"
+#include "fcl_stpbv/io/sch_file.h"
+#include "fcl_stpbv/io/stpbv_file.h"
+#include "fcl_stpbv/robot/mesh_file.h"
+#include "fcl_stpbv/volume/tessellate.h"
+#include "fcl_stpbv/volume/verify.h"
+
+namespace fcl_stpbv::tools {
+namespace {
+
+std::string nameOfPart(const std::string& output, std::size_t part) {
+  const std::filesystem::path path(output);
+  return (path.parent_path() /
+          (path.stem().string() + "_" + std::to_string(part) + path.extension().string()))
+      .string();
+}
+
+std::string millimetres(double metres) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3f mm", 1e3 * metres);
+  return text;
+}
+
+double largest(const PartsReport& report, MeshExcess ConvexPart::*excess) {
+  double most = 0;
+  for (std::size_t k = 0; k < report.volumes.size(); ++k)
+    most = std::max(most, (report.parts.parts[k].*excess).upper + report.overCovers[k].max);
+  return most;
+}
+
+}  // namespace
+
+double PartsReport::excessMax() const { return largest(*this, &ConvexPart::excess); }
+double PartsReport::openExcessMax() const { return largest(*this, &ConvexPart::openExcess); }
+
+PartsReport convertToParts(const std::string& input, const std::string& output,
+                           const ConversionOptions& options, bool force) {
+  PartsReport report;
+  report.input = input;
+  const TriangleMesh mesh = loadMesh(input, Eigen::Vector3d::Constant(options.scale));
+  const auto start = std::chrono::steady_clock::now();
+  StpBvOptions radii;
+  radii.r = options.r.value_or(radii.r);
+  radii.R = options.R.value_or(radii.R);
+  try {
+    report.parts = convexParts(mesh, *options.parts);
+    for (const ConvexPart& part : report.parts.parts) {
+      report.volumes.push_back(StpBv::build(part.points, radii));
+      report.overCovers.push_back(overCover(*report.volumes.back(), part.points));
+      if (!options.verify) continue;
+      const Verification verification = verify(*report.volumes.back(), part.points);
+      report.verified = report.verified && verification.ok;
+      if (!verification.ok) report.verification = verification.message;
+    }
+  } catch (const Error& error) {
+    throw Error(input + ": " + error.what());
+  }
+  report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  for (std::size_t k = 0; k < report.volumes.size(); ++k) {
+    report.outputs.push_back(nameOfPart(output, k));
+    std::error_code ignored;
+    if (!force && std::filesystem::exists(report.outputs.back(), ignored))
+      throw Error(report.outputs.back() + ": exists already; give --force to replace it, or another name");
+  }
+  return report;
+}
+
+void write(const PartsReport& report, const ConversionOptions& options) {
+  std::vector<TriangleMesh> surfaces;
+  for (std::size_t k = 0; k < report.volumes.size(); ++k) {
+    if (options.format == Format::sch) {
+      saveSch(report.outputs[k], *report.volumes[k]);
+    } else {
+      saveStpBv(report.outputs[k], *report.volumes[k]);
+    }
+    if (!options.preview.empty()) surfaces.push_back(tessellate(*report.volumes[k]));
+  }
+  if (!options.preview.empty()) saveColoured(options.preview, surfaces);
+}
+
+std::string toText(const PartsReport& report) {
+  const ConvexParts& parts = report.parts;
+  std::string text = report.input + ": " + std::to_string(parts.parts.size()) + " parts; hulls within " +
+                     millimetres(parts.excess) + " of the mesh's solid, " + millimetres(parts.openExcess) +
+                     " of its triangles; volumes within " + millimetres(report.excessMax()) + "; " +
+                     std::to_string(parts.closedPieces) + " of " + std::to_string(parts.pieces) +
+                     " pieces closed, their inside is covered";
+  char seconds[32];
+  std::snprintf(seconds, sizeof seconds, "; %.2f s", report.seconds);
+  return text + seconds + " -> " + report.outputs.front() + (report.outputs.size() > 1 ? " ..." : "");
+}
+
+std::string toJson(const PartsReport& report) {
+  nlohmann::ordered_json json;
+  json["input"] = report.input;
+  json["hull_excess_max"] = report.parts.excess;
+  json["excess_max"] = report.excessMax();
+  json["excess_max_open"] = report.openExcessMax();
+  json["pieces"] = report.parts.pieces;
+  json["closed_pieces"] = report.parts.closedPieces;
+  json["seconds"] = report.seconds;
+  for (std::size_t k = 0; k < report.volumes.size(); ++k) {
+    nlohmann::ordered_json part;
+    part["output"] = report.outputs[k];
+    part["vertices"] = report.volumes[k]->vertexCount();
+    part["hull_excess_max"] = report.parts.parts[k].excess.upper;
+    part["over_cover_max"] = report.overCovers[k].max;
+    json["parts"].push_back(part);
+  }
+  // A file's name may hold bytes that are no UTF-8.
+  return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
+
+}  // namespace fcl_stpbv::tools
