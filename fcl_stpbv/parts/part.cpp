@@ -3,10 +3,10 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
-#include <limits>
+#include <utility>
 
 namespace fcl_stpbv {
+
 using Eigen::Vector3d;
 
 PartSpace::PartSpace(const MeshSolid& solid)
