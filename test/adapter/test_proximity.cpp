@@ -22,6 +22,7 @@
 #include "fcl_stpbv/adapter/hull_geometry.h"
 #include "fcl_stpbv/adapter/proximity.h"
 #include "fcl_stpbv/distance/shape_distance.h"
+#include "fcl_stpbv/distance/shape_pair.h"
 #include "test/reference/shapes.h"
 
 using namespace fcl_stpbv;
