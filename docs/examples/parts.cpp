@@ -1,10 +1,9 @@
 // What docs/parts.md shows, for a mesh of the robot in data/hrp2_style: run in that folder.
-#include "fcl_stpbv/parts/convex_parts.h"
-
 #include <cstdio>
 #include <exception>
 #include <vector>
 
+#include "fcl_stpbv/parts/convex_parts.h"
 #include "fcl_stpbv/robot/mesh_file.h"
 #include "fcl_stpbv/volume/stp_bv.h"
 

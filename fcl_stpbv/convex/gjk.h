@@ -35,6 +35,7 @@ struct GjkResult {
   Eigen::Vector3d v{0, 0, 0};                               ///< the difference's point nearest to the origin
   Eigen::Vector3d n{0, 0, 0};                               ///< unit, from A to B, along `v`
   double lower = -std::numeric_limits<double>::infinity();  ///< widest gap seen along any normal (m)
+  Eigen::Vector3d widest{0, 0, 0};                          ///< that normal; that of `start` is not known
   double upper = std::numeric_limits<double>::infinity();   ///< least distance of two points seen, `|v|` (m)
 };
 
@@ -50,7 +51,10 @@ GjkResult<Corner> gjk(Difference& difference, const Simplex<Corner>& start, cons
   GjkResult<Corner> result;
   result.n = n;
   Simplex<Corner> grown = start;
-  if (grown.size == 0) grown.add(difference.support(n));
+  if (grown.size == 0) {
+    grown.add(difference.support(n));
+    result.widest = n;
+  }
   for (std::size_t i = 0; i < static_cast<std::size_t>(grown.size); ++i)
     result.lower = std::max(result.lower, grown.corner[i].gap);
   for (int step = 0; step < steps; ++step) {
@@ -71,7 +75,10 @@ GjkResult<Corner> gjk(Difference& difference, const Simplex<Corner>& start, cons
     result.n = (hasDirection ? nearest.direction : nearest.point).normalized();
     if (enough(result.lower, result.upper)) return result;
     const Corner next = difference.support(result.n);
-    result.lower = std::max(result.lower, next.gap);
+    if (next.gap > result.lower) {
+      result.lower = next.gap;
+      result.widest = result.n;
+    }
     if (enough(result.lower, result.upper) || result.simplex.holds(next.w)) return result;
     grown = result.simplex;
     grown.add(next);

@@ -95,10 +95,12 @@ Distance inWorld(const Pair& p, const Vector3d& n, const Vector3d& onA, const Ve
 Distance separated(const Pair& p) {
   const Gjk found = p.search([](double, double) { return false; });
   if (found.verdict == Gjk::Verdict::overlap) return {};
-  // Along the last normal itself, which need not be the one with the widest gap seen.
-  const double lower = Difference(p.a, p.b, p.pose).support(found.n).gap;
+  // Rounding can make the last normal worse than an earlier one: the answer's is the one with the widest gap.
+  const double last = Difference(p.a, p.b, p.pose).support(found.n).gap;
+  const double lower = std::max(last, found.lower);
   if (!(lower > 0.0)) return {};
-  Distance result = inWorld(p, found.n, found.simplex.weighted(&Corner::onA), found.v);
+  Distance result =
+      inWorld(p, last < lower ? found.widest : found.n, found.simplex.weighted(&Corner::onA), found.v);
   const double upper = std::max(found.upper, lower);
   result.status = upper - lower <= p.rounding ? DistanceStatus::exact : DistanceStatus::bounded;
   result.distance = upper - p.margins();

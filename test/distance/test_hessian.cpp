@@ -39,7 +39,7 @@ TEST_CASE("The Hessian and the velocities of normal and witness points are what 
                                      StpBv::build(randomHull(40, {0.2, 0.3, 0.1}, 4), {0.015, R}),
                                      StpBv::build({Vector3d(0, 0, -0.2), Vector3d(0.1, 0, 0.2)}, {0.01, R}),
                                      StpBv::build({Vector3d(0.1, 0, 0)}, {0.05, R})};
-  Random random(17);
+  Random random(17), motions(18);
   constexpr double kStep = 4e-6;  // of a difference of the fourth order
   int compared = 0, kinds[3][3] = {};
   double worst = 0;
@@ -58,7 +58,7 @@ TEST_CASE("The Hessian and the velocities of normal and witness points are what 
     // below 3 m over radii of curvature of at least a centimetre, magnified where edges cross at a small
     // angle.
     BodyTwists twists;
-    for (Eigen::Index k = 0; k < 12; ++k) twists[k] = random.uniform(-1, 1);
+    for (Eigen::Index k = 0; k < 12; ++k) twists[k] = motions.uniform(-1, 1);
     DistanceRate moves;
     REQUIRE(rate(a, poseA, b, poseB, d, twists, moves));
     const double size = 1 + h.normal.norm() + h.point[0].norm() + h.point[1].norm();

@@ -163,8 +163,10 @@ TEST_CASE("JVRC-1 reaches for something with nothing about it in the code") {
   PairListOptions search;
   search.samples = 200;
   auto srdf = std::make_shared<Srdf>();
-  srdf->disabled = toSrdf(*loaded.model, pairList(std::make_shared<const Kinematics>(loaded.model),
-                                                  scene.geometry, nullptr, search));
+  srdf->disabled =
+      toSrdf(*loaded.model,
+             pairList(std::make_shared<const Kinematics>(loaded.model), scene.geometry, nullptr, search),
+             true);  // the hulls of pelvis and hips meet in the neutral posture
   scene.srdf = srdf;
   const PostureTask task = parseTask(R"({
     "start": {"base": {"position": [0, 0, 0.85]}},

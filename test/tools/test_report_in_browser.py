@@ -279,7 +279,7 @@ class Page(unittest.TestCase):
         self.assertGreater(self.frame_rate("a chain of 45 links", size), 15)
 
     def test_any_name_stays_text_and_warnings_are_shown(self):
-        self.open(self.put("names.urdf", primitives(4)), "--pose", self.put("pose.json", "{}"))
+        self.open(self.put("names.urdf", primitives(4)), "--pose", self.put("pose.json", "{}"), "--primitives", "flat")
         self.assertIn(UGLY, [name for row in self.rows() for name in row[:2]])
         self.assertIn("no smooth body", self.browser.find_element(By.ID, "warnings").text)
         self.assertEqual(self.script("return document.querySelectorAll('#table b, #detail script').length"), 0)

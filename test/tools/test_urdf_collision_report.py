@@ -177,7 +177,7 @@ class Report(unittest.TestCase):
         self.assertEqual(cut.count("The SRDF leaves out"), 2)
         self.assertIn(f"... and {said - 2} more (--top)", cut)
         self.assertNotIn("more (--top)", whole)
-        self.assertLess(len(cut.splitlines()), 20)
+        self.assertLessEqual(len(cut.splitlines()), len(whole.splitlines()) - (said - 2))
 
     def test_overlapping_primitives_are_a_collision(self):
         box = '<box size="1 1 1"/>'
@@ -278,7 +278,7 @@ class Report(unittest.TestCase):
         corners = [(x, y, z) for x in (-0.1, 0.1) for y in (-0.1, 0.1) for z in (-0.1, 0.101)]
         corners.append((0, 0, 0))  # inside: no vertex
         self.put("published/first-ch.txt", "3\n%d 0 0\n" % len(corners) + "".join("%g %g %g\n" % c for c in corners))
-        arguments = [robot, "--samples", "5", "--polyhedra", os.path.join(self.folder.name, "published")]
+        arguments = [robot, "-r", "0.01", "--samples", "5", "--polyhedra", os.path.join(self.folder.name, "published")]
         report = json.loads(self.run_tool(*arguments, "--format", "json").stdout)
         found = report["links"][0]["polyhedron"]
         self.assertEqual((found["vertices"], found["without_partner"], found["mesh_without_partner"]), (8, 4, 4))
@@ -328,20 +328,22 @@ class Report(unittest.TestCase):
             '<box size="0.1 0.2 0.3"/>', '<capsule radius="0.05" length="0.2"/>', '<cylinder radius="0.05" length="0.2"/>',
             '<sphere radius="0.05"/>', '<box size="0.1 0.1 0.1"/>', '<capsule radius="0.02" length="0.1"/>')))
             + "".join(joint("j%d" % i, "l%d" % (i - 1), "l%d" % i) for i in range(1, 6)))
-        smooth = json.loads(self.run_tool(urdf, "--samples", "5", "--format", "json").stdout)
-        self.assertTrue(all(pair["continuous"] for pair in smooth["pairs"] if pair["reason"] != "adjacent"))
+        every = ("--srdf", self.put("none.srdf", '<robot name="small"/>'))  # leaves no pair out
+        smooth = json.loads(self.run_tool(urdf, *every, "--samples", "5", "--format", "json").stdout)
+        self.assertTrue(all(pair["continuous"] for pair in smooth["pairs"]))
         covers = [link for link in smooth["links"] if "r" in link]
         self.assertTrue(0 < len(covers) < 6)
         self.assertTrue(all(link["over_cover_max"] < 0.03 for link in covers))
-        flat = json.loads(self.run_tool(urdf, "--samples", "5", "--primitives", "flat", "--format", "json").stdout)
+        flat = json.loads(self.run_tool(urdf, *every, "--samples", "5", "--primitives", "flat", "--format", "json").stdout)
         self.assertFalse(any(pair["continuous"] for pair in flat["pairs"]))
         self.assertEqual(self.run_tool(urdf, "--primitives", "round").returncode, 2)
 
     def test_r_fits_the_link_unless_it_is_given(self):
         thin, thick = self.boxes("thin.obj", 0.005, (0, 0, 0)), self.boxes("thick.obj", 0.5, (0, 0, 0))
         urdf = self.robot(link("thin", thin) + link("thick", thick) + joint("j", "thin", "thick"))
+        every = ("--srdf", self.put("none.srdf", '<robot name="small"/>'))  # leaves no pair out
         def radii(*arguments):
-            links = json.loads(self.run_tool(urdf, "--samples", "1", "--format", "json", *arguments).stdout)["links"]
+            links = json.loads(self.run_tool(urdf, *every, "--samples", "1", "--format", "json", *arguments).stdout)["links"]
             return [(link["r"], link["R"]) for link in links]
         (r1, R1), (r2, R2) = radii()
         self.assertAlmostEqual(r1, 0.0005, delta=1e-9)  # a twentieth of 1 cm
