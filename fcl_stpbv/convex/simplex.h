@@ -1,10 +1,10 @@
 // The point of a small simplex nearest to the origin, and which of its corners hold it.
 //
 // 1. One corner: the corner itself. Two: the foot on the segment, clamped to its ends.
-// 2. Three: the foot on the triangle's plane by its barycentric coordinates, which are areas seen along the
-// normal.
-//    Outside the triangle, the nearest of the edges that it may lie beyond.
-// 3. Four: inside if all four signed volumes have one sign, else the nearest of the faces that the origin
+// 2. Three: the foot on the triangle's plane by its barycentric coordinates, which are areas seen along
+//    the normal. Outside the triangle, the nearest of the edges that it may lie beyond.
+// 3. Four: inside if all four signed volumes have one sign, else the nearest of the faces that the
+//    origin
 // lies beyond. Each case is decided by comparing distances, never by the sign of a small determinant alone:
 // flat and needle-shaped simplices are the rule near parallel faces (Ericson, Real-Time Collision
 // Detection, 5.1; van den Bergen 2003, 4.3).

@@ -1,8 +1,7 @@
 // Second derivatives of the distance (docs/theory.md, 6).
 //
-// 1. The normal is carried by body 2 and turns in it by what maximises the gap; flat features keep it, edges
-// let it turn
-//    one way.
+// 1. The normal is carried by body 2 and turns in it by what maximises the gap; flat features keep it,
+//    edges let it turn one way.
 // 2. The distance is a maximum over these turns, so its second derivative is s_qq - s_qn s_nn^-1 s_nq.
 // 3. Normal and witness points follow from the turn.
 #include "fcl_stpbv/distance/hessian.h"

@@ -1,8 +1,7 @@
 // The widest normal of two edges' patches, two tori (docs/theory.md, 5).
 //
-// 1. Axes that cross: two equations for how far the normal leans along each edge, solved by Newton's method
-// from
-//    the axes' common normal. Two passes are usual.
+// 1. Axes that cross: two equations for how far the normal leans along each edge, solved by Newton's
+//    method from the axes' common normal. Two passes are usual.
 // 2. Axes nearly parallel, or wide bands: Newton's method on the sphere of normals.
 #include "fcl_stpbv/distance/patch_pair.h"
 

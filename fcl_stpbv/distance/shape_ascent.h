@@ -1,9 +1,8 @@
 // Monotone Newton ascent of the gap between an STP-BV's core and one smooth feature of another body.
 //
 // 1. From a normal without a gap, find one with a gap by bisection of the directions left.
-// 2. Newton's step on the sphere; one that does not raise the gap is cut back along its great circle to where
-// the slope
-//    is about zero, by a bracketed secant.
+// 2. Newton's step on the sphere; one that does not raise the gap is cut back along its great circle to
+//    where the slope is about zero, by a bracketed secant.
 // 3. Stop where the gradient is rounding.
 #pragma once
 

@@ -1,11 +1,12 @@
 // An STP-BV against a simple shape.
 //
-// 1. Search the shape's nearest feature, kind by kind (shape_query.h), from the remembered normal or the line
+// 1. Search the shape's nearest feature, kind by kind (shape_query.h), from the remembered normal or the
+//    line
 // of centres.
 // 2. Test the answer against the whole shape. If it holds, it is exact.
-// 3. Else bisect the directions left with support points of the two whole bodies (convex/direction_cone.h):
-// slow, sure.
-//    From the normal found, a feature search again proves the last digits.
+// 3. Else bisect the directions left with support points of the two whole bodies
+//    (convex/direction_cone.h): slow, sure. From the normal found, a feature search again proves the
+//    last digits.
 // 4. Cores that overlap: EPA (convex/epa.h).
 #include "fcl_stpbv/distance/shape_distance.h"
 

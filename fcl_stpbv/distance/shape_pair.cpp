@@ -3,12 +3,10 @@
 //
 // 1. Put the pair into one order, so that both orders of a call are the same query.
 // 2. Half spaces and planes: the gap along their normal is all there is to know.
-// 3. GJK with the duality gap as its stop. Its upper bound is the distance of two points of the bodies, its
-// lower one
-//    the gap between the supporting planes of the answer's normal.
-// 4. Overlap: bodies of revolution on parallel axes are as deep towards all generators as towards one, more
-// than EPA
-//    has room for; a polygon in the plane of their axes tells their depth. Then EPA.
+// 3. GJK with the duality gap as its stop. Its upper bound is the distance of two points of the bodies,
+//    its lower one the gap between the supporting planes of the answer's normal.
+// 4. Overlap: bodies of revolution on parallel axes are as deep towards all generators as towards one,
+//    more than EPA has room for; a polygon in the plane of their axes tells their depth. Then EPA.
 #include "fcl_stpbv/distance/shape_pair.h"
 
 #include <algorithm>
