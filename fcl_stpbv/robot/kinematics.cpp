@@ -64,6 +64,14 @@ Isometry3d pose(const Matrix3d& rotation, const Vector3d& position) {
 Twist turning(const Vector3d& axis, const Vector3d& origin) { return {origin.cross(axis), axis}; }
 Twist sliding(const Vector3d& axis) { return {axis, Vector3d::Zero()}; }
 
+/// The plane a planar joint moves in: the frame whose z axis is the joint's, turned from the link's frame by
+/// the smallest angle.
+Matrix3d planeAcross(const Vector3d& axis) {
+  const Vector3d across = Vector3d::UnitZ().cross(axis);
+  const Vector3d turn = across.norm() > 0 ? across.stableNormalized() : Vector3d::UnitX();
+  return Eigen::AngleAxisd(std::atan2(across.norm(), axis.z()), turn).toRotationMatrix();
+}
+
 }  // namespace
 
 Kinematics::Kinematics(std::shared_ptr<const RobotModel> robot, BaseMotion base)
@@ -119,8 +127,7 @@ void Kinematics::addStep(int joint, const JointModel& model, int coordinate, dou
                          double offset) {
   Step step{model.type, model.parent, model.child,  -1,         coordinate,
             multiplier, offset,       model.origin, model.axis, Matrix3d::Identity()};
-  if (model.type == JointType::planar)
-    step.plane = Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), model.axis).toRotationMatrix();
+  if (model.type == JointType::planar) step.plane = planeAcross(model.axis);
   if (freedoms(model.type) > 0) step.motion = static_cast<int>(motions_.size());
   for (int k = 0; k < freedoms(model.type); ++k) motions_.push_back({joint, coordinate + k, multiplier});
   stepOf_[at(model.child)] = static_cast<int>(steps_.size());

@@ -30,8 +30,7 @@ struct Pair {
 std::vector<Pair> pairs() {
   const Matrix3d straight = Matrix3d::Identity();
   const Matrix3d onEdge = Eigen::AngleAxisd(M_PI / 4, Vector3d::UnitY()).toRotationMatrix();
-  const Matrix3d onCorner =
-      Eigen::Quaterniond::FromTwoVectors(Vector3d(1, 1, 1), -Vector3d::UnitZ()).toRotationMatrix();
+  const Matrix3d onCorner = rotationBetween(Vector3d(1, 1, 1), -Vector3d::UnitZ());
   const Matrix3d lying = Eigen::AngleAxisd(M_PI / 2, Vector3d::UnitX()).toRotationMatrix();
   const Cloud cube = box(0.2, 0.2, 0.2), flat = plate(0.5, 0.5), ball = geodesicSphere(0.1, 2);
   return {{"cube, cube: face on face", cube, cube, straight, {0.03, 0.02, 0}},

@@ -127,8 +127,7 @@ TEST_CASE("The normal never turns faster than the step over the distance plus bo
     sweep(*cube, both, *cube, p, along, step, steps);
   }
   SECTION("a vertex over an edge") {
-    const Matrix3d onCorner =
-        Eigen::Quaterniond::FromTwoVectors(Vector3d(1, 1, 1), -Vector3d::UnitZ()).toRotationMatrix();
+    const Matrix3d onCorner = rotationBetween(Vector3d(1, 1, 1), -Vector3d::UnitZ());
     sweep(*cube, origin, *cube, above(*cube, onCorner, Vector3d(0.1, 0, 0) - half), along, step, steps);
   }
   SECTION("a round body over an edge") {

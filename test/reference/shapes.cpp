@@ -112,6 +112,12 @@ Eigen::Matrix3d Random::rotation(double angle) {
   return Eigen::AngleAxisd(angle, direction()).toRotationMatrix();
 }
 
+Eigen::Matrix3d rotationBetween(const Vector3d& from, const Vector3d& to) {
+  const Vector3d across = from.cross(to);
+  const double angle = std::atan2(across.norm(), from.dot(to));
+  return Eigen::AngleAxisd(angle, across.stableNormalized()).toRotationMatrix();
+}
+
 Eigen::Isometry3d pose(const Eigen::Matrix3d& rotation, const Vector3d& translation) {
   Eigen::Isometry3d result = Eigen::Isometry3d::Identity();
   result.linear() = rotation;

@@ -46,6 +46,11 @@ class Random {
   std::mt19937_64 engine_;
 };
 
+/// The rotation by the smallest angle that takes one direction to another, which is not its opposite.
+/// Compiled once: Eigen's `Quaterniond::FromTwoVectors` brings a singular value decomposition, ten seconds of
+/// compiling, into each file that names it.
+Eigen::Matrix3d rotationBetween(const Eigen::Vector3d& from, const Eigen::Vector3d& to);
+
 /// A pose from its rotation and translation.
 Eigen::Isometry3d pose(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& translation);
 
