@@ -13,6 +13,7 @@ using Eigen::Matrix3d;
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 using test::Random;
+using test::rotationBetween;
 
 namespace {
 
