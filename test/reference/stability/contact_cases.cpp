@@ -45,8 +45,8 @@ std::vector<Arrangement> arrangements() {
   const Matrix3d flat = Matrix3d::Identity();
   const Matrix3d onEdge = about(Vector3d::UnitY(), M_PI / 4);
   const Matrix3d onEdgeX = about(Vector3d::UnitX(), M_PI / 4);
-  const Matrix3d onCorner = rotationBetween(Vector3d(1, 1, 1), -Vector3d::UnitZ());
-  const Matrix3d upCorner = rotationBetween(Vector3d(1, 1, 1), Vector3d::UnitZ());
+  const Matrix3d onCorner = test::rotationBetween(Vector3d(1, 1, 1), -Vector3d::UnitZ());
+  const Matrix3d upCorner = test::rotationBetween(Vector3d(1, 1, 1), Vector3d::UnitZ());
   const Vector3d aside(0.013, 0.007, 0), centred(0, 0, 0);
   return {{"face over face", slab, cube, flat, flat, aside},
           {"face over face, centred", slab, cube, flat, flat, centred},
