@@ -1,24 +1,25 @@
 // The figures of docs/fcl.md: how often FCL's features map to the right patches, and what a query costs.
-// Usage: adapter_figures [queries]
 #include <fcl/narrowphase/distance.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <functional>
 #include <utility>
 #include <vector>
 
 #include "fcl_stpbv/adapter/fcl_distance.h"
-#include "test/reference/arguments.h"
 #include "test/reference/shapes.h"
+#include "tools/bench/measurement.h"
 
 using namespace fcl_stpbv;
 using namespace fcl_stpbv::test;
+using benchmark::significant;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
+using Json = nlohmann::ordered_json;
 
 namespace {
 
@@ -64,20 +65,26 @@ std::vector<double> nanoseconds(const Motion& motion, const std::vector<Query>& 
       const std::chrono::duration<double, std::nano> spent = std::chrono::steady_clock::now() - start;
       best[k] = std::min(best[k], spent.count() / static_cast<double>(motion.a.size()));
     }
-  if (!std::isfinite(sum)) std::printf(" !");
+  if (!std::isfinite(sum)) std::fprintf(stderr, "a query gave no finite distance\n");
   return best;
 }
 
-/// Shares of the mapped queries, and of all those without features.
-void print(const MappingCounts& counts) {
-  const double mapped = 0.01 * static_cast<double>(counts.total() - counts.unmapped);
-  std::printf(" %6.2f %5.2f %6.3f %5.2f |", static_cast<double>(counts.right) / mapped,
-              static_cast<double>(counts.neighbour) / mapped, static_cast<double>(counts.farther) / mapped,
-              100 * static_cast<double>(counts.unmapped) / static_cast<double>(counts.total()));
+/// Shares (%) of the mapped queries, and of all those without features.
+Json shares(const char* shape, const char* motion, const MappingCounts& counts) {
+  const auto percent = [](auto part, auto whole) {
+    return significant(100 * static_cast<double>(part) / static_cast<double>(whole), 6);
+  };
+  const auto mapped = counts.total() - counts.unmapped;
+  return {{"shape", shape},
+          {"motion", motion},
+          {"right", percent(counts.right, mapped)},
+          {"neighbour", percent(counts.neighbour, mapped)},
+          {"farther", percent(counts.farther, mapped)},
+          {"none", percent(counts.unmapped, counts.total())}};
 }
 
 /// Mapping over random poses with the centres `near` to `far` enclosing radii apart.
-void reportApart(const char* name, const Cloud& cloud, int queries, double near, double far) {
+Json sharesApart(const char* name, const Cloud& cloud, int queries, double near, double far) {
   const StpBvGeometry g(StpBv::build(cloud, {0.01, 10.0}));
   Random random(1);
   MappingCounts counts;
@@ -87,52 +94,56 @@ void reportApart(const char* name, const Cloud& cloud, int queries, double near,
                      b = pose(random.rotation(), d * random.direction());
     distance(g, a, g, b, {nullptr, &counts});
   }
-  std::printf("%-12s apart |", name);
-  print(counts);
-  std::printf("\n");
+  return shares(name, "apart", counts);
 }
 
-void report(const char* name, const Cloud& cloud, int queries) {
+/// A motion's shares and times.
+Json figures(const char* name, const Cloud& cloud, int queries, bool large) {
   const StpBvGeometry g(StpBv::build(cloud, {0.01, 10.0}));
   const double nearest = 1.9 * g.volume().enclosingRadius();
-  for (const bool large : {true, false}) {
-    const Motion motion = paperMotion(large ? 20 : 1, large ? 0.02 : 0.001, queries, nearest);
-    MappingCounts counts;
-    for (std::size_t i = 0; i < motion.a.size(); ++i)
-      distance(g, motion.a[i], g, motion.b[i], {nullptr, &counts});
-    std::printf("%-12s %-5s |", name, large ? "large" : "small");
-    print(counts);
-
-    fcl::DistanceRequestd request;
-    request.distance_tolerance = 1e-10;
-    WitnessStart start;
-    PairCache cache;
-    const std::vector<double> ns = nanoseconds(
-        motion, {[&](const Isometry3d& a, const Isometry3d& b) {
-                   fcl::DistanceResultd result;
-                   return fcl::distance(&g, a, &g, b, request, result);
-                 },
-                 [&](const Isometry3d& a, const Isometry3d& b) {
-                   return polyhedralWitness(g.hull(), a, g.hull(), b).upper;
-                 },
-                 [&](const Isometry3d& a, const Isometry3d& b) {
-                   const PolyhedralWitness w = polyhedralWitness(g.hull(), a, g.hull(), b, start);
-                   start = w.start();
-                   return w.upper;
-                 },
-                 [&](const Isometry3d& a, const Isometry3d& b) { return distance(g, a, g, b).distance; },
-                 [&](const Isometry3d& a, const Isometry3d& b) {
-                   return distance(g, a, g, b, {&cache, nullptr}).distance;
-                 }});
-    std::printf(" %6.0f | %5.0f %5.0f (%.2f) | %5.0f %5.0f (%.2f)\n", ns[0], ns[1], ns[2], ns[1] / ns[0],
-                ns[3], ns[4], ns[3] / ns[0]);
-  }
+  const Motion motion = paperMotion(large ? 20 : 1, large ? 0.02 : 0.001, queries, nearest);
+  MappingCounts counts;
+  for (std::size_t i = 0; i < motion.a.size(); ++i)
+    distance(g, motion.a[i], g, motion.b[i], {nullptr, &counts});
+  Json result = shares(name, large ? "large" : "small", counts);
+  fcl::DistanceRequestd request;
+  request.distance_tolerance = 1e-10;
+  WitnessStart start;
+  PairCache cache;
+  const std::vector<double> ns = nanoseconds(
+      motion, {[&](const Isometry3d& a, const Isometry3d& b) {
+                 fcl::DistanceResultd answer;
+                 return fcl::distance(&g, a, &g, b, request, answer);
+               },
+               [&](const Isometry3d& a, const Isometry3d& b) {
+                 return polyhedralWitness(g.hull(), a, g.hull(), b).upper;
+               },
+               [&](const Isometry3d& a, const Isometry3d& b) {
+                 const PolyhedralWitness w = polyhedralWitness(g.hull(), a, g.hull(), b, start);
+                 start = w.start();
+                 return w.upper;
+               },
+               [&](const Isometry3d& a, const Isometry3d& b) { return distance(g, a, g, b).distance; },
+               [&](const Isometry3d& a, const Isometry3d& b) {
+                 return distance(g, a, g, b, {&cache, nullptr}).distance;
+               }});
+  std::size_t k = 0;
+  for (const char* way : {"fcl", "witness_cold", "witness_warm", "exact_cold", "exact_warm"})
+    result[std::string("ns_") + way] = std::round(ns[k++]);
+  return result;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  const int queries = test::Arguments(argc, argv, "[QUERIES]", 1).number(1, 20000);
+  CLI::App app(
+      "How often FCL's features map to the right patches, and what a query costs: a JSON object a line",
+      "adapter_figures");
+  int queries = 20000;
+  std::string folder;
+  app.add_option("QUERIES", queries, "a shape and motion")->check(CLI::PositiveNumber)->capture_default_str();
+  app.add_option("-o,--output", folder, "folder for adapter.json");
+  CLI11_PARSE(app, argc, argv);
   const std::vector<std::pair<const char*, Cloud>> shapes{
       {"geodesic 12", geodesicSphere(0.2, 0)},
       {"geodesic 42", geodesicSphere(0.2, 1)},
@@ -143,10 +154,20 @@ int main(int argc, char** argv) {
       {"cylinder", cylinder(0.1, 0.4)},
       {"plate", plate(0.3, 0.2)},
       {"hull of 200", randomHull(200, {0.2, 0.15, 0.1}, 3)}};
-  std::printf(
-      "features mapped right, neighbour, farther, none (%%) | ns a query: fcl::distance | witness cold, warm "
-      "(cold/fcl) | fcl_stpbv::distance cold, warm (cold/fcl)\n");
-  for (const auto& [name, cloud] : shapes) report(name, cloud, queries);
-  std::printf("centres 3.8 to 7.6 enclosing radii apart\n");
-  for (const auto& [name, cloud] : shapes) reportApart(name, cloud, queries, 3.8, 7.6);
+  try {
+    benchmark::Measurement result;
+    result.name = "adapter";
+    const auto add = [&](Json row) {
+      std::printf("%s\n", row.dump().c_str());
+      result.rows.push_back(std::move(row));
+    };
+    for (const auto& [name, cloud] : shapes)
+      for (const bool large : {true, false}) add(figures(name, cloud, queries, large));
+    for (const auto& [name, cloud] : shapes) add(sharesApart(name, cloud, queries, 3.8, 7.6));
+    if (!folder.empty()) benchmark::write(result, benchmark::commandLine(argc, argv), folder);
+    return 0;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "adapter_figures: %s\n", error.what());
+    return 2;
+  }
 }

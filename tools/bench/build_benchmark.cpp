@@ -1,5 +1,5 @@
 // Time and memory of building volumes against the number of points: the table of docs/volume.md.
-//   build_benchmark
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -9,26 +9,35 @@
 #include "fcl_stpbv/volume/measure.h"
 #include "fcl_stpbv/volume/stp_bv.h"
 #include "test/reference/shapes.h"
+#include "tools/bench/measurement.h"
 
 using namespace fcl_stpbv;
 using namespace fcl_stpbv::test;
+using benchmark::significant;
 
 namespace {
 
-void row(const char* name, const Cloud& points, double R = 10) {
+nlohmann::ordered_json row(const char* name, const Cloud& points, double R = 10) {
+  constexpr int kRuns = 5;
   std::vector<double> seconds;
   StpBv::Ptr volume;
-  for (int run = 0; run < 5; ++run) {
+  for (int run = 0; run < kRuns; ++run) {
     const auto begin = std::chrono::steady_clock::now();
     volume = StpBv::build(points, {0.01, R});
     seconds.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
   }
   std::sort(seconds.begin(), seconds.end());
-  const double vertices = volume->vertexCount(), median = seconds[2];
-  std::printf("| %s | %zu | %.0f | %.3f | %.2f | %.0f |\n", name, points.size(), vertices, median,
-              1e6 * median / (vertices * std::log2(vertices + 1)),
-              static_cast<double>(volume->memory()) / vertices);
+  const double vertices = volume->vertexCount(), median = seconds[kRuns / 2];
+  nlohmann::ordered_json result{
+      {"cloud", name},
+      {"points", points.size()},
+      {"vertices", volume->vertexCount()},
+      {"seconds", significant(median, 3)},
+      {"us_per_v_log_v", significant(1e6 * median / (vertices * std::log2(vertices + 1)), 3)},
+      {"bytes_per_vertex", std::round(static_cast<double>(volume->memory()) / vertices)}};
+  std::printf("%s\n", result.dump().c_str());
   std::fflush(stdout);
+  return result;
 }
 
 Cloud onSphere(int count) {
@@ -40,22 +49,39 @@ Cloud onSphere(int count) {
 
 }  // namespace
 
-int main() {
-  std::printf(
-      "| cloud | points | vertices | seconds, median of 5 | us / (V log2 V) | bytes a vertex "
-      "|\n|---|---|---|---|---|---|\n");
-  for (int subdivisions = 1; subdivisions <= 5; ++subdivisions)
-    row("geodesic sphere", geodesicSphere(0.2, subdivisions));
-  for (const int count : {100, 1000, 10000, 100000}) row("random on a sphere", onSphere(count));
-  for (const double over : {1e-2, 1e-9}) {
-    const Cloud points = onSphere(10000);
-    row("random on a sphere, near the smallest R", points, StpBv::smallestR(points, 0.01) * (1 + over));
+int main(int argc, char** argv) {
+  CLI::App app("Time and memory of building volumes: a JSON object a line", "build_benchmark");
+  std::string folder;
+  bool quick = false;
+  app.add_option("-o,--output", folder, "folder for build.json");
+  app.add_flag("--quick", quick, "clouds of up to 10,000 points only");
+  CLI11_PARSE(app, argc, argv);
+  try {
+    benchmark::Measurement result;
+    result.name = "build";
+    const auto add = [&](const char* name, const Cloud& points, double R = 10) {
+      result.rows.push_back(row(name, points, R));
+    };
+    for (int subdivisions = 1; subdivisions <= 5; ++subdivisions)
+      add("geodesic sphere", geodesicSphere(0.2, subdivisions));
+    for (const int count : {100, 1000, 10000}) add("random on a sphere", onSphere(count));
+    for (const double over : {1e-2, 1e-9}) {
+      const Cloud points = onSphere(10000);
+      add("random on a sphere, near the smallest R", points, StpBv::smallestR(points, 0.01) * (1 + over));
+    }
+    add("1000-gon prism", cylinder(0.1, 0.4, 1000));
+    if (!quick) {
+      add("random on a sphere", onSphere(100000));
+      add("uniform in a box", randomHull(1000000, {0.3, 0.2, 0.1}, 1));
+      Cloud ball = onSphere(1000000);
+      Random random(2);
+      for (Eigen::Vector3d& p : ball) p *= std::cbrt(random.uniform(0, 1));
+      add("uniform in a ball", ball);
+    }
+    if (!folder.empty()) benchmark::write(result, benchmark::commandLine(argc, argv), folder);
+    return 0;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "build_benchmark: %s\n", error.what());
+    return 2;
   }
-  row("1000-gon prism", cylinder(0.1, 0.4, 1000));
-  row("uniform in a box", randomHull(1000000, {0.3, 0.2, 0.1}, 1));
-  Cloud ball = onSphere(1000000);
-  Random random(2);
-  for (Eigen::Vector3d& p : ball) p *= std::cbrt(random.uniform(0, 1));
-  row("uniform in a ball", ball);
-  return 0;
 }

@@ -1,8 +1,8 @@
 // Time of d(q) and J(q) of all self pairs of a robot, beside FCL: median and 99th percentile over random
-// walks.
-//   constraints_benchmark ROBOT.urdf [ROBOT.srdf] [PACKAGE_PATH]
+// walks. The table of docs/robot.md.
 #include <fcl/narrowphase/distance.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -11,33 +11,40 @@
 
 #include "fcl_stpbv/robot/constraints.h"
 #include "test/reference/shapes.h"
+#include "tools/bench/measurement.h"
 
 using namespace fcl_stpbv;
+using benchmark::significant;
 
 namespace {
 
 using Evaluate = std::function<void(const Eigen::VectorXd&)>;
 
-// Each configuration is `step` of the joints' ranges away from the last one.
-void measure(const Kinematics& kinematics, double step, int rows, const char* what,
-             const Evaluate& evaluate) {
+struct Way {
+  const char* what;
+  const char* steps;  ///< small or large
+  Evaluate evaluate;
+};
+
+// Each configuration is a step of the joints' ranges away from the last one; times in us.
+std::vector<double> times(const Kinematics& kinematics, const Way& way, int count) {
+  const double step = way.steps[0] == 's' ? 1e-3 : 0.5;
   test::Random random(1);
   Eigen::VectorXd q = kinematics.neutral();
-  std::vector<double> times;
-  for (int i = 0; i < 3000; ++i) {
+  std::vector<double> result;
+  for (int i = 0; i < count; ++i) {
     for (int k = 0; k < q.size(); ++k) {
       const double range = kinematics.upper()[k] - kinematics.lower()[k];
       q[k] = std::clamp(q[k] + step * range * random.uniform(-1, 1), kinematics.lower()[k],
                         kinematics.upper()[k]);
     }
     const auto start = std::chrono::steady_clock::now();
-    evaluate(q);
-    times.push_back(
+    way.evaluate(q);
+    result.push_back(
         std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count());
   }
-  std::sort(times.begin(), times.end());
-  std::printf("%-34s %6d pairs, median %8.1f us, 99 %% %8.1f us, %6.0f ns a pair\n", what, rows,
-              times[times.size() / 2], times[times.size() * 99 / 100], times[times.size() / 2] * 1e3 / rows);
+  std::sort(result.begin(), result.end());
+  return result;
 }
 
 // Distances alone of the polyhedra, as FCL's own users ask for them.
@@ -66,47 +73,87 @@ class PlainFcl {
   Kinematics::State state_;
 };
 
-}  // namespace
+struct Arguments {
+  std::string urdf, srdf, folder, name = "constraints";
+  std::vector<std::string> packagePath;
+  int configurations = 3000, turns = 3;
+};
 
-int main(int argc, char** argv) try {
-  if (argc < 2) {
-    std::fprintf(stderr, "constraints_benchmark ROBOT.urdf [ROBOT.srdf] [PACKAGE_PATH]\n");
-    return 2;
-  }
-  const auto model = std::make_shared<const RobotModel>(loadUrdf(argv[1]));
+benchmark::Measurement measure(const Arguments& arguments) {
+  const auto model = std::make_shared<const RobotModel>(loadUrdf(arguments.urdf));
   GeometryOptions options;
-  if (argc > 3) options.packagePath = {argv[3]};
+  options.packagePath = arguments.packagePath;
   const auto geometry = std::make_shared<const RobotGeometry>(loadGeometry(*model, options));
   const auto kinematics = std::make_shared<const Kinematics>(model);
   Srdf srdf;
-  const bool given = argc > 2 && argv[2][0] != '\0';
-  if (given) srdf = loadSrdf(argv[2], *model);
-  const std::vector<CheckedPair> pairs = selfPairs(*model, *geometry, given ? &srdf : nullptr);
+  if (!arguments.srdf.empty()) srdf = loadSrdf(arguments.srdf, *model);
+  const std::vector<CheckedPair> pairs =
+      selfPairs(*model, *geometry, arguments.srdf.empty() ? nullptr : &srdf);
   ConstraintOptions near;
   near.influence = 0.1;
   CollisionConstraints all(kinematics, geometry, pairs), some(kinematics, geometry, pairs, near);
   Eigen::VectorXd d(all.rows()), values(all.nonZeros()), weights = Eigen::VectorXd::Ones(all.rows()),
                                                          v = Eigen::VectorXd::Ones(all.columns()), out = v;
-  const Evaluate jacobian = [&](const Eigen::VectorXd& q) { all.evaluateValues(q, d, values); };
-  measure(*kinematics, 1e-3, all.rows(), "d and J, small steps", jacobian);
   RowRates rates = all.makeRates(), someRates = rates;
-  measure(*kinematics, 1e-3, all.rows(), "d, J and rates, small steps",
-          [&](const Eigen::VectorXd& q) { all.evaluateValues(q, v, rates, values); });
-  measure(*kinematics, 0.5, all.rows(), "d and J, large steps", jacobian);
-  measure(*kinematics, 1e-3, all.rows(), "d and J, small, influence 0.1 m",
-          [&](const Eigen::VectorXd& q) { some.evaluateValues(q, d, values); });
-  measure(*kinematics, 1e-3, all.rows(), "d, J and rates, influence 0.1 m",
-          [&](const Eigen::VectorXd& q) { some.evaluateValues(q, v, someRates, values); });
   CollisionConstraints::SparseHessian lower = all.makeHessian();
-  measure(*kinematics, 1e-3, all.rows(), "Lagrangian's Hessian, small steps",
-          [&](const Eigen::VectorXd& q) { all.hessian(q, weights, lower); });
-  measure(*kinematics, 1e-3, all.rows(), "Hessian times vector, small steps",
-          [&](const Eigen::VectorXd& q) { all.hessianVector(q, weights, v, out); });
   PlainFcl plain(*kinematics, *geometry, pairs);
-  measure(*kinematics, 1e-3, all.rows(), "fcl::distance on the hulls, small", std::ref(plain));
-  measure(*kinematics, 0.5, all.rows(), "fcl::distance on the hulls, large", std::ref(plain));
-  return 0;
-} catch (const std::exception& error) {
-  std::fprintf(stderr, "constraints_benchmark: %s\n", error.what());
-  return 2;
+  const Evaluate jacobian = [&](const Eigen::VectorXd& q) { all.evaluateValues(q, d, values); };
+  const std::vector<Way> ways{
+      {"d and J", "small", jacobian},
+      {"d and J", "large", jacobian},
+      {"d and J, influence 0.1 m", "small",
+       [&](const Eigen::VectorXd& q) { some.evaluateValues(q, d, values); }},
+      {"d, J and rates", "small", [&](const Eigen::VectorXd& q) { all.evaluateValues(q, v, rates, values); }},
+      {"d, J and rates, influence 0.1 m", "small",
+       [&](const Eigen::VectorXd& q) { some.evaluateValues(q, v, someRates, values); }},
+      {"Lagrangian's Hessian", "small", [&](const Eigen::VectorXd& q) { all.hessian(q, weights, lower); }},
+      {"Hessian times vector", "small",
+       [&](const Eigen::VectorXd& q) { all.hessianVector(q, weights, v, out); }},
+      {"`fcl::distance` of the hulls", "small", std::ref(plain)},
+      {"`fcl::distance` of the hulls", "large", std::ref(plain)}};
+  benchmark::Measurement result;
+  result.name = arguments.name;
+  result.about = {
+      {"robot", model->name}, {"pairs", all.rows()}, {"configurations", arguments.configurations}};
+  for (const Way& way : ways)
+    result.rows.push_back({{"what", way.what}, {"steps", way.steps}, {"us_p50", {}}, {"us_p99", {}}});
+  for (int turn = 0; turn < arguments.turns; ++turn)  // in turns: what slows the machine slows all of them
+    for (std::size_t k = 0; k < ways.size(); ++k) {
+      const std::vector<double> us = times(*kinematics, ways[k], arguments.configurations);
+      result.rows[k]["us_p50"].push_back(significant(us[us.size() / 2], 3));
+      result.rows[k]["us_p99"].push_back(significant(us[us.size() * 99 / 100], 3));
+    }
+  return result;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Time of d(q), J(q) and second derivatives of all pairs of a robot, beside FCL",
+               "constraints_benchmark");
+  Arguments arguments;
+  app.add_option("ROBOT", arguments.urdf, "the robot's URDF")->required();
+  app.add_option("--srdf", arguments.srdf, "whose pairs are left out; else adjacent ones are");
+  app.add_option("--package-path", arguments.packagePath, "folder that holds packages")
+      ->expected(1)
+      ->take_all();
+  app.add_option("--configurations", arguments.configurations, "of each random walk")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  app.add_option("--turns", arguments.turns, "walks of each way, in turns")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  app.add_option("-o,--output", arguments.folder, "folder for the JSON file");
+  app.add_option("--name", arguments.name, "its name")->capture_default_str();
+  CLI11_PARSE(app, argc, argv);
+  try {
+    const benchmark::Measurement result = measure(arguments);
+    for (const auto& row : result.rows) std::printf("%s\n", row.dump().c_str());
+    if (!arguments.folder.empty())
+      benchmark::write(result, benchmark::commandLine(argc, argv), arguments.folder);
+    return 0;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "constraints_benchmark: %s\n", error.what());
+    return 2;
+  }
 }

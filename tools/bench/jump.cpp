@@ -2,10 +2,9 @@
 // between neighbours? A continuous gradient's change goes down as 1/n, a jump stays.
 #include <algorithm>
 #include <cmath>
-#include <map>
 
-#include "tools/bench/charts.h"
 #include "tools/bench/method.h"
+#include "tools/bench/speed_accuracy.h"
 
 namespace fcl_stpbv::benchmark {
 
@@ -66,47 +65,21 @@ Bodies plateAndBox(double r, double R) {
 
 }  // namespace
 
-Chart jumpChart(const ChartOptions&) {
-  Chart chart;
-  chart.name = "jump_test";
-  chart.header = "method,setting,path_steps,largest_change,failed";
-  chart.width = 720;
-  chart.height = 480;
+Measurement jumpTest(const SpeedOptions&) {
+  Measurement result;
+  result.name = "jump_test";
+  result.about = {{"r", 0.01}, {"R", 10}, {"rocks_by_degrees", 4}};
   const Bodies bodies = plateAndBox(0.01, 10);
-  std::vector<MethodPtr> methods;
-  methods.push_back(fclLibccd(bodies));
-  methods.push_back(fclIndep(bodies));
-  if (MethodPtr bullet = bulletGjk(bodies)) methods.push_back(std::move(bullet));
-  methods.push_back(fclGapStop(bodies, true));
-  methods.push_back(stpBvThroughFcl(bodies));
-  methods.push_back(stpBvWarm(bodies));
-  std::string curves;
-  int block = 0;
-  for (const MethodPtr& method : methods) {
-    std::string rows;
-    int failed = 0;
+  for (const MethodPtr& method : peers(bodies))
     for (const int steps : {30, 100, 300, 1000, 3000, 10000, 30000, 100000}) {
       const Jump jump = largestJump(*method, steps);
-      failed += jump.failed;
-      chart.rows.push_back(text("%s,%s,%d,%.4g,%d", method->name.c_str(), method->setting.c_str(), steps,
-                                jump.largest, jump.failed));
-      rows += text("%d %g\n", steps, jump.largest);
+      result.rows.push_back({{"method", method->name},
+                             {"setting", method->setting},
+                             {"path_steps", steps},
+                             {"largest_change", significant(jump.largest, 4)},
+                             {"failed", jump.failed}});
     }
-    const std::string name = text("$jump%d", block++);
-    chart.plot += name + " << EOD\n" + rows + "EOD\n";
-    curves += ", " + name + " using 1:2 with linespoints " + style(method->name) + " ps 0.8 lw 2 title '" +
-              method->name + (failed ? text(" (%d failed)", failed) : "") + "'";
-  }
-  chart.plot +=
-      "set lmargin at screen 0.1\nset bmargin at screen 0.235\nset logscale xy\nset format '10^{%L}'\n"
-      "set xlabel 'steps of the path'\nset ylabel 'largest change of the gradient in one step'\n"
-      "set key bottom left reverse Left\nplot 30./x dt 2 lc rgb '#888888' title 'slope -1'" +
-      curves + "\n";
-  chart.caption =
-      "A box of 20 cm rocks by 4 degrees past parallel faces over a plate; derivative with the box's twist. "
-      "r = 1 cm, R = "
-      "10 m";
-  return chart;
+  return result;
 }
 
 }  // namespace fcl_stpbv::benchmark

@@ -128,4 +128,15 @@ MethodPtr fclGapStop(const Bodies& bodies, bool warm) { return std::make_unique<
 MethodPtr stpBvThroughFcl(const Bodies& bodies) { return std::make_unique<ThroughFcl>(bodies); }
 MethodPtr stpBvWarm(const Bodies& bodies) { return std::make_unique<Warm>(bodies); }
 
+std::vector<MethodPtr> peers(const Bodies& bodies) {
+  std::vector<MethodPtr> methods;
+  methods.push_back(fclLibccd(bodies));
+  methods.push_back(fclIndep(bodies));
+  if (MethodPtr bullet = bulletGjk(bodies)) methods.push_back(std::move(bullet));
+  methods.push_back(fclGapStop(bodies, true));
+  methods.push_back(stpBvThroughFcl(bodies));
+  methods.push_back(stpBvWarm(bodies));
+  return methods;
+}
+
 }  // namespace fcl_stpbv::benchmark

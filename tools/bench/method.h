@@ -61,4 +61,7 @@ MethodPtr bulletGjk(const Bodies& bodies);        ///< null where Bullet was not
 MethodPtr stpBvThroughFcl(const Bodies& bodies);  ///< each query starts from FCL's witness
 MethodPtr stpBvWarm(const Bodies& bodies);        ///< each query starts from the last answer
 
+/// One of each, with FCL's default tolerance; without Bullet where it was not found.
+std::vector<MethodPtr> peers(const Bodies& bodies);
+
 }  // namespace fcl_stpbv::benchmark

@@ -1,5 +1,5 @@
 // posture_study: does a continuous gradient pay? The same optimiser, tasks and starts with four sources of
-// distances; numbers as CSV, performance profiles as SVG, a table on standard output (docs/posture.md).
+// distances; a table on standard output, every task as JSON (docs/posture.md).
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
@@ -12,7 +12,7 @@
 #include "fcl_stpbv/posture/find_posture.h"
 #include "test/reference/mesh_check.h"
 #include "test/reference/source_folder.h"
-#include "tools/bench/chart.h"
+#include "tools/bench/measurement.h"
 #include "tools/bench/posture_study/hull_rows.h"
 #include "tools/bench/posture_study/tasks.h"
 
@@ -20,20 +20,17 @@ namespace {
 
 using namespace fcl_stpbv;
 using namespace fcl_stpbv::tools;
-using benchmark::text;
 
 struct Method {
   const char* name;
-  const char* look;  // in gnuplot
   bool smooth;
   HullDistance hulls;
   bool rounded;
 };
-constexpr Method kMethods[] = {
-    {"STP-BV", "lc rgb '#1f4e96'", true, HullDistance::exact, true},
-    {"hulls, rounded, exact", "lc rgb '#55a868'", false, HullDistance::exact, true},
-    {"hulls, rounded, FCL", "lc rgb '#dd8452'", false, HullDistance::fcl, true},
-    {"hulls, plain FCL", "lc rgb '#c44e52'", false, HullDistance::fcl, false}};
+constexpr Method kMethods[] = {{"STP-BV", true, HullDistance::exact, true},
+                               {"hulls, rounded, exact", false, HullDistance::exact, true},
+                               {"hulls, rounded, FCL", false, HullDistance::fcl, true},
+                               {"hulls, plain FCL", false, HullDistance::fcl, false}};
 constexpr std::size_t kCount = std::size(kMethods);
 constexpr double kInfluence = 0.2;  // m, as find_posture has it
 
@@ -164,58 +161,26 @@ void printTable(const std::vector<Row>& rows, int starts) {
   }
 }
 
-// For each method the share of the feasible tasks that it solves within a factor of the best method.
-std::string profile(const std::vector<Row>& rows, const std::string& title,
-                    const std::function<double(const Posture&)>& effort) {
-  std::string blocks, plots;
-  for (std::size_t m = 0; m < kCount; ++m) {
-    std::vector<double> ratios;
-    double tasks = 0;
-    for (const Row& row : rows) {
-      if (!row.feasible) continue;
-      ++tasks;
-      double best = std::numeric_limits<double>::infinity();
-      for (const Result& r : row.results)
-        if (r.good()) best = std::min(best, effort(r.posture));
-      if (row.results[m].good()) ratios.push_back(effort(row.results[m].posture) / best);
-    }
-    std::sort(ratios.begin(), ratios.end());
-    const std::string block = "$" + title + std::to_string(m);
-    blocks += block + " << EOD\n1 0\n";
-    for (std::size_t i = 0; i < ratios.size(); ++i)
-      blocks += text("%.6g %.6g\n", ratios[i], 100 * static_cast<double>(i + 1) / tasks);
-    blocks += text("1000 %.6g\nEOD\n", 100 * static_cast<double>(ratios.size()) / tasks);
-    plots += text("%s%s with steps lw 2 %s title '%s'", m ? ", " : "plot ", block.c_str(), kMethods[m].look,
-                  kMethods[m].name);
-  }
-  return blocks + "set title '" + title + "'\n" + plots + "\n";
-}
-
-benchmark::Chart chartOf(const std::vector<Row>& rows, int starts) {
-  benchmark::Chart chart;
-  chart.name = "posture_profile";
-  chart.header = "seed,family,feasible,distances,solved,clear,starts,iterations,calls,seconds,cost";
+benchmark::Measurement measurementOf(const std::vector<Row>& rows, int starts) {
+  benchmark::Measurement result;
+  result.name = "posture_study";
+  result.about = {{"tasks", rows.size()}, {"starts", starts}};
   for (const Row& row : rows)
     for (std::size_t m = 0; m < kCount; ++m) {
       const Result& r = row.results[m];
-      chart.rows.push_back(text("%d,%s,%d,\"%s\",%d,%d,%d,%d,%ld,%.3g,%.6g", static_cast<int>(row.seed),
-                                row.family.c_str(), row.feasible, kMethods[m].name, r.solved, r.clear,
-                                r.posture.starts, r.posture.iterations, r.posture.distanceCalls,
-                                r.posture.seconds, r.posture.cost));
+      result.rows.push_back({{"seed", row.seed},
+                             {"family", row.family},
+                             {"feasible", row.feasible},
+                             {"distances", kMethods[m].name},
+                             {"solved", r.solved},
+                             {"clear", r.clear},
+                             {"starts", r.posture.starts},
+                             {"iterations", r.posture.iterations},
+                             {"calls", r.posture.distanceCalls},
+                             {"seconds", benchmark::significant(r.posture.seconds, 3)},
+                             {"cost", benchmark::significant(r.posture.cost, 6)}});
     }
-  chart.height = 460;
-  chart.plot =
-      "set multiplot layout 1,3 margins 0.07,0.985,0.24,0.9 spacing 0.06\nset logscale x\nset xrange [1:20]\n"
-      "set yrange [0:100]\nset xlabel 'factor of the best'\nset ylabel 'solved (%)'\nset key bottom right\n" +
-      profile(rows, "iterations", [](const Posture& p) { return static_cast<double>(p.iterations); }) +
-      "unset ylabel\nunset label 1\n" +
-      profile(rows, "distances", [](const Posture& p) { return static_cast<double>(p.distanceCalls); }) +
-      profile(rows, "time", [](const Posture& p) { return p.seconds; }) + "unset multiplot";
-  chart.caption = text(
-      "Share of the feasible ones of %zu random tasks solved within %d starts, free of collisions of the "
-      "meshes",
-      rows.size(), starts);
-  return chart;
+  return result;
 }
 
 }  // namespace
@@ -231,19 +196,19 @@ int main(int argc, char** argv) {
   app.add_option("--search-starts", searchStarts, "Starts before a task counts as infeasible")
       ->capture_default_str();
   app.add_option("--tolerance", tolerance, "Relative change of the cost to stop at")->capture_default_str();
-  app.add_option("-o,--output", folder, "Folder for posture_profile.csv and .svg");
+  app.add_option("-o,--output", folder, "Folder for posture_study.json");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
   }
   try {
-    if (!folder.empty()) benchmark::requireGnuplot();
     Study study(starts, searchStarts, tolerance);
     std::vector<Row> rows;
     for (int seed = 0; seed < tasks; ++seed) rows.push_back(study.run(static_cast<std::uint64_t>(seed)));
     printTable(rows, starts);
-    if (!folder.empty()) benchmark::write(chartOf(rows, starts), folder, true);
+    if (!folder.empty())
+      benchmark::write(measurementOf(rows, starts), benchmark::commandLine(argc, argv), folder);
   } catch (const std::exception& error) {
     std::cerr << "posture_study: " << error.what() << std::endl;
     return 2;

@@ -3,13 +3,14 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <exception>
 
 #include "fcl_stpbv/robot/pair_list.h"
 #include "fcl_stpbv/robot/pair_proof.h"
 #include "fcl_stpbv/robot/pair_search.h"
-#include "tools/bench/chart.h"
+#include "tools/bench/measurement.h"
 
 namespace {
 
@@ -71,21 +72,11 @@ double median(std::vector<double> values) {
 }
 
 struct Arguments {
-  std::string urdf, folder;
+  std::string urdf, folder, name = "proof_boxes", command;
   std::vector<std::string> packagePath;
   long before = 300000, boxes = 20000;
   int descents = 500;
 };
-
-// The share of pairs decided within a number of boxes, as a curve.
-std::string curve(std::vector<long> boxes, std::size_t all) {
-  std::sort(boxes.begin(), boxes.end());
-  std::string rows;
-  for (std::size_t i = 0; i < boxes.size(); ++i)
-    rows += benchmark::text("%ld %.6f\n", boxes[i],
-                            100.0 * static_cast<double>(i + 1) / static_cast<double>(all));
-  return rows;
-}
 
 int run(const Arguments& a) {
   const auto robot = std::make_shared<const RobotModel>(loadUrdf(a.urdf));
@@ -141,20 +132,23 @@ int run(const Arguments& a) {
       "times fewer, %.0f times faster; %.0f us a box\n",
       fewer.size(), median(fewer), fewerOfMany.size(), median(fewerOfMany), median(faster), median(perBox));
   if (a.folder.empty()) return 0;
-  benchmark::Chart chart;
-  chart.name = "proof_boxes";
-  chart.header = "bound,boxes";
-  for (const long boxes : before) chart.rows.push_back(benchmark::text("levers,%ld", boxes));
-  for (const long boxes : now) chart.rows.push_back(benchmark::text("planes,%ld", boxes));
-  chart.plot = "$levers << EOD\n" + curve(before, pairs) + "EOD\n$planes << EOD\n" + curve(now, pairs) +
-               "EOD\nset logscale x\nset xlabel 'boxes'\nset ylabel 'pairs proven (%)'\nset yrange "
-               "[0:100]\nset key top left\n"
-               "plot $levers using 1:2 with steps lw 2 title 'levers', $planes using 1:2 with steps lw 2 "
-               "title 'planes'\n";
-  chart.caption =
-      benchmark::text("%zu pairs of %s that samples and descents find clear, up to %ld and %ld boxes each",
-                      pairs, robot->name.c_str(), a.before, a.boxes);
-  return benchmark::write(chart, a.folder, true) ? 0 : 1;
+  benchmark::Measurement result;
+  result.name = a.name;
+  result.about = {{"robot", robot->name},
+                  {"pairs", pairs},
+                  {"most_boxes_of_levers", a.before},
+                  {"most_boxes_of_planes", a.boxes},
+                  {"proven_by_levers", oldProven},
+                  {"proven_by_planes", newProven},
+                  {"hardest_proof", now.empty() ? 0 : *std::max_element(now.begin(), now.end())},
+                  {"fewer_boxes_median", std::round(median(fewerOfMany))},
+                  {"fewer_boxes_pairs", fewerOfMany.size()},
+                  {"less_time_median", std::round(median(faster))},
+                  {"us_a_box", std::round(median(perBox))}};
+  for (const long boxes : before) result.rows.push_back({{"bound", "levers"}, {"boxes", boxes}});
+  for (const long boxes : now) result.rows.push_back({{"bound", "planes"}, {"boxes", boxes}});
+  benchmark::write(result, a.command, a.folder);
+  return 0;
 }
 
 }  // namespace
@@ -167,8 +161,10 @@ int main(int argc, char** argv) {
   app.add_option("--before", a.before, "Most boxes of the levers for a pair")->capture_default_str();
   app.add_option("--boxes", a.boxes, "Most boxes of the planes for a pair")->capture_default_str();
   app.add_option("--descents", a.descents, "Random descents for a pair before that")->capture_default_str();
-  app.add_option("-o,--output", a.folder, "Folder for the chart");
+  app.add_option("-o,--output", a.folder, "Folder for the JSON file");
+  app.add_option("--name", a.name, "Its name")->capture_default_str();
   CLI11_PARSE(app, argc, argv);
+  a.command = benchmark::commandLine(argc, argv);
   try {
     return run(a);
   } catch (const std::exception& error) {

@@ -1,14 +1,13 @@
-// The situations in which distance codes break, tried on every method at hand: a table, a picture, or a
-// count.
+// The situations in which distance codes break, tried on every method at hand: a count of failures, or a file
+// with every case, from which `tools/bench/draw` makes the tables and the picture of docs/stability.md.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
-#include <fstream>
-#include <stdexcept>
 
 #include "test/reference/source_folder.h"
 #include "test/reference/stability/suite.h"
+#include "tools/bench/measurement.h"
 
 using namespace fcl_stpbv::stability;
 
@@ -21,24 +20,6 @@ std::string hardCases() {
   if (std::filesystem::is_directory(source, ignored)) return source;
   const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", ignored);
   return self.parent_path().parent_path() / "share/fcl_stpbv/hard_cases";
-}
-
-void writeText(const std::filesystem::path& path, const std::string& content) {
-  std::ofstream file(path);
-  file << content;
-  file.close();
-  if (!file) throw std::runtime_error("cannot write " + path.string());
-  std::fprintf(stderr, "wrote %s\n", path.c_str());
-}
-
-void draw(const Results& results, const std::filesystem::path& svg) {
-  FILE* gnuplot = popen("gnuplot", "w");
-  if (!gnuplot) throw std::runtime_error("cannot start gnuplot");
-  const std::string script = strip(results, svg.string());
-  const bool sent = std::fwrite(script.data(), 1, script.size(), gnuplot) == script.size();
-  if (pclose(gnuplot) != 0 || !sent)
-    throw std::runtime_error("the picture needs gnuplot: install the Debian package gnuplot-nox");
-  std::fprintf(stderr, "wrote %s\n", svg.c_str());
 }
 
 /// Where a method fails: case by case, on standard error.
@@ -58,12 +39,11 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", "stability " FCL_STPBV_VERSION);
   bool json = false;
   std::uint64_t seed = 1;
-  std::string folder = "docs", list;
+  std::string folder = "docs/measured", list;
   std::vector<std::string> only;
-  app.add_flag("--json", json, "print the number of cases and each method's failures, within a minute");
+  app.add_flag("--json", json, "only print the number of cases and each method's failures, within a minute");
   app.add_option("--seed", seed, "of whatever is random in the cases")->capture_default_str();
-  app.add_option("-o,--output", folder, "folder for the table and, below it, the picture")
-      ->capture_default_str();
+  app.add_option("-o,--output", folder, "folder for stability.json")->capture_default_str();
   app.add_option("--method", only, "only these methods");
   app.add_option("--list", list, "print this method's failures, case by case");
   try {
@@ -74,14 +54,13 @@ int main(int argc, char** argv) {
   try {
     const Results results = runSuite(allSituations(seed, hardCases(), !json), only);
     listFailures(results, list);
-    if (json) {
-      std::printf("%s\n", summary(results).dump().c_str());
-    } else {
-      const std::filesystem::path images = std::filesystem::path(folder) / "images";
-      std::filesystem::create_directories(images);
-      std::printf("%s", markdown(results).c_str());
-      writeText(images / "stability.csv", csv(results));
-      draw(results, images / "stability.svg");
+    std::printf("%s\n", summary(results).dump().c_str());
+    if (!json) {
+      fcl_stpbv::benchmark::Measurement measurement;
+      measurement.name = "stability";
+      measurement.about = {{"seed", seed}, {"methods", methodNames(results)}};
+      measurement.rows = caseRows(results);
+      fcl_stpbv::benchmark::write(measurement, fcl_stpbv::benchmark::commandLine(argc, argv), folder);
     }
     return 0;
   } catch (const std::exception& e) {

@@ -19,8 +19,9 @@ Results runSuite(std::vector<Situation> situations, const std::vector<std::strin
 /// {"cases": N, "failures": {id: count}}
 nlohmann::ordered_json summary(const Results& results);
 
-std::string markdown(const Results& results);                       ///< the tables of docs/stability.md
-std::string csv(const Results& results);                            ///< a row a case, a column a method
-std::string strip(const Results& results, const std::string& svg);  ///< gnuplot's commands for the picture
+/// A row a case: group, case, placements, and each method's verdict and amount in the order of `methodNames`.
+std::vector<nlohmann::ordered_json> caseRows(const Results& results);
+/// [{"id", "title"}] of the methods.
+nlohmann::ordered_json methodNames(const Results& results);
 
 }  // namespace fcl_stpbv::stability

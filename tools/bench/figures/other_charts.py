@@ -1,0 +1,151 @@
+"""Charts of the jump, the hard cases, proofs, postures and controllers."""
+from . import palette, stability_verdicts
+from .plot import UNLABEL, block, captured, draw, known, legend, measured, origin, panels, single
+
+
+def jump(height=400):
+    """The README's picture: distance and derivative as a box rocks past parallel faces."""
+    command, lines = captured("jump_sweep")
+    rows = [[float(x) for x in line.split(",")] for line in lines[1:]]
+    middle = min(rows, key=lambda row: abs(row[0]))
+    above, below = 1e3 * middle[1], 1e3 * middle[3]
+    small_print = [f"A 20 cm box rocks over a plate. r = 1 cm, R = 10 m on both. {command}"]
+    text = panels(2, height, small_print, legend_rows=1, panel_titles=True) + \
+        legend([(palette.FCL, 5, "polyhedra, by FCL"), (palette.SMOOTH, 5, "STP-BVs over them")], height) + \
+        block("$sweep", rows) + "set xlabel 'angle of the box to the plate (degrees)'\nset xrange [-2:2]\nset xtics 1\n" \
+        "set title 'distance' offset 0,-0.6\nset ylabel 'distance (mm)'\nset yrange [20:55]\n" \
+        f"set arrow 1 from 0,{below + 0.6:.1f} to 0,{above - 0.6:.1f} heads size screen 0.008,20 lc rgb '{palette.NEUTRAL}'\n" \
+        f"set label 1 \"{above - below:.0f} mm:\\nboth r, 20 mm,\\nand R's bulge\" at 0.1,42 font ',12' tc rgb '{palette.NEUTRAL}'\n" \
+        f"plot $sweep using 1:(1000*$2) with lines lw 2.5 lc rgb '{palette.FCL}', '' using 1:(1000*$4) with lines lw 2.5 lc rgb '{palette.SMOOTH}'\n" + \
+        UNLABEL + "unset arrow 1\nunset label 1\nset title 'its derivative'\nset ylabel 'derivative with the angle (m/rad)'\nset yrange [-0.12:0.12]\n" \
+        f"plot $sweep using 1:3 with points pt 7 ps 0.25 lc rgb '{palette.FCL}', '' using 1:5 with lines lw 2.5 lc rgb '{palette.SMOOTH}'\nunset multiplot\n"
+    return draw("jump", "Two parallel faces: the polyhedra's derivative jumps, the STP-BVs' does not", text, small_print, height)
+
+
+def stability():
+    """Groups of hard cases from top to bottom, methods from left to right: the worst verdict, and how many failed."""
+    data = measured("stability")
+    methods = data["about"]["methods"]
+    groups = stability_verdicts.groups(data)
+    row_height, top, bottom, left = 20, 176, 92, 270
+    height = top + bottom + row_height * len(groups)
+    cells, counts = [], []
+    for y, (group, cases) in enumerate(groups.items()):
+        for x in range(len(methods)):
+            cell = stability_verdicts.cell(cases, x)
+            cells.append((x, y, palette.VERDICTS[cell.shade][1]))
+            if cell.failed:
+                counts.append((x, y, str(cell.failed), "#ffffff" if cell.shade >= 5 else "#222222"))
+    failures = stability_verdicts.failures(data)
+    text = f"set lmargin at screen {left / 800:.4f}\nset rmargin at screen 0.935\nset bmargin at screen {bottom / height:.4f}\n" \
+        f"set tmargin at screen {1 - top / height:.4f}\nunset grid\nset border 0\nset key off\n" \
+        f"set xrange [-0.5:{len(methods) - 0.5}]\nset yrange [{len(groups) - 0.5}:-0.5]\n" \
+        f"set x2range [-0.5:{len(methods) - 0.5}]\nunset xtics\nset style fill solid noborder\n"
+    names = ", ".join(f"\"{m['title'].replace('STP-BV, paper', 'paper')}\" {x}" for x, m in enumerate(methods))
+    text += f"set x2tics ({names}) rotate by 55 left font ',12' scale 0 offset -0.3,0.2\n"
+    text += "set ytics (" + ", ".join(f'"{group} ({len(cases)})" {y}' for y, (group, cases) in enumerate(groups.items())) + ") font ',12' scale 0\n"
+    for i, (words, colour) in enumerate(palette.VERDICTS):
+        x, y = 24 + 258 * (i % 3), height - bottom + 26 + 20 * (i // 3)
+        text += f"set object {i + 1} rectangle from screen {x / 800:.4f},{1 - (y - 6) / height:.4f} to screen {(x + 16) / 800:.4f},{1 - (y + 6) / height:.4f} " \
+            f"fc rgb '{colour}' fs solid noborder\nset label {200 + i} '{words}' at screen {(x + 22) / 800:.4f},{1 - y / height:.4f} left font ',12'\n"
+    plots = []
+    for i, (_, colour) in enumerate(palette.VERDICTS):
+        mine = [(x, y) for x, y, c in cells if c == colour]
+        if mine:
+            text += block(f"$cells{i}", mine)
+            plots.append(f"$cells{i} using 1:2:($1-0.47):($1+0.47):($2-0.45):($2+0.45) with boxxyerror fc rgb '{colour}'")
+    for i, colour in enumerate(("#ffffff", "#222222")):
+        mine = [(x, y, words) for x, y, words, c in counts if c == colour]
+        if mine:
+            text += block(f"$counts{i}", mine)
+            plots.append(f"$counts{i} using 1:2:3 with labels font ',11' tc rgb '{colour}'")
+    ours = failures["stpbv_warm"]
+    return draw("stability", f"{len(data['rows'])} hard cases: the STP-BV query fails {ours or 'none'}, FCL {failures['fcl_libccd_1e-6']}",
+         text + "plot " + ", ".join(plots),
+         ["A cell: the worst verdict of a group of cases; its number: how many of them fail (a gradient that jumps, or worse)."], height)
+
+
+def proof_boxes(height=420):
+    data = measured("proof_boxes")
+    about, pairs = data["about"], data["about"]["pairs"]
+    small_print = origin(data, [f"{pairs} pairs of {about['robot']} that samples and descents find clear; at most {about['most_boxes_of_levers']:,} boxes by levers "
+                                f"and {about['most_boxes_of_planes']:,} by planes."])
+    text = single(height, small_print, legend_rows=1) + legend([(palette.SMOOTH, 5, "planes between the links"),
+                                                                (palette.SWEEPS[0], 5, "levers of the joints")], height) + \
+        "set logscale x\nset xrange [1:100000]\nset yrange [0:100]\nset xtics ('1' 1, '10' 10, '100' 100, '1000' 1000, '10,000' 1e4, '100,000' 1e5)\n" \
+        "set xlabel 'boxes of joint values'\nset ylabel 'pairs proven (%)'\n"
+    plots = []
+    for i, (bound, colour) in enumerate((("levers", palette.SWEEPS[0]), ("planes", palette.SMOOTH))):
+        boxes = sorted(row["boxes"] for row in data["rows"] if row["bound"] == bound)
+        text += block(f"$bound{i}", [(1, 0), *((b, 100 * (k + 1) / pairs) for k, b in enumerate(boxes))])
+        plots.append(f"$bound{i} using 1:2 with steps lw 2.5 lc rgb '{colour}'")
+    return draw("proof_boxes", f"Planes prove {about['proven_by_planes']} of {pairs} pairs in few boxes, levers {about['proven_by_levers']} in many",
+         text + "plot " + ", ".join(plots), small_print, height)
+
+
+def radii(height=420):
+    """What r saves in collisions and costs in the gradient's steadiness, for whole robots."""
+    data = measured("radii")
+    robots = list(dict.fromkeys(row["robot"] for row in data["rows"]))
+    top = 1.15 * max(row["margin only"] for row in data["rows"]) + 1
+    small_print = ["Pairs in the neutral posture, all but adjacent ones, R = 10 m. Lines: one r for all links; crosses: r fitted to each link (auto).",
+                   "By their margins only: the volumes meet, the convex hulls do not. tools/bench/radii"]
+    text = single(height, small_print, legend_rows=1) + legend([(palette.SWEEPS[i], 7, robot) for i, robot in enumerate(robots)], height) + \
+        f"set logscale x\nset xrange [20:700]\nset xtics (25, 50, 100, 200, 500)\nset yrange [0:{top:g}]\n" \
+        "set xlabel 'the normal turns by at most (rad/m), median of all pairs'\nset ylabel 'pairs that collide only by margins'\n"
+    plots = []
+    for i, robot in enumerate(robots):
+        rows = [(row["lipschitz"], row["margin only"], row["r"]) for row in data["rows"] if row["robot"] == robot]
+        colour = palette.SWEEPS[i]
+        text += block(f"$fixed{i}", [row for row in rows if row[2] != "auto"]) + block(f"$auto{i}", [row for row in rows if row[2] == "auto"])
+        plots += [f"$fixed{i} using 1:2 with linespoints pt 7 ps 0.7 lw 2 lc rgb '{colour}'", f"$auto{i} using 1:2 with points pt 2 ps 1.6 lw 3 lc rgb '{colour}'"]
+    plots.append(f"$fixed0 using 1:({0.93 * top:g}):3 with labels font ',12' tc rgb '{palette.NEUTRAL}'")
+    return draw("radii", "A smaller r avoids false collisions; the normal may then turn faster", text + "plot " + ", ".join(plots), small_print, height)
+
+
+def posture_profile(height=400):
+    data = measured("posture_study")
+    colours = {"STP-BV": palette.SMOOTH, "hulls, rounded, exact": palette.EXACT_HULL, "hulls, rounded, FCL": palette.FCL_OTHER, "hulls, plain FCL": palette.FCL}
+    tasks = {}
+    for row in data["rows"]:
+        if row["feasible"]:
+            tasks.setdefault(row["seed"], {})[row["distances"]] = row
+    small_print = [f"{len(tasks)} feasible ones of {data['about']['tasks']} random tasks, solved within {data['about']['starts']} starts, free of collisions of the meshes.",
+                   "Across: effort as a multiple of the best method's on the same task.", f"{data['command']}: {data['machine']}"]
+    text = panels(3, height, small_print, legend_rows=1, panel_titles=True, between=52, left=76) + \
+        legend([(colour, 5, name) for name, colour in colours.items()], height, columns=4) + \
+        "set logscale x\nset xrange [1:20]\nset xtics (1, 2, 5, 10, 20)\nset yrange [0:100]\nset xlabel 'times the best'\nset ylabel 'tasks solved (%)'\n"
+    for panel, (words, column) in enumerate((("iterations", "iterations"), ("distances computed", "calls"), ("time", "seconds"))):
+        plots = []
+        for i, (name, colour) in enumerate(colours.items()):
+            ratios = []
+            for results in tasks.values():
+                good = {k: r[column] for k, r in results.items() if r["solved"] and r["clear"]}
+                if name in good:
+                    ratios.append(good[name] / min(good.values()))
+            curve = [(1, 0), *((ratio, 100 * (k + 1) / len(tasks)) for k, ratio in enumerate(sorted(ratios))), (1000, 100 * len(ratios) / len(tasks))]
+            text += block(f"$profile{panel}{i}", curve)
+            plots.append(f"$profile{panel}{i} using 1:2 with steps lw 2 lc rgb '{colour}'")
+        text += f"set title '{words}' offset 0,-0.6\nplot " + ", ".join(plots) + "\n" + UNLABEL + "unset ylabel\n"
+    return draw("posture_profile", "Postures: all four sources of distances take about the same effort", text + "unset multiplot\n", small_print, height)
+
+
+def control(height=440):
+    """Peak joint acceleration in each scenario; drawn where it has been measured."""
+    if not known("control"):
+        return False
+    data = measured("control")
+    colours = {"hull + r, r 10 mm": palette.FCL, "manifold, r 10 mm": palette.FCL_OTHER, "STP-BV, r 10 mm, R 10 m": palette.SMOOTH,
+               "STP-BV, r 10 mm, R 1 m": palette.SECOND}
+    scenarios = list(dict.fromkeys(row["scenario"] for row in data["rows"]))
+    peak = {(row["scenario"], row["method"]): row["peak"] for row in data["rows"]}
+    small_print = [f"HRP-2-style robot at 1 kHz, medians of {data['about']['runs']} runs. {data['command']}"]
+    text = single(height, small_print, legend_rows=2) + legend([(c, 5, name) for name, c in colours.items()], height, columns=2) + \
+        block("$peaks", [(s, *(peak.get((s, m)) for m in colours)) for s in scenarios]) + \
+        "set style data histograms\nset style histogram clustered gap 1\nset style fill solid noborder\nset logscale y\nset yrange [0.5:*]\n" \
+        "set ylabel 'peak joint acceleration (rad/s²)'\n"
+    plots = [f"$peaks using {i + 2}{':xtic(1)' if not i else ''} lc rgb '{c}'" for i, c in enumerate(colours.values())]
+    return draw("control", "Controllers: hulls make the joints jerk, smooth volumes do not", text + "plot " + ", ".join(plots), small_print, height)
+
+
+CHARTS = (jump, stability, proof_boxes, radii, posture_profile, control)

@@ -1,0 +1,25 @@
+"""The one palette: a method has the same colour and mark in every chart."""
+
+# name in the measurements: (colour, gnuplot's point type, name in a chart)
+METHODS = {
+    "STP-BV warm": ("#1f4e96", 7, "STP-BV, from the last answer"),
+    "STP-BV through FCL": ("#4fb3d9", 13, "STP-BV through FCL, no memory"),
+    "FCL with gap stop": ("#55a868", 11, "FCL's GJK, duality-gap stop"),
+    "FCL libccd": ("#c44e52", 7, "FCL libccd"),
+    "FCL indep": ("#dd8452", 5, "FCL indep"),
+    "Bullet GJK": ("#8172b3", 9, "Bullet GJK"),
+}
+SMOOTH, SECOND, EXACT_HULL, FCL, FCL_OTHER, OTHER = (METHODS[name][0] for name in METHODS)
+SWEEPS = ("#b0528f", "#2f7f86", "#8c613c")  # not methods: settings, robots
+NEUTRAL, QUIET, GRID = "#555555", "#888888", "#dddddd"
+
+# Verdicts of the hard cases, from best to worst: (words, colour).
+VERDICTS = (("exact", "#d9e8d4"), ("within 1e-6, or local and said so", "#a9c9e8"), ("gradient jumps", "#f3dc8f"),
+            ("wrong, < 10 µm", "#f0b467"), ("wrong, < 1 mm", "#e58a4d"), ("wrong by more", "#c44e52"),
+            ("no answer", "#b8a4d4"), ("NaN or exception", "#7d5ba6"), ("hang or abort", "#222222"))
+
+
+def look(method):
+    """gnuplot's words for a method's lines and marks."""
+    colour, mark, _ = METHODS[method]
+    return f"lc rgb '{colour}' pt {mark}"

@@ -1,0 +1,105 @@
+"""A chart by gnuplot, 800 px wide: what all charts share, from the fonts to the line that says how it was measured."""
+import json
+import pathlib
+import shutil
+import subprocess
+import sys
+
+from . import palette
+
+PROJECT = pathlib.Path(__file__).resolve().parents[3]
+MEASURED, IMAGES = PROJECT / "docs/measured", PROJECT / "docs/images"
+WIDTH = 800
+TIME_TICS = "('10 ns' 1e1, '100 ns' 1e2, '1 µs' 1e3, '10 µs' 1e4, '100 µs' 1e5, '1 ms' 1e6)"
+
+
+def measured(name):
+    """A measurement: command, machine, spread, about, rows."""
+    return json.loads((MEASURED / f"{name}.json").read_text())
+
+
+def known(name):
+    """Whether there is such a measurement."""
+    return (MEASURED / f"{name}.json").exists()
+
+
+def is_text(name):
+    """Whether a measurement is a program's output as it was printed."""
+    return (MEASURED / f"{name}.txt").exists()
+
+
+def captured(name):
+    """A program's output that is kept as it was printed: (command, lines)."""
+    first, *lines = (MEASURED / f"{name}.txt").read_text().splitlines()
+    return first.removeprefix("$ "), lines
+
+
+def origin(measurement, words):
+    """The lines under a chart: what was asked, and where and how steadily it was timed."""
+    machine = measurement["machine"]
+    if measurement["spread"]:
+        machine += f"; repeated blocks agree within {100 * measurement['spread']:.0f} %"
+    return [*words, f"{measurement['command']}: {machine}"]
+
+
+def quoted(words):
+    return "'" + words.replace("'", "''") + "'"
+
+
+def block(name, rows):
+    """Data that later commands call `name`. None is a gap."""
+    cell = lambda value: '"' + value + '"' if isinstance(value, str) else "NaN" if value is None else f"{value:g}"
+    return f"{name} << EOD\n" + "\n".join(" ".join(map(cell, row)) for row in rows) + "\nEOD\n"
+
+
+def draw(name, title, commands, below=(), height=420):
+    """Writes NAME.svg whole or not at all. `below`: lines of small print. True: it has been drawn."""
+    if not shutil.which("gnuplot"):
+        sys.exit("the charts need gnuplot (Debian package gnuplot-nox)")
+    IMAGES.mkdir(parents=True, exist_ok=True)
+    part = IMAGES / f"{name}.part.svg"
+    script = [f"set terminal svg size {WIDTH},{height} font 'Helvetica,14' background '#ffffff'",
+              "set encoding utf8", f"set output {quoted(str(part))}", "set termoption noenhanced",
+              f"set grid lc rgb '{palette.GRID}'", f"set border 3 lc rgb '{palette.QUIET}'", "set tics nomirror",
+              f"set label 101 {quoted(title)} at screen 0.012,{1 - 20 / height:.4f} left font ',16'"]
+    for i, line in enumerate(reversed(below)):
+        script.append(f"set label {102 + i} {quoted(line)} at screen 0.012,{(10 + 16 * i) / height:.4f} left font ',11' "
+                      f"tc rgb '{palette.NEUTRAL}'")
+    done = subprocess.run(["gnuplot"], input="\n".join(script) + "\n" + commands + "\n", text=True, capture_output=True)
+    if done.returncode or not part.exists() or "line" in done.stderr:
+        part.unlink(missing_ok=True)
+        sys.exit(f"gnuplot could not draw {name}:\n{done.stderr[-800:]}")
+    part.rename(IMAGES / f"{name}.svg")
+    return True
+
+
+def margins(height, small_print, legend_rows=0, panel_titles=False, left=92):
+    """(left, right, bottom, top) edges of the plotting area, as shares of the picture."""
+    top = 44 + 22 * legend_rows + (20 if panel_titles else 0)
+    return left / WIDTH, 1 - 30 / WIDTH, (66 + 16 * len(small_print)) / height, 1 - top / height
+
+
+def single(*arguments, **options):
+    left, right, bottom, top = margins(*arguments, **options)
+    return "".join(f"set {side}margin at screen {at:.4f}\n" for side, at in zip("lrbt", (left, right, bottom, top)))
+
+
+def panels(count, *arguments, between=92, **options):
+    """Starts `count` panels beside each other."""
+    edges = ",".join(f"{at:.4f}" for at in margins(*arguments, **options))
+    return f"set multiplot layout 1,{count} margins {edges} spacing {between / WIDTH:.4f}\n"
+
+
+def legend(entries, height, columns=3):
+    """Rows of marks and words under the title. An entry: (colour, point type, words)."""
+    text = "set key off\n"
+    for i, (colour, mark, words) in enumerate(entries):
+        x, y = 24 + (i % columns) * (WIDTH - 30) / columns, 48 + 22 * (i // columns)
+        at = f"at screen {x / WIDTH:.4f},{1 - y / height:.4f}"
+        text += f"set label {120 + 2 * i} '' {at} point pt {mark} ps 1 lc rgb '{colour}'\n"
+        text += f"set label {121 + 2 * i} {quoted(words)} at screen {(x + 14) / WIDTH:.4f},{1 - y / height:.4f} left font ',13'\n"
+    return text
+
+
+# After the first panel of several: else each panel would print the title, the legend and the small print again.
+UNLABEL = "".join(f"unset label {i}\n" for i in range(101, 140))

@@ -1,0 +1,148 @@
+"""Charts of docs/performance.md and the README's speed against accuracy."""
+from . import palette
+from .plot import TIME_TICS, UNLABEL, block, draw, legend, measured, origin, panels, single
+
+STEPS = {"small": "small steps: 1° and 1 mm", "large": "large steps: 20° and 2 cm"}
+
+
+def default_setting(row):
+    """One setting a method: FCL's default tolerance, our warm start of its GJK."""
+    return row["setting"] in ("tolerance 1e-06", "double precision") or \
+        row["method"].startswith("STP-BV") or (row["method"], row["setting"]) == ("FCL with gap stop", "warm")
+
+
+def method_legend(rows, height):
+    """All methods that were measured, in the palette's order."""
+    present = {row["method"] for row in rows}
+    return legend([(colour, mark, words) for name, (colour, mark, words) in palette.METHODS.items() if name in present], height)
+
+
+def speed_accuracy(height=440):
+    """The first page: each method a point, worst error against median time."""
+    data = measured("solver_error")
+    rows = {row["method"]: row for row in data["rows"] if row["steps"] == "large" and default_setting(row)}
+    ours, fcl = rows["STP-BV warm"], rows["FCL libccd"]
+    below = origin(data, [f"{data['about']['vertices']} vertices a body, 20° and 2 cm between queries. Up: p5 to p99, mark at the median. Across: median to worst of "
+                          f"{ours['checked']} answers,", "mark at the worst. Polyhedral methods against the polyhedra, with FCL's default tolerance; STP-BV against the STP-BVs."])
+    floor = 2e-18  # where a median error of nothing is drawn
+    offset = {"FCL with gap stop": "1.2,0.7", "STP-BV through FCL": "1.2,-0.5", "STP-BV warm": "1.2,-0.4"}
+    text = single(height, below) + "set logscale xy\nset xrange [1e-18:1e-2]\nset yrange [60:1e5]\nset format x '1e%T'\n" \
+        f"set ytics {TIME_TICS}\nset xlabel 'error of the distance (m)'\nset ylabel 'time of a query' offset 1\nset key off\n" \
+        "set object 1 rectangle from graph 0,0 to graph 0.27,0.4 fc rgb '#e6f2e1' fs solid noborder behind\n" \
+        "set label 1 'best: fast and exact' at graph 0.015,0.06 font ',15' tc rgb '#3d7a35'\n"
+    plots = []
+    for i, (method, row) in enumerate(rows.items()):
+        name, worst = f"$m{i}", max(row["distance_error_max"], floor)
+        text += block(name, [(worst, row["ns_p50"], max(row["distance_error_p50"], floor), worst, row["ns_p5"], row["ns_p99"],
+                              palette.METHODS[method][2])])
+        plots += [f"{name} using 1:2:3:4:5:6 with xyerrorbars {palette.look(method)} ps 1.3 lw 1.3",
+                  f"{name} using 1:2:7 with labels left offset {offset.get(method, '1.2,0.6')} tc rgb '{palette.METHODS[method][0]}'"]
+    return draw("speed_accuracy",
+         f"{fcl['ns_p50'] / ours['ns_p50']:.0f} times as fast as FCL, and exact to {ours['distance_error_max']:.0e} m",
+         text + "plot " + ", ".join(plots), below, height)
+
+
+def size(height=440):
+    data = measured("size")
+    below = origin(data, ["Geodesic spheres of radius 0.20 m, centres 0.38 to 0.80 m apart, r = 1 cm, R = 10 m. Medians, bars from p5 to p99.",
+                          f"At most {data['about']['most_calls']:,} calls a point."])
+    text = panels(2, height, below, legend_rows=2, panel_titles=True) + method_legend(data["rows"], height) + \
+        f"set logscale xy\nset xrange [9:14000]\nset yrange [50:4e6]\nset ytics {TIME_TICS}\n" \
+        "set xtics (12, 42, 162, 642, 2562, '10,242' 10242)\nset xlabel 'vertices of each body'\nset ylabel 'time of a query' offset 1\n"
+    largest = max(row["vertices"] for row in data["rows"])
+    at = {row["method"]: row["ns_p50"] for row in data["rows"] if row["steps"] == "large" and row["vertices"] == largest}
+    for step, words in STEPS.items():
+        plots = []
+        for i, method in enumerate(palette.METHODS):
+            rows = [(r["vertices"], r["ns_p5"], r["ns_p50"], r["ns_p99"]) for r in data["rows"]
+                    if r["steps"] == step and r["method"] == method]
+            if not rows:
+                continue
+            name, look = f"${step}{i}", palette.look(method)
+            text += block(name, rows)
+            plots += [f"{name} using 1:3:2:4 with yerrorbars {look} ps 0.01 lw 0.7", f"{name} using 1:3 with linespoints {look} ps 0.8 lw 2"]
+        text += f"set title '{words}' offset 0,-0.6\nplot " + ", ".join(plots) + "\n" + UNLABEL
+    fastest = all(row["ns_p50"] >= other["ns_p50"] for row in data["rows"] for other in data["rows"] if other["method"] == "STP-BV warm" and
+                  (row["steps"], row["vertices"]) == (other["steps"], other["vertices"]))
+    return draw("size", f"From its last answer the STP-BV query is {at['FCL libccd'] / at['STP-BV warm']:.0f} times as fast as FCL at {largest:,} vertices" +
+                (", fastest at all sizes" if fastest else ""),
+         text + "unset multiplot\n", below, height)
+
+
+def solver_error(height=450):
+    data = measured("solver_error")
+    rows = [row for row in data["rows"] if row["steps"] == "large"]
+    tolerance = lambda row: float(row["setting"].split()[1])
+    below = origin(data, [f"Geodesic spheres of {data['about']['vertices']} vertices, large steps, {rows[0]['checked']} answers checked, each method against the exact distance of the",
+                          "bodies it is asked about. A method without a tolerance is a level line; dashed: error = tolerance."])
+    text = panels(2, height, below, legend_rows=2) + method_legend(rows, height) + \
+        "set logscale xy\nset xrange [1e-1:1e-13] reverse\nset xtics ('1e-2' 1e-2, '1e-4' 1e-4, '1e-6' 1e-6, '1e-8' 1e-8, '1e-10' 1e-10, '1e-12' 1e-12)\n" \
+        "set xlabel 'tolerance asked for'\n"
+    for panel, column in (("error", "distance_error_max"), ("time", "ns_p50")):
+        plots = [] if panel == "time" else [f"x with lines dt 2 lc rgb '{palette.QUIET}'"]
+        for i, (method, (colour, mark, _)) in enumerate(palette.METHODS.items()):
+            mine = [row for row in rows if row["method"] == method]
+            asked = [row for row in mine if row["setting"].startswith("tolerance")]
+            if asked:
+                points, marked = sorted((tolerance(row), row[column]) for row in asked), f"linespoints pt {mark} ps 0.8"
+            else:
+                points, marked = [(x, row[column]) for row in mine if default_setting(row) for x in (1e-1, 1e-13)], "lines"
+            if points:
+                text += block(f"${panel}{i}", points)
+                plots.append(f"${panel}{i} using 1:2 with {marked} lw 2 lc rgb '{colour}'")
+        text += "set format y '1e%T'\nset yrange [1e-17:1]\nset ytics 1e-16,1e4,1\nset ylabel 'worst error of the distance (m)'\n" if panel == "error" else \
+            f"unset format y\nset yrange [60:1e5]\nset ytics {TIME_TICS}\nset ylabel 'median time of a query' offset 1\n"
+        text += "plot " + ", ".join(plots) + "\n" + UNLABEL
+    worst = max(row["distance_error_max"] / tolerance(row) for row in rows if row["method"] == "FCL libccd")
+    return draw("solver_error", f"FCL's worst error is up to {worst:.0f} times its tolerance; the STP-BV's is rounding" if worst > 1.5 else
+         "FCL keeps its tolerance, and takes longer than the STP-BV does to be exact", text + "unset multiplot\n", below, height)
+
+
+def model_error(height=430):
+    data = measured("model_error")
+    # colour, name, line width and mark size, labels in the first and the second panel: {setting: offset}
+    sweeps = {"r": (palette.SWEEPS[0], "r from 1 to 50 mm", 4, 1.0, {"1 mm": "0.9,0.5", "5 mm": "0.9,0.5", "50 mm": "0.9,0"},
+                    {"1 mm": "0.9,0.5", "2 mm": "0.9,0.5", "50 mm": "-0.5,0.9"}),
+              "R": (palette.SWEEPS[1], "R from 0.3 to 100 m", 2.5, 0.8, {"0.3 m": "-1.5,0.9", "3 m": "-0.5,0.9", "100 m": "-3,-0.9"},
+                    {"0.3 m": "-1.5,0.9", "3 m": "-1,-0.9", "100 m": "0.9,0"}),
+              "vertices": (palette.SWEEPS[2], "vertices left by reduce(): 65 to 2", 2, 0.6, {"16": "-2.6,-0.6", "8": "-2.2,-0.4", "2": "-2.2,-0.4"}, {})}
+    below = origin(data, ["A prism of 64 sides, radius 0.1 m, length 0.4 m, against itself 1 to 50 mm apart. Largest eigenvalue of the Hessian over 6000 poses.",
+                          "What is not varied: r = 1 cm, R = 10 m, 128 vertices."])
+    text = panels(2, height, below, legend_rows=1) + legend([(colour, 7, name) for colour, name, *_ in sweeps.values()], height) + \
+        "set logscale xy\nset xrange [2:150]\nset xtics (2, 5, 10, 20, 50, 100)\nset xlabel 'largest over-cover (mm)'\n"
+    for panel, column, words, span in ((0, "steepness_shift", "change by a shift (1/m)", "[3:1500]"),
+                                       (1, "steepness_turn", "change by a turn (m/rad²)", "[3:200]")):
+        plots = []
+        for i, (sweep, (colour, _, width, mark, *shown)) in enumerate(sweeps.items()):
+            rows = [(1e3 * row["over_cover_most_m"], row[column], row["setting"]) for row in data["rows"] if row["sweep"] == sweep]
+            text += block(f"$panel{panel}{i}", rows)
+            plots.append(f"$panel{panel}{i} using 1:2 with linespoints pt 7 ps {mark} lw {width} lc rgb '{colour}'")
+            for k, row in enumerate(row for row in rows if row[2] in shown[panel]):
+                text += block(f"$label{panel}{i}{k}", [row])
+                plots.append(f"$label{panel}{i}{k} using 1:2:3 with labels left offset {shown[panel][row[2]]} font ',12' tc rgb '{colour}'")
+        text += f"set ylabel 'gradient: {words}'\nset yrange {span}\nplot " + ", ".join(plots) + "\n" + UNLABEL
+    return draw("model_error", "A larger r calms the gradient; a smaller R calms it when bodies turn; both cost over-cover", text + "unset multiplot\n", below, height)
+
+
+def jump_test(height=440):
+    data = measured("jump_test")
+    below = ["A box of 20 cm rocks by 4° past parallel faces over a plate; derivative with the box's twist, 1 for a unit normal. r = 1 cm, R = 10 m.",
+             f"{data['command']}. Marks on each other: the polyhedral methods above, both STP-BV methods below."]
+    text = single(height, below, legend_rows=2) + "set logscale xy\nset xrange [20:150000]\nset yrange [1e-6:1]\nset format '1e%T'\n" \
+        "set xlabel 'steps of the path'\nset ylabel 'largest change in one step'\n"
+    # Those that lie on each other: wide below, narrow above, open marks around small ones.
+    looks = {"FCL libccd": (6, 1.9), "FCL indep": (4, 1.4), "Bullet GJK": (8, 1.1), "FCL with gap stop": (11, 0.7),
+             "STP-BV through FCL": (12, 1.9), "STP-BV warm": (7, 0.7)}
+    plots, entries = [], []
+    for i, (method, (mark, points)) in enumerate(looks.items()):
+        rows = [(row["path_steps"], row["largest_change"]) for row in data["rows"] if row["method"] == method]
+        if rows:
+            colour, _, words = palette.METHODS[method]
+            text += block(f"$jump{i}", rows)
+            plots.append(f"$jump{i} using 1:2 with linespoints lc rgb '{colour}' pt {mark} ps {points} lw 2")
+            entries.append((colour, mark, words))
+    return draw("jump_test", "Finer steps make the STP-BVs' gradient change less; the polyhedra's jump stays",
+         text + legend(entries, height) + "plot " + ", ".join(plots), below, height)
+
+
+CHARTS = (speed_accuracy, size, solver_error, model_error, jump_test)

@@ -1,0 +1,239 @@
+"""The tables of the docs, each made of measurements: {name: function that gives the lines between its markers}.
+
+A table begins with the commands that were run, so that the figures stand beside what made them.
+"""
+import statistics
+
+from . import stability_verdicts
+from .plot import captured, is_text, measured
+
+TABLES = {}
+
+
+def table(*sources):
+    """Registers a table under its function's name, below the commands of these measurements."""
+    def register(function):
+        def lines():
+            commands = [captured(source)[0] if is_text(source) else measured(source)["command"] for source in sources]
+            head = ["<!-- not run: tools/bench/all runs it -->", "", *(f"    {command}" for command in commands), ""] if commands else []
+            return head + function()
+        TABLES[function.__name__] = lines
+        return function
+    return register
+
+
+def markdown(head, rows):
+    line = lambda cells: "| " + " | ".join(str(cell) for cell in cells) + " |"
+    return [line(head), "|" + "---|" * len(head), *map(line, rows)]
+
+
+def span(values):
+    """The range of some values, to one digit after the point."""
+    low, high = f"{min(values):.1f}", f"{max(values):.1f}"
+    return low if low == high else f"{low} to {high}"
+
+
+@table()
+def first_page():
+    rows, verdicts = measured("summary")["rows"], measured("stability")
+    failures = stability_verdicts.failures(verdicts)
+    whole = lambda key: span([row[key] for row in rows])
+    return [f"- **Fast**: a query is {whole('speedup_small_162')} times as fast as `fcl::distance` after small motions and "
+            f"{whole('speedup_large_162')} times after large",
+            "  ones ([performance](docs/performance.md), `speed_accuracy --summary`).",
+            f"- **Robust**: {len(verdicts['rows'])} hard cases with {failures['stpbv_warm']} failures, where FCL fails {failures['fcl_libccd_1e-6']} "
+            "([stability](docs/stability.md), `stability`).",
+            "- **Exact**: to rounding, with a lower and an upper bound in every answer that contain the truth as they stand",
+            "  ([accuracy](docs/accuracy.md), ten million queries, `distance_soak`)."]
+
+
+@table("summary")
+def summary():
+    rows = measured("summary")["rows"]
+    lines = [("times the speed of `fcl::distance`, 162 vertices, small steps", "speedup_small_162"),
+             ("times the speed of `fcl::distance`, 162 vertices, large steps", "speedup_large_162"),
+             ("times the speed of `fcl::distance`, 12 vertices, small steps", "speedup_small_12"),
+             ("growth of the mean time from 12 to 2562 vertices", "growth_12_2562"),
+             ("the same with FCL's queries in between, which empty the caches", "growth_12_2562_beside_fcl"),
+             ("cost of penetration up to both margins, in separated queries", "cost_within_margins_162"),
+             ("cost of deeper overlap, in separated queries", "cost_deeper_162")]
+    body = [(words, span([row[key] for row in rows]), f"{statistics.median(row[key] for row in rows):.1f}") for words, key in lines]
+    worst = lambda key: f"{max(row[key] for row in rows):.1e}"
+    body += [("largest error of the distance (m)", "", worst("distance_error_max")), ("largest error of the normal (rad)", "", worst("normal_error_max"))]
+    return markdown(("figure", f"range of {len(rows)} run" + "s" * (len(rows) > 1), "median, or worst"), body)
+
+
+NAMES = {"FCL libccd": "FCL libccd", "FCL indep": "FCL indep", "Bullet GJK": "Bullet GJK", "FCL with gap stop": "FCL's GJK, duality-gap stop, warm",
+         "STP-BV through FCL": "STP-BV through FCL, no memory", "STP-BV warm": "STP-BV, from the last answer"}
+
+
+@table("size")
+def size():
+    rows = measured("size")["rows"]
+    at = {(row["method"], row["vertices"], row["steps"]): row["ns_p50"] for row in rows}
+    vertices = sorted({row["vertices"] for row in rows})
+    return markdown(("median in ns, small / large steps", *(f"{v:,}" for v in vertices)),
+                    [(words, *(f"{at[method, v, 'small']:.0f} / {at[method, v, 'large']:.0f}" for v in vertices))
+                     for method, words in NAMES.items() if (method, vertices[0], "small") in at])
+
+
+@table("solver_error")
+def solver_error():
+    rows = [row for row in measured("solver_error")["rows"] if row["steps"] == "large"]
+    return markdown(("method", "setting", "median time (ns)", "distance, 99th percentile (m)", "distance, worst (m)", "normal, worst (rad)",
+                     "of answers checked", "off by > 1 µm", "no answer"),
+                    [(row["method"], row["setting"], f"{row['ns_p50']:.0f}", *(f"{row[key]:.1e}" for key in
+                      ("distance_error_p99", "distance_error_max", "normal_error_max")), row["checked"], row["off_by_more_than_1e-6"], row["missed"])
+                     for row in rows if row["setting"] not in ("tolerance 1e-04", "tolerance 1e-08", "tolerance 1e-12", "cold") or row["method"].startswith("STP")])
+
+
+@table("model_error")
+def model_error():
+    return markdown(("varied", "to", "vertices", "largest over-cover (mm)", "median time (ns)", "gradient by a shift (1/m)", "by a turn (m/rad²)"),
+                    [(row["sweep"], row["setting"], row["vertices"], f"{1e3 * row['over_cover_most_m']:.1f}", f"{row['ns_p50']:.0f}",
+                      f"{row['steepness_shift']:.3g}", f"{row['steepness_turn']:.3g}") for row in measured("model_error")["rows"]])
+
+
+@table("jump_test")
+def jump_test():
+    rows = measured("jump_test")["rows"]
+    steps = sorted({row["path_steps"] for row in rows})[::2] + [max(row["path_steps"] for row in rows)]
+    at = {(row["method"], row["path_steps"]): row["largest_change"] for row in rows}
+    return markdown(("largest change in one step, of", *(f"{n:,} steps" for n in steps)),
+                    [(words, *(f"{at[method, n]:.1e}" for n in steps)) for method, words in NAMES.items() if (method, steps[0]) in at])
+
+
+@table("build")
+def build():
+    return markdown(("cloud", "points", "vertices", "seconds, median of 5", "µs / (V log2 V)", "bytes a vertex"),
+                    [(row["cloud"], f"{row['points']:,}", f"{row['vertices']:,}", f"{row['seconds']:.3g}", f"{row['us_per_v_log_v']:.2f}",
+                      f"{row['bytes_per_vertex']:.0f}") for row in measured("build")["rows"]])
+
+
+@table("adapter")
+def features():
+    share = lambda row: (f"{row['right']:.2f} %", f"{row['neighbour']:.2f} %", f"{row['farther']:.3f} %", f"{row['none']:.2f} %")
+    motions = {"large": "large", "small": "small", "apart": "far apart"}
+    return markdown(("", "", "right", "one neighbour away", "farther", "none"),
+                    [(row["shape"], motions[row["motion"]], *share(row)) for row in measured("adapter")["rows"]])
+
+
+@table()
+def adapter_costs():
+    rows = [row for row in measured("adapter")["rows"] if row["motion"] != "apart"]
+    ns = lambda row, way: row[f"ns_{way}"]
+    return markdown(("", "", "fcl::distance", "witness, cold", "witness, warm", "exact, cold", "exact, warm", "exact, cold / FCL", "exact, warm / FCL"),
+                    [(row["shape"], row["motion"], *(f"{ns(row, way):.0f}" for way in ("fcl", "witness_cold", "witness_warm", "exact_cold", "exact_warm")),
+                      *(f"{ns(row, way) / ns(row, 'fcl'):.2f}" for way in ("exact_cold", "exact_warm"))) for row in rows])
+
+
+@table("constraints", "constraints_jvrc1")
+def constraints():
+    body = []
+    for name in "constraints", "constraints_jvrc1":
+        data = measured(name)
+        fcl = {row["steps"]: statistics.median(row["us_p50"]) for row in data["rows"] if row["what"].startswith("`fcl")}
+        for row in data["rows"]:
+            middle = statistics.median(row["us_p50"])
+            body.append((data["about"]["robot"], data["about"]["pairs"], row["what"], row["steps"], f"{middle:.3g} µs",
+                         f"{statistics.median(row['us_p99']):.3g} µs", f"{1e3 * middle / data['about']['pairs']:.0f} ns", f"{fcl[row['steps']] / middle:.1f}"))
+    return markdown(("robot", "pairs", "what", "steps", "median", "99th percentile", "a pair", "times FCL's speed"), body)
+
+
+@table("distance_soak")
+def distance_soak():
+    _, lines = captured("distance_soak")
+    radii = {}
+    for line in lines[1:]:
+        fields = line.split()
+        if len(fields) < 10 or fields[-9] not in ("cold", "warm"):
+            continue
+        start, (queries, not_exact, gap, _, pairs, most, _, _) = fields[-9], map(float, fields[-8:])
+        radii.setdefault(fields[0], []).append((start, queries, not_exact, gap, pairs, most))
+    mean = lambda rows, start: sum(r[1] * r[4] for r in rows if r[0] == start) / sum(r[1] for r in rows if r[0] == start)
+    return markdown(("R (m)", "queries", "not exact", "widest certificate (m)", "patch pairs a query, cold / warm", "most"),
+                    [(R, f"{sum(r[1] for r in rows):,.0f}", f"{sum(r[2] for r in rows):.0f}", f"{max(r[3] for r in rows):.1e}",
+                      f"{mean(rows, 'cold'):.2f} / {mean(rows, 'warm'):.2f}", f"{max(r[5] for r in rows):.0f}") for R, rows in radii.items()])
+
+
+def printed_table(name, drop=()):
+    """The markdown table in a program's output, without the columns `drop`."""
+    rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in captured(name)[1] if line.startswith("|")]
+    keep = [i for i, head in enumerate(rows[0]) if head not in drop]
+    return markdown([rows[0][i] for i in keep], [[row[i] for i in keep] for row in rows[2:]])
+
+
+@table("shape_soak")
+def shape_soak():
+    return printed_table("shape_soak", drop=("ns a query",))
+
+
+@table("deep_soak")
+def deep_soak():
+    lines = printed_table("deep_soak", drop=("us",))
+    return lines[:2] + [line for line in lines if line.startswith("| all |")]
+
+
+@table("mirrored_limbs")
+def mirrored_limbs():
+    return ["    " + line for line in captured("mirrored_limbs")[1]]
+
+
+@table("stability")
+def stability_totals():
+    data = measured("stability")
+    methods = data["about"]["methods"]
+    failures = stability_verdicts.failures(data)
+    count = lambda verdict, m: sum(row["verdicts"][m] == verdict for row in data["rows"])
+    return markdown((f"{len(data['rows'])} cases", *(m["title"] for m in methods)),
+                    [(verdict, *(count(verdict, m) for m in range(len(methods)))) for verdict in stability_verdicts.ORDER] +
+                    [("**failures**", *(f"**{failures[m['id']]}**" for m in methods))])
+
+
+@table()
+def stability_groups():
+    data = measured("stability")
+    methods = data["about"]["methods"]
+    return markdown(("group (cases)", *(m["title"] for m in methods)),
+                    [(f"{group} ({len(cases)})", *(stability_verdicts.cell(cases, m).words for m in range(len(methods))))
+                     for group, cases in stability_verdicts.groups(data).items()])
+
+
+@table("proof_boxes_panda", "proof_boxes")
+def proofs():
+    body = []
+    for name in "proof_boxes_panda", "proof_boxes":
+        a = measured(name)["about"]
+        body.append((a["robot"], a["pairs"], f"{a['proven_by_levers']} of {a['most_boxes_of_levers']:,} boxes each", f"{a['proven_by_planes']} of {a['most_boxes_of_planes']:,}",
+                     f"{a['hardest_proof']:,}", f"{a['fewer_boxes_median']:.0f} ({a['fewer_boxes_pairs']} pairs)", f"{a['us_a_box']:.0f} µs",
+                     a["pairs"] - a["proven_by_planes"]))
+    return markdown(("robot", "pairs", "proven by levers, at most", "by planes, at most", "boxes of the hardest proof",
+                     "times fewer boxes where levers take 100 or more", "a box by planes", "left open"), body)
+
+
+@table("radii")
+def radii():
+    return markdown(("robot", "r", "volumes meet", "meshes meet", "hull only", "margin only", "normal turns (rad/m), median"),
+                    [(row["robot"], row["r"], row["meet"], row["meshes meet"], row["hull only"], row["margin only"], f"{row['lipschitz']:.0f}")
+                     for row in measured("radii")["rows"]])
+
+
+@table("posture_study")
+def posture_study():
+    rows = measured("posture_study")["rows"]
+    good = lambda row: row["solved"] and row["clear"]
+    tasks = {}
+    for row in rows:
+        tasks.setdefault(row["seed"], {})[row["distances"]] = row
+    feasible = [results for results in tasks.values() if next(iter(results.values()))["feasible"]]
+    by_all = [results for results in feasible if all(map(good, results.values()))]
+    best = {id(results): min(row["cost"] for row in results.values()) for results in by_all}
+    body = []
+    for name in rows[0] and list(next(iter(tasks.values()))):
+        solved = [results[name] for results in feasible if good(results[name])]
+        middle = lambda value: statistics.median(value(results[name], results) for results in by_all)
+        body.append((name, f"{100 * sum(row['starts'] == 1 for row in solved) / len(feasible):.1f} %", f"{100 * len(solved) / len(feasible):.1f} %",
+                     sum(row["solved"] and not row["clear"] for row in rows if row["distances"] == name),
+                     f"{middle(lambda row, _: row['iterations']):.0f}", f"{middle(lambda row, _: row['calls']):.0f}", f"{middle(lambda row, _: 1e3 * row['seconds']):.1f}",
+                     f"{middle(lambda row, results: 100 * (row['cost'] / best[id(results)] - 1)):.1f} %"))
+    return markdown(("distances", "solved at the first start", "within 5", "hits a mesh", "iterations", "distances", "ms", "cost above the best"), body)

@@ -1,0 +1,76 @@
+// Files of measurements: one JSON object, one row of it a line, so that a change of a figure is a line of a
+// diff.
+#include "tools/bench/measurement.h"
+
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+
+#include "fcl_stpbv/io/atomic_write.h"
+
+namespace fcl_stpbv::benchmark {
+
+namespace {
+
+std::string processor() {
+  std::ifstream info("/proc/cpuinfo");
+  for (std::string line; std::getline(info, line);)
+    if (line.rfind("model name", 0) == 0) return line.substr(line.find(':') + 2);
+  return "unknown processor";
+}
+
+std::string compiler() {
+#if defined(__clang__)
+  return "clang++ " + std::to_string(__clang_major__) + "." + std::to_string(__clang_minor__);
+#else
+  return "g++ " + std::to_string(__GNUC__) + "." + std::to_string(__GNUC_MINOR__);
+#endif
+}
+
+}  // namespace
+
+std::string commandLine(int argc, char** argv) {
+  std::string line = std::filesystem::path(argv[0]).filename().string();
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    if (word == "-o" || word == "--output") {
+      ++i;
+      continue;
+    }
+    line += " " + word;
+  }
+  return line;
+}
+
+double significant(double value, int digits) {
+  char text[64];
+  std::snprintf(text, sizeof text, "%.*g", digits, value);
+  return std::isfinite(value) ? std::stod(text) : value;
+}
+
+std::string shown(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%g", value);
+  return text;
+}
+
+void write(const Measurement& measurement, const std::string& command, const std::filesystem::path& folder) {
+  std::string content = "{\n";
+  const auto entry = [&](const char* key, const nlohmann::ordered_json& value) {
+    content += nlohmann::ordered_json(key).dump() + ": " + value.dump() + ",\n";
+  };
+  entry("command", command);
+  entry("machine", compiler() + " " FCL_STPBV_FLAGS ", one core of " + processor());
+  entry("spread", significant(measurement.spread, 3));
+  entry("about", measurement.about);
+  content += "\"rows\": [";
+  for (std::size_t i = 0; i < measurement.rows.size(); ++i)
+    content += (i ? ",\n" : "\n") + measurement.rows[i].dump();
+  content += "\n]\n}\n";
+  std::filesystem::create_directories(folder);
+  const std::filesystem::path path = folder / (measurement.name + ".json");
+  atomicWrite(path.string(), content);
+  std::fprintf(stderr, "wrote %s\n", path.c_str());
+}
+
+}  // namespace fcl_stpbv::benchmark

@@ -1,0 +1,32 @@
+// What a benchmark measured, as a JSON file. `tools/bench/draw` makes the charts and tables of the docs from
+// these files, so measuring and drawing are apart.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace fcl_stpbv::benchmark {
+
+struct Measurement {
+  std::string name;                                                 ///< of the file, without extension
+  nlohmann::ordered_json about = nlohmann::ordered_json::object();  ///< what was asked, from which seed
+  std::vector<nlohmann::ordered_json> rows;                         ///< objects with the same keys
+  double spread = 0;  ///< widest disagreement of repeated blocks, relative; 0 where nothing was timed
+};
+
+/// The program's name and its arguments, but for the folder of the output.
+std::string commandLine(int argc, char** argv);
+
+/// Rounds to so many significant digits: what a file shows of a measured value.
+double significant(double value, int digits);
+
+/// Few digits, as in "10" or "0.5".
+std::string shown(double value);
+
+/// Writes `folder`/NAME.json whole or not at all, with the command, compiler, flags and processor.
+/// @throws Error where the file cannot be written.
+void write(const Measurement& measurement, const std::string& command, const std::filesystem::path& folder);
+
+}  // namespace fcl_stpbv::benchmark
