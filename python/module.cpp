@@ -1,4 +1,4 @@
-// The Python module: volumes, distance, robots, with NumPy arrays in and out.
+// The Python module: volumes, distance, robots and what is shared out of them, with NumPy arrays in and out.
 #include "fcl_stpbv/error.h"
 #include "parts.h"
 
@@ -9,4 +9,6 @@ PYBIND11_MODULE(fcl_stpbv, module) {
   pybind11::register_exception<fcl_stpbv::Error>(module, "Error", PyExc_RuntimeError);
   fcl_stpbv::addVolume(module);
   fcl_stpbv::addRobot(module);
+  fcl_stpbv::addShards(module);
+  fcl_stpbv::addPostures(module);
 }

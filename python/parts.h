@@ -17,6 +17,8 @@ using PointArray = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
 
 void addVolume(pybind11::module_& module);
 void addRobot(pybind11::module_& module);
+void addShards(pybind11::module_& module);
+void addPostures(pybind11::module_& module);
 
 /// @throws Error naming the argument.
 template <class Numbers>

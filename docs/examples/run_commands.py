@@ -52,7 +52,8 @@ ran, failed = 0, []
 with tempfile.TemporaryDirectory() as name:
     folder = pathlib.Path(name)
     make_samples(folder)
-    environment = {**os.environ, "PATH": f"{build}/bin:{os.environ['PATH']}", "XDG_CACHE_HOME": f"{folder}/cache",
+    programs_first = f"{build}/bin:{pathlib.Path(sys.executable).parent}:{os.environ['PATH']}"
+    environment = {**os.environ, "PATH": programs_first, "PYTHONPATH": f"{build}/python", "XDG_CACHE_HOME": f"{folder}/cache",
                    "ROS_PACKAGE_PATH": name}
     for page in pages:
         for number, command, reason in commands(page):

@@ -91,13 +91,14 @@ Posture findPosture(PostureSetup& setup, const PostureOptions& options) {
   std::mt19937_64 random(options.seed);
   Posture best;
   Eigen::VectorXd bestX;
-  for (int i = 0; i < options.starts && !best.feasible; ++i) {
+  for (int i = 0; i < options.firstStart + options.starts && !best.feasible; ++i) {
     const Eigen::VectorXd q = i == 0 ? setup.start : randomStart(problem, setup.start, random);
+    if (i < options.firstStart) continue;  // its random numbers are drawn all the same
     const SolverOutcome outcome = solve(problem, problem.variablesAt(q), options.solver);
     std::vector<Violation> violations = problem.violations(outcome.x, options.solver.tolerance);
     ++best.starts;
     best.iterations += outcome.iterations;
-    if (i > 0 && total(violations) >= total(best.violations)) continue;
+    if (best.starts > 1 && total(violations) >= total(best.violations)) continue;
     best.violations = std::move(violations);
     best.feasible = best.violations.empty();
     best.status = !best.feasible && outcome.status == "converged" ? "stuck" : outcome.status;

@@ -12,7 +12,8 @@ namespace fcl_stpbv {
 
 struct PostureOptions {
   SolverOptions solver;
-  int starts = 5;          ///< at most; the task's own first, then random ones near it
+  int starts = 5;          ///< at most; number 0 is the task's own, the others random ones near it
+  int firstStart = 0;      ///< number of the first one to try
   std::uint64_t seed = 1;  ///< of the random ones
 };
 

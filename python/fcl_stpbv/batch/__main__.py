@@ -1,0 +1,134 @@
+"""python -m fcl_stpbv.batch prove|sample|postures|convert: many jobs on all cores, a Dask cluster or a job array."""
+import argparse
+import math
+import re
+import sys
+
+import fcl_stpbv
+from fcl_stpbv.batch import engine, results
+from fcl_stpbv.batch.bundle import digest_of
+from fcl_stpbv.batch.kinds import KINDS
+
+FOOTER = """Exit status: 0 all jobs are done; 1 some failed or are missing, the others are in the file; 2 the command line or an input is
+wrong, or Dask is missing; 130 interrupted. A run that ended early goes on where it was when it is started again."""
+
+
+def number(kind, least, most, unit=""):
+    """A reader of finite numbers between two others, these included."""
+    def read(text):
+        try:
+            value = kind(text)
+        except ValueError:
+            value = math.nan
+        if not least <= value <= most:
+            what = "a whole number" if kind is int else "a number"
+            raise argparse.ArgumentTypeError(f"got {text}, expected {what} from {least} to {most}{unit}")
+        return value
+    return read
+
+
+def share(text):
+    found = re.fullmatch(r"(\d+)/(\d+)", text)
+    if not found or int(found[1]) >= int(found[2]):
+        raise argparse.ArgumentTypeError(f"got {text}, expected I/N with I from 0 to N - 1, such as 0/4")
+    return int(found[1]), int(found[2])
+
+
+LENGTH, MARGIN, SCALE = number(float, 0, 1e6, " m"), number(float, -1e6, 1e6, " m"), number(float, 1e-9, 1e9)
+COUNT, WHOLE = number(int, 1, 2**31 - 1), number(int, 0, 2**31 - 1)  # what an int holds in C++
+
+
+def described():
+    common = argparse.ArgumentParser(add_help=False)
+    common.add_argument("-o", "--output", required=True, metavar="FILE", help="results as JSON lines; a run goes on from those it holds")
+    common.add_argument("--scheduler", metavar="ADDRESS", help="of a Dask cluster, such as tcp://host:8786, instead of this machine")
+    common.add_argument("--jobs", type=COUNT, default=engine.cores(), help="processes on this machine [all cores]")
+    common.add_argument("--shard", type=share, metavar="I/N", help="do only part I of N, in this process")
+    common.add_argument("--merge", nargs="+", metavar="FILE", default=[],
+                        help="begin with the results in these files; without --shard nothing is computed")
+    common.add_argument("-r", type=LENGTH, default=0.01, help="radius of the small spheres, the margin (m) [0.01]")
+    common.add_argument("-R", type=LENGTH, default=10.0, help="radius of the big spheres (m) [10]")
+    common.add_argument("-q", "--quiet", action="store_true", help="no progress and no summary")
+    robot = argparse.ArgumentParser(add_help=False)
+    robot.add_argument("robot", metavar="ROBOT", help="its URDF")
+    robot.add_argument("--package-path", action="append", default=[], metavar="FOLDER", help="holds packages; may be given again")
+    robot.add_argument("--seed", type=WHOLE, default=1, help="of the random numbers [1]")
+    pairs = argparse.ArgumentParser(add_help=False)
+    pairs.add_argument("--margin", type=MARGIN, default=0.0, help="a distance not above it is a collision (m) [0]")
+
+    parser = argparse.ArgumentParser(prog="python -m fcl_stpbv.batch", description=__doc__, epilog=FOOTER)
+    parser.add_argument("--version", action="version", version=f"fcl_stpbv {fcl_stpbv.__version__}")
+    kinds = parser.add_subparsers(dest="kind", required=True, metavar="prove|sample|postures|convert")
+    prove = kinds.add_parser("prove", parents=[robot, pairs, common], help="that pairs of links never meet")
+    prove.add_argument("--boxes", type=COUNT, default=100000, help="for a pair, about; more continues a run [100000]")
+    prove.add_argument("--budget", type=COUNT, default=10000, help="boxes a job [10000]")
+    prove.add_argument("--descents", type=WHOLE, default=500, help="for a pair, before its proof [500]")
+    sample = kinds.add_parser("sample", parents=[robot, pairs, common], help="distances of all pairs in random configurations")
+    sample.add_argument("--blocks", type=COUNT, default=100, help="of configurations; more continues a run [100]")
+    sample.add_argument("--count", type=COUNT, default=1000, help="configurations a block [1000]")
+    postures = kinds.add_parser("postures", parents=[robot, common], help="for tasks, as find_posture does")
+    postures.add_argument("tasks", nargs="+", metavar="TASK", help="its JSON file (docs/posture.md)")
+    postures.add_argument("--srdf", default="", metavar="FILE", help="pairs to leave out and postures")
+    postures.add_argument("--obstacles", default="", metavar="FILE", help="URDF of a scene to keep clear of")
+    postures.add_argument("--starts", type=COUNT, default=5, help="at most, for a task; more continues a run [5]")
+    convert = kinds.add_parser("convert", parents=[common], help="meshes to volumes")
+    convert.add_argument("meshes", nargs="+", metavar="MESH")
+    convert.add_argument("--volumes", required=True, metavar="FOLDER", help="where MESH.stpbv goes; made if missing")
+    convert.add_argument("--scale", type=SCALE, default=1.0, help="factor on the coordinates, 0.001 for millimetres [1]")
+    return parser
+
+
+def compute(arguments, schedule, show):
+    if arguments.shard or (arguments.jobs == 1 and not arguments.scheduler):
+        engine.run_here(schedule, show)
+    elif schedule.ready:
+        with engine.connected(arguments.scheduler, arguments.jobs) as client:
+            engine.run_on(client, schedule, show)
+
+
+def run(arguments):
+    if arguments.shard and arguments.scheduler:
+        raise fcl_stpbv.Error("--shard: is done in this process; leave out --scheduler")
+    kind = KINDS[arguments.kind](arguments)
+    header = {"batch": kind.name, "version": fcl_stpbv.__version__, "bundle": digest_of(kind.files), **kind.options}
+    merged, jobs = results.merge(arguments.merge)
+    if merged is not None:
+        results.require_same(header, merged, arguments.merge[0])
+    file = results.ResultFile(arguments.output, header)
+    for job in sorted(jobs.keys() - file.jobs.keys()):
+        file.add(jobs[job])
+    schedule = engine.Schedule(kind, file, arguments.shard or (0, 1))
+    show, clear = engine.progress(arguments.quiet)
+    try:
+        if arguments.shard or not arguments.merge:
+            compute(arguments, schedule, show)
+    finally:
+        clear()
+        file.close(sort=not schedule.ready and not +schedule.running)
+    for record in file.jobs.values():
+        if "error" in record:
+            print(f"fcl_stpbv.batch: {record['error']}", file=sys.stderr)
+    if not arguments.quiet:
+        print(kind.summary(file.jobs))
+    if schedule.ready:
+        print(f"fcl_stpbv.batch: {len(schedule.ready)} jobs are missing; run without --merge to do them", file=sys.stderr)
+    return 1 if schedule.ready or any("error" in record for record in file.jobs.values()) else 0
+
+
+def main():
+    arguments = described().parse_args()
+    try:
+        return run(arguments)
+    except fcl_stpbv.Error as error:
+        print(f"fcl_stpbv.batch: {error}", file=sys.stderr)
+        return 2
+    except engine.Stopped as stopped:
+        print(f"fcl_stpbv.batch: {stopped}; run again to go on", file=sys.stderr)
+        return 1
+    except KeyboardInterrupt:
+        print("fcl_stpbv.batch: interrupted; run again to go on", file=sys.stderr)
+        return 130
+
+
+if __name__ == "__main__":
+    sys.exit(main())

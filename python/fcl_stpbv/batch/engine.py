@@ -1,0 +1,150 @@
+"""Runs the jobs of a batch: one after the other here, or on a Dask cluster. What comes out is the same."""
+import collections
+import contextlib
+import json
+import os
+import pickle
+import sys
+import uuid
+
+import fcl_stpbv
+from fcl_stpbv.batch.bundle import Unpacked, digest_of
+from fcl_stpbv.batch.kinds import KINDS
+
+AHEAD = 4  # jobs handed out for each worker, so that it never waits for the next one
+
+
+class Stopped(Exception):
+    """The run ended early; what is done is kept."""
+
+
+class Schedule:
+    """Which job comes next. The jobs that follow in a group are known when those before are done."""
+
+    def __init__(self, kind, results, share):
+        self.kind, self.results = kind, results
+        ready = [(group, *job) for group in kind.groups for job in kind.jobs(group, results.jobs)]
+        part, parts = share
+        self.ready = collections.deque(ready[part::parts])
+        self.running = collections.Counter(group for group, *_ in self.ready)
+        # Where other shards have jobs of a group's round, what follows is not known here.
+        self.shared = {group for i, (group, *_) in enumerate(ready) if i % parts != part}
+
+    def finish(self, group, key, record, content):
+        if content is not None:
+            self.kind.keep(record, content)
+        self.results.add({"job": list(key), **record})
+        self.running[group] -= 1
+        if self.running[group] == 0 and group not in self.shared:
+            jobs = self.kind.jobs(group, self.results.jobs)
+            self.running[group] = len(jobs)
+            self.ready.extend((group, *job) for job in jobs)
+
+
+def outcome(kind, context, options, key, given):
+    """The record of one job, and the bytes of the file it makes or None; a job that fails says why."""
+    try:
+        return kind.run(context, options, key, given)
+    except fcl_stpbv.Error as error:
+        return {"error": str(error)}, None
+
+
+def run_here(schedule, show):
+    kind = schedule.kind
+    while schedule.ready:
+        show(len(schedule.results.jobs), len(schedule.ready))
+        group, key, given = schedule.ready.popleft()
+        schedule.finish(group, key, *outcome(kind, kind.context, kind.options, key, given))
+
+
+contexts = {}  # of this worker, by what they were made from
+
+
+def work(name, options, files, digest, version, key, packed):
+    """A job on a worker, which loads the bundle for its first one."""
+    if version != fcl_stpbv.__version__:
+        raise RuntimeError(f"a worker has fcl_stpbv {fcl_stpbv.__version__} and not {version}; install the same everywhere")
+    kind, known = KINDS[name], (name, digest, json.dumps(options, sort_keys=True))
+    if known in contexts:
+        context = contexts[known]
+    else:
+        with Unpacked(pickle.loads(files)) as folder:
+            context = kind.open(folder, options)
+        contexts.clear()  # one robot at a time
+        contexts[known] = context
+    return outcome(kind, context, options, key, pickle.loads(packed))
+
+
+def same(files):
+    return files
+
+
+@contextlib.contextmanager
+def connected(scheduler, workers):
+    """A Dask client: of the cluster at this address, or of one on this machine."""
+    try:
+        import dask
+        import distributed
+    except ImportError:
+        raise fcl_stpbv.Error("more than one process needs Dask: install Debian's python3-distributed, or give --jobs 1, "
+                              "or share out with --shard") from None
+    quiet = {"distributed.worker.daemon": False, "distributed.logging.distributed": "critical", "distributed.admin.tick.limit": "1h"}
+    with dask.config.set(quiet), contextlib.ExitStack() as stack:
+        try:
+            if not scheduler:
+                scheduler = stack.enter_context(distributed.LocalCluster(workers, threads_per_worker=1, dashboard_address=None,
+                                                                         silence_logs="CRITICAL"))
+            client = stack.enter_context(distributed.Client(scheduler, timeout="15s", set_as_default=False))
+        except (OSError, ValueError, TimeoutError) as error:
+            raise fcl_stpbv.Error(f"--scheduler {scheduler}: no Dask scheduler answers there ({error}); "
+                                  "start one with dask-scheduler") from None
+        yield client
+
+
+def run_on(client, schedule, show):
+    """Every job to any worker. One whose worker dies runs again elsewhere; results that nobody has are computed anew."""
+    import distributed
+
+    kind, run = schedule.kind, uuid.uuid4().hex
+    digest = digest_of(kind.files)
+    bundle = client.submit(same, pickle.dumps(kind.files), key=f"bundle-{digest}-{run}")
+    jobs, failed, most = {}, {}, 0
+    done = distributed.as_completed(loop=client.loop)
+    while schedule.ready or jobs:
+        if schedule.ready and len(jobs) <= most // 2:
+            most = max(8, AHEAD * sum(client.nthreads().values()))  # workers come and go
+            while schedule.ready and len(jobs) < most:
+                group, key, given = schedule.ready.popleft()
+                future = client.submit(work, kind.name, kind.options, bundle, digest, fcl_stpbv.__version__, key,
+                                       pickle.dumps(given), key=f"{kind.name}-{json.dumps(key)}-{run}")
+                jobs[future.key] = (group, key)
+                done.add(future)
+        show(len(schedule.results.jobs), len(jobs) + len(schedule.ready))
+        future = next(done)
+        group, key = jobs.pop(future.key)
+        if future.status == "finished":
+            schedule.finish(group, key, *future.result())
+        elif future.status == "error":
+            failed[key] = future.exception()
+        else:
+            raise Stopped("the Dask scheduler is gone")
+        future.release()
+    if failed:
+        key, error = next(iter(failed.items()))
+        raise Stopped(f"{len(failed)} jobs have no result, such as {list(key)}: {type(error).__name__}: {error}")
+
+
+def progress(quiet):
+    """A line on the terminal that says how far it is."""
+    wanted = not quiet and sys.stderr.isatty()
+
+    def show(done, left):
+        if wanted:
+            bar = "#" * (30 * done // max(1, done + left))
+            sys.stderr.write(f"\r[{bar:<30}] {done} jobs done, {left} known to be left \033[K")
+
+    return show, lambda: wanted and sys.stderr.write("\r\033[K")
+
+
+def cores():
+    return len(os.sched_getaffinity(0))

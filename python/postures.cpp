@@ -1,0 +1,113 @@
+// Postures from tasks, a start at a time, so that they can be shared out.
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "fcl_stpbv/error.h"
+#include "fcl_stpbv/posture/find_posture.h"
+#include "parts.h"
+
+namespace py = pybind11;
+
+namespace fcl_stpbv {
+namespace {
+
+/// A robot among obstacles, loaded once for any number of tasks.
+class PythonPostureSearch {
+ public:
+  PythonPostureSearch(const std::string& urdf, const std::string& srdf, const std::string& obstacles,
+                      double r, double R, std::vector<std::string> packagePath) {
+    GeometryOptions options;
+    options.radii = {r, R};
+    options.packagePath = std::move(packagePath);
+    scene_.robot = std::make_shared<const RobotModel>(loadUrdf(urdf));
+    if (!srdf.empty()) scene_.srdf = std::make_shared<const Srdf>(loadSrdf(srdf, *scene_.robot));
+    scene_.geometry = std::make_shared<const RobotGeometry>(loadGeometry(*scene_.robot, options));
+    if (!obstacles.empty()) {
+      const auto around = std::make_shared<const RobotModel>(loadUrdf(obstacles));
+      scene_.obstacles = obstaclesOf(around, loadGeometry(*around, options));
+    }
+    if (!scene_.srdf) scene_.selfPairs = searchedPairs(scene_.robot, scene_.geometry);
+  }
+
+  /// A problem of its own for each start: what others left in its caches would change the last bits.
+  Posture solve(const std::string& task, const std::string& path, int start, std::uint64_t seed,
+                const std::optional<Eigen::VectorXd>& from) const {
+    PostureSetup setup = setUp(parseTask(task, path), scene_);
+    requirePairs(setup.pairs.size(), *scene_.robot, "the task and the robot's joints leave none");
+    if (from) {
+      if (from->size() != setup.start.size())
+        throw Error("start_from: got " + std::to_string(from->size()) + " coordinates, expected " +
+                    std::to_string(setup.start.size()));
+      requireFinite(*from, "start_from");
+      setup.start = *from;
+    }
+    PostureOptions options;
+    options.firstStart = start;
+    options.starts = 1;
+    options.seed = seed;
+    options.solver.maxSeconds = std::numeric_limits<double>::infinity();  // the clock must not decide
+    return findPosture(setup, options);
+  }
+
+  std::vector<std::string> names(const std::string& task, const std::string& path) const {
+    return setUp(parseTask(task, path), scene_).problem->kinematics().names();
+  }
+
+ private:
+  PostureScene scene_;
+};
+
+py::dict asDict(const Posture& posture) {
+  const auto list = [](const std::vector<Violation>& violations) {
+    std::vector<std::pair<std::string, double>> named;
+    for (const Violation& violation : violations) named.emplace_back(violation.name, violation.amount);
+    return named;
+  };
+  py::dict result;
+  result["feasible"] = posture.feasible;
+  result["status"] = posture.status;
+  result["cost"] = posture.cost;
+  result["iterations"] = posture.iterations;
+  result["distance_calls"] = posture.distanceCalls;
+  result["q"] = std::vector<double>(posture.q.begin(), posture.q.end());
+  result["violations"] = list(posture.violations);
+  result["conflict"] = list(posture.conflict);
+  return result;
+}
+
+}  // namespace
+
+void addPostures(py::module_& module) {
+  py::class_<PythonPostureSearch>(module, "PostureSearch",
+                                  "Postures of a robot among obstacles, in pure pieces.")
+      .def(py::init<const std::string&, const std::string&, const std::string&, double, double,
+                    std::vector<std::string>>(),
+           py::arg("urdf"), py::arg("srdf") = "", py::arg("obstacles") = "", py::kw_only(),
+           py::arg("r") = 0.01, py::arg("R") = 10.0, py::arg("package_path") = std::vector<std::string>{},
+           "Without an SRDF the robot's own pairs are those that samples leave to be checked.")
+      .def(
+          "solve",
+          [](const PythonPostureSearch& search, const std::string& task, const std::string& path, int start,
+             std::uint64_t seed, const std::optional<Eigen::VectorXd>& from) {
+            if (start < 0) throw Error("start: got " + std::to_string(start) + ", expected 0 or more");
+            Posture posture;
+            {
+              const py::gil_scoped_release others;
+              posture = search.solve(task, path, start, seed, from);
+            }
+            return asDict(posture);
+          },
+          py::arg("task"), py::arg("path") = "task", py::arg("start") = 0, py::arg("seed") = 1,
+          py::arg("start_from") = py::none(),
+          "What one start of a task leads to: start 0 is the task's own, or `start_from`, the others are\n"
+          "random. `task` is the text of a task file and `path` its name in messages.")
+      .def("names", &PythonPostureSearch::names, py::arg("task"), py::arg("path") = "task",
+           "Names of the coordinates of a task's postures; raises Error where the task does not fit.");
+}
+
+}  // namespace fcl_stpbv

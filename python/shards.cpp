@@ -1,0 +1,189 @@
+// Work on robots in pieces that can be shared out: each call is a pure function of its arguments, to the last
+// bit, whatever was asked before.
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "fcl_stpbv/error.h"
+#include "fcl_stpbv/robot/package_path.h"
+#include "fcl_stpbv/robot/pair_proof.h"
+#include "fcl_stpbv/robot/pair_samples.h"
+#include "fcl_stpbv/robot/pair_search.h"
+#include "parts.h"
+
+namespace py = pybind11;
+
+namespace fcl_stpbv {
+namespace {
+
+using Boxes = std::vector<std::pair<Eigen::VectorXd, Eigen::VectorXd>>;  ///< lower and upper limits
+
+/// A robot and the pairs of its links that joints move against each other.
+class PythonPairSearch {
+ public:
+  PythonPairSearch(const std::string& urdf, double r, double R, std::vector<std::string> packagePath,
+                   double margin) {
+    const auto model = std::make_shared<const RobotModel>(loadUrdf(urdf));
+    GeometryOptions options;
+    options.radii = {r, R};
+    options.packagePath = std::move(packagePath);
+    const auto geometry = std::make_shared<const RobotGeometry>(loadGeometry(*model, options));
+    for (const CheckedPair& pair : selfPairs(*model, *geometry, nullptr)) {
+      const LinkPair links{geometry->bodies[static_cast<std::size_t>(pair.body)].link,
+                           geometry->bodies[static_cast<std::size_t>(pair.other)].link};
+      const bool known = std::any_of(pairs_.begin(), pairs_.end(), [&](const LinkPair& p) {
+        return p.link1 == links.link1 && p.link2 == links.link2;
+      });
+      if (!known) pairs_.push_back(links);
+    }
+    requirePairs(pairs_.size(), *model, "all links are adjacent, rigidly joined or without a body");
+    scene_ = proofScene(std::make_shared<const Kinematics>(model), geometry, {}, margin);
+  }
+
+  std::vector<std::pair<std::string, std::string>> pairs() const {
+    const std::vector<LinkModel>& links = scene_.kinematics->robot().links;
+    std::vector<std::pair<std::string, std::string>> names;
+    for (const LinkPair& pair : pairs_)
+      names.emplace_back(links[static_cast<std::size_t>(pair.link1)].name,
+                         links[static_cast<std::size_t>(pair.link2)].name);
+    return names;
+  }
+  const Kinematics& kinematics() const { return *scene_.kinematics; }
+
+  PairProof start(std::size_t pair) const { return unproven(scene_, linksOf(pair)); }
+
+  PairProof prove(std::size_t pair, const Boxes& boxes, long most) const {
+    const LinkPair links = linksOf(pair);
+    const std::size_t size = proofCoordinates(scene_, links).size();
+    std::vector<JointBox> open;
+    for (const auto& [lower, upper] : boxes) {
+      if (static_cast<std::size_t>(lower.size()) != size || lower.size() != upper.size())
+        throw Error("boxes: a box of this pair has " + std::to_string(size) + " coordinates, got one of " +
+                    std::to_string(lower.size()) + " and " + std::to_string(upper.size()));
+      if (!(lower.array() <= upper.array()).all())
+        throw Error("boxes: a lower limit is above its upper limit or not a number");
+      open.push_back({lower, upper});
+    }
+    return provePair(scene_, links, std::move(open), most);
+  }
+
+  std::optional<Eigen::VectorXd> descend(std::size_t pair, std::uint64_t seed, int starts) const {
+    const LinkPair links = linksOf(pair);
+    PairSearch search(scene_.kinematics, scene_.geometry, links.link1, links.link2);
+    std::mt19937_64 random = numbered(seed, pair);
+    for (int i = 0; i < starts; ++i) {
+      Eigen::VectorXd q = randomConfiguration(*scene_.kinematics, random);
+      search.forget();
+      if (search.descend(q, scene_.margin) <= scene_.margin) return q;
+    }
+    return std::nullopt;
+  }
+
+  std::vector<PairSamples> sample(std::uint64_t seed, std::uint64_t block, int count) const {
+    PairSampler sampler(scene_.kinematics, scene_.geometry, pairs_, {}, 1);
+    return sampler.sample(count, numbered(seed, block)(), scene_.margin, 1, [](int) {});
+  }
+
+ private:
+  const LinkPair& linksOf(std::size_t pair) const {
+    if (pair >= pairs_.size())
+      throw Error("pair: got " + std::to_string(pair) + ", the robot has " + std::to_string(pairs_.size()));
+    return pairs_[pair];
+  }
+  // The random numbers of one piece of the work.
+  static std::mt19937_64 numbered(std::uint64_t seed, std::uint64_t piece) {
+    std::seed_seq mixed{static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32),
+                        static_cast<std::uint32_t>(piece), static_cast<std::uint32_t>(piece >> 32)};
+    return std::mt19937_64(mixed);
+  }
+
+  ProofScene scene_;
+  std::vector<LinkPair> pairs_;
+};
+
+std::vector<std::pair<std::string, std::string>> meshFiles(const std::string& urdf,
+                                                           const std::vector<std::string>& packagePath) {
+  const RobotModel robot = loadUrdf(urdf);
+  const PackagePath files(urdf, packagePath);
+  const auto none = [](const LinkModel& link) { return link.collision.empty(); };
+  const bool visual = std::all_of(robot.links.begin(), robot.links.end(), none);
+  std::vector<std::pair<std::string, std::string>> found;
+  for (const LinkModel& link : robot.links)
+    for (const ShapeModel& shape : visual ? link.visual : link.collision)
+      if (shape.kind == ShapeModel::Kind::mesh) found.emplace_back(shape.mesh, files.resolve(shape.mesh));
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  return found;
+}
+
+void addProof(py::module_& module) {
+  py::class_<PairProof>(module, "PairProof", "How far the proof has come that a pair of links never meets.")
+      .def(py::init([](const Boxes& open, std::optional<Eigen::VectorXd> collision, long boxes) {
+             PairProof proof;
+             for (const auto& [lower, upper] : open) proof.open.push_back({lower, upper});
+             proof.collision = std::move(collision);
+             proof.boxes = boxes;
+             return proof;
+           }),
+           py::arg("open"), py::arg("collision") = py::none(), py::arg("boxes") = 0)
+      .def_property_readonly(
+          "open",
+          [](const PairProof& proof) {
+            Boxes open;
+            for (const JointBox& box : proof.open) open.emplace_back(box.lower, box.upper);
+            return open;
+          },
+          "Boxes that remain to be looked at: lower and upper limits (rad or m).")
+      .def_readonly("collision", &PairProof::collision,
+                    "A configuration in which the pair collides, or None.")
+      .def_readonly("boxes", &PairProof::boxes, "looked at so far")
+      .def_property_readonly("proven", &PairProof::proven)
+      .def("merge", &merge, py::arg("other"),
+           "What two pieces of one pair's proof have found together; associative and commutative.");
+}
+
+}  // namespace
+
+void addShards(py::module_& module) {
+  using Free = py::call_guard<py::gil_scoped_release>;
+  addProof(module);
+  py::class_<PythonPairSearch>(module, "PairSearch",
+                               "Proofs and samples of a robot's pairs of links, in pure pieces.")
+      .def(py::init<const std::string&, double, double, std::vector<std::string>, double>(), py::arg("urdf"),
+           py::kw_only(), py::arg("r") = 0.01, py::arg("R") = 10.0,
+           py::arg("package_path") = std::vector<std::string>{}, py::arg("margin") = 0.0,
+           "margin: a distance not above it is a collision (m).")
+      .def_property_readonly("pairs", &PythonPairSearch::pairs,
+                             "Names of the links of each pair, but for adjacent and rigidly joined ones.")
+      .def_property_readonly(
+          "names", [](const PythonPairSearch& search) { return search.kinematics().names(); },
+          "of the coordinates")
+      .def("unproven", &PythonPairSearch::start, py::arg("pair"), "The proof before its first step.")
+      .def("prove", &PythonPairSearch::prove, py::arg("pair"), py::arg("boxes"), py::arg("max_boxes"), Free(),
+           "Looks at up to so many boxes, starting with the last of these.")
+      .def("descend", &PythonPairSearch::descend, py::arg("pair"), py::arg("seed"), py::arg("starts"), Free(),
+           "A configuration in collision that descents from so many random ones reach first, or None.")
+      .def(
+          "sample",
+          [](const PythonPairSearch& search, std::uint64_t seed, std::uint64_t block, int count) {
+            std::vector<PairSamples> found;
+            {
+              const py::gil_scoped_release others;
+              found = search.sample(seed, block, count);
+            }
+            py::list pairs;
+            for (const PairSamples& pair : found)
+              pairs.append(
+                  py::make_tuple(pair.collisions, pair.closest.front().first, pair.closest.front().second));
+            return pairs;
+          },
+          py::arg("seed"), py::arg("block"), py::arg("count"),
+          "For each pair: collisions among so many random configurations, least distance (m), where it is.");
+  module.def("mesh_files", &meshFiles, py::arg("urdf"), py::arg("package_path") = std::vector<std::string>{},
+             "The meshes that a robot's bodies are made of: as the URDF names them, and their paths.");
+}
+
+}  // namespace fcl_stpbv

@@ -1,0 +1,208 @@
+"""Batches: pure pieces, results that do not depend on who did which job, what goes wrong with one job or its input."""
+import itertools
+import json
+import os
+import pathlib
+import random
+import shutil
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+import fcl_stpbv
+
+DATA = pathlib.Path(os.environ.get("FCL_STPBV_DATA", pathlib.Path(__file__).parents[2] / "data"))
+HRP2 = DATA / "hrp2_style"
+TOOLS = pathlib.Path(__file__).parents[1] / "tools"
+ARM = TOOLS / "six_joint_arm.urdf"
+PROVE = ["prove", ARM, "--budget", "10", "--boxes", "500", "--descents", "1"]  # several rounds for most pairs
+
+
+def batch(*arguments, status=0, **more):
+    """Runs a batch; its summary, or what it complains about."""
+    done = subprocess.run([sys.executable, "-B", "-m", "fcl_stpbv.batch", *map(str, arguments)], capture_output=True, text=True, timeout=120,
+                          **more)
+    assert done.returncode == status, done.stderr
+    assert "Traceback" not in done.stderr
+    return done.stdout if status == 0 else done.stderr
+
+
+@pytest.fixture(scope="module")
+def arm():
+    return fcl_stpbv.PairSearch(str(ARM))
+
+
+@pytest.fixture(scope="module")
+def proofs(tmp_path_factory):
+    """The results of one process for the arm's pairs."""
+    path = tmp_path_factory.mktemp("one") / "proofs.jsonl"
+    batch(*PROVE, "--jobs", 1, "-o", path)
+    return path
+
+
+def bits(proof):
+    return [[limits.tolist() for limits in box] for box in proof.open], None if proof.collision is None else proof.collision.tolist(), proof.boxes
+
+
+def test_merging_proofs_is_associative_and_commutative(arm):
+    generator = random.Random(1)
+    merged_with_collision = 0
+    for pair in range(0, len(arm.pairs), 3):
+        pieces = [arm.prove(pair, arm.unproven(pair).open, 7)]
+        pieces += [arm.prove(pair, [box], 5) for box in pieces[0].open[:3]]
+        dimension = len(arm.unproven(pair).open[0][0])
+        pieces.append(fcl_stpbv.PairProof([], np.array([generator.random() for _ in arm.names]), 3))
+        pieces.append(fcl_stpbv.PairProof([(np.zeros(dimension), np.ones(dimension))], None, 1))
+        for a, b, c in itertools.permutations(pieces, 3):
+            assert bits(a.merge(b)) == bits(b.merge(a))
+            assert bits(a.merge(b).merge(c)) == bits(a.merge(b.merge(c)))
+            merged_with_collision += a.merge(b).collision is not None
+    assert merged_with_collision > 0
+
+
+def test_a_piece_is_the_same_whatever_was_asked_before(arm):
+    fresh = fcl_stpbv.PairSearch(str(ARM))
+    pair = len(arm.pairs) - 1
+    for other in range(len(arm.pairs)):
+        arm.prove(other, arm.unproven(other).open, 20)
+        arm.sample(1, other, 3)
+    assert bits(arm.prove(pair, arm.unproven(pair).open, 50)) == bits(fresh.prove(pair, fresh.unproven(pair).open, 50))
+    ask = lambda search, block: [(hits, least, q.tolist()) for hits, least, q in search.sample(1, block, 20)]
+    assert ask(arm, 4) == ask(fresh, 4) != ask(fresh, 5)
+
+
+def test_a_posture_is_the_same_whatever_was_asked_before():
+    task = (TOOLS / "reach.json").read_text()
+    search, fresh = (fcl_stpbv.PostureSearch(str(ARM)) for _ in range(2))
+    for start in (2, 0, 1):
+        search.solve(task, start=start)
+    assert search.solve(task, start=1) == fresh.solve(task, start=1) != fresh.solve(task, start=2)
+    found = fresh.solve(task)
+    again = fresh.solve(task, start_from=np.array(found["q"]))
+    assert found["feasible"] and again["feasible"] and again["iterations"] <= found["iterations"]
+    with pytest.raises(fcl_stpbv.Error, match="start_from: got 1"):
+        fresh.solve(task, start_from=np.zeros(1))
+
+
+def test_proofs_agree_with_samples_and_collisions_collide(proofs, arm):
+    robot = fcl_stpbv.Robot(str(ARM))
+    rows = {name: i for i, name in enumerate(robot.rows)}
+    least = dict(zip(arm.pairs, (pair[1] for pair in arm.sample(7, 0, 2000))))
+    by_pair = {}
+    for record in map(json.loads, proofs.read_text().splitlines()[1:]):
+        by_pair.setdefault(tuple(record["job"][:2]), []).append(record)
+    assert set(by_pair) == set(arm.pairs)
+    for pair, records in by_pair.items():
+        collisions = [record["collision"] for record in records if record["collision"]]
+        for q in collisions:  # the covers of the robot's primitives contain them, so their distance is not above theirs
+            assert min(robot.distances(np.array(q))[i] for name, i in rows.items() if set(name.split(" - ")) == set(pair)) <= 0
+        last = max(record["job"][2] for record in records)
+        proven = not collisions and not any(record["open"] for record in records if record["job"][2] == last)
+        assert not (proven and least[pair] <= 0)
+
+
+@pytest.mark.parametrize("shards", [2, 5])
+def test_shards_merged_in_any_order_are_what_one_process_finds(proofs, tmp_path, shards):
+    parts = [tmp_path / f"{i}.jsonl" for i in range(shards)]
+    for i, part in enumerate(parts):
+        batch(*PROVE, "--shard", f"{i}/{shards}", "-o", part)
+    for name, order in (("a", parts), ("b", parts[::-1])):
+        batch(*PROVE, "--merge", *order, "-o", tmp_path / name)
+        assert (tmp_path / name).read_bytes() == proofs.read_bytes()
+    assert "missing" in batch(*PROVE, "--merge", parts[0], "-o", tmp_path / "c", status=1)
+
+
+def test_shards_go_on_from_merged_results(proofs, tmp_path):
+    few = [*PROVE[:5], "20", *PROVE[6:]]
+    batch(*few, "--jobs", 1, "-o", tmp_path / "first")
+    parts = [tmp_path / "0", tmp_path / "1"]
+    for number in range(8):  # of a round that several shards have, the next one is known after merging
+        for i, part in enumerate(parts):
+            batch(*PROVE, "--shard", f"{i}/2", "--merge", tmp_path / "first", "-o", part)
+        merged = subprocess.run([sys.executable, "-m", "fcl_stpbv.batch", *map(str, PROVE), "--merge", *parts, "-o", tmp_path / "all"])
+        for part in parts:
+            part.unlink()
+        shutil.move(tmp_path / "all", tmp_path / "first")
+        if merged.returncode == 0:
+            break
+    assert (tmp_path / "first").read_bytes() == proofs.read_bytes() and number < 7
+
+
+def test_an_interrupted_run_goes_on_to_the_same_bytes(proofs, tmp_path):
+    whole = proofs.read_bytes()
+    part = tmp_path / "part.jsonl"
+    for cut in (whole.index(b"\n") + 1, len(whole) // 2, len(whole) - 1):
+        part.write_bytes(whole[:cut])
+        batch(*PROVE, "--jobs", 1, "-o", part)
+        assert part.read_bytes() == whole
+
+
+def test_two_processes_find_what_one_does(tmp_path):
+    sample = ["sample", ARM, "--blocks", 6, "--count", 50]
+    task = [*("postures", ARM, TOOLS / "reach.json"), "--starts", 2]
+    for name, arguments in (("sample", sample), ("postures", task)):
+        batch(*arguments, "--jobs", 1, "-o", tmp_path / f"{name}1")
+        batch(*arguments, "--jobs", 2, "-o", tmp_path / f"{name}2")
+        assert (tmp_path / f"{name}1").read_bytes() == (tmp_path / f"{name}2").read_bytes()
+
+
+def test_a_robot_travels_with_its_meshes(tmp_path):
+    from fcl_stpbv.batch import bundle
+
+    urdf = HRP2 / "hrp2_style.urdf"
+    files = bundle.robot_files("robot", urdf, [])
+    with bundle.Unpacked(files) as folder:
+        moved = fcl_stpbv.PairSearch(str(folder / "robot/robot.urdf"))
+        here = fcl_stpbv.PairSearch(str(urdf))
+        assert moved.pairs == here.pairs and moved.sample(1, 0, 3)[0][1] == here.sample(1, 0, 3)[0][1]
+        assert all(str(folder) in path for _, path in fcl_stpbv.mesh_files(str(folder / "robot/robot.urdf")))
+    assert bundle.digest_of(files) == bundle.digest_of(dict(reversed(files.items())))
+    assert bundle.digest_of(files) != bundle.digest_of({**files, "robot/robot.urdf": files["robot/robot.urdf"] + b" "})
+
+
+@pytest.mark.parametrize("jobs", [1, 2])
+def test_a_bad_mesh_fails_its_own_job_and_no_other(tmp_path, jobs):
+    bad, missing = tmp_path / "bad.stl", tmp_path / "missing.stl"
+    bad.write_bytes(b"solid nothing")
+    good = [HRP2 / "meshes/BODY.dae", HRP2 / "meshes/LARM_LINK0.stl"]
+    arguments = ["convert", bad, *good, missing, "--volumes", tmp_path / "volumes", "-o", tmp_path / "all"]
+    message = batch(*arguments, "--jobs", jobs, status=1)
+    assert str(bad) in message and str(missing) in message and "fcl_stpbv_" not in message
+    assert sorted(path.name for path in (tmp_path / "volumes").iterdir()) == ["BODY.stpbv", "LARM_LINK0.stpbv"]
+    for mesh in good:
+        volume = fcl_stpbv.StpBv.load(str(tmp_path / "volumes" / f"{mesh.stem}.stpbv"))
+        assert np.array_equal(volume.vertices, fcl_stpbv.StpBv.build(fcl_stpbv.load_points(str(mesh))).vertices)
+    results = (tmp_path / "all").read_bytes()
+    (tmp_path / "volumes/BODY.stpbv").unlink()
+    batch(*arguments, "--jobs", 1, status=1)
+    assert (tmp_path / "volumes/BODY.stpbv").exists() and (tmp_path / "all").read_bytes() == results
+
+
+def test_wrong_input_is_refused_in_one_line(proofs, tmp_path):
+    out = tmp_path / "out"
+    for arguments, what in [
+            (["prove", tmp_path / "no.urdf", "-o", out], "no.urdf"),
+            (["postures", ARM, tmp_path / "no.json", "-o", out], "no.json"),
+            (["postures", ARM, ARM, "-o", out], "six_joint_arm.urdf"),
+            (["convert", "a/x.stl", "b/x.stl", "--volumes", tmp_path / "v", "-o", out], "b/x.stl"),
+            ([*PROVE, "--margin", "0.1", "--jobs", 1, "-o", proofs], "margin"),
+            ([*PROVE, "--merge", tmp_path / "no.jsonl", "-o", out], "no.jsonl"),
+            ([*PROVE, "--merge", ARM, "-o", out], "does not hold results"),
+            ([*PROVE, "-o", tmp_path / "no/out", "--jobs", 1], "no/out"),
+            ([*PROVE, "--shard", "0/2", "--scheduler", "tcp://x", "-o", out], "--shard"),
+    ]:
+        message = batch(*arguments, status=2)
+        assert what in message and message.count("\n") == 1, message
+        assert not out.exists()
+    for arguments in (["--shard", "2/2"], ["--budget", "0"], ["--seed", "1e99"], ["-r", "nan"], ["-R", "-1"]):
+        assert f"{arguments[0]}" in batch(*PROVE, *arguments, "-o", out, status=2).splitlines()[-1]
+
+
+def test_without_dask_one_process_works_and_more_say_what_is_missing(tmp_path):
+    (tmp_path / "dask.py").write_text("raise ImportError")
+    without = {**os.environ, "PYTHONPATH": f"{tmp_path}:{os.environ['PYTHONPATH']}"}
+    sample = ["sample", ARM, "--blocks", 2, "--count", 5, "-o", tmp_path / "out"]
+    assert "python3-distributed" in batch(*sample, "--jobs", 2, status=2, env=without)
+    batch(*sample, "--jobs", 1, env=without)

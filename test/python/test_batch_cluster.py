@@ -1,0 +1,119 @@
+"""A batch on a real scheduler with two workers, each a process that can be killed."""
+import os
+import pathlib
+import signal
+import socket
+import subprocess
+import sys
+import time
+
+import pytest
+
+pytest.importorskip("distributed", reason="needs python3-distributed (tools/install_packages)")
+
+ARM = pathlib.Path(__file__).parents[1] / "tools/six_joint_arm.urdf"
+SAMPLE = ["sample", ARM, "--blocks", 60, "--count", 400]
+
+
+def start(*arguments):
+    return subprocess.Popen([sys.executable, "-B", "-m", *map(str, arguments)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+
+
+class Cluster:
+    def __init__(self, folder):
+        with socket.socket() as probe:
+            probe.bind(("127.0.0.1", 0))
+            self.port = probe.getsockname()[1]
+        self.address, self.folder, self.processes = f"tcp://127.0.0.1:{self.port}", folder, []
+        self.start_scheduler()
+        self.workers = [self.worker(), self.worker()]
+
+    def start_scheduler(self):
+        self.scheduler = self.add("distributed.cli.dask_scheduler", "--host", "127.0.0.1", "--port", self.port, "--no-dashboard")
+
+    def worker(self):
+        return self.add("distributed.cli.dask_worker", self.address, "--no-nanny", "--nthreads", 1, "--no-dashboard",
+                        "--local-directory", self.folder)
+
+    def add(self, *arguments):
+        process = subprocess.Popen([sys.executable, "-B", "-m", *map(str, arguments)], stdout=subprocess.DEVNULL,
+                                   stderr=subprocess.DEVNULL)
+        self.processes.append(process)
+        return process
+
+    def stop(self):
+        for process in self.processes:
+            process.kill()
+            process.wait()
+
+
+@pytest.fixture
+def cluster(tmp_path):
+    cluster = Cluster(tmp_path)
+    yield cluster
+    cluster.stop()
+
+
+@pytest.fixture(scope="module")
+def expected(tmp_path_factory):
+    path = tmp_path_factory.mktemp("one") / "out"
+    assert start("fcl_stpbv.batch", *SAMPLE, "--jobs", 1, "-o", path).wait(timeout=100) == 0
+    return path.read_bytes()
+
+
+def wait_for_lines(path, count, process):
+    end = time.monotonic() + 60
+    while time.monotonic() < end and process.poll() is None:
+        if path.exists() and path.read_bytes().count(b"\n") >= count:
+            return
+        time.sleep(0.01)
+    raise AssertionError(f"no {count} lines: {process.communicate()}")
+
+
+def test_a_worker_killed_in_the_middle_changes_nothing(cluster, expected, tmp_path):
+    out = tmp_path / "out"
+    run = start("fcl_stpbv.batch", *SAMPLE, "--scheduler", cluster.address, "-o", out)
+    wait_for_lines(out, 5, run)
+    cluster.workers[0].send_signal(signal.SIGKILL)
+    cluster.workers[0].wait()
+    assert out.read_bytes().count(b"\n") < 50, "it was not in the middle"
+    assert run.wait(timeout=60) == 0, run.communicate()
+    assert out.read_bytes() == expected
+
+
+def test_a_scheduler_that_dies_costs_no_result_and_a_new_one_goes_on(cluster, expected, tmp_path):
+    out = tmp_path / "out"
+    run = start("fcl_stpbv.batch", *SAMPLE, "--scheduler", cluster.address, "-o", out)
+    wait_for_lines(out, 5, run)
+    for process in (cluster.scheduler, *cluster.workers):
+        process.kill()
+        process.wait()
+    output, message = run.communicate(timeout=60)
+    assert run.returncode == 1 and message.strip().endswith("the Dask scheduler is gone; run again to go on"), message
+    done = out.read_bytes().count(b"\n") - 1
+    assert 0 < done < 60
+    cluster.start_scheduler()
+    cluster.worker()
+    run = start("fcl_stpbv.batch", *SAMPLE, "--scheduler", cluster.address, "-o", out)
+    assert run.wait(timeout=60) == 0, run.communicate()
+    assert out.read_bytes() == expected
+
+
+def test_a_run_that_is_interrupted_keeps_what_is_done(expected, tmp_path):
+    out = tmp_path / "out"
+    run = start("fcl_stpbv.batch", *SAMPLE, "--jobs", 1, "-o", out)
+    wait_for_lines(out, 5, run)
+    second = start("fcl_stpbv.batch", *SAMPLE, "--jobs", 1, "-o", out)
+    assert second.wait(timeout=60) == 2 and "another run is writing" in second.stderr.read()
+    run.send_signal(signal.SIGINT)
+    _, message = run.communicate(timeout=60)
+    assert run.returncode == 130 and message == "fcl_stpbv.batch: interrupted; run again to go on\n"
+    assert expected.startswith(out.read_bytes()[:out.read_bytes().index(b"\n") + 1]) and out.read_bytes().count(b"\n") < 61
+    assert start("fcl_stpbv.batch", *SAMPLE, "--jobs", 1, "-o", out).wait(timeout=60) == 0
+    assert out.read_bytes() == expected
+
+
+def test_a_scheduler_that_is_not_there_is_named(tmp_path):
+    run = start("fcl_stpbv.batch", *SAMPLE, "--scheduler", "tcp://127.0.0.1:1", "-o", tmp_path / "out")
+    _, message = run.communicate(timeout=60)
+    assert run.returncode == 2 and "tcp://127.0.0.1:1" in message and "Traceback" not in message
