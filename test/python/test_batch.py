@@ -15,7 +15,7 @@ import fcl_stpbv
 
 DATA = pathlib.Path(os.environ.get("FCL_STPBV_DATA", pathlib.Path(__file__).parents[2] / "data"))
 HRP2 = DATA / "hrp2_style"
-TOOLS = pathlib.Path(__file__).parents[1] / "tools"
+TOOLS = DATA.parent / "test/tools"
 ARM = TOOLS / "six_joint_arm.urdf"
 PROVE = ["prove", ARM, "--budget", "10", "--boxes", "500", "--descents", "1"]  # several rounds for most pairs
 

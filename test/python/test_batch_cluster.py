@@ -11,7 +11,8 @@ import pytest
 
 pytest.importorskip("distributed", reason="needs python3-distributed (tools/install_packages)")
 
-ARM = pathlib.Path(__file__).parents[1] / "tools/six_joint_arm.urdf"
+DATA = pathlib.Path(os.environ.get("FCL_STPBV_DATA", pathlib.Path(__file__).parents[2] / "data"))
+ARM = DATA.parent / "test/tools/six_joint_arm.urdf"
 SAMPLE = ["sample", ARM, "--blocks", 60, "--count", 400]
 
 
