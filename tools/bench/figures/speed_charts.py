@@ -64,8 +64,8 @@ def size(height=440):
         text += f"set title '{words}' offset 0,-0.6\nplot " + ", ".join(plots) + "\n" + UNLABEL
     fastest = all(row["ns_p50"] >= other["ns_p50"] for row in data["rows"] for other in data["rows"] if other["method"] == "STP-BV warm" and
                   (row["steps"], row["vertices"]) == (other["steps"], other["vertices"]))
-    return draw("size", f"From its last answer the STP-BV query is {at['FCL libccd'] / at['STP-BV warm']:.0f} times as fast as FCL at {largest:,} vertices" +
-                (", fastest at all sizes" if fastest else ""),
+    return draw("size", f"The STP-BV query is {at['FCL libccd'] / at['STP-BV warm']:.0f} times as fast as FCL at {largest:,} vertices" +
+                (", and fastest at every size" if fastest else ""),
          text + "unset multiplot\n", below, height)
 
 
