@@ -7,6 +7,8 @@
 #include <fcl/geometry/octree/octree.h>
 #endif
 
+#include <algorithm>
+
 namespace fcl_stpbv {
 namespace {
 
@@ -110,6 +112,16 @@ ElementTree::ElementTree(const fcl::CollisionGeometryd& geometry) : geometry_(ge
 #if FCL_HAVE_OCTOMAP
   if (const fcl::OcTreed* tree = asOcTree(geometry)) any_ = tree->getRoot() != nullptr;
 #endif
+}
+
+bool ElementTree::finite() const {
+  return withMesh(
+      geometry_,
+      [](const auto& mesh) {
+        return std::all_of(mesh.vertices, mesh.vertices + mesh.num_vertices,
+                           [](const Vector3d& p) { return p.allFinite(); });
+      },
+      true);
 }
 
 Node ElementTree::root() const {

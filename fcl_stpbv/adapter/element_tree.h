@@ -35,6 +35,8 @@ class ElementTree {
 
   /// Whether the geometry is a mesh or a tree with anything in it.
   bool any() const { return any_; }
+  /// Whether all its corners are numbers: FCL's boxes hide those that are not. Looks at each of them.
+  bool finite() const;
   Node root() const;
   /// The node's children, at most eight; how many.
   int children(const Node& node, std::array<Node, 8>& child) const;

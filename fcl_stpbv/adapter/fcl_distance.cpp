@@ -1,11 +1,12 @@
 // The drop-in distance: two STP-BVs by the core's query, an STP-BV and any other geometry by
-// other_geometry.h, two simple shapes by distance/shape_pair.h, and what is left by FCL itself.
+// other_geometry.h, two simple shapes by distance/shape_pair.h, and meshes and trees without one by
+// nearest_pair.h.
 #include "fcl_stpbv/adapter/fcl_distance.h"
 
 #include <utility>
 
-#include "fcl_stpbv/adapter/fcl_fallback.h"
 #include "fcl_stpbv/adapter/fcl_shapes.h"
+#include "fcl_stpbv/adapter/nearest_pair.h"
 #include "fcl_stpbv/adapter/other_geometry.h"
 #include "fcl_stpbv/adapter/polyhedral_witness.h"
 #include "fcl_stpbv/distance/shape_pair.h"
@@ -91,7 +92,7 @@ bool shapeDistance(const CollisionGeometryd& geometry1, const Transform3d& pose1
 }
 
 /// Any pair but two STP-BVs. A pose next to a rigid one is taken for the nearest, any other has no answer,
-/// whatever the geometries: FCL may loop or assert on it.
+/// whatever the geometries.
 DistanceAnswer otherDistance(const StpBvGeometry* a, const CollisionGeometryd& geometry1, Transform3d pose1,
                              const StpBvGeometry* b, const CollisionGeometryd& geometry2, Transform3d pose2,
                              const QueryContext& context) {
@@ -100,7 +101,12 @@ DistanceAnswer otherDistance(const StpBvGeometry* a, const CollisionGeometryd& g
   if (mixedDistance(a, geometry1, pose1, b, geometry2, pose2, context, answer) ||
       shapeDistance(geometry1, pose1, geometry2, pose2, answer))
     return answer;
-  return fallbackDistance(geometry1, pose1, geometry2, pose2);
+  const ElementsDistance elements = nearestElements(geometry1, pose1, geometry2, pose2);
+  answer = inFclTerms(elements.found, pose1, pose2);
+  answer.element = elements.element;
+  answer.runnerUp = elements.runnerUp;
+  answer.continuous = false;
+  return answer;
 }
 
 }  // namespace
@@ -142,9 +148,7 @@ DistanceAnswer distance(const fcl::CollisionObjectd& object1, const fcl::Collisi
 
 fcl::DistanceResultd toFclResult(const DistanceAnswer& answer) {
   fcl::DistanceResultd result;
-  const bool known = answer.status != DistanceStatus::invalid &&
-                     (answer.distance > 0 || answer.normal.squaredNorm() > 0);  // without one: not signed
-  result.min_distance = known ? answer.distance : -1;
+  result.min_distance = answer.status != DistanceStatus::invalid ? answer.distance : -1;
   result.nearest_points[0] = answer.points[0];
   result.nearest_points[1] = answer.points[1];
   result.o1 = answer.geometry[0];

@@ -1,5 +1,4 @@
-// The drop-in for fcl::distance: exact, C1 distance where a geometry is an STP-BV, FCL's own for the
-// rest.
+// The drop-in for fcl::distance: exact distance of every pair of FCL's geometries, C1 where one is an STP-BV.
 #pragma once
 
 #include <fcl/narrowphase/collision_object.h>
@@ -9,12 +8,17 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <type_traits>
 
 #include "fcl_stpbv/adapter/feature_map.h"
 #include "fcl_stpbv/adapter/stp_bv_geometry.h"
 #include "fcl_stpbv/distance/distance.h"
 
 namespace fcl_stpbv {
+
+/// Whether a scalar of FCL's templates is the one that this library answers in.
+template <typename S>
+constexpr bool isDouble = std::is_same<S, double>::value;
 
 /// Answer about two FCL geometries. World frame, metres.
 struct DistanceAnswer {
@@ -36,8 +40,8 @@ struct DistanceAnswer {
   /// or corner.
   double runnerUp = std::numeric_limits<double>::infinity();
   /// Whether distance and gradient are continuous over motions: true for an STP-BV against one or a
-  /// simple shape; false for meshes and trees, whose nearest element switches, and where FCL
-  /// answered.
+  /// simple shape; false for meshes and trees, whose nearest element switches, and for two geometries
+  /// without an STP-BV.
   bool continuous = false;
   std::array<const fcl::CollisionGeometryd*, 2> geometry{nullptr, nullptr};
   std::array<const fcl::CollisionObjectd*, 2> object{nullptr,
@@ -59,13 +63,13 @@ struct QueryContext {
   ProximityCounts* proximity = nullptr;  ///< gets what a question about a threshold took
 };
 
-/// Distance between two geometries. Never throws; allocates nothing where one is an STP-BV.
+/// Distance between two geometries. Never throws or allocates; FCL is never asked for a distance.
 ///
 /// An STP-BV against one, or against any other FCL geometry in either order: exact and signed, with status,
 /// bounds and derivatives. Two other shapes, one of them bounded: signed, by this library's own GJK, and at
-/// overlap by an expanding polytope (distance/shape_pair.h), `continuous` false. Any other pair:
-/// `fcl::distance`, unsigned, with tolerance 1e-10, exceptions caught; status `bounded`, `continuous` false,
-/// 0 for touching or overlapping geometries.
+/// overlap by an expanding polytope (distance/shape_pair.h), `continuous` false. Meshes and trees: of their
+/// nearest elements (nearest_pair.h), `continuous` false; two of them that overlap: 0, with the elements that
+/// meet.
 DistanceAnswer distance(const fcl::CollisionGeometryd& geometry1, const fcl::Transform3d& pose1,
                         const fcl::CollisionGeometryd& geometry2, const fcl::Transform3d& pose2,
                         const QueryContext& context = {});
@@ -82,13 +86,27 @@ DistanceAnswer inFclTerms(const Distance& found, const fcl::Transform3d& pose1,
 /// included.
 ///
 /// Differs from FCL where FCL sets traps (docs/fcl.md): `result` holds this pair and no earlier one, the
-/// distance of convex shapes is always signed, no field is left uninitialised. Overlap that FCL answers
-/// about, and a query that has no answer, is -1, FCL's own value for them.
+/// distance is always signed where a body is convex, no field is left uninitialised. A query that has no
+/// answer is -1, FCL's own value for it.
 double distance(const fcl::CollisionObjectd* object1, const fcl::CollisionObjectd* object2,
                 const fcl::DistanceRequestd& request, fcl::DistanceResultd& result);
 double distance(const fcl::CollisionGeometryd* geometry1, const fcl::Transform3d& pose1,
                 const fcl::CollisionGeometryd* geometry2, const fcl::Transform3d& pose2,
                 const fcl::DistanceRequestd& request, fcl::DistanceResultd& result);
+
+/// FCL's other scalar is refused here, with the reason.
+template <typename S>
+double distance(const fcl::CollisionObject<S>*, const fcl::CollisionObject<S>*,
+                const fcl::DistanceRequest<S>&, fcl::DistanceResult<S>&) {
+  static_assert(isDouble<S>, "fcl_stpbv answers about objects in double: make them fcl::CollisionObjectd");
+  return -1;
+}
+template <typename S>
+DistanceAnswer distance(const fcl::CollisionObject<S>&, const fcl::CollisionObject<S>&,
+                        const QueryContext& = {}) {
+  static_assert(isDouble<S>, "fcl_stpbv answers about objects in double: make them fcl::CollisionObjectd");
+  return {};
+}
 
 /// An answer in FCL's words.
 fcl::DistanceResultd toFclResult(const DistanceAnswer& answer);

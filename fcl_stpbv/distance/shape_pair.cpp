@@ -181,4 +181,15 @@ bool isFartherThan(double x, const Shape& a, const Isometry3d& poseA, const Shap
                                         : isFarther(x, {b, poseB, a, poseA});
 }
 
+// The corners around the origin of the difference weigh points of the bodies that coincide; cores that are
+// apart meet where their margins do.
+Vector3d commonPoint(const Shape& a, const Isometry3d& poseA, const Shape& b, const Isometry3d& poseB) {
+  const Pair p(a, poseA, b, poseB);
+  Simplex<Corner> around;
+  const NearestPoint nearest =
+      reduceToNearest(p.search([](double, double) { return false; }).simplex, around);
+  const double share = p.margins() > 0.0 ? a.margin / p.margins() : 0.5;
+  return p.pose.inWorld(around.weighted(&Corner::onA) + share * nearest.point);
+}
+
 }  // namespace fcl_stpbv

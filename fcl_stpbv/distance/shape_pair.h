@@ -25,4 +25,9 @@ Distance distance(const Shape& a, const Eigen::Isometry3d& poseA, const Shape& b
 bool isFartherThan(double x, const Shape& a, const Eigen::Isometry3d& poseA, const Shape& b,
                    const Eigen::Isometry3d& poseB);
 
+/// A point of both of two bounded shapes that overlap, to rounding (world, m); of two that do not, one
+/// between them. The pair must be valid.
+Eigen::Vector3d commonPoint(const Shape& a, const Eigen::Isometry3d& poseA, const Shape& b,
+                            const Eigen::Isometry3d& poseB);
+
 }  // namespace fcl_stpbv

@@ -1,0 +1,36 @@
+// What docs/motion.md shows, for the robot in data/hrp2_style: run in that folder.
+#include <cstdio>
+#include <exception>
+
+#include "fcl_stpbv/robot/motion_check.h"
+
+using namespace fcl_stpbv;
+
+namespace {
+
+int run() {
+  const auto robot = std::make_shared<const RobotModel>(loadUrdf("hrp2_style.urdf"));
+  const auto geometry = std::make_shared<const RobotGeometry>(loadGeometry(*robot));
+  const auto kinematics = std::make_shared<const Kinematics>(robot);
+  const Eigen::VectorXd q0 = kinematics->neutral();
+  Eigen::VectorXd q1 = q0;
+  q1[kinematics->coordinate("RARM_JOINT1")] -= 0.3;
+  // clang-format off
+MotionCheck check(kinematics, geometry, selfPairs(*robot, *geometry, nullptr));
+const bool free = check.isMotionFree(q0, q1, 0.01);             // nowhere a pair within 1 cm
+const MotionBracket first = check.firstContact(q0, q1);         // first.verdict, .from, .until, .pair
+  // clang-format on
+  std::printf("%s; free until %g\n", free ? "free" : "not free", first.from);
+  return first.from >= 0 && first.from <= 1 ? 0 : 1;
+}
+
+}  // namespace
+
+int main() {
+  try {
+    return run();
+  } catch (const std::exception& e) {
+    std::fprintf(stderr, "%s\n", e.what());
+    return 1;
+  }
+}

@@ -1,0 +1,54 @@
+// The drop-ins for fcl::collide and its broadphase callback: contacts of the smooth bodies.
+#pragma once
+
+#include <fcl/narrowphase/collision_object.h>
+#include <fcl/narrowphase/collision_request.h>
+#include <fcl/narrowphase/collision_result.h>
+
+#include <cstddef>
+
+#include "fcl_stpbv/adapter/fcl_distance.h"
+
+namespace fcl_stpbv {
+
+/// In the shape of `fcl::collide`: adds the contacts of the pair to `result`, up to
+/// `request.num_max_contacts` in all, and returns how many it then holds. Never throws.
+///
+/// Two convex bodies have one contact, a mesh or a tree one for each element that meets the other geometry,
+/// `b1` and `b2` as FCL numbers them. With `enable_contact`: `penetration_depth` is the exact one, not below
+/// 0, `normal` that of the smooth surface, from geometry 1 to 2 in the order of the call, `pos` half way
+/// between the deepest points (world, m). Without, each pair of elements costs no more than `isFartherThan`.
+/// Touching is a contact. A pair without an answer (a pose that is not rigid, an invalid shape, two planes)
+/// counts as one too, of infinite depth and without a normal: nobody has found it clear. Cost sources are not
+/// made; the other fields of the request change nothing.
+std::size_t collide(const fcl::CollisionObjectd* object1, const fcl::CollisionObjectd* object2,
+                    const fcl::CollisionRequestd& request, fcl::CollisionResultd& result,
+                    PairCache* cache = nullptr);
+std::size_t collide(const fcl::CollisionGeometryd* geometry1, const fcl::Transform3d& pose1,
+                    const fcl::CollisionGeometryd* geometry2, const fcl::Transform3d& pose2,
+                    const fcl::CollisionRequestd& request, fcl::CollisionResultd& result,
+                    PairCache* cache = nullptr);
+
+/// FCL's other scalar is refused here, with the reason.
+template <typename S>
+std::size_t collide(const fcl::CollisionObject<S>*, const fcl::CollisionObject<S>*,
+                    const fcl::CollisionRequest<S>&, fcl::CollisionResult<S>&) {
+  static_assert(isDouble<S>, "fcl_stpbv answers about objects in double: make them fcl::CollisionObjectd");
+  return 0;
+}
+
+class PairCaches;
+
+/// What `collisionCallback` reads and writes; pass its address to a manager's `collide`. The result
+/// accumulates: give each query fresh data.
+struct CollisionData {
+  fcl::CollisionRequestd request;
+  fcl::CollisionResultd result;
+  bool done = false;             ///< set it to stop; set where the result holds all the contacts asked for
+  PairCaches* caches = nullptr;  ///< optional: makes repeated queries of a slowly moving scene faster
+};
+
+/// For `manager.collide(&data, fcl_stpbv::collisionCallback)` with `data` a CollisionData.
+bool collisionCallback(fcl::CollisionObjectd* object1, fcl::CollisionObjectd* object2, void* data);
+
+}  // namespace fcl_stpbv

@@ -1,0 +1,210 @@
+// One pair of moving geometries as a scene for the search (motion_search.h).
+#include "fcl_stpbv/adapter/continuous_collide.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "fcl_stpbv/adapter/posed_geometry.h"
+
+namespace fcl_stpbv {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+using fcl::CollisionGeometryd;
+using fcl::ContinuousCollisionRequestd;
+using fcl::ContinuousCollisionResultd;
+using fcl::Transform3d;
+
+/// One geometry on its way: a ball around it and, where it is one, its convex body.
+class Moving {
+ public:
+  Moving(const CollisionGeometryd& given, const SteadyMotion& motion) : geometry(given), motion_(motion) {
+    const PosedGeometry still(given, Isometry3d::Identity(), Isometry3d::Identity());
+    known = still.known();
+    unbounded = still.unbounded();
+    convex = still.isBody();
+    if (convex) body = still.body();
+    if (!known || unbounded) return;
+    Eigen::AlignedBox3d box;
+    addCells(still, still.whole(), box);
+    centre = box.center();
+    radius = 0.5 * box.diagonal().norm();
+    const double spin = motion.angular.norm();
+    const Vector3d from = motion.begin * centre - motion.point;
+    // Around an axis of constant direction no point changes its distance from it.
+    lever_ = radius + (spin > 0 ? motion.angular.cross(from).norm() / spin : 0.0);
+    acceleration_ = spin * spin * lever_;
+  }
+
+  void place(double t) {
+    pose = motion_.at(t);
+    body.pose = pose;
+    axis_ = motion_.point + t * motion_.linear;
+  }
+  BodyVelocity velocity(const Vector3d& about) const {
+    return {motion_.linear + motion_.angular.cross(about - axis_), motion_.angular, acceleration_};
+  }
+  /// Most that any of its points moves in a unit of time (m).
+  double speed() const { return motion_.linear.norm() + motion_.angular.norm() * lever_; }
+  bool turns() const { return !motion_.angular.isZero(0); }
+  double coordinates() const {
+    return motion_.begin.translation().lpNorm<1>() + motion_.linear.lpNorm<1>() + motion_.point.lpNorm<1>() +
+           centre.lpNorm<1>() + radius;
+  }
+
+  const CollisionGeometryd& geometry;
+  bool known, unbounded, convex;
+  ConvexBody body;
+  Isometry3d pose;
+  Vector3d centre{0, 0, 0};  // of the ball, in the geometry's frame
+  double radius = 0;
+
+ private:
+  // A tree's own box is kilometres across: its cells tell where it is.
+  void addCells(const PosedGeometry& still, const PosedGeometry::Part& part, Eigen::AlignedBox3d& box) const {
+    if (part.leaf || geometry.getNodeType() != fcl::GEOM_OCTREE) {
+      const Vector3d half = part.box.axes.cwiseAbs() * part.box.half + Vector3d::Constant(part.margin);
+      box.extend(part.box.centre - half).extend(part.box.centre + half);
+      return;
+    }
+    std::array<PosedGeometry::Part, 8> child;
+    const std::size_t count = still.children(part, child);
+    for (std::size_t i = 0; i < count; ++i) addCells(still, child[i], box);
+  }
+
+  SteadyMotion motion_;
+  Vector3d axis_{0, 0, 0};
+  double lever_ = 0, acceleration_ = 0;
+};
+
+class MovingPair {
+ public:
+  MovingPair(const CollisionGeometryd& geometry1, const SteadyMotion& motion1,
+             const CollisionGeometryd& geometry2, const SteadyMotion& motion2, double margin)
+      : a_(geometry1, motion1), b_(geometry2, motion2), margin_(margin) {
+    // Some dozens of products and sums lie between the poses and a bound.
+    slack_ = 64 * std::numeric_limits<double>::epsilon() * (a_.coordinates() + b_.coordinates());
+  }
+
+  void place(double t) {
+    a_.place(t);
+    b_.place(t);
+  }
+
+  bool look(int, double most, Cover& cover) {
+    answer = distance(a_.geometry, a_.pose, b_.geometry, b_.pose, {&cache_, nullptr});
+    if (!(answer.distance > margin_)) return true;
+    const double gap = answer.lower - margin_;
+    if ((a_.unbounded && a_.turns()) || (b_.unbounded && b_.turns()))
+      return false;  // no plane keeps it apart
+    cover = a_.convex && b_.convex ? byPlane(gap, most)
+                                   : speedCover(gap, a_.speed() + b_.speed(), 0.0, most, slack_);
+    return false;
+  }
+
+  DistanceAnswer answer;
+
+ private:
+  Cover byPlane(double gap, double most) const {
+    const Vector3d about = 0.5 * (answer.points[0] + answer.points[1]);
+    const auto support = [&](const Moving& m, std::size_t which) {
+      return [&m, &about, which, this](const Vector3d& d) {
+        // What has no bounds does not turn: its plane is the one that it shows.
+        if (m.unbounded) return d.dot(answer.points[which] - about);
+        const double length = d.norm();
+        return length * m.body.support(d / length) + d.dot(m.pose.translation() - about);
+      };
+    };
+    return planeCover(answer.normal, gap, support(a_, 0), a_.velocity(about), support(b_, 1),
+                      b_.velocity(about), most, slack_);
+  }
+
+  Moving a_, b_;
+  double margin_, slack_;
+  PairCache cache_;
+};
+
+bool rigid(const SteadyMotion& motion) {
+  Isometry3d begin = motion.begin;
+  return makeRigid(begin) && motion.linear.allFinite() && motion.angular.allFinite() &&
+         motion.point.allFinite();
+}
+
+double inFclTerms(const MotionAnswer& found, const SteadyMotion& motion1, const SteadyMotion& motion2,
+                  ContinuousCollisionResultd& result) {
+  result.is_collide = found.verdict != MotionVerdict::free;
+  result.time_of_contact = found.until;
+  result.contact_tf1 = motion1.at(found.until);
+  result.contact_tf2 = motion2.at(found.until);
+  return found.answer.status == DistanceStatus::invalid ? -1 : result.time_of_contact;
+}
+
+double unknown(ContinuousCollisionResultd& result) {
+  result.is_collide = true;
+  result.time_of_contact = 0;
+  result.contact_tf1 = result.contact_tf2 = Isometry3d::Identity();
+  return -1;
+}
+
+}  // namespace
+
+MotionAnswer firstContact(const CollisionGeometryd& geometry1, const SteadyMotion& motion1,
+                          const CollisionGeometryd& geometry2, const SteadyMotion& motion2,
+                          const MotionRequest& request) {
+  MotionAnswer result;
+  if (!rigid(motion1) || !rigid(motion2)) return result;
+  MovingPair pair(geometry1, motion1, geometry2, motion2, request.margin);
+  pair.place(0);
+  Cover ignored;
+  const bool begins = pair.look(0, 0, ignored);
+  result.answer = pair.answer;
+  result.queries = 1;
+  if (pair.answer.status == DistanceStatus::invalid) return result;
+  if (begins) {
+    result.verdict = MotionVerdict::contact;
+    return result;
+  }
+  const MotionBracket found = MotionSearch<MovingPair>(pair, request).run(1);
+  pair.place(found.until);
+  pair.look(0, 0, ignored);
+  return {found.verdict, found.from, found.until, pair.answer, found.queries + 2};
+}
+
+double continuousCollide(const CollisionGeometryd* geometry1, const fcl::MotionBased* motion1,
+                         const CollisionGeometryd* geometry2, const fcl::MotionBased* motion2,
+                         const ContinuousCollisionRequestd& request, ContinuousCollisionResultd& result) {
+  SteadyMotion first, second;
+  if (!steadyMotion(*motion1, first) || !steadyMotion(*motion2, second)) return unknown(result);
+  return inFclTerms(firstContact(*geometry1, first, *geometry2, second, {0, request.toc_err}), first, second,
+                    result);
+}
+
+double continuousCollide(const CollisionGeometryd* geometry1, const Transform3d& begin1,
+                         const Transform3d& end1, const CollisionGeometryd* geometry2,
+                         const Transform3d& begin2, const Transform3d& end2,
+                         const ContinuousCollisionRequestd& request, ContinuousCollisionResultd& result) {
+  SteadyMotion first, second;
+  if (!steadyMotion(begin1, end1, request.ccd_motion_type, first) ||
+      !steadyMotion(begin2, end2, request.ccd_motion_type, second))
+    return unknown(result);
+  return inFclTerms(firstContact(*geometry1, first, *geometry2, second, {0, request.toc_err}), first, second,
+                    result);
+}
+
+double continuousCollide(const fcl::CollisionObjectd* object1, const Transform3d& end1,
+                         const fcl::CollisionObjectd* object2, const Transform3d& end2,
+                         const ContinuousCollisionRequestd& request, ContinuousCollisionResultd& result) {
+  return continuousCollide(object1->collisionGeometry().get(), object1->getTransform(), end1,
+                           object2->collisionGeometry().get(), object2->getTransform(), end2, request,
+                           result);
+}
+
+double collide(const fcl::ContinuousCollisionObjectd* object1, const fcl::ContinuousCollisionObjectd* object2,
+               const ContinuousCollisionRequestd& request, ContinuousCollisionResultd& result) {
+  return continuousCollide(object1->collisionGeometry().get(), object1->getMotion(),
+                           object2->collisionGeometry().get(), object2->getMotion(), request, result);
+}
+
+}  // namespace fcl_stpbv

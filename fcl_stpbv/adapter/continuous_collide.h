@@ -1,0 +1,54 @@
+// The drop-in for fcl::continuousCollide: a motion is proven free, or its first contact is bracketed.
+#pragma once
+
+#include <fcl/narrowphase/continuous_collision_object.h>
+#include <fcl/narrowphase/continuous_collision_request.h>
+#include <fcl/narrowphase/continuous_collision_result.h>
+
+#include "fcl_stpbv/adapter/fcl_distance.h"
+#include "fcl_stpbv/adapter/motion_search.h"
+#include "fcl_stpbv/adapter/steady_motion.h"
+
+namespace fcl_stpbv {
+
+/// What became of a motion over the time from 0 to 1.
+struct MotionAnswer {
+  MotionVerdict verdict = MotionVerdict::undecided;
+  double from = 0;        ///< proven free before it
+  double until = 0;       ///< in contact at it; at most the tolerance after `from`. 1 for a free motion
+  DistanceAnswer answer;  ///< at `until`, which is the end of a free motion
+  long queries = 0;       ///< distances asked for
+};
+
+/// Whether two moving bodies stay apart: exact distances, and between them a bound on how far the bodies'
+/// points move along the normal (moving_bodies.h; docs/motion.md). Never throws. Undecided from 0 on for a
+/// pair that has no distance.
+MotionAnswer firstContact(const fcl::CollisionGeometryd& geometry1, const SteadyMotion& motion1,
+                          const fcl::CollisionGeometryd& geometry2, const SteadyMotion& motion2,
+                          const MotionRequest& request = {});
+
+/// In the shape of `fcl::continuousCollide`: returns the time of contact, 1 if there is none, and fills
+/// `result`.
+///
+/// `toc_err` is the tolerance and `ccd_motion_type` the motion; all else in the request changes nothing.
+/// `is_collide` is false only where the motion is proven free. `time_of_contact` and the poses are those of
+/// `MotionAnswer::until`, in contact. -1 with `is_collide` at time 0 for what has no answer: splines, poses
+/// that are not rigid, pairs without a distance.
+double continuousCollide(const fcl::CollisionGeometryd* geometry1, const fcl::MotionBased* motion1,
+                         const fcl::CollisionGeometryd* geometry2, const fcl::MotionBased* motion2,
+                         const fcl::ContinuousCollisionRequestd& request,
+                         fcl::ContinuousCollisionResultd& result);
+double continuousCollide(const fcl::CollisionGeometryd* geometry1, const fcl::Transform3d& begin1,
+                         const fcl::Transform3d& end1, const fcl::CollisionGeometryd* geometry2,
+                         const fcl::Transform3d& begin2, const fcl::Transform3d& end2,
+                         const fcl::ContinuousCollisionRequestd& request,
+                         fcl::ContinuousCollisionResultd& result);
+double continuousCollide(const fcl::CollisionObjectd* object1, const fcl::Transform3d& end1,
+                         const fcl::CollisionObjectd* object2, const fcl::Transform3d& end2,
+                         const fcl::ContinuousCollisionRequestd& request,
+                         fcl::ContinuousCollisionResultd& result);
+/// FCL's name for the same about objects that carry their motion.
+double collide(const fcl::ContinuousCollisionObjectd* object1, const fcl::ContinuousCollisionObjectd* object2,
+               const fcl::ContinuousCollisionRequestd& request, fcl::ContinuousCollisionResultd& result);
+
+}  // namespace fcl_stpbv

@@ -1,0 +1,124 @@
+// The first contact of moving pairs, or the proof that there is none: halving of the time, earlier half
+// first.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+#include "fcl_stpbv/adapter/moving_bodies.h"
+
+namespace fcl_stpbv {
+
+enum class MotionVerdict {
+  free,       ///< proven: at no time does a pair come within the margin
+  contact,    ///< one does, first between `from` and `until`
+  undecided,  ///< free until `from`; about there the distance is the margin to rounding, or it took too many
+              ///< queries
+};
+
+struct MotionRequest {
+  double margin = 0;          ///< a distance not above it is a contact (m)
+  double tolerance = 1e-4;    ///< of the time of contact; 1 for any contact instead of the first
+  long mostQueries = 200000;  ///< then undecided
+};
+
+/// What becomes of pairs over the time from 0 to 1.
+struct MotionBracket {
+  MotionVerdict verdict = MotionVerdict::free;
+  double from = 1, until = 1;  ///< see MotionAnswer
+  int pair = -1;               ///< the one in contact, or not decided
+  long queries = 0;
+};
+
+/// `scene.place(t)` puts all bodies where they are at the time t; then `scene.look(pair, most, cover)` tells
+/// whether the pair is in contact, else fills the cover, no longer than `most` to either side.
+///
+/// At the middle of a time each pair that is open there is looked at. What its cover leaves goes into the
+/// earlier or the later rest. Whatever lies before the time at hand is proven for all pairs, so the first
+/// contact that is bracketed closely enough is the first of all.
+template <class Scene>
+class MotionSearch {
+ public:
+  MotionSearch(Scene& scene, const MotionRequest& request) : scene_(scene), request_(request) {}
+
+  MotionBracket run(int pairs) {
+    result_ = {};
+    hit_ = std::numeric_limits<double>::infinity();
+    lists_.resize(static_cast<std::size_t>(pairs));
+    for (std::size_t i = 0; i < lists_.size(); ++i) lists_[i] = static_cast<int>(i);
+    if (pairs > 0) visit(0, 1, 0, lists_.size());
+    return result_;
+  }
+
+ private:
+  // Below it a time is not cut: bodies move by rounding.
+  static constexpr double kFinest = 1e-12;
+  // From here on the end of a time is looked at too: a contact may begin there.
+  static constexpr double kEnd = 1e-6;
+
+  // The pairs lists_[first, last) between `a` and `b`. True where the search is over.
+  bool visit(double a, double b, std::size_t first, std::size_t last) {
+    if (a >= hit_) return false;
+    b = std::min(b, hit_);
+    if (b == hit_ && b - a <= request_.tolerance) return finish(MotionVerdict::contact, a, hit_, hitPair_);
+    if (b - a <= std::min(kEnd, request_.tolerance) && endsInContact(b, first, last))
+      return finish(MotionVerdict::contact, a, b, hitPair_);
+    if (b - a <= kFinest || result_.queries > request_.mostQueries)
+      return finish(MotionVerdict::undecided, a, b, lists_[first]);
+    const double half = 0.5 * (b - a), middle = a + half;
+    Cover least{half, half};
+    const std::size_t early = lists_.size();
+    scene_.place(middle);
+    std::size_t late = early;  // later ones behind the earlier ones, once all are known
+    later_.clear();
+    for (std::size_t i = first; i < last; ++i) {
+      const int pair = lists_[i];
+      Cover cover;
+      ++result_.queries;
+      if (scene_.look(pair, half, cover)) {
+        cover = {};
+        if (middle < hit_) hit_ = middle, hitPair_ = pair;
+        if (request_.tolerance >= 1) return finish(MotionVerdict::contact, a, middle, pair);
+      }
+      if (cover.before < half)
+        lists_.push_back(pair), ++late, least.before = std::min(least.before, cover.before);
+      if (cover.after < half) later_.push_back(pair), least.after = std::min(least.after, cover.after);
+    }
+    lists_.insert(lists_.end(), later_.begin(), later_.end());
+    const std::size_t end = lists_.size();
+    bool over = late > early && visit(a, middle - least.before, early, late);
+    if (!over && end > late) over = visit(middle + least.after, b, late, end);
+    lists_.resize(early);
+    return over;
+  }
+
+  bool endsInContact(double b, std::size_t first, std::size_t last) {
+    scene_.place(b);
+    for (std::size_t i = first; i < last; ++i) {
+      Cover ignored;
+      ++result_.queries;
+      hitPair_ = lists_[i];
+      if (scene_.look(hitPair_, 0, ignored)) return true;
+    }
+    return false;
+  }
+
+  bool finish(MotionVerdict verdict, double from, double until, int pair) {
+    result_.verdict = verdict;
+    result_.from = from;
+    result_.until = until;
+    result_.pair = pair;
+    return true;
+  }
+
+  Scene& scene_;
+  const MotionRequest request_;
+  MotionBracket result_;
+  double hit_ = 0;  // a contact, the earliest known
+  int hitPair_ = -1;
+  std::vector<int> lists_, later_;
+};
+
+}  // namespace fcl_stpbv

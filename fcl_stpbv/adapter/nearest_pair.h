@@ -1,0 +1,27 @@
+// Two geometries without an STP-BV, one of them at least a mesh or a tree: their nearest two elements.
+#pragma once
+
+#include <fcl/geometry/collision_geometry.h>
+
+#include <array>
+#include <cstdint>
+#include <limits>
+
+#include "fcl_stpbv/distance/distance.h"
+
+namespace fcl_stpbv {
+
+/// The distance, and what of meshes and trees it is between.
+struct ElementsDistance {
+  Distance found;
+  std::array<std::intptr_t, 2> element{-1, -1};  ///< triangles or cells, as FCL numbers them; -1 for a shape
+  double runnerUp = std::numeric_limits<double>::infinity();  ///< distance of the next two elements (m)
+};
+
+/// A mesh or a tree against a shape: signed, the least over its elements. Two of them: 0 where they overlap,
+/// for surfaces have no depth, with the first two elements found to meet and a point of both. `invalid` where
+/// either has nothing in it or a pose is not rigid. Allocates nothing.
+ElementsDistance nearestElements(const fcl::CollisionGeometryd& geometry1, const Eigen::Isometry3d& pose1,
+                                 const fcl::CollisionGeometryd& geometry2, const Eigen::Isometry3d& pose2);
+
+}  // namespace fcl_stpbv

@@ -1,0 +1,106 @@
+// See posed_geometry.h.
+#include "fcl_stpbv/adapter/posed_geometry.h"
+
+#include <cmath>
+#include <limits>
+
+#include "fcl_stpbv/adapter/fcl_shapes.h"
+#include "fcl_stpbv/adapter/stp_bv_geometry.h"
+#include "fcl_stpbv/distance/shape_distance.h"
+#include "fcl_stpbv/distance/shape_pair.h"
+
+namespace fcl_stpbv {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+namespace {
+
+Isometry3d between(const Isometry3d& pose1, const Isometry3d& pose2) {
+  Isometry3d result = Isometry3d::Identity();
+  result.linear() = pose1.linear().transpose() * pose2.linear();
+  result.translation() = pose1.linear().transpose() * (pose2.translation() - pose1.translation());
+  return result;
+}
+
+}  // namespace
+
+Distance distance(const ConvexBody& a, const ConvexBody& b, PairCache* cache) {
+  if (a.volume && b.volume) return distance(*a.volume, a.pose, *b.volume, b.pose, cache);
+  if (a.volume) return distance(*a.volume, a.pose, b.shape, b.pose, cache);
+  if (b.volume) return distance(a.shape, a.pose, *b.volume, b.pose, cache);
+  return distance(a.shape, a.pose, b.shape, b.pose);
+}
+
+PosedGeometry::PosedGeometry(const fcl::CollisionGeometryd& geometry, const Isometry3d& pose,
+                             const Isometry3d& inFrame)
+    : tree_(geometry), inFrame_(inFrame) {
+  body_.pose = pose;
+  if (const StpBvGeometry* g = asStpBv(&geometry))
+    body_.volume = &g->volume();
+  else
+    isShape_ = shapeOf(geometry, body_.shape) && body_.shape.valid();
+}
+
+PosedGeometry::Part PosedGeometry::whole() const {
+  if (!isBody()) return part(tree_.root());
+  const Shape& s = body_.shape;
+  const bool isBox = !body_.volume && s.kind == ShapeKind::box;
+  const OrientedBox box{inFrame_ * (body_.volume ? body_.volume->centre() : s.centre), inFrame_.linear(),
+                        isBox ? s.size : Vector3d(0, 0, 0)};
+  const double margin = body_.volume ? body_.volume->enclosingRadius() : s.margin + (isBox ? 0.0 : s.reach);
+  return {box, margin, true, {-1, true, nullptr, box}};
+}
+
+std::size_t PosedGeometry::children(const Part& of, std::array<Part, 8>& child) const {
+  std::array<ElementTree::Node, 8> node;
+  const auto count = static_cast<std::size_t>(tree_.children(of.node, node));
+  for (std::size_t i = 0; i < count; ++i) child[i] = part(node[i]);
+  return count;
+}
+
+bool PosedGeometry::body(const Part& leaf, ConvexBody& body) const {
+  body = body_;
+  if (isBody()) return true;
+  Vector3d place;
+  if (!tree_.element(leaf.node, body.shape, place)) return false;
+  body.pose.translation() = body_.pose * place;
+  return true;
+}
+
+PosedGeometry::Part PosedGeometry::part(const ElementTree::Node& node) const {
+  return {
+      {inFrame_ * node.box.centre, inFrame_.linear() * node.box.axes, node.box.half}, 0.0, node.leaf, node};
+}
+
+// A pose that is not rigid goes on as it is, and what it gives is never looked at.
+PosedPair::PosedPair(const fcl::CollisionGeometryd& geometry1, Isometry3d pose1,
+                     const fcl::CollisionGeometryd& geometry2, Isometry3d pose2)
+    : valid(makeRigid(pose1) && makeRigid(pose2)),
+      first(geometry1, pose1, Isometry3d::Identity()),
+      second(geometry2, pose2, between(pose1, pose2)),
+      toWorld(pose1.linear()) {
+  valid = valid && first.known() && second.known() && !(first.unbounded() && second.unbounded());
+}
+
+double gapOf(const PosedPair& pair, const PosedGeometry::Part& a, const PosedGeometry::Part& b,
+             const Vector3d& n) {
+  double most = -std::numeric_limits<double>::infinity();
+  if (pair.first.unbounded() || pair.second.unbounded()) return most;
+  const Vector3d d = b.box.centre - a.box.centre;
+  const double length = d.norm();
+  if (!(length > 0.0)) return most;
+  const auto along = [&](const Vector3d& axis) {
+    most = std::max(most, std::abs(axis.dot(d)) - a.box.reach(axis) - b.box.reach(axis));
+  };
+  along(d / length);
+  for (int i = 0; i < 3; ++i) {
+    along(a.box.axes.col(i));
+    along(b.box.axes.col(i));
+  }
+  if (!n.isZero(0)) along(n);
+  constexpr double kRounding = 1e-14;
+  return most - a.margin - b.margin - kRounding * (length + a.box.half.sum() + b.box.half.sum());
+}
+
+}  // namespace fcl_stpbv

@@ -1,0 +1,119 @@
+// Any FCL geometry as convex bodies below boxes, and the walk down two of them that every question about a
+// pair takes: distance of meshes, contacts, farther than a threshold.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+
+#include "fcl_stpbv/adapter/element_tree.h"
+#include "fcl_stpbv/distance/distance.h"
+
+namespace fcl_stpbv {
+
+/// A single convex body: an STP-BV or a shape, placed in the world.
+struct ConvexBody {
+  const StpBv* volume = nullptr;
+  Shape shape;
+  Eigen::Isometry3d pose;
+
+  bool unbounded() const { return !volume && shape.unbounded(); }
+  /// Height of the supporting plane with the world's unit normal `n` above the body's origin (m). An STP-BV
+  /// looks for its patch from `hint` on.
+  double support(const Eigen::Vector3d& n, int hint = -1) const {
+    const Eigen::Vector3d m = pose.linear().transpose() * n;
+    return volume ? volume->support(m, hint) : m.dot(shape.support(m)) + shape.margin;
+  }
+  /// Bound on its coordinates, for rounding (m).
+  double extent() const {
+    return volume ? volume->extent() : shape.centre.lpNorm<1>() + shape.reach + shape.margin;
+  }
+};
+
+/// Signed distance of two bodies; the cache serves pairs with an STP-BV.
+Distance distance(const ConvexBody& a, const ConvexBody& b, PairCache* cache = nullptr);
+
+/// One geometry at a pose: a body, or the elements of a mesh or a tree below their boxes. A view; the
+/// geometry must outlive it.
+class PosedGeometry {
+ public:
+  /// A box with a ball swept over it, in the frame of the pair's first geometry, and what is in it.
+  struct Part {
+    OrientedBox box;
+    double margin;
+    bool leaf;
+    ElementTree::Node node;  ///< its id is -1 for a body
+  };
+
+  /// `inFrame`: the pose seen from the pair's first geometry. Poses are rigid.
+  PosedGeometry(const fcl::CollisionGeometryd& geometry, const Eigen::Isometry3d& pose,
+                const Eigen::Isometry3d& inFrame);
+
+  /// Whether it is a valid body, or a mesh or a tree with anything in it.
+  bool known() const { return isBody() || tree_.any(); }
+  /// Whether all corners of a mesh are numbers. Looks at each of them.
+  bool finite() const { return isBody() || tree_.finite(); }
+  bool isBody() const { return body_.volume || isShape_; }
+  bool unbounded() const { return isShape_ && body_.shape.unbounded(); }
+  /// The body. Only where it is one.
+  const ConvexBody& body() const { return body_; }
+
+  Part whole() const;
+  /// At most eight; how many.
+  std::size_t children(const Part& of, std::array<Part, 8>& child) const;
+  /// What a leaf is. False for a cell that is free.
+  bool body(const Part& leaf, ConvexBody& body) const;
+
+ private:
+  Part part(const ElementTree::Node& node) const;
+
+  ElementTree tree_;
+  Eigen::Isometry3d inFrame_;
+  ConvexBody body_;
+  bool isShape_ = false;
+};
+
+/// Two geometries whose poses were made rigid.
+struct PosedPair {
+  PosedPair(const fcl::CollisionGeometryd& geometry1, Eigen::Isometry3d pose1,
+            const fcl::CollisionGeometryd& geometry2, Eigen::Isometry3d pose2);
+
+  bool valid;  ///< both poses rigid, both geometries known, one of them bounded
+  PosedGeometry first, second;
+  Eigen::Matrix3d toWorld;  ///< the first geometry's axes
+};
+
+/// No more than the distance of two parts (m): the widest gap along the line of their centres, their axes and
+/// `n` (unit or zero, frame of the first geometry). Minus infinity for a half space or a plane, which no box
+/// holds.
+double gapOf(const PosedPair& pair, const PosedGeometry::Part& a, const PosedGeometry::Part& b,
+             const Eigen::Vector3d& n = {0, 0, 0});
+
+/// Goes down both hierarchies, the bigger part first and near children first. `visitor.bound(a, b)` is a
+/// lower bound of two parts' distance, `visitor.skip(bound)` tells whether nothing below matters, asked again
+/// before the way down; `visitor.leaves(a, b)` ends the walk by true.
+/// @returns whether it ended so.
+template <class Visitor>
+bool descend(const PosedPair& pair, const PosedGeometry::Part& a, const PosedGeometry::Part& b,
+             Visitor& visitor) {
+  if (a.leaf && b.leaf) return visitor.leaves(a, b);
+  const bool first = !a.leaf && (b.leaf || a.box.half.squaredNorm() >= b.box.half.squaredNorm());
+  std::array<PosedGeometry::Part, 8> child;
+  std::array<double, 8> gap;
+  std::array<std::size_t, 8> order;
+  const std::size_t count = first ? pair.first.children(a, child) : pair.second.children(b, child);
+  for (std::size_t i = 0; i < count; ++i) {
+    gap[i] = visitor.bound(first ? child[i] : a, first ? b : child[i]);
+    order[i] = i;
+    for (std::size_t j = i; j > 0 && gap[order[j]] < gap[order[j - 1]]; --j)
+      std::swap(order[j], order[j - 1]);
+  }
+  for (std::size_t k = 0; k < count; ++k) {
+    const PosedGeometry::Part& next = child[order[k]];
+    if (!visitor.skip(gap[order[k]]) && descend(pair, first ? next : a, first ? b : next, visitor))
+      return true;
+  }
+  return false;
+}
+
+}  // namespace fcl_stpbv

@@ -1,0 +1,349 @@
+// See motion_check.h. Once per motion: a bound on every point's acceleration, from the speeds of the joints
+// on the way out and the lengths behind them. At each time looked at: balls first, then the exact distance
+// and the plane of its normal.
+#include "fcl_stpbv/robot/motion_check.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "fcl_stpbv/adapter/proximity.h"
+#include "fcl_stpbv/error.h"
+#include "fcl_stpbv/robot/joint_path.h"
+
+namespace fcl_stpbv {
+namespace {
+
+using Eigen::Index;
+using Eigen::Vector3d;
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+bool isConvex(const fcl::CollisionGeometryd& geometry, ConvexBody& body) {
+  const PosedGeometry still(geometry, Eigen::Isometry3d::Identity(), Eigen::Isometry3d::Identity());
+  if (still.isBody()) body = still.body();
+  return still.isBody();
+}
+
+Cover longer(const Cover& a, const Cover& b) {
+  return {std::max(a.before, b.before), std::max(a.after, b.after)};
+}
+
+}  // namespace
+
+/// For the first contact: farther than a margin that does not change.
+class MotionCheck::Scene {
+ public:
+  Scene(MotionCheck& check, double margin) : check_(check), margin_(margin) {}
+  void place(double t) { check_.place(t); }
+  bool look(int index, double most, Cover& cover) {
+    Pair& pair = check_.moving_[at(index)];
+    cover = check_.ballCover(pair, margin_, most);
+    if (cover.before >= most && cover.after >= most && most > 0) return false;
+    const Distance found = check_.ask(pair);
+    if (found.status != DistanceStatus::invalid && found.distance <= margin_) return true;
+    cover = longer(cover, check_.cover(pair, found, margin_, most));
+    return false;
+  }
+
+ private:
+  MotionCheck& check_;
+  double margin_;
+};
+
+/// For the closest approach: farther than what is the least so far.
+class MotionCheck::ApproachScene {
+ public:
+  ApproachScene(MotionCheck& check, double precision, double offset, std::vector<Approach>& best)
+      : check_(check), precision_(precision), offset_(offset), best_(best) {}
+  void place(double t) {
+    t_ = t;
+    check_.place(t);
+  }
+  bool look(int index, double most, Cover& cover) {
+    Pair& pair = check_.moving_[at(index)];
+    Approach& best = best_[at(index)];
+    cover = check_.ballCover(pair, best.distance - precision_, most);
+    if (cover.before >= most && cover.after >= most) return false;
+    const Distance found = check_.ask(pair);
+    if (found.status == DistanceStatus::invalid) return false;
+    if (found.distance < best.distance) best = {found.distance, offset_ + t_};
+    cover = longer(cover, check_.cover(pair, found, best.distance - precision_, most));
+    return false;
+  }
+
+ private:
+  MotionCheck& check_;
+  double precision_, offset_, t_ = 0;
+  std::vector<Approach>& best_;
+};
+
+MotionCheck::MotionCheck(std::shared_ptr<const Kinematics> kinematics,
+                         std::shared_ptr<const RobotGeometry> geometry, std::vector<CheckedPair> pairs,
+                         std::vector<Obstacle> obstacles)
+    : kinematics_(std::move(kinematics)),
+      geometry_(std::move(geometry)),
+      obstacles_(std::move(obstacles)),
+      pairs_(std::move(pairs)),
+      state_(kinematics_->makeState()) {
+  const RobotModel& robot = kinematics_->robot();
+  parent_.assign(robot.links.size(), -1);
+  own_.resize(robot.links.size());
+  twist_.resize(robot.links.size());
+  hop_.resize(robot.joints.size() + 1);
+  motionOf_.assign(hop_.size(), -1);
+  for (std::size_t l = 0; l < robot.links.size(); ++l)
+    if (robot.links[l].parentJoint >= 0) parent_[l] = robot.joints[at(robot.links[l].parentJoint)].parent;
+  const auto& motions = kinematics_->motions();
+  for (std::size_t m = 0; m < motions.size(); ++m) {
+    const int joint = motions[m].joint;
+    own_[joint < 0 ? 0 : at(robot.joints[at(joint)].child)].push_back(static_cast<int>(m));
+    int& first = motionOf_[joint < 0 ? robot.joints.size() : at(joint)];
+    if (first < 0) first = static_cast<int>(m);
+  }
+  addBodies();
+  for (const CheckedPair& pair : pairs_) addPair(pair);
+}
+
+void MotionCheck::addBodies() {
+  const auto add = [&](int link, const fcl::CollisionGeometryd& geometry, const Eigen::Isometry3d& pose,
+                       const Vector3d& centre, double radius) {
+    Placed placed{link, &geometry, pose, centre, radius, false, {}};
+    placed.convex = isConvex(geometry, placed.body);
+    placed.body.pose = pose;
+    placed.where = centre;
+    bodies_.push_back(placed);
+  };
+  for (const Body& body : geometry_->bodies)
+    add(body.link, *body.geometry, body.pose, body.centre, body.radius);
+  for (const Obstacle& obstacle : obstacles_)
+    add(-1, *obstacle.geometry, obstacle.pose, obstacle.centre, obstacle.radius);
+}
+
+void MotionCheck::addPair(const CheckedPair& pair) {
+  const std::size_t bodies = geometry_->bodies.size(), others = pair.obstacle ? obstacles_.size() : bodies;
+  if (pair.body < 0 || at(pair.body) >= bodies || pair.other < 0 || at(pair.other) >= others)
+    throw Error("MotionCheck: a pair names a body or an obstacle that does not exist");
+  const int second = pair.other + (pair.obstacle ? static_cast<int>(bodies) : 0);
+  Pair added{};
+  added.root = -1;
+  if (!pair.obstacle) {
+    const int link1 = bodies_[at(pair.body)].link, link2 = bodies_[at(second)].link;
+    const JointPath path = jointPath(kinematics_->robot(), link1, link2);
+    added.root = path.up > 0 ? kinematics_->robot().joints[at(path.joints[path.up - 1])].parent : link1;
+  }
+  added.side[0] = sideOf(pair.body, added.root);
+  added.side[1] = sideOf(second, added.root);
+  moving_.push_back(added);
+}
+
+// The joints from `root` out to the body's link; the base is one more where the root is the world.
+MotionCheck::Side MotionCheck::sideOf(int body, int root) {
+  Side side{body, static_cast<int>(hops_.size()), 0};
+  for (int link = bodies_[at(body)].link; link >= 0 && link != root; link = parent_[at(link)]) {
+    const int joint = kinematics_->robot().links[at(link)].parentJoint;
+    hops_.push_back(joint >= 0 ? joint : static_cast<int>(hop_.size()) - 1);
+  }
+  std::reverse(hops_.begin() + side.firstHop, hops_.end());
+  side.lastHop = static_cast<int>(hops_.size());
+  return side;
+}
+
+bool MotionCheck::set(const ConstVector& q0, const ConstVector& q1) {
+  if (q0.size() != kinematics_->size() || q1.size() != q0.size() || !q0.allFinite() || !q1.allFinite())
+    return false;
+  q0_ = q0;
+  way_ = q1 - q0;
+  return true;
+}
+
+// Speeds and lengths of all joints for the motion, then the bounds of all pairs.
+bool MotionCheck::begin(const ConstVector& q0, const ConstVector& q1) {
+  if (!set(q0, q1)) return false;
+  const RobotModel& robot = kinematics_->robot();
+  for (std::size_t j = 0; j < hop_.size(); ++j) {
+    const bool base = j == robot.joints.size();
+    Hop& hop = hop_[j] = {};
+    hop.length = base ? 0 : robot.joints[j].origin.translation().norm();
+    if (motionOf_[j] < 0) continue;
+    const Kinematics::Motion& motion = kinematics_->motions()[at(motionOf_[j])];
+    const Index k = motion.coordinate;
+    std::size_t freedoms = 0;
+    for (const Kinematics::Motion& other : kinematics_->motions()) freedoms += other.joint == motion.joint;
+    const auto farthest = [&](Index count) {
+      return std::max(q0.segment(k, count).norm(), q1.segment(k, count).norm());
+    };
+    if (freedoms == 1) {
+      const bool slides = robot.joints[j].type == JointType::prismatic;
+      (slides ? hop.slide : hop.spin) = std::abs(motion.multiplier * way_[k]);
+      const std::optional<Mimic>& mimic = robot.joints[j].mimic;
+      if (slides)
+        hop.length += std::abs(motion.multiplier) * farthest(1) + (mimic ? std::abs(mimic->offset) : 0);
+    } else {
+      const Index across = freedoms == 3 ? 2 : 3;
+      hop.slide = way_.segment(k, across).norm();
+      hop.spin = way_.segment(k + across, static_cast<Index>(freedoms) - across).norm();
+      // A rotation vector that moves evenly turns the body unevenly: |dw/dt| <= |dr/dt|^2 / 2
+      // (docs/motion.md).
+      if (freedoms == 6) hop.turns = 1.5;
+      hop.length += farthest(across);
+    }
+  }
+  for (Pair& pair : moving_)
+    for (Side& side : pair.side) prepare(side);
+  return true;
+}
+
+// From the outermost joint in: its own centripetal acceleration, and that of the joints further in, which
+// carry what it moves around (Coriolis).
+void MotionCheck::prepare(Side& side) const {
+  const Placed& body = bodies_[at(side.body)];
+  side.acceleration = 0;
+  if (body.link < 0) return;
+  double inner = 0;
+  for (int h = side.firstHop; h < side.lastHop; ++h) inner += hop_[at(hops_[at(h)])].spin;
+  double lever = body.centre.norm() + body.radius;
+  for (int h = side.lastHop; h-- > side.firstHop;) {
+    const Hop& hop = hop_[at(hops_[at(h)])];
+    inner = std::max(0.0, inner - hop.spin);
+    side.acceleration += hop.turns * hop.spin * hop.spin * lever + 2 * (hop.slide + hop.spin * lever) * inner;
+    lever += hop.length;
+  }
+}
+
+void MotionCheck::place(double t) {
+  q_ = q0_ + t * way_;
+  kinematics_->forward(q_, state_);
+  for (std::size_t l = 0; l < twist_.size(); ++l) {
+    twist_[l] = parent_[l] >= 0 ? twist_[at(parent_[l])] : Twist{};
+    for (const int m : own_[l]) {
+      const double speed = way_[kinematics_->motions()[at(m)].coordinate];
+      twist_[l].linear += speed * state_.motion[at(m)].linear;
+      twist_[l].angular += speed * state_.motion[at(m)].angular;
+    }
+  }
+  double length = 0, spin = 0;
+  for (Placed& body : bodies_) {
+    if (body.link >= 0) {
+      const Eigen::Isometry3d& link = state_.link[at(body.link)];
+      body.body.pose = link * body.local;
+      body.where = link * body.centre;
+      spin = std::max(spin, twist_[at(body.link)].angular.norm());
+    }
+    length = std::max(length, body.where.lpNorm<1>() + body.radius);
+  }
+  // Each of the products and sums from the root out to a bound is off by a few units in the last place of the
+  // longest length.
+  const double steps = static_cast<double>(hop_.size() + 16);
+  slack_ = 16 * std::numeric_limits<double>::epsilon() * steps * length * (1 + spin);
+}
+
+Distance MotionCheck::ask(Pair& pair) {
+  const Placed &a = bodies_[at(pair.side[0].body)], &b = bodies_[at(pair.side[1].body)];
+  if (a.convex && b.convex) return distance(a.body, b.body, &pair.cache);
+  const DistanceAnswer answer =
+      distance(*a.geometry, a.body.pose, *b.geometry, b.body.pose, {&pair.cache, nullptr});
+  Distance found;
+  found.status = answer.status;
+  found.distance = answer.distance;
+  found.lower = answer.lower;
+  found.upper = answer.upper;
+  found.normal = answer.normal;
+  found.point = answer.points;
+  return found;
+}
+
+BodyVelocity MotionCheck::velocityOf(const Side& side, int root, const Vector3d& about) const {
+  const int link = bodies_[at(side.body)].link;
+  if (link < 0) return {};
+  Twist twist = twist_[at(link)];
+  if (root >= 0) {
+    twist.linear -= twist_[at(root)].linear;
+    twist.angular -= twist_[at(root)].angular;
+  }
+  return {twist.linear + twist.angular.cross(about), twist.angular, side.acceleration};
+}
+
+Cover MotionCheck::ballCover(const Pair& pair, double margin, double most) const {
+  const Placed &a = bodies_[at(pair.side[0].body)], &b = bodies_[at(pair.side[1].body)];
+  const Vector3d d = b.where - a.where;
+  const double length = d.norm(), gap = length - a.radius - b.radius - margin;
+  if (!(gap > 0) || !std::isfinite(gap)) return {};
+  const auto support = [&](const Placed& body) {
+    return [&body, &a](const Vector3d& n) { return n.dot(body.where - a.where) + body.radius * n.norm(); };
+  };
+  return planeCover(d / length, gap, support(a), velocityOf(pair.side[0], pair.root, a.where), support(b),
+                    velocityOf(pair.side[1], pair.root, a.where), most, slack_);
+}
+
+Cover MotionCheck::cover(const Pair& pair, const Distance& found, double margin, double most) const {
+  const Placed &a = bodies_[at(pair.side[0].body)], &b = bodies_[at(pair.side[1].body)];
+  const double gap = found.lower - margin;
+  if (!(gap > 0)) return {};
+  const Vector3d about = 0.5 * (found.point[0] + found.point[1]);
+  const BodyVelocity va = velocityOf(pair.side[0], pair.root, about),
+                     vb = velocityOf(pair.side[1], pair.root, about);
+  if (!a.convex || !b.convex) {
+    const auto speed = [](const Placed& body, const BodyVelocity& v, const Vector3d& point) {
+      return v.linear.norm() + v.angular.norm() * ((body.where - point).norm() + body.radius);
+    };
+    return speedCover(gap, speed(a, va, about) + speed(b, vb, about), va.acceleration + vb.acceleration, most,
+                      slack_);
+  }
+  const auto support = [&](const Placed& body, std::size_t which) {
+    return [&body, &about, &found, which](const Vector3d& d) {
+      if (body.body.unbounded()) return d.dot(found.point[which] - about);  // it stands still
+      const double length = d.norm();
+      return length * body.body.support(d / length, found.patch[which]) +
+             d.dot(body.body.pose.translation() - about);
+    };
+  };
+  return planeCover(found.normal, gap, support(a, 0), va, support(b, 1), vb, most, slack_);
+}
+
+bool MotionCheck::isFree(const ConstVector& q, double margin) {
+  if (!set(q, q)) return false;
+  place(0);
+  for (Pair& pair : moving_) {
+    const Placed &a = bodies_[at(pair.side[0].body)], &b = bodies_[at(pair.side[1].body)];
+    const double far = a.radius + b.radius + margin + slack_;
+    if (far >= 0 && (b.where - a.where).squaredNorm() > far * far) continue;
+    const bool free = a.convex && b.convex
+                          ? isFartherThan(margin, a.body, b.body, &pair.cache)
+                          : isFartherThan(margin, *a.geometry, a.body.pose, *b.geometry, b.body.pose);
+    if (!free) return false;
+  }
+  return true;
+}
+
+bool MotionCheck::isMotionFree(const ConstVector& q0, const ConstVector& q1, double margin) {
+  return firstContact(q0, q1, {margin, 1}).verdict == MotionVerdict::free;
+}
+
+MotionBracket MotionCheck::firstContact(const ConstVector& q0, const ConstVector& q1,
+                                        const MotionRequest& request) {
+  if (!begin(q0, q1)) return {MotionVerdict::undecided, 0, 0, -1, 0};
+  Scene scene(*this, request.margin);
+  return MotionSearch<Scene>(scene, request).run(static_cast<int>(moving_.size()));
+}
+
+bool MotionCheck::closest(const ConstVector& q0, const ConstVector& q1, double precision, double offset,
+                          std::vector<Approach>& best) {
+  best.resize(moving_.size());
+  if (!begin(q0, q1)) return false;
+  ApproachScene scene(*this, precision, offset, best);
+  MotionRequest request;
+  request.tolerance = 1;
+  return MotionSearch<ApproachScene>(scene, request).run(static_cast<int>(moving_.size())).verdict ==
+         MotionVerdict::free;
+}
+
+DistanceAnswer MotionCheck::answer(int pair, const ConstVector& q) {
+  if (!set(q, q)) return {};
+  place(0);
+  const Placed &a = bodies_[at(moving_[at(pair)].side[0].body)],
+               &b = bodies_[at(moving_[at(pair)].side[1].body)];
+  return distance(*a.geometry, a.body.pose, *b.geometry, b.body.pose, {&moving_[at(pair)].cache, nullptr});
+}
+
+}  // namespace fcl_stpbv

@@ -1,0 +1,8 @@
+// Does not compile, and says why.
+#include "fcl_stpbv/adapter/fcl_distance.h"
+
+double ask(const fcl::CollisionObjectf& a, const fcl::CollisionObjectf& b) {
+  fcl::DistanceRequestf request;
+  fcl::DistanceResultf result;
+  return fcl_stpbv::distance(&a, &b, request, result);
+}

@@ -1,0 +1,210 @@
+// Motions proven free, and first contacts at their time: closed forms, and samples of FCL's own motions.
+#include <fcl/geometry/bvh/BVH_model.h>
+#include <fcl/geometry/shape/halfspace.h>
+#include <fcl/geometry/shape/sphere.h>
+#include <fcl/math/motion/interp_motion.h>
+#include <fcl/math/motion/screw_motion.h>
+#include <fcl/math/motion/spline_motion.h>
+#include <fcl/math/motion/translation_motion.h>
+#include <fcl/narrowphase/continuous_collision.h>
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "fcl_stpbv/adapter/continuous_collide.h"
+#include "test/adapter/element_kinds.h"
+
+using namespace fcl_stpbv;
+using namespace fcl_stpbv::test;
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+namespace {
+
+Isometry3d at(double x, double y, double z) { return pose(Eigen::Matrix3d::Identity(), {x, y, z}); }
+
+fcl::ContinuousCollisionRequestd requestOf(fcl::CCDMotionType type, double tolerance = 1e-9) {
+  return fcl::ContinuousCollisionRequestd(10, tolerance, type);
+}
+
+/// A motion of FCL's, to be sampled.
+std::unique_ptr<fcl::MotionBased> fclMotion(const Isometry3d& begin, const Isometry3d& end,
+                                            fcl::CCDMotionType type) {
+  if (type == fcl::CCDM_TRANS) return std::make_unique<fcl::TranslationMotion<double>>(begin, end);
+  if (type == fcl::CCDM_SCREW) return std::make_unique<fcl::ScrewMotion<double>>(begin, end);
+  const Eigen::Matrix3d r1 = begin.linear(), r2 = end.linear();
+  return std::make_unique<fcl::InterpMotion<double>>(r1, begin.translation(), r2, end.translation(),
+                                                     Vector3d(0, 0, 0));
+}
+
+Isometry3d posed(const fcl::MotionBased& motion, double t) {
+  Isometry3d result;
+  motion.integrate(t);
+  motion.getCurrentTransform(result);
+  return result;
+}
+
+}  // namespace
+
+TEST_CASE("a ball that flies at a ball, a half space or past them meets them at the closed form's time") {
+  const fcl::Sphered ball(0.1);
+  const StpBvGeometry point(StpBv::build({{0, 0, 0}}, {0.1, 10}));  // a ball too
+  const fcl::Halfspaced ground(Vector3d::UnitZ(), 0.0);
+  Random random(1);
+  int hits = 0;
+  for (int i = 0; i < 500; ++i) {
+    const Vector3d from = random.direction(), to = -from + 0.4 * random.direction();
+    for (const fcl::CollisionGeometryd* first : {static_cast<const fcl::CollisionGeometryd*>(&ball),
+                                                 static_cast<const fcl::CollisionGeometryd*>(&point)}) {
+      fcl::ContinuousCollisionResultd result;
+      const double t =
+          fcl_stpbv::continuousCollide(first, pose(random.rotation(), from), pose(random.rotation(), to),
+                                       &ball, at(0, 0, 0), at(0, 0, 0), requestOf(fcl::CCDM_LINEAR), result);
+      // |from + t way| = 0.2
+      const Vector3d way = to - from;
+      const double a = way.squaredNorm(), b = from.dot(way), c = from.squaredNorm() - 0.04,
+                   root = b * b - a * c;
+      CAPTURE(i, t, root);
+      CHECK(result.is_collide == (root >= 0));
+      hits += root >= 0;
+      if (root < 0) {
+        CHECK(t == 1);
+        continue;
+      }
+      const double truth = (-b - std::sqrt(root)) / a;
+      CHECK(t >= truth - 1e-12 / std::sqrt(root));
+      CHECK(t <= truth + 1.1e-9);
+      CHECK((result.contact_tf1.translation() - (from + t * way)).norm() <= 1e-14);
+    }
+    fcl::ContinuousCollisionResultd result;
+    const Vector3d high(0, 0, random.uniform(0.2, 1));
+    const double t =
+        fcl_stpbv::continuousCollide(&ground, at(0, 0, 0), at(0, 0, 0), &ball, pose(random.rotation(), high),
+                                     at(1, 0, 0), requestOf(fcl::CCDM_SCREW), result);
+    CHECK(result.is_collide);
+    CHECK(t > 0);
+  }
+  CHECK(hits > 200);
+}
+
+TEST_CASE("a turning arm meets a ball at the closed form's angle, and one just out of reach is free") {
+  // A segment along x, as a volume of two points: its tip is a ball of radius r, 1 m out.
+  const StpBvGeometry arm(StpBv::build({{0, 0, 0}, {1, 0, 0}}, {0.05, 10}));
+  const fcl::Sphered ball(0.05);
+  const Eigen::Matrix3d half = Eigen::AngleAxisd(0.5 * M_PI, Vector3d::UnitZ()).toRotationMatrix();
+  const auto ask = [&](const Vector3d& where, double tolerance) {
+    SteadyMotion turn, still;
+    REQUIRE(steadyMotion(at(0, 0, 0), pose(half, {0, 0, 0}), fcl::CCDM_SCREW, turn));
+    REQUIRE(steadyMotion(at(where.x(), where.y(), where.z()), at(where.x(), where.y(), where.z()),
+                         fcl::CCDM_TRANS, still));
+    return firstContact(arm, turn, ball, still, {0, tolerance});
+  };
+  for (const double angle : {0.3, 0.7, 1.2}) {
+    const double reach = 1.02;  // the tip's ball passes within 0.02 m of it
+    const MotionAnswer found = ask({reach * std::cos(angle), reach * std::sin(angle), 0}, 1e-9);
+    // The tip at angle u is 0.1 m from the ball: 1 + reach^2 - 2 reach cos(angle - u) = 0.01.
+    const double truth = (angle - std::acos((1 + reach * reach - 0.01) / (2 * reach))) / (0.5 * M_PI);
+    CHECK(found.verdict == MotionVerdict::contact);
+    CHECK(found.from <= truth + 1e-14);
+    CHECK(found.until >= truth - 1e-14);
+    CHECK(found.until - found.from <= 1e-9);
+  }
+  const MotionAnswer free = ask({1.1 + 1e-6, 1e-3, 0}, 1e-9);
+  CHECK(free.verdict == MotionVerdict::free);
+  CHECK(free.queries < 200);
+}
+
+TEST_CASE(
+    "no contact that dense samples of FCL's motions see is missed, and none is made up, for all kinds") {
+  std::vector<ElementKind> kinds = elementKinds();
+  const auto volume =
+      std::make_shared<StpBvGeometry>(StpBv::build(randomHull(30, {0.2, 0.15, 0.1}, 3), {0.02, 10}));
+  kinds.push_back({"volume", volume, {}, false});
+  Random random(2);
+  int free = 0, hits = 0;
+  long queries = 0;
+  for (const ElementKind& first : kinds)
+    for (const ElementKind& second : kinds)
+      for (const fcl::CCDMotionType type : {fcl::CCDM_TRANS, fcl::CCDM_LINEAR, fcl::CCDM_SCREW}) {
+        if (second.surface && random.below(4) > 0) continue;  // for time
+        CAPTURE(first.name, second.name, type);
+        Isometry3d ends[4];
+        for (Isometry3d& end : ends) end = pose(random.rotation(), 0.7 * random.direction());
+        const auto a = fclMotion(ends[0], ends[1], type), b = fclMotion(ends[2], ends[3], type);
+        fcl::ContinuousCollisionResultd result;
+        const double t = fcl_stpbv::continuousCollide(first.geometry.get(), a.get(), second.geometry.get(),
+                                                      b.get(), requestOf(type, 1e-4), result);
+        REQUIRE(t >= 0);
+        const auto apart = [&](double time) {
+          return distance(*first.geometry, posed(*a, time), *second.geometry, posed(*b, time)).distance;
+        };
+        constexpr int kSamples = 200;
+        for (int i = 0; i <= kSamples; ++i) {
+          const double time = static_cast<double>(i) / kSamples;
+          if (time >= t - 1e-4) break;
+          REQUIRE(apart(time) > -1e-12);
+        }
+        if (result.is_collide) {
+          ++hits;
+          CHECK(apart(t) <= 1e-9);
+        } else {
+          ++free;
+          CHECK(apart(1) > -1e-12);
+        }
+        SteadyMotion sa, sb;
+        REQUIRE((steadyMotion(*a, sa) && steadyMotion(*b, sb)));
+        queries += firstContact(*first.geometry, sa, *second.geometry, sb).queries;
+        for (const double time : {0.0, 0.3, 1.0})
+          CHECK((sa.at(time).matrix() - posed(*a, time).matrix()).norm() <= 1e-13);
+      }
+  CAPTURE(queries, free, hits);
+  CHECK((free > 40 && hits > 40));
+  CHECK(queries <= 100 * (free + hits));
+}
+
+TEST_CASE("touching, starting in contact, a thin wall, splines and broken poses") {
+  const fcl::Boxd crate(0.2, 0.2, 0.2), wall(1e-3, 2, 2);
+  fcl::ContinuousCollisionResultd result;
+  const auto ask = [&](const fcl::CollisionGeometryd& a, const Isometry3d& from, const Isometry3d& to,
+                       const fcl::CollisionGeometryd& b, const Isometry3d& still, fcl::CCDMotionType type) {
+    return fcl_stpbv::continuousCollide(&a, from, to, &b, still, still, requestOf(type, 1e-6), result);
+  };
+  // FCL's naive checker takes ten samples and flies through.
+  const double t = ask(crate, at(-1, 0, 0), at(3, 0, 0), wall, at(0.0, 0, 0), fcl::CCDM_LINEAR);
+  CHECK(result.is_collide);
+  CHECK(std::abs(t - (1 - 0.1 - 5e-4) / 4) <= 1e-6);
+  CHECK(ask(crate, at(0.05, 0, 0), at(3, 0, 0), wall, at(0, 0, 0), fcl::CCDM_TRANS) == 0);
+  CHECK(result.is_collide);
+  // Away from a near wall: the normal tells at once.
+  CHECK(ask(crate, at(0.11, 0, 0), at(3, 0, 0), wall, at(0, 0, 0), fcl::CCDM_LINEAR) == 1);
+  CHECK_FALSE(result.is_collide);
+  // Along the wall at a micrometre.
+  CHECK(ask(crate, at(0.1005 + 1e-6, -1, 0), at(0.1005 + 1e-6, 1, 0), wall, at(0, 0, 0), fcl::CCDM_LINEAR) ==
+        1);
+  CHECK_FALSE(result.is_collide);
+  CHECK(ask(crate, at(-1, 0, 0), at(1, 0, 0), wall, at(0, 0, 0), fcl::CCDM_SPLINE) == -1);
+  CHECK(result.is_collide);
+  Isometry3d broken = at(0, 0, 0);
+  broken.linear() *= 2;
+  CHECK(ask(crate, broken, at(1, 0, 0), wall, at(5, 0, 0), fcl::CCDM_LINEAR) == -1);
+  CHECK(result.is_collide);
+  CHECK(ask(crate, at(std::nan(""), 0, 0), at(1, 0, 0), wall, at(5, 0, 0), fcl::CCDM_LINEAR) == -1);
+  const fcl::BVHModel<fcl::OBBRSSd> nothing;
+  CHECK(ask(nothing, at(0, 0, 0), at(1, 0, 0), wall, at(5, 0, 0), fcl::CCDM_LINEAR) == -1);
+  const Vector3d o(0, 0, 0), x(1, 0, 0);
+  const fcl::SplineMotion<double> spline(o, x, x, x, o, o, o, o);
+  const fcl::TranslationMotion<double> still(at(5, 0, 0), at(5, 0, 0));
+  CHECK(fcl_stpbv::continuousCollide(&crate, &spline, &wall, &still, requestOf(fcl::CCDM_SPLINE), result) ==
+        -1);
+}
+
+TEST_CASE("objects that carry their motion, and a screw without a turn, go where they are told") {
+  const auto crate = std::make_shared<fcl::Boxd>(0.2, 0.2, 0.2);
+  const auto far = std::make_shared<fcl::ScrewMotion<double>>(at(0, 0, 0), at(0.5, 0, 0));
+  const auto still = std::make_shared<fcl::TranslationMotion<double>>(at(0.65, 0, 0), at(0.65, 0, 0));
+  const fcl::ContinuousCollisionObjectd a(crate, far), b(crate, still);
+  fcl::ContinuousCollisionResultd result;
+  // FCL's own screw goes 0.25 m only, the way times its length.
+  CHECK(std::abs(fcl_stpbv::collide(&a, &b, requestOf(fcl::CCDM_SCREW, 1e-6), result) - 0.9) <= 1e-6);
+  CHECK(result.is_collide);
+}

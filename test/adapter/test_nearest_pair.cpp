@@ -1,0 +1,163 @@
+// Meshes and trees against each other and against shapes: the nearest elements of all.
+#include <fcl/geometry/shape/sphere.h>
+#include <fcl/narrowphase/distance.h>
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "fcl_stpbv/adapter/fcl_distance.h"
+#include "fcl_stpbv/convex/relative_pose.h"
+#include "test/adapter/element_kinds.h"
+
+using namespace fcl_stpbv;
+using namespace fcl_stpbv::test;
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+namespace {
+
+/// Rounding outward for bodies of 1 m in all, a metre apart.
+constexpr double kRounding = 4 * kGapRounding;
+
+struct Truth {
+  long double distance = 1e9L, second = 1e9L;
+  std::map<std::array<std::intptr_t, 2>, long double> all;
+};
+
+long double ofElements(const std::vector<TriangleL>& a, const std::vector<TriangleL>& b) {
+  long double least = 1e9L;
+  for (const TriangleL& s : a)
+    for (const TriangleL& t : b) least = std::min(least, referenceDistance(s, t));
+  return least;
+}
+
+Truth truthOf(const ElementKind& first, const Isometry3d& a, const ElementKind& second, const Isometry3d& b) {
+  Truth truth;
+  const auto of = second.triangles(b);
+  for (const auto& [i, s] : first.triangles(a))
+    for (const auto& [j, t] : of) {
+      const long double d = truth.all[{i, j}] = ofElements(s, t);
+      truth.second = std::min(truth.second, std::max(d, truth.distance));
+      truth.distance = std::min(truth.distance, d);
+    }
+  return truth;
+}
+
+/// Least distance of a point from an element's surface.
+double offBy(const Vector3d& x, const std::vector<TriangleL>& element) {
+  long double least = 1e9L;
+  for (const TriangleL& t : element)
+    least = std::min(least, referenceDistance(x.cast<long double>().eval(), t));
+  return static_cast<double>(least);
+}
+
+}  // namespace
+
+TEST_CASE("two meshes, trees or one and a shape apart: the nearest elements, their points, the next ones") {
+  const auto kinds = elementKinds();
+  Random random(1);
+  int asked = 0;
+  for (const ElementKind& first : kinds)
+    for (const ElementKind& second : kinds) {
+      if (!first.surface && !second.surface) continue;
+      CAPTURE(first.name, second.name);
+      const Isometry3d a = pose(random.rotation(), random.direction());
+      const Isometry3d b =
+          pose(random.rotation(), a.translation() + random.uniform(0.55, 1) * random.direction());
+      const Truth truth = truthOf(first, a, second, b);
+      REQUIRE(truth.distance > 0);
+      const DistanceAnswer d = distance(*first.geometry, a, *second.geometry, b);
+      ++asked;
+      CHECK(d.status == DistanceStatus::exact);
+      CHECK_FALSE(d.continuous);
+      CHECK(static_cast<long double>(d.lower) <= truth.distance);
+      CHECK(static_cast<long double>(d.upper) >= truth.distance);
+      CHECK(d.upper - d.lower <= 3 * kRounding);
+      CHECK(std::abs(static_cast<double>(d.runnerUp - truth.second)) <= kRounding);
+      REQUIRE(truth.all.count(d.element) == 1);
+      CHECK(std::abs(static_cast<double>(truth.all.at(d.element) - truth.distance)) <= kRounding);
+      CHECK(offBy(d.points[0], first.triangles(a).at(d.element[0])) <= kRounding);
+      CHECK(offBy(d.points[1], second.triangles(b).at(d.element[1])) <= kRounding);
+      CHECK(((d.points[1] - d.points[0]) - d.distance * d.normal).norm() <= 1e-14);
+      const fcl::DistanceResultd words = toFclResult(d);
+      CHECK((words.b1 == d.element[0] && words.b2 == d.element[1]));
+      const DistanceAnswer e = distance(*second.geometry, b, *first.geometry, a);
+      CHECK(std::abs(e.distance - d.distance) <= 1e-15);
+    }
+  CHECK(asked > 100);
+}
+
+TEST_CASE("two meshes or trees that overlap are 0 apart, with two elements that meet and a point of both") {
+  const auto kinds = elementKinds();
+  Random random(2);
+  int met = 0;
+  for (const ElementKind& first : kinds)
+    for (const ElementKind& second : kinds) {
+      if (!first.surface || !second.surface) continue;
+      CAPTURE(first.name, second.name);
+      const Isometry3d a = pose(random.rotation(), random.direction());
+      const Isometry3d b = pose(random.rotation(), a.translation() + 0.15 * random.direction());
+      const Truth truth = truthOf(first, a, second, b);
+      const DistanceAnswer d = distance(*first.geometry, a, *second.geometry, b);
+      if (truth.distance > 0) continue;
+      ++met;
+      CHECK(d.distance == 0);
+      CHECK((d.lower < 0 && d.upper > 0));
+      CHECK(d.upper - d.lower <= 2 * kRounding);
+      REQUIRE(truth.all.count(d.element) == 1);
+      // A cell is solid: its triangles may lie apart from a triangle inside it.
+      const bool solid = first.name == "octree" || second.name == "octree";
+      if (!solid) CHECK(truth.all.at(d.element) == 0);
+      CHECK(d.points[0] == d.points[1]);
+      if (first.name != "octree") CHECK(offBy(d.points[0], first.triangles(a).at(d.element[0])) <= kRounding);
+      if (second.name != "octree")
+        CHECK(offBy(d.points[1], second.triangles(b).at(d.element[1])) <= kRounding);
+      CHECK(toFclResult(d).min_distance == 0);  // as FCL has it
+    }
+  CHECK(met > 60);
+}
+
+TEST_CASE("a ball against a mesh is signed, whichever triangle it is deepest in") {
+  const ElementKind mesh = meshKind<fcl::OBBRSSd>("OBBRSS", 8);
+  const fcl::Sphered ball(0.1);
+  Random random(3);
+  int deep = 0;
+  for (int i = 0; i < 200; ++i) {
+    const Isometry3d a = pose(random.rotation(), random.direction());
+    const Isometry3d b =
+        pose(random.rotation(), a.translation() + random.uniform(0, 0.6) * random.direction());
+    long double truth = 1e9L;
+    for (const auto& [id, t] : mesh.triangles(a))
+      truth = std::min(truth, referenceDistance(b.translation().cast<long double>().eval(), t[0]) - 0.1L);
+    const DistanceAnswer d = distance(*mesh.geometry, a, ball, b), e = distance(ball, b, *mesh.geometry, a);
+    CAPTURE(i, d.lower, d.upper, static_cast<double>(truth));
+    deep += truth < 0;
+    CHECK(static_cast<long double>(d.lower) <= truth);
+    CHECK(static_cast<long double>(d.upper) >= truth);
+    CHECK(std::abs(d.distance - static_cast<double>(truth)) <= kRounding);
+    CHECK(e.distance == d.distance);
+    CHECK((e.element[0] == -1 && d.element[1] == -1 && e.element[1] >= 0));
+  }
+  CHECK(deep > 30);
+}
+
+TEST_CASE("where FCL measures two meshes it names triangles that are as near as ours") {
+  Random random(4);
+  const ElementKind mesh = meshKind<fcl::RSSd>("RSS", 8);
+  for (int i = 0; i < 100; ++i) {
+    const Isometry3d a = pose(random.rotation(), random.direction());
+    const Isometry3d b =
+        pose(random.rotation(), a.translation() + random.uniform(0.1, 1) * random.direction());
+    fcl::DistanceRequestd request(true);
+    request.distance_tolerance = 1e-10;
+    fcl::DistanceResultd theirs, ours;
+    fcl::distance(mesh.geometry.get(), a, mesh.geometry.get(), b, request, theirs);
+    fcl_stpbv::distance(mesh.geometry.get(), a, mesh.geometry.get(), b, request, ours);
+    CAPTURE(i, theirs.b1, theirs.b2, ours.b1, ours.b2);
+    CHECK(std::abs(ours.min_distance - theirs.min_distance) <= 1e-14);
+    CHECK((ours.b1 >= 0 && ours.b2 >= 0));
+    const Truth truth = truthOf(mesh, a, mesh, b);
+    CHECK(std::abs(static_cast<double>(truth.all.at({ours.b1, ours.b2}) -
+                                       truth.all.at({theirs.b1, theirs.b2}))) <= kRounding);
+  }
+}

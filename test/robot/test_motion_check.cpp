@@ -1,0 +1,182 @@
+// Motions of robots proven free: against dense samples of every pair, a closed form, and joints of all kinds.
+#include <fcl/geometry/bvh/BVH_model.h>
+#include <fcl/geometry/geometric_shape_to_BVH_model.h>
+#include <fcl/geometry/shape/box.h>
+#include <fcl/geometry/shape/sphere.h>
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "fcl_stpbv/error.h"
+#include "fcl_stpbv/robot/constraints.h"
+#include "fcl_stpbv/robot/motion_check.h"
+#include "test/reference/robots.h"
+
+using namespace fcl_stpbv;
+using namespace fcl_stpbv::test;
+using Eigen::VectorXd;
+
+namespace {
+
+/// Least of all rows at q, from the constraints, which know nothing of motions.
+double leastAt(CollisionConstraints& rows, const VectorXd& q) {
+  VectorXd d(rows.rows());
+  rows.evaluate(q, d);
+  return d.minCoeff();
+}
+
+/// Chains with every type of joint, a mimic one among them, and balls at their ends.
+const char* const kJoints = R"(<robot name="joints">
+  <link name="root"><collision><geometry><box size="0.2 0.2 0.2"/></geometry></collision></link>
+  <link name="a"><collision><geometry><sphere radius="0.05"/></geometry></collision></link>
+  <link name="b"><collision><origin xyz="0 0 0.2"/><geometry><box size="0.05 0.1 0.3"/></geometry></collision></link>
+  <link name="c"><collision><origin xyz="0.1 0 0"/><geometry><cylinder radius="0.05" length="0.2"/></geometry></collision></link>
+  <link name="d"><collision><geometry><sphere radius="0.1"/></geometry></collision></link>
+  <link name="e"><collision><origin xyz="0.2 0 0"/><geometry><box size="0.3 0.05 0.05"/></geometry></collision></link>
+  <joint name="slide" type="prismatic"><parent link="root"/><child link="a"/><origin xyz="0.2 0 0" rpy="0.3 0.2 0.1"/>
+    <axis xyz="0 1 0"/><limit lower="-0.5" upper="0.5" effort="1" velocity="1"/></joint>
+  <joint name="turn" type="revolute"><parent link="a"/><child link="b"/><origin xyz="0.1 0.05 0" rpy="0.5 0 0"/>
+    <axis xyz="0 0 1"/><limit lower="-3" upper="3" effort="1" velocity="1"/></joint>
+  <joint name="follow" type="revolute"><parent link="b"/><child link="c"/><origin xyz="0 0 0.4"/>
+    <axis xyz="1 0 0"/><limit lower="-3" upper="3" effort="1" velocity="1"/><mimic joint="turn" multiplier="-0.7" offset="0.2"/></joint>
+  <joint name="plane" type="planar"><parent link="root"/><child link="d"/><origin xyz="0 0 0.5" rpy="0.1 0.2 0.3"/><axis xyz="0 0 1"/></joint>
+  <joint name="float" type="floating"><parent link="d"/><child link="e"/><origin xyz="-0.2 0 0"/></joint>
+</robot>)";
+
+struct Scene {
+  std::shared_ptr<const RobotModel> model;
+  std::shared_ptr<const Kinematics> kinematics;
+  std::shared_ptr<const RobotGeometry> geometry;
+  std::vector<Obstacle> obstacles;
+  std::vector<CheckedPair> pairs;
+};
+
+Scene everyJoint(BaseMotion base) {
+  Scene scene;
+  scene.model = std::make_shared<const RobotModel>(parseUrdf(kJoints, "joints.urdf"));
+  GeometryOptions options;
+  options.cacheFolder.clear();
+  scene.geometry = std::make_shared<const RobotGeometry>(loadGeometry(*scene.model, options));
+  scene.kinematics = std::make_shared<const Kinematics>(scene.model, base);
+  auto mesh = std::make_shared<fcl::BVHModel<fcl::OBBRSSd>>();
+  fcl::generateBVHModel(*mesh, fcl::Boxd(0.3, 0.3, 0.3), Eigen::Isometry3d::Identity());
+  const auto place = [](double x, double y, double z) {
+    return pose(Eigen::Matrix3d::Identity(), {x, y, z});
+  };
+  scene.obstacles.push_back(obstacleOf(fcl::CollisionObjectd(mesh, place(0.6, 0.6, 0.4)), "mesh"));
+  scene.obstacles.push_back(obstacleOf(
+      fcl::CollisionObjectd(std::make_shared<fcl::Boxd>(0.2, 0.2, 0.2), place(-0.5, 0.4, 0.3)), "box"));
+  scene.pairs = selfPairs(*scene.model, *scene.geometry, nullptr);
+  const auto around =
+      obstaclePairs(*scene.model, *scene.geometry, scene.obstacles.size(), base != BaseMotion::fixed);
+  scene.pairs.insert(scene.pairs.end(), around.begin(), around.end());
+  return scene;
+}
+
+/// A random motion's verdict against samples; counts how it ended.
+void compare(MotionCheck& check, CollisionConstraints& rows, const VectorXd& q0, const VectorXd& q1,
+             double margin, int samples, int& free, int& hits) {
+  const double tolerance = 1e-5;
+  const MotionBracket found = check.firstContact(q0, q1, {margin, tolerance});
+  const bool isFree = check.isMotionFree(q0, q1, margin);
+  CHECK(isFree == (found.verdict == MotionVerdict::free));
+  REQUIRE(found.verdict != MotionVerdict::undecided);
+  const auto at = [&](double t) { return leastAt(rows, q0 + t * (q1 - q0)); };
+  for (int i = 0; i <= samples; ++i) {
+    const double t = static_cast<double>(i) / samples;
+    if (t >= found.from) break;
+    REQUIRE(at(t) > margin - 1e-12);
+  }
+  if (found.verdict == MotionVerdict::free) {
+    ++free;
+    CHECK(at(1) > margin - 1e-12);
+  } else {
+    ++hits;
+    CHECK(found.until - found.from <= tolerance);
+    CHECK(at(found.until) <= margin + 1e-12);
+    CHECK(check.answer(found.pair, q0 + found.until * (q1 - q0)).distance <= margin + 1e-12);
+  }
+}
+
+}  // namespace
+
+TEST_CASE(
+    "motions through joints of every type, among a mesh and a box, are judged as dense samples see them") {
+  Random random(1);
+  for (const BaseMotion base : {BaseMotion::fixed, BaseMotion::planar, BaseMotion::floating}) {
+    const Scene scene = everyJoint(base);
+    MotionCheck check(scene.kinematics, scene.geometry, scene.pairs, scene.obstacles);
+    ConstraintOptions options;
+    options.obstacles = scene.obstacles;
+    CollisionConstraints rows(scene.kinematics, scene.geometry, scene.pairs, options);
+    int free = 0, hits = 0;
+    for (int i = 0; i < 300; ++i) {
+      CAPTURE(i, static_cast<int>(base));
+      const VectorXd q0 = randomConfiguration(*scene.kinematics, random);
+      const double size = i % 3 == 0 ? 2.0 : i % 3 == 1 ? 0.3 : 0.05;
+      compare(check, rows, q0, q0 + size * randomDirection(q0.size(), random), i % 2 ? 0.0 : 0.01, 300, free,
+              hits);
+    }
+    CHECK((free > 30 && hits > 30));
+  }
+}
+
+TEST_CASE("short edges of a humanoid: none that samples see collide is called free") {
+  const Problem p = problem(robots().front());
+  MotionCheck check(p.kinematics, p.geometry, p.pairs);
+  CollisionConstraints rows(p.kinematics, p.geometry, p.pairs);
+  Random random(2);
+  int free = 0, hits = 0;
+  for (int i = 0; i < 60; ++i) {
+    CAPTURE(i);
+    const VectorXd q0 = 0.3 * randomConfiguration(*p.kinematics, random);
+    const VectorXd range = (p.kinematics->upper() - p.kinematics->lower()).cwiseMin(2 * M_PI);
+    const VectorXd q1 = q0 + 0.05 * range.cwiseProduct(randomDirection(q0.size(), random).cwiseSign());
+    compare(check, rows, q0, q1, 0, 50, free, hits);
+    CHECK(check.isFree(q0) == (leastAt(rows, q0) > 0));
+  }
+  CHECK((free > 5 && hits > 0));
+}
+
+TEST_CASE("the closest approach of each pair is within its precision of what samples find, and never above") {
+  const Scene scene = everyJoint(BaseMotion::fixed);
+  MotionCheck check(scene.kinematics, scene.geometry, scene.pairs, scene.obstacles);
+  ConstraintOptions options;
+  options.obstacles = scene.obstacles;
+  CollisionConstraints rows(scene.kinematics, scene.geometry, scene.pairs, options);
+  Random random(3);
+  VectorXd d(rows.rows());
+  for (int i = 0; i < 20; ++i) {
+    const VectorXd q0 = randomConfiguration(*scene.kinematics, random),
+                   q1 = q0 + 0.5 * randomDirection(q0.size(), random);
+    std::vector<Approach> best;
+    const double precision = 1e-5;
+    if (!check.closest(q0, q1, precision, 0, best)) continue;  // too deep to be proven
+    VectorXd least = VectorXd::Constant(rows.rows(), 1e9);
+    for (int k = 0; k <= 500; ++k) {
+      rows.evaluate(q0 + k / 500.0 * (q1 - q0), d);
+      least = least.cwiseMin(d);
+    }
+    for (int row = 0; row < rows.rows(); ++row) {
+      CAPTURE(i, rows.name(row));
+      const Approach& found = best[static_cast<std::size_t>(row)];
+      CHECK(found.distance - precision <= least[row]);
+      rows.evaluate(q0 + found.time * (q1 - q0), d);
+      CHECK(std::abs(found.distance - d[row]) <= 1e-9);
+    }
+  }
+}
+
+TEST_CASE("what is not finite is not free, and pairs that do not exist are refused") {
+  const Scene scene = everyJoint(BaseMotion::fixed);
+  MotionCheck check(scene.kinematics, scene.geometry, scene.pairs, scene.obstacles);
+  const VectorXd q = VectorXd::Zero(scene.kinematics->size());
+  VectorXd bad = q;
+  bad[1] = std::nan("");
+  CHECK_FALSE(check.isFree(bad));
+  CHECK_FALSE(check.isMotionFree(q, bad));
+  CHECK(check.firstContact(bad, q).verdict == MotionVerdict::undecided);
+  CHECK_FALSE(check.isMotionFree(q, VectorXd::Zero(1)));
+  CHECK_THROWS_AS(MotionCheck(scene.kinematics, scene.geometry, {{0, 99, false}}), Error);
+  CHECK_THROWS_AS(MotionCheck(scene.kinematics, scene.geometry, {{0, 2, true}}, scene.obstacles), Error);
+}
