@@ -1,14 +1,21 @@
 // mesh_to_stpbv: STP-BVs from meshes, clouds of points and volumes in other formats.
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <atomic>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
 #include <iostream>
+#include <mutex>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/robot/worker_pool.h"
 #include "tools/conversion.h"
+#include "tools/cores.h"
 #include "tools/output_plan.h"
 #include "tools/parts_conversion.h"
 #include "tools/progress_bar.h"
@@ -44,6 +51,7 @@ struct Arguments {
   std::vector<std::string> inputs;
   std::string output;
   ConversionOptions conversion;
+  int jobs = allCores();
   bool json = false, force = false, quiet = false;
 };
 
@@ -92,6 +100,9 @@ void describe(CLI::App& app, Arguments& arguments) {
                "Check each volume before it is written; one that fails is not written");
   app.add_flag("--json", arguments.json,
                "Report on standard output as JSON, one object a line for each input done");
+  app.add_option("-j,--jobs", arguments.jobs, "Inputs to do at once; any number gives the same")
+      ->check(CLI::Range(1, kMostJobs))
+      ->capture_default_str();
   app.add_flag("--force", arguments.force, "Replace files that exist");
   app.add_flag("-q,--quiet", arguments.quiet,
                "No report for people and no progress bar; errors are still told");
@@ -99,50 +110,78 @@ void describe(CLI::App& app, Arguments& arguments) {
 
 void tell(const std::string& message) { std::cerr << "mesh_to_stpbv: " << message << std::endl; }
 
+// What became of one input: lines for standard output and for standard error.
+struct Outcome {
+  bool good = false;
+  std::string report, complaint;
+};
+
 template <class AnyReport>
-void show(const AnyReport& report, const Arguments& arguments, ProgressBar& bar) {
-  bar.clear();
-  if (arguments.json) {
-    std::cout << toJson(report) << std::endl;
-  } else if (!arguments.quiet) {
-    std::cout << toText(report) << std::endl;
-  }
+std::string lineOf(const AnyReport& report, const Arguments& arguments) {
+  if (arguments.json) return toJson(report) + "\n";
+  return arguments.quiet ? "" : toText(report) + "\n";
 }
 
-bool runParts(const Job& job, const Arguments& arguments, ProgressBar& bar) {
+Outcome runParts(const Job& job, const Arguments& arguments) {
   const PartsReport report = convertToParts(job.input, job.output, arguments.conversion, arguments.force);
   if (!report.verified)
     throw fcl_stpbv::Error(job.input +
                            ": not written, a volume fails its own verification: " + report.verification);
   write(report, arguments.conversion);
-  show(report, arguments, bar);
-  return true;
+  return {true, lineOf(report, arguments), ""};
 }
 
-bool runJob(const Job& job, const Arguments& arguments, ProgressBar& bar) {
-  try {
-    if (arguments.conversion.parts) return runParts(job, arguments, bar);
-    Report report = convert(job.input, arguments.conversion);
-    report.output = job.output;
-    const bool good = report.verified.value_or(true);
-    if (good) write(report, arguments.conversion);
-    bar.clear();
-    if (arguments.json) {
-      std::cout << toJson(report) << std::endl;
-    } else if (!arguments.quiet && good) {
-      std::cout << toText(report) << std::endl;
-    }
-    if (!good)
-      tell(job.input + ": not written, the volume fails its own verification: " + report.verification);
-    return good;
-  } catch (const std::bad_alloc&) {
-    bar.clear();
-    tell(job.input + ": not enough memory; give a smaller input");
-  } catch (const std::exception& error) {
-    bar.clear();
-    tell(error.what());
+Outcome runOne(const Job& job, const Arguments& arguments) {
+  if (arguments.conversion.parts) return runParts(job, arguments);
+  Report report = convert(job.input, arguments.conversion);
+  report.output = job.output;
+  if (report.verified.value_or(true)) {
+    write(report, arguments.conversion);
+    return {true, lineOf(report, arguments), ""};
   }
-  return false;
+  return {false, arguments.json ? lineOf(report, arguments) : "",
+          job.input + ": not written, the volume fails its own verification: " + report.verification};
+}
+
+Outcome runJob(const Job& job, const Arguments& arguments) {
+  try {
+    return runOne(job, arguments);
+  } catch (const std::bad_alloc&) {
+    return {false, "", job.input + ": not enough memory; give a smaller input, or fewer --jobs"};
+  } catch (const std::exception& error) {
+    return {false, "", error.what()};
+  }
+}
+
+// Does all jobs and tells what became of them in their order, however many threads share them. @return how
+// many failed.
+std::size_t runAll(const std::vector<Job>& jobs, const Arguments& arguments) {
+  ProgressBar bar(jobs.size(), !arguments.quiet);
+  std::vector<std::optional<Outcome>> outcomes(jobs.size());
+  std::atomic<std::size_t> next{0};
+  std::size_t done = 0, told = 0, failed = 0;
+  std::mutex telling;
+  bar.show(done, jobs.front().input);
+  auto work = [&](int) {
+    for (std::size_t i; (i = next++) < jobs.size();) {
+      Outcome outcome = runJob(jobs[i], arguments);
+      const std::lock_guard<std::mutex> lock(telling);
+      ++done;
+      outcomes[i] = std::move(outcome);
+      for (; told < jobs.size() && outcomes[told]; ++told) {
+        bar.clear();
+        std::cout << outcomes[told]->report << std::flush;
+        if (!outcomes[told]->complaint.empty()) tell(outcomes[told]->complaint);
+        if (!outcomes[told]->good) ++failed;
+        *outcomes[told] = {};
+      }
+      if (told < jobs.size()) bar.show(done, jobs[told].input);
+    }
+  };
+  const int useful = static_cast<int>(std::min<std::size_t>(jobs.size(), kMostJobs));
+  fcl_stpbv::WorkerPool(std::min(arguments.jobs, useful)).run(work);
+  bar.clear();
+  return failed;
 }
 
 int run(const Arguments& arguments) {
@@ -152,13 +191,7 @@ int run(const Arguments& arguments) {
   if (!plan.folder.empty()) std::filesystem::create_directories(plan.folder, error);
   if (error) throw UsageError("-o " + plan.folder + ": this folder cannot be made: " + error.message());
 
-  ProgressBar bar(plan.jobs.size(), !arguments.quiet);
-  std::size_t done = 0, failed = 0;
-  for (const Job& job : plan.jobs) {
-    bar.show(done++, job.input);
-    if (!runJob(job, arguments, bar)) ++failed;
-  }
-  bar.clear();
+  const std::size_t failed = runAll(plan.jobs, arguments);
   if (failed > 0 && plan.jobs.size() > 1) {
     tell(std::to_string(failed) + " of " + std::to_string(plan.jobs.size()) +
          " inputs failed, the others are written");

@@ -12,6 +12,7 @@
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/io/atomic_write.h"
 #include "fcl_stpbv/report/report_formats.h"
+#include "tools/cores.h"
 #include "tools/number_check.h"
 #include "tools/progress_bar.h"
 
@@ -50,6 +51,7 @@ struct Arguments {
 
 void describe(CLI::App& app, Arguments& a) {
   ReportRequest& request = a.request;
+  request.search.threads = allCores();
   app.add_option("ROBOT", request.urdf, "The robot's URDF")->required()->type_name("FILE");
   app.add_option("--srdf", request.srdf, "SRDF with pairs to leave out and postures")->type_name("FILE");
   app.add_option("--package-path", request.geometry.packagePath,
@@ -120,8 +122,8 @@ void describe(CLI::App& app, Arguments& a) {
       ->check(CLI::IsMember({"text", "json", "csv", "srdf", "html"}))
       ->capture_default_str();
   app.add_option("-o,--output", a.output, "File to write instead of standard output")->type_name("OUT");
-  app.add_option("--threads", request.search.threads, "Threads for the samples")
-      ->check(CLI::Range(1, 256))
+  app.add_option("-j,--jobs", request.search.threads, "Threads; any number gives the same report")
+      ->check(CLI::Range(1, kMostJobs))
       ->capture_default_str();
   app.add_flag("--skip-invalid", request.skipInvalid,
                "Go on without the shapes that are wrong; exit status 3, not 0");

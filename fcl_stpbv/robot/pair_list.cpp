@@ -4,9 +4,13 @@
 #include "fcl_stpbv/robot/pair_list.h"
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cmath>
+#include <exception>
 #include <map>
+#include <mutex>
+#include <optional>
 #include <random>
 #include <tuple>
 
@@ -15,6 +19,7 @@
 #include "fcl_stpbv/robot/pair_proof.h"
 #include "fcl_stpbv/robot/pair_samples.h"
 #include "fcl_stpbv/robot/pair_search.h"
+#include "fcl_stpbv/robot/worker_pool.h"
 
 namespace fcl_stpbv {
 namespace {
@@ -112,10 +117,34 @@ class Search {
     }
     if (options_.proofBoxes > 0 || options_.proofSeconds > 0)
       scene_ = proofScene(kinematics_, geometry_, options_.obstacles, options_.margin);
-    for (std::size_t i = 0; i < clear.size(); ++i) {
-      tell("descents", i, clear.size());
-      settle(*open[clear[i]], found[clear[i]]);
-    }
+    settleAll(clear.size(), [&](std::size_t i) { return settle(*open[clear[i]], found[clear[i]]); });
+  }
+
+  // Each pair is settled by itself, so that it does not matter how many threads share them.
+  template <class Settle>
+  void settleAll(std::size_t count, Settle settleOne) {
+    std::vector<std::optional<Open>> left(count);
+    std::atomic<std::size_t> next{0};
+    std::mutex mutex;
+    std::exception_ptr failure;
+    auto work = [&](int) {
+      for (std::size_t i; (i = next++) < count;) {
+        try {
+          {
+            const std::lock_guard<std::mutex> lock(mutex);
+            tell("descents", i, count);
+          }
+          left[i] = settleOne(i);
+        } catch (...) {
+          const std::lock_guard<std::mutex> lock(mutex);
+          failure = std::current_exception();
+        }
+      }
+    };
+    WorkerPool(options_.threads).run(work);
+    if (failure) std::rethrow_exception(failure);
+    for (std::optional<Open>& open : left)
+      if (open) open_.push_back(std::move(*open));
   }
 
   void judge(PairEntry& entry, const PairSamples& found) {
@@ -142,8 +171,8 @@ class Search {
   }
 
   // Descents from the closest samples, a short proof, descents from random configurations, until one of them
-  // decides.
-  void settle(PairEntry& entry, const PairSamples& found) {
+  // decides. @return the proof that is left open, none where the pair is decided.
+  std::optional<Open> settle(PairEntry& entry, const PairSamples& found) const {
     PairSearch search = searchOf(entry);
     const auto descend = [&](Eigen::VectorXd q) {
       const double reached = search.descend(q, options_.margin);
@@ -152,20 +181,20 @@ class Search {
       return reached <= options_.margin;
     };
     for (int i = 0; i < options_.descents && at(i) < found.closest.size(); ++i)
-      if (descend(found.closest[at(i)].second)) return;
+      if (descend(found.closest[at(i)].second)) return std::nullopt;
     Open open{&entry, {}};
     if (scene_.kinematics) open.proof = unproven(scene_, entry);
-    if (scene_.kinematics && advance(open, options_.proofBoxes)) return;
+    if (scene_.kinematics && advance(open, options_.proofBoxes)) return std::nullopt;
     // Each pair has its own random numbers, whatever became of those before it.
     std::mt19937_64 random(options_.seed +
                            0x9e3779b97f4a7c15u * (1 + static_cast<std::size_t>(&entry - list_.data())));
     for (int i = 0; i < options_.randomDescents; ++i)
-      if (descend(randomConfiguration(*kinematics_, random))) return;
-    open_.push_back(std::move(open));
+      if (descend(randomConfiguration(*kinematics_, random))) return std::nullopt;
+    return open;
   }
 
   // Goes on with a proof; whether that decided the pair.
-  bool advance(Open& open, long boxes) {
+  bool advance(Open& open, long boxes) const {
     const long before = open.proof.boxes;
     open.proof = provePair(scene_, *open.entry, std::move(open.proof.open), boxes);
     open.proof.boxes += before;

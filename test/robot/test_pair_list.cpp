@@ -187,13 +187,15 @@ TEST_CASE("the list is the same for the same seed, sorted, and keeps the user's 
   options.samples = 100;
   options.randomDescents = 20;
   const std::vector<PairEntry> once = pairList(arm.kinematics, arm.geometry, &srdf, options);
-  options.threads = 2;
+  options.threads = 3;
   const std::vector<PairEntry> again = pairList(arm.kinematics, arm.geometry, &srdf, options);
   REQUIRE(once.size() == 465);
   int user = 0;
   for (std::size_t i = 0; i < once.size(); ++i) {
     CHECK(once[i].reason == again[i].reason);
     CHECK(once[i].minDistance == again[i].minDistance);
+    CHECK(once[i].closest == again[i].closest);
+    CHECK(once[i].boxes == again[i].boxes);
     user += once[i].reason == PairReason::user;
   }
   CHECK(user == 266);

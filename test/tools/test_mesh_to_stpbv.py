@@ -112,6 +112,25 @@ class MeshToStpbv(unittest.TestCase):
         self.assertIn("missing.stl: no such file", done.stderr)
         self.assertIn("2 of 3 inputs failed", done.stderr)
 
+    def test_any_number_of_jobs_gives_the_same_files_and_reports_in_order(self):
+        inputs = ["cube.txt", "broken.txt", "other.txt"]
+        for i in range(20):
+            name = "cloud%d.txt" % i
+            write(self.at(name), points_file([(x, y * (1 + 0.1 * i), z + 0.01 * i * x) for x, y, z in CUBE]))
+            inputs.append(name)
+
+        def run(jobs):
+            done = self.run_tool(*inputs, "-o", "out" + jobs, "--json", "--jobs", jobs, code=1)
+            reports = [json.loads(line) for line in done.stdout.splitlines()]
+            for report in reports:
+                del report["build_seconds"]
+            return reports, done.stderr, [read(self.at("out%s/%s" % (jobs, name))) for name in self.names("out" + jobs)]
+
+        reports, complaints, files = run("1")
+        self.assertEqual([report["input"] for report in reports], [name for name in inputs if name != "broken.txt"])
+        self.assertEqual((reports, complaints, files), run("5"))
+        self.refused("cube.txt", "-o", "none.stpbv", "--jobs", "0", says=["--jobs"])
+
     def test_a_radius_too_small_states_the_one_that_works(self):
         self.refused("cube.txt", "-o", "a.stpbv", "-R", "0.5", says=["cube.txt: ", "smallest usable R", "0.876"], code=1)
 
