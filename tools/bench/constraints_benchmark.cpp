@@ -4,7 +4,6 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <exception>
 #include <functional>
@@ -38,10 +37,9 @@ std::vector<double> times(const Kinematics& kinematics, const Way& way, int coun
       q[k] = std::clamp(q[k] + step * range * random.uniform(-1, 1), kinematics.lower()[k],
                         kinematics.upper()[k]);
     }
-    const auto start = std::chrono::steady_clock::now();
+    const double start = benchmark::threadTime();
     way.evaluate(q);
-    result.push_back(
-        std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count());
+    result.push_back(1e-3 * (benchmark::threadTime() - start));
   }
   std::sort(result.begin(), result.end());
   return result;

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <ctime>
 #include <fstream>
 
 #include "fcl_stpbv/io/atomic_write.h"
@@ -40,6 +41,12 @@ std::string commandLine(int argc, char** argv) {
     line += " " + word;
   }
   return line;
+}
+
+double threadTime() {
+  timespec t{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return 1e9 * static_cast<double>(t.tv_sec) + static_cast<double>(t.tv_nsec);
 }
 
 double significant(double value, int digits) {

@@ -19,6 +19,9 @@ struct Measurement {
 /// The program's name and its arguments, but for the folder of the output.
 std::string commandLine(int argc, char** argv);
 
+/// Time this thread has run (ns): without the time that others had the core.
+double threadTime();
+
 /// Rounds to so many significant digits: what a file shows of a measured value.
 double significant(double value, int digits);
 

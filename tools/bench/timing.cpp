@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <ctime>
+
+#include "tools/bench/measurement.h"
 
 namespace fcl_stpbv::benchmark {
 
@@ -25,17 +26,10 @@ double clockTime() {
   return median(times);
 }
 
-/// Time this thread has run (ns): without the time others had the core.
-double ownTime() {
-  timespec t{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return 1e9 * static_cast<double>(t.tv_sec) + static_cast<double>(t.tv_nsec);
-}
-
 void runBlock(Method& method, const Poses& poses, std::vector<Answer>& answers, double clock, Times* times,
               bool everyQuery) {
   const std::size_t n = poses.a.size();
-  const double start = ownTime();
+  const double start = threadTime();
   if (!everyQuery) {
     for (std::size_t i = 0; i < n; ++i) method.query(poses.a[i], poses.b[i], answers[i]);
   } else {
@@ -47,7 +41,7 @@ void runBlock(Method& method, const Poses& poses, std::vector<Answer>& answers, 
     }
   }
   if (times)
-    times->block.push_back((ownTime() - start) / static_cast<double>(n) - (everyQuery ? 2 * clock : 0));
+    times->block.push_back((threadTime() - start) / static_cast<double>(n) - (everyQuery ? 2 * clock : 0));
 }
 
 }  // namespace
@@ -78,9 +72,9 @@ std::vector<Times> timed(const std::vector<MethodPtr>& methods, GeodesicMotion& 
     for (std::size_t k = 0; k < methods.size(); ++k) {
       const std::size_t m = block % 2 ? methods.size() - 1 - k : k;
       if (spent[m] > seconds) continue;
-      const double start = ownTime();
+      const double start = threadTime();
       runBlock(*methods[m], poses, answers, clock, block < 0 ? nullptr : &times[m], everyQuery);
-      spent[m] += 1e-9 * (ownTime() - start);
+      spent[m] += 1e-9 * (threadTime() - start);
       if (watch && block >= 0) watch(m, poses, answers);
     }
   }
