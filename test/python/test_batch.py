@@ -103,6 +103,17 @@ def test_proofs_agree_with_samples_and_collisions_collide(proofs, arm):
         assert not (proven and least[pair] <= 0)
 
 
+def test_a_pair_across_a_floating_joint_is_never_proven(tmp_path):
+    ball = '<collision><geometry><sphere radius="0.1"/></geometry></collision>'
+    (tmp_path / "free.urdf").write_text(f"""<robot name="free"><link name="a">{ball}</link><link name="m"/><link name="b">{ball}</link>
+        <joint name="j" type="floating"><parent link="a"/><child link="m"/></joint>
+        <joint name="k" type="revolute"><parent link="m"/><child link="b"/><origin xyz="0.5 0 0"/><axis xyz="0 0 1"/>
+        <limit lower="-1" upper="1" effort="1" velocity="1"/></joint></robot>""")
+    prove = ["prove", tmp_path / "free.urdf", "--jobs", 1]
+    assert "1 pairs: 1 without limits" in batch(*prove, "--descents", 0, "-o", tmp_path / "none")
+    assert "1 pairs: 1 colliding" in batch(*prove, "-o", tmp_path / "some")
+
+
 @pytest.mark.parametrize("shards", [2, 5])
 def test_shards_merged_in_any_order_are_what_one_process_finds(proofs, tmp_path, shards):
     parts = [tmp_path / f"{i}.jsonl" for i in range(shards)]

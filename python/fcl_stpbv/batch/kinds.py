@@ -33,12 +33,12 @@ class Prove:
     def run(search, options, job, given):
         pair, boxes = given
         if boxes is None:
-            boxes = search.unproven(pair).open
-            if any(not math.isfinite(limit) for box in boxes for limits in box for limit in limits):
-                return {"unlimited": True}, None
             met = search.descend(pair, options["seed"], options["descents"])
             if met is not None:
                 return {"boxes": 0, "open": [], "collision": met.tolist()}, None
+            boxes = search.unproven(pair).open
+            if any(not math.isfinite(limit) for box in boxes for limits in box for limit in limits):
+                return {"unlimited": True}, None  # planar and floating joints
         proof = search.prove(pair, boxes, options["budget"])
         return {"boxes": proof.boxes, "open": [[lower.tolist(), upper.tolist()] for lower, upper in proof.open],
                 "collision": None if proof.collision is None else proof.collision.tolist()}, None
