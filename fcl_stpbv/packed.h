@@ -14,12 +14,11 @@
 
 namespace fcl_stpbv {
 
-/// Three numbers side by side; the fourth means nothing unless it is said what. With Eigen's three, sums and
-/// products take two instructions each and a cross product a dozen; its four would change their alignment
-/// with the caller's compiler flags. Only functions that are compiled into their callers take or return one
-/// by value: how it is passed depends on those flags too. The alignment is written down since it would depend
-/// on them as well, while functions compiled for wider instructions (vectorized.h) rely on it; in a
-/// template's argument, a `std::array`'s say, it would be lost.
+/// Three numbers side by side; the fourth is undefined unless documented. With Eigen's Vector3d, sums and
+/// products take two instructions each and a cross product a dozen. The alignment of Eigen's Vector4d would
+/// depend on the caller's compiler flags, and so does how such a vector is passed: only inlined functions
+/// take or return one by value. The alignment is given explicitly, because functions compiled for wider
+/// instructions (vectorized.h) rely on it. As a template argument, as in `std::array`, it would be lost.
 using Packed = double __attribute__((vector_size(32), aligned(32)));
 
 inline Packed pack(const Eigen::Vector3d& v) { return Packed{v.x(), v.y(), v.z(), v.z()}; }
@@ -62,7 +61,7 @@ inline Packed fromBits(const PackedBits& bits) {
   return v;
 }
 
-/// What turns signs around, in bits that exclusive or applies.
+/// Masks that flip signs by exclusive or.
 constexpr std::int64_t kSign = std::numeric_limits<std::int64_t>::min();
 constexpr PackedBits kOpposite3{kSign, kSign, kSign, 0}, kOppositeFourth{0, 0, 0, kSign};
 

@@ -1,4 +1,7 @@
-// The callback: asks each pair that the broadphase offers and keeps the closest.
+// The callback for FCL's broadphase managers, for each pair that they offer:
+// 1. ask fcl_stpbv::distance, from the pair's cache if the caller keeps one;
+// 2. keep the answer if it is the closest, or deepest, so far;
+// 3. return a bound above 0, so that the manager goes on to overlapping pairs.
 #include "fcl_stpbv/adapter/distance_callback.h"
 
 #include <algorithm>

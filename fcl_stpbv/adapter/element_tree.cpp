@@ -1,4 +1,6 @@
-// One view of FCL's meshes, of any bounding volume, and of its octrees: boxes, children, elements.
+// One view of FCL's hierarchies: bounding volume trees of meshes, whatever their boxes, and octrees.
+// 1. A node's box becomes an oriented box that also covers the rounding of FCL's fitting.
+// 2. Children and elements (triangle, point, cell) are read from FCL's own nodes; nothing is built.
 #include "fcl_stpbv/adapter/element_tree.h"
 
 #include <fcl/config.h>

@@ -1,4 +1,4 @@
-// One case for each of FCL's simple geometries.
+// FCL's simple geometries as this library's shapes: one case for each type, sizes and axes translated.
 #include "fcl_stpbv/adapter/fcl_shapes.h"
 
 #include <fcl/geometry/shape/box.h>

@@ -1,4 +1,4 @@
-// A hull's vertices and faces in the format of fcl::Convexd.
+// A convex hull in the format of fcl::Convexd: a list of vertices, and faces as [n, i0, i1, ...].
 #include "fcl_stpbv/adapter/hull_geometry.h"
 
 namespace fcl_stpbv {

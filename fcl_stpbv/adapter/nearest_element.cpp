@@ -1,5 +1,8 @@
-// Branch and bound down FCL's hierarchy: near branches first, and what cannot hold one of the nearest two is
-// left out.
+// The nearest element of a mesh or tree and the runner-up, by branch and bound down FCL's hierarchy (best
+// child first, as in Larsen, Gottschalk, Lin, Manocha 1999):
+// 1. bound a node's distance from below by its box;
+// 2. descend into the nearer child first, skip what cannot hold one of the nearest two;
+// 3. solve an element exactly, keep the two least.
 #include "fcl_stpbv/adapter/nearest_element.h"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
-// The scale of a pair, and libccd's callbacks.
+// Two hulls for libccd's GJK: scales the pair by a power of two to size about 1, because libccd's tolerances
+// are absolute, brings both into one frame, and answers libccd's callbacks for support points. The vertices
+// behind the points are logged, so that a simplex can name them afterwards.
 #include "fcl_stpbv/adapter/posed_hulls.h"
 
 #include <cmath>

@@ -1,4 +1,5 @@
-// The hull's features get the names of the volume's patches: faces by their vertices, edges by their ends.
+// An STP-BV as an FCL convex polyhedron. Hull features get the numbers of the volume's patches: faces by
+// their vertices, edges by their ends. The bounding box is that of the smooth surface.
 #include "fcl_stpbv/adapter/stp_bv_geometry.h"
 
 #include <algorithm>

@@ -1,5 +1,7 @@
-// A cone of directions as a polygon on the sphere: cuts clip it (Sutherland and Hodgman 1974), its middle is
-// the centroid of its corners' triangles.
+// A convex cone of directions as a polygon on the unit sphere.
+// 1. Start: the hemisphere around a pole, four corners just above its rim.
+// 2. A cut clips the polygon by a plane through the origin (Sutherland and Hodgman 1974).
+// 3. The middle is the centroid of the triangles between the corners.
 #include "fcl_stpbv/convex/direction_cone.h"
 
 #include <Eigen/Geometry>

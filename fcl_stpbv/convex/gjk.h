@@ -8,8 +8,8 @@
 // 3. |v| is an upper bound of the distance, as the distance of two points. The unit normal n along v
 //    gives a lower one, n.w with w the difference's point furthest against n, as the gap of two
 //    supporting planes.
-// 4. Stop where the two bounds agree (the duality gap), where the caller has heard enough, or where
-//    rounding lets nothing improve. Else take w into the simplex and go to 2.
+// 4. Stop where the two bounds agree (the duality gap), where the caller stops it, or where
+//    rounding allows no improvement. Else take w into the simplex and go to 2.
 // The duality gap is a proof. FCL's own stop, two norms that agree, is none (docs/fcl.md).
 #pragma once
 

@@ -1,4 +1,5 @@
-// The plane in which two bodies of revolution on parallel axes come nearest to leaving each other.
+// Overlap of two bodies of revolution with parallel axes. The shortest way out lies in a plane along the
+// axes, so the 3-D problem becomes a planar one: this file finds that plane.
 #include "fcl_stpbv/convex/meridian.h"
 
 #include <optional>

@@ -1,4 +1,4 @@
-// Overlap of bodies of revolution on parallel axes: a plane along them tells it all.
+// Overlap of bodies of revolution on parallel axes, reduced to a problem in a plane along the axes.
 #pragma once
 
 #include <Eigen/Geometry>

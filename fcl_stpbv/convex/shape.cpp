@@ -1,4 +1,5 @@
-// Support functions of the simple shapes, each in closed form (Ericson, Real-Time Collision Detection, 9.5).
+// Support functions of the simple shapes, each in closed form (Ericson, Real-Time Collision Detection, 9.5):
+// a core (point, segment, box, disc, ...) plus a ball of radius `margin`.
 #include "fcl_stpbv/convex/shape.h"
 
 #include <algorithm>

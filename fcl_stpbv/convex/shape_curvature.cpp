@@ -1,5 +1,6 @@
-// Which normals the feature of a shape has, and how its surface curves there: face, edge, corner, rim,
-// generator, or all round.
+// The normals that the supporting feature of a shape has, and its curvature there. By what lies furthest
+// along the normal: a face, an edge or a corner of a polytope; the rim, the generator or the disc of a
+// cylinder or cone; a ball; an ellipsoid's point, all in closed form.
 #include "fcl_stpbv/convex/shape_curvature.h"
 
 #include <Eigen/Geometry>

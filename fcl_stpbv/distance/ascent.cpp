@@ -88,8 +88,8 @@ bool settle(const BodyPair& pair, Sample& x, Vector3d& next, SearchWork& work) {
         pair.b().patches().crossing(x.patch[1], pair.opposite(n)).past > kOnSeam)
       return false;
     const Sample there = BodyPair::sample(n, x.patch, a, b);
-    // Deep inside each other the pair's other maximum may lie in the same regions; it must not be a step
-    // down.
+    // At deep overlap the pair's other maximum may lie in the same regions; moving there must not lower the
+    // gap.
     if (there.core < x.core - pair.gapRounding()) return false;
     if (pair.isStationary(there)) {
       x = there;

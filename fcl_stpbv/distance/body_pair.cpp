@@ -1,4 +1,5 @@
-// The gap of two STP-BVs along any normal: its patches' owners are found by a walk from a hint.
+// The gap of two STP-BVs along a normal. The owner of the normal on each body is found by a walk over patches
+// from a hint; the gap is then one closed form (core_gap.h).
 #include "fcl_stpbv/distance/body_pair.h"
 
 #include "fcl_stpbv/vectorized.h"

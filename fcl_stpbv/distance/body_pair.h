@@ -21,7 +21,7 @@ struct Sample {
   Eigen::Vector3d across;    ///< gradient of the gap on the sphere: core points' difference across `n` (m)
   Eigen::Vector3d point;     ///< the first core's point (m)
 
-  /// A start for `settle`, which any gap is better than.
+  /// A start for `settle` with gap = -inf.
   static Sample unevaluated(const Eigen::Vector3d& n, const std::array<int, 2>& patch) {
     Sample s;
     s.n = n;

@@ -7,7 +7,7 @@
 
 namespace fcl_stpbv::detail {
 
-/// Part of the depth by which a bound on it may fall short.
+/// Fraction of the depth by which a bound may fall short of it.
 constexpr double kClose = 1e-3;
 
 /// Up to four points of the difference of the two cores, second less first.
@@ -34,8 +34,8 @@ bool isOnlyMaximum(const BodyPair& pair, const Sample& top, double distance);
 /// than through the nearest plane. True where that is one at the top and leaves no room for another maximum;
 /// along no normal is the gap of the cores then more than `bound` (m, negative).
 ///
-/// Of the points nothing is asked but that every triangle has the origin on its inner side: each ray from
-/// there then meets the surface.
+/// The points only have to put the origin on the inner side of every triangle: then each ray from the origin
+/// meets the surface.
 bool provesWidest(const BodyPair& pair, const Sample& top, double& bound);
 
 /// Closes a surface around the origin from the corners of a maximum's feature over a ball that the difference

@@ -39,8 +39,8 @@ Packed renormalized(const Packed& n) {
   return n * (std::abs(length2 - 1.0) < 1e-8 ? 1.5 - 0.5 * length2 : 1.0 / std::sqrt(length2));
 }
 
-/// The first guess when nothing near is remembered: from centre to centre. The tables are asked for a
-/// direction of any length, as what they name is waited for longer than its root.
+/// The first guess when nothing near is remembered: from centre to centre. The tables take a direction that
+/// is not normalised, because the lookup's latency exceeds the square root's.
 SearchStart fromCentres(const BodyPair& pair) {
   const UnnormalizedNormal h = unnormalizedOr(pair.centreDifference(), Packed{1, 0, 0, 0});
   return {unpack(h.unit()), pair.near(unpack(h.d)), false};
@@ -109,8 +109,8 @@ struct SearchState {
 };
 
 /// Settles on a patch pair near the given one: over the seam that the widest normal passes furthest, on
-/// either body, to the next pair, without a look at the gap. A maximum that it finds between cores apart is
-/// the only one; that it does not find one proves nothing.
+/// either body, to the next pair, without evaluating the gap. Between cores apart, a maximum that it finds is
+/// the only one. If it finds none, that proves nothing.
 bool walkFeatures(const BodyPair& pair, const SearchStart& start, Sample& x, SearchWork& work) {
   constexpr int kTries = 12;    // one to three are usual
   constexpr double kFar = 0.3;  // cosine of the turn after which the seam passed furthest says little

@@ -1,4 +1,9 @@
-// The nearest point of a cylinder or a cone to an STP-BV's core, feature by feature.
+// The nearest point of a cylinder or a cone to an STP-BV's core, feature by feature; the first with a
+// certificate is the answer:
+// 1. beyond a flat end: its disc, inside or at the rim;
+// 2. the side: a segment with the radius around it, or the generators of a cone, by Newton's method on the
+//    angle around the axis, safeguarded by the Illinois variant of regula falsi;
+// 3. the rims, by Newton's method on the same angle.
 #include <algorithm>
 #include <cmath>
 
@@ -51,7 +56,7 @@ class ConeSide {
     const double along = (found.y - apex_).dot(generator);
     found.corners = 2;
     found.apart = found.gap > 0.0 && along >= 0.0 && along <= slant_;
-    // What rounding leaves across the generator must not show: the point is put onto it.
+    // Rounding may put the point beside the generator: project it back.
     if (found.apart) found.y = apex_ + along * generator;
     return found;
   }

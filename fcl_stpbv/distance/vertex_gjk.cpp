@@ -1,5 +1,5 @@
-// GJK on the vertices of two STP-BVs, whose support points are found by climbing the two edge graphs side by
-// side.
+// GJK (Gilbert, Johnson, Keerthi 1988) on the vertices of two STP-BVs. Support points are found by hill
+// climbing on both edge graphs side by side, from the vertices found last.
 #include "fcl_stpbv/distance/vertex_gjk.h"
 
 #include <limits>

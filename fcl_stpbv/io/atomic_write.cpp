@@ -1,4 +1,8 @@
-// See atomic_write.h.
+// Atomic writes:
+// 1. a temporary file in the target's folder, with the old file's permissions;
+// 2. write, fsync, rename over the target, fsync the folder;
+// 3. signals that would end the process wait until this is done.
+// Devices, pipes and open descriptors are written directly.
 #include "fcl_stpbv/io/atomic_write.h"
 
 #include <fcntl.h>
@@ -39,7 +43,7 @@ class SignalsHeld {
   }
   ~SignalsHeld() {
     // A write past the file size limit fails with EFBIG, which the caller reports; the signal that came with
-    // it would end the process without a word. The same goes for a pipe nobody reads.
+    // it would end the process without a message. The same holds for a pipe without a reader.
     sigset_t reported;
     sigemptyset(&reported);
     for (int signal : kOfWrites) {
@@ -71,7 +75,7 @@ int writeAll(int file, std::string_view content) {
   return 0;
 }
 
-// Opening a pipe waits for its reader, and a full one for room; whoever gets tired of it may interrupt.
+// Opening a pipe waits for its reader, and writing to a full one waits for space. Both can be interrupted.
 void writeStraight(const std::string& path, std::string_view content) {
   const SignalsHeld held(kOfWrites);
   const int file = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);

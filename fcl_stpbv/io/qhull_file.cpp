@@ -1,4 +1,5 @@
-// See qhull_file.h.
+// Reader of qhull's text: a header of counts decides between a polyhedron (points, facets) and a point file.
+// Points are kept. Facets are only checked, to notice a file that was cut off.
 #include "fcl_stpbv/io/qhull_file.h"
 
 #include <algorithm>

@@ -1,4 +1,7 @@
-// Volumes from and to sch-core's format; see sch_file.h.
+// Volumes from and to sch-core's text format.
+// 1. Parse (sch_parse.cpp) and derive the tolerance from the digits in the file.
+// 2. Build a volume from the file's vertices and faces.
+// 3. Compare every redundant number of the file with that volume; refuse a contradiction with its line.
 #include "fcl_stpbv/io/sch_file.h"
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// Reads the fields of sch-core's format; see sch_data.h.
+// Reads the fields of sch-core's text format token by token into sch_data.h; checks ranges, not geometry.
 #include <algorithm>
 #include <cmath>
 #include <limits>

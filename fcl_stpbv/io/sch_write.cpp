@@ -1,4 +1,5 @@
-// Writes sch-core's format; see sch_file.h.
+// Writes a volume in sch-core's text format: vertices, faces as fans of triangles, tori with their cones and
+// planes. Bodies that the format cannot hold are refused first.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>

@@ -1,4 +1,5 @@
-// See stpbv_file.h.
+// The `.stpbv` format: a header, vertices, faces, `end`. Numbers are the shortest decimals that read back
+// exactly; on reading, edges and patches are rebuilt and the faces checked against their balls.
 #include "fcl_stpbv/io/stpbv_file.h"
 
 #include <ostream>

@@ -1,4 +1,5 @@
-// See text_scanner.h.
+// A tokeniser that knows the line it is on, for readers that name the place of an error; numbers by
+// std::from_chars and std::to_chars, so the locale does not matter.
 #include "fcl_stpbv/io/text_scanner.h"
 
 #include <algorithm>

@@ -1,4 +1,7 @@
-// See cell.h.
+// A convex cell of space between cutting planes, as a polyhedron of corners and faces.
+// 1. Start: the mesh's box, a little larger.
+// 2. above(): clips each face by the plane, joins the new corners to a face; a corner on the cut asks the
+//    mesh once whether it is inside.
 #include "fcl_stpbv/parts/cell.h"
 
 #include <Eigen/Geometry>

@@ -1,4 +1,4 @@
-// The convex room that plane cuts leave to a part, and its corners inside the mesh's solid.
+// The convex cell of space that plane cuts leave to a part, and its corners inside the mesh's solid.
 #pragma once
 
 #include <Eigen/Core>

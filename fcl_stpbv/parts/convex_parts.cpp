@@ -1,4 +1,7 @@
-// See convex_parts.h.
+// Convex parts of a mesh:
+// 1. take the connected pieces (mesh_pieces.h) and make them coarser for the search;
+// 2. search for few parts (part_search.h), by cutting and joining;
+// 3. cut the whole mesh again by the same planes, and certify each hull's excess (mesh_excess.h).
 #include "fcl_stpbv/parts/convex_parts.h"
 
 #include <algorithm>

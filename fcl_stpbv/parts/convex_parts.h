@@ -31,7 +31,7 @@ struct ConvexParts {
 };
 
 /// Parts cover every triangle, whole, and what closed pieces enclose, by construction: the mesh is cut by
-/// planes into rooms, and a part is the hull of all that some rooms hold (docs/parts.md). The answer depends
+/// planes into cells, and a part is the hull of all that some cells hold (docs/parts.md). The answer depends
 /// on the mesh and the options alone.
 /// @throws Error as meshPieces() does.
 ConvexParts convexParts(const TriangleMesh& mesh, const PartsOptions& options = {});

@@ -1,4 +1,6 @@
-// See cut_planes.h.
+// Candidate planes to cut a part with: twelve across each coordinate and principal axis and one through the
+// point farthest from the mesh, and the planes of its largest flat parts. Flat parts are found by rounding
+// normals and offsets to a grid.
 #include "fcl_stpbv/parts/cut_planes.h"
 
 #include <Eigen/Eigenvalues>

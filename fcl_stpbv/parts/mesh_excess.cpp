@@ -1,4 +1,8 @@
-// See mesh_excess.h.
+// How far a surface is from a mesh at most, by branch and bound over the surface's triangles:
+// 1. a triangle's bound: the distance of its middle plus its radius, or that of its corners to one mesh
+//    triangle (the distance to a convex set is convex);
+// 2. the middle's own distance is a lower bound of the whole;
+// 3. split the triangle with the largest bound across its longest edge, until both bounds agree.
 #include "fcl_stpbv/parts/mesh_excess.h"
 
 #include <algorithm>

@@ -1,4 +1,7 @@
-// See mesh_pieces.h.
+// Connected pieces of a mesh, and which of them enclose a space:
+// 1. weld vertices with equal coordinates;
+// 2. walk over shared edges from triangle to triangle, turning each to agree with its neighbour;
+// 3. a piece is closed if every edge is run through equally often both ways.
 #include "fcl_stpbv/parts/mesh_pieces.h"
 
 #include <algorithm>

@@ -1,4 +1,8 @@
-// See mesh_solid.h.
+// Distance to a mesh, and whether a point is inside.
+// 1. A tree of boxes over the triangles, split at the median along the longest axis.
+// 2. Nearest triangle: branch and bound down the tree.
+// 3. Inside: crossings of a ray, counted with their sign for closed pieces; a crossing that rounding leaves
+//    unclear takes the next of eight directions.
 #include "fcl_stpbv/parts/mesh_solid.h"
 
 #include <Eigen/Geometry>

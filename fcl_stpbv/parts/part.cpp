@@ -1,4 +1,6 @@
-// See part.h.
+// One part during the search: the hull of what its cells hold, and its excess over the mesh, known only as
+// well as the search needs. Cutting clips each cell's triangles and corners; joining takes both parts'
+// points.
 #include "fcl_stpbv/parts/part.h"
 
 #include <Eigen/Geometry>

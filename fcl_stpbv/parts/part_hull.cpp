@@ -1,4 +1,5 @@
-// See part_hull.h.
+// Convex hulls during the search, by qhull (Barber, Dobkin, Huhdanpaa 1996), which is faster than the exact
+// rolling ball. Where qhull gives up, as on flat clouds, the rolling ball takes over.
 #include "fcl_stpbv/parts/part_hull.h"
 
 #include <Eigen/Geometry>
@@ -20,7 +21,7 @@ using Eigen::Vector3d;
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-// qhull's messages, of which there is one for every flat cloud, go nowhere.
+// Discards qhull's messages: it prints one for every flat cloud.
 std::FILE* nowhere() {
   static const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen("/dev/null", "w"),
                                                                     std::fclose);

@@ -1,4 +1,5 @@
-// See approach.h.
+// Damped Gauss-Newton steps (Levenberg 1944, Marquardt 1963) on the sum of squared violations and a little of
+// the cost. A variable at its bound that would leave it is held; damping follows Nielsen's rule (1999).
 #include "fcl_stpbv/posture/approach.h"
 
 #include <Eigen/Cholesky>

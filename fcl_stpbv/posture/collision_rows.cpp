@@ -1,4 +1,4 @@
-// See collision_rows.h.
+// The rows d(q) - margin >= 0 of a robot's CollisionConstraints, with their Jacobian.
 #include "fcl_stpbv/posture/collision_rows.h"
 
 namespace fcl_stpbv {

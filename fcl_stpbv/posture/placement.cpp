@@ -1,4 +1,6 @@
-// See placement.h.
+// A frame of a link at a target. Errors are the position in the target's axes and the rotation vector from
+// target to frame; with one free rotation, the rotation vector that tilts the axes together. Derivatives use
+// the inverse of the rotation vector's rate matrix.
 #include "fcl_stpbv/posture/placement.h"
 
 #include <algorithm>

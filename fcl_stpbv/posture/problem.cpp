@@ -1,4 +1,5 @@
-// See problem.h.
+// A posture as an optimisation problem: gathers the rows, variables, bounds and cost, and evaluates all at
+// once per x.
 #include "fcl_stpbv/posture/problem.h"
 
 #include <algorithm>

@@ -1,4 +1,7 @@
-// NLopt's SLSQP behind solver.h.
+// NLopt's SLSQP (Kraft 1988) behind solver.h, with few rows in its model:
+// 1. begin with the rows that have little slack;
+// 2. when an iterate violates a row outside the model, begin again there with the row included;
+// 3. stop a search that gets no nearer to feasible.
 #include <nlopt.h>
 
 #include <algorithm>

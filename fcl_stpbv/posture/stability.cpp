@@ -1,4 +1,7 @@
-// See stability.h.
+// Static stability: the centre of mass, seen from above, is a convex combination of contact points.
+// 1. Hull of each contact by Andrew's monotone chain (1979).
+// 2. Clip it by its edges moved inward by the margin (Sutherland and Hodgman 1974).
+// 3. Rows: centre of mass = sum of weights times points; derivatives by the mass below each joint.
 #include "fcl_stpbv/posture/stability.h"
 
 #include <Eigen/Eigenvalues>

@@ -1,4 +1,5 @@
-// See task.h; the file's format is read in task_file.cpp.
+// From a task and a scene to an optimisation problem: resolves names, chooses the pairs, the start, the cost,
+// and adds the rows of placements, stability and collisions.
 #include "fcl_stpbv/posture/task.h"
 
 #include <algorithm>

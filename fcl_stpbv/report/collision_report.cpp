@@ -1,4 +1,8 @@
-// See collision_report.h.
+// What urdf_collision_report finds:
+// 1. the pair list with its reasons (robot/pair_list.h);
+// 2. each checked pair in the given posture or its closest one: distances of volumes, hulls and meshes,
+//    gradient;
+// 3. how far the links' volumes exceed their meshes, and what each collision comes from.
 #include "fcl_stpbv/report/collision_report.h"
 
 #include <algorithm>

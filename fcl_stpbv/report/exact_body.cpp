@@ -1,4 +1,5 @@
-// See exact_body.h.
+// The shape that a body stands for, as FCL measures it: a bounding volume hierarchy of the mesh's triangles,
+// or the primitive. A mesh's volume is a sum of tetrahedra.
 #include "fcl_stpbv/report/exact_body.h"
 
 #include <fcl/geometry/bvh/BVH_model.h>

@@ -1,4 +1,5 @@
-// See mesh_fit.h.
+// How far a link's hull exceeds its mesh (parts/mesh_excess.h) and, with the over-cover, how far its volume
+// does.
 #include "fcl_stpbv/report/mesh_fit.h"
 
 #include "fcl_stpbv/parts/mesh_excess.h"

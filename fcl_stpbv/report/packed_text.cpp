@@ -1,4 +1,4 @@
-// zlib's gzip format, then base64 (RFC 4648).
+// Compressed data as text: zlib's gzip format, then base64 (RFC 4648).
 #include "fcl_stpbv/report/packed_text.h"
 
 #include <zlib.h>

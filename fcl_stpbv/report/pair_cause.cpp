@@ -1,4 +1,6 @@
-// See pair_cause.h.
+// What a collision comes from: the meshes meet; else the hulls do; else only the volumes. Body by body,
+// nearest first, so that the mesh distance of far ones need not be found. Exact bodies are made once and
+// kept.
 #include "fcl_stpbv/report/pair_cause.h"
 
 #include <algorithm>

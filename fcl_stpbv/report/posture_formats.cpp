@@ -1,4 +1,4 @@
-// Text and JSON; see posture_formats.h.
+// A posture as text and as JSON.
 #include "fcl_stpbv/report/posture_formats.h"
 
 #include <cstdio>

@@ -1,4 +1,4 @@
-// The page of a posture: that of a collision report, of one configuration; see posture_formats.h.
+// The page of a posture: the collision report's page with one configuration.
 #include <algorithm>
 
 #include "fcl_stpbv/report/posture_formats.h"

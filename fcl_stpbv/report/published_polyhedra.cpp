@@ -1,3 +1,5 @@
+// Compares each link's volume with one built from a published polyhedron: how far the surfaces are apart, and
+// which vertices have no partner.
 #include "fcl_stpbv/report/published_polyhedra.h"
 
 #include <algorithm>

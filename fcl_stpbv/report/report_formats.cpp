@@ -1,4 +1,4 @@
-// Text, JSON, CSV and SRDF; see report_formats.h.
+// A collision report as text, JSON, CSV and SRDF.
 #include "fcl_stpbv/report/report_formats.h"
 
 #include <algorithm>

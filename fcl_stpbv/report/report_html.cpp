@@ -1,5 +1,5 @@
-// The page's data; see report_formats.h and page/. Shapes and postures go in as 16-bit numbers, all in one
-// packed block.
+// The report's page: the files of page/ filled with its data. Shapes and postures are 16-bit numbers in one
+// packed block (packed_text.h), the rest is JSON with figures cut to eight digits.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>

@@ -1,4 +1,5 @@
-// See robot_files.h.
+// Loads robot, SRDF, scene and posture for a tool, and gathers what is wrong with any of them into one
+// message.
 #include "fcl_stpbv/report/robot_files.h"
 
 #include "fcl_stpbv/error.h"

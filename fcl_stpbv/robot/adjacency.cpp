@@ -1,4 +1,6 @@
-// See adjacency.h.
+// Adjacency of links. Links joined by fixed joints are one part. Along the joints between two links at most
+// one moves, or several that turn about coinciding origins with no body between them (a compound joint); any
+// other body on the way makes the two links separate.
 #include "fcl_stpbv/robot/adjacency.h"
 
 #include "fcl_stpbv/robot/joint_path.h"

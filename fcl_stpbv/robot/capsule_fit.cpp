@@ -1,4 +1,4 @@
-// See capsule_fit.h.
+// Joins a cylinder and two spheres of its radius at its ends to a capsule, as URDF has none of its own.
 #include "fcl_stpbv/robot/capsule_fit.h"
 
 #include <cmath>

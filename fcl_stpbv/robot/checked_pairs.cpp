@@ -1,4 +1,5 @@
-// See checked_pairs.h.
+// Pairs of bodies to check: of all links, but those the SRDF leaves out or, without one, rigid and adjacent
+// ones; and bodies against obstacles, but for links that do not move.
 #include "fcl_stpbv/robot/checked_pairs.h"
 
 #include "fcl_stpbv/error.h"

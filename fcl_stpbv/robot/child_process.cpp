@@ -1,4 +1,7 @@
-// See child_process.h.
+// Runs work on an untrusted file in a child process:
+// 1. fork with limits on memory and processor time that grow with the files opened;
+// 2. the child writes outcome, size and text to a pipe;
+// 3. the parent turns a signal, a limit or a short answer into an Error that names the file.
 #include "fcl_stpbv/robot/child_process.h"
 
 #include <sys/resource.h>

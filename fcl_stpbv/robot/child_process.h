@@ -1,5 +1,5 @@
-// Work on a file that may be hostile, done by somebody else's code: in a child process, which may fall over
-// alone.
+// Work on a file that may be hostile, done by a foreign library: in a child process, so that only the child
+// can crash.
 #pragma once
 
 #include <cstddef>

@@ -117,7 +117,7 @@ class CollisionConstraints {
   void hessianVector(const ConstVector& q, const ConstVector& weights, const ConstVector& v, Vector out);
 
   /// The lower triangle that a weighted sum of the rows' Hessians may fill, for hessian() to fill: columns
-  /// one after the other, rows ascending, the structure the same for ever.
+  /// one after the other, rows ascending; the structure never changes.
   SparseHessian makeHessian() const;
   /// Sum over the rows of weight times Hessian of d: the constraints' part of a Lagrangian's Hessian, as
   /// IPOPT asks for it. The first call makes room for what it needs.

@@ -1,5 +1,5 @@
-// How fast a row's gradient may change, from r, R and the distance alone; see constraints.h and
-// docs/control.md.
+// How fast a row's gradient may change, from r, R and the distance alone: the bound of docs/control.md,
+// evaluated with each body's least and largest radius of curvature.
 #include <algorithm>
 #include <cmath>
 #include <limits>

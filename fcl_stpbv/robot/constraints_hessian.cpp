@@ -1,5 +1,6 @@
-// How the rows of CollisionConstraints change as q moves: rates, and Hessians along a vector; see
-// constraints.h.
+// How rows change as q moves: dd/dt, the drift qd'Hqd and Hessian times vector. The pair's own Hessian gives
+// the velocities of normal and witness points; the joints' twists change by Kinematics::differentiate
+// (docs/robot.md, Second derivatives). Rows without a closed form use central differences.
 #include <algorithm>
 
 #include "fcl_stpbv/robot/constraints.h"

@@ -1,5 +1,5 @@
-// The full Hessians of the rows of CollisionConstraints, and their weighted sum as IPOPT asks for it; see
-// constraints.h.
+// Full Hessians of rows and their weighted sum in a fixed sparse structure, as IPOPT asks: the pair's 12 x 12
+// Hessian between the twists of the joints, plus the change of the twists with each joint above.
 #include <algorithm>
 
 #include "fcl_stpbv/robot/constraints.h"

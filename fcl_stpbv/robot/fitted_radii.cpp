@@ -1,4 +1,5 @@
-// See fitted_radii.h.
+// r and R that fit a body: r from its smallest width, which is the depth of its hull in itself, R from its
+// smallest ball and the bulge that r allows (docs/choosing_r_and_R.md).
 #include "fcl_stpbv/robot/fitted_radii.h"
 
 #include <algorithm>

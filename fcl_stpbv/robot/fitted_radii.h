@@ -1,4 +1,4 @@
-// r and R that fit a body's size, so that a finger is not wrapped in a centimetre.
+// r and R that fit a body's size, so that a thin finger does not get a margin of a centimetre.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,4 +1,4 @@
-// See joint_path.h.
+// The joints between two links: both chains up to the root without their common part.
 #include "fcl_stpbv/robot/joint_path.h"
 
 namespace fcl_stpbv {

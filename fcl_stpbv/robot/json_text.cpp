@@ -1,4 +1,4 @@
-// See json_text.h.
+// JSON from untrusted files: at most 64 MB, and a key given twice is refused.
 #include "fcl_stpbv/robot/json_text.h"
 
 #include <set>

@@ -1,4 +1,5 @@
-// See kinematics.h.
+// Forward kinematics in the order of the tree: pose of each link from its parent's, joint by joint
+// (exponential map for floating joints), and the world's twist of each coordinate.
 #include "fcl_stpbv/robot/kinematics.h"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
-// How the links' poses and motions change as a configuration moves; see kinematics.h.
+// Derivatives along a velocity of q: each link's twist adds up down the tree, and a joint's own twist changes
+// as the links above carry it; for a floating joint also by the rate matrix of its rotation vector.
 #include <cmath>
 
 #include "fcl_stpbv/robot/kinematics.h"

@@ -1,4 +1,5 @@
-// See link_geometry.h.
+// The bodies of a robot's links: reads all shapes, reports all faults at once, then builds a volume per mesh
+// (link_volume.h); primitives become FCL's shapes.
 #include "fcl_stpbv/robot/link_geometry.h"
 
 #include <fcl/geometry/shape/box.h>

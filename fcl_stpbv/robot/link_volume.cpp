@@ -1,4 +1,5 @@
-// See link_volume.h.
+// The volume of a link's mesh: from the cache, else built with the link's r and R, fitted if asked. With an
+// over-cover budget R is doubled until the volume keeps to it, then reduce() drops vertices.
 #include "fcl_stpbv/robot/link_volume.h"
 
 #include "fcl_stpbv/error.h"

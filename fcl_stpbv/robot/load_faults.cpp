@@ -1,4 +1,4 @@
-// See load_faults.h.
+// Gathers what is wrong with a robot's files and throws it as one Error.
 #include "fcl_stpbv/robot/load_faults.h"
 
 namespace fcl_stpbv {

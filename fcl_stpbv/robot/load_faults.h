@@ -1,4 +1,4 @@
-// What is wrong with a robot's files, gathered so that one message says all of it before any work is done.
+// Gathers all errors in a robot's files, so that one message reports them before any work is done.
 #pragma once
 
 #include <string>

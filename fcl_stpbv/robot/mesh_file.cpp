@@ -1,4 +1,7 @@
-// Reading; see mesh_file.h.
+// Reading of meshes by assimp, in a child process with limits (child_process.h):
+// 1. check the file's size and, for PLY and text formats, its contents;
+// 2. read all meshes with the transforms of their nodes;
+// 3. send vertices and triangles back to the parent as bytes.
 #include "fcl_stpbv/robot/mesh_file.h"
 
 #include <assimp/DefaultIOSystem.h>

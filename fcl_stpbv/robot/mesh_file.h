@@ -1,5 +1,4 @@
-// Triangle meshes and clouds of points from the files that robots ship, and meshes to files for a look at
-// them.
+// Reads triangle meshes and point clouds from the files that robots ship; writes meshes for viewing.
 #pragma once
 
 #include <Eigen/Core>

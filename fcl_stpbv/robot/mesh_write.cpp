@@ -1,4 +1,4 @@
-// Writing; see mesh_file.h.
+// Writing of meshes by assimp as OBJ, STL, PLY or GLB, by the name's ending, atomically.
 #include <assimp/cexport.h>
 #include <assimp/scene.h>
 

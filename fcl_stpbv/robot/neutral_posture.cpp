@@ -1,4 +1,5 @@
-// See neutral_posture.h.
+// Counts the pairs that collide in the neutral configuration, and looks for a posture with fewer: each
+// group_state, then 200 random configurations.
 #include "fcl_stpbv/robot/neutral_posture.h"
 
 #include <random>

@@ -1,4 +1,5 @@
-// See package_path.h.
+// Where package://, file:// and relative names lead: the given folders, ROS_PACKAGE_PATH, AMENT_PREFIX_PATH,
+// the package around the URDF and those beside it, in this order.
 #include "fcl_stpbv/robot/package_path.h"
 
 #include <algorithm>

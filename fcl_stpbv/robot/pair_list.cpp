@@ -232,7 +232,8 @@ class Search {
     }
   }
 
-  // The neutral configuration must stay outside the influence, or an optimiser starts in the brake.
+  // The neutral configuration must stay outside the influence, or an optimiser starts inside the damping
+  // zone.
   static void propose(PairEntry& entry) {
     const double room = std::max(0.0, entry.neutralDistance);
     entry.security = std::min(0.01, 0.25 * room);

@@ -1,4 +1,8 @@
-// See pair_proof.h.
+// Proofs that two links never meet, by branch and bound over the box of their joints' values
+// (docs/proofs.md):
+// 1. the distance in the box's middle less what the joints' levers can change it;
+// 2. else the gap along a plane fixed to a link between the two, less how far the joints push each body;
+// 3. else cut the box where that gains most. Each box's result depends on the box alone.
 #include "fcl_stpbv/robot/pair_proof.h"
 
 #include <algorithm>

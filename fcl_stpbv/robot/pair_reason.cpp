@@ -1,4 +1,4 @@
-// See pair_reason.h.
+// The words for why a pair is checked or left out, and which of them count without an SRDF.
 #include "fcl_stpbv/robot/pair_reason.h"
 
 namespace fcl_stpbv {

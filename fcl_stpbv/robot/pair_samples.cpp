@@ -1,4 +1,4 @@
-// See pair_samples.h.
+// Distances of all pairs in the neutral and in random configurations, with the closest ones kept as starts.
 #include "fcl_stpbv/robot/pair_samples.h"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
-// See pair_search.h.
+// The distance of one pair of links as a function of the joints between them. Descents and climbs follow the
+// gradient within the limits, with a step that doubles after a gain and halves otherwise (Armijo). The
+// Lipschitz constants come from the joints' levers.
 #include "fcl_stpbv/robot/pair_search.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// See ply_check.h.
+// Checks a PLY file against its own header before assimp reads it: sizes, counts, the length of the data.
 #include "fcl_stpbv/robot/ply_check.h"
 
 #include <algorithm>

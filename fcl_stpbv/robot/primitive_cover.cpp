@@ -1,4 +1,5 @@
-// See primitive_cover.h.
+// The STP-BV that covers a primitive: a ball itself, a spindle for a capsule, the corners of a box, two
+// polygons around a cylinder's ends, wide enough that the rim is inside.
 #include "fcl_stpbv/robot/primitive_cover.h"
 
 #include <fcl/geometry/shape/box.h>

@@ -1,4 +1,5 @@
-// From a URDF's elements to the model; see robot_model.h.
+// From a URDF's text to a RobotModel: check the XML's words and tree, read each element alone by urdfdom,
+// resolve mimics and limits, and make sure that every <collision> became a body.
 #include "fcl_stpbv/robot/robot_model.h"
 
 #include <algorithm>

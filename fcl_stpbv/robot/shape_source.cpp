@@ -1,4 +1,4 @@
-// See shape_source.h.
+// A robot's shapes before anything is built: which count, and their mesh files found and read once each.
 #include "fcl_stpbv/robot/shape_source.h"
 
 #include <algorithm>

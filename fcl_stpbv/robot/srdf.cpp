@@ -1,4 +1,4 @@
-// See srdf.h.
+// Reads an SRDF: pairs to leave out, group states, virtual joints; what names no link or joint is a warning.
 #include "fcl_stpbv/robot/srdf.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// See text_mesh_check.h.
+// Checks OBJ, STL, OFF and COLLADA text line by line for damage that assimp reads over.
 #include "fcl_stpbv/robot/text_mesh_check.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Damage in meshes written as text that assimp reads past: cut lines, decimal commas, indices of no vertex.
+// Damage in text meshes that assimp silently ignores: cut lines, decimal commas, indices without a vertex.
 #pragma once
 
 #include <string>

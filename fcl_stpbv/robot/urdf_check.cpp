@@ -1,4 +1,4 @@
-// See urdf_check.h.
+// The tree of links and joints by name: one root, one parent each, no loop; returned in tree order.
 #include "fcl_stpbv/robot/urdf_check.h"
 
 #include <unordered_set>

@@ -1,4 +1,4 @@
-// Single elements of a URDF, read by urdfdom one by one: whatever is wrong with one costs no other.
+// Single elements of a URDF, read by urdfdom one by one: an error in one does not affect the others.
 #pragma once
 
 #include <tinyxml2.h>

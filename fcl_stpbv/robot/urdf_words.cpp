@@ -1,4 +1,4 @@
-// See urdf_words.h.
+// Compares the elements and attributes of a URDF with those that count, so that a misspelt name is refused.
 #include "fcl_stpbv/robot/urdf_words.h"
 
 #include <algorithm>

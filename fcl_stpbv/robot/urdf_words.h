@@ -1,4 +1,4 @@
-// Words of a URDF that urdfdom reads past without a word: misspelt names, doubles, shapes in the wrong place.
+// Errors in a URDF that urdfdom silently ignores: misspelt names, duplicates, shapes in the wrong place.
 #pragma once
 
 #include <tinyxml2.h>

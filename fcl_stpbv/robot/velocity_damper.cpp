@@ -1,4 +1,5 @@
-// See velocity_damper.h.
+// Rows A x >= b for a controller from CollisionConstraints: Faverjon and Tournassoud's damper (1987) for
+// velocities and accelerations, a second-order control barrier, and the bounds of docs/control.md.
 #include "fcl_stpbv/robot/velocity_damper.h"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
-// See volume_cache.h.
+// Volumes on disk: the file's name is a digest of the content, r and R; its first line a digest of name and
+// content. An entry that another user could have written, or that does not match, is built anew.
 #include "fcl_stpbv/robot/volume_cache.h"
 
 #include <fcntl.h>

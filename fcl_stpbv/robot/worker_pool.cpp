@@ -1,4 +1,4 @@
-// See worker_pool.h.
+// A fixed set of threads that wait on a condition variable, so that sharing out work allocates nothing.
 #include "fcl_stpbv/robot/worker_pool.h"
 
 namespace fcl_stpbv {

@@ -1,4 +1,4 @@
-// See xml_text.h.
+// Parses untrusted XML: bounds size and depth, refuses document types, NUL bytes and xacro.
 #include "fcl_stpbv/robot/xml_text.h"
 
 #include <algorithm>

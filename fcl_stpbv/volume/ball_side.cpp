@@ -1,3 +1,8 @@
+// On which side of the ball through three points is a fourth? The sign of its height over the ball, |q|^2 /
+// (2 rho) + q.m with q from one of the points and m the ball's normal there:
+// 1. in long double, if above its error bound;
+// 2. in quadruple precision, if above that one's;
+// 3. exactly, in integers (exact_sign.h).
 #include "fcl_stpbv/volume/ball_side.h"
 
 #include <cmath>

@@ -1,3 +1,5 @@
+// How far two volumes that should be equal are apart: the difference of their support functions over normals
+// of both, and the vertices of one without a partner in the other.
 #include "fcl_stpbv/volume/compare.h"
 
 #include <algorithm>

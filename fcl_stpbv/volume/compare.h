@@ -1,4 +1,4 @@
-// By how much two volumes differ that should be the same.
+// How far apart two volumes are that should be equal.
 #pragma once
 
 #include "fcl_stpbv/volume/stp_bv.h"

@@ -1,3 +1,7 @@
+// Joins triangles on one ball to rounding into k-gons:
+// 1. grow groups of neighbours from the largest face, while all corners are within 32 units in the last place
+//    of its ball and normals agree to 1e-12 rad;
+// 2. replace a group by its boundary, if that is a single loop and sound; else keep its faces.
 #include "fcl_stpbv/volume/join_faces.h"
 
 #include <Eigen/Geometry>

@@ -1,3 +1,7 @@
+// Measures of a volume.
+// 1. Content: the divergence theorem patch by patch, over regions of normals, by Gauss-Legendre quadrature.
+// 2. Signed distance of a point: on each patch the normal towards the point from the farthest centre; the
+//    largest value over those that the patch owns.
 #include "fcl_stpbv/volume/measure.h"
 
 #include <Eigen/Geometry>

@@ -1,5 +1,7 @@
-// An LP-type problem: at most four points hold the ball. While a point sticks out, the farthest one enters
-// and the smallest ball of the at most five points involved is found by trying their subsets.
+// Smallest enclosing ball, an LP-type problem (Welzl 1991; Gaertner 1999): at most four points define it.
+// 1. The farthest point outside the ball enters.
+// 2. The smallest ball of the at most five points is found by trying their subsets.
+// 3. Repeat until no point is outside.
 #include "fcl_stpbv/volume/minimum_ball.h"
 
 #include <Eigen/Dense>

@@ -1,4 +1,7 @@
-// How far the surface exceeds the convex hull of the volume's vertices.
+// How far the surface exceeds a convex hull.
+// 1. Largest: the difference of both support functions over each hull edge's normals and at each face normal;
+//    stationary points by bisection.
+// 2. Mean: quadrature over the hull's triangles of the height of the surface above them.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>

@@ -1,3 +1,6 @@
+// A tree of boxes over a cloud, split at the median of its longest side. The highest point over a ball is
+// found by branch and bound: a box's bound is the sum of the largest values of each coordinate, or the bound
+// by the sphere around the cloud's centre if that is lower.
 #include "fcl_stpbv/volume/point_tree.h"
 
 #include <algorithm>

@@ -1,3 +1,8 @@
+// Fewer vertices within a budget of over-cover:
+// 1. try a sphere, then a spindle along the long axis;
+// 2. else add the points that stick out most, a sixteenth at a time, and add what still sticks out to r,
+//    until the budget is kept;
+// 3. then drop each vertex that the budget can spare.
 #include "fcl_stpbv/volume/reduce.h"
 
 #include <Eigen/Eigenvalues>

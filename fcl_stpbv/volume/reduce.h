@@ -1,4 +1,4 @@
-// Fewer vertices for the same body: models no more than a scene needs.
+// Fewer vertices for the same body, within a budget for the over-cover.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,3 +1,5 @@
+// The regions of normals as areas bounded by arcs: a face's between its sides' planes, a vertex's between its
+// edges' cones, each with a centre for drawing and integrating.
 #include "fcl_stpbv/volume/regions.h"
 
 #include <Eigen/Geometry>

@@ -1,5 +1,9 @@
-// The rolling itself. Every decision is the sign of one exact predicate (ball_side.h), so that faces found
-// from different sides agree; faces on one ball to rounding are joined afterwards (join_faces.cpp).
+// Rolls a ball over a cloud (paper, IV.A, Algorithm 1; after Bernardini and others 1999):
+// 1. let the ball touch a first, a second and a third point: the first face;
+// 2. over each open edge pivot the ball to the point it meets next (point_tree.h);
+// 3. stop when no edge is open; join faces on one ball (join_faces.cpp).
+// Every decision is the sign of one exact predicate (ball_side.h), so that faces found from different sides
+// agree.
 #include "fcl_stpbv/volume/rolling_ball.h"
 
 #include <Eigen/Geometry>

@@ -1,4 +1,7 @@
-// Building by rolling ball, and the queries.
+// Building a volume and its simple queries.
+// 1. Check points and radii; the smallest ball decides whether R is large enough.
+// 2. Roll the ball (rolling_ball.cpp), make patches (stp_bv_topology.cpp).
+// 3. Queries walk from a hint to the patch that owns the normal and use its closed form.
 #include "fcl_stpbv/volume/stp_bv.h"
 
 #include <algorithm>

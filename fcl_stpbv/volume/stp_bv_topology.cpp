@@ -1,4 +1,6 @@
-// From vertices and rings to edges, patches, seams and the direction table (paper III.A, III.B, III.D).
+// From vertices and faces to the whole volume (paper, III.A, III.B, III.D): pairs half edges, makes the
+// patches with the planes and cones between them, an inscribed ball, and the table from directions to
+// patches.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>

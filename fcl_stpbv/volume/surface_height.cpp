@@ -1,3 +1,9 @@
+// Where a ray from inside leaves a volume. Of all supporting planes that the ray meets, the first one touches
+// the surface there: a convex minimisation over the normals.
+// 1. Solve the exit of the patch that owns the current normal in closed form; if its normal is the patch's
+//    own, done.
+// 2. Else the plane rules out half of the normals; go on at that exit's normal, or at the centroid of what is
+//    left.
 #include "fcl_stpbv/volume/surface_height.h"
 
 #include <Eigen/Geometry>

@@ -1,3 +1,5 @@
+// Triangles of the surface for viewing: a grid over each patch's region of normals. Neighbours share the
+// steps along their boundary, so the mesh is closed.
 #include "fcl_stpbv/volume/tessellate.h"
 
 #include <Eigen/Geometry>

@@ -1,3 +1,8 @@
+// A built volume checks itself:
+// 1. no vertex above the ball of its own or a neighbouring face (which decides for all, by Blaschke's
+//    theorem), no given point above the surface;
+// 2. the solid angles of all regions, by Gauss-Bonnet, sum to 4 pi;
+// 3. patches meet along their boundaries to rounding.
 #include "fcl_stpbv/volume/verify.h"
 
 #include <Eigen/Geometry>
