@@ -1,6 +1,6 @@
 """Charts of the jump, the hard cases, proofs, postures and controllers."""
 from . import palette, stability_verdicts
-from .plot import UNLABEL, block, captured, draw, known, legend, measured, origin, panels, single
+from .plot import UNLABEL, block, captured, draw, legend, measured, origin, panels, single
 
 
 def jump(height=400):
@@ -19,7 +19,7 @@ def jump(height=400):
         f"plot $sweep using 1:(1000*$2) with lines lw 2.5 lc rgb '{palette.FCL}', '' using 1:(1000*$4) with lines lw 2.5 lc rgb '{palette.SMOOTH}'\n" + \
         UNLABEL + "unset arrow 1\nunset label 1\nset title 'its derivative'\nset ylabel 'derivative with the angle (m/rad)'\nset yrange [-0.12:0.12]\n" \
         f"plot $sweep using 1:3 with points pt 7 ps 0.25 lc rgb '{palette.FCL}', '' using 1:5 with lines lw 2.5 lc rgb '{palette.SMOOTH}'\nunset multiplot\n"
-    return draw("jump", "Two parallel faces: the polyhedra's derivative jumps, the STP-BVs' does not", text, small_print, height)
+    draw("jump", "Two parallel faces: the polyhedra's derivative jumps, the STP-BVs' does not", text, small_print, height)
 
 
 def stability():
@@ -60,7 +60,7 @@ def stability():
             text += block(f"$counts{i}", mine)
             plots.append(f"$counts{i} using 1:2:3 with labels font ',11' tc rgb '{colour}'")
     ours = failures["stpbv_warm"]
-    return draw("stability", f"{len(data['rows'])} hard cases: the STP-BV query fails {ours or 'none'}, FCL {failures['fcl_libccd_1e-6']}",
+    draw("stability", f"{len(data['rows'])} hard cases: the STP-BV query fails {ours or 'none'}, FCL {failures['fcl_libccd_1e-6']}",
          text + "plot " + ", ".join(plots),
          ["A cell: the worst verdict of a group of cases; its number: how many of them fail (a gradient that jumps, or worse)."], height)
 
@@ -79,7 +79,7 @@ def proof_boxes(height=420):
         boxes = sorted(row["boxes"] for row in data["rows"] if row["bound"] == bound)
         text += block(f"$bound{i}", [(1, 0), *((b, 100 * (k + 1) / pairs) for k, b in enumerate(boxes))])
         plots.append(f"$bound{i} using 1:2 with steps lw 2.5 lc rgb '{colour}'")
-    return draw("proof_boxes", f"Planes prove {about['proven_by_planes']} of {pairs} pairs in few boxes, levers {about['proven_by_levers']} in many",
+    draw("proof_boxes", f"Planes prove {about['proven_by_planes']} of {pairs} pairs in few boxes, levers {about['proven_by_levers']} in many",
          text + "plot " + ", ".join(plots), small_print, height)
 
 
@@ -100,7 +100,7 @@ def radii(height=420):
         text += block(f"$fixed{i}", [row for row in rows if row[2] != "auto"]) + block(f"$auto{i}", [row for row in rows if row[2] == "auto"])
         plots += [f"$fixed{i} using 1:2 with linespoints pt 7 ps 0.7 lw 2 lc rgb '{colour}'", f"$auto{i} using 1:2 with points pt 2 ps 1.6 lw 3 lc rgb '{colour}'"]
     plots.append(f"$fixed0 using 1:({0.93 * top:g}):3 with labels font ',12' tc rgb '{palette.NEUTRAL}'")
-    return draw("radii", "A smaller r avoids false collisions; the normal may then turn faster", text + "plot " + ", ".join(plots), small_print, height)
+    draw("radii", "A smaller r avoids false collisions; the normal may then turn faster", text + "plot " + ", ".join(plots), small_print, height)
 
 
 def posture_profile(height=400):
@@ -127,13 +127,11 @@ def posture_profile(height=400):
             text += block(f"$profile{panel}{i}", curve)
             plots.append(f"$profile{panel}{i} using 1:2 with steps lw 2 lc rgb '{colour}'")
         text += f"set title '{words}' offset 0,-0.6\nplot " + ", ".join(plots) + "\n" + UNLABEL + "unset ylabel\n"
-    return draw("posture_profile", "Postures: all four sources of distances take about the same effort", text + "unset multiplot\n", small_print, height)
+    draw("posture_profile", "Postures: all four sources of distances take about the same effort", text + "unset multiplot\n", small_print, height)
 
 
 def control(height=440):
-    """Peak joint acceleration in each scenario; drawn where it has been measured."""
-    if not known("control"):
-        return False
+    """Peak joint acceleration in each scenario."""
     data = measured("control")
     colours = {"hull + r, r 10 mm": palette.FCL, "manifold, r 10 mm": palette.FCL_OTHER, "STP-BV, r 10 mm, R 10 m": palette.SMOOTH,
                "STP-BV, r 10 mm, R 1 m": palette.SECOND}
@@ -145,7 +143,7 @@ def control(height=440):
         "set style data histograms\nset style histogram clustered gap 1\nset style fill solid noborder\nset logscale y\nset yrange [0.5:*]\n" \
         "set ylabel 'peak joint acceleration (rad/s²)'\n"
     plots = [f"$peaks using {i + 2}{':xtic(1)' if not i else ''} lc rgb '{c}'" for i, c in enumerate(colours.values())]
-    return draw("control", "Controllers: hulls make the joints jerk, smooth volumes do not", text + "plot " + ", ".join(plots), small_print, height)
+    draw("control", "Controllers: hulls make the joints jerk, smooth volumes do not", text + "plot " + ", ".join(plots), small_print, height)
 
 
 CHARTS = (jump, stability, proof_boxes, radii, posture_profile, control)

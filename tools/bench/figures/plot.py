@@ -18,11 +18,6 @@ def measured(name):
     return json.loads((MEASURED / f"{name}.json").read_text())
 
 
-def known(name):
-    """Whether there is such a measurement."""
-    return (MEASURED / f"{name}.json").exists()
-
-
 def is_text(name):
     """Whether a measurement is a program's output as it was printed."""
     return (MEASURED / f"{name}.txt").exists()
@@ -53,7 +48,7 @@ def block(name, rows):
 
 
 def draw(name, title, commands, below=(), height=420):
-    """Writes NAME.svg whole or not at all. `below`: lines of small print. True: it has been drawn."""
+    """Writes NAME.svg whole or not at all. `below`: lines of small print."""
     if not shutil.which("gnuplot"):
         sys.exit("the charts need gnuplot (Debian package gnuplot-nox)")
     IMAGES.mkdir(parents=True, exist_ok=True)
@@ -70,7 +65,6 @@ def draw(name, title, commands, below=(), height=420):
         part.unlink(missing_ok=True)
         sys.exit(f"gnuplot could not draw {name}:\n{done.stderr[-800:]}")
     part.rename(IMAGES / f"{name}.svg")
-    return True
 
 
 def margins(height, small_print, legend_rows=0, panel_titles=False, left=92):

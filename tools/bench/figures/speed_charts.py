@@ -37,7 +37,7 @@ def speed_accuracy(height=440):
                               palette.METHODS[method][2])])
         plots += [f"{name} using 1:2:3:4:5:6 with xyerrorbars {palette.look(method)} ps 1.3 lw 1.3",
                   f"{name} using 1:2:7 with labels left offset {offset.get(method, '1.2,0.6')} tc rgb '{palette.METHODS[method][0]}'"]
-    return draw("speed_accuracy",
+    draw("speed_accuracy",
          f"{fcl['ns_p50'] / ours['ns_p50']:.0f} times as fast as FCL, and exact to {ours['distance_error_max']:.0e} m",
          text + "plot " + ", ".join(plots), below, height)
 
@@ -64,7 +64,7 @@ def size(height=440):
         text += f"set title '{words}' offset 0,-0.6\nplot " + ", ".join(plots) + "\n" + UNLABEL
     fastest = all(row["ns_p50"] >= other["ns_p50"] for row in data["rows"] for other in data["rows"] if other["method"] == "STP-BV warm" and
                   (row["steps"], row["vertices"]) == (other["steps"], other["vertices"]))
-    return draw("size", f"The STP-BV query is {at['FCL libccd'] / at['STP-BV warm']:.0f} times as fast as FCL at {largest:,} vertices" +
+    draw("size", f"The STP-BV query is {at['FCL libccd'] / at['STP-BV warm']:.0f} times as fast as FCL at {largest:,} vertices" +
                 (", and fastest at every size" if fastest else ""),
          text + "unset multiplot\n", below, height)
 
@@ -94,7 +94,7 @@ def solver_error(height=450):
             f"unset format y\nset yrange [60:1e5]\nset ytics {TIME_TICS}\nset ylabel 'median time of a query' offset 1\n"
         text += "plot " + ", ".join(plots) + "\n" + UNLABEL
     worst = max(row["distance_error_max"] / tolerance(row) for row in rows if row["method"] == "FCL libccd")
-    return draw("solver_error", f"FCL's worst error is up to {worst:.0f} times its tolerance; the STP-BV's is rounding" if worst > 1.5 else
+    draw("solver_error", f"FCL's worst error is up to {worst:.0f} times its tolerance; the STP-BV's is rounding" if worst > 1.5 else
          "FCL keeps its tolerance, and takes longer than the STP-BV does to be exact", text + "unset multiplot\n", below, height)
 
 
@@ -121,7 +121,7 @@ def model_error(height=430):
                 text += block(f"$label{panel}{i}{k}", [row])
                 plots.append(f"$label{panel}{i}{k} using 1:2:3 with labels left offset {shown[panel][row[2]]} font ',12' tc rgb '{colour}'")
         text += f"set ylabel 'gradient: {words}'\nset yrange {span}\nplot " + ", ".join(plots) + "\n" + UNLABEL
-    return draw("model_error", "A larger r calms the gradient; a smaller R calms it when bodies turn; both cost over-cover", text + "unset multiplot\n", below, height)
+    draw("model_error", "A larger r calms the gradient; a smaller R calms it when bodies turn; both cost over-cover", text + "unset multiplot\n", below, height)
 
 
 def jump_test(height=440):
@@ -141,7 +141,7 @@ def jump_test(height=440):
             text += block(f"$jump{i}", rows)
             plots.append(f"$jump{i} using 1:2 with linespoints lc rgb '{colour}' pt {mark} ps {points} lw 2")
             entries.append((colour, mark, words))
-    return draw("jump_test", "Finer steps make the STP-BVs' gradient change less; the polyhedra's jump stays",
+    draw("jump_test", "Finer steps make the STP-BVs' gradient change less; the polyhedra's jump stays",
          text + legend(entries, height) + "plot " + ", ".join(plots), below, height)
 
 
