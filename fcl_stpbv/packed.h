@@ -12,7 +12,7 @@
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wpsabi"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 
 /// Three numbers side by side; the fourth means nothing unless it is said what. With Eigen's three, sums and
 /// products take two instructions each and a cross product a dozen; its four would change their alignment
@@ -80,6 +80,6 @@ inline double largest(const Packed& v) {
   return two[0] > two[1] ? two[0] : two[1];
 }
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail
 
 #pragma GCC diagnostic pop

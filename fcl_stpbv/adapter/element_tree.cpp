@@ -9,7 +9,7 @@
 
 #include <algorithm>
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 namespace {
 
 using Eigen::Matrix3d;
@@ -197,4 +197,4 @@ bool ElementTree::find(std::intptr_t id, const Vector3d& x, Shape& shape, Vector
   return false;
 }
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

@@ -18,7 +18,7 @@
 
 #include "fcl_stpbv/error.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 namespace {
 
 // Temporary files are named by process and number, whatever they become: no name gets too long.
@@ -195,4 +195,4 @@ void writeOutput(const std::string& path, std::string_view content) {
   atomicWrite(path.empty() || path == "-" ? "/dev/stdout" : path, content);
 }
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

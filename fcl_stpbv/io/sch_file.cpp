@@ -13,6 +13,7 @@
 namespace fcl_stpbv {
 namespace {
 
+using namespace detail;
 using Eigen::Vector3d;
 using Triangle = std::array<int, 3>;
 

@@ -9,7 +9,7 @@
 #include <map>
 #include <numeric>
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 namespace {
 
 using Eigen::Vector3d;
@@ -112,4 +112,4 @@ std::vector<CutPlane> cutPlanes(const Part& part, const PartSpace& space) {
   return planes;
 }
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

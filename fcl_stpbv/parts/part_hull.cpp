@@ -13,7 +13,7 @@ extern "C" {
 #include <libqhull_r/qhull_ra.h>
 }
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 namespace {
 
 using Eigen::Vector3d;
@@ -74,4 +74,4 @@ PartHull partHull(const std::vector<Vector3d>& points) {
   return hull;
 }
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

@@ -3,7 +3,7 @@
 
 #include "fcl_stpbv/robot/joint_path.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
@@ -69,4 +69,4 @@ Eigen::Vector3d Adjacency::originOn(const JointModel& joint, bool parent) const 
   return pose_[at(joint.child)].translation();
 }
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

@@ -12,7 +12,7 @@
 
 #include "fcl_stpbv/robot/fitted_radii.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 namespace {
 
 using Eigen::Vector3d;
@@ -90,4 +90,4 @@ PrimitiveCover primitiveCover(const fcl::CollisionGeometryd& primitive, const St
   return cover;
 }
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

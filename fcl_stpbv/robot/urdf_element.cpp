@@ -13,7 +13,7 @@
 
 #include "fcl_stpbv/error.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 namespace {
 
 using tinyxml2::XMLElement;
@@ -131,4 +131,4 @@ urdf::JointSharedPtr readJointElement(const XMLElement& joint) {
   return read->second;
 }
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail
