@@ -13,7 +13,7 @@
 #include "fcl_stpbv/distance/patch_pair.h"
 #include "fcl_stpbv/vectorized.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 namespace {
 
 using namespace detail;
@@ -22,8 +22,8 @@ using Eigen::Isometry3d;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-// A normal this far past a seam is on it: both patches agree there, and neither mapping is wrong.
-constexpr double kOnSeam = 1e-12;
+// A normal this far past a region boundary is on it: both patches agree there, and neither mapping is wrong.
+constexpr double kOnBoundary = 1e-12;
 
 /// Normal at the patch's point nearest to `x`: the widest one of the patch and a point (docs/theory.md, 5).
 UnnormalizedNormal towards(const StpBv& volume, int index, const Vector3d& x) {
@@ -35,8 +35,8 @@ UnnormalizedNormal towards(const StpBv& volume, int index, const Vector3d& x) {
 /// region.
 int chooseNeighbour(const StpBv& volume, int patch, const Vector3d& x) {
   const UnnormalizedNormal to = towards(volume, patch, x);
-  const Crossing over = volume.patches().crossing(patch, to.d, to.length);
-  return over.past > kOnSeam * to.length ? over.neighbour : patch;
+  const Crossing over = volume.tables().patches.crossing(patch, to.d, to.length);
+  return over.past > kOnBoundary * to.length ? over.neighbour : patch;
 }
 
 /// The core's point nearest to `x` as far as this patch knows.
@@ -47,9 +47,10 @@ Vector3d nearestCorePoint(const StpBv& volume, int patch, const Vector3d& x) {
 
 bool contains(const StpBv::Ring& ring, int v) { return std::find(ring.begin(), ring.end(), v) != ring.end(); }
 
-/// Whether two patches share a seam, or are a face and one of its vertices, whose regions share a corner.
+/// Whether two patches share a region boundary, or are a face and one of its vertices, whose regions share a
+/// corner.
 bool areNeighbours(const StpBv& volume, int p, int q) {
-  for (const Seam s : volume.seams(p))
+  for (const RegionBoundary s : volume.tables().patches.boundaries(p))
     if (s.neighbour == q) return true;
   if (volume.kind(p) == PatchKind::face) std::swap(p, q);
   if (volume.kind(p) != PatchKind::vertex || volume.kind(q) != PatchKind::face) return false;
@@ -58,19 +59,11 @@ bool areNeighbours(const StpBv& volume, int p, int q) {
 
 /// 0: the mapped patch owns the normal; 1: a neighbour does; 2: a farther one.
 int stepsAway(const StpBv& volume, int mapped, int answer, const Vector3d& normal) {
-  if (mapped == answer || volume.outside(mapped, normal) <= kOnSeam) return 0;
+  if (mapped == answer || volume.outside(mapped, normal) <= kOnBoundary) return 0;
   return areNeighbours(volume, mapped, answer) ? 1 : 2;
 }
 
 }  // namespace
-
-MappingCounts& MappingCounts::operator+=(const MappingCounts& other) {
-  right += other.right;
-  neighbour += other.neighbour;
-  farther += other.farther;
-  unmapped += other.unmapped;
-  return *this;
-}
 
 FCL_STPBV_VECTORIZED
 std::array<int, 2> mapFeatures(const StpBvGeometry& a, const Isometry3d& poseA, const StpBvGeometry& b,
@@ -113,4 +106,4 @@ void countMapping(const StpBv& a, const Isometry3d& poseA, const StpBv& b, const
   }
 }
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

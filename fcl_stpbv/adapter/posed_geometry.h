@@ -9,7 +9,7 @@
 #include "fcl_stpbv/adapter/element_tree.h"
 #include "fcl_stpbv/distance/distance.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 
 /// A single convex body: an STP-BV or a shape, placed in the world.
 struct ConvexBody {
@@ -116,4 +116,4 @@ bool descend(const PosedPair& pair, const PosedGeometry::Part& a, const PosedGeo
   return false;
 }
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

@@ -7,6 +7,7 @@
 #include "fcl_stpbv/adapter/proximity.h"
 
 #include "fcl_stpbv/adapter/posed_geometry.h"
+#include "fcl_stpbv/convex/relative_pose.h"
 #include "fcl_stpbv/distance/shape_distance.h"
 #include "fcl_stpbv/distance/shape_pair.h"
 
@@ -14,6 +15,7 @@ namespace fcl_stpbv {
 
 namespace {
 
+using namespace detail;
 using Eigen::Vector3d;
 
 /// Ends the walk down both hierarchies with the first pair of elements within `x`.

@@ -25,8 +25,8 @@ using TwistGradient = Eigen::Matrix<double, 6, 1, Eigen::DontAlign>;
 
 /// Answer to one query. World frame, metres.
 struct Distance {
-  DistanceStatus status = DistanceStatus::invalid;
-  double distance = 0;  ///< signed: negative where the bodies overlap
+  DistanceStatus status = DistanceStatus::invalid;  ///< how good the answer is
+  double distance = 0;                              ///< signed: negative where the bodies overlap
   /// Certified: the gap between the two supporting planes of `normal`, rounded down.
   double lower = -std::numeric_limits<double>::infinity();
   /// Certified: from the distance of the cores' points, or how deep they are at least, rounded up. Both
@@ -38,7 +38,7 @@ struct Distance {
                                        Eigen::Vector3d(0, 0, 0)};  ///< witness points, on the smooth surfaces
   std::array<int, 2> patch{-1, -1};                                ///< patches the witness points lie on
   int patchPairs = 0;                                              ///< patch pairs solved, the work done
-  int patchSteps = 0;                                              ///< seams crossed on the two Gauss maps
+  int patchSteps = 0;  ///< region boundaries crossed on the two Gauss maps
 
   /// Derivative of the distance with respect to the twist of body `which` (0 or 1) about `origin`, the
   /// position of that body's frame (paper eq. 2; docs/theory.md, 6).

@@ -11,8 +11,8 @@ namespace fcl_stpbv {
 
 /// What a small motion of both bodies does to an answer, to the next order than its gradient. Columns are the
 /// 12 components of both twists, [linear; angular] of body 1 about its origin, then of body 2; world axes.
-/// The distance is piecewise C2: on a seam between patches, or between a shape's faces, edges and corners,
-/// these are the values of one side.
+/// The distance is piecewise C2: on a boundary between patches, or between a shape's faces, edges and
+/// corners, these are the values of one side.
 struct DistanceHessian {
   /// Along poses with origins `o + v t` and rotations `exp(w t) R`, the distance's second derivative is
   /// `twists^T matrix twists`; symmetric.
@@ -34,6 +34,7 @@ bool hessian(const StpBv& a, const Eigen::Isometry3d& poseA, const StpBv& b, con
 /// those ways.
 bool hessian(const StpBv& volume, const Eigen::Isometry3d& poseVolume, const Shape& shape,
              const Eigen::Isometry3d& poseShape, const Distance& d, DistanceHessian& result);
+/// The same, the other way round.
 bool hessian(const Shape& shape, const Eigen::Isometry3d& poseShape, const StpBv& volume,
              const Eigen::Isometry3d& poseVolume, const Distance& d, DistanceHessian& result);
 
@@ -53,9 +54,11 @@ using BodyTwists = Eigen::Matrix<double, 12, 1, Eigen::DontAlign>;
 /// twists`. False, leaving `result` alone, where hessian() is.
 bool rate(const StpBv& a, const Eigen::Isometry3d& poseA, const StpBv& b, const Eigen::Isometry3d& poseB,
           const Distance& d, const BodyTwists& twists, DistanceRate& result);
+/// The same of an STP-BV and a shape.
 bool rate(const StpBv& volume, const Eigen::Isometry3d& poseVolume, const Shape& shape,
           const Eigen::Isometry3d& poseShape, const Distance& d, const BodyTwists& twists,
           DistanceRate& result);
+/// The same, the other way round.
 bool rate(const Shape& shape, const Eigen::Isometry3d& poseShape, const StpBv& volume,
           const Eigen::Isometry3d& poseVolume, const Distance& d, const BodyTwists& twists,
           DistanceRate& result);

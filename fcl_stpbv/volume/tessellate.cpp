@@ -8,11 +8,13 @@
 #include <map>
 #include <tuple>
 
+#include "fcl_stpbv/volume/patch_view.h"
 #include "fcl_stpbv/volume/regions.h"
 
 namespace fcl_stpbv {
 namespace {
 
+using namespace detail;
 using Eigen::Vector3d;
 
 class Tessellator {
@@ -30,9 +32,8 @@ class Tessellator {
 
   // Points are shared by place: patches meet at equal points but for rounding (docs/theory.md, 3).
   int point(int patch, const Vector3d& n) {
-    const Vector3d x =
-        corePoint(volume_.patch(patch), volume_.kind(patch), volume_.radii(), n) + volume_.radii().r * n;
-    // What rounding can part at a seam: a few units of the coordinates and of rho times the normal.
+    const Vector3d x = corePoint(volume_, patch, n) + volume_.radii().r * n;
+    // What rounding can part at a boundary: a few units of the coordinates and of rho times the normal.
     const double grid = 2e-14 * (volume_.enclosingRadius() + volume_.radii().rho + volume_.centre().norm());
     const auto key = [&](double c) { return static_cast<long long>(std::llround(c / grid)); };
     const Vector3d local = x - volume_.centre();
@@ -77,7 +78,7 @@ class Tessellator {
     const int rings = steps(widest), centre = point(region.patch, region.centre);
     for (std::size_t a = 0; a < region.boundary.size(); ++a) {
       const Arc& arc = region.boundary[a];
-      // The same steps as the neighbouring edge's, so that the seam has the same points on both sides.
+      // The same steps as the neighbouring edge's, so that the boundary has the same points on both sides.
       const int round = steps(arc.turn);
       const auto at = [&](int k, int i) {
         return k == 0 ? centre
