@@ -1,6 +1,7 @@
 // The page of a posture: that of a collision report, of one configuration; see posture_formats.h.
 #include <algorithm>
 
+#include "fcl_stpbv/report/pair_measure.h"
 #include "fcl_stpbv/report/posture_formats.h"
 #include "fcl_stpbv/report/report_formats.h"
 

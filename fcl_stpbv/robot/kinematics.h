@@ -63,6 +63,7 @@ class Kinematics {
   const Eigen::VectorXd& lower() const { return lower_; }
   const Eigen::VectorXd& upper() const { return upper_; }
   const std::vector<Motion>& motions() const { return motions_; }
+  bool baseMoves() const { return !motions_.empty() && motions_.front().joint < 0; }
 
   /// All zero, clamped into the limits.
   const Eigen::VectorXd& neutral() const { return neutral_; }
