@@ -2,14 +2,12 @@
 // together.
 #include <CLI/CLI.hpp>
 #include <exception>
-#include <filesystem>
 #include <iostream>
 
-#include "fcl_stpbv/error.h"
 #include "fcl_stpbv/io/atomic_write.h"
 #include "fcl_stpbv/report/posture_formats.h"
-#include "fcl_stpbv/report/robot_files.h"
 #include "tools/number_check.h"
+#include "tools/robot_options.h"
 
 namespace {
 
@@ -39,65 +37,51 @@ Exit status: 0 a posture was found; 1 none was found; 2 the command line or an i
 3 a posture was found, but --skip-invalid left shapes out.)";
 
 struct Arguments {
-  std::string urdf, task, srdf, obstacles, format = "text", output;
-  GeometryOptions geometry;
+  RobotArguments robot;
+  std::string task, format = "text", output;
   PostureOptions options;
-  bool skipInvalid = false, careless = false, noCache = false, quiet = false;
+  bool careless = false, quiet = false;
 };
 
 void describe(CLI::App& app, Arguments& a) {
-  app.add_option("ROBOT", a.urdf, "The robot's URDF")->required()->type_name("FILE");
+  describeRobot(app, a.robot);
   app.add_option("TASK", a.task, "The task's JSON file")->required()->type_name("FILE");
-  app.add_option("--srdf", a.srdf, "SRDF with pairs to leave out and postures")->type_name("FILE");
-  app.add_option("--obstacles", a.obstacles, "URDF of a scene to keep clear of")->type_name("FILE");
-  app.add_option("--package-path", a.geometry.packagePath,
-                 "Folder that holds packages, for package:// names; may be given again")
-      ->type_name("FOLDER")
-      ->expected(1)
-      ->take_all();
   app.add_option("--starts", a.options.starts, "Starts to try: the task's own, then random ones near it")
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();
   app.add_option("--seed", a.options.seed, "Of the random starts")
       ->check(wholeNumber())
       ->capture_default_str();
-  app.add_option("-r", a.geometry.radii.r, "Radius of the small spheres, the margin")
-      ->check(numberIn(0, kLargest))
-      ->capture_default_str();
-  app.add_option("-R", a.geometry.radii.R, "Radius of the big spheres")
-      ->check(numberIn(0, kLargestR, false))
-      ->capture_default_str();
   app.add_option("--format", a.format, "text, json or html")
       ->check(CLI::IsMember({"text", "json", "html"}))
       ->capture_default_str();
   app.add_option("-o,--output", a.output, "File to write instead of standard output")->type_name("OUT");
   app.add_flag("--ignore-collisions", a.careless, "Solve without the pairs, which are reported all the same");
-  app.add_flag("--skip-invalid", a.skipInvalid,
-               "Go on without the shapes that are wrong; exit status 3, not 0");
-  app.add_flag("--no-cache", a.noCache, "Build every volume, keep none in the cache folder");
   app.add_flag("-q,--quiet", a.quiet, "No warnings");
 }
 
 void load(const Arguments& a, PostureReport& report) {
-  RobotLoader loader({a.urdf, a.srdf, a.obstacles, a.geometry, a.geometry, a.skipInvalid});
+  RobotFiles files = filesOf(a.robot);
+  files.base = report.task.base;
+  RobotLoader loader(files);
   loader.read();
   loader.build();
   PostureScene& scene = report.scene;
   scene.robot = loader.robot();
   scene.srdf = loader.srdf();
   scene.geometry = loader.geometry();
-  if (loader.scene()) scene.obstacles = obstaclesOf(loader.scene(), loader.sceneGeometry());
+  scene.obstacles = loader.obstacles();
   if (!scene.srdf) scene.selfPairs = searchedPairs(scene.robot, scene.geometry);
   report.warnings = loader.warnings();
   report.skipped = loader.skipped();
-  if (!a.quiet)
-    for (const std::string& warning : report.warnings) std::cerr << "find_posture: " << warning << std::endl;
+  if (a.quiet) return;
+  for (const std::string& shape : report.skipped)
+    std::cerr << "find_posture: left out and not checked: " << shape << "\n";
+  for (const std::string& warning : report.warnings) std::cerr << "find_posture: " << warning << "\n";
 }
 
 int run(Arguments& a) {
-  if (!a.output.empty() && std::filesystem::is_directory(a.output))
-    throw Error("-o " + a.output + ": is a folder, expected a file");
-  if (a.noCache) a.geometry.cacheFolder.clear();
+  checkOutput(a.output);
   PostureReport report;
   report.task = loadTask(a.task);
   load(a, report);

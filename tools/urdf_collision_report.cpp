@@ -1,20 +1,17 @@
 // urdf_collision_report: which links of a robot come how close, and which pairs need no check.
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cmath>
-#include <cstdlib>
 #include <exception>
-#include <filesystem>
 #include <functional>
 #include <iostream>
 #include <memory>
 
-#include "fcl_stpbv/error.h"
 #include "fcl_stpbv/io/atomic_write.h"
 #include "fcl_stpbv/report/report_formats.h"
 #include "tools/cores.h"
 #include "tools/number_check.h"
 #include "tools/progress_bar.h"
+#include "tools/robot_options.h"
 
 namespace {
 
@@ -43,23 +40,17 @@ Exit status: 0 no checked pair in collision; 1 a collision found; 2 the command 
 pair is checked; 3 no collision found, but --skip-invalid left shapes out.)";
 
 struct Arguments {
+  RobotArguments robot;
   ReportRequest request;
-  std::string format = "text", output, r = "auto", R, primitives = "smooth";
-  std::vector<std::string> links, flat;
+  std::string format = "text", output;
   std::size_t top = 20;
-  bool disableDefault = false, noCache = false, quiet = false;
+  bool disableDefault = false, quiet = false;
 };
 
 void describe(CLI::App& app, Arguments& a) {
   ReportRequest& request = a.request;
   request.search.threads = allCores();
-  app.add_option("ROBOT", request.urdf, "The robot's URDF")->required()->type_name("FILE");
-  app.add_option("--srdf", request.srdf, "SRDF with pairs to leave out and postures")->type_name("FILE");
-  app.add_option("--package-path", request.geometry.packagePath,
-                 "Folder that holds packages, for package:// names; may be given again")
-      ->type_name("FOLDER")
-      ->expected(1)
-      ->take_all();
+  describeRobot(app, a.robot);
   app.add_option("--pose", request.pose, "A group_state of the SRDF, or a JSON file of joint values");
   app.add_option(
       "--neutral", request.neutral,
@@ -70,44 +61,10 @@ void describe(CLI::App& app, Arguments& a) {
   app.add_option("--seed", request.search.seed, "Of the random configurations")
       ->check(wholeNumber())
       ->capture_default_str();
-  app.add_option("--obstacles", request.obstacles, "URDF of a scene to keep clear of")->type_name("FILE");
-  app.add_option("-r,--r", a.r,
-                 "Radius of the small spheres, the margin, or 'auto': a twentieth of each link's smallest "
-                 "width, 1 cm at most")
-      ->type_name("LENGTH|auto")
-      ->check(numberIn(0, kLargest) | CLI::IsMember({"auto"}))
-      ->capture_default_str();
-  app.add_option("-R,--R", a.R,
-                 "Radius of the big spheres, or 'auto': so large that they add no more than r; without it "
-                 "auto where r is, "
-                 "else 10")
-      ->type_name("LENGTH|auto")
-      ->check(numberIn(0, kLargestR, false) | CLI::IsMember({"auto"}));
-  app.add_option("--primitives", a.primitives,
-                 "smooth: spheres, capsules, boxes and cylinders get smooth covers where a pair has no "
-                 "smooth body; flat: none")
-      ->check(CLI::IsMember({"smooth", "flat"}))
-      ->capture_default_str();
-  app.add_option(
-         "--over-cover", request.geometry.overCoverBudget,
-         "Most that a volume may exceed its mesh's hull by; spends it on fewer vertices, 0 for no limit")
-      ->check(numberIn(0, kLargest))
-      ->capture_default_str();
-  app.add_option("--link", a.links, "Values of a single link; may be given again")
-      ->type_name("NAME=r,R[,OVER_COVER]")
-      ->expected(1)
-      ->take_all();
-  app.add_option(
-         "--flat", a.flat,
-         "Link whose meshes stay convex polyhedra, or 'obstacles' for those of the scene; may be given again")
-      ->type_name("NAME")
-      ->expected(1)
-      ->take_all();
   app.add_option(
          "--polyhedra", request.polyhedra,
          "Folder of polyhedra published for the meshes, MESH-ch.txt or MESH.otp: tells how far they differ")
       ->type_name("FOLDER");
-  app.add_flag("--visual", request.geometry.visual, "Use the visual shapes");
   app.add_option("--top", a.top, "Lines of each list in the text, and warnings shown")
       ->check(wholeNumber())
       ->capture_default_str();
@@ -126,53 +83,15 @@ void describe(CLI::App& app, Arguments& a) {
   app.add_option("-j,--jobs", request.search.threads, "Threads; any number gives the same report")
       ->check(CLI::Range(1, kMostJobs))
       ->capture_default_str();
-  app.add_flag("--skip-invalid", request.skipInvalid,
-               "Go on without the shapes that are wrong; exit status 3, not 0");
-  app.add_flag("--no-cache", a.noCache, "Build every volume, keep none in the cache folder");
   app.add_flag("-q,--quiet", a.quiet, "No progress bar and no warnings");
 }
 
 std::string written(const CollisionReport& report, const Arguments& a) {
   if (a.format == "json") return toJson(report);
   if (a.format == "csv") return toCsv(report);
-  if (a.format == "srdf") return toSrdfText(report, a.request.srdf, a.disableDefault);
+  if (a.format == "srdf") return toSrdfText(report, a.request.files.srdf, a.disableDefault);
   if (a.format == "html") return toHtml(report);
   return toText(report, a.top);
-}
-
-void checkOutput(const Arguments& a) {
-  if (a.output.empty() || a.output == "-") return;
-  std::error_code ignored;
-  const std::filesystem::path parent = std::filesystem::path(a.output).parent_path();
-  if (std::filesystem::is_directory(a.output, ignored))
-    throw Error("-o " + a.output + ": is a folder, expected a file");
-  if (!parent.empty() && !std::filesystem::is_directory(parent, ignored))
-    throw Error("-o " + a.output + ": the folder " + parent.string() + " does not exist; make it first");
-}
-
-// "NAME=r,R" or "NAME=r,R,OVER_COVER".
-void readLink(const std::string& text, GeometryOptions& options) {
-  const std::size_t equals = text.rfind('=');
-  std::vector<double> values;
-  for (const char* at = equals == std::string::npos ? nullptr : text.c_str() + equals; at && *at != '\0';) {
-    char* end;
-    values.push_back(std::strtod(at + 1, &end));
-    at = end != at + 1 && (*end == ',' || *end == '\0') && std::isfinite(values.back()) ? end : nullptr;
-    if (!at) values.clear();
-  }
-  if (values.size() < 2 || values.size() > 3)
-    throw Error("--link " + text + ": expected NAME=r,R or NAME=r,R,OVER_COVER with lengths in metres");
-  const std::string name = text.substr(0, equals);
-  options.links[name] = {values[0], values[1]};
-  if (values.size() == 3) options.budgets[name] = values[2];
-}
-
-// Lengths or "auto"; R follows r where it is not given.
-void setRadii(const Arguments& a, GeometryOptions& geometry) {
-  geometry.fitr = a.r == "auto";
-  geometry.fitR = a.R.empty() ? geometry.fitr : a.R == "auto";
-  if (!geometry.fitr) geometry.radii.r = std::stod(a.r);
-  if (!geometry.fitR && !a.R.empty()) geometry.radii.R = std::stod(a.R);
 }
 
 // A bar for each of the stages; its steps are only known when it begins.
@@ -202,22 +121,17 @@ void warn(const std::vector<std::string>& warnings, std::size_t top) {
 }
 
 int run(Arguments& a) {
-  checkOutput(a);
-  setRadii(a, a.request.geometry);
-  a.request.flatPrimitives = a.primitives == "flat";
-  for (const std::string& link : a.links) readLink(link, a.request.geometry);
-  for (const std::string& link : a.flat) {
-    if (link == "obstacles")
-      a.request.flatObstacles = true;
-    else
-      a.request.geometry.flatLinks.insert(link);
-  }
-  if (a.noCache) a.request.geometry.cacheFolder.clear();
+  checkOutput(a.output);
+  a.request.files = filesOf(a.robot);
   Stages stages(!a.quiet);
-  a.request.geometry.progress = a.request.search.progress = std::ref(stages);
+  a.request.files.geometry.progress = a.request.search.progress = std::ref(stages);
   const CollisionReport report = makeReport(a.request);
   stages.clear();
-  if (!a.quiet) warn(report.warnings, a.top);
+  if (!a.quiet) {
+    for (const std::string& shape : report.skipped)
+      std::cerr << "urdf_collision_report: left out and not checked: " << shape << "\n";
+    warn(report.warnings, a.top);
+  }
   const std::string text = written(report, a);
   writeOutput(a.output, text);
   if (report.colliding > 0) return kCollision;

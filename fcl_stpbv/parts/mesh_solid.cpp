@@ -59,6 +59,14 @@ RayHit rayHit(const Vector3d& a, const Vector3d& b, const Vector3d& c, const Vec
   return up ? RayHit::up : RayHit::down;
 }
 
+// Solid angle of a triangle seen from the origin, signed (van Oosterom and Strackee 1983), in whole turns.
+double turnsAround(const Vector3d& a, const Vector3d& b, const Vector3d& c) {
+  constexpr double kHalfTurns = 6.283185307179586;
+  const double la = a.norm(), lb = b.norm(), lc = c.norm();
+  return std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb) /
+         kHalfTurns;
+}
+
 }  // namespace
 
 Vector3d nearestOf(const Triangle& triangle, const Vector3d& p) {
@@ -195,6 +203,19 @@ MeshSolid::Side MeshSolid::side(const Vector3d& p) const {
     if (found != Side::unsure) return found;
   }
   return Side::unsure;
+}
+
+bool MeshSolid::holds(const Vector3d& p) const {
+  const Side certain = side(p);
+  if (certain == Side::enclosed) return true;
+  if (certain == Side::outside && closed()) return false;
+  double turns = 0;
+  for (std::size_t t = 0; t < triangles_.size(); ++t) {
+    if (certain == Side::outside && pieces_.closed[at(pieces_.piece[t])]) continue;
+    const Triangle& x = triangles_[t];
+    turns += turnsAround(x[0] - p, x[1] - p, x[2] - p);
+  }
+  return std::abs(turns) > 0.5;
 }
 
 }  // namespace fcl_stpbv

@@ -50,6 +50,11 @@ class MeshSolid {
   /// surface to rounding, and where every ray tried touches an edge.
   Side side(const Eigen::Vector3d& p) const;
 
+  /// Whether the mesh has the point inside: certain where a closed piece has it (side()); by pieces that are
+  /// not closed, and where side() is unsure, a judgement: triangles go round it at least half a time
+  /// (generalized winding number, Jacobson et al. 2013).
+  bool holds(const Eigen::Vector3d& p) const;
+
  private:
   struct Node {
     Eigen::Vector3d low, high;

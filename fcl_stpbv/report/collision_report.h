@@ -10,6 +10,7 @@
 
 #include "fcl_stpbv/report/mesh_fit.h"
 #include "fcl_stpbv/report/published_polyhedra.h"
+#include "fcl_stpbv/report/robot_files.h"
 #include "fcl_stpbv/robot/constraints.h"
 #include "fcl_stpbv/robot/neutral_posture.h"
 #include "fcl_stpbv/robot/pair_list.h"
@@ -17,14 +18,11 @@
 namespace fcl_stpbv::report {
 
 struct ReportRequest {
-  std::string urdf, srdf, pose, obstacles;  ///< "" where not given; pose is a state's name or a JSON file
+  RobotFiles files;
+  std::string pose;       ///< a state's name or a JSON file, "" for each pair's closest configuration
   std::string neutral;    ///< the same, "" for all joints at zero or at the limit nearest to it
   std::string polyhedra;  ///< folder of published ones, "" for none
-  GeometryOptions geometry;
-  bool flatObstacles = false;   ///< the scene's meshes stay convex polyhedra
-  bool flatPrimitives = false;  ///< primitives get no smooth cover where a pair needs one (smooth_pairs.h)
   PairListOptions search;
-  bool skipInvalid = false;  ///< go on without the shapes that are wrong
 };
 
 /// One pair of links, or a link and an obstacle, in the posture asked for or in its closest configuration.
@@ -76,10 +74,6 @@ struct CollisionReport {
   double minDistance = 0;               ///< of the checked pairs (m)
   double nsPerPair = 0, usPerTick = 0;  ///< of all checked pairs with their Jacobian, in small steps
 };
-
-/// What is known about the closest of some pairs of bodies at the pair's configuration: answer, bodies,
-/// gradient, covers and the hulls' distance. `report` has the robot and its obstacles.
-void measurePair(const CollisionReport& report, const std::vector<CheckedPair>& bodies, PairReport& pair);
 
 /// @throws Error naming the file or the argument.
 CollisionReport makeReport(const ReportRequest& request);

@@ -21,19 +21,19 @@ constexpr double kWithin =
 
 bool holdsPart(const ExactBody& outer, const Eigen::Isometry3d& poseOuter, const ExactBody& inner,
                const Eigen::Isometry3d& poseInner) {
-  if (!outer.mesh()) return false;  // a primitive is solid: its distance tells
+  if (!outer.solid()) return false;  // a primitive is solid: its distance tells
   const fcl::AABBd& box = outer.shape().aabb_local;
   const Eigen::Isometry3d between = poseOuter.inverse() * poseInner;
   return std::any_of(inner.partPoints().begin(), inner.partPoints().end(), [&](const Eigen::Vector3d& p) {
     const Eigen::Vector3d point = between * p;
-    return box.contain(point) && outer.holds(point);
+    return box.contain(point) && outer.solid()->holds(point);
   });
 }
 
 // FCL's distance of two meshes, negative where it has none.
 double fclGuess(const ExactBody& a, const Eigen::Isometry3d& poseA, const ExactBody& b,
                 const Eigen::Isometry3d& poseB) {
-  if (!a.mesh() || !b.mesh()) return -1;
+  if (!a.solid() || !b.solid()) return -1;
   try {
     fcl::DistanceResultd result;
     const double d = fcl::distance(&a.shape(), poseA, &b.shape(), poseB, fcl::DistanceRequestd(), result);

@@ -12,7 +12,8 @@ struct MeshDistance {
 };
 
 /// Distance of two bodies (m). They meet where their surfaces have a common point, or where a part of one
-/// lies inside the other (ExactBody::holds; certain where the outer one is closed).
+/// lies inside the other (MeshSolid::holds; certain where the outer one is closed, a hollow in it
+/// included).
 ///
 /// FCL's distance of two meshes is a guess that two walks down both hierarchies confirm (proximity.h); where
 /// they do not, and for a mesh and a primitive, for which FCL's GJK may stop early (docs/fcl.md), bisection

@@ -8,12 +8,12 @@ namespace fcl_stpbv::report {
 
 MeshFit meshFit(const Body& body, const ExactBody& exact) {
   MeshFit fit;
-  if (exact.mesh()) {
+  if (const MeshSolid* solid = exact.solid()) {
     ExcessOptions options;
     options.relative = 0.02;  // a report's figure, not a proof's
     options.queries = 20000;  // a tenth of a second
     options.filled = false;
-    const MeshExcess excess = hullExcess(exact.mesh()->vertices, MeshSolid(*exact.mesh()), options);
+    const MeshExcess excess = hullExcess(solid->pieces().vertices, *solid, options);
     fit.hullExcess = excess.upper;
     fit.hullExcessSeen = excess.lower;
   }

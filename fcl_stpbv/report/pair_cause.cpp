@@ -18,11 +18,11 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 PairCauses::PairCauses(std::shared_ptr<const Kinematics> kinematics,
                        std::shared_ptr<const RobotGeometry> robot, std::vector<Obstacle> obstacles,
-                       const RobotGeometry& scene)
+                       std::shared_ptr<const RobotGeometry> scene)
     : kinematics_(std::move(kinematics)),
       robot_(std::move(robot)),
-      obstacles_(std::move(obstacles)),
-      scene_(scene) {}
+      scene_(std::move(scene)),
+      obstacles_(std::move(obstacles)) {}
 
 const ExactBody& PairCauses::exact(const Body& body) {
   std::unique_ptr<ExactBody>& place = exact_[&body];
@@ -36,7 +36,7 @@ PairCauses::Placed PairCauses::first(const CheckedPair& pair, const Kinematics::
 }
 
 PairCauses::Placed PairCauses::second(const CheckedPair& pair, const Kinematics::State& state) {
-  if (pair.obstacle) return {&exact(scene_.bodies[at(pair.other)]), obstacles_[at(pair.other)].pose};
+  if (pair.obstacle) return {&exact(scene_->bodies[at(pair.other)]), obstacles_[at(pair.other)].pose};
   return first({pair.other, pair.body}, state);
 }
 

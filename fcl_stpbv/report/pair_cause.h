@@ -26,7 +26,7 @@ class PairCauses {
  public:
   /// `scene`: the bodies behind `obstacles`, in their order.
   PairCauses(std::shared_ptr<const Kinematics> kinematics, std::shared_ptr<const RobotGeometry> robot,
-             std::vector<Obstacle> obstacles, const RobotGeometry& scene);
+             std::vector<Obstacle> obstacles, std::shared_ptr<const RobotGeometry> scene);
 
   /// A distance not above `margin` (m) is a collision, of volumes, hulls and meshes alike, but meshes meet at
   /// 0 at the latest where it is negative. `bodies` are those of one pair of links.
@@ -43,9 +43,8 @@ class PairCauses {
   Placed second(const CheckedPair& pair, const Kinematics::State& state);
 
   std::shared_ptr<const Kinematics> kinematics_;
-  std::shared_ptr<const RobotGeometry> robot_;
+  std::shared_ptr<const RobotGeometry> robot_, scene_;
   std::vector<Obstacle> obstacles_;
-  const RobotGeometry& scene_;
   std::map<const Body*, std::unique_ptr<ExactBody>> exact_;
 };
 

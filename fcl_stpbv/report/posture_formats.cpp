@@ -1,20 +1,14 @@
 // A posture as text and as JSON.
 #include "fcl_stpbv/report/posture_formats.h"
 
-#include <cstdio>
 #include <nlohmann/json.hpp>
+
+#include "fcl_stpbv/report/formatted.h"
 
 namespace fcl_stpbv::report {
 namespace {
 
 using nlohmann::json;
-
-template <class... Values>
-std::string format(const char* pattern, Values... values) {
-  char text[512];
-  std::snprintf(text, sizeof text, pattern, values...);
-  return text;
-}
 
 json list(const std::vector<Violation>& violations) {
   json items = json::array();
@@ -23,14 +17,14 @@ json list(const std::vector<Violation>& violations) {
 }
 
 std::string run(const Posture& posture) {
-  return format("%.1f ms, %d iterations, %d start%s, %ld distances, %ld gradients, cost %.4f",
-                posture.seconds * 1e3, posture.iterations, posture.starts, posture.starts == 1 ? "" : "s",
-                posture.distanceCalls, posture.gradientCalls, posture.cost);
+  return formatted("%.1f ms, %d iterations, %d start%s, %ld distances, %ld gradients, cost %.4f",
+                   posture.seconds * 1e3, posture.iterations, posture.starts, posture.starts == 1 ? "" : "s",
+                   posture.distanceCalls, posture.gradientCalls, posture.cost);
 }
 
 std::string bulleted(const std::vector<Violation>& violations) {
   std::string text;
-  for (const Violation& v : violations) text += "  " + v.name + format(": %.3g", v.amount) + "\n";
+  for (const Violation& v : violations) text += "  " + v.name + formatted(": %.3g", v.amount) + "\n";
   return text;
 }
 
@@ -43,7 +37,7 @@ std::string toText(const PostureReport& report) {
   std::string text = posture.feasible ? "feasible" : "not feasible";
   text += " (" + posture.status + "): " + run(posture) + "\n";
   for (const std::string& shape : report.skipped) text += "LEFT OUT, NOT CHECKED: " + shape + "\n";
-  text += format("%zu pairs, %zu of them with obstacles\n", report.pairs.size(), obstacles);
+  text += formatted("%zu pairs, %zu of them with obstacles\n", report.pairs.size(), obstacles);
   if (report.withoutCollisions)
     text += std::string("without collisions ") +
             (report.withoutCollisions->feasible ? "feasible: " : "not feasible: ") +
@@ -58,8 +52,8 @@ std::string toText(const PostureReport& report) {
   for (const std::string& name : posture.active) text += "  " + name + "\n";
   text += "posture (rad, m):\n";
   for (int i = 0; i < report.kinematics->size(); ++i)
-    text += format("  %-24s %10.6f\n", report.kinematics->names()[static_cast<std::size_t>(i)].c_str(),
-                   posture.q[i]);
+    text += formatted("  %-24s %10.6f\n", report.kinematics->names()[static_cast<std::size_t>(i)].c_str(),
+                      posture.q[i]);
   return text;
 }
 

@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 #include <numeric>
 
 #include "fcl_stpbv/io/text_scanner.h"
+#include "fcl_stpbv/report/formatted.h"
 
 namespace fcl_stpbv::report {
 
@@ -17,18 +17,11 @@ namespace {
 
 constexpr double kMm = 1e3;
 
-template <class... Values>
-std::string format(const char* pattern, Values... values) {
-  char text[512];
-  std::snprintf(text, sizeof text, pattern, values...);
-  return text;
-}
-
 std::string steepest(const PairReport& pair) {
   const auto top =
       std::max_element(pair.gradient.begin(), pair.gradient.end(),
                        [](const auto& a, const auto& b) { return std::abs(a.second) < std::abs(b.second); });
-  return top == pair.gradient.end() ? "" : format("%+.3f ", top->second) + top->first;
+  return top == pair.gradient.end() ? "" : formatted("%+.3f ", top->second) + top->first;
 }
 
 nlohmann::json numbers(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
@@ -70,15 +63,16 @@ std::string fits(const CollisionReport& report, std::size_t top) {
   });
   const std::string rest = unshown(order.size(), top);
   if (order.size() > top) order.resize(top);
-  std::string text = format("\n%-44s %11s %13s %9s %8s %8s\n", "link", "hull [mm]", "volume [mm]", "ratio",
-                            "r [mm]", "R [m]");
+  std::string text = formatted("\n%-44s %11s %13s %9s %8s %8s\n", "link", "hull [mm]", "volume [mm]", "ratio",
+                               "r [mm]", "R [m]");
   for (const std::size_t i : order) {
     const MeshFit& fit = report.fits[i];
     const Body& body = report.geometry->bodies[i];
-    text += format("%-44s %11.3f %13.3f ", body.name.c_str(), fit.hullExcess * kMm, fit.volumeExcess * kMm) +
-            (std::isfinite(fit.volumeRatio) ? format("%9.3f", fit.volumeRatio) : format("%9s", "-")) +
-            (body.volume ? format(" %8.3f %8.3f\n", body.volume->radii().r * kMm, body.volume->radii().R)
-                         : format(" %8s %8s\n", "-", "-"));
+    text +=
+        formatted("%-44s %11.3f %13.3f ", body.name.c_str(), fit.hullExcess * kMm, fit.volumeExcess * kMm) +
+        (std::isfinite(fit.volumeRatio) ? formatted("%9.3f", fit.volumeRatio) : formatted("%9s", "-")) +
+        (body.volume ? formatted(" %8.3f %8.3f\n", body.volume->radii().r * kMm, body.volume->radii().R)
+                     : formatted(" %8s %8s\n", "-", "-"));
   }
   return text + rest +
          "hull, volume: at most so far are their surfaces from the mesh; ratio: the volume's to the mesh's\n";
@@ -93,13 +87,13 @@ std::string polyhedra(const CollisionReport& report, std::size_t top) {
   std::stable_sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) {
     return report.polyhedra[i].difference > report.polyhedra[j].difference;
   });
-  std::string text = format("\n%zu meshes have a published polyhedron\n%-44s %14s %11s %21s\n", order.size(),
-                            "link", "surfaces [um]", "vertices", "without a partner");
+  std::string text = formatted("\n%zu meshes have a published polyhedron\n%-44s %14s %11s %21s\n",
+                               order.size(), "link", "surfaces [um]", "vertices", "without a partner");
   for (std::size_t k = 0; k < std::min(top, order.size()); ++k) {
     const std::size_t i = order[k];
     const PolyhedronReport& p = report.polyhedra[i];
-    text += format("%-44s %14.3f %5d, %4d %15d, %4d\n", report.geometry->bodies[i].name.c_str(),
-                   p.difference * 1e6, p.meshVertices, p.vertices, p.meshAlone, p.alone);
+    text += formatted("%-44s %14.3f %5d, %4d %15d, %4d\n", report.geometry->bodies[i].name.c_str(),
+                      p.difference * 1e6, p.meshVertices, p.vertices, p.meshAlone, p.alone);
   }
   return text + unshown(order.size(), top) +
          "two figures: the mesh's, the polyhedron's; surfaces: how far the two volumes are apart\n";
@@ -113,18 +107,18 @@ std::string contradictions(const CollisionReport& report, std::size_t top) {
     if (!pair.contradictsSrdf || count++ >= top) continue;
     text += "\nThe SRDF leaves out " + pair.link1 + " - " + pair.link2 + " as " + pair.srdfReason +
             "; found: " + pair.reason + (pair.cause.empty() ? "" : ", " + pair.cause) +
-            format(", %.3f mm at", pair.minDistance * kMm);
+            formatted(", %.3f mm at", pair.minDistance * kMm);
     for (const auto& [joint, slope] : pair.gradient) {
       const auto& names = report.kinematics->names();
       const auto k = std::find(names.begin(), names.end(), joint) - names.begin();
-      text += " " + joint + format("=%.4f", pair.closest[k]);
+      text += " " + joint + formatted("=%.4f", pair.closest[k]);
     }
   }
   return count == 0 ? "" : text + "\n" + unshown(count, top);
 }
 
 std::string quoted(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
   std::string out = "\"";
   for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
   return out + "\"";
@@ -148,17 +142,18 @@ std::string toText(const CollisionReport& report, std::size_t top) {
                               : " in the posture " + report.pose + "\n";
   for (const auto& [cause, count] : report.causes) text += "  " + std::to_string(count) + " " + cause + "\n";
   if (report.checked > 0)
-    text += format("%.1f us for all checked pairs with gradients, %.0f ns a pair\n", report.usPerTick,
-                   report.nsPerPair);
-  text += format("\n%-44s %11s %11s %11s %-26s %s\n", "pair", "STP-BV [mm]", "hulls [mm]", "cover [mm]",
-                 "reason", "steepest joint [m/rad]");
+    text += formatted("%.1f us for all checked pairs with gradients, %.0f ns a pair\n", report.usPerTick,
+                      report.nsPerPair);
+  text += formatted("\n%-44s %11s %11s %11s %-26s %s\n", "pair", "STP-BV [mm]", "hulls [mm]", "cover [mm]",
+                    "reason", "steepest joint [m/rad]");
   std::size_t shown = 0;
   for (const PairReport& pair : report.pairs) {
     if (!pair.checked || shown++ >= top) break;
-    const std::string hull = std::isfinite(pair.hullDistance) ? format("%.3f", pair.hullDistance * kMm) : "-";
-    text += format("%-44s %11.3f %11s %11.3f %-26s ", (pair.link1 + " - " + pair.link2).c_str(),
-                   pair.answer.distance * kMm, hull.c_str(), (pair.overCover1 + pair.overCover2) * kMm,
-                   pair.reason.c_str()) +
+    const std::string hull =
+        std::isfinite(pair.hullDistance) ? formatted("%.3f", pair.hullDistance * kMm) : "-";
+    text += formatted("%-44s %11.3f %11s %11.3f %-26s ", (pair.link1 + " - " + pair.link2).c_str(),
+                      pair.answer.distance * kMm, hull.c_str(), (pair.overCover1 + pair.overCover2) * kMm,
+                      pair.reason.c_str()) +
             steepest(pair) + "\n";
   }
   text += unshown(static_cast<std::size_t>(report.checked), top);
@@ -250,7 +245,7 @@ std::string toCsv(const CollisionReport& report) {
   for (const std::string& shape : report.skipped) text += "," + quoted("left out: " + shape) + ",0\n";
   for (const PairReport& pair : report.pairs) {
     text += quoted(pair.link1) + "," + quoted(pair.link2) + "," + quoted(pair.reason) + "," +
-            pair.srdfReason + "," + (pair.checked ? "1" : "0") + "," + pair.cause;
+            quoted(pair.srdfReason) + "," + (pair.checked ? "1" : "0") + "," + pair.cause;
     for (double value : {pair.answer.distance, pair.meshDistance, pair.hullDistance, pair.overCover1,
                          pair.overCover2, pair.minDistance})
       text += "," + (std::isfinite(value) ? toDecimal(value) : std::string());

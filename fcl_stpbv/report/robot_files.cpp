@@ -3,6 +3,8 @@
 #include "fcl_stpbv/report/robot_files.h"
 
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/robot/pair_list.h"
+#include "fcl_stpbv/robot/smooth_pairs.h"
 
 namespace fcl_stpbv::report {
 namespace {
@@ -21,10 +23,29 @@ void append(std::vector<std::string>& all, const std::vector<std::string>& more)
   all.insert(all.end(), more.begin(), more.end());
 }
 
+// What any posture or task may have to keep apart: pairs that only samples would leave out are among them, as
+// these need the bodies first.
+std::vector<CheckedPair> pairsToCover(const Kinematics& kinematics, const RobotGeometry& bodies,
+                                      const Srdf* srdf, std::size_t obstacles) {
+  std::vector<CheckedPair> pairs = selfPairs(kinematics.robot(), bodies, srdf);
+  const std::vector<CheckedPair> around =
+      obstaclePairs(kinematics.robot(), bodies, obstacles, kinematics.baseMoves());
+  pairs.insert(pairs.end(), around.begin(), around.end());
+  return pairs;
+}
+
 }  // namespace
+
+RobotLoader::RobotLoader(RobotFiles files) : files_(std::move(files)), sceneOptions_(files_.geometry) {
+  sceneOptions_.links.clear();  // these name the robot's
+  sceneOptions_.budgets.clear();
+  sceneOptions_.flatLinks.clear();
+  sceneOptions_.flat = files_.flatObstacles;
+}
 
 void RobotLoader::read() {
   robot_ = std::make_shared<const RobotModel>(loadUrdf(files_.urdf, faults_));
+  if (faults_.errors.empty()) kinematics_ = std::make_shared<const Kinematics>(robot_, files_.base);
   shapes_ = readGeometry(*robot_, files_.geometry, faults_);
   if (!files_.srdf.empty()) {
     LoadFaults::gather(faults_.errors, [&] {
@@ -35,7 +56,7 @@ void RobotLoader::read() {
   LoadFaults scene;  // apart: whether visual shapes are taken depends on it
   LoadFaults::gather(faults_.errors, [&] {
     scene_ = std::make_shared<const RobotModel>(loadUrdf(files_.obstacles, scene));
-    sceneShapes_ = readGeometry(*scene_, files_.sceneGeometry, scene);
+    sceneShapes_ = readGeometry(*scene_, sceneOptions_, scene);
   });
   append(faults_.errors, scene.errors);
   append(faults_.shapes, scene.shapes);
@@ -44,21 +65,27 @@ void RobotLoader::read() {
 
 void RobotLoader::build() {
   faults_.refuse(files_.skipInvalid);
-  geometry_ =
-      std::make_shared<const RobotGeometry>(buildGeometry(*robot_, files_.geometry, shapes_, faults_));
-  if (scene_) sceneGeometry_ = buildGeometry(*scene_, files_.sceneGeometry, sceneShapes_, faults_);
+  RobotGeometry bodies = buildGeometry(*robot_, files_.geometry, shapes_, faults_), around;
+  if (scene_) around = buildGeometry(*scene_, sceneOptions_, sceneShapes_, faults_);
   faults_.refuse(files_.skipInvalid);
-  requireBodies(*robot_, *geometry_);
-  if (scene_) requireBodies(*scene_, sceneGeometry_);
+  requireBodies(*robot_, bodies);
+  if (scene_) requireBodies(*scene_, around);
+  requireRoomForPairs(*kinematics_, bodies, around.bodies.size());
+  if (!files_.flatPrimitives)
+    coverPrimitives(pairsToCover(*kinematics_, bodies, srdf_.get(), around.bodies.size()), bodies, &around);
+  geometry_ = std::make_shared<const RobotGeometry>(std::move(bodies));
+  sceneGeometry_ = std::make_shared<const RobotGeometry>(std::move(around));
+}
+
+std::vector<Obstacle> RobotLoader::obstacles() const {
+  return scene_ ? obstaclesOf(scene_, *sceneGeometry_) : std::vector<Obstacle>{};
 }
 
 std::vector<std::string> RobotLoader::warnings() const {
-  std::vector<std::string> all;
-  for (const std::string& shape : skipped()) all.push_back("left out and not checked: " + shape);
-  append(all, faults_.warnings);
+  std::vector<std::string> all = faults_.warnings;
   if (srdf_) append(all, srdf_->warnings);
   append(all, geometry_->warnings);
-  append(all, sceneGeometry_.warnings);
+  append(all, sceneGeometry_->warnings);
   return all;
 }
 

@@ -157,8 +157,8 @@ ShapeSources readGeometry(const RobotModel& robot, const GeometryOptions& option
   checkNames(robot, options, faults);
   const VolumeCache cache(options.cacheFolder);
   const IsCached isCached = [&](const std::string& link, const std::string& content) {
-    return !isFlat(options, link) && !areFitted(options, link) &&
-           cache.has(content, radiiFor(options, link, nullptr));
+    const VolumeKey key = volumeKey(options, link, content);
+    return !isFlat(options, link) && cache.has(key.content, key.radii);
   };
   return readShapes(robot, options.visual, options.packagePath, isCached, faults);
 }

@@ -11,18 +11,24 @@ namespace {
 
 using Points = std::vector<Eigen::Vector3d>;
 
+// Whether r or R of a link's bodies follow the body's size.
+bool areFitted(const GeometryOptions& options, const std::string& link) {
+  return options.links.count(link) == 0 && (options.fitr || options.fitR);
+}
+
 // One mesh on its way to a volume; the points are read when they are needed, which with a warm cache may be
 // never.
 class VolumeMaker {
  public:
-  VolumeMaker(const GeometryOptions& options, const std::string& link, const ShapeSource& source,
-              VolumeCache& cache, Body& body)
-      : source_(source), cache_(cache), body_(body) {
-    body_.radii = radiiFor(options, link, [this] { return sizeOf(points()); });
-  }
+  VolumeMaker(const ShapeSource& source, VolumeCache& cache, Body& body)
+      : source_(source), cache_(cache), body_(body) {}
 
-  void make(double budget) {
-    build();
+  void make(const GeometryOptions& options, const std::string& link, double budget) {
+    const VolumeKey key = volumeKey(options, link, source_.content);
+    body_.volume = cache_.volume(key.content, key.radii, [&] {
+      return StpBv::build(points(), radiiFor(options, link, [this] { return sizeOf(points()); }));
+    });
+    body_.radii = {body_.volume->radii().r, body_.volume->radii().R};
     body_.cover = overCover(*body_.volume);
     if (budget > 0) reduceTo(budget);
     body_.geometry = std::make_shared<StpBvGeometry>(body_.volume);
@@ -33,18 +39,13 @@ class VolumeMaker {
  private:
   const Points& points() const { return source_.points(); }
 
-  void build() {
-    body_.volume =
-        cache_.volume(source_.content, body_.radii, [this] { return StpBv::build(points(), body_.radii); });
-  }
-
   void reduceTo(double budget) {
     constexpr double kLargest = 1e5;  // beyond it a big sphere is flat to rounding
     StpBvOptions& radii = body_.radii;
     body_.cover = overCover(*body_.volume, points());
     for (; body_.cover.max > budget && radii.R < kLargest; body_.cover = overCover(*body_.volume, points())) {
       radii.R *= 2;  // the over-cover falls towards r
-      build();
+      body_.volume = cache_.volume(source_.content, radii, [&] { return StpBv::build(points(), radii); });
     }
     if (body_.cover.max > budget)
       throw Error("no R keeps its over-cover within " + toDecimal(budget) +
@@ -64,8 +65,9 @@ class VolumeMaker {
 
 }  // namespace
 
-bool areFitted(const GeometryOptions& options, const std::string& link) {
-  return options.links.count(link) == 0 && (options.fitr || options.fitR);
+VolumeKey volumeKey(const GeometryOptions& options, const std::string& link, const std::string& content) {
+  if (!areFitted(options, link)) return {content, radiiFor(options, link, nullptr)};
+  return {content + (options.fitr ? "\nr fitted" : "") + (options.fitR ? "\nR fitted" : ""), options.radii};
 }
 
 StpBvOptions radiiFor(const GeometryOptions& options, const std::string& link,
@@ -81,8 +83,8 @@ StpBvOptions radiiFor(const GeometryOptions& options, const std::string& link,
 void makeVolume(const GeometryOptions& options, const std::string& link, const ShapeSource& source,
                 VolumeCache& cache, Body& body) {
   const auto budget = options.budgets.find(link);
-  VolumeMaker(options, link, source, cache, body)
-      .make(budget == options.budgets.end() ? options.overCoverBudget : budget->second);
+  VolumeMaker(source, cache, body)
+      .make(options, link, budget == options.budgets.end() ? options.overCoverBudget : budget->second);
 }
 
 }  // namespace fcl_stpbv::detail

@@ -8,8 +8,13 @@
 
 namespace fcl_stpbv::detail {
 
-/// Whether r or R of a link's bodies follow the body's size.
-bool areFitted(const GeometryOptions& options, const std::string& link);
+/// What the cache knows a link's volume by: where r or R follow the body's size they are found in the entry,
+/// and neither they nor the size need the mesh again.
+struct VolumeKey {
+  std::string content;
+  StpBvOptions radii;  ///< those asked for, whether or not they are fitted instead
+};
+VolumeKey volumeKey(const GeometryOptions& options, const std::string& link, const std::string& content);
 
 /// r and R of a link's bodies: the link's own, those for all links, or what fits the body (GeometryOptions).
 /// `size` is only asked where they are fitted.

@@ -82,11 +82,9 @@ class Search {
                                                    : PairReason::sometimes);
       }
     }
-    const auto& motions = kinematics_->motions();
-    const bool baseMoves = !motions.empty() && motions.front().joint < 0;
     for (int i = 0; i < links; ++i)
       for (int o = 0; o < static_cast<int>(options_.obstacles.size()); ++o)
-        if (!none(i) && moves(robot, i, baseMoves)) add({i, o, true}, PairReason::sometimes);
+        if (!none(i) && moves(robot, i, kinematics_->baseMoves())) add({i, o, true}, PairReason::sometimes);
   }
 
   template <class Wanted>
@@ -270,23 +268,27 @@ const char* srdfReason(const PairEntry& entry) {
 
 }  // namespace
 
+void requireRoomForPairs(const Kinematics& kinematics, const RobotGeometry& geometry, std::size_t obstacles) {
+  // A pair keeps a configuration and a row of the Jacobian with its structure.
+  constexpr double kMostBytes = 4e9;
+  const double bytes = 1000.0 + 40.0 * kinematics.size();
+  const double bodies = static_cast<double>(geometry.bodies.size());
+  double pairs = bodies * (bodies - 1) / 2 + bodies * static_cast<double>(obstacles);
+  for (std::size_t l = 0; l < kinematics.robot().links.size(); ++l) {
+    const auto [first, last] = geometry.of(static_cast<int>(l));
+    pairs -= 0.5 * (last - first) * (last - first - 1);  // those of one link
+  }
+  if (pairs * bytes <= kMostBytes) return;
+  throw Error(kinematics.robot().path + ": the " + std::to_string(static_cast<long>(pairs)) + " pairs of " +
+              std::to_string(geometry.bodies.size()) + " bodies and " + std::to_string(obstacles) +
+              " obstacles do not fit into memory (4 GB); give fewer collision shapes");
+}
+
 std::vector<PairEntry> pairList(std::shared_ptr<const Kinematics> kinematics,
                                 std::shared_ptr<const RobotGeometry> geometry, const Srdf* srdf,
                                 const PairListOptions& options) {
   if (options.samples < 1) throw Error("pairList: samples must be 1 or more");
-  // A pair keeps a configuration and a row of the Jacobian with its structure.
-  constexpr double kMostBytes = 4e9;
-  double links = 0;
-  for (std::size_t l = 0; l < kinematics->robot().links.size(); ++l) {
-    const auto [first, last] = geometry->of(static_cast<int>(l));
-    links += first != last;
-  }
-  const double pairs = links * (links - 1) / 2 + links * static_cast<double>(options.obstacles.size());
-  if (pairs * (1000.0 + 40.0 * kinematics->size()) > kMostBytes)
-    throw Error("pairList: the " + std::to_string(static_cast<long>(pairs)) + " pairs of " +
-                std::to_string(static_cast<long>(links)) + " links and " +
-                std::to_string(options.obstacles.size()) +
-                " obstacles do not fit into memory; give collision shapes to fewer links");
+  requireRoomForPairs(*kinematics, *geometry, options.obstacles.size());
   return Search(std::move(kinematics), std::move(geometry), options).run(srdf);
 }
 

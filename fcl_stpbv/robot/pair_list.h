@@ -52,11 +52,15 @@ struct PairEntry : LinkPair {  ///< a pair with an obstacle is never left out as
   double probabilityBound() const { return collisions > 0 || samples == 0 ? 1 : 3.0 / samples; }
 };
 
+/// @throws Error naming the robot's file where the pairs of its bodies, and those with so many obstacles, are
+/// more than memory (4 GB) holds in the search below.
+void requireRoomForPairs(const Kinematics& kinematics, const RobotGeometry& geometry, std::size_t obstacles);
+
 /// All pairs of links that have bodies, then those with obstacles. Deterministic for a seed, but for proofs
 /// that `proofSeconds` cuts short.
 ///
 /// `srdf` (or null) gives the user's own entries, of the reason "User" and of enable_collisions; its other
-/// entries are found anew. @throws Error for a robot with more pairs than memory (4 GB) holds.
+/// entries are found anew. @throws Error as requireRoomForPairs() does.
 std::vector<PairEntry> pairList(std::shared_ptr<const Kinematics> kinematics,
                                 std::shared_ptr<const RobotGeometry> geometry, const Srdf* srdf,
                                 const PairListOptions& options = {});

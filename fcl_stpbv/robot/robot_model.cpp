@@ -19,13 +19,19 @@ namespace {
 using namespace detail;
 using tinyxml2::XMLElement;
 
+// Larger than any robot (m, rad): beyond it are slips of units and exponents, which would put links where no
+// distance can be computed.
+constexpr double kMost = 1e6;
+
+bool isUsable(const Eigen::Vector3d& v) { return v.allFinite() && v.lpNorm<Eigen::Infinity>() <= kMost; }
+
 Eigen::Vector3d toEigen(const urdf::Vector3& v) { return {v.x, v.y, v.z}; }
 
 Eigen::Isometry3d toEigen(const urdf::Pose& pose) {
   const Eigen::Quaterniond rotation(pose.rotation.w, pose.rotation.x, pose.rotation.y, pose.rotation.z);
   const Eigen::Vector3d position = toEigen(pose.position);
-  if (!position.allFinite() || !rotation.coeffs().allFinite() || !(rotation.norm() > 0.5))
-    throw Error("its origin is not finite");
+  if (!isUsable(position) || !rotation.coeffs().allFinite() || !(rotation.norm() > 0.5))
+    throw Error("its origin must be finite, and within 1e6 m");
   return Eigen::Translation3d(position) * rotation.normalized();
 }
 
@@ -51,8 +57,10 @@ ShapeModel toShape(const urdf::Geometry& geometry, const urdf::Pose& origin, boo
       throw Error("the scale of " + shape.mesh + " is 0 or not finite; give three other numbers");
     return shape;
   }
-  if (!shape.size.allFinite() || (shape.size.array() < 0).any() || !(shape.size.x() > 0))
-    throw Error("a shape's sizes must be finite and larger than 0");
+  const bool box = shape.kind == ShapeModel::Kind::box;  // may be a plate or a bar
+  if (!isUsable(shape.size) || (shape.size.array() < 0).any() ||
+      !((box ? shape.size.maxCoeff() : shape.size.x()) > 0))
+    throw Error("a shape's sizes must be finite and larger than 0, and at most 1e6 m");
   return shape;
 }
 
@@ -138,6 +146,10 @@ void readLimits(const urdf::Joint& joint, JointModel& model) {
   }
   if (!std::isfinite(model.lower) || !std::isfinite(model.upper) || model.lower > model.upper)
     throw Error("its limits must be finite, and the lower one not above the upper one");
+  if (model.lower > kMost || model.upper < -kMost)
+    throw Error("its limits leave nothing between -1e6 and 1e6");
+  model.lower = std::max(model.lower, -kMost);  // 1e16 and the like stand for no limit
+  model.upper = std::min(model.upper, kMost);
 }
 
 struct ReadJoint {
@@ -157,7 +169,7 @@ ReadJoint readJoint(const XMLElement& element, const UrdfTree& tree) {
   model.origin = toEigen(read->parent_to_joint_origin_transform);
   if (model.type != JointType::fixed && model.type != JointType::floating) {
     model.axis = toEigen(read->axis);
-    if (!model.axis.allFinite() || !(model.axis.norm() > 1e-9))
+    if (!isUsable(model.axis) || !(model.axis.norm() > 1e-9))
       throw Error("its axis has no direction; give one such as 0 0 1");
     model.axis.normalize();
     readLimits(*read, model);
@@ -176,8 +188,8 @@ void setMimic(const Mimic& end, int joint, RobotModel& robot) {
     return m.type >= JointType::revolute && m.type <= JointType::prismatic;
   };
   if (!single(model) || !single(robot.joints[static_cast<std::size_t>(end.joint)]) ||
-      !std::isfinite(end.multiplier) || !std::isfinite(end.offset))
-    throw Error("only a joint with one axis can mimic another one, by finite numbers");
+      !(std::abs(end.multiplier) <= kMost) || !(std::abs(end.offset) <= kMost))
+    throw Error("only a joint with one axis can mimic another one, by numbers from -1e6 to 1e6");
   model.mimic = end;
 }
 

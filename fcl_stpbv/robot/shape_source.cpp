@@ -97,7 +97,12 @@ class Reader {
 }  // namespace
 
 const std::vector<Eigen::Vector3d>& ShapeSource::points() const {
-  if (points_.empty()) points_ = loadPoints(file, shape->scale);
+  if (!points_.empty()) return points_;
+  points_ = loadPoints(file, shape->scale);
+  constexpr double kMost = 1e6;  // larger than any robot (m)
+  for (const Eigen::Vector3d& p : points_)
+    if (!(p.lpNorm<Eigen::Infinity>() <= kMost))
+      throw Error(file + ": its scaled coordinates must be finite, and within 1e6 m");
   return points_;
 }
 

@@ -27,6 +27,14 @@ struct FlatBody {
   double loss() const { return cover.excess.max; }
 };
 
+PrimitiveCover coverOf(const Body& body) {
+  try {
+    return primitiveCover(*body.geometry, body.radii);
+  } catch (const Error& error) {
+    throw Error("the smooth cover of " + body.name + ": " + error.what());
+  }
+}
+
 class Choice {
  public:
   Choice(const std::vector<CheckedPair>& pairs, RobotGeometry& robot, RobotGeometry* scene) {
@@ -62,7 +70,7 @@ class Choice {
     if (body.volume) return kSmooth;
     if (node_[index] == kSmooth) {
       node_[index] = flat_.size();
-      flat_.push_back({&body, primitiveCover(*body.geometry, body.radii), {}, 0, false});
+      flat_.push_back({&body, coverOf(body), {}, 0, false});
     }
     return node_[index];
   }

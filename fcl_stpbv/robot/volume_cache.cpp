@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Changes when the builder gives other volumes for the same points.
+// Changes when the builder gives other volumes, or a fit other radii, for the same points.
 constexpr std::string_view kVersion = "fcl_stpbv volume cache 3\n";
 
 // Two streams of 64 bits: FNV-1a, and the same steps over a mixed state. Guards against accidents, not

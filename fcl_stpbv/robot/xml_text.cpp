@@ -74,6 +74,9 @@ void parseXml(std::string_view text, const std::string& name, tinyxml2::XMLDocum
   refuseDocumentType(document, name);
   const tinyxml2::XMLElement* root = document.RootElement();
   if (!root) throw Error(name + ": holds no XML element");
+  if (const tinyxml2::XMLElement* second = root->NextSiblingElement())
+    throw Error(xmlPlace(*second, name) + "<" + second->Name() +
+                "> follows the root element, of which XML has one; give each a file of its own");
   refuseXacro(*root, name);
 }
 

@@ -54,6 +54,8 @@ class Roller {
   // Angle by which the ball, resting on a and b with its normal turned towards `across`, rolls until it
   // leaves p; negative where it never does.
   double leavingAngle(int a, int b, const Vector3d& across, int p) const;
+  // The same from the ball at rest, for a point so close to a or b that its own angle is lost in rounding.
+  double angleOf(const TouchingBall& ball, int a, int b, const Vector3d& across) const;
   Ring pivot(int a, int b, const Vector3d& across, int candidate);
   Ring ringOf(const TouchingBall& ball, int from, int to, std::vector<int> touched);
   bool claim(const Ring& ring);
@@ -138,6 +140,12 @@ double Roller::leavingAngle(int a, int b, const Vector3d& across, int p) const {
   return angle > kTwoPi - 1e-8 ? 0 : angle;
 }
 
+double Roller::angleOf(const TouchingBall& ball, int a, int b, const Vector3d& across) const {
+  const Vector3d side = (at(b) - at(a)).normalized().cross(across);
+  const double angle = std::atan2(ball.normal().dot(side), ball.normal().dot(across));
+  return angle < -1e-8 ? angle + kTwoPi : std::max(0.0, angle);
+}
+
 int Roller::touchThird(int a, int b, const Vector3d& across) const {
   int best = -1;
   double bestAngle = 0;
@@ -217,7 +225,8 @@ Ring Roller::pivot(int a, int b, const Vector3d& across, int candidate) {
       if (side > 0 && (outside < 0 || ball.height(at(i)) > height)) outside = i, height = ball.height(at(i));
     }
     if (outside < 0 && !lone) {
-      outside = leftOnTheWay(a, b, across, leavingAngle(a, b, across, candidate));
+      const double rest = leavingAngle(a, b, across, candidate);
+      outside = leftOnTheWay(a, b, across, rest >= 0 ? rest : angleOf(ball, a, b, across));
       // The side of a ball is decided exactly, an angle is not: among near-duplicates it may send the ball
       // back and forth. Where it has been sent once and has not stayed there is no rest.
       if (std::find(sent.begin(), sent.end(), outside) != sent.end()) outside = -1;

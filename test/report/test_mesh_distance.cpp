@@ -259,5 +259,5 @@ TEST_CASE("primitives count as they are, solid, and points without triangles as 
   const MeshDistance pair = meshDistance(ballBody, shifted(0.2), box, shifted(0));
   CHECK(pair.upper == Approx(0.08).margin(1.01e-7));
   CHECK(meshDistance(hull, shifted(0.15), box, shifted(0)).upper == Approx(0.05).margin(1.01e-7));
-  CHECK(hull.mesh() == nullptr);
+  CHECK(hull.solid() == nullptr);
 }

@@ -1,4 +1,6 @@
 // Bodies of links from meshes and primitives, and the cache of volumes.
+#include <sys/resource.h>
+
 #include <catch2/catch.hpp>
 #include <filesystem>
 
@@ -32,6 +34,13 @@ RobotModel tetrahedron(const TemporaryFolder& folder, double size) {
   return loadUrdf(folder / "r.urdf");
 }
 
+// Pages that child processes have touched so far: meshes are read in children, so without a page none was.
+long pagesOfChildren() {
+  rusage usage{};
+  ::getrusage(RUSAGE_CHILDREN, &usage);
+  return usage.ru_minflt;
+}
+
 bool sameVolume(const StpBv& a, const StpBv& b) {
   return a.vertices() == b.vertices() && a.faces() == b.faces();
 }
@@ -53,6 +62,28 @@ TEST_CASE("every link of every robot becomes a body within its bounding sphere")
       CHECK(body.cover.max >= body.volume->radii().r);
     }
     CHECK(loaded.geometry.warnings.empty());
+  }
+}
+
+TEST_CASE("fitted radii come from the cache with the volume, and the mesh is not read again") {
+  TemporaryFolder folder;
+  const RobotModel robot = tetrahedron(folder, 0.3);
+  GeometryOptions options = cachedIn(folder / "cache");
+  for (const auto& [fitr, fitR] : {std::pair{true, true}, {true, false}, {false, true}}) {
+    options.fitr = fitr;
+    options.fitR = fitR;
+    long before = pagesOfChildren();
+    const Body cold = loadGeometry(robot, options).bodies[0];
+    CHECK(pagesOfChildren() > before);
+    before = pagesOfChildren();
+    const RobotGeometry warm = loadGeometry(robot, options);
+    CHECK(pagesOfChildren() == before);
+    CHECK(warm.fromCache == 1);
+    CHECK(warm.bodies[0].radii.r == cold.radii.r);
+    CHECK(warm.bodies[0].radii.R == cold.radii.R);
+    CHECK(sameVolume(*warm.bodies[0].volume, *cold.volume));
+    CHECK((cold.radii.r != options.radii.r) == fitr);
+    CHECK((cold.radii.R != options.radii.R) == fitR);
   }
 }
 

@@ -81,7 +81,7 @@ class FindPosture(unittest.TestCase):
         self.assertEqual(len(data["configurations"]), 1)
         self.assertIn("lower_door", [pair["link2"] for pair in data["pairs"] if pair["obstacle"]])
         self.assertIn("upper_door", [body["name"] for body in data["bodies"] if body["obstacle"]])
-        careless = self.run_task(self.pick_can(), "--format", "html", "--ignore-collisions")
+        careless = self.run_task(self.pick_can(), "--format", "html", "--ignore-collisions", "-r", "0.01")
         self.assertEqual(page_data(careless.stdout)["summary"]["colliding"], 7)
 
     def test_what_cannot_be_done_ends_with_1_and_names_why(self):
@@ -130,17 +130,34 @@ class FindPosture(unittest.TestCase):
         self.assertEqual(run.returncode, 0, run.stderr)
         answer = json.loads(run.stdout)
         self.assertIs(answer["feasible"], True)
-        # 21 pairs; six are adjacent, and the flange cannot leave the first part of the wrist.
-        self.assertEqual(answer["pairs"], 14)
+        # 21 pairs; six are adjacent, and the flange cannot leave the first part of the wrist, nor with a smooth cover the second
+        # part the forearm.
+        self.assertEqual(answer["pairs"], 13)
+        flat = self.run_tool(ARM, REACH, "--format", "json", "--primitives", "flat")
+        self.assertEqual(json.loads(flat.stdout)["pairs"], 14)
+
+    def test_every_pair_has_a_smooth_body_and_r_fits_the_link_as_in_the_report(self):
+        def page(*arguments):
+            run = self.run_tool(ARM, REACH, "--format", "html", *arguments)
+            self.assertEqual(run.returncode, 0, run.stderr)
+            return page_data(run.stdout)
+        fitted = page()
+        self.assertTrue(all(pair["continuous"] for pair in fitted["pairs"]))
+        covers = {link["name"]: link["r"] for link in fitted["links"] if "r" in link}
+        self.assertTrue(covers)
+        self.assertFalse(any(pair["continuous"] for pair in page("--primitives", "flat")["pairs"]))
+        fixed = {link["name"]: link["r"] for link in page("-r", "0.002")["links"] if "r" in link}
+        self.assertNotEqual(fixed, covers)
+        self.assertEqual({link["name"]: link["r"] for link in page("-r", "auto")["links"] if "r" in link}, covers)
 
     def test_a_task_ignores_pairs_of_links(self):
         def pairs(ignore):
             run = self.run_tool(ARM, self.arm({"ignore": ignore}), "--format", "json")
             self.assertEqual(run.returncode, 0, run.stderr)
             return json.loads(run.stdout)["pairs"]
-        self.assertEqual(pairs([{"links": ["base"], "self": ["forearm"]}]), 13)
-        self.assertEqual(pairs([{"links": ["forearm"], "self": ["base"]}]), 13)
-        self.assertEqual(pairs([{"links": ["base"], "self": []}]), 14 - 5)
+        self.assertEqual(pairs([{"links": ["base"], "self": ["forearm"]}]), 12)
+        self.assertEqual(pairs([{"links": ["forearm"], "self": ["base"]}]), 12)
+        self.assertEqual(pairs([{"links": ["base"], "self": []}]), 13 - 5)
         wrong = self.run_tool(ARM, self.arm({"ignore": [{"links": ["base"]}, {"self": ["nobody"]}]}))
         self.assertEqual(wrong.returncode, 2)
         self.assertIn("collisions.ignore[1].self", wrong.stderr)

@@ -104,11 +104,47 @@ class Doors(unittest.TestCase):
         for value in ("-1", "1e9", "nan"):
             self.refused(REPORT, self.good, "--seed", value, names=["--seed"])
             self.refused(POSTURE, self.good, self.task, "--seed", value, names=["--seed"])
-        self.refused(REPORT, self.good, "--link", "a=nan,1", names=["--link"])
+        for command in ([REPORT, self.good], [POSTURE, self.good, self.task]):
+            for values in ("nan,1", "-0.1,1", "0.01,inf", "0.01,1e300", "0.01,0", "0.01,1,-1", "0.01,1,nan", "0.01,1,x"):
+                self.refused(*command, "--link", "a=" + values, names=["--link a=" + values, "expected a number from"])
+            self.refused(*command, "--link", "a=0.2,0.1", names=["--link a=0.2,0.1", "R must be larger than r"])
+            self.refused(*command, "--link", "a=0.1,1", "--link", "a=0.2,1", names=["--link a=0.2,1", "already"])
+            self.refused(*command, "-r", "0.2", "-R", "0.1", names=["-r 0.2 -R 0.1", "larger"])
+            self.refused(*command, "-r", "20", names=["-r 20", "larger"])
         for pose in ('{"j": 1e300}', '{"j": 0, "j": 1}', '{"nobody": 0}', '[0]', '{"j": null}', "nan"):
             self.refused(REPORT, self.good, "--pose", self.put("pose.json", pose), names=["pose.json"])
         for task in ('{"placements": [], "placements": []}', '{"placements": [], "x": 1}'):
             self.refused(POSTURE, self.good, self.put("bad.json", task), names=["bad.json"])
+
+    def test_what_would_put_links_where_nothing_can_be_checked_is_refused(self):
+        # A second document's bodies would be lost, an axis of 1e200 has no length, and at 1e300 no distance exists.
+        cases = {"1e300 0 0": ("1 0 0", "within 1e6 m"), '<box size="1e300 1 1"/>': ('<sphere radius="0.1"/>', "at most 1e6 m"),
+                 '<axis xyz="1e200 0 1e200"/><limit': ("<limit", "axis has no direction"),
+                 'lower="2e6" upper="3e6"': ('lower="-1" upper="1"', "between -1e6 and 1e6"),
+                 '<mimic joint="k" multiplier="1e300"/></joint><joint name="k"': ('</joint><joint name="k"', "mimic")}
+        for number, (wrong, (right, words)) in enumerate(cases.items()):
+            urdf = self.put(f"wrong{number}.urdf", robot().replace(right, wrong, 1))
+            self.refused(REPORT, urdf, names=[urdf, words])
+            self.refused(POSTURE, urdf, self.task, names=[urdf, words])
+        twice = self.put("twice.urdf", robot() + robot())
+        self.refused(REPORT, twice, names=[twice, "<robot> follows the root element"])
+        big = "".join(f"v {x} {y} {z}\n" for x, y, z in ((0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1))) + "f 1 2 3\nf 1 2 4\n"
+        mesh = f'<mesh filename="{self.put("big.obj", big)}" scale="1e200 1 1"/>'
+        self.refused(REPORT, self.put("mesh.urdf", robot(mesh)), names=["big.obj", "within 1e6 m"])
+
+    def test_limits_that_stand_for_none_are_no_error(self):
+        urdf = self.put("far.urdf", robot().replace('lower="-1" upper="1"', 'lower="-1e16" upper="1e16"'))
+        self.assertEqual(self.run_tool(REPORT, urdf, "--samples", "20").returncode, 0)
+
+    def test_both_tools_take_the_same_options_for_the_robot_in_the_same_words(self):
+        def options(tool):
+            text = self.run_tool(tool, "--help").stdout
+            parts = re.split(r"\n  (?=-)", text)[1:]
+            return {part.split()[0].split(",")[0]: " ".join(part.split()) for part in parts}
+        report, posture = options(REPORT), options(POSTURE)
+        for name in ("--srdf", "--obstacles", "--package-path", "--visual", "--skip-invalid", "--no-cache", "-r", "-R",
+                     "--primitives", "--over-cover", "--link", "--flat"):
+            self.assertEqual(report[name], posture[name])
 
     def test_an_srdf_that_does_not_fit_is_warned_of_and_hides_no_pair(self):
         srdf = self.put("other.srdf", '<robot name="other"><disable_collision link1="a" link2="c"/>'

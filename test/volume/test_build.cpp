@@ -289,3 +289,17 @@ TEST_CASE("A near-duplicate on the ball that the smallest R leaves does not join
     }
   }
 }
+
+TEST_CASE("A ball that rolls over an edge between near-duplicates does not roll past the other points") {
+  // The fourth and fifth point are 4.6e-15 m apart, a few units in their last place: the ball that rests on
+  // both and on the third rolls by 4.1 rad over their edge, and on the way it meets the first point.
+  const Cloud points{{-0x1.82fd693293821p-3, 0x1.b9f36bf5a56cbp-4, -0x1.e40d9efe3526ep-3},
+                     {0x1.4ea898180702cp-3, -0x1.06046452da5bap-4, 0x1.9d8f4416a4376p-3},
+                     {0x1.83f9a1a804cb7p-4, -0x1.5ec654ea23624p-2, -0x1.be20325ded32p-8},
+                     {-0x1.997d571f4752ap-4, 0x1.608668b3aef1bp-2, -0x1.79b1d88f9bc88p-5},
+                     {-0x1.997d571f47669p-4, 0x1.608668b3aef1cp-2, -0x1.79b1d88f9bd28p-5}};
+  const StpBv::Ptr volume = StpBv::build(points, {0.01, 0.38959506646365211});
+  const Verification found = verify(*volume, points);
+  INFO(found.message);
+  CHECK(found.ok);
+}

@@ -6,12 +6,20 @@ function showHeader(report) {
   const figure = (value, label, className = '') => byId('figures').append(make('div', `figure ${className}`, '', make('b', '', String(value)), make('span', '', label)));
   figure(s.pairs_total, 'pairs');
   figure(s.checked, 'checked');
-  figure(s.colliding, 'in collision', s.colliding ? 'bad' : s.checked ? 'good' : '');
+  figure(s.colliding, 'in collision', s.colliding ? 'bad' : s.checked && !report.skipped.length ? 'good' : '');
+  if (report.skipped.length) figure(report.skipped.length, 'left out', 'bad');
   const causes = new Map();
   for (const p of report.pairs) if (p.checked && p.colliding && p.cause) causes.set(p.cause, (causes.get(p.cause) || 0) + 1);
   for (const [cause, count] of causes) figure(count, cause);
   figure(s.min_distance === null ? '–' : mm(s.min_distance), 'least distance [mm]', s.min_distance !== null && s.min_distance <= 0 ? 'bad' : '');
   if (s.ns_per_pair) figure(s.ns_per_pair.toFixed(0), 'ns a pair');
+}
+
+// Shapes that nothing was checked against: no figure on the page holds for them.
+function showSkipped(shapes) {
+  byId('skipped').hidden = !shapes.length;
+  byId('skipped').firstElementChild.textContent = `Left out and not checked: ${shapes.length === 1 ? '1 shape' : `${shapes.length} shapes`}`;
+  byId('skipped').lastElementChild.replaceChildren(...shapes.map(text => make('li', '', text)));
 }
 
 function showWarnings(warnings) {
@@ -90,6 +98,7 @@ async function main() {
   document.head.append(script);
   const report = JSON.parse(await unpacked('packed-report')), pairs = report.pairs;
   showHeader(report);
+  showSkipped(report.skipped);
   showWarnings(report.warnings);
   showLinks(report.links);
   const scene = openScene(report), table = new PairTable(pairs, i => choose(i, true)), map = new HeatMap(report, i => choose(i, true));

@@ -1,0 +1,86 @@
+// See pair_measure.h.
+#include "fcl_stpbv/report/pair_measure.h"
+
+#include "fcl_stpbv/adapter/fcl_shapes.h"
+#include "fcl_stpbv/distance/shape_pair.h"
+
+namespace fcl_stpbv::report {
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+// Height of the supporting plane with the unit normal `n` over the geometry's origin (m).
+double supportOf(const fcl::CollisionGeometryd& geometry, const Eigen::Vector3d& n) {
+  if (const StpBvGeometry* smooth = asStpBv(&geometry)) return smooth->volume().support(n);
+  Shape shape;
+  return shapeOf(geometry, shape) ? n.dot(shape.support(n)) + shape.margin : 0;
+}
+
+// A body or an obstacle in its place, and what it covers: a primitive, or as a polyhedron the hull of all the
+// mesh's points, also under a reduced volume.
+struct Placed {
+  const fcl::CollisionGeometryd* body;
+  std::shared_ptr<const fcl::CollisionGeometryd> hull;
+  Eigen::Isometry3d pose;
+
+  double cover(const Eigen::Vector3d& normal) const {
+    if (normal.isZero() || !asStpBv(body)) return 0;
+    const Eigen::Vector3d n = pose.linear().transpose() * normal;
+    Shape covered;
+    if (!shapeOf(*hull, covered)) return 0;
+    return supportOf(*body, n) - n.dot(covered.support(n)) - covered.margin;
+  }
+};
+
+Placed placed(const Body& body, const Kinematics::State& state) {
+  std::shared_ptr<const fcl::CollisionGeometryd> hull = body.geometry;
+  if (body.primitive) hull = body.primitive;
+  if (body.full) hull = std::make_shared<StpBvGeometry>(body.full);
+  return {body.geometry.get(), hull, state.link[at(body.link)] * body.pose};
+}
+
+Placed placed(const Obstacle& obstacle) {
+  return {obstacle.geometry.get(), obstacle.primitive ? obstacle.primitive : obstacle.geometry,
+          obstacle.pose};
+}
+
+void covers(const CollisionReport& report, const CheckedPair& both, const Kinematics::State& state,
+            PairReport& pair) {
+  const Placed first = placed(report.geometry->bodies[at(both.body)], state);
+  const Placed second = both.obstacle ? placed(report.obstacles[at(both.other)])
+                                      : placed(report.geometry->bodies[at(both.other)], state);
+  pair.overCover1 = first.cover(pair.answer.normal);
+  pair.overCover2 = second.cover(-pair.answer.normal);
+  const auto margin = [](const Placed& body) {
+    const StpBvGeometry* smooth = asStpBv(body.body);
+    return smooth ? smooth->volume().radii().r : 0.0;
+  };
+  pair.lipschitz = 1 / (margin(first) + margin(second));
+  pair.hullDistance = std::numeric_limits<double>::quiet_NaN();
+  Shape a, b;
+  if (!shapeOf(*first.hull, a) || !shapeOf(*second.hull, b)) return;
+  const Distance hulls = distance(a, first.pose, b, second.pose);
+  if (hulls.status != DistanceStatus::invalid && hulls.distance > 0) pair.hullDistance = hulls.distance;
+}
+
+}  // namespace
+
+void measurePair(const CollisionReport& report, const std::vector<CheckedPair>& bodies, PairReport& pair) {
+  ConstraintOptions options;
+  options.obstacles = report.obstacles;
+  CollisionConstraints constraints(report.kinematics, report.geometry, bodies, options);
+  Eigen::VectorXd d(constraints.rows()), values(constraints.nonZeros());
+  constraints.evaluateValues(pair.configuration, d, values);
+  Eigen::Index row;
+  d.minCoeff(&row);
+  pair.answer = constraints.answer(static_cast<int>(row));
+  const CheckedPair& closest = bodies[static_cast<std::size_t>(row)];
+  pair.body1 = closest.body;
+  pair.body2 = closest.other + (closest.obstacle ? static_cast<int>(report.geometry->bodies.size()) : 0);
+  for (int k = constraints.rowStart()[static_cast<std::size_t>(row)];
+       k < constraints.rowStart()[static_cast<std::size_t>(row) + 1]; ++k)
+    pair.gradient[report.kinematics->names()[at(constraints.columnIndices()[at(k)])]] = values[k];
+  covers(report, closest, constraints.state(), pair);
+}
+
+}  // namespace fcl_stpbv::report

@@ -1,0 +1,53 @@
+// See report_warnings.h.
+#include "fcl_stpbv/report/report_warnings.h"
+
+#include <algorithm>
+
+namespace fcl_stpbv::report {
+namespace {
+
+std::string openMeshes(const CollisionReport& report, PairCauses& causes) {
+  const auto& bodies = report.geometry->bodies;
+  const auto open = std::count_if(bodies.begin(), bodies.end(),
+                                  [&](const Body& body) { return !causes.exact(body).closed(); });
+  if (open == 0) return "";
+  return std::to_string(open) +
+         " meshes are not closed: whether another lies inside one of them is judged by its winding number, "
+         "and their volume is not known.";
+}
+
+std::string neutralCollisions(const NeutralPosture& found, const std::string& neutral) {
+  if (found.colliding == 0) return "";
+  std::string warning = "in the neutral posture (" +
+                        (neutral.empty() ? "all joints at zero, or at the limit nearest to it" : neutral) +
+                        ") the bodies of " + std::to_string(found.colliding) +
+                        " pairs of links meet that are not adjacent";
+  if (found.better.size() > 0)
+    warning += "; those of " + std::to_string(found.collidingThere) + " do in another posture: " +
+               (found.state.empty() ? "neutral.better in the JSON, which --neutral takes from a file"
+                                    : "give --neutral " + found.state);
+  return warning + ".";
+}
+
+std::string kinks(const CollisionReport& report) {
+  const auto kinked = std::count_if(report.pairs.begin(), report.pairs.end(), [](const PairReport& pair) {
+    return pair.checked && !pair.answer.continuous;
+  });
+  if (kinked == 0) return "";
+  return std::to_string(kinked) +
+         " checked pairs have no smooth body, so their gradients may jump (\"continuous\" is false in the "
+         "JSON).";
+}
+
+}  // namespace
+
+std::vector<std::string> reportWarnings(const CollisionReport& report, const std::string& neutral,
+                                        PairCauses& causes) {
+  std::vector<std::string> warnings;
+  for (const std::string& text :
+       {openMeshes(report, causes), neutralCollisions(report.neutral, neutral), kinks(report)})
+    if (!text.empty()) warnings.push_back(report.robot->path + ": " + text);
+  return warnings;
+}
+
+}  // namespace fcl_stpbv::report

@@ -1,0 +1,43 @@
+// See tick_time.h.
+#include "fcl_stpbv/report/tick_time.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+namespace fcl_stpbv::report {
+namespace {
+
+std::vector<CheckedPair> closestBodies(const CollisionReport& report) {
+  const int count = static_cast<int>(report.geometry->bodies.size());
+  std::vector<CheckedPair> bodies;
+  for (const PairReport& pair : report.pairs) {
+    if (!pair.checked) continue;
+    const bool obstacle = pair.body2 >= count;
+    bodies.push_back({pair.body1, pair.body2 - (obstacle ? count : 0), obstacle});
+  }
+  return bodies;
+}
+
+}  // namespace
+
+double tickTime(const CollisionReport& report, Eigen::VectorXd q, int threads) {
+  constexpr int kTicks = 300;
+  constexpr double kStep = 1e-3;  // rad or m
+  ConstraintOptions options;
+  options.obstacles = report.obstacles;
+  options.threads = threads;
+  CollisionConstraints constraints(report.kinematics, report.geometry, closestBodies(report), options);
+  Eigen::VectorXd d(constraints.rows()), values(constraints.nonZeros());
+  std::vector<double> times;
+  for (int i = 0; i < kTicks; ++i) {
+    for (Eigen::Index k = 0; k < q.size(); ++k) q[k] += kStep * std::sin(static_cast<double>(i * (k + 1)));
+    const auto start = std::chrono::steady_clock::now();
+    constraints.evaluateValues(q, d, values);
+    times.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  }
+  std::nth_element(times.begin(), times.begin() + kTicks / 2, times.end());
+  return times[kTicks / 2];
+}
+
+}  // namespace fcl_stpbv::report
