@@ -1,9 +1,5 @@
 // urdf_collision_report: which links of a robot come how close, and which pairs need no check.
-#include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cmath>
-#include <cstdlib>
-#include <exception>
 #include <filesystem>
 #include <functional>
 #include <iostream>
@@ -13,7 +9,7 @@
 #include "fcl_stpbv/io/atomic_write.h"
 #include "fcl_stpbv/report/report_formats.h"
 #include "tools/cores.h"
-#include "tools/number_check.h"
+#include "tools/program.h"
 #include "tools/progress_bar.h"
 
 namespace {
@@ -49,7 +45,7 @@ struct Arguments {
   bool disableDefault = false, noCache = false, quiet = false;
 };
 
-void describe(CLI::App& app, Arguments& a) {
+void describe(Program& app, Arguments& a) {
   ReportRequest& request = a.request;
   request.search.threads = allCores();
   app.add_option("ROBOT", request.urdf, "The robot's URDF")->required()->type_name("FILE");
@@ -64,7 +60,7 @@ void describe(CLI::App& app, Arguments& a) {
       "--neutral", request.neutral,
       "The neutral posture, as --pose; all joints at zero, or at the limit nearest to it, unless given");
   app.add_option("--samples", request.search.samples, "Random configurations")
-      ->check(CLI::Range(1, 100000000))
+      ->check(wholeNumber(1, 100000000))
       ->capture_default_str();
   app.add_option("--seed", request.search.seed, "Of the random configurations")
       ->check(wholeNumber())
@@ -123,7 +119,7 @@ void describe(CLI::App& app, Arguments& a) {
       ->capture_default_str();
   app.add_option("-o,--output", a.output, "File to write instead of standard output")->type_name("OUT");
   app.add_option("-j,--jobs", request.search.threads, "Threads; any number gives the same report")
-      ->check(CLI::Range(1, kMostJobs))
+      ->check(wholeNumber(1, kMostJobs))
       ->capture_default_str();
   app.add_flag("--skip-invalid", request.skipInvalid,
                "Go on without the shapes that are wrong; exit status 3, not 0");
@@ -152,18 +148,21 @@ void checkOutput(const Arguments& a) {
 // "NAME=r,R" or "NAME=r,R,OVER_COVER".
 void readLink(const std::string& text, GeometryOptions& options) {
   const std::size_t equals = text.rfind('=');
-  std::vector<double> values;
-  for (const char* at = equals == std::string::npos ? nullptr : text.c_str() + equals; at && *at != '\0';) {
-    char* end;
-    values.push_back(std::strtod(at + 1, &end));
-    at = end != at + 1 && (*end == ',' || *end == '\0') && std::isfinite(values.back()) ? end : nullptr;
-    if (!at) values.clear();
-  }
-  if (values.size() < 2 || values.size() > 3)
+  std::vector<std::string> words;
+  if (equals != std::string::npos) words = CLI::detail::split(text.substr(equals + 1), ',');
+  if (words.size() < 2 || words.size() > 3)
     throw Error("--link " + text + ": expected NAME=r,R or NAME=r,R,OVER_COVER with lengths in metres");
+  const CLI::Validator checks[] = {numberIn(0, kLargest), numberIn(0, kLargestR, false),
+                                   numberIn(0, kLargest)};
+  double values[3] = {};
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (const std::string wrong = checks[i](words[i]); !wrong.empty())
+      throw Error("--link " + text + ": " + wrong);
+    CLI::detail::lexical_cast(words[i], values[i]);
+  }
   const std::string name = text.substr(0, equals);
   options.links[name] = {values[0], values[1]};
-  if (values.size() == 3) options.budgets[name] = values[2];
+  if (words.size() == 3) options.budgets[name] = values[2];
 }
 
 // Lengths or "auto"; R follows r where it is not given.
@@ -226,21 +225,9 @@ int run(Arguments& a) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app(kDescription, "urdf_collision_report");
-  app.set_version_flag("--version", "urdf_collision_report " FCL_STPBV_VERSION);
-  app.footer(kFooter);
+  Program program(kDescription, "urdf_collision_report");
+  program.footer(kFooter);
   Arguments arguments;
-  describe(app, arguments);
-  try {
-    app.parse(argc, argv);
-    return run(arguments);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? kClear : kUsage;
-  } catch (const std::bad_alloc&) {
-    std::cerr << "urdf_collision_report: not enough memory; give a smaller robot" << std::endl;
-    return kUsage;
-  } catch (const std::exception& error) {
-    std::cerr << "urdf_collision_report: " << error.what() << std::endl;
-    return kUsage;
-  }
+  describe(program, arguments);
+  return program.run(argc, argv, [&] { return run(arguments); });
 }

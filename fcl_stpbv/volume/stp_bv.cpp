@@ -194,12 +194,14 @@ int StpBv::owner(const Vector3d& n, int hint) const {
 
 double StpBv::support(const Vector3d& n, int hint) const {
   const int index = owner(n, hint);
-  return fcl_stpbv::support(patch(index), kind(index), radii_, n);
+  const double h = fcl_stpbv::support(patch(index), kind(index), radii_, n);
+  return std::isfinite(h) ? h : std::numeric_limits<double>::infinity();
 }
 
 Vector3d StpBv::surfacePoint(const Vector3d& n, int hint) const {
   const int index = owner(n, hint);
-  return corePoint(patch(index), kind(index), radii_, n) + radii_.r * n;
+  const Vector3d point = corePoint(patch(index), kind(index), radii_, n) + radii_.r * n;
+  return point.allFinite() ? point : centre_;
 }
 
 Vector3d StpBv::corner(int face, int vertex) const {
