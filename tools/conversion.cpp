@@ -6,6 +6,7 @@
 #include <chrono>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <vector>
 
 #include "fcl_stpbv/error.h"
@@ -30,14 +31,31 @@ std::string lowerExtension(const std::string& path) {
   return extension;
 }
 
-// The volume that a file holds, or null where it is a mesh or a cloud of points.
-StpBv::Ptr loadVolume(const std::string& path) {
+// What an input holds: a volume, or else points.
+struct Content {
+  StpBv::Ptr volume;
+  Points points;
+};
+
+// Decided by the content, read once: a pipe cannot be read twice. Volumes and polyhedra are texts; a mesh is
+// left to the reader of meshes, which needs a file.
+Content readInput(const std::string& path, const Eigen::Vector3d& scale) {
   const std::string extension = lowerExtension(path);
-  if (extension == ".stpbv") return loadStpBv(path);
-  if (extension != ".txt" && extension != ".otp" && !extension.empty()) return nullptr;
-  const std::string text = readText(path);
-  if (looksLikeStpBv(text)) return loadStpBv(path);
-  return !looksLikeQhull(text) && looksLikeSch(text) ? loadSch(path) : nullptr;
+  if (extension == ".stpbv") return {loadStpBv(path), {}};
+  std::error_code ignored;
+  const bool isFile = std::filesystem::is_regular_file(path, ignored);
+  if (isFile && extension != ".txt" && extension != ".otp" && !extension.empty())
+    return {nullptr, loadPoints(path, scale)};
+  std::istringstream stream(readText(path));
+  const std::string text = stream.str();
+  if (looksLikeStpBv(text)) return {loadStpBv(stream, path), {}};
+  const bool points = looksLikeQhull(text);
+  if (!points && looksLikeSch(text)) return {loadSch(stream, path), {}};
+  if (isFile) return {nullptr, loadPoints(path, scale)};
+  if (!points) throw Error(path + ": holds neither a volume nor points; a mesh must be a file");
+  Content content{nullptr, parseQhullPoints(text, path)};
+  for (Eigen::Vector3d& point : content.points) point = point.cwiseProduct(scale);
+  return content;
 }
 
 // A volume has lost the points that its own radii left inside, so it cannot become that of other radii.
@@ -83,13 +101,13 @@ void check(Report& report, const Points& points, const ConversionOptions& option
 Report convert(const std::string& input, const ConversionOptions& options) {
   Report report;
   report.input = input;
-  report.volume = loadVolume(input);
-  Points points;
+  Content content = readInput(input, Eigen::Vector3d::Constant(options.scale));
+  report.volume = content.volume;
+  Points& points = content.points;
   if (report.volume) {
     checkSameRadii(input, report.volume->radii(), options);
     points = report.volume->vertices();
   } else {
-    points = loadPoints(input, Eigen::Vector3d::Constant(options.scale));
     const auto start = std::chrono::steady_clock::now();
     report.volume = build(input, points, options);
     report.buildSeconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -1,12 +1,10 @@
 // find_posture: joint values for a task, free of collisions, or which of its constraints cannot hold
 // together.
-#include <CLI/CLI.hpp>
-#include <exception>
 #include <iostream>
 
 #include "fcl_stpbv/io/atomic_write.h"
 #include "fcl_stpbv/report/posture_formats.h"
-#include "tools/number_check.h"
+#include "tools/program.h"
 #include "tools/robot_options.h"
 
 namespace {
@@ -43,11 +41,11 @@ struct Arguments {
   bool careless = false, quiet = false;
 };
 
-void describe(CLI::App& app, Arguments& a) {
+void describe(Program& app, Arguments& a) {
   describeRobot(app, a.robot);
   app.add_option("TASK", a.task, "The task's JSON file")->required()->type_name("FILE");
   app.add_option("--starts", a.options.starts, "Starts to try: the task's own, then random ones near it")
-      ->check(CLI::Range(1, 100000))
+      ->check(wholeNumber(1, 100000))
       ->capture_default_str();
   app.add_option("--seed", a.options.seed, "Of the random starts")
       ->check(wholeNumber())
@@ -108,21 +106,9 @@ int run(Arguments& a) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app(kDescription, "find_posture");
-  app.set_version_flag("--version", "find_posture " FCL_STPBV_VERSION);
-  app.footer(kFooter);
+  Program program(kDescription, "find_posture");
+  program.footer(kFooter);
   Arguments arguments;
-  describe(app, arguments);
-  try {
-    app.parse(argc, argv);
-    return run(arguments);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? kFeasible : kUsage;
-  } catch (const std::bad_alloc&) {
-    std::cerr << "find_posture: not enough memory; give a smaller robot" << std::endl;
-    return kUsage;
-  } catch (const std::exception& error) {
-    std::cerr << "find_posture: " << error.what() << std::endl;
-    return kUsage;
-  }
+  describe(program, arguments);
+  return program.run(argc, argv, [&] { return run(arguments); });
 }

@@ -1,8 +1,6 @@
 // mesh_to_stpbv: STP-BVs from meshes, clouds of points and volumes in other formats.
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <atomic>
-#include <cstdio>
 #include <exception>
 #include <filesystem>
 #include <iostream>
@@ -18,6 +16,7 @@
 #include "tools/cores.h"
 #include "tools/output_plan.h"
 #include "tools/parts_conversion.h"
+#include "tools/program.h"
 #include "tools/progress_bar.h"
 
 namespace {
@@ -26,7 +25,7 @@ using namespace fcl_stpbv::tools;
 
 constexpr int kMostParts = 64;  // enough for any link, and each pair of two such links is 4096 queries
 
-enum Exit { kDone = 0, kSomeFailed = 1, kUsage = 2 };
+enum Exit { kDone = 0, kSomeFailed = 1 };
 
 constexpr const char* kDescription =
     "Builds the sphere-torus-patch bounding volume (STP-BV) of each input: a smooth, strictly convex body "
@@ -45,7 +44,10 @@ Examples:
   mesh_to_stpbv link.stpbv --format sch -o link.txt  the same volume for sch-core
   mesh_to_stpbv meshes/*.dae -o volumes --json -q > report.jsonl
 
-Exit status: 0 all done; 1 some input failed, the others are written; 2 the command line is wrong, nothing is written.)";
+- as INPUT or OUT is standard input or output; where the volume goes to standard output the report goes to standard error.
+
+Exit status: 0 all done; 1 some input failed, the others are written; 2 the command line is wrong and nothing is written,
+or standard output cannot be written.)";
 
 struct Arguments {
   std::vector<std::string> inputs;
@@ -55,7 +57,7 @@ struct Arguments {
   bool json = false, force = false, quiet = false;
 };
 
-void describe(CLI::App& app, Arguments& arguments) {
+void describe(Program& app, Arguments& arguments) {
   ConversionOptions& conversion = arguments.conversion;
   app.add_option("INPUT", arguments.inputs, "Meshes, clouds of points or volumes")
       ->required()
@@ -64,9 +66,12 @@ void describe(CLI::App& app, Arguments& arguments) {
                  "File to write; for several inputs a folder, made if missing")
       ->required()
       ->type_name("OUT");
-  app.add_option("-r", conversion.r, "Radius of the small spheres, the margin around the points [0.01 m]");
-  app.add_option("-R", conversion.R, "Radius of the big spheres [10 m]");
+  app.add_option("-r", conversion.r, "Radius of the small spheres, the margin around the points [0.01 m]")
+      ->check(numberIn(0, kLargest));
+  app.add_option("-R", conversion.R, "Radius of the big spheres [10 m]")
+      ->check(numberIn(0, kLargestR, false));
   app.add_option("--scale", conversion.scale, "Factor on the input's coordinates, 0.001 for millimetres")
+      ->check(numberIn(0, kLargest, false))
       ->capture_default_str();
   app.add_option_function<std::string>(
          "--format",
@@ -84,24 +89,24 @@ void describe(CLI::App& app, Arguments& arguments) {
   app.add_option_function<int>(
          "--parts", [=](int most) { parts().most = most; },
          "At most this many volumes that together cover a mesh that is not convex, each of a convex part")
-      ->check(CLI::Range(1, kMostParts))
+      ->check(wholeNumber(1, kMostParts))
       ->type_name("K");
   app.add_option_function<double>(
          "--excess", [=](double excess) { parts().excess = excess; },
          "As few such volumes as keep the parts' hulls this close to the mesh, about [m]")
-      ->check(CLI::PositiveNumber)
+      ->check(numberIn(0, kLargest, false))
       ->type_name("M");
   app.add_option_function<double>(
          "--effort", [=](double effort) { parts().effort = effort; },
          "Search for the parts this many times as long as usual [1]")
-      ->check(CLI::Range(0.01, 1000.0))
+      ->check(numberIn(0.01, 1000))
       ->type_name("E");
   app.add_flag("--verify", conversion.verify,
                "Check each volume before it is written; one that fails is not written");
   app.add_flag("--json", arguments.json,
                "Report on standard output as JSON, one object a line for each input done");
   app.add_option("-j,--jobs", arguments.jobs, "Inputs to do at once; any number gives the same")
-      ->check(CLI::Range(1, kMostJobs))
+      ->check(wholeNumber(1, kMostJobs))
       ->capture_default_str();
   app.add_flag("--force", arguments.force, "Replace files that exist");
   app.add_flag("-q,--quiet", arguments.quiet,
@@ -156,6 +161,8 @@ Outcome runJob(const Job& job, const Arguments& arguments) {
 // Does all jobs and tells what became of them in their order, however many threads share them. @return how
 // many failed.
 std::size_t runAll(const std::vector<Job>& jobs, const Arguments& arguments) {
+  // Where a volume goes to standard output nothing else does.
+  std::ostream& reports = isStandardOutput(arguments.output) ? std::cerr : std::cout;
   ProgressBar bar(jobs.size(), !arguments.quiet);
   std::vector<std::optional<Outcome>> outcomes(jobs.size());
   std::atomic<std::size_t> next{0};
@@ -170,7 +177,7 @@ std::size_t runAll(const std::vector<Job>& jobs, const Arguments& arguments) {
       outcomes[i] = std::move(outcome);
       for (; told < jobs.size() && outcomes[told]; ++told) {
         bar.clear();
-        std::cout << outcomes[told]->report << std::flush;
+        reports << outcomes[told]->report << std::flush;
         if (!outcomes[told]->complaint.empty()) tell(outcomes[told]->complaint);
         if (!outcomes[told]->good) ++failed;
         *outcomes[told] = {};
@@ -184,7 +191,12 @@ std::size_t runAll(const std::vector<Job>& jobs, const Arguments& arguments) {
   return failed;
 }
 
-int run(const Arguments& arguments) {
+int run(Arguments& arguments) {
+  arguments.conversion.measure = arguments.json || !arguments.quiet;
+  if (arguments.conversion.parts && arguments.conversion.parts->most == 0) {
+    if (arguments.conversion.parts->excess == 0) throw UsageError("--effort: goes with --parts or --excess");
+    arguments.conversion.parts->most = kMostParts;
+  }
   const Plan plan =
       fcl_stpbv::tools::plan(arguments.inputs, arguments.output, arguments.conversion, arguments.force);
   std::error_code error;
@@ -202,27 +214,9 @@ int run(const Arguments& arguments) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app(kDescription, "mesh_to_stpbv");
-  app.set_version_flag("--version", "mesh_to_stpbv " FCL_STPBV_VERSION);
-  app.footer(kFooter);
+  Program program(kDescription, "mesh_to_stpbv");
+  program.footer(kFooter);
   Arguments arguments;
-  describe(app, arguments);
-  try {
-    app.parse(argc, argv);
-    arguments.conversion.measure = arguments.json || !arguments.quiet;
-    if (arguments.conversion.parts && arguments.conversion.parts->most == 0) {
-      if (arguments.conversion.parts->excess == 0)
-        throw UsageError("--effort: goes with --parts or --excess");
-      arguments.conversion.parts->most = kMostParts;
-    }
-    return run(arguments);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? kDone : kUsage;
-  } catch (const UsageError& error) {
-    tell(error.what());
-    return kUsage;
-  } catch (const std::exception& error) {
-    tell(error.what());
-    return kSomeFailed;
-  }
+  describe(program, arguments);
+  return program.run(argc, argv, [&] { return run(arguments); });
 }

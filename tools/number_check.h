@@ -1,16 +1,18 @@
-// Numbers from the command line: finite and in a range. CLI11's own Range lets NaN through.
+// Numbers from the command line: finite and in a range. CLI11's own checks let NaN through.
 #pragma once
 
 #include <CLI/CLI.hpp>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <string>
+
+#include "fcl_stpbv/number_check.h"
 
 namespace fcl_stpbv::tools {
 
-/// Beyond it a big sphere's surface is flat to the rounding of a body's coordinates (m).
-constexpr double kLargestR = 1e8;
+using fcl_stpbv::kLargestR;
 /// Longer than anything that a robot does (m, s).
 constexpr double kLargest = 1e6;
 
@@ -29,14 +31,19 @@ inline CLI::Validator numberIn(double least, double most, bool orEqual = true) {
       "NUMBER");
 }
 
-/// A number that counts, from 0; CLI11 itself takes -1 for the largest of all.
-inline CLI::Validator wholeNumber() {
+/// A number that counts, from `least` to `most`; CLI11 itself takes -1 for the largest of all.
+inline CLI::Validator wholeNumber(std::uint64_t least = 0,
+                                  std::uint64_t most = std::numeric_limits<std::uint64_t>::max()) {
+  const std::string range = most == std::numeric_limits<std::uint64_t>::max()
+                                ? std::to_string(least) + " or more"
+                                : "from " + std::to_string(least) + " to " + std::to_string(most);
   return CLI::Validator(
-      [](std::string& text) {
+      [=](std::string& text) {
         std::uint64_t value = 0;
         const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
-        const bool good = result.ec == std::errc() && result.ptr == text.data() + text.size();
-        return good ? std::string() : "got " + text + ", expected a whole number, 0 or more";
+        const bool good = result.ec == std::errc() && result.ptr == text.data() + text.size() &&
+                          value >= least && value <= most;
+        return good ? std::string() : "got " + text + ", expected a whole number, " + range;
       },
       "NUMBER");
 }

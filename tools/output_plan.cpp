@@ -1,7 +1,6 @@
 // See output_plan.h.
 #include "tools/output_plan.h"
 
-#include <cmath>
 #include <filesystem>
 #include <map>
 
@@ -11,6 +10,8 @@ namespace fcl_stpbv::tools {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr const char* kStandardOutput = "/dev/stdout";
 
 // Asked of names that may not exist or not be reachable; then the answer is no.
 bool isFolder(const fs::path& path) {
@@ -33,16 +34,8 @@ bool sameFile(const fs::path& a, const fs::path& b) {
 
 void checkValues(const ConversionOptions& options) {
   const StpBvOptions defaults;
-  const double r = options.r.value_or(defaults.r), R = options.R.value_or(defaults.R);
-  if (!std::isfinite(r) || r < 0)
-    throw UsageError("-r: the small radius must be a finite number of metres, 0 or more");
-  if (!std::isfinite(R) || R <= r) {
-    throw UsageError("-R: the big radius must be a finite number of metres, larger than the small radius r");
-  }
-  if (!std::isfinite(options.scale) || options.scale <= 0) {
-    throw UsageError(
-        "--scale: must be a finite number larger than 0, such as 0.001 for a mesh in millimetres");
-  }
+  if (options.R.value_or(defaults.R) <= options.r.value_or(defaults.r))
+    throw UsageError("-R: the big radius must be larger than the small radius r");
 }
 
 void checkPreview(const std::vector<std::string>& inputs, const std::string& preview) {
@@ -83,6 +76,8 @@ std::vector<Job> jobsInto(const std::string& folder, const std::vector<std::stri
 
 }  // namespace
 
+bool isStandardOutput(const std::string& output) { return output == "-" || output == kStandardOutput; }
+
 Plan plan(const std::vector<std::string>& inputs, const std::string& output, const ConversionOptions& options,
           bool force) {
   if (inputs.empty()) throw UsageError("INPUT: give at least one file");
@@ -92,7 +87,11 @@ Plan plan(const std::vector<std::string>& inputs, const std::string& output, con
   checkPreview(inputs, options.preview);
 
   Plan plan;
-  if (inputs.size() > 1 || isFolder(output) || output.back() == '/') {
+  if (isStandardOutput(output)) {
+    if (inputs.size() > 1 || options.parts)
+      throw UsageError("-o " + output + ": takes one volume; name a folder or a file for several");
+    plan.jobs = {{inputs[0], kStandardOutput}};
+  } else if (inputs.size() > 1 || isFolder(output) || output.back() == '/') {
     if (isFile(output)) {
       throw UsageError("-o " + output + ": is a file, but " + std::to_string(inputs.size()) +
                        " inputs need a folder; name a folder");
@@ -105,7 +104,7 @@ Plan plan(const std::vector<std::string>& inputs, const std::string& output, con
   for (const Job& job : plan.jobs) checkTarget(job.output, inputs, force);
 
   std::vector<std::string> named;
-  if (plan.folder.empty()) named.push_back(output);
+  if (plan.folder.empty()) named.push_back(plan.jobs[0].output);
   if (!options.preview.empty()) {
     checkTarget(options.preview, inputs, force);
     if (sameFile(options.preview, plan.jobs[0].output)) {

@@ -26,6 +26,9 @@ struct Plan {
   std::vector<Job> jobs;
 };
 
+/// Whether a volume for `output` goes to standard output.
+bool isStandardOutput(const std::string& output);
+
 /// One input goes to the file `output`, or into it where that is a folder; several go into the folder
 /// `output`, each under its own stem.
 /// @throws UsageError for values out of range, names that clash, and files that exist unless `force` is set.

@@ -1,7 +1,5 @@
 // urdf_collision_report: which links of a robot come how close, and which pairs need no check.
-#include <CLI/CLI.hpp>
 #include <algorithm>
-#include <exception>
 #include <functional>
 #include <iostream>
 #include <memory>
@@ -9,7 +7,7 @@
 #include "fcl_stpbv/io/atomic_write.h"
 #include "fcl_stpbv/report/report_formats.h"
 #include "tools/cores.h"
-#include "tools/number_check.h"
+#include "tools/program.h"
 #include "tools/progress_bar.h"
 #include "tools/robot_options.h"
 
@@ -47,7 +45,7 @@ struct Arguments {
   bool disableDefault = false, quiet = false;
 };
 
-void describe(CLI::App& app, Arguments& a) {
+void describe(Program& app, Arguments& a) {
   ReportRequest& request = a.request;
   request.search.threads = allCores();
   describeRobot(app, a.robot);
@@ -56,7 +54,7 @@ void describe(CLI::App& app, Arguments& a) {
       "--neutral", request.neutral,
       "The neutral posture, as --pose; all joints at zero, or at the limit nearest to it, unless given");
   app.add_option("--samples", request.search.samples, "Random configurations")
-      ->check(CLI::Range(1, 100000000))
+      ->check(wholeNumber(1, 100000000))
       ->capture_default_str();
   app.add_option("--seed", request.search.seed, "Of the random configurations")
       ->check(wholeNumber())
@@ -81,7 +79,7 @@ void describe(CLI::App& app, Arguments& a) {
       ->capture_default_str();
   app.add_option("-o,--output", a.output, "File to write instead of standard output")->type_name("OUT");
   app.add_option("-j,--jobs", request.search.threads, "Threads; any number gives the same report")
-      ->check(CLI::Range(1, kMostJobs))
+      ->check(wholeNumber(1, kMostJobs))
       ->capture_default_str();
   app.add_flag("-q,--quiet", a.quiet, "No progress bar and no warnings");
 }
@@ -141,21 +139,9 @@ int run(Arguments& a) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app(kDescription, "urdf_collision_report");
-  app.set_version_flag("--version", "urdf_collision_report " FCL_STPBV_VERSION);
-  app.footer(kFooter);
+  Program program(kDescription, "urdf_collision_report");
+  program.footer(kFooter);
   Arguments arguments;
-  describe(app, arguments);
-  try {
-    app.parse(argc, argv);
-    return run(arguments);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? kClear : kUsage;
-  } catch (const std::bad_alloc&) {
-    std::cerr << "urdf_collision_report: not enough memory; give a smaller robot" << std::endl;
-    return kUsage;
-  } catch (const std::exception& error) {
-    std::cerr << "urdf_collision_report: " << error.what() << std::endl;
-    return kUsage;
-  }
+  describe(program, arguments);
+  return program.run(argc, argv, [&] { return run(arguments); });
 }

@@ -8,6 +8,7 @@ World frame: the robot's feet stand around the origin, x forward into the fridge
 millimetres and degrees, what is written is in metres and radians.
 """
 
+import argparse
 import json
 import math
 import os
@@ -146,7 +147,9 @@ def files():
 
 
 def main():
-    check, different = "--check" in sys.argv[1:], []
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--check", action="store_true")
+    check, different = parser.parse_args().check, []
     for name, text in files():
         path = os.path.join(FOLDER, name)
         old = open(path, encoding="utf-8").read() if os.path.exists(path) else None

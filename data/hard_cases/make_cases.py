@@ -4,11 +4,14 @@
 A cylinder becomes the prism over a regular 32-gon inscribed in its base: distance codes for polyhedra know no
 cylinders, and the prism keeps the report's parallel features and sizes.
 """
+import argparse
 import math
 from pathlib import Path
 
 FOLDER = Path(__file__).parent
 SHARP = "a query for the signed distance throws: the origin is outside of the polytope"
+
+argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter).parse_args()  # takes none
 
 
 def box(x, y, z):

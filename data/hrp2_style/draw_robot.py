@@ -5,6 +5,7 @@ From left to right: zero posture from the front and from the side, half-sitting 
 direction. An orthographic z-buffer at twice the picture's resolution, then averaged 2 x 2.
 """
 
+import argparse
 import math
 import os
 import struct
@@ -135,6 +136,7 @@ def write_png(path, rows):
 
 
 def main():
+    argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter).parse_args()  # takes none
     views = [averaged(draw_view(view_triangles(*view))) for view in VIEWS]
     rows = [sum((view[r] for view in views), []) for r in range(VIEW_HEIGHT)]
     write_png(os.path.join(os.path.dirname(os.path.abspath(__file__)), "hrp2_style.png"), rows)

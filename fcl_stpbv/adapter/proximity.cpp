@@ -6,6 +6,8 @@
 // 4. A search that ends as soon as its bounds tell.
 #include "fcl_stpbv/adapter/proximity.h"
 
+#include <cmath>
+
 #include "fcl_stpbv/adapter/posed_geometry.h"
 #include "fcl_stpbv/convex/relative_pose.h"
 #include "fcl_stpbv/distance/shape_distance.h"
@@ -70,7 +72,7 @@ bool isFartherThan(double x, const fcl::CollisionGeometryd& geometry1, const fcl
                    const fcl::CollisionGeometryd& geometry2, const fcl::Transform3d& pose2,
                    const QueryContext& context) {
   const PosedPair pair(geometry1, pose1, geometry2, pose2);
-  if (!pair.valid) return false;
+  if (std::isnan(x) || !pair.valid) return false;  // no distance is known to be above what is no number
   Within within(x, pair, context);
   const PosedGeometry::Part a = pair.first.whole(), b = pair.second.whole();
   if (within.skip(within.bound(a, b))) return true;

@@ -2,6 +2,8 @@
 // std::from_chars and std::to_chars, so the locale does not matter.
 #include "fcl_stpbv/io/text_scanner.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -43,6 +45,10 @@ std::string readText(const std::string& path, std::size_t mostBytes) {
   const std::string file = path == "-" ? "/dev/stdin" : path;
   if (std::filesystem::is_directory(file, ignored)) throw Error(path + ": is a folder, expected a file");
   if (!std::filesystem::exists(file, ignored)) throw Error(path + ": no such file");
+  const bool terminal = file == "/dev/stdin" && ::isatty(STDIN_FILENO) != 0;
+  if (std::filesystem::is_block_file(file, ignored) ||
+      (std::filesystem::is_character_file(file, ignored) && !terminal))
+    throw Error(path + ": is a device, expected a file or a pipe");
   std::ifstream in(file, std::ios::binary);
   if (!in) throw Error(path + ": cannot be opened for reading; check its permissions");
   return readText(in, path, mostBytes);

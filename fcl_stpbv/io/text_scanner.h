@@ -15,7 +15,7 @@ constexpr std::size_t kMostBytes = std::size_t(8) << 30;
 
 /// The whole text of a file, of standard input for "-", or of a pipe up to where its writer closes it. A file
 /// that does not end is refused past `mostBytes`.
-/// @throws Error naming the file when it cannot be read or is larger.
+/// @throws Error naming the file when it cannot be read, is larger, or is a device.
 std::string readText(const std::string& path, std::size_t mostBytes = kMostBytes);
 
 /// The rest of a stream; `name` stands for it in messages. @throws Error when reading fails, or as above.

@@ -12,7 +12,7 @@
 #include <set>
 #include <utility>
 
-#include "fcl_stpbv/error.h"
+#include "fcl_stpbv/number_check.h"
 #include "fcl_stpbv/parts/cut_planes.h"
 #include "fcl_stpbv/parts/part_search.h"
 #include "fcl_stpbv/volume/rolling_ball.h"
@@ -121,8 +121,10 @@ ConvexPart certified(const std::vector<Vector3d>& points, const MeshSolid& mesh)
 }  // namespace
 
 ConvexParts convexParts(const TriangleMesh& input, const PartsOptions& options) {
-  if (options.most < 1 || !(options.excess >= 0) || !(options.effort > 0))
-    throw Error("convexParts: takes at least 1 part, an excess of 0 or more and an effort above 0");
+  constexpr double kLargest = 1e6;  // m, and times the usual search: beyond either is a mistake
+  requireNumber("convexParts: most", options.most, 1, kLargest);
+  requireNumber("convexParts: excess", options.excess, 0, kLargest);
+  requireNumber("convexParts: effort", options.effort, 1e-3, kLargest);
   const MeshSolid mesh(input);
   PartSpace space(mesh);
   std::vector<int> facetOf;

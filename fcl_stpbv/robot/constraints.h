@@ -131,17 +131,18 @@ class CollisionConstraints {
   double gradientRateBound(int row) const;
 
   /// Sum over the rows of weight times (Hessian of d) times v: the change of J as q moves along v. Closed
-  /// form and differences as above.
-  void hessianVector(const ConstVector& q, const ConstVector& weights, const ConstVector& v, Vector out);
+  /// form and differences as above. Where one of these numbers is not finite, 0.
+  /// @returns whether all were.
+  bool hessianVector(const ConstVector& q, const ConstVector& weights, const ConstVector& v, Vector out);
 
   /// The lower triangle that a weighted sum of the rows' Hessians may fill, for hessian() to fill: columns
   /// one after the other, rows ascending; the structure never changes.
   SparseHessian makeHessian() const;
   /// Sum over the rows of weight times Hessian of d: the constraints' part of a Lagrangian's Hessian, as
-  /// IPOPT asks for it. The first call makes room for what it needs.
-  void hessian(const ConstVector& q, const ConstVector& weights, SparseHessian& lower);
-  /// The Hessian of one row, columns() x columns(), symmetric.
-  void hessian(const ConstVector& q, int row, Eigen::Ref<Eigen::MatrixXd> full);
+  /// IPOPT asks for it. The first call makes room for what it needs. Numbers that are not finite as above.
+  bool hessian(const ConstVector& q, const ConstVector& weights, SparseHessian& lower);
+  /// The Hessian of one row, columns() x columns(), symmetric. Numbers that are not finite as above.
+  bool hessian(const ConstVector& q, int row, Eigen::Ref<Eigen::MatrixXd> full);
 
   /// What the last evaluation found for a pair; status `invalid` where its spheres were enough.
   RowAnswer answer(int row) const;

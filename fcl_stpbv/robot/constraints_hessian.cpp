@@ -185,18 +185,20 @@ void CollisionConstraints::differences(const ConstVector& q, const ConstVector& 
     if (open_[row]) ask(row);
 }
 
-void CollisionConstraints::hessianVector(const ConstVector& q, const ConstVector& weights,
+bool CollisionConstraints::hessianVector(const ConstVector& q, const ConstVector& weights,
                                          const ConstVector& v, Vector out) {
+  out.setZero();
+  if (!q.allFinite() || !weights.allFinite() || !v.allFinite()) return false;
   place(q);
   kinematics_->differentiate(q, v, state_, rate_);
   moving_ = true;
   std::fill(open_.begin(), open_.end(), 1);
   eachPair([&](std::size_t row) { open_[row] = !rowChange(row, change_.data()); });
   if (std::find(open_.begin(), open_.end(), 1) != open_.end()) differences(q, v);
-  out.setZero();
   for (int row = 0; row < rows(); ++row)
     for (int k = rowStart_[at(row)]; k < rowStart_[at(row) + 1]; ++k)
       out[column_[at(k)]] += weights[row] * change_[k];
+  return true;
 }
 
 }  // namespace fcl_stpbv

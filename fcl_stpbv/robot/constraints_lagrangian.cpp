@@ -107,9 +107,10 @@ void CollisionConstraints::openHessians(const ConstVector& q, const Add& add) {
   }
 }
 
-void CollisionConstraints::hessian(const ConstVector& q, const ConstVector& weights, SparseHessian& lower) {
-  prepareHessian(q);
+bool CollisionConstraints::hessian(const ConstVector& q, const ConstVector& weights, SparseHessian& lower) {
   Eigen::Map<Eigen::VectorXd>(lower.valuePtr(), lower.nonZeros()).setZero();
+  if (!q.allFinite() || !weights.allFinite()) return false;
+  prepareHessian(q);
   Eigen::MatrixXd h;
   for (std::size_t row = 0; row < open_.size(); ++row) {
     const double weight = weights[static_cast<Eigen::Index>(row)];
@@ -128,24 +129,27 @@ void CollisionConstraints::hessian(const ConstVector& q, const ConstVector& weig
   openHessians(q, [&](int i, int j, double value, int row) {
     lower.coeffRef(std::max(i, j), std::min(i, j)) += weights[row] * (i == j ? value : value / 2);
   });
+  return true;
 }
 
-void CollisionConstraints::hessian(const ConstVector& q, int row, Eigen::Ref<Eigen::MatrixXd> full) {
-  prepareHessian(q);
+bool CollisionConstraints::hessian(const ConstVector& q, int row, Eigen::Ref<Eigen::MatrixXd> full) {
   full.setZero();
+  if (!q.allFinite()) return false;
+  prepareHessian(q);
   std::fill(open_.begin(), open_.end(), 0);
   Eigen::MatrixXd h;
   if (at(row) < pairs_.size() && rowHessian(at(row), h)) {
     const int start = rowStart_[at(row)];
     for (int i = 0; i < h.rows(); ++i)
       for (int j = 0; j < h.rows(); ++j) full(column_[at(start + i)], column_[at(start + j)]) = h(i, j);
-    return;
+    return true;
   }
   open_[at(row)] = 1;
   openHessians(q, [&](int i, int j, double value, int) {
     full(i, j) += value / 2;
     full(j, i) += value / 2;
   });
+  return true;
 }
 
 }  // namespace fcl_stpbv

@@ -15,6 +15,7 @@
 #include "fcl_stpbv/adapter/hull_geometry.h"
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/robot/geometry_steps.h"
+#include "fcl_stpbv/number_check.h"
 #include "fcl_stpbv/robot/link_volume.h"
 #include "fcl_stpbv/robot/mesh_file.h"
 #include "fcl_stpbv/robot/volume_cache.h"
@@ -36,6 +37,21 @@ void checkNames(const RobotModel& robot, const GeometryOptions& options, LoadFau
     if (robot.link(name) < 0)
       faults.errors.push_back(robot.path + ": options were given for a link '" + name + "' it does not have");
   }
+}
+
+void checkNumbers(const RobotModel& robot, const GeometryOptions& options, LoadFaults& faults) {
+  const auto check = [&](const std::string& link, const StpBvOptions& radii, double budget) {
+    try {
+      requireNumber(robot.path + ": r" + link, radii.r, 0, kLargestR);
+      requireNumber(robot.path + ": R" + link, radii.R, radii.r, kLargestR);
+      requireNumber(robot.path + ": over-cover" + link, budget, 0, kLargestR);
+    } catch (const Error& error) {
+      faults.errors.push_back(error.what());
+    }
+  };
+  check("", options.radii, options.overCoverBudget);
+  for (const auto& [name, radii] : options.links) check(" of link '" + name + "'", radii, 0);
+  for (const auto& [name, budget] : options.budgets) check(" of link '" + name + "'", {}, budget);
 }
 
 class Builder {
@@ -155,6 +171,7 @@ namespace detail {
 
 ShapeSources readGeometry(const RobotModel& robot, const GeometryOptions& options, LoadFaults& faults) {
   checkNames(robot, options, faults);
+  checkNumbers(robot, options, faults);
   const VolumeCache cache(options.cacheFolder);
   const IsCached isCached = [&](const std::string& link, const std::string& content) {
     const VolumeKey key = volumeKey(options, link, content);

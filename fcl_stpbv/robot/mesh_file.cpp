@@ -98,7 +98,7 @@ void checkReadable(const std::string& path, const Vector3d& scale) {
   }
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored)) throw Error(path + ": is a folder, expected a file");
-  if (!std::filesystem::exists(path, ignored)) throw Error(path + ": no such file");
+  if (path != "-" && !std::filesystem::exists(path, ignored)) throw Error(path + ": no such file");
   if (!std::filesystem::is_regular_file(path, ignored))
     throw Error(path + ": is a pipe or a device, expected a file");
 }

@@ -15,6 +15,7 @@
 #include <tuple>
 
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/number_check.h"
 #include "fcl_stpbv/robot/adjacency.h"
 #include "fcl_stpbv/robot/pair_proof.h"
 #include "fcl_stpbv/robot/pair_samples.h"
@@ -33,7 +34,14 @@ class Search {
   Search(std::shared_ptr<const Kinematics> kinematics, std::shared_ptr<const RobotGeometry> geometry,
          const PairListOptions& options)
       : kinematics_(std::move(kinematics)), geometry_(std::move(geometry)), options_(options) {
+    constexpr double kLargest = 1e9;  // m, s
+    requireNumber("PairListOptions: margin", options.margin, -kLargest, kLargest);
+    requireNumber("PairListOptions: proofSeconds", options.proofSeconds, 0, kLargest);
+    requireNumber("PairListOptions: alwaysFraction", options.alwaysFraction, 0, 1);
     neutral_ = options.neutral.size() > 0 ? options.neutral : kinematics_->neutral();
+    if (neutral_.size() != kinematics_->size() || !neutral_.allFinite())
+      throw Error("PairListOptions: neutral must be a finite number for each of the " +
+                  std::to_string(kinematics_->size()) + " coordinates");
   }
 
   std::vector<PairEntry> run(const Srdf* srdf) {

@@ -7,16 +7,22 @@
 #include <limits>
 
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/number_check.h"
 
 namespace fcl_stpbv {
 namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
+// Beyond these in m, m/s, s and 1/s is a mistake; a gain or a period is never 0.
+constexpr double kLeast = 1e-9, kLargest = 1e9;
+
 void check(const Damper& damper) {
-  if (!(damper.influence > damper.security) || !std::isfinite(damper.influence))
-    throw Error("VelocityDamper: influence must be finite and larger than security");
-  if (!(damper.damping > 0)) throw Error("VelocityDamper: damping must be larger than 0");
+  requireNumber("VelocityDamper: security", damper.security, -kLargest, kLargest);
+  requireNumber("VelocityDamper: influence", damper.influence, damper.security, kLargest);
+  requireNumber("VelocityDamper: damping", damper.damping, kLeast, kLargest);
+  if (damper.influence == damper.security)
+    throw Error("VelocityDamper: influence must be larger than security");
 }
 
 }  // namespace
@@ -31,8 +37,9 @@ VelocityDamper::VelocityDamper(CollisionConstraints& constraints, DamperOptions 
       damping_(at(constraints.rows())),
       inside_(at(constraints.rows()), 0) {
   check(options_.all);
-  if (!(options_.period > 0) || !(options_.barrierGain > 0))
-    throw Error("VelocityDamper: period and barrierGain must be larger than 0");
+  requireNumber("VelocityDamper: headroom", options_.headroom, -kLargest, kLargest);
+  requireNumber("VelocityDamper: period", options_.period, kLeast, kLargest);
+  requireNumber("VelocityDamper: barrierGain", options_.barrierGain, kLeast, kLargest);
   for (const auto& [row, damper] : options_.rows) {
     if (row < 0 || row >= constraints.rows())
       throw Error("VelocityDamper: there is no row " + std::to_string(row));

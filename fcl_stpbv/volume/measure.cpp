@@ -146,6 +146,7 @@ double enclosedVolume(const StpBv& volume) {
 }
 
 double signedDistance(const StpBv& volume, const Vector3d& point) {
+  if (!point.allFinite()) return -std::numeric_limits<double>::infinity();
   // The largest value lies on the patch that owns its normal. Any normal gives a lower bound with the support
   // of its true owner, so one that rounding has put past a boundary, as close to a vertex it may, does no
   // harm.

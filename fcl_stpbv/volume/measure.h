@@ -31,10 +31,10 @@ double overCoverBound(const Radii& radii, double longestEdge);
 double enclosedVolume(const StpBv& volume);
 
 /// Signed distance of a point from the surface, negative inside (m): the largest of n.p - h(n) over the
-/// normals n. Exact at any depth; looks at every patch.
+/// normals n. Exact at any depth; looks at every patch. -infinity for a point that is not finite.
 double signedDistance(const StpBv& volume, const Eigen::Vector3d& point);
 
-/// True where the point lies inside or on the surface.
+/// True where the point lies inside or on the surface, and where it is not finite.
 bool contains(const StpBv& volume, const Eigen::Vector3d& point);
 
 }  // namespace fcl_stpbv

@@ -204,12 +204,14 @@ double StpBv::outside(int patch, const Vector3d& n) const {
 
 double StpBv::support(const Vector3d& n, int hint) const {
   const int index = owner(n, hint);
-  return n.dot(patch(index).anchor) + supportAboveAnchor(*this, index, n);
+  const double h = n.dot(patch(index).anchor) + supportAboveAnchor(*this, index, n);
+  return std::isfinite(h) ? h : std::numeric_limits<double>::infinity();
 }
 
 Vector3d StpBv::surfacePoint(const Vector3d& n, int hint) const {
   const int index = owner(n, hint);
-  return corePoint(*this, index, n) + radii_.r * n;
+  const Vector3d point = corePoint(*this, index, n) + radii_.r * n;
+  return point.allFinite() ? point : centre_;
 }
 
 Vector3d StpBv::corner(int face, int vertex) const {

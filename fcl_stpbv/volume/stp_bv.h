@@ -97,10 +97,10 @@ class StpBv {
   /// patch), or from a direction table when `hint` is negative.
   int owner(const Eigen::Vector3d& n, int hint = -1) const;
 
-  /// Support function h(n) = max over the body of x.n, for unit `n` (m).
+  /// Support function h(n) = max over the body of x.n, for unit `n` (m); infinite where `n` is not finite.
   double support(const Eigen::Vector3d& n, int hint = -1) const;
 
-  /// The surface point whose outward normal is the unit vector `n` (m).
+  /// The surface point whose outward normal is the unit vector `n` (m); the centre where `n` is not finite.
   Eigen::Vector3d surfacePoint(const Eigen::Vector3d& n, int hint = -1) const;
 
   /// A point well inside, the centre of the vertices' minimum enclosing ball, and that ball's radius (m):

@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "fcl_stpbv/volume/patch_view.h"
+#include "fcl_stpbv/number_check.h"
 #include "fcl_stpbv/volume/regions.h"
 
 namespace fcl_stpbv {
@@ -101,6 +102,9 @@ class Tessellator {
 
 }  // namespace
 
-TriangleMesh tessellate(const StpBv& volume, double angle) { return Tessellator(volume, angle).run(); }
+TriangleMesh tessellate(const StpBv& volume, double angle) {
+  requireNumber("tessellate: angle", angle, 0.02, 1);
+  return Tessellator(volume, angle).run();
+}
 
 }  // namespace fcl_stpbv

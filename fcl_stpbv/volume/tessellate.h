@@ -16,7 +16,8 @@ struct TriangleMesh {
 };
 
 /// Closed mesh of points on the surface, each patch cut so that normals turn by at most about `angle` (rad,
-/// 0.02 to 1) from one point to the next. Corners shared by patches are shared vertices.
+/// 0.02 to 1) from one point to the next. Corners shared by patches are shared vertices. @throws Error for
+/// another angle.
 TriangleMesh tessellate(const StpBv& volume, double angle = 0.2);
 
 }  // namespace fcl_stpbv

@@ -199,6 +199,57 @@ class MeshToStpbv(unittest.TestCase):
         write(self.at("two.txt"), points_file(CUBE[:2]))
         self.refused("two.txt", "-o", "a.txt", "--format", "sch", says=["a.txt", "one or two vertices", "stpbv"], code=1)
 
+    def shell(self, command):
+        done = subprocess.run(["bash", "-c", command], capture_output=True, text=True, cwd=self.folder.name, timeout=60,
+                              env=dict(os.environ, T=PROGRAM))
+        return done
+
+    def test_volumes_come_from_and_go_to_pipes_and_descriptors(self):
+        self.run_tool("cube.txt", "-o", "cube.stpbv")
+        volume = read(self.at("cube.stpbv")).decode()
+        for command in ('"$T" cube.txt -o -', '"$T" cube.txt -o /dev/stdout', '"$T" cube.txt -o /dev/stdout | cat',
+                        '"$T" - -o - < cube.txt', 'cat cube.txt | "$T" - -o -', 'cat cube.txt | "$T" /dev/stdin -o -',
+                        '"$T" <(cat cube.txt) -o -', '"$T" cube.stpbv -o - --json', 'cat cube.stpbv | "$T" - -o -',
+                        'exec 3>&1; "$T" cube.txt -q -o >(cat >&3); sleep 0.5', 'mkfifo p; cat p & "$T" cube.txt -q -o p; wait; rm p',
+                        'mkfifo p.txt; cat cube.txt > p.txt & "$T" p.txt -o -; rm p.txt'):
+            with self.subTest(command=command):
+                done = self.shell(command)
+                self.assertEqual(done.stdout, volume, done.stderr)
+        for command in ('"$T" cube.txt -o - | "$T" - -o - --format sch | "$T" - -o -',):
+            self.assertEqual(self.shell(command).stdout, volume)
+
+    def test_several_volumes_do_not_go_to_standard_output(self):
+        self.refused("cube.txt", "other.txt", "-o", "-", says=["-o -", "one volume"])
+        self.refused("cube.txt", "--parts", "2", "-o", "-", says=["-o -", "one volume"])
+
+    def test_a_mesh_from_a_pipe_and_a_device_are_refused(self):
+        for command in ('echo solid | "$T" - -o a.stpbv', '"$T" /dev/zero -o a.stpbv', '"$T" - -o a.stpbv < /dev/zero',
+                        'ln -s /dev/zero z.stpbv; "$T" z.stpbv -o a.stpbv', 'ln -s /dev/zero z.stl; "$T" z.stl -o a.stpbv',
+                        '"$T" - -o a.stpbv --parts 2 < cube.txt'):
+            with self.subTest(command=command):
+                done = self.shell(command)
+                self.assertEqual((done.returncode, done.stdout), (1, ""), done)
+                self.assertRegex(done.stderr, "device|must be a file|expected a file")
+        self.assertFalse(os.path.exists(self.at("a.stpbv")))
+
+    def test_output_that_cannot_be_written_is_a_failure(self):
+        for command, code in (('"$T" cube.txt -o a.stpbv > /dev/full', 2), ('"$T" cube.txt -o b.stpbv --json > /dev/full', 2),
+                              ('"$T" cube.txt -o - > /dev/full', 1), ('"$T" cube.txt -o /dev/full', 1)):
+            with self.subTest(command=command):
+                done = self.shell(command)
+                self.assertEqual(done.returncode, code, done)
+                self.assertIn("cannot be written", done.stderr)
+
+    def test_a_pipe_that_nobody_reads_or_writes_is_left_by_a_signal(self):
+        os.mkfifo(self.at("p"))
+        for arguments in (["cube.txt", "-o", "p"], ["p", "-o", "a.stpbv"]):
+            for number in (signal.SIGINT, signal.SIGTERM):
+                process = subprocess.Popen([PROGRAM, *arguments], cwd=self.folder.name, stderr=subprocess.DEVNULL)
+                time.sleep(0.5)
+                process.send_signal(number)
+                self.assertEqual(process.wait(20), -number)
+        self.assertNotIn("a.stpbv", self.names())
+
     def test_previews_are_written_and_read_back(self):
         for kind in ("obj", "stl", "ply", "glb"):
             self.run_tool("cube.txt", "-o", kind + ".stpbv", "--preview", "p." + kind)

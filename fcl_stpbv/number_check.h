@@ -1,0 +1,23 @@
+// The door for numbers that callers give as options to what builds and loads: each is in its range or is
+// refused by name. NaN is in no range.
+#pragma once
+
+#include <cstdio>
+#include <string>
+
+#include "fcl_stpbv/error.h"
+
+namespace fcl_stpbv {
+
+/// Beyond it a big sphere's surface is flat to the rounding of a body's coordinates (m).
+constexpr double kLargestR = 1e8;
+
+/// @throws Error naming the number and the range that would work unless `least <= value <= most`.
+inline void requireNumber(const std::string& name, double value, double least, double most) {
+  if (value >= least && value <= most) return;
+  char text[96];
+  std::snprintf(text, sizeof text, ": got %.9g, expected a number from %.9g to %.9g", value, least, most);
+  throw Error(name + text);
+}
+
+}  // namespace fcl_stpbv

@@ -1,0 +1,89 @@
+"""The tools and scripts: numbers that are none, unknown options and output that cannot be written are told, with status 2.
+
+    test_program_doors.py BIN_FOLDER PROJECT
+"""
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import unittest
+
+BIN, PROJECT = (pathlib.Path(folder).resolve() for folder in sys.argv[1:3])
+PROGRAMS = [BIN / name for name in ("mesh_to_stpbv", "urdf_collision_report", "find_posture")]
+# Words that some scripts do take: ctest's options, names of files and folders, and what a program of ours refuses itself.
+TAKE = {"nonsense": ("check_format", "demo", "fuzz", "make_packages"), "--no-such-option": ("test",)}
+NO_NUMBERS = ["nan", "-nan", "inf", "-inf", "1e400", "1,5", "1.5x", "x", "", " "]
+
+
+def run(program, *arguments, **options):
+    return subprocess.run([program, *arguments], capture_output="stdout" not in options, text=True, timeout=60, **options)
+
+
+def numbers_of(program):
+    """(option or None for a place on the command line, how many places come before it), from the help."""
+    places = 0
+    for line in run(program, "--help").stdout.splitlines():
+        entry = re.match(r"  (\S+)(?: (\S+))?", line)
+        if not entry or line.startswith("   "):
+            continue
+        name, kind = entry[1], entry[2] or ""
+        if "NUMBER" in kind:
+            yield (None, places) if name[0] != "-" else (name.split(",")[0], 0)
+        places += name[0] != "-"
+
+
+class Programs(unittest.TestCase):
+    def refused(self, done, *says):
+        self.assertEqual(done.returncode, 2, done)
+        self.assertEqual(done.stdout, "", done)
+        for words in says:
+            self.assertIn(words, done.stderr)
+
+    def test_help_and_version_go_to_standard_output_and_a_full_one_is_a_failure(self):
+        for program in PROGRAMS:
+            with self.subTest(program.name):
+                for option in ("--help", "--version"):
+                    done = run(program, option)
+                    self.assertEqual((done.returncode, done.stderr), (0, ""), done)
+                    self.assertTrue(done.stdout)
+                    with open("/dev/full", "w") as full:
+                        done = run(program, option, stdout=full, stderr=subprocess.PIPE)
+                    self.assertEqual(done.returncode, 2)
+                    self.assertIn("standard output cannot be written", done.stderr)
+                self.assertRegex(run(program, "--version").stdout, rf"^{program.name} \d+\.\d+\.\d+\n$")
+
+    def test_an_option_that_there_is_not_is_refused(self):
+        for program in PROGRAMS:
+            for option in ("--no-such-option", "-Z", "--seeed=1"):
+                with self.subTest(program=program.name, option=option):
+                    self.refused(run(program, option))
+
+    def test_scripts_refuse_what_they_do_not_know_before_they_do_anything(self):
+        scripts = [path for folder in ("tools", "tools/hooks", "data/fridge", "data/hard_cases", "data/hrp2_style", ".ci")
+                   for path in sorted((PROJECT / folder).iterdir())
+                   if path.is_file() and path.read_bytes()[:2] == b"#!"]
+        self.assertGreater(len(scripts), 12)
+        for script in scripts:
+            for word in ("nonsense", "--no-such-option"):
+                if script.name in TAKE.get(word, ()):
+                    continue
+                with self.subTest(script=script.name, word=word):
+                    self.refused(run(*([sys.executable, script] if script.suffix == ".py" else [script]), word, cwd=PROJECT))
+
+    def test_a_number_that_is_none_is_refused_by_every_option_that_takes_one(self):
+        tried = 0
+        for program in PROGRAMS:
+            for option, places in numbers_of(program):
+                for value in NO_NUMBERS:
+                    with self.subTest(program=program.name, option=option, value=value):
+                        tried += 1
+                        given = [f"{option}={value}" if option[1] == "-" else option + value] if option else \
+                            ["1"] * places + [value]
+                        # An empty word behind a short option's letter leaves the option without its value.
+                        self.refused(run(program, *given), *([option] if option and value.strip() else []))
+        self.assertGreater(tried, 100)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
