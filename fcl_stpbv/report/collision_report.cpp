@@ -137,9 +137,14 @@ class Maker {
       report_.fits.push_back(meshFit(body, causes_->exact(body)));
     warnOfOpenMeshes();
     report_.pose = request_.pose;
+    report_.margin = request_.search.margin;
     const Eigen::VectorXd q =
         posed ? poseOf("--pose", request_.pose, *report_.kinematics, srdf()) : report_.kinematics->neutral();
-    for (const PairEntry& entry : report_.list) addPair(entry, posed ? q : entry.closest);
+    followTrajectory();
+    for (std::size_t i = 0; i < report_.list.size(); ++i) {
+      const PairEntry& entry = report_.list[i];
+      addPair(entry, posed ? q : report_.trajectory ? trajectory_.points.front() : entry.closest, i);
+    }
     summarise();
     requirePairs(static_cast<std::size_t>(report_.checked), *report_.robot, countsOf(report_.list));
     warnOfNeutral();
@@ -185,6 +190,8 @@ class Maker {
     if (!request_.pose.empty()) poseOf("--pose", request_.pose, *report_.kinematics, srdf());
     neutral_ = request_.neutral.empty() ? report_.kinematics->neutral()
                                         : poseOf("--neutral", request_.neutral, *report_.kinematics, srdf());
+    if (!request_.trajectory.empty())
+      trajectory_ = readTrajectory(request_.trajectory, *report_.kinematics, neutral_);
   }
 
   void cover(RobotGeometry& bodies) {
@@ -199,7 +206,45 @@ class Maker {
     coverPrimitives(pairs, bodies, &sceneGeometry_);
   }
 
-  void addPair(const PairEntry& entry, const Eigen::VectorXd& q) {
+  bool isChecked(const PairEntry& entry) const {
+    if (entry.obstacle || !srdf()) return entry.obstacle || checkedWithoutSrdf(entry.reason);
+    const auto& links = report_.robot->links;
+    return srdf_.reasonToSkip(links[at(entry.link1)].name, links[at(entry.link2)].name).empty();
+  }
+
+  // The bodies of the checked pairs along the way points.
+  void followTrajectory() {
+    if (request_.trajectory.empty()) return;
+    std::vector<CheckedPair> pairs;
+    for (const PairEntry& entry : report_.list) {
+      firstBodies_.push_back(pairs.size());
+      if (!isChecked(entry)) continue;
+      const std::vector<CheckedPair> bodies = bodiesOf(*report_.geometry, entry);
+      pairs.insert(pairs.end(), bodies.begin(), bodies.end());
+      const std::string& other = entry.obstacle ? report_.obstacles[at(entry.link2)].name
+                                                : report_.robot->links[at(entry.link2)].name;
+      report_.trajectoryPairs.resize(pairs.size(), {report_.robot->links[at(entry.link1)].name, other});
+    }
+    firstBodies_.push_back(pairs.size());
+    requirePairs(pairs.size(), *report_.robot, countsOf(report_.list));
+    report_.trajectory = follow(trajectory_, report_.kinematics, report_.geometry, pairs, report_.obstacles,
+                                request_.search.margin);
+    report_.trajectory->path = request_.trajectory;
+  }
+
+  // Where the pair's bodies are closest on the trajectory.
+  void placeOnTrajectory(std::size_t entry, PairReport& pair) const {
+    if (!report_.trajectory || firstBodies_[entry] == firstBodies_[entry + 1]) return;
+    const auto begin = report_.trajectory->closest.begin();
+    const auto nearest =
+        std::min_element(begin + static_cast<std::ptrdiff_t>(firstBodies_[entry]),
+                         begin + static_cast<std::ptrdiff_t>(firstBodies_[entry + 1]),
+                         [](const Approach& a, const Approach& b) { return a.distance < b.distance; });
+    pair.time = nearest->time;
+    pair.configuration = report_.trajectory->at(nearest->time);
+  }
+
+  void addPair(const PairEntry& entry, const Eigen::VectorXd& q, std::size_t index) {
     PairReport pair;
     pair.link1 = report_.robot->links[at(entry.link1)].name;
     pair.obstacle = entry.obstacle;
@@ -207,7 +252,7 @@ class Maker {
         entry.obstacle ? report_.obstacles[at(entry.link2)].name : report_.robot->links[at(entry.link2)].name;
     pair.reason = reasonText(entry.reason);
     if (srdf() && !entry.obstacle) pair.srdfReason = srdf_.reasonToSkip(pair.link1, pair.link2);
-    pair.checked = entry.obstacle || (srdf() ? pair.srdfReason.empty() : checkedWithoutSrdf(entry.reason));
+    pair.checked = isChecked(entry);
     const bool explained = entry.reason == PairReason::adjacent || entry.reason == PairReason::rigid ||
                            entry.reason == PairReason::neverSampled ||
                            entry.reason == PairReason::neverProven;
@@ -217,6 +262,7 @@ class Maker {
     pair.security = entry.security;
     pair.influence = entry.influence;
     pair.configuration = q;
+    placeOnTrajectory(index, pair);
     pair.closest = entry.closest;
     const std::vector<CheckedPair> bodies = bodiesOf(*report_.geometry, entry);
     measurePair(report_, bodies, pair);
@@ -322,6 +368,9 @@ class Maker {
   const ReportRequest& request_;
   Srdf srdf_;
   Eigen::VectorXd neutral_;
+  Trajectory trajectory_;
+  std::vector<std::size_t>
+      firstBodies_;  // of each entry, among the trajectory's pairs; one past the last at the end
   RobotGeometry sceneGeometry_;
   CollisionReport report_;
   std::unique_ptr<PairCauses> causes_;

@@ -5,11 +5,14 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "fcl_stpbv/report/mesh_fit.h"
 #include "fcl_stpbv/report/published_polyhedra.h"
+#include "fcl_stpbv/report/trajectory.h"
 #include "fcl_stpbv/robot/constraints.h"
 #include "fcl_stpbv/robot/neutral_posture.h"
 #include "fcl_stpbv/robot/pair_list.h"
@@ -18,7 +21,9 @@ namespace fcl_stpbv::report {
 
 struct ReportRequest {
   std::string urdf, srdf, pose, obstacles;  ///< "" where not given; pose is a state's name or a JSON file
-  std::string neutral;    ///< the same, "" for all joints at zero or at the limit nearest to it
+  std::string
+      trajectory;       ///< file of way points to follow instead of sampling, "" for none (trajectory_file.h)
+  std::string neutral;  ///< the same, "" for all joints at zero or at the limit nearest to it
   std::string polyhedra;  ///< folder of published ones, "" for none
   GeometryOptions geometry;
   bool flatObstacles = false;   ///< the scene's meshes stay convex polyhedra
@@ -53,7 +58,9 @@ struct PairReport {
   double probabilityBound = 1;
   double security = 0, influence = 0;
   Eigen::VectorXd configuration;  ///< of `answer`
-  Eigen::VectorXd closest;        ///< where minDistance was found
+  double time =
+      std::numeric_limits<double>::quiet_NaN();  ///< of `configuration` on the trajectory, NaN without one
+  Eigen::VectorXd closest;                       ///< where minDistance was found
 
   bool contradictsSrdf = false;  ///< which leaves the pair out as never or adjacent, and it collides
 };
@@ -70,7 +77,10 @@ struct CollisionReport {
   std::vector<PairReport> pairs;            ///< checked ones first, closest first
   std::vector<PairEntry> list;              ///< what the search found
   NeutralPosture neutral;
-  std::string pose;  ///< "" where each pair is in its own closest configuration
+  std::string pose;                            ///< "" where each pair is in its own closest configuration
+  std::optional<TrajectoryReport> trajectory;  ///< its pairs of bodies are `trajectoryPairs`
+  std::vector<std::pair<std::string, std::string>> trajectoryPairs;  ///< their links, or link and obstacle
+  double margin = 0;  ///< a distance not above it is a collision (m)
   int checked = 0, colliding = 0;
   std::map<std::string, int> causes;    ///< of the checked pairs in collision, how many of each
   double minDistance = 0;               ///< of the checked pairs (m)
