@@ -33,8 +33,9 @@ Examples:
   urdf_collision_report robot.urdf --srdf robot.srdf --pose zero
   urdf_collision_report robot.urdf --package-path ~/ws/src --samples 10000 --format srdf -o robot.srdf
   urdf_collision_report robot.urdf --srdf robot.srdf --format html -o report.html
+  urdf_collision_report robot.urdf --srdf robot.srdf --trajectory path.csv
 
-Exit status: 0 no checked pair in collision; 1 a collision found; 2 the command line or an input is wrong, or no
+Exit status: 0 no checked pair in collision; 1 a collision found, or a trajectory not proven free; 2 the command line or an input is wrong, or no
 pair is checked; 3 no collision found, but --skip-invalid left shapes out.)";
 
 struct Arguments {
@@ -50,6 +51,11 @@ void describe(Program& app, Arguments& a) {
   request.search.threads = allCores();
   describeRobot(app, a.robot);
   app.add_option("--pose", request.pose, "A group_state of the SRDF, or a JSON file of joint values");
+  app.add_option(
+         "--trajectory", request.trajectory,
+         "CSV or JSON of way points: whether the straight motions between them are free, by proof; each "
+         "pair is reported where it comes closest")
+      ->type_name("FILE");
   app.add_option(
       "--neutral", request.neutral,
       "The neutral posture, as --pose; all joints at zero, or at the limit nearest to it, unless given");
@@ -120,6 +126,9 @@ void warn(const std::vector<std::string>& warnings, std::size_t top) {
 
 int run(Arguments& a) {
   checkOutput(a.output);
+  if (!a.request.pose.empty() && !a.request.trajectory.empty())
+    throw Error("--trajectory " + a.request.trajectory +
+                ": cannot be given with --pose; leave one of them out");
   a.request.files = filesOf(a.robot);
   Stages stages(!a.quiet);
   a.request.files.geometry.progress = a.request.search.progress = std::ref(stages);
@@ -132,7 +141,8 @@ int run(Arguments& a) {
   }
   const std::string text = written(report, a);
   writeOutput(a.output, text);
-  if (report.colliding > 0) return kCollision;
+  const bool undecided = report.trajectory && report.trajectory->verdict != MotionVerdict::free;
+  if (report.colliding > 0 || undecided) return kCollision;
   return report.skipped.empty() ? kClear : kPartly;
 }
 

@@ -12,6 +12,7 @@
 #include "fcl_stpbv/convex/relative_pose.h"
 #include "fcl_stpbv/distance/shape_distance.h"
 #include "fcl_stpbv/distance/shape_pair.h"
+#include "fcl_stpbv/distance/threshold.h"
 
 namespace fcl_stpbv {
 
@@ -64,6 +65,7 @@ bool isFartherThan(double x, const ConvexBody& a, const ConvexBody& b, PairCache
   if (cache && isFartherByPlane(x, a, b, *cache)) return true;
   if (counts) ++counts->solved;
   if (!a.volume && !b.volume) return isFartherThan(x, a.shape, a.pose, b.shape, b.pose);
+  if (a.volume && b.volume) return isFartherThan(x, *a.volume, a.pose, *b.volume, b.pose, cache);
   const Distance d = distance(a, b, cache);
   return d.status != DistanceStatus::invalid && d.lower > x;
 }

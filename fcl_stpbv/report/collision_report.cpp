@@ -15,6 +15,7 @@
 #include "fcl_stpbv/report/pair_measure.h"
 #include "fcl_stpbv/report/report_warnings.h"
 #include "fcl_stpbv/report/tick_time.h"
+#include "fcl_stpbv/report/trajectory_file.h"
 
 namespace fcl_stpbv::report {
 
@@ -27,14 +28,17 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 struct Postures {
   Eigen::VectorXd neutral;
   std::optional<Eigen::VectorXd> asked;  // none: each pair is reported in its closest configuration
+  Trajectory trajectory;                 // no points: none was asked for
 };
 
 // Both are read before a volume is built, so that a mistake in them is told at once.
 Postures readPostures(const ReportRequest& request, const Kinematics& kinematics, const Srdf* srdf) {
-  Postures postures{kinematics.neutral(), std::nullopt};
+  Postures postures{kinematics.neutral(), std::nullopt, {}};
   if (!request.pose.empty()) postures.asked = namedPosture("--pose", request.pose, kinematics, srdf);
   if (!request.neutral.empty())
     postures.neutral = namedPosture("--neutral", request.neutral, kinematics, srdf);
+  if (!request.trajectory.empty())
+    postures.trajectory = readTrajectory(request.trajectory, kinematics, postures.neutral);
   return postures;
 }
 
@@ -57,16 +61,59 @@ Postures load(const ReportRequest& request, RobotLoader& loader, CollisionReport
   return postures;
 }
 
+std::string nameOfSecond(const PairEntry& entry, const CollisionReport& report) {
+  return entry.obstacle ? report.obstacles[at(entry.link2)].name : report.robot->links[at(entry.link2)].name;
+}
+
+bool isChecked(const PairEntry& entry, const CollisionReport& report, const Srdf* srdf) {
+  if (entry.obstacle || !srdf) return entry.obstacle || checkedWithoutSrdf(entry.reason);
+  const auto& links = report.robot->links;
+  return srdf->reasonToSkip(links[at(entry.link1)].name, links[at(entry.link2)].name).empty();
+}
+
+// Follows the bodies of the checked pairs along the way points. For each entry of the list the first of its
+// pairs of bodies, and one past the last at the end.
+std::vector<std::size_t> followTrajectory(const ReportRequest& request, const Trajectory& trajectory,
+                                          const Srdf* srdf, CollisionReport& report) {
+  std::vector<CheckedPair> pairs;
+  std::vector<std::size_t> first;
+  for (const PairEntry& entry : report.list) {
+    first.push_back(pairs.size());
+    if (!isChecked(entry, report, srdf)) continue;
+    const std::vector<CheckedPair> bodies = bodiesOf(*report.geometry, entry);
+    pairs.insert(pairs.end(), bodies.begin(), bodies.end());
+    report.trajectoryPairs.resize(pairs.size(),
+                                  {report.robot->links[at(entry.link1)].name, nameOfSecond(entry, report)});
+  }
+  first.push_back(pairs.size());
+  requirePairs(pairs.size(), *report.robot, countsOf(report.list));
+  report.trajectory =
+      follow(trajectory, report.kinematics, report.geometry, pairs, report.obstacles, request.search.margin);
+  report.trajectory->path = request.trajectory;
+  return first;
+}
+
+// Where the bodies first to last of the trajectory's are closest on it.
+void placeOnTrajectory(const TrajectoryReport& trajectory, std::size_t first, std::size_t last,
+                       PairReport& pair) {
+  if (first == last) return;
+  const auto begin = trajectory.closest.begin();
+  const auto nearest =
+      std::min_element(begin + static_cast<std::ptrdiff_t>(first), begin + static_cast<std::ptrdiff_t>(last),
+                       [](const Approach& a, const Approach& b) { return a.distance < b.distance; });
+  pair.time = nearest->time;
+  pair.configuration = trajectory.at(nearest->time);
+}
+
 // What the search and the SRDF say about a pair.
 PairReport said(const PairEntry& entry, const CollisionReport& report, const Srdf* srdf) {
   PairReport pair;
   pair.link1 = report.robot->links[at(entry.link1)].name;
   pair.obstacle = entry.obstacle;
-  pair.link2 =
-      entry.obstacle ? report.obstacles[at(entry.link2)].name : report.robot->links[at(entry.link2)].name;
+  pair.link2 = nameOfSecond(entry, report);
   pair.reason = reasonText(entry.reason);
   if (srdf && !entry.obstacle) pair.srdfReason = srdf->reasonToSkip(pair.link1, pair.link2);
-  pair.checked = entry.obstacle || (srdf ? pair.srdfReason.empty() : checkedWithoutSrdf(entry.reason));
+  pair.checked = isChecked(entry, report, srdf);
   const bool explained = entry.reason == PairReason::adjacent || entry.reason == PairReason::rigid ||
                          entry.reason == PairReason::neverSampled || entry.reason == PairReason::neverProven;
   pair.contradictsSrdf = (pair.srdfReason == "Never" || pair.srdfReason == "Adjacent") && !explained;
@@ -119,9 +166,17 @@ CollisionReport makeReport(const ReportRequest& request) {
 
   PairCauses causes(report.kinematics, report.geometry, report.obstacles, loader.sceneGeometry());
   for (const Body& body : report.geometry->bodies) report.fits.push_back(meshFit(body, causes.exact(body)));
-  for (const PairEntry& entry : report.list) {
+  report.margin = search.margin;
+  std::vector<std::size_t> firstBodies;
+  if (!request.trajectory.empty()) firstBodies = followTrajectory(request, postures.trajectory, srdf, report);
+  for (std::size_t i = 0; i < report.list.size(); ++i) {
+    const PairEntry& entry = report.list[i];
     PairReport pair = said(entry, report, srdf);
     pair.configuration = postures.asked.value_or(entry.closest);
+    if (report.trajectory) {
+      pair.configuration = postures.trajectory.points.front();
+      placeOnTrajectory(*report.trajectory, firstBodies[i], firstBodies[i + 1], pair);
+    }
     const std::vector<CheckedPair> bodies = bodiesOf(*report.geometry, entry);
     measurePair(report, bodies, pair);
     if (pair.answer.status == DistanceStatus::invalid)  // no answer is not clear

@@ -5,12 +5,15 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "fcl_stpbv/report/mesh_fit.h"
 #include "fcl_stpbv/report/published_polyhedra.h"
 #include "fcl_stpbv/report/robot_files.h"
+#include "fcl_stpbv/report/trajectory.h"
 #include "fcl_stpbv/robot/constraints.h"
 #include "fcl_stpbv/robot/neutral_posture.h"
 #include "fcl_stpbv/robot/pair_list.h"
@@ -19,8 +22,10 @@ namespace fcl_stpbv::report {
 
 struct ReportRequest {
   RobotFiles files;
-  std::string pose;       ///< a state's name or a JSON file, "" for each pair's closest configuration
-  std::string neutral;    ///< the same, "" for all joints at zero or at the limit nearest to it
+  std::string pose;  ///< a state's name or a JSON file, "" for each pair's closest configuration
+  std::string
+      trajectory;       ///< file of way points that pairs are followed along (trajectory_file.h), "" for none
+  std::string neutral;  ///< as pose, "" for all joints at zero or at the limit nearest to it
   std::string polyhedra;  ///< folder of published ones, "" for none
   PairListOptions search;
 };
@@ -51,7 +56,9 @@ struct PairReport {
   double probabilityBound = 1;
   double security = 0, influence = 0;
   Eigen::VectorXd configuration;  ///< of `answer`
-  Eigen::VectorXd closest;        ///< where minDistance was found
+  double time =
+      std::numeric_limits<double>::quiet_NaN();  ///< of `configuration` on the trajectory, NaN without one
+  Eigen::VectorXd closest;                       ///< where minDistance was found
 
   bool contradictsSrdf = false;  ///< which leaves the pair out as never or adjacent, and it collides
 };
@@ -68,7 +75,10 @@ struct CollisionReport {
   std::vector<PairReport> pairs;            ///< checked ones first, closest first
   std::vector<PairEntry> list;              ///< what the search found
   detail::NeutralPosture neutral;
-  std::string pose;  ///< "" where each pair is in its own closest configuration
+  std::string pose;                            ///< "" where each pair is in its own closest configuration
+  std::optional<TrajectoryReport> trajectory;  ///< its pairs of bodies are `trajectoryPairs`
+  std::vector<std::pair<std::string, std::string>> trajectoryPairs;  ///< their links, or link and obstacle
+  double margin = 0;  ///< a distance not above it is a collision (m)
   int checked = 0, colliding = 0;
   std::map<std::string, int> causes;    ///< of the checked pairs in collision, how many of each
   double minDistance = 0;               ///< of the checked pairs (m)

@@ -99,6 +99,64 @@ std::string polyhedra(const CollisionReport& report, std::size_t top) {
          "two figures: the mesh's, the polyhedron's; surfaces: how far the two volumes are apart\n";
 }
 
+std::string nameOf(const CollisionReport& report, int pair) {
+  const auto& [first, second] = report.trajectoryPairs[static_cast<std::size_t>(pair)];
+  return first + " - " + second;
+}
+
+// What became of the trajectory, in a few lines.
+std::string trajectory(const CollisionReport& report) {
+  if (!report.trajectory) return "";
+  const TrajectoryReport& t = *report.trajectory;
+  const char* unit = t.trajectory.timed ? " s" : "";
+  const char* speed = t.trajectory.timed ? "m/s" : "m a way point";
+  std::string text =
+      "Trajectory " + t.path + ", " + std::to_string(t.trajectory.points.size()) + " way points: ";
+  if (t.verdict == MotionVerdict::free) {
+    text += "proven free\n";
+  } else if (t.verdict == MotionVerdict::contact) {
+    text += "CONTACT of " + nameOf(report, t.pair) +
+            format(" between %.9g and %.9g%s, at", t.from, t.until, unit);
+    for (const Eigen::Vector3d& p : t.contact.points)
+      text += format(" (%.6f %.6f %.6f)", p.x(), p.y(), p.z());
+    text += "\n";
+  } else {
+    text += "NOT DECIDED for " + nameOf(report, t.pair) +
+            format(" at %.9g%s, free before: the distance is the margin to rounding\n", t.from, unit);
+  }
+  if (t.steepestPair >= 0)
+    text += format("fastest approach %.4f %s, ", t.steepest, speed) + nameOf(report, t.steepestPair) +
+            format(" at %.4g%s\n", t.steepestTime, unit);
+  if (!t.closestProven) text += "some closest approaches are those that were found, without a proof\n";
+  return text;
+}
+
+nlohmann::json trajectoryJson(const CollisionReport& report) {
+  if (!report.trajectory) return {};
+  const TrajectoryReport& t = *report.trajectory;
+  const char* const verdicts[] = {"free", "contact", "undecided"};
+  nlohmann::json json{{"file", t.path},
+                      {"way_points", t.trajectory.points.size()},
+                      {"timed", t.trajectory.timed},
+                      {"verdict", verdicts[static_cast<int>(t.verdict)]},
+                      {"free_until", t.from},
+                      {"closest_proven", t.closestProven},
+                      {"closest_precision", TrajectoryReport::kPrecision},
+                      {"steepest_approach", t.steepest},
+                      {"steepest_time", t.steepestTime},
+                      {"chart", {{"time", t.chartTime}, {"distance", t.chartDistance}}}};
+  if (t.steepestPair >= 0) json["steepest_pair"] = nameOf(report, t.steepestPair);
+  if (t.verdict != MotionVerdict::free) {
+    const auto& [first, second] = report.trajectoryPairs[static_cast<std::size_t>(t.pair)];
+    json["contact"] = {{"time", t.until},
+                       {"link1", first},
+                       {"link2", second},
+                       {"point1", numbers(t.contact.points[0])},
+                       {"point2", numbers(t.contact.points[1])}};
+  }
+  return json;
+}
+
 // Pairs that the SRDF leaves out and that collide, each with where.
 std::string contradictions(const CollisionReport& report, std::size_t top) {
   std::string text;
@@ -138,8 +196,10 @@ std::string toText(const CollisionReport& report, std::size_t top) {
   text.back() = '\n';
   text += std::to_string(report.checked) + " checked, " + std::to_string(report.colliding) +
           " of them in collision";
-  text += report.pose.empty() ? " in their closest configurations found\n"
-                              : " in the posture " + report.pose + "\n";
+  text += report.trajectory     ? " at their closest on the trajectory\n"
+          : report.pose.empty() ? " in their closest configurations found\n"
+                                : " in the posture " + report.pose + "\n";
+  text += trajectory(report);
   for (const auto& [cause, count] : report.causes) text += "  " + std::to_string(count) + " " + cause + "\n";
   if (report.checked > 0)
     text += formatted("%.1f us for all checked pairs with gradients, %.0f ns a pair\n", report.usPerTick,
@@ -170,6 +230,7 @@ std::string toJson(const CollisionReport& report) {
     json["neutral"].update({{"better", joints(report.neutral.better, *report.kinematics)},
                             {"better_state", report.neutral.state},
                             {"better_colliding", report.neutral.collidingThere}});
+  json["trajectory"] = trajectoryJson(report);
   json["warnings"] = report.warnings;
   json["skipped"] = report.skipped;
   json["links"] = nlohmann::json::array();
@@ -220,6 +281,7 @@ std::string toJson(const CollisionReport& report) {
                              {"mesh_distance", orNull(pair.meshDistance)},
                              {"cause", pair.cause},
                              {"lipschitz", orNull(pair.lipschitz)},
+                             {"time", orNull(pair.time)},
                              {"min_distance", orNull(pair.minDistance)},
                              {"closest", joints(pair.closest, *report.kinematics)},
                              {"probability_bound", pair.probabilityBound},

@@ -128,6 +128,7 @@ void shorten(json& value) {
 json dataOf(const CollisionReport& report, const std::string& title) {
   json data = json::parse(toJson(report));
   data["title"] = title;
+  data.erase("trajectory");  // drawn by chartOf()
   data["joints"] = report.kinematics->names();
   std::vector<Eigen::VectorXd> configurations;
   for (std::size_t i = 0; i < report.pairs.size(); ++i) {
@@ -170,9 +171,21 @@ std::string filled(std::string_view text, const std::map<std::string_view, std::
 
 }  // namespace
 
+// The chart over the tables, where a trajectory was followed.
+static std::string trajectorySection(const CollisionReport& report) {
+  if (!report.trajectory) return "";
+  const TrajectoryReport& t = *report.trajectory;
+  const std::string verdict = t.verdict == MotionVerdict::free      ? "proven free"
+                              : t.verdict == MotionVerdict::contact ? "contact"
+                                                                    : "not decided";
+  return "<section id=\"trajectory\" aria-label=\"Trajectory\"><h2>Trajectory: " + verdict +
+         "; least distance of all checked pairs over time</h2>" + chartOf(t, report.margin) + "</section>";
+}
+
 std::string toHtml(const CollisionReport& report, const std::string& title) {
   const std::string data = dataOf(report, title).dump(-1, ' ', false, json::error_handler_t::replace);
-  return filled(kPageHtml, {{"STYLE", std::string(kPageStyle)},
+  return filled(kPageHtml, {{"TRAJECTORY", trajectorySection(report)},
+                            {"STYLE", std::string(kPageStyle)},
                             {"SCRIPT", std::string(kPageScript)},
                             {"THREE", packed(std::string(kPageThree))},
                             {"REPORT", packed(data)}});

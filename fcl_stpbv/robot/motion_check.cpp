@@ -142,9 +142,13 @@ class MotionCheck::Impl::ApproachScene {
     const Distance found = check_.ask(pair);
     if (found.status == DistanceStatus::invalid) return false;
     if (found.distance < best.distance) best = {found.distance, offset_ + t_};
-    cover = longer(cover, check_.cover(pair, found, best.distance - precision_, most));
+    // A depth that is not exact proves no more than its own lower bound.
+    loose |= found.lower < found.distance - precision_;
+    cover = longer(cover, check_.cover(pair, found, std::min(best.distance, found.lower) - precision_, most));
     return false;
   }
+
+  bool loose = false;  // whether some bound was farther from the distance than the precision
 
  private:
   Impl& check_;
@@ -404,8 +408,8 @@ bool MotionCheck::Impl::closest(const ConstVector& q0, const ConstVector& q1, do
   ApproachScene scene(*this, precision, offset, best);
   MotionRequest request;
   request.tolerance = 1;
-  return MotionSearch<ApproachScene>(scene, request).run(static_cast<int>(moving_.size())).verdict ==
-         MotionVerdict::free;
+  const MotionBracket all = MotionSearch<ApproachScene>(scene, request).run(static_cast<int>(moving_.size()));
+  return all.verdict == MotionVerdict::free && !scene.loose;
 }
 
 DistanceAnswer MotionCheck::Impl::answer(int pair, const ConstVector& q) {

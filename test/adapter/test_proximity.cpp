@@ -23,6 +23,7 @@
 #include "fcl_stpbv/adapter/proximity.h"
 #include "fcl_stpbv/distance/shape_distance.h"
 #include "fcl_stpbv/distance/shape_pair.h"
+#include "fcl_stpbv/distance/threshold.h"
 #include "test/reference/shapes.h"
 
 using namespace fcl_stpbv;
@@ -239,4 +240,30 @@ TEST_CASE(
     CHECK_FALSE(isFartherThan(std::nan(""), *kind.geometry, here, *kinds[0].geometry, there));
     CHECK_FALSE(isFartherThan(-1, *kind.geometry, here, fcl::BVHModel<fcl::OBBRSSd>(), there));
   }
+}
+
+TEST_CASE("two volumes at any depth and any threshold are judged as their distance's bounds say") {
+  const std::vector<StpBv::Ptr> volumes{
+      StpBv::build(geodesicSphere(0.2, 2), {0.01, 10}), StpBv::build(box(0.2, 0.3, 0.4), {0.03, 1}),
+      StpBv::build(randomHull(50, {0.2, 0.15, 0.1}, 3), {0.01, 10}),
+      StpBv::build(plate(0.3, 0.2), {0.01, 10}), StpBv::build({{0, 0, 0}}, {0.1, 10})};
+  Random random(9);
+  int yes = 0, no = 0;
+  for (const StpBv::Ptr& a : volumes)
+    for (const StpBv::Ptr& b : volumes)
+      for (int i = 0; i < 60; ++i) {
+        const Isometry3d pa = pose(random.rotation(), random.direction());
+        const Isometry3d pb =
+            pose(random.rotation(), pa.translation() + random.uniform(0, 0.6) * random.direction());
+        const Distance d = distance(*a, pa, *b, pb);
+        CAPTURE(i, d.lower, d.upper);
+        PairCache cache;
+        for (const double x : {0.0, 0.05, -0.05, -0.15, d.lower - 1e-9, d.upper + 1e-9}) {
+          const bool farther = isFartherThan(x, *a, pa, *b, pb, i % 2 ? &cache : nullptr);
+          if (d.lower > x + 1e-12) CHECK(farther);
+          if (d.upper <= x) CHECK_FALSE(farther);
+          ++(farther ? yes : no);
+        }
+      }
+  CHECK((yes > 2000 && no > 2000));
 }

@@ -48,6 +48,63 @@ class Report(unittest.TestCase):
     def humanoid(self, *arguments):
         return self.run_tool(ROBOT + ".urdf", "--srdf", ROBOT + ".srdf", "--samples", "20", *arguments)
 
+    def slider(self):
+        """Two balls of 5 cm: `moving` slides along x from 1 m away towards `still`; a third one far off."""
+        ball = '<sphere radius="0.05"/>'
+        return self.robot(link("root") + link("still", ball) + link("moving", ball) + link("far", ball)
+                          + joint("turn", "root", "still") + joint("spin", "root", "far", origin="0 9 0")
+                          + '<joint name="slide" type="prismatic"><parent link="root"/><child link="moving"/>'
+                            '<origin xyz="1 0.06 0"/><axis xyz="-1 0 0"/>'
+                            '<limit lower="-2" upper="2" effort="1" velocity="1"/></joint>')
+
+    def follow(self, name, text, *arguments):
+        return self.run_tool(self.slider(), "--primitives", "flat", "--samples", "20", "--trajectory",
+                             self.put(name, text), *arguments)
+
+    def test_a_trajectory_that_collides_between_its_way_points_names_time_and_pair(self):
+        # The balls touch 0.08 m before the middle: 0.92 m of 2 m, in 4 s.
+        for name, text in [("way.csv", "time,slide\n1,0\n5,2\n"),
+                           ("way.json", '{"joints": ["slide"], "points": [[0], [2]], "time": [1, 5]}')]:
+            done = self.follow(name, text, "--format", "json")
+            self.assertEqual(done.returncode, 1, done.stderr)
+            report = json.loads(done.stdout)
+            found = report["trajectory"]
+            self.assertEqual(found["verdict"], "contact")
+            self.assertLessEqual(found["free_until"], 2.84 + 1e-9)
+            self.assertAlmostEqual(found["contact"]["time"], 2.84, delta=5e-6)
+            self.assertEqual({found["contact"]["link1"], found["contact"]["link2"]}, {"still", "moving"})
+            pair = next(p for p in report["pairs"] if {p["link1"], p["link2"]} == {"still", "moving"})
+            self.assertAlmostEqual(pair["distance"], -0.04, delta=1e-6)  # right above each other
+            self.assertAlmostEqual(pair["time"], 3, delta=0.01)
+            self.assertLessEqual(found["steepest_approach"], 0.5)  # m/s
+            self.assertGreater(found["steepest_approach"], 0.49)
+            self.assertIn("CONTACT of", self.follow(name, text).stdout)
+
+    def test_a_trajectory_that_keeps_clear_is_proven_free_and_drawn(self):
+        text = "slide\n0\n0.5\n0.9\n0.2\n"
+        done = self.follow("way.csv", text)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("proven free", done.stdout)
+        self.assertIn('aria-label="Least distance over time"', self.follow("way.csv", text, "--format", "html").stdout)
+        # Within the margin asked for it is not: 0.1166 m apart at the third way point, less 0.1.
+        self.assertEqual(self.follow("way.csv", text, "--margin", "0.0167").returncode, 1)
+        self.assertEqual(self.follow("way.csv", text, "--margin", "0.0165").returncode, 0)
+
+    def test_a_trajectory_that_is_none_is_refused_with_its_place(self):
+        for text, said in [("", "is empty"), ("slide\n0\n", "needs two"), ("slide\n0\nx\n", "way.csv:3: got 'x'"),
+                           ("slid\n0\n1\n", "no moving joint 'slid'"), ("slide,slide\n0,0\n1,1\n", "twice"),
+                           ("slide\n0\n1,2\n", "way.csv:3: has 2 values"), ("time\n0\n1\n", "names no joint"),
+                           ("slide\n0\nnan\n", "must be from"), ("slide\n0\n1e7\n", "must be from"),
+                           ("time,slide\n1,0\n1,1\n", "must grow"), ('{"joints": ["slide"]}', "expected"),
+                           ('{"joints": ["slide"], "points": [[0], [1, 2]]}', "points[1]"),
+                           ('{"joints": ["slide"], "points": [[0], [1]], "time": [0]}', '"time" has 1')]:
+            done = self.follow("way.csv", text)
+            self.assertEqual(done.returncode, 2, text)
+            self.assertIn(said, done.stderr)
+            self.assertEqual(done.stdout, "")
+        self.assertEqual(self.run_tool(self.slider(), "--trajectory", "no/such.csv").returncode, 2)
+        self.assertEqual(self.follow("way.csv", "slide\n0\n1\n", "--pose", "x").returncode, 2)
+
     def test_a_clear_posture_exits_with_0_and_states_every_figure(self):
         done = self.humanoid("--pose", "half_sitting", "--format", "json")
         self.assertEqual(done.returncode, 0, done.stderr)

@@ -1,0 +1,14 @@
+// Are two STP-BVs farther apart than a threshold? For less than a distance takes.
+#pragma once
+
+#include "fcl_stpbv/distance/distance.h"
+
+namespace fcl_stpbv {
+
+/// Whether the volumes are certainly farther apart than `x` (m; negative: whether they are less deep in each
+/// other). Balls in and around both, a plane, GJK on the vertices, and only then the distance are asked.
+/// False for a pose that is not rigid. Never throws or allocates.
+bool isFartherThan(double x, const StpBv& a, const Eigen::Isometry3d& poseA, const StpBv& b,
+                   const Eigen::Isometry3d& poseB, PairCache* cache = nullptr);
+
+}  // namespace fcl_stpbv

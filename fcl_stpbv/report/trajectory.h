@@ -1,0 +1,41 @@
+// What becomes of a robot along a trajectory: proven free or the first contact, closest approaches, speeds.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "fcl_stpbv/report/trajectory_file.h"
+#include "fcl_stpbv/robot/motion_check.h"
+
+namespace fcl_stpbv::report {
+
+struct TrajectoryReport {
+  std::string path;
+  Trajectory trajectory;
+  MotionVerdict verdict = MotionVerdict::undecided;
+  double from = 0, until = 0;     ///< first contact, or where nothing is decided: proven free before `from`
+  int pair = -1;                  ///< among the pairs of bodies; -1 without a contact
+  DistanceAnswer contact;         ///< at `until`
+  std::vector<Approach> closest;  ///< of each pair of bodies, its time that of the trajectory
+  /// Every `closest` is that of the whole trajectory to this (m); false where a pair was too deep in another
+  /// one.
+  static constexpr double kPrecision = 1e-6;
+  bool closestProven = false;
+  double steepest = 0;  ///< fastest approach of any pair at the times of the chart (m a unit of time)
+  double steepestTime = 0;
+  int steepestPair = -1;
+  std::vector<double> chartTime, chartDistance;  ///< least distance of all pairs over time
+
+  Eigen::VectorXd at(double time) const;
+};
+
+/// Straight lines through the way points. `pairs` are those of bodies to be kept apart by more than `margin`
+/// (m).
+TrajectoryReport follow(Trajectory trajectory, std::shared_ptr<const Kinematics> kinematics,
+                        std::shared_ptr<const RobotGeometry> geometry, const std::vector<CheckedPair>& pairs,
+                        const std::vector<Obstacle>& obstacles, double margin);
+
+/// The least distance over time, with the margin and the first contact, as an SVG.
+std::string chartOf(const TrajectoryReport& report, double margin);
+
+}  // namespace fcl_stpbv::report

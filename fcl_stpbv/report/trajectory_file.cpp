@@ -1,0 +1,149 @@
+// See trajectory_file.h. Both formats become columns of numbers under names, which are then looked at once.
+#include "fcl_stpbv/report/trajectory_file.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <set>
+
+#include "fcl_stpbv/error.h"
+#include "fcl_stpbv/io/text_scanner.h"
+#include "fcl_stpbv/robot/json_text.h"
+
+namespace fcl_stpbv::report {
+namespace {
+
+constexpr std::size_t kMostText = 256u << 20;
+// As of a posture: larger than any robot's, and past it a sine loses digits.
+constexpr double kMost = 1e6;
+
+struct Columns {
+  std::vector<std::string> names;  // "time" is the time
+  std::vector<std::vector<double>> rows;
+  std::vector<std::string> places;  // of each row, for messages
+};
+
+std::vector<std::string> cellsOf(std::string_view line) {
+  std::vector<std::string> cells;
+  for (;;) {
+    const std::size_t comma = line.find(',');
+    std::string_view cell = line.substr(0, comma);
+    while (!cell.empty() && (cell.front() == ' ' || cell.front() == '\t')) cell.remove_prefix(1);
+    while (!cell.empty() && (cell.back() == ' ' || cell.back() == '\t' || cell.back() == '\r'))
+      cell.remove_suffix(1);
+    if (cell.size() > 1 && cell.front() == '"' && cell.back() == '"') cell = cell.substr(1, cell.size() - 2);
+    cells.emplace_back(cell);
+    if (comma == std::string_view::npos) return cells;
+    line.remove_prefix(comma + 1);
+  }
+}
+
+Columns fromCsv(const std::string& text, const std::string& path) {
+  Columns columns;
+  std::size_t number = 0;
+  for (std::string_view rest = text; !rest.empty();) {
+    const std::size_t end = std::min(rest.find('\n'), rest.size());
+    const std::string_view line = rest.substr(0, end);
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+    ++number;
+    if (line.find_first_not_of(" \t\r") == std::string_view::npos) continue;
+    const std::string place = path + ":" + std::to_string(number);
+    const std::vector<std::string> cells = cellsOf(line);
+    if (columns.names.empty()) {
+      columns.names = cells;
+      continue;
+    }
+    if (cells.size() != columns.names.size())
+      throw Error(place + ": has " + std::to_string(cells.size()) + " values, the first line names " +
+                  std::to_string(columns.names.size()));
+    std::vector<double> row;
+    for (const std::string& cell : cells) {
+      double value = 0;
+      const auto read = std::from_chars(cell.data(), cell.data() + cell.size(), value);
+      if (read.ec != std::errc() || read.ptr != cell.data() + cell.size())
+        throw Error(place + ": got '" + cell + "', expected a number");
+      row.push_back(value);
+    }
+    columns.rows.push_back(std::move(row));
+    columns.places.push_back(place);
+  }
+  return columns;
+}
+
+Columns fromJson(const std::string& text, const std::string& path) {
+  const nlohmann::json json = parseJson(text, path);
+  Columns columns;
+  try {
+    columns.names = json.at("joints").get<std::vector<std::string>>();
+    columns.rows = json.at("points").get<std::vector<std::vector<double>>>();
+    for (std::size_t i = 0; i < columns.rows.size(); ++i) {
+      columns.places.push_back(path + ": points[" + std::to_string(i) + "]");
+      if (columns.rows[i].size() != columns.names.size())
+        throw Error(columns.places[i] + " has " + std::to_string(columns.rows[i].size()) +
+                    " values, \"joints\" names " + std::to_string(columns.names.size()));
+    }
+    if (json.contains("time")) {
+      const auto time = json.at("time").get<std::vector<double>>();
+      if (time.size() != columns.rows.size())
+        throw Error(path + ": \"time\" has " + std::to_string(time.size()) + " values, \"points\" has " +
+                    std::to_string(columns.rows.size()));
+      columns.names.emplace_back("time");
+      for (std::size_t i = 0; i < time.size(); ++i) columns.rows[i].push_back(time[i]);
+    }
+  } catch (const nlohmann::json::exception& error) {
+    throw Error(path + ": expected {\"joints\": [names], \"points\": [[values], ...]} (" + error.what() +
+                ")");
+  }
+  return columns;
+}
+
+// The coordinate of each column, -1 for the time.
+std::vector<int> coordinatesOf(const Columns& columns, const std::string& path,
+                               const Kinematics& kinematics) {
+  std::vector<int> coordinates;
+  std::set<std::string> seen;
+  for (const std::string& name : columns.names) {
+    const auto& names = kinematics.names();
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (name != "time" && found == names.end())
+      throw Error(path + ": the robot has no moving joint '" + name + "'" +
+                  (names.empty() ? "" : "; its joints are " + names.front() + " ... " + names.back()));
+    if (!seen.insert(name).second) throw Error(path + ": names '" + name + "' twice");
+    coordinates.push_back(name == "time" ? -1 : static_cast<int>(found - names.begin()));
+  }
+  if (seen.size() == seen.count("time")) throw Error(path + ": names no joint");
+  return coordinates;
+}
+
+}  // namespace
+
+Trajectory readTrajectory(const std::string& path, const Kinematics& kinematics,
+                          const Eigen::VectorXd& rest) {
+  const std::string text = readText(path, kMostText);
+  const std::size_t first = text.find_first_not_of(" \t\r\n");
+  if (first == std::string::npos)
+    throw Error(path + ": is empty; expected a line of joint names and way points");
+  const Columns columns = text[first] == '{' ? fromJson(text, path) : fromCsv(text, path);
+  const std::vector<int> coordinates = coordinatesOf(columns, path, kinematics);
+  if (columns.rows.size() < 2)
+    throw Error(path + ": has " + std::to_string(columns.rows.size()) + " way points, a motion needs two");
+  Trajectory trajectory;
+  for (std::size_t i = 0; i < columns.rows.size(); ++i) {
+    Eigen::VectorXd q = rest;
+    double time = static_cast<double>(i);
+    for (std::size_t k = 0; k < coordinates.size(); ++k) {
+      const double value = columns.rows[i][k];
+      if (!(std::abs(value) <= kMost))
+        throw Error(columns.places[i] + ": " + columns.names[k] + " must be from -1e6 to 1e6");
+      (coordinates[k] < 0 ? time : q[coordinates[k]]) = value;
+    }
+    trajectory.timed = std::count(coordinates.begin(), coordinates.end(), -1) > 0;
+    if (i > 0 && !(time > trajectory.time.back()))
+      throw Error(columns.places[i] + ": the time must grow from one way point to the next");
+    trajectory.points.push_back(std::move(q));
+    trajectory.time.push_back(time);
+  }
+  return trajectory;
+}
+
+}  // namespace fcl_stpbv::report

@@ -1,0 +1,24 @@
+// Way points of a robot from a CSV or a JSON file.
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "fcl_stpbv/robot/kinematics.h"
+
+namespace fcl_stpbv::report {
+
+struct Trajectory {
+  std::vector<Eigen::VectorXd> points;  ///< at least two, all coordinates each; straight lines between them
+  std::vector<double> time;             ///< of each, growing (s); 0, 1, 2 ... where the file has none
+  bool timed = false;                   ///< whether the file has times
+};
+
+/// CSV: a line with the names of coordinates (as `Kinematics::names()`), `time` among them or not, then one
+/// line a way point. JSON: `{"joints": [names], "points": [[values]], "time": [seconds]}`, `time` optional.
+/// Coordinates that are not named stay what they are in `rest`. @throws Error naming the file, the line or
+/// key, and what would work.
+Trajectory readTrajectory(const std::string& path, const Kinematics& kinematics, const Eigen::VectorXd& rest);
+
+}  // namespace fcl_stpbv::report
