@@ -22,8 +22,8 @@ using Eigen::Isometry3d;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-// A normal this far past a seam is on it: both patches agree there, and neither mapping is wrong.
-constexpr double kOnSeam = 1e-12;
+// A normal this far past a region boundary is on it: both patches agree there, and neither mapping is wrong.
+constexpr double kOnBoundary = 1e-12;
 
 /// Normal at the patch's point nearest to `x`: the widest one of the patch and a point (docs/theory.md, 5).
 UnnormalizedNormal towards(const StpBv& volume, int index, const Vector3d& x) {
@@ -36,7 +36,7 @@ UnnormalizedNormal towards(const StpBv& volume, int index, const Vector3d& x) {
 int chooseNeighbour(const StpBv& volume, int patch, const Vector3d& x) {
   const UnnormalizedNormal to = towards(volume, patch, x);
   const Crossing over = volume.patches().crossing(patch, to.d, to.length);
-  return over.past > kOnSeam * to.length ? over.neighbour : patch;
+  return over.past > kOnBoundary * to.length ? over.neighbour : patch;
 }
 
 /// The core's point nearest to `x` as far as this patch knows.
@@ -47,9 +47,10 @@ Vector3d nearestCorePoint(const StpBv& volume, int patch, const Vector3d& x) {
 
 bool contains(const StpBv::Ring& ring, int v) { return std::find(ring.begin(), ring.end(), v) != ring.end(); }
 
-/// Whether two patches share a seam, or are a face and one of its vertices, whose regions share a corner.
+/// Whether two patches share a region boundary, or are a face and one of its vertices, whose regions share a
+/// corner.
 bool areNeighbours(const StpBv& volume, int p, int q) {
-  for (const Seam s : volume.seams(p))
+  for (const RegionBoundary s : volume.boundaries(p))
     if (s.neighbour == q) return true;
   if (volume.kind(p) == PatchKind::face) std::swap(p, q);
   if (volume.kind(p) != PatchKind::vertex || volume.kind(q) != PatchKind::face) return false;
@@ -58,7 +59,7 @@ bool areNeighbours(const StpBv& volume, int p, int q) {
 
 /// 0: the mapped patch owns the normal; 1: a neighbour does; 2: a farther one.
 int stepsAway(const StpBv& volume, int mapped, int answer, const Vector3d& normal) {
-  if (mapped == answer || volume.outside(mapped, normal) <= kOnSeam) return 0;
+  if (mapped == answer || volume.outside(mapped, normal) <= kOnBoundary) return 0;
   return areNeighbours(volume, mapped, answer) ? 1 : 2;
 }
 

@@ -11,17 +11,17 @@ struct SearchWork {
   int steps = 0;  ///< patches changed
 };
 
-/// A normal this far past a seam still counts as inside: it is rounded to 2e-16 itself, as is the dot product
-/// that tells, and both patches agree there to the second order.
-constexpr double kOnSeam = 1e-15;
+/// A normal this far past a boundary still counts as inside: it is rounded to 2e-16 itself, as is the dot
+/// product that tells, and both patches agree there to the second order.
+constexpr double kOnBoundary = 1e-15;
 
 /// True when the widest normal of the sample's own patch pair stays in the regions of both: then it is a
 /// maximum of the gap. On success `x` is moved there; otherwise `next` is that normal.
 bool settle(const BodyPair& pair, Sample& x, Eigen::Vector3d& next, SearchWork& work);
 
-/// Like `settle`, of the patches across the seams that the way to the sample's own widest normal crosses: for
-/// a maximum in a region so narrow (an edge's is its length over R wide) that the gap grows by less than its
-/// rounding on the way there.
+/// Like `settle`, of the patches across the region boundaries that the way to the sample's own widest normal
+/// crosses: for a maximum in a region so narrow (an edge's is its length over R wide) that the gap grows by
+/// less than its rounding on the way there.
 bool settleBeside(const BodyPair& pair, Sample& x, SearchWork& work);
 
 /// Climbs from `x` to a maximum of the gap; each step raises it. True when it got there. While the gap of the

@@ -101,9 +101,9 @@ class BodyPair {
   /// by (m).
   double certificateRounding() const { return certificateRounding_; }
 
-  /// Cores nearer than this all but touch: a patch reaches past its seam by the rounding of a normal, `rho`
-  /// times that in metres, which is a part of the gap and turns the normal by as much. What starts from the
-  /// vertices, which do not reach past theirs, is safe from it (m).
+  /// Cores nearer than this all but touch: a patch reaches past its boundary by the rounding of a normal,
+  /// `rho` times that in metres, which is a part of the gap and turns the normal by as much. What starts from
+  /// the vertices, which do not reach past theirs, is safe from it (m).
   double touching() const { return 1e6 * acrossRounding_; }
 
   /// Whether the gap is as wide as it gets near the sample's normal: its gradient is rounding.

@@ -47,7 +47,7 @@ SearchStart fromCentres(const BodyPair& pair) {
 }
 
 /// A patch near the one that owns the unit normal `now`, from the one that owned `then`: itself, or after a
-/// turn wider than a patch the one past the seam passed furthest. -1 after a large turn.
+/// turn wider than a patch the one past the boundary passed furthest. -1 after a large turn.
 int nearby(const StpBv& body, int patch, const Packed& now, const Eigen::Vector3f& then) {
   constexpr double kLarge = 0.1;  // rad
   constexpr double kWide = 3.0;   // squares of as wide a turn, over all patches: a quarter of the sphere
@@ -90,9 +90,9 @@ struct SearchState {
     }
   }
 
-  /// Over the first seam uphill, for patches whose gap has its maximum far off or none on this side of the
-  /// sphere, as two vertices that overlap. Along an edge the gap bends so much that only the way across it
-  /// leads anywhere. False where no seam is ahead.
+  /// Over the first boundary uphill, for patches whose gap has its maximum far off or none on this side of
+  /// the sphere, as two vertices that overlap. Along an edge the gap bends so much that only the way across
+  /// it leads anywhere. False where no boundary is ahead.
   bool crossUphill(const BodyPair& pair) {
     Packed up = coreGap(a, b, n).across;
     for (const PosedPatch* p : {&a, &b})
@@ -108,12 +108,12 @@ struct SearchState {
   }
 };
 
-/// Settles on a patch pair near the given one: over the seam that the widest normal passes furthest, on
+/// Settles on a patch pair near the given one: over the region boundary that the widest normal passes furthest, on
 /// either body, to the next pair, without evaluating the gap. Between cores apart, a maximum that it finds is
 /// the only one. If it finds none, that proves nothing.
 bool walkFeatures(const BodyPair& pair, const SearchStart& start, Sample& x, SearchWork& work) {
   constexpr int kTries = 12;    // one to three are usual
-  constexpr double kFar = 0.3;  // cosine of the turn after which the seam passed furthest says little
+  constexpr double kFar = 0.3;  // cosine of the turn after which the boundary passed furthest says little
   SearchState at{start.patch, pair.patchA(start.patch[0]), pair.patchB(start.patch[1]), pack(start.n),
                  !start.near};
   if (at.far) {
@@ -126,7 +126,7 @@ bool walkFeatures(const BodyPair& pair, const SearchStart& start, Sample& x, Sea
     const Crossing overA = pair.a().patches().crossing(at.patch[0], to.d, to.length),
                    overB = pair.b().patches().crossing(at.patch[1], pair.opposite(to.d), to.length);
     const bool straysFar = !(dot(to.d, at.n) > kFar * to.length);
-    if (std::max(overA.past, overB.past) <= kOnSeam * to.length) {
+    if (std::max(overA.past, overB.past) <= kOnBoundary * to.length) {
       at.n = to.unit();
       x = BodyPair::sample(at.n, at.patch, at.a, at.b);
       if (pair.isStationary(x)) return true;

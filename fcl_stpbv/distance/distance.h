@@ -38,7 +38,7 @@ struct Distance {
                                        Eigen::Vector3d(0, 0, 0)};  ///< witness points, on the smooth surfaces
   std::array<int, 2> patch{-1, -1};                                ///< patches the witness points lie on
   int patchPairs = 0;                                              ///< patch pairs solved, the work done
-  int patchSteps = 0;                                              ///< seams crossed on the two Gauss maps
+  int patchSteps = 0;  ///< region boundaries crossed on the two Gauss maps
 
   /// Derivative of the distance with respect to the twist of body `which` (0 or 1) about `origin`, the
   /// position of that body's frame (paper eq. 2; docs/theory.md, 6).

@@ -11,8 +11,8 @@ namespace fcl_stpbv {
 
 /// What a small motion of both bodies does to an answer, to the next order than its gradient. Columns are the
 /// 12 components of both twists, [linear; angular] of body 1 about its origin, then of body 2; world axes.
-/// The distance is piecewise C2: on a seam between patches, or between a shape's faces, edges and corners,
-/// these are the values of one side.
+/// The distance is piecewise C2: on a boundary between patches, or between a shape's faces, edges and
+/// corners, these are the values of one side.
 struct DistanceHessian {
   /// Along poses with origins `o + v t` and rotations `exp(w t) R`, the distance's second derivative is
   /// `twists^T matrix twists`; symmetric.

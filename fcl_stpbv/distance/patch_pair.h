@@ -17,8 +17,8 @@ void turnToWidestOfEdges(const PosedPatch& a, const PosedPatch& b, Packed& n);
 /// second derivative of its support function (m).
 Eigen::Matrix3d coreCurvature(const PosedPatch& p, const Eigen::Vector3d& n);
 
-/// A direction not yet made a unit vector: what is asked of it first, on which side of seams it lies, does
-/// not wait for the division.
+/// A direction not yet made a unit vector: what is asked of it first, on which side of boundaries it lies,
+/// does not wait for the division.
 struct UnnormalizedNormal {
   Packed d;
   double length;  ///< of `d`, positive

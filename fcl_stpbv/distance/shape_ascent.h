@@ -235,7 +235,7 @@ bool ascendFeature(const StpBv& body, const Feature& feature, AscentPoint& x, co
     if (!accepted) {
       if (flat <= rounded) return true;
       if (y.view.patch != x.view.patch) {
-        // The step went over a seam, past which the gap bends otherwise: as the patch there tells it from
+        // The step went over a boundary, past which the gap bends otherwise: as the patch there tells it from
         // here.
         const AscentPoint there = ascentPoint(viewPatch(body, x.view.n, y.view.patch), feature);
         const AscentPoint z =
@@ -247,8 +247,8 @@ bool ascendFeature(const StpBv& body, const Feature& feature, AscentPoint& x, co
       }
       if (!(sine > 1e-15) || !(start > 0.0)) return false;
       double low = 0.0, high = 1.0, lowSlope = start, highSlope = slope(y);
-      // Over a seam of the volume Newton may overshoot down to where gaps are equal to rounding: the flatter
-      // is it.
+      // Over a boundary of the volume Newton may overshoot down to where gaps are equal to rounding: the
+      // flatter is it.
       const auto better = [&](const AscentPoint& p, const AscentPoint& than) {
         return p.gap > than.gap + rounding.gap ||
                (p.gap >= than.gap - rounding.gap && p.across.norm() < than.across.norm());

@@ -47,8 +47,8 @@ struct StartNormal {
   int patch;
 };
 
-/// Which of two is the nearer one. Next to a seam gaps differ by the square of how far their normals do, less
-/// than rounding: then that one which fewer of the shape's points, or less far, face the body more than.
+/// Which of two is the nearer one. Next to a boundary gaps differ by the square of how far their normals do,
+/// less than rounding: then that one which fewer of the shape's points, or less far, face the body more than.
 bool isNearer(const ShapeQuery& q, const Nearest& x, const Nearest& than, const Eigen::Vector3d* points,
               int count);
 

@@ -39,7 +39,7 @@ class ConeSide {
       double turn = x.bend < 0.0 ? -x.slope / x.bend : std::copysign(0.5, x.slope);
       turn = std::clamp(turn, -1.0, 1.0);
       State y = at(q, turned(x.e, turn), x.view.patch);
-      // Past a seam of the volume Newton may overshoot: the slope is continuous, so it is zero between.
+      // Past a boundary of the volume Newton may overshoot: the slope is continuous, so it is zero between.
       if (!better(q, y, x) && x.slope * y.slope < 0.0) y = between(q, x, y, turn);
       for (int k = 0; k < 50 && !better(q, y, x); ++k) {
         turn *= 0.4;

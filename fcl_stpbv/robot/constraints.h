@@ -99,9 +99,10 @@ class CollisionConstraints {
   /// Room for one row's numbers each.
   RowRates makeRates() const;
   /// d and J at q and how they change as q moves with the velocity qd. Closed form where one body is an
-  /// STP-BV (docs/robot.md), on a seam that of one side, for a mesh or a tree that of its nearest triangle or
-  /// cell; central differences for the drift of other pairs, smooth constraints and the few answers that have
-  /// no second derivative. A q or qd that is not finite gives what it gives above, and rates of 0.
+  /// STP-BV (docs/robot.md), on a region boundary that of one side, for a mesh or a tree that of its nearest
+  /// triangle or cell; central differences for the drift of other pairs, smooth constraints and the few
+  /// answers that have no second derivative. A q or qd that is not finite gives what it gives above, and
+  /// rates of 0.
   bool evaluateValues(const ConstVector& q, const ConstVector& qd, RowRates& rates, Vector values);
   bool evaluate(const ConstVector& q, const ConstVector& qd, RowRates& rates, SparseJacobian& jacobian);
   bool evaluate(const ConstVector& q, const ConstVector& qd, RowRates& rates,

@@ -89,8 +89,8 @@ double edgeVolume(const StpBv& volume, int edge) {
 // A direction across the edge that its patch owns.
 Vector3d acrossEdge(const StpBv& volume, int patch) {
   Vector3d sum = Vector3d::Zero(), last = Vector3d::Zero();
-  for (const Seam seam : volume.seams(patch))
-    if (seam.limit == 0) sum -= seam.normal, last = seam.normal;
+  for (const RegionBoundary boundary : volume.boundaries(patch))
+    if (boundary.limit == 0) sum -= boundary.normal, last = boundary.normal;
   const Vector3d& u = volume.patch(patch).axis;
   if (sum.norm() > 1e-6) return sum.normalized();
   return last.norm() > 0 ? Vector3d(u.cross(last)) : Vector3d(u.unitOrthogonal());
@@ -114,7 +114,7 @@ Vector3d stationaryNormal(const StpBv& volume, int index, const Vector3d& p) {
   if (length > (kind == PatchKind::vertex ? 1e-12 * volume.enclosingRadius() : 0.0)) return g / length;
   if (kind == PatchKind::face) return patch.axis;
   Vector3d inside = Vector3d::Zero();
-  for (const Seam seam : volume.seams(index)) inside -= seam.normal;
+  for (const RegionBoundary boundary : volume.boundaries(index)) inside -= boundary.normal;
   return inside.norm() > 0 ? Vector3d(inside.normalized()) : Vector3d(Vector3d::UnitZ());
 }
 
@@ -145,7 +145,8 @@ double enclosedVolume(const StpBv& volume) {
 
 double signedDistance(const StpBv& volume, const Vector3d& point) {
   // The largest value lies on the patch that owns its normal. Any normal gives a lower bound with the support
-  // of its true owner, so one that rounding has put past a seam, as close to a vertex it may, does no harm.
+  // of its true owner, so one that rounding has put past a boundary, as close to a vertex it may, does no
+  // harm.
   constexpr double kNear = 1e-3;
   double best = -2 * volume.radii().R;
   for (int index = 0; index < volume.patchCount(); ++index) {

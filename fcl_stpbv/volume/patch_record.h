@@ -13,13 +13,13 @@ namespace fcl_stpbv {
 /// Half of what bounds an edge's region of normals: the plane to a face or to another part of the edge.
 struct Wall {
   std::array<double, 3> normal;      ///< unit, out of the region
-  std::array<std::int32_t, 2> past;  ///< patches: the first wall's past the seams of the second vertex and of
-                                     ///< the first, the second wall's past the two walls
+  std::array<std::int32_t, 2> past;  ///< patches: the first wall's past the boundaries of the second vertex
+                                     ///< and of the first, the second wall's past the two walls
 };
 
-/// An edge's patch (patch.h) with the four seams around it; a spindle has no walls, and the vertices twice.
-/// All seams of a volume are edges': vertices and faces name their sides. An edge has two, each one of its
-/// ends and one of its walls; a side's number is where that wall lies among all records, in bytes.
+/// An edge's patch (patch.h) with the four boundaries around it; a spindle has no walls, and the vertices
+/// twice. All boundaries of a volume are edges': vertices and faces name their sides. An edge has two, each
+/// one of its ends and one of its walls; a side's number is where that wall lies among all records, in bytes.
 struct alignas(64) EdgeRecord {
   Packed middle;  ///< fourth: kappa
   Packed axis;    ///< fourth: sine
@@ -30,7 +30,7 @@ struct alignas(64) EdgeRecord {
                                      end * sizeof(Wall));
   }
   bool hasWalls() const { return past(2) != past(0); }
-  std::int32_t past(std::size_t seam) const { return wall[seam / 2].past[seam % 2]; }
+  std::int32_t past(std::size_t boundary) const { return wall[boundary / 2].past[boundary % 2]; }
 };
 static_assert(sizeof(EdgeRecord) == 128);
 

@@ -98,24 +98,25 @@ Patch PatchTable::patch(int index) const {
   return {vertex(index).point, Vector3d::Zero(), 0, 0};
 }
 
-Seam PatchTable::seam(int patch, std::int32_t side) const {
+RegionBoundary PatchTable::boundary(int patch, std::int32_t side) const {
   switch (kind(patch)) {
     case PatchKind::edge: {  // its own, numbered as by `EdgeRecord::past`
       const EdgeRecord& e = edge(patch);
       const auto k = static_cast<std::size_t>(side);
-      if (k > 1) return {unpack(seamOf(e.wall[k - 2])), 0, e.past(k)};
+      if (k > 1) return {unpack(boundaryOf(e.wall[k - 2])), 0, e.past(k)};
       return {k == 0 ? unpack(e.axis) : unpack(-e.axis), e.axis[3], e.past(k)};
     }
     case PatchKind::face:
-      return {unpack(-seamOf(wallOf(side))), 0, edgeAt(side)};
+      return {unpack(-boundaryOf(wallOf(side))), 0, edgeAt(side)};
     case PatchKind::vertex:
       break;
   }
-  const Packed at = seamAtVertex(side);
+  const Packed at = boundaryAtVertex(side);
   return {unpack(at), -at[3], edgeAt(side)};
 }
 
-PatchTable::Seams::Iterator::Iterator(const PatchTable& table, int patch) : table_(table), patch_(patch) {
+PatchTable::Boundaries::Iterator::Iterator(const PatchTable& table, int patch)
+    : table_(table), patch_(patch) {
   static constexpr std::array<std::int32_t, 4> own{0, 1, 2, 3};
   switch (table.kind(patch)) {
     case PatchKind::vertex:
@@ -132,13 +133,13 @@ PatchTable::Seams::Iterator::Iterator(const PatchTable& table, int patch) : tabl
   }
 }
 
-void PatchTable::Seams::Iterator::take(const std::int32_t* sides, std::size_t size) {
+void PatchTable::Boundaries::Iterator::take(const std::int32_t* sides, std::size_t size) {
   while (size > 1 && sides[size - 1] == sides[size - 2]) --size;
   side_ = sides;
   end_ = sides + size;
 }
 
-PatchTable::Seams::Iterator& PatchTable::Seams::Iterator::operator++() {
+PatchTable::Boundaries::Iterator& PatchTable::Boundaries::Iterator::operator++() {
   if (++side_ != end_) return *this;
   side_ = nullptr;
   if (next_ < 0) return *this;

@@ -1,4 +1,4 @@
-// A volume's patches and the seams between them, laid out for a query.
+// A volume's patches and the region boundaries between them, laid out for a query.
 #pragma once
 
 #include <Eigen/Core>
@@ -19,23 +19,24 @@
 namespace fcl_stpbv {
 
 /// One side of a patch's region of normals: `n` is inside iff `n.normal <= limit`; past it lies `neighbour`.
-struct Seam {
+struct RegionBoundary {
   Eigen::Vector3d normal;
   double limit;
   int neighbour;
 };
 
-/// The seam that a normal passes furthest: `past` is the largest `n.normal - limit`, <= 0 inside all of them.
+/// The boundary that a normal passes furthest: `past` is the largest `n.normal - limit`, <= 0 inside all of
+/// them.
 struct Crossing {
   double past;
   int neighbour;
 };
 
-/// Patches by number: vertices, then edges with their further parts, then faces. Seams are tested four at a
-/// time.
+/// Patches by number: vertices, then edges with their further parts, then faces. Boundaries are tested four
+/// at a time.
 class PatchTable {
  public:
-  class Seams;
+  class Boundaries;
 
   PatchTable() = default;
 
@@ -57,26 +58,26 @@ class PatchTable {
   const FaceRecord& face(int patch) const { return faces_[static_cast<std::size_t>(patch - firstFace_)]; }
 
   Patch patch(int index) const;
-  Seams seams(int patch) const;
+  Boundaries boundaries(int patch) const;
 
   /// The vertex at a side's end; of a face's sides, counter-clockwise, the one where it begins.
   int startOf(std::int32_t side) const { return edgeOf(side).past(isSecond(side) ? 0 : 1); }
 
-  /// The seam of the patch that `n` passes furthest: `length` times as far as a unit vector would.
+  /// The boundary of the patch that `n` passes furthest: `length` times as far as a unit vector would.
   Crossing crossing(int patch, const Packed& n, double length = 1.0) const {
     const Packed to = withFourth(n, length);
     return most(patch, [&](const auto& pastAll) { return pastAll(to); });
   }
 
-  /// The seam of the patch that the way from the unit normal `n` along the tangent `h` meets first: `past` is
-  /// the inverse of how far off it is, next to nothing or less where there is none.
+  /// The boundary of the patch that the way from the unit normal `n` along the tangent `h` meets first:
+  /// `past` is the inverse of how far off it is, next to nothing or less where there is none.
   Crossing ahead(int patch, const Packed& n, const Packed& h) const {
-    constexpr double kAtOnce = 1e-12;  // rad; `n` may be past the seam already
+    constexpr double kAtOnce = 1e-12;  // rad; `n` may be past the boundary already
     const Packed at = withFourth(n, 1.0), to = withFourth(h, 0.0), least = Packed{} + kAtOnce;
     return most(patch, [&](const auto& pastAll) { return pastAll(to) / larger(-pastAll(at), least); });
   }
 
-  /// Has the records past the patch's seams brought near the processor, for a query that is likely to go
+  /// Has the records past the patch's boundaries brought near the processor, for a query that is likely to go
   /// there next; a small volume's are there anyway.
   void prefetchBeside(int patch) const {
     constexpr int kSmall = 100;  // patches: half of the nearest cache
@@ -157,36 +158,37 @@ class PatchTable {
     for (std::size_t k = 0; k < 3; ++k) prefetch(edgeOf(face.side[k]));
   }
 
-  /// A seam as its normal and less its limit, so that times a unit vector and 1 it is how far that is past.
-  Packed seamAtVertex(std::int32_t side) const {
+  /// A boundary as its normal and less its limit, so that times a unit vector and 1 it is how far that is
+  /// past.
+  Packed boundaryAtVertex(std::int32_t side) const {
     static constexpr PackedBits opposite[2] = {{}, kOpposite3};
     PackedBits bits;
     std::memcpy(&bits, reinterpret_cast<const char*>(opposite) + (bytes(side) & sizeof(Wall)), sizeof bits);
     return fromBits(bitsOf(edgeOf(side).axis) ^ bits);
   }
   /// The same for a wall, whose limit is 0.
-  static Packed seamOf(const Wall& wall) {
+  static Packed boundaryOf(const Wall& wall) {
     PackedBits bits;
     std::memcpy(&bits, &wall, sizeof bits);
     return fromBits(bits & PackedBits{-1, -1, -1, 0});
   }
 
-  /// How far `n`, with its length fourth, is past each of four sides' seams, of a vertex or of a face: the
-  /// walls face the other way there.
+  /// How far `n`, with its length fourth, is past each of four sides' boundaries, of a vertex or of a face:
+  /// the walls face the other way there.
   template <PatchKind kind>
   Packed pastSides(const std::int32_t* side, const Packed& n) const {
     const Packed to = kind == PatchKind::face ? -n : n;
     const auto past = [&](std::size_t k) {
-      return (kind == PatchKind::face ? seamOf(wallOf(side[k])) : seamAtVertex(side[k])) * to;
+      return (kind == PatchKind::face ? boundaryOf(wallOf(side[k])) : boundaryAtVertex(side[k])) * to;
     };
     return sums(past(0), past(1), past(2), past(3));
   }
-  /// And past the four seams of an edge, in the order of `EdgeRecord::past`.
+  /// And past the four boundaries of an edge, in the order of `EdgeRecord::past`.
   static Packed pastSidesOf(const EdgeRecord& edge, const Packed& n) {
     const Packed second = edge.axis * fromBits(bitsOf(n) ^ kOppositeFourth),
                  first = fromBits(bitsOf(second) ^ kOpposite3);
     if (!edge.hasWalls()) return sums(second, first, second, first);
-    return sums(second, first, seamOf(edge.wall[0]) * n, seamOf(edge.wall[1]) * n);
+    return sums(second, first, boundaryOf(edge.wall[0]) * n, boundaryOf(edge.wall[1]) * n);
   }
 
   /// Numbers with their places from `first` on, below eight, for their three least bits.
@@ -200,8 +202,8 @@ class PatchTable {
     return key & (Sides::kSize - 1);
   }
 
-  /// The largest of what the patch's seams give for themselves, and past which seam that is. `measure` makes
-  /// four numbers from what gives how far anything is past four seams.
+  /// The largest of what the patch's boundaries give for themselves, and past which boundary that is.
+  /// `measure` makes four numbers from what gives how far anything is past four boundaries.
   template <typename Measure>
   Crossing most(int patch, const Measure& measure) const {
     if (patch < firstEdge_) return mostOf<PatchKind::vertex>(vertex(patch).sides, measure);
@@ -239,32 +241,32 @@ class PatchTable {
     return most;
   }
 
-  /// What the seams of four sides from `first` on give, with their places.
+  /// What the boundaries of four sides from `first` on give, with their places.
   template <PatchKind kind, typename Measure>
   Packed ofFour(const std::int32_t* side, std::int64_t first, const Measure& measure) const {
     return tagged(measure([&](const Packed& n) { return pastSides<kind>(side + first, n); }), first);
   }
 
-  Seam seam(int patch, std::int32_t side) const;
+  RegionBoundary boundary(int patch, std::int32_t side) const;
   void joinSides(std::vector<std::vector<std::int32_t>>& atVertex,
                  std::vector<std::vector<std::int32_t>>& atFace);
   std::int32_t addFurther(const std::vector<std::int32_t>& sides, std::size_t from);
 
   int firstEdge_ = 0, firstFace_ = 0;
   std::vector<VertexRecord> vertices_;
-  std::vector<EdgeRecord> edges_;  // a volume of one vertex has one, whose seam holds for any normal
+  std::vector<EdgeRecord> edges_;  // a volume of one vertex has one, whose boundary holds for any normal
   std::vector<FaceRecord> faces_;
   std::vector<Sides> further_;  // of vertices with more than eight, of faces with more than four
 };
 
-/// The seams of one patch, one by one.
-class PatchTable::Seams {
+/// The boundaries of one patch, one by one.
+class PatchTable::Boundaries {
  public:
   class Iterator {
    public:
     Iterator(const PatchTable& table, int patch);
     explicit Iterator(const PatchTable& table) : table_(table) {}
-    Seam operator*() const { return table_.seam(patch_, *side_); }
+    RegionBoundary operator*() const { return table_.boundary(patch_, *side_); }
     Iterator& operator++();
     bool operator!=(const Iterator& other) const { return side_ != other.side_; }
 
@@ -277,7 +279,7 @@ class PatchTable::Seams {
     std::int32_t next_ = -1;
   };
 
-  Seams(const PatchTable& table, int patch) : table_(table), patch_(patch) {}
+  Boundaries(const PatchTable& table, int patch) : table_(table), patch_(patch) {}
   Iterator begin() const { return {table_, patch_}; }
   Iterator end() const { return Iterator(table_); }
 
@@ -286,7 +288,7 @@ class PatchTable::Seams {
   int patch_;
 };
 
-inline PatchTable::Seams PatchTable::seams(int patch) const { return {*this, patch}; }
+inline PatchTable::Boundaries PatchTable::boundaries(int patch) const { return {*this, patch}; }
 
 }  // namespace fcl_stpbv
 

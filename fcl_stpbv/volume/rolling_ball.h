@@ -48,8 +48,8 @@ std::vector<HalfEdge> pairHalfEdges(const std::vector<Eigen::Vector3d>& points,
 std::array<int, 3> wideTriangle(const std::vector<Eigen::Vector3d>& points, const std::vector<int>& ring);
 
 /// Angle by which the normals of a face of more than three corners may be off (rad), a few thousand
-/// roundings: where more is needed the face stays in triangles, which are exact. Its seams then part by at
-/// most this times the ball's radius.
+/// roundings: where more is needed the face stays in triangles, which are exact. Its boundaries then part by
+/// at most this times the ball's radius.
 constexpr double kJoinTilt = 1e-12;
 
 /// Height up to which a point counts as touching a face's ball (m): a few roundings of the cloud's

@@ -21,8 +21,9 @@ namespace {
 
 using Eigen::Vector3d;
 
-// A normal this far past a seam still counts as inside: the rounding of one dot product of unit vectors.
-constexpr double kSeamRounding = 4 * std::numeric_limits<double>::epsilon();
+// A normal this far past a region boundary still counts as inside: the rounding of one dot product of unit
+// vectors.
+constexpr double kBoundaryRounding = 4 * std::numeric_limits<double>::epsilon();
 
 std::string number(double value) {
   char text[32];
@@ -94,7 +95,7 @@ void refuseBroken(const StpBv& volume, const std::vector<Vector3d>& points,
   const double size = volume.enclosingRadius(), off = 1e-9 * size + 2 * touchTolerance(points);
   const double shift = 1e-3 * size + off + 64 * std::numeric_limits<double>::epsilon() * volume.radii().rho;
   if (check.containment <= off && (others.empty() || farthestOut(volume, others) <= off) &&
-      std::abs(check.solidAngleError) <= 1e-6 && check.seamGap <= shift)
+      std::abs(check.solidAngleError) <= 1e-6 && check.boundaryGap <= shift)
     return;
   throw Error(
       "the points are too close to each other to be told apart: merge those closer together than about " +
@@ -177,11 +178,11 @@ int StpBv::owner(const Vector3d& n, int hint) const {
   int current = hint >= 0 ? hint : table_[cell(n)];
   int best = current;
   double least = std::numeric_limits<double>::infinity();
-  // The step over the worst seam goes down the height n.C over the core's admissible centres C, so it does
-  // not come back; the bound only stops a walk among regions narrower than rounding.
+  // The step over the worst boundary goes down the height n.C over the core's admissible centres C, so it
+  // does not come back; the bound only stops a walk among regions narrower than rounding.
   for (int step = 0; step < 64 + patchCount(); ++step) {
     const Crossing over = patches_.crossing(current, along);
-    if (over.past <= kSeamRounding) return current;
+    if (over.past <= kBoundaryRounding) return current;
     if (over.past < least) least = over.past, best = current;
     current = over.neighbour;
   }

@@ -68,7 +68,7 @@ class StpBv {
   int faceCount() const { return static_cast<int>(faces_.size()); }
 
   /// Patches are numbered vertices first, then edges, then the further parts of edges that turn by more than
-  /// half a turn, then faces: each patch's region of normals is the intersection of its seams' sides.
+  /// half a turn, then faces: each patch's region of normals is the intersection of its boundaries' sides.
   int patchCount() const { return patches_.count(); }
   int edgePatch(int edge) const { return patches_.firstEdge() + edge; }
   int facePatch(int face) const { return patches_.firstFace() + face; }
@@ -76,8 +76,8 @@ class StpBv {
   Patch patch(int index) const { return patches_.patch(index); }
   const PatchTable& patches() const { return patches_; }
 
-  /// The seams around a patch's region of normals (paper III.D).
-  PatchTable::Seams seams(int patch) const { return patches_.seams(patch); }
+  /// The boundaries around a patch's region of normals (paper III.D).
+  PatchTable::Boundaries boundaries(int patch) const { return patches_.boundaries(patch); }
 
   /// Rounding of a rise along `d`, of the sum of its components.
   static constexpr float kLevel = 1e-6f;
@@ -110,7 +110,7 @@ class StpBv {
   /// A vertex about as far along `n`, of any length, as any, from a direction table.
   int vertexNear(const Eigen::Vector3d& n) const { return vertexTable_[cell(n)]; }
 
-  /// The patch whose region holds the unit normal `n`, found by walking over the seams from `hint` (any
+  /// The patch whose region holds the unit normal `n`, found by walking over the boundaries from `hint` (any
   /// patch), or from a direction table when `hint` is negative.
   int owner(const Eigen::Vector3d& n, int hint = -1) const;
 

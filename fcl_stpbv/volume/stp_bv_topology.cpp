@@ -20,8 +20,8 @@ using Eigen::Vector3d;
 
 constexpr double kTwoPi = 6.283185307179586476925;
 
-// An edge that turns by more is cut into parts: the seams of a region past half a turn do not intersect in
-// it, however little it is past. A flat plate's rim turns by nearly half a turn and stays whole.
+// An edge that turns by more is cut into parts: the boundaries of a region past half a turn do not intersect
+// in it, however little it is past. A flat plate's rim turns by nearly half a turn and stays whole.
 constexpr double kWidestPart = 0.5 * kTwoPi;
 
 std::size_t partsOf(const StpBv::Edge& edge) {
@@ -194,9 +194,9 @@ void StpBv::makeTable() {
       n.normalize();
       last = owner(n, last);
       table_.push_back(last);
-      // A vertex of the patch: itself, else over an edge's first seam, which leads to an end.
+      // A vertex of the patch: itself, else over an edge's first boundary, which leads to an end.
       int corner = last;
-      while (corner >= vertexCount()) corner = (*seams(corner).begin()).neighbour;
+      while (corner >= vertexCount()) corner = (*boundaries(corner).begin()).neighbour;
       vertexTable_.push_back(climb(corner, n.cast<float>()));
     }
 }

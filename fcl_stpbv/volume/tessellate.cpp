@@ -32,7 +32,7 @@ class Tessellator {
   int point(int patch, const Vector3d& n) {
     const Vector3d x =
         corePoint(volume_.patch(patch), volume_.kind(patch), volume_.radii(), n) + volume_.radii().r * n;
-    // What rounding can part at a seam: a few units of the coordinates and of rho times the normal.
+    // What rounding can part at a boundary: a few units of the coordinates and of rho times the normal.
     const double grid = 2e-14 * (volume_.enclosingRadius() + volume_.radii().rho + volume_.centre().norm());
     const auto key = [&](double c) { return static_cast<long long>(std::llround(c / grid)); };
     const Vector3d local = x - volume_.centre();
@@ -77,7 +77,7 @@ class Tessellator {
     const int rings = steps(widest), centre = point(region.patch, region.centre);
     for (std::size_t a = 0; a < region.boundary.size(); ++a) {
       const Arc& arc = region.boundary[a];
-      // The same steps as the neighbouring edge's, so that the seam has the same points on both sides.
+      // The same steps as the neighbouring edge's, so that the boundary has the same points on both sides.
       const int round = steps(arc.turn);
       const auto at = [&](int k, int i) {
         return k == 0 ? centre

@@ -81,13 +81,13 @@ double containmentOf(const StpBv& volume, const std::vector<Vector3d>& cloud, do
   return worst;
 }
 
-struct SeamGap {
+struct BoundaryGap {
   double largest = 0;
   bool ok = true;
 };
 
-SeamGap seamGapOf(const StpBv& volume, double rounding) {
-  SeamGap result;
+BoundaryGap boundaryGapOf(const StpBv& volume, double rounding) {
+  BoundaryGap result;
   const auto compare = [&](int a, int b, const Vector3d& n, double allowed) {
     const double gap = (corePoint(volume.patch(a), volume.kind(a), volume.radii(), n) -
                         corePoint(volume.patch(b), volume.kind(b), volume.radii(), n))
@@ -173,11 +173,11 @@ Verification verify(const StpBv& volume, const std::vector<Vector3d>& points, do
   for (const double angle : solidAngles(volume)) sum += angle, least = std::min(least, angle);
   result.solidAngleError = sum - 4 * kPi;
 
-  // Heights and seams: a few roundings of lengths up to the body's size and, for normals, of rho times their
-  // rounding.
+  // Heights and boundaries: a few roundings of lengths up to the body's size and, for normals, of rho times
+  // their rounding.
   const double length = touchTolerance(all) + 8 * std::numeric_limits<double>::epsilon() * volume.radii().rho;
-  const SeamGap seams = seamGapOf(volume, 4 * length);
-  result.seamGap = seams.largest;
+  const BoundaryGap boundaries = boundaryGapOf(volume, 4 * length);
+  result.boundaryGap = boundaries.largest;
   // Angles: each corner is rounded by a few units; near the smallest R an edge's normals lie close to its
   // line, by the cosine kappa/rho, and its turn is rounded by as much more.
   double cosine = 1;
@@ -193,8 +193,9 @@ Verification verify(const StpBv& volume, const std::vector<Vector3d>& points, do
   else if (!(std::abs(result.solidAngleError) <= angle) || !(least >= -angle))
     result.message =
         "the regions of normals do not tile the sphere: off by " + number(result.solidAngleError) + " sr";
-  else if (!seams.ok)
-    result.message = "neighbouring patches part by " + number(result.seamGap) + " m at their seam";
+  else if (!boundaries.ok)
+    result.message =
+        "neighbouring patches part by " + number(result.boundaryGap) + " m at their region boundary";
   else
     result.message = "ok";
   result.ok = result.message == "ok";

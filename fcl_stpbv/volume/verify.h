@@ -14,7 +14,7 @@ struct Verification {
   double containment =
       0;  ///< largest height of a point over the surface pulled in by the margin; at most rounding
   double solidAngleError = 0;  ///< sum of the regions' solid angles minus 4 pi (sr)
-  double seamGap = 0;          ///< largest distance between two patches' core points at a common normal
+  double boundaryGap = 0;      ///< largest distance between two patches' core points at a common normal
   std::string message;         ///< "ok", or what is wrong
 };
 

@@ -77,7 +77,7 @@ Isometry3d moved(const Isometry3d& p, int component, double step) {
 
 struct Compared {
   double worst = 0;
-  int poses = 0, seams = 0, none = 0;
+  int poses = 0, boundaries = 0, none = 0;
 };
 
 // The Hessian at one pose against differences of the gradient; poses where the one-sided differences part, or
@@ -109,7 +109,7 @@ void compare(const fcl::CollisionGeometryd& a, const Isometry3d& poseA, const fc
     smooth = smooth && (ahead - behind).norm() <= 1e-2 * (1 + second.col(k).norm());
   }
   if (!smooth) {
-    ++all.seams;
+    ++all.boundaries;
     return;
   }
   const Eigen::Matrix<double, 12, 12> symmetric = 0.5 * (second + second.transpose());
@@ -149,8 +149,8 @@ TEST_CASE("the Hessian through the drop-in is the change of its gradient, for sh
       compare(*body, poseA, *other, poseB, all);
       compare(*other, poseB, *body, poseA, all);
     }
-    INFO("type " << other->getNodeType() << ": " << all.poses << " compared, " << all.seams << " on a seam, "
-                 << all.none << " without");
+    INFO("type " << other->getNodeType() << ": " << all.poses << " compared, " << all.boundaries
+                 << " on a boundary, " << all.none << " without");
     CHECK(all.worst <
           1e-7);  // rounding of the gradient, some 1e-15, over the step, and the step to the fourth
     CHECK(all.poses >= 40);

@@ -79,14 +79,14 @@ ReferenceAnswer truthOf(const Body& body, const TestShape& shape, const Isometry
 struct Derivatives {
   double gradient = 0;  ///< central difference of the distance against the gradient
   double second = 0;    ///< and of the gradient against the Hessian
-  double smooth = 0;    ///< error of the gradient where no seam is within the step
+  double smooth = 0;    ///< error of the gradient where no region boundary is within the step
   double turn = 0;      ///< turn of the normal under a translation (docs/theory.md, 6)
 };
 
-/// Along a random twist of the shape over +-h. The second derivative jumps at seams: so a central difference
-/// of the distance may be off by half a step times what the three Hessians there differ, and one of the
-/// gradient lies between them. False where something that the Hessians do not show, a feature smaller than
-/// the step, spoils it.
+/// Along a random twist of the shape over +-h. The second derivative jumps at region boundaries: so a central
+/// difference of the distance may be off by half a step times what the three Hessians there differ, and one
+/// of the gradient lies between them. False where something that the Hessians do not show, a feature smaller
+/// than the step, spoils it.
 bool differences(const Body& body, const Shape& shape, const Isometry3d& base, const Isometry3d& at,
                  const Distance& d, const Eigen::Matrix<double, 6, 1>& twist, double h, Derivatives& parts) {
   const double core = d.distance + body.r + shape.margin;

@@ -1,5 +1,5 @@
 // First and second derivatives of an STP-BV's distance to every other body: central differences where the
-// distance is smooth, one-sided ones on both sides of the seams.
+// distance is smooth, one-sided ones on both sides of the region boundaries.
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -84,7 +84,8 @@ Rates ratesOf(const Distance& d, const DistanceHessian& h, const Poses& at, cons
 }  // namespace
 
 TEST_CASE(
-    "away from seams gradient, Hessian and the velocities of normal and points are central differences") {
+    "away from region boundaries gradient, Hessian and the velocities of normal and points are central "
+    "differences") {
   Random random(17);
   for (const std::string& name : others()) {
     int compared = 0;
@@ -141,10 +142,12 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("at a seam the gradient is continuous and each side has its own one-sided second derivatives") {
+TEST_CASE(
+    "at a region boundary the gradient is continuous and each side has its own one-sided second "
+    "derivatives") {
   Random random(23);
   for (const std::string& name : others()) {
-    int seams = 0, kinks = 0;
+    int boundaries = 0, kinks = 0;
     for (int path = 0; path < 200; ++path) {
       const DerivativePair pair = randomPair(name, random);
       Poses start;
@@ -184,7 +187,7 @@ TEST_CASE("at a seam the gradient is continuous and each side has its own one-si
       bool whole = true;
       for (int side = 0; side < 2 && whole; ++side) {
         CAPTURE(side);
-        // From just off the seam, away from it: three equal steps, exact to the third order.
+        // From just off the boundary, away from it: three equal steps, exact to the third order.
         const double sign = side ? 1 : -1, off = 1e-9 * core, step = 3e-4 * core;
         const double from = (side ? high : low) + sign * off;
         const Poses base = after(start, twists, from);
@@ -222,11 +225,11 @@ TEST_CASE("at a seam the gradient is continuous and each side has its own one-si
         }
       }
       if (!whole) continue;
-      ++seams;
+      ++boundaries;
       kinks += std::abs(second[1] - second[0]) > 1e-3;
     }
-    CAPTURE(name, seams, kinks);
-    CHECK(seams >= 20);
-    CHECK(kinks >= 20);  // real seams: the second derivative does jump
+    CAPTURE(name, boundaries, kinks);
+    CHECK(boundaries >= 20);
+    CHECK(kinks >= 20);  // real boundaries: the second derivative does jump
   }
 }

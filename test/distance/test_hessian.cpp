@@ -67,7 +67,7 @@ TEST_CASE("The Hessian and the velocities of normal and witness points are what 
 
     Eigen::Matrix<double, 12, 12> second;
     Eigen::Matrix<double, 3, 12> normal, point[2];
-    bool smooth = true;  // no seam within the step
+    bool smooth = true;  // no boundary within the step
     for (int k = 0; k < 12; ++k) {
       constexpr double kAt[4] = {-2, -1, 1, 2};
       Distance side[4];

@@ -50,7 +50,8 @@ TEST_CASE("along fine paths the normal never turns faster than theory allows, fo
         last = ask();
       }
       REQUIRE(last.status == DistanceStatus::exact);
-      way = (way - way.dot(last.normal) * last.normal).normalized();  // along the surfaces, over their seams
+      way = (way - way.dot(last.normal) * last.normal)
+                .normalized();  // along the surfaces, over their boundaries
       for (const double step : {1e-3, 1e-5, 1e-7, 1e-9, 1e-11}) {
         CAPTURE(step);
         const Vector3d start = at.translation();

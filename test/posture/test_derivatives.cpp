@@ -186,7 +186,7 @@ TEST_CASE("collisions' derivatives agree with differences away from deep penetra
       for (int row = 0; row < problem.inequalities(); ++row) {
         if (at.atLeast[row] < -0.005) continue;  // past the margins the way out may switch
         const double difference = (after.atLeast[row] - before.atLeast[row]) / (2 * kStep);
-        // A difference across a seam misses half a step times the curvature's jump, up to 1/r.
+        // A difference across a region boundary misses half a step times the curvature's jump, up to 1/r.
         CHECK(std::abs(difference - at.atLeastJacobian(row, i)) < 1e-4);
         ++compared;
       }

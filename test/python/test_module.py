@@ -103,7 +103,7 @@ def test_rates_and_hessians_of_a_robot_agree_with_its_jacobian():
         robot.hessian(q, d[:1])
     step, direction = 1e-6, np.random.default_rng(1).normal(size=q.size)
     slope = (robot.distances(q + step * direction) - robot.distances(q - step * direction)) / (2 * step)
-    # Second derivatives jump on seams: up to step |direction|^2 (reach^2 / r + reach), reach about 1 m; most
+    # Second derivatives jump on region boundaries: up to step |direction|^2 (reach^2 / r + reach), reach about 1 m; most
     # pairs are far apart and none of this posture's sits on one.
     np.testing.assert_allclose(jacobian @ direction, slope, atol=1e-6)
     with pytest.raises(fcl_stpbv.Error, match="coordinates"):

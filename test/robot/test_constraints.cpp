@@ -42,8 +42,8 @@ double worstError(CollisionConstraints& constraints, const Kinematics& kinematic
   return worst;
 }
 
-// Across a seam the second derivative jumps, by at most lever^2 / (r1 + r2) = 1 / 0.02 per m, and a
-// difference over a step sees a quarter of that times the step; levers here are up to about 1.5 m.
+// Across a region boundary the second derivative jumps, by at most lever^2 / (r1 + r2) = 1 / 0.02 per m, and
+// a difference over a step sees a quarter of that times the step; levers here are up to about 1.5 m.
 constexpr double kDifference = 1e-6 / 4 * 2.25 / 0.02;
 
 }  // namespace

@@ -35,11 +35,11 @@ Moving at(CollisionConstraints& constraints, const VectorXd& q, const VectorXd& 
 
 struct Found {
   double speed = 0, drift = 0, velocity = 0;
-  int compared = 0, seams = 0;
+  int compared = 0, boundaries = 0;
 };
 
-// Rows whose one-sided differences tell of a seam in between are left out and counted, and so are deep
-// answers, which may jump.
+// Rows whose one-sided differences tell of a region boundary in between are left out and counted, and so are
+// deep answers, which may jump.
 Found compare(CollisionConstraints& constraints, const Kinematics& kinematics, int count) {
   Random random(23);
   Found found;
@@ -67,7 +67,7 @@ Found compare(CollisionConstraints& constraints, const Kinematics& kinematics, i
                      went = (part(now.where) - part(before.where)) / kStep;
       if (std::abs(forward - backward) > 1e-3 * (1 + std::abs(here.drift[row])) ||
           (goes - went).norm() > 1e-3 * (1 + part(velocity).norm())) {
-        ++found.seams;
+        ++found.boundaries;
         continue;
       }
       ++found.compared;
@@ -79,21 +79,21 @@ Found compare(CollisionConstraints& constraints, const Kinematics& kinematics, i
   return found;
 }
 
-// A central difference is off by step^2 / 6 times a third derivative, below 1e5 here where no seam is in the
-// step, and by rounding over the step: 1e-14 of the normal, and up to R times 1e-15 of a witness point on a
-// face.
+// A central difference is off by step^2 / 6 times a third derivative, below 1e5 here where no region boundary
+// is in the step, and by rounding over the step: 1e-14 of the normal, and up to R times 1e-15 of a witness
+// point on a face.
 constexpr double kDifference = 1e-7;
 // J times qd against the same sum by bodies: a hundred products of size 1.
 constexpr double kRounding = 1e-13;
 
 void check(CollisionConstraints& constraints, const Kinematics& kinematics, int count) {
   const Found found = compare(constraints, kinematics, count);
-  INFO(found.compared << " compared, " << found.seams << " across a seam");
+  INFO(found.compared << " compared, " << found.boundaries << " across a boundary");
   CHECK(found.speed < kRounding);
   CHECK(found.drift < kDifference);
   CHECK(found.velocity < kDifference);
   CHECK(found.compared > 500);
-  CHECK(found.seams < found.compared / 50);
+  CHECK(found.boundaries < found.compared / 50);
 }
 
 /// A floating robot among plain shapes, with the bend and a constraint of its own.

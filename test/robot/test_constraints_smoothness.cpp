@@ -89,10 +89,10 @@ double worstJump(const Problem& p, const Eigen::VectorXd& posture, int coordinat
 }
 
 // Largest difference between a row's part of hessianVector() and the change of its gradient; rows whose
-// one-sided differences tell of a seam in between are left out and counted.
+// one-sided differences tell of a region boundary in between are left out and counted.
 struct SecondOrder {
   double worst = 0;
-  int compared = 0, seams = 0;
+  int compared = 0, boundaries = 0;
 };
 
 SecondOrder secondOrder(CollisionConstraints& constraints, const Kinematics& kinematics, int count) {
@@ -118,7 +118,7 @@ SecondOrder secondOrder(CollisionConstraints& constraints, const Kinematics& kin
       const Eigen::VectorXd backward = (here.row(row) - before.row(row)) / step;
       constraints.hessianVector(q, Eigen::VectorXd::Unit(constraints.rows(), row), v, out);
       if ((forward - backward).norm() > 1e-3 * (1 + out.norm())) {
-        ++result.seams;
+        ++result.boundaries;
         continue;
       }
       ++result.compared;
@@ -128,8 +128,8 @@ SecondOrder secondOrder(CollisionConstraints& constraints, const Kinematics& kin
   return result;
 }
 
-// Where no seam lies in the step, a central difference is off by step^2 times a third derivative, below 1e4
-// here, and by rounding of the gradient, about 1e-14, divided by the step.
+// Where no region boundary lies in the step, a central difference is off by step^2 times a third derivative,
+// below 1e4 here, and by rounding of the gradient, about 1e-14, divided by the step.
 constexpr double kSecond = 1e-7;
 
 }  // namespace
@@ -154,10 +154,10 @@ TEST_CASE("a Hessian-vector product is the change of the gradient along the vect
     const Problem p = problem(robot);
     CollisionConstraints constraints(p.kinematics, p.geometry, p.pairs);
     const SecondOrder found = secondOrder(constraints, *p.kinematics, 100);
-    INFO(robot.name << ": " << found.compared << " compared, " << found.seams << " across a seam");
+    INFO(robot.name << ": " << found.compared << " compared, " << found.boundaries << " across a boundary");
     CHECK(found.worst < kSecond);
     CHECK(found.compared > 500);
-    CHECK(found.seams < found.compared / 100);
+    CHECK(found.boundaries < found.compared / 100);
   }
 }
 
@@ -220,10 +220,10 @@ TEST_CASE(
       obstaclePairs(*p.model, *p.geometry, static_cast<int>(shapes.size()), true);
   CollisionConstraints constraints(p.kinematics, p.geometry, pairs, options);
   const SecondOrder found = secondOrder(constraints, *p.kinematics, 100);
-  INFO(found.compared << " compared, " << found.seams << " across a seam");
+  INFO(found.compared << " compared, " << found.boundaries << " across a boundary");
   CHECK(found.worst < kSecond);
   CHECK(found.compared > 500);
-  CHECK(found.seams < found.compared / 50);
+  CHECK(found.boundaries < found.compared / 50);
 
   // A closed form is symmetric to rounding, differences to about 1e-9.
   Random random(3);

@@ -228,7 +228,7 @@ TEST_CASE("Every normal belongs to one region and every walk finds it") {
         int owners = 0, owner = -1;
         for (int p = 0; p < volume->patchCount(); ++p)
           if (volume->outside(p, n) <= 0) ++owners, owner = p;
-        REQUIRE(owners == 1);  // a random normal lies on a seam with probability zero
+        REQUIRE(owners == 1);  // a random normal lies on a boundary with probability zero
         CHECK(volume->owner(n) == owner);
         CHECK(volume->owner(n, random.below(volume->patchCount())) == owner);
       }

@@ -1,4 +1,4 @@
-// The seams around every patch, from the table and from the edges themselves.
+// The boundaries around every patch, from the table and from the edges themselves.
 #include <algorithm>
 #include <array>
 #include <catch2/catch.hpp>
@@ -20,20 +20,20 @@ using Vector = Eigen::Matrix<long double, 3, 1>;
 // Four products of unit numbers and their sum.
 constexpr double kRounding = 2e-15;
 
-struct ReferenceSeam {
+struct ReferenceBoundary {
   Vector normal;
   long double limit;
   int neighbour;
 };
 
-/// The seams of all patches by docs/theory.md, 3, in long double from vertices, edges and faces.
-std::vector<std::vector<ReferenceSeam>> referenceSeams(const StpBv& volume) {
-  std::vector<std::vector<ReferenceSeam>> seams(static_cast<std::size_t>(volume.patchCount()));
+/// The boundaries of all patches by docs/theory.md, 3, in long double from vertices, edges and faces.
+std::vector<std::vector<ReferenceBoundary>> referenceBoundaries(const StpBv& volume) {
+  std::vector<std::vector<ReferenceBoundary>> boundaries(static_cast<std::size_t>(volume.patchCount()));
   const auto at = [&](int i) -> Vector {
     return volume.vertices()[static_cast<std::size_t>(i)].cast<long double>();
   };
   const auto add = [&](int patch, const Vector& normal, long double limit, int neighbour) {
-    seams[static_cast<std::size_t>(patch)].push_back({normal, limit, neighbour});
+    boundaries[static_cast<std::size_t>(patch)].push_back({normal, limit, neighbour});
   };
   for (int e = 0; e < volume.edgeCount(); ++e) {
     const StpBv::Edge& edge = volume.edges()[static_cast<std::size_t>(e)];
@@ -53,15 +53,15 @@ std::vector<std::vector<ReferenceSeam>> referenceSeams(const StpBv& volume) {
       add(patch, -out, 0, volume.facePatch(face));
     }
   }
-  return seams;
+  return boundaries;
 }
 
-/// The largest of what the seams give for themselves, and whether the next one is clearly less.
+/// The largest of what the boundaries give for themselves, and whether the next one is clearly less.
 template <typename Measure>
-std::pair<Crossing, bool> most(const std::vector<ReferenceSeam>& seams, const Measure& measure) {
+std::pair<Crossing, bool> most(const std::vector<ReferenceBoundary>& boundaries, const Measure& measure) {
   Crossing first{-std::numeric_limits<double>::infinity(), -1};
   double second = first.past;
-  for (const ReferenceSeam& s : seams) {
+  for (const ReferenceBoundary& s : boundaries) {
     const auto value = static_cast<double>(measure(s));
     if (value > first.past) {
       second = first.past;
@@ -73,7 +73,7 @@ std::pair<Crossing, bool> most(const std::vector<ReferenceSeam>& seams, const Me
   return {first, first.past - second > 1e-9 * std::abs(first.past) + 1e-12};
 }
 
-/// A cone of many sides: a vertex and a face with more seams than one record holds.
+/// A cone of many sides: a vertex and a face with more boundaries than one record holds.
 Cloud cone(int sides) {
   Cloud points{{0, 0, 0.3}};
   for (int i = 0; i < sides; ++i) {
@@ -95,15 +95,15 @@ std::vector<StpBv::Ptr> volumes() {
 
 }  // namespace
 
-TEST_CASE("A patch's seams are those of the edges around it") {
+TEST_CASE("A patch's region boundaries are those of the edges around it") {
   for (const StpBv::Ptr& volume : volumes()) {
-    const auto reference = referenceSeams(*volume);
+    const auto reference = referenceBoundaries(*volume);
     for (int p = 0; p < volume->patchCount(); ++p) {
       const auto& expected = reference[static_cast<std::size_t>(p)];
       std::size_t count = 0;
-      for (const Seam s : volume->seams(p)) {
+      for (const RegionBoundary s : volume->boundaries(p)) {
         ++count;
-        const bool found = std::any_of(expected.begin(), expected.end(), [&](const ReferenceSeam& r) {
+        const bool found = std::any_of(expected.begin(), expected.end(), [&](const ReferenceBoundary& r) {
           return r.neighbour == s.neighbour && (r.normal.cast<double>() - s.normal).norm() <= kRounding &&
                  std::abs(static_cast<double>(r.limit) - s.limit) <= kRounding;
         });
@@ -114,7 +114,7 @@ TEST_CASE("A patch's seams are those of the edges around it") {
   }
 }
 
-TEST_CASE("The seam passed furthest and the first one ahead, four at a time and one by one") {
+TEST_CASE("The region boundary passed furthest and the first one ahead, four at a time and one by one") {
   Random random(11);
   int decided = 0;
   for (const StpBv::Ptr& volume : volumes()) {
@@ -122,24 +122,25 @@ TEST_CASE("The seam passed furthest and the first one ahead, four at a time and 
       CHECK(volume->outside(0, random.direction()) < 0);
       continue;
     }
-    const auto reference = referenceSeams(*volume);
+    const auto reference = referenceBoundaries(*volume);
     for (int p = 0; p < volume->patchCount(); ++p)
       for (int k = 0; k < 20; ++k) {
-        const auto& seams = reference[static_cast<std::size_t>(p)];
+        const auto& boundaries = reference[static_cast<std::size_t>(p)];
         const Vector3d n = random.direction(), h = random.direction().cross(n).normalized();
         const Vector nL = n.cast<long double>(), hL = h.cast<long double>();
         const double length = std::pow(10.0, random.uniform(-3, 3));
         const Crossing over = volume->patches().crossing(p, pack(length * n), length);
         const auto [furthest, clear] =
-            most(seams, [&](const ReferenceSeam& s) { return nL.dot(s.normal) - s.limit; });
+            most(boundaries, [&](const ReferenceBoundary& s) { return nL.dot(s.normal) - s.limit; });
         REQUIRE(std::abs(over.past - length * furthest.past) <= kRounding * length);
         if (clear) REQUIRE(over.neighbour == furthest.neighbour);
 
         if (!(furthest.past < -1e-3)) continue;  // from inside
         ++decided;
         const Crossing ahead = volume->patches().ahead(p, pack(n), pack(h));
-        const auto [first, alone] = most(
-            seams, [&](const ReferenceSeam& s) { return hL.dot(s.normal) / (s.limit - nL.dot(s.normal)); });
+        const auto [first, alone] = most(boundaries, [&](const ReferenceBoundary& s) {
+          return hL.dot(s.normal) / (s.limit - nL.dot(s.normal));
+        });
         REQUIRE(std::abs(ahead.past - first.past) <=
                 1e-11 * (1 + std::abs(first.past)));  // rounding over 1e-3
         if (alone) REQUIRE(ahead.neighbour == first.neighbour);
