@@ -21,3 +21,7 @@
 #include "fcl_stpbv/volume/stp_bv.h"
 #include "fcl_stpbv/volume/tessellate.h"
 #include "fcl_stpbv/volume/verify.h"
+
+/// Exact signed distances with continuous gradients between STP-BVs and to FCL's geometries; with the robot
+/// component, whole robots. Names in `fcl_stpbv::detail` are this library's own and may change at any time.
+namespace fcl_stpbv {}

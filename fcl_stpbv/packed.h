@@ -12,7 +12,7 @@
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wpsabi"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 
 /// Three numbers side by side; the fourth is undefined unless documented. With Eigen's Vector3d, sums and
 /// products take two instructions each and a cross product a dozen. The alignment of Eigen's Vector4d would
@@ -79,6 +79,6 @@ inline double largest(const Packed& v) {
   return two[0] > two[1] ? two[0] : two[1];
 }
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail
 
 #pragma GCC diagnostic pop

@@ -20,6 +20,7 @@
 namespace fcl_stpbv::tools {
 namespace {
 
+using namespace detail;
 using Points = std::vector<Eigen::Vector3d>;
 
 std::string lowerExtension(const std::string& path) {

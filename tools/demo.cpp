@@ -16,6 +16,7 @@
 namespace {
 
 using namespace fcl_stpbv;
+using namespace fcl_stpbv::detail;
 using namespace fcl_stpbv::report;
 
 constexpr double kMm = 1e3;

@@ -14,6 +14,7 @@
 namespace {
 
 using namespace fcl_stpbv;
+using namespace fcl_stpbv::detail;
 using namespace fcl_stpbv::report;
 using namespace fcl_stpbv::tools;
 

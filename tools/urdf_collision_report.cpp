@@ -19,6 +19,7 @@
 namespace {
 
 using namespace fcl_stpbv;
+using namespace fcl_stpbv::detail;
 using namespace fcl_stpbv::report;
 using namespace fcl_stpbv::tools;
 

@@ -5,6 +5,7 @@
 #include "fcl_stpbv/robot/motion_check.h"
 
 using namespace fcl_stpbv;
+using namespace fcl_stpbv::detail;
 
 namespace {
 

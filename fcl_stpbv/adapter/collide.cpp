@@ -11,6 +11,7 @@
 namespace fcl_stpbv {
 namespace {
 
+using namespace detail;
 using fcl::CollisionGeometryd;
 using fcl::CollisionRequestd;
 using fcl::CollisionResultd;

@@ -24,6 +24,7 @@ namespace fcl_stpbv {
 std::size_t collide(const fcl::CollisionObjectd* object1, const fcl::CollisionObjectd* object2,
                     const fcl::CollisionRequestd& request, fcl::CollisionResultd& result,
                     PairCache* cache = nullptr);
+/// The same for two geometries at their poses.
 std::size_t collide(const fcl::CollisionGeometryd* geometry1, const fcl::Transform3d& pose1,
                     const fcl::CollisionGeometryd* geometry2, const fcl::Transform3d& pose2,
                     const fcl::CollisionRequestd& request, fcl::CollisionResultd& result,
@@ -42,10 +43,10 @@ class PairCaches;
 /// What `collisionCallback` reads and writes; pass its address to a manager's `collide`. The result
 /// accumulates: give each query fresh data.
 struct CollisionData {
-  fcl::CollisionRequestd request;
-  fcl::CollisionResultd result;
-  bool done = false;             ///< set it to stop; set where the result holds all the contacts asked for
-  PairCaches* caches = nullptr;  ///< optional: makes repeated queries of a slowly moving scene faster
+  fcl::CollisionRequestd request;  ///< as collide() reads it
+  fcl::CollisionResultd result;    ///< contacts of all pairs so far
+  bool done = false;               ///< set it to stop; set where the result holds all the contacts asked for
+  PairCaches* caches = nullptr;    ///< optional: makes repeated queries of a slowly moving scene faster
 };
 
 /// For `manager.collide(&data, fcl_stpbv::collisionCallback)` with `data` a CollisionData.

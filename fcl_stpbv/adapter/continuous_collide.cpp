@@ -5,11 +5,14 @@
 #include <cmath>
 #include <limits>
 
+#include "fcl_stpbv/adapter/motion_search.h"
 #include "fcl_stpbv/adapter/posed_geometry.h"
+#include "fcl_stpbv/convex/relative_pose.h"
 
 namespace fcl_stpbv {
 namespace {
 
+using namespace detail;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 using fcl::CollisionGeometryd;

@@ -6,15 +6,15 @@
 #include <fcl/narrowphase/continuous_collision_result.h>
 
 #include "fcl_stpbv/adapter/fcl_distance.h"
-#include "fcl_stpbv/adapter/motion_search.h"
+#include "fcl_stpbv/adapter/motion_request.h"
 #include "fcl_stpbv/adapter/steady_motion.h"
 
 namespace fcl_stpbv {
 
 /// What became of a motion over the time from 0 to 1.
 struct MotionAnswer {
-  MotionVerdict verdict = MotionVerdict::undecided;
-  double from = 0;        ///< proven free before it
+  MotionVerdict verdict = MotionVerdict::undecided;  ///< free, in contact or undecided
+  double from = 0;                                   ///< proven free before it
   double until = 0;       ///< in contact at it; at most the tolerance after `from`. 1 for a free motion
   DistanceAnswer answer;  ///< at `until`, which is the end of a free motion
   long queries = 0;       ///< distances asked for
@@ -38,11 +38,13 @@ double continuousCollide(const fcl::CollisionGeometryd* geometry1, const fcl::Mo
                          const fcl::CollisionGeometryd* geometry2, const fcl::MotionBased* motion2,
                          const fcl::ContinuousCollisionRequestd& request,
                          fcl::ContinuousCollisionResultd& result);
+/// The same between two poses each.
 double continuousCollide(const fcl::CollisionGeometryd* geometry1, const fcl::Transform3d& begin1,
                          const fcl::Transform3d& end1, const fcl::CollisionGeometryd* geometry2,
                          const fcl::Transform3d& begin2, const fcl::Transform3d& end2,
                          const fcl::ContinuousCollisionRequestd& request,
                          fcl::ContinuousCollisionResultd& result);
+/// The same from where two objects are.
 double continuousCollide(const fcl::CollisionObjectd* object1, const fcl::Transform3d& end1,
                          const fcl::CollisionObjectd* object2, const fcl::Transform3d& end2,
                          const fcl::ContinuousCollisionRequestd& request,

@@ -17,9 +17,11 @@ namespace fcl_stpbv {
 /// thread at a time may use it.
 class PairCaches {
  public:
+  /// The memory of a pair, in this order of the objects; made when first asked for.
   PairCache& of(const fcl::CollisionObjectd* object1, const fcl::CollisionObjectd* object2) {
     return caches_[{object1, object2}];
   }
+  /// Number of pairs remembered.
   std::size_t size() const { return caches_.size(); }
   /// To be called when objects go away: their addresses may come back as others'.
   void clear() { caches_.clear(); }

@@ -11,7 +11,7 @@
 
 #include <algorithm>
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 namespace {
 
 using Eigen::Matrix3d;
@@ -199,4 +199,4 @@ bool ElementTree::find(std::intptr_t id, const Vector3d& x, Shape& shape, Vector
   return false;
 }
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

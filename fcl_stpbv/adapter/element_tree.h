@@ -8,7 +8,7 @@
 
 #include "fcl_stpbv/convex/shape.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 
 /// A box anywhere in the frame of a mesh or a tree, as every FCL bounding volume has one around it.
 struct OrientedBox {
@@ -50,4 +50,4 @@ class ElementTree {
   bool any_ = false;
 };
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

@@ -6,15 +6,18 @@
 #include <utility>
 
 #include "fcl_stpbv/adapter/fcl_shapes.h"
+#include "fcl_stpbv/adapter/feature_map.h"
 #include "fcl_stpbv/adapter/nearest_pair.h"
 #include "fcl_stpbv/adapter/other_geometry.h"
 #include "fcl_stpbv/adapter/polyhedral_witness.h"
+#include "fcl_stpbv/convex/relative_pose.h"
 #include "fcl_stpbv/distance/shape_pair.h"
 #include "fcl_stpbv/vectorized.h"
 
 namespace fcl_stpbv {
 namespace {
 
+using namespace detail;
 using fcl::CollisionGeometryd;
 using fcl::Transform3d;
 

@@ -10,7 +10,7 @@
 #include <limits>
 #include <type_traits>
 
-#include "fcl_stpbv/adapter/feature_map.h"
+#include "fcl_stpbv/adapter/mapping_counts.h"
 #include "fcl_stpbv/adapter/stp_bv_geometry.h"
 #include "fcl_stpbv/distance/distance.h"
 
@@ -22,10 +22,10 @@ constexpr bool isDouble = std::is_same<S, double>::value;
 
 /// Answer about two FCL geometries. World frame, metres.
 struct DistanceAnswer {
-  DistanceStatus status = DistanceStatus::invalid;
-  double distance = std::numeric_limits<double>::max();  ///< signed; in [lower, upper]
-  double lower = -std::numeric_limits<double>::infinity();
-  double upper = std::numeric_limits<double>::infinity();
+  DistanceStatus status = DistanceStatus::invalid;          ///< how good the answer is
+  double distance = std::numeric_limits<double>::max();     ///< signed; in [lower, upper]
+  double lower = -std::numeric_limits<double>::infinity();  ///< certified lower bound (m)
+  double upper = std::numeric_limits<double>::infinity();   ///< certified upper bound (m)
   Eigen::Vector3d normal{0, 0, 0};  ///< unit, from geometry 1 to 2; zero where it is not known
   std::array<Eigen::Vector3d, 2> points{Eigen::Vector3d(0, 0, 0),
                                         Eigen::Vector3d(0, 0, 0)};  ///< witness points
@@ -43,7 +43,7 @@ struct DistanceAnswer {
   /// simple shape; false for meshes and trees, whose nearest element switches, and for two geometries
   /// without an STP-BV.
   bool continuous = false;
-  std::array<const fcl::CollisionGeometryd*, 2> geometry{nullptr, nullptr};
+  std::array<const fcl::CollisionGeometryd*, 2> geometry{nullptr, nullptr};  ///< the two asked about
   std::array<const fcl::CollisionObjectd*, 2> object{nullptr,
                                                      nullptr};  ///< null if asked by geometry and pose
 };
@@ -90,6 +90,7 @@ DistanceAnswer inFclTerms(const Distance& found, const fcl::Transform3d& pose1,
 /// answer is -1, FCL's own value for it.
 double distance(const fcl::CollisionObjectd* object1, const fcl::CollisionObjectd* object2,
                 const fcl::DistanceRequestd& request, fcl::DistanceResultd& result);
+/// The same for two geometries at their poses.
 double distance(const fcl::CollisionGeometryd* geometry1, const fcl::Transform3d& pose1,
                 const fcl::CollisionGeometryd* geometry2, const fcl::Transform3d& pose2,
                 const fcl::DistanceRequestd& request, fcl::DistanceResultd& result);
@@ -101,6 +102,7 @@ double distance(const fcl::CollisionObject<S>*, const fcl::CollisionObject<S>*,
   static_assert(isDouble<S>, "fcl_stpbv answers about objects in double: make them fcl::CollisionObjectd");
   return -1;
 }
+/// Refused likewise.
 template <typename S>
 DistanceAnswer distance(const fcl::CollisionObject<S>&, const fcl::CollisionObject<S>&,
                         const QueryContext& = {}) {

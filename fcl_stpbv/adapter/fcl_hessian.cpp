@@ -10,6 +10,7 @@
 namespace fcl_stpbv {
 namespace {
 
+using namespace detail;
 using Eigen::Vector3d;
 
 /// The body that an answer is about in the frame of its geometry: a simple shape, or an element of a mesh or

@@ -12,7 +12,7 @@
 #include <fcl/geometry/shape/sphere.h>
 #include <fcl/geometry/shape/triangle_p.h>
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 
 bool shapeOf(const fcl::CollisionGeometryd& geometry, Shape& shape) {
   switch (geometry.getNodeType()) {
@@ -65,4 +65,4 @@ bool shapeOf(const fcl::CollisionGeometryd& geometry, Shape& shape) {
   }
 }
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

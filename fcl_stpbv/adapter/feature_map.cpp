@@ -13,7 +13,7 @@
 #include "fcl_stpbv/distance/patch_pair.h"
 #include "fcl_stpbv/vectorized.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 namespace {
 
 using namespace detail;
@@ -35,7 +35,7 @@ UnnormalizedNormal towards(const StpBv& volume, int index, const Vector3d& x) {
 /// region.
 int chooseNeighbour(const StpBv& volume, int patch, const Vector3d& x) {
   const UnnormalizedNormal to = towards(volume, patch, x);
-  const Crossing over = volume.patches().crossing(patch, to.d, to.length);
+  const Crossing over = volume.tables().patches.crossing(patch, to.d, to.length);
   return over.past > kOnBoundary * to.length ? over.neighbour : patch;
 }
 
@@ -50,7 +50,7 @@ bool contains(const StpBv::Ring& ring, int v) { return std::find(ring.begin(), r
 /// Whether two patches share a region boundary, or are a face and one of its vertices, whose regions share a
 /// corner.
 bool areNeighbours(const StpBv& volume, int p, int q) {
-  for (const RegionBoundary s : volume.boundaries(p))
+  for (const RegionBoundary s : volume.tables().patches.boundaries(p))
     if (s.neighbour == q) return true;
   if (volume.kind(p) == PatchKind::face) std::swap(p, q);
   if (volume.kind(p) != PatchKind::vertex || volume.kind(q) != PatchKind::face) return false;
@@ -64,14 +64,6 @@ int stepsAway(const StpBv& volume, int mapped, int answer, const Vector3d& norma
 }
 
 }  // namespace
-
-MappingCounts& MappingCounts::operator+=(const MappingCounts& other) {
-  right += other.right;
-  neighbour += other.neighbour;
-  farther += other.farther;
-  unmapped += other.unmapped;
-  return *this;
-}
 
 FCL_STPBV_VECTORIZED
 std::array<int, 2> mapFeatures(const StpBvGeometry& a, const Isometry3d& poseA, const StpBvGeometry& b,
@@ -114,4 +106,4 @@ void countMapping(const StpBv& a, const Isometry3d& poseA, const StpBv& b, const
   }
 }
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

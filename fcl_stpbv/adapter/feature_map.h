@@ -4,23 +4,12 @@
 #include <Eigen/Geometry>
 #include <array>
 
+#include "fcl_stpbv/adapter/mapping_counts.h"
 #include "fcl_stpbv/adapter/polyhedral_witness.h"
 #include "fcl_stpbv/adapter/stp_bv_geometry.h"
 #include "fcl_stpbv/distance/distance.h"
 
-namespace fcl_stpbv {
-
-/// How good the mapped patches turned out to be, counted over queries (paper IV.B: 0.3 % were wrong, nearly
-/// all of them by one neighbour).
-struct MappingCounts {
-  long right = 0;      ///< both mapped patches own the answer's normal
-  long neighbour = 0;  ///< at least one is a direct neighbour of the patch that does, none is farther
-  long farther = 0;    ///< at least one is farther away
-  long unmapped = 0;   ///< no feature to map: the polyhedra overlap, or were not decided
-
-  long total() const { return right + neighbour + farther + unmapped; }
-  MappingCounts& operator+=(const MappingCounts& other);
-};
+namespace fcl_stpbv::detail {
 
 /// The patches of two bodies a polyhedral witness points at: those named like its features, then where the
 /// other body's witness point lies outside such a patch's Voronoi region, the neighbour on that side (paper
@@ -33,4 +22,4 @@ void countMapping(const StpBv& a, const Eigen::Isometry3d& poseA, const StpBv& b
                   const Eigen::Isometry3d& poseB, const std::array<int, 2>& mapped, const Distance& answer,
                   MappingCounts& counts);
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

@@ -1,7 +1,7 @@
 // A convex hull in the format of fcl::Convexd: a list of vertices, and faces as [n, i0, i1, ...].
 #include "fcl_stpbv/adapter/hull_geometry.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 
 std::shared_ptr<const std::vector<fcl::Vector3d>> fclVertices(const HullGraph& hull,
                                                               const std::vector<Eigen::Vector3d>& cloud) {
@@ -29,4 +29,4 @@ std::shared_ptr<fcl::Convexd> hullGeometry(const std::vector<Eigen::Vector3d>& c
   return geometry;
 }
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

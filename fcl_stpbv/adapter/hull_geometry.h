@@ -8,7 +8,7 @@
 
 #include "fcl_stpbv/convex/hull_graph.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 
 /// The hull's vertices for `fcl::Convexd`, with the coordinates that they have in `cloud` (m), which the hull
 /// was made of: FCL must see the points unrounded.
@@ -23,4 +23,4 @@ std::shared_ptr<const std::vector<int>> fclFaces(const HullGraph& hull);
 /// @throws Error for a cloud that is empty or not finite.
 std::shared_ptr<fcl::Convexd> hullGeometry(const std::vector<Eigen::Vector3d>& cloud);
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

@@ -7,30 +7,10 @@
 #include <limits>
 #include <vector>
 
+#include "fcl_stpbv/adapter/motion_request.h"
 #include "fcl_stpbv/adapter/moving_bodies.h"
 
-namespace fcl_stpbv {
-
-enum class MotionVerdict {
-  free,       ///< proven: at no time does a pair come within the margin
-  contact,    ///< one does, first between `from` and `until`
-  undecided,  ///< free until `from`; about there the distance is the margin to rounding, or it took too many
-              ///< queries
-};
-
-struct MotionRequest {
-  double margin = 0;          ///< a distance not above it is a contact (m)
-  double tolerance = 1e-4;    ///< of the time of contact; 1 for any contact instead of the first
-  long mostQueries = 200000;  ///< then undecided
-};
-
-/// What becomes of pairs over the time from 0 to 1.
-struct MotionBracket {
-  MotionVerdict verdict = MotionVerdict::free;
-  double from = 1, until = 1;  ///< see MotionAnswer
-  int pair = -1;               ///< the one in contact, or not decided
-  long queries = 0;
-};
+namespace fcl_stpbv::detail {
 
 /// `scene.place(t)` puts all bodies where they are at the time t; then `scene.look(pair, most, cover)` tells
 /// whether the pair is in contact, else fills the cover, no longer than `most` to either side.
@@ -121,4 +101,4 @@ class MotionSearch {
   std::vector<int> lists_, later_;
 };
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 
 /// How a body moves now, per unit of time, in a frame that any plane between two bodies is fixed to; world
 /// axes.
@@ -69,4 +69,4 @@ inline Cover speedCover(double gap, double speed, double acceleration, double mo
   return {time, time};
 }
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

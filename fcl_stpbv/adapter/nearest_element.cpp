@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
@@ -91,4 +91,4 @@ void NearestElement::offer(const Shape& element, const Vector3d& place, std::int
   if (cache_) *cache_ = start;
 }
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

@@ -6,7 +6,7 @@
 #include "fcl_stpbv/adapter/element_tree.h"
 #include "fcl_stpbv/distance/shape_distance.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 
 /// One STP-BV against the elements of one mesh or tree: a walk down the hierarchy, near branches first, that
 /// leaves out what cannot be one of the nearest two. Lives on the stack of one query.
@@ -43,4 +43,4 @@ class NearestElement {
   double runnerUp_ = std::numeric_limits<double>::infinity();
 };
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

@@ -5,9 +5,10 @@
 #include <algorithm>
 
 #include "fcl_stpbv/adapter/posed_geometry.h"
+#include "fcl_stpbv/convex/relative_pose.h"
 #include "fcl_stpbv/distance/shape_pair.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 namespace {
 
 using Eigen::Vector3d;
@@ -100,4 +101,4 @@ ElementsDistance nearestElements(const fcl::CollisionGeometryd& geometry1, const
   return nearest.result();
 }
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

@@ -9,7 +9,7 @@
 
 #include "fcl_stpbv/distance/distance.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 
 /// The distance, and what of meshes and trees it is between.
 struct ElementsDistance {
@@ -24,4 +24,4 @@ struct ElementsDistance {
 ElementsDistance nearestElements(const fcl::CollisionGeometryd& geometry1, const Eigen::Isometry3d& pose1,
                                  const fcl::CollisionGeometryd& geometry2, const Eigen::Isometry3d& pose2);
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

@@ -5,7 +5,7 @@
 #include "fcl_stpbv/adapter/fcl_shapes.h"
 #include "fcl_stpbv/adapter/nearest_element.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 
 bool distanceToOther(const StpBv& volume, const Eigen::Isometry3d& poseVolume,
                      const fcl::CollisionGeometryd& other, const Eigen::Isometry3d& poseOther,
@@ -25,4 +25,4 @@ bool distanceToOther(const StpBv& volume, const Eigen::Isometry3d& poseVolume,
   return true;
 }
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

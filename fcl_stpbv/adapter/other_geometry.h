@@ -8,7 +8,7 @@
 
 #include "fcl_stpbv/distance/distance.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 
 /// The distance, and what of a mesh or a tree it is to.
 struct OtherDistance {
@@ -24,4 +24,4 @@ bool distanceToOther(const StpBv& volume, const Eigen::Isometry3d& poseVolume,
                      const fcl::CollisionGeometryd& other, const Eigen::Isometry3d& poseOther,
                      PairCache* cache, OtherDistance& result);
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

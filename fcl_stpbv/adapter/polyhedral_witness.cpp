@@ -15,7 +15,7 @@
 #include "fcl_stpbv/convex/gjk.h"
 #include "fcl_stpbv/vectorized.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 namespace {
 
 using Eigen::Vector3d;
@@ -122,4 +122,4 @@ PolyhedralWitness polyhedralWitness(const HullGraph& a, const Eigen::Isometry3d&
   return result;
 }
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

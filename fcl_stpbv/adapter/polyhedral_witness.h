@@ -6,7 +6,7 @@
 
 #include "fcl_stpbv/convex/hull_graph.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 
 /// Where to begin: what an earlier witness of the same pair returned, or nothing.
 struct WitnessStart {
@@ -43,4 +43,4 @@ PolyhedralWitness polyhedralWitness(const HullGraph& a, const Eigen::Isometry3d&
                                     const Eigen::Isometry3d& poseB, const WitnessStart& start = {},
                                     double gap = 0.0);
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

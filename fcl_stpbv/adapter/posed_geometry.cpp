@@ -6,10 +6,11 @@
 
 #include "fcl_stpbv/adapter/fcl_shapes.h"
 #include "fcl_stpbv/adapter/stp_bv_geometry.h"
+#include "fcl_stpbv/convex/relative_pose.h"
 #include "fcl_stpbv/distance/shape_distance.h"
 #include "fcl_stpbv/distance/shape_pair.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
@@ -103,4 +104,4 @@ double gapOf(const PosedPair& pair, const PosedGeometry::Part& a, const PosedGeo
   return most - a.margin - b.margin - kRounding * (length + a.box.half.sum() + b.box.half.sum());
 }
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

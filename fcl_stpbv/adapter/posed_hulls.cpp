@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 namespace {
 
 using Eigen::Vector3d;
@@ -76,4 +76,4 @@ int PosedHulls::loggedVertexB(const ccd_vec3_t& point) const {
   return best;
 }
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

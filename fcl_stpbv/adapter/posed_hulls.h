@@ -9,7 +9,7 @@
 #include "fcl_stpbv/convex/hull_graph.h"
 #include "fcl_stpbv/convex/relative_pose.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 
 /// A point of the difference B - A, and the vertices that it is made of.
 struct HullCorner {
@@ -91,4 +91,4 @@ class PosedHulls {
   Log logA_, logB_;
 };
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

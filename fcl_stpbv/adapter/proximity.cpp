@@ -7,6 +7,7 @@
 #include "fcl_stpbv/adapter/proximity.h"
 
 #include "fcl_stpbv/adapter/posed_geometry.h"
+#include "fcl_stpbv/convex/relative_pose.h"
 #include "fcl_stpbv/distance/shape_distance.h"
 #include "fcl_stpbv/distance/shape_pair.h"
 
@@ -14,6 +15,7 @@ namespace fcl_stpbv {
 
 namespace {
 
+using namespace detail;
 using Eigen::Vector3d;
 
 /// Ends the walk down both hierarchies with the first pair of elements within `x`.
@@ -46,6 +48,8 @@ class Within {
 
 }  // namespace
 
+namespace detail {
+
 bool isFartherByPlane(double x, const ConvexBody& a, const ConvexBody& b, const PairCache& cache) {
   const double length = cache.normal.norm();
   if (a.unbounded() || b.unbounded() || !(length > 0.5 && length < 2.0)) return false;
@@ -63,6 +67,8 @@ bool isFartherThan(double x, const ConvexBody& a, const ConvexBody& b, PairCache
   const Distance d = distance(a, b, cache);
   return d.status != DistanceStatus::invalid && d.lower > x;
 }
+
+}  // namespace detail
 
 bool isFartherThan(double x, const fcl::CollisionGeometryd& geometry1, const fcl::Transform3d& pose1,
                    const fcl::CollisionGeometryd& geometry2, const fcl::Transform3d& pose2,

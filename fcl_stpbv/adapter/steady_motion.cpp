@@ -12,6 +12,7 @@
 namespace fcl_stpbv {
 namespace {
 
+using namespace detail;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 

@@ -11,11 +11,12 @@ namespace fcl_stpbv {
 /// Over the time from 0 to 1 the body turns evenly while the point moves evenly: FCL's translations,
 /// interpolations and screws.
 struct SteadyMotion {
-  Eigen::Isometry3d begin = Eigen::Isometry3d::Identity();
-  Eigen::Vector3d point{0, 0, 0};    ///< of the axis, at the time 0 (world, m)
-  Eigen::Vector3d linear{0, 0, 0};   ///< velocity of that point
-  Eigen::Vector3d angular{0, 0, 0};  ///< rad per unit of time
+  Eigen::Isometry3d begin = Eigen::Isometry3d::Identity();  ///< pose at the time 0
+  Eigen::Vector3d point{0, 0, 0};                           ///< of the axis, at the time 0 (world, m)
+  Eigen::Vector3d linear{0, 0, 0};                          ///< velocity of that point
+  Eigen::Vector3d angular{0, 0, 0};                         ///< rad per unit of time
 
+  /// The pose at the time t.
   Eigen::Isometry3d at(double t) const;
 };
 

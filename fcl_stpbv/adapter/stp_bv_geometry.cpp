@@ -12,6 +12,7 @@
 namespace fcl_stpbv {
 namespace {
 
+using namespace detail;
 using Eigen::Vector3d;
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
@@ -23,12 +24,13 @@ const std::vector<Vector3d>& verticesOf(const StpBv::Ptr& volume) {
 
 }  // namespace
 
-StpBvGeometry::StpBvGeometry(StpBv::Ptr volume) : StpBvGeometry(volume, HullGraph(verticesOf(volume))) {}
+StpBvGeometry::StpBvGeometry(StpBv::Ptr volume)
+    : StpBvGeometry(volume, std::make_shared<const HullGraph>(verticesOf(volume))) {}
 
 // FCL's check of the mesh would throw on degenerate volumes, and everything else it checks holds by
 // construction.
-StpBvGeometry::StpBvGeometry(StpBv::Ptr volume, HullGraph hull)
-    : fcl::Convexd(fclVertices(hull, volume->vertices()), hull.faceCount(), fclFaces(hull),
+StpBvGeometry::StpBvGeometry(StpBv::Ptr volume, std::shared_ptr<const HullGraph> hull)
+    : fcl::Convexd(fclVertices(*hull, volume->vertices()), hull->faceCount(), fclFaces(*hull),
                    /*throw_if_invalid=*/false),
       volume_(std::move(volume)),
       hull_(std::move(hull)) {
@@ -44,14 +46,14 @@ void StpBvGeometry::nameFaces() {
     std::sort(ring.begin(), ring.end());
     patches[ring] = volume_->facePatch(f);
   }
-  for (int f = 0; f < hull_.faceCount(); ++f) {
+  for (int f = 0; f < hull_->faceCount(); ++f) {
     std::vector<int> ring;
-    for (const int v : hull_.faces()[at(f)]) ring.push_back(hull_.cloudIndex(v));
+    for (const int v : hull_->faces()[at(f)]) ring.push_back(hull_->cloudIndex(v));
     std::sort(ring.begin(), ring.end());
     const auto named = patches.find(ring);
     // The two sides of a flat body share one name: the normal tells them apart.
-    const bool same = named != patches.end() && hull_.faceCount() > 2;
-    facePatch_.push_back(same ? named->second : volume_->owner(hull_.faceNormal(f)));
+    const bool same = named != patches.end() && hull_->faceCount() > 2;
+    facePatch_.push_back(same ? named->second : volume_->owner(hull_->faceNormal(f)));
   }
 }
 
@@ -62,19 +64,21 @@ void StpBvGeometry::nameEdges() {
     const auto [a, b] = volume_->edges()[at(e)].vertex;
     patches.emplace(std::array<int, 2>{std::min(a, b), std::max(a, b)}, volume_->edgePatch(e));
   }
-  for (int e = 0; e < hull_.edgeCount(); ++e) {
-    const int a = hull_.cloudIndex(hull_.edges()[at(e)][0]), b = hull_.cloudIndex(hull_.edges()[at(e)][1]);
+  for (int e = 0; e < hull_->edgeCount(); ++e) {
+    const int a = hull_->cloudIndex(hull_->edges()[at(e)][0]),
+              b = hull_->cloudIndex(hull_->edges()[at(e)][1]);
     const auto [begin, end] = patches.equal_range({std::min(a, b), std::max(a, b)});
-    const std::array<int, 2>& sides = hull_.edgeFaces()[at(e)];
+    const std::array<int, 2>& sides = hull_->edgeFaces()[at(e)];
     if (sides[0] < 0) {  // a bare segment: any of its edge patches
       edgePatch_.push_back(begin != end ? begin->second : a);
       continue;
     }
-    Vector3d middle = hull_.faceNormal(sides[0]) + hull_.faceNormal(sides[1]);
+    Vector3d middle = hull_->faceNormal(sides[0]) + hull_->faceNormal(sides[1]);
     if (!(middle.squaredNorm() > 1e-12)) {
       // The rim of a flat body: its normals point away from the body's centre, across the edge.
-      const Vector3d p = hull_.point(hull_.edges()[at(e)][0]), u = hull_.point(hull_.edges()[at(e)][1]) - p;
-      middle = u.cross(hull_.faceNormal(sides[0]));
+      const Vector3d p = hull_->point(hull_->edges()[at(e)][0]),
+                     u = hull_->point(hull_->edges()[at(e)][1]) - p;
+      middle = u.cross(hull_->faceNormal(sides[0]));
       if (middle.dot(p) < 0) middle = -middle;
     }
     middle.normalize();
@@ -98,7 +102,7 @@ int StpBvGeometry::patchOf(const HullFeature& feature) const {
     case PatchKind::vertex:
       break;
   }
-  return hull_.cloudIndex(feature.index);  // vertex patches have their vertices' numbers
+  return hull_->cloudIndex(feature.index);  // vertex patches have their vertices' numbers
 }
 
 void StpBvGeometry::computeLocalAABB() {

@@ -6,10 +6,14 @@
 #include <memory>
 #include <vector>
 
-#include "fcl_stpbv/convex/hull_graph.h"
 #include "fcl_stpbv/volume/stp_bv.h"
 
 namespace fcl_stpbv {
+
+namespace detail {
+class HullGraph;
+struct HullFeature;
+}  // namespace detail
 
 /// The convex hull of an STP-BV's vertices, as FCL knows it, together with the volume itself.
 ///
@@ -22,26 +26,27 @@ class StpBvGeometry : public fcl::Convexd {
   /// Takes the hull and the correspondence of its features to the volume's patches. O(n log n).
   explicit StpBvGeometry(StpBv::Ptr volume);
 
+  /// The smooth body.
   const StpBv& volume() const { return *volume_; }
 
   /// The polyhedron, with vertex `v` of FCL's `getVertices()` as its vertex `v`.
-  const HullGraph& hull() const { return hull_; }
+  const detail::HullGraph& hull() const { return *hull_; }
 
   /// The patch of the same name as a feature of the hull: the small sphere of a vertex, the torus part of an
   /// edge, the big sphere of a face. Where the volume has none of that name, the patch that owns the normal
   /// in the feature's middle.
-  int patchOf(const HullFeature& feature) const;
+  int patchOf(const detail::HullFeature& feature) const;
 
   /// Exact bounds of the smooth surface along the frame's axes, and a sphere that holds it.
   void computeLocalAABB() override;
 
  private:
-  StpBvGeometry(StpBv::Ptr volume, HullGraph hull);
+  StpBvGeometry(StpBv::Ptr volume, std::shared_ptr<const detail::HullGraph> hull);
   void nameEdges();
   void nameFaces();
 
   StpBv::Ptr volume_;
-  HullGraph hull_;
+  std::shared_ptr<const detail::HullGraph> hull_;
   std::vector<int> edgePatch_, facePatch_;
 };
 

@@ -7,7 +7,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 
 using Eigen::Vector3d;
 
@@ -64,4 +64,4 @@ Vector3d DirectionCone::middle() const {
   return sum.normalized();
 }
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <array>
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 
 /// A convex cone of directions, kept as its corner rays in order. Every cut through its middle takes about
 /// half of it, so a search that cuts at each trial ends whatever the bodies look like.
@@ -62,4 +62,4 @@ bool bisectDirections(const DirectionTrial& first, double flat, Trial&& trial, D
   return false;
 }
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

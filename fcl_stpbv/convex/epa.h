@@ -21,7 +21,7 @@
 
 #include "fcl_stpbv/convex/polytope.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 
 /// Expands `polytope` at its nearest face until `visit(face)` returns false or rounding stops it: `visit`
 /// expands it or puts the face aside.
@@ -148,4 +148,4 @@ class Epa {
   double rounding_;
 };
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

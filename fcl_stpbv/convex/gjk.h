@@ -19,7 +19,7 @@
 
 #include "fcl_stpbv/convex/simplex.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 
 /// What GJK found.
 template <typename Corner>
@@ -87,4 +87,4 @@ GjkResult<Corner> gjk(Difference& difference, const Simplex<Corner>& start, cons
   return result;
 }
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

@@ -18,7 +18,7 @@
 #include "fcl_stpbv/vectorized.h"
 #include "fcl_stpbv/volume/rolling_ball.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 namespace {
 
 // Up to this many vertices a scan of all beats a climb: no indirection, and no branch to mispredict.
@@ -112,30 +112,9 @@ void HullGraph::makeEdges() {
 void HullGraph::makeTable() {
   if (vertexCount() <= kScanLimit) return;
   // About one cell for two vertices, so that a climb from the cell's vertex takes a step or two.
-  cells_ = std::clamp(static_cast<int>(std::sqrt(vertexCount() / 12.0)), 1, 32);
-  table_.assign(at(6 * cells_ * cells_), 0);
   int last = 0;
-  for (int side = 0; side < 6; ++side)
-    for (int i = 0; i < cells_; ++i)
-      for (int j = 0; j < cells_; ++j) {
-        Eigen::Vector3d n;
-        n[side / 2] = side % 2 == 0 ? 1.0 : -1.0;
-        n[(side / 2 + 1) % 3] = (2.0 * i + 1.0) / cells_ - 1.0;
-        n[(side / 2 + 2) % 3] = (2.0 * j + 1.0) / cells_ - 1.0;
-        table_[cellOf(n)] = last = climb(n, last);
-      }
-}
-
-std::size_t HullGraph::cellOf(const Eigen::Vector3d& n) const {
-  int axis = std::abs(n[1]) > std::abs(n[0]) ? 1 : 0;
-  if (std::abs(n[2]) > std::abs(n[axis])) axis = 2;
-  if (!(std::abs(n[axis]) > 0)) return 0;  // no direction: any vertex is as far
-  const double scale = 0.5 * cells_ / std::abs(n[axis]);
-  const auto cell = [&](double x) {
-    return std::clamp(static_cast<int>(x * scale + 0.5 * cells_), 0, cells_ - 1);
-  };
-  const int side = 2 * axis + (n[axis] > 0 ? 0 : 1);
-  return at((side * cells_ + cell(n[(axis + 1) % 3])) * cells_ + cell(n[(axis + 2) % 3]));
+  table_ = DirectionTable(std::clamp(static_cast<int>(std::sqrt(0.5 * vertexCount())), 2, 78),
+                          [&](const Eigen::Vector3d& n) { return last = climb(n, last); });
 }
 
 void HullGraph::makeChunks() {
@@ -196,7 +175,7 @@ int HullGraph::climb(const Eigen::Vector3d& direction, int from) const {
 
 FCL_STPBV_VECTORIZED
 int HullGraph::extremeVertex(const Eigen::Vector3d& direction, int from) const {
-  if (!table_.empty()) return climb(direction, from >= 0 ? from : table_[cellOf(direction)]);
+  if (!table_.empty()) return climb(direction, from >= 0 ? from : table_[direction]);
   double height = -std::numeric_limits<double>::infinity();
   int best = 0;
   higherIn(0, static_cast<std::int32_t>(chunks_.size()), direction, height, best);
@@ -226,4 +205,4 @@ HullFeature HullGraph::featureOf(const int* vertices, int count) const {
   return {PatchKind::vertex, first};
 }
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

@@ -6,9 +6,10 @@
 #include <cstdint>
 #include <vector>
 
+#include "fcl_stpbv/volume/direction_table.h"
 #include "fcl_stpbv/volume/patch.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 
 /// A feature of the convex hull: vertex, edge or face, by its number there.
 struct HullFeature {
@@ -78,7 +79,6 @@ class HullGraph {
   bool higherIn(std::int32_t firstChunk, std::int32_t lastChunk, const Eigen::Vector3d& direction,
                 double& height, int& vertex) const;
   int climb(const Eigen::Vector3d& direction, int from) const;
-  std::size_t cellOf(const Eigen::Vector3d& direction) const;
 
   Eigen::Vector3d centre_{0, 0, 0};
   double radius_ = 0;
@@ -91,8 +91,7 @@ class HullGraph {
   std::vector<std::int32_t> faceStart_, vertexFaces_;              // faces around each vertex, ascending
   std::vector<Chunk> chunks_;             // all vertices of a small hull, else the neighbours of each vertex
   std::vector<std::int32_t> chunkStart_;  // by vertex
-  std::vector<std::int32_t> table_;  // extreme vertex for the middle of each cell of a cube map of directions
-  int cells_ = 1;                    // cells along a cube's side in table_
+  DirectionTable table_;                  // extreme vertex for the middle of each cell
 };
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

@@ -4,7 +4,7 @@
 
 #include <optional>
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 namespace {
 
 using Eigen::Vector3d;
@@ -45,4 +45,4 @@ bool commonMeridian(const Shape& a, const Shape& b, const RelativePose& pose, Me
   return turn < 0.01;
 }
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

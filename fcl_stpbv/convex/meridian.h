@@ -6,9 +6,10 @@
 #include <array>
 #include <cmath>
 
+#include "fcl_stpbv/convex/relative_pose.h"
 #include "fcl_stpbv/convex/shape.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 
 /// A plane through the origin in which the difference B - A of two cores has its boundary's nearest point.
 struct Meridian {
@@ -73,4 +74,4 @@ MeridianDepth meridianDepth(const Meridian& plane, double rounding, Furthest&& f
   return result;
 }
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

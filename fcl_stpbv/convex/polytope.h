@@ -10,7 +10,7 @@
 
 #include "fcl_stpbv/packed.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 
 /// A convex polytope, triangles only, in arrays of fixed size.
 class Polytope {
@@ -170,4 +170,4 @@ class Polytope {
   bool sound_;
 };
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

@@ -5,7 +5,7 @@
 
 #include "fcl_stpbv/vectorized.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 
 FCL_STPBV_VECTORIZED
 bool makeRotation(Rotation& rotation) {
@@ -19,4 +19,4 @@ bool makeRotation(Rotation& rotation) {
   return true;
 }
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

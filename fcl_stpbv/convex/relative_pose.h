@@ -7,7 +7,7 @@
 
 #include "fcl_stpbv/packed.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 
 /// A 3x3 matrix, its columns and its rows: `m v` and `m^T v` are then sums of three multiples without a sum
 /// across, which would cost more than the multiplications.
@@ -121,4 +121,4 @@ struct RelativePose {
   Eigen::Vector3d normalInWorld(const Eigen::Vector3d& n) const { return (toWorld * n).normalized(); }
 };
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

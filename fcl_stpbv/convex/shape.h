@@ -4,10 +4,9 @@
 #include <Eigen/Core>
 #include <array>
 
-#include "fcl_stpbv/convex/support.h"
-
 namespace fcl_stpbv {
 
+/// What a simple shape is.
 enum class ShapeKind {
   point,      ///< a ball, by its margin
   segment,    ///< a capsule, by its margin
@@ -24,29 +23,39 @@ enum class ShapeKind {
 /// A convex body in its own frame, centred as FCL's shapes are. Lengths in m. One struct for all kinds: a
 /// query makes one on its stack. What it points to must outlive it.
 struct Shape {
-  ShapeKind kind = ShapeKind::point;
-  double margin = 0;                ///< radius of the ball around the core
-  double radius = 0;                ///< of a cylinder's or cone's rim
-  double half = 0;                  ///< half length along z
-  Eigen::Vector3d size{0, 0, 0};    ///< box: half sides; ellipsoid: semi-axes
-  Eigen::Vector3d normal{0, 0, 1};  ///< half space, plane: unit
-  double offset = 0;                ///< half space, plane: normal.x = offset on its surface
+  ShapeKind kind = ShapeKind::point;  ///< which of the fields below count
+  double margin = 0;                  ///< radius of the ball around the core
+  double radius = 0;                  ///< of a cylinder's or cone's rim
+  double half = 0;                    ///< half length along z
+  Eigen::Vector3d size{0, 0, 0};      ///< box: half sides; ellipsoid: semi-axes
+  Eigen::Vector3d normal{0, 0, 1};    ///< half space, plane: unit
+  double offset = 0;                  ///< half space, plane: normal.x = offset on its surface
   std::array<Eigen::Vector3d, 3> corner{Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(0, 0, 0),
                                         Eigen::Vector3d(0, 0, 0)};  ///< triangle
   const Eigen::Vector3d* vertices = nullptr;                        ///< polytope, at least one
-  int vertexCount = 0;
-  Eigen::Vector3d centre{0, 0, 0};  ///< some point of the core
-  double reach = 0;                 ///< every point of the core is within this of `centre`
+  int vertexCount = 0;                                              ///< how many `vertices` points to
+  Eigen::Vector3d centre{0, 0, 0};                                  ///< some point of the core
+  double reach = 0;  ///< every point of the core is within this of `centre`
 
+  /// A ball about the origin.
   static Shape sphere(double radius);
+  /// A ball moved along z from -length/2 to length/2.
   static Shape capsule(double radius, double length);
+  /// A box about the origin, of these whole sides.
   static Shape boxOf(const Eigen::Vector3d& sides);
+  /// A triangle by its corners.
   static Shape triangleOf(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c);
+  /// The convex hull of `count` points, at least one, which stay the caller's.
   static Shape polytopeOf(const Eigen::Vector3d* vertices, int count);
+  /// A cylinder about the z axis, from -length/2 to length/2.
   static Shape cylinderOf(double radius, double length);
+  /// A cone about the z axis: base at -length/2, apex at length/2.
   static Shape coneOf(double radius, double length);
+  /// An ellipsoid about the origin.
   static Shape ellipsoidOf(const Eigen::Vector3d& semiAxes);
+  /// All x with normal.x <= offset; `normal` is unit.
   static Shape halfspaceOf(const Eigen::Vector3d& normal, double offset);
+  /// All x with normal.x = offset; `normal` is unit.
   static Shape planeOf(const Eigen::Vector3d& normal, double offset);
 
   /// Whether all lengths are finite and none is negative, and there is a vertex and a unit normal where one
@@ -57,12 +66,7 @@ struct Shape {
   /// only.
   Eigen::Vector3d support(const Eigen::Vector3d& d) const;
 
-  /// The same, as the searches ask for it.
-  SupportPoint supportPoint(const Eigen::Vector3d& n) const {
-    const Eigen::Vector3d p = support(n);
-    return {n, -1, p, 0.0, p};
-  }
-
+  /// A half space or a plane.
   bool unbounded() const { return kind == ShapeKind::halfspace || kind == ShapeKind::plane; }
 };
 

@@ -6,7 +6,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 
 using Eigen::Vector3d;
 
@@ -140,4 +140,4 @@ bool normalCone(const Shape& s, const Vector3d& m, const Vector3d& x, double rou
   return true;
 }
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

@@ -6,7 +6,7 @@
 
 #include "fcl_stpbv/convex/shape.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 
 /// The normals that a face (one), an edge or a generator (a circle), a corner, a rim or a round surface (all
 /// near) can have, next to one of them. Frame and units of the shape.
@@ -24,4 +24,4 @@ struct NormalCone {
 bool normalCone(const Shape& shape, const Eigen::Vector3d& m, const Eigen::Vector3d& x, double rounding,
                 NormalCone& result);
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

@@ -17,7 +17,7 @@
 #include <cmath>
 #include <limits>
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 
 /// Up to four points of a convex set, with the barycentric weights of the one nearest to the origin.
 /// `Corner` has a member `w`, the point (m), and what else the caller needs to know about it.
@@ -176,4 +176,4 @@ NearestPoint reduceToNearest(const Simplex<Corner>& simplex, Simplex<Corner>& re
   return {best.point, best.direction, !(best.squared > 0)};
 }
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

@@ -5,8 +5,9 @@
 #include <Eigen/Geometry>
 
 #include "fcl_stpbv/convex/relative_pose.h"
+#include "fcl_stpbv/convex/shape.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 
 /// A convex core along an outward unit normal, in the body's frame.
 struct SupportPoint {
@@ -20,11 +21,15 @@ struct SupportPoint {
   double gap(const Eigen::Vector3d& y) const { return n.dot(y - anchor) - rise; }
 };
 
+/// The support concept: any type with such a function `supportPoint(body, n)` (as Jolt's
+/// `ConvexSupport::GetSupport`). Here a bounded simple shape; an STP-BV's core (distance/shape_ascent.h)
+/// remembers where it looked last.
+inline SupportPoint supportPoint(const Shape& shape, const Eigen::Vector3d& n) {
+  const Eigen::Vector3d p = shape.support(n);
+  return {n, -1, p, 0.0, p};
+}
+
 /// The difference B - A of two convex cores in A's frame, by its support points.
-///
-/// The support concept: `A` and `B` are any types with `SupportPoint supportPoint(const Eigen::Vector3d& n)`
-/// (as Jolt's `ConvexSupport::GetSupport`): a simple shape (shape.h), or an STP-BV's core, which remembers
-/// where it looked last.
 template <typename A, typename B>
 class ConvexDifference {
  public:
@@ -39,7 +44,7 @@ class ConvexDifference {
 
   /// The corner furthest against the unit vector `n`, from A to B.
   Corner support(const Eigen::Vector3d& n) {
-    const SupportPoint p = a_.supportPoint(n), q = b_.supportPoint(pose_.opposite(n));
+    const SupportPoint p = supportPoint(a_, n), q = supportPoint(b_, pose_.opposite(n));
     return {pose_.placed(q.point) - p.point, p.point, p.gap(pose_.placed(q.anchor)) - q.rise};
   }
 
@@ -49,4 +54,4 @@ class ConvexDifference {
   const RelativePose& pose_;
 };
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

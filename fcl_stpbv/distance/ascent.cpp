@@ -84,8 +84,8 @@ bool settle(const BodyPair& pair, Sample& x, Vector3d& next, SearchWork& work) {
   for (int attempt = 0; attempt < 2; ++attempt) {  // two tori may need a second go for the last digits
     n = widestNormal(a, b, n).unit();
     next = unpack(n);
-    if (pair.a().patches().crossing(x.patch[0], n).past > kOnBoundary ||
-        pair.b().patches().crossing(x.patch[1], pair.opposite(n)).past > kOnBoundary)
+    if (pair.tablesA().patches.crossing(x.patch[0], n).past > kOnBoundary ||
+        pair.tablesB().patches.crossing(x.patch[1], pair.opposite(n)).past > kOnBoundary)
       return false;
     const Sample there = BodyPair::sample(n, x.patch, a, b);
     // At deep overlap the pair's other maximum may lie in the same regions; moving there must not lower the
@@ -113,12 +113,12 @@ bool settleBeside(const BodyPair& pair, Sample& x, SearchWork& work) {
       return true;
     };
     if (patchA != x.patch[0] && tryPair(x.patch[1])) return true;
-    for (const RegionBoundary s : pair.b().boundaries(x.patch[1]))
+    for (const RegionBoundary s : pair.tablesB().patches.boundaries(x.patch[1]))
       if (opposite.dot(s.normal) > s.limit && tryPair(s.neighbour)) return true;
     return false;
   };
   if (tryBeside(x.patch[0])) return true;
-  for (const RegionBoundary s : pair.a().boundaries(x.patch[0]))
+  for (const RegionBoundary s : pair.tablesA().patches.boundaries(x.patch[0]))
     if (next.dot(s.normal) > s.limit && tryBeside(s.neighbour)) return true;
   return false;
 }

@@ -36,7 +36,8 @@ struct Sample {
 class BodyPair {
  public:
   /// `pose` is valid, and outlives the pair.
-  BodyPair(const StpBv& a, const StpBv& b, const RelativePose& pose) : a_(a), b_(b), pose_(pose) {
+  BodyPair(const StpBv& a, const StpBv& b, const RelativePose& pose)
+      : a_(a), b_(b), tablesA_(a.tables()), tablesB_(b.tables()), pose_(pose) {
     constexpr double kRounding = 8.0 * std::numeric_limits<double>::epsilon();
     const double size = a.extent() + b.extent() + unpack(pose.translation).lpNorm<1>();
     gapRounding_ = kRounding * size;
@@ -46,6 +47,8 @@ class BodyPair {
 
   const StpBv& a() const { return a_; }
   const StpBv& b() const { return b_; }
+  const QueryTables& tablesA() const { return tablesA_; }
+  const QueryTables& tablesB() const { return tablesB_; }
   const RelativePose& pose() const { return pose_; }
 
   /// The second body's outward normal, in its own frame, where the first body's is `n`.
@@ -73,13 +76,13 @@ class BodyPair {
   /// Patches near those that own `n`, of any length, and its opposite: of vertices about as far along them as
   /// any.
   std::array<int, 2> near(const Eigen::Vector3d& n) const {
-    return {a_.vertexNear(n), b_.vertexNear(opposite(n))};
+    return {tablesA_.vertexNear[n], tablesB_.vertexNear[opposite(n)]};
   }
 
   /// Second body's vertex less the first one's: a point of the difference of the cores.
   Packed vertexDifference(const std::array<int, 2>& vertex) const {
-    return pose_.placed(pack(b_.patches().vertex(vertex[1]).point)) -
-           pack(a_.patches().vertex(vertex[0]).point);
+    return pose_.placed(pack(tablesB_.patches.vertex(vertex[1]).point)) -
+           pack(tablesA_.patches.vertex(vertex[0]).point);
   }
 
   /// One about as far against `n`, of any length, as any: from the tables of directions alone.
@@ -114,6 +117,8 @@ class BodyPair {
  private:
   const StpBv& a_;
   const StpBv& b_;
+  const QueryTables& tablesA_;
+  const QueryTables& tablesB_;
   const RelativePose& pose_;
   double gapRounding_;
   double certificateRounding_;

@@ -49,7 +49,7 @@ struct Vertices {
 };
 
 Vertices verticesOf(const StpBv& body, int patch) {
-  const PatchTable& patches = body.patches();
+  const PatchTable& patches = body.tables().patches;
   if (patches.kind(patch) == PatchKind::vertex) return {{patch}, 1};
   if (patches.kind(patch) == PatchKind::edge) {
     const EdgeRecord& edge = patches.edge(patch);

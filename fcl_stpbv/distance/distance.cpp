@@ -57,7 +57,7 @@ int nearby(const StpBv& body, int patch, const Packed& now, const Eigen::Vector3
   const double turn2 = dot(turn, turn);
   if (!(turn2 <= kLarge * kLarge)) return -1;
   if (turn2 * body.patchCount() <= kWide) return patch;
-  const Crossing over = body.patches().crossing(patch, now);
+  const Crossing over = body.tables().patches.crossing(patch, now);
   return over.past > 0.0 ? over.neighbour : patch;
 }
 
@@ -83,10 +83,10 @@ struct SearchState {
   void cross(const BodyPair& pair, const Crossing& overA, const Crossing& overB) {
     if (overA.past >= overB.past) {
       a = pair.patchA(patch[0] = overA.neighbour);
-      if (far) pair.a().patches().prefetchBeside(patch[0]);
+      if (far) pair.tablesA().patches.prefetchBeside(patch[0]);
     } else {
       b = pair.patchB(patch[1] = overB.neighbour);
-      if (far) pair.b().patches().prefetchBeside(patch[1]);
+      if (far) pair.tablesB().patches.prefetchBeside(patch[1]);
     }
   }
 
@@ -98,8 +98,8 @@ struct SearchState {
     for (const PosedPatch* p : {&a, &b})
       if (p->kind == PatchKind::edge) up -= dot(up, p->axis) * p->axis;
     const Packed h = unnormalizedOr(up, n).unit();
-    const Crossing overA = pair.a().patches().ahead(patch[0], n, h),
-                   overB = pair.b().patches().ahead(patch[1], pair.opposite(n), pair.opposite(h));
+    const Crossing overA = pair.tablesA().patches.ahead(patch[0], n, h),
+                   overB = pair.tablesB().patches.ahead(patch[1], pair.opposite(n), pair.opposite(h));
     const double nearness = std::max(overA.past, overB.past);
     if (!(nearness > std::numeric_limits<double>::min())) return false;
     n = unnormalizedOr(nearness * n + h, n).unit();
@@ -108,23 +108,23 @@ struct SearchState {
   }
 };
 
-/// Settles on a patch pair near the given one: over the region boundary that the widest normal passes furthest, on
-/// either body, to the next pair, without evaluating the gap. Between cores apart, a maximum that it finds is
-/// the only one. If it finds none, that proves nothing.
+/// Settles on a patch pair near the given one: over the region boundary that the widest normal passes
+/// furthest, on either body, to the next pair, without evaluating the gap. Between cores apart, a maximum
+/// that it finds is the only one. If it finds none, that proves nothing.
 bool walkFeatures(const BodyPair& pair, const SearchStart& start, Sample& x, SearchWork& work) {
   constexpr int kTries = 12;    // one to three are usual
   constexpr double kFar = 0.3;  // cosine of the turn after which the boundary passed furthest says little
   SearchState at{start.patch, pair.patchA(start.patch[0]), pair.patchB(start.patch[1]), pack(start.n),
                  !start.near};
   if (at.far) {
-    pair.a().patches().prefetchBeside(at.patch[0]);
-    pair.b().patches().prefetchBeside(at.patch[1]);
+    pair.tablesA().patches.prefetchBeside(at.patch[0]);
+    pair.tablesB().patches.prefetchBeside(at.patch[1]);
   }
   for (int i = 0; i < kTries; ++i) {
     ++work.pairs;
     const UnnormalizedNormal to = widestNormal(at.a, at.b, at.n);
-    const Crossing overA = pair.a().patches().crossing(at.patch[0], to.d, to.length),
-                   overB = pair.b().patches().crossing(at.patch[1], pair.opposite(to.d), to.length);
+    const Crossing overA = pair.tablesA().patches.crossing(at.patch[0], to.d, to.length),
+                   overB = pair.tablesB().patches.crossing(at.patch[1], pair.opposite(to.d), to.length);
     const bool straysFar = !(dot(to.d, at.n) > kFar * to.length);
     if (std::max(overA.past, overB.past) <= kOnBoundary * to.length) {
       at.n = to.unit();
@@ -158,8 +158,8 @@ Distance distance(const StpBv& a, const Isometry3d& poseA, const StpBv& b, const
   SearchWork work;
   const bool settled = walkFeatures(pair, start, found.at, work);
   if (settled && start.near) {  // what is around a patch that stays has been fetched
-    if (found.at.patch[0] != cache->patch[0]) a.patches().prefetchAround(found.at.patch[0]);
-    if (found.at.patch[1] != cache->patch[1]) b.patches().prefetchAround(found.at.patch[1]);
+    if (found.at.patch[0] != cache->patch[0]) a.tables().patches.prefetchAround(found.at.patch[0]);
+    if (found.at.patch[1] != cache->patch[1]) b.tables().patches.prefetchAround(found.at.patch[1]);
   }
   if (!settled || !(found.at.core > pair.touching()))
     searchWidely(pair, start, settled && found.at.core < -pair.touching(), found, work);

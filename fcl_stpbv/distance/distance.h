@@ -25,8 +25,8 @@ using TwistGradient = Eigen::Matrix<double, 6, 1, Eigen::DontAlign>;
 
 /// Answer to one query. World frame, metres.
 struct Distance {
-  DistanceStatus status = DistanceStatus::invalid;
-  double distance = 0;  ///< signed: negative where the bodies overlap
+  DistanceStatus status = DistanceStatus::invalid;  ///< how good the answer is
+  double distance = 0;                              ///< signed: negative where the bodies overlap
   /// Certified: the gap between the two supporting planes of `normal`, rounded down.
   double lower = -std::numeric_limits<double>::infinity();
   /// Certified: from the distance of the cores' points, or how deep they are at least, rounded up. Both

@@ -34,6 +34,7 @@ bool hessian(const StpBv& a, const Eigen::Isometry3d& poseA, const StpBv& b, con
 /// those ways.
 bool hessian(const StpBv& volume, const Eigen::Isometry3d& poseVolume, const Shape& shape,
              const Eigen::Isometry3d& poseShape, const Distance& d, DistanceHessian& result);
+/// The same, the other way round.
 bool hessian(const Shape& shape, const Eigen::Isometry3d& poseShape, const StpBv& volume,
              const Eigen::Isometry3d& poseVolume, const Distance& d, DistanceHessian& result);
 
@@ -53,9 +54,11 @@ using BodyTwists = Eigen::Matrix<double, 12, 1, Eigen::DontAlign>;
 /// twists`. False, leaving `result` alone, where hessian() is.
 bool rate(const StpBv& a, const Eigen::Isometry3d& poseA, const StpBv& b, const Eigen::Isometry3d& poseB,
           const Distance& d, const BodyTwists& twists, DistanceRate& result);
+/// The same of an STP-BV and a shape.
 bool rate(const StpBv& volume, const Eigen::Isometry3d& poseVolume, const Shape& shape,
           const Eigen::Isometry3d& poseShape, const Distance& d, const BodyTwists& twists,
           DistanceRate& result);
+/// The same, the other way round.
 bool rate(const Shape& shape, const Eigen::Isometry3d& poseShape, const StpBv& volume,
           const Eigen::Isometry3d& poseVolume, const Distance& d, const BodyTwists& twists,
           DistanceRate& result);

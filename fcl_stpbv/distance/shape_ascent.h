@@ -40,13 +40,13 @@ struct StpBvCore {
   const StpBv& body;
   int patch;   ///< the last one; -1: none
   int& steps;  ///< counts patches changed
-
-  SupportPoint supportPoint(const Eigen::Vector3d& n) {
-    const SupportPoint view = viewVolume(body, n, patch, steps);
-    patch = view.patch;
-    return view;
-  }
 };
+
+inline SupportPoint supportPoint(StpBvCore& core, const Eigen::Vector3d& n) {
+  const SupportPoint view = viewVolume(core.body, n, core.patch, core.steps);
+  core.patch = view.patch;
+  return view;
+}
 
 /// Radii of curvature of the core there: the derivative of its point with the normal (m).
 inline Eigen::Matrix3d curvatureRadii(const StpBv& body, const SupportPoint& view) {

@@ -160,7 +160,7 @@ LeastOverlap leastOverlap(ShapeQuery& q, const StartNormal& start) {
   // The strictly convex body's point is the only one; of a face the shape gave a corner, so take what is
   // opposite.
   LeastOverlap best{{}, std::max(epa.bound, epa.gap), true, epa.solved()};
-  const SupportPoint onBody = core.supportPoint(epa.n);
+  const SupportPoint onBody = supportPoint(core, epa.n);
   best.at.n = epa.n;
   best.at.patch = onBody.patch;
   best.at.gap = epa.gap;

@@ -26,6 +26,7 @@ using Eigen::Vector3d;
 
 namespace {
 
+using namespace detail;
 using Difference = ConvexDifference<const Shape, const Shape>;
 using Corner = Difference::Corner;
 using Gjk = GjkResult<Corner>;

@@ -22,7 +22,7 @@ class VertexDifference {
   };
 
   VertexDifference(const BodyPair& pair, const Vector3d& n)
-      : pair_(pair), vertex_{pair.a().vertexNear(n), pair.b().vertexNear(pair.opposite(n))} {
+      : pair_(pair), vertex_{pair.tablesA().vertexNear[n], pair.tablesB().vertexNear[pair.opposite(n)]} {
     climb(n, pair.opposite(n));
   }
 
@@ -41,11 +41,11 @@ class VertexDifference {
   /// To the vertices furthest along `d` and, in the second body's frame, `e`: neither body waits for the
   /// other.
   void climb(const Vector3d& d, const Vector3d& e) {
-    const StpBv &a = pair_.a(), &b = pair_.b();
+    const VertexGraph &a = pair_.tablesA().graph, &b = pair_.tablesB().graph;
     const Eigen::Vector3f up = d.cast<float>(), down = e.cast<float>();
-    const float level = StpBv::kLevel * up.lpNorm<1>();
+    const float level = VertexGraph::kLevel * up.lpNorm<1>();
     auto& [i, j] = vertex_;
-    for (int step = a.vertexCount() + b.vertexCount(); step > 0; --step) {
+    for (int step = pair_.a().vertexCount() + pair_.b().vertexCount(); step > 0; --step) {
       const int overA = a.uphill(i, up, level), overB = b.uphill(j, down, level);
       if (overA == i && overB == j) break;
       i = overA;
@@ -74,8 +74,8 @@ VertexGjk vertexGjk(const BodyPair& pair, const Vector3d& n) {
   };
   Simplex<Corner> start;
   start.add(corner(i, j));
-  start.add(corner(pair.a().beside(i, n.cast<float>(), 1.0f), j));
-  start.add(corner(i, pair.b().beside(j, pair.opposite(n).cast<float>(), 1.0f)));
+  start.add(corner(pair.tablesA().graph.beside(i, n.cast<float>(), 1.0f), j));
+  start.add(corner(i, pair.tablesB().graph.beside(j, pair.opposite(n).cast<float>(), 1.0f)));
   const auto found = gjk(difference, start, n, kRounding, kSteps,
                          [](double lower, double upper) { return upper - lower <= kGap * upper; });
   VertexGjk result;

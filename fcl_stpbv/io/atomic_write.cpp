@@ -22,7 +22,7 @@
 
 #include "fcl_stpbv/error.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 namespace {
 
 // Temporary files are named by process and number, whatever they become: no name gets too long.
@@ -199,4 +199,4 @@ void writeOutput(const std::string& path, std::string_view content) {
   atomicWrite(path.empty() || path == "-" ? "/dev/stdout" : path, content);
 }
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

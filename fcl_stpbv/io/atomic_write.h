@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 
 /// Puts `content` into `path`: a temporary file in the same folder, fsync, rename. Signals that would end the
 /// process are held back in the calling thread for that moment, so Ctrl-C leaves no temporary file behind (a
@@ -26,4 +26,4 @@ void sweepTemporaries(const std::string& folder);
 /// @throws Error also where standard output cannot be written.
 void writeOutput(const std::string& path, std::string_view content);
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

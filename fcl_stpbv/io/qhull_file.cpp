@@ -11,6 +11,8 @@
 namespace fcl_stpbv {
 namespace {
 
+using namespace detail;
+
 constexpr std::size_t kPointBytes = 6;  // "0 0 0\n"
 constexpr std::size_t kFacetBytes = 8;  // "3 0 1 2\n"
 constexpr std::size_t kIndexBytes = 2;

@@ -14,7 +14,7 @@
 #include "fcl_stpbv/io/sch_data.h"
 #include "fcl_stpbv/io/text_scanner.h"
 
-namespace fcl_stpbv::sch {
+namespace fcl_stpbv::detail::sch {
 namespace {
 
 using Eigen::Vector3d;
@@ -291,4 +291,4 @@ class Checker {
 
 std::vector<std::array<int, 3>> check(const File& file) { return Checker(file).run(); }
 
-}  // namespace fcl_stpbv::sch
+}  // namespace fcl_stpbv::detail::sch

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace fcl_stpbv::sch {
+namespace fcl_stpbv::detail::sch {
 
 /// A cone or plane that bounds a patch's region of normals, and the patch past it.
 struct Border {
@@ -62,4 +62,4 @@ File parse(std::string_view text, const std::string& name);
 /// @throws Error at the first disagreement.
 std::vector<std::array<int, 3>> check(const File& file);
 
-}  // namespace fcl_stpbv::sch
+}  // namespace fcl_stpbv::detail::sch

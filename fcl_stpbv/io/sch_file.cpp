@@ -16,6 +16,7 @@
 namespace fcl_stpbv {
 namespace {
 
+using namespace detail;
 using Eigen::Vector3d;
 using Triangle = std::array<int, 3>;
 

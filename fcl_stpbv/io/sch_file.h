@@ -16,6 +16,7 @@ namespace fcl_stpbv {
 /// hold: one
 ///   or two vertices (no face), or an edge that turns by more than half a turn.
 void saveSch(const std::string& path, const StpBv& volume);
+/// The same to a stream.
 void saveSch(std::ostream& out, const StpBv& volume);
 
 /// Reads a volume. Everything the file says twice is compared within the digits it carries (old files have

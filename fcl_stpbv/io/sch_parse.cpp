@@ -7,7 +7,7 @@
 #include "fcl_stpbv/io/sch_data.h"
 #include "fcl_stpbv/io/text_scanner.h"
 
-namespace fcl_stpbv::sch {
+namespace fcl_stpbv::detail::sch {
 namespace {
 
 // Shortest possible items: each of their tokens takes a character and a blank.
@@ -101,4 +101,4 @@ File parse(std::string_view text, const std::string& name) {
   return file;
 }
 
-}  // namespace fcl_stpbv::sch
+}  // namespace fcl_stpbv::detail::sch

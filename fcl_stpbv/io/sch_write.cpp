@@ -12,10 +12,12 @@
 #include "fcl_stpbv/io/atomic_write.h"
 #include "fcl_stpbv/io/sch_file.h"
 #include "fcl_stpbv/io/text_scanner.h"
+#include "fcl_stpbv/volume/patch_view.h"
 
 namespace fcl_stpbv {
 namespace {
 
+using namespace detail;
 using Eigen::Vector3d;
 
 // A rim of half a turn, as a flat right-angled triangle has, is still one region; the rest is rounding.
@@ -64,7 +66,7 @@ class Writer {
   int firstFace() const { return volume_.vertexCount(); }
   int firstTorus() const { return firstFace() + triangleCount_; }
   Vector3d ballCentre(int face) const {
-    return centre(volume_.patch(volume_.facePatch(face)), PatchKind::face, volume_.radii());
+    return unpack(posedPatch(volume_, volume_.facePatch(face)).centre());
   }
   Vector3d along(int from, int to) const { return (vertex(to) - vertex(from)).normalized(); }
   double cosine(int a, int b) const { return (vertex(b) - vertex(a)).norm() / (2 * volume_.radii().rho); }

@@ -10,6 +10,8 @@
 namespace fcl_stpbv {
 namespace {
 
+using namespace detail;
+
 constexpr std::string_view kMagic = "stpbv";
 constexpr int kVersion = 1;
 

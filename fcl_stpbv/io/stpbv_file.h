@@ -14,6 +14,7 @@ namespace fcl_stpbv {
 /// by bit. A failed or interrupted write leaves an old file as it was.
 /// @throws Error naming the file when it cannot be written.
 void saveStpBv(const std::string& path, const StpBv& volume);
+/// The same to a stream.
 void saveStpBv(std::ostream& out, const StpBv& volume);
 
 /// Reads a volume; its patches are rebuilt from the vertices and faces.

@@ -12,7 +12,7 @@
 
 #include "fcl_stpbv/error.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 namespace {
 
 constexpr std::size_t kLongestQuote = 40;  // a message stays on one line whatever the file holds
@@ -169,4 +169,4 @@ std::string_view TextScanner::restOfLine() {
   return rest;
 }
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

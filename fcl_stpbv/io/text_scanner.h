@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 
 /// Far more than any mesh or volume takes: 100 million vertices as text.
 constexpr std::size_t kMostBytes = std::size_t(8) << 30;
@@ -74,4 +74,4 @@ class TextScanner {
   int digits_ = 0;
 };
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

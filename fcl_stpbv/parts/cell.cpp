@@ -10,7 +10,7 @@
 #include <map>
 #include <utility>
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 namespace {
 
 using Eigen::Vector3d;
@@ -92,4 +92,4 @@ std::vector<Vector3d> Cell::enclosedCorners() const {
   return points;
 }
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

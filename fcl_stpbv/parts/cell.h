@@ -7,7 +7,7 @@
 #include "fcl_stpbv/parts/mesh_solid.h"
 #include "fcl_stpbv/parts/plane_cut.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 
 /// A box cut by planes. Why its corners matter: an extreme point of the solid within the cell lies on the
 /// solid's surface, or it is a corner of the cell inside the solid. So the hull of the surface's triangles
@@ -33,4 +33,4 @@ class Cell {
   std::vector<std::vector<int>> faces_;  // rings
 };
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

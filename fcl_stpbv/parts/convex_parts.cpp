@@ -20,6 +20,7 @@
 namespace fcl_stpbv {
 namespace {
 
+using namespace detail;
 using Eigen::Vector3d;
 
 constexpr int kStartPieces = 24;         // of a mesh that begins as one part a piece

@@ -9,23 +9,27 @@
 
 namespace fcl_stpbv {
 
+/// How many parts, or how good ones.
 struct PartsOptions {
   int most = 8;       ///< no more parts than this
   double excess = 0;  ///< with a value: as few parts as reach it (m), still no more than `most`
   double effort = 1;  ///< of the search, in parts of the usual one
 };
 
+/// One convex part of a mesh.
 struct ConvexPart {
   std::vector<Eigen::Vector3d> points;  ///< the corners of its hull (m)
   MeshExcess excess;                    ///< of the hull over the mesh's solid
   MeshExcess openExcess;                ///< over its triangles alone
 };
 
+/// All parts of a mesh.
 struct ConvexParts {
-  std::vector<ConvexPart> parts;
-  double excess = 0;  ///< largest upper bound of the parts'
-  double openExcess = 0;
-  int pieces = 0, closedPieces = 0;  ///< of the mesh: all is covered, the inside of the closed ones too
+  std::vector<ConvexPart> parts;  ///< at least one
+  double excess = 0;              ///< largest upper bound of the parts'
+  double openExcess = 0;          ///< the same over the triangles alone (m)
+  int pieces = 0;                 ///< of the mesh: all is covered
+  int closedPieces = 0;           ///< of these, whose inside is covered too
   /// Convex hulls cover to this length, for rounding of the cuts; a volume's r covers more (m).
   double slack = 0;
 };

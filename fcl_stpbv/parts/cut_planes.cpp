@@ -11,7 +11,7 @@
 #include <map>
 #include <numeric>
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 namespace {
 
 using Eigen::Vector3d;
@@ -114,4 +114,4 @@ std::vector<CutPlane> cutPlanes(const Part& part, const PartSpace& space) {
   return planes;
 }
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

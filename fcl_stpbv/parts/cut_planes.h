@@ -5,7 +5,7 @@
 
 #include "fcl_stpbv/parts/part.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 
 /// The mesh's flat parts, largest area first, and for each triangle which of them it belongs to.
 std::vector<CutPlane> flatParts(const MeshSolid& mesh, double slack, std::vector<int>& facetOf);
@@ -14,4 +14,4 @@ std::vector<CutPlane> flatParts(const MeshSolid& mesh, double slack, std::vector
 /// the mesh, and along the largest flat parts: of a designed body, those that make it concave.
 std::vector<CutPlane> cutPlanes(const Part& part, const PartSpace& space);
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

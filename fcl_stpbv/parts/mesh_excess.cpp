@@ -14,6 +14,7 @@
 namespace fcl_stpbv {
 namespace {
 
+using namespace detail;
 using Eigen::Vector3d;
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }

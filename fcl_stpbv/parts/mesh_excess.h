@@ -8,6 +8,7 @@
 
 namespace fcl_stpbv {
 
+/// How close a bound is asked for, and when to end.
 struct ExcessOptions {
   double absolute = 1e-4;  ///< the bound is within this (m)
   double relative = 1e-3;  ///< plus this part of it, of the truth,
@@ -19,9 +20,9 @@ struct ExcessOptions {
 
 /// Largest distance of a surface's points from a mesh: lower <= truth <= upper. Lengths in m.
 struct MeshExcess {
-  double upper = 0;
-  double lower = 0;  ///< found at `where`, a point of the surface
-  Eigen::Vector3d where{0, 0, 0};
+  double upper = 0;                ///< certified upper bound (m)
+  double lower = 0;                ///< found at `where` (m)
+  Eigen::Vector3d where{0, 0, 0};  ///< a point of the surface (m)
 };
 
 /// Branch and bound over the surface's triangles. The distance from the mesh changes by no more than one

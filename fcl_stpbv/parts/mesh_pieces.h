@@ -18,7 +18,9 @@ struct MeshPieces {
   std::vector<std::array<int, 3>> triangles;  ///< turned; lines that are an edge of another are left out
   std::vector<int> piece;                     ///< of each triangle
   std::vector<char> closed;                   ///< of each piece
+  /// Number of pieces.
   int pieces() const { return static_cast<int>(closed.size()); }
+  /// Number of closed pieces.
   int closedPieces() const;
 };
 

@@ -10,6 +10,7 @@
 
 namespace fcl_stpbv {
 
+/// The three corners (m).
 using Triangle = std::array<Eigen::Vector3d, 3>;
 
 /// Point of a triangle nearest to `p`; the triangle may be a segment or a point. To rounding, and always a
@@ -20,21 +21,27 @@ Eigen::Vector3d nearestOf(const Triangle& triangle, const Eigen::Vector3d& p);
 /// triangles, so bodies that stay outside each other are as far apart as their triangles are.
 class MeshSolid {
  public:
+  /// Where a point is.
   enum class Side { outside, enclosed, unsure };
 
   /// @throws Error as meshPieces() does.
   explicit MeshSolid(const TriangleMesh& mesh);
 
+  /// All triangles (m).
   const std::vector<Triangle>& triangles() const { return triangles_; }
+  /// Which triangles hang together.
   const MeshPieces& pieces() const { return pieces_; }
   /// Whether every piece is closed, so that the mesh has an inside everywhere.
   bool closed() const { return pieces_.closedPieces() == pieces_.pieces(); }
+  /// Least coordinates of a box that holds the mesh (m).
   const Eigen::Vector3d& low() const { return nodes_[0].low; }
+  /// Largest coordinates of that box (m).
   const Eigen::Vector3d& high() const { return nodes_[0].high; }
 
+  /// The nearest triangle, or one of them.
   struct Nearest {
     double distance;  ///< from the surface (m)
-    int triangle;
+    int triangle;     ///< index into triangles()
   };
   /// `guess` is a triangle that is probably near, or -1.
   Nearest nearest(const Eigen::Vector3d& p, int guess = -1) const;

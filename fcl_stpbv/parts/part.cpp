@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 
 using Eigen::Vector3d;
 
@@ -83,4 +83,4 @@ double volumeOfCut(const Part& part, const CutPlane& plane, const PartSpace& spa
   return sum;
 }
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

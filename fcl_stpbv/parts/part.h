@@ -11,7 +11,7 @@
 #include "fcl_stpbv/parts/part_hull.h"
 #include "fcl_stpbv/parts/plane_cut.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 
 /// What the search works on: the mesh, and lengths that follow from its size.
 struct PartSpace {
@@ -68,4 +68,4 @@ std::pair<Rooms, Rooms> cut(const Part& part, const CutPlane& plane, const PartS
 /// the plane leaves nothing on one side (m^3).
 double volumeOfCut(const Part& part, const CutPlane& plane, const PartSpace& space);
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

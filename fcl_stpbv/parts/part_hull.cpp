@@ -14,7 +14,7 @@ extern "C" {
 #include <libqhull_r/qhull_ra.h>
 }
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 namespace {
 
 using Eigen::Vector3d;
@@ -75,4 +75,4 @@ PartHull partHull(const std::vector<Vector3d>& points) {
   return hull;
 }
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

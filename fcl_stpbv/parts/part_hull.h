@@ -6,7 +6,7 @@
 
 #include "fcl_stpbv/parts/mesh_solid.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 
 struct PartHull {
   std::vector<Eigen::Vector3d> vertices;
@@ -17,4 +17,4 @@ struct PartHull {
 /// By qhull, or for flat clouds, which qhull refuses, by the rolling ball.
 PartHull partHull(const std::vector<Eigen::Vector3d>& points);
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

@@ -11,7 +11,7 @@
 
 #include "fcl_stpbv/parts/cut_planes.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
@@ -95,7 +95,7 @@ const std::vector<PartSearch::Split>& PartSearch::splits(const PartPtr& part) {
 PartPtr PartSearch::join(const PartPtr& a, const PartPtr& b, double worst) {
   PartPtr& found = joins_[std::minmax(a.get(), b.get())];
   if (!found) {
-    found = std::make_shared<Part>(fcl_stpbv::joined(*a, *b, space_, {kResolution * worst}));
+    found = std::make_shared<Part>(detail::joined(*a, *b, space_, {kResolution * worst}));
     kept_.push_back(a);
     kept_.push_back(b);
     ++spent_;
@@ -186,4 +186,4 @@ PartSearch::Parts PartSearch::fewParts(const Parts& start, int most, double boun
   return joined(improved(best, most, bound), most, bound);
 }
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

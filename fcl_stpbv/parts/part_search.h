@@ -8,7 +8,7 @@
 
 #include "fcl_stpbv/parts/part.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 
 /// Cuts the worst part again and again, in several lines of cuts at once, since those that lower the excess
 /// most are rarely those that look best at first; cuts into more parts than asked for and joins those whose
@@ -49,4 +49,4 @@ class PartSearch {
   Parts kept_;  // all that were looked at, so that no two ever share an address
 };
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

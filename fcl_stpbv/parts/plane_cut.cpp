@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <unordered_map>
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 namespace {
 
 using Eigen::Vector3d;
@@ -115,4 +115,4 @@ void pointsAbove(const TriangleSoup& soup, const CutPlane& plane, double slack,
   points.insert(points.end(), cutter.crossings().begin(), cutter.crossings().end());
 }
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

@@ -5,7 +5,7 @@
 #include <array>
 #include <vector>
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 
 struct CutPlane {
   Eigen::Vector3d normal{0, 0, 1};  ///< unit
@@ -30,4 +30,4 @@ TriangleSoup above(const TriangleSoup& soup, const CutPlane& plane, double slack
 void pointsAbove(const TriangleSoup& soup, const CutPlane& plane, double slack,
                  std::vector<Eigen::Vector3d>& points);
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

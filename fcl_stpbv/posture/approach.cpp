@@ -5,7 +5,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 namespace {
 
 // Half the sum that is minimised, its slope and the Gauss-Newton approximation of its Hessian.
@@ -85,4 +85,4 @@ Approach approach(PostureProblem& problem, const Eigen::VectorXd& start, const A
   return result;
 }
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

@@ -3,7 +3,7 @@
 
 #include "fcl_stpbv/posture/problem.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 
 struct ApproachOptions {
   double costWeight = 0;     ///< of the cost beside the squared violations
@@ -24,4 +24,4 @@ struct Approach {
 /// robot that stands with straight knees.
 Approach approach(PostureProblem& problem, const Eigen::VectorXd& start, const ApproachOptions& options);
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

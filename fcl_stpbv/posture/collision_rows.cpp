@@ -1,7 +1,7 @@
 // The rows d(q) - margin >= 0 of a robot's CollisionConstraints, with their Jacobian.
 #include "fcl_stpbv/posture/collision_rows.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 
 CollisionRows::CollisionRows(CollisionConstraints constraints, double margin)
     : constraints_(std::move(constraints)), margin_(margin), entries_(constraints_.nonZeros()) {}
@@ -26,4 +26,4 @@ void SmoothRow::evaluate(const Point& at, Eigen::Ref<Eigen::VectorXd> values,
   for (std::size_t i = 0; i < gradient_.size(); ++i) jacobian(0, constraint_.coordinates[i]) = gradient_[i];
 }
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

@@ -4,7 +4,7 @@
 #include "fcl_stpbv/posture/rows.h"
 #include "fcl_stpbv/robot/constraints.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 
 /// One row per pair of bodies and per smooth constraint of CollisionConstraints.
 class CollisionRows : public PostureRows {
@@ -42,4 +42,4 @@ class SmoothRow : public PostureRows {
   std::vector<double> gradient_;
 };
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

@@ -14,6 +14,8 @@
 namespace fcl_stpbv {
 namespace {
 
+using namespace detail;
+
 // A random posture around the start: joints up to half way to anywhere within their limits, a moving base
 // up to 10 cm and 0.2 rad away.
 Eigen::VectorXd randomStart(const PostureProblem& problem, const Eigen::VectorXd& start,

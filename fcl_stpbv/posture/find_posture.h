@@ -10,27 +10,31 @@
 
 namespace fcl_stpbv {
 
+/// How long to search.
 struct PostureOptions {
-  SolverOptions solver;
+  SolverOptions solver;    ///< for each start
   int starts = 5;          ///< at most; number 0 is the task's own, the others random ones near it
   int firstStart = 0;      ///< number of the first one to try
   std::uint64_t seed = 1;  ///< of the random ones
 };
 
+/// What was found.
 struct Posture {
-  bool feasible = false;  ///< all constraints hold within the solver's tolerance
-  Eigen::VectorXd q;      ///< the best found
-  double cost = 0;
-  double seconds = 0;
-  int starts = 0, iterations = 0;             ///< of all starts together
-  long distanceCalls = 0, gradientCalls = 0;  ///< distances, and gradients of distances, that were computed
-  std::string status;
+  bool feasible = false;              ///< all constraints hold within the solver's tolerance
+  Eigen::VectorXd q;                  ///< the best found
+  double cost = 0;                    ///< of `q`
+  double seconds = 0;                 ///< the search took
+  int starts = 0;                     ///< tried
+  int iterations = 0;                 ///< of all starts together
+  long distanceCalls = 0;             ///< distances computed
+  long gradientCalls = 0;             ///< gradients of distances computed
+  std::string status;                 ///< why the search ended, for people
   std::vector<Violation> violations;  ///< at q, worst first
   std::vector<std::string> active;    ///< collision rows and joint limits that hold q where it is
   /// Where nothing was feasible: the constraints that pull against each other where their violations are
   /// least in sum of squares, each with what it misses there, and the joint limits that they push against.
   std::vector<Violation> conflict;
-  std::vector<std::string> conflictLimits;
+  std::vector<std::string> conflictLimits;  ///< names of the joint limits in the way of `conflict`
 };
 
 /// Never throws. Deterministic for a seed, but for a solver that runs out of time.

@@ -9,9 +9,10 @@
 
 namespace fcl_stpbv {
 
+/// A frame of a link and where it is to be.
 struct Placement {
-  std::string name;
-  int link = 0;
+  std::string name;                                          ///< for messages
+  int link = 0;                                              ///< index into RobotModel::links
   Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();   ///< in the link's frame
   Eigen::Isometry3d target = Eigen::Isometry3d::Identity();  ///< in the world
   /// Along and about the target's axes: x, y, z, rx, ry, rz. Of the rotations none, one or all are free; with

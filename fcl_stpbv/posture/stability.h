@@ -13,6 +13,7 @@ class CentreOfMass {
   /// @throws Error for a robot without mass.
   explicit CentreOfMass(const Kinematics& kinematics);
 
+  /// Of all links (kg).
   double mass() const { return mass_; }
   /// World frame. `jacobian` (3 x coordinates) is overwritten.
   Eigen::Vector3d evaluate(const Kinematics::State& state, Eigen::Ref<Eigen::Matrix3Xd> jacobian);
@@ -36,7 +37,7 @@ class CentreOfMass {
 
 /// Points of one link that touch the ground: the corners of a convex patch, or any points of it.
 struct Contact {
-  int link = 0;
+  int link = 0;                         ///< index into RobotModel::links
   std::vector<Eigen::Vector3d> points;  ///< in the link's frame (m)
 };
 
@@ -50,9 +51,11 @@ std::vector<Eigen::Vector3d> shrunk(const std::vector<Eigen::Vector3d>& points, 
 /// least that far from the support polygon's edges.
 class StaticStability : public PostureRows {
  public:
+  /// Keeps a reference to `kinematics`. `margin` in m. @throws Error where a contact has nothing left.
   StaticStability(const Kinematics& kinematics, std::vector<Contact> contacts, double margin,
                   int firstWeight);
 
+  /// Number of weights, one per contact point.
   int weights() const { return weights_; }
   Kind kind() const override { return Kind::equal; }
   int size() const override { return 3; }

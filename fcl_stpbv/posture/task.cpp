@@ -11,6 +11,8 @@
 namespace fcl_stpbv {
 namespace {
 
+using namespace detail;
+
 int linkNamed(const std::string& name, const PostureScene& scene, const std::string& where) {
   const int link = scene.robot->link(name);
   if (link < 0) throw Error(where + ": the robot has no link '" + name + "'");

@@ -17,10 +17,10 @@ namespace fcl_stpbv {
 
 /// A robot and what stands around it, loaded once for any number of tasks.
 struct PostureScene {
-  std::shared_ptr<const RobotModel> robot;
-  std::shared_ptr<const RobotGeometry> geometry;
-  std::shared_ptr<const Srdf> srdf;  ///< null without one
-  std::vector<Obstacle> obstacles;
+  std::shared_ptr<const RobotModel> robot;        ///< never null
+  std::shared_ptr<const RobotGeometry> geometry;  ///< never null
+  std::shared_ptr<const Srdf> srdf;               ///< null without one
+  std::vector<Obstacle> obstacles;                ///< that stand still
   /// The robot's own pairs that are checked, such as searchedPairs(); none: those that the SRDF leaves, or
   /// without one searched for anew by each task.
   std::optional<std::vector<CheckedPair>> selfPairs = std::nullopt;
@@ -34,33 +34,38 @@ std::vector<CheckedPair> searchedPairs(std::shared_ptr<const RobotModel> robot,
 /// All pairs of some links with some obstacles, or where `self` is given with some other links of the robot;
 /// both where both are. An empty list stands for all of its kind.
 struct LinkObstacles {
-  std::vector<std::string> links, obstacles;
-  std::optional<std::vector<std::string>> self;
+  std::vector<std::string> links;                ///< names; none: all
+  std::vector<std::string> obstacles;            ///< names; none: all
+  std::optional<std::vector<std::string>> self;  ///< other links, by name
 
+  /// Whether obstacles are meant at all.
   bool withObstacles() const { return !self || !obstacles.empty(); }
 };
 
+/// A task as its file says it (docs/posture.md). Lengths in m, angles in rad.
 struct PostureTask {
-  std::string path;  ///< for messages
-  BaseMotion base = BaseMotion::floating;
-  std::string state;  ///< SRDF state to start from; "" for the neutral configuration
+  std::string path;                        ///< for messages
+  BaseMotion base = BaseMotion::floating;  ///< how the base moves
+  std::string state;                       ///< SRDF state to start from; "" for the neutral configuration
   Eigen::Isometry3d basePose = Eigen::Isometry3d::Identity();  ///< at the start
   std::map<std::string, double> joints;                        ///< at the start, over those of the state
-  bool towardsStart = false;  ///< the cost's reference is the start instead of eq. 3's
-  std::map<std::string, double> weights;
+  bool towardsStart = false;              ///< the cost's reference is the start instead of eq. 3's
+  std::map<std::string, double> weights;  ///< of joints in the cost, over those of eq. 3
+  /// A link and where it is to be.
   struct Place {
-    std::string link;
+    std::string link;     ///< by name
     Placement placement;  ///< its link is found by name
   };
-  std::vector<Place> placements;
+  std::vector<Place> placements;  ///< frames that are asked for
+  /// A link that stands on something.
   struct Touch {
-    std::string link;
-    std::vector<Eigen::Vector3d> points;
+    std::string link;                     ///< by name
+    std::vector<Eigen::Vector3d> points;  ///< in the link's frame (m)
   };
-  std::vector<Touch> contacts;  ///< none: no static stability
-  double stabilityMargin = 0;   ///< m
-  double collisionMargin = 0;   ///< m
-  bool selfCollisions = true;
+  std::vector<Touch> contacts;        ///< none: no static stability
+  double stabilityMargin = 0;         ///< m
+  double collisionMargin = 0;         ///< m
+  bool selfCollisions = true;         ///< whether the robot is kept from itself
   std::vector<LinkObstacles> pairs;   ///< checked; none: every moving body against every obstacle
   std::vector<LinkObstacles> ignore;  ///< left out all the same
 };
@@ -72,9 +77,9 @@ PostureTask parseTask(const std::string& text, const std::string& path);
 
 /// The problem of a task and where to start.
 struct PostureSetup {
-  std::shared_ptr<PostureProblem> problem;
-  Eigen::VectorXd start;           ///< q
-  std::vector<CheckedPair> pairs;  ///< kept apart
+  std::shared_ptr<PostureProblem> problem;  ///< never null
+  Eigen::VectorXd start;                    ///< q
+  std::vector<CheckedPair> pairs;           ///< kept apart
 };
 
 /// The coordinates of the task's start. @throws Error naming the task's key.

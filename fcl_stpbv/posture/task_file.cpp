@@ -12,6 +12,7 @@
 namespace fcl_stpbv {
 namespace {
 
+using namespace detail;
 using nlohmann::json;
 
 // A value and the way to it, for messages such as "task.json: placements[1].link: ...".

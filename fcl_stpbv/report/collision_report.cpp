@@ -20,6 +20,9 @@
 #include "fcl_stpbv/robot/smooth_pairs.h"
 
 namespace fcl_stpbv::report {
+
+using namespace detail;
+
 namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }

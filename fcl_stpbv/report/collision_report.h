@@ -69,7 +69,7 @@ struct CollisionReport {
   std::vector<PolyhedronReport> polyhedra;  ///< one a body, or none where none were asked for
   std::vector<PairReport> pairs;            ///< checked ones first, closest first
   std::vector<PairEntry> list;              ///< what the search found
-  NeutralPosture neutral;
+  detail::NeutralPosture neutral;
   std::string pose;  ///< "" where each pair is in its own closest configuration
   int checked = 0, colliding = 0;
   std::map<std::string, int> causes;    ///< of the checked pairs in collision, how many of each

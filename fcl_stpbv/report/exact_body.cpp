@@ -14,6 +14,9 @@
 #include "fcl_stpbv/robot/mesh_file.h"
 
 namespace fcl_stpbv::report {
+
+using namespace detail;
+
 namespace {
 
 using Eigen::Vector3d;

@@ -13,6 +13,9 @@
 #include "fcl_stpbv/convex/hull_graph.h"
 
 namespace fcl_stpbv::report {
+
+using namespace detail;
+
 namespace {
 
 using Eigen::Vector3d;

@@ -6,6 +6,8 @@
 
 namespace fcl_stpbv::report {
 
+using namespace detail;
+
 std::string toHtml(const PostureReport& report) {
   CollisionReport page;
   page.robot = report.scene.robot;

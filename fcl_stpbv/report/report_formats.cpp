@@ -10,6 +10,9 @@
 #include "fcl_stpbv/io/text_scanner.h"
 
 namespace fcl_stpbv::report {
+
+using namespace detail;
+
 namespace {
 
 constexpr double kMm = 1e3;

@@ -12,6 +12,9 @@
 #include "fcl_stpbv/report/report_formats.h"
 
 namespace fcl_stpbv::report {
+
+using namespace detail;
+
 namespace {
 
 using nlohmann::json;

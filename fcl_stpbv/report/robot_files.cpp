@@ -7,6 +7,8 @@
 namespace fcl_stpbv::report {
 namespace {
 
+using namespace detail;
+
 // Nothing can be said about a robot of which nothing was loaded, least of all that it is clear.
 void requireBodies(const RobotModel& robot, const RobotGeometry& geometry) {
   if (geometry.bodies.empty())

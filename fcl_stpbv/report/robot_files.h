@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "fcl_stpbv/robot/link_geometry.h"
+#include "fcl_stpbv/robot/geometry_steps.h"
 #include "fcl_stpbv/robot/srdf.h"
 
 namespace fcl_stpbv::report {
@@ -44,7 +44,7 @@ class RobotLoader {
   LoadFaults faults_;
   std::shared_ptr<const RobotModel> robot_, scene_;
   std::shared_ptr<const Srdf> srdf_;
-  ShapeSources shapes_, sceneShapes_;
+  detail::ShapeSources shapes_, sceneShapes_;
   std::shared_ptr<const RobotGeometry> geometry_;
   RobotGeometry sceneGeometry_;
 };

@@ -5,7 +5,7 @@
 
 #include "fcl_stpbv/robot/joint_path.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
@@ -71,4 +71,4 @@ Eigen::Vector3d Adjacency::originOn(const JointModel& joint, bool parent) const 
   return pose_[at(joint.child)].translation();
 }
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

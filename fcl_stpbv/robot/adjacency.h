@@ -8,7 +8,7 @@
 #include "fcl_stpbv/robot/link_geometry.h"
 #include "fcl_stpbv/robot/robot_model.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 
 enum class Joining {
   separate,  ///< to be checked
@@ -36,4 +36,4 @@ class Adjacency {
   std::vector<char> partBody_;           // of a topmost link: whether one of its part has a body
 };
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

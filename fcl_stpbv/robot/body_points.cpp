@@ -10,7 +10,7 @@
 #include "fcl_stpbv/adapter/stp_bv_geometry.h"
 #include "fcl_stpbv/volume/measure.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 namespace {
 
 using Eigen::Vector3d;
@@ -88,4 +88,4 @@ std::optional<BodyPoints> bodyPoints(const fcl::CollisionGeometryd& geometry, co
   return body;
 }
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

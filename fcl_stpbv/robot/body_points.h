@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 
 struct BodyPoints {
   std::vector<Eigen::Vector3d> points;  ///< at least one (m)
@@ -22,4 +22,4 @@ struct BodyPoints {
 /// trees and what is unbounded. In the frame that `pose` leads to.
 std::optional<BodyPoints> bodyPoints(const fcl::CollisionGeometryd& geometry, const Eigen::Isometry3d& pose);
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 namespace {
 
 // Digits that writers of URDF keep.
@@ -35,4 +35,4 @@ void joinCapsules(std::vector<ShapeModel>& shapes) {
   }
 }
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

@@ -5,10 +5,10 @@
 
 #include "fcl_stpbv/robot/robot_model.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 
 /// Replaces each cylinder that has a sphere of its radius centred on both ends by one capsule; the spheres
 /// go.
 void joinCapsules(std::vector<ShapeModel>& shapes);
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

@@ -9,6 +9,8 @@
 namespace fcl_stpbv {
 namespace {
 
+using namespace detail;
+
 int parentOf(const RobotModel& robot, int link) {
   const int joint = robot.links[static_cast<std::size_t>(link)].parentJoint;
   return joint < 0 ? -1 : robot.joints[static_cast<std::size_t>(joint)].parent;

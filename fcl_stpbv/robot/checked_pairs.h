@@ -14,29 +14,30 @@ namespace fcl_stpbv {
 
 /// A body of the robot against another one, or against an obstacle.
 struct CheckedPair {
-  int body;
-  int other;  ///< body, or index among the obstacles
-  bool obstacle = false;
+  int body;               ///< index into RobotGeometry::bodies
+  int other;              ///< body, or index among the obstacles
+  bool obstacle = false;  ///< whether `other` is an obstacle
 };
 
 /// Two links, or a link and an obstacle.
 struct LinkPair {
-  int link1;
-  int link2;  ///< link, or index among the obstacles
-  bool obstacle = false;
+  int link1;              ///< index into RobotModel::links
+  int link2;              ///< link, or index among the obstacles
+  bool obstacle = false;  ///< whether `link2` is an obstacle
 };
 
 /// Something that stands still in the world.
 struct Obstacle {
-  std::string name;
-  std::shared_ptr<const fcl::CollisionGeometryd> geometry;
-  Eigen::Isometry3d pose;
-  Eigen::Vector3d centre;  ///< of a sphere that holds it, in the world (m)
-  double radius = 0;
+  std::string name;                                         ///< for messages and reports
+  std::shared_ptr<const fcl::CollisionGeometryd> geometry;  ///< what queries get
+  Eigen::Isometry3d pose;                                   ///< in the world
+  Eigen::Vector3d centre;                                   ///< of a sphere that holds it, in the world (m)
+  double radius = 0;                                        ///< of that sphere (m)
   std::shared_ptr<const fcl::CollisionGeometryd>
       primitive;  ///< the primitive under its smooth cover, else null
 };
 
+/// An FCL object as an obstacle, where it stands now.
 Obstacle obstacleOf(const fcl::CollisionObjectd& object, const std::string& name);
 
 /// The bodies of a scene's URDF, its joints at their neutral values.

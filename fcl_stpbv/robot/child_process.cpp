@@ -19,7 +19,7 @@
 
 #include "fcl_stpbv/error.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 namespace {
 
 // What meshes take at most is about 150 bytes of memory and 2 us of processor time a byte
@@ -142,4 +142,4 @@ std::string inChildProcess(const std::string& name, const std::function<std::str
   throw Error(name + ": its reader fell over; the file is damaged, export it again");
 }
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

@@ -6,7 +6,7 @@
 #include <functional>
 #include <string>
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 
 /// Memory and processor time that a child process may still take, in proportion to the bytes it reads.
 class ChildLimits {
@@ -26,4 +26,4 @@ class ChildLimits {
 /// limits.
 std::string inChildProcess(const std::string& name, const std::function<std::string(ChildLimits&)>& work);
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

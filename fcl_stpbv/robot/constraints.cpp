@@ -10,9 +10,12 @@
 #include <limits>
 
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/robot/constraints_threads.h"
 
 namespace fcl_stpbv {
 namespace {
+
+using namespace detail;
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
@@ -52,6 +55,9 @@ CollisionConstraints::CollisionConstraints(std::shared_ptr<const Kinematics> kin
   moved_.resize(columns());
   pool_ = std::make_unique<WorkerPool>(std::max(1, options_.threads));
 }
+
+CollisionConstraints::CollisionConstraints(CollisionConstraints&&) noexcept = default;
+CollisionConstraints::~CollisionConstraints() = default;
 
 void CollisionConstraints::leaveOutReplaced() {
   const RobotModel& robot = kinematics_->robot();

@@ -14,14 +14,17 @@
 #include "fcl_stpbv/adapter/fcl_hessian.h"
 #include "fcl_stpbv/robot/checked_pairs.h"
 #include "fcl_stpbv/robot/kinematics.h"
-#include "fcl_stpbv/robot/worker_pool.h"
 
 namespace fcl_stpbv {
+
+namespace detail {
+class WorkerPool;
+}
 
 /// A smooth function of some coordinates that stands for pairs whose hulls would be too fat, as around a hip
 /// or a shoulder (paper VI: 8 of its 117 constraints).
 struct SmoothConstraint {
-  std::string name;
+  std::string name;              ///< for messages and reports
   std::vector<int> coordinates;  ///< ascending
   /// Value at q, positive where allowed; writes one derivative per coordinate unless `gradient` is null.
   /// Called from one thread at a time for each constraint; must neither throw nor allocate where those
@@ -30,15 +33,16 @@ struct SmoothConstraint {
   std::vector<std::pair<std::string, std::string>> replaces;  ///< pairs of links that are left out for it
 };
 
+/// Which rows there are beside those of the pairs, and how far they reach.
 struct ConstraintOptions {
   /// Pairs farther apart than this (m) cost one test of their bounding spheres. Their rows are constant:
   /// beyond `exactUpTo` a row leaves the distance d and bends over, twice continuously differentiable, to
   /// (influence + exactUpTo) / 2.
   double influence = std::numeric_limits<double>::infinity();
-  double exactUpTo = -1;  ///< negative: half the influence
-  std::vector<Obstacle> obstacles;
+  double exactUpTo = -1;                 ///< negative: half the influence
+  std::vector<Obstacle> obstacles;       ///< that pairs may name
   std::vector<SmoothConstraint> smooth;  ///< rows after those of the pairs
-  int threads = 1;
+  int threads = 1;                       ///< that share the rows
 };
 
 /// What a controller asks for at every tick, row by row.
@@ -64,24 +68,33 @@ struct RowAnswer : DistanceAnswer {
 /// motions of Kinematics are its pre-gradient matrices, put together once per configuration for all pairs.
 class CollisionConstraints {
  public:
-  using Vector = Eigen::Ref<Eigen::VectorXd>;
-  using ConstVector = Eigen::Ref<const Eigen::VectorXd>;
-  using SparseJacobian = Eigen::SparseMatrix<double, Eigen::RowMajor>;
-  using SparseHessian = Eigen::SparseMatrix<double>;
+  using Vector = Eigen::Ref<Eigen::VectorXd>;             ///< room for results
+  using ConstVector = Eigen::Ref<const Eigen::VectorXd>;  ///< a configuration, or one number per row
+  using SparseJacobian = Eigen::SparseMatrix<double, Eigen::RowMajor>;  ///< rows() x columns()
+  using SparseHessian = Eigen::SparseMatrix<double>;                    ///< columns() x columns()
 
   /// @throws Error for a pair, coordinate or link that does not exist.
   CollisionConstraints(std::shared_ptr<const Kinematics> kinematics,
                        std::shared_ptr<const RobotGeometry> geometry, std::vector<CheckedPair> pairs,
                        ConstraintOptions options = {});
+  /// Takes over all that the other one has; the other one may only be destroyed.
+  CollisionConstraints(CollisionConstraints&&) noexcept;
+  ~CollisionConstraints();
 
+  /// Number of rows: one per pair, then one per smooth constraint.
   int rows() const { return static_cast<int>(rowStart_.size()) - 1; }
+  /// Number of coordinates.
   int columns() const { return kinematics_->size(); }
+  /// The pairs of the first rows, without those that smooth constraints replace.
   const std::vector<CheckedPair>& pairs() const { return pairs_; }
+  /// The two bodies of a row, or the smooth constraint's name.
   std::string name(int row) const;
 
   /// The entries of J that may differ from 0, row by row, columns ascending.
   int nonZeros() const { return static_cast<int>(column_.size()); }
+  /// Where each row begins among the entries, and one past the last.
   const std::vector<int>& rowStart() const { return rowStart_; }
+  /// The column of each entry.
   const std::vector<int>& columnIndices() const { return column_; }
   /// A matrix of that structure, for evaluate() to fill.
   SparseJacobian makeJacobian() const;
@@ -93,7 +106,9 @@ class CollisionConstraints {
   bool evaluate(const ConstVector& q, Vector d);
   /// With the nonZeros() entries of J.
   bool evaluateValues(const ConstVector& q, Vector d, Vector values);
+  /// With J in the structure of makeJacobian().
   bool evaluate(const ConstVector& q, Vector d, SparseJacobian& jacobian);
+  /// With J as a dense matrix, rows() x columns().
   bool evaluate(const ConstVector& q, Vector d, Eigen::Ref<Eigen::MatrixXd> jacobian);
 
   /// Room for one row's numbers each.
@@ -104,7 +119,9 @@ class CollisionConstraints {
   /// answers that have no second derivative. A q or qd that is not finite gives what it gives above, and
   /// rates of 0.
   bool evaluateValues(const ConstVector& q, const ConstVector& qd, RowRates& rates, Vector values);
+  /// The same with J in the structure of makeJacobian().
   bool evaluate(const ConstVector& q, const ConstVector& qd, RowRates& rates, SparseJacobian& jacobian);
+  /// The same with J as a dense matrix.
   bool evaluate(const ConstVector& q, const ConstVector& qd, RowRates& rates,
                 Eigen::Ref<Eigen::MatrixXd> jacobian);
 
@@ -128,6 +145,7 @@ class CollisionConstraints {
 
   /// What the last evaluation found for a pair; status `invalid` where its spheres were enough.
   RowAnswer answer(int row) const;
+  /// Where the links were at the last evaluation.
   const Kinematics::State& state() const { return state_; }
   /// Makes the next evaluation start from FCL's witness again.
   void forget();
@@ -195,17 +213,7 @@ class CollisionConstraints {
   Eigen::VectorXd values_, change_, otherChange_, moved_;
   std::vector<Kinematics::Rate> alongEach_;  // at a unit velocity of each coordinate, for hessian()
   std::vector<char> open_;                   // rows whose change is left to differences
-  std::unique_ptr<WorkerPool> pool_;
+  std::unique_ptr<detail::WorkerPool> pool_;
 };
-
-// Every n-th row for each thread, so that far and near ones are shared out.
-template <class Work>
-void CollisionConstraints::eachPair(const Work& work) {
-  auto share = [&](int k) {
-    const std::size_t step = static_cast<std::size_t>(pool_->threads());
-    for (std::size_t row = static_cast<std::size_t>(k); row < pairs_.size(); row += step) work(row);
-  };
-  pool_->run(share);
-}
 
 }  // namespace fcl_stpbv

@@ -3,11 +3,12 @@
 // (docs/robot.md, Second derivatives). Rows without a closed form use central differences.
 #include <algorithm>
 
-#include "fcl_stpbv/robot/constraints.h"
+#include "fcl_stpbv/robot/constraints_threads.h"
 
 namespace fcl_stpbv {
 namespace {
 
+using namespace detail;
 using Eigen::Vector3d;
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }

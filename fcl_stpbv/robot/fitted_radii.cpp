@@ -8,7 +8,7 @@
 #include "fcl_stpbv/adapter/fcl_distance.h"
 #include "fcl_stpbv/adapter/hull_geometry.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 
 BodySize sizeOf(const std::vector<Eigen::Vector3d>& points) {
   BodySize size;
@@ -35,4 +35,4 @@ double fittedR(double ball, double r) {
   return bulge > 0 ? r + (ball * ball + bulge * bulge) / (2 * bulge) : StpBvOptions().R;
 }
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

@@ -6,7 +6,7 @@
 
 #include "fcl_stpbv/volume/stp_bv.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 
 /// What of a body's size the radii follow (m).
 struct BodySize {
@@ -28,4 +28,4 @@ StpBvOptions fittedRadii(const BodySize& size);
 /// beyond r: the excess over the hull is at most r plus that (docs/choosing_r_and_R.md).
 double fittedR(double ball, double r);
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

@@ -1,7 +1,7 @@
 // The joints between two links: both chains up to the root without their common part.
 #include "fcl_stpbv/robot/joint_path.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 namespace {
 
 std::vector<int> jointsAbove(const RobotModel& robot, int link) {
@@ -27,4 +27,4 @@ JointPath jointPath(const RobotModel& robot, int link1, int link2) {
   return path;
 }
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

@@ -6,7 +6,7 @@
 
 #include "fcl_stpbv/robot/robot_model.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 
 /// Joints from one link up to where the ways to the root meet, then down to the other one. Fixed joints are
 /// among them.
@@ -18,4 +18,4 @@ struct JointPath {
 
 JointPath jointPath(const RobotModel& robot, int link1, int link2);
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

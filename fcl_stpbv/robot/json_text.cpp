@@ -7,7 +7,7 @@
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/io/text_scanner.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 
 nlohmann::json parseJson(const std::string& text, const std::string& name) {
   using nlohmann::json;
@@ -31,4 +31,4 @@ nlohmann::json readJson(const std::string& path) {
   return parseJson(readText(path, kMostJson), path);
 }
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

@@ -18,8 +18,8 @@ enum class BaseMotion { fixed, planar, floating };
 /// Velocity of a rigid body per unit of one coordinate: that of the world's origin as if carried by the body,
 /// and the angular one. World axes.
 struct Twist {
-  Eigen::Vector3d linear{0, 0, 0};
-  Eigen::Vector3d angular{0, 0, 0};
+  Eigen::Vector3d linear{0, 0, 0};   ///< m/s, or m per unit
+  Eigen::Vector3d angular{0, 0, 0};  ///< rad/s, or rad per unit
 };
 
 /// Coordinates q of a robot: joints in the order of the URDF, the moving base before them. One per revolute,
@@ -29,16 +29,16 @@ class Kinematics {
  public:
   /// One degree of freedom of one joint. A mimic joint's belongs to the coordinate it follows.
   struct Motion {
-    int joint;       ///< -1 for the base
-    int coordinate;  ///< in q
-    double multiplier;
+    int joint;          ///< -1 for the base
+    int coordinate;     ///< in q
+    double multiplier;  ///< how far the joint moves per unit of the coordinate
   };
 
   /// What the pair of two links depends on: `sign` is +1 where the motion carries the second link and not the
   /// first, -1 where it is the other way round. Motions of both cancel and are left out.
   struct Dependence {
-    int motion;
-    double sign;
+    int motion;   ///< index into motions()
+    double sign;  ///< +1 or -1
   };
 
   /// Room for one configuration, to be used again and again.
@@ -54,14 +54,20 @@ class Kinematics {
     std::vector<Twist> drift;   ///< change of each link's velocity while that of q stays what it is
   };
 
+  /// Coordinates for a robot whose base moves like that.
   explicit Kinematics(std::shared_ptr<const RobotModel> robot, BaseMotion base = BaseMotion::fixed);
 
+  /// The model given.
   const RobotModel& robot() const { return *robot_; }
+  /// Number of coordinates.
   int size() const { return static_cast<int>(names_.size()); }
   /// A joint's name, with `/x`, `/y`, `/angle`, `/z`, `/rx`, `/ry`, `/rz` after it where it has several.
   const std::vector<std::string>& names() const { return names_; }
+  /// Least values of the coordinates (rad or m), -infinity where nothing limits them.
   const Eigen::VectorXd& lower() const { return lower_; }
+  /// Largest values.
   const Eigen::VectorXd& upper() const { return upper_; }
+  /// All degrees of freedom, parents first.
   const std::vector<Motion>& motions() const { return motions_; }
 
   /// All zero, clamped into the limits.
@@ -71,15 +77,18 @@ class Kinematics {
   /// First coordinate of a joint by name, -1 for fixed, mimic and unknown ones.
   int coordinate(const std::string& joint) const;
 
+  /// Room for forward().
   State makeState() const;
   /// Fills the state. Never throws or allocates; `q` has size() entries.
   void forward(const Eigen::Ref<const Eigen::VectorXd>& q, State& state) const;
 
+  /// Room for differentiate().
   Rate makeRate() const;
   /// Fills the rate of `state`, which is that of q, as q moves with velocity v. Never throws or allocates.
   void differentiate(const Eigen::Ref<const Eigen::VectorXd>& q, const Eigen::Ref<const Eigen::VectorXd>& v,
                      const State& state, Rate& rate) const;
 
+  /// The motions that change where one link is to the other.
   std::vector<Dependence> dependence(int link1, int link2) const;
   /// The motions that carry a link.
   std::vector<Dependence> dependence(int link) const;

@@ -9,14 +9,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <filesystem>
 
 #include "fcl_stpbv/adapter/hull_geometry.h"
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/robot/geometry_steps.h"
 #include "fcl_stpbv/robot/link_volume.h"
 #include "fcl_stpbv/robot/mesh_file.h"
+#include "fcl_stpbv/robot/volume_cache.h"
 
 namespace fcl_stpbv {
 namespace {
+
+using namespace detail;
 
 bool isFlat(const GeometryOptions& options, const std::string& link) {
   return options.flat || options.flatLinks.count(link) > 0;
@@ -122,6 +128,16 @@ class Builder {
 
 }  // namespace
 
+std::string defaultCacheFolder() {
+  const char* cache = std::getenv("XDG_CACHE_HOME");
+  if (cache && std::filesystem::path(cache).is_absolute())
+    return (std::filesystem::path(cache) / "fcl_stpbv").string();
+  const char* home = std::getenv("HOME");
+  return home && std::filesystem::path(home).is_absolute()
+             ? (std::filesystem::path(home) / ".cache" / "fcl_stpbv").string()
+             : "";
+}
+
 std::pair<int, int> RobotGeometry::of(int link) const {
   const auto range = std::equal_range(bodies.begin(), bodies.end(), link, [](const auto& a, const auto& b) {
     const auto value = [](const auto& x) {
@@ -134,6 +150,8 @@ std::pair<int, int> RobotGeometry::of(int link) const {
   });
   return {static_cast<int>(range.first - bodies.begin()), static_cast<int>(range.second - bodies.begin())};
 }
+
+namespace detail {
 
 ShapeSources readGeometry(const RobotModel& robot, const GeometryOptions& options, LoadFaults& faults) {
   checkNames(robot, options, faults);
@@ -149,6 +167,8 @@ RobotGeometry buildGeometry(const RobotModel& robot, const GeometryOptions& opti
                             const ShapeSources& sources, LoadFaults& faults) {
   return Builder(robot, options, faults).build(sources);
 }
+
+}  // namespace detail
 
 RobotGeometry loadGeometry(const RobotModel& robot, const GeometryOptions& options) {
   LoadFaults faults;

@@ -13,15 +13,19 @@
 
 #include "fcl_stpbv/adapter/stp_bv_geometry.h"
 #include "fcl_stpbv/robot/robot_model.h"
-#include "fcl_stpbv/robot/shape_source.h"
-#include "fcl_stpbv/robot/volume_cache.h"
 #include "fcl_stpbv/volume/measure.h"
 
 namespace fcl_stpbv {
 
+/// The usual place of built volumes: $XDG_CACHE_HOME/fcl_stpbv, else ~/.cache/fcl_stpbv; "" where neither is
+/// known.
+std::string defaultCacheFolder();
+
+/// What volumes a robot's links get.
 struct GeometryOptions {
-  StpBvOptions radii;               ///< of every link's volumes
-  bool fitr = false, fitR = false;  ///< r, R of each body that fit its size instead (fitted_radii.h)
+  StpBvOptions radii;  ///< of every link's volumes
+  bool fitr = false;   ///< an r that fits each body's size instead (docs/choosing_r_and_R.md)
+  bool fitR = false;   ///< an R that does
   std::map<std::string, StpBvOptions> links;  ///< of single links, by name: these win
   /// Most that a volume may exceed the hull of its mesh by (m), 0 for any. With one a volume gets few
   /// vertices (reduce()) and a larger r to cover the others; R is doubled first until all vertices keep to
@@ -31,18 +35,18 @@ struct GeometryOptions {
   bool flat = false;                      ///< the meshes of all links stay convex polyhedra, without STP-BVs:
   std::set<std::string> flatLinks;  ///< or those of these links; enough where a pair's other body is smooth
   bool visual = false;              ///< the visual shapes instead of the collision shapes
-  std::vector<std::string> packagePath;
-  std::string cacheFolder = VolumeCache::defaultFolder();  ///< "" for no cache
+  std::vector<std::string> packagePath;            ///< folders for package:// names, before all others
+  std::string cacheFolder = defaultCacheFolder();  ///< "" for no cache
   /// Called before each shape with its index and the number of all.
   std::function<void(std::size_t, std::size_t, const std::string&)> progress;
 };
 
 /// One shape of one link.
 struct Body {
-  int link = -1;
-  std::string name;        ///< the link's, with #2, #3 ... for its further shapes
-  Eigen::Isometry3d pose;  ///< in the link's frame
-  std::shared_ptr<fcl::CollisionGeometryd> geometry;
+  int link = -1;                                      ///< index into RobotModel::links
+  std::string name;                                   ///< the link's, with #2, #3 ... for its further shapes
+  Eigen::Isometry3d pose;                             ///< in the link's frame
+  std::shared_ptr<fcl::CollisionGeometryd> geometry;  ///< what queries get
   StpBvOptions radii;  ///< those asked for, or fitted; where a primitive is flat, those of its cover to be
   StpBv::Ptr volume;   ///< null for a flat primitive and for a flat mesh
   StpBv::Ptr full;     ///< the volume of all the mesh's points where `volume` is a reduced one, else null
@@ -54,10 +58,11 @@ struct Body {
   OverCover cover{0, 0};   ///< what the volume exceeds the mesh's hull or the primitive by (m)
 };
 
+/// The bodies of all links.
 struct RobotGeometry {
   std::vector<Body> bodies;           ///< in the order of the links
   std::vector<std::string> warnings;  ///< whole sentences, to be told to the user
-  int fromCache = 0;
+  int fromCache = 0;                  ///< volumes that needed no building
 
   /// Bodies of a link: first index and one past the last.
   std::pair<int, int> of(int link) const;
@@ -69,11 +74,5 @@ struct RobotGeometry {
 /// @throws Error listing all that is wrong, each naming the URDF, the link, the file and what would work;
 /// what can be told before a volume is built is told before.
 RobotGeometry loadGeometry(const RobotModel& robot, const GeometryOptions& options = {});
-
-/// The same in two steps, for callers with several robots to load or with shapes to leave out: what is wrong
-/// is added to `faults` for the caller to refuse, and shapes that are wrong are left out.
-ShapeSources readGeometry(const RobotModel& robot, const GeometryOptions& options, LoadFaults& faults);
-RobotGeometry buildGeometry(const RobotModel& robot, const GeometryOptions& options,
-                            const ShapeSources& sources, LoadFaults& faults);
 
 }  // namespace fcl_stpbv

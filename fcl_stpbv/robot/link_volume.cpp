@@ -6,7 +6,7 @@
 #include "fcl_stpbv/io/text_scanner.h"
 #include "fcl_stpbv/volume/reduce.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 namespace {
 
 using Points = std::vector<Eigen::Vector3d>;
@@ -85,4 +85,4 @@ void makeVolume(const GeometryOptions& options, const std::string& link, const S
       .make(budget == options.budgets.end() ? options.overCoverBudget : budget->second);
 }
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

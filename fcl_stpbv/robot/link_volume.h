@@ -3,8 +3,10 @@
 
 #include "fcl_stpbv/robot/fitted_radii.h"
 #include "fcl_stpbv/robot/link_geometry.h"
+#include "fcl_stpbv/robot/shape_source.h"
+#include "fcl_stpbv/robot/volume_cache.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 
 /// Whether r or R of a link's bodies follow the body's size.
 bool areFitted(const GeometryOptions& options, const std::string& link);
@@ -18,4 +20,4 @@ StpBvOptions radiiFor(const GeometryOptions& options, const std::string& link,
 void makeVolume(const GeometryOptions& options, const std::string& link, const ShapeSource& source,
                 VolumeCache& cache, Body& body);
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

@@ -31,6 +31,7 @@
 namespace fcl_stpbv {
 namespace {
 
+using namespace detail;
 using Eigen::Vector3d;
 
 constexpr const char* kReadable =

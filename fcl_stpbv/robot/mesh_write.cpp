@@ -18,6 +18,8 @@
 namespace fcl_stpbv {
 namespace {
 
+using namespace detail;
+
 struct Format {
   const char* extension;
   const char* assimpId;

@@ -4,7 +4,7 @@
 
 #include "fcl_stpbv/error.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
@@ -52,4 +52,4 @@ Mimic MimicChains::end(std::size_t joint) {
   return end_[joint];
 }
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

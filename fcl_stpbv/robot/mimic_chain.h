@@ -7,7 +7,7 @@
 
 #include "fcl_stpbv/robot/robot_model.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 
 /// A joint as the URDF writes it.
 struct Follower {
@@ -38,4 +38,4 @@ class MimicChains {
   std::vector<State> state_;
 };
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

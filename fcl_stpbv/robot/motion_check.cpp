@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include "fcl_stpbv/adapter/motion_search.h"
+#include "fcl_stpbv/adapter/posed_geometry.h"
 #include "fcl_stpbv/adapter/proximity.h"
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/robot/joint_path.h"
@@ -14,6 +16,7 @@
 namespace fcl_stpbv {
 namespace {
 
+using namespace detail;
 using Eigen::Index;
 using Eigen::Vector3d;
 
@@ -31,10 +34,81 @@ Cover longer(const Cover& a, const Cover& b) {
 
 }  // namespace
 
-/// For the first contact: farther than a margin that does not change.
-class MotionCheck::Scene {
+/// The chains of all pairs, and room for one motion of theirs.
+class MotionCheck::Impl {
  public:
-  Scene(MotionCheck& check, double margin) : check_(check), margin_(margin) {}
+  Impl(std::shared_ptr<const Kinematics> kinematics, std::shared_ptr<const RobotGeometry> geometry,
+       std::vector<CheckedPair> pairs, std::vector<Obstacle> obstacles);
+
+  const std::vector<CheckedPair>& pairs() const { return pairs_; }
+  const Kinematics& kinematics() const { return *kinematics_; }
+  bool isFree(const ConstVector& q, double margin);
+  MotionBracket firstContact(const ConstVector& q0, const ConstVector& q1, const MotionRequest& request);
+  bool closest(const ConstVector& q0, const ConstVector& q1, double precision, double offset,
+               std::vector<Approach>& best);
+  DistanceAnswer answer(int pair, const ConstVector& q);
+
+ private:
+  struct Hop {  // a joint on the way out from the plane's link, with what the motion at hand makes of it
+    double slide = 0, spin = 0, turns = 1;  // speeds, and own acceleration in spin^2 times lever
+    double length = 0;                      // from the joint before to its child's origin at most
+  };
+  struct Side {
+    int body;               // among bodies_
+    int firstHop, lastHop;  // joints of the chain, inner ones first
+    double acceleration = 0;
+  };
+  struct Pair {
+    Side side[2];
+    int root;  // the link that the plane is fixed to, -1 for the world
+    PairCache cache;
+  };
+  struct Placed {  // a body or an obstacle
+    int link;      // -1 for an obstacle
+    const fcl::CollisionGeometryd* geometry;
+    Eigen::Isometry3d local;
+    Eigen::Vector3d centre;  // of its ball, in the link's frame
+    double radius;
+    bool convex;
+    ConvexBody body;
+    Eigen::Vector3d where{0, 0, 0};  // the ball's centre, now
+  };
+  class Scene;
+  class ApproachScene;
+
+  void addBodies();
+  void addPair(const CheckedPair& pair);
+  Side sideOf(int body, int root);
+  bool set(const ConstVector& q0, const ConstVector& q1);
+  bool begin(const ConstVector& q0, const ConstVector& q1);
+  void prepare(Side& side) const;
+  void place(double t);
+  Distance ask(Pair& pair);
+  BodyVelocity velocityOf(const Side& side, int root, const Eigen::Vector3d& about) const;
+  Cover ballCover(const Pair& pair, double margin, double most) const;
+  Cover cover(const Pair& pair, const Distance& found, double margin, double most) const;
+
+  std::shared_ptr<const Kinematics> kinematics_;
+  std::shared_ptr<const RobotGeometry> geometry_;
+  std::vector<Obstacle> obstacles_;
+  std::vector<CheckedPair> pairs_;
+  std::vector<Placed> bodies_;
+  std::vector<Pair> moving_;
+  std::vector<int> hops_;              // joints of all chains
+  std::vector<int> parent_;            // of each link
+  std::vector<std::vector<int>> own_;  // motions that a link adds to its parent's
+  std::vector<int> motionOf_;          // first motion of each joint, -1 for none; the base's is the last
+  Kinematics::State state_;
+  std::vector<Twist> twist_;  // of each link, per unit of time
+  std::vector<Hop> hop_;      // of each joint, the base's last
+  Eigen::VectorXd q0_, way_, q_;
+  double slack_ = 0;
+};
+
+/// For the first contact: farther than a margin that does not change.
+class MotionCheck::Impl::Scene {
+ public:
+  Scene(Impl& check, double margin) : check_(check), margin_(margin) {}
   void place(double t) { check_.place(t); }
   bool look(int index, double most, Cover& cover) {
     Pair& pair = check_.moving_[at(index)];
@@ -47,14 +121,14 @@ class MotionCheck::Scene {
   }
 
  private:
-  MotionCheck& check_;
+  Impl& check_;
   double margin_;
 };
 
 /// For the closest approach: farther than what is the least so far.
-class MotionCheck::ApproachScene {
+class MotionCheck::Impl::ApproachScene {
  public:
-  ApproachScene(MotionCheck& check, double precision, double offset, std::vector<Approach>& best)
+  ApproachScene(Impl& check, double precision, double offset, std::vector<Approach>& best)
       : check_(check), precision_(precision), offset_(offset), best_(best) {}
   void place(double t) {
     t_ = t;
@@ -73,14 +147,14 @@ class MotionCheck::ApproachScene {
   }
 
  private:
-  MotionCheck& check_;
+  Impl& check_;
   double precision_, offset_, t_ = 0;
   std::vector<Approach>& best_;
 };
 
-MotionCheck::MotionCheck(std::shared_ptr<const Kinematics> kinematics,
-                         std::shared_ptr<const RobotGeometry> geometry, std::vector<CheckedPair> pairs,
-                         std::vector<Obstacle> obstacles)
+MotionCheck::Impl::Impl(std::shared_ptr<const Kinematics> kinematics,
+                        std::shared_ptr<const RobotGeometry> geometry, std::vector<CheckedPair> pairs,
+                        std::vector<Obstacle> obstacles)
     : kinematics_(std::move(kinematics)),
       geometry_(std::move(geometry)),
       obstacles_(std::move(obstacles)),
@@ -105,7 +179,7 @@ MotionCheck::MotionCheck(std::shared_ptr<const Kinematics> kinematics,
   for (const CheckedPair& pair : pairs_) addPair(pair);
 }
 
-void MotionCheck::addBodies() {
+void MotionCheck::Impl::addBodies() {
   const auto add = [&](int link, const fcl::CollisionGeometryd& geometry, const Eigen::Isometry3d& pose,
                        const Vector3d& centre, double radius) {
     Placed placed{link, &geometry, pose, centre, radius, false, {}};
@@ -120,7 +194,7 @@ void MotionCheck::addBodies() {
     add(-1, *obstacle.geometry, obstacle.pose, obstacle.centre, obstacle.radius);
 }
 
-void MotionCheck::addPair(const CheckedPair& pair) {
+void MotionCheck::Impl::addPair(const CheckedPair& pair) {
   const std::size_t bodies = geometry_->bodies.size(), others = pair.obstacle ? obstacles_.size() : bodies;
   if (pair.body < 0 || at(pair.body) >= bodies || pair.other < 0 || at(pair.other) >= others)
     throw Error("MotionCheck: a pair names a body or an obstacle that does not exist");
@@ -138,7 +212,7 @@ void MotionCheck::addPair(const CheckedPair& pair) {
 }
 
 // The joints from `root` out to the body's link; the base is one more where the root is the world.
-MotionCheck::Side MotionCheck::sideOf(int body, int root) {
+MotionCheck::Impl::Side MotionCheck::Impl::sideOf(int body, int root) {
   Side side{body, static_cast<int>(hops_.size()), 0};
   for (int link = bodies_[at(body)].link; link >= 0 && link != root; link = parent_[at(link)]) {
     const int joint = kinematics_->robot().links[at(link)].parentJoint;
@@ -149,7 +223,7 @@ MotionCheck::Side MotionCheck::sideOf(int body, int root) {
   return side;
 }
 
-bool MotionCheck::set(const ConstVector& q0, const ConstVector& q1) {
+bool MotionCheck::Impl::set(const ConstVector& q0, const ConstVector& q1) {
   if (q0.size() != kinematics_->size() || q1.size() != q0.size() || !q0.allFinite() || !q1.allFinite())
     return false;
   q0_ = q0;
@@ -158,7 +232,7 @@ bool MotionCheck::set(const ConstVector& q0, const ConstVector& q1) {
 }
 
 // Speeds and lengths of all joints for the motion, then the bounds of all pairs.
-bool MotionCheck::begin(const ConstVector& q0, const ConstVector& q1) {
+bool MotionCheck::Impl::begin(const ConstVector& q0, const ConstVector& q1) {
   if (!set(q0, q1)) return false;
   const RobotModel& robot = kinematics_->robot();
   for (std::size_t j = 0; j < hop_.size(); ++j) {
@@ -196,7 +270,7 @@ bool MotionCheck::begin(const ConstVector& q0, const ConstVector& q1) {
 
 // From the outermost joint in: its own centripetal acceleration, and that of the joints further in, which
 // carry what it moves around (Coriolis).
-void MotionCheck::prepare(Side& side) const {
+void MotionCheck::Impl::prepare(Side& side) const {
   const Placed& body = bodies_[at(side.body)];
   side.acceleration = 0;
   if (body.link < 0) return;
@@ -211,7 +285,7 @@ void MotionCheck::prepare(Side& side) const {
   }
 }
 
-void MotionCheck::place(double t) {
+void MotionCheck::Impl::place(double t) {
   q_ = q0_ + t * way_;
   kinematics_->forward(q_, state_);
   for (std::size_t l = 0; l < twist_.size(); ++l) {
@@ -238,7 +312,7 @@ void MotionCheck::place(double t) {
   slack_ = 16 * std::numeric_limits<double>::epsilon() * steps * length * (1 + spin);
 }
 
-Distance MotionCheck::ask(Pair& pair) {
+Distance MotionCheck::Impl::ask(Pair& pair) {
   const Placed &a = bodies_[at(pair.side[0].body)], &b = bodies_[at(pair.side[1].body)];
   if (a.convex && b.convex) return distance(a.body, b.body, &pair.cache);
   const DistanceAnswer answer =
@@ -253,7 +327,7 @@ Distance MotionCheck::ask(Pair& pair) {
   return found;
 }
 
-BodyVelocity MotionCheck::velocityOf(const Side& side, int root, const Vector3d& about) const {
+BodyVelocity MotionCheck::Impl::velocityOf(const Side& side, int root, const Vector3d& about) const {
   const int link = bodies_[at(side.body)].link;
   if (link < 0) return {};
   Twist twist = twist_[at(link)];
@@ -264,7 +338,7 @@ BodyVelocity MotionCheck::velocityOf(const Side& side, int root, const Vector3d&
   return {twist.linear + twist.angular.cross(about), twist.angular, side.acceleration};
 }
 
-Cover MotionCheck::ballCover(const Pair& pair, double margin, double most) const {
+Cover MotionCheck::Impl::ballCover(const Pair& pair, double margin, double most) const {
   const Placed &a = bodies_[at(pair.side[0].body)], &b = bodies_[at(pair.side[1].body)];
   const Vector3d d = b.where - a.where;
   const double length = d.norm(), gap = length - a.radius - b.radius - margin;
@@ -276,7 +350,7 @@ Cover MotionCheck::ballCover(const Pair& pair, double margin, double most) const
                     velocityOf(pair.side[1], pair.root, a.where), most, slack_);
 }
 
-Cover MotionCheck::cover(const Pair& pair, const Distance& found, double margin, double most) const {
+Cover MotionCheck::Impl::cover(const Pair& pair, const Distance& found, double margin, double most) const {
   const Placed &a = bodies_[at(pair.side[0].body)], &b = bodies_[at(pair.side[1].body)];
   const double gap = found.lower - margin;
   if (!(gap > 0)) return {};
@@ -301,7 +375,7 @@ Cover MotionCheck::cover(const Pair& pair, const Distance& found, double margin,
   return planeCover(found.normal, gap, support(a, 0), va, support(b, 1), vb, most, slack_);
 }
 
-bool MotionCheck::isFree(const ConstVector& q, double margin) {
+bool MotionCheck::Impl::isFree(const ConstVector& q, double margin) {
   if (!set(q, q)) return false;
   place(0);
   for (Pair& pair : moving_) {
@@ -316,19 +390,15 @@ bool MotionCheck::isFree(const ConstVector& q, double margin) {
   return true;
 }
 
-bool MotionCheck::isMotionFree(const ConstVector& q0, const ConstVector& q1, double margin) {
-  return firstContact(q0, q1, {margin, 1}).verdict == MotionVerdict::free;
-}
-
-MotionBracket MotionCheck::firstContact(const ConstVector& q0, const ConstVector& q1,
-                                        const MotionRequest& request) {
+MotionBracket MotionCheck::Impl::firstContact(const ConstVector& q0, const ConstVector& q1,
+                                              const MotionRequest& request) {
   if (!begin(q0, q1)) return {MotionVerdict::undecided, 0, 0, -1, 0};
   Scene scene(*this, request.margin);
   return MotionSearch<Scene>(scene, request).run(static_cast<int>(moving_.size()));
 }
 
-bool MotionCheck::closest(const ConstVector& q0, const ConstVector& q1, double precision, double offset,
-                          std::vector<Approach>& best) {
+bool MotionCheck::Impl::closest(const ConstVector& q0, const ConstVector& q1, double precision, double offset,
+                                std::vector<Approach>& best) {
   best.resize(moving_.size());
   if (!begin(q0, q1)) return false;
   ApproachScene scene(*this, precision, offset, best);
@@ -338,12 +408,41 @@ bool MotionCheck::closest(const ConstVector& q0, const ConstVector& q1, double p
          MotionVerdict::free;
 }
 
-DistanceAnswer MotionCheck::answer(int pair, const ConstVector& q) {
+DistanceAnswer MotionCheck::Impl::answer(int pair, const ConstVector& q) {
   if (!set(q, q)) return {};
   place(0);
   const Placed &a = bodies_[at(moving_[at(pair)].side[0].body)],
                &b = bodies_[at(moving_[at(pair)].side[1].body)];
   return distance(*a.geometry, a.body.pose, *b.geometry, b.body.pose, {&moving_[at(pair)].cache, nullptr});
 }
+
+MotionCheck::MotionCheck(std::shared_ptr<const Kinematics> kinematics,
+                         std::shared_ptr<const RobotGeometry> geometry, std::vector<CheckedPair> pairs,
+                         std::vector<Obstacle> obstacles)
+    : impl_(std::make_unique<Impl>(std::move(kinematics), std::move(geometry), std::move(pairs),
+                                   std::move(obstacles))) {}
+MotionCheck::MotionCheck(MotionCheck&&) noexcept = default;
+MotionCheck::~MotionCheck() = default;
+
+const std::vector<CheckedPair>& MotionCheck::pairs() const { return impl_->pairs(); }
+const Kinematics& MotionCheck::kinematics() const { return impl_->kinematics(); }
+
+bool MotionCheck::isFree(const ConstVector& q, double margin) { return impl_->isFree(q, margin); }
+
+bool MotionCheck::isMotionFree(const ConstVector& q0, const ConstVector& q1, double margin) {
+  return firstContact(q0, q1, {margin, 1}).verdict == MotionVerdict::free;
+}
+
+MotionBracket MotionCheck::firstContact(const ConstVector& q0, const ConstVector& q1,
+                                        const MotionRequest& request) {
+  return impl_->firstContact(q0, q1, request);
+}
+
+bool MotionCheck::closest(const ConstVector& q0, const ConstVector& q1, double precision, double offset,
+                          std::vector<Approach>& best) {
+  return impl_->closest(q0, q1, precision, offset, best);
+}
+
+DistanceAnswer MotionCheck::answer(int pair, const ConstVector& q) { return impl_->answer(pair, q); }
 
 }  // namespace fcl_stpbv

@@ -2,12 +2,12 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 #include <memory>
 #include <vector>
 
 #include "fcl_stpbv/adapter/fcl_distance.h"
-#include "fcl_stpbv/adapter/motion_search.h"
-#include "fcl_stpbv/adapter/posed_geometry.h"
+#include "fcl_stpbv/adapter/motion_request.h"
 #include "fcl_stpbv/robot/checked_pairs.h"
 #include "fcl_stpbv/robot/kinematics.h"
 #include "fcl_stpbv/robot/link_geometry.h"
@@ -17,7 +17,7 @@ namespace fcl_stpbv {
 /// The least distance of a pair over a motion, as far as is known.
 struct Approach {
   double distance = std::numeric_limits<double>::infinity();  ///< found at `time` (m)
-  double time = 0;
+  double time = 0;                                            ///< from 0 to 1
 };
 
 /// What checks the motions of one robot among obstacles; remembers each pair's normal from one check to the
@@ -28,14 +28,19 @@ struct Approach {
 /// motion is a straight line from q0 to q1 over the time from 0 to 1.
 class MotionCheck {
  public:
-  using ConstVector = Eigen::Ref<const Eigen::VectorXd>;
+  using ConstVector = Eigen::Ref<const Eigen::VectorXd>;  ///< a configuration
 
   /// @throws Error for a pair that names a body or an obstacle that does not exist.
   MotionCheck(std::shared_ptr<const Kinematics> kinematics, std::shared_ptr<const RobotGeometry> geometry,
               std::vector<CheckedPair> pairs, std::vector<Obstacle> obstacles = {});
+  /// Takes over all that the other one has; the other one may only be destroyed.
+  MotionCheck(MotionCheck&&) noexcept;
+  ~MotionCheck();
 
-  const std::vector<CheckedPair>& pairs() const { return pairs_; }
-  const Kinematics& kinematics() const { return *kinematics_; }
+  /// The pairs given.
+  const std::vector<CheckedPair>& pairs() const;
+  /// The robot.
+  const Kinematics& kinematics() const;
 
   /// Whether no pair is within `margin` (m) at q; ends at the first that is. False for a q that is not
   /// finite.
@@ -59,60 +64,8 @@ class MotionCheck {
   DistanceAnswer answer(int pair, const ConstVector& q);
 
  private:
-  struct Hop {  // a joint on the way out from the plane's link, with what the motion at hand makes of it
-    double slide = 0, spin = 0, turns = 1;  // speeds, and own acceleration in spin^2 times lever
-    double length = 0;                      // from the joint before to its child's origin at most
-  };
-  struct Side {
-    int body;               // among bodies_
-    int firstHop, lastHop;  // joints of the chain, inner ones first
-    double acceleration = 0;
-  };
-  struct Pair {
-    Side side[2];
-    int root;  // the link that the plane is fixed to, -1 for the world
-    PairCache cache;
-  };
-  struct Placed {  // a body or an obstacle
-    int link;      // -1 for an obstacle
-    const fcl::CollisionGeometryd* geometry;
-    Eigen::Isometry3d local;
-    Eigen::Vector3d centre;  // of its ball, in the link's frame
-    double radius;
-    bool convex;
-    ConvexBody body;
-    Eigen::Vector3d where{0, 0, 0};  // the ball's centre, now
-  };
-  class Scene;
-  class ApproachScene;
-
-  void addBodies();
-  void addPair(const CheckedPair& pair);
-  Side sideOf(int body, int root);
-  bool set(const ConstVector& q0, const ConstVector& q1);
-  bool begin(const ConstVector& q0, const ConstVector& q1);
-  void prepare(Side& side) const;
-  void place(double t);
-  Distance ask(Pair& pair);
-  BodyVelocity velocityOf(const Side& side, int root, const Eigen::Vector3d& about) const;
-  Cover ballCover(const Pair& pair, double margin, double most) const;
-  Cover cover(const Pair& pair, const Distance& found, double margin, double most) const;
-
-  std::shared_ptr<const Kinematics> kinematics_;
-  std::shared_ptr<const RobotGeometry> geometry_;
-  std::vector<Obstacle> obstacles_;
-  std::vector<CheckedPair> pairs_;
-  std::vector<Placed> bodies_;
-  std::vector<Pair> moving_;
-  std::vector<int> hops_;              // joints of all chains
-  std::vector<int> parent_;            // of each link
-  std::vector<std::vector<int>> own_;  // motions that a link adds to its parent's
-  std::vector<int> motionOf_;          // first motion of each joint, -1 for none; the base's is the last
-  Kinematics::State state_;
-  std::vector<Twist> twist_;  // of each link, per unit of time
-  std::vector<Hop> hop_;      // of each joint, the base's last
-  Eigen::VectorXd q0_, way_, q_;
-  double slack_ = 0;
+  class Impl;
+  std::unique_ptr<Impl> impl_;
 };
 
 }  // namespace fcl_stpbv

@@ -6,7 +6,7 @@
 
 #include "fcl_stpbv/robot/pair_samples.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 
 NeutralPosture judgeNeutral(std::shared_ptr<const Kinematics> kinematics,
                             std::shared_ptr<const RobotGeometry> geometry, const std::vector<PairEntry>& list,
@@ -38,4 +38,4 @@ NeutralPosture judgeNeutral(std::shared_ptr<const Kinematics> kinematics,
   return found;
 }
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

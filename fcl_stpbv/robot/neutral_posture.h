@@ -8,7 +8,7 @@
 
 #include "fcl_stpbv/robot/pair_list.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 
 struct NeutralPosture {
   int colliding = 0;  ///< pairs of links whose bodies meet there, but for adjacent and rigidly joined ones
@@ -23,4 +23,4 @@ NeutralPosture judgeNeutral(std::shared_ptr<const Kinematics> kinematics,
                             std::shared_ptr<const RobotGeometry> geometry, const std::vector<PairEntry>& list,
                             const Eigen::VectorXd& neutral, const Srdf* srdf, double margin);
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

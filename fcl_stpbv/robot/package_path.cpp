@@ -9,7 +9,7 @@
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/robot/xml_text.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 namespace {
 
 namespace fs = std::filesystem;
@@ -118,4 +118,4 @@ std::string PackagePath::resolve(const std::string& uri) const {
   throw Error(message);
 }
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 
 /// Turns the file names of one URDF into paths.
 ///
@@ -29,4 +29,4 @@ class PackagePath {
   std::vector<std::string> above_;     // folders around the URDF, innermost first
 };
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

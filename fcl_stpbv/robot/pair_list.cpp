@@ -24,6 +24,8 @@
 namespace fcl_stpbv {
 namespace {
 
+using namespace detail;
+
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 class Search {

@@ -16,31 +16,36 @@
 
 namespace fcl_stpbv {
 
+/// How thoroughly pairs are searched.
 struct PairListOptions {
-  int samples = 2000;
-  std::uint64_t seed = 1;
-  int descents = 3;  ///< from this many of a pair's closest samples
+  int samples = 2000;      ///< random configurations
+  std::uint64_t seed = 1;  ///< of the random configurations
+  int descents = 3;        ///< from this many of a pair's closest samples
   int randomDescents =
       500;  ///< from this many random configurations, for a pair found clear so far and not proven
   long proofBoxes = 200;    ///< looked at for each pair found clear so far
   double proofSeconds = 0;  ///< time for further proofs in all; a pair that is not decided then stays sampled
   double margin = 0;  ///< a distance not above it is a collision (m); FCL's own answers are 0 at overlap
-  double alwaysFraction = 0.95;  ///< of the samples in collision, as MoveIt has it
-  Eigen::VectorXd neutral;       ///< the neutral configuration; empty for Kinematics::neutral()
-  int threads = 1;
+  double alwaysFraction = 0.95;     ///< of the samples in collision, as MoveIt has it
+  Eigen::VectorXd neutral;          ///< the neutral configuration; empty for Kinematics::neutral()
+  int threads = 1;                  ///< that share the work
   std::vector<Obstacle> obstacles;  ///< each is a pair with each link that joints or the base move
-  std::function<void(std::size_t, std::size_t, const std::string&)> progress;
+  std::function<void(std::size_t, std::size_t, const std::string&)>
+      progress;  ///< called now and then: steps done, of how many, at what
 };
 
+/// One pair, and why it is checked or left out.
 struct PairEntry : LinkPair {  ///< a pair with an obstacle is never left out as adjacent or by default
   PairReason reason = PairReason::sometimes;
-  int samples = 0, collisions = 0;
+  int samples = 0;          ///< configurations tried
+  int collisions = 0;       ///< of these, in collision
   double minDistance = 0;   ///< least found (m); that of the neutral configuration where nothing was sampled
   Eigen::VectorXd closest;  ///< the configuration it was found in
   bool byDescent = false;   ///< found by a descent, not by a sample
-  double neutralDistance = 0;          ///< in the neutral configuration (m)
-  long boxes = 0;                      ///< looked at by proofs
-  double security = 0, influence = 0;  ///< proposed for an optimiser or a controller (m)
+  double neutralDistance = 0;  ///< in the neutral configuration (m)
+  long boxes = 0;              ///< looked at by proofs
+  double security = 0;         ///< distance to keep, proposed for an optimiser or a controller (m)
+  double influence = 0;        ///< distance from which the pair counts, likewise (m)
 
   /// With this confidence, 95 %, a random configuration collides with less than this probability: 3/n where
   /// none of n did.

@@ -9,12 +9,26 @@
 #include <cmath>
 #include <limits>
 
+#include "fcl_stpbv/robot/body_points.h"
 #include "fcl_stpbv/robot/joint_path.h"
 #include "fcl_stpbv/robot/pair_search.h"
 #include "fcl_stpbv/robot/plane_bound.h"
 
 namespace fcl_stpbv {
+
+namespace detail {
+
+/// Nothing for bodies that cannot be such points.
+struct ProofBodies {
+  std::vector<std::optional<BodyPoints>> robot;      ///< in the links' frames
+  std::vector<std::optional<BodyPoints>> obstacles;  ///< in the world
+};
+
+}  // namespace detail
+
 namespace {
+
+using namespace detail;
 
 using Eigen::Index;
 using Eigen::Vector3d;
@@ -139,9 +153,9 @@ class Prover {
   }
 
   double planeBound(const CheckedPair& pair, const DistanceAnswer& answer, double enough) {
-    const std::optional<BodyPoints>& first = scene_.bodyPoints[at(pair.body)];
+    const std::optional<BodyPoints>& first = scene_.bodies->robot[at(pair.body)];
     const std::optional<BodyPoints>& second =
-        pair.obstacle ? scene_.obstaclePoints[at(pair_.link2)] : scene_.bodyPoints[at(pair.other)];
+        pair.obstacle ? scene_.bodies->obstacles[at(pair_.link2)] : scene_.bodies->robot[at(pair.other)];
     if (!first || !second || answer.normal.isZero()) return -kInfinity;
     const Kinematics::State& state = search_.constraints().state();
     move(*first, state.link[at(pair_.link1)], first_);
@@ -189,12 +203,11 @@ bool boxBefore(const JointBox& a, const JointBox& b) {
 ProofScene proofScene(std::shared_ptr<const Kinematics> kinematics,
                       std::shared_ptr<const RobotGeometry> geometry, std::vector<Obstacle> obstacles,
                       double margin) {
-  ProofScene scene{std::move(kinematics), std::move(geometry), std::move(obstacles), margin, {}, {}};
-  for (const Body& body : scene.geometry->bodies)
-    scene.bodyPoints.push_back(bodyPoints(*body.geometry, body.pose));
-  for (const Obstacle& obstacle : scene.obstacles)
-    scene.obstaclePoints.push_back(bodyPoints(*obstacle.geometry, obstacle.pose));
-  return scene;
+  const auto bodies = std::make_shared<ProofBodies>();
+  for (const Body& body : geometry->bodies) bodies->robot.push_back(bodyPoints(*body.geometry, body.pose));
+  for (const Obstacle& obstacle : obstacles)
+    bodies->obstacles.push_back(bodyPoints(*obstacle.geometry, obstacle.pose));
+  return {std::move(kinematics), std::move(geometry), std::move(obstacles), margin, bodies};
 }
 
 std::vector<int> proofCoordinates(const ProofScene& scene, const LinkPair& pair) {

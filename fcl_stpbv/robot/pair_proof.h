@@ -8,21 +8,23 @@
 #include <optional>
 #include <vector>
 
-#include "fcl_stpbv/robot/body_points.h"
 #include "fcl_stpbv/robot/checked_pairs.h"
 #include "fcl_stpbv/robot/kinematics.h"
 #include "fcl_stpbv/robot/link_geometry.h"
 
 namespace fcl_stpbv {
 
+namespace detail {
+struct ProofBodies;
+}
+
 /// What proofs need of a robot, made once for all its pairs.
 struct ProofScene {
-  std::shared_ptr<const Kinematics> kinematics;
-  std::shared_ptr<const RobotGeometry> geometry;
-  std::vector<Obstacle> obstacles;
-  double margin = 0;                                      ///< a distance not above it is a collision (m)
-  std::vector<std::optional<BodyPoints>> bodyPoints;      ///< in the links' frames
-  std::vector<std::optional<BodyPoints>> obstaclePoints;  ///< in the world
+  std::shared_ptr<const Kinematics> kinematics;       ///< never null
+  std::shared_ptr<const RobotGeometry> geometry;      ///< never null
+  std::vector<Obstacle> obstacles;                    ///< that links are proven clear of
+  double margin = 0;                                  ///< a distance not above it is a collision (m)
+  std::shared_ptr<const detail::ProofBodies> bodies;  ///< of both, as points with balls around them
 };
 
 /// @throws Error where a body's over-cover cannot be measured.
@@ -33,7 +35,8 @@ ProofScene proofScene(std::shared_ptr<const Kinematics> kinematics,
 /// Ranges of the coordinates that the pair's distance depends on, in the order of proofCoordinates() (rad or
 /// m).
 struct JointBox {
-  Eigen::VectorXd lower, upper;
+  Eigen::VectorXd lower;  ///< of each coordinate in turn
+  Eigen::VectorXd upper;  ///< not below `lower`
 };
 
 /// How far a proof has come.
@@ -42,6 +45,7 @@ struct PairProof {
   std::optional<Eigen::VectorXd> collision;  ///< a configuration (all coordinates) in which the pair collides
   long boxes = 0;                            ///< looked at so far
 
+  /// Whether nothing is left to look at and nothing collided.
   bool proven() const { return open.empty() && !collision; }
 };
 

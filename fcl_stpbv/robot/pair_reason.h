@@ -3,6 +3,7 @@
 
 namespace fcl_stpbv {
 
+/// Why a pair of links is checked, or left out.
 enum class PairReason {
   sometimes,      ///< collides in some configuration, which is given; to be checked
   adjacent,       ///< on either side of one joint

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 namespace {
 
 using Eigen::Index;
@@ -90,4 +90,4 @@ std::vector<PairSamples> PairSampler::sample(int count, std::uint64_t seed, doub
   return found;
 }
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

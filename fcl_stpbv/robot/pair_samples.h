@@ -10,7 +10,7 @@
 
 #include "fcl_stpbv/robot/constraints.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 
 /// Uniform within the limits; coordinates without limits within 1 rad or m around zero. The same with every
 /// compiler.
@@ -45,4 +45,4 @@ class PairSampler {
   Eigen::VectorXd rows_, least_;
 };
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

@@ -9,7 +9,7 @@
 
 #include "fcl_stpbv/robot/joint_path.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
@@ -166,4 +166,4 @@ double PairSearch::climb(Eigen::VectorXd& q, double margin) {
   return follow(q, 1, [margin](double d) { return d > margin; });
 }
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

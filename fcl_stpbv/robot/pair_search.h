@@ -8,7 +8,7 @@
 
 #include "fcl_stpbv/robot/constraints.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 
 /// One pair as a function of the coordinates between them.
 class PairSearch {
@@ -55,4 +55,4 @@ class PairSearch {
   Eigen::VectorXd d_, values_, gradient_;
 };
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 namespace {
 
 using Eigen::Vector3d;
@@ -285,4 +285,4 @@ double PlaneBound::gap(const Vector3d& normal, const std::array<Vector3d, 2>& ne
   return best;
 }
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

@@ -8,7 +8,7 @@
 
 #include "fcl_stpbv/robot/body_points.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 
 /// A joint on the way from the first body to the second, as it is at the middle of the box.
 struct BoxJoint {
@@ -71,4 +71,4 @@ class PlaneBound {
   Eigen::VectorXd trial_;
 };
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

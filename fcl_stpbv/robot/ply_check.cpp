@@ -10,7 +10,7 @@
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/io/text_scanner.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 namespace {
 
 struct Property {
@@ -148,4 +148,4 @@ void checkPly(std::string_view text, const std::string& name) {
   }
 }
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

@@ -5,9 +5,9 @@
 #include <string>
 #include <string_view>
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 
 /// @throws Error naming the file and what is wrong with it.
 void checkPly(std::string_view text, const std::string& name);
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

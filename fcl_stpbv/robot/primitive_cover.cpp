@@ -13,7 +13,7 @@
 
 #include "fcl_stpbv/robot/fitted_radii.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 namespace {
 
 using Eigen::Vector3d;
@@ -91,4 +91,4 @@ PrimitiveCover primitiveCover(const fcl::CollisionGeometryd& primitive, const St
   return cover;
 }
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

@@ -5,7 +5,7 @@
 
 #include "fcl_stpbv/volume/measure.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 
 /// A volume around a primitive, and what it exceeds the primitive by (m): largest is never less than the
 /// truth.
@@ -23,4 +23,4 @@ struct PrimitiveCover {
 /// primitive too large for `radii.R` gets a larger one.
 PrimitiveCover primitiveCover(const fcl::CollisionGeometryd& primitive, const StpBvOptions& radii);
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

@@ -16,6 +16,7 @@
 namespace fcl_stpbv {
 namespace {
 
+using namespace detail;
 using tinyxml2::XMLElement;
 
 Eigen::Vector3d toEigen(const urdf::Vector3& v) { return {v.x, v.y, v.z}; }

@@ -11,28 +11,34 @@
 
 namespace fcl_stpbv {
 
+/// How a joint moves, as the URDF says it.
 enum class JointType { fixed, revolute, continuous, prismatic, planar, floating };
 
 /// Value of a mimic joint: `multiplier` times the other joint's plus `offset`.
 struct Mimic {
-  int joint;
-  double multiplier;
-  double offset;
+  int joint;          ///< index of the joint that is followed
+  double multiplier;  ///< of that joint's value
+  double offset;      ///< rad or m
 };
 
+/// A joint. Lengths in m, angles in rad.
 struct JointModel {
-  std::string name;
-  JointType type = JointType::fixed;
-  int parent = -1, child = -1;  ///< links
-  Eigen::Isometry3d origin = Eigen::Isometry3d::Identity();
-  Eigen::Vector3d axis{1, 0, 0};  ///< unit; a planar joint's normal
-  double lower = 0, upper = 0;    ///< rad or m; -pi and pi for a continuous joint
-  std::optional<Mimic> mimic;     ///< never of a joint that mimics itself
+  std::string name;                                          ///< as the URDF names it
+  JointType type = JointType::fixed;                         ///< how it moves
+  int parent = -1;                                           ///< link above it
+  int child = -1;                                            ///< link below it
+  Eigen::Isometry3d origin = Eigen::Isometry3d::Identity();  ///< of the joint's frame in the parent link's
+  Eigen::Vector3d axis{1, 0, 0};                             ///< unit; a planar joint's normal
+  double lower = 0;                                          ///< rad or m; -pi for a continuous joint
+  double upper = 0;                                          ///< rad or m; pi for a continuous joint
+  std::optional<Mimic> mimic;                                ///< never of a joint that mimics itself
 };
 
+/// A shape of a link, for collision or for looks.
 struct ShapeModel {
+  /// What a shape can be.
   enum class Kind { sphere, capsule, box, cylinder, mesh };
-  Kind kind = Kind::mesh;
+  Kind kind = Kind::mesh;                                  ///< which one it is
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();  ///< in the link's frame
   Eigen::Vector3d size{0, 0, 0};   ///< box: sides; else radius and length (without a capsule's caps) (m)
   std::string mesh;                ///< as the URDF names it
@@ -41,16 +47,19 @@ struct ShapeModel {
   std::string place;  ///< for messages: file, line, link and which of its shapes
 };
 
+/// A link and what hangs on it.
 struct LinkModel {
-  std::string name;
-  std::vector<ShapeModel> collision, visual;
+  std::string name;                       ///< as the URDF names it
+  std::vector<ShapeModel> collision;      ///< in the order of the file
+  std::vector<ShapeModel> visual;         ///< likewise
   int parentJoint = -1;                   ///< -1 for the root
   double mass = 0;                        ///< kg; 0 without an inertial element
   Eigen::Vector3d centreOfMass{0, 0, 0};  ///< in the link's frame (m)
 };
 
+/// A robot as its URDF describes it: a tree of links.
 struct RobotModel {
-  std::string name;
+  std::string name;                ///< of the robot
   std::string path;                ///< of the URDF
   std::vector<LinkModel> links;    ///< parents before their children; the root first
   std::vector<JointModel> joints;  ///< in the order of the file
@@ -59,6 +68,7 @@ struct RobotModel {
 
   /// Index by name, -1 if there is none.
   int link(const std::string& name) const;
+  /// Index by name, -1 if there is none.
   int joint(const std::string& name) const;
 };
 
@@ -74,6 +84,7 @@ RobotModel loadUrdf(const std::string& path);
 RobotModel loadUrdf(const std::string& path, LoadFaults& faults);
 /// The same from a text; `path` stands for it in messages.
 RobotModel parseUrdf(const std::string& text, const std::string& path);
+/// The same, but what is wrong is added to `faults` for the caller to refuse.
 RobotModel parseUrdf(const std::string& text, const std::string& path, LoadFaults& faults);
 
 }  // namespace fcl_stpbv

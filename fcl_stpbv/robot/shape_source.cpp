@@ -8,7 +8,7 @@
 #include "fcl_stpbv/robot/mesh_file.h"
 #include "fcl_stpbv/robot/package_path.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 namespace {
 
 using Shapes = std::vector<ShapeModel> LinkModel::*;
@@ -106,4 +106,4 @@ ShapeSources readShapes(const RobotModel& robot, bool visual, const std::vector<
   return Reader(robot, packagePath, faults).read(visual, isCached);
 }
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

@@ -8,7 +8,7 @@
 
 #include "fcl_stpbv/robot/robot_model.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 
 /// One shape of one link; of a mesh, its file.
 struct ShapeSource {
@@ -40,4 +40,4 @@ struct ShapeSources {
 ShapeSources readShapes(const RobotModel& robot, bool visual, const std::vector<std::string>& packagePath,
                         const IsCached& isCached, LoadFaults& faults);
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

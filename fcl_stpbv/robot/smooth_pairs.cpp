@@ -14,6 +14,8 @@
 namespace fcl_stpbv {
 namespace {
 
+using namespace detail;
+
 // A body that is not smooth, and those it meets in pairs without a smooth body.
 struct FlatBody {
   Body* body;

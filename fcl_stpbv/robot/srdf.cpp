@@ -13,6 +13,7 @@
 namespace fcl_stpbv {
 namespace {
 
+using namespace detail;
 using tinyxml2::XMLElement;
 
 // Elements of SRDF that nothing here reads.

@@ -10,20 +10,27 @@
 
 namespace fcl_stpbv {
 
+/// An SRDF's contents.
 struct Srdf {
+  /// Two links and what the file says of them.
   struct Pair {
-    std::string link1, link2, reason;
+    std::string link1;   ///< by name
+    std::string link2;   ///< by name
+    std::string reason;  ///< "" without one
   };
+  /// A named posture of a group of joints.
   struct State {
-    std::string name, group;
-    std::map<std::string, std::vector<double>> joints;
+    std::string name;                                   ///< of the state
+    std::string group;                                  ///< of joints
+    std::map<std::string, std::vector<double>> joints;  ///< values by joint (rad or m)
   };
-  std::string path;
+  std::string path;                      ///< of the file
   std::vector<Pair> disabled;            ///< disable_collisions
   std::vector<Pair> enabled;             ///< enable_collisions; these win
   std::vector<std::string> defaultsOff;  ///< disable_default_collisions: links checked only where enabled
   std::vector<State> states;             ///< group_state
-  std::string baseJoint, baseType;       ///< virtual_joint, "" without one
+  std::string baseJoint;                 ///< name of the virtual_joint, "" without one
+  std::string baseType;                  ///< its type
   /// Whole sentences, to be told to the user: entries for links that the robot does not have, which count for
   /// nothing as in MoveIt; elements that SRDF does not know; the name of another robot.
   std::vector<std::string> warnings;

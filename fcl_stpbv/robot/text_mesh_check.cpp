@@ -8,7 +8,7 @@
 
 #include "fcl_stpbv/error.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 namespace {
 
 using Words = std::vector<std::string_view>;
@@ -199,4 +199,4 @@ void checkTextMesh(std::string_view text, const std::string& extension, const st
   if (extension == ".dae") checkCollada(text, name);
 }
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

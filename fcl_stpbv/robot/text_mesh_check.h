@@ -4,10 +4,10 @@
 #include <string>
 #include <string_view>
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 
 /// Checks OBJ, text STL, OFF and COLLADA, told by `extension` (".obj", lower case); others pass.
 /// @throws Error "name:line: ..." saying what is wrong.
 void checkTextMesh(std::string_view text, const std::string& extension, const std::string& name);
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

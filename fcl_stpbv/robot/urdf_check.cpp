@@ -5,7 +5,7 @@
 
 #include "fcl_stpbv/robot/xml_text.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 namespace {
 
 using tinyxml2::XMLElement;
@@ -126,4 +126,4 @@ UrdfTree readTree(const XMLElement& robot, const std::string& path, LoadFaults& 
   return checked;
 }
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

@@ -9,7 +9,7 @@
 
 #include "fcl_stpbv/robot/load_faults.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 
 struct UrdfTree {
   std::vector<const tinyxml2::XMLElement*> links;   ///< parents before their children
@@ -22,4 +22,4 @@ struct UrdfTree {
 /// @throws Error where nothing can be looked at: no links, or more than 20,000.
 UrdfTree readTree(const tinyxml2::XMLElement& robot, const std::string& path, LoadFaults& faults);
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

@@ -14,7 +14,7 @@
 
 #include "fcl_stpbv/error.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 namespace {
 
 using tinyxml2::XMLElement;
@@ -132,4 +132,4 @@ urdf::JointSharedPtr readJointElement(const XMLElement& joint) {
   return read->second;
 }
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

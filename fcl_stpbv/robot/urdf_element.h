@@ -5,7 +5,7 @@
 #include <urdf_model/joint.h>
 #include <urdf_model/link.h>
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 
 /// A `<collision>`, or a `<visual>` in its place: only its `<origin>` and `<geometry>` count. A capsule,
 /// newer than this urdfdom, comes as a cylinder.
@@ -18,4 +18,4 @@ urdf::InertialSharedPtr readInertialElement(const tinyxml2::XMLElement& inertial
 /// A `<joint>`, all but its name and links. @throws as above.
 urdf::JointSharedPtr readJointElement(const tinyxml2::XMLElement& joint);
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

@@ -8,7 +8,7 @@
 
 #include "fcl_stpbv/robot/xml_text.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 namespace {
 
 using tinyxml2::XMLElement;
@@ -127,4 +127,4 @@ int checkPlaces(const XMLElement& robot, const std::string& path, LoadFaults& fa
   return collisions;
 }
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

@@ -7,7 +7,7 @@
 
 #include "fcl_stpbv/robot/load_faults.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 
 /// Checks a `<collision>` or `<visual>`: one geometry of one shape, at most one origin, and no attribute or
 /// element that looks like a misspelt one. Names with a prefix (`drake:...`) are other tools' own.
@@ -22,4 +22,4 @@ void checkJointWords(const tinyxml2::XMLElement& joint);
 /// @returns the number of `<collision>` elements of links.
 int checkPlaces(const tinyxml2::XMLElement& robot, const std::string& path, LoadFaults& faults);
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

@@ -25,10 +25,11 @@ enum class DamperLevel {
                  ///< security)
 };
 
+/// What the rows brake, and when.
 struct DamperOptions {
-  DamperLevel level = DamperLevel::velocity;
-  Damper all;
-  std::map<int, Damper> rows;  ///< of single rows
+  DamperLevel level = DamperLevel::velocity;  ///< what the program's variable is
+  Damper all;                                 ///< of all rows but those in `rows`
+  std::map<int, Damper> rows;                 ///< of single rows
   /// A pair that enters faster than its damper allows gets a larger xi until it leaves: one that allows what
   /// it does and this much more (m/s), so that no row acts on the tick on which it enters. Negative: never.
   double headroom = 0.05;
@@ -46,8 +47,11 @@ class VelocityDamper {
   /// Rows at q, while q moves with velocity qd.
   void update(const Eigen::Ref<const Eigen::VectorXd>& q, const Eigen::Ref<const Eigen::VectorXd>& qd);
 
+  /// The rows' left side, rows() x columns() of the constraints.
   const CollisionConstraints::SparseJacobian& A() const { return jacobian_; }
+  /// The rows' right side (m/s, or m/s^2 with accelerations).
   const Eigen::VectorXd& b() const { return b_; }
+  /// The distances at the last update (m).
   const Eigen::VectorXd& d() const { return rates_.d; }
   /// Rows within their influence, ascending.
   const std::vector<int>& near() const { return near_; }

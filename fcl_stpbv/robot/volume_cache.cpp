@@ -16,7 +16,7 @@
 #include "fcl_stpbv/io/stpbv_file.h"
 #include "fcl_stpbv/io/text_scanner.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 namespace {
 
 namespace fs = std::filesystem;
@@ -66,13 +66,6 @@ std::string readEntry(const std::string& path) {
 }
 
 }  // namespace
-
-std::string VolumeCache::defaultFolder() {
-  const char* cache = std::getenv("XDG_CACHE_HOME");
-  if (cache && fs::path(cache).is_absolute()) return (fs::path(cache) / "fcl_stpbv").string();
-  const char* home = std::getenv("HOME");
-  return home && fs::path(home).is_absolute() ? (fs::path(home) / ".cache" / "fcl_stpbv").string() : "";
-}
 
 std::string VolumeCache::pathOf(std::string_view content, const StpBvOptions& options) const {
   std::string key(kVersion);
@@ -133,4 +126,4 @@ void VolumeCache::keep(const std::string& path, const StpBv& volume) {
   }
 }
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

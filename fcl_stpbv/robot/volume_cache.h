@@ -7,7 +7,7 @@
 
 #include "fcl_stpbv/volume/stp_bv.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 
 /// A folder of built volumes. Any number of processes may share it. Whatever goes wrong with it, a missing or
 /// read-only folder, a damaged entry, is cured by building anew and never reported.
@@ -17,9 +17,6 @@ namespace fcl_stpbv {
 /// one.
 class VolumeCache {
  public:
-  /// The usual place: $XDG_CACHE_HOME/fcl_stpbv, else ~/.cache/fcl_stpbv; "" where neither is known.
-  static std::string defaultFolder();
-
   /// `folder` is made when the first volume is kept; "" keeps nothing.
   explicit VolumeCache(std::string folder) : folder_(std::move(folder)) {}
 
@@ -42,4 +39,4 @@ class VolumeCache {
   int hits_ = 0;
 };
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

@@ -1,7 +1,7 @@
 // A fixed set of threads that wait on a condition variable, so that sharing out work allocates nothing.
 #include "fcl_stpbv/robot/worker_pool.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 
 WorkerPool::WorkerPool(int threads) {
   for (int k = 1; k < threads; ++k) workers_.emplace_back([this, k] { serve(k); });
@@ -48,4 +48,4 @@ void WorkerPool::serve(int k) {
   }
 }
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

@@ -6,7 +6,7 @@
 #include <thread>
 #include <vector>
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 
 class WorkerPool {
  public:
@@ -40,4 +40,4 @@ class WorkerPool {
   bool stop_ = false;
 };
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

@@ -8,7 +8,7 @@
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/io/text_scanner.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 namespace {
 
 // Ten thousand links with inertia and meshes take about 10 MB.
@@ -97,4 +97,4 @@ std::string requiredAttribute(const tinyxml2::XMLElement& element, const char* a
   return value;
 }
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

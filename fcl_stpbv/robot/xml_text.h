@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 
 /// Parses `text` into `document`. Refused: more than 64 MB, NUL bytes, a document type (nothing in URDF needs
 /// entities of its own), elements nested too deep, and xacro that was not expanded: elements of its
@@ -27,4 +27,4 @@ void loadXml(const std::string& path, tinyxml2::XMLDocument& document);
 std::string requiredAttribute(const tinyxml2::XMLElement& element, const char* attribute,
                               const std::string& name);
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

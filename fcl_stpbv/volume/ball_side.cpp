@@ -10,7 +10,7 @@
 
 #include "fcl_stpbv/volume/exact_sign.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 namespace {
 
 #ifdef __SIZEOF_FLOAT128__
@@ -167,4 +167,4 @@ int TouchingBall::turn(const Eigen::Vector3d& p, const Eigen::Vector3d& q, const
   return exactTurn({anchor_, b_, c_, radius_}, p, q, s);
 }
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

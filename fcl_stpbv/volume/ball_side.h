@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <memory>
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 
 /// Ball of a given radius that touches three points, counter-clockwise seen from outside, from the inside of
 /// their hull (paper III.A). An infinite radius makes it the half space below their plane, so that the same
@@ -54,4 +54,4 @@ class TouchingBall {
   mutable std::shared_ptr<const Exact> exact_;
 };
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

@@ -9,6 +9,8 @@
 
 namespace fcl_stpbv {
 
+using namespace detail;
+
 using Eigen::Vector3d;
 
 double surfaceDifference(const StpBv& a, const StpBv& b) {

@@ -14,7 +14,7 @@
 #include <cstdint>
 #include <limits>
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 namespace {
 
 using Integer = boost::multiprecision::cpp_int;
@@ -116,4 +116,4 @@ bool spanPlane(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::
   return plane.normal.x != 0 || plane.normal.y != 0 || plane.normal.z != 0;
 }
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

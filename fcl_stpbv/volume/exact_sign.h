@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 
 /// The ball of `radius` that touches a, b and c, counter-clockwise seen from outside; infinite: their plane.
 struct BallPoints {
@@ -21,4 +21,4 @@ int exactTurn(const BallPoints& ball, const Eigen::Vector3d& p, const Eigen::Vec
 /// False where a, b and c lie exactly on one line.
 bool spanPlane(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c);
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

@@ -7,7 +7,7 @@
 #include "fcl_stpbv/volume/rolling_ball.h"
 #include "fcl_stpbv/volume/stp_bv.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 
 /// The convex hull of a cloud, to measure volumes around it against (docs/theory.md, 4).
 class HullExcess {
@@ -31,4 +31,4 @@ class HullExcess {
   std::vector<HalfEdge> halfEdges_;
 };
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

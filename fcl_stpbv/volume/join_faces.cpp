@@ -14,7 +14,7 @@
 #include "fcl_stpbv/volume/ball_side.h"
 #include "fcl_stpbv/volume/rolling_ball.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 namespace {
 
 using Eigen::Vector3d;
@@ -137,4 +137,4 @@ std::vector<Ring> joinFaces(const std::vector<Vector3d>& points, std::vector<Rin
   return joined;
 }
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 
 /// Faces of a rolled hull with those on one ball joined. Points on one ball (each face of every box) give
 /// triangles with edges of no width between them where rounding has put them off it; a join grows from the
@@ -13,4 +13,4 @@ namespace fcl_stpbv {
 std::vector<std::vector<int>> joinFaces(const std::vector<Eigen::Vector3d>& points,
                                         std::vector<std::vector<int>> faces, double radius);
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

@@ -10,12 +10,14 @@
 #include <cmath>
 #include <limits>
 
+#include "fcl_stpbv/volume/patch_view.h"
 #include "fcl_stpbv/volume/regions.h"
 #include "fcl_stpbv/volume/verify.h"
 
 namespace fcl_stpbv {
 namespace {
 
+using namespace detail;
 using Eigen::Vector3d;
 
 // Gauss-Legendre points and weights on [0, 1], ten points: exact for polynomials of degree 19.
@@ -55,7 +57,7 @@ double faceVolume(const StpBv& volume, const Region& region) {
           const Vector3d g = region.centre + out * (b - region.centre);
           const double length = g.norm();
           const Vector3d n = g / length;
-          const double height = n.dot(anchor) + supportAboveAnchor(patch, PatchKind::face, volume.radii(), n);
+          const double height = n.dot(anchor) + supportAboveAnchor(volume, region.patch, n);
           sum += wt * wo * out * det / (length * length * length) * height;
         }
       }
@@ -89,7 +91,7 @@ double edgeVolume(const StpBv& volume, int edge) {
 // A direction across the edge that its patch owns.
 Vector3d acrossEdge(const StpBv& volume, int patch) {
   Vector3d sum = Vector3d::Zero(), last = Vector3d::Zero();
-  for (const RegionBoundary boundary : volume.boundaries(patch))
+  for (const RegionBoundary boundary : volume.tables().patches.boundaries(patch))
     if (boundary.limit == 0) sum -= boundary.normal, last = boundary.normal;
   const Vector3d& u = volume.patch(patch).axis;
   if (sum.norm() > 1e-6) return sum.normalized();
@@ -101,7 +103,7 @@ Vector3d acrossEdge(const StpBv& volume, int patch) {
 Vector3d stationaryNormal(const StpBv& volume, int index, const Vector3d& p) {
   const Patch patch = volume.patch(index);
   const PatchKind kind = volume.kind(index);
-  Vector3d g = p - centre(patch, kind, volume.radii());
+  Vector3d g = p - unpack(posedPatch(volume, index).centre());
   if (kind == PatchKind::edge) {
     const double along = g.dot(patch.axis);
     const Vector3d side = g - along * patch.axis;
@@ -114,7 +116,7 @@ Vector3d stationaryNormal(const StpBv& volume, int index, const Vector3d& p) {
   if (length > (kind == PatchKind::vertex ? 1e-12 * volume.enclosingRadius() : 0.0)) return g / length;
   if (kind == PatchKind::face) return patch.axis;
   Vector3d inside = Vector3d::Zero();
-  for (const RegionBoundary boundary : volume.boundaries(index)) inside -= boundary.normal;
+  for (const RegionBoundary boundary : volume.tables().patches.boundaries(index)) inside -= boundary.normal;
   return inside.norm() > 0 ? Vector3d(inside.normalized()) : Vector3d(Vector3d::UnitZ());
 }
 
@@ -154,9 +156,7 @@ double signedDistance(const StpBv& volume, const Vector3d& point) {
     const double past = volume.outside(index, n);
     if (past > kNear) continue;
     const int owner = past <= 0 ? index : volume.owner(n, index);
-    const Patch patch = volume.patch(owner);
-    best = std::max(
-        best, n.dot(point - patch.anchor) - supportAboveAnchor(patch, volume.kind(owner), volume.radii(), n));
+    best = std::max(best, n.dot(point - volume.patch(owner).anchor) - supportAboveAnchor(volume, owner, n));
   }
   return best;
 }

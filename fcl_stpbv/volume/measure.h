@@ -16,9 +16,10 @@ struct OverCover {
                 ///< point, likewise)
 };
 
-/// Excess over the convex hull of the volume's vertices, or of the cloud it was built from: with a small R
-/// points of the hull lie inside and drop out.
+/// Excess over the convex hull of the volume's vertices, or, given it, of the cloud that the volume was built
+/// from: with a small R points of the hull lie inside and drop out.
 OverCover overCover(const StpBv& volume);
+/// Over the hull of the cloud.
 OverCover overCover(const StpBv& volume, const std::vector<Eigen::Vector3d>& cloud);
 
 /// Bound on the over-cover for a body whose faces are acute and whose longest edge is `a` (m): R - sqrt(rho^2

@@ -7,7 +7,7 @@
 #include <Eigen/Dense>
 #include <cmath>
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 namespace {
 
 using Vector = Eigen::Matrix<long double, 3, 1>;
@@ -79,4 +79,4 @@ Ball minimumEnclosingBall(const std::vector<Eigen::Vector3d>& points) {
   return result;
 }
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 
 struct Ball {
   Eigen::Vector3d centre{0, 0, 0};
@@ -14,4 +14,4 @@ struct Ball {
 /// Minimum enclosing ball of a non-empty cloud, to rounding (m).
 Ball minimumEnclosingBall(const std::vector<Eigen::Vector3d>& points);
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

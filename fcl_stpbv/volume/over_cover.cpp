@@ -11,11 +11,13 @@
 #include "fcl_stpbv/volume/ball_side.h"
 #include "fcl_stpbv/volume/hull_excess.h"
 #include "fcl_stpbv/volume/measure.h"
+#include "fcl_stpbv/volume/patch_view.h"
 #include "fcl_stpbv/volume/surface_height.h"
 
 namespace fcl_stpbv {
 namespace {
 
+using namespace detail;
 using Eigen::Vector3d;
 
 // Largest difference of the support functions over the normals of one hull edge: an arc about the edge, where
@@ -31,13 +33,12 @@ double largestOverEdge(const StpBv& volume, const Vector3d& p, const Vector3d& u
   const auto excess = [&](double angle) {
     const Vector3d n = normal(angle);
     patch = volume.owner(n, patch);
-    return n.dot(volume.patch(patch).anchor - p) +
-           supportAboveAnchor(volume.patch(patch), volume.kind(patch), volume.radii(), n);
+    return n.dot(volume.patch(patch).anchor - p) + supportAboveAnchor(volume, patch, n);
   };
   const auto ahead = [&](double angle) {
     const Vector3d n = normal(angle);
     patch = volume.owner(n, patch);
-    const Vector3d x = corePoint(volume.patch(patch), volume.kind(patch), volume.radii(), n);
+    const Vector3d x = corePoint(volume, patch, n);
     return (x - p).dot(u.cross(n));
   };
   constexpr int kPieces = 8;
@@ -102,8 +103,7 @@ HullExcess::HullExcess(const std::vector<Vector3d>& points) : points_(points) {
 double HullExcess::max(const StpBv& volume) const {
   const auto along = [&](const Vector3d& n, int vertex) {
     const int patch = volume.owner(n);
-    return n.dot(volume.patch(patch).anchor - at(vertex)) +
-           supportAboveAnchor(volume.patch(patch), volume.kind(patch), volume.radii(), n);
+    return n.dot(volume.patch(patch).anchor - at(vertex)) + supportAboveAnchor(volume, patch, n);
   };
   double best = 0;
   if (faces_.empty()) {  // a point, or a segment as an edge with normals all the way round

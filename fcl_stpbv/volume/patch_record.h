@@ -8,7 +8,7 @@
 
 #include "fcl_stpbv/packed.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 
 /// Half of what bounds an edge's region of normals: the plane to a face or to another part of the edge.
 struct Wall {
@@ -59,4 +59,4 @@ struct alignas(64) FaceRecord {
 };
 static_assert(sizeof(FaceRecord) == 64);
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

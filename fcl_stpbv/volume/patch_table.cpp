@@ -8,7 +8,7 @@
 
 #include "fcl_stpbv/error.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 
 using Eigen::Vector3d;
 
@@ -149,4 +149,4 @@ PatchTable::Boundaries::Iterator& PatchTable::Boundaries::Iterator::operator++()
   return *this;
 }
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

@@ -16,7 +16,7 @@
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wpsabi"  // packed.h says why
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 
 /// One side of a patch's region of normals: `n` is inside iff `n.normal <= limit`; past it lies `neighbour`.
 struct RegionBoundary {
@@ -290,6 +290,6 @@ class PatchTable::Boundaries {
 
 inline PatchTable::Boundaries PatchTable::boundaries(int patch) const { return {*this, patch}; }
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail
 
 #pragma GCC diagnostic pop

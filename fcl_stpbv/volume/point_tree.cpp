@@ -11,7 +11,7 @@
 
 #include "fcl_stpbv/volume/minimum_ball.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 namespace {
 
 constexpr int kLeaf = 8;    // points a leaf: scanning eight costs about as much as one more level of boxes
@@ -169,4 +169,4 @@ void PointTree::within(const Eigen::Vector3d& centre, double radius, std::vector
   }
 }
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

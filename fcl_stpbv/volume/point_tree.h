@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 
 class PointTree {
  public:
@@ -52,4 +52,4 @@ class PointTree {
   std::vector<char> removed_;
 };
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

@@ -19,6 +19,7 @@
 namespace fcl_stpbv {
 namespace {
 
+using namespace detail;
 using Eigen::Vector3d;
 using Cloud = std::vector<Vector3d>;
 

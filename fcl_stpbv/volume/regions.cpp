@@ -5,7 +5,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 namespace {
 
 using Eigen::Vector3d;
@@ -81,4 +81,4 @@ std::vector<Region> regions(const StpBv& volume) {
   return all;
 }
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

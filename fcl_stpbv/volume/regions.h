@@ -6,7 +6,7 @@
 
 #include "fcl_stpbv/volume/stp_bv.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 
 /// Part of a circle on the unit sphere: `start` turned about the unit `axis` by up to `turn` (rad).
 struct Arc {
@@ -33,4 +33,4 @@ std::vector<Region> regions(const StpBv& volume);
 /// circle.
 Arc edgeArc(const StpBv& volume, int edge);
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

@@ -19,7 +19,7 @@
 #include "fcl_stpbv/volume/minimum_ball.h"
 #include "fcl_stpbv/volume/point_tree.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 namespace {
 
 using Eigen::Vector3d;
@@ -481,4 +481,4 @@ RolledHull rollBall(const std::vector<Vector3d>& points, double radius) {
   return rollOnce(points, std::isinf(radius) ? flatRadius(points) : radius);
 }
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

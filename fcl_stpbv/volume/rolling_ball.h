@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 
 /// What a ball rolled all the way round a cloud has touched. Indices are into the cloud.
 struct RolledHull {
@@ -56,4 +56,4 @@ constexpr double kJoinTilt = 1e-12;
 /// coordinates.
 double touchTolerance(const std::vector<Eigen::Vector3d>& points);
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

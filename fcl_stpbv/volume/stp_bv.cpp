@@ -11,6 +11,7 @@
 
 #include "fcl_stpbv/vectorized.h"
 #include "fcl_stpbv/volume/minimum_ball.h"
+#include "fcl_stpbv/volume/patch_view.h"
 #include "fcl_stpbv/volume/point_tree.h"
 #include "fcl_stpbv/volume/regions.h"
 #include "fcl_stpbv/volume/rolling_ball.h"
@@ -19,6 +20,7 @@
 namespace fcl_stpbv {
 namespace {
 
+using namespace detail;
 using Eigen::Vector3d;
 
 // A normal this far past a region boundary still counts as inside: the rounding of one dot product of unit
@@ -175,32 +177,39 @@ FCL_STPBV_VECTORIZED
 int StpBv::owner(const Vector3d& n, int hint) const {
   if (!(n.squaredNorm() > 0)) return 0;  // zero or NaN: no direction, any patch
   const Packed along = pack(n);
-  int current = hint >= 0 ? hint : table_[cell(n)];
+  int current = hint >= 0 ? hint : tables_->patchNear[n];
+  const PatchTable& patches = tables_->patches;
   int best = current;
   double least = std::numeric_limits<double>::infinity();
   // The step over the worst boundary goes down the height n.C over the core's admissible centres C, so it
   // does not come back; the bound only stops a walk among regions narrower than rounding.
   for (int step = 0; step < 64 + patchCount(); ++step) {
-    const Crossing over = patches_.crossing(current, along);
+    const Crossing over = patches.crossing(current, along);
     if (over.past <= kBoundaryRounding) return current;
     if (over.past < least) least = over.past, best = current;
     current = over.neighbour;
   }
   for (int patch = 0; patch < patchCount(); ++patch) {
-    const double past = outside(patch, n);
+    const double past = patches.crossing(patch, along).past;
     if (past < least) least = past, best = patch;
   }
   return best;
 }
 
+Patch StpBv::patch(int index) const { return tables_->patches.patch(index); }
+
+double StpBv::outside(int patch, const Vector3d& n) const {
+  return tables_->patches.crossing(patch, pack(n)).past;
+}
+
 double StpBv::support(const Vector3d& n, int hint) const {
   const int index = owner(n, hint);
-  return fcl_stpbv::support(patch(index), kind(index), radii_, n);
+  return n.dot(patch(index).anchor) + supportAboveAnchor(*this, index, n);
 }
 
 Vector3d StpBv::surfacePoint(const Vector3d& n, int hint) const {
   const int index = owner(n, hint);
-  return corePoint(patch(index), kind(index), radii_, n) + radii_.r * n;
+  return corePoint(*this, index, n) + radii_.r * n;
 }
 
 Vector3d StpBv::corner(int face, int vertex) const {
@@ -212,9 +221,7 @@ Vector3d StpBv::corner(int face, int vertex) const {
 std::size_t StpBv::memory() const {
   std::size_t bytes = sizeof *this + vertices_.capacity() * sizeof(Vector3d) +
                       edges_.capacity() * sizeof(Edge) + faces_.capacity() * sizeof(Ring) +
-                      faceNormals_.capacity() * sizeof(Vector3d) + patches_.memory() +
-                      stars_.capacity() * sizeof(VertexStar) +
-                      (table_.capacity() + vertexTable_.capacity()) * sizeof(std::int32_t);
+                      faceNormals_.capacity() * sizeof(Vector3d) + tables_->memory();
   for (const Ring& ring : faces_) bytes += ring.capacity() * sizeof(int);
   return bytes;
 }

@@ -5,17 +5,18 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <utility>
 
 #include "fcl_stpbv/volume/ball_side.h"
 #include "fcl_stpbv/volume/minimum_ball.h"
+#include "fcl_stpbv/volume/query_tables.h"
 #include "fcl_stpbv/volume/rolling_ball.h"
 #include "fcl_stpbv/volume/stp_bv.h"
 
 namespace fcl_stpbv {
 namespace {
 
+using namespace detail;
 using Eigen::Vector3d;
 
 constexpr double kTwoPi = 6.283185307179586476925;
@@ -60,9 +61,10 @@ StpBv::Ptr StpBv::make(std::vector<Vector3d> vertices, std::vector<Ring> faces, 
   volume->extent_ = ball.centre.lpNorm<1>() + volume->enclosingRadius_;
   volume->makeEdges();
   volume->makeInnerRadius();
-  volume->makePatches();
-  volume->makeStars();
-  volume->makeTable();
+  const auto tables = std::make_shared<QueryTables>();
+  volume->tables_ = tables;
+  volume->makePatches(*tables);
+  volume->makeDirectionTables(*tables);
   return volume;
 }
 
@@ -112,7 +114,7 @@ void StpBv::makeInnerRadius() {
   innerRadius_ = least;
 }
 
-void StpBv::makePatches() {
+void StpBv::makePatches(QueryTables& tables) {
   const auto at = [&](int i) -> const Vector3d& { return vertices_[static_cast<std::size_t>(i)]; };
   std::size_t count = 0;
   for (const Edge& edge : edges_) count += partsOf(edge);
@@ -149,56 +151,27 @@ void StpBv::makePatches() {
       setWall(k, 0, -forward, parts[k - 1]);
     }
   }
-  patches_ = PatchTable(vertices_, std::move(records), faces_, faceNormals_);
+  tables.patches = PatchTable(vertices_, std::move(records), faces_, faceNormals_);
+  firstFace_ = tables.patches.firstFace();
 }
 
-void StpBv::makeStars() {
-  stars_.resize(vertices_.size());
-  std::vector<std::int32_t> last(vertices_.size());  // star with room
-  std::iota(last.begin(), last.end(), 0);
-  std::vector<std::size_t> filled(vertices_.size(), 0);
-  for (const Edge& edge : edges_)
-    for (const std::size_t side : {0u, 1u}) {
-      const std::size_t from = static_cast<std::size_t>(edge.vertex[side]);
-      const int to = edge.vertex[1 - side];
-      if (filled[from] == VertexStar::kSize) {
-        const auto further = static_cast<std::int32_t>(stars_.size());
-        stars_[static_cast<std::size_t>(last[from])].next = further;
-        last[from] = further;
-        stars_.emplace_back();
-        filled[from] = 0;
-      }
-      const Vector3d along = vertices_[static_cast<std::size_t>(to)] - vertices_[from];
-      VertexStar& star = stars_[static_cast<std::size_t>(last[from])];
-      for (std::size_t slot = filled[from]++; slot < VertexStar::kSize; ++slot)
-        star.set(slot, along.normalized().cast<float>(), to);
-    }
-  stars_.shrink_to_fit();
-}
-
-void StpBv::makeTable() {
+void StpBv::makeDirectionTables(QueryTables& tables) const {
+  std::vector<std::array<int, 2>> ends;
+  ends.reserve(edges_.size());
+  for (const Edge& edge : edges_) ends.push_back(edge.vertex);
+  tables.graph = VertexGraph(vertices_, ends);
   // Three cells a patch: the vertex of a direction's cell is nearly always the furthest along it. But one of
   // a large volume, where the table would be read from far away; up to millions.
   const double count = std::min(3.0 * patchCount(), patchCount() + 2000.0);
-  cells_ = std::clamp(static_cast<int>(std::sqrt(count)), 2, 1000);
-  const std::size_t cells = static_cast<std::size_t>(cells_);
-  table_.reserve(cells * cells);
-  vertexTable_.reserve(cells * cells);
+  const int side = std::clamp(static_cast<int>(std::sqrt(count)), 2, 1000);
   int last = 0;
-  for (std::size_t i = 0; i < cells; ++i)
-    for (std::size_t j = 0; j < cells; ++j) {
-      const double x = (2 * static_cast<double>(i) + 1) / static_cast<double>(cells) - 1;
-      const double y = (2 * static_cast<double>(j) + 1) / static_cast<double>(cells) - 1;
-      Vector3d n(x, y, 1 - std::abs(x) - std::abs(y));
-      if (n.z() < 0) n.x() = std::copysign(1 - std::abs(y), x), n.y() = std::copysign(1 - std::abs(x), y);
-      n.normalize();
-      last = owner(n, last);
-      table_.push_back(last);
-      // A vertex of the patch: itself, else over an edge's first boundary, which leads to an end.
-      int corner = last;
-      while (corner >= vertexCount()) corner = (*boundaries(corner).begin()).neighbour;
-      vertexTable_.push_back(climb(corner, n.cast<float>()));
-    }
+  tables.patchNear = DirectionTable(side, [&](const Vector3d& n) { return last = owner(n, last); });
+  tables.vertexNear = DirectionTable(side, [&](const Vector3d& n) {
+    // From a vertex of the patch: itself, else over an edge's first boundary, which leads to an end.
+    int corner = tables.patchNear[n];
+    while (corner >= vertexCount()) corner = (*tables.patches.boundaries(corner).begin()).neighbour;
+    return tables.graph.climb(corner, n.cast<float>());
+  });
 }
 
 }  // namespace fcl_stpbv

@@ -12,7 +12,9 @@
 #include <limits>
 #include <vector>
 
-namespace fcl_stpbv {
+#include "fcl_stpbv/volume/patch_view.h"
+
+namespace fcl_stpbv::detail {
 namespace {
 
 using Eigen::Vector2d;
@@ -26,10 +28,10 @@ double exitHeight(const Patch& patch, PatchKind kind, const Radii& radii, const 
   if (kind != PatchKind::edge) {
     // |q + t d + rho m|^2 = R^2 for a face, |q + t d|^2 = r^2 for a vertex; the constant term holds no large
     // square.
-    const double rho = kind == PatchKind::face ? radii.rho : 0;
+    const double rho = kind == PatchKind::face ? radii.rho : 0,
+                 c = kind == PatchKind::face ? radii.R : radii.r;
     const double half = d.dot(q + rho * patch.axis);
-    const double constant =
-        q.squaredNorm() + 2 * rho * q.dot(patch.axis) - radii.r * (offset(kind, radii) + rho);
+    const double constant = q.squaredNorm() + 2 * rho * q.dot(patch.axis) - radii.r * (c + rho);
     if (half * half <= constant)
       return -half;  // past it: the nearest place on the ray tells which way to go on
     const double root = std::sqrt(half * half - constant);
@@ -57,9 +59,11 @@ double exitHeight(const Patch& patch, PatchKind kind, const Radii& radii, const 
 }
 
 // The outward normal where the ray leaves the continued patch.
-Vector3d exitNormal(const Patch& patch, PatchKind kind, const Radii& radii, const Vector3d& y,
-                    const Vector3d& d) {
-  Vector3d n = y + exitHeight(patch, kind, radii, y, d) * d - centre(patch, kind, radii);
+Vector3d exitNormal(const StpBv& volume, int index, const Vector3d& y, const Vector3d& d) {
+  const Patch patch = volume.patch(index);
+  const PatchKind kind = volume.kind(index);
+  Vector3d n =
+      y + exitHeight(patch, kind, volume.radii(), y, d) * d - unpack(posedPatch(volume, index).centre());
   if (kind == PatchKind::edge) {
     const Vector3d side = n - n.dot(patch.axis) * patch.axis;
     if (side.norm() > 0) n += patch.kappa * side.normalized();
@@ -131,20 +135,18 @@ SurfaceHeight surfaceHeight(const StpBv& volume, const Vector3d& y, const Vector
     const double stretch = along.norm();
     const Vector3d n = along / stretch;
     index = volume.owner(n, index);
-    const Patch patch = volume.patch(index);
-    const PatchKind kind = volume.kind(index);
     const double height =
-        stretch * (n.dot(patch.anchor - y) + supportAboveAnchor(patch, kind, volume.radii(), n));
+        stretch * (n.dot(volume.patch(index).anchor - y) + supportAboveAnchor(volume, index, n));
     best.planes = step;
     if (height < best.height) best.height = height, best.patch = index;
-    const Vector3d over = corePoint(patch, kind, volume.radii(), n) + volume.radii().r * n - y;
+    const Vector3d over = corePoint(volume, index, n) + volume.radii().r * n - y;
     const Vector2d uphill(over.dot(e), over.dot(f));
     if (uphill.norm() <= rounding) break;
     fence.cut(a, uphill);
     if (fence.isSpent()) break;
     // The patch's own exit is the answer where it is inside the patch; every third step makes sure of
     // progress.
-    const Vector3d exit = exitNormal(patch, kind, volume.radii(), y, d);
+    const Vector3d exit = exitNormal(volume, index, y, d);
     const double slope = exit.dot(d);
     const Vector2d target(exit.dot(e) / slope, exit.dot(f) / slope);
     if (slope > 0 && step % 3 != 0 && fence.holds(target)) {
@@ -156,4 +158,4 @@ SurfaceHeight surfaceHeight(const StpBv& volume, const Vector3d& y, const Vector
   return best;
 }
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

@@ -5,7 +5,7 @@
 
 #include "fcl_stpbv/volume/stp_bv.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 
 /// Where a ray leaves the surface.
 struct SurfaceHeight {
@@ -19,4 +19,4 @@ struct SurfaceHeight {
 SurfaceHeight surfaceHeight(const StpBv& volume, const Eigen::Vector3d& y, const Eigen::Vector3d& d,
                             int hint = -1);
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

@@ -8,11 +8,13 @@
 #include <map>
 #include <tuple>
 
+#include "fcl_stpbv/volume/patch_view.h"
 #include "fcl_stpbv/volume/regions.h"
 
 namespace fcl_stpbv {
 namespace {
 
+using namespace detail;
 using Eigen::Vector3d;
 
 class Tessellator {
@@ -30,8 +32,7 @@ class Tessellator {
 
   // Points are shared by place: patches meet at equal points but for rounding (docs/theory.md, 3).
   int point(int patch, const Vector3d& n) {
-    const Vector3d x =
-        corePoint(volume_.patch(patch), volume_.kind(patch), volume_.radii(), n) + volume_.radii().r * n;
+    const Vector3d x = corePoint(volume_, patch, n) + volume_.radii().r * n;
     // What rounding can part at a boundary: a few units of the coordinates and of rho times the normal.
     const double grid = 2e-14 * (volume_.enclosingRadius() + volume_.radii().rho + volume_.centre().norm());
     const auto key = [&](double c) { return static_cast<long long>(std::llround(c / grid)); };

@@ -11,8 +11,8 @@ namespace fcl_stpbv {
 
 /// Triangles, counter-clockwise seen from outside. Points in m, the volume's frame.
 struct TriangleMesh {
-  std::vector<Eigen::Vector3d> vertices;
-  std::vector<std::array<int, 3>> triangles;
+  std::vector<Eigen::Vector3d> vertices;      ///< m
+  std::vector<std::array<int, 3>> triangles;  ///< indices into `vertices`
 };
 
 /// Closed mesh of points on the surface, each patch cut so that normals turn by at most about `angle` (rad,

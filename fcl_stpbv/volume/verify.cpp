@@ -13,6 +13,7 @@
 #include <limits>
 
 #include "fcl_stpbv/volume/measure.h"
+#include "fcl_stpbv/volume/patch_view.h"
 #include "fcl_stpbv/volume/point_tree.h"
 #include "fcl_stpbv/volume/regions.h"
 #include "fcl_stpbv/volume/rolling_ball.h"
@@ -20,6 +21,7 @@
 namespace fcl_stpbv {
 namespace {
 
+using namespace detail;
 using Eigen::Vector3d;
 
 constexpr double kPi = 3.14159265358979323846;
@@ -89,9 +91,7 @@ struct BoundaryGap {
 BoundaryGap boundaryGapOf(const StpBv& volume, double rounding) {
   BoundaryGap result;
   const auto compare = [&](int a, int b, const Vector3d& n, double allowed) {
-    const double gap = (corePoint(volume.patch(a), volume.kind(a), volume.radii(), n) -
-                        corePoint(volume.patch(b), volume.kind(b), volume.radii(), n))
-                           .norm();
+    const double gap = (corePoint(volume, a, n) - corePoint(volume, b, n)).norm();
     result.largest = std::max(result.largest, gap);
     result.ok = result.ok && gap <= allowed;
   };

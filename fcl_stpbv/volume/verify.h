@@ -10,7 +10,7 @@ namespace fcl_stpbv {
 
 /// What verify() found. Lengths in m.
 struct Verification {
-  bool ok = false;
+  bool ok = false;  ///< whether nothing is off by more than rounding
   double containment =
       0;  ///< largest height of a point over the surface pulled in by the margin; at most rounding
   double solidAngleError = 0;  ///< sum of the regions' solid angles minus 4 pi (sr)
@@ -22,6 +22,7 @@ struct Verification {
 /// `margin` (m, the volume's r where it is left out); that the regions of normals tile the sphere; and that
 /// neighbouring patches meet (paper III.C: the surface is C1).
 Verification verify(const StpBv& volume, const std::vector<Eigen::Vector3d>& points = {});
+/// The same with another margin than the volume's r.
 Verification verify(const StpBv& volume, const std::vector<Eigen::Vector3d>& points, double margin);
 
 /// Solid angle of each patch's region of normals (sr), by spherical excess; an edge's further parts count

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "fcl_stpbv/adapter/stp_bv_geometry.h"
+#include "fcl_stpbv/convex/hull_graph.h"
 #include "test/reference/shapes.h"
 
 namespace fcl_stpbv::test {
@@ -34,8 +35,8 @@ class MirroredPairs {
 
   const StpBvGeometry& geometry() const { return *geometry_; }
   const StpBvGeometry& mirror() const { return *mirror_; }
-  const HullGraph& hull() const { return geometry_->hull(); }
-  const HullGraph& mirrorHull() const { return mirror_->hull(); }
+  const detail::HullGraph& hull() const { return geometry_->hull(); }
+  const detail::HullGraph& mirrorHull() const { return mirror_->hull(); }
   const Eigen::Isometry3d& pose() const { return pose_; }
   const Eigen::Isometry3d& mirrorPose() const { return mirrorPose_; }
 

@@ -6,10 +6,12 @@
 #include <cstdlib>
 
 #include "fcl_stpbv/adapter/fcl_distance.h"
+#include "fcl_stpbv/adapter/polyhedral_witness.h"
 #include "test/adapter/mirrored_pairs.h"
 #include "test/reference/arguments.h"
 
 using namespace fcl_stpbv;
+using namespace fcl_stpbv::detail;
 
 int main(int argc, char** argv) {
   const test::Arguments arguments(argc, argv, "[QUERIES [SEED]]", 2);

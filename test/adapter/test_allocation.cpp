@@ -10,10 +10,12 @@
 
 #include "fcl_stpbv/adapter/distance_callback.h"
 #include "fcl_stpbv/adapter/pair_distance.h"
+#include "fcl_stpbv/adapter/polyhedral_witness.h"
 #include "test/reference/allocations.h"
 #include "test/reference/shapes.h"
 
 using namespace fcl_stpbv;
+using namespace fcl_stpbv::detail;
 using namespace fcl_stpbv::test;
 
 TEST_CASE("no query on STP-BVs allocates, cold or warm, separated, deep or invalid") {

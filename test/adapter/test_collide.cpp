@@ -14,6 +14,7 @@
 #include "test/reference/reference.h"
 
 using namespace fcl_stpbv;
+using namespace fcl_stpbv::detail;
 using namespace fcl_stpbv::test;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;

@@ -15,6 +15,7 @@
 #include "test/adapter/element_kinds.h"
 
 using namespace fcl_stpbv;
+using namespace fcl_stpbv::detail;
 using namespace fcl_stpbv::test;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;

@@ -16,10 +16,12 @@
 #include "fcl_stpbv/adapter/fcl_distance.h"
 #include "fcl_stpbv/adapter/fcl_shapes.h"
 #include "fcl_stpbv/adapter/hull_geometry.h"
+#include "fcl_stpbv/convex/relative_pose.h"
 #include "fcl_stpbv/distance/shape_pair.h"
 #include "test/reference/shapes.h"
 
 using namespace fcl_stpbv;
+using namespace fcl_stpbv::detail;
 using namespace fcl_stpbv::test;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;

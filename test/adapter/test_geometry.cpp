@@ -5,10 +5,12 @@
 #include <cmath>
 
 #include "fcl_stpbv/adapter/stp_bv_geometry.h"
+#include "fcl_stpbv/convex/hull_graph.h"
 #include "fcl_stpbv/error.h"
 #include "test/reference/shapes.h"
 
 using namespace fcl_stpbv;
+using namespace fcl_stpbv::detail;
 using namespace fcl_stpbv::test;
 using Eigen::Vector3d;
 

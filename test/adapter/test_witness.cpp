@@ -8,6 +8,7 @@
 #include "test/reference/source_folder.h"
 
 using namespace fcl_stpbv;
+using namespace fcl_stpbv::detail;
 using namespace fcl_stpbv::test;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;

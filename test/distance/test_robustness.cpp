@@ -5,10 +5,12 @@
 
 #include "fcl_stpbv/convex/relative_pose.h"
 #include "fcl_stpbv/distance/distance.h"
+#include "fcl_stpbv/volume/patch_view.h"
 #include "test/reference/reference.h"
 #include "test/reference/shapes.h"
 
 using namespace fcl_stpbv;
+using namespace fcl_stpbv::detail;
 using namespace fcl_stpbv::test;
 using Eigen::Isometry3d;
 using Eigen::Matrix3d;
@@ -287,7 +289,7 @@ TEST_CASE("The band of an edge 2 mm long at R = 1e6 m, 2e-9 rad wide, is found f
     n = (n.normalized() + side * length / b->radii().rho * patch.axis).normalized();
     const double apart = std::pow(10.0, random.uniform(-3, 0));
     Isometry3d pa = kOrigin;
-    pa.translation() = corePoint(patch, PatchKind::edge, b->radii(), n) + (apart + 0.02) * n;
+    pa.translation() = corePoint(*b, b->edgePatch(e), n) + (apart + 0.02) * n;
     PairCache cache;
     cache.normal = random.rotation(random.below(2) ? 0.02 : 0.4) * -n;
     cache.patch = {0, b->owner(-cache.normal)};

@@ -14,6 +14,7 @@
 #include "test/reference/volume_files.h"
 
 using namespace fcl_stpbv;
+using namespace fcl_stpbv::detail;
 using namespace fcl_stpbv::test;
 using Names = std::vector<std::string>;
 

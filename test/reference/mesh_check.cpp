@@ -17,6 +17,8 @@
 namespace fcl_stpbv::test {
 namespace {
 
+using namespace detail;
+
 std::shared_ptr<fcl::CollisionGeometryd> trianglesOf(const TriangleMesh& mesh) {
   auto model = std::make_shared<fcl::BVHModel<fcl::OBBRSSd>>();
   model->beginModel();

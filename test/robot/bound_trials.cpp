@@ -13,6 +13,8 @@
 namespace fcl_stpbv::test {
 namespace {
 
+using namespace detail;
+
 std::string moving(const std::string& name, const std::string& type, const std::string& parent,
                    const std::string& child, const std::string& origin, const std::string& axis,
                    const std::string& more = "") {

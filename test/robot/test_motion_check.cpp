@@ -13,6 +13,7 @@
 #include "test/reference/robots.h"
 
 using namespace fcl_stpbv;
+using namespace fcl_stpbv::detail;
 using namespace fcl_stpbv::test;
 using Eigen::VectorXd;
 

@@ -13,6 +13,7 @@
 #include "test/robot/urdf_texts.h"
 
 using namespace fcl_stpbv;
+using namespace fcl_stpbv::detail;
 using namespace fcl_stpbv::test;
 
 namespace {

@@ -10,6 +10,7 @@
 #include "test/robot/urdf_texts.h"
 
 using namespace fcl_stpbv;
+using namespace fcl_stpbv::detail;
 using namespace fcl_stpbv::test;
 
 namespace {

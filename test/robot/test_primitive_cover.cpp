@@ -15,6 +15,7 @@
 #include "test/reference/reference.h"
 
 using namespace fcl_stpbv;
+using namespace fcl_stpbv::detail;
 using namespace fcl_stpbv::test;
 using Eigen::Vector3d;
 

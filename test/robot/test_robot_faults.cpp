@@ -4,6 +4,7 @@
 
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/robot/constraints.h"
+#include "fcl_stpbv/robot/geometry_steps.h"
 #include "fcl_stpbv/robot/kinematics.h"
 #include "fcl_stpbv/robot/link_geometry.h"
 #include "fcl_stpbv/robot/srdf.h"
@@ -11,6 +12,7 @@
 #include "test/robot/urdf_texts.h"
 
 using namespace fcl_stpbv;
+using namespace fcl_stpbv::detail;
 using namespace fcl_stpbv::test;
 using Catch::Matchers::Contains;
 

@@ -9,6 +9,7 @@
 #include "test/robot/urdf_texts.h"
 
 using namespace fcl_stpbv;
+using namespace fcl_stpbv::detail;
 using namespace fcl_stpbv::test;
 using Catch::Matchers::Contains;
 

@@ -21,6 +21,8 @@
 namespace fcl_stpbv::test {
 namespace {
 
+using namespace detail;
+
 Eigen::Isometry3d turned(int k) {
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   pose.linear() = Eigen::AngleAxisd(0.1 * k, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();

@@ -12,6 +12,7 @@
 #include "test/reference/volume_files.h"
 
 using namespace fcl_stpbv;
+using namespace fcl_stpbv::detail;
 using namespace fcl_stpbv::test;
 namespace fs = std::filesystem;
 

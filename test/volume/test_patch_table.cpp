@@ -6,10 +6,12 @@
 #include <limits>
 #include <vector>
 
+#include "fcl_stpbv/volume/query_tables.h"
 #include "fcl_stpbv/volume/stp_bv.h"
 #include "test/reference/shapes.h"
 
 using namespace fcl_stpbv;
+using namespace fcl_stpbv::detail;
 using namespace fcl_stpbv::test;
 using Eigen::Vector3d;
 
@@ -101,7 +103,7 @@ TEST_CASE("A patch's region boundaries are those of the edges around it") {
     for (int p = 0; p < volume->patchCount(); ++p) {
       const auto& expected = reference[static_cast<std::size_t>(p)];
       std::size_t count = 0;
-      for (const RegionBoundary s : volume->boundaries(p)) {
+      for (const RegionBoundary s : volume->tables().patches.boundaries(p)) {
         ++count;
         const bool found = std::any_of(expected.begin(), expected.end(), [&](const ReferenceBoundary& r) {
           return r.neighbour == s.neighbour && (r.normal.cast<double>() - s.normal).norm() <= kRounding &&
@@ -129,7 +131,7 @@ TEST_CASE("The region boundary passed furthest and the first one ahead, four at 
         const Vector3d n = random.direction(), h = random.direction().cross(n).normalized();
         const Vector nL = n.cast<long double>(), hL = h.cast<long double>();
         const double length = std::pow(10.0, random.uniform(-3, 3));
-        const Crossing over = volume->patches().crossing(p, pack(length * n), length);
+        const Crossing over = volume->tables().patches.crossing(p, pack(length * n), length);
         const auto [furthest, clear] =
             most(boundaries, [&](const ReferenceBoundary& s) { return nL.dot(s.normal) - s.limit; });
         REQUIRE(std::abs(over.past - length * furthest.past) <= kRounding * length);
@@ -137,7 +139,7 @@ TEST_CASE("The region boundary passed furthest and the first one ahead, four at 
 
         if (!(furthest.past < -1e-3)) continue;  // from inside
         ++decided;
-        const Crossing ahead = volume->patches().ahead(p, pack(n), pack(h));
+        const Crossing ahead = volume->tables().patches.ahead(p, pack(n), pack(h));
         const auto [first, alone] = most(boundaries, [&](const ReferenceBoundary& s) {
           return hL.dot(s.normal) / (s.limit - nL.dot(s.normal));
         });
@@ -153,8 +155,8 @@ TEST_CASE("A face's sides begin at its vertices in the order of its ring") {
   for (const StpBv::Ptr& volume : volumes())
     for (int f = 0; f < volume->faceCount(); ++f) {
       const StpBv::Ring& ring = volume->faces()[static_cast<std::size_t>(f)];
-      const auto& side = volume->patches().face(volume->facePatch(f)).side;
+      const auto& side = volume->tables().patches.face(volume->facePatch(f)).side;
       for (std::size_t i = 0; i < std::min<std::size_t>(ring.size(), 3); ++i)
-        REQUIRE(volume->patches().startOf(side[i]) == ring[i]);
+        REQUIRE(volume->tables().patches.startOf(side[i]) == ring[i]);
     }
 }

@@ -11,10 +11,12 @@
 #include <vector>
 
 #include "fcl_stpbv/adapter/fcl_distance.h"
+#include "fcl_stpbv/adapter/polyhedral_witness.h"
 #include "test/reference/shapes.h"
 #include "tools/bench/measurement.h"
 
 using namespace fcl_stpbv;
+using namespace fcl_stpbv::detail;
 using namespace fcl_stpbv::test;
 using benchmark::significant;
 using Eigen::Isometry3d;

@@ -1,4 +1,5 @@
 // Bullet's GJK. Bullet is optional: without it this file says so.
+#include "fcl_stpbv/convex/hull_graph.h"
 #include "tools/bench/method.h"
 
 #ifdef FCL_STPBV_BULLET
@@ -29,7 +30,7 @@ btTransform toBullet(const Isometry3d& pose) {
 }
 
 /// Without margins: the polyhedra themselves, as FCL sees them.
-void fill(btConvexHullShape& shape, const HullGraph& hull) {
+void fill(btConvexHullShape& shape, const detail::HullGraph& hull) {
   for (int v = 0; v < hull.vertexCount(); ++v) shape.addPoint(toBullet(hull.point(v) + hull.centre()), false);
   shape.recalcLocalAabb();
   shape.setMargin(0);

@@ -13,6 +13,8 @@ namespace fcl_stpbv::benchmark {
 
 namespace {
 
+using namespace detail;
+
 std::string processor() {
   std::ifstream info("/proc/cpuinfo");
   for (std::string line; std::getline(info, line);)

@@ -9,6 +9,8 @@
 
 namespace fcl_stpbv::benchmark {
 
+using namespace detail;
+
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 

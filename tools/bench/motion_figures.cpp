@@ -13,6 +13,7 @@
 #include "test/reference/source_folder.h"
 
 using namespace fcl_stpbv;
+using namespace fcl_stpbv::detail;
 using Eigen::VectorXd;
 
 namespace {

@@ -15,6 +15,7 @@
 namespace {
 
 using namespace fcl_stpbv;
+using namespace fcl_stpbv::detail;
 using Clock = std::chrono::steady_clock;
 
 double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }

@@ -8,6 +8,8 @@
 
 namespace fcl_stpbv::benchmark {
 
+using namespace detail;
+
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 using test::Vector3L;

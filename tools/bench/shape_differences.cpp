@@ -22,6 +22,7 @@
 #include "test/reference/shapes.h"
 
 using namespace fcl_stpbv;
+using namespace fcl_stpbv::detail;
 using namespace fcl_stpbv::test;
 
 namespace {

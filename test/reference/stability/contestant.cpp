@@ -3,6 +3,7 @@
 #include <fcl/narrowphase/distance.h>
 
 #include "fcl_stpbv/adapter/fcl_distance.h"
+#include "fcl_stpbv/adapter/feature_map.h"
 #include "fcl_stpbv/adapter/polyhedral_witness.h"
 #include "fcl_stpbv/distance/body_pair.h"
 

@@ -1,0 +1,91 @@
+// The way from a volume's vertex to its neighbours, packed for climbing.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <vector>
+
+namespace fcl_stpbv::detail {
+
+/// Unit directions of up to eight edges away from a vertex, single precision, unused ones zero. A vertex with
+/// more has another star, which `next` names.
+struct VertexStar {
+  static constexpr int kSize = 8;
+  using Floats = float __attribute__((vector_size(16)));
+  using Integers = std::int32_t __attribute__((vector_size(16)));
+
+  std::array<Floats, 2> x{}, y{}, z{};
+  std::array<std::int32_t, kSize> neighbour{};
+  std::int32_t next = -1;
+
+  void set(std::size_t slot, const Eigen::Vector3f& direction, int to) {
+    x[slot / 4][slot % 4] = direction.x();
+    y[slot / 4][slot % 4] = direction.y();
+    z[slot / 4][slot % 4] = direction.z();
+    neighbour[slot] = to;
+  }
+
+  /// How steeply the steepest edge rises along `d`, as the bits of a float with the edge's slot in place of
+  /// the three least ones: as integers they compare as positive floats do. No branches, four edges at once.
+  std::int32_t steepest(const Eigen::Vector3f& d, float lift = 0.0f) const {
+    constexpr std::array<Integers, 2> slots{Integers{0, 1, 2, 3}, Integers{4, 5, 6, 7}};
+    const auto rises = [&](std::size_t half) {
+      const Floats rise = lift + d.x() * x[half] + d.y() * y[half] + d.z() * z[half];
+      Integers key;
+      std::memcpy(&key, &rise, sizeof key);
+      return Integers((key & ~(kSize - 1)) | slots[half]);
+    };
+    const auto larger = [](const Integers& a, const Integers& b) { return Integers(a > b ? a : b); };
+    Integers best = larger(rises(0), rises(1));
+    best = larger(best, __builtin_shufflevector(best, best, 2, 3, 0, 1));
+    best = larger(best, __builtin_shufflevector(best, best, 1, 0, 3, 2));
+    return best[0];
+  }
+};
+
+/// Hill climbing over a volume's vertices along its edges, in single precision.
+class VertexGraph {
+ public:
+  VertexGraph() = default;
+  /// `edges` name the two ends of each.
+  VertexGraph(const std::vector<Eigen::Vector3d>& vertices, const std::vector<std::array<int, 2>>& edges);
+
+  /// Rounding of a rise along `d`, of the sum of its components.
+  static constexpr float kLevel = 1e-6f;
+
+  /// The vertex itself, or its neighbour up the steepest edge along `d`. Edges that rise by less than `level`
+  /// a metre, `kLevel` of the sum of the components of `d` for rounding, count as level.
+  int uphill(int vertex, const Eigen::Vector3f& d, float level) const {
+    const VertexStar* star = &stars_[static_cast<std::size_t>(vertex)];
+    std::int32_t best = star->steepest(d), enough;
+    std::memcpy(&enough, &level, sizeof level);
+    int over = star->neighbour[best & (VertexStar::kSize - 1)];
+    while (star->next >= 0) {
+      star = &stars_[static_cast<std::size_t>(star->next)];
+      const std::int32_t other = star->steepest(d);
+      if (other > best) best = other, over = star->neighbour[other & (VertexStar::kSize - 1)];
+    }
+    return best > enough ? over : vertex;
+  }
+
+  /// A neighbour of the vertex, itself highest along `d`, that is least below it. `length` is at least that
+  /// of `d`.
+  int beside(int vertex, const Eigen::Vector3f& d, float length) const {
+    const VertexStar& star = stars_[static_cast<std::size_t>(vertex)];
+    return star.neighbour[star.steepest(d, 2.0f * length) & (VertexStar::kSize - 1)];
+  }
+
+  /// The vertex furthest along `d` to single precision, from `vertex` on.
+  int climb(int vertex, const Eigen::Vector3f& d) const;
+
+  /// Memory it holds, in bytes.
+  std::size_t memory() const { return stars_.capacity() * sizeof(VertexStar); }
+
+ private:
+  std::vector<VertexStar> stars_;  // one a vertex, then the further ones
+};
+
+}  // namespace fcl_stpbv::detail
