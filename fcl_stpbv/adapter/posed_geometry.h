@@ -9,6 +9,10 @@
 #include "fcl_stpbv/adapter/element_tree.h"
 #include "fcl_stpbv/distance/distance.h"
 
+namespace fcl_stpbv {
+struct ProximityCounts;
+}
+
 namespace fcl_stpbv::detail {
 
 /// A single convex body: an STP-BV or a shape, placed in the world.
@@ -32,6 +36,13 @@ struct ConvexBody {
 
 /// Signed distance of two bodies; the cache serves pairs with an STP-BV.
 Distance distance(const ConvexBody& a, const ConvexBody& b, PairCache* cache = nullptr);
+
+/// Whether two bodies with rigid poses are certainly farther apart than `x` (m): first by the plane of the
+/// cache's normal, then by a search.
+bool isFartherThan(double x, const ConvexBody& a, const ConvexBody& b, PairCache* cache,
+                   ProximityCounts* counts = nullptr);
+/// By that plane alone: its gap is a lower bound like that along any other normal (docs/theory.md, 5).
+bool isFartherByPlane(double x, const ConvexBody& a, const ConvexBody& b, const PairCache& cache);
 
 /// One geometry at a pose: a body, or the elements of a mesh or a tree below their boxes. A view; the
 /// geometry must outlive it.

@@ -51,6 +51,8 @@ class Within {
 
 }  // namespace
 
+namespace detail {
+
 bool isFartherByPlane(double x, const ConvexBody& a, const ConvexBody& b, const PairCache& cache) {
   const double length = cache.normal.norm();
   if (a.unbounded() || b.unbounded() || !(length > 0.5 && length < 2.0)) return false;
@@ -69,6 +71,8 @@ bool isFartherThan(double x, const ConvexBody& a, const ConvexBody& b, PairCache
   const Distance d = distance(a, b, cache);
   return d.status != DistanceStatus::invalid && d.lower > x;
 }
+
+}  // namespace detail
 
 bool isFartherThan(double x, const fcl::CollisionGeometryd& geometry1, const fcl::Transform3d& pose1,
                    const fcl::CollisionGeometryd& geometry2, const fcl::Transform3d& pose2,

@@ -25,14 +25,6 @@ inline bool collides(const fcl::CollisionGeometryd& geometry1, const fcl::Transf
   return !isFartherThan(margin, geometry1, pose1, geometry2, pose2, context);
 }
 
-struct ConvexBody;  // posed_geometry.h
-
-/// The same for two bodies with rigid poses: first by the plane of the cache's normal, then by a search.
-bool isFartherThan(double x, const ConvexBody& a, const ConvexBody& b, PairCache* cache,
-                   ProximityCounts* counts = nullptr);
-/// By that plane alone: its gap is a lower bound like that along any other normal (docs/theory.md, 5).
-bool isFartherByPlane(double x, const ConvexBody& a, const ConvexBody& b, const PairCache& cache);
-
 /// Signed distance of a world point to an STP-BV; `normal` points from the volume to the point.
 Distance distance(const StpBvGeometry& geometry, const fcl::Transform3d& pose, const Eigen::Vector3d& point,
                   PairCache* cache = nullptr);

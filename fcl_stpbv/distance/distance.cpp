@@ -108,9 +108,9 @@ struct SearchState {
   }
 };
 
-/// Settles on a patch pair near the given one: over the boundary that the widest normal passes furthest, on
-/// either body, to the next pair, without evaluating the gap. Between cores apart, a maximum that it finds is
-/// the only one. If it finds none, that proves nothing.
+/// Settles on a patch pair near the given one: over the region boundary that the widest normal passes
+/// furthest, on either body, to the next pair, without evaluating the gap. Between cores apart, a maximum
+/// that it finds is the only one. If it finds none, that proves nothing.
 bool walkFeatures(const BodyPair& pair, const SearchStart& start, Sample& x, SearchWork& work) {
   constexpr int kTries = 12;    // one to three are usual
   constexpr double kFar = 0.3;  // cosine of the turn after which the boundary passed furthest says little

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "fcl_stpbv/robot/geometry_steps.h"
 #include "fcl_stpbv/robot/checked_pairs.h"
+#include "fcl_stpbv/robot/geometry_steps.h"
 #include "fcl_stpbv/robot/kinematics.h"
 #include "fcl_stpbv/robot/link_geometry.h"
 #include "fcl_stpbv/robot/srdf.h"

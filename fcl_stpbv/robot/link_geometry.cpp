@@ -14,8 +14,8 @@
 
 #include "fcl_stpbv/adapter/hull_geometry.h"
 #include "fcl_stpbv/error.h"
-#include "fcl_stpbv/robot/geometry_steps.h"
 #include "fcl_stpbv/number_check.h"
+#include "fcl_stpbv/robot/geometry_steps.h"
 #include "fcl_stpbv/robot/link_volume.h"
 #include "fcl_stpbv/robot/mesh_file.h"
 #include "fcl_stpbv/robot/volume_cache.h"

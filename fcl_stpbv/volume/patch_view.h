@@ -12,7 +12,7 @@
 
 namespace fcl_stpbv::detail {
 
-/// A patch with all that its formula needs, in whatever frame its anchor and axis are given.
+/// A patch with all that its formula needs, in the frame of its anchor and axis.
 struct PosedPatch {
   Packed anchor, axis;
   double kappa, sine;

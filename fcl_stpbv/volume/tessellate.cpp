@@ -8,8 +8,8 @@
 #include <map>
 #include <tuple>
 
-#include "fcl_stpbv/volume/patch_view.h"
 #include "fcl_stpbv/number_check.h"
+#include "fcl_stpbv/volume/patch_view.h"
 #include "fcl_stpbv/volume/regions.h"
 
 namespace fcl_stpbv {
