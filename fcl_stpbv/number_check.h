@@ -7,7 +7,7 @@
 
 #include "fcl_stpbv/error.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 
 /// Beyond it a big sphere's surface is flat to the rounding of a body's coordinates (m).
 constexpr double kLargestR = 1e8;
@@ -20,4 +20,4 @@ inline void requireNumber(const std::string& name, double value, double least, d
   throw Error(name + text);
 }
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

@@ -11,7 +11,7 @@
 #include "fcl_stpbv/distance/vertex_gjk.h"
 #include "fcl_stpbv/vectorized.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
@@ -45,4 +45,4 @@ bool isFartherThan(double x, const StpBv& a, const Isometry3d& poseA, const StpB
   return found.status != DistanceStatus::invalid && found.lower > x;
 }
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

@@ -3,7 +3,7 @@
 
 #include "fcl_stpbv/distance/distance.h"
 
-namespace fcl_stpbv {
+namespace fcl_stpbv::detail {
 
 /// Whether the volumes are certainly farther apart than `x` (m; negative: whether they are less deep in each
 /// other). Balls in and around both, a plane, GJK on the vertices, and only then the distance are asked.
@@ -11,4 +11,4 @@ namespace fcl_stpbv {
 bool isFartherThan(double x, const StpBv& a, const Eigen::Isometry3d& poseA, const StpBv& b,
                    const Eigen::Isometry3d& poseB, PairCache* cache = nullptr);
 
-}  // namespace fcl_stpbv
+}  // namespace fcl_stpbv::detail

@@ -9,6 +9,9 @@
 #include "fcl_stpbv/robot/json_text.h"
 
 namespace fcl_stpbv::report {
+
+using namespace detail;
+
 namespace {
 
 // A configuration from a JSON object of joints' values, or a list of all coordinates.

@@ -5,6 +5,9 @@
 #include "fcl_stpbv/distance/shape_pair.h"
 
 namespace fcl_stpbv::report {
+
+using namespace detail;
+
 namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }

@@ -4,6 +4,9 @@
 #include <algorithm>
 
 namespace fcl_stpbv::report {
+
+using namespace detail;
+
 namespace {
 
 std::string openMeshes(const CollisionReport& report, PairCauses& causes) {

@@ -6,6 +6,9 @@
 #include <cmath>
 
 namespace fcl_stpbv::report {
+
+using namespace detail;
+
 namespace {
 
 std::vector<CheckedPair> closestBodies(const CollisionReport& report) {

@@ -11,6 +11,9 @@
 #include "fcl_stpbv/robot/json_text.h"
 
 namespace fcl_stpbv::report {
+
+using namespace detail;
+
 namespace {
 
 constexpr std::size_t kMostText = 256u << 20;

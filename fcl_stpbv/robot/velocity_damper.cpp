@@ -12,6 +12,8 @@
 namespace fcl_stpbv {
 namespace {
 
+using namespace detail;
+
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 // Beyond these in m, m/s, s and 1/s is a mistake; a gain or a period is never 0.
