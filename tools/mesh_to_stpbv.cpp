@@ -186,7 +186,7 @@ std::size_t runAll(const std::vector<Job>& jobs, const Arguments& arguments) {
     }
   };
   const int useful = static_cast<int>(std::min<std::size_t>(jobs.size(), kMostJobs));
-  fcl_stpbv::WorkerPool(std::min(arguments.jobs, useful)).run(work);
+  fcl_stpbv::detail::WorkerPool(std::min(arguments.jobs, useful)).run(work);
   bar.clear();
   return failed;
 }

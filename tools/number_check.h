@@ -12,7 +12,7 @@
 
 namespace fcl_stpbv::tools {
 
-using fcl_stpbv::kLargestR;
+using fcl_stpbv::detail::kLargestR;
 /// Longer than anything that a robot does (m, s).
 constexpr double kLargest = 1e6;
 
