@@ -30,21 +30,22 @@ class Rotation {
 
   explicit Rotation(const Eigen::Matrix3d& m) : Rotation(pack(m.col(0)), pack(m.col(1)), pack(m.col(2))) {}
 
-  /// This rotation's inverse times the other one.
-  Rotation relative(const Rotation& other) const {
-    return {inverse(other.columns_[0]), inverse(other.columns_[1]), inverse(other.columns_[2])};
+  const Packed& axis(int i) const { return columns_[i]; }
+
+  /// This rotation's inverse times the one with these columns.
+  Rotation relative(const Packed& x, const Packed& y, const Packed& z) const {
+    return {inverse(x), inverse(y), inverse(z)};
   }
 
-  /// Whether each column is the cross product of the other two, to the rounding of a product of two
+  /// Whether each of three columns is the cross product of the other two, to the rounding of a product of two
   /// rotations. True for no mirror and no number that is none. At most `kFine` from the nearest rotation then
   /// (Frobenius).
-  bool isFine() const {
-    const Packed x = cross(columns_[1], columns_[2]) - columns_[0],
-                 y = cross(columns_[2], columns_[0]) - columns_[1],
-                 z = cross(columns_[0], columns_[1]) - columns_[2], squares = x * x + y * y + z * z;
-    return squares[0] + squares[1] + squares[2] <= kFine * kFine &&
-           dot(columns_[0], columns_[0]) > 0.5;  // not zero
+  static bool isFine(const Packed& x, const Packed& y, const Packed& z) {
+    const Packed offX = cross(y, z) - x, offY = cross(z, x) - y, offZ = cross(x, y) - z,
+                 squares = offX * offX + offY * offY + offZ * offZ;
+    return squares[0] + squares[1] + squares[2] <= kFine * kFine && dot(x, x) > 0.5;  // not zero
   }
+  bool isFine() const { return isFine(columns_[0], columns_[1], columns_[2]); }
   static constexpr double kFine = 2e-15;
 
   Eigen::Matrix3d matrix() const {
@@ -101,10 +102,14 @@ struct RelativePose {
 
   RelativePose(const Eigen::Isometry3d& poseA, const Eigen::Isometry3d& poseB) : toWorld(poseA) {
     constexpr double kHuge = 1e300;  // squares must not overflow
-    Rotation b(poseB);
-    if (!(toWorld.isFine() && b.isFine()) && !(makeRotation(toWorld) && makeRotation(b))) return;
+    Packed x = column(poseB, 0), y = column(poseB, 1), z = column(poseB, 2);
+    if (!(toWorld.isFine() && Rotation::isFine(x, y, z))) {
+      Rotation b(x, y, z);
+      if (!(makeRotation(toWorld) && makeRotation(b))) return;
+      x = b.axis(0), y = b.axis(1), z = b.axis(2);
+    }
     origin = column(poseA, 3);
-    rotation = toWorld.relative(b);
+    rotation = toWorld.relative(x, y, z);
     translation = toWorld.inverse(column(poseB, 3) - origin);
     valid = dot(translation, translation) < kHuge;
   }
