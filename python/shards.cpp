@@ -19,6 +19,8 @@ namespace py = pybind11;
 namespace fcl_stpbv {
 namespace {
 
+using namespace detail;
+
 using Boxes = std::vector<std::pair<Eigen::VectorXd, Eigen::VectorXd>>;  ///< lower and upper limits
 
 /// A robot and the pairs of its links that joints move against each other.

@@ -116,17 +116,17 @@ std::string trajectory(const CollisionReport& report) {
     text += "proven free\n";
   } else if (t.verdict == MotionVerdict::contact) {
     text += "CONTACT of " + nameOf(report, t.pair) +
-            format(" between %.9g and %.9g%s, at", t.from, t.until, unit);
+            formatted(" between %.9g and %.9g%s, at", t.from, t.until, unit);
     for (const Eigen::Vector3d& p : t.contact.points)
-      text += format(" (%.6f %.6f %.6f)", p.x(), p.y(), p.z());
+      text += formatted(" (%.6f %.6f %.6f)", p.x(), p.y(), p.z());
     text += "\n";
   } else {
     text += "NOT DECIDED for " + nameOf(report, t.pair) +
-            format(" at %.9g%s, free before: the distance is the margin to rounding\n", t.from, unit);
+            formatted(" at %.9g%s, free before: the distance is the margin to rounding\n", t.from, unit);
   }
   if (t.steepestPair >= 0)
-    text += format("fastest approach %.4f %s, ", t.steepest, speed) + nameOf(report, t.steepestPair) +
-            format(" at %.4g%s\n", t.steepestTime, unit);
+    text += formatted("fastest approach %.4f %s, ", t.steepest, speed) + nameOf(report, t.steepestPair) +
+            formatted(" at %.4g%s\n", t.steepestTime, unit);
   if (!t.closestProven) text += "some closest approaches are those that were found, without a proof\n";
   return text;
 }
