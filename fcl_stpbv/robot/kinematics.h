@@ -69,7 +69,8 @@ class Kinematics {
   const Eigen::VectorXd& upper() const { return upper_; }
   /// All degrees of freedom, parents first.
   const std::vector<Motion>& motions() const { return motions_; }
-  bool baseMoves() const { return !motions_.empty() && motions_.front().joint < 0; }  ///< the base has coordinates
+  /// Whether the base has coordinates of its own.
+  bool baseMoves() const { return !motions_.empty() && motions_.front().joint < 0; }
 
   /// All zero, clamped into the limits.
   const Eigen::VectorXd& neutral() const { return neutral_; }
