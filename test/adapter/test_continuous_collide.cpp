@@ -28,13 +28,13 @@ fcl::ContinuousCollisionRequestd requestOf(fcl::CCDMotionType type, double toler
   return fcl::ContinuousCollisionRequestd(10, tolerance, type);
 }
 
-/// A motion of FCL's, to be sampled.
-std::unique_ptr<fcl::MotionBased> fclMotion(const Isometry3d& begin, const Isometry3d& end,
+/// A motion of FCL's, to be sampled. Shared, not unique: deleting one through its base frees what `new` made.
+std::shared_ptr<fcl::MotionBased> fclMotion(const Isometry3d& begin, const Isometry3d& end,
                                             fcl::CCDMotionType type) {
-  if (type == fcl::CCDM_TRANS) return std::make_unique<fcl::TranslationMotion<double>>(begin, end);
-  if (type == fcl::CCDM_SCREW) return std::make_unique<fcl::ScrewMotion<double>>(begin, end);
+  if (type == fcl::CCDM_TRANS) return std::make_shared<fcl::TranslationMotion<double>>(begin, end);
+  if (type == fcl::CCDM_SCREW) return std::make_shared<fcl::ScrewMotion<double>>(begin, end);
   const Eigen::Matrix3d r1 = begin.linear(), r2 = end.linear();
-  return std::make_unique<fcl::InterpMotion<double>>(r1, begin.translation(), r2, end.translation(),
+  return std::make_shared<fcl::InterpMotion<double>>(r1, begin.translation(), r2, end.translation(),
                                                      Vector3d(0, 0, 0));
 }
 
