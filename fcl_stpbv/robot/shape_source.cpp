@@ -69,7 +69,26 @@ class Reader {
     if ((visible ? visuals : collision) == 0)
       warn(std::string("no link has a ") + (visible ? "visual" : "collision") +
            " shape, so there is nothing to check.");
-    return visible ? &LinkModel::visual : &LinkModel::collision;
+    const Shapes used = visible ? &LinkModel::visual : &LinkModel::collision;
+    if (linksWith(robot_, used) > 0) warnOfOthers(used, visible ? &LinkModel::collision : &LinkModel::visual);
+    return used;
+  }
+
+  // A link can be seen on a picture of the robot and yet have nothing that is checked.
+  void warnOfOthers(Shapes used, Shapes other) {
+    constexpr std::size_t kNamed = 5;
+    std::vector<std::string> names;
+    for (const LinkModel& link : robot_.links)
+      if ((link.*used).empty() && !(link.*other).empty()) names.push_back(link.name);
+    if (names.empty()) return;
+    const bool visible = used == &LinkModel::visual;
+    std::string list;
+    for (std::size_t i = 0; i < std::min(kNamed, names.size()); ++i)
+      list += (i == 0 ? "" : ", ") + ("\"" + names[i] + '"');
+    if (names.size() > kNamed) list += " and " + std::to_string(names.size() - kNamed) + " more";
+    warn(std::to_string(names.size()) + (names.size() == 1 ? " link has " : " links have ") +
+         (visible ? "collision shapes but no visual one" : "visual shapes but no collision shape") +
+         ", so nothing checks " + (names.size() == 1 ? "it: " : "them: ") + list + ".");
   }
 
   void warn(const std::string& message) { sources_.warnings.push_back(robot_.path + ": " + message); }

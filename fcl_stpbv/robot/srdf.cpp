@@ -88,11 +88,15 @@ class Reader {
       pairs.push_back({e.Attribute("link1"), e.Attribute("link2"), reason && *reason ? reason : "User"});
   }
 
-  Srdf::State state(const XMLElement& e) const {
+  Srdf::State state(const XMLElement& e) {
     Srdf::State state;
     state.name = requiredAttribute(e, "name", path_);
     if (const char* group = e.Attribute("group")) state.group = group;
-    for (const XMLElement* j = e.FirstChildElement("joint"); j; j = j->NextSiblingElement("joint")) {
+    for (const XMLElement* j = e.FirstChildElement(); j; j = j->NextSiblingElement()) {
+      if (std::string_view(j->Name()) != "joint") {
+        warn(*j, "<" + std::string(j->Name()) + "> counts for nothing in a <group_state>, expected <joint>");
+        continue;
+      }
       std::istringstream values(requiredAttribute(*j, "value", path_));
       values.imbue(std::locale::classic());
       std::vector<double>& list = state.joints[requiredAttribute(*j, "name", path_)];

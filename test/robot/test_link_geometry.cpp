@@ -195,6 +195,28 @@ TEST_CASE("primitives stay primitives") {
   CHECK(geometry.of(0) == std::pair<int, int>(0, 2));
 }
 
+TEST_CASE("a link that has only visual shapes beside others' collision shapes is named") {
+  const auto link = [](const std::string& name, const std::string& use) {
+    return "<link name=\"" + name + "\"><" + use + "><geometry><sphere radius=\"1\"/></geometry></" + use +
+           "></link>";
+  };
+  const auto joint = [](const std::string& child) {
+    return "<joint name=\"j" + child + "\" type=\"fixed\"><parent link=\"a\"/><child link=\"" + child +
+           "\"/></joint>";
+  };
+  std::string text = link("a", "collision");
+  GeometryOptions options = cachedIn("");
+  CHECK(loadGeometry(parseUrdf(robot(text), "v.urdf"), options).warnings.empty());
+  text += link("b", "visual") + joint("b") + "<link name=\"frame\"/>" + joint("frame");
+  const RobotGeometry geometry = loadGeometry(parseUrdf(robot(text), "v.urdf"), options);
+  REQUIRE(geometry.warnings.size() == 1);
+  CHECK_THAT(geometry.warnings[0], Contains("1 link has visual shapes but no collision shape") &&
+                                       Contains("\"b\"") && !Contains("frame"));
+  options.visual = true;
+  CHECK_THAT(loadGeometry(parseUrdf(robot(text), "v.urdf"), options).warnings.at(0),
+             Contains("collision shapes but no visual one") && Contains("\"a\""));
+}
+
 TEST_CASE("a robot without collision shapes is used by its visual ones, with a warning") {
   const std::string visual =
       "<link name=\"a\"><visual><geometry><sphere radius=\"1\"/></geometry></visual></link>";
