@@ -1,18 +1,20 @@
 // The parts of the Python module, each filled in by its own file.
 #pragma once
 
-#include <pybind11/eigen.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
 
 #include <Eigen/Core>
+#include <filesystem>
 #include <string>
 #include <vector>
 
-#include "fcl_stpbv/error.h"
+#include "floats.h"
 
 namespace fcl_stpbv {
 
+using Path = std::filesystem::path;  ///< a str, bytes or os.PathLike in Python
 using PointArray = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
 
 void addVolume(pybind11::module_& module);
@@ -20,13 +22,11 @@ void addRobot(pybind11::module_& module);
 void addShards(pybind11::module_& module);
 void addPostures(pybind11::module_& module);
 
-/// @throws Error naming the argument.
-template <class Numbers>
-void requireFinite(const Numbers& numbers, const char* name) {
-  if (!numbers.allFinite()) throw Error(std::string(name) + ": holds a number that is not finite");
+inline std::vector<std::string> toText(const std::vector<Path>& paths) {
+  return {paths.begin(), paths.end()};
 }
 
-inline std::vector<Eigen::Vector3d> toPoints(const Eigen::Ref<const PointArray>& array) {
+inline std::vector<Eigen::Vector3d> toPoints(const PointArray& array) {
   std::vector<Eigen::Vector3d> points;
   points.reserve(static_cast<std::size_t>(array.rows()));
   for (Eigen::Index i = 0; i < array.rows(); ++i) points.emplace_back(array.row(i));

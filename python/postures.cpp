@@ -19,16 +19,17 @@ namespace {
 /// A robot among obstacles, loaded once for any number of tasks.
 class PythonPostureSearch {
  public:
-  PythonPostureSearch(const std::string& urdf, const std::string& srdf, const std::string& obstacles,
-                      double r, double R, std::vector<std::string> packagePath) {
+  PythonPostureSearch(const Path& urdf, const std::optional<Path>& srdf, const std::optional<Path>& obstacles,
+                      double r, double R, const std::vector<Path>& packagePath) {
     GeometryOptions options;
     options.radii = {r, R};
-    options.packagePath = std::move(packagePath);
-    scene_.robot = std::make_shared<const RobotModel>(loadUrdf(urdf));
-    if (!srdf.empty()) scene_.srdf = std::make_shared<const Srdf>(loadSrdf(srdf, *scene_.robot));
+    options.packagePath = toText(packagePath);
+    scene_.robot = std::make_shared<const RobotModel>(loadUrdf(urdf.string()));
+    if (srdf && !srdf->empty())
+      scene_.srdf = std::make_shared<const Srdf>(loadSrdf(srdf->string(), *scene_.robot));
     scene_.geometry = std::make_shared<const RobotGeometry>(loadGeometry(*scene_.robot, options));
-    if (!obstacles.empty()) {
-      const auto around = std::make_shared<const RobotModel>(loadUrdf(obstacles));
+    if (obstacles && !obstacles->empty()) {
+      const auto around = std::make_shared<const RobotModel>(loadUrdf(obstacles->string()));
       scene_.obstacles = obstaclesOf(around, loadGeometry(*around, options));
     }
     if (!scene_.srdf) scene_.selfPairs = searchedPairs(scene_.robot, scene_.geometry);
@@ -36,15 +37,12 @@ class PythonPostureSearch {
 
   /// A problem of its own for each start: what others left in its caches would change the last bits.
   Posture solve(const std::string& task, const std::string& path, int start, std::uint64_t seed,
-                const std::optional<Eigen::VectorXd>& from) const {
+                const std::optional<Floats<Eigen::VectorXd>>& from) const {
     PostureSetup setup = setUp(parseTask(task, path), scene_);
     requirePairs(setup.pairs.size(), *scene_.robot, "the task and the robot's joints leave none");
     if (from) {
-      if (from->size() != setup.start.size())
-        throw Error("start_from: got " + std::to_string(from->size()) + " coordinates, expected " +
-                    std::to_string(setup.start.size()));
-      requireFinite(*from, "start_from");
-      setup.start = *from;
+      requireNumbers(from->value, setup.start.size(), "start_from");
+      setup.start = from->value;
     }
     PostureOptions options;
     options.firstStart = start;
@@ -85,15 +83,15 @@ py::dict asDict(const Posture& posture) {
 void addPostures(py::module_& module) {
   py::class_<PythonPostureSearch>(module, "PostureSearch",
                                   "Postures of a robot among obstacles, in pure pieces.")
-      .def(py::init<const std::string&, const std::string&, const std::string&, double, double,
-                    std::vector<std::string>>(),
-           py::arg("urdf"), py::arg("srdf") = "", py::arg("obstacles") = "", py::kw_only(),
-           py::arg("r") = 0.01, py::arg("R") = 10.0, py::arg("package_path") = std::vector<std::string>{},
+      .def(py::init<const Path&, const std::optional<Path>&, const std::optional<Path>&, double, double,
+                    const std::vector<Path>&>(),
+           py::arg("urdf"), py::arg("srdf") = py::none(), py::arg("obstacles") = py::none(), py::kw_only(),
+           py::arg("r") = 0.01, py::arg("R") = 10.0, py::arg("package_path") = std::vector<Path>{},
            "Without an SRDF the robot's own pairs are those that samples leave to be checked.")
       .def(
           "solve",
           [](const PythonPostureSearch& search, const std::string& task, const std::string& path, int start,
-             std::uint64_t seed, const std::optional<Eigen::VectorXd>& from) {
+             std::uint64_t seed, const std::optional<Floats<Eigen::VectorXd>>& from) {
             if (start < 0) throw Error("start: got " + std::to_string(start) + ", expected 0 or more");
             Posture posture;
             {

@@ -1,7 +1,9 @@
 // A robot's collision constraints in Python.
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/robot/constraints.h"
@@ -23,15 +25,18 @@ BaseMotion baseMotion(const std::string& name) {
 /// A robot, its volumes and the pairs that its SRDF leaves to be checked.
 class PythonRobot {
  public:
-  PythonRobot(const std::string& urdf, const std::string& srdf, double r, double R, const std::string& base,
-              std::vector<std::string> packagePath, double influence) {
-    const auto model = std::make_shared<const RobotModel>(loadUrdf(urdf));
-    if (!srdf.empty()) srdf_ = loadSrdf(srdf, *model);
+  using Given = Floats<Eigen::VectorXd>;
+
+  PythonRobot(const Path& urdf, const std::optional<Path>& srdf, double r, double R, const std::string& base,
+              const std::vector<Path>& packagePath, double influence) {
+    const auto model = std::make_shared<const RobotModel>(loadUrdf(urdf.string()));
+    const bool given = srdf && !srdf->empty();
+    if (given) srdf_ = loadSrdf(srdf->string(), *model);
     GeometryOptions options;
     options.radii = {r, R};
-    options.packagePath = std::move(packagePath);
+    options.packagePath = toText(packagePath);
     RobotGeometry bodies = loadGeometry(*model, options);
-    const std::vector<CheckedPair> pairs = selfPairs(*model, bodies, srdf.empty() ? nullptr : &srdf_);
+    const std::vector<CheckedPair> pairs = selfPairs(*model, bodies, given ? &srdf_ : nullptr);
     coverPrimitives(pairs, bodies);
     const auto geometry = std::make_shared<const RobotGeometry>(std::move(bodies));
     kinematics_ = std::make_shared<const Kinematics>(model, baseMotion(base));
@@ -51,57 +56,49 @@ class PythonRobot {
     return kinematics_->configuration(srdf_.state(state));
   }
 
-  Eigen::VectorXd distances(const Eigen::VectorXd& q) {
-    check(q);
+  Eigen::VectorXd distances(const Given& given) {
+    const Eigen::VectorXd& q = checked(given, "q", kinematics_->size());
     Eigen::VectorXd d(rows());
     constraints_->evaluate(q, d);
     return d;
   }
-  std::pair<Eigen::VectorXd, Eigen::MatrixXd> evaluate(const Eigen::VectorXd& q) {
-    check(q);
+  std::pair<Eigen::VectorXd, Eigen::MatrixXd> evaluate(const Given& given) {
+    const Eigen::VectorXd& q = checked(given, "q", kinematics_->size());
     Eigen::VectorXd d(rows());
     Eigen::MatrixXd jacobian(rows(), constraints_->columns());
     constraints_->evaluate(q, d, jacobian);
     return {std::move(d), std::move(jacobian)};
   }
-  py::tuple rates(const Eigen::VectorXd& q, const Eigen::VectorXd& qd) {
-    check(q);
-    check(qd, "qd");
+  py::tuple rates(const Given& givenQ, const Given& givenQd) {
+    const Eigen::VectorXd &q = checked(givenQ, "q", kinematics_->size()),
+                          &qd = checked(givenQd, "qd", kinematics_->size());
     RowRates rates = constraints_->makeRates();
     Eigen::MatrixXd jacobian(rows(), constraints_->columns());
     constraints_->evaluate(q, qd, rates, jacobian);
     return py::make_tuple(std::move(rates.d), std::move(jacobian), std::move(rates.speed),
                           std::move(rates.drift));
   }
-  Eigen::VectorXd hessianVector(const Eigen::VectorXd& q, const Eigen::VectorXd& weights,
-                                const Eigen::VectorXd& v) {
-    check(q);
-    checkWeights(weights);
-    check(v, "v");
+  Eigen::VectorXd hessianVector(const Given& givenQ, const Given& givenWeights, const Given& givenV) {
+    const Eigen::VectorXd &q = checked(givenQ, "q", kinematics_->size()),
+                          &weights = checked(givenWeights, "weights", rows()),
+                          &v = checked(givenV, "v", kinematics_->size());
     Eigen::VectorXd product(q.size());
     constraints_->hessianVector(q, weights, v, product);
     return product;
   }
-  Eigen::MatrixXd hessian(const Eigen::VectorXd& q, const Eigen::VectorXd& weights) {
-    check(q);
-    checkWeights(weights);
+  Eigen::MatrixXd hessian(const Given& givenQ, const Given& givenWeights) {
+    const Eigen::VectorXd &q = checked(givenQ, "q", kinematics_->size()),
+                          &weights = checked(givenWeights, "weights", rows());
     CollisionConstraints::SparseHessian lower = constraints_->makeHessian();
     constraints_->hessian(q, weights, lower);
     return Eigen::MatrixXd(lower).selfadjointView<Eigen::Lower>();
   }
 
  private:
-  void check(const Eigen::VectorXd& q, const char* name = "q") const {
-    if (q.size() != kinematics_->size()) {
-      throw Error(std::string(name) + ": got " + std::to_string(q.size()) + " coordinates, expected " +
-                  std::to_string(kinematics_->size()));
-    }
-    requireFinite(q, "q");
-  }
-  void checkWeights(const Eigen::VectorXd& weights) const {
-    if (weights.size() != rows())
-      throw Error("weights: got " + std::to_string(weights.size()) + " numbers, expected one a row, " +
-                  std::to_string(rows()));
+  /// @throws Error naming the argument.
+  static const Eigen::VectorXd& checked(const Given& given, const char* name, int size) {
+    requireNumbers(given.value, size, name);
+    return given.value;
   }
 
   Srdf srdf_;
@@ -114,10 +111,10 @@ class PythonRobot {
 void addRobot(py::module_& module) {
   py::class_<PythonRobot>(module, "Robot", "Distances d(q) and Jacobian J(q) of a robot's pairs of bodies.")
       .def(
-          py::init<const std::string&, const std::string&, double, double, const std::string&,
-                   std::vector<std::string>, double>(),
-          py::arg("urdf"), py::arg("srdf") = "", py::kw_only(), py::arg("r") = 0.01, py::arg("R") = 10.0,
-          py::arg("base") = "fixed", py::arg("package_path") = std::vector<std::string>{},
+          py::init<const Path&, const std::optional<Path>&, double, double, const std::string&,
+                   const std::vector<Path>&, double>(),
+          py::arg("urdf"), py::arg("srdf") = py::none(), py::kw_only(), py::arg("r") = 0.01,
+          py::arg("R") = 10.0, py::arg("base") = "fixed", py::arg("package_path") = std::vector<Path>{},
           py::arg("influence") = std::numeric_limits<double>::infinity(),
           "Loads a URDF; pairs that the SRDF disables (without one, adjacent and rigid links) are left out.\n"
           "base: \"fixed\", \"planar\" or \"floating\". influence: farther pairs are constant (m).")

@@ -22,16 +22,17 @@ namespace {
 using namespace detail;
 
 using Boxes = std::vector<std::pair<Eigen::VectorXd, Eigen::VectorXd>>;  ///< lower and upper limits
+using GivenBoxes = std::vector<std::pair<Floats<Eigen::VectorXd>, Floats<Eigen::VectorXd>>>;
 
 /// A robot and the pairs of its links that joints move against each other.
 class PythonPairSearch {
  public:
-  PythonPairSearch(const std::string& urdf, double r, double R, std::vector<std::string> packagePath,
+  PythonPairSearch(const Path& urdf, double r, double R, const std::vector<Path>& packagePath,
                    double margin) {
-    const auto model = std::make_shared<const RobotModel>(loadUrdf(urdf));
+    const auto model = std::make_shared<const RobotModel>(loadUrdf(urdf.string()));
     GeometryOptions options;
     options.radii = {r, R};
-    options.packagePath = std::move(packagePath);
+    options.packagePath = toText(packagePath);
     const auto geometry = std::make_shared<const RobotGeometry>(loadGeometry(*model, options));
     for (const CheckedPair& pair : selfPairs(*model, *geometry, nullptr)) {
       const LinkPair links{geometry->bodies[static_cast<std::size_t>(pair.body)].link,
@@ -57,11 +58,12 @@ class PythonPairSearch {
 
   PairProof start(std::size_t pair) const { return unproven(scene_, linksOf(pair)); }
 
-  PairProof prove(std::size_t pair, const Boxes& boxes, long most) const {
+  PairProof prove(std::size_t pair, const GivenBoxes& boxes, long most) const {
     const LinkPair links = linksOf(pair);
     const std::size_t size = proofCoordinates(scene_, links).size();
     std::vector<JointBox> open;
-    for (const auto& [lower, upper] : boxes) {
+    for (const auto& box : boxes) {
+      const Eigen::VectorXd &lower = box.first.value, &upper = box.second.value;
       if (static_cast<std::size_t>(lower.size()) != size || lower.size() != upper.size())
         throw Error("boxes: a box of this pair has " + std::to_string(size) + " coordinates, got one of " +
                     std::to_string(lower.size()) + " and " + std::to_string(upper.size()));
@@ -106,10 +108,10 @@ class PythonPairSearch {
   std::vector<LinkPair> pairs_;
 };
 
-std::vector<std::pair<std::string, std::string>> meshFiles(const std::string& urdf,
-                                                           const std::vector<std::string>& packagePath) {
-  const RobotModel robot = loadUrdf(urdf);
-  const PackagePath files(urdf, packagePath);
+std::vector<std::pair<std::string, std::string>> meshFiles(const Path& urdf,
+                                                           const std::vector<Path>& packagePath) {
+  const RobotModel robot = loadUrdf(urdf.string());
+  const PackagePath files(urdf.string(), toText(packagePath));
   const auto none = [](const LinkModel& link) { return link.collision.empty(); };
   const bool visual = std::all_of(robot.links.begin(), robot.links.end(), none);
   std::vector<std::pair<std::string, std::string>> found;
@@ -123,10 +125,11 @@ std::vector<std::pair<std::string, std::string>> meshFiles(const std::string& ur
 
 void addProof(py::module_& module) {
   py::class_<PairProof>(module, "PairProof", "How far the proof has come that a pair of links never meets.")
-      .def(py::init([](const Boxes& open, std::optional<Eigen::VectorXd> collision, long boxes) {
+      .def(py::init([](const GivenBoxes& open, const std::optional<Floats<Eigen::VectorXd>>& collision,
+                       long boxes) {
              PairProof proof;
-             for (const auto& [lower, upper] : open) proof.open.push_back({lower, upper});
-             proof.collision = std::move(collision);
+             for (const auto& [lower, upper] : open) proof.open.push_back({lower.value, upper.value});
+             if (collision) proof.collision = collision->value;
              proof.boxes = boxes;
              return proof;
            }),
@@ -154,9 +157,9 @@ void addShards(py::module_& module) {
   addProof(module);
   py::class_<PythonPairSearch>(module, "PairSearch",
                                "Proofs and samples of a robot's pairs of links, in pure pieces.")
-      .def(py::init<const std::string&, double, double, std::vector<std::string>, double>(), py::arg("urdf"),
+      .def(py::init<const Path&, double, double, const std::vector<Path>&, double>(), py::arg("urdf"),
            py::kw_only(), py::arg("r") = 0.01, py::arg("R") = 10.0,
-           py::arg("package_path") = std::vector<std::string>{}, py::arg("margin") = 0.0,
+           py::arg("package_path") = std::vector<Path>{}, py::arg("margin") = 0.0,
            "margin: a distance not above it is a collision (m).")
       .def_property_readonly("pairs", &PythonPairSearch::pairs,
                              "Names of the links of each pair, but for adjacent and rigidly joined ones.")
@@ -184,7 +187,7 @@ void addShards(py::module_& module) {
           },
           py::arg("seed"), py::arg("block"), py::arg("count"),
           "For each pair: collisions among so many random configurations, least distance (m), where it is.");
-  module.def("mesh_files", &meshFiles, py::arg("urdf"), py::arg("package_path") = std::vector<std::string>{},
+  module.def("mesh_files", &meshFiles, py::arg("urdf"), py::arg("package_path") = std::vector<Path>{},
              "The meshes that a robot's bodies are made of: as the URDF names them, and their paths.");
 }
 

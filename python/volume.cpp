@@ -1,6 +1,7 @@
 // Volumes and their distance in Python.
 #include <algorithm>
 #include <limits>
+#include <sstream>
 
 #include "fcl_stpbv/distance/distance.h"
 #include "fcl_stpbv/io/stpbv_file.h"
@@ -19,7 +20,8 @@ namespace {
 /// pybind11 has no holder for pointers to const; no bound method changes a volume.
 std::shared_ptr<StpBv> held(const StpBv::Ptr& volume) { return std::const_pointer_cast<StpBv>(volume); }
 
-Eigen::Isometry3d toPose(const Eigen::Matrix4d& matrix) {
+Eigen::Isometry3d toPose(const Floats<Eigen::Matrix4d>& given) {
+  const Eigen::Matrix4d& matrix = given.value;
   if (matrix.row(3) != Eigen::RowVector4d(0, 0, 0, 1))
     throw py::value_error("pose: its last row must be 0 0 0 1");
   Eigen::Isometry3d pose;
@@ -34,13 +36,14 @@ struct PlacedDistance : Distance {
   std::array<Eigen::Vector3d, 2> origins;
 };
 
-PlacedDistance ask(const StpBv& a, const Eigen::Matrix4d& poseA, const StpBv& b, const Eigen::Matrix4d& poseB,
-                   PairCache* cache) {
+PlacedDistance ask(const StpBv& a, const Floats<Eigen::Matrix4d>& poseA, const StpBv& b,
+                   const Floats<Eigen::Matrix4d>& poseB, PairCache* cache) {
   const Eigen::Isometry3d first = toPose(poseA), second = toPose(poseB);
   return {distance(a, first, b, second, cache), first.translation(), second.translation()};
 }
 
-Eigen::Vector3d direction(const Eigen::Vector3d& n) {
+Eigen::Vector3d direction(const Floats<Eigen::Vector3d>& given) {
+  const Eigen::Vector3d& n = given.value;
   requireFinite(n, "direction");
   const Eigen::Vector3d scaled = n / std::max(n.cwiseAbs().maxCoeff(), std::numeric_limits<double>::min());
   if (scaled.isZero()) throw Error("direction: is zero, expected a vector of any other length");
@@ -51,17 +54,17 @@ void addStpBv(py::module_& module) {
   py::class_<StpBv, std::shared_ptr<StpBv>>(module, "StpBv", "A volume; immutable. Its own frame.")
       .def_static(
           "build",
-          [](const Eigen::Ref<const PointArray>& points, double r, double R) {
-            const std::vector<Eigen::Vector3d> list = toPoints(points);
+          [](const Floats<PointArray>& points, double r, double R) {
+            const std::vector<Eigen::Vector3d> list = toPoints(points.value);
             py::gil_scoped_release others;
             return held(StpBv::build(list, {r, R}));
           },
           py::arg("points"), py::arg("r") = 0.01, py::arg("R") = 10.0,
           "Volume around an (n, 3) array of points; raises Error naming what would work.")
       .def_static(
-          "load", [](const std::string& path) { return held(loadStpBv(path)); }, py::arg("path"))
+          "load", [](const Path& path) { return held(loadStpBv(path.string())); }, py::arg("path"))
       .def(
-          "save", [](const StpBv& volume, const std::string& path) { saveStpBv(path, volume); },
+          "save", [](const StpBv& volume, const Path& path) { saveStpBv(path.string(), volume); },
           py::arg("path"))
       .def_property_readonly("r", [](const StpBv& volume) { return volume.radii().r; })
       .def_property_readonly("R", [](const StpBv& volume) { return volume.radii().R; })
@@ -71,17 +74,19 @@ void addStpBv(py::module_& module) {
           "Lists of vertex indices, counter-clockwise seen from outside.")
       .def(
           "support",
-          [](const StpBv& volume, const Eigen::Vector3d& n) { return volume.support(direction(n)); },
+          [](const StpBv& volume, const Floats<Eigen::Vector3d>& n) { return volume.support(direction(n)); },
           py::arg("direction"))
       .def(
           "surface_point",
-          [](const StpBv& volume, const Eigen::Vector3d& n) { return volume.surfacePoint(direction(n)); },
+          [](const StpBv& volume, const Floats<Eigen::Vector3d>& n) {
+            return volume.surfacePoint(direction(n));
+          },
           py::arg("direction"), "The surface point with this outward normal.")
       .def(
           "signed_distance",
-          [](const StpBv& volume, const Eigen::Vector3d& point) {
-            requireFinite(point, "point");
-            return signedDistance(volume, point);
+          [](const StpBv& volume, const Floats<Eigen::Vector3d>& point) {
+            requireFinite(point.value, "point");
+            return signedDistance(volume, point.value);
           },
           py::arg("point"))
       .def(
@@ -93,6 +98,16 @@ void addStpBv(py::module_& module) {
           "Largest and mean excess over the convex hull (m).")
       .def(
           "verify", [](const StpBv& volume) { return verify(volume).message; }, "\"ok\", or what is wrong.")
+      .def(py::pickle(
+          [](const StpBv& volume) {
+            std::ostringstream out;
+            saveStpBv(out, volume);
+            return py::bytes(out.str());
+          },
+          [](const py::bytes& state) {
+            std::istringstream in(state);
+            return held(loadStpBv(in, "pickled StpBv"));
+          }))
       .def("__repr__", [](const StpBv& volume) {
         return "<StpBv: " + std::to_string(volume.vertexCount()) + " vertices, " +
                std::to_string(volume.faceCount()) + " faces>";
@@ -150,7 +165,7 @@ void addVolume(py::module_& module) {
   addStpBv(module);
   addDistance(module);
   module.def(
-      "load_points", [](const std::string& path) { return toArray(loadPoints(path)); }, py::arg("path"),
+      "load_points", [](const Path& path) { return toArray(loadPoints(path.string())); }, py::arg("path"),
       "(n, 3) array: the points of a mesh file or of a qhull file.");
 }
 

@@ -90,7 +90,7 @@ def test_proofs_agree_with_samples_and_collisions_collide(proofs, arm):
     robot = fcl_stpbv.Robot(str(ARM))
     rows = {name: i for i, name in enumerate(robot.rows)}
     least = dict(zip(arm.pairs, (pair[1] for pair in arm.sample(7, 0, 2000))))
-    by_pair = {}
+    by_pair: dict[tuple, list] = {}
     for record in map(json.loads, proofs.read_text().splitlines()[1:]):
         by_pair.setdefault(tuple(record["job"][:2]), []).append(record)
     assert set(by_pair) == set(arm.pairs)

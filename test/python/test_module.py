@@ -1,7 +1,11 @@
 """The Python module: arrays in and out, files, errors, a robot's constraints against differences."""
+import copy
 import math
 import os
 import pathlib
+import pickle
+import re
+from typing import Callable
 
 import numpy as np
 import pytest
@@ -106,8 +110,68 @@ def test_rates_and_hessians_of_a_robot_agree_with_its_jacobian():
     # Second derivatives jump on region boundaries: up to step |direction|^2 (reach^2 / r + reach), reach about 1 m; most
     # pairs are far apart and none of this posture's sits on one.
     np.testing.assert_allclose(jacobian @ direction, slope, atol=1e-6)
-    with pytest.raises(fcl_stpbv.Error, match="coordinates"):
+    with pytest.raises(fcl_stpbv.Error, match="q: got"):
         robot.distances(q[:-1])
+
+
+def test_paths_are_text_bytes_or_path_objects(tmp_path):
+    path = tmp_path / "box.stpbv"
+    box().save(path)
+    for given in (path, str(path), os.fsencode(path)):
+        assert fcl_stpbv.StpBv.load(given).verify() == "ok"
+    folder = DATA / "hrp2_style"
+    assert len(fcl_stpbv.load_points(folder / "meshes" / "HEAD_LINK1.dae")) > 4
+    robot = fcl_stpbv.Robot(folder / "hrp2_style.urdf", folder / "hrp2_style.srdf", package_path=[folder, str(folder)])
+    assert robot.rows
+    assert fcl_stpbv.mesh_files(folder / "hrp2_style.urdf", [folder]) == fcl_stpbv.mesh_files(str(folder / "hrp2_style.urdf"))
+    loaders: list[Callable] = [fcl_stpbv.Robot, fcl_stpbv.PairSearch, fcl_stpbv.PostureSearch, fcl_stpbv.mesh_files]
+    for missing in (folder / "none.urdf", folder):
+        for load in loaders:
+            with pytest.raises(fcl_stpbv.Error, match=re.escape(str(missing))):
+                load(missing)
+
+
+def test_a_pickled_volume_is_the_same_bit_by_bit():
+    for volume in (box(), fcl_stpbv.StpBv.build(np.random.default_rng(1).normal(size=(300, 3)), r=0.03 / 7, R=100 / 3)):
+        again = pickle.loads(pickle.dumps(volume))
+        assert (again.r, again.R, again.faces) == (volume.r, volume.R, volume.faces)
+        assert np.array_equal(again.vertices, volume.vertices)
+        assert copy.deepcopy(again).verify() == "ok"
+        asked = [fcl_stpbv.distance(v, pose(), v, pose(5, 0.3)) for v in (volume, again)]
+        assert asked[0].distance == asked[1].distance and np.array_equal(asked[0].gradient, asked[1].gradient)
+    damaged = pickle.dumps(box()).replace(b"vertices 8", b"vertices 9")
+    with pytest.raises(fcl_stpbv.Error, match="pickled StpBv"):
+        pickle.loads(damaged)
+
+
+@pytest.mark.parametrize("kind", ["int64", "int32", "bool", "complex128", "str", "object", "longdouble"])
+def test_arrays_that_are_not_of_floats_are_refused_by_their_type(kind):
+    volume, flat = box(), np.eye(4).astype(kind)
+    for ask in (lambda: fcl_stpbv.StpBv.build(BOX.astype(kind)), lambda: volume.support(np.ones(3).astype(kind)),
+                lambda: volume.signed_distance(np.ones(3).astype(kind)), lambda: fcl_stpbv.distance(volume, flat, volume, pose(1)),
+                lambda: fcl_stpbv.PairProof([(flat[0], np.ones(4))]), lambda: fcl_stpbv.PairProof([], flat[0])):
+        with pytest.raises(TypeError, match="expected floats"):
+            ask()
+
+
+def test_lists_of_numbers_and_single_precision_are_taken():
+    assert box().support([1, 0, 0]) == box().support(np.array([1, 0, 0], dtype=np.float32)) == box().support((1.0, 0.0, 0.0))
+    for wrong in (["1", "0", "0"], [1j, 0, 0], [True, False, False], [None, 0, 0], [1, 0], "100", 3):
+        with pytest.raises(TypeError):
+            box().support(wrong)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("bad", [math.nan, math.inf, -math.inf])
+def test_options_that_are_not_finite_raise(bad):
+    urdf = DATA / "hrp2_style" / "hrp2_style.urdf"
+    for options in ({"r": bad}, {"R": bad}):
+        with pytest.raises(fcl_stpbv.Error):
+            fcl_stpbv.StpBv.build(BOX, **options)
+        with pytest.raises(fcl_stpbv.Error):
+            fcl_stpbv.Robot(urdf, **options)
+    if bad != math.inf:  # which is the default
+        with pytest.raises(fcl_stpbv.Error, match="influence"):
+            fcl_stpbv.Robot(urdf, influence=bad)
 
 
 @pytest.mark.parametrize("bad", [math.nan, math.inf, -math.inf])
@@ -123,6 +187,12 @@ def test_numbers_that_are_not_finite_raise(bad):
     robot = fcl_stpbv.Robot(str(folder / "hrp2_style.urdf"), str(folder / "hrp2_style.srdf"))
     q = robot.neutral.copy()
     q[3] = bad
-    for ask in (robot.evaluate, robot.distances):
-        with pytest.raises(fcl_stpbv.Error, match="q"):
-            ask(q)
+    good, weights = robot.neutral, np.ones(len(robot.rows))
+    broken = weights.copy()
+    broken[0] = bad
+    for ask in (lambda: robot.evaluate(q), lambda: robot.distances(q), lambda: robot.rates(q, good), lambda: robot.rates(good, q),
+                lambda: robot.hessian(q, weights), lambda: robot.hessian(good, broken),
+                lambda: robot.hessian_vector(q, weights, good), lambda: robot.hessian_vector(good, broken, good),
+                lambda: robot.hessian_vector(good, weights, q)):
+        with pytest.raises(fcl_stpbv.Error, match="not finite"):
+            ask()

@@ -1,0 +1,64 @@
+// Arrays that come in from Python: of floats, or lists of numbers. NumPy would turn strings, booleans and
+// complex numbers into floats without a word, and most arrays of integers are meant for something else.
+#pragma once
+
+#include <pybind11/eigen.h>
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+
+#include <string>
+#include <utility>
+
+#include "fcl_stpbv/error.h"
+
+namespace fcl_stpbv {
+
+/// An argument that is a matrix or a vector.
+template <class Matrix>
+struct Floats {
+  Matrix value;
+};
+
+/// @throws Error naming the argument.
+template <class Numbers>
+void requireFinite(const Numbers& numbers, const char* name) {
+  if (!numbers.allFinite()) throw Error(std::string(name) + ": holds a number that is not finite");
+}
+
+/// @throws Error naming the argument unless it has that many numbers, all finite.
+inline void requireNumbers(const Eigen::VectorXd& numbers, Eigen::Index count, const char* name) {
+  if (numbers.size() != count)
+    throw Error(std::string(name) + ": got " + std::to_string(numbers.size()) + " numbers, expected " +
+                std::to_string(count));
+  requireFinite(numbers, name);
+}
+
+}  // namespace fcl_stpbv
+
+namespace pybind11::detail {
+
+template <class Matrix>
+struct type_caster<fcl_stpbv::Floats<Matrix>> {
+  PYBIND11_TYPE_CASTER(fcl_stpbv::Floats<Matrix>, make_caster<Matrix>::name);
+
+  bool load(handle source, bool) {
+    const bool given = isinstance<array>(source);
+    const array numbers = given ? reinterpret_borrow<array>(source) : array::ensure(source);
+    if (!numbers) {
+      PyErr_Clear();
+      return false;
+    }
+    const char kind = numbers.dtype().kind();
+    const bool fits = kind == 'f' && numbers.itemsize() <= static_cast<ssize_t>(sizeof(double));
+    const bool listed = !given && (kind == 'i' || kind == 'u');
+    if (!fits && !listed)
+      throw type_error("got an array of " + std::string(str(numbers.dtype())) +
+                       ", expected floats; convert it with astype(float) if that is what is meant");
+    make_caster<Matrix> inner;
+    if (!inner.load(numbers, true)) return false;
+    value.value = cast_op<Matrix>(std::move(inner));
+    return true;
+  }
+};
+
+}  // namespace pybind11::detail
