@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "fcl_stpbv/volume/rolling_ball.h"
+#include "fcl_stpbv/volume/half_edges.h"
 #include "fcl_stpbv/volume/stp_bv.h"
 
 namespace fcl_stpbv::detail {

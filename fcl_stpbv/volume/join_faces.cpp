@@ -11,14 +11,13 @@
 #include <numeric>
 #include <set>
 
-#include "fcl_stpbv/volume/ball_side.h"
-#include "fcl_stpbv/volume/rolling_ball.h"
+#include "fcl_stpbv/volume/ball_faces.h"
+#include "fcl_stpbv/volume/half_edges.h"
 
 namespace fcl_stpbv::detail {
 namespace {
 
 using Eigen::Vector3d;
-using Ring = std::vector<int>;
 
 // The single loop around a group of faces; empty where there is none (a ring, a pinch) and the group must
 // stay apart.

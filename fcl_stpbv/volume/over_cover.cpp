@@ -8,10 +8,12 @@
 #include <cmath>
 #include <limits>
 
+#include "fcl_stpbv/volume/ball_faces.h"
 #include "fcl_stpbv/volume/ball_side.h"
 #include "fcl_stpbv/volume/hull_excess.h"
 #include "fcl_stpbv/volume/measure.h"
 #include "fcl_stpbv/volume/patch_view.h"
+#include "fcl_stpbv/volume/rolling_ball.h"
 #include "fcl_stpbv/volume/surface_height.h"
 
 namespace fcl_stpbv {

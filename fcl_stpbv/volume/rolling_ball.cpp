@@ -1,9 +1,12 @@
 // Rolls a ball over a cloud (paper, IV.A, Algorithm 1; after Bernardini and others 1999):
 // 1. let the ball touch a first, a second and a third point: the first face;
 // 2. over each open edge pivot the ball to the point it meets next (point_tree.h);
-// 3. stop when no edge is open; join faces on one ball (join_faces.cpp).
-// Every decision is the sign of one exact predicate (ball_side.h), so that faces found from different sides
-// agree.
+// 3. stop when no edge is open; check that each face's ball holds its neighbours, else list the faces by
+// their
+//    definition (ball_faces.h); join faces on one ball (join_faces.cpp).
+// Sides are decided by one exact predicate (ball_side.h), so that faces found from different edges agree.
+// Angles only order the points to try, but are rounded: where they defeat the roll a small cloud's faces are
+// listed by their definition (ball_faces.h).
 #include "fcl_stpbv/volume/rolling_ball.h"
 
 #include <Eigen/Geometry>
@@ -11,9 +14,9 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <optional>
 
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/volume/ball_faces.h"
 #include "fcl_stpbv/volume/ball_side.h"
 #include "fcl_stpbv/volume/join_faces.h"
 #include "fcl_stpbv/volume/minimum_ball.h"
@@ -23,8 +26,6 @@ namespace fcl_stpbv::detail {
 namespace {
 
 using Eigen::Vector3d;
-using Ring = std::vector<int>;
-
 constexpr double kTwoPi = 6.283185307179586476925;
 constexpr double kDiametral = 1 + 1e-9;  // the edge's own ends must not fall out by rounding
 
@@ -57,7 +58,6 @@ class Roller {
   // The same from the ball at rest, for a point so close to a or b that its own angle is lost in rounding.
   double angleOf(const TouchingBall& ball, int a, int b, const Vector3d& across) const;
   Ring pivot(int a, int b, const Vector3d& across, int candidate);
-  Ring ringOf(const TouchingBall& ball, int from, int to, std::vector<int> touched);
   bool claim(const Ring& ring);
   int leftOnTheWay(int a, int b, const Vector3d& across, double rest);
   void removeTwins(int i);
@@ -236,7 +236,9 @@ Ring Roller::pivot(int a, int b, const Vector3d& across, int candidate) {
       candidate = outside;
       continue;
     }
-    Ring ring = ringOf(ball, b, a, touched);
+    touched.erase(std::remove_if(touched.begin(), touched.end(), [&](int i) { return tree_.isRemoved(i); }),
+                  touched.end());
+    Ring ring = ringOf(points_, ball, b, a, std::move(touched));
     if (claim(ring)) return ring;
     const auto alive = std::find_if(ring.begin() + 2, ring.end(), [&](int i) { return !tree_.isRemoved(i); });
     if (alive == ring.end()) break;
@@ -245,28 +247,6 @@ Ring Roller::pivot(int a, int b, const Vector3d& across, int candidate) {
   throw Error(
       "the rolling ball found no rest: the cloud's coordinates are too close to degenerate for double "
       "precision");
-}
-
-// Orders the touched points into the boundary of their spherical hull; from -> to is known to be one of its
-// sides.
-Ring Roller::ringOf(const TouchingBall& ball, int from, int to, std::vector<int> touched) {
-  touched.erase(std::remove_if(touched.begin(), touched.end(),
-                               [&](int i) { return i == from || i == to || tree_.isRemoved(i); }),
-                touched.end());
-  std::sort(touched.begin(), touched.end(), [&](int i, int j) {
-    const int turn = ball.turn(at(from), at(i), at(j));
-    if (turn != 0) return turn > 0;
-    return (at(i) - at(from)).squaredNorm() < (at(j) - at(from)).squaredNorm();
-  });
-  Ring ring{from, to};
-  for (const int i : touched) {
-    while (ring.size() > 2 && ball.turn(at(ring[ring.size() - 2]), at(ring.back()), at(i)) <= 0)
-      ring.pop_back();
-    ring.push_back(i);
-  }
-  while (ring.size() > 3 && ball.turn(at(ring[ring.size() - 2]), at(ring.back()), at(from)) <= 0)
-    ring.pop_back();
-  return ring;
 }
 
 // Points closer to i than rounding vanish into it.
@@ -386,91 +366,20 @@ void Roller::roll() {
 
 }  // namespace
 
-double touchTolerance(const std::vector<Vector3d>& points) {
+double flatRadius(const std::vector<Vector3d>& points) {
   Vector3d low = points[0], high = points[0];
-  double largest = 0;
-  for (const Vector3d& p : points) {
-    low = low.cwiseMin(p), high = high.cwiseMax(p);
-    largest = std::max(largest, p.cwiseAbs().maxCoeff());
-  }
-  // Coordinates that were turned and shifted are off by two or three units in their last place, and a face's
-  // ball, fixed by three of them, may tilt so that the face's other points are off by several times as much.
-  return 32 * std::numeric_limits<double>::epsilon() * std::max(largest, 0.5 * (high - low).maxCoeff());
-}
-
-std::array<int, 3> wideTriangle(const std::vector<Vector3d>& points, const std::vector<int>& ring) {
-  const auto at = [&](std::size_t k) -> const Vector3d& { return points[static_cast<std::size_t>(ring[k])]; };
-  std::size_t second = 1, third = 2;
-  if (ring.size() > 3) {
-    for (std::size_t k = 1; k < ring.size(); ++k)
-      if ((at(k) - at(0)).squaredNorm() > (at(second) - at(0)).squaredNorm()) second = k;
-    double area = -1;
-    for (std::size_t k = 1; k < ring.size(); ++k) {
-      const double a = (at(second) - at(0)).cross(at(k) - at(0)).squaredNorm();
-      if (a > area) area = a, third = k;
-    }
-  }
-  if (second > third) std::swap(second, third);
-  return {ring[0], ring[second], ring[third]};
-}
-
-std::vector<HalfEdge> pairHalfEdges(const std::vector<Vector3d>& points, const std::vector<Ring>& faces,
-                                    const std::vector<Vector3d>& normals, double radius) {
-  const double curvature = std::isinf(radius) ? 0 : 1 / radius;
-  const auto at = [&](int i) -> const Vector3d& { return points[static_cast<std::size_t>(i)]; };
-  std::vector<HalfEdge> halfEdges;
-  std::multimap<std::pair<int, int>, int> byEnds;
-  for (std::size_t f = 0; f < faces.size(); ++f)
-    for (std::size_t k = 0; k < faces[f].size(); ++k) {
-      byEnds.insert({{faces[f][k], faces[f][(k + 1) % faces[f].size()]}, static_cast<int>(halfEdges.size())});
-      halfEdges.push_back({static_cast<int>(f), static_cast<int>(k)});
-    }
-  for (std::size_t h = 0; h < halfEdges.size(); ++h) {
-    HalfEdge& edge = halfEdges[h];
-    const Ring& ring = faces[static_cast<std::size_t>(edge.face)];
-    const std::size_t k = static_cast<std::size_t>(edge.corner);
-    const int a = ring[k], b = ring[(k + 1) % ring.size()];
-    const Vector3d u = (at(b) - at(a)).normalized();
-    const auto across = [&](int face) {
-      const int first = faces[static_cast<std::size_t>(face)][0];
-      const Vector3d m = normals[static_cast<std::size_t>(face)] + curvature * (at(a) - at(first));
-      return Vector3d(m - m.dot(u) * u);
-    };
-    const Vector3d from = across(edge.face), side = u.cross(from);
-    // Nearly a whole turn is possible only where the face's other vertices hardly rise over the arc that the
-    // ball rolls on: straight ahead of its normal, seen along the edge.
-    const bool isSpindle = std::any_of(ring.begin(), ring.end(), [&](int i) {
-      const Vector3d q = (at(i) - at(a)) - (at(i) - at(a)).dot(u) * u;
-      return i != a && i != b && q.dot(from) > 0.99 * q.norm() * from.norm();
-    });
-    const auto range = byEnds.equal_range({b, a});
-    for (auto it = range.first; it != range.second; ++it) {
-      const int face = halfEdges[static_cast<std::size_t>(it->second)].face;
-      const Vector3d to = across(face);
-      double turn = std::atan2(to.dot(side), to.dot(from));
-      if (turn < 0) turn = turn > -1e-6 && !isSpindle ? 0 : turn + kTwoPi;  // a turn of nothing, rounded
-      if (edge.twin < 0 || turn < edge.turn) edge.twin = it->second, edge.turn = turn;
-    }
-    if (edge.twin < 0)
-      throw Error("the faces do not close: the edge from vertex " + std::to_string(a) + " to vertex " +
-                  std::to_string(b) + " of face " + std::to_string(edge.face) +
-                  " has no face on its other side");
-  }
-  for (std::size_t h = 0; h < halfEdges.size(); ++h)
-    if (halfEdges[static_cast<std::size_t>(halfEdges[h].twin)].twin != static_cast<int>(h))
-      throw Error("the faces do not close: an edge of face " + std::to_string(halfEdges[h].face) +
-                  " is shared by more than two");
-  return halfEdges;
+  for (const Vector3d& p : points) low = low.cwiseMin(p), high = high.cwiseMax(p);
+  const double extent = (high - low).norm();
+  return extent > 0 ? 1e15 * extent : 1;
 }
 
 namespace {
 
-RolledHull rollOnce(const std::vector<Vector3d>& points, double radius) {
-  Roller roller(points, radius);
-  roller.roll();
+RolledHull hullOf(const std::vector<Vector3d>& points, std::vector<Ring> faces, std::vector<int> lone,
+                  double radius) {
   RolledHull hull;
-  hull.faces = joinFaces(points, std::move(roller.faces), radius);
-  hull.vertices = roller.loneVertices;
+  hull.faces = joinFaces(points, std::move(faces), radius);
+  hull.vertices = std::move(lone);
   for (const Ring& ring : hull.faces) hull.vertices.insert(hull.vertices.end(), ring.begin(), ring.end());
   std::sort(hull.vertices.begin(), hull.vertices.end());
   hull.vertices.erase(std::unique(hull.vertices.begin(), hull.vertices.end()), hull.vertices.end());
@@ -479,15 +388,22 @@ RolledHull rollOnce(const std::vector<Vector3d>& points, double radius) {
 
 }  // namespace
 
-double flatRadius(const std::vector<Vector3d>& points) {
-  Vector3d low = points[0], high = points[0];
-  for (const Vector3d& p : points) low = low.cwiseMin(p), high = high.cwiseMax(p);
-  const double extent = (high - low).norm();
-  return extent > 0 ? 1e15 * extent : 1;
+RolledHull rollBall(const std::vector<Vector3d>& points, double radius) {
+  if (std::isinf(radius)) radius = flatRadius(points);
+  Roller roller(points, radius);
+  try {
+    roller.roll();
+  } catch (const Error&) {
+    if (points.size() > kMostByDefinition) throw;
+    RolledHull hull = hullByDefinition(points, radius);
+    if (hull.faces.empty()) throw;
+    return hull;
+  }
+  return hullOf(points, std::move(roller.faces), std::move(roller.loneVertices), radius);
 }
 
-RolledHull rollBall(const std::vector<Vector3d>& points, double radius) {
-  return rollOnce(points, std::isinf(radius) ? flatRadius(points) : radius);
+RolledHull hullByDefinition(const std::vector<Vector3d>& points, double radius) {
+  return hullOf(points, facesByDefinition(points, radius), {}, radius);
 }
 
 }  // namespace fcl_stpbv::detail

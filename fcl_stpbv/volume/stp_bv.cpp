@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "fcl_stpbv/vectorized.h"
+#include "fcl_stpbv/volume/ball_faces.h"
 #include "fcl_stpbv/volume/minimum_ball.h"
 #include "fcl_stpbv/volume/patch_view.h"
 #include "fcl_stpbv/volume/point_tree.h"
@@ -88,20 +89,20 @@ double farthestOut(const StpBv& volume, const std::vector<Vector3d>& points) {
   return out;
 }
 
-// Clusters of points that differ by a few roundings can defeat the builder. The result is then wrong by far
-// more than rounding, so wide bounds tell it; a wrong volume must not leave the builder. `others` are the
-// points that are no vertices.
-void refuseBroken(const StpBv& volume, const std::vector<Vector3d>& points,
-                  const std::vector<Vector3d>& others) {
+// What was built holds its points to rounding, is off by more than that, or is no ball hull at all.
+enum class State { sound, off, broken };
+
+State stateOf(const StpBv& volume, const std::vector<Vector3d>& points, const std::vector<Vector3d>& others) {
   const Verification check = verify(volume);
-  const double size = volume.enclosingRadius(), off = 1e-9 * size + 2 * touchTolerance(points);
-  const double shift = 1e-3 * size + off + 64 * std::numeric_limits<double>::epsilon() * volume.radii().rho;
-  if (check.containment <= off && (others.empty() || farthestOut(volume, others) <= off) &&
-      std::abs(check.solidAngleError) <= 1e-6 && check.boundaryGap <= shift)
-    return;
-  throw Error(
-      "the points are too close to each other to be told apart: merge those closer together than about " +
-      number(1e-9 * size) + " m and build again");
+  const double out =
+      std::max(check.containment, others.empty() ? check.containment : farthestOut(volume, others));
+  const double size = volume.enclosingRadius(), same = 2 * touchTolerance(points);
+  const double wide = 1e-9 * size + same;
+  const double shift = 1e-3 * size + wide + 64 * std::numeric_limits<double>::epsilon() * volume.radii().rho;
+  if (!(out <= wide && std::abs(check.solidAngleError) <= 1e-6 && check.boundaryGap <= shift))
+    return State::broken;
+  return out <= same + 8 * std::numeric_limits<double>::epsilon() * volume.radii().rho ? State::sound
+                                                                                       : State::off;
 }
 
 }  // namespace
@@ -114,20 +115,34 @@ double StpBv::smallestR(const std::vector<Vector3d>& points, double r) {
 StpBv::Ptr StpBv::build(const std::vector<Vector3d>& points, const StpBvOptions& options) {
   checkInput(points, options);
   checkRadius(points, options);
-  RolledHull hull = rollBall(points, options.R - options.r);
-  std::vector<int> newIndex(points.size(), -1);
-  std::vector<Vector3d> vertices;
-  for (const int i : hull.vertices) {
-    newIndex[static_cast<std::size_t>(i)] = static_cast<int>(vertices.size());
-    vertices.push_back(points[static_cast<std::size_t>(i)]);
+  State state = State::sound;
+  const auto built = [&](RolledHull hull) {
+    std::vector<int> newIndex(points.size(), -1);
+    std::vector<Vector3d> vertices, others;
+    for (const int i : hull.vertices) {
+      newIndex[static_cast<std::size_t>(i)] = static_cast<int>(vertices.size());
+      vertices.push_back(points[static_cast<std::size_t>(i)]);
+    }
+    for (Ring& ring : hull.faces)
+      for (int& i : ring) i = newIndex[static_cast<std::size_t>(i)];
+    for (std::size_t i = 0; i < points.size(); ++i)
+      if (newIndex[i] < 0) others.push_back(points[i]);
+    const Ptr volume = make(std::move(vertices), std::move(hull.faces), options);
+    state = stateOf(*volume, points, others);
+    return volume;
+  };
+  const double rho = options.R - options.r;
+  Ptr volume = built(rollBall(points, rho));
+  // Clusters of points that differ by a few roundings can defeat the roll: a wrong volume must not leave the
+  // builder.
+  if (state != State::sound && points.size() <= kMostByDefinition) {
+    RolledHull sure = hullByDefinition(points, rho);
+    if (!sure.faces.empty()) volume = built(std::move(sure));
   }
-  for (Ring& ring : hull.faces)
-    for (int& i : ring) i = newIndex[static_cast<std::size_t>(i)];
-  const Ptr volume = make(std::move(vertices), std::move(hull.faces), options);
-  std::vector<Vector3d> others;
-  for (std::size_t i = 0; i < points.size(); ++i)
-    if (newIndex[i] < 0) others.push_back(points[i]);
-  refuseBroken(*volume, points, others);
+  if (state == State::broken)
+    throw Error(
+        "the points are too close to each other to be told apart: merge those closer together than about " +
+        number(1e-9 * volume->enclosingRadius()) + " m and build again");
   return volume;
 }
 

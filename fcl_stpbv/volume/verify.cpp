@@ -12,6 +12,8 @@
 #include <cstdio>
 #include <limits>
 
+#include "fcl_stpbv/volume/ball_faces.h"
+#include "fcl_stpbv/volume/join_faces.h"
 #include "fcl_stpbv/volume/measure.h"
 #include "fcl_stpbv/volume/patch_view.h"
 #include "fcl_stpbv/volume/point_tree.h"
@@ -101,21 +103,25 @@ BoundaryGap boundaryGapOf(const StpBv& volume, double rounding) {
         0.5 * (at(volume, edge.vertex[1]) - at(volume, edge.vertex[0])).norm() / volume.radii().rho;
     const double cosine = volume.patch(volume.edgePatch(e)).kappa / volume.radii().rho;
     const Arc arc = edgeArc(volume, e);
+    // A joined face's ball, and with it the edge's arc, may be tilted by as much as the join allows.
+    const auto isJoined = [&](int face) {
+      return face >= 0 && volume.faces()[static_cast<std::size_t>(face)].size() > 3;
+    };
+    const double tilted = rounding + 2 * kJoinTilt * volume.radii().rho;
+    const double beside = isJoined(edge.face[0]) || isJoined(edge.face[1]) ? tilted : rounding;
     for (int k = 0; k <= 8; ++k) {
       const Vector3d w = arc.at(k / 8.0);
       compare(volume.edgePatch(e), edge.vertex[0], cosine * w - sine * arc.axis, rounding);
       compare(volume.edgePatch(e), edge.vertex[1], cosine * w + sine * arc.axis, rounding);
       if (k > 0 && k < 8)
-        compare(volume.edgePatch(e), volume.owner(w), w, rounding);  // the region holds its arc
+        compare(volume.edgePatch(e), volume.owner(w), w, beside);  // the region holds its arc
     }
     if (edge.face[0] < 0) continue;
     for (const int face : edge.face) {
       const Vector3d a = volume.corner(face, edge.vertex[0]), b = volume.corner(face, edge.vertex[1]);
-      const bool isJoined = volume.faces()[static_cast<std::size_t>(face)].size() > 3;
-      const double allowed = rounding + (isJoined ? 2 * kJoinTilt * volume.radii().rho : 0.0);
       for (int k = 0; k <= 4; ++k)
         compare(volume.edgePatch(e), volume.facePatch(face), ((1 - k / 4.0) * a + k / 4.0 * b).normalized(),
-                allowed);
+                isJoined(face) ? tilted : rounding);
     }
   }
   return result;
@@ -173,18 +179,19 @@ Verification verify(const StpBv& volume, const std::vector<Vector3d>& points, do
   for (const double angle : solidAngles(volume)) sum += angle, least = std::min(least, angle);
   result.solidAngleError = sum - 4 * kPi;
 
-  // Heights and boundaries: a few roundings of lengths up to the body's size and, for normals, of rho times
-  // their rounding.
-  const double length = touchTolerance(all) + 8 * std::numeric_limits<double>::epsilon() * volume.radii().rho;
-  const BoundaryGap boundaries = boundaryGapOf(volume, 4 * length);
-  result.boundaryGap = boundaries.largest;
-  // Angles: each corner is rounded by a few units; near the smallest R an edge's normals lie close to its
-  // line, by the cosine kappa/rho, and its turn is rounded by as much more.
+  // Near the smallest R an edge's normals lie close to its line, by the cosine kappa/rho.
   double cosine = 1;
   for (int e = 0; e < volume.edgeCount(); ++e)
     cosine = std::min(cosine, volume.patch(volume.edgePatch(e)).kappa / volume.radii().rho);
-  const double angle =
-      1e-13 * (16 + volume.edgeCount()) + 4 * std::numeric_limits<double>::epsilon() / cosine;
+  // Heights and boundaries: a few roundings of lengths up to the body's size and, for normals, of rho times
+  // their rounding. The circle around an edge, kappa = sqrt(rho^2 - half^2), is off by the three roundings
+  // under its root, of rho^2 each, by 2 kappa.
+  constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+  const double length = touchTolerance(all) + (8 + 1.5 / cosine) * kEpsilon * volume.radii().rho;
+  const BoundaryGap boundaries = boundaryGapOf(volume, 4 * length);
+  result.boundaryGap = boundaries.largest;
+  // Angles: each corner is rounded by a few units, and an edge's turn by one over the cosine as much.
+  const double angle = 1e-13 * (16 + volume.edgeCount()) + 4 * kEpsilon / cosine;
   // A point may have vanished into a vertex next to it, and the vertex may be as much outside a face that was
   // joined.
   if (!(result.containment <= length + touchTolerance(all)))

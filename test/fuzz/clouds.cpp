@@ -103,7 +103,7 @@ CloudCase nearDegenerateCloud(Random& random) {
   const auto pick = [&]() -> const Vector3d& {
     return c.points[static_cast<std::size_t>(random.below(count))];
   };
-  const auto off = [&](double least, double most) {
+  const auto off = [&](double least, double most) -> Vector3d {
     return std::pow(10.0, random.uniform(least, most)) * random.direction();
   };
   switch (kind) {

@@ -303,3 +303,35 @@ TEST_CASE("A ball that rolls over an edge between near-duplicates does not roll 
   INFO(found.message);
   CHECK(found.ok);
 }
+
+TEST_CASE("Two pairs of near-duplicates as far apart as the ball allows build a volume that verifies") {
+  // R and points: clouds that the roll alone refuses, from the random ones of test/fuzz/clouds.cpp.
+  const std::vector<std::pair<double, Cloud>> cases = {
+      {0x1.03800052a3d16p-8,
+       {{-0x1.6ed106376c606p-15, 0x1.6a86b32bb6effp-8, -0x1.c7dd1f42d04acp-11},
+        {0x1.6c10fa219953p-8, -0x1.16b239d2ab901p-14, -0x1.701bd5f668c5fp-11},
+        {-0x1.6ed10637712cp-15, 0x1.6a86b32bb6e42p-8, -0x1.c7dd1f42d2a0ep-11},
+        {0x1.6c10fa200d656p-8, -0x1.16b23a4cbc842p-14, -0x1.701bd656dc3eap-11}}},
+      {0x1.2e77e7da340c7p-7,
+       {{0x1.73a9e93a6cf88p-7, 0x1.5770b464a043ep-8, 0x1.b5a9bceeae3b4p-9},
+        {0x1.57109c478bccep-8, -0x1.82c1060a9b161p-7, 0x1.85215190ded81p-11},
+        {0x1.73a9e93a6cfbp-7, 0x1.5770b464a044fp-8, 0x1.b5a9bceeae162p-9},
+        {0x1.57109c478802ep-8, -0x1.82c1060a9b7b9p-7, 0x1.852151914fc4p-11}}},
+      {0x1.6a8e7e4aa486p-8,
+       {{0x1.6b2fb11a1b066p-9, 0x1.9d45e3e09e288p-5, -0x1.9b810e3fdd184p-10},
+        {-0x1.41e17c1704e24p-8, 0x1.dc350e7520753p-5, -0x1.9b810e3fbcf13p-10},
+        {-0x1.41e17c1704e24p-8, 0x1.dc350e7520753p-5, -0x1.9b810e3fdd1dap-10},
+        {0x1.6b2fb11a1b066p-9, 0x1.9d45e3e09e288p-5, -0x1.9b810e4022cc1p-10}}},
+      {0x1.dbb1a62e28c03p+24,
+       {{0x1.a420d5cde05b1p+4, 0x1.9c468728eb26p-18, -0x1.054d0f787e034p-18},
+        {-0x1.ba3887684ab3fp+4, 0x1.43292d3980169p-49, 0x1.de9e7a30d5382p-48},
+        {0x1.a420d5cde05cbp+4, 0x1.9c46881137028p-18, -0x1.054d0f9442569p-18},
+        {0x1.4e3dfd944475bp+4, 0x1.800b66b236461p-48, -0x1.5943e9eea3f95p-45}}},
+  };
+  for (const auto& [R, points] : cases) {
+    CAPTURE(R);
+    const StpBv::Ptr volume = StpBv::build(points, {0, R});
+    const Verification check = verify(*volume, points);
+    CHECK(check.message == "ok");
+  }
+}

@@ -2,7 +2,9 @@
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <set>
 
+#include "fcl_stpbv/volume/ball_faces.h"
 #include "fcl_stpbv/volume/ball_side.h"
 #include "fcl_stpbv/volume/minimum_ball.h"
 #include "fcl_stpbv/volume/point_tree.h"
@@ -105,5 +107,21 @@ TEST_CASE("The rolled convex hull is convex, closed and holds all points") {
       for (const Vector3d& p : points) CHECK(n.dot(p - at(t[0])) <= 1e-15);
     }
     CHECK(hull.vertices.size() + hull.faces.size() == sides / 2 + 2);
+  }
+}
+
+TEST_CASE("The rolled faces are those of the definition") {
+  Random random(31);
+  for (int k = 0; k < 60; ++k) {
+    Cloud points = k % 3 == 0 ? box(0.2, 0.4, 0.1 + 0.01 * k) : randomHull(5 + k / 2, {0.3, 0.2, 0.1}, k + 1);
+    const Eigen::Matrix3d turn = random.rotation();
+    for (Vector3d& p : points) p = turn * p;
+    const double radius = minimumEnclosingBall(points).radius * (1 + std::pow(10.0, random.uniform(-4, 4)));
+    CAPTURE(k, radius);
+    const RolledHull rolled = rollBall(points, radius), defined = hullByDefinition(points, radius);
+    if (!rolled.faces.empty()) CHECK(rolled.vertices == defined.vertices);  // else a sphere or a spindle
+    using Rings = std::set<std::vector<int>>;
+    CHECK(Rings(rolled.faces.begin(), rolled.faces.end()) ==
+          Rings(defined.faces.begin(), defined.faces.end()));
   }
 }

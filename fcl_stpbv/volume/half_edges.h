@@ -1,0 +1,24 @@
+// The half-edges of a closed surface of faces, each with its twin and the angle the ball rolls between them.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace fcl_stpbv::detail {
+
+/// The half-edges of a closed surface of rings: which one lies on the other side of each.
+struct HalfEdge {
+  int face, corner;  ///< runs from ring[corner] to the next vertex of faces[face]
+  int twin = -1;     ///< index of the half-edge on the other side
+  double turn = 0;   ///< angle by which the ball rolls from this face to the twin's, [0, 2 pi)
+};
+
+/// Half-edges of `faces` in order, paired with their twins. Two vertices may be joined by several edges; the
+/// ball rolls from each half-edge to the nearest twin ahead. `normals[f]` is the unit outward normal at the
+/// face's first vertex.
+/// @throws Error where the faces do not form a closed surface.
+std::vector<HalfEdge> pairHalfEdges(const std::vector<Eigen::Vector3d>& points,
+                                    const std::vector<std::vector<int>>& faces,
+                                    const std::vector<Eigen::Vector3d>& normals, double radius);
+
+}  // namespace fcl_stpbv::detail
