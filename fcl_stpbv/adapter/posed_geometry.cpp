@@ -1,4 +1,10 @@
-// See posed_geometry.h.
+// Geometries as hierarchies of boxes, for the walk in posed_geometry.h.
+// 1. An STP-BV or a shape is one part: its bounding ball, for a shape that is a box its own box. Meshes and
+//    trees give the boxes of FCL's hierarchies (element_tree.h).
+// 2. Two parts are at least as far apart as their projections on any axis (separating axis test:
+//    Gottschalk, Lin, Manocha 1996). Seven axes are tried, or eight: the line of the centres, each box's
+//    own three, and a normal that the caller knows. Axes that are cross products of edges are left out: a
+//    looser bound, never a wrong one.
 #include "fcl_stpbv/adapter/posed_geometry.h"
 
 #include <cmath>

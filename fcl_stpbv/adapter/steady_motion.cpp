@@ -1,4 +1,9 @@
-// See steady_motion.h.
+// Motions as FCL makes them, from two poses or from FCL's own objects.
+// 1. The rotation from the first pose to the second, as axis and angle, is the angular velocity.
+// 2. CCDM_LINEAR: the body's origin moves on a straight line. CCDM_TRANS: the same without the rotation.
+// 3. CCDM_SCREW: Chasles' theorem. Some axis moves along itself only; it lies where the translation across
+//    it is the chord of the turn: point = origin + (across + axis x way / tan(angle / 2)) / 2.
+// 4. FCL's objects are read by their type, and go the same way.
 #include "fcl_stpbv/adapter/steady_motion.h"
 
 #include <fcl/math/motion/interp_motion.h>

@@ -32,8 +32,8 @@ void sortAround(std::vector<int>& ring, const Vector3d& normal, Place place) {
 
 Cell::Cell(const MeshSolid& mesh) {
   const Vector3d size = mesh.high() - mesh.low();
-  const Vector3d room = Vector3d::Constant(0.01 * size.norm());
-  const Vector3d low = mesh.low() - room, high = mesh.high() + room;
+  const Vector3d margin = Vector3d::Constant(0.01 * size.norm());
+  const Vector3d low = mesh.low() - margin, high = mesh.high() + margin;
   for (int k = 0; k < 8; ++k)
     corners_.push_back(
         {{k & 1 ? high.x() : low.x(), k & 2 ? high.y() : low.y(), k & 4 ? high.z() : low.z()}, false});

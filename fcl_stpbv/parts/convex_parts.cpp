@@ -94,15 +94,15 @@ TriangleSoup forSearch(const TriangleSoup& soup, const PartSpace& space) {
   return few;
 }
 
-// All corners of what the mesh has in a part's rooms, cut anew from the whole mesh.
+// All corners of what the mesh has in a part's leaves, cut anew from the whole mesh.
 std::vector<Vector3d> pointsIn(const Part& part, const std::vector<TriangleSoup>& groups,
                                const PartSpace& space) {
   std::vector<Vector3d> points;
-  for (const auto& room : part.rooms) {
-    TriangleSoup soup = groups[at(room->group)];
-    for (const CutPlane& plane : room->path) soup = above(soup, plane, space.slack);
+  for (const auto& leaf : part.leaves) {
+    TriangleSoup soup = groups[at(leaf->group)];
+    for (const CutPlane& plane : leaf->path) soup = above(soup, plane, space.slack);
     points.insert(points.end(), soup.points.begin(), soup.points.end());
-    points.insert(points.end(), room->corners.begin(), room->corners.end());
+    points.insert(points.end(), leaf->corners.begin(), leaf->corners.end());
   }
   return points;
 }
@@ -134,11 +134,11 @@ ConvexParts convexParts(const TriangleMesh& input, const PartsOptions& options) 
   const Cell cell = mesh.pieces().closedPieces() > 0 ? Cell(mesh) : Cell();
   std::vector<TriangleSoup> soups = groups(mesh, facetOf, each);
   for (std::size_t g = 0; g < soups.size(); ++g) {
-    auto room = std::make_shared<Room>();
-    room->soup = forSearch(soups[g], space);
-    room->cell = cell;
-    room->group = static_cast<int>(g);
-    start.push_back(std::make_shared<Part>(makePart({room}, space, {space.fine})));
+    auto leaf = std::make_shared<BspLeaf>();
+    leaf->soup = forSearch(soups[g], space);
+    leaf->cell = cell;
+    leaf->group = static_cast<int>(g);
+    start.push_back(std::make_shared<Part>(makePart({leaf}, space, {space.fine})));
   }
   PartSearch search(space, static_cast<long>(kHulls * options.effort));
   const PartSearch::Parts found = search.fewParts(start, options.most, options.excess);
@@ -148,7 +148,7 @@ ConvexParts convexParts(const TriangleMesh& input, const PartsOptions& options) 
   out.slack = 2 * space.slack;
   for (const PartPtr& part : found) {
     const std::vector<Vector3d> points = pointsIn(*part, soups, space);
-    if (points.empty()) continue;  // a room of the coarse mesh alone
+    if (points.empty()) continue;  // a leaf of the coarse mesh alone
     out.parts.push_back(certified(points, mesh));
     out.excess = std::max(out.excess, out.parts.back().excess.upper);
     out.openExcess = std::max(out.openExcess, out.parts.back().openExcess.upper);

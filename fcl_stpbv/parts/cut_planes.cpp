@@ -41,17 +41,17 @@ Spread spreadOf(const Part& part) {
   Vector3d sum = Vector3d::Zero();
   Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
   double area = 0;
-  for (const auto& room : part.rooms) {
-    for (std::size_t t = 0; t < room->soup.triangles.size(); ++t) {
-      const auto& [i, k, l] = room->soup.triangles[t];
-      const Vector3d &a = room->soup.points[at(i)], &b = room->soup.points[at(k)],
-                     &c = room->soup.points[at(l)];
+  for (const auto& leaf : part.leaves) {
+    for (std::size_t t = 0; t < leaf->soup.triangles.size(); ++t) {
+      const auto& [i, k, l] = leaf->soup.triangles[t];
+      const Vector3d &a = leaf->soup.points[at(i)], &b = leaf->soup.points[at(k)],
+                     &c = leaf->soup.points[at(l)];
       const double size = 0.5 * (b - a).cross(c - a).norm();
       const Vector3d middle = (a + b + c) / 3;
       area += size;
       sum += size * middle;
       squares += size * middle * middle.transpose();
-      spread.areaOfFacet[room->soup.facet[t]] += size;
+      spread.areaOfFacet[leaf->soup.facet[t]] += size;
     }
   }
   spread.axes.setIdentity();

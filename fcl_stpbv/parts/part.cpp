@@ -1,6 +1,8 @@
-// One part during the search: the hull of what its cells hold, and its excess over the mesh, known only as
-// well as the search needs. Cutting clips each cell's triangles and corners; joining takes both parts'
-// points.
+// One part during the search.
+// 1. Its hull is that of all points of its leaves; a joined part takes the hull vertices of both.
+// 2. Its excess over the mesh (mesh_excess.h) is measured only as well as the search needs it.
+// 3. A cut clips each leaf's triangles (Sutherland-Hodgman) and its cell by the plane. A leaf with
+//    triangles on one side only is not clipped.
 #include "fcl_stpbv/parts/part.h"
 
 #include <Eigen/Geometry>
@@ -24,21 +26,21 @@ void measureAgain(Part& part, const PartSpace& space, const Measure& measure) {
   part.resolution = options.absolute;
 }
 
-Part makePart(Rooms rooms, const PartSpace& space, const Measure& measure) {
+Part makePart(BspLeaves leaves, const PartSpace& space, const Measure& measure) {
   std::vector<Vector3d> points;
-  for (const auto& room : rooms) {
-    points.insert(points.end(), room->soup.points.begin(), room->soup.points.end());
-    points.insert(points.end(), room->corners.begin(), room->corners.end());
+  for (const auto& leaf : leaves) {
+    points.insert(points.end(), leaf->soup.points.begin(), leaf->soup.points.end());
+    points.insert(points.end(), leaf->corners.begin(), leaf->corners.end());
   }
-  Part part{std::move(rooms), partHull(points), {}, 0};
+  Part part{std::move(leaves), partHull(points), {}, 0};
   measureAgain(part, space, measure);
   return part;
 }
 
 Part joined(const Part& a, const Part& b, const PartSpace& space, const Measure& measure) {
   Part part;
-  part.rooms = a.rooms;
-  part.rooms.insert(part.rooms.end(), b.rooms.begin(), b.rooms.end());
+  part.leaves = a.leaves;
+  part.leaves.insert(part.leaves.end(), b.leaves.begin(), b.leaves.end());
   std::vector<Vector3d> points = a.hull.vertices;
   points.insert(points.end(), b.hull.vertices.begin(), b.hull.vertices.end());
   part.hull = partHull(points);
@@ -46,28 +48,28 @@ Part joined(const Part& a, const Part& b, const PartSpace& space, const Measure&
   return part;
 }
 
-std::pair<Rooms, Rooms> cut(const Part& part, const CutPlane& plane, const PartSpace& space) {
-  std::pair<Rooms, Rooms> sides;
-  for (const auto& room : part.rooms) {
+std::pair<BspLeaves, BspLeaves> cut(const Part& part, const CutPlane& plane, const PartSpace& space) {
+  std::pair<BspLeaves, BspLeaves> sides;
+  for (const auto& leaf : part.leaves) {
     const auto side = [&](const CutPlane& towards) {
-      Room out;
-      out.soup = above(room->soup, towards, space.slack);
-      out.path = room->path;
+      BspLeaf out;
+      out.soup = above(leaf->soup, towards, space.slack);
+      out.path = leaf->path;
       out.path.push_back(towards);
-      out.group = room->group;
+      out.group = leaf->group;
       return out;
     };
-    Room up = side(plane), down = side(plane.turned());
+    BspLeaf up = side(plane), down = side(plane.turned());
     if (up.soup.triangles.empty() || down.soup.triangles.empty()) {
-      (up.soup.triangles.empty() ? sides.second : sides.first).push_back(room);
+      (up.soup.triangles.empty() ? sides.second : sides.first).push_back(leaf);
       continue;
     }
-    for (Room* half : {&up, &down}) {
-      half->cell = room->cell.above(half->path.back(), space.slack, space.mesh);
+    for (BspLeaf* half : {&up, &down}) {
+      half->cell = leaf->cell.above(half->path.back(), space.slack, space.mesh);
       half->corners = half->cell.enclosedCorners();
     }
-    sides.first.push_back(std::make_shared<const Room>(std::move(up)));
-    sides.second.push_back(std::make_shared<const Room>(std::move(down)));
+    sides.first.push_back(std::make_shared<const BspLeaf>(std::move(up)));
+    sides.second.push_back(std::make_shared<const BspLeaf>(std::move(down)));
   }
   return sides;
 }
@@ -76,7 +78,7 @@ double volumeOfCut(const Part& part, const CutPlane& plane, const PartSpace& spa
   double sum = 0;
   for (const CutPlane& towards : {plane, plane.turned()}) {
     std::vector<Vector3d> points;
-    for (const auto& room : part.rooms) pointsAbove(room->soup, towards, space.slack, points);
+    for (const auto& leaf : part.leaves) pointsAbove(leaf->soup, towards, space.slack, points);
     if (points.empty()) return -1;
     sum += partHull(points).volume;
   }

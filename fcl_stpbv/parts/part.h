@@ -24,18 +24,21 @@ struct PartSpace {
   explicit PartSpace(const MeshSolid& solid);
 };
 
-/// One room of the cuts: the mesh's triangles in it, and the cell's corners inside the solid.
-struct Room {
+/// A leaf of the binary space partition (BSP) that the cuts make: the mesh's triangles in it, and the corners
+/// of its cell that are inside the solid.
+struct BspLeaf {
   TriangleSoup soup;
   Cell cell;
   std::vector<Eigen::Vector3d> corners;
   std::vector<CutPlane> path;  ///< the cuts that made it, normals towards it
-  int group = 0;               ///< of the mesh's pieces it began with
+  int group = 0;               ///< the group of the mesh's pieces that it was cut from
 };
 
-/// Rooms whose common hull is one part.
+using BspLeaves = std::vector<std::shared_ptr<const BspLeaf>>;
+
+/// Leaves whose common hull is one part.
 struct Part {
-  std::vector<std::shared_ptr<const Room>> rooms;
+  BspLeaves leaves;
   PartHull hull;
   MeshExcess excess;
   double resolution = 0;  ///< that the excess is known to (m)
@@ -52,19 +55,17 @@ struct Measure {
 /// Measures a part's excess anew.
 void measureAgain(Part& part, const PartSpace& space, const Measure& measure);
 
-/// The part of these rooms.
-Part makePart(std::vector<std::shared_ptr<const Room>> rooms, const PartSpace& space, const Measure& measure);
+/// The part of these leaves.
+Part makePart(BspLeaves leaves, const PartSpace& space, const Measure& measure);
 
 /// The hull of two parts together.
 Part joined(const Part& a, const Part& b, const PartSpace& space, const Measure& measure);
 
-using Rooms = std::vector<std::shared_ptr<const Room>>;
+/// A part's leaves on the side the plane's normal points to, and on the other. A leaf with triangles on one
+/// side only stays whole, so each point of the mesh stays in a leaf.
+std::pair<BspLeaves, BspLeaves> cut(const Part& part, const CutPlane& plane, const PartSpace& space);
 
-/// A part's rooms on the side the plane's normal points to, and on the other. A room with triangles on one
-/// side only stays whole, so each point of the mesh stays in a room.
-std::pair<Rooms, Rooms> cut(const Part& part, const CutPlane& plane, const PartSpace& space);
-
-/// Sum of the volumes of the two hulls that cut() would leave, without making the rooms; less than 0 where
+/// Sum of the volumes of the two hulls that cut() would leave, without making the leaves; less than 0 where
 /// the plane leaves nothing on one side (m^3).
 double volumeOfCut(const Part& part, const CutPlane& plane, const PartSpace& space);
 

@@ -1,6 +1,13 @@
-// See motion_check.h. Once per motion: a bound on every point's acceleration, from the speeds of the joints
-// on the way out and the lengths behind them. At each time looked at: balls first, then the exact distance
-// and the plane of its normal.
+// Conservative advancement (Mirtich and Canny 1995) over the straight line between two configurations, with
+// a plane in place of a distance (docs/motion.md).
+// 1. Once for a motion and a pair: a bound on the acceleration of every point of both bodies, seen from the
+//    link where their chains meet, from the joints' speeds and the lengths behind them.
+// 2. At each time looked at: the links' velocities from the kinematics, and from these how long before and
+//    after this time a plane keeps the bodies apart (planeCover). First the plane between their bounding
+//    balls; where that does not cover enough, the plane of the exact distance's normal. Bodies that are not
+//    convex have no such plane: the bound on their speed takes its place.
+// 3. adapter/motion_search.h chooses the times until the covers hold the whole motion, or a contact is
+//    found. For the closest approach the margin is the smallest distance so far.
 #include "fcl_stpbv/robot/motion_check.h"
 
 #include <algorithm>

@@ -1,6 +1,11 @@
-// See pair_list.h. Each stage takes the pairs that those before it could not decide: the tree of joints, the
-// neutral configuration, random samples, descents from the closest ones, a short proof, random descents,
-// longer proofs.
+// Reasons for pairs, as MoveIt's setup assistant finds them by sampling; here descents and proofs follow
+// the samples. Each stage takes the pairs that those before it could not decide.
+// 1. The tree of joints: pairs that are adjacent, rigidly joined, or left out by the user's SRDF.
+// 2. Random samples: in collision in the neutral configuration, in (nearly) all samples, in some, or in
+//    none.
+// 3. Of those in none: descents of the distance from the closest samples, then a short proof by boxes of
+//    joint values (pair_proof.h), then descents from random configurations.
+// 4. Longer proofs, with twice the boxes in each round, until the seconds allowed are spent.
 #include "fcl_stpbv/robot/pair_list.h"
 
 #include <algorithm>

@@ -1,7 +1,16 @@
-// See plane_bound.h. With the plane's link at rest, a point x of a body goes to E_1 E_2 ... E_m x, E_i the
-// motion about joint i's axis in the middle of the box, the outermost one m applied first: all axes and the
-// normal n stay those of the middle. One turn moves a point y, r = y - origin, along n by sin(t) (n x a).r -
-// (1 - cos(t)) (n.r - (n.a)(a.r)).
+// The gap between two bodies over a box of joint values, by interval bounds on products of exponentials
+// (docs/proofs.md).
+// 1. With the plane's link at rest, a point x of a body goes to E_1 E_2 ... E_m x, E_i the motion about
+//    joint i's axis in the middle of the box, the outermost one m applied first: all axes and the normal n
+//    stay those of the middle.
+// 2. One turn by t moves a point y, r = y - origin, along n by sin(t) (n x a).r - (1 - cos(t)) (n.r -
+//    (n.a)(a.r)) (Rodrigues). push() bounds this over the box, plus what the joints further out change it
+//    by.
+// 3. support(): the largest height plus push of all points of a body. Points that cannot reach it are
+//    skipped.
+// 4. gap(): fixes the plane to the links that lose least at the nearest points, starts from the normal of
+//    the distance in the middle, and turns it as GJK does, towards the shortest difference of points that
+//    the bodies can reach.
 #include "fcl_stpbv/robot/plane_bound.h"
 
 #include <algorithm>
