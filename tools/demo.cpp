@@ -1,7 +1,6 @@
 // demo: the HRP-2-style robot from its meshes to distances and gradients, next to what plain FCL says.
 #include <fcl/narrowphase/distance.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -12,6 +11,7 @@
 
 #include "fcl_stpbv/adapter/polyhedral_witness.h"
 #include "fcl_stpbv/report/posed_robot.h"
+#include "tools/program.h"
 
 namespace {
 
@@ -30,6 +30,12 @@ double seconds(std::chrono::steady_clock::time_point since) {
 
 void heading(const std::string& text) {
   std::printf("\n%s\n%s\n", text.c_str(), std::string(text.size(), '-').c_str());
+}
+
+std::string millimetres(double metres) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%g", std::round(metres * 1e6) / 1e3);
+  return text;
 }
 
 struct PlainFcl {
@@ -125,11 +131,10 @@ void printPairs(const PosedRobot& posed, const Kinematics& kinematics, const Rob
     const bool off = std::abs(error) > kFclTolerance;
     wrong += off;
     const Eigen::Vector3d& n = row.answer.normal;
-    std::printf(
-        "%-26s %9.3f  (%+.3f, %+.3f, %+.3f) %9.3f %9s %7.2f  %s\n",
-        (first.name + " - " + second.name).c_str(), row.answer.distance * kMm, n.x(), n.y(), n.z(),
-        plain.distance * kMm, off ? CLI::detail::to_string(std::round(error * 1e6) / 1e3).c_str() : "-",
-        angle(n, plain.normal), steepest(posed, kinematics, first.link, second.link, row.answer).c_str());
+    std::printf("%-26s %9.3f  (%+.3f, %+.3f, %+.3f) %9.3f %9s %7.2f  %s\n",
+                (first.name + " - " + second.name).c_str(), row.answer.distance * kMm, n.x(), n.y(), n.z(),
+                plain.distance * kMm, off ? millimetres(error).c_str() : "-", angle(n, plain.normal),
+                steepest(posed, kinematics, first.link, second.link, row.answer).c_str());
   }
   std::printf(
       "\nThe STP-BV is 10 mm and its over-cover fatter on each side, so its distance is smaller than the "
@@ -235,19 +240,10 @@ int run(const std::string& urdf, const std::string& srdfPath, const std::string&
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Distances and gradients of the HRP-2-style robot, next to plain FCL's.", "demo");
-  app.set_version_flag("--version", "demo " FCL_STPBV_VERSION);
+  tools::Program app("Distances and gradients of the HRP-2-style robot, next to plain FCL's.", "demo");
   std::string pose = "half_sitting", robot = FCL_STPBV_SOURCE_DIR "/data/hrp2_style/hrp2_style";
   std::size_t top = 12;
-  app.add_option("--pose", pose, "Posture, a group_state of the SRDF")->capture_default_str();
-  app.add_option("--top", top, "Pairs to print")->capture_default_str();
-  try {
-    app.parse(argc, argv);
-    return run(robot + ".urdf", robot + ".srdf", pose, top);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
-  } catch (const std::exception& error) {
-    std::cerr << "demo: " << error.what() << std::endl;
-    return 2;
-  }
+  app.option("--pose", pose, "Posture, a group_state of the SRDF").shown();
+  app.option("--top", top, "Pairs to print").whole().shown();
+  return app.run(argc, argv, [&] { return run(robot + ".urdf", robot + ".srdf", pose, top); });
 }

@@ -43,19 +43,15 @@ struct Arguments {
 
 void describe(Program& app, Arguments& a) {
   describeRobot(app, a.robot);
-  app.add_option("TASK", a.task, "The task's JSON file")->required()->type_name("FILE");
-  app.add_option("--starts", a.options.starts, "Starts to try: the task's own, then random ones near it")
-      ->check(wholeNumber(1, 100000))
-      ->capture_default_str();
-  app.add_option("--seed", a.options.seed, "Of the random starts")
-      ->check(wholeNumber())
-      ->capture_default_str();
-  app.add_option("--format", a.format, "text, json or html")
-      ->check(CLI::IsMember({"text", "json", "html"}))
-      ->capture_default_str();
-  app.add_option("-o,--output", a.output, "File to write instead of standard output")->type_name("OUT");
-  app.add_flag("--ignore-collisions", a.careless, "Solve without the pairs, which are reported all the same");
-  app.add_flag("-q,--quiet", a.quiet, "No warnings");
+  app.option("TASK", a.task, "The task's JSON file").required().type("FILE");
+  app.option("--starts", a.options.starts, "Starts to try: the task's own, then random ones near it")
+      .whole(1, 100000)
+      .shown();
+  app.option("--seed", a.options.seed, "Of the random starts").whole().shown();
+  app.option("--format", a.format, "text, json or html").oneOf({"text", "json", "html"}).shown();
+  app.option("-o,--output", a.output, "File to write instead of standard output").type("OUT");
+  app.flag("--ignore-collisions", a.careless, "Solve without the pairs, which are reported all the same");
+  app.flag("-q,--quiet", a.quiet, "No warnings");
 }
 
 void load(const Arguments& a, PostureReport& report) {

@@ -14,6 +14,7 @@
 #include "fcl_stpbv/robot/worker_pool.h"
 #include "tools/conversion.h"
 #include "tools/cores.h"
+#include "tools/number_check.h"
 #include "tools/output_plan.h"
 #include "tools/parts_conversion.h"
 #include "tools/program.h"
@@ -51,7 +52,9 @@ or standard output cannot be written.)";
 
 struct Arguments {
   std::vector<std::string> inputs;
-  std::string output;
+  std::string output, format = "stpbv";
+  std::optional<int> parts;
+  std::optional<double> excess, effort;
   ConversionOptions conversion;
   int jobs = allCores();
   bool json = false, force = false, quiet = false;
@@ -59,58 +62,42 @@ struct Arguments {
 
 void describe(Program& app, Arguments& arguments) {
   ConversionOptions& conversion = arguments.conversion;
-  app.add_option("INPUT", arguments.inputs, "Meshes, clouds of points or volumes")
-      ->required()
-      ->type_name("FILE");
-  app.add_option("-o,--output", arguments.output,
-                 "File to write; for several inputs a folder, made if missing")
-      ->required()
-      ->type_name("OUT");
-  app.add_option("-r", conversion.r, "Radius of the small spheres, the margin around the points [0.01 m]")
-      ->check(numberIn(0, kLargest));
-  app.add_option("-R", conversion.R, "Radius of the big spheres [10 m]")
-      ->check(numberIn(0, kLargestR, false));
-  app.add_option("--scale", conversion.scale, "Factor on the input's coordinates, 0.001 for millimetres")
-      ->check(numberIn(0, kLargest, false))
-      ->capture_default_str();
-  app.add_option_function<std::string>(
-         "--format",
-         [&](const std::string& name) { conversion.format = name == "sch" ? Format::sch : Format::stpbv; },
-         "Format to write: stpbv, this library's own, or sch, sch-core's text [stpbv]")
-      ->check(CLI::IsMember({"stpbv", "sch"}))
-      ->type_name("");
-  app.add_option("--preview", conversion.preview,
-                 "Also write the surface as a mesh: .obj, .stl, .ply or .glb")
-      ->type_name("FILE");
-  const auto parts = [&]() -> fcl_stpbv::PartsOptions& {
-    if (!conversion.parts) conversion.parts.emplace().most = 0;
-    return *conversion.parts;
-  };
-  app.add_option_function<int>(
-         "--parts", [=](int most) { parts().most = most; },
-         "At most this many volumes that together cover a mesh that is not convex, each of a convex part")
-      ->check(wholeNumber(1, kMostParts))
-      ->type_name("K");
-  app.add_option_function<double>(
-         "--excess", [=](double excess) { parts().excess = excess; },
-         "As few such volumes as keep the parts' hulls this close to the mesh, about [m]")
-      ->check(numberIn(0, kLargest, false))
-      ->type_name("M");
-  app.add_option_function<double>(
-         "--effort", [=](double effort) { parts().effort = effort; },
-         "Search for the parts this many times as long as usual [1]")
-      ->check(numberIn(0.01, 1000))
-      ->type_name("E");
-  app.add_flag("--verify", conversion.verify,
-               "Check each volume before it is written; one that fails is not written");
-  app.add_flag("--json", arguments.json,
-               "Report on standard output as JSON, one object a line for each input done");
-  app.add_option("-j,--jobs", arguments.jobs, "Inputs to do at once; any number gives the same")
-      ->check(wholeNumber(1, kMostJobs))
-      ->capture_default_str();
-  app.add_flag("--force", arguments.force, "Replace files that exist");
-  app.add_flag("-q,--quiet", arguments.quiet,
-               "No report for people and no progress bar; errors are still told");
+  app.option("INPUT", arguments.inputs, "Meshes, clouds of points or volumes").required().type("FILE");
+  app.option("-o,--output", arguments.output, "File to write; for several inputs a folder, made if missing")
+      .required()
+      .type("OUT");
+  app.option("-r", conversion.r, "Radius of the small spheres, the margin around the points [0.01 m]")
+      .number(0, kLargest);
+  app.option("-R", conversion.R, "Radius of the big spheres [10 m]").number(0, kLargestR, false);
+  app.option("--scale", conversion.scale, "Factor on the input's coordinates, 0.001 for millimetres")
+      .number(0, kLargest, false)
+      .shown();
+  app.option("--format", arguments.format,
+             "Format to write: stpbv, this library's own, or sch, sch-core's text [stpbv]")
+      .oneOf({"stpbv", "sch"})
+      .type("");
+  app.option("--preview", conversion.preview, "Also write the surface as a mesh: .obj, .stl, .ply or .glb")
+      .type("FILE");
+  app.option("--parts", arguments.parts,
+             "At most this many volumes that together cover a mesh that is not convex, each of a convex part")
+      .whole(1, kMostParts)
+      .type("K");
+  app.option("--excess", arguments.excess,
+             "As few such volumes as keep the parts' hulls this close to the mesh, about [m]")
+      .number(0, kLargest, false)
+      .type("M");
+  app.option("--effort", arguments.effort, "Search for the parts this many times as long as usual [1]")
+      .number(0.01, 1000)
+      .type("E");
+  app.flag("--verify", conversion.verify,
+           "Check each volume before it is written; one that fails is not written");
+  app.flag("--json", arguments.json,
+           "Report on standard output as JSON, one object a line for each input done");
+  app.option("-j,--jobs", arguments.jobs, "Inputs to do at once; any number gives the same")
+      .whole(1, kMostJobs)
+      .shown();
+  app.flag("--force", arguments.force, "Replace files that exist");
+  app.flag("-q,--quiet", arguments.quiet, "No report for people and no progress bar; errors are still told");
 }
 
 void tell(const std::string& message) { std::cerr << "mesh_to_stpbv: " << message << std::endl; }
@@ -191,12 +178,23 @@ std::size_t runAll(const std::vector<Job>& jobs, const Arguments& arguments) {
   return failed;
 }
 
+// What the options say of parts, nothing if they say nothing.
+std::optional<fcl_stpbv::PartsOptions> partsOf(const Arguments& arguments) {
+  if (!arguments.parts && !arguments.excess) {
+    if (arguments.effort) throw UsageError("--effort: goes with --parts or --excess");
+    return {};
+  }
+  fcl_stpbv::PartsOptions options;
+  options.most = arguments.parts.value_or(kMostParts);
+  if (arguments.excess) options.excess = *arguments.excess;
+  if (arguments.effort) options.effort = *arguments.effort;
+  return options;
+}
+
 int run(Arguments& arguments) {
   arguments.conversion.measure = arguments.json || !arguments.quiet;
-  if (arguments.conversion.parts && arguments.conversion.parts->most == 0) {
-    if (arguments.conversion.parts->excess == 0) throw UsageError("--effort: goes with --parts or --excess");
-    arguments.conversion.parts->most = kMostParts;
-  }
+  arguments.conversion.format = arguments.format == "sch" ? Format::sch : Format::stpbv;
+  arguments.conversion.parts = partsOf(arguments);
   const Plan plan =
       fcl_stpbv::tools::plan(arguments.inputs, arguments.output, arguments.conversion, arguments.force);
   std::error_code error;

@@ -1,10 +1,11 @@
-// Numbers from the command line: finite and in a range. CLI11's own checks let NaN through.
+// Numbers from the command line: finite and in a range.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <cstdio>
+#include <cstdlib>
 #include <limits>
 #include <string>
 
@@ -16,36 +17,29 @@ using fcl_stpbv::detail::kLargestR;
 /// Longer than anything that a robot does (m, s).
 constexpr double kLargest = 1e6;
 
-/// A number from `least` to `most`; `least` itself only where `orEqual`.
-inline CLI::Validator numberIn(double least, double most, bool orEqual = true) {
-  const std::string range = CLI::detail::to_string(least) + " to " + CLI::detail::to_string(most);
-  return CLI::Validator(
-      [=](std::string& text) {
-        double value = std::nan("");
-        const bool good = CLI::detail::lexical_cast(text, value) && std::isfinite(value) && value <= most &&
-                          (orEqual ? value >= least : value > least);
-        return good ? std::string()
-                    : "got " + text + ", expected a number from " + range +
-                          (orEqual ? "" : ", the first excluded");
-      },
-      "NUMBER");
+/// What is wrong with `text` as a number from `least` to `most`, "" if nothing is; `least` itself is in the
+/// range only where `orEqual`.
+inline std::string wrongNumber(const std::string& text, double least, double most, bool orEqual = true) {
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  if (!text.empty() && end == text.c_str() + text.size() && std::isfinite(value) && value <= most &&
+      (orEqual ? value >= least : value > least))
+    return "";
+  char range[64];
+  std::snprintf(range, sizeof range, "%g to %g", least, most);
+  return "got " + text + ", expected a number from " + range + (orEqual ? "" : ", the first excluded");
 }
 
-/// A number that counts, from `least` to `most`; CLI11 itself takes -1 for the largest of all.
-inline CLI::Validator wholeNumber(std::uint64_t least = 0,
-                                  std::uint64_t most = std::numeric_limits<std::uint64_t>::max()) {
-  const std::string range = most == std::numeric_limits<std::uint64_t>::max()
-                                ? std::to_string(least) + " or more"
-                                : "from " + std::to_string(least) + " to " + std::to_string(most);
-  return CLI::Validator(
-      [=](std::string& text) {
-        std::uint64_t value = 0;
-        const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
-        const bool good = result.ec == std::errc() && result.ptr == text.data() + text.size() &&
-                          value >= least && value <= most;
-        return good ? std::string() : "got " + text + ", expected a whole number, " + range;
-      },
-      "NUMBER");
+/// The same for a whole number.
+inline std::string wrongWholeNumber(const std::string& text, std::uint64_t least, std::uint64_t most) {
+  std::uint64_t value = 0;
+  const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (result.ec == std::errc() && result.ptr == text.data() + text.size() && value >= least && value <= most)
+    return "";
+  return "got " + text + ", expected a whole number, " +
+         (most == std::numeric_limits<std::uint64_t>::max()
+              ? std::to_string(least) + " or more"
+              : "from " + std::to_string(least) + " to " + std::to_string(most));
 }
 
 }  // namespace fcl_stpbv::tools

@@ -1,72 +1,73 @@
 // What the main of every program does: options in, help and version out, status 2 for a command line that is
-// wrong, for an input that cannot be used, and for output that could not be written.
+// wrong, for an input that cannot be used, and for output that could not be written. CLI11 reads the command
+// line. Only program.cpp includes it, as a file that does takes ten seconds to compile.
 #pragma once
 
-#include <CLI/CLI.hpp>
-#include <cerrno>
 #include <cstdint>
-#include <cstdio>
-#include <cstring>
-#include <exception>
 #include <functional>
-#include <iostream>
 #include <limits>
-#include <new>
+#include <memory>
 #include <string>
+#include <vector>
 
-#include "tools/number_check.h"
+namespace CLI {
+class App;
+class Option;
+}  // namespace CLI
 
 namespace fcl_stpbv::tools {
 
-class Program : public CLI::App {
+/// An option of a Program, to say more about it: `program.option("-n", n, "Runs").whole(1).shown()`.
+class Option {
  public:
-  /// Status of a run that could not do what it was asked: a soak that tested nothing has found nothing.
-  static constexpr int kWrong = 2;
+  explicit Option(CLI::Option* option) : option_(option) {}
 
-  Program(const std::string& description, const std::string& name) : App(description, name) {
-    set_version_flag("--version", name + " " FCL_STPBV_VERSION);
-  }
-
-  /// A whole number that may be given, in this place if `name` has no dashes.
-  template <class Number>
-  CLI::Option* whole(const std::string& name, Number& value, const std::string& help, Number least = 1,
-                     Number most = std::numeric_limits<Number>::max()) {
-    return add_option(name, value, help)
-        ->check(wholeNumber(static_cast<std::uint64_t>(least), static_cast<std::uint64_t>(most)))
-        ->capture_default_str();
-  }
-  /// Where random numbers start.
-  CLI::Option* seed(const std::string& name, std::uint64_t& value) {
-    return whole(name, value, "Of the random numbers", std::uint64_t{0});
-  }
-
-  /// Reads the command line and does `work`, which returns the exit status.
-  int run(int argc, char** argv, const std::function<int()>& work) {
-    int status = kWrong;
-    try {
-      parse(argc, argv);
-      status = work();
-    } catch (const CLI::ParseError& error) {
-      status = exit(error) == 0 ? 0 : kWrong;
-    } catch (const std::bad_alloc&) {
-      say("not enough memory; give a smaller input");
-    } catch (const std::exception& error) {
-      say(error.what());
-    }
-    return outputIsWhole() ? status : kWrong;
-  }
-
-  void say(const std::string& message) const { std::cerr << get_name() << ": " << message << std::endl; }
+  Option required();
+  /// What the help calls the value.
+  Option type(const std::string& name);
+  /// Each time that it is given it takes one value; all count.
+  Option repeated();
+  /// The help shows the value that holds where the option is not given.
+  Option shown();
+  /// Finite and from `least` to `most`, without `least` itself unless `orEqual`; or the word `orWord`.
+  Option number(double least, double most, bool orEqual = true, const std::string& orWord = "");
+  Option whole(std::uint64_t least = 0, std::uint64_t most = std::numeric_limits<std::uint64_t>::max());
+  Option oneOf(const std::vector<std::string>& words);
+  Option existingFile();
+  /// Only together with `other`.
+  Option needs(Option other);
+  /// Never together with `other`.
+  Option excludes(Option other);
 
  private:
-  bool outputIsWhole() const {
-    errno = 0;
-    const bool flushed = std::cout.flush() && std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
-    if (!flushed)
-      say(std::string("standard output cannot be written") +
-          (errno != 0 ? std::string(": ") + std::strerror(errno) : ""));
-    return flushed;
-  }
+  CLI::Option* option_;
+};
+
+class Program {
+ public:
+  Program(const std::string& description, const std::string& name);
+  ~Program();
+
+  /// Below the options in the help.
+  void footer(const std::string& text);
+  /// `names` as in "-o,--output", or without dashes for a place on the command line. `value` is set when
+  /// run() reads the command line, and keeps what it has where the option is not given. program.cpp lists the
+  /// types that there are.
+  template <class Value>
+  Option option(const std::string& names, Value& value, const std::string& help);
+  /// An option without a value; "!--no-x" sets `value` to false.
+  Option flag(const std::string& names, bool& value, const std::string& help);
+
+  /// Reads the command line and does `work`. @return the exit status: what `work` returns, 0 after help or
+  /// version, 2 where the run could not do what it was asked.
+  int run(int argc, char** argv, const std::function<int()>& work);
+
+ private:
+  int outputOr(int status) const;
+  void say(const std::string& message) const;
+
+  std::string name_;
+  std::unique_ptr<CLI::App> app_;
 };
 
 }  // namespace fcl_stpbv::tools

@@ -2,6 +2,7 @@
 #include "tools/robot_options.h"
 
 #include <filesystem>
+#include <sstream>
 
 #include "fcl_stpbv/error.h"
 #include "tools/number_check.h"
@@ -9,77 +10,81 @@
 namespace fcl_stpbv::tools {
 namespace {
 
-void describeFiles(CLI::App& app, RobotArguments& a) {
+void describeFiles(Program& app, RobotArguments& a) {
   report::RobotFiles& files = a.files;
-  app.add_option("ROBOT", files.urdf, "The robot's URDF")->required()->type_name("FILE");
-  app.add_option("--srdf", files.srdf, "SRDF with pairs to leave out and postures")->type_name("FILE");
-  app.add_option("--obstacles", files.obstacles, "URDF of a scene to keep clear of")->type_name("FILE");
-  app.add_option("--package-path", files.geometry.packagePath,
-                 "Folder that holds packages, for package:// names; may be given again")
-      ->type_name("FOLDER")
-      ->expected(1)
-      ->take_all();
-  app.add_flag("--visual", files.geometry.visual, "Use the visual shapes");
-  app.add_flag("--skip-invalid", files.skipInvalid,
-               "Go on without the shapes that are wrong; exit status 3, not 0");
-  app.add_flag("--no-cache", a.noCache, "Build every volume, keep none in the cache folder");
+  app.option("ROBOT", files.urdf, "The robot's URDF").required().type("FILE");
+  app.option("--srdf", files.srdf, "SRDF with pairs to leave out and postures").type("FILE");
+  app.option("--obstacles", files.obstacles, "URDF of a scene to keep clear of").type("FILE");
+  app.option("--package-path", files.geometry.packagePath,
+             "Folder that holds packages, for package:// names; may be given again")
+      .type("FOLDER")
+      .repeated();
+  app.flag("--visual", files.geometry.visual, "Use the visual shapes");
+  app.flag("--skip-invalid", files.skipInvalid,
+           "Go on without the shapes that are wrong; exit status 3, not 0");
+  app.flag("--no-cache", a.noCache, "Build every volume, keep none in the cache folder");
 }
 
-void describeBodies(CLI::App& app, RobotArguments& a) {
-  app.add_option("-r,--r", a.r,
-                 "Radius of the small spheres, the margin, or 'auto': a twentieth of each link's smallest "
-                 "width, 1 cm at most")
-      ->type_name("LENGTH|auto")
-      ->check(numberIn(0, kLargest) | CLI::IsMember({"auto"}))
-      ->capture_default_str();
-  app.add_option("-R,--R", a.R,
-                 "Radius of the big spheres, or 'auto': so large that they add no more than r; without it "
-                 "auto where r is, else 10")
-      ->type_name("LENGTH|auto")
-      ->check(numberIn(0, kLargestR, false) | CLI::IsMember({"auto"}));
-  app.add_option("--primitives", a.primitives,
-                 "smooth: spheres, capsules, boxes and cylinders get smooth covers where a pair has no "
-                 "smooth body; flat: none")
-      ->check(CLI::IsMember({"smooth", "flat"}))
-      ->capture_default_str();
-  app.add_option(
-         "--over-cover", a.files.geometry.overCoverBudget,
-         "Most that a volume may exceed its mesh's hull by; spends it on fewer vertices, 0 for no limit")
-      ->check(numberIn(0, kLargest))
-      ->capture_default_str();
-  app.add_option("--link", a.links, "Values of a single link; may be given again")
-      ->type_name("NAME=r,R[,OVER_COVER]")
-      ->expected(1)
-      ->take_all();
-  app.add_option(
+void describeBodies(Program& app, RobotArguments& a) {
+  app.option("-r,--r", a.r,
+             "Radius of the small spheres, the margin, or 'auto': a twentieth of each link's smallest "
+             "width, 1 cm at most")
+      .type("LENGTH|auto")
+      .number(0, kLargest, true, "auto")
+      .shown();
+  app.option("-R,--R", a.R,
+             "Radius of the big spheres, or 'auto': so large that they add no more than r; without it "
+             "auto where r is, else 10")
+      .type("LENGTH|auto")
+      .number(0, kLargestR, false, "auto");
+  app.option("--primitives", a.primitives,
+             "smooth: spheres, capsules, boxes and cylinders get smooth covers where a pair has no "
+             "smooth body; flat: none")
+      .oneOf({"smooth", "flat"})
+      .shown();
+  app.option("--over-cover", a.files.geometry.overCoverBudget,
+             "Most that a volume may exceed its mesh's hull by; spends it on fewer vertices, 0 for no limit")
+      .number(0, kLargest)
+      .shown();
+  app.option("--link", a.links, "Values of a single link; may be given again")
+      .type("NAME=r,R[,OVER_COVER]")
+      .repeated();
+  app.option(
          "--flat", a.flat,
          "Link whose meshes stay convex polyhedra, or 'obstacles' for those of the scene; may be given again")
-      ->type_name("NAME")
-      ->expected(1)
-      ->take_all();
+      .type("NAME")
+      .repeated();
 }
 
 // One of the numbers of --link.
-double lengthOf(const std::string& option, std::string text, const CLI::Validator& range) {
-  const std::string wrong = range(text);
+double lengthOf(const std::string& option, const std::string& text, double most, bool orZero) {
+  const std::string wrong = wrongNumber(text, 0, most, orZero);
   if (!wrong.empty()) throw Error(option + ": " + wrong);
   return std::stod(text);
+}
+
+// At the commas.
+std::vector<std::string> split(const std::string& text) {
+  std::vector<std::string> parts;
+  std::istringstream rest(text);
+  for (std::string part; std::getline(rest, part, ',');) parts.push_back(part);
+  return parts;
 }
 
 // "NAME=r,R" or "NAME=r,R,OVER_COVER". A name may hold '='; the last one counts.
 void readLink(const std::string& text, GeometryOptions& options) {
   const std::string option = "--link " + text;
   const std::size_t equals = text.rfind('=');
-  const auto values = CLI::detail::split(equals == std::string::npos ? "" : text.substr(equals + 1), ',');
+  const std::vector<std::string> values = split(equals == std::string::npos ? "" : text.substr(equals + 1));
   if (values.size() < 2 || values.size() > 3)
     throw Error(option + ": expected NAME=r,R or NAME=r,R,OVER_COVER with lengths in metres");
   const std::string name = text.substr(0, equals);
-  const StpBvOptions radii{lengthOf(option, values[0], numberIn(0, kLargest)),
-                           lengthOf(option, values[1], numberIn(0, kLargestR, false))};
+  const StpBvOptions radii{lengthOf(option, values[0], kLargest, true),
+                           lengthOf(option, values[1], kLargestR, false)};
   if (radii.R <= radii.r) throw Error(option + ": R must be larger than r");
   if (!options.links.emplace(name, radii).second)
     throw Error(option + ": the link has values already; give one --link for each");
-  if (values.size() == 3) options.budgets[name] = lengthOf(option, values[2], numberIn(0, kLargest));
+  if (values.size() == 3) options.budgets[name] = lengthOf(option, values[2], kLargest, true);
 }
 
 // Lengths or "auto"; R follows r where it is not given.
@@ -95,7 +100,7 @@ void setRadii(const RobotArguments& a, GeometryOptions& geometry) {
 
 }  // namespace
 
-void describeRobot(CLI::App& app, RobotArguments& arguments) {
+void describeRobot(Program& app, RobotArguments& arguments) {
   describeFiles(app, arguments);
   describeBodies(app, arguments);
 }

@@ -2,11 +2,11 @@
 // is wrong with an output before anything is computed.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <string>
 #include <vector>
 
 #include "fcl_stpbv/report/robot_files.h"
+#include "tools/program.h"
 
 namespace fcl_stpbv::tools {
 
@@ -18,7 +18,7 @@ struct RobotArguments {
 };
 
 /// Adds ROBOT and the options; `arguments` is filled when the command line is parsed.
-void describeRobot(CLI::App& app, RobotArguments& arguments);
+void describeRobot(Program& app, RobotArguments& arguments);
 
 /// The files that the arguments ask for. @throws Error naming the option and what would work.
 report::RobotFiles filesOf(const RobotArguments& arguments);

@@ -7,6 +7,7 @@
 #include "fcl_stpbv/io/atomic_write.h"
 #include "fcl_stpbv/report/report_formats.h"
 #include "tools/cores.h"
+#include "tools/number_check.h"
 #include "tools/program.h"
 #include "tools/progress_bar.h"
 #include "tools/robot_options.h"
@@ -50,44 +51,37 @@ void describe(Program& app, Arguments& a) {
   ReportRequest& request = a.request;
   request.search.threads = allCores();
   describeRobot(app, a.robot);
-  app.add_option("--pose", request.pose, "A group_state of the SRDF, or a JSON file of joint values");
-  app.add_option(
-         "--trajectory", request.trajectory,
-         "CSV or JSON of way points: whether the straight motions between them are free, by proof; each "
-         "pair is reported where it comes closest")
-      ->type_name("FILE");
-  app.add_option(
+  app.option("--pose", request.pose, "A group_state of the SRDF, or a JSON file of joint values");
+  app.option("--trajectory", request.trajectory,
+             "CSV or JSON of way points: whether the straight motions between them are free, by proof; each "
+             "pair is reported where it comes closest")
+      .type("FILE");
+  app.option(
       "--neutral", request.neutral,
       "The neutral posture, as --pose; all joints at zero, or at the limit nearest to it, unless given");
-  app.add_option("--samples", request.search.samples, "Random configurations")
-      ->check(wholeNumber(1, 100000000))
-      ->capture_default_str();
-  app.add_option("--seed", request.search.seed, "Of the random configurations")
-      ->check(wholeNumber())
-      ->capture_default_str();
-  app.add_option(
+  app.option("--samples", request.search.samples, "Random configurations").whole(1, 100000000).shown();
+  app.option("--seed", request.search.seed, "Of the random configurations").whole().shown();
+  app.option(
          "--polyhedra", request.polyhedra,
          "Folder of polyhedra published for the meshes, MESH-ch.txt or MESH.otp: tells how far they differ")
-      ->type_name("FOLDER");
-  app.add_option("--top", a.top, "Lines of each list in the text, and warnings shown")
-      ->check(wholeNumber())
-      ->capture_default_str();
-  app.add_option("--margin", request.search.margin, "A distance not above it counts as a collision")
-      ->check(numberIn(-kLargest, kLargest))
-      ->capture_default_str();
-  app.add_option("--prove", request.search.proofSeconds, "Seconds to spend on proofs that pairs never meet")
-      ->check(numberIn(0, kLargest))
-      ->capture_default_str();
-  app.add_flag("--disable-default", a.disableDefault,
-               "Let an SRDF leave out the pairs that collide in the neutral posture but are clear in others");
-  app.add_option("--format", a.format, "text, json, csv, srdf or html")
-      ->check(CLI::IsMember({"text", "json", "csv", "srdf", "html"}))
-      ->capture_default_str();
-  app.add_option("-o,--output", a.output, "File to write instead of standard output")->type_name("OUT");
-  app.add_option("-j,--jobs", request.search.threads, "Threads; any number gives the same report")
-      ->check(wholeNumber(1, kMostJobs))
-      ->capture_default_str();
-  app.add_flag("-q,--quiet", a.quiet, "No progress bar and no warnings");
+      .type("FOLDER");
+  app.option("--top", a.top, "Lines of each list in the text, and warnings shown").whole().shown();
+  app.option("--margin", request.search.margin, "A distance not above it counts as a collision")
+      .number(-kLargest, kLargest)
+      .shown();
+  app.option("--prove", request.search.proofSeconds, "Seconds to spend on proofs that pairs never meet")
+      .number(0, kLargest)
+      .shown();
+  app.flag("--disable-default", a.disableDefault,
+           "Let an SRDF leave out the pairs that collide in the neutral posture but are clear in others");
+  app.option("--format", a.format, "text, json, csv, srdf or html")
+      .oneOf({"text", "json", "csv", "srdf", "html"})
+      .shown();
+  app.option("-o,--output", a.output, "File to write instead of standard output").type("OUT");
+  app.option("-j,--jobs", request.search.threads, "Threads; any number gives the same report")
+      .whole(1, kMostJobs)
+      .shown();
+  app.flag("-q,--quiet", a.quiet, "No progress bar and no warnings");
 }
 
 std::string written(const CollisionReport& report, const Arguments& a) {

@@ -1,7 +1,6 @@
 // The figures of docs/fcl.md: how often FCL's features map to the right patches, and what a query costs.
 #include <fcl/narrowphase/distance.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -14,6 +13,7 @@
 #include "fcl_stpbv/adapter/polyhedral_witness.h"
 #include "test/reference/shapes.h"
 #include "tools/bench/measurement.h"
+#include "tools/program.h"
 
 using namespace fcl_stpbv;
 using namespace fcl_stpbv::detail;
@@ -138,14 +138,13 @@ Json figures(const char* name, const Cloud& cloud, int queries, bool large) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app(
+  tools::Program app(
       "How often FCL's features map to the right patches, and what a query costs: a JSON object a line",
       "adapter_figures");
   int queries = 20000;
   std::string folder;
-  app.add_option("QUERIES", queries, "a shape and motion")->check(CLI::PositiveNumber)->capture_default_str();
-  app.add_option("-o,--output", folder, "folder for adapter.json");
-  CLI11_PARSE(app, argc, argv);
+  app.option("QUERIES", queries, "a shape and motion").whole(1).shown();
+  app.option("-o,--output", folder, "folder for adapter.json");
   const std::vector<std::pair<const char*, Cloud>> shapes{
       {"geodesic 12", geodesicSphere(0.2, 0)},
       {"geodesic 42", geodesicSphere(0.2, 1)},
@@ -156,7 +155,7 @@ int main(int argc, char** argv) {
       {"cylinder", cylinder(0.1, 0.4)},
       {"plate", plate(0.3, 0.2)},
       {"hull of 200", randomHull(200, {0.2, 0.15, 0.1}, 3)}};
-  try {
+  return app.run(argc, argv, [&] {
     benchmark::Measurement result;
     result.name = "adapter";
     const auto add = [&](Json row) {
@@ -168,8 +167,5 @@ int main(int argc, char** argv) {
     for (const auto& [name, cloud] : shapes) add(sharesApart(name, cloud, queries, 3.8, 7.6));
     if (!folder.empty()) benchmark::write(result, benchmark::commandLine(argc, argv), folder);
     return 0;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "adapter_figures: %s\n", error.what());
-    return 2;
-  }
+  });
 }

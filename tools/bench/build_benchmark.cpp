@@ -1,5 +1,4 @@
 // Time and memory of building volumes against the number of points: the table of docs/volume.md.
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -10,6 +9,7 @@
 #include "fcl_stpbv/volume/stp_bv.h"
 #include "test/reference/shapes.h"
 #include "tools/bench/measurement.h"
+#include "tools/program.h"
 
 using namespace fcl_stpbv;
 using namespace fcl_stpbv::test;
@@ -50,13 +50,12 @@ Cloud onSphere(int count) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Time and memory of building volumes: a JSON object a line", "build_benchmark");
+  tools::Program app("Time and memory of building volumes: a JSON object a line", "build_benchmark");
   std::string folder;
   bool quick = false;
-  app.add_option("-o,--output", folder, "folder for build.json");
-  app.add_flag("--quick", quick, "clouds of up to 10,000 points only");
-  CLI11_PARSE(app, argc, argv);
-  try {
+  app.option("-o,--output", folder, "folder for build.json");
+  app.flag("--quick", quick, "clouds of up to 10,000 points only");
+  return app.run(argc, argv, [&] {
     benchmark::Measurement result;
     result.name = "build";
     const auto add = [&](const char* name, const Cloud& points, double R = 10) {
@@ -80,8 +79,5 @@ int main(int argc, char** argv) {
     }
     if (!folder.empty()) benchmark::write(result, benchmark::commandLine(argc, argv), folder);
     return 0;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "build_benchmark: %s\n", error.what());
-    return 2;
-  }
+  });
 }

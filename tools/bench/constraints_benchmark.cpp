@@ -2,7 +2,6 @@
 // walks. The table of docs/robot.md.
 #include <fcl/narrowphase/distance.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <exception>
@@ -11,6 +10,7 @@
 #include "fcl_stpbv/robot/constraints.h"
 #include "test/reference/shapes.h"
 #include "tools/bench/measurement.h"
+#include "tools/program.h"
 
 using namespace fcl_stpbv;
 using benchmark::significant;
@@ -127,31 +127,21 @@ benchmark::Measurement measure(const Arguments& arguments) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Time of d(q), J(q) and second derivatives of all pairs of a robot, beside FCL",
-               "constraints_benchmark");
+  tools::Program app("Time of d(q), J(q) and second derivatives of all pairs of a robot, beside FCL",
+                     "constraints_benchmark");
   Arguments arguments;
-  app.add_option("ROBOT", arguments.urdf, "the robot's URDF")->required();
-  app.add_option("--srdf", arguments.srdf, "whose pairs are left out; else adjacent ones are");
-  app.add_option("--package-path", arguments.packagePath, "folder that holds packages")
-      ->expected(1)
-      ->take_all();
-  app.add_option("--configurations", arguments.configurations, "of each random walk")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
-  app.add_option("--turns", arguments.turns, "walks of each way, in turns")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
-  app.add_option("-o,--output", arguments.folder, "folder for the JSON file");
-  app.add_option("--name", arguments.name, "its name")->capture_default_str();
-  CLI11_PARSE(app, argc, argv);
-  try {
+  app.option("ROBOT", arguments.urdf, "the robot's URDF").required();
+  app.option("--srdf", arguments.srdf, "whose pairs are left out; else adjacent ones are");
+  app.option("--package-path", arguments.packagePath, "folder that holds packages").repeated();
+  app.option("--configurations", arguments.configurations, "of each random walk").whole(1).shown();
+  app.option("--turns", arguments.turns, "walks of each way, in turns").whole(1).shown();
+  app.option("-o,--output", arguments.folder, "folder for the JSON file");
+  app.option("--name", arguments.name, "its name").shown();
+  return app.run(argc, argv, [&] {
     const benchmark::Measurement result = measure(arguments);
     for (const auto& row : result.rows) std::printf("%s\n", row.dump().c_str());
     if (!arguments.folder.empty())
       benchmark::write(result, benchmark::commandLine(argc, argv), arguments.folder);
     return 0;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "constraints_benchmark: %s\n", error.what());
-    return 2;
-  }
+  });
 }

@@ -1,6 +1,5 @@
 // Where continuity pays in a controller: the figures of docs/control.md.
 //   control_bench --runs 20 -o docs/measured
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <string>
@@ -8,6 +7,7 @@
 
 #include "tools/bench/control/loop.h"
 #include "tools/bench/measurement.h"
+#include "tools/program.h"
 
 using namespace fcl_stpbv;
 using namespace fcl_stpbv::benchmark;
@@ -51,37 +51,24 @@ Summary summary(const std::vector<Outcome>& all) {
   return s;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) try {
-  CLI::App app{
-      "Peak accelerations of a controller whose collision rows come from hulls, manifolds and STP-BVs."};
+struct Arguments {
   int runs = 20;
-  bool all = false, acceleration = false, noise = false;
-  std::vector<std::string> chosen = scenarios();
-  std::string output;
-  app.add_option("--runs", runs, "runs a row, each with its own path and start")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
-  app.add_option("--scenario", chosen, "only these")->check(CLI::IsMember(scenarios()));
-  app.add_flag("--all", all, "every r and R, not only r = 10 mm with R = 1 and 10 m");
-  app.add_flag("--acceleration", acceleration, "tasks at acceleration level");
-  app.add_flag("--noise", noise, "with encoder steps, a tick of delay and a model error of 1 %");
-  app.add_option("-o,--output", output, "folder for control.json");
-  CLI11_PARSE(app, argc, argv);
-  LoopOptions options;
-  options.acceleration = acceleration;
-  options.noise = noise;
+  bool all = false;
+  LoopOptions loop;
+  std::vector<std::string> scenarios = benchmark::scenarios();
+};
+
+Measurement measure(const Arguments& a) {
   Measurement result;
-  result.name = noise ? "control_noise" : "control";
-  result.about = {{"runs", runs}, {"acceleration", acceleration}, {"noise", noise}};
+  result.name = a.loop.noise ? "control_noise" : "control";
+  result.about = {{"runs", a.runs}, {"acceleration", a.loop.acceleration}, {"noise", a.loop.noise}};
   std::printf("%-6s %-32s %9s %9s %8s %9s %8s %8s %9s %9s %8s %7s %5s\n", "", "medians (worst: *)", "peak",
               "peak*", "rms", "jerk", "rev/s", "switch/s", "clear mm", "clear* mm", "track mm", "us", "fail");
-  for (const std::string& scenario : chosen)
-    for (const Method& method : methods(all, scenario)) {
+  for (const std::string& scenario : a.scenarios)
+    for (const Method& method : methods(a.all, scenario)) {
       std::vector<Outcome> outcomes;
-      for (int seed = 0; seed < runs; ++seed)
-        outcomes.push_back(run(makeScene(scenario, seed), method, options));
+      for (int seed = 0; seed < a.runs; ++seed)
+        outcomes.push_back(run(makeScene(scenario, seed), method, a.loop));
       const Summary s = summary(outcomes);
       const Outcome &m = s.median, &w = s.worst;
       std::printf("%-6s %-32s %9.3g %9.3g %8.3g %9.3g %8.3g %8.3g %9.4g %9.4g %8.3g %7.1f %5ld\n",
@@ -101,9 +88,26 @@ int main(int argc, char** argv) try {
                              {"tracking", significant(m.tracking, 3)},
                              {"failed", w.failed}});
     }
-  if (!output.empty()) write(result, commandLine(argc, argv), output);
-  return 0;
-} catch (const std::exception& error) {
-  std::fprintf(stderr, "control_bench: %s\n", error.what());
-  return 2;
+  return result;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  tools::Program app(
+      "Peak accelerations of a controller whose collision rows come from hulls, manifolds and STP-BVs.",
+      "control_bench");
+  Arguments a;
+  std::string output;
+  app.option("--runs", a.runs, "runs a row, each with its own path and start").whole(1).shown();
+  app.option("--scenario", a.scenarios, "only these").oneOf(scenarios());
+  app.flag("--all", a.all, "every r and R, not only r = 10 mm with R = 1 and 10 m");
+  app.flag("--acceleration", a.loop.acceleration, "tasks at acceleration level");
+  app.flag("--noise", a.loop.noise, "with encoder steps, a tick of delay and a model error of 1 %");
+  app.option("-o,--output", output, "folder for control.json");
+  return app.run(argc, argv, [&] {
+    const Measurement result = measure(a);
+    if (!output.empty()) write(result, commandLine(argc, argv), output);
+    return 0;
+  });
 }

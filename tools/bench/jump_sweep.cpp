@@ -5,11 +5,10 @@
 #include <fcl/narrowphase/distance.h>
 
 #include <cstdio>
-#include <cstdlib>
-#include <cstring>
 #include <memory>
 
 #include "fcl_stpbv/adapter/fcl_distance.h"
+#include "tools/program.h"
 
 using namespace fcl_stpbv;
 using Eigen::Vector3d;
@@ -23,23 +22,7 @@ std::shared_ptr<StpBvGeometry> boxGeometry(const Vector3d& side) {
   return std::make_shared<StpBvGeometry>(StpBv::build(points, {0.01, 10.0}));
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  const bool help = argc == 2 && (std::strcmp(argv[1], "--help") == 0 || std::strcmp(argv[1], "-h") == 0);
-  if (argc == 2 && std::strcmp(argv[1], "--version") == 0)
-    return std::puts("jump_sweep " FCL_STPBV_VERSION) < 0;
-  const int steps = argc > 1 ? std::atoi(argv[1]) : 2000;
-  if (help || argc > 2 || steps < 1) {
-    std::fputs(
-        "usage: jump_sweep [STEPS]\n"
-        "Rocks a 20 cm box over a plate from -2 to 2 degrees and prints CSV: the angle, then distance (m) "
-        "and its\n"
-        "derivative with the angle (m/rad) between the polyhedra by FCL and between the STP-BVs.\n"
-        "STEPS is a whole number, 1 or more [2000]; --version prints the version.\n",
-        help ? stdout : stderr);
-    return help ? 0 : 2;
-  }
+int sweep(int steps) {
   const double range = 2 * 3.14159265358979323846 / 180;  // rad, to either side of parallel
   const auto plate = boxGeometry({0.3, 0.3, 0.1}), box = boxGeometry({0.2, 0.2, 0.2});
   fcl::DistanceRequestd request(true);
@@ -61,4 +44,17 @@ int main(int argc, char** argv) {
                 smooth.distance, smooth.gradient[1][4]);
   }
   return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  int steps = 2000;
+  fcl_stpbv::tools::Program app(
+      "Rocks a 20 cm box over a plate from -2 to 2 degrees and prints CSV: the angle, then distance (m) and "
+      "its "
+      "derivative with the angle (m/rad) between the polyhedra by FCL and between the STP-BVs.",
+      "jump_sweep");
+  app.option("STEPS", steps, "Angles, less one").whole(1).shown();
+  return app.run(argc, argv, [&] { return sweep(steps); });
 }

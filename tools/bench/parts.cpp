@@ -1,6 +1,5 @@
 // parts_benchmark: how far from their mesh a few convex parts are, ours beside the hulls of HACD's partition,
 // and the processor's time for both (docs/parts.md).
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <ctime>
@@ -12,6 +11,7 @@
 #include "fcl_stpbv/parts/convex_parts.h"
 #include "fcl_stpbv/robot/mesh_file.h"
 #include "tools/bench/parts/hacd.h"
+#include "tools/program.h"
 
 namespace {
 
@@ -63,18 +63,13 @@ int run(const Arguments& a) {
 
 int main(int argc, char** argv) {
   Arguments a;
-  CLI::App app(
+  tools::Program app(
       "Largest excess over the mesh (mm) of a few convex parts, ours and HACD's, and the processor's "
-      "seconds");
-  app.add_option("meshes", a.meshes, "mesh files")->required()->check(CLI::ExistingFile);
-  app.add_option("--parts", a.counts, "numbers of parts")->check(CLI::Range(1, 1000));
-  app.add_option("--effort", a.effort, "of the search")->check(CLI::Range(1e-3, 1e6));
-  app.add_flag("!--no-hacd", a.hacd, "ours alone");
-  CLI11_PARSE(app, argc, argv);
-  try {
-    return run(a);
-  } catch (const std::exception& e) {
-    std::fprintf(stderr, "parts_benchmark: %s\n", e.what());
-    return 2;
-  }
+      "seconds",
+      "parts_benchmark");
+  app.option("meshes", a.meshes, "mesh files").required().existingFile();
+  app.option("--parts", a.counts, "numbers of parts").whole(1, 1000);
+  app.option("--effort", a.effort, "of the search").number(1e-3, 1e6);
+  app.flag("!--no-hacd", a.hacd, "ours alone");
+  return app.run(argc, argv, [&] { return run(a); });
 }

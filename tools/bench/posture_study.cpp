@@ -1,6 +1,5 @@
 // posture_study: does a continuous gradient pay? The same optimiser, tasks and starts with four sources of
 // distances; a table on standard output, every task as JSON (docs/posture.md).
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <cstdio>
@@ -15,6 +14,7 @@
 #include "tools/bench/measurement.h"
 #include "tools/bench/posture_study/hull_rows.h"
 #include "tools/bench/posture_study/tasks.h"
+#include "tools/program.h"
 
 namespace {
 
@@ -186,31 +186,22 @@ benchmark::Measurement measurementOf(const std::vector<Row>& rows, int starts) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Postures for random tasks, with and without continuous gradients", "posture_study");
-  app.set_version_flag("--version", "posture_study " FCL_STPBV_VERSION);
+  Program app("Postures for random tasks, with and without continuous gradients", "posture_study");
   int tasks = 240, starts = 5, searchStarts = 100;
   double tolerance = SolverOptions().costTolerance;
   std::string folder;
-  app.add_option("--tasks", tasks, "Random tasks")->capture_default_str()->check(CLI::Range(1, 100000));
-  app.add_option("--starts", starts, "Starts of each")->capture_default_str()->check(CLI::Range(1, 1000));
-  app.add_option("--search-starts", searchStarts, "Starts before a task counts as infeasible")
-      ->capture_default_str();
-  app.add_option("--tolerance", tolerance, "Relative change of the cost to stop at")->capture_default_str();
-  app.add_option("-o,--output", folder, "Folder for posture_study.json");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
-  }
-  try {
+  app.option("--tasks", tasks, "Random tasks").shown().whole(1, 100000);
+  app.option("--starts", starts, "Starts of each").shown().whole(1, 1000);
+  app.option("--search-starts", searchStarts, "Starts before a task counts as infeasible").whole(1).shown();
+  app.option("--tolerance", tolerance, "Relative change of the cost to stop at").number(0, 1).shown();
+  app.option("-o,--output", folder, "Folder for posture_study.json");
+  return app.run(argc, argv, [&] {
     Study study(starts, searchStarts, tolerance);
     std::vector<Row> rows;
     for (int seed = 0; seed < tasks; ++seed) rows.push_back(study.run(static_cast<std::uint64_t>(seed)));
     printTable(rows, starts);
     if (!folder.empty())
       benchmark::write(measurementOf(rows, starts), benchmark::commandLine(argc, argv), folder);
-  } catch (const std::exception& error) {
-    std::cerr << "posture_study: " << error.what() << std::endl;
-    return 2;
-  }
+    return 0;
+  });
 }

@@ -1,6 +1,5 @@
 // proof_boxes: how many boxes of joint values a proof takes that two links never meet, by the joints' levers
 // alone and by planes fixed to a link between them (docs/proofs.md).
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -11,6 +10,7 @@
 #include "fcl_stpbv/robot/pair_proof.h"
 #include "fcl_stpbv/robot/pair_search.h"
 #include "tools/bench/measurement.h"
+#include "tools/program.h"
 
 namespace {
 
@@ -172,21 +172,15 @@ int run(const Arguments& a) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Boxes that proofs take, by levers and by planes", "proof_boxes");
+  tools::Program app("Boxes that proofs take, by levers and by planes", "proof_boxes");
   Arguments a;
-  app.add_option("ROBOT", a.urdf, "The robot's URDF")->required();
-  app.add_option("--package-path", a.packagePath, "Folder that holds packages")->expected(1)->take_all();
-  app.add_option("--before", a.before, "Most boxes of the levers for a pair")->capture_default_str();
-  app.add_option("--boxes", a.boxes, "Most boxes of the planes for a pair")->capture_default_str();
-  app.add_option("--descents", a.descents, "Random descents for a pair before that")->capture_default_str();
-  app.add_option("-o,--output", a.folder, "Folder for the JSON file");
-  app.add_option("--name", a.name, "Its name")->capture_default_str();
-  CLI11_PARSE(app, argc, argv);
+  app.option("ROBOT", a.urdf, "The robot's URDF").required();
+  app.option("--package-path", a.packagePath, "Folder that holds packages").repeated();
+  app.option("--before", a.before, "Most boxes of the levers for a pair").whole(1).shown();
+  app.option("--boxes", a.boxes, "Most boxes of the planes for a pair").whole(1).shown();
+  app.option("--descents", a.descents, "Random descents for a pair before that").whole().shown();
+  app.option("-o,--output", a.folder, "Folder for the JSON file");
+  app.option("--name", a.name, "Its name").shown();
   a.command = benchmark::commandLine(argc, argv);
-  try {
-    return run(a);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "proof_boxes: %s\n", error.what());
-    return 2;
-  }
+  return app.run(argc, argv, [&] { return run(a); });
 }

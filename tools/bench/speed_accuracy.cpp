@@ -2,7 +2,6 @@
 // `tools/bench/draw` makes the charts and tables of docs/performance.md from.
 #include "tools/bench/speed_accuracy.h"
 
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
 #include <string>
@@ -10,6 +9,7 @@
 #include "tools/bench/method.h"
 #include "tools/bench/summary.h"
 #include "tools/bench/timing.h"
+#include "tools/program.h"
 
 using namespace fcl_stpbv::benchmark;
 
@@ -40,33 +40,22 @@ int printSummary(std::uint64_t seed, int turns, Measurement& result) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Speed and accuracy of STP-BV distances beside FCL's");
-  app.set_version_flag("--version", "speed_accuracy " FCL_STPBV_VERSION);
+  fcl_stpbv::tools::Program app("Speed and accuracy of STP-BV distances beside FCL's", "speed_accuracy");
   bool summary = false;
   int turns = 1;
   std::string only, folder;
   SpeedOptions options;
-  CLI::Option* figures =
-      app.add_flag("--summary", summary, "print the figures as one JSON object, within a minute");
-  app.add_option("--turns", turns, "print them so many times")->needs(figures)->check(CLI::PositiveNumber);
-  app.add_option("--seed", options.seed, "of the poses")->capture_default_str();
-  app.add_option("-o,--output", folder, "folder for the files; without --summary docs/measured");
-  app.add_option("--only", only, "one measurement")
-      ->check(CLI::IsMember({"jump", "solver", "model", "size"}))
-      ->excludes(figures);
-  app.add_option("--calls", options.calls, "calls a point of the size chart")
-      ->capture_default_str()
-      ->check(CLI::PositiveNumber);
-  app.add_option("--blocks", options.blocks,
-                 "blocks of 840 queries a method of the solver and the model error")
-      ->capture_default_str()
-      ->check(CLI::PositiveNumber);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
-  }
-  try {
+  const fcl_stpbv::tools::Option figures =
+      app.flag("--summary", summary, "print the figures as one JSON object, within a minute");
+  app.option("--turns", turns, "print them so many times").needs(figures).whole(1);
+  app.option("--seed", options.seed, "of the poses").whole().shown();
+  app.option("-o,--output", folder, "folder for the files; without --summary docs/measured");
+  app.option("--only", only, "one measurement").oneOf({"jump", "solver", "model", "size"}).excludes(figures);
+  app.option("--calls", options.calls, "calls a point of the size chart").shown().whole(1);
+  app.option("--blocks", options.blocks, "blocks of 840 queries a method of the solver and the model error")
+      .shown()
+      .whole(1);
+  return app.run(argc, argv, [&] {
     const std::string command = commandLine(argc, argv);
     if (summary) {
       Measurement result;
@@ -85,8 +74,5 @@ int main(int argc, char** argv) {
                                Entry{"model", modelError}, Entry{"size", sizeTimes}})
       if (only.empty() || only == entry.name) write(entry.measure(options), command, folder);
     return 0;
-  } catch (const std::exception& e) {
-    std::fprintf(stderr, "speed_accuracy: %s\n", e.what());
-    return 1;
-  }
+  });
 }

@@ -1,6 +1,5 @@
 // The situations in which distance codes break, tried on every method at hand: a count of failures, or a file
 // with every case, from which `tools/bench/draw` makes the tables and the picture of docs/stability.md.
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
@@ -8,6 +7,7 @@
 #include "test/reference/source_folder.h"
 #include "test/reference/stability/suite.h"
 #include "tools/bench/measurement.h"
+#include "tools/program.h"
 
 using namespace fcl_stpbv::stability;
 
@@ -35,23 +35,17 @@ void listFailures(const Results& results, const std::string& id) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Where distance codes break: every method on every hard case");
-  app.set_version_flag("--version", "stability " FCL_STPBV_VERSION);
+  fcl_stpbv::tools::Program app("Where distance codes break: every method on every hard case", "stability");
   bool json = false;
   std::uint64_t seed = 1;
   std::string folder = "docs/measured", list;
   std::vector<std::string> only;
-  app.add_flag("--json", json, "only print the number of cases and each method's failures, within a minute");
-  app.add_option("--seed", seed, "of whatever is random in the cases")->capture_default_str();
-  app.add_option("-o,--output", folder, "folder for stability.json")->capture_default_str();
-  app.add_option("--method", only, "only these methods");
-  app.add_option("--list", list, "print this method's failures, case by case");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
-  }
-  try {
+  app.flag("--json", json, "only print the number of cases and each method's failures, within a minute");
+  app.option("--seed", seed, "of whatever is random in the cases").whole().shown();
+  app.option("-o,--output", folder, "folder for stability.json").shown();
+  app.option("--method", only, "only these methods");
+  app.option("--list", list, "print this method's failures, case by case");
+  return app.run(argc, argv, [&] {
     const Results results = runSuite(allSituations(seed, hardCases(), !json), only);
     listFailures(results, list);
     std::printf("%s\n", summary(results).dump().c_str());
@@ -63,8 +57,5 @@ int main(int argc, char** argv) {
       fcl_stpbv::benchmark::write(measurement, fcl_stpbv::benchmark::commandLine(argc, argv), folder);
     }
     return 0;
-  } catch (const std::exception& e) {
-    std::fprintf(stderr, "stability: %s\n", e.what());
-    return 1;
-  }
+  });
 }
