@@ -52,6 +52,11 @@ class Moving {
   /// Most that any of its points moves in a unit of time (m).
   double speed() const { return motion_.linear.norm() + motion_.angular.norm() * lever_; }
   bool turns() const { return !motion_.angular.isZero(0); }
+  /// For what has no bounds: only where `other` comes does its speed matter.
+  void reachTo(const Moving& other) {
+    const Vector3d way = other.motion_.begin * other.centre - motion_.point;
+    lever_ = way.norm() + other.radius + other.speed() + motion_.linear.norm();
+  }
   double coordinates() const {
     return motion_.begin.translation().lpNorm<1>() + motion_.linear.lpNorm<1>() + motion_.point.lpNorm<1>() +
            centre.lpNorm<1>() + radius;
@@ -87,6 +92,8 @@ class MovingPair {
   MovingPair(const CollisionGeometryd& geometry1, const SteadyMotion& motion1,
              const CollisionGeometryd& geometry2, const SteadyMotion& motion2, double margin)
       : a_(geometry1, motion1), b_(geometry2, motion2), margin_(margin) {
+    if (a_.unbounded) a_.reachTo(b_);
+    if (b_.unbounded) b_.reachTo(a_);
     // Some dozens of products and sums lie between the poses and a bound.
     slack_ = 64 * std::numeric_limits<double>::epsilon() * (a_.coordinates() + b_.coordinates());
   }
@@ -100,10 +107,10 @@ class MovingPair {
     answer = distance(a_.geometry, a_.pose, b_.geometry, b_.pose, {&cache_, nullptr});
     if (!(answer.distance > margin_)) return true;
     const double gap = answer.lower - margin_;
-    if ((a_.unbounded && a_.turns()) || (b_.unbounded && b_.turns()))
-      return false;  // no plane keeps it apart
-    cover = a_.convex && b_.convex ? byPlane(gap, most)
-                                   : speedCover(gap, a_.speed() + b_.speed(), 0.0, most, slack_);
+    // What has no bounds and turns leaves every fixed plane.
+    const bool turning = (a_.unbounded && a_.turns()) || (b_.unbounded && b_.turns());
+    cover = a_.convex && b_.convex && !turning ? byPlane(gap, most)
+                                               : speedCover(gap, a_.speed() + b_.speed(), 0.0, most, slack_);
     return false;
   }
 

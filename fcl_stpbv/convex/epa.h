@@ -43,7 +43,7 @@ class Epa {
 
   double gap = -std::numeric_limits<double>::infinity();  ///< the widest seen: minus the least overlap (m)
   Eigen::Vector3d n{0, 0, 1};                             ///< its normal, unit, from A to B
-  Eigen::Vector3d onA{0, 0, 0};                           ///< A's point there
+  Eigen::Vector3d onA{0, 0, 0};                           ///< A's point there; B's is `gap` along `n` from it
   double bound = 0;                                       ///< no normal has a wider gap (m)
 
   /// The difference's corner furthest against the unit vector `m`; remembers the least overlap.
@@ -52,9 +52,17 @@ class Epa {
     if (c.gap > gap) {
       gap = c.gap;
       n = m;
-      onA = c.onA;
     }
+    offer(c.onA, c.w);
     return c;
+  }
+
+  /// A point of A and the way from there to one of B: kept where it comes nearer to the answer's than what is
+  /// known.
+  void offer(const Eigen::Vector3d& pointOfA, const Eigen::Vector3d& toB) {
+    if (!(off(toB) < off(toB_))) return;
+    onA = pointOfA;
+    toB_ = toB;
   }
 
   /// Whether both bounds agree, to 1e-6 of the depth or to rounding.
@@ -85,12 +93,10 @@ class Epa {
     Polytope polytope({point[0].w, point[1].w, point[2].w, point[3].w}, Polytope::Origin::anywhere);
     expandAtNearest(polytope, [&](const Polytope::Face& face) {
       bound = std::min(bound, -face.distance);
-      const double before = gap;
       const Corner next = look(-face.normal);
       const double open = -gap - face.distance;
-      if (gap > before || open <= rounding_)
-        onA = onFace(point[face.corner[0]], point[face.corner[1]], point[face.corner[2]],
-                     face.distance * face.normal);
+      offerFace(point[face.corner[0]], point[face.corner[1]], point[face.corner[2]],
+                face.distance * face.normal);
       if (face.distance > 0.0 && open <= kRelative * face.distance + rounding_ &&
           (open <= rounding_ || ++more > kMore))
         return false;
@@ -98,19 +104,30 @@ class Epa {
       point[points++] = next;
       return polytope.expand(next.w);
     });
+    // Faces in one plane are equally near: the origin is above one of them.
+    while (polytope.sound() && off(toB_) > rounding_) {
+      const Polytope::Face face = polytope.nearest();
+      if (!(face.distance <= -gap + rounding_)) break;
+      offerFace(point[face.corner[0]], point[face.corner[1]], point[face.corner[2]],
+                face.distance * face.normal);
+      polytope.putAside();
+    }
   }
 
-  /// A's part of the face's point nearest to the origin.
-  static Eigen::Vector3d onFace(const Corner& a, const Corner& b, const Corner& c,
-                                const Eigen::Vector3d& nearest) {
+  /// How far a way from A to B is from the answer's (m).
+  double off(const Eigen::Vector3d& toB) const { return (toB - gap * n).norm(); }
+
+  /// The face's point nearest to the origin.
+  void offerFace(const Corner& a, const Corner& b, const Corner& c, const Eigen::Vector3d& nearest) {
     const Eigen::Vector3d e = b.w - a.w, f = c.w - a.w, m = e.cross(f), p = nearest - a.w;
     const double area = m.squaredNorm();
     Eigen::Vector3d weight(0.0, p.cross(f).dot(m) / area, e.cross(p).dot(m) / area);
     weight[0] = 1.0 - weight[1] - weight[2];
     weight = weight.cwiseMax(0.0);
-    if (!(weight.sum() > 0.0) || !weight.allFinite()) return a.onA;
+    if (!(weight.sum() > 0.0) || !weight.allFinite()) return;
     weight /= weight.sum();
-    return weight[0] * a.onA + weight[1] * b.onA + weight[2] * c.onA;
+    offer(weight[0] * a.onA + weight[1] * b.onA + weight[2] * c.onA,
+          weight[0] * a.w + weight[1] * b.w + weight[2] * c.w);
   }
 
   /// Four points of the difference that span a volume, each furthest along some direction. False where the
@@ -146,6 +163,8 @@ class Epa {
 
   Difference& difference_;
   double rounding_;
+  Eigen::Vector3d toB_ =
+      Eigen::Vector3d::Constant(1e150);  // from `onA` to the point of B that it was found with
 };
 
 }  // namespace fcl_stpbv::detail

@@ -117,7 +117,7 @@ Distance overlapping(const Pair& p) {
     const MeridianDepth inner =
         meridianDepth(plane, p.rounding, [&](const Vector3d& m) { return epa.look(-m.normalized()); });
     epa.bound = std::min(epa.bound, -inner.depth);
-    epa.onA = inner.onA;
+    epa.offer(inner.onA, epa.gap * epa.n);
   }
   epa.run();
   Distance result = inWorld(p, epa.n, epa.onA, epa.gap * epa.n);

@@ -1,6 +1,7 @@
 // Motions proven free, and first contacts at their time: closed forms, and samples of FCL's own motions.
 #include <fcl/geometry/bvh/BVH_model.h>
 #include <fcl/geometry/shape/halfspace.h>
+#include <fcl/geometry/shape/plane.h>
 #include <fcl/geometry/shape/sphere.h>
 #include <fcl/math/motion/interp_motion.h>
 #include <fcl/math/motion/screw_motion.h>
@@ -86,6 +87,38 @@ TEST_CASE("a ball that flies at a ball, a half space or past them meets them at 
     CHECK(t > 0);
   }
   CHECK(hits > 200);
+}
+
+TEST_CASE(
+    "half spaces and planes that turn meet a ball where dense samples see it first, or are proven free") {
+  const fcl::Sphered ball(0.1);
+  const fcl::Halfspaced ground(Vector3d::UnitZ(), -0.3);
+  const fcl::Planed sheet(Vector3d::UnitZ(), -0.3);
+  Random random(3);
+  int free = 0, hits = 0;
+  for (int i = 0; i < 60; ++i)
+    for (const fcl::CollisionGeometryd* flat : {static_cast<const fcl::CollisionGeometryd*>(&ground),
+                                                static_cast<const fcl::CollisionGeometryd*>(&sheet)}) {
+      const Isometry3d from = pose(random.rotation(0.5), 0.1 * random.direction()),
+                       to = pose(random.rotation(0.5), 0.1 * random.direction());
+      SteadyMotion turn, still;
+      REQUIRE(steadyMotion(from, to, fcl::CCDM_SCREW, turn));
+      const Isometry3d place = pose(random.rotation(), random.uniform(0, 0.3) * random.direction());
+      REQUIRE(steadyMotion(place, place, fcl::CCDM_SCREW, still));
+      const MotionAnswer found = firstContact(*flat, turn, ball, still, {0, 1e-6});
+      REQUIRE(found.verdict != MotionVerdict::undecided);
+      const bool isFree = found.verdict == MotionVerdict::free;
+      ++(isFree ? free : hits);
+      for (int k = 0; k <= 500; ++k) {
+        const double t = k / 500.0;
+        if (!isFree && t >= found.from) break;
+        const Isometry3d at = turn.at(t);
+        const Vector3d n = at.linear().col(2);
+        const double height = n.dot(place.translation() - at.translation()) + 0.3;
+        REQUIRE((flat == &ground ? height : std::abs(height)) > 0.1 - 1e-15);
+      }
+    }
+  CHECK((free > 20 && hits > 5));
 }
 
 TEST_CASE("a turning arm meets a ball at the closed form's angle, and one just out of reach is free") {

@@ -78,6 +78,26 @@ ReferenceAnswer widestGap(const Look& look, long double margins, const Vector3L&
   return {best.gap - margins, best.n, !(best.gap > 0)};
 }
 
+/// The widest gap over a Fibonacci spiral of normals, polished by shrinking random steps.
+template <typename Gap>
+long double widestOver(const Gap& gap, int count) {
+  long double best = -std::numeric_limits<long double>::infinity();
+  Vector3L top(0, 0, 1);
+  const long double golden = std::acos(-1.0L) * (3 - std::sqrt(5.0L));
+  for (int i = 0; i < count; ++i) {  // Fibonacci spiral
+    const long double z = 1 - (2 * i + 1) / static_cast<long double>(count), w = std::sqrt(1 - z * z);
+    const Vector3L n(w * std::cos(golden * i), w * std::sin(golden * i), z);
+    if (gap(n) > best) best = gap(n), top = n;
+  }
+  Random random(7);
+  for (long double step = 3 / std::sqrt(static_cast<long double>(count)); step > 1e-9L; step *= 0.7L)
+    for (int i = 0; i < 12; ++i) {
+      const Vector3L n = (top + step * random.direction().cast<long double>()).normalized();
+      if (gap(n) > best) best = gap(n), top = n;
+    }
+  return best;
+}
+
 }  // namespace
 
 const std::vector<std::string>& boundedShapes() {
@@ -150,24 +170,12 @@ long double referenceGap(const ReferenceShape& a, const ReferenceShape& b, const
 }
 
 long double widestGapOverDirections(const ReferenceBody& a, const ReferenceShape& b, int count) {
-  const auto gap = [&](const Vector3L& n) {
-    return n.dot(b.support(-n)) - b.margin - referenceSupport(a, n);
-  };
-  long double best = -std::numeric_limits<long double>::infinity();
-  Vector3L top(0, 0, 1);
-  const long double golden = std::acos(-1.0L) * (3 - std::sqrt(5.0L));
-  for (int i = 0; i < count; ++i) {  // Fibonacci spiral
-    const long double z = 1 - (2 * i + 1) / static_cast<long double>(count), w = std::sqrt(1 - z * z);
-    const Vector3L n(w * std::cos(golden * i), w * std::sin(golden * i), z);
-    if (gap(n) > best) best = gap(n), top = n;
-  }
-  Random random(7);
-  for (long double step = 3 / std::sqrt(static_cast<long double>(count)); step > 1e-9L; step *= 0.7L)
-    for (int i = 0; i < 12; ++i) {
-      const Vector3L n = (top + step * random.direction().cast<long double>()).normalized();
-      if (gap(n) > best) best = gap(n), top = n;
-    }
-  return best;
+  return widestOver(
+      [&](const Vector3L& n) { return n.dot(b.support(-n)) - b.margin - referenceSupport(a, n); }, count);
+}
+
+long double widestGapOverDirections(const ReferenceShape& a, const ReferenceShape& b, int count) {
+  return widestOver([&](const Vector3L& n) { return referenceGap(a, b, n); }, count);
 }
 
 }  // namespace fcl_stpbv::test

@@ -45,5 +45,6 @@ long double referenceGap(const ReferenceShape& a, const ReferenceShape& b, const
 
 /// Widest gap over `count` directions, polished by shrinking random steps: for cores that overlap.
 long double widestGapOverDirections(const ReferenceBody& a, const ReferenceShape& b, int count);
+long double widestGapOverDirections(const ReferenceShape& a, const ReferenceShape& b, int count);
 
 }  // namespace fcl_stpbv::test

@@ -1,4 +1,4 @@
-// shape_differences [POSES]: the tables of docs/fcl_differences.md. A sphere is both an FCL shape and the
+// shape_differences [POSES]: the tables of docs/fcl_accuracy.md. A sphere is both an FCL shape and the
 // STP-BV of one point, so plain FCL and this library answer about the very same bodies; and a cube rocks over
 // each shape, as a polyhedron and as an STP-BV, to see whose gradient jumps.
 #include <fcl/geometry/bvh/BVH_model.h>
