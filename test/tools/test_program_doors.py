@@ -13,7 +13,7 @@ BIN, PROJECT = (pathlib.Path(folder).resolve() for folder in sys.argv[1:3])
 PROGRAMS = [BIN / name for name in (
     "mesh_to_stpbv", "urdf_collision_report", "find_posture", "demo", "adapter_figures", "build_benchmark", "constraints_benchmark",
     "jump_sweep", "posture_study", "proof_boxes", "speed_accuracy", "stability")]
-PROGRAMS += [BIN / name for name in ("control_bench", "parts_benchmark") if (BIN / name).exists()]  # where Bullet is
+PROGRAMS += [BIN / name for name in ("control_bench", "optimise_bench", "parts_benchmark") if (BIN / name).exists()]  # where Bullet, or IPOPT, is
 # Words that some scripts do take: ctest's options, names of files and folders, and what a program of ours refuses itself.
 TAKE = {"nonsense": ("check_format", "demo", "fuzz", "make_packages"), "--no-such-option": ("test",)}
 NO_NUMBERS = ["nan", "-nan", "inf", "-inf", "1e400", "1,5", "1.5x", "x", "", " "]

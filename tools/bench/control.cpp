@@ -56,11 +56,12 @@ struct Arguments {
   bool all = false;
   LoopOptions loop;
   std::vector<std::string> scenarios = benchmark::scenarios();
+  std::string name = "control";
 };
 
 Measurement measure(const Arguments& a) {
   Measurement result;
-  result.name = a.loop.noise ? "control_noise" : "control";
+  result.name = a.name;
   result.about = {{"runs", a.runs}, {"acceleration", a.loop.acceleration}, {"noise", a.loop.noise}};
   std::printf("%-6s %-32s %9s %9s %8s %9s %8s %8s %9s %9s %8s %7s %5s\n", "", "medians (worst: *)", "peak",
               "peak*", "rms", "jerk", "rev/s", "switch/s", "clear mm", "clear* mm", "track mm", "us", "fail");
@@ -104,7 +105,8 @@ int main(int argc, char** argv) {
   app.flag("--all", a.all, "every r and R, not only r = 10 mm with R = 1 and 10 m");
   app.flag("--acceleration", a.loop.acceleration, "tasks at acceleration level");
   app.flag("--noise", a.loop.noise, "with encoder steps, a tick of delay and a model error of 1 %");
-  app.option("-o,--output", output, "folder for control.json");
+  app.option("-o,--output", output, "folder for NAME.json");
+  app.option("--name", a.name, "of the file").shown();
   return app.run(argc, argv, [&] {
     const Measurement result = measure(a);
     if (!output.empty()) write(result, commandLine(argc, argv), output);

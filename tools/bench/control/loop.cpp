@@ -21,12 +21,6 @@ using Eigen::VectorXd;
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-/// What a method's margins add to its distances (m).
-double margins(const Method& m) {
-  if (m.model == Model::hull || m.model == Model::manifold) return 2 * m.r;
-  return m.model == Model::half ? m.r : 0;
-}
-
 DamperOptions damperOf(const Method& m) {
   DamperOptions options;
   options.all = {kInfluence + margins(m), kSecurity + margins(m), kDamping};

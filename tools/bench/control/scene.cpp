@@ -39,13 +39,6 @@ const Robot& robot() {
   return loaded;
 }
 
-std::vector<Vector3d> boxCorners(const Vector3d& size) {
-  std::vector<Vector3d> corners;
-  for (int i = 0; i < 8; ++i)
-    corners.push_back(0.5 * size.cwiseProduct(Vector3d(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1)));
-  return corners;
-}
-
 Isometry3d placed(const Vector3d& position) {
   Isometry3d pose = Isometry3d::Identity();
   pose.translation() = position;
@@ -136,6 +129,18 @@ void foot(Builder& build) {
 }
 
 }  // namespace
+
+std::vector<Vector3d> boxCorners(const Vector3d& size) {
+  std::vector<Vector3d> corners;
+  for (int i = 0; i < 8; ++i)
+    corners.push_back(0.5 * size.cwiseProduct(Vector3d(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1)));
+  return corners;
+}
+
+double margins(const Method& method) {
+  if (method.model == Model::hull || method.model == Model::manifold) return 2 * method.r;
+  return method.model == Model::half ? method.r : 0;
+}
 
 Variation variationOf(int seed) {
   std::mt19937 random(static_cast<unsigned>(seed));

@@ -26,6 +26,9 @@ struct Method {
   std::string name;
 };
 
+/// What a method's margins add to the distances of its bodies (m).
+double margins(const Method& method);
+
 /// What one run of a scenario varies.
 struct Variation {
   double phase[6], size, tilt, start[3];
@@ -45,6 +48,9 @@ struct Solid {
   Eigen::Isometry3d pose;
   std::vector<Eigen::Vector3d> corners;
 };
+
+/// The corners of a box around the origin with these sides (m).
+std::vector<Eigen::Vector3d> boxCorners(const Eigen::Vector3d& size);
 
 struct Scene {
   std::shared_ptr<const Kinematics> kinematics;

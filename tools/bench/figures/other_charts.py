@@ -132,18 +132,38 @@ def posture_profile(height=400):
 
 def control(height=440):
     """Peak joint acceleration in each scenario."""
-    data = measured("control")
+    data = [measured("control"), measured("control_more")]
+    rows = [row for one in data for row in one["rows"]]
     colours = {"hull + r, r 10 mm": palette.FCL, "manifold, r 10 mm": palette.FCL_OTHER, "STP-BV, r 10 mm, R 10 m": palette.SMOOTH,
                "STP-BV, r 10 mm, R 1 m": palette.SECOND}
-    scenarios = list(dict.fromkeys(row["scenario"] for row in data["rows"]))
-    peak = {(row["scenario"], row["method"]): row["peak"] for row in data["rows"]}
-    small_print = [f"HRP-2-style robot at 1 kHz, medians of {data['about']['runs']} runs. {data['command']}"]
+    scenarios = list(dict.fromkeys(row["scenario"] for row in rows))
+    peak = {(row["scenario"], row["method"]): row["peak"] for row in rows}
+    small_print = [f"HRP-2-style robot at 1 kHz, medians of {data[0]['about']['runs']} runs a scenario, no noise.", *(one["command"] for one in data)]
     text = single(height, small_print, legend_rows=2) + legend([(c, 5, name) for name, c in colours.items()], height, columns=2) + \
-        block("$peaks", [(s, *(peak.get((s, m)) for m in colours)) for s in scenarios]) + \
-        "set style data histograms\nset style histogram clustered gap 1\nset style fill solid noborder\nset logscale y\nset yrange [0.5:*]\n" \
-        "set ylabel 'peak joint acceleration (rad/s²)'\n"
+        block("$peaks", [(s, *(peak.get((s, m), "NaN") for m in colours)) for s in scenarios]) + \
+        "set style data histograms\nset style histogram clustered gap 1\nset style fill solid noborder\nset logscale y\nset yrange [0.2:*]\n" \
+        "set ylabel 'peak joint acceleration (rad/s²)' offset 1.5\n"
     plots = [f"$peaks using {i + 2}{':xtic(1)' if not i else ''} lc rgb '{c}'" for i, c in enumerate(colours.values())]
-    draw("control", "Controllers: hulls make the joints jerk, smooth volumes do not", text + "plot " + ", ".join(plots), small_print, height)
+    draw("control", "Controllers: hulls make the joints jerk, smooth volumes rarely do", text + "plot " + ", ".join(plots), small_print, height)
 
 
-CHARTS = (jump, stability, proof_boxes, radii, posture_profile, control)
+def clearance(height=440):
+    """What r and R cost in clearance and save in accelerations, for a held box against flat things."""
+    data = measured("control_radii")
+    scenarios = list(dict.fromkeys(row["scenario"] for row in data["rows"]))
+    small_print = ["A held box of 14 x 10 x 6 cm, or two; r = 1, 5 and 10 mm, R = 1, 3 and 10 m. Lost: what the hulls keep beyond the 10 mm asked for.", data["command"]]
+    text = panels(2, height, small_print, legend_rows=1, panel_titles=True) + \
+        legend([(colour, 7, name) for colour, name in zip((*palette.SWEEPS, palette.SMOOTH), scenarios)], height, columns=4) + \
+        "set logscale xy\nset xrange [1:300]\nset yrange [0.5:100]\nset xlabel 'clearance lost (mm)'\nset ylabel 'peak joint acceleration (rad/s²)'\n"
+    for panel, (start, title) in enumerate((("STP-BV, ", "both bodies smooth"), ("STP-BV | flat, ", "the obstacle flat, with a margin r"))):
+        plots = []
+        for i, (colour, scenario) in enumerate(zip((*palette.SWEEPS, palette.SMOOTH), scenarios)):
+            rows = [(1e3 * row["clearance"] - 10, row["peak"]) for row in data["rows"] if row["scenario"] == scenario and row["method"].startswith(start)]
+            if rows:
+                text += block(f"$points{panel}{i}", rows)
+                plots.append(f"$points{panel}{i} using 1:2 with points pt 7 ps 0.8 lc rgb '{colour}'")
+        text += f"set title '{title}' offset 0,-0.6\nplot " + ", ".join(plots) + "\n" + UNLABEL + "unset ylabel\n"
+    draw("clearance", "Clearance buys calm joints: what each r and R costs", text + "unset multiplot\n", small_print, height)
+
+
+CHARTS = (jump, stability, proof_boxes, radii, posture_profile, control, clearance)

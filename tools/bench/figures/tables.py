@@ -237,3 +237,72 @@ def posture_study():
                      f"{middle(lambda row, _: row['iterations']):.0f}", f"{middle(lambda row, _: row['calls']):.0f}", f"{middle(lambda row, _: 1e3 * row['seconds']):.1f}",
                      f"{middle(lambda row, results: 100 * (row['cost'] / best[id(results)] - 1)):.1f} %"))
     return markdown(("distances", "solved at the first start", "within 5", "hits a mesh", "iterations", "distances", "ms", "cost above the best"), body)
+
+
+TASKS = ("place", "slot", "pack", "corner")
+
+
+@table(*(f"optimise_{task}" for task in TASKS))
+def optimise():
+    cells, order = {}, []
+    for task in TASKS:
+        for row in measured(f"optimise_{task}")["rows"]:
+            key = (row["method"], row["solver"])
+            order += [] if key in order else [key]
+            work = f"{row['points']:.0f}" + (f" + {row['hessians']:.0f}" if row["hessians"] else "")
+            cells[key, task] = f"{row['solved']:.0f} %, {work}, {row['ms']:g} ms"
+    return markdown(("model", "solver", *TASKS), [(*key, *(cells[key, task] for task in TASKS)) for key in order])
+
+
+CONTROLLERS = {"no collision rows": "no collision rows", "hull + r": "hull + r, r 10 mm", "manifold": "manifold, r 10 mm",
+               "STP-BV R = 10": "STP-BV, r 10 mm, R 10 m", "STP-BV R = 1": "STP-BV, r 10 mm, R 1 m",
+               "flat, R = 10": "STP-BV | flat, r 10 mm, R 10 m", "flat, R = 1": "STP-BV | flat, r 10 mm, R 1 m"}
+SCENARIOS = {"table": "held box on a table", "rail": "along a rail", "wall": "along a side wall", "boxes": "two held boxes",
+             "hand": "a round hand over a table", "arms": "both forearms", "step": "a foot beside a step", "shelf": "a held box along a shelf's edge"}
+
+
+def three(value):
+    """Three digits, without a power of ten."""
+    return f"{float(f'{value:.3g}'):g}"
+
+
+def controllers(*names):
+    """The rows of some measurements of control_bench: {(scenario, method): row}, and their scenarios."""
+    rows = [row for name in names for row in measured(name)["rows"]]
+    return {(row["scenario"], row["method"]): row for row in rows}, list(dict.fromkeys(row["scenario"] for row in rows))
+
+
+def peaks(name):
+    at, scenarios = controllers(name)
+    cell = lambda row: f"{three(row['peak'])} ({three(row['worst_peak'])})" if row else "-"
+    return markdown((f"{measured(name)['about']['runs']} runs", *CONTROLLERS),
+                    [(SCENARIOS[s], *(cell(at.get((s, method))) for method in CONTROLLERS.values())) for s in scenarios])
+
+
+@table("control_more")
+def control_more():
+    return peaks("control_more")
+
+
+@table("control_acceleration")
+def control_acceleration():
+    return peaks("control_acceleration")
+
+
+@table("control", "control_more", *(f"optimise_{task}" for task in TASKS), "posture_study")
+def continuity():
+    """All tasks: what hulls need, what their manifold of rows needs, what STP-BVs need."""
+    at, scenarios = controllers("control", "control_more")
+    names = [CONTROLLERS[key] for key in ("hull + r", "manifold", "STP-BV R = 10", "STP-BV R = 1", "flat, R = 1")]
+    body = [(f"controller, {SCENARIOS[s]}", "peak rad/s²", *(three(at[s, m]["peak"]) if (s, m) in at else "-" for m in names)) for s in scenarios]
+    for solver, words in (("IPOPT, exact Hessian", "IPOPT"), ("IPOPT, exact Hessian, continued", "IPOPT, R continued"), ("SLSQP", "SLSQP")):
+        for task in TASKS:
+            rows = {row["method"]: row for row in measured(f"optimise_{task}")["rows"] if row["solver"] == solver}
+            cell = lambda model: next((f"{row['solved']:.0f} %, {row['points'] + row['hessians']:.0f}" for name, row in rows.items() if name.startswith(model[0])
+                                       and name.endswith(model[1])), "-")
+            body.append((f"{words}, {task}", "solved, evaluations", cell(("hull + r", "")), "-", cell(("STP-BV", "R 10 m")), cell(("STP-BV", "R 1 m")), "-"))
+    study = measured("posture_study")
+    first = lambda source: [row for row in study["rows"] if row["feasible"] and row["distances"] == source]
+    share = lambda rows: f"{100 * sum(row['solved'] and row['clear'] for row in rows) / len(rows):.1f} %"
+    body.append(("postures, SLSQP", f"solved within {study['about']['starts']} starts", share(first("hulls, rounded, exact")), "-", share(first("STP-BV")), "-", "-"))
+    return markdown(("task", "measure", "hulls with a margin", "hulls, manifold", "STP-BV, R = 10 m", "STP-BV, R = 1 m", "one flat, R = 1 m"), body)

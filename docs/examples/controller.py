@@ -1,0 +1,97 @@
+"""Two arms move the boxes they hold past each other at 1 kHz, kept apart by a velocity damper: controller.py PROJECT FOLDER
+
+The loop of controller.cpp: once on smooth bodies (r = 1 cm, R = 10 m), once on nearly sharp ones (r = 1 um, R = 1 km) with the
+same margin, whose gradient all but jumps. Writes controller_py.csv into the folder.
+"""
+import pathlib
+import sys
+import tempfile
+import xml.etree.ElementTree as xml
+
+import numpy as np
+
+import fcl_stpbv
+
+PERIOD, DURATION = 1e-3, 6  # s
+INFLUENCE, SECURITY, DAMPING = 0.05, 0.01, 0.5  # m, m, m/s
+ARMS = {"LARM": 1, "RARM": -1}
+BENT = {"0": -0.6, "1": 0.25, "3": -1.2}  # joints of an arm at the start; the roll, 1, is mirrored
+
+
+def turned(axis, angle):
+    c, s = np.cos(angle), np.sin(angle)
+    return np.array([[1, 0, 0], [0, c, -s], [0, s, c]] if axis == "x" else [[c, 0, s], [0, 1, 0], [-s, 0, c]])
+
+
+def level(side):
+    """Roll, pitch and yaw of a level box in the hand of an arm that is bent as it starts."""
+    r = turned("y", -BENT["3"]) @ turned("x", -BENT["1"] * side) @ turned("y", -BENT["0"])
+    return f"{np.arctan2(r[2, 1], r[2, 2])} {-np.arcsin(r[2, 0])} {np.arctan2(r[1, 0], r[0, 0])}"
+
+
+def with_boxes(urdf):
+    """The robot's tree with the two boxes as its only bodies."""
+    root = xml.parse(urdf).getroot()
+    for link in root.findall("link"):
+        for shape in link.findall("collision") + link.findall("visual"):
+            link.remove(shape)
+    for arm, side in ARMS.items():
+        link = xml.SubElement(root, "link", name=f"{arm}_BOX")
+        xml.SubElement(xml.SubElement(xml.SubElement(link, "collision"), "geometry"), "box", size="0.12 0.10 0.16")
+        joint = xml.SubElement(root, "joint", name=f"{arm}_HOLDS", type="fixed")
+        xml.SubElement(joint, "parent", link=f"{arm}_LINK5")
+        xml.SubElement(joint, "child", link=f"{arm}_BOX")
+        xml.SubElement(joint, "origin", xyz="0 0 -0.12", rpy=level(side))
+    return xml.tostring(root, encoding="unicode")
+
+
+def wanted(start, at, t):
+    """What the arms shall do, boxes or not: inwards and back, one hand up while the other goes down."""
+    q = start.copy()
+    for arm, side in ARMS.items():
+        q[at[f"{arm}_JOINT0"]] += side * 0.15 * np.sin(2 * t)
+        q[at[f"{arm}_JOINT1"]] -= side * 0.4 * (1 - np.cos(np.pi * t / 3)) / 2
+        q[at[f"{arm}_JOINT2"]] -= side * 0.5 * (1 - np.cos(np.pi * t / 3)) / 2
+        q[at[f"{arm}_JOINT4"]] += side * 0.04 * np.sin(3 * t)
+        q[at[f"{arm}_JOINT5"]] += 0.03 * np.sin(2.3 * t)
+    return q
+
+
+def run(urdf, r, R, margin):
+    """Distance of the boxes beyond their margin, and the largest joint acceleration, of each tick."""
+    robot = fcl_stpbv.Robot(urdf, r=r, R=R)
+    at = {name: i for i, name in enumerate(robot.names)}
+    start = robot.neutral.copy()
+    for arm, side in ARMS.items():
+        for joint, angle in BENT.items():
+            start[at[f"{arm}_JOINT{joint}"]] = angle * (side if joint == "1" else 1)
+    q, qd, ticks = start.copy(), 0 * start, []
+    for t in np.arange(0, DURATION, PERIOD):
+        task = 10 * (wanted(start, at, t) - q)
+        d, J = robot.evaluate(q)
+        row, distance = J[0], d[0] - margin
+        velocity = task
+        if distance < INFLUENCE:  # one row: the quadratic program is a projection
+            bound = -DAMPING * (distance - SECURITY) / (INFLUENCE - SECURITY)
+            velocity = task + row * max(0.0, bound - row @ task) / (row @ row)
+        ticks.append((distance, np.abs(velocity - qd).max() / PERIOD))
+        qd = velocity
+        q = q + PERIOD * qd
+    return np.array(ticks)
+
+
+def main(project, folder):
+    with tempfile.TemporaryDirectory() as place:
+        urdf = pathlib.Path(place) / "boxes.urdf"
+        urdf.write_text(with_boxes(f"{project}/data/hrp2_style/hrp2_style.urdf"))
+        smooth, sharp = run(str(urdf), 0.01, 10, 0), run(str(urdf), 1e-6, 1000, 0.01)
+    times = np.arange(len(smooth)) * PERIOD
+    np.savetxt(f"{folder}/controller_py.csv", np.column_stack([times, smooth, sharp]), delimiter=",", comments="",
+               header="seconds,distance,acceleration,distance_sharp,acceleration_sharp")
+    peak, peak_sharp = smooth[500:, 1].max(), sharp[500:, 1].max()  # without the start from rest
+    print(f"peak acceleration {peak:.3g} rad/s^2 on smooth bodies, {peak_sharp:.3g} on sharp ones; {smooth[:, 0].min():.4f} m kept")
+    return 0 if peak_sharp > 10 * peak and smooth[:, 0].min() > 0.99 * SECURITY else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main(*sys.argv[1:3]))
