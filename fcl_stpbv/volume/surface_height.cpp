@@ -1,9 +1,10 @@
-// Where a ray from inside leaves a volume. Of all supporting planes that the ray meets, the first one touches
-// the surface there: a convex minimisation over the normals.
+// Where a ray from inside leaves a volume. Of all supporting planes that the ray meets, the first one
+// touches the surface there: a convex minimisation over the normals.
 // 1. Solve the exit of the patch that owns the current normal in closed form; if its normal is the patch's
 //    own, done.
-// 2. Else the plane rules out half of the normals; go on at that exit's normal, or at the centroid of what is
-//    left.
+// 2. Else the plane rules out half of the normals; done where no normal that is left can be lower by more
+//    than rounding.
+// 3. Go on at that exit's normal, or at the centroid of what is left.
 #include "fcl_stpbv/volume/surface_height.h"
 
 #include <Eigen/Geometry>
@@ -98,6 +99,13 @@ class Fence {
     return true;
   }
 
+  // The least value inside of the linear function that is zero at `a` and has this slope.
+  double least(const Vector2d& a, const Vector2d& slope) const {
+    double least = 0;
+    for (const Vector2d& corner : corners_) least = std::min(least, slope.dot(corner - a));
+    return least;
+  }
+
   Vector2d centroid() const {
     Vector2d sum = Vector2d::Zero(), mean = Vector2d::Zero();
     double area = 0;
@@ -143,7 +151,9 @@ SurfaceHeight surfaceHeight(const StpBv& volume, const Vector3d& y, const Vector
     const Vector2d uphill(over.dot(e), over.dot(f));
     if (uphill.norm() <= rounding) break;
     fence.cut(a, uphill);
-    if (fence.isSpent()) break;
+    // The height is convex: no normal in the fence is lower than the tangent says. An exit normal that has
+    // many roundings itself, as on a thin edge patch with r = 0, is recognised as the answer by this alone.
+    if (fence.isSpent() || fence.least(a, uphill) >= -rounding) break;
     // The patch's own exit is the answer where it is inside the patch; every third step makes sure of
     // progress.
     const Vector3d exit = exitNormal(volume, index, y, d);

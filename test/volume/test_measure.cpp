@@ -153,9 +153,10 @@ TEST_CASE("The height of the surface over a point of the hull agrees with halvin
         INFO(cloud.size() << " points, r = " << radii.r << ", R = " << R << ", ray " << k);
         // Halving ends where the distance's rounding, a few units of rho's normals, hides its sign.
         CHECK(std::abs(over.height - halvedHeight(*volume, y, d)) <= 1e-14 + 4e-16 * R);
-        // Rays that graze a flat disc's rim take most: 150 or 152, as roundings fall. Half of those allowed
-        // is few.
-        CHECK(over.planes <= 200);
+        // Measured: half of the rays take 27 or fewer with r > 0 and 68 with r = 0, where the fence is 1e8
+        // wide at first. Of seeds 4 to 9 the worst ray takes 95, near a thin edge patch. The search gives up
+        // at 400.
+        CHECK(over.planes <= 150);
       }
     }
 }
