@@ -191,7 +191,8 @@ void leastPenetration(const BodyPair& pair, Sample& x, SearchWork& work) {
   };
   starts.offer(x);
   for (int code = 0; code < 27; ++code) {
-    const Vector3d d(code % 3 - 1, code / 3 % 3 - 1, code / 9 - 1);
+    const int i = code % 3 - 1, j = code / 3 % 3 - 1, k = code / 9 - 1;
+    const Vector3d d(i, j, k);
     if (code == 13) continue;
     tryNormal(d.normalized(), kNoHint);
     tryNormal(pair.pose().rotation * d.normalized(), kNoHint);

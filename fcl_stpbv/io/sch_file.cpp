@@ -47,6 +47,7 @@ class Fans {
     }
     std::vector<StpBv::Ring> rings;
     next_.assign(file_.vertices.size(), -1);
+    rings.reserve(order.size());
     for (std::size_t first : order) rings.push_back(ring(groups[first]));
     return rings;
   }

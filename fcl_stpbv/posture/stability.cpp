@@ -103,6 +103,7 @@ std::vector<Vector3d> shrunk(const std::vector<Vector3d>& points, double margin)
   const Eigen::Matrix3d axes = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(scatter).eigenvectors();
   const Vector3d u = axes.col(2), v = axes.col(1);  // the patch's plane
   std::vector<Vector2d> flat;
+  flat.reserve(points.size());
   for (const Vector3d& p : points) flat.emplace_back(u.dot(p - centre), v.dot(p - centre));
   std::vector<Vector3d> corners;
   if (points.size() >= 3)

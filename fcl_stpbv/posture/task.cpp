@@ -37,6 +37,7 @@ bool isOf(const Obstacle& obstacle, const std::string& link) {
 std::vector<int> linksNamed(const std::vector<std::string>& names, const PostureScene& scene,
                             const std::string& where) {
   std::vector<int> links;
+  links.reserve(names.size());
   for (const std::string& name : names) links.push_back(linkNamed(name, scene, where));
   return links;
 }
