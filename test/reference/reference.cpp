@@ -4,11 +4,11 @@
 #include <limits>
 #include <stdexcept>
 
+#include "test/reference/normal_polygon.h"
+
 namespace fcl_stpbv::test {
 
 namespace {
-
-using Vector2L = Eigen::Matrix<long double, 2, 1>;
 
 /// The lowest centre along `n` whose ball of radius `rho` holds these one, two or three points, all on its
 /// surface; false when there is none.
@@ -119,15 +119,13 @@ long double referenceGap(const ReferenceBody& a, const ReferenceBody& b, const V
 
 ReferenceDistance referenceDistance(const ReferenceBody& a, const ReferenceBody& b, const Vector3L& towards) {
   const Vector3L z = towards.normalized();
-  const Vector3L x = z.unitOrthogonal(), y = z.cross(x);
-  // Normals as points (s, t) of the plane z + s x + t y. Planes through the origin are lines there, and the
-  // normals with a wider gap than a trial's are a convex set on one side of the line across its gradient.
-  std::vector<Vector2L> region{{-1e3L, -1e3L}, {1e3L, -1e3L}, {1e3L, 1e3L}, {-1e3L, 1e3L}};
-  Vector2L at(0, 0);
+  // The normals with a wider gap than a trial's are a convex set on one side of the plane across its
+  // gradient.
+  NormalPolygon left(z, 1e3L);
   ReferenceDistance best{-std::numeric_limits<long double>::infinity(), 0, z, {}};
   long double flattest = std::numeric_limits<long double>::infinity();
   for (int i = 0; i < 400; ++i) {
-    const Vector3L n = (z + at.x() * x + at.y() * y).normalized();
+    const Vector3L n = left.centre().normalized();
     Vector3L ya, yb;
     const long double sA = referenceSupport(a, n, &ya), sB = referenceSupport(b, -n, &yb);
     const long double core = -sA - sB + a.r + b.r;
@@ -137,27 +135,7 @@ ReferenceDistance referenceDistance(const ReferenceBody& a, const ReferenceBody&
       flattest = across.norm();
       best = {-sA - sB, std::hypot(core, across.norm()) - core, n, {ya + a.r * n, yb - b.r * n}};
     }
-    const Vector3L g = core > 0 ? across : d;
-    const auto side = [&](const Vector2L& c) { return g.dot(z + c.x() * x + c.y() * y); };
-    std::vector<Vector2L> kept;
-    for (std::size_t k = 0; k < region.size(); ++k) {
-      const Vector2L &from = region[k], &to = region[(k + 1) % region.size()];
-      const long double f = side(from), t = side(to);
-      if (f >= 0) kept.push_back(from);
-      if ((f < 0) != (t < 0)) kept.push_back(from + (to - from) * (f / (f - t)));
-    }
-    if (kept.size() < 3) break;
-    region = kept;
-    long double area = 0;
-    Vector2L sum(0, 0);
-    for (std::size_t k = 1; k + 1 < region.size(); ++k) {
-      const Vector2L p = region[k] - region[0], q = region[k + 1] - region[0];
-      const long double w = p.x() * q.y() - p.y() * q.x();
-      area += w;
-      sum += w * (p + q) / 3;
-    }
-    if (!(area > 0)) break;
-    at = region[0] + sum / area;
+    if (!left.cut(core > 0 ? across : d)) break;
   }
   return best;
 }

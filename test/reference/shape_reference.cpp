@@ -3,11 +3,12 @@
 #include <cmath>
 #include <limits>
 
+#include "test/reference/normal_polygon.h"
+
 namespace fcl_stpbv::test {
 
 namespace {
 using Matrix3L = Eigen::Matrix<long double, 3, 3>;
-using Vector2L = Eigen::Matrix<long double, 2, 1>;
 
 /// Furthest point of a shape along `d` in its own frame, from the shape's numbers.
 Vector3L furthest(const TestShape& test, const Vector3L& d) {
@@ -45,35 +46,13 @@ ReferenceAnswer widestGap(const Look& look, long double margins, const Vector3L&
   Trial x = look(towards.normalized());
   Trial best = x;
   const Vector3L z = x.gap > 0 ? x.n : x.difference.normalized();
-  const Vector3L e1 = z.unitOrthogonal(), e2 = z.cross(e1);
-  std::vector<Vector2L> region{{-1e4L, -1e4L}, {1e4L, -1e4L}, {1e4L, 1e4L}, {-1e4L, 1e4L}};
+  NormalPolygon left(z, 1e4L);
   for (int i = 0; i < 300; ++i) {
-    const Vector3L g = x.gap > 0 ? Vector3L(x.difference - x.difference.dot(x.n) * x.n) : x.difference;
-    const auto side = [&](const Vector2L& c) { return g.dot(z + c.x() * e1 + c.y() * e2); };
-    std::vector<Vector2L> kept;
-    for (std::size_t k = 0; k < region.size(); ++k) {
-      const Vector2L &from = region[k], &to = region[(k + 1) % region.size()];
-      const long double f = side(from), t = side(to);
-      if (f >= 0) kept.push_back(from);
-      if ((f < 0) != (t < 0)) kept.push_back(from + (to - from) * (f / (f - t)));
-    }
-    if (kept.size() < 3) break;
-    region = kept;
-    long double area = 0, size = 0;
-    Vector2L sum(0, 0);
-    for (std::size_t k = 1; k + 1 < region.size(); ++k) {
-      const Vector2L p = region[k] - region[0], q = region[k + 1] - region[0];
-      const long double w = p.x() * q.y() - p.y() * q.x();
-      area += w;
-      sum += w * (p + q) / 3;
-      size = std::max({size, p.norm(), q.norm()});
-    }
-    if (!(area > 0)) break;
-    const Vector2L at = region[0] + sum / area;
-    x = look((z + at.x() * e1 + at.y() * e2).normalized());
+    if (!left.cut(x.gap > 0 ? Vector3L(x.difference - x.difference.dot(x.n) * x.n) : x.difference)) break;
+    x = look(left.centre().normalized());
     if (x.gap > best.gap) best = x;
     // What is left can raise the gap by no more than its width times the farthest lever.
-    if (size * x.difference.norm() < 1e-16L * (1 + at.squaredNorm())) break;
+    if (left.size() * x.difference.norm() < 1e-16L * left.centre().squaredNorm()) break;
   }
   return {best.gap - margins, best.n, !(best.gap > 0)};
 }
