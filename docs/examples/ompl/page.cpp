@@ -1,0 +1,93 @@
+// See page.h. Bodies are drawn as the outlines of their volumes, seen along the y axis.
+#include "page.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "fcl_stpbv/report/outline.h"
+
+namespace example {
+
+using namespace fcl_stpbv;
+using Eigen::Vector2d;
+
+namespace {
+
+constexpr double kScale = 400;  // pixels a metre
+constexpr int kWidth = 760, kHeight = 720;
+
+double cross(const Vector2d& o, const Vector2d& a, const Vector2d& b) {
+  return (a.x() - o.x()) * (b.y() - o.y()) - (a.y() - o.y()) * (b.x() - o.x());
+}
+
+/// Andrew's monotone chain.
+std::vector<Vector2d> hullOf(std::vector<Vector2d> points) {
+  std::sort(points.begin(), points.end(), [](const Vector2d& p, const Vector2d& q) {
+    return p.x() != q.x() ? p.x() < q.x() : p.y() < q.y();
+  });
+  std::vector<Vector2d> hull;
+  for (int side = 0; side < 2; ++side) {
+    const std::size_t begin = hull.size();
+    for (const Vector2d& p : points) {
+      while (hull.size() >= begin + 2 && cross(hull[hull.size() - 2], hull.back(), p) <= 0) hull.pop_back();
+      hull.push_back(p);
+    }
+    hull.pop_back();
+    std::reverse(points.begin(), points.end());
+  }
+  return hull;
+}
+
+std::string polygonOf(const fcl::CollisionGeometryd& geometry, const Eigen::Isometry3d& pose,
+                      const std::string& style) {
+  std::vector<Vector2d> seen;
+  for (const Eigen::Vector3d& p : report::outline(geometry, 2e-3, 60).vertices) {
+    const Eigen::Vector3d w = pose * p;
+    seen.push_back({200 + kScale * w.x(), kHeight - 20 - kScale * w.z()});
+  }
+  if (seen.size() < 3) return "";
+  std::string text = "<polygon points=\"";
+  for (const Vector2d& p : hullOf(seen)) {
+    char point[40];
+    std::snprintf(point, sizeof point, "%.1f,%.1f ", p.x(), p.y());
+    text += point;
+  }
+  return text + "\" style=\"" + style + "\"/>\n";
+}
+
+std::string robotAt(const Scene& scene, const Eigen::VectorXd& q, const std::string& style) {
+  Kinematics::State state = scene.kinematics->makeState();
+  scene.kinematics->forward(q, state);
+  std::string text;
+  for (const Body& body : scene.smooth->bodies)
+    text += polygonOf(*body.geometry, state.link[static_cast<std::size_t>(body.link)] * body.pose, style);
+  return text;
+}
+
+}  // namespace
+
+std::string pageOf(const Scene& scene, const report::TrajectoryReport& followed, const std::string& figures) {
+  std::string picture = "<svg width=\"" + std::to_string(kWidth) + "\" height=\"" + std::to_string(kHeight) +
+                        "\" role=\"img\" aria-label=\"the robot along its way\">\n";
+  for (const Obstacle& obstacle : scene.obstacles)
+    picture += polygonOf(*obstacle.geometry, obstacle.pose, "fill:#d9a441;fill-opacity:0.35;stroke:#8a6410");
+  constexpr int kDrawn = 7;
+  const double last = followed.trajectory.time.back();
+  for (int i = 0; i < kDrawn; ++i) {
+    const bool end = i == 0 || i == kDrawn - 1;
+    picture += robotAt(scene, followed.at(last * i / (kDrawn - 1)),
+                       end ? "fill:#3b6ea8;fill-opacity:0.25;stroke:#24476e"
+                           : "fill:none;stroke:#3b6ea8;stroke-opacity:0.35");
+  }
+  return "<!DOCTYPE html>\n<html lang=\"en\"><meta charset=\"utf-8\"><title>A planned way to the "
+         "can</title>\n"
+         "<style>body{font:15px sans-serif;max-width:60em;margin:2em auto}</style>\n<h1>A planned way to the "
+         "can</h1>\n<pre>" +
+         figures +
+         "</pre>\n<h2>From the side</h2>\n<p>Both ends filled, five times between them; the fridge in "
+         "yellow.</p>\n" +
+         picture + "</svg>\n<h2>Least distance of all pairs along the way</h2>\n" +
+         report::chartOf(followed, 0) + "</html>\n";
+}
+
+}  // namespace example

@@ -1,0 +1,244 @@
+// Plans the upper body's way to the can with OMPL's RRT-Connect, motions judged by proofs, and beside it with
+// `fcl::collide` on the hulls and OMPL's sampled motions, and tells by proof how many of those paths collide.
+//   example_ompl DATA_FOLDER [RUNS [PAGE.html]]      the data folder of the project; RUNS of each
+#include <ompl/base/ScopedState.h>
+#include <ompl/geometric/PathSimplifier.h>
+#include <ompl/geometric/planners/rrt/RRTConnect.h>
+#include <ompl/util/RandomNumbers.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <exception>
+
+#include "fcl_stpbv/error.h"
+#include "fcl_stpbv/io/atomic_write.h"
+#include "fcl_stpbv/report/trajectory.h"
+#include "page.h"
+#include "test/reference/arguments.h"
+#include "validity.h"
+
+using namespace fcl_stpbv;
+using namespace example;
+namespace og = ompl::geometric;
+using Path = std::vector<Eigen::VectorXd>;
+
+namespace {
+
+double secondsSince(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+ob::SpaceInformationPtr spaceOf(const Scene& scene) {
+  auto space = std::make_shared<ob::RealVectorStateSpace>(static_cast<unsigned>(scene.coordinates.size()));
+  ob::RealVectorBounds bounds(static_cast<unsigned>(scene.coordinates.size()));
+  for (std::size_t i = 0; i < scene.coordinates.size(); ++i) {
+    bounds.setLow(static_cast<unsigned>(i), scene.kinematics->lower()[scene.coordinates[i]]);
+    bounds.setHigh(static_cast<unsigned>(i), scene.kinematics->upper()[scene.coordinates[i]]);
+  }
+  space->setBounds(bounds);
+  return std::make_shared<ob::SpaceInformation>(space);
+}
+
+struct Plan {
+  bool found = false;
+  double seconds = 0;
+  Path path;
+};
+
+/// RRT-Connect, then OMPL's simplifier, which prefers clearance where there is an objective.
+Plan planned(const Scene& scene, const ob::SpaceInformationPtr& space,
+             const ob::OptimizationObjectivePtr& objective) {
+  constexpr double kMostSeconds = 20;
+  ob::ScopedState<ob::RealVectorStateSpace> start(space), goal(space);
+  for (std::size_t i = 0; i < scene.coordinates.size(); ++i) {
+    start->values[i] = scene.start[scene.coordinates[i]];
+    goal->values[i] = scene.goal[scene.coordinates[i]];
+  }
+  auto problem = std::make_shared<ob::ProblemDefinition>(space);
+  problem->setStartAndGoalStates(start, goal);
+  if (objective) problem->setOptimizationObjective(objective);
+  og::RRTConnect planner(space);
+  planner.setProblemDefinition(problem);
+  planner.setup();
+  const auto begin = std::chrono::steady_clock::now();
+  Plan plan;
+  plan.found = planner.ob::Planner::solve(kMostSeconds) == ob::PlannerStatus::EXACT_SOLUTION;
+  if (!plan.found) return plan;
+  auto& path = *problem->getSolutionPath()->as<og::PathGeometric>();
+  og::PathSimplifier(space, problem->getGoal(), objective).simplifyMax(path);
+  plan.seconds = secondsSince(begin);
+  for (const ob::State* state : path.getStates()) plan.path.push_back(scene.whole(valuesOf(state)));
+  return plan;
+}
+
+/// A way point pulled towards the middle of its neighbours, and pushed away from pairs nearer than
+/// `clearance` along their gradients.
+Eigen::VectorXd moved(const Scene& scene, CollisionConstraints& rows, const Eigen::VectorXd& before,
+                      const Eigen::VectorXd& q, const Eigen::VectorXd& after, double clearance) {
+  Eigen::VectorXd d(rows.rows()), push = Eigen::VectorXd::Zero(q.size());
+  auto jacobian = rows.makeJacobian();
+  rows.evaluate(q, d, jacobian);
+  for (int row = 0; row < rows.rows(); ++row)
+    if (d[row] < clearance) {
+      const Eigen::VectorXd slope = jacobian.row(row).transpose();
+      push += (clearance - d[row]) / std::max(slope.squaredNorm(), 1e-6) * slope;
+    }
+  Eigen::VectorXd next = q;
+  for (const int k : scene.coordinates)
+    next[k] += 0.3 * (0.5 * (before[k] + after[k]) - q[k]) + 0.5 * push[k];
+  return next.cwiseMax(scene.kinematics->lower()).cwiseMin(scene.kinematics->upper());
+}
+
+/// A step stays only where both motions beside it are proven free.
+void shorten(const Scene& scene, MotionCheck& check, CollisionConstraints& rows, Path& path) {
+  constexpr int kRounds = 20;
+  constexpr double kClearance = 0.02;  // m
+  for (int round = 0; round < kRounds; ++round)
+    for (std::size_t i = 1; i + 1 < path.size(); ++i) {
+      const Eigen::VectorXd next = moved(scene, rows, path[i - 1], path[i], path[i + 1], kClearance);
+      if (check.isMotionFree(path[i - 1], next) && check.isMotionFree(next, path[i + 1])) path[i] = next;
+    }
+}
+
+/// With way points in between, so that there is something to move.
+Path divided(const Path& path, double most) {
+  Path finer{path[0]};
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    const int parts = std::max(1, static_cast<int>(std::ceil((path[i] - path[i - 1]).norm() / most)));
+    for (int k = 1; k <= parts; ++k)
+      finer.push_back(path[i - 1] + static_cast<double>(k) / parts * (path[i] - path[i - 1]));
+  }
+  return finer;
+}
+
+double lengthOf(const Path& path) {
+  double length = 0;
+  for (std::size_t i = 1; i < path.size(); ++i) length += (path[i] - path[i - 1]).norm();
+  return length;
+}
+
+bool provenFree(MotionCheck& check, const Path& path) {
+  for (std::size_t i = 1; i < path.size(); ++i)
+    if (!check.isMotionFree(path[i - 1], path[i])) return false;
+  return true;
+}
+
+template <class... Values>
+std::string line(const char* format, Values... values) {
+  char text[400];
+  std::snprintf(text, sizeof text, format, values...);
+  return text;
+}
+
+/// What several runs of one way of planning came to.
+struct Sum {
+  int found = 0, colliding = 0;
+  double seconds = 0;
+  Count motions, states;
+  Path best;
+
+  void add(const Plan& plan) {
+    if (!plan.found) return;
+    ++found;
+    seconds += plan.seconds;
+    if (best.empty() || lengthOf(plan.path) < lengthOf(best)) best = plan.path;
+  }
+  static void add(Count& sum, const Count& part) {
+    sum.asked += part.asked;
+    sum.seconds += part.seconds;
+  }
+  std::string text(const char* name, int runs) const {
+    const auto each = [](const Count& c) {
+      return c.asked ? 1e9 * c.seconds / static_cast<double>(c.asked) : 0.0;
+    };
+    return line(
+        "%-8s %d of %d planned, %.3f s each; %ld motions, %.0f ns a check; %ld states, %.0f ns a check\n",
+        name, found, runs, seconds / std::max(1, found), motions.asked, each(motions), states.asked,
+        each(states));
+  }
+};
+
+void planByProofs(const Scene& scene, MotionCheck& check, CollisionConstraints& rows, Sum& sum) {
+  const ob::SpaceInformationPtr space = spaceOf(scene);
+  const auto states = std::make_shared<SmoothStates>(space, scene, check, rows);
+  const auto motions = std::make_shared<ProvenMotions>(space, scene, check);
+  space->setStateValidityChecker(states);
+  space->setMotionValidator(motions);
+  space->setup();
+  sum.add(planned(scene, space, std::make_shared<Clearance>(space)));
+  Sum::add(sum.motions, motions->count);
+  Sum::add(sum.states, states->count);
+}
+
+void planBySamples(const Scene& scene, MotionCheck& hulls, Sum& sum) {
+  const ob::SpaceInformationPtr space = spaceOf(scene);
+  const auto states = std::make_shared<HullStates>(space, scene);
+  space->setStateValidityChecker(states);  // and the default motion validator, at its default resolution
+  space->setup();
+  const Plan plan = planned(scene, space, nullptr);
+  sum.add(plan);
+  sum.colliding += plan.found && !provenFree(hulls, plan.path);
+  Sum::add(sum.states, states->count);
+}
+
+int run(const std::string& data, int runs, const std::string& page) {
+  const Scene scene = loadScene(data);
+  MotionCheck smooth(scene.kinematics, scene.smooth, scene.pairs, scene.obstacles);
+  MotionCheck hulls(scene.kinematics, scene.hulls, scene.pairs, scene.hullObstacles);
+  ConstraintOptions options;
+  options.obstacles = scene.obstacles;
+  CollisionConstraints rows(scene.kinematics, scene.smooth, scene.pairs, options);
+  if (!smooth.isFree(scene.start) || !smooth.isFree(scene.goal))
+    throw Error("the start or the goal collides");
+  std::string figures = line("%zu coordinates, %zu pairs\n", scene.coordinates.size(), scene.pairs.size());
+  Sum proofs, samples;
+  for (int i = 0; i < runs; ++i) {
+    planByProofs(scene, smooth, rows, proofs);
+    planBySamples(scene, hulls, samples);
+  }
+  figures +=
+      proofs.text("proofs:", runs) + samples.text("samples:", runs) +
+      line("%d of the %d sampled paths collide in between, by proof\n", samples.colliding, samples.found);
+  if (proofs.best.empty()) {
+    std::printf("%s", figures.c_str());
+    return 1;
+  }
+  Path path = divided(proofs.best, 0.5);
+  const auto begin = std::chrono::steady_clock::now();
+  shorten(scene, smooth, rows, path);
+  const double seconds = secondsSince(begin);
+  report::Trajectory way{path, {}, false};
+  for (std::size_t i = 0; i < path.size(); ++i) way.time.push_back(static_cast<double>(i));
+  const report::TrajectoryReport followed =
+      report::follow(way, scene.kinematics, scene.smooth, scene.pairs, scene.obstacles, 0);
+  double clearance = std::numeric_limits<double>::infinity();
+  for (const Approach& approach : followed.closest) clearance = std::min(clearance, approach.distance);
+  const bool good = followed.verdict == MotionVerdict::free;
+  figures += line("path: %.3f rad, with gradients %.3f rad in %.3f s, clearance %.1f mm, %s\n",
+                  lengthOf(proofs.best), lengthOf(path), seconds, 1e3 * clearance,
+                  good ? "proven free" : "NOT proven free");
+  std::printf("%s", figures.c_str());
+  if (!page.empty()) detail::writeOutput(page, pageOf(scene, followed, figures));
+  return good ? 0 : 1;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const test::Arguments arguments(argc, argv, "DATA_FOLDER [RUNS [PAGE.html]]", 3);
+  const std::string data = arguments.text(1, "");
+  const int runs = arguments.number(2, 1);
+  if (data.empty()) {
+    std::fprintf(stderr, "usage: %s DATA_FOLDER [RUNS [PAGE.html]]\n", argv[0]);
+    return 2;
+  }
+  ompl::RNG::setSeed(1);
+  ompl::msg::setLogLevel(ompl::msg::LOG_ERROR);
+  try {
+    return run(data, runs, arguments.text(3, ""));
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 2;
+  }
+}

@@ -1,0 +1,26 @@
+// A humanoid before a fridge: its upper body is planned for, from standing to a posture that holds the can.
+#pragma once
+
+#include <vector>
+
+#include "fcl_stpbv/robot/motion_check.h"
+
+namespace example {
+
+struct Scene {
+  std::shared_ptr<const fcl_stpbv::Kinematics> kinematics;
+  std::shared_ptr<const fcl_stpbv::RobotGeometry> smooth,
+      hulls;  ///< STP-BVs, and the plain hulls of the meshes
+  std::vector<fcl_stpbv::Obstacle> obstacles, hullObstacles;
+  std::vector<fcl_stpbv::CheckedPair> pairs;
+  Eigen::VectorXd start, goal;   ///< all coordinates; they differ in the planned ones alone
+  std::vector<int> coordinates;  ///< planned: chest, head and arms
+
+  Eigen::VectorXd whole(const double* planned) const;
+};
+
+/// From a project's data folder; the goal is what the posture generator finds for the task pick_can.json.
+/// @throws fcl_stpbv::Error.
+Scene loadScene(const std::string& data);
+
+}  // namespace example
