@@ -164,7 +164,7 @@ int main(int argc, char** argv) {
   double r = 0.01;
   std::vector<std::string> chosen = tasks();
   std::string output;
-  app.option("--runs", runs, "seeds a row").whole(1).shown();
+  app.option("--runs", runs, "seeds a row").whole(1, 100000).shown();
   app.option("--first-seed", first, "of the runs").whole(0, 1000000).shown();
   app.option("--task", chosen, "only these").oneOf(tasks());
   app.option("--r", r, "of the rounded hulls and the volumes (m)").number(1e-4, 0.03).shown();
