@@ -45,6 +45,7 @@ struct Arguments {
   std::string format = "text", output;
   std::size_t top = 20;
   bool disableDefault = false, quiet = false;
+  std::string parts = "none";
 };
 
 void describe(Program& app, Arguments& a) {
@@ -65,6 +66,11 @@ void describe(Program& app, Arguments& a) {
          "--polyhedra", request.polyhedra,
          "Folder of polyhedra published for the meshes, MESH-ch.txt or MESH.otp: tells how far they differ")
       .type("FOLDER");
+  app.option(
+         "--parts", a.parts,
+         "Convex parts of concave links: none; auto, where a pair collides by its hulls alone; or a number, "
+         "at most so many of every link")
+      .shown();
   app.option("--top", a.top, "Lines of each list in the text, and warnings shown").whole().shown();
   app.option("--margin", request.search.margin, "A distance not above it counts as a collision")
       .number(-kLargest, kLargest)
@@ -82,6 +88,18 @@ void describe(Program& app, Arguments& a) {
       .whole(1, kMostJobs)
       .shown();
   app.flag("-q,--quiet", a.quiet, "No progress bar and no warnings");
+}
+
+void takeParts(const std::string& parts, ReportRequest& request) {
+  constexpr int kMost = 64;  // more make rows without end
+  request.partsAuto = parts == "auto";
+  if (parts == "none" || parts == "auto") return;
+  const bool digits =
+      !parts.empty() && parts.size() < 3 && parts.find_first_not_of("0123456789") == std::string::npos;
+  request.partsAll = digits ? std::stoi(parts) : 0;
+  if (request.partsAll < 2 || request.partsAll > kMost)
+    throw Error("--parts " + parts + ": expected none, auto or a whole number from 2 to " +
+                std::to_string(kMost));
 }
 
 std::string written(const CollisionReport& report, const Arguments& a) {
@@ -124,6 +142,7 @@ int run(Arguments& a) {
     throw Error("--trajectory " + a.request.trajectory +
                 ": cannot be given with --pose; leave one of them out");
   a.request.files = filesOf(a.robot);
+  takeParts(a.parts, a.request);
   Stages stages(!a.quiet);
   a.request.files.geometry.progress = a.request.search.progress = std::ref(stages);
   const CollisionReport report = makeReport(a.request);

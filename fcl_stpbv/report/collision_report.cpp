@@ -2,7 +2,8 @@
 // 1. the pair list with its reasons (robot/pair_list.h);
 // 2. each checked pair in the given posture or its closest one: distances of volumes, hulls and meshes,
 //    gradient;
-// 3. how far the links' volumes exceed their meshes, and what each collision comes from.
+// 3. with --parts, both again with the links split that need it (parts_choice.h);
+// 4. how far the links' volumes exceed their meshes, and what each collision comes from.
 #include "fcl_stpbv/report/collision_report.h"
 
 #include <algorithm>
@@ -13,6 +14,7 @@
 #include "fcl_stpbv/report/named_posture.h"
 #include "fcl_stpbv/report/pair_cause.h"
 #include "fcl_stpbv/report/pair_measure.h"
+#include "fcl_stpbv/report/parts_choice.h"
 #include "fcl_stpbv/report/report_warnings.h"
 #include "fcl_stpbv/report/tick_time.h"
 #include "fcl_stpbv/report/trajectory_file.h"
@@ -57,7 +59,6 @@ Postures load(const ReportRequest& request, RobotLoader& loader, CollisionReport
   report.skipped = loader.skipped();
   report.warnings = loader.warnings();
   report.pose = request.pose;
-  if (!request.polyhedra.empty()) report.polyhedra = comparePolyhedra(*report.geometry, request.polyhedra);
   return postures;
 }
 
@@ -108,6 +109,7 @@ void placeOnTrajectory(const TrajectoryReport& trajectory, std::size_t first, st
 // What the search and the SRDF say about a pair.
 PairReport said(const PairEntry& entry, const CollisionReport& report, const Srdf* srdf) {
   PairReport pair;
+  pair.links = entry;
   pair.link1 = report.robot->links[at(entry.link1)].name;
   pair.obstacle = entry.obstacle;
   pair.link2 = nameOfSecond(entry, report);
@@ -151,22 +153,13 @@ void summarise(CollisionReport& report) {
   }
 }
 
-}  // namespace
-
-CollisionReport makeReport(const ReportRequest& request) {
-  CollisionReport report;
-  RobotLoader loader(request.files);
-  const Postures postures = load(request, loader, report);
-  const Srdf* srdf = loader.srdf().get();
-
-  PairListOptions search = request.search;
-  search.obstacles = report.obstacles;
-  search.neutral = postures.neutral;
+// The pair list, and every pair in its configuration, with the bodies that report.geometry holds.
+void examine(const ReportRequest& request, const PairListOptions& search, const Postures& postures,
+             const Srdf* srdf, PairCauses& causes, CollisionReport& report) {
   report.list = pairList(report.kinematics, report.geometry, srdf, search);
-
-  PairCauses causes(report.kinematics, report.geometry, report.obstacles, loader.sceneGeometry());
-  for (const Body& body : report.geometry->bodies) report.fits.push_back(meshFit(body, causes.exact(body)));
-  report.margin = search.margin;
+  report.pairs.clear();
+  report.trajectory.reset();
+  report.trajectoryPairs.clear();
   std::vector<std::size_t> firstBodies;
   if (!request.trajectory.empty()) firstBodies = followTrajectory(request, postures.trajectory, srdf, report);
   for (std::size_t i = 0; i < report.list.size(); ++i) {
@@ -186,16 +179,70 @@ CollisionReport makeReport(const ReportRequest& request) {
     explain(bodies, search.margin, causes, pair);
     report.pairs.push_back(std::move(pair));
   }
+}
+
+std::vector<CheckedPair> rowsOf(const CollisionReport& report, const RobotGeometry& geometry) {
+  std::vector<CheckedPair> rows;
+  for (const PairReport& pair : report.pairs) {
+    if (!pair.checked) continue;
+    const std::vector<CheckedPair> bodies = bodiesOf(geometry, pair.links);
+    rows.insert(rows.end(), bodies.begin(), bodies.end());
+  }
+  return rows;
+}
+
+}  // namespace
+
+CollisionReport makeReport(const ReportRequest& request) {
+  CollisionReport report;
+  RobotLoader loader(request.files);
+  const Postures postures = load(request, loader, report);
+  const Srdf* srdf = loader.srdf().get();
+  PairListOptions search = request.search;
+  search.obstacles = report.obstacles;
+  search.neutral = postures.neutral;
+  report.margin = search.margin;
+
+  // With the whole bodies first; then, as long as splitting links helps, with the parts.
+  const std::shared_ptr<const RobotGeometry> whole = report.geometry;
+  const bool split = request.partsAuto || request.partsAll > 1;
+  PartsChoice parts(whole);
+  std::optional<PairCauses> causes;
+  constexpr int kMostRounds = 4;  // whole, and with two, four and eight parts
+  for (int round = 0;; ++round) {
+    causes.emplace(report.kinematics, report.geometry, report.obstacles, loader.sceneGeometry());
+    examine(request, search, postures, srdf, *causes, report);
+    if (!split || round + 1 == kMostRounds) break;
+    if (request.partsAuto && !parts.refine(report, *causes, postures.neutral)) break;
+    if (!request.partsAuto && round > 0) break;
+    if (!request.partsAuto) parts.splitAll(report, request.partsAll);
+    report.geometry = parts.geometry();
+  }
+  for (const Body& body : report.geometry->bodies) report.fits.push_back(meshFit(body, causes->exact(body)));
+  if (!request.polyhedra.empty()) report.polyhedra = comparePolyhedra(*report.geometry, request.polyhedra);
   summarise(report);
   requirePairs(at(report.checked), *report.robot, countsOf(report.list));
 
   report.neutral =
       judgeNeutral(report.kinematics, report.geometry, report.list, postures.neutral, srdf, search.margin);
-  const std::vector<std::string> warnings = reportWarnings(report, request.neutral, causes);
+  const std::vector<std::string> warnings = reportWarnings(report, request.neutral, *causes);
   report.warnings.insert(report.warnings.end(), warnings.begin(), warnings.end());
-  const double tick = tickTime(report, postures.asked.value_or(report.kinematics->neutral()), search.threads);
-  report.usPerTick = tick * 1e6;
-  report.nsPerPair = tick * 1e9 / report.checked;
+  const auto tick = [&](const std::shared_ptr<const RobotGeometry>& geometry,
+                        const std::vector<CheckedPair>& rows) {
+    return tickTime(report, geometry, rows, postures.asked.value_or(report.kinematics->neutral()),
+                    search.threads);
+  };
+  const double closest = tick(report.geometry, closestBodies(report));
+  report.usPerTick = closest * 1e6;
+  report.nsPerPair = closest * 1e9 / report.checked;
+  if (split) {
+    const auto cost = [&](const std::shared_ptr<const RobotGeometry>& geometry) {
+      const std::vector<CheckedPair> rows = rowsOf(report, *geometry);
+      return RowCost{static_cast<int>(rows.size()), tick(geometry, rows) * 1e6};
+    };
+    report.wholeCost = cost(whole);
+    report.partsCost = cost(report.geometry);
+  }
   return report;
 }
 

@@ -26,12 +26,15 @@ struct ReportRequest {
   std::string
       trajectory;       ///< file of way points that pairs are followed along (trajectory_file.h), "" for none
   std::string neutral;  ///< as pose, "" for all joints at zero or at the limit nearest to it
-  std::string polyhedra;  ///< folder of published ones, "" for none
+  std::string polyhedra;   ///< folder of published ones, "" for none
+  bool partsAuto = false;  ///< concave links are split for the pairs that collide by their hulls alone
+  int partsAll = 1;        ///< or all of them into so many at most, for all pairs
   PairListOptions search;
 };
 
 /// One pair of links, or a link and an obstacle, in the posture asked for or in its closest configuration.
 struct PairReport {
+  LinkPair links;
   std::string link1, link2;
   bool obstacle = false;   ///< link2 is an obstacle's name
   std::string reason;      ///< what the search says
@@ -63,6 +66,12 @@ struct PairReport {
   bool contradictsSrdf = false;  ///< which leaves the pair out as never or adjacent, and it collides
 };
 
+/// What parts cost: the rows of a controller that keeps all checked pairs of bodies apart.
+struct RowCost {
+  int rows = 0;
+  double usPerTick = 0;  ///< with their Jacobian, in small steps
+};
+
 struct CollisionReport {
   std::shared_ptr<const RobotModel> robot;
   std::shared_ptr<const RobotGeometry> geometry;
@@ -83,6 +92,7 @@ struct CollisionReport {
   std::map<std::string, int> causes;    ///< of the checked pairs in collision, how many of each
   double minDistance = 0;               ///< of the checked pairs (m)
   double nsPerPair = 0, usPerTick = 0;  ///< of all checked pairs with their Jacobian, in small steps
+  RowCost wholeCost, partsCost;         ///< of whole bodies, and with those parts that are taken; 0 without
 };
 
 /// @throws Error naming the file or the argument.

@@ -13,12 +13,13 @@ MeshFit meshFit(const Body& body, const ExactBody& exact) {
     options.relative = 0.02;  // a report's figure, not a proof's
     options.queries = 20000;  // a tenth of a second
     options.filled = false;
-    const MeshExcess excess = hullExcess(solid->pieces().vertices, *solid, options);
+    const MeshExcess excess =
+        hullExcess(body.partOf < 0 ? solid->pieces().vertices : body.hull, *solid, options);
     fit.hullExcess = excess.upper;
     fit.hullExcessSeen = excess.lower;
   }
   fit.volumeExcess = fit.hullExcess + body.cover.max;
-  if (body.volume)
+  if (body.volume && body.partOf < 0)
     fit.volumeRatio =
         enclosedVolume(*body.volume) / (body.primitive ? body.primitive->computeVolume() : exact.volume());
   return fit;

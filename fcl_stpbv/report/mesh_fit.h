@@ -14,7 +14,7 @@ struct MeshFit {
   /// The same of the volume's surface, at most: the volume exceeds the hull by `Body::cover` at most.
   double volumeExcess = 0;
   /// Volume enclosed by the smooth surface as a multiple of the mesh's or the primitive's; NaN where the mesh
-  /// is open or the body is flat.
+  /// is open, the body flat or a part.
   double volumeRatio = std::numeric_limits<double>::quiet_NaN();
 };
 

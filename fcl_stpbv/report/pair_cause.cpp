@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <limits>
 #include <numeric>
+#include <set>
 
+#include "fcl_stpbv/adapter/hull_geometry.h"
 #include "fcl_stpbv/adapter/proximity.h"
 
 namespace fcl_stpbv::report {
@@ -25,18 +27,29 @@ PairCauses::PairCauses(std::shared_ptr<const Kinematics> kinematics,
       obstacles_(std::move(obstacles)) {}
 
 const ExactBody& PairCauses::exact(const Body& body) {
-  std::unique_ptr<ExactBody>& place = exact_[&body];
-  if (!place) place = std::make_unique<ExactBody>(body);
+  const Body& whole = body.partOf < 0 ? body : robot_->bodies[at(body.partOf)];
+  std::unique_ptr<ExactBody>& place = exact_[&whole];
+  if (!place) place = std::make_unique<ExactBody>(whole);
+  return *place;
+}
+
+const fcl::CollisionGeometryd& PairCauses::hull(const Body& body) {
+  if (body.partOf < 0) return exact(body).hull();
+  auto& place = partHulls_[&body];
+  if (!place) place = detail::hullGeometry(body.hull);
   return *place;
 }
 
 PairCauses::Placed PairCauses::first(const CheckedPair& pair, const Kinematics::State& state) {
   const Body& body = robot_->bodies[at(pair.body)];
-  return {&exact(body), state.link[at(body.link)] * body.pose};
+  return {&exact(body), &hull(body), state.link[at(body.link)] * body.pose};
 }
 
 PairCauses::Placed PairCauses::second(const CheckedPair& pair, const Kinematics::State& state) {
-  if (pair.obstacle) return {&exact(scene_->bodies[at(pair.other)]), obstacles_[at(pair.other)].pose};
+  if (pair.obstacle) {
+    const Body& body = scene_->bodies[at(pair.other)];
+    return {&exact(body), &hull(body), obstacles_[at(pair.other)].pose};
+  }
   return first({pair.other, pair.body}, state);
 }
 
@@ -52,15 +65,16 @@ PairCause PairCauses::explain(const std::vector<CheckedPair>& bodies, const Eige
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return d[a] < d[b]; });
   PairCause found{std::numeric_limits<double>::infinity(), ""};
   bool hulls = false;
+  std::set<std::pair<const ExactBody*, const ExactBody*>> measured;  // parts share their mesh
   for (const int row : order) {
     const Placed a = first(bodies[at(row)], constraints.state()),
                  b = second(bodies[at(row)], constraints.state());
     if (d[row] <= margin) {
       if (found.cause.empty()) found.cause = kMarginOnly;
-      hulls = hulls || !isFartherThan(margin, a.body->hull(), a.pose, b.body->hull(), b.pose);
+      hulls = hulls || !isFartherThan(margin, *a.hull, a.pose, *b.hull, b.pose);
     }
     // A volume contains its mesh, so meshes are at least as far apart as their volumes.
-    if (d[row] >= found.meshDistance) continue;
+    if (d[row] >= found.meshDistance || !measured.insert({a.body, b.body}).second) continue;
     const double least = std::max(0.0, constraints.answer(row).lower);
     found.meshDistance =
         std::min(found.meshDistance, meshDistance(*a.body, a.pose, *b.body, b.pose, least).upper);

@@ -32,13 +32,16 @@ class PairCauses {
   /// 0 at the latest where it is negative. `bodies` are those of one pair of links.
   PairCause explain(const std::vector<CheckedPair>& bodies, const Eigen::VectorXd& q, double margin);
 
+  /// What a body of the robot or the scene stands for; of a part, the whole mesh.
   const ExactBody& exact(const Body& body);
 
  private:
   struct Placed {
     const ExactBody* body;
+    const fcl::CollisionGeometryd* hull;
     Eigen::Isometry3d pose;
   };
+  const fcl::CollisionGeometryd& hull(const Body& body);
   Placed first(const CheckedPair& pair, const Kinematics::State& state);
   Placed second(const CheckedPair& pair, const Kinematics::State& state);
 
@@ -46,6 +49,7 @@ class PairCauses {
   std::shared_ptr<const RobotGeometry> robot_, scene_;
   std::vector<Obstacle> obstacles_;
   std::map<const Body*, std::unique_ptr<ExactBody>> exact_;
+  std::map<const Body*, std::shared_ptr<const fcl::CollisionGeometryd>> partHulls_;
 };
 
 }  // namespace fcl_stpbv::report

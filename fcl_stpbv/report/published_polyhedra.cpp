@@ -22,7 +22,7 @@ std::vector<PolyhedronReport> comparePolyhedra(const RobotGeometry& geometry, co
     const std::string stem = fs::path(body.file).stem().string();
     for (const char* ending : {"-ch.txt", ".otp"}) {
       const fs::path file = fs::path(folder) / (stem + ending);
-      if (body.volume && report.file.empty() && fs::is_regular_file(file, ignored))
+      if (body.volume && body.partOf < 0 && report.file.empty() && fs::is_regular_file(file, ignored))
         report.file = file.string();
     }
     if (!report.file.empty()) {

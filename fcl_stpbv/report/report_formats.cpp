@@ -78,6 +78,36 @@ std::string fits(const CollisionReport& report, std::size_t top) {
          "hull, volume: at most so far are their surfaces from the mesh; ratio: the volume's to the mesh's\n";
 }
 
+// The links that are split, for which pairs, and what that costs.
+std::string splits(const CollisionReport& report) {
+  if (report.partsCost.rows == 0) return "";
+  std::string text;
+  const std::vector<Body>& bodies = report.geometry->bodies;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (bodies[i].parts == 0) continue;
+    double excess = 0;
+    for (const Body& body : bodies)
+      if (body.partOf == static_cast<int>(i)) excess = std::max(excess, body.excess);
+    text += "  " + bodies[i].name +
+            formatted(" in %d parts, %.3f mm from the mesh at most, for", bodies[i].parts, excess * kMm);
+    std::size_t shown = 0, count = 0;
+    for (const PairReport& pair : report.pairs) {
+      const bool own =
+          pair.links.link1 == bodies[i].link || (!pair.obstacle && pair.links.link2 == bodies[i].link);
+      const int second = pair.obstacle ? -1 - pair.links.link2 : pair.links.link2;
+      if (!own || !report.geometry->takenByParts(pair.links.link1, second)) continue;
+      ++count;
+      if (shown++ < 3) text += (shown > 1 ? ", " : " ") + pair.link1 + " - " + pair.link2;
+    }
+    text += (count > 3 ? " and " + std::to_string(count - 3) + " more pairs\n" : "\n");
+  }
+  const std::string cost =
+      formatted("rows %d, %.1f us a tick with whole bodies; %d, %.1f us with parts\n", report.wholeCost.rows,
+                report.wholeCost.usPerTick, report.partsCost.rows, report.partsCost.usPerTick);
+  return (text.empty() ? "No link needs to be split into parts\n" : "Split into convex parts:\n" + text) +
+         cost;
+}
+
 // The meshes' volumes beside those of their published polyhedra, those that differ most first.
 std::string polyhedra(const CollisionReport& report, std::size_t top) {
   std::vector<std::size_t> order;
@@ -204,6 +234,7 @@ std::string toText(const CollisionReport& report, std::size_t top) {
   if (report.checked > 0)
     text += formatted("%.1f us for all checked pairs with gradients, %.0f ns a pair\n", report.usPerTick,
                       report.nsPerPair);
+  text += splits(report);
   text += formatted("\n%-44s %11s %11s %11s %-26s %s\n", "pair", "STP-BV [mm]", "hulls [mm]", "cover [mm]",
                     "reason", "steepest joint [m/rad]");
   std::size_t shown = 0;
@@ -245,6 +276,11 @@ std::string toJson(const CollisionReport& report) {
       link["over_cover_max"] = body.cover.max;
       link["over_cover_mean"] = body.cover.mean;
     }
+    if (body.parts > 0) link["parts"] = body.parts;
+    if (body.partOf >= 0) {
+      link["part_of"] = report.geometry->bodies[static_cast<std::size_t>(body.partOf)].name;
+      link["excess_max"] = body.excess;
+    }
     if (i < report.fits.size()) {
       link["hull_excess"] = report.fits[i].hullExcess;
       link["volume_excess"] = report.fits[i].volumeExcess;
@@ -262,31 +298,34 @@ std::string toJson(const CollisionReport& report) {
   }
   json["pairs"] = nlohmann::json::array();
   for (const PairReport& pair : report.pairs) {
-    json["pairs"].push_back({{"link1", pair.link1},
-                             {"link2", pair.link2},
-                             {"obstacle", pair.obstacle},
-                             {"reason", pair.reason},
-                             {"srdf_reason", pair.srdfReason},
-                             {"checked", pair.checked},
-                             {"distance", orNull(pair.answer.distance)},
-                             {"status", statusName(pair.answer.status)},
-                             {"continuous", pair.answer.continuous},
-                             {"point1", numbers(pair.answer.points[0])},
-                             {"point2", numbers(pair.answer.points[1])},
-                             {"normal", numbers(pair.answer.normal)},
-                             {"gradient", pair.gradient},
-                             {"over_cover1", pair.overCover1},
-                             {"over_cover2", pair.overCover2},
-                             {"hull_distance", orNull(pair.hullDistance)},
-                             {"mesh_distance", orNull(pair.meshDistance)},
-                             {"cause", pair.cause},
-                             {"lipschitz", orNull(pair.lipschitz)},
-                             {"time", orNull(pair.time)},
-                             {"min_distance", orNull(pair.minDistance)},
-                             {"closest", joints(pair.closest, *report.kinematics)},
-                             {"probability_bound", pair.probabilityBound},
-                             {"security_distance", pair.security},
-                             {"influence_distance", pair.influence}});
+    json["pairs"].push_back(
+        {{"link1", pair.link1},
+         {"link2", pair.link2},
+         {"obstacle", pair.obstacle},
+         {"reason", pair.reason},
+         {"srdf_reason", pair.srdfReason},
+         {"checked", pair.checked},
+         {"distance", orNull(pair.answer.distance)},
+         {"status", statusName(pair.answer.status)},
+         {"continuous", pair.answer.continuous},
+         {"point1", numbers(pair.answer.points[0])},
+         {"point2", numbers(pair.answer.points[1])},
+         {"normal", numbers(pair.answer.normal)},
+         {"gradient", pair.gradient},
+         {"over_cover1", pair.overCover1},
+         {"over_cover2", pair.overCover2},
+         {"hull_distance", orNull(pair.hullDistance)},
+         {"mesh_distance", orNull(pair.meshDistance)},
+         {"by_parts", report.geometry->takenByParts(
+                          pair.links.link1, pair.obstacle ? -1 - pair.links.link2 : pair.links.link2)},
+         {"cause", pair.cause},
+         {"lipschitz", orNull(pair.lipschitz)},
+         {"time", orNull(pair.time)},
+         {"min_distance", orNull(pair.minDistance)},
+         {"closest", joints(pair.closest, *report.kinematics)},
+         {"probability_bound", pair.probabilityBound},
+         {"security_distance", pair.security},
+         {"influence_distance", pair.influence}});
   }
   json["summary"] = {{"pairs_total", report.pairs.size()},
                      {"checked", report.checked},
@@ -296,6 +335,11 @@ std::string toJson(const CollisionReport& report) {
                      {"causes", report.causes},
                      {"ns_per_pair", report.nsPerPair},
                      {"us_per_tick", report.usPerTick}};
+  if (report.partsCost.rows > 0)
+    json["summary"]["rows"] = {{"whole", report.wholeCost.rows},
+                               {"whole_us_per_tick", report.wholeCost.usPerTick},
+                               {"parts", report.partsCost.rows},
+                               {"parts_us_per_tick", report.partsCost.usPerTick}};
   return json.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 

@@ -47,7 +47,7 @@ std::vector<Obstacle> obstaclesOf(std::shared_ptr<const RobotModel> scene, const
 /// without those of adjacent and rigidly joined links (adjacency.h).
 std::vector<CheckedPair> selfPairs(const RobotModel& robot, const RobotGeometry& geometry, const Srdf* srdf);
 
-/// Every body of one link against every body of the other.
+/// Every body of one link against every body of the other: their parts where the pair is taken by parts.
 std::vector<CheckedPair> pairsOfLinks(const RobotGeometry& geometry, int link1, int link2);
 
 /// Every body of a link against one obstacle.

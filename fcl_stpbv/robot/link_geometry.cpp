@@ -167,6 +167,16 @@ std::pair<int, int> RobotGeometry::of(int link) const {
   return {static_cast<int>(range.first - bodies.begin()), static_cast<int>(range.second - bodies.begin())};
 }
 
+bool RobotGeometry::takenByParts(int link1, int link2) const {
+  if (link2 >= 0 && link2 < link1) std::swap(link1, link2);
+  return byParts.count({link1, link2}) > 0;
+}
+
+bool RobotGeometry::counts(int body, bool inParts) const {
+  const Body& b = bodies[static_cast<std::size_t>(body)];
+  return inParts ? b.parts == 0 : b.partOf < 0;
+}
+
 namespace detail {
 
 ShapeSources readGeometry(const RobotModel& robot, const GeometryOptions& options, LoadFaults& faults) {

@@ -56,6 +56,10 @@ struct Body {
   Eigen::Vector3d centre;  ///< of a sphere that holds the body, in the link's frame
   double radius = 0;       ///< of that sphere (m)
   OverCover cover{0, 0};   ///< what the volume exceeds the mesh's hull or the primitive by (m)
+  int partOf = -1;    ///< index of the body that this is a convex part of (link_parts.h), -1 for a whole one
+  int parts = 0;      ///< of a whole body: how many parts stand for it in pairs taken by parts
+  double excess = 0;  ///< of a part: most that its hull exceeds the mesh's solid by (m)
+  std::vector<Eigen::Vector3d> hull;  ///< of a part: the corners of its hull, in the body's frame (m)
 };
 
 /// The bodies of all links.
@@ -63,7 +67,14 @@ struct RobotGeometry {
   std::vector<Body> bodies;           ///< in the order of the links
   std::vector<std::string> warnings;  ///< whole sentences, to be told to the user
   int fromCache = 0;                  ///< volumes that needed no building
+  /// Pairs of links (the smaller index first) that are taken by their bodies' parts. With an obstacle o the
+  /// second is -1 - o.
+  std::set<std::pair<int, int>> byParts;
 
+  /// Whether two links are taken by parts; the second may be -1 - o.
+  bool takenByParts(int link1, int link2) const;
+  /// Whether this body stands for its link where the pair is, or is not, taken by parts.
+  bool counts(int body, bool inParts) const;
   /// Bodies of a link: first index and one past the last.
   std::pair<int, int> of(int link) const;
 };

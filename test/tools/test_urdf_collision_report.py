@@ -380,6 +380,54 @@ class Report(unittest.TestCase):
         rows = list(csv.DictReader(io.StringIO(self.run_tool(robot, "--srdf", srdf, "--pose", pose, "--format", "csv").stdout)))
         self.assertLessEqual({"cause", "mesh_distance"}, set(rows[0]))
 
+    def slides_through_a_gate(self):
+        """A box that slides through the gap of a gate of two posts and never comes closer to them than 0.15 m."""
+        gate = self.boxes("gate.obj", 0.1, (-0.3, 0, 0), (0.3, 0, 0))
+        return (self.robot(link("gate", gate) + link("box", self.boxes("box.obj", 0.05, (0, 0, 0)))
+                           + link("far", self.boxes("far.obj", 0.1, (5, 0, 0), (5.4, 0, 0)))
+                           + '<joint name="slide" type="prismatic"><parent link="gate"/><child link="box"/><axis xyz="0 0 1"/>'
+                             '<limit lower="-1" upper="1" effort="1" velocity="1"/></joint>'
+                           + joint("turn", "gate", "far")),
+                "--srdf", self.put("none.srdf", '<robot name="small"/>'), "-r", "0.01", "--samples", "50")
+
+    def test_parts_clear_a_pair_that_only_its_hulls_make_collide(self):
+        robot = self.slides_through_a_gate()
+        whole = self.run_tool(*robot, "--format", "json")
+        self.assertEqual(whole.returncode, 1)
+        self.assertEqual(json.loads(whole.stdout)["summary"]["causes"], {"hull only": 1})
+        done = self.run_tool(*robot, "--parts", "auto", "--format", "json")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        report = json.loads(done.stdout)
+        pair = next(p for p in report["pairs"] if {p["link1"], p["link2"]} == {"gate", "box"})
+        # The post's side is 0.15 m away from the box's; r of both lies between, and what a part and its volume exceed.
+        covers = sum(l.get("over_cover_max", 0) for l in report["links"] if l["name"] in ("gate:1", "box"))
+        self.assertLessEqual(pair["min_distance"], 0.15 - 0.02 + 1e-6)
+        self.assertGreater(pair["min_distance"], 0.15 - covers - 1e-3)
+        # Only the gate is split, in two, and only for this pair: one row more.
+        self.assertEqual([l["name"] for l in report["links"] if "part_of" in l], ["gate:1", "gate:2"])
+        self.assertEqual([p["by_parts"] for p in report["pairs"] if p is not pair], [False, False])
+        rows = report["summary"]["rows"]
+        self.assertEqual((rows["whole"], rows["parts"]), (3, 4))
+        text = self.run_tool(*robot, "--parts", "auto").stdout
+        self.assertIn("gate in 2 parts", text)
+        # Everything in parts says the same of this pair, at more rows.
+        every = json.loads(self.run_tool(*robot, "--parts", "2", "--format", "json").stdout)
+        same = next(p for p in every["pairs"] if {p["link1"], p["link2"]} == {"gate", "box"})
+        self.assertAlmostEqual(same["min_distance"], pair["min_distance"], delta=1e-6)
+        self.assertEqual(every["summary"]["rows"]["parts"], 2 + 4 + 2)
+        for wrong in ("1", "65", "some"):
+            self.assertEqual(self.run_tool(*robot, "--parts", wrong).returncode, 2)
+
+    def test_parts_are_not_made_where_meshes_meet(self):
+        far = self.boxes("far.obj", 0.01, (5, 0, 0))
+        gate = self.boxes("gate.obj", 0.1, (-0.3, 0, 0), (0.3, 0, 0))
+        robot = self.robot(link("a", gate) + link("b", far) + link("c", self.boxes("small.obj", 0.05, (0.3, 0, 0)))
+                           + joint("j", "a", "b") + joint("k", "b", "c"))
+        done = self.run_tool(robot, "--srdf", self.put("none.srdf", '<robot name="small"/>'), "--pose",
+                             self.put("pose.json", "{}"), "-r", "0.01", "--samples", "1", "--parts", "auto")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("No link needs to be split", done.stdout)
+
     def test_primitives_are_covered_where_a_pair_has_no_smooth_body(self):
         urdf = self.robot("".join(link("l%d" % i, shape) for i, shape in enumerate((
             '<box size="0.1 0.2 0.3"/>', '<capsule radius="0.05" length="0.2"/>', '<cylinder radius="0.05" length="0.2"/>',
