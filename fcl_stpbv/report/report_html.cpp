@@ -66,15 +66,15 @@ class Bodies {
   explicit Bodies(const CollisionReport& report) {
     for (const Body& body : report.geometry->bodies)
       add(body.name, report.robot->links[static_cast<std::size_t>(body.link)].name, body.link, body.pose,
-          *body.geometry);
+          *body.geometry, body.parts > 0);
     for (const Obstacle& obstacle : report.obstacles)
-      add(obstacle.name, obstacle.name, -1, obstacle.pose, *obstacle.geometry);
+      add(obstacle.name, obstacle.name, -1, obstacle.pose, *obstacle.geometry, false);
   }
   json shapes = json::array(), list = json::array();
 
  private:
   void add(const std::string& name, const std::string& owner, int link, const Eigen::Isometry3d& pose,
-           const fcl::CollisionGeometryd& geometry) {
+           const fcl::CollisionGeometryd& geometry, bool split) {
     json shape = shapeOf(geometry);
     const auto [known, isNew] = known_.emplace(shape.dump(), shapes.size());
     if (isNew) shapes.push_back(std::move(shape));
@@ -82,6 +82,7 @@ class Bodies {
                     {"owner", owner},
                     {"link", link},
                     {"obstacle", link < 0},
+                    {"split", split},
                     {"at", rowsOf(pose)},
                     {"shape", known->second}});
   }

@@ -161,7 +161,7 @@ class Scene {
     for (const kind of ['first', 'second']) Object.assign(this.material[kind], clear);
     this.report.bodies.forEach((body, i) => {
       const side = this.side(body), mesh = this.bodies[i];
-      mesh.visible = side >= 0 || this.show !== 'pair' || !this.pair;
+      mesh.visible = !body.split && (side >= 0 || this.show !== 'pair' || !this.pair);  // its parts are drawn
       mesh.material = side >= 0 ? this.material[side === 0 ? 'first' : body.obstacle ? 'pickedObstacle' : 'second']
         : this.show === 'context' && this.pair ? this.material.ghost : this.material[body.obstacle ? 'obstacle' : 'link'];
       mesh.renderOrder = mesh.material.transparent ? 1 : 0;
