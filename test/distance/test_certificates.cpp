@@ -6,6 +6,7 @@
 
 #include "fcl_stpbv/distance/shape_distance.h"
 #include "fcl_stpbv/distance/shape_pair.h"
+#include "test/distance/enclosure.h"
 #include "test/reference/reference.h"
 #include "test/reference/shape_reference.h"
 
@@ -45,12 +46,22 @@ void checkHolds(const Distance& d, long double truth, long double alongNormal, l
   CHECK((d.lower <= d.distance && d.distance <= d.upper));
 }
 
+/// The bounds hold the truth; true if it is known to a tenth of their width.
+template <class Real>
+bool holds(const Distance& d, const Enclosure<Real>& truth) {
+  CHECK(truth.holdsLower(d.lower));
+  CHECK(truth.holdsUpper(d.upper));
+  CHECK((d.lower <= d.distance && d.distance <= d.upper));
+  return truth.width() <= 0.1 * (d.upper - d.lower);
+}
+
 }  // namespace
 
 TEST_CASE(
     "lower <= truth <= upper for two volumes of any scale, without margin, with a huge R, far from the "
     "origin") {
   Random random(17);
+  int exact = 0, known = 0;
   for (const double scale : {1e-6, 1e-2, 1.0, 1e6})
     for (const double R : {0.6, 10.0, 1e4, 1e8})
       for (const double r : {0.0, 0.01}) {
@@ -70,17 +81,18 @@ TEST_CASE(
           if (d.status != DistanceStatus::exact)
             continue;  // 10 km away a pair of micrometres may land anywhere
           CAPTURE(scale, R, r, i);
-          const ReferenceBody x = referenceBody(cloudA, r * scale, R * scale, turnOnly(pa)),
-                              y = referenceBody(cloudB, 0.0, R * scale, seenFrom(pa, pb));
-          const Vector3L n = d.normal.cast<long double>().normalized();
-          const ReferenceDistance truth = referenceDistance(x, y, n);
-          if (!std::isfinite(truth.distance)) continue;
-          // The reference adds R to coordinates, in long double.
-          checkHolds(d, truth.distance, referenceGap(x, y, n),
-                     truth.gap + 1e-18L * static_cast<long double>(R * scale));
+          const double fine = 0.02 * (d.upper - d.lower);
+          const Placed x{cloudA, r * scale, R * scale, pa}, y{cloudB, 0.0, R * scale, pb};
+          // A search in 113 bits takes long; along the normal alone the truth is known as well nearly always.
+          if (roundings<long double>(2 * R * scale + 4 * scale) <= fine)
+            known += holds(d, enclose<long double>(d, x, y, fine, true));
+          else
+            known += holds(d, enclose<Quad>(d, x, y, fine, i % 20 == 0));
+          ++exact;
           CHECK((e.lower <= d.upper && d.lower <= e.upper));
         }
       }
+  CHECK(known >= 0.85 * exact);  // the rest is compared with a truth that is known less well
 }
 
 TEST_CASE("lower <= truth <= upper for a volume and each shape, and for each two shapes") {

@@ -1,5 +1,5 @@
 // The normals that a cutting-plane search over directions has left: a convex polygon in the plane of points
-// z + u x + v y (gnomonic projection), in long double.
+// z + u x + v y (gnomonic projection), in numbers of any precision.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -8,12 +8,13 @@
 
 namespace fcl_stpbv::test {
 
-class NormalPolygon {
+template <class Real>
+class NormalPolygonOf {
  public:
-  using Vector3 = Eigen::Matrix<long double, 3, 1>;
+  using Vector3 = Eigen::Matrix<Real, 3, 1>;
 
   /// All normals n around the unit vector z with |n.x|, |n.y| at most `half` times n.z.
-  NormalPolygon(const Vector3& z, long double half)
+  NormalPolygonOf(const Vector3& z, Real half)
       : z_(z),
         x_(z.unitOrthogonal()),
         y_(z.cross(x_)),
@@ -25,21 +26,21 @@ class NormalPolygon {
     std::vector<Vector2> kept;
     for (std::size_t k = 0; k < corners_.size(); ++k) {
       const Vector2 &from = corners_[k], &to = corners_[(k + 1) % corners_.size()];
-      const long double f = side(from), t = side(to);
+      const Real f = side(from), t = side(to);
       if (f >= 0) kept.push_back(from);
       if ((f < 0) != (t < 0)) kept.push_back(from + (to - from) * (f / (f - t)));
     }
     if (kept.size() < 3) return false;
     corners_ = kept;
-    long double area = 0;
+    Real area = 0;
     Vector2 sum(0, 0);
     size_ = 0;
     for (std::size_t k = 1; k + 1 < corners_.size(); ++k) {
       const Vector2 p = corners_[k] - corners_[0], q = corners_[k + 1] - corners_[0];
-      const long double w = p.x() * q.y() - p.y() * q.x();
+      const Real w = p.x() * q.y() - p.y() * q.x();
       area += w;
       sum += w * (p + q) / 3;
-      size_ = std::max({size_, p.norm(), q.norm()});
+      size_ = std::max<Real>({size_, p.norm(), q.norm()});
     }
     if (!(area > 0)) return false;
     centroid_ = corners_[0] + sum / area;
@@ -49,15 +50,17 @@ class NormalPolygon {
   /// The normal at the centroid, of the length that the projection gives it.
   Vector3 centre() const { return z_ + centroid_.x() * x_ + centroid_.y() * y_; }
   /// Distance of the first corner to the farthest one, after a cut.
-  long double size() const { return size_; }
+  Real size() const { return size_; }
 
  private:
-  using Vector2 = Eigen::Matrix<long double, 2, 1>;
+  using Vector2 = Eigen::Matrix<Real, 2, 1>;
 
   Vector3 z_, x_, y_;
   std::vector<Vector2> corners_;
   Vector2 centroid_{0, 0};
-  long double size_ = 0;
+  Real size_ = 0;
 };
+
+using NormalPolygon = NormalPolygonOf<long double>;
 
 }  // namespace fcl_stpbv::test

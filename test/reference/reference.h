@@ -14,14 +14,19 @@
 
 namespace fcl_stpbv::test {
 
-using Vector3L = Eigen::Matrix<long double, 3, 1>;
+template <class Real>
+using Vector3Of = Eigen::Matrix<Real, 3, 1>;
+using Vector3L = Vector3Of<long double>;
 
-/// A volume's points in world coordinates and its radii (m).
-struct ReferenceBody {
-  std::vector<Vector3L> points;
-  long double r;
-  long double R;
+/// A volume's points in world coordinates and its radii (m). Numbers of other precision than long double are
+/// for reference_of.h.
+template <class Real>
+struct ReferenceBodyOf {
+  std::vector<Vector3Of<Real>> points;
+  Real r;
+  Real R;
 };
+using ReferenceBody = ReferenceBodyOf<long double>;
 
 ReferenceBody referenceBody(const Cloud& points, double r, double R,
                             const Eigen::Isometry3d& pose = Eigen::Isometry3d::Identity());
@@ -30,13 +35,14 @@ ReferenceBody referenceBody(const Cloud& points, double r, double R,
 /// `corePoint`. Good to about 1e-19 (|p| + R).
 long double referenceSupport(const ReferenceBody& body, const Vector3L& n, Vector3L* corePoint = nullptr);
 
-struct ReferenceDistance {
-  long double
-      distance;     ///< signed gap along `normal`: a lower bound of the signed distance, whatever `normal` is
-  long double gap;  ///< what the distance of the core points allows beyond that: the proof that it is right
-  Vector3L normal;  ///< unit, from a to b
-  Vector3L point[2];  ///< witness points on the surfaces
+template <class Real>
+struct ReferenceDistanceOf {
+  Real distance;  ///< signed gap along `normal`: a lower bound of the signed distance, whatever `normal` is
+  Real gap;       ///< what the distance of the core points allows beyond that: the proof that it is right
+  Vector3Of<Real> normal;    ///< unit, from a to b
+  Vector3Of<Real> point[2];  ///< witness points on the surfaces
 };
+using ReferenceDistance = ReferenceDistanceOf<long double>;
 
 /// The distance of two volumes whose cores are apart along `towards`, any rough direction from a to b with
 /// that property: a plane cut through the middle of the normals still possible, in the gnomonic plane of
