@@ -1,18 +1,18 @@
 // Warm queries on turning geodesic spheres, for a tool that counts instructions: geodesic_queries QUERIES
 // small|large.
 #include <cstdio>
-#include <cstdlib>
-#include <string>
 
 #include "fcl_stpbv/distance/distance.h"
+#include "test/reference/arguments.h"
 #include "test/reference/motion.h"
 #include "test/reference/shapes.h"
 
 using namespace fcl_stpbv;
 
 int main(int argc, char** argv) {
-  const int queries = argc > 1 ? std::atoi(argv[1]) : 1000;
-  const bool large = argc > 2 && std::string(argv[2]) == "large";
+  const test::Arguments arguments(argc, argv, "[QUERIES [small|large]]", 2);
+  const int queries = arguments.number(1, 1000, 0);
+  const bool large = arguments.oneOf(2, {"small", "large"}) == "large";
   const StpBv::Ptr a = StpBv::build(test::geodesicSphere(0.2, 2), {0.01, 10}),
                    b = StpBv::build(test::geodesicSphere(0.2, 2), {0.01, 10});
   benchmark::GeodesicMotion motion(large ? benchmark::largeStep() : benchmark::smallStep(), 1);

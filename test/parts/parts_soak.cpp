@@ -1,17 +1,19 @@
 // Parts of meshes from files: how many, how far from the mesh, how long they took, and how many of a number
-// of random points of the surface and of the inside no part covers. `parts_soak SAMPLES PARTS MESH...`, with
-// EFFORT in the environment.
+// of random points of the surface and of the inside no part covers.
+//
+//   parts_soak SAMPLES PARTS MESH...
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <ctime>
 #include <exception>
+#include <limits>
 #include <string>
 #include <vector>
 
 #include "fcl_stpbv/parts/convex_parts.h"
 #include "fcl_stpbv/robot/mesh_file.h"
 #include "fcl_stpbv/volume/measure.h"
+#include "test/reference/arguments.h"
 #include "test/reference/mesh_reference.h"
 #include "test/reference/solids.h"
 
@@ -41,23 +43,20 @@ long uncovered(const ConvexParts& parts, const TriangleMesh& mesh, long samples)
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc < 4) {
-    std::fprintf(stderr, "parts_soak SAMPLES PARTS MESH...\n");
-    return 2;
-  }
+  const Arguments arguments(argc, argv, "SAMPLES PARTS MESH ...", std::numeric_limits<int>::max());
   PartsOptions options;
-  options.most = std::atoi(argv[2]);
-  if (const char* effort = std::getenv("EFFORT")) options.effort = std::atof(effort);
+  const long samples = arguments.number(1, 0L);
+  options.most = arguments.number(2, 0);
+  const std::vector<std::string> meshes = arguments.texts(3, 1);
   long open = 0;
   try {
-    for (int i = 3; i < argc; ++i) {
-      const TriangleMesh mesh = loadMesh(argv[i]);
+    for (std::string name : meshes) {
+      const TriangleMesh mesh = loadMesh(name);
       const std::clock_t start = std::clock();
       const ConvexParts parts = convexParts(mesh, options);
       const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
       const double hull = hullExcess(mesh.vertices, MeshSolid(mesh)).upper;
-      const long here = uncovered(parts, mesh, std::atol(argv[1]));
-      std::string name = argv[i];
+      const long here = uncovered(parts, mesh, samples);
       name = name.substr(name.rfind('/') + 1);
       std::printf(
           "%-20s %6zu triangles, %d of %d pieces closed; hull %7.3f mm; %zu parts %7.3f mm; %6.2f s; "

@@ -2,11 +2,13 @@
 // that tested nothing must not look like one that found nothing.
 #pragma once
 
+#include <algorithm>
 #include <charconv>
 #include <cstdio>
 #include <cstdlib>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace fcl_stpbv::test {
 
@@ -41,6 +43,19 @@ class Arguments {
     if (i > count_) return standard;
     if (argv_[i][0] == '-') refuse();
     return argv_[i];
+  }
+  /// The argument `i`, one of these words, or the first of them where there are fewer.
+  std::string oneOf(int i, const std::vector<std::string>& words) const {
+    const std::string word = text(i, words[0]);
+    if (std::find(words.begin(), words.end(), word) == words.end()) refuse();
+    return word;
+  }
+  /// The arguments from `i` on, `least` of them or more.
+  std::vector<std::string> texts(int i, int least = 0) const {
+    if (count_ - i + 1 < least) refuse();
+    std::vector<std::string> all;
+    for (; i <= count_; ++i) all.push_back(text(i, ""));
+    return all;
   }
 
  private:

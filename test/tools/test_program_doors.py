@@ -14,6 +14,9 @@ PROGRAMS = [BIN / name for name in (
     "mesh_to_stpbv", "urdf_collision_report", "find_posture", "demo", "adapter_figures", "build_benchmark", "constraints_benchmark",
     "jump_sweep", "posture_study", "proof_boxes", "speed_accuracy", "stability")]
 PROGRAMS += [BIN / name for name in ("control_bench", "optimise_bench", "parts_benchmark") if (BIN / name).exists()]  # where Bullet, or IPOPT, is
+SOAKS = [BIN / name for name in (
+    "distance_soak", "shape_soak", "deep_soak", "truth_soak", "mirrored_soak", "bound_soak", "parts_soak", "mirrored_limbs", "cloud_report", "fuzz",
+    "geodesic_queries", "answers_fcl_stpbv")]
 # Words that some scripts do take: ctest's options, names of files and folders, and what a program of ours refuses itself.
 TAKE = {"nonsense": ("check_format", "demo", "fuzz", "make_packages"), "--no-such-option": ("test",)}
 NO_NUMBERS = ["nan", "-nan", "inf", "-inf", "1e400", "1,5", "1.5x", "x", "", " "]
@@ -61,6 +64,12 @@ class Programs(unittest.TestCase):
             for option in ("--no-such-option", "-Z", "--seeed=1"):
                 with self.subTest(program=program.name, option=option):
                     self.refused(run(program, option))
+
+    def test_soaks_refuse_what_they_do_not_know_and_numbers_that_are_none(self):
+        for program in SOAKS:
+            for words in (["--no-such-option"], ["-1"], ["nan"], ["1e400"], ["1x"], [""], ["9" * 30], ["1"] * 2 + ["--no-such-option"]):
+                with self.subTest(program=program.name, words=words):
+                    self.refused(run(program, *words), "usage: ")
 
     def test_scripts_refuse_what_they_do_not_know_before_they_do_anything(self):
         scripts = [path for folder in ("tools", "tools/hooks", "data/fridge", "data/hard_cases", "data/hrp2_style", ".ci")
