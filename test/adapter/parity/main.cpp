@@ -1,9 +1,13 @@
 // Makes docs/fcl_differences.md: every documented entry of FCL, asked of FCL and of the library.
 //   fcl_parity                 prints the page
 //   fcl_parity --check PAGE    fails where the page is another one
+//   fcl_parity --seed N        the same about other poses and motions; fails where the library is wrong, as
+//   all do
+#include <charconv>
 #include <cstdio>
 #include <exception>
 #include <string>
+#include <string_view>
 
 #include "fcl_stpbv/io/text_scanner.h"
 #include "test/adapter/parity/questions.h"
@@ -13,7 +17,7 @@ using namespace fcl_stpbv::parity;
 
 namespace {
 
-std::string page() {
+std::string page(int seed) {
   const std::vector<Type> types = allTypes();
   const std::vector<Type> shapes(types.begin(), types.begin() + kShapes);
   std::string text = R"(# Where FCL 0.7 and this library differ
@@ -47,16 +51,17 @@ A cell is one pair of types, the row's the first one. `.`: both are right. A let
 
 )";
   text += "## `fcl::distance`\n\nThe default request with nearest points, six poses each.\n\n" +
-          tableOf(types, distanceQuestion(false), 6) +
+          tableOf(types, distanceQuestion(false), 6, seed) +
           "\nWith `enable_signed_distance`, which also asks for depths, of shapes:\n\n" +
-          tableOf(shapes, distanceQuestion(true), 6);
-  text += "\n## `fcl::collide`\n\nAll contacts, six poses each.\n\n" + tableOf(types, collideQuestion(), 6);
+          tableOf(shapes, distanceQuestion(true), 6, seed);
+  text +=
+      "\n## `fcl::collide`\n\nAll contacts, six poses each.\n\n" + tableOf(types, collideQuestion(), 6, seed);
   text +=
       "\n## `fcl::continuousCollide`\n\nFour motions each, `InterpMotion` with its point given, by ten "
       "samples (`CCDC_NAIVE`, the "
       "default):\n\n" +
-      tableOf(types, motionQuestion(false), 4) + "\nBy `CCDC_CONSERVATIVE_ADVANCEMENT`:\n\n" +
-      tableOf(types, motionQuestion(true), 4);
+      tableOf(types, motionQuestion(false), 4, seed) + "\nBy `CCDC_CONSERVATIVE_ADVANCEMENT`:\n\n" +
+      tableOf(types, motionQuestion(true), 4, seed);
   text +=
       "\nTwo motions cannot be asked about, as FCL leaves their memory uninitialised: between two poses by "
       "`CCDM_LINEAR`, whose "
@@ -76,18 +81,26 @@ A cell is one pair of types, the row's the first one. `.`: both are right. A let
   return text;
 }
 
+bool readSeed(std::string_view word, int& seed) {
+  const auto read = std::from_chars(word.data(), word.data() + word.size(), seed);
+  return read.ec == std::errc() && read.ptr == word.data() + word.size() && seed >= 0 && seed <= 1000000;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 1 && !(argc == 3 && std::string(argv[1]) == "--check")) {
-    std::fprintf(stderr, "usage: %s [--check PAGE]\n", argv[0]);
+  const std::string option = argc > 1 ? argv[1] : "";
+  const bool check = option == "--check", seeded = option == "--seed";
+  int seed = 0;
+  if ((argc != 1 && !(argc == 3 && (check || seeded))) || (seeded && !readSeed(argv[2], seed))) {
+    std::fprintf(stderr, "usage: %s [--check PAGE | --seed N]\n", argv[0]);
     return 2;
   }
   try {
-    const std::string text = page();
-    if (argc == 1) std::printf("%s", text.c_str());
+    const std::string text = page(seed);
+    if (!check) std::printf("%s", text.c_str());
     if (text.find(kOursIsWrong) != std::string::npos) return 1;
-    if (argc == 1) return 0;
+    if (!check) return 0;
     if (detail::readText(argv[2]) == text) return 0;
     std::fprintf(stderr, "%s is not what fcl_parity finds: fcl_parity > %s\n", argv[2], argv[2]);
   } catch (const std::exception& error) {

@@ -29,11 +29,12 @@ void limitProcessorTime() {
   setitimer(ITIMER_PROF, &limit, nullptr);  // ends the process by SIGPROF
 }
 
-void askPair(const Type& a, const Type& b, const Question& question, int& next, int count, Findings& found) {
+void askPair(const Type& a, const Type& b, const Question& question, int count, int seed, int& next,
+             Findings& found) {
   while (next < count) {
     limitProcessorTime();
     const int i = next++;
-    Random random(static_cast<std::uint64_t>(1 + i));
+    Random random(static_cast<std::uint64_t>(1 + i + 1000 * seed));
     try {
       question(a, b, i, random, found);
     } catch (const std::exception&) {
@@ -42,14 +43,14 @@ void askPair(const Type& a, const Type& b, const Question& question, int& next, 
   }
 }
 
-[[noreturn]] void askAll(const Pairs& pairs, const Question& question, int count, Shared& shared) {
+[[noreturn]] void askAll(const Pairs& pairs, const Question& question, int count, int seed, Shared& shared) {
   const rlimit noCore{0, 0};
   ::setrlimit(RLIMIT_CORE, &noCore);
   const int silence = ::open("/dev/null", O_WRONLY);  // FCL's warnings and assertions
   ::dup2(silence, STDOUT_FILENO);
   ::dup2(silence, STDERR_FILENO);
   for (; shared.pair < pairs.size(); ++shared.pair, shared.next = 0)
-    askPair(*pairs[shared.pair].first, *pairs[shared.pair].second, question, shared.next, count,
+    askPair(*pairs[shared.pair].first, *pairs[shared.pair].second, question, count, seed, shared.next,
             shared.findings[shared.pair]);
   ::_exit(0);
 }
@@ -82,7 +83,7 @@ Placement placementOf(Random& random, int i) {
   return {a, pose(random.rotation(), a.translation() + (i % 2 ? 0.2 : 0.7) * random.direction())};
 }
 
-std::vector<std::string> cellsOf(const Pairs& pairs, const Question& question, int count) {
+std::vector<std::string> cellsOf(const Pairs& pairs, const Question& question, int count, int seed) {
   const std::size_t size = sizeof(Shared) + pairs.size() * sizeof(Findings);
   void* memory = ::mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
   if (memory == MAP_FAILED) throw std::runtime_error("no memory shared with a child process");
@@ -91,7 +92,7 @@ std::vector<std::string> cellsOf(const Pairs& pairs, const Question& question, i
   while (shared.pair < pairs.size()) {
     const pid_t child = ::fork();
     if (child < 0) throw std::runtime_error("cannot start a child process");
-    if (child == 0) askAll(pairs, question, count, shared);
+    if (child == 0) askAll(pairs, question, count, seed, shared);
     int status = 0;
     ::waitpid(child, &status, 0);
     if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) shared.findings[shared.pair].theirs('x', true);
@@ -108,11 +109,11 @@ std::vector<std::string> cellsOf(const Pairs& pairs, const Question& question, i
   return cells;
 }
 
-std::string tableOf(const std::vector<Type>& types, const Question& question, int count) {
+std::string tableOf(const std::vector<Type>& types, const Question& question, int count, int seed) {
   Pairs pairs;
   for (const Type& a : types)
     for (const Type& b : types) pairs.push_back({&a, &b});
-  const std::vector<std::string> cells = cellsOf(pairs, question, count);
+  const std::vector<std::string> cells = cellsOf(pairs, question, count, seed);
   std::string head = "|  |", rule = "|---|", rows;
   auto cell = cells.begin();
   for (const Type& a : types) {

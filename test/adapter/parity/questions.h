@@ -45,10 +45,10 @@ using Pairs = std::vector<std::pair<const Type*, const Type*>>;
 /// The cell of each pair of types: `count` times asked in a child process, which is started anew after each
 /// time that ends it or takes a second of processor time. `kOursIsWrong` for a fault of the library, which is
 /// named on the standard error output.
-std::vector<std::string> cellsOf(const Pairs& pairs, const Question& question, int count);
+std::vector<std::string> cellsOf(const Pairs& pairs, const Question& question, int count, int seed = 0);
 
 /// A Markdown table over all types, rows the first geometry and columns the second.
-std::string tableOf(const std::vector<Type>& types, const Question& question, int count);
+std::string tableOf(const std::vector<Type>& types, const Question& question, int count, int seed);
 
 Question distanceQuestion(bool isSigned);
 Question collideQuestion();
