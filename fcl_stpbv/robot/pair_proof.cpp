@@ -239,9 +239,9 @@ PairProof provePair(const ProofScene& scene, const LinkPair& pair, std::vector<J
     ++proof.boxes;
     const Prover::Verdict verdict = prover.look(box);
     if (verdict == Prover::Verdict::clear) continue;
-    if (box.lower.size() == 0) {  // nothing to cut: the pair is rigid
-      if (verdict == Prover::Verdict::unclear) proof.open.push_back(std::move(box));
-      if (verdict == Prover::Verdict::unclear) break;
+    if (box.lower.size() == 0 && verdict == Prover::Verdict::unclear) {  // nothing to cut: the pair is rigid
+      proof.open.push_back(std::move(box));
+      break;
     }
     if (verdict == Prover::Verdict::collision) {
       proof.collision = prover.middle();

@@ -39,7 +39,7 @@ Candidate ballThrough(const std::vector<Vector>& p) {
 }  // namespace
 
 Ball minimumEnclosingBall(const std::vector<Eigen::Vector3d>& points) {
-  const Eigen::Vector3d origin = points.front();
+  const Eigen::Vector3d& origin = points.front();
   std::vector<Vector> held{Vector::Zero()};
   Candidate ball = ballThrough(held);
   // Each round the radius grows; a few rounds do for any cloud, the bound only stops rounding from cycling.
