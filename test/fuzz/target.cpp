@@ -1,10 +1,9 @@
 #include "test/fuzz/target.h"
 
 #include <cmath>
-#include <cstring>
+#include <cstdint>
 #include <fstream>
 #include <sstream>
-#include <stdexcept>
 
 #include "fcl_stpbv/distance/distance.h"
 #include "fcl_stpbv/io/qhull_file.h"
@@ -14,6 +13,8 @@
 #include "fcl_stpbv/robot/robot_model.h"
 #include "fcl_stpbv/robot/srdf.h"
 #include "test/fuzz/clouds.h"
+#include "test/fuzz/property.h"
+#include "test/fuzz/structured.h"
 #include "test/robot/urdf_texts.h"
 
 namespace fcl_stpbv::fuzz {
@@ -23,22 +24,6 @@ using test::Cloud;
 using test::Random;
 
 namespace {
-
-void must(bool holds, const char* what) {
-  if (!holds) throw std::logic_error(what);
-}
-
-/// The library may refuse, in a message; nothing else may come out of it.
-template <class Call>
-bool accepted(Call call) {
-  try {
-    call();
-    return true;
-  } catch (const Error& e) {
-    must(std::strlen(e.what()) > 10, "an error without a message");
-    return false;
-  }
-}
 
 std::string number(double x) {
   char text[40];
@@ -335,7 +320,11 @@ const std::vector<Target>& targets() {
                                        {"ply", randomPly, checkMesh<kPly>},
                                        {"off", randomOff, checkMesh<kOff>},
                                        {"dae", randomDae, checkMesh<kDae>},
-                                       {"gltf", randomGltf, checkMesh<kGltf>}};
+                                       {"gltf", randomGltf, checkMesh<kGltf>},
+                                       {"robot", randomRobot, checkRobot},
+                                       {"volume", randomVolume, checkVolume},
+                                       {"task", randomTask, checkTask},
+                                       {"posture", randomPosture, checkPosture}};
   return all;
 }
 
