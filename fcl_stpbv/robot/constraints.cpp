@@ -7,6 +7,7 @@
 #include "fcl_stpbv/robot/constraints.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "fcl_stpbv/error.h"
@@ -178,10 +179,12 @@ double CollisionConstraints::bend(double d, double& slope, double& curvature) co
   return start + width * (t - t * t * t * (1 - t / 2));
 }
 
-// The query, but for pairs too far apart: status `invalid`, and the largest value that a row may have.
+// The query, but for pairs too far apart: status `invalid`, and the largest value that a row may have. A
+// query that failed, as with links 1e160 m away, is not clear: the lowest value.
 CollisionConstraints::Witness CollisionConstraints::ask(std::size_t row) {
   const Row& r = rows_[row];
-  const bool far = (centre_[at(r.b)] - centre_[at(r.a)]).squaredNorm() >= r.far * r.far;
+  const double apart = (centre_[at(r.b)] - centre_[at(r.a)]).squaredNorm();
+  const bool far = apart >= r.far * r.far && std::isfinite(apart);
   if (r.first) {
     Distance& found = found_[row];
     found.status = DistanceStatus::invalid;
@@ -197,7 +200,7 @@ CollisionConstraints::Witness CollisionConstraints::ask(std::size_t row) {
     if (answer.status != DistanceStatus::invalid)
       return {answer.status, answer.distance, answer.normal, answer.points};
   }
-  const double most = far ? options_.influence : std::numeric_limits<double>::max();
+  const double most = far ? options_.influence : std::numeric_limits<double>::lowest();
   return {DistanceStatus::invalid, most, Eigen::Vector3d::Zero(), {}};
 }
 

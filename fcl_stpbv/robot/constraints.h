@@ -101,7 +101,8 @@ class CollisionConstraints {
 
   /// Distances, and with `jacobian` their derivatives. Where a coordinate of q is not finite nothing is
   /// known: each d is the lowest of all doubles, which no optimiser takes for clear, each derivative 0, each
-  /// answer() `invalid`.
+  /// answer() `invalid`. So is, of a q that is finite, the row of a pair that cannot be measured, as with
+  /// links 1e160 m away.
   /// @returns whether q was finite.
   bool evaluate(const ConstVector& q, Vector d);
   /// With the nonZeros() entries of J.
@@ -116,8 +117,8 @@ class CollisionConstraints {
   /// d and J at q and how they change as q moves with the velocity qd. Closed form where one body is an
   /// STP-BV (docs/robot.md), on a region boundary that of one side, for a mesh or a tree that of its nearest
   /// triangle or cell; central differences for the drift of other pairs, smooth constraints and the few
-  /// answers that have no second derivative. A q or qd that is not finite gives what it gives above, and
-  /// rates of 0.
+  /// answers that have no second derivative. A q or qd that is not finite, or a qd above 1e100, whose square
+  /// may overflow, gives what it gives above, and rates of 0.
   bool evaluateValues(const ConstVector& q, const ConstVector& qd, RowRates& rates, Vector values);
   /// The same with J in the structure of makeJacobian().
   bool evaluate(const ConstVector& q, const ConstVector& qd, RowRates& rates, SparseJacobian& jacobian);
@@ -131,7 +132,7 @@ class CollisionConstraints {
   double gradientRateBound(int row) const;
 
   /// Sum over the rows of weight times (Hessian of d) times v: the change of J as q moves along v. Closed
-  /// form and differences as above. Where one of these numbers is not finite, 0.
+  /// form and differences as above. Where one of these numbers is not finite, or one of v above 1e100, 0.
   /// @returns whether all were.
   bool hessianVector(const ConstVector& q, const ConstVector& weights, const ConstVector& v, Vector out);
 

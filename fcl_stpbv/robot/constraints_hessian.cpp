@@ -13,6 +13,11 @@ using Eigen::Vector3d;
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
+// Finite, and so small that products of two with lengths and curvatures stay finite.
+bool isUsable(const CollisionConstraints::ConstVector& velocity) {
+  return (velocity.array().abs() <= 1e100).all();
+}
+
 Vector3d velocityOf(const Vector3d& x, const Twist& body) { return body.linear + body.angular.cross(x); }
 
 }  // namespace
@@ -69,7 +74,7 @@ bool CollisionConstraints::rateRow(std::size_t row, RowRates& rates, double* val
 
 bool CollisionConstraints::evaluateValues(const ConstVector& q, const ConstVector& qd, RowRates& rates,
                                           Vector values) {
-  if (!q.allFinite() || !qd.allFinite()) {
+  if (!q.allFinite() || !isUsable(qd)) {
     nothingKnown(rates.d.data(), values.data());
     rates.speed.setZero();
     rates.drift.setZero();
@@ -188,7 +193,7 @@ void CollisionConstraints::differences(const ConstVector& q, const ConstVector& 
 bool CollisionConstraints::hessianVector(const ConstVector& q, const ConstVector& weights,
                                          const ConstVector& v, Vector out) {
   out.setZero();
-  if (!q.allFinite() || !weights.allFinite() || !v.allFinite()) return false;
+  if (!q.allFinite() || !weights.allFinite() || !isUsable(v)) return false;
   place(q);
   kinematics_->differentiate(q, v, state_, rate_);
   moving_ = true;

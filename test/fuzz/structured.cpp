@@ -311,8 +311,8 @@ void checkPosture(const std::string& text, const std::string&) {
   Eigen::MatrixXd jacobian(rows.rows(), rows.columns());
   Eigen::VectorXd product(rows.columns());
   const bool known = rows.evaluate(q, qd, rates, jacobian);
-  must(known == (q.allFinite() && qd.allFinite()),
-       "a q that is not finite and not told, or the other way round");
+  const bool usable = q.allFinite() && (qd.array().abs() <= 1e100).all();
+  must(known == usable, "a q or qd that cannot be used and is not told, or the other way round");
   must(!rates.d.hasNaN() && !jacobian.hasNaN(), "a distance or a derivative that is no number");
   must(!rates.speed.hasNaN() && !rates.drift.hasNaN(), "a rate that is no number");
   const Eigen::VectorXd weights = Eigen::VectorXd::Ones(rows.rows());

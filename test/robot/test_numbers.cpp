@@ -72,6 +72,19 @@ TEST_CASE("No pair is farther than a distance that is no number") {
   CHECK(collides(a, here, b, there, kNaN));
 }
 
+TEST_CASE("A pair that cannot be measured at a huge but finite configuration does not read as clear") {
+  const SmallRobot small;
+  const auto floating = std::make_shared<const Kinematics>(small.model, BaseMotion::floating);
+  CollisionConstraints constraints(floating, small.geometry, small.pairs);
+  Eigen::VectorXd q = floating->neutral(), d(constraints.rows());
+  q[0] = 1e160;
+  CHECK(constraints.evaluate(q, d));
+  for (int row = 0; row < constraints.rows(); ++row) {
+    CHECK(constraints.answer(row).status == DistanceStatus::invalid);
+    CHECK(d[row] == std::numeric_limits<double>::lowest());
+  }
+}
+
 TEST_CASE("Options that are not finite or out of range are refused by name") {
   const Cloud cloud = box(0.2, 0.3, 0.5);
   const StpBv::Ptr volume = StpBv::build(cloud, {0.01, 10});

@@ -98,7 +98,10 @@ def connected(scheduler, workers):
         except (OSError, ValueError, TimeoutError) as error:
             raise fcl_stpbv.Error(f"--scheduler {scheduler}: no Dask scheduler answers there ({error}); "
                                   "start one with dask-scheduler") from None
-        yield client
+        try:
+            yield client
+        except distributed.comm.CommClosedError:  # asked while it went
+            raise Stopped("the Dask scheduler is gone") from None
 
 
 def run_on(client, schedule, show):
