@@ -29,6 +29,7 @@ class LinkParts {
   /// given.
   RobotGeometry geometry(const std::map<int, int>& most, const std::set<std::pair<int, int>>& byParts);
 
+  /// The bodies as they were given.
   const RobotGeometry& whole() const { return *whole_; }
 
  private:
