@@ -6,8 +6,10 @@
 #include <charconv>
 #include <cstdio>
 #include <cstdlib>
+#include <limits>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 namespace fcl_stpbv::test {
@@ -33,10 +35,15 @@ class Arguments {
   template <class Number>
   Number number(int i, Number standard, Number least = 1) const {
     if (i > count_) return standard;
+    // No soak runs for thirty years.
+    constexpr Number kMost =
+        std::is_floating_point_v<Number> ? Number(1e9) : std::numeric_limits<Number>::max();
     const std::string_view word = argv_[i];
     Number value{};
     const auto result = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (result.ec != std::errc() || result.ptr != word.data() + word.size() || !(value >= least)) refuse();
+    if (result.ec != std::errc() || result.ptr != word.data() + word.size() ||
+        !(value >= least && value <= kMost))
+      refuse();
     return value;
   }
   std::string text(int i, const std::string& standard) const {
