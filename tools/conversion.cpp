@@ -14,6 +14,7 @@
 #include "fcl_stpbv/io/sch_file.h"
 #include "fcl_stpbv/io/stpbv_file.h"
 #include "fcl_stpbv/io/text_scanner.h"
+#include "fcl_stpbv/parts/mesh_excess.h"
 #include "fcl_stpbv/robot/mesh_file.h"
 #include "fcl_stpbv/volume/tessellate.h"
 #include "fcl_stpbv/volume/verify.h"
@@ -35,6 +36,7 @@ std::string lowerExtension(const std::string& path) {
 struct Content {
   StpBv::Ptr volume;
   Points points;
+  bool isMesh = false;
 };
 
 // Decided by the content, read once: a pipe cannot be read twice. Volumes and polyhedra are texts; a mesh is
@@ -45,13 +47,13 @@ Content readInput(const std::string& path, const Eigen::Vector3d& scale) {
   std::error_code ignored;
   const bool isFile = std::filesystem::is_regular_file(path, ignored);
   if (isFile && extension != ".txt" && extension != ".otp" && !extension.empty())
-    return {nullptr, loadPoints(path, scale)};
+    return {nullptr, loadPoints(path, scale), true};
   std::istringstream stream(readText(path));
   const std::string text = stream.str();
   if (looksLikeStpBv(text)) return {loadStpBv(stream, path), {}};
   const bool points = looksLikeQhull(text);
   if (!points && looksLikeSch(text)) return {loadSch(stream, path), {}};
-  if (isFile) return {nullptr, loadPoints(path, scale)};
+  if (isFile) return {nullptr, loadPoints(path, scale), true};
   if (!points) throw Error(path + ": holds neither a volume nor points; a mesh must be a file");
   Content content{nullptr, parseQhullPoints(text, path)};
   for (Eigen::Vector3d& point : content.points) point = point.cwiseProduct(scale);
@@ -96,6 +98,23 @@ void check(Report& report, const Points& points, const ConversionOptions& option
   }
 }
 
+// A tenth of a second for a bound: a part in fifty of it, and 0.1 mm, above the truth as a rule.
+double hullExcessOf(const MeshSolid& solid, bool filled) {
+  ExcessOptions options;
+  options.relative = 0.02;
+  options.queries = 20000;
+  options.filled = filled;
+  return hullExcess(solid.pieces().vertices, solid, options).upper;
+}
+
+void measureExcess(Report& report, const Eigen::Vector3d& scale) {
+  const TriangleMesh mesh = loadMesh(report.input, scale);
+  if (mesh.triangles.empty()) return;
+  const MeshSolid solid(mesh);
+  report.excessMax = hullExcessOf(solid, true) + report.overCover.max;
+  report.openExcessMax = hullExcessOf(solid, false) + report.overCover.max;
+}
+
 }  // namespace
 
 Report convert(const std::string& input, const ConversionOptions& options) {
@@ -115,6 +134,7 @@ Report convert(const std::string& input, const ConversionOptions& options) {
   report.points = points.size();
   try {
     check(report, points, options);
+    if (options.measure && content.isMesh) measureExcess(report, Eigen::Vector3d::Constant(options.scale));
   } catch (const Error& error) {
     throw Error(input + ": " + error.what());
   }
@@ -154,6 +174,11 @@ std::string toJson(const Report& report) {
   json["R"] = body.radii().R;
   json["over_cover_max"] = report.overCover.max;
   json["over_cover_mean"] = report.overCover.mean;
+  const auto orNull = [](const std::optional<double>& value) {
+    return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json(nullptr);
+  };
+  json["excess_max"] = orNull(report.excessMax);
+  json["excess_max_open"] = orNull(report.openExcessMax);
   json["volume"] = report.cubicMetres;
   json["build_seconds"] = report.buildSeconds;
   json["verified"] =

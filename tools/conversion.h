@@ -29,6 +29,9 @@ struct Report {
   StpBv::Ptr volume;
   OverCover overCover{};
   double cubicMetres = 0;
+  /// Most that the volume exceeds the mesh by: what it encloses, or its triangles alone (m); none for what
+  /// has no triangles.
+  std::optional<double> excessMax, openExcessMax;
   double buildSeconds = 0;
   std::optional<bool> verified;  ///< set where it was asked for
   std::string verification;      ///< what is wrong with a volume that is not verified

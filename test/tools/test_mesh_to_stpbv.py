@@ -14,8 +14,8 @@ import time
 import unittest
 
 PROGRAM = SHARED = ""
-KEYS = ["input", "points", "vertices", "edges", "faces", "r", "R", "over_cover_max", "over_cover_mean", "volume",
-        "build_seconds", "verified"]
+KEYS = ["input", "points", "vertices", "edges", "faces", "r", "R", "over_cover_max", "over_cover_mean",
+        "excess_max", "excess_max_open", "volume", "build_seconds", "verified"]
 CUBE = [(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)]
 
 
@@ -95,6 +95,19 @@ class MeshToStpbv(unittest.TestCase):
         self.assertGreater(report["volume"], 1)
         report = json.loads(self.run_tool("cube.txt", "-o", "b.stpbv", "--json", "-q", "--verify").stdout)
         self.assertIs(report["verified"], True)
+
+    def test_a_gate_of_two_posts_exceeds_its_mesh_by_half_of_the_gap(self):
+        # Two unit cubes 2 m apart: in the middle between them the hull's side is 1 m away from either.
+        corners = [(x + 3 * k, y, z) for k in (0, 1) for x, y, z in CUBE]
+        faces = [(1, 2, 4, 3), (5, 7, 8, 6), (1, 5, 6, 2), (3, 4, 8, 7), (1, 3, 7, 5), (2, 6, 8, 4)]
+        write(self.at("gate.obj"), "".join("v %g %g %g\n" % c for c in corners)
+              + "".join("f %d %d %d %d\n" % tuple(v + 8 * k for v in face) for k in (0, 1) for face in faces))
+        report = json.loads(self.run_tool("gate.obj", "-o", "gate.stpbv", "--json", "-r", "0.02", "-R", "100").stdout)
+        for key in ("excess_max", "excess_max_open"):
+            self.assertGreaterEqual(report[key], 1 + report["over_cover_max"] - 1e-9)
+            self.assertLess(report[key], 1.03 + report["over_cover_max"])
+        cloud = json.loads(self.run_tool("cube.txt", "-o", "a.stpbv", "--json").stdout)
+        self.assertIsNone(cloud["excess_max"])
 
     def test_json_of_several_inputs_is_one_object_a_line(self):
         done = self.run_tool("cube.txt", "broken.txt", "other.txt", "-o", "out", "--json", code=1)
