@@ -181,6 +181,18 @@ void examine(const ReportRequest& request, const PairListOptions& search, const 
   }
 }
 
+// The volumes contain the meshes, and within the two excesses of their witness points there are points of the
+// meshes.
+void boundMeshDistances(const RobotGeometry* scene, PairCauses& causes, CollisionReport& report) {
+  std::vector<double> excess;
+  for (const MeshFit& fit : report.fits) excess.push_back(fit.volumeExcess);
+  if (scene)
+    for (const Body& body : scene->bodies) excess.push_back(meshFit(body, causes.exact(body)).volumeExcess);
+  for (PairReport& pair : report.pairs)
+    if (pair.answer.distance > 0)
+      pair.meshDistanceMost = pair.answer.upper + excess[at(pair.body1)] + excess[at(pair.body2)];
+}
+
 std::vector<CheckedPair> rowsOf(const CollisionReport& report, const RobotGeometry& geometry) {
   std::vector<CheckedPair> rows;
   for (const PairReport& pair : report.pairs) {
@@ -220,6 +232,7 @@ CollisionReport makeReport(const ReportRequest& request) {
   }
   for (const Body& body : report.geometry->bodies) report.fits.push_back(meshFit(body, causes->exact(body)));
   if (!request.polyhedra.empty()) report.polyhedra = comparePolyhedra(*report.geometry, request.polyhedra);
+  boundMeshDistances(loader.sceneGeometry().get(), *causes, report);
   summarise(report);
   requirePairs(at(report.checked), *report.robot, countsOf(report.list));
 

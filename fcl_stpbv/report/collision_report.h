@@ -52,6 +52,9 @@ struct PairReport {
   /// Of the meshes and primitives themselves, 0 where they meet (m); NaN where it was not measured, the
   /// volumes being farther apart than they exceed the hulls.
   double meshDistance = std::numeric_limits<double>::quiet_NaN();
+  /// Most that it can be where the volumes are apart, wherever it was measured or not: their distance and
+  /// what each exceeds its mesh by (m); NaN where they meet.
+  double meshDistanceMost = std::numeric_limits<double>::quiet_NaN();
   /// "meshes meet", "hull only" or "margin only" (pair_cause.h): what the collision comes from, or the one
   /// that contradicts the SRDF, in `closest`; "" without one.
   std::string cause;

@@ -315,6 +315,7 @@ std::string toJson(const CollisionReport& report) {
          {"over_cover1", pair.overCover1},
          {"over_cover2", pair.overCover2},
          {"hull_distance", orNull(pair.hullDistance)},
+         {"mesh_distance_most", orNull(pair.meshDistanceMost)},
          {"mesh_distance", orNull(pair.meshDistance)},
          {"by_parts", report.geometry->takenByParts(
                           pair.links.link1, pair.obstacle ? -1 - pair.links.link2 : pair.links.link2)},

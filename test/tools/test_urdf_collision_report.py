@@ -373,6 +373,12 @@ class Report(unittest.TestCase):
             self.assertEqual(done.returncode, 1 if cause else 0)
             self.assertEqual(report["summary"]["causes"], {cause: 1} if cause else {})
             self.assertEqual(pair["lipschitz"], 50)
+            # The volumes' distance and what they exceed the meshes by hold the truth between them.
+            self.assertEqual(pair["mesh_distance_most"] is None, bool(cause))
+            if not cause:
+                apart = 0.4 - 0.15  # along z
+                self.assertLessEqual(pair["distance"], apart)
+                self.assertGreaterEqual(pair["mesh_distance_most"], apart)
             if distance is not None:
                 self.assertAlmostEqual(pair["mesh_distance"], distance, delta=1e-6)  # the file's single precision
             text = self.run_tool(robot, "--srdf", srdf, "--pose", pose, "-r", "0.01", "--samples", "1").stdout
