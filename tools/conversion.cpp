@@ -32,11 +32,10 @@ std::string lowerExtension(const std::string& path) {
   return extension;
 }
 
-// What an input holds: a volume, or else points.
+// What an input holds: a volume, or else points, of a mesh with its triangles.
 struct Content {
   StpBv::Ptr volume;
-  Points points;
-  bool isMesh = false;
+  TriangleMesh mesh;
 };
 
 // Decided by the content, read once: a pipe cannot be read twice. Volumes and polyhedra are texts; a mesh is
@@ -47,16 +46,16 @@ Content readInput(const std::string& path, const Eigen::Vector3d& scale) {
   std::error_code ignored;
   const bool isFile = std::filesystem::is_regular_file(path, ignored);
   if (isFile && extension != ".txt" && extension != ".otp" && !extension.empty())
-    return {nullptr, loadPoints(path, scale), true};
+    return {nullptr, loadMesh(path, scale)};
   std::istringstream stream(readText(path));
   const std::string text = stream.str();
   if (looksLikeStpBv(text)) return {loadStpBv(stream, path), {}};
   const bool points = looksLikeQhull(text);
   if (!points && looksLikeSch(text)) return {loadSch(stream, path), {}};
-  if (isFile) return {nullptr, loadPoints(path, scale), true};
+  if (isFile) return {nullptr, loadMesh(path, scale)};
   if (!points) throw Error(path + ": holds neither a volume nor points; a mesh must be a file");
-  Content content{nullptr, parseQhullPoints(text, path)};
-  for (Eigen::Vector3d& point : content.points) point = point.cwiseProduct(scale);
+  Content content{nullptr, {parseQhullPoints(text, path), {}}};
+  for (Eigen::Vector3d& point : content.mesh.vertices) point = point.cwiseProduct(scale);
   return content;
 }
 
@@ -98,21 +97,14 @@ void check(Report& report, const Points& points, const ConversionOptions& option
   }
 }
 
-// A tenth of a second for a bound: a part in fifty of it, and 0.1 mm, above the truth as a rule.
-double hullExcessOf(const MeshSolid& solid, bool filled) {
-  ExcessOptions options;
-  options.relative = 0.02;
-  options.queries = 20000;
-  options.filled = filled;
-  return hullExcess(solid.pieces().vertices, solid, options).upper;
-}
-
-void measureExcess(Report& report, const Eigen::Vector3d& scale) {
-  const TriangleMesh mesh = loadMesh(report.input, scale);
+void measureExcess(Report& report, const TriangleMesh& mesh) {
   if (mesh.triangles.empty()) return;
   const MeshSolid solid(mesh);
-  report.excessMax = hullExcessOf(solid, true) + report.overCover.max;
-  report.openExcessMax = hullExcessOf(solid, false) + report.overCover.max;
+  const auto excess = [&](bool filled) {
+    return hullExcess(solid.pieces().vertices, solid, quickExcess(filled)).upper + report.overCover.max;
+  };
+  report.excessMax = excess(true);
+  report.openExcessMax = excess(false);
 }
 
 }  // namespace
@@ -122,7 +114,7 @@ Report convert(const std::string& input, const ConversionOptions& options) {
   report.input = input;
   Content content = readInput(input, Eigen::Vector3d::Constant(options.scale));
   report.volume = content.volume;
-  Points& points = content.points;
+  Points& points = content.mesh.vertices;
   if (report.volume) {
     checkSameRadii(input, report.volume->radii(), options);
     points = report.volume->vertices();
@@ -134,7 +126,7 @@ Report convert(const std::string& input, const ConversionOptions& options) {
   report.points = points.size();
   try {
     check(report, points, options);
-    if (options.measure && content.isMesh) measureExcess(report, Eigen::Vector3d::Constant(options.scale));
+    if (options.measure) measureExcess(report, content.mesh);
   } catch (const Error& error) {
     throw Error(input + ": " + error.what());
   }

@@ -4,11 +4,11 @@
 #include <fcl/geometry/shape/box.h>
 
 #include <cstdio>
-#include <exception>
 #include <fstream>
 #include <string>
 #include <vector>
 
+#include "docs/examples/reported.h"
 #include "fcl_stpbv/robot/srdf.h"
 #include "fcl_stpbv/robot/velocity_damper.h"
 
@@ -153,11 +153,8 @@ int show(const std::vector<Tick>& smooth, const std::vector<Tick>& flat, const s
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
+  return reported([&] {
     const Robot robot = load();
     return show(run(robot, true), run(robot, false), argc > 1 ? argv[1] : ".");
-  } catch (const std::exception& e) {
-    std::fprintf(stderr, "%s\n", e.what());
-    return 1;
-  }
+  });
 }

@@ -6,8 +6,8 @@
 #include <IpSolveStatistics.hpp>
 #include <IpTNLP.hpp>
 #include <cstdio>
-#include <exception>
 
+#include "docs/examples/reported.h"
 #include "fcl_stpbv/robot/constraints.h"
 #include "fcl_stpbv/robot/srdf.h"
 
@@ -162,11 +162,4 @@ for (double R : {0.3, 1.0, 3.0, 10.0}) {             // m; each from the solutio
 
 }  // namespace
 
-int main() {
-  try {
-    return run();
-  } catch (const std::exception& e) {
-    std::fprintf(stderr, "%s\n", e.what());
-    return 1;
-  }
-}
+int main() { return reported(run); }

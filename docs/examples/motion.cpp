@@ -1,7 +1,7 @@
 // What docs/motion.md shows, for the robot in data/hrp2_style: run in that folder.
 #include <cstdio>
-#include <exception>
 
+#include "docs/examples/reported.h"
 #include "fcl_stpbv/robot/motion_check.h"
 
 using namespace fcl_stpbv;
@@ -27,11 +27,4 @@ const MotionBracket first = check.firstContact(q0, q1);         // first.verdict
 
 }  // namespace
 
-int main() {
-  try {
-    return run();
-  } catch (const std::exception& e) {
-    std::fprintf(stderr, "%s\n", e.what());
-    return 1;
-  }
-}
+int main() { return reported(run); }

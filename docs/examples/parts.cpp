@@ -1,8 +1,8 @@
 // What docs/parts.md shows, for a mesh of the robot in data/hrp2_style: run in that folder.
 #include <cstdio>
-#include <exception>
 #include <vector>
 
+#include "docs/examples/reported.h"
 #include "fcl_stpbv/parts/convex_parts.h"
 #include "fcl_stpbv/robot/mesh_file.h"
 #include "fcl_stpbv/volume/stp_bv.h"
@@ -10,7 +10,7 @@
 using namespace fcl_stpbv;
 
 int main() {
-  try {
+  return reported([] {
     std::vector<StpBv::Ptr> volumes;
     // clang-format off
 const ConvexParts parts = convexParts(loadMesh("meshes/BODY.dae"), {8});   // eight at most
@@ -20,8 +20,5 @@ for (const ConvexPart& part : parts.parts) volumes.push_back(StpBv::build(part.p
     std::printf("%d parts, %.3f mm from the mesh at most\n", static_cast<int>(volumes.size()),
                 parts.excess * 1e3);
     return volumes.empty() || volumes.size() > 8 ? 1 : 0;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "%s\n", error.what());
-    return 1;
-  }
+  });
 }

@@ -1,7 +1,7 @@
 // What docs/proofs.md shows, for the robot in data/hrp2_style: run in that folder.
 #include <cstdio>
-#include <exception>
 
+#include "docs/examples/reported.h"
 #include "fcl_stpbv/robot/pair_proof.h"
 
 using namespace fcl_stpbv;
@@ -24,11 +24,4 @@ while (!proof.open.empty()) proof = provePair(scene, pair, proof.open, 1000);
 
 }  // namespace
 
-int main() {
-  try {
-    return run();
-  } catch (const std::exception& e) {
-    std::fprintf(stderr, "%s\n", e.what());
-    return 1;
-  }
-}
+int main() { return reported(run); }

@@ -1,7 +1,7 @@
 // What docs/robot.md and docs/posture.md show, for the robot in data/hrp2_style: run in that folder.
 #include <cstdio>
-#include <exception>
 
+#include "docs/examples/reported.h"
 #include "fcl_stpbv/posture/find_posture.h"
 #include "fcl_stpbv/posture/task.h"
 #include "fcl_stpbv/robot/constraints.h"
@@ -65,11 +65,4 @@ Posture posture = findPosture(setup);                // never throws
 
 }  // namespace
 
-int main() {
-  try {
-    return run();
-  } catch (const std::exception& e) {
-    std::fprintf(stderr, "%s\n", e.what());
-    return 1;
-  }
-}
+int main() { return reported(run); }

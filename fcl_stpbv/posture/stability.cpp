@@ -1,5 +1,5 @@
 // Static stability: the centre of mass, seen from above, is a convex combination of contact points.
-// 1. Hull of each contact by Andrew's monotone chain (1979).
+// 1. Hull of each contact (convex_polygon.h).
 // 2. Clip it by its edges moved inward by the margin (Sutherland and Hodgman 1974).
 // 3. Rows: centre of mass = sum of weights times points; derivatives by the mass below each joint.
 #include "fcl_stpbv/posture/stability.h"
@@ -9,36 +9,16 @@
 #include <cmath>
 
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/posture/convex_polygon.h"
 
 namespace fcl_stpbv {
 namespace {
 
+using namespace detail;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-double cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
-
-// Corners of the convex hull, counter-clockwise, none on an edge (Andrew's monotone chain).
-std::vector<Vector2d> hull(std::vector<Vector2d> points) {
-  std::sort(points.begin(), points.end(), [](const Vector2d& a, const Vector2d& b) {
-    return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y();
-  });
-  std::vector<Vector2d> corners;
-  for (int side = 0; side < 2; ++side) {
-    const std::size_t first = corners.size();
-    for (const Vector2d& p : points) {
-      while (corners.size() >= first + 2 &&
-             cross(corners.back() - corners[corners.size() - 2], p - corners.back()) <= 0)
-        corners.pop_back();
-      corners.push_back(p);
-    }
-    corners.pop_back();
-    std::reverse(points.begin(), points.end());
-  }
-  return corners;
-}
 
 // A convex polygon, counter-clockwise, without what is nearer than `margin` to its edges.
 std::vector<Vector2d> inner(const std::vector<Vector2d>& corners, double margin) {
@@ -107,7 +87,8 @@ std::vector<Vector3d> shrunk(const std::vector<Vector3d>& points, double margin)
   for (const Vector3d& p : points) flat.emplace_back(u.dot(p - centre), v.dot(p - centre));
   std::vector<Vector3d> corners;
   if (points.size() >= 3)
-    for (const Vector2d& p : inner(hull(flat), margin)) corners.push_back(centre + p.x() * u + p.y() * v);
+    for (const Vector2d& p : inner(convexPolygon(flat), margin))
+      corners.push_back(centre + p.x() * u + p.y() * v);
   if (corners.empty()) throw Error("a contact is narrower than twice the margin; give a smaller margin");
   return corners;
 }

@@ -111,7 +111,6 @@ PairReport said(const PairEntry& entry, const CollisionReport& report, const Srd
   PairReport pair;
   pair.links = entry;
   pair.link1 = report.robot->links[at(entry.link1)].name;
-  pair.obstacle = entry.obstacle;
   pair.link2 = nameOfSecond(entry, report);
   pair.reason = reasonText(entry.reason);
   if (srdf && !entry.obstacle) pair.srdfReason = srdf->reasonToSkip(pair.link1, pair.link2);
@@ -215,20 +214,28 @@ CollisionReport makeReport(const ReportRequest& request) {
   search.neutral = postures.neutral;
   report.margin = search.margin;
 
-  // With the whole bodies first; then, as long as splitting links helps, with the parts.
   const std::shared_ptr<const RobotGeometry> whole = report.geometry;
   const bool split = request.partsAuto || request.partsAll > 1;
   PartsChoice parts(whole);
   std::optional<PairCauses> causes;
-  constexpr int kMostRounds = 4;  // whole, and with two, four and eight parts
-  for (int round = 0;; ++round) {
+  const auto examineAll = [&] {
     causes.emplace(report.kinematics, report.geometry, report.obstacles, loader.sceneGeometry());
     examine(request, search, postures, srdf, *causes, report);
-    if (!split || round + 1 == kMostRounds) break;
-    if (request.partsAuto && !parts.refine(report, *causes, postures.neutral)) break;
-    if (!request.partsAuto && round > 0) break;
-    if (!request.partsAuto) parts.splitAll(report, request.partsAll);
+  };
+  // With the whole bodies first; then, as long as splitting links helps, with the parts.
+  const auto again = [&] {
     report.geometry = parts.geometry();
+    examineAll();
+  };
+  examineAll();
+  if (request.partsAll > 1) {
+    parts.splitAll(report, request.partsAll);
+    again();
+  }
+  constexpr int kMostRefinements = 3;  // two, four and eight parts
+  for (int k = 0; request.partsAuto && k < kMostRefinements; ++k) {
+    if (!parts.refine(report, *causes, postures.neutral)) break;
+    again();
   }
   for (const Body& body : report.geometry->bodies) report.fits.push_back(meshFit(body, causes->exact(body)));
   if (!request.polyhedra.empty()) report.polyhedra = comparePolyhedra(*report.geometry, request.polyhedra);

@@ -35,11 +35,10 @@ struct ReportRequest {
 /// One pair of links, or a link and an obstacle, in the posture asked for or in its closest configuration.
 struct PairReport {
   LinkPair links;
-  std::string link1, link2;
-  bool obstacle = false;   ///< link2 is an obstacle's name
-  std::string reason;      ///< what the search says
-  std::string srdfReason;  ///< what the SRDF says, "" where it says nothing
-  bool checked = true;     ///< false where the SRDF or, without one, the search leaves the pair of links out
+  std::string link1, link2;  ///< their names, or link2 an obstacle's
+  std::string reason;        ///< what the search says
+  std::string srdfReason;    ///< what the SRDF says, "" where it says nothing
+  bool checked = true;  ///< false where the SRDF or, without one, the search leaves the pair of links out
   DistanceAnswer answer;
   bool colliding = false;      ///< the distance is not above the margin asked for
   int body1 = -1, body2 = -1;  ///< the closest bodies; body2 of an obstacle counts on from the robot's

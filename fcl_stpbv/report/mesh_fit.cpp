@@ -9,12 +9,8 @@ namespace fcl_stpbv::report {
 MeshFit meshFit(const Body& body, const ExactBody& exact) {
   MeshFit fit;
   if (const MeshSolid* solid = exact.solid()) {
-    ExcessOptions options;
-    options.relative = 0.02;  // a report's figure, not a proof's
-    options.queries = 20000;  // a tenth of a second
-    options.filled = false;
     const MeshExcess excess =
-        hullExcess(body.partOf < 0 ? solid->pieces().vertices : body.hull, *solid, options);
+        hullExcess(body.partOf < 0 ? solid->pieces().vertices : body.hull, *solid, quickExcess(false));
     fit.hullExcess = excess.upper;
     fit.hullExcessSeen = excess.lower;
   }

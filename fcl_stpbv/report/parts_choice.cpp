@@ -15,11 +15,6 @@ namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-std::pair<int, int> keyOf(const LinkPair& pair) {
-  return pair.obstacle ? std::pair(pair.link1, -1 - pair.link2)
-                       : std::pair(std::min(pair.link1, pair.link2), std::max(pair.link1, pair.link2));
-}
-
 }  // namespace
 
 // The least distance of the bodies in q, each split as far; ends with the first that is not above `enough`.
@@ -39,8 +34,7 @@ double PartsChoice::clearance(const CollisionReport& report, const LinkPair& pai
     const auto [first, last] = parts_.whole().of(link);
     for (int i = first; i < last; ++i) {
       const Body& whole = parts_.whole().bodies[at(i)];
-      static const std::vector<Body> kNone;
-      const std::vector<Body>& parts = most > 1 ? parts_.of(i, most) : kNone;
+      const std::vector<Body>& parts = parts_.of(i, most);
       if (parts.size() < 2)
         add(whole);
       else
@@ -66,7 +60,7 @@ double PartsChoice::clearance(const CollisionReport& report, const LinkPair& pai
 }
 
 bool PartsChoice::refinePair(const CollisionReport& report, const LinkPair& pair, const Eigen::VectorXd& q) {
-  const bool known = byParts_.count(keyOf(pair)) > 0;
+  const bool known = byParts_.count(pair) > 0;
   const auto now = [&](int link) {
     const auto found = most_.find(link);
     return known && found != most_.end() ? found->second : 1;
@@ -87,7 +81,7 @@ bool PartsChoice::refinePair(const CollisionReport& report, const LinkPair& pair
     };
     raise(pair.link1, split.first);
     if (!pair.obstacle) raise(pair.link2, split.second);
-    byParts_.insert(keyOf(pair));
+    byParts_.insert(pair);
     return true;
   }
   return false;
@@ -112,7 +106,7 @@ bool PartsChoice::refine(const CollisionReport& report, PairCauses& causes, cons
 void PartsChoice::splitAll(const CollisionReport& report, int most) {
   for (const Body& body : report.geometry->bodies)
     if (!body.file.empty()) most_[body.link] = most;
-  for (const PairEntry& entry : report.list) byParts_.insert(keyOf(entry));
+  for (const PairEntry& entry : report.list) byParts_.insert(entry);
 }
 
 }  // namespace fcl_stpbv::report

@@ -38,8 +38,8 @@ class PartsChoice {
   bool refinePair(const CollisionReport& report, const LinkPair& pair, const Eigen::VectorXd& q);
 
   LinkParts parts_;
-  std::map<int, int> most_;                // by link
-  std::set<std::pair<int, int>> byParts_;  // as RobotGeometry's
+  std::map<int, int> most_;     // by link
+  std::set<LinkPair> byParts_;  // as RobotGeometry's
 };
 
 }  // namespace fcl_stpbv::report

@@ -23,7 +23,8 @@ std::string toHtml(const PostureReport& report) {
   for (const CheckedPair& both : report.pairs) {
     PairReport pair;
     pair.link1 = nameOf(both.body);
-    pair.obstacle = both.obstacle;
+    const auto linkOf = [&](int body) { return page.geometry->bodies[static_cast<std::size_t>(body)].link; };
+    pair.links = {linkOf(both.body), both.obstacle ? both.other : linkOf(both.other), both.obstacle};
     pair.link2 =
         both.obstacle ? page.obstacles[static_cast<std::size_t>(both.other)].name : nameOf(both.other);
     pair.reason = both.obstacle ? "obstacle" : "self";

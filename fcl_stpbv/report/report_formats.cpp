@@ -78,6 +78,10 @@ std::string fits(const CollisionReport& report, std::size_t top) {
          "hull, volume: at most so far are their surfaces from the mesh; ratio: the volume's to the mesh's\n";
 }
 
+bool isByParts(const CollisionReport& report, const PairReport& pair) {
+  return report.geometry->byParts.count(pair.links) > 0;
+}
+
 // The links that are split, for which pairs, and what that costs.
 std::string splits(const CollisionReport& report) {
   if (report.partsCost.rows == 0) return "";
@@ -90,14 +94,12 @@ std::string splits(const CollisionReport& report) {
       if (body.partOf == static_cast<int>(i)) excess = std::max(excess, body.excess);
     text += "  " + bodies[i].name +
             formatted(" in %d parts, %.3f mm from the mesh at most, for", bodies[i].parts, excess * kMm);
-    std::size_t shown = 0, count = 0;
+    int count = 0;
     for (const PairReport& pair : report.pairs) {
-      const bool own =
-          pair.links.link1 == bodies[i].link || (!pair.obstacle && pair.links.link2 == bodies[i].link);
-      const int second = pair.obstacle ? -1 - pair.links.link2 : pair.links.link2;
-      if (!own || !report.geometry->takenByParts(pair.links.link1, second)) continue;
-      ++count;
-      if (shown++ < 3) text += (shown > 1 ? ", " : " ") + pair.link1 + " - " + pair.link2;
+      const LinkPair& links = pair.links;
+      const bool own = links.link1 == bodies[i].link || (!links.obstacle && links.link2 == bodies[i].link);
+      if (!own || !isByParts(report, pair)) continue;
+      if (++count <= 3) text += (count > 1 ? ", " : " ") + pair.link1 + " - " + pair.link2;
     }
     text += (count > 3 ? " and " + std::to_string(count - 3) + " more pairs\n" : "\n");
   }
@@ -298,35 +300,33 @@ std::string toJson(const CollisionReport& report) {
   }
   json["pairs"] = nlohmann::json::array();
   for (const PairReport& pair : report.pairs) {
-    json["pairs"].push_back(
-        {{"link1", pair.link1},
-         {"link2", pair.link2},
-         {"obstacle", pair.obstacle},
-         {"reason", pair.reason},
-         {"srdf_reason", pair.srdfReason},
-         {"checked", pair.checked},
-         {"distance", orNull(pair.answer.distance)},
-         {"status", statusName(pair.answer.status)},
-         {"continuous", pair.answer.continuous},
-         {"point1", numbers(pair.answer.points[0])},
-         {"point2", numbers(pair.answer.points[1])},
-         {"normal", numbers(pair.answer.normal)},
-         {"gradient", pair.gradient},
-         {"over_cover1", pair.overCover1},
-         {"over_cover2", pair.overCover2},
-         {"hull_distance", orNull(pair.hullDistance)},
-         {"mesh_distance_most", orNull(pair.meshDistanceMost)},
-         {"mesh_distance", orNull(pair.meshDistance)},
-         {"by_parts", report.geometry->takenByParts(
-                          pair.links.link1, pair.obstacle ? -1 - pair.links.link2 : pair.links.link2)},
-         {"cause", pair.cause},
-         {"lipschitz", orNull(pair.lipschitz)},
-         {"time", orNull(pair.time)},
-         {"min_distance", orNull(pair.minDistance)},
-         {"closest", joints(pair.closest, *report.kinematics)},
-         {"probability_bound", pair.probabilityBound},
-         {"security_distance", pair.security},
-         {"influence_distance", pair.influence}});
+    json["pairs"].push_back({{"link1", pair.link1},
+                             {"link2", pair.link2},
+                             {"obstacle", pair.links.obstacle},
+                             {"reason", pair.reason},
+                             {"srdf_reason", pair.srdfReason},
+                             {"checked", pair.checked},
+                             {"distance", orNull(pair.answer.distance)},
+                             {"status", statusName(pair.answer.status)},
+                             {"continuous", pair.answer.continuous},
+                             {"point1", numbers(pair.answer.points[0])},
+                             {"point2", numbers(pair.answer.points[1])},
+                             {"normal", numbers(pair.answer.normal)},
+                             {"gradient", pair.gradient},
+                             {"over_cover1", pair.overCover1},
+                             {"over_cover2", pair.overCover2},
+                             {"hull_distance", orNull(pair.hullDistance)},
+                             {"mesh_distance_most", orNull(pair.meshDistanceMost)},
+                             {"mesh_distance", orNull(pair.meshDistance)},
+                             {"by_parts", isByParts(report, pair)},
+                             {"cause", pair.cause},
+                             {"lipschitz", orNull(pair.lipschitz)},
+                             {"time", orNull(pair.time)},
+                             {"min_distance", orNull(pair.minDistance)},
+                             {"closest", joints(pair.closest, *report.kinematics)},
+                             {"probability_bound", pair.probabilityBound},
+                             {"security_distance", pair.security},
+                             {"influence_distance", pair.influence}});
   }
   json["summary"] = {{"pairs_total", report.pairs.size()},
                      {"checked", report.checked},

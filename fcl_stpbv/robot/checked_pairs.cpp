@@ -50,7 +50,7 @@ std::vector<CheckedPair> selfPairs(const RobotModel& robot, const RobotGeometry&
   for (int i = 0; i < count; ++i) {
     for (int j = i + 1; j < count; ++j) {
       if (linkOf(i) == linkOf(j)) continue;
-      const bool inParts = geometry.takenByParts(linkOf(i), linkOf(j));
+      const bool inParts = geometry.byParts.count({linkOf(i), linkOf(j)}) > 0;
       if (!geometry.counts(i, inParts) || !geometry.counts(j, inParts)) continue;
       const bool skip = srdf ? !srdf->reasonToSkip(nameOf(i), nameOf(j)).empty()
                              : adjacency.of(linkOf(i), linkOf(j)) != Joining::separate;
@@ -64,7 +64,7 @@ std::vector<CheckedPair> pairsOfLinks(const RobotGeometry& geometry, int link1, 
   std::vector<CheckedPair> pairs;
   const auto [first1, last1] = geometry.of(link1);
   const auto [first2, last2] = geometry.of(link2);
-  const bool inParts = geometry.takenByParts(link1, link2);
+  const bool inParts = geometry.byParts.count({link1, link2}) > 0;
   for (int i = first1; i < last1; ++i)
     for (int j = first2; j < last2; ++j)
       if (geometry.counts(i, inParts) && geometry.counts(j, inParts)) pairs.push_back({i, j, false});
@@ -74,7 +74,7 @@ std::vector<CheckedPair> pairsOfLinks(const RobotGeometry& geometry, int link1, 
 std::vector<CheckedPair> pairsWithObstacle(const RobotGeometry& geometry, int link, int obstacle) {
   std::vector<CheckedPair> pairs;
   const auto [first, last] = geometry.of(link);
-  const bool inParts = geometry.takenByParts(link, -1 - obstacle);
+  const bool inParts = geometry.byParts.count({link, obstacle, true}) > 0;
   for (int i = first; i < last; ++i)
     if (geometry.counts(i, inParts)) pairs.push_back({i, obstacle, true});
   return pairs;
@@ -107,7 +107,7 @@ std::vector<CheckedPair> obstaclePairs(const RobotModel& robot, const RobotGeome
   for (std::size_t i = 0; i < geometry.bodies.size(); ++i) {
     if (!moves(robot, geometry.bodies[i].link, baseMoves)) continue;
     for (int body = static_cast<int>(i), o = 0; o < static_cast<int>(obstacles); ++o)
-      if (geometry.counts(body, geometry.takenByParts(geometry.bodies[i].link, -1 - o)))
+      if (geometry.counts(body, geometry.byParts.count({geometry.bodies[i].link, o, true}) > 0))
         pairs.push_back({body, o, true});
   }
   return pairs;

@@ -19,13 +19,6 @@ struct CheckedPair {
   bool obstacle = false;  ///< whether `other` is an obstacle
 };
 
-/// Two links, or a link and an obstacle.
-struct LinkPair {
-  int link1;              ///< index into RobotModel::links
-  int link2;              ///< link, or index among the obstacles
-  bool obstacle = false;  ///< whether `link2` is an obstacle
-};
-
 /// Something that stands still in the world.
 struct Obstacle {
   std::string name;                                         ///< for messages and reports

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <tuple>
 
 #include "fcl_stpbv/adapter/hull_geometry.h"
 #include "fcl_stpbv/error.h"
@@ -167,9 +168,12 @@ std::pair<int, int> RobotGeometry::of(int link) const {
   return {static_cast<int>(range.first - bodies.begin()), static_cast<int>(range.second - bodies.begin())};
 }
 
-bool RobotGeometry::takenByParts(int link1, int link2) const {
-  if (link2 >= 0 && link2 < link1) std::swap(link1, link2);
-  return byParts.count({link1, link2}) > 0;
+bool operator<(const LinkPair& a, const LinkPair& b) {
+  const auto key = [](const LinkPair& p) {
+    const bool swapped = !p.obstacle && p.link2 < p.link1;
+    return std::tuple(p.obstacle, swapped ? p.link2 : p.link1, swapped ? p.link1 : p.link2);
+  };
+  return key(a) < key(b);
 }
 
 bool RobotGeometry::counts(int body, bool inParts) const {

@@ -62,17 +62,22 @@ struct Body {
   std::vector<Eigen::Vector3d> hull;  ///< of a part: the corners of its hull, in the body's frame (m)
 };
 
+/// Two links, or a link and an obstacle.
+struct LinkPair {
+  int link1;              ///< index into RobotModel::links
+  int link2;              ///< link, or index among the obstacles
+  bool obstacle = false;  ///< whether `link2` is an obstacle
+};
+/// Two links are the same pair in either order.
+bool operator<(const LinkPair& a, const LinkPair& b);
+
 /// The bodies of all links.
 struct RobotGeometry {
   std::vector<Body> bodies;           ///< in the order of the links
   std::vector<std::string> warnings;  ///< whole sentences, to be told to the user
   int fromCache = 0;                  ///< volumes that needed no building
-  /// Pairs of links (the smaller index first) that are taken by their bodies' parts. With an obstacle o the
-  /// second is -1 - o.
-  std::set<std::pair<int, int>> byParts;
+  std::set<LinkPair> byParts;         ///< pairs that are taken by their bodies' parts, not whole
 
-  /// Whether two links are taken by parts; the second may be -1 - o.
-  bool takenByParts(int link1, int link2) const;
   /// Whether this body stands for its link where the pair is, or is not, taken by parts.
   bool counts(int body, bool inParts) const;
   /// Bodies of a link: first index and one past the last.

@@ -45,7 +45,7 @@ Body partOf(const Body& whole, int index, int number, const ConvexPart& part) {
 const std::vector<Body>& LinkParts::of(int index, int most) {
   const auto [found, isNew] = known_.try_emplace({index, most});
   const Body& whole = whole_->bodies[at(index)];
-  if (!isNew || whole.file.empty()) return found->second;
+  if (!isNew || whole.file.empty() || most < 2) return found->second;
   const TriangleMesh mesh = loadMesh(whole.file, whole.scale);
   if (mesh.triangles.empty()) return found->second;
   PartsOptions options;
@@ -61,8 +61,7 @@ const std::vector<Body>& LinkParts::of(int index, int most) {
   return found->second;
 }
 
-RobotGeometry LinkParts::geometry(const std::map<int, int>& most,
-                                  const std::set<std::pair<int, int>>& byParts) {
+RobotGeometry LinkParts::geometry(const std::map<int, int>& most, const std::set<LinkPair>& byParts) {
   RobotGeometry all;
   all.warnings = whole_->warnings;
   all.fromCache = whole_->fromCache;

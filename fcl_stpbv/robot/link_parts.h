@@ -27,7 +27,7 @@ class LinkParts {
 
   /// The whole bodies, and beside them the parts of those links that have an entry in `most`; `byParts` as
   /// given.
-  RobotGeometry geometry(const std::map<int, int>& most, const std::set<std::pair<int, int>>& byParts);
+  RobotGeometry geometry(const std::map<int, int>& most, const std::set<LinkPair>& byParts);
 
   /// The bodies as they were given.
   const RobotGeometry& whole() const { return *whole_; }

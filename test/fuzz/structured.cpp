@@ -107,13 +107,6 @@ std::string jointText(int index, int count, Random& random) {
   return text + "</joint>\n";
 }
 
-int collisionsIn(const std::string& text) {
-  int count = 0;
-  for (std::size_t at = 0; (at = text.find("<collision", at)) != std::string::npos; ++at)
-    count += text[at + 10] == '>' || text[at + 10] == ' ' || text[at + 10] == '/';
-  return count;
-}
-
 /// Two bodies on hinges and a third one beside them, which is where everything else is tried.
 struct Scene {
   PostureScene scene;
@@ -188,7 +181,7 @@ void checkRobot(const std::string& text, const std::string&) {
       shapes += shape.elements;
       must(shape.pose.matrix().allFinite() && shape.size.allFinite(), "a shape that is not finite");
     }
-  must(shapes == collisionsIn(text), "a <collision> that is not in the model");
+  must(shapes == test::collisionsIn(text), "a <collision> that is not in the model");
   const Kinematics kinematics(std::make_shared<const RobotModel>(model));
   Kinematics::State state = kinematics.makeState();
   kinematics.forward(kinematics.neutral(), state);

@@ -7,6 +7,7 @@
 #include "fcl_stpbv/robot/robot_model.h"
 #include "test/reference/source_folder.h"
 #include "test/reference/volume_files.h"
+#include "test/robot/urdf_texts.h"
 #include "test/robot/xml_mutations.h"
 
 using namespace fcl_stpbv;
@@ -14,17 +15,6 @@ using namespace fcl_stpbv::detail;
 using namespace fcl_stpbv::test;
 
 namespace {
-
-// Counted in the text, without a parser.
-int collisionsIn(const std::string& text) {
-  int count = 0;
-  const std::string tag = "<collision";
-  for (std::size_t at = text.find(tag); at != std::string::npos; at = text.find(tag, at + 1)) {
-    const char next = text[at + tag.size()];
-    count += next == '>' || next == ' ' || next == '/';
-  }
-  return count;
-}
 
 int collisionsIn(const RobotModel& robot) {
   int count = 0;

@@ -19,4 +19,15 @@ inline std::string joint(const std::string& name, const std::string& type, const
          more + "</joint>";
 }
 
+/// How many <collision> elements a text has, counted without a parser.
+inline int collisionsIn(const std::string& text) {
+  int count = 0;
+  const std::string tag = "<collision";
+  for (std::size_t at = text.find(tag); at != std::string::npos; at = text.find(tag, at + 1)) {
+    const char next = text[at + tag.size()];
+    count += next == '>' || next == ' ' || next == '/';
+  }
+  return count;
+}
+
 }  // namespace fcl_stpbv::test

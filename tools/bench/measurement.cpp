@@ -51,6 +51,15 @@ double threadTime() {
   return 1e9 * static_cast<double>(t.tv_sec) + static_cast<double>(t.tv_nsec);
 }
 
+double percentile(std::vector<double>& values, double p) {
+  if (values.empty()) return std::nan("");
+  const auto k = static_cast<std::ptrdiff_t>(p * static_cast<double>(values.size() - 1) + 0.5);
+  std::nth_element(values.begin(), values.begin() + k, values.end());
+  return values[static_cast<std::size_t>(k)];
+}
+
+double median(std::vector<double> values) { return percentile(values, 0.5); }
+
 double significant(double value, int digits) {
   char text[64];
   std::snprintf(text, sizeof text, "%.*g", digits, value);

@@ -22,6 +22,10 @@ std::string commandLine(int argc, char** argv);
 /// Time this thread has run (ns): without the time that others had the core.
 double threadTime();
 
+/// The value below which a share `p` of the values lies; reorders them. NaN for none.
+double percentile(std::vector<double>& values, double p);
+double median(std::vector<double> values);
+
 /// Rounds to so many significant digits: what a file shows of a measured value.
 double significant(double value, int digits);
 

@@ -77,11 +77,6 @@ Result run(const Task& task, const Way& way, const Method& method) {
   return result;
 }
 
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
-}
-
 /// The models of a task's bodies; obstacles stay flat where there are any (docs/control.md).
 std::vector<Method> models(const std::string& task, double r) {
   const Model smooth = task == "pack" ? Model::smooth : Model::half;

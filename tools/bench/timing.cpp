@@ -46,15 +46,6 @@ void runBlock(Method& method, const Poses& poses, std::vector<Answer>& answers, 
 
 }  // namespace
 
-double percentile(std::vector<double>& values, double p) {
-  if (values.empty()) return std::nan("");
-  const auto k = static_cast<std::ptrdiff_t>(p * static_cast<double>(values.size() - 1) + 0.5);
-  std::nth_element(values.begin(), values.begin() + k, values.end());
-  return values[static_cast<std::size_t>(k)];
-}
-
-double median(std::vector<double> values) { return percentile(values, 0.5); }
-
 double spread(std::vector<double> values) {
   const double low = percentile(values, 0.25), middle = percentile(values, 0.5);
   return 0.5 * (percentile(values, 0.75) - low) / middle;

@@ -6,13 +6,10 @@
 #include <vector>
 
 #include "test/reference/motion.h"
+#include "tools/bench/measurement.h"
 #include "tools/bench/method.h"
 
 namespace fcl_stpbv::benchmark {
-
-/// The value below which a share `p` of the values lies; reorders them. NaN for none.
-double percentile(std::vector<double>& values, double p);
-double median(std::vector<double> values);
 
 /// Half the middle half of the values, relative to their median: how far repeated blocks disagree.
 double spread(std::vector<double> values);

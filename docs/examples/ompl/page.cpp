@@ -1,9 +1,9 @@
 // See page.h. Bodies are drawn as the outlines of their volumes, seen along the y axis.
 #include "page.h"
 
-#include <algorithm>
 #include <cstdio>
 
+#include "fcl_stpbv/posture/convex_polygon.h"
 #include "fcl_stpbv/report/outline.h"
 
 namespace example {
@@ -16,28 +16,6 @@ namespace {
 constexpr double kScale = 400;  // pixels a metre
 constexpr int kWidth = 760, kHeight = 720;
 
-double cross(const Vector2d& o, const Vector2d& a, const Vector2d& b) {
-  return (a.x() - o.x()) * (b.y() - o.y()) - (a.y() - o.y()) * (b.x() - o.x());
-}
-
-/// Andrew's monotone chain.
-std::vector<Vector2d> hullOf(std::vector<Vector2d> points) {
-  std::sort(points.begin(), points.end(), [](const Vector2d& p, const Vector2d& q) {
-    return p.x() != q.x() ? p.x() < q.x() : p.y() < q.y();
-  });
-  std::vector<Vector2d> hull;
-  for (int side = 0; side < 2; ++side) {
-    const std::size_t begin = hull.size();
-    for (const Vector2d& p : points) {
-      while (hull.size() >= begin + 2 && cross(hull[hull.size() - 2], hull.back(), p) <= 0) hull.pop_back();
-      hull.push_back(p);
-    }
-    hull.pop_back();
-    std::reverse(points.begin(), points.end());
-  }
-  return hull;
-}
-
 std::string polygonOf(const fcl::CollisionGeometryd& geometry, const Eigen::Isometry3d& pose,
                       const std::string& style) {
   std::vector<Vector2d> seen;
@@ -47,7 +25,7 @@ std::string polygonOf(const fcl::CollisionGeometryd& geometry, const Eigen::Isom
   }
   if (seen.size() < 3) return "";
   std::string text = "<polygon points=\"";
-  for (const Vector2d& p : hullOf(seen)) {
+  for (const Vector2d& p : detail::convexPolygon(seen)) {
     char point[40];
     std::snprintf(point, sizeof point, "%.1f,%.1f ", p.x(), p.y());
     text += point;

@@ -1,0 +1,15 @@
+// What the examples' main() does with an error: its message, and exit status 1.
+#pragma once
+
+#include <cstdio>
+#include <exception>
+
+template <class Run>
+int reported(Run run) {
+  try {
+    return run();
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 1;
+  }
+}
