@@ -16,7 +16,7 @@ using namespace fcl_stpbv::test;
 
 namespace {
 
-int collisionsIn(const RobotModel& robot) {
+int collisionsOf(const RobotModel& robot) {
   int count = 0;
   for (const LinkModel& link : robot.links)
     for (const ShapeModel& shape : link.collision) count += shape.elements;
@@ -59,7 +59,7 @@ void judge(const std::string& original, const std::string& text, const Mutation&
   CAPTURE(mutation.what);
   try {
     const RobotModel robot = parseUrdf(text, "mutated.urdf");
-    if (collisionsIn(robot) != collisionsIn(text)) FAIL_CHECK("a body is missing");
+    if (collisionsOf(robot) != collisionsIn(text)) FAIL_CHECK("a body is missing");
     if (mutation.misspelt && geometryOf(robot) != original) FAIL_CHECK("a misspelt word changed the robot");
   } catch (const Error& error) {
     ++outcome.refused;
