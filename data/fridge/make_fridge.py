@@ -8,13 +8,15 @@ World frame: the robot's feet stand around the origin, x forward into the fridge
 millimetres and degrees, what is written is in metres and radians.
 """
 
-import argparse
 import json
 import math
 import os
 import sys
 
 FOLDER = os.path.dirname(os.path.abspath(__file__))
+sys.path.insert(0, os.path.dirname(FOLDER))
+import scene_files  # noqa: E402
+from scene_files import metres  # noqa: E402
 
 FRONT, BACK = 212, 800          # of the shelves' compartment
 LEFT, RIGHT = 215, -330         # inner sides of its panels
@@ -37,17 +39,13 @@ def box(low, high):
     return f'<box size="{metres(size)}"/>', [(a + b) / 2 for a, b in zip(low, high)]
 
 
-def metres(values):
-    return " ".join(f"{v / 1000:.6g}" for v in values)
-
-
 def parts():
-    """Name, geometry, centre in mm, yaw in degrees, colour."""
+    """As scene_files.urdf() takes them."""
     outer_left, outer_right = LEFT + PANEL, RIGHT - PANEL
     items = []
 
     def add(name, shape, colour=WHITE, yaw=0):
-        items.append((name, shape[0], shape[1], yaw, colour))
+        items.append((name, shape[0], shape[1], (0, 0, math.radians(yaw)), colour))
 
     add("left_panel", box((FRONT, LEFT, FLOOR), (BACK, outer_left, TOP)))
     add("right_panel", box((FRONT, outer_right, FLOOR), (BACK, RIGHT, TOP)))
@@ -93,19 +91,6 @@ def carafe(sides=24):
     return "\n".join(lines) + "\n"
 
 
-def urdf():
-    lines = ['<?xml version="1.0"?>', "<!-- Written by make_fridge.py. Do not edit. -->", '<robot name="fridge">',
-             '  <link name="world"/>']
-    for name, geometry, centre, yaw, colour in parts():
-        lines += [f'  <link name="{name}">',
-                  f'    <visual><geometry>{geometry}</geometry><material name="{name}"><color rgba="{colour}"/></material></visual>',
-                  f"    <collision><geometry>{geometry}</geometry></collision>", "  </link>",
-                  f'  <joint name="{name}_place" type="fixed">',
-                  f'    <origin xyz="{metres(centre)}" rpy="0 0 {math.radians(yaw):.9g}"/>',
-                  f'    <parent link="world"/><child link="{name}"/>', "  </joint>"]
-    return "\n".join(lines + ["</robot>"]) + "\n"
-
-
 def pick_can():
     """The task: both feet on the floor, the left hand around the can, 33 pairs with the fridge as in the paper."""
     sole = [[0.14, 0.07, -0.105], [0.14, -0.064, -0.105], [-0.1, 0.07, -0.105], [-0.1, -0.064, -0.105]]
@@ -137,32 +122,31 @@ def pick_can():
     }
 
 
+def reach():
+    """The task at any place: every pair is checked, but for the can, which the hand holds wherever it is."""
+    return {**pick_can(), "collisions": {"ignore": [{"obstacles": ["can"]}]}}
+
+
+def reach_grid():
+    """2000 places around the fridge: how far the feet stand from it, how high and how far forward the hand is."""
+    def along(name, move, first, last, count, **more):
+        return {"name": name, "move": move, **more, "from": first / 1000, "to": last / 1000, "count": count}
+    x, z = CAN[0], SHELF + GRASP  # where pick_can() has the hand
+    forward, up = [1, 0, 0], [0, 0, 1]
+    return {"axes": [along("feet forward", {"right foot": forward, "left foot": forward}, -400, 0, 5, base=forward),
+                     along("hand up", {"left hand": up}, 400 - z, 1730 - z, 20),
+                     along("hand forward", {"left hand": forward}, 50 - x, 772 - x, 20)]}
+
+
 def files():
-    yield "fridge.urdf", urdf()
+    yield "fridge.urdf", scene_files.urdf("fridge", "make_fridge.py", parts())
     yield "meshes/carafe.obj", carafe()
     yield "package.xml", ('<?xml version="1.0"?>\n<package format="3">\n  <name>fridge</name>\n  <version>0.1.0</version>\n'
                           "  <description>A fridge to take a can from</description>\n"
                           '  <maintainer email="developers@fcl-stpbv.invalid">fcl_stpbv developers</maintainer>\n  <license>BSD-2-Clause</license>\n</package>\n')
-    yield "pick_can.json", json.dumps(pick_can(), indent=1) + "\n"
-
-
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--check", action="store_true")
-    check, different = parser.parse_args().check, []
-    for name, text in files():
-        path = os.path.join(FOLDER, name)
-        old = open(path, encoding="utf-8").read() if os.path.exists(path) else None
-        if old == text:
-            continue
-        different.append(name)
-        if not check:
-            os.makedirs(os.path.dirname(path), exist_ok=True)
-            with open(path, "w", encoding="utf-8", newline="\n") as out:
-                out.write(text)
-    print("\n".join(different) if different else "up to date")
-    return 1 if check and different else 0
+    for name, content in (("pick_can", pick_can()), ("reach", reach()), ("reach_grid", reach_grid())):
+        yield f"{name}.json", json.dumps(content, indent=1) + "\n"
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(scene_files.main(__doc__, FOLDER, files()))

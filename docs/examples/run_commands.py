@@ -37,12 +37,13 @@ def commands(page):
 
 
 def make_samples(folder):
-    robot, fridge = project / "data/hrp2_style", project / "data/fridge"
+    robot, fridge, ladder = (project / "data" / name for name in ("hrp2_style", "fridge", "ladder"))
     shutil.copytree(robot, folder, dirs_exist_ok=True)
     shutil.copytree(fridge, folder / "fridge")
     for source, name in ((robot / "hrp2_style.urdf", "robot.urdf"), (robot / "hrp2_style.srdf", "robot.srdf"),
                          (fridge / "pick_can.json", "pick_can.json"), (fridge / "pick_can.json", "task.json"),
-                         (fridge / "fridge.urdf", "fridge.urdf"), (fridge / "fridge.urdf", "scene.urdf"),
+                         (fridge / "fridge.urdf", "fridge.urdf"), (ladder / "ladder.urdf", "ladder.urdf"),
+                         (ladder / "climb.json", "climb.json"), (ladder / "climb_grid.json", "climb_grid.json"), (fridge / "fridge.urdf", "scene.urdf"),
                          (project / "test/tools/six_joint_arm.urdf", "arm.urdf"), (project / "test/tools/reach.json", "reach.json")):
         shutil.copy(source, folder / name)
     (folder / "tetra-ch.txt").write_text("3\n4 4 6\n0 0 0\n0.3 0 0\n0 0.3 0\n0 0 0.3\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n")

@@ -1,6 +1,8 @@
 """A batch on a real scheduler with two workers, each a process that can be killed."""
+import json
 import os
 import pathlib
+import shutil
 import signal
 import socket
 import subprocess
@@ -48,11 +50,64 @@ class Cluster:
             process.wait()
 
 
-@pytest.fixture
-def cluster(tmp_path):
-    cluster = Cluster(tmp_path)
+@pytest.fixture(scope="module")
+def cluster(tmp_path_factory):
+    cluster = Cluster(tmp_path_factory.mktemp("cluster"))
     yield cluster
     cluster.stop()
+
+
+def many_jobs(kind, folder):
+    """The command of a batch of 50 jobs or more, each long enough for a kill to fall between them."""
+    if kind == "sample":
+        return SAMPLE
+    if kind == "prove":
+        return ["prove", ARM, "--budget", 10, "--boxes", 2000, "--descents", 1]
+    if kind == "convert":
+        meshes = [folder / f"{i}.stl" for i in range(60)]
+        for mesh in meshes:
+            shutil.copy(DATA / "hrp2_style/meshes/LARM_LINK0.stl", mesh)
+        meshes[7].write_bytes(b"solid nothing")  # fails its own job and no other
+        return ["convert", *meshes, "--volumes", folder / "volumes"]
+    task = json.loads((ARM.parent / "reach.json").read_text())
+    if kind == "grid":
+        axes = [{"name": name, "move": {"tool": by}, "from": -0.3, "to": 0.3, "count": count}
+                for name, by, count in (("y", [0, 1, 0], 60), ("x", [1, 0, 0], 8))]
+        (folder / "grid.json").write_text(json.dumps({"axes": axes}))
+        return ["postures", ARM, ARM.parent / "reach.json", "--grid", folder / "grid.json", "--starts", 2]
+    tasks = [folder / f"{i}.json" for i in range(30)]
+    for i, path in enumerate(tasks):
+        task["placements"][0]["target"]["position"] = [0.5 + 0.1 * i, 0, 0.5]  # most are out of reach
+        path.write_text(json.dumps(task))
+    return ["postures", ARM, *tasks, "--starts", 4]
+
+
+class Batch:
+    """A batch and what one process makes of it."""
+
+    def __init__(self, kind, folder):
+        self.folder, self.arguments = folder, many_jobs(kind, folder)
+        self.status, self.expected, self.volumes = self.run("expected", "--jobs", 1)
+        self.jobs = self.expected.count(b"\n") - 1
+        assert self.jobs >= 50
+
+    def start(self, name, *more):
+        self.out = self.folder / name
+        return start("fcl_stpbv.batch", *self.arguments, *more, "-o", self.out)
+
+    def run(self, name, *more):
+        process = self.start(name, *more)
+        _, message = process.communicate(timeout=100)
+        assert "Traceback" not in message
+        return process.returncode, self.out.read_bytes(), self.files()
+
+    def files(self):
+        return {path.name: path.read_bytes() for path in (self.folder / "volumes").glob("*")}
+
+
+@pytest.fixture(scope="module", params=["prove", "sample", "postures", "grid", "convert"])
+def some(request, tmp_path_factory):
+    return Batch(request.param, tmp_path_factory.mktemp(request.param))
 
 
 @pytest.fixture(scope="module")
@@ -71,33 +126,32 @@ def wait_for_lines(path, count, process):
     raise AssertionError(f"no {count} lines: {process.communicate()}")
 
 
-def test_a_worker_killed_in_the_middle_changes_nothing(cluster, expected, tmp_path):
-    out = tmp_path / "out"
-    run = start("fcl_stpbv.batch", *SAMPLE, "--scheduler", cluster.address, "-o", out)
-    wait_for_lines(out, 5, run)
+def test_a_worker_killed_in_the_middle_changes_nothing(cluster, some):
+    shutil.rmtree(some.folder / "volumes", ignore_errors=True)
+    run = some.start("killed", "--scheduler", cluster.address)
+    wait_for_lines(some.out, 5, run)
     cluster.workers[0].send_signal(signal.SIGKILL)
     cluster.workers[0].wait()
-    assert out.read_bytes().count(b"\n") < 50, "it was not in the middle"
-    assert run.wait(timeout=60) == 0, run.communicate()
-    assert out.read_bytes() == expected
+    assert some.out.read_bytes().count(b"\n") < some.jobs, "it was not in the middle"
+    assert run.wait(timeout=60) == some.status, run.communicate()
+    assert some.out.read_bytes() == some.expected and some.files() == some.volumes
+    cluster.workers[0] = cluster.worker()
 
 
-def test_a_scheduler_that_dies_costs_no_result_and_a_new_one_goes_on(cluster, expected, tmp_path):
-    out = tmp_path / "out"
-    run = start("fcl_stpbv.batch", *SAMPLE, "--scheduler", cluster.address, "-o", out)
-    wait_for_lines(out, 5, run)
+def test_a_scheduler_that_dies_costs_no_result_and_a_new_one_goes_on(cluster, some):
+    shutil.rmtree(some.folder / "volumes", ignore_errors=True)
+    run = some.start("stopped", "--scheduler", cluster.address)
+    wait_for_lines(some.out, 5, run)
     for process in (cluster.scheduler, *cluster.workers):
         process.kill()
         process.wait()
     output, message = run.communicate(timeout=60)
     assert run.returncode == 1 and message.strip().endswith("the Dask scheduler is gone; run again to go on"), message
-    done = out.read_bytes().count(b"\n") - 1
-    assert 0 < done < 60
+    done = some.out.read_bytes().count(b"\n") - 1
+    assert 0 < done < some.jobs
     cluster.start_scheduler()
-    cluster.worker()
-    run = start("fcl_stpbv.batch", *SAMPLE, "--scheduler", cluster.address, "-o", out)
-    assert run.wait(timeout=60) == 0, run.communicate()
-    assert out.read_bytes() == expected
+    cluster.workers = [cluster.worker(), cluster.worker()]
+    assert some.run("stopped", "--scheduler", cluster.address) == (some.status, some.expected, some.volumes)
 
 
 def test_a_run_that_is_interrupted_keeps_what_is_done(expected, tmp_path):

@@ -70,7 +70,9 @@ def described():
     postures.add_argument("tasks", nargs="+", metavar="TASK", help="its JSON file (docs/posture.md)")
     postures.add_argument("--srdf", default="", metavar="FILE", help="pairs to leave out and postures")
     postures.add_argument("--obstacles", default="", metavar="FILE", help="URDF of a scene to keep clear of")
-    postures.add_argument("--starts", type=COUNT, default=5, help="at most, for a task; more continues a run [5]")
+    postures.add_argument("--starts", type=COUNT, default=5, help="at most, for a task; more continues a run, but for a grid's [5]")
+    postures.add_argument("--grid", default="", metavar="FILE", help="moves the task's targets; a job is then a row of this grid")
+    postures.add_argument("--independent", action="store_true", help="each place of a grid from the task's starts alone, not from its neighbours' postures")
     convert = kinds.add_parser("convert", parents=[common], help="meshes to volumes")
     convert.add_argument("meshes", nargs="+", metavar="MESH")
     convert.add_argument("--volumes", required=True, metavar="FOLDER", help="where MESH.stpbv goes; made if missing")
@@ -89,7 +91,10 @@ def compute(arguments, schedule, show):
 def run(arguments):
     if arguments.shard and arguments.scheduler:
         raise fcl_stpbv.Error("--shard: is done in this process; leave out --scheduler")
-    kind = KINDS[arguments.kind](arguments)
+    grid = arguments.kind == "postures" and arguments.grid
+    if arguments.kind == "postures" and arguments.independent and not grid:
+        raise fcl_stpbv.Error("--independent: is about the places of a grid; give --grid")
+    kind = KINDS["grid" if grid else arguments.kind](arguments)
     header = {"batch": kind.name, "version": fcl_stpbv.__version__, "bundle": digest_of(kind.files), **kind.options}
     merged, jobs = results.merge(arguments.merge)
     if merged is not None:

@@ -1,4 +1,4 @@
-"""The four kinds of batches: which jobs there are, what one job does, what all of them say together.
+"""The kinds of batches: which jobs there are, what one job does, what all of them say together.
 
 A kind is made by the process that hands out the jobs. Its class is what workers know: `open` makes what jobs need from the bundle's
 files, once a worker, and `run` is a pure function of that, the options and the job.
@@ -10,6 +10,8 @@ import pathlib
 
 import fcl_stpbv
 from fcl_stpbv.batch import bundle
+from fcl_stpbv.batch.grid import Grid
+from fcl_stpbv.batch.postures import Postures
 
 
 class Prove:
@@ -106,49 +108,6 @@ class Sample:
                 f"{len(self.context.pairs) - hit} in none")
 
 
-class Postures:
-    """Postures for tasks. A job is one start of one task; the next start is tried where those before led to nothing."""
-    name = "postures"
-
-    def __init__(self, arguments):
-        path = arguments.package_path
-        self.options = {key: getattr(arguments, key) for key in ("r", "R", "seed")}
-        self.tasks = {task: bundle.read(task).decode("utf-8", "replace") for task in arguments.tasks}
-        self.options["tasks"] = bundle.digest_of({name: text.encode() for name, text in self.tasks.items()})
-        self.context = fcl_stpbv.PostureSearch(arguments.robot, arguments.srdf, arguments.obstacles, r=arguments.r, R=arguments.R,
-                                               package_path=path)
-        for name, text in self.tasks.items():
-            self.context.names(text, name)  # a task that does not fit is told before anything is computed
-        self.files = bundle.robot_files("robot", arguments.robot, path)
-        if arguments.srdf:
-            self.files["robot/robot.srdf"] = bundle.read(arguments.srdf)
-        if arguments.obstacles:
-            self.files.update(bundle.robot_files("scene", arguments.obstacles, path))
-        self.starts = arguments.starts
-        self.groups = list(self.tasks)
-
-    @staticmethod
-    def open(folder, options):
-        given = [str(folder / name) if (folder / name).exists() else "" for name in ("robot/robot.srdf", "scene/robot.urdf")]
-        return fcl_stpbv.PostureSearch(str(folder / "robot/robot.urdf"), *given, r=options["r"], R=options["R"])
-
-    @staticmethod
-    def run(search, options, job, text):
-        return search.solve(text, job[0], job[1], options["seed"]), None
-
-    def jobs(self, task, done):
-        for start in range(self.starts):
-            if (task, start) not in done:
-                return [((task, start), self.tasks[task])]
-            if done[task, start].get("feasible") or "error" in done[task, start]:
-                break
-        return []
-
-    def summary(self, done):
-        found = {record["job"][0] for record in done.values() if record.get("feasible")}
-        return f"{len(self.groups)} tasks: {len(found)} with a posture, {len(self.groups) - len(found)} without; {len(done)} starts"
-
-
 class Convert:
     """Volumes of meshes. A job is one mesh, which travels with it; a bad one fails alone."""
     name = "convert"
@@ -222,4 +181,4 @@ class Convert:
         return f"{len(done)} meshes: {len(done) - failed} volumes, {failed} failed"
 
 
-KINDS = {kind.name: kind for kind in (Prove, Sample, Postures, Convert)}
+KINDS = {kind.name: kind for kind in (Prove, Sample, Postures, Grid, Convert)}
