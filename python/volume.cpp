@@ -7,6 +7,7 @@
 #include "fcl_stpbv/io/stpbv_file.h"
 #include "fcl_stpbv/robot/mesh_file.h"
 #include "fcl_stpbv/volume/measure.h"
+#include "fcl_stpbv/volume/radii_advice.h"
 #include "fcl_stpbv/volume/stp_bv.h"
 #include "fcl_stpbv/volume/tessellate.h"
 #include "fcl_stpbv/volume/verify.h"
@@ -159,11 +160,39 @@ void addDistance(py::module_& module) {
       "Signed distance of two volumes at 4x4 poses. Poses that are no rigid motion give Status.invalid.");
 }
 
+void addAdvice(py::module_& module) {
+  py::class_<RadiiAdvice>(module, "RadiiAdvice",
+                          "r and R from clearance and acceleration, and what they reach.")
+      .def_property_readonly("r", [](const RadiiAdvice& advice) { return advice.radii.r; })
+      .def_property_readonly("R", [](const RadiiAdvice& advice) { return advice.radii.R; })
+      .def_readonly("meets_both", &RadiiAdvice::meetsBoth, "whether both promises are kept")
+      .def_readonly("acceleration", &RadiiAdvice::acceleration, "most that the shapes add to d'' (m/s^2)")
+      .def_readonly("over_cover", &RadiiAdvice::overCover, "of the volume of these radii (m)")
+      .def_readonly("per_period", &RadiiAdvice::perPeriod,
+                    "most that d falls below a linear row in a period (m)")
+      .def_readonly("least_clearance", &RadiiAdvice::leastClearance, "for the stated acceleration (m)");
+  const RadiiTask usual;
+  module.def(
+      "advise_radii",
+      [](const Floats<PointArray>& points, double clearance, double acceleration, double speed,
+         double turning, double period, double distance, bool bothRound) {
+        const std::vector<Eigen::Vector3d> list = toPoints(points.value);
+        py::gil_scoped_release others;
+        return adviseRadii(list, {clearance, acceleration, speed, turning, period, distance, bothRound});
+      },
+      py::arg("points"), py::kw_only(), py::arg("clearance") = usual.clearance,
+      py::arg("acceleration") = usual.acceleration, py::arg("speed") = usual.speed,
+      py::arg("turning") = usual.turning, py::arg("period") = usual.period,
+      py::arg("distance") = usual.distance, py::arg("both_round") = usual.bothRound,
+      "r and R for a body near others: m, m/s^2, m/s, rad/s, s, m.");
+}
+
 }  // namespace
 
 void addVolume(py::module_& module) {
   addStpBv(module);
   addDistance(module);
+  addAdvice(module);
   module.def(
       "load_points", [](const Path& path) { return toArray(loadPoints(path.string())); }, py::arg("path"),
       "(n, 3) array: the points of a mesh file or of a qhull file.");

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cctype>
 #include <chrono>
+#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -61,6 +62,8 @@ Content readInput(const std::string& path, const Eigen::Vector3d& scale) {
 
 // A volume has lost the points that its own radii left inside, so it cannot become that of other radii.
 void checkSameRadii(const std::string& input, const Radii& radii, const ConversionOptions& options) {
+  if (options.advise)
+    throw Error(input + ": is an STP-BV already; give the mesh it was made from, or leave out --advise");
   const bool same = options.r.value_or(radii.r) == radii.r && options.R.value_or(radii.R) == radii.R;
   if (same && options.scale == 1) return;
   throw Error(input + ": is an STP-BV already, made with r = " + toDecimal(radii.r) +
@@ -77,6 +80,24 @@ StpBv::Ptr build(const std::string& input, const Points& points, const Conversio
   } catch (const Error& error) {
     throw Error(input + ": " + error.what());
   }
+}
+
+// @throws Error where no radii keep both promises.
+RadiiAdvice advised(const std::string& input, const Points& points, const RadiiTask& task) {
+  const RadiiAdvice advice = [&] {
+    try {
+      return adviseRadii(points, task);
+    } catch (const Error& error) {
+      throw Error(input + ": " + error.what());
+    }
+  }();
+  if (advice.meetsBoth) return advice;
+  throw Error(input + ": no r and R keep both promises. With acceleration=" + toDecimal(advice.acceleration) +
+              " the clearance is enough, at r = " + toDecimal(advice.radii.r) +
+              " and R = " + toDecimal(advice.radii.R) + "; " +
+              (std::isfinite(advice.leastClearance)
+                   ? "with clearance=" + toDecimal(advice.leastClearance) + " the acceleration is kept"
+                   : "no volume of this body keeps the acceleration"));
 }
 
 std::string number(double value) {
@@ -119,8 +140,14 @@ Report convert(const std::string& input, const ConversionOptions& options) {
     checkSameRadii(input, report.volume->radii(), options);
     points = report.volume->vertices();
   } else {
+    ConversionOptions radii = options;
+    if (options.advise) {
+      report.advice = advised(input, points, *options.advise);
+      radii.r = report.advice->radii.r;
+      radii.R = report.advice->radii.R;
+    }
     const auto start = std::chrono::steady_clock::now();
-    report.volume = build(input, points, options);
+    report.volume = build(input, points, radii);
     report.buildSeconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   }
   report.points = points.size();
@@ -150,6 +177,9 @@ std::string toText(const Report& report) {
                      " faces; volume " + number(report.cubicMetres) + " m^3; over-cover max " +
                      number(report.overCover.max) + " m, mean " + number(report.overCover.mean) +
                      " m; built in " + number(report.buildSeconds) + " s";
+  if (report.advice)
+    text += "; advised r " + number(body.radii().r) + " m, R " + number(body.radii().R) + " m, at most " +
+            number(report.advice->acceleration) + " m/s^2";
   if (report.verified == true) text += "; verified";
   return text + " -> " + report.output;
 }
@@ -164,6 +194,10 @@ std::string toJson(const Report& report) {
   json["faces"] = body.faceCount();
   json["r"] = body.radii().r;
   json["R"] = body.radii().R;
+  if (report.advice) {
+    json["advised_acceleration"] = report.advice->acceleration;
+    json["advised_per_period"] = report.advice->perPeriod;
+  }
   json["over_cover_max"] = report.overCover.max;
   json["over_cover_mean"] = report.overCover.mean;
   const auto orNull = [](const std::optional<double>& value) {

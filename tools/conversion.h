@@ -6,6 +6,7 @@
 
 #include "fcl_stpbv/parts/convex_parts.h"
 #include "fcl_stpbv/volume/measure.h"
+#include "fcl_stpbv/volume/radii_advice.h"
 #include "fcl_stpbv/volume/stp_bv.h"
 
 namespace fcl_stpbv::tools {
@@ -13,7 +14,8 @@ namespace fcl_stpbv::tools {
 enum class Format { stpbv, sch };
 
 struct ConversionOptions {
-  std::optional<double> r, R;  ///< StpBvOptions' values where not given
+  std::optional<double> r, R;       ///< StpBvOptions' values where not given
+  std::optional<RadiiTask> advise;  ///< the radii that it leads to, instead
   double scale = 1;
   Format format = Format::stpbv;
   std::string preview;                ///< mesh to write for a look, none if empty
@@ -27,6 +29,7 @@ struct Report {
   std::string input, output;
   std::size_t points = 0;  ///< read from the input
   StpBv::Ptr volume;
+  std::optional<RadiiAdvice> advice;  ///< where it was asked for
   OverCover overCover{};
   double cubicMetres = 0;
   /// Most that the volume exceeds the mesh by: what it encloses, or its triangles alone (m); none for what

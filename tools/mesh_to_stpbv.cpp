@@ -19,6 +19,7 @@
 #include "tools/parts_conversion.h"
 #include "tools/program.h"
 #include "tools/progress_bar.h"
+#include "tools/radii_task.h"
 
 namespace {
 
@@ -41,6 +42,7 @@ Examples:
   mesh_to_stpbv part_in_mm.stl --scale 0.001 -r 0.005 -R 5 -o part.stpbv --verify
   mesh_to_stpbv meshes/*.dae -o volumes              one volume per mesh, in the folder volumes
   mesh_to_stpbv link.dae -o link.stpbv --preview link_stpbv.obj
+  mesh_to_stpbv tool.stl -o tool.stpbv --advise clearance=0.004,acceleration=2,speed=0.1,turning=0.5
   mesh_to_stpbv torso.dae --parts 8 -o torso.stpbv   torso_0.stpbv, torso_1.stpbv ...: eight parts at most
   mesh_to_stpbv link.stpbv --format sch -o link.txt  the same volume for sch-core
   mesh_to_stpbv meshes/*.dae -o volumes --json -q > report.jsonl
@@ -53,6 +55,7 @@ or standard output cannot be written.)";
 struct Arguments {
   std::vector<std::string> inputs;
   std::string output, format = "stpbv";
+  std::optional<std::string> advise;
   std::optional<int> parts;
   std::optional<double> excess, effort;
   ConversionOptions conversion;
@@ -66,9 +69,20 @@ void describe(Program& app, Arguments& arguments) {
   app.option("-o,--output", arguments.output, "File to write; for several inputs a folder, made if missing")
       .required()
       .type("OUT");
-  app.option("-r", conversion.r, "Radius of the small spheres, the margin around the points [0.01 m]")
-      .number(0, kLargest);
-  app.option("-R", conversion.R, "Radius of the big spheres [10 m]").number(0, kLargestR, false);
+  const Option r =
+      app.option("-r", conversion.r, "Radius of the small spheres, the margin around the points [0.01 m]")
+          .number(0, kLargest);
+  const Option R =
+      app.option("-R", conversion.R, "Radius of the big spheres [10 m]").number(0, kLargestR, false);
+  Option advise = app.option("--advise", arguments.advise,
+                             "The r and R that lose the least space and add at most this acceleration to a "
+                             "controller's rows: "
+                             "clearance [0.005 m], acceleration [1 m/s^2], speed [0.3 m/s], turning [1 "
+                             "rad/s], period [0.001 s], "
+                             "distance [0 m], others [flat]")
+                      .type("KEY=VALUE,...")
+                      .excludes(r)
+                      .excludes(R);
   app.option("--scale", conversion.scale, "Factor on the input's coordinates, 0.001 for millimetres")
       .number(0, kLargest, false)
       .shown();
@@ -78,10 +92,13 @@ void describe(Program& app, Arguments& arguments) {
       .type("");
   app.option("--preview", conversion.preview, "Also write the surface as a mesh: .obj, .stl, .ply or .glb")
       .type("FILE");
-  app.option("--parts", arguments.parts,
+  Option parts =
+      app.option(
+             "--parts", arguments.parts,
              "At most this many volumes that together cover a mesh that is not convex, each of a convex part")
-      .whole(1, kMostParts)
-      .type("K");
+          .whole(1, kMostParts)
+          .type("K");
+  parts.excludes(advise);
   app.option("--excess", arguments.excess,
              "As few such volumes as keep the parts' hulls this close to the mesh, about [m]")
       .number(0, kLargest, false)
@@ -195,6 +212,7 @@ int run(Arguments& arguments) {
   arguments.conversion.measure = arguments.json || !arguments.quiet;
   arguments.conversion.format = arguments.format == "sch" ? Format::sch : Format::stpbv;
   arguments.conversion.parts = partsOf(arguments);
+  if (arguments.advise) arguments.conversion.advise = radiiTask(*arguments.advise);
   const Plan plan =
       fcl_stpbv::tools::plan(arguments.inputs, arguments.output, arguments.conversion, arguments.force);
   std::error_code error;

@@ -97,6 +97,7 @@ template Option Program::option(const std::string&, std::uint64_t&, const std::s
 template Option Program::option(const std::string&, std::string&, const std::string&);
 template Option Program::option(const std::string&, std::optional<double>&, const std::string&);
 template Option Program::option(const std::string&, std::optional<int>&, const std::string&);
+template Option Program::option(const std::string&, std::optional<std::string>&, const std::string&);
 template Option Program::option(const std::string&, std::vector<int>&, const std::string&);
 template Option Program::option(const std::string&, std::vector<std::string>&, const std::string&);
 

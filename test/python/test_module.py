@@ -45,6 +45,19 @@ def test_the_gradient_is_what_differences_say():
     assert found.gradient[1, 5] == pytest.approx(about_z, abs=1e-8)
 
 
+def test_advised_radii_keep_the_clearance_and_say_what_else_they_reach():
+    task = dict(acceleration=2.0, speed=0.15, turning=0.5, distance=0.01)
+    advice = fcl_stpbv.advise_radii(BOX, clearance=0.02, **task)
+    volume = fcl_stpbv.StpBv.build(BOX, advice.r, advice.R)
+    assert advice.meets_both and advice.acceleration <= 2
+    assert volume.over_cover()[0] == advice.over_cover <= 0.02 - advice.per_period
+    less = fcl_stpbv.advise_radii(BOX, clearance=0.5 * advice.over_cover, **task)
+    assert not less.meets_both and less.acceleration > 2 and less.over_cover <= 0.5 * advice.over_cover
+    assert less.least_clearance == pytest.approx(advice.over_cover + advice.per_period, rel=1e-12)
+    with pytest.raises(fcl_stpbv.Error, match="clearance"):
+        fcl_stpbv.advise_radii(BOX, clearance=math.nan)
+
+
 def test_a_cache_does_not_change_the_answer():
     volume, cache = box(), fcl_stpbv.PairCache()
     for angle in np.linspace(-1, 1, 50):

@@ -61,6 +61,20 @@ class MeshToStpbv(unittest.TestCase):
         after = {name: os.path.isfile(self.at(name)) and read(self.at(name)) for name in self.names()}
         self.assertEqual(before, after)
 
+    def test_advised_radii_keep_what_is_asked_for_or_nothing_is_written(self):
+        task = "clearance=0.6,acceleration=1,speed=0.3,turning=1,distance=0.01,others=round"
+        done = json.loads(self.run_tool("cube.txt", "-o", "cube.stpbv", "--json", "--advise", task).stdout)
+        self.assertLessEqual(done["advised_acceleration"], 1)
+        self.assertLessEqual(done["over_cover_max"] + done["advised_per_period"], 0.6)
+        self.assertIn("advised r", self.run_tool("cube.txt", "-o", "cube.stpbv", "--advise", task, "--force").stdout)
+        self.refused("cube.txt", "-o", "new.stpbv", "--advise", "clearance=0.001", code=1, says=["cube.txt", "no r and R keep both", "acceleration="])
+        self.refused("cube.txt", "-o", "new.stpbv", "--advise", "clearance=0.001,period=1", code=1, says=["cube.txt", "shorter period"])
+        self.refused("cube.stpbv", "-o", "new.stpbv", "--advise", task, code=1, says=["cube.stpbv", "is an STP-BV already"])
+        for wrong in ("", "clearance", "clearance=x", "clearance=0", "clearance=nan", "speed=-1", "fast=1", "others=square", ","):
+            self.refused("cube.txt", "-o", "new.stpbv", "--advise", wrong, says=["--advise"])
+        for other in (["-r", "1"], ["-R", "10"], ["--parts", "2"]):
+            self.refused("cube.txt", "-o", "new.stpbv", "--advise", task, *other, says=["--advise"])
+
     def test_one_input_is_written_to_the_named_file(self):
         done = self.run_tool("cube.txt", "-o", "cube.stpbv")
         self.assertTrue(read(self.at("cube.stpbv")).startswith(b"stpbv 1\nr 0.01\nR 10\nvertices 8\n"))

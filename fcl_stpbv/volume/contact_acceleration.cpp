@@ -1,0 +1,17 @@
+// The bounds of docs/choosing_r_and_R.md. c falls as any radius of curvature grows: two balls of radii r
+// reach the most, a body 2 of radius R against a plane the least.
+#include "fcl_stpbv/volume/contact_acceleration.h"
+
+namespace fcl_stpbv {
+
+ContactAcceleration contactAcceleration(const Radii& body1, const Radii& body2, double distance, double speed,
+                                        double turning) {
+  const double least = turning > 0 ? -body2.R * turning * turning : 0;
+  const double sum = distance + body1.r + body2.r, rest = distance + body1.r;
+  if (!(sum > 0)) return {least, speed > 0 ? std::numeric_limits<double>::infinity() : 0};
+  // The largest (speed + r y)^2 / sum - r y^2 of all y up to `turning`.
+  const double y = speed < turning * rest ? speed / rest : turning, u = speed + body2.r * y;
+  return {least, u * u / sum - body2.r * y * y};
+}
+
+}  // namespace fcl_stpbv

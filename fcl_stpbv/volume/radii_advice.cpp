@@ -1,0 +1,129 @@
+// An allowed acceleration gives the least r and the largest R, and these the smallest volume that keeps it.
+// Its over-cover falls as the acceleration grows, so the least acceleration for a clearance is a bisection.
+#include "fcl_stpbv/volume/radii_advice.h"
+
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+#include "fcl_stpbv/error.h"
+#include "fcl_stpbv/number_check.h"
+#include "fcl_stpbv/volume/contact_acceleration.h"
+#include "fcl_stpbv/volume/hull_excess.h"
+
+namespace fcl_stpbv {
+namespace {
+
+using namespace detail;
+using Points = std::vector<Eigen::Vector3d>;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+// Nothing on a robot is smaller or larger (m, s, m/s, rad/s, m/s^2); products of a few stay finite.
+constexpr double kLeast = 1e-9, kMost = 1e9;
+
+void check(const RadiiTask& task) {
+  requireNumber("adviseRadii: clearance", task.clearance, kLeast, kMost);
+  requireNumber("adviseRadii: acceleration", task.acceleration, kLeast, kMost);
+  requireNumber("adviseRadii: speed", task.speed, 0, kMost);
+  requireNumber("adviseRadii: turning", task.turning, 0, kMost);
+  requireNumber("adviseRadii: period", task.period, 0, kMost);
+  requireNumber("adviseRadii: distance", task.distance, 0, kMost);
+}
+
+/// The last number on the way from `good` to `bad` that is good, to rounding.
+template <class IsGood>
+double lastGood(double good, double bad, const IsGood& isGood) {
+  if (isGood(bad)) return bad;
+  for (int round = 0; round < 100; ++round) {  // beyond the bits of a double
+    const double middle = 0.5 * (good + bad);
+    (isGood(middle) ? good : bad) = middle;
+  }
+  return good;
+}
+
+ContactAcceleration accelerationOf(const RadiiTask& task, double r, double R) {
+  const Radii own{r, R, R - r};
+  return contactAcceleration(task.bothRound ? own : kFlatRadii, own, task.distance, task.speed, task.turning);
+}
+
+/// The radii of the smallest volume with at most this acceleration; r is infinite where none is enough.
+StpBvOptions radiiFor(const RadiiTask& task, double acceleration) {
+  const auto most = [&](double r) { return accelerationOf(task, r, kLargestR).most <= acceleration; };
+  const auto least = [&](double R) { return -accelerationOf(task, 0, R).least <= acceleration; };
+  return {most(kLargestR) ? lastGood(kLargestR, 0, most) : kInfinity, lastGood(0, kLargestR, least)};
+}
+
+class Adviser {
+ public:
+  Adviser(const Points& points, const RadiiTask& task)
+      : points_(points),
+        task_(task),
+        reserve_(0.5 * task.acceleration * task.period * task.period),
+        hull_(points) {
+    if (reserve_ >= task.clearance) refuse();
+  }
+
+  RadiiAdvice advise() const {
+    RadiiAdvice asked = with(task_.acceleration);
+    asked.leastClearance = asked.overCover + reserve_;
+    asked.meetsBoth = asked.leastClearance <= task_.clearance;
+    if (asked.meetsBoth) return asked;
+    double low = task_.acceleration, high = low * kStep;
+    RadiiAdvice best = with(high);
+    for (; !keeps(best); best = with(high)) {
+      if (high > kMost) refuse();
+      low = high;
+      high *= kStep;
+    }
+    for (int round = 0; round < kRounds; ++round) {
+      const double middle = std::sqrt(low * high);
+      const RadiiAdvice tried = with(middle);
+      (keeps(tried) ? high : low) = middle;
+      if (keeps(tried)) best = tried;
+    }
+    best.leastClearance = asked.leastClearance;
+    return best;
+  }
+
+ private:
+  // The first step that keeps the clearance is found, then the place between it and the last to a thousandth.
+  static constexpr double kStep = 2;
+  static constexpr int kRounds = 10;
+
+  bool keeps(const RadiiAdvice& advice) const { return advice.overCover + reserve_ <= task_.clearance; }
+
+  RadiiAdvice with(double acceleration) const {
+    RadiiAdvice advice{radiiFor(task_, acceleration), false, 0, kInfinity, 0, kInfinity};
+    const double r = advice.radii.r, R = advice.radii.R;
+    if (!(R > StpBv::smallestR(points_, 0) + r)) return advice;
+    const ContactAcceleration reached = accelerationOf(task_, r, R);
+    advice.acceleration = reached.size();
+    advice.overCover = hull_.max(*StpBv::build(points_, {r, R}));
+    advice.perPeriod = -0.5 * reached.least * task_.period * task_.period;
+    return advice;
+  }
+
+  [[noreturn]] void refuse() const {
+    char text[256];
+    std::snprintf(text, sizeof text,
+                  "adviseRadii: no r and R keep a clearance of %.9g m, of which %.9g m go into the period of "
+                  "%.9g s; state a larger clearance, a shorter period or a slower motion",
+                  task_.clearance, reserve_, task_.period);
+    throw Error(text);
+  }
+
+  const Points& points_;
+  const RadiiTask& task_;
+  double reserve_;  // of the clearance, for what a period's linear rows may miss
+  HullExcess hull_;
+};
+
+}  // namespace
+
+RadiiAdvice adviseRadii(const Points& points, const RadiiTask& task) {
+  check(task);
+  StpBv::smallestR(points, 0);  // refuses points without a volume
+  return Adviser(points, task).advise();
+}
+
+}  // namespace fcl_stpbv

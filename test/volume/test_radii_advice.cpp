@@ -1,0 +1,205 @@
+// The bounds on what two shapes add to d'', and radii from clearance and acceleration: both promises are
+// measured, the acceleration by differences of distances.
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
+
+#include "fcl_stpbv/distance/shape_distance.h"
+#include "fcl_stpbv/error.h"
+#include "fcl_stpbv/volume/contact_acceleration.h"
+#include "fcl_stpbv/volume/measure.h"
+#include "fcl_stpbv/volume/radii_advice.h"
+#include "test/reference/shapes.h"
+
+using namespace fcl_stpbv;
+using namespace fcl_stpbv::test;
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+namespace {
+
+Vector3d across(const Vector3d& v, const Vector3d& n) { return v - n.dot(v) * n; }
+Vector3d inDisc(const Vector3d& n, double radius, Random& random) {
+  return random.uniform(0, radius) * across(random.direction(), n).normalized();
+}
+
+/// A body that stands still and one that moves; at most one of them is the box.
+struct Pair {
+  StpBv::Ptr still, moving;  // null for the box
+  Shape box = Shape::boxOf({0.4, 0.3, 0.2});
+  Isometry3d at = Isometry3d::Identity(), pose = Isometry3d::Identity();
+
+  Distance ask(const Isometry3d& moved) const {
+    if (!still) return distance(box, at, *moving, moved);
+    return moving ? distance(*still, at, *moving, moved) : distance(*still, at, box, moved);
+  }
+  ContactAcceleration bound(double apart, double speed, double turning) const {
+    return contactAcceleration(still ? still->radii() : kFlatRadii, moving ? moving->radii() : kFlatRadii,
+                               apart, speed, turning);
+  }
+  double r() const { return (still ? still->radii().r : 0) + (moving ? moving->radii().r : 0); }
+
+  /// Turns both and puts the second one at this distance.
+  void place(double apart, Random& random) {
+    at.linear() = random.rotation();
+    pose.linear() = random.rotation();
+    pose.translation() = 3 * random.direction();
+    for (int k = 0; k < 3; ++k) {  // along its own normal a distance falls by just what the body moves
+      const Distance d = ask(pose);
+      pose.translation() += (apart - d.distance) * d.normal;
+    }
+  }
+};
+
+struct Motion {
+  double apart, speed, turning;
+  double added;  // c, measured
+};
+
+/// c of a random motion with at most these speeds, by second differences of the distance.
+Motion measure(const Pair& pair, double speed, double turning, Random& random) {
+  const Distance d = pair.ask(pair.pose);
+  const Vector3d n = d.normal, y = inDisc(n, turning, random);
+  const Vector3d u = inDisc(n, speed, random), w = n.cross(y) + random.uniform(-1, 1) * n;
+  const Vector3d v = u + random.uniform(-0.1, 0.1) * n - w.cross(d.point[1]);  // of what is at the origin
+  const double step = 2e-4 * (d.distance + pair.r()) / (0.1 + speed + 0.1 * turning);
+  const auto after = [&](double t) {
+    // x(t) = x + v t + w x v t^2 / 2 + ...: a screw to the second order, the rest is t^3
+    Isometry3d moved = pair.pose;
+    const Eigen::AngleAxisd turn(t * w.norm(), w.normalized());
+    moved.linear() = turn * pair.pose.linear();
+    moved.translation() = turn * pair.pose.translation() + t * v + 0.5 * t * t * w.cross(v);
+    return pair.ask(moved).distance;
+  };
+  const double bent = (after(step) - 2 * after(0) + after(-step)) / (step * step);
+  const double material = n.dot(w.cross(v + w.cross(d.point[1])));
+  return {d.distance, u.norm(), y.norm(), bent - material};
+}
+
+Cloud randomCloud(Random& random) {
+  const Vector3d half(random.uniform(0.01, 0.2), random.uniform(0.01, 0.2), random.uniform(0.001, 0.2));
+  if (random.below(3) == 0) return box(2 * half.x(), 2 * half.y(), 2 * half.z());
+  return randomHull(4 + random.below(60), half, static_cast<std::uint64_t>(random.below(100000)));
+}
+
+// Rounding of three distances of bodies within 4 m, over the step squared, and the third-order part.
+double noiseOf(const Pair& pair, const Motion& m) {
+  const double s = m.apart + pair.r(), step = 2e-4 * s / (0.1 + m.speed + 0.1 * m.turning);
+  return 4e-15 / (step * step);
+}
+
+}  // namespace
+
+TEST_CASE("no motion bends the distance more than the radii, the distance and the speeds allow") {
+  Random random(11);
+  double most = 0, least = 0;
+  for (int trial = 0; trial < 3000; ++trial) {
+    Pair pair;
+    const auto volume = [&] {
+      const Cloud cloud = randomCloud(random);
+      const double r = random.uniform(0.005, 0.05);
+      return StpBv::build(cloud, {r, StpBv::smallestR(cloud, r) * random.uniform(1.01, 20)});
+    };
+    const int flat = random.below(3);
+    if (flat != 0) pair.still = volume();
+    if (flat != 1) pair.moving = volume();
+    pair.place(random.uniform(0, 0.05), random);
+    const double speed = random.below(4) == 0 ? 0 : random.uniform(0, 1),
+                 turning = random.below(4) == 0 ? 0 : random.uniform(0, 2);
+    const Motion m = measure(pair, speed, turning, random);
+    const ContactAcceleration bound = pair.bound(m.apart, m.speed, m.turning);
+    // The speeds change over the step by a few 1e-4 of themselves.
+    const double slack = noiseOf(pair, m) + 1e-3 * (bound.most + std::min(-bound.least, 1.0));
+    CHECK(m.added <= bound.most + slack);
+    CHECK(m.added >= bound.least - slack);
+    if (bound.most > 100 * slack) most = std::max(most, m.added / bound.most);
+    if (bound.least < -100 * slack) least = std::max(least, m.added / bound.least);
+  }
+  CHECK(most > 0.9);  // a bound that nothing comes near would bound nothing
+  CHECK(least > 0.5);
+}
+
+TEST_CASE("two balls that slide, and a big face that rocks over a plane, reach the bounds") {
+  Random random(3);
+  Pair balls{StpBv::build({{0, 0, 0}}, {0.01, 1}), StpBv::build({{0, 0, 0}}, {0.02, 1})}, face;
+  balls.place(0.03, random);
+  const Motion slid = measure(balls, 0.5, 0, random);
+  CHECK(slid.added == Approx(balls.bound(0.03, slid.speed, 0).most).epsilon(1e-4));  // of the differences
+  face.moving = StpBv::build(box(0.2, 0.2, 0.2), {0.01, 2});
+  face.pose.translation().z() = 0.1 + 0.02 + face.moving->support({0, 0, -1});
+  const Motion rocked = measure(face, 0, 1, random);
+  CHECK(rocked.added == Approx(face.bound(rocked.apart, 0, rocked.turning).least).epsilon(1e-4));
+  const Radii small{0.01, 1, 0.99}, big{0.02, 5, 4.98};
+  CHECK(contactAcceleration(small, big, 0.03, 0.3, 0).most == Approx(0.3 * 0.3 / 0.06));
+  CHECK(contactAcceleration(small, big, 0.03, 0.3, 0).least == 0);
+  CHECK(contactAcceleration(kFlatRadii, small, 0, 0, 2).least == -4);
+  CHECK(contactAcceleration(kFlatRadii, small, 0, 0, 2).most == 0);
+  CHECK(contactAcceleration(kFlatRadii, kFlatRadii, 0, 1, 1).size() ==
+        std::numeric_limits<double>::infinity());
+}
+
+TEST_CASE("advised radii keep the stated clearance and the allowed acceleration, on any body") {
+  Random random(5);
+  int kept = 0, impossible = 0;
+  double tightest = 0;
+  for (int trial = 0; trial < 60; ++trial) {
+    const Cloud cloud = randomCloud(random);
+    RadiiTask task;
+    task.clearance = std::pow(10, random.uniform(-3.5, -1.5));
+    task.acceleration = std::pow(10, random.uniform(-1, 1.5));
+    task.speed = random.uniform(0, 0.5);
+    task.turning = random.uniform(0, 2);
+    task.distance = random.below(2) == 0 ? 0 : 0.01;
+    task.bothRound = random.below(2) == 0;
+    const RadiiAdvice advice = adviseRadii(cloud, task);
+    const StpBv::Ptr volume = StpBv::build(cloud, advice.radii);
+    CHECK(overCover(*volume, cloud).max == advice.overCover);
+    CHECK(advice.overCover <= task.clearance);
+    ++(advice.meetsBoth ? kept : impossible);
+    if (advice.meetsBoth) {
+      CHECK(advice.acceleration <= task.acceleration);
+      CHECK(advice.overCover + advice.perPeriod <= task.clearance);
+    }
+    Pair pair;
+    pair.moving = volume;
+    if (task.bothRound) pair.still = volume;
+    for (int k = 0; k < 40; ++k) {
+      pair.place(task.distance + random.uniform(1e-3, 0.02), random);
+      const Motion m = measure(pair, task.speed, task.turning, random);
+      const double slack = noiseOf(pair, m) + 1e-3 * advice.acceleration;
+      if (slack > 0.1 * advice.acceleration) continue;  // too sharp for differences
+      CHECK(std::abs(m.added) <= advice.acceleration + slack);
+      tightest = std::max(tightest, std::abs(m.added) / advice.acceleration);
+    }
+  }
+  CHECK(kept > 10);
+  CHECK(impossible > 10);
+  CHECK(tightest > 0.5);
+}
+
+TEST_CASE("where no radii keep both promises the advice is the best of each, and less is impossible") {
+  Random random(8);
+  RadiiTask task{0.003, 0.2, 0.3, 1.0, 0};  // a period would take its share of the clearance
+  for (int trial = 0; trial < 8; ++trial) {
+    const Cloud cloud = box(random.uniform(0.1, 0.4), random.uniform(0.1, 0.4), random.uniform(0.02, 0.2));
+    task.bothRound = trial % 2 == 0;
+    const RadiiAdvice advice = adviseRadii(cloud, task);
+    REQUIRE_FALSE(advice.meetsBoth);
+    RadiiTask other = task;
+    other.acceleration = 1.002 * advice.acceleration;  // the search ends within a thousandth
+    CHECK(adviseRadii(cloud, other).meetsBoth);
+    other.acceleration = 0.998 * advice.acceleration;
+    CHECK_FALSE(adviseRadii(cloud, other).meetsBoth);
+    if (std::isinf(advice.leastClearance)) continue;
+    other = task;
+    other.clearance = advice.leastClearance;
+    CHECK(adviseRadii(cloud, other).meetsBoth);
+    other.clearance = advice.leastClearance * (1 - 1e-12);
+    CHECK_FALSE(adviseRadii(cloud, other).meetsBoth);
+  }
+  task.period = 1;  // half of 0.2 m/s^2 over a second is more than all the clearance
+  CHECK_THROWS_WITH(adviseRadii(box(0.1, 0.1, 0.1), task), Catch::Contains("shorter period"));
+  task.period = std::numeric_limits<double>::quiet_NaN();
+  CHECK_THROWS_WITH(adviseRadii(box(0.1, 0.1, 0.1), task), Catch::Contains("period"));
+  CHECK_THROWS_AS(adviseRadii({}, RadiiTask()), Error);
+}

@@ -1,0 +1,41 @@
+// See radii_task.h.
+#include "tools/radii_task.h"
+
+#include <map>
+#include <sstream>
+
+#include "tools/number_check.h"
+#include "tools/output_plan.h"
+
+namespace fcl_stpbv::tools {
+
+RadiiTask radiiTask(const std::string& text) {
+  RadiiTask task;
+  const std::map<std::string, double*> numbers{
+      {"clearance", &task.clearance}, {"acceleration", &task.acceleration},
+      {"speed", &task.speed},         {"turning", &task.turning},
+      {"period", &task.period},       {"distance", &task.distance}};
+  if (text.empty()) throw UsageError("--advise: is empty, expected as in clearance=0.005,speed=0.3");
+  std::istringstream rest(text);
+  for (std::string word; std::getline(rest, word, ',');) {
+    const std::size_t equals = word.find('=');
+    const std::string key = word.substr(0, equals),
+                      value = equals == std::string::npos ? "" : word.substr(equals + 1);
+    const auto number = numbers.find(key);
+    if (key == "others" && (value == "round" || value == "flat")) {
+      task.bothRound = value == "round";
+      continue;
+    }
+    if (number == numbers.end())
+      throw UsageError("--advise " + text + ": got '" + word +
+                       "', expected clearance=, acceleration=, speed=, turning=, period= or distance= with a "
+                       "number, or others=round or flat, with commas between");
+    const bool orZero = key != "clearance" && key != "acceleration";
+    const std::string wrong = wrongNumber(value, 0, kLargest, orZero);
+    if (!wrong.empty()) throw UsageError("--advise " + text + ": " + key + ": " + wrong);
+    *number->second = std::stod(value);
+  }
+  return task;
+}
+
+}  // namespace fcl_stpbv::tools
