@@ -18,11 +18,42 @@ using fcl::CollisionResultd;
 using fcl::Contactd;
 using fcl::Transform3d;
 
+/// Fills a result up to its limit.
 class Contacts {
  public:
-  Contacts(const PosedPair& pair, const Contactd& blank, const CollisionRequestd& request,
-           CollisionResultd& result, PairCache* cache)
-      : pair_(pair), blank_(blank), request_(request), result_(result), cache_(cache) {}
+  Contacts(const CollisionRequestd& request, CollisionResultd& result, PairCache* cache)
+      : request_(request), result_(result), cache_(cache ? *cache : own_) {}
+
+  bool full() const { return result_.numContacts() >= request_.num_max_contacts; }
+
+  /// Adds the contact of two bodies, which knows who they are, unless they are certainly apart.
+  void add(const ConvexBody& a, const ConvexBody& b, Contactd& contact) {
+    if (request_.enable_contact ? meet(a, b, contact) : !isFartherThan(0.0, a, b, &cache_))
+      result_.addContact(contact);
+  }
+
+ private:
+  bool meet(const ConvexBody& a, const ConvexBody& b, Contactd& contact) {
+    if (isFartherByBounds(0.0, a, b, cache_)) return false;
+    const Distance found = distance(a, b, &cache_);
+    if (found.status == DistanceStatus::invalid) return true;  // as it is: without an answer
+    contact.normal = found.normal;
+    contact.pos = 0.5 * (found.point[0] + found.point[1]);
+    contact.penetration_depth = std::max(0.0, -found.distance);
+    return !(found.lower > 0);
+  }
+
+  const CollisionRequestd& request_;
+  CollisionResultd& result_;
+  PairCache own_;
+  PairCache& cache_;
+};
+
+/// The contacts of all elements, for the walk down both hierarchies.
+class ElementContacts {
+ public:
+  ElementContacts(const PosedPair& pair, const Contactd& blank, Contacts& found)
+      : pair_(pair), blank_(blank), found_(found) {}
 
   double bound(const PosedGeometry::Part& a, const PosedGeometry::Part& b) const {
     return gapOf(pair_, a, b);
@@ -35,27 +66,14 @@ class Contacts {
     Contactd contact = blank_;
     contact.b1 = leafA.node.id;
     contact.b2 = leafB.node.id;
-    if (!(request_.enable_contact ? meet(a, b, contact) : !isFartherThan(0.0, a, b, cache_))) return false;
-    result_.addContact(contact);
-    return result_.numContacts() >= request_.num_max_contacts;
+    found_.add(a, b, contact);
+    return found_.full();
   }
 
  private:
-  bool meet(const ConvexBody& a, const ConvexBody& b, Contactd& contact) {
-    if (isFartherByPlane(0.0, a, b, *cache_)) return false;
-    const Distance found = distance(a, b, cache_);
-    if (found.status == DistanceStatus::invalid) return true;  // as it is: without an answer
-    contact.normal = found.normal;
-    contact.pos = 0.5 * (found.point[0] + found.point[1]);
-    contact.penetration_depth = std::max(0.0, -found.distance);
-    return !(found.lower > 0);
-  }
-
   const PosedPair& pair_;
   const Contactd& blank_;
-  const CollisionRequestd& request_;
-  CollisionResultd& result_;
-  PairCache* cache_;
+  Contacts& found_;
 };
 
 }  // namespace
@@ -63,20 +81,25 @@ class Contacts {
 std::size_t collide(const CollisionGeometryd* geometry1, const Transform3d& pose1,
                     const CollisionGeometryd* geometry2, const Transform3d& pose2,
                     const CollisionRequestd& request, CollisionResultd& result, PairCache* cache) {
-  if (result.numContacts() >= request.num_max_contacts) return result.numContacts();
+  Contacts contacts(request, result, cache);
+  if (contacts.full()) return result.numContacts();
   Contactd unknown(geometry1, geometry2, Contactd::NONE, Contactd::NONE);
   unknown.normal.setZero();
   unknown.pos.setZero();
   unknown.penetration_depth = request.enable_contact ? std::numeric_limits<double>::infinity() : 0;
+  ConvexBody bodyA, bodyB;
+  if (areVolumes(*geometry1, pose1, *geometry2, pose2, bodyA, bodyB)) {
+    contacts.add(bodyA, bodyB, unknown);
+    return result.numContacts();
+  }
   const PosedPair pair(*geometry1, pose1, *geometry2, pose2);
   if (!pair.valid) {
     result.addContact(unknown);
     return result.numContacts();
   }
-  PairCache own;
-  Contacts contacts(pair, unknown, request, result, cache ? cache : &own);
+  ElementContacts elements(pair, unknown, contacts);
   const PosedGeometry::Part a = pair.first.whole(), b = pair.second.whole();
-  if (!contacts.skip(contacts.bound(a, b))) descend(pair, a, b, contacts);
+  if (!elements.skip(elements.bound(a, b))) descend(pair, a, b, elements);
   return result.numContacts();
 }
 

@@ -39,6 +39,18 @@ Distance distance(const ConvexBody& a, const ConvexBody& b, PairCache* cache) {
   return distance(a.shape, a.pose, b.shape, b.pose);
 }
 
+bool areVolumes(const fcl::CollisionGeometryd& geometry1, const Isometry3d& pose1,
+                const fcl::CollisionGeometryd& geometry2, const Isometry3d& pose2, ConvexBody& a,
+                ConvexBody& b) {
+  const StpBvGeometry *first = asStpBv(&geometry1), *second = asStpBv(&geometry2);
+  if (!first || !second) return false;
+  a.volume = &first->volume();
+  a.pose = pose1;
+  b.volume = &second->volume();
+  b.pose = pose2;
+  return true;
+}
+
 PosedGeometry::PosedGeometry(const fcl::CollisionGeometryd& geometry, const Isometry3d& pose,
                              const Isometry3d& inFrame)
     : tree_(geometry), inFrame_(inFrame) {

@@ -1,6 +1,6 @@
 // Farther than a threshold?
 //
-// 1. Boxes around both geometries.
+// 1. Boxes around both geometries, or around two STP-BVs their balls.
 // 2. Down both hierarchies, near children first.
 // 3. Of two bodies the gap along the remembered normal.
 // 4. A search that ends as soon as its bounds tell.
@@ -53,7 +53,8 @@ class Within {
 
 namespace detail {
 
-bool isFartherByPlane(double x, const ConvexBody& a, const ConvexBody& b, const PairCache& cache) {
+bool isFartherByBounds(double x, const ConvexBody& a, const ConvexBody& b, const PairCache& cache) {
+  if (a.volume && b.volume) return isFartherByBounds(x, *a.volume, a.pose, *b.volume, b.pose, cache);
   const double length = cache.normal.norm();
   if (a.unbounded() || b.unbounded() || !(length > 0.5 && length < 2.0)) return false;
   const Vector3d n = cache.normal / length, d = b.pose.translation() - a.pose.translation();
@@ -64,7 +65,7 @@ bool isFartherByPlane(double x, const ConvexBody& a, const ConvexBody& b, const 
 bool isFartherThan(double x, const ConvexBody& a, const ConvexBody& b, PairCache* cache,
                    ProximityCounts* counts) {
   if (counts) ++counts->bounds;
-  if (cache && isFartherByPlane(x, a, b, *cache)) return true;
+  if (isFartherByBounds(x, a, b, cache ? *cache : PairCache())) return true;
   if (counts) ++counts->solved;
   if (!a.volume && !b.volume) return isFartherThan(x, a.shape, a.pose, b.shape, b.pose);
   if (a.volume && b.volume) return isFartherThan(x, *a.volume, a.pose, *b.volume, b.pose, cache);
@@ -77,8 +78,12 @@ bool isFartherThan(double x, const ConvexBody& a, const ConvexBody& b, PairCache
 bool isFartherThan(double x, const fcl::CollisionGeometryd& geometry1, const fcl::Transform3d& pose1,
                    const fcl::CollisionGeometryd& geometry2, const fcl::Transform3d& pose2,
                    const QueryContext& context) {
+  if (std::isnan(x)) return false;  // no distance is known to be above what is no number
+  ConvexBody bodyA, bodyB;
+  if (areVolumes(geometry1, pose1, geometry2, pose2, bodyA, bodyB))
+    return isFartherThan(x, bodyA, bodyB, context.cache, context.proximity);
   const PosedPair pair(geometry1, pose1, geometry2, pose2);
-  if (std::isnan(x) || !pair.valid) return false;  // no distance is known to be above what is no number
+  if (!pair.valid) return false;
   Within within(x, pair, context);
   const PosedGeometry::Part a = pair.first.whole(), b = pair.second.whole();
   if (within.skip(within.bound(a, b))) return true;

@@ -81,11 +81,13 @@ class CoreEpa {
 
  private:
   /// Far from the surface vertices will do, even such as the tables name; they are the cheapest points of the
-  /// difference.
+  /// difference. Near it too where the vertex is beyond the depth: no wider gap is along that normal.
   bool expandToVertex(const Polytope::Face& nearest) {
     if (!(nearest.distance > 0.0)) return false;
     const Vector3d vertex = unpack(pair_.differenceAgainst(-nearest.normal));
-    return nearest.normal.dot(vertex) > (1.0 + kNear) * nearest.distance && polytope_.expand(vertex);
+    const double far = nearest.normal.dot(vertex);
+    return (far > (1.0 + kNear) * nearest.distance || far > (1.0 + kClose) * -x_.core) &&
+           polytope_.expand(vertex);
   }
 
   /// False where the cores turn out to be apart.

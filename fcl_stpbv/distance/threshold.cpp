@@ -7,6 +7,8 @@
 // 4. The exact distance, from that plane's normal.
 #include "fcl_stpbv/distance/threshold.h"
 
+#include <cmath>
+
 #include "fcl_stpbv/distance/body_pair.h"
 #include "fcl_stpbv/distance/vertex_gjk.h"
 #include "fcl_stpbv/vectorized.h"
@@ -15,6 +17,26 @@ namespace fcl_stpbv::detail {
 
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
+
+FCL_STPBV_VECTORIZED
+bool isFartherByBounds(double x, const StpBv& a, const Isometry3d& poseA, const StpBv& b,
+                       const Isometry3d& poseB, const PairCache& cache) {
+  const RelativePose pose(poseA, poseB);
+  if (!pose.valid) return false;
+  const BodyPair pair(a, b, pose);
+  const double rounding = pair.certificateRounding();
+  const Packed between = pair.centreDifference();
+  if (std::sqrt(dot(between, between)) - a.enclosingRadius() - b.enclosingRadius() - rounding > x)
+    return true;
+  const Packed last = pose.toWorld.inverse(pack(cache.normal));
+  const double length2 = dot(last, last);
+  if (!(length2 > 0.25 && length2 < 4.0)) return false;
+  int ignored = 0;
+  const std::array<int, 2> hint{cache.patch[0] < a.patchCount() ? cache.patch[0] : -1,
+                                cache.patch[1] < b.patchCount() ? cache.patch[1] : -1};
+  const Sample plane = pair.sampleFrom(unpack(last / std::sqrt(length2)), hint, ignored);
+  return plane.core - pair.margins() - rounding > x;
+}
 
 FCL_STPBV_VECTORIZED
 bool isFartherThan(double x, const StpBv& a, const Isometry3d& poseA, const StpBv& b, const Isometry3d& poseB,

@@ -11,4 +11,8 @@ namespace fcl_stpbv::detail {
 bool isFartherThan(double x, const StpBv& a, const Eigen::Isometry3d& poseA, const StpBv& b,
                    const Eigen::Isometry3d& poseB, PairCache* cache = nullptr);
 
+/// The same by its cheap part: the balls around both, and the plane of the cache's normal if it has one.
+bool isFartherByBounds(double x, const StpBv& a, const Eigen::Isometry3d& poseA, const StpBv& b,
+                       const Eigen::Isometry3d& poseB, const PairCache& cache);
+
 }  // namespace fcl_stpbv::detail
