@@ -8,7 +8,9 @@
 #include <vector>
 
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/robot/adjacency.h"
 #include "fcl_stpbv/robot/package_path.h"
+#include "fcl_stpbv/robot/pair_list.h"
 #include "fcl_stpbv/robot/pair_proof.h"
 #include "fcl_stpbv/robot/pair_samples.h"
 #include "fcl_stpbv/robot/pair_search.h"
@@ -27,8 +29,8 @@ using GivenBoxes = std::vector<std::pair<Floats<Eigen::VectorXd>, Floats<Eigen::
 /// A robot and the pairs of its links that joints move against each other.
 class PythonPairSearch {
  public:
-  PythonPairSearch(const Path& urdf, double r, double R, const std::vector<Path>& packagePath,
-                   double margin) {
+  PythonPairSearch(const Path& urdf, const std::optional<Path>& obstacles, double r, double R,
+                   const std::vector<Path>& packagePath, double margin) {
     const auto model = std::make_shared<const RobotModel>(loadUrdf(urdf.string()));
     GeometryOptions options;
     options.radii = {r, R};
@@ -42,8 +44,15 @@ class PythonPairSearch {
       });
       if (!known) pairs_.push_back(links);
     }
+    std::vector<Obstacle> around;
+    if (obstacles && !obstacles->empty()) {
+      const auto scene = std::make_shared<const RobotModel>(loadUrdf(obstacles->string()));
+      around = obstaclesOf(scene, loadGeometry(*scene, options));
+      for (std::size_t link = 0; link < model->links.size(); ++link)
+        for (std::size_t o = 0; o < around.size(); ++o) addObstacle(*model, *geometry, link, o);
+    }
     requirePairs(pairs_.size(), *model, "all links are adjacent, rigidly joined or without a body");
-    scene_ = proofScene(std::make_shared<const Kinematics>(model), geometry, {}, margin);
+    scene_ = proofScene(std::make_shared<const Kinematics>(model), geometry, std::move(around), margin);
   }
 
   std::vector<std::pair<std::string, std::string>> pairs() const {
@@ -51,8 +60,14 @@ class PythonPairSearch {
     std::vector<std::pair<std::string, std::string>> names;
     for (const LinkPair& pair : pairs_)
       names.emplace_back(links[static_cast<std::size_t>(pair.link1)].name,
-                         links[static_cast<std::size_t>(pair.link2)].name);
+                         pair.obstacle
+                             ? "obstacle " + scene_.obstacles[static_cast<std::size_t>(pair.link2)].name
+                             : links[static_cast<std::size_t>(pair.link2)].name);
     return names;
+  }
+  std::size_t linkPairs() const {
+    return static_cast<std::size_t>(
+        std::count_if(pairs_.begin(), pairs_.end(), [](const LinkPair& pair) { return !pair.obstacle; }));
   }
   const Kinematics& kinematics() const { return *scene_.kinematics; }
 
@@ -76,7 +91,7 @@ class PythonPairSearch {
 
   std::optional<Eigen::VectorXd> descend(std::size_t pair, std::uint64_t seed, int starts) const {
     const LinkPair links = linksOf(pair);
-    PairSearch search(scene_.kinematics, scene_.geometry, links.link1, links.link2);
+    PairSearch search = searchOf(links);
     std::mt19937_64 random = numbered(seed, pair);
     for (int i = 0; i < starts; ++i) {
       Eigen::VectorXd q = randomConfiguration(*scene_.kinematics, random);
@@ -87,11 +102,65 @@ class PythonPairSearch {
   }
 
   std::vector<PairSamples> sample(std::uint64_t seed, std::uint64_t block, int count) const {
-    PairSampler sampler(scene_.kinematics, scene_.geometry, pairs_, {}, 1);
+    PairSampler sampler(scene_.kinematics, scene_.geometry, pairs_, scene_.obstacles, 1);
     return sampler.sample(count, numbered(seed, block)(), scene_.margin, 1, [](int) {});
   }
 
+  std::string srdf(const std::vector<std::size_t>& never, const std::optional<Path>& path,
+                   const std::vector<std::string>& comments) const {
+    const RobotModel& robot = scene_.kinematics->robot();
+    const std::string base = path ? path->string() : "";
+    const Srdf known = base.empty() ? Srdf() : loadSrdf(base, robot);
+    std::vector<PairEntry> list = joined();
+    for (const std::size_t pair : never) {
+      const LinkPair& links = linksOf(pair);
+      if (links.obstacle) continue;
+      list.push_back(entryOf(links, PairReason::neverProven));
+    }
+    for (PairEntry& entry : list) {
+      const auto name = [&](int link) { return robot.links[static_cast<std::size_t>(link)].name; };
+      if (known.reasonToSkip(name(entry.link1), name(entry.link2)) == "User") entry.reason = PairReason::user;
+    }
+    return withPairs(base, robot.name, toSrdf(robot, list), comments);
+  }
+
  private:
+  void addObstacle(const RobotModel& robot, const RobotGeometry& geometry, std::size_t link, std::size_t o) {
+    const LinkPair pair{static_cast<int>(link), static_cast<int>(o), true};
+    if (moves(robot, pair.link1) && !bodiesOf(geometry, pair).empty()) pairs_.push_back(pair);
+  }
+  PairSearch searchOf(const LinkPair& pair) const {
+    if (pair.obstacle)
+      return {scene_.kinematics, scene_.geometry, pair.link1,
+              scene_.obstacles[static_cast<std::size_t>(pair.link2)]};
+    return {scene_.kinematics, scene_.geometry, pair.link1, pair.link2};
+  }
+  static PairEntry entryOf(const LinkPair& links, PairReason reason) {
+    PairEntry entry{};
+    static_cast<LinkPair&>(entry) = links;
+    entry.reason = reason;
+    return entry;
+  }
+  // Adjacent pairs, and rigid ones: those are decided in one configuration.
+  std::vector<PairEntry> joined() const {
+    const RobotModel& robot = scene_.kinematics->robot();
+    const Adjacency adjacency(robot, *scene_.geometry);
+    std::vector<PairEntry> list;
+    for (int b = 0; b < static_cast<int>(robot.links.size()); ++b) {
+      for (int a = 0; a < b; ++a) {
+        const LinkPair links{a, b};
+        const Joining joining = adjacency.of(a, b);
+        if (joining == Joining::separate || bodiesOf(*scene_.geometry, links).empty()) continue;
+        const bool rigid = joining == Joining::rigid;
+        const PairProof proof =
+            rigid ? provePair(scene_, links, unproven(scene_, links).open, 1) : PairProof();
+        if (!rigid) list.push_back(entryOf(links, PairReason::adjacent));
+        if (rigid && proof.proven()) list.push_back(entryOf(links, PairReason::neverProven));
+        if (rigid && proof.collision) list.push_back(entryOf(links, PairReason::always));
+      }
+    }
+    return list;
+  }
   const LinkPair& linksOf(std::size_t pair) const {
     if (pair >= pairs_.size())
       throw Error("pair: got " + std::to_string(pair) + ", the robot has " + std::to_string(pairs_.size()));
@@ -157,12 +226,18 @@ void addShards(py::module_& module) {
   addProof(module);
   py::class_<PythonPairSearch>(module, "PairSearch",
                                "Proofs and samples of a robot's pairs of links, in pure pieces.")
-      .def(py::init<const Path&, double, double, const std::vector<Path>&, double>(), py::arg("urdf"),
-           py::kw_only(), py::arg("r") = 0.01, py::arg("R") = 10.0,
-           py::arg("package_path") = std::vector<Path>{}, py::arg("margin") = 0.0,
+      .def(py::init<const Path&, const std::optional<Path>&, double, double, const std::vector<Path>&,
+                    double>(),
+           py::arg("urdf"), py::arg("obstacles") = py::none(), py::kw_only(), py::arg("r") = 0.01,
+           py::arg("R") = 10.0, py::arg("package_path") = std::vector<Path>{}, py::arg("margin") = 0.0,
+           "obstacles: URDF of a scene that stands still, like the robot's root link.\n"
            "margin: a distance not above it is a collision (m).")
-      .def_property_readonly("pairs", &PythonPairSearch::pairs,
-                             "Names of the links of each pair, but for adjacent and rigidly joined ones.")
+      .def_property_readonly(
+          "pairs", &PythonPairSearch::pairs,
+          "Names of the links of each pair, but for adjacent and rigidly joined ones; then each moving link\n"
+          "and 'obstacle NAME'.")
+      .def_property_readonly("link_pairs", &PythonPairSearch::linkPairs,
+                             "How many of the pairs are of two links; they come first.")
       .def_property_readonly(
           "names", [](const PythonPairSearch& search) { return search.kinematics().names(); },
           "of the coordinates")
@@ -186,7 +261,14 @@ void addShards(py::module_& module) {
             return pairs;
           },
           py::arg("seed"), py::arg("block"), py::arg("count"),
-          "For each pair: collisions among so many random configurations, least distance (m), where it is.");
+          "For each pair: collisions among so many random configurations, least distance (m), where it is.")
+      .def("srdf", &PythonPairSearch::srdf, py::arg("never"), py::arg("srdf") = py::none(),
+           py::arg("comments") = std::vector<std::string>{},
+           "The text of an SRDF that leaves out these pairs (indices) with the reason Never, and adjacent "
+           "and\n"
+           "rigidly joined ones; pairs with obstacles have no place in it. It keeps all of the file `srdf` "
+           "but\n"
+           "pairs of other reasons than User.");
   module.def("mesh_files", &meshFiles, py::arg("urdf"), py::arg("package_path") = std::vector<Path>{},
              "The meshes that a robot's bodies are made of: as the URDF names them, and their paths.");
 }

@@ -364,7 +364,10 @@ std::string toCsv(const CollisionReport& report) {
 }
 
 std::string toSrdfText(const CollisionReport& report, const std::string& path, bool defaultToo) {
-  return withPairs(path, report.robot->name, toSrdf(*report.robot, report.list, defaultToo), report.skipped);
+  std::vector<std::string> comments;
+  comments.reserve(report.skipped.size());
+  for (const std::string& skipped : report.skipped) comments.push_back("Left out, not checked: " + skipped);
+  return withPairs(path, report.robot->name, toSrdf(*report.robot, report.list, defaultToo), comments);
 }
 
 }  // namespace fcl_stpbv::report

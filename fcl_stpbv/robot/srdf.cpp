@@ -173,7 +173,7 @@ std::string withPairs(const std::string& path, const std::string& robotName,
     e = next;
   }
   for (std::string comment : comments) {
-    comment = " Left out, not checked: " + comment + " ";
+    comment = " " + comment + " ";
     for (std::size_t at; (at = comment.find("--")) != std::string::npos;)
       comment[at] = '~';  // ends a comment
     root->InsertEndChild(document.NewComment(comment.c_str()));

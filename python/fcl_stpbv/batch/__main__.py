@@ -54,6 +54,7 @@ def described():
     robot.add_argument("--package-path", action="append", default=[], metavar="FOLDER", help="holds packages; may be given again")
     robot.add_argument("--seed", type=WHOLE, default=1, help="of the random numbers [1]")
     pairs = argparse.ArgumentParser(add_help=False)
+    pairs.add_argument("--obstacles", default="", metavar="FILE", help="URDF of a scene: each moving link and obstacle is a pair too")
     pairs.add_argument("--margin", type=MARGIN, default=0.0, help="a distance not above it is a collision (m) [0]")
 
     parser = argparse.ArgumentParser(prog="python -m fcl_stpbv.batch", description=__doc__, epilog=FOOTER)
@@ -63,6 +64,8 @@ def described():
     prove.add_argument("--boxes", type=COUNT, default=100000, help="for a pair, about; more continues a run [100000]")
     prove.add_argument("--budget", type=COUNT, default=10000, help="boxes a job [10000]")
     prove.add_argument("--descents", type=WHOLE, default=500, help="for a pair, before its proof [500]")
+    prove.add_argument("--write-srdf", default="", metavar="FILE", help="an SRDF whose every Never is proven")
+    prove.add_argument("--srdf", default="", metavar="FILE", help="that it begins with: all is kept but pairs of other reasons than User")
     sample = kinds.add_parser("sample", parents=[robot, pairs, common], help="distances of all pairs in random configurations")
     sample.add_argument("--blocks", type=COUNT, default=100, help="of configurations; more continues a run [100]")
     sample.add_argument("--count", type=COUNT, default=1000, help="configurations a block [1000]")
@@ -110,6 +113,8 @@ def run(arguments):
     finally:
         clear()
         file.close(sort=not schedule.ready and not +schedule.running)
+    if arguments.kind == "prove" and arguments.write_srdf:
+        kind.write_srdf(arguments.write_srdf, file.jobs)
     for record in file.jobs.values():
         if "error" in record:
             print(f"fcl_stpbv.batch: {record['error']}", file=sys.stderr)

@@ -39,20 +39,19 @@ def require_same(header, other, path):
         raise fcl_stpbv.Error(f"{path}: holds results of another batch, with a different {', '.join(different)}; give another file")
 
 
-def write(path, header, jobs):
-    """The whole file, sorted, all of it or nothing."""
+def write(path, option, lines):
+    """The whole file or nothing; `option` gave its path."""
     beside = f"{path}.{os.getpid()}.tmp"
     try:
         with open(beside, "w", encoding="utf-8") as file:
-            file.write(line(header))
-            file.writelines(line(jobs[job]) for job in sorted(jobs))
+            file.writelines(lines)
             file.flush()
             os.fsync(file.fileno())
         os.replace(beside, path)
     except OSError as error:
         if os.path.exists(beside):
             os.unlink(beside)
-        raise fcl_stpbv.Error(f"-o {path}: cannot be written: {error.strerror}") from None
+        raise fcl_stpbv.Error(f"{option} {path}: cannot be written: {error.strerror}") from None
 
 
 def merge(paths):
@@ -104,5 +103,5 @@ class ResultFile:
 
     def close(self, sort):
         if sort:
-            write(self.path, self.header, self.jobs)
+            write(self.path, "-o", [line(self.header), *(line(self.jobs[job]) for job in sorted(self.jobs))])
         os.close(self.file)

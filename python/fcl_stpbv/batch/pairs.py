@@ -1,0 +1,137 @@
+"""What holds for a robot's pairs of links, and of links and obstacles: proofs and samples, two kinds of batches (kinds.py)."""
+import itertools
+import math
+
+import fcl_stpbv
+from fcl_stpbv.batch import bundle, results
+
+
+def opened(arguments):
+    """(the pairs of the robot and the obstacles that the command line names, the files that they are made from)."""
+    path = arguments.package_path
+    search = fcl_stpbv.PairSearch(arguments.robot, arguments.obstacles, r=arguments.r, R=arguments.R, package_path=path, margin=arguments.margin)
+    if len(set(search.pairs)) < len(search.pairs):
+        raise fcl_stpbv.Error(f"{arguments.obstacles}: an obstacle and a link have names that cannot be told apart; rename one")
+    files = bundle.robot_files("robot", arguments.robot, path)
+    if arguments.obstacles:
+        files.update(bundle.robot_files("scene", arguments.obstacles, path))
+    return search, files
+
+
+def search_in(folder, options):
+    """The same from the bundle's files."""
+    scene = folder / "scene/robot.urdf"
+    return fcl_stpbv.PairSearch(str(folder / "robot/robot.urdf"), str(scene) if scene.exists() else None, r=options["r"], R=options["R"],
+                                margin=options["margin"])
+
+
+def counted(verdicts):
+    return ", ".join(f"{verdicts.count(verdict)} {verdict}" for verdict in sorted(set(verdicts)))
+
+
+class Prove:
+    """Proofs that pairs of links never meet. A job looks at some boxes of one pair; what it leaves open is shared out anew among
+    twice as many jobs in the pair's next round."""
+    name = "prove"
+
+    def __init__(self, arguments):
+        self.options = {key: getattr(arguments, key) for key in ("r", "R", "margin", "budget", "descents", "seed")}
+        self.context, self.files = opened(arguments)
+        self.most, self.srdf = arguments.boxes, arguments.srdf or None
+        self.groups = list(range(len(self.context.pairs)))
+        if self.srdf and not arguments.write_srdf:
+            raise fcl_stpbv.Error("--srdf: is for --write-srdf; give that too")
+        if arguments.write_srdf:
+            self.context.srdf([], self.srdf)  # what is wrong with it is told before anything is computed
+
+    open = staticmethod(search_in)
+
+    @staticmethod
+    def run(search, options, job, given):
+        pair, boxes = given
+        if boxes is None:
+            met = search.descend(pair, options["seed"], options["descents"])
+            if met is not None:
+                return {"boxes": 0, "open": [], "collision": met.tolist()}, None
+            boxes = search.unproven(pair).open
+            if any(not math.isfinite(limit) for box in boxes for limits in box for limit in limits):
+                return {"unlimited": True}, None  # planar and floating joints
+        proof = search.prove(pair, boxes, options["budget"])
+        return {"boxes": proof.boxes, "open": [[lower.tolist(), upper.tolist()] for lower, upper in proof.open],
+                "collision": None if proof.collision is None else proof.collision.tolist()}, None
+
+    def follow(self, pair, done):
+        """(jobs of the pair's first round that is not done, the verdict so far)."""
+        names, boxes, chunks = self.context.pairs[pair], 0, [None]
+        for number in itertools.count():
+            jobs = [((*names, number, i), (pair, chunk)) for i, chunk in enumerate(chunks)]
+            missing = [job for job in jobs if job[0] not in done]
+            if missing:
+                return missing, "open"
+            records = [done[key] for key, _ in jobs]
+            if any("error" in record for record in records):
+                return [], "failed"
+            if any("unlimited" in record for record in records):
+                return [], "without limits"
+            proof = fcl_stpbv.PairProof([])
+            for record in records:
+                proof = proof.merge(fcl_stpbv.PairProof(record["open"], record["collision"], record["boxes"]))
+            boxes += proof.boxes
+            if proof.proven or proof.collision is not None:
+                return [], "proven" if proof.proven else "colliding"
+            if boxes >= self.most:
+                return [], "open"
+            left = proof.open
+            count = min(len(left), 2 ** (number + 1))
+            chunks = [left[i::count] for i in range(count)]
+
+    def jobs(self, pair, done):
+        return self.follow(pair, done)[0]
+
+    def summary(self, done):
+        verdicts = self.verdicts(done)
+        boxes = sum(record.get("boxes", 0) for record in done.values())
+        return f"{len(verdicts)} pairs: {counted(verdicts)}; {boxes} boxes"
+
+    def verdicts(self, done):
+        return [self.follow(pair, done)[1] for pair in self.groups]
+
+    def write_srdf(self, path, done):
+        """An SRDF whose every Never is proven, and which says so."""
+        verdicts, links, header = self.verdicts(done), self.context.link_pairs, self.options
+        proven = [pair for pair, verdict in enumerate(verdicts) if verdict == "proven"]
+        comments = [f"Each Never is proven: for all joint values within their limits the links' volumes (r = {header['r']:g} m, R = {header['R']:g} m) "
+                    f"are more than {header['margin']:g} m apart. fcl_stpbv {fcl_stpbv.__version__}, for files with the SHA-256 {bundle.digest_of(self.files)}",
+                    f"Of the pairs that are neither adjacent nor rigidly joined: {counted(verdicts[:links])}; all but the proven ones are left to be checked"]
+        if links < len(verdicts):
+            clear = ", ".join(" and ".join(self.context.pairs[pair]) for pair in proven if pair >= links)
+            comments.append(f"Pairs with obstacles have no place in an SRDF. Proven, with the root link where it is: {clear or 'none'}")
+        else:
+            comments.append("Obstacles were not looked at")
+        results.write(path, "--write-srdf", [self.context.srdf([pair for pair in proven if pair < links], self.srdf, comments)])
+
+
+class Sample:
+    """Distances of all pairs in random configurations. A job is a numbered block of them."""
+    name = "sample"
+
+    def __init__(self, arguments):
+        self.options = {key: getattr(arguments, key) for key in ("r", "R", "margin", "count", "seed")}
+        self.context, self.files = opened(arguments)
+        self.groups = list(range(arguments.blocks))
+
+    open = staticmethod(search_in)
+
+    @staticmethod
+    def run(search, options, job, given):
+        found = search.sample(options["seed"], job[0], options["count"])
+        return {"collisions": [pair[0] for pair in found], "least": [pair[1] for pair in found]}, None
+
+    def jobs(self, block, done):
+        return [] if (block,) in done else [((block,), None)]
+
+    def summary(self, done):
+        records = [record for record in done.values() if "error" not in record]
+        hit = sum(any(record["collisions"][pair] for record in records) for pair in range(len(self.context.pairs)))
+        return (f"{len(records) * self.options['count']} configurations, {len(self.context.pairs)} pairs: {hit} in collision in some of them, "
+                f"{len(self.context.pairs) - hit} in none")
