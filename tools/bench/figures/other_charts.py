@@ -1,6 +1,6 @@
 """Charts of the jump, the hard cases, proofs, postures and controllers."""
 from . import palette, stability_verdicts
-from .plot import UNLABEL, block, captured, draw, legend, measured, origin, panels, single
+from .plot import UNLABEL, block, captured, draw, legend, measured, origin, panels, quoted, single
 
 
 def jump(height=400):
@@ -166,4 +166,43 @@ def clearance(height=440):
     draw("clearance", "Clearance buys calm joints: what each r and R costs", text + "unset multiplot\n", small_print, height)
 
 
-CHARTS = (jump, stability, proof_boxes, radii, posture_profile, control, clearance)
+def success_map(name, scene, title, across, upward, panel, height, tics):
+    """Places of a grid with a posture: panels by the first axis, the second upwards, the last across. `across` and `upward`: their words."""
+    data = measured("posture_grid")
+    first, second, last = (axis["count"] for axis in data["about"]["axes"][scene])
+    axes, rows = data["about"]["axes"][scene], data["about"]["maps"][scene]
+    at = lambda axis, i: axis["from"] + (axis["to"] - axis["from"]) * i / max(1, axis["count"] - 1)
+    step = lambda axis: (axis["to"] - axis["from"]) / max(1, axis["count"] - 1)
+    totals = {row["way"]: row for row in data["rows"] if row["scene"] == scene}
+    kinds = {"b": (palette.SMOOTH, "found both ways"), "n": (palette.EXACT_HULL, "only from the neighbours"), "i": (palette.FCL_OTHER, "only independently"),
+             ".": (palette.GRID, "not found")}
+    warm, cold = totals["neighbours"], totals["independent"]
+    kinds = {mark: look for mark, look in kinds.items() if any(mark in row for row in rows)}
+    small_print = [f"{warm['places']} places: {warm['found']} with a posture from the neighbours', {cold['found']} independently; {data['about']['starts']} starts of its own each.",
+                   f"{data['command']}: {data['machine']}"]
+    text = panels(first, height, small_print, legend_rows=1, panel_titles=True, between=18) + legend([(c, 5, words) for c, words in kinds.values()], height, columns=4) + \
+        f"unset grid\nset style fill solid noborder\nset xtics {tics}\nset xlabel {quoted(across)}\nset ylabel {quoted(upward)}\n" \
+        f"set xrange [{at(axes[2], -0.7):g}:{at(axes[2], last - 0.3):g}]\nset yrange [{at(axes[1], -0.7):g}:{at(axes[1], second - 0.3):g}]\n"
+    for i in range(first):
+        plots = []
+        for k, (mark, (colour, _)) in enumerate(kinds.items()):
+            cells = [(at(axes[2], x), at(axes[1], y)) for y in range(second) for x, found in enumerate(rows[i * second + y]) if found == mark]
+            if cells:
+                text += block(f"$cells{i}_{k}", cells)
+                x, y = 0.46 * step(axes[2]), 0.46 * step(axes[1])
+                plots.append(f"$cells{i}_{k} using 1:2:($1-{x:g}):($1+{x:g}):($2-{y:g}):($2+{y:g}) with boxxyerror fc rgb '{colour}'")
+        text += f"set title {quoted(panel(at(axes[0], i)))} offset 0,-0.6\nplot " + ", ".join(plots) + "\n" + UNLABEL + "unset ylabel\nset format y ''\n"
+    draw(name, title, text + "unset multiplot\n", small_print, height)
+
+
+def posture_grid_fridge(height=400):
+    success_map("posture_grid_fridge", "fridge", "Where the left hand can be around the can, by where the feet stand", "forward (m)", "upward (m)",
+                lambda value: f"feet {-100 * value:.0f} cm back" if value else "feet in front", height, 0.3)
+
+
+def posture_grid_ladder(height=340):
+    success_map("posture_grid_ladder", "ladder", "Which rungs the hands can hold, by the left foot's rung", "hands to the left (m)", "rungs above the third",
+                lambda value: f"left foot {value:.0f} rung{'s' * (value > 1)} up" if value else "feet on one rung", height, 0.2)
+
+
+CHARTS = (jump, stability, proof_boxes, radii, posture_profile, control, clearance, posture_grid_fridge, posture_grid_ladder)

@@ -211,6 +211,15 @@ def proofs():
                      "times fewer boxes where levers take 100 or more", "a box by planes", "left open"), body)
 
 
+@table("posture_grid")
+def posture_grid():
+    ways = {"neighbours": "from the neighbours", "independent": "independent"}
+    return markdown(("scene", "starts", "places", "with a posture", "from a neighbour's", "places a second and core", "iterations, median", "distances", "cost"),
+                    [(row["scene"], ways[row["way"]], f"{row['places']:,}", row["found"], row["from_neighbour"] if row["way"] == "neighbours" else "",
+                      row["places_per_second"], f"{row['iterations']:.0f}", f"{row['distances']:,.0f}", f"{row['cost']:.2f}")
+                     for row in measured("posture_grid")["rows"]])
+
+
 @table("radii")
 def radii():
     return markdown(("robot", "r", "volumes meet", "meshes meet", "hull only", "margin only", "normal turns (rad/m), median"),
