@@ -13,7 +13,10 @@ def filled(text, page):
     def replace(match):
         if match[2] not in TABLES:
             sys.exit(f"{page}: unknown table {match[2]}, expected one of: {' '.join(TABLES)}")
-        return f"{match[1]}\n" + "\n".join(TABLES[match[2]]()) + f"\n\n{match[3]}"
+        try:
+            return f"{match[1]}\n" + "\n".join(TABLES[match[2]]()) + f"\n\n{match[3]}"
+        except FileNotFoundError:  # not measured yet
+            return match[0]
     return MARKED.sub(replace, text)
 
 

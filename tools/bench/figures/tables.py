@@ -220,6 +220,13 @@ def posture_grid():
                      for row in measured("posture_grid")["rows"]])
 
 
+@table("scale")
+def scale():
+    return markdown(("batch", "jobs", "seconds a job", "one process (s)", "two processes (s)", "efficiency", "bytes a result", "at most"),
+                    [(row["batch"], row["jobs"], row["seconds_a_job"], row["one_process"], row["two_processes"], row["efficiency"], f"{row['bytes_a_result']:,}",
+                      f"{row['most_bytes']:,}") for row in measured("scale")["rows"]])
+
+
 @table("radii")
 def radii():
     return markdown(("robot", "r", "volumes meet", "meshes meet", "hull only", "margin only", "normal turns (rad/m), median"),
