@@ -22,7 +22,8 @@ void describeFiles(Program& app, RobotArguments& a) {
   app.flag("--visual", files.geometry.visual, "Use the visual shapes");
   app.flag("--skip-invalid", files.skipInvalid,
            "Go on without the shapes that are wrong; exit status 3, not 0");
-  app.flag("--no-cache", a.noCache, "Build every volume, keep none in the cache folder");
+  app.flag("--no-cache", a.noCache, "Build every volume and part, keep none in the cache folder");
+  app.option("-j,--jobs", a.jobs, "Threads; any number gives the same").whole(1, kMostJobs).shown();
 }
 
 void describeBodies(Program& app, RobotArguments& a) {
@@ -98,11 +99,57 @@ void setRadii(const RobotArguments& a, GeometryOptions& geometry) {
                 ": R must be larger than r; it is 10 unless given");
 }
 
+// none, auto or a number.
+void takeParts(const std::string& parts, report::ReportRequest& request) {
+  constexpr int kMost = 64;  // more make rows without end
+  request.partsAuto = parts == "auto";
+  if (parts == "none" || parts == "auto") return;
+  const bool digits =
+      !parts.empty() && parts.size() < 3 && parts.find_first_not_of("0123456789") == std::string::npos;
+  request.partsAll = digits ? std::stoi(parts) : 0;
+  if (request.partsAll < 2 || request.partsAll > kMost)
+    throw Error("--parts " + parts + ": expected none, auto or a whole number from 2 to " +
+                std::to_string(kMost));
+}
+
 }  // namespace
 
 void describeRobot(Program& app, RobotArguments& arguments) {
   describeFiles(app, arguments);
   describeBodies(app, arguments);
+}
+
+void describeSearch(Program& app, SearchArguments& a) {
+  PairListOptions& search = a.request.search;
+  app.option(
+      "--neutral", a.request.neutral,
+      "The neutral posture, a group_state or a JSON file; all joints at zero, or at the limit nearest to "
+      "it, unless given");
+  app.option("--samples", search.samples, "Random configurations").whole(1, 100000000).shown();
+  app.option("--seed", search.seed, "Of the random configurations").whole().shown();
+  app.option(
+         "--parts", a.parts,
+         "Convex parts of concave links: none; auto, where a pair collides by its hulls alone; or a number, "
+         "at most so many of every link")
+      .shown();
+  app.option("--margin", search.margin, "A distance not above it counts as a collision")
+      .number(-kLargest, kLargest)
+      .shown();
+  app.option("--prove", search.proofSeconds, "Seconds to spend on proofs that pairs never meet")
+      .number(0, kLargest)
+      .shown();
+  app.flag("--disable-default", a.disableDefault,
+           "Let an SRDF leave out the pairs that collide in the neutral posture but are clear in others");
+}
+
+report::ReportRequest requestOf(const RobotArguments& robot, const SearchArguments& search,
+                                const Progress& progress) {
+  report::ReportRequest request = search.request;
+  request.files = filesOf(robot);
+  request.search.threads = robot.jobs;
+  request.files.geometry.progress = request.search.progress = progress;
+  takeParts(search.parts, request);
+  return request;
 }
 
 report::RobotFiles filesOf(const RobotArguments& arguments) {
@@ -117,6 +164,7 @@ report::RobotFiles filesOf(const RobotArguments& arguments) {
       files.geometry.flatLinks.insert(link);
   }
   if (arguments.noCache) files.geometry.cacheFolder.clear();
+  files.geometry.threads = arguments.jobs;
   return files;
 }
 

@@ -2,10 +2,13 @@
 // is wrong with an output before anything is computed.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
+#include "fcl_stpbv/report/collision_report.h"
 #include "fcl_stpbv/report/robot_files.h"
+#include "tools/cores.h"
 #include "tools/program.h"
 
 namespace fcl_stpbv::tools {
@@ -15,10 +18,26 @@ struct RobotArguments {
   std::string r = "auto", R, primitives = "smooth";
   std::vector<std::string> links, flat;
   bool noCache = false;
+  int jobs = allCores();
 };
 
 /// Adds ROBOT and the options; `arguments` is filled when the command line is parsed.
 void describeRobot(Program& app, RobotArguments& arguments);
+
+/// How the pairs are searched, and which links are split; of `request` the options write only that.
+struct SearchArguments {
+  report::ReportRequest request;
+  std::string parts = "none";
+  bool disableDefault = false;
+};
+void describeSearch(Program& app, SearchArguments& arguments);
+
+/// Called with the steps done, all steps and what is being done.
+using Progress = std::function<void(std::size_t, std::size_t, const std::string&)>;
+
+/// The report that both ask for. @throws Error naming the option and what would work.
+report::ReportRequest requestOf(const RobotArguments& robot, const SearchArguments& search,
+                                const Progress& progress);
 
 /// The files that the arguments ask for. @throws Error naming the option and what would work.
 report::RobotFiles filesOf(const RobotArguments& arguments);

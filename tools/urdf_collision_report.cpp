@@ -6,11 +6,10 @@
 
 #include "fcl_stpbv/io/atomic_write.h"
 #include "fcl_stpbv/report/report_formats.h"
-#include "tools/cores.h"
 #include "tools/number_check.h"
 #include "tools/program.h"
-#include "tools/progress_bar.h"
 #include "tools/robot_options.h"
+#include "tools/stages.h"
 
 namespace {
 
@@ -41,92 +40,40 @@ pair is checked; 3 no collision found, but --skip-invalid left shapes out.)";
 
 struct Arguments {
   RobotArguments robot;
-  ReportRequest request;
+  SearchArguments search;
   std::string format = "text", output;
   std::size_t top = 20;
-  bool disableDefault = false, quiet = false;
-  std::string parts = "none";
+  bool quiet = false;
 };
 
 void describe(Program& app, Arguments& a) {
-  ReportRequest& request = a.request;
-  request.search.threads = allCores();
+  ReportRequest& request = a.search.request;
   describeRobot(app, a.robot);
+  describeSearch(app, a.search);
   app.option("--pose", request.pose, "A group_state of the SRDF, or a JSON file of joint values");
   app.option("--trajectory", request.trajectory,
              "CSV or JSON of way points: whether the straight motions between them are free, by proof; each "
              "pair is reported where it comes closest")
       .type("FILE");
   app.option(
-      "--neutral", request.neutral,
-      "The neutral posture, as --pose; all joints at zero, or at the limit nearest to it, unless given");
-  app.option("--samples", request.search.samples, "Random configurations").whole(1, 100000000).shown();
-  app.option("--seed", request.search.seed, "Of the random configurations").whole().shown();
-  app.option(
          "--polyhedra", request.polyhedra,
          "Folder of polyhedra published for the meshes, MESH-ch.txt or MESH.otp: tells how far they differ")
       .type("FOLDER");
-  app.option(
-         "--parts", a.parts,
-         "Convex parts of concave links: none; auto, where a pair collides by its hulls alone; or a number, "
-         "at most so many of every link")
-      .shown();
   app.option("--top", a.top, "Lines of each list in the text, and warnings shown").whole().shown();
-  app.option("--margin", request.search.margin, "A distance not above it counts as a collision")
-      .number(-kLargest, kLargest)
-      .shown();
-  app.option("--prove", request.search.proofSeconds, "Seconds to spend on proofs that pairs never meet")
-      .number(0, kLargest)
-      .shown();
-  app.flag("--disable-default", a.disableDefault,
-           "Let an SRDF leave out the pairs that collide in the neutral posture but are clear in others");
   app.option("--format", a.format, "text, json, csv, srdf or html")
       .oneOf({"text", "json", "csv", "srdf", "html"})
       .shown();
   app.option("-o,--output", a.output, "File to write instead of standard output").type("OUT");
-  app.option("-j,--jobs", request.search.threads, "Threads; any number gives the same report")
-      .whole(1, kMostJobs)
-      .shown();
   app.flag("-q,--quiet", a.quiet, "No progress bar and no warnings");
-}
-
-void takeParts(const std::string& parts, ReportRequest& request) {
-  constexpr int kMost = 64;  // more make rows without end
-  request.partsAuto = parts == "auto";
-  if (parts == "none" || parts == "auto") return;
-  const bool digits =
-      !parts.empty() && parts.size() < 3 && parts.find_first_not_of("0123456789") == std::string::npos;
-  request.partsAll = digits ? std::stoi(parts) : 0;
-  if (request.partsAll < 2 || request.partsAll > kMost)
-    throw Error("--parts " + parts + ": expected none, auto or a whole number from 2 to " +
-                std::to_string(kMost));
 }
 
 std::string written(const CollisionReport& report, const Arguments& a) {
   if (a.format == "json") return toJson(report);
   if (a.format == "csv") return toCsv(report);
-  if (a.format == "srdf") return toSrdfText(report, a.request.files.srdf, a.disableDefault);
+  if (a.format == "srdf") return toSrdfText(report, a.robot.files.srdf, a.search.disableDefault);
   if (a.format == "html") return toHtml(report);
   return toText(report, a.top);
 }
-
-// A bar for each of the stages; its steps are only known when it begins.
-class Stages {
- public:
-  explicit Stages(bool wanted) : wanted_(wanted) {}
-  void operator()(std::size_t done, std::size_t all, const std::string& what) {
-    if (!bar_ || all != all_) bar_.reset();
-    all_ = all;
-    if (!bar_) bar_ = std::make_unique<ProgressBar>(all, wanted_);
-    bar_->show(done, what);
-  }
-  void clear() { bar_.reset(); }
-
- private:
-  bool wanted_;
-  std::size_t all_ = 0;
-  std::unique_ptr<ProgressBar> bar_;
-};
 
 void warn(const std::vector<std::string>& warnings, std::size_t top) {
   for (std::size_t i = 0; i < std::min(top, warnings.size()); ++i)
@@ -138,14 +85,12 @@ void warn(const std::vector<std::string>& warnings, std::size_t top) {
 
 int run(Arguments& a) {
   checkOutput(a.output);
-  if (!a.request.pose.empty() && !a.request.trajectory.empty())
-    throw Error("--trajectory " + a.request.trajectory +
-                ": cannot be given with --pose; leave one of them out");
-  a.request.files = filesOf(a.robot);
-  takeParts(a.parts, a.request);
   Stages stages(!a.quiet);
-  a.request.files.geometry.progress = a.request.search.progress = std::ref(stages);
-  const CollisionReport report = makeReport(a.request);
+  const ReportRequest request = requestOf(a.robot, a.search, std::ref(stages));
+  if (!request.pose.empty() && !request.trajectory.empty())
+    throw Error("--trajectory " + request.trajectory +
+                ": cannot be given with --pose; leave one of them out");
+  const CollisionReport report = makeReport(request);
   stages.clear();
   if (!a.quiet) {
     for (const std::string& shape : report.skipped)

@@ -6,7 +6,6 @@
 #include "fcl_stpbv/io/atomic_write.h"
 
 #include <fcntl.h>
-#include <pthread.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -14,52 +13,17 @@
 #include <cerrno>
 #include <charconv>
 #include <chrono>
-#include <csignal>
 #include <cstring>
-#include <ctime>
 #include <filesystem>
-#include <initializer_list>
 
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/io/signals_held.h"
 
 namespace fcl_stpbv::detail {
 namespace {
 
 // Temporary files are named by process and number, whatever they become: no name gets too long.
 constexpr std::string_view kTemporary = ".fcl_stpbv-", kTemporaryEnd = ".tmp";
-
-// Signals that come with an error of write().
-constexpr std::initializer_list<int> kOfWrites = {SIGXFSZ, SIGPIPE};
-// And those that end a process otherwise: held back until the temporary file is renamed or removed.
-constexpr std::initializer_list<int> kAll = {SIGXFSZ, SIGPIPE, SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGXCPU};
-
-class SignalsHeld {
- public:
-  explicit SignalsHeld(std::initializer_list<int> signals) {
-    sigset_t held;
-    sigemptyset(&held);
-    for (int signal : signals) sigaddset(&held, signal);
-    pthread_sigmask(SIG_BLOCK, &held, &before_);
-  }
-  ~SignalsHeld() {
-    // A write past the file size limit fails with EFBIG, which the caller reports; the signal that came with
-    // it would end the process without a message. The same holds for a pipe without a reader.
-    sigset_t reported;
-    sigemptyset(&reported);
-    for (int signal : kOfWrites) {
-      if (sigismember(&before_, signal) == 0) sigaddset(&reported, signal);
-    }
-    const timespec now{0, 0};
-    while (sigtimedwait(&reported, nullptr, &now) > 0) {
-    }
-    pthread_sigmask(SIG_SETMASK, &before_, nullptr);
-  }
-  SignalsHeld(const SignalsHeld&) = delete;
-  SignalsHeld& operator=(const SignalsHeld&) = delete;
-
- private:
-  sigset_t before_;
-};
 
 [[noreturn]] void refuse(const std::string& path, int error) {
   throw Error(path + ": cannot be written: " + std::strerror(error));
@@ -77,7 +41,7 @@ int writeAll(int file, std::string_view content) {
 
 // Opening a pipe waits for its reader, and writing to a full one waits for space. Both can be interrupted.
 void writeStraight(const std::string& path, std::string_view content) {
-  const SignalsHeld held(kOfWrites);
+  const SignalsHeld held(kSignalsOfWrites);
   const int file = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
   if (file < 0) refuse(path, errno);
   int error = writeAll(file, content);
@@ -139,7 +103,7 @@ void syncFolder(const std::string& path) {
 
 // `old` is the file to be replaced whose permissions stay, or null.
 void replace(const std::string& file, std::string_view content, mode_t mode, const struct stat* old) {
-  const SignalsHeld held(kAll);
+  const SignalsHeld held(kEndingSignals);
   std::string temporary;
   const int out = openBeside(file, mode, temporary);
   if (out < 0) refuse(file, errno);
@@ -160,7 +124,7 @@ void replace(const std::string& file, std::string_view content, mode_t mode, con
 void atomicWrite(const std::string& path, std::string_view content) {
   const int descriptor = descriptorOf(path);
   if (descriptor >= 0) {
-    const SignalsHeld held(kOfWrites);
+    const SignalsHeld held(kSignalsOfWrites);
     if (const int error = writeAll(descriptor, content)) refuse(path, error);
     return;
   }

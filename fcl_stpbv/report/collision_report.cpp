@@ -216,36 +216,29 @@ CollisionReport makeReport(const ReportRequest& request) {
 
   const std::shared_ptr<const RobotGeometry> whole = report.geometry;
   const bool split = request.partsAuto || request.partsAll > 1;
-  PartsChoice parts(whole);
-  std::optional<PairCauses> causes;
+  PartsChoice parts(report, request.files.geometry, request.partsAll > 1 || request.partsForAllPairs);
+  PairCauses causes(report.kinematics, whole, report.obstacles, loader.sceneGeometry());
   const auto examineAll = [&] {
-    causes.emplace(report.kinematics, report.geometry, report.obstacles, loader.sceneGeometry());
-    examine(request, search, postures, srdf, *causes, report);
-  };
-  // With the whole bodies first; then, as long as splitting links helps, with the parts.
-  const auto again = [&] {
     report.geometry = parts.geometry();
-    examineAll();
+    causes.use(report.geometry);
+    examine(request, search, postures, srdf, causes, report);
   };
+  if (request.partsAll > 1) parts.splitAll(request.partsAll);
   examineAll();
-  if (request.partsAll > 1) {
-    parts.splitAll(report, request.partsAll);
-    again();
-  }
   constexpr int kMostRefinements = 3;  // two, four and eight parts
   for (int k = 0; request.partsAuto && k < kMostRefinements; ++k) {
-    if (!parts.refine(report, *causes, postures.neutral)) break;
-    again();
+    if (!parts.refine(report, causes, postures.neutral)) break;
+    examineAll();
   }
-  for (const Body& body : report.geometry->bodies) report.fits.push_back(meshFit(body, causes->exact(body)));
+  for (const Body& body : report.geometry->bodies) report.fits.push_back(meshFit(body, causes.exact(body)));
   if (!request.polyhedra.empty()) report.polyhedra = comparePolyhedra(*report.geometry, request.polyhedra);
-  boundMeshDistances(loader.sceneGeometry().get(), *causes, report);
+  boundMeshDistances(loader.sceneGeometry().get(), causes, report);
   summarise(report);
   requirePairs(at(report.checked), *report.robot, countsOf(report.list));
 
   report.neutral =
       judgeNeutral(report.kinematics, report.geometry, report.list, postures.neutral, srdf, search.margin);
-  const std::vector<std::string> warnings = reportWarnings(report, request.neutral, *causes);
+  const std::vector<std::string> warnings = reportWarnings(report, request.neutral, causes);
   report.warnings.insert(report.warnings.end(), warnings.begin(), warnings.end());
   const auto tick = [&](const std::shared_ptr<const RobotGeometry>& geometry,
                         const std::vector<CheckedPair>& rows) {

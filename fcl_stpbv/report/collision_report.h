@@ -26,9 +26,10 @@ struct ReportRequest {
   std::string
       trajectory;       ///< file of way points that pairs are followed along (trajectory_file.h), "" for none
   std::string neutral;  ///< as pose, "" for all joints at zero or at the limit nearest to it
-  std::string polyhedra;   ///< folder of published ones, "" for none
-  bool partsAuto = false;  ///< concave links are split for the pairs that collide by their hulls alone
-  int partsAll = 1;        ///< or all of them into so many at most, for all pairs
+  std::string polyhedra;          ///< folder of published ones, "" for none
+  bool partsAuto = false;         ///< concave links are split for the pairs that collide by their hulls alone
+  bool partsForAllPairs = false;  ///< and then for all the pairs of these links
+  int partsAll = 1;               ///< or all of them into so many at most, for all pairs
   PairListOptions search;
 };
 

@@ -8,12 +8,10 @@ namespace fcl_stpbv::report {
 
 MeshFit meshFit(const Body& body, const ExactBody& exact) {
   MeshFit fit;
-  if (const MeshSolid* solid = exact.solid()) {
-    const MeshExcess excess =
-        hullExcess(body.partOf < 0 ? solid->pieces().vertices : body.hull, *solid, quickExcess(false));
-    fit.hullExcess = excess.upper;
-    fit.hullExcessSeen = excess.lower;
-  }
+  if (body.partOf >= 0)
+    fit.hullExcess = body.openExcess;
+  else if (const MeshSolid* solid = exact.solid())
+    fit.hullExcess = hullExcess(solid->pieces().vertices, *solid, quickExcess(false)).upper;
   fit.volumeExcess = fit.hullExcess + body.cover.max;
   if (body.volume && body.partOf < 0)
     fit.volumeRatio =

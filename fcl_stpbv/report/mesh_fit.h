@@ -8,9 +8,9 @@
 namespace fcl_stpbv::report {
 
 struct MeshFit {
-  /// Largest distance of a point of the hull's surface from the mesh's triangles (m), at most, and the
-  /// largest one seen: the truth lies between. 0 for a primitive.
-  double hullExcess = 0, hullExcessSeen = 0;
+  /// Largest distance of a point of the hull's surface from the mesh's triangles (m), at most. 0 for a
+  /// primitive.
+  double hullExcess = 0;
   /// The same of the volume's surface, at most: the volume exceeds the hull by `Body::cover` at most.
   double volumeExcess = 0;
   /// Volume enclosed by the smooth surface as a multiple of the mesh's or the primitive's; NaN where the mesh

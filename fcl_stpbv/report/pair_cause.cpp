@@ -26,9 +26,16 @@ PairCauses::PairCauses(std::shared_ptr<const Kinematics> kinematics,
       scene_(std::move(scene)),
       obstacles_(std::move(obstacles)) {}
 
+void PairCauses::use(std::shared_ptr<const RobotGeometry> robot) {
+  robot_ = std::move(robot);
+  partHulls_.clear();
+}
+
 const ExactBody& PairCauses::exact(const Body& body) {
   const Body& whole = body.partOf < 0 ? body : robot_->bodies[at(body.partOf)];
-  std::unique_ptr<ExactBody>& place = exact_[&whole];
+  const auto& shape = whole.primitive ? whole.primitive : whole.geometry;
+  std::unique_ptr<ExactBody>& place = exact_[{whole.file, whole.scale.x(), whole.scale.y(), whole.scale.z(),
+                                              whole.file.empty() ? shape.get() : nullptr}];
   if (!place) place = std::make_unique<ExactBody>(whole);
   return *place;
 }
@@ -65,7 +72,11 @@ PairCause PairCauses::explain(const std::vector<CheckedPair>& bodies, const Eige
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return d[a] < d[b]; });
   PairCause found{std::numeric_limits<double>::infinity(), ""};
   bool hulls = false;
-  std::set<std::pair<const ExactBody*, const ExactBody*>> measured;  // parts share their mesh
+  const auto wholeOf = [&](int body) {
+    const int whole = robot_->bodies[at(body)].partOf;
+    return whole < 0 ? body : whole;
+  };
+  std::set<std::pair<int, int>> measured;  // parts share their mesh
   for (const int row : order) {
     const Placed a = first(bodies[at(row)], constraints.state()),
                  b = second(bodies[at(row)], constraints.state());
@@ -74,7 +85,9 @@ PairCause PairCauses::explain(const std::vector<CheckedPair>& bodies, const Eige
       hulls = hulls || !isFartherThan(margin, *a.hull, a.pose, *b.hull, b.pose);
     }
     // A volume contains its mesh, so meshes are at least as far apart as their volumes.
-    if (d[row] >= found.meshDistance || !measured.insert({a.body, b.body}).second) continue;
+    const CheckedPair& pair = bodies[at(row)];
+    const int other = pair.obstacle ? pair.other : wholeOf(pair.other);
+    if (d[row] >= found.meshDistance || !measured.insert({wholeOf(pair.body), other}).second) continue;
     const double least = std::max(0.0, constraints.answer(row).lower);
     found.meshDistance =
         std::min(found.meshDistance, meshDistance(*a.body, a.pose, *b.body, b.pose, least).upper);

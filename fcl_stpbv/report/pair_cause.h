@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "fcl_stpbv/report/mesh_distance.h"
@@ -21,7 +22,8 @@ struct PairCause {
   std::string cause;        ///< one of the above; "" where the volumes are farther apart than the margin
 };
 
-/// Measures the meshes behind volumes. Each file is read again when it is first needed, and kept.
+/// Measures the meshes behind volumes. Each file is read again when it is first needed, once for all bodies
+/// that it stands for, and kept.
 class PairCauses {
  public:
   /// `scene`: the bodies behind `obstacles`, in their order.
@@ -31,6 +33,9 @@ class PairCauses {
   /// A distance not above `margin` (m) is a collision, of volumes, hulls and meshes alike, but meshes meet at
   /// 0 at the latest where it is negative. `bodies` are those of one pair of links.
   PairCause explain(const std::vector<CheckedPair>& bodies, const Eigen::VectorXd& q, double margin);
+
+  /// The same robot with other parts from now on.
+  void use(std::shared_ptr<const RobotGeometry> robot);
 
   /// What a body of the robot or the scene stands for; of a part, the whole mesh.
   const ExactBody& exact(const Body& body);
@@ -48,7 +53,8 @@ class PairCauses {
   std::shared_ptr<const Kinematics> kinematics_;
   std::shared_ptr<const RobotGeometry> robot_, scene_;
   std::vector<Obstacle> obstacles_;
-  std::map<const Body*, std::unique_ptr<ExactBody>> exact_;
+  // By file and scale, or by the primitive itself.
+  std::map<std::tuple<std::string, double, double, double, const void*>, std::unique_ptr<ExactBody>> exact_;
   std::map<const Body*, std::shared_ptr<const fcl::CollisionGeometryd>> partHulls_;
 };
 

@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "fcl_stpbv/adapter/fcl_distance.h"
+#include "fcl_stpbv/robot/share_out.h"
 
 namespace fcl_stpbv::report {
 namespace {
@@ -17,11 +18,20 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
 
-// The least distance of the bodies in q, each split as far; ends with the first that is not above `enough`.
-double PartsChoice::clearance(const CollisionReport& report, const LinkPair& pair, const Eigen::VectorXd& q,
-                              const Split& split, double enough) {
+PartsChoice::PartsChoice(const CollisionReport& report, const GeometryOptions& options, bool everyPair)
+    : parts_(report.geometry, options.cacheFolder), threads_(options.threads), progress_(options.progress) {
+  const int links = static_cast<int>(report.robot->links.size());
+  for (int i = 0; everyPair && i < links; ++i) {
+    for (int j = i + 1; j < links; ++j) byParts_.insert({i, j});
+    for (int o = 0; o < static_cast<int>(report.obstacles.size()); ++o) byParts_.insert({i, o, true});
+  }
+}
+
+// The least distance of the bodies, each split as far; ends with the first that is not above the margin.
+double PartsChoice::clearance(const CollisionReport& report, const Candidate& candidate, const Split& split) {
+  const LinkPair& pair = candidate.pair;
   Kinematics::State state = report.kinematics->makeState();
-  report.kinematics->forward(q, state);
+  report.kinematics->forward(candidate.q, state);
   struct Placed {
     const fcl::CollisionGeometryd* geometry;
     Eigen::Isometry3d pose;
@@ -33,12 +43,11 @@ double PartsChoice::clearance(const CollisionReport& report, const LinkPair& pai
     };
     const auto [first, last] = parts_.whole().of(link);
     for (int i = first; i < last; ++i) {
-      const Body& whole = parts_.whole().bodies[at(i)];
-      const std::vector<Body>& parts = parts_.of(i, most);
-      if (parts.size() < 2)
-        add(whole);
+      const std::vector<Body>* parts = most > 1 ? &parts_.of(i, most) : nullptr;
+      if (!parts || parts->size() < 2)
+        add(parts_.whole().bodies[at(i)]);
       else
-        std::for_each(parts.begin(), parts.end(), add);
+        std::for_each(parts->begin(), parts->end(), add);
     }
     return placed;
   };
@@ -54,12 +63,15 @@ double PartsChoice::clearance(const CollisionReport& report, const LinkPair& pai
   for (const Placed& a : first)
     for (const Placed& b : second) {
       least = std::min(least, distance(*a.geometry, a.pose, *b.geometry, b.pose).distance);
-      if (!(least > enough)) return least;
+      if (!(least > report.margin)) return least;
     }
   return least;
 }
 
-bool PartsChoice::refinePair(const CollisionReport& report, const LinkPair& pair, const Eigen::VectorXd& q) {
+// The fewest rows that clear a pair, finer than what it has; none where eight parts of both do not.
+std::optional<PartsChoice::Split> PartsChoice::splitFor(const CollisionReport& report,
+                                                        const Candidate& candidate) {
+  const LinkPair& pair = candidate.pair;
   const bool known = byParts_.count(pair) > 0;
   const auto now = [&](int link) {
     const auto found = most_.find(link);
@@ -74,39 +86,50 @@ bool PartsChoice::refinePair(const CollisionReport& report, const LinkPair& pair
         splits.emplace_back(first, second);
   std::stable_sort(splits.begin(), splits.end(),
                    [](const Split& a, const Split& b) { return a.first * a.second < b.first * b.second; });
-  for (const Split& split : splits) {
-    if (!(clearance(report, pair, q, split, report.margin) > report.margin)) continue;
-    const auto raise = [&](int link, int parts) {
-      if (parts > 1) most_[link] = std::max(parts, most_[link]);
-    };
-    raise(pair.link1, split.first);
-    if (!pair.obstacle) raise(pair.link2, split.second);
-    byParts_.insert(pair);
-    return true;
-  }
-  return false;
+  for (const Split& split : splits)
+    if (clearance(report, candidate, split) > report.margin) return split;
+  return std::nullopt;
 }
 
 bool PartsChoice::refine(const CollisionReport& report, PairCauses& causes, const Eigen::VectorXd& neutral) {
-  bool changed = false;
+  std::vector<Candidate> candidates;
   for (const PairReport& pair : report.pairs) {
     const LinkPair& links = pair.links;
     if (pair.checked && pair.colliding && pair.cause == kHullOnly)
-      changed = refinePair(report, links, pair.configuration) || changed;
+      candidates.push_back({links, pair.configuration});
     // In collision in the neutral posture, which would leave it unchecked.
     const bool byDefault = pair.reason == reasonText(PairReason::byDefault) ||
                            pair.reason == reasonText(PairReason::defaultClears);
     if (byDefault &&
         causes.explain(bodiesOf(*report.geometry, links), neutral, report.margin).cause == kHullOnly)
-      changed = refinePair(report, links, neutral) || changed;
+      candidates.push_back({links, neutral});
+  }
+  // Each is looked at by itself, from what held before, so that their order does not matter.
+  std::vector<std::optional<Split>> found(candidates.size());
+  detail::shareOut(
+      candidates.size(), threads_, [&](std::size_t i) { found[i] = splitFor(report, candidates[i]); },
+      [&](std::size_t i) {
+        if (progress_) progress_(i, candidates.size(), "parts for pairs that collide by their hulls alone");
+      });
+  bool changed = false;
+  const auto raise = [&](int link, int parts) {
+    if (parts > 1) most_[link] = std::max(parts, most_[link]);
+  };
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    if (!found[i]) continue;
+    const LinkPair& pair = candidates[i].pair;
+    raise(pair.link1, found[i]->first);
+    if (!pair.obstacle) raise(pair.link2, found[i]->second);
+    byParts_.insert(pair);
+    changed = true;
   }
   return changed;
 }
 
-void PartsChoice::splitAll(const CollisionReport& report, int most) {
-  for (const Body& body : report.geometry->bodies)
+void PartsChoice::splitAll(int most) {
+  for (const Body& body : parts_.whole().bodies)
     if (!body.file.empty()) most_[body.link] = most;
-  for (const PairEntry& entry : report.list) byParts_.insert(entry);
+  parts_.prepare(most_, threads_, progress_);
 }
 
 }  // namespace fcl_stpbv::report

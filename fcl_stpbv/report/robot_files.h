@@ -43,6 +43,9 @@ class RobotLoader {
   /// The bodies behind obstacles(), in their order.
   std::shared_ptr<const RobotGeometry> sceneGeometry() const { return sceneGeometry_; }
   std::vector<Obstacle> obstacles() const;
+  /// What read() found, of the robot and of the scene.
+  const detail::ShapeSources& shapes() const { return shapes_; }
+  const detail::ShapeSources& sceneShapes() const { return sceneShapes_; }
   /// Whole sentences, to be told to the user.
   std::vector<std::string> warnings() const;
   /// One entry for each shape that was left out, and that nothing is checked against.

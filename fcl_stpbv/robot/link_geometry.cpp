@@ -19,6 +19,7 @@
 #include "fcl_stpbv/robot/geometry_steps.h"
 #include "fcl_stpbv/robot/link_volume.h"
 #include "fcl_stpbv/robot/mesh_file.h"
+#include "fcl_stpbv/robot/share_out.h"
 #include "fcl_stpbv/robot/volume_cache.h"
 
 namespace fcl_stpbv {
@@ -62,22 +63,36 @@ class Builder {
 
   RobotGeometry build(const ShapeSources& sources) {
     geometry_.warnings = sources.warnings;
-    std::size_t done = 0;
-    for (const ShapeSource& source : sources.shapes) {
-      const std::string& link = robot_.links[static_cast<std::size_t>(source.link)].name;
-      if (options_.progress) options_.progress(done++, sources.shapes.size(), link);
+    const std::vector<ShapeSource>& shapes = sources.shapes;
+    std::vector<Body> bodies(shapes.size());
+    std::vector<std::string> wrong(shapes.size());
+    const auto build = [&](std::size_t i) {
       try {
-        add(link, source);
+        bodies[i] = bodyOf(shapes[i]);
       } catch (const Error& error) {
-        faults_.shapes.push_back(source.shape->place + ": " + error.what());
+        wrong[i] = shapes[i].shape->place + ": " + error.what();
       }
+    };
+    shareOut(shapes.size(), options_.threads, build, [&](std::size_t i) {
+      if (options_.progress) options_.progress(i, shapes.size(), nameOf(shapes[i]));
+    });
+    for (std::size_t i = 0; i < shapes.size(); ++i) {
+      if (wrong[i].empty())
+        geometry_.bodies.push_back(std::move(bodies[i]));
+      else
+        faults_.shapes.push_back(std::move(wrong[i]));
     }
     geometry_.fromCache = cache_.hits();
     return std::move(geometry_);
   }
 
  private:
-  void add(const std::string& link, const ShapeSource& source) {
+  const std::string& nameOf(const ShapeSource& source) const {
+    return robot_.links[static_cast<std::size_t>(source.link)].name;
+  }
+
+  Body bodyOf(const ShapeSource& source) {
+    const std::string& link = nameOf(source);
     Body body;
     body.link = source.link;
     body.name = source.number == 1 ? link : link + "#" + std::to_string(source.number);
@@ -89,7 +104,7 @@ class Builder {
     else
       addPrimitive(link, *source.shape, body);
     body.centre = body.pose * body.centre;
-    geometry_.bodies.push_back(std::move(body));
+    return body;
   }
 
   void addMesh(const std::string& link, const ShapeSource& source, Body& body) {

@@ -37,7 +37,8 @@ struct GeometryOptions {
   bool visual = false;              ///< the visual shapes instead of the collision shapes
   std::vector<std::string> packagePath;            ///< folders for package:// names, before all others
   std::string cacheFolder = defaultCacheFolder();  ///< "" for no cache
-  /// Called before each shape with its index and the number of all.
+  int threads = 1;                                 ///< that share the building; any number gives the same
+  /// Called before each shape with its index and the number of all, by one thread at a time.
   std::function<void(std::size_t, std::size_t, const std::string&)> progress;
 };
 
@@ -59,6 +60,7 @@ struct Body {
   int partOf = -1;    ///< index of the body that this is a convex part of (link_parts.h), -1 for a whole one
   int parts = 0;      ///< of a whole body: how many parts stand for it in pairs taken by parts
   double excess = 0;  ///< of a part: most that its hull exceeds the mesh's solid by (m)
+  double openExcess = 0;              ///< the same over the mesh's triangles alone (m)
   std::vector<Eigen::Vector3d> hull;  ///< of a part: the corners of its hull, in the body's frame (m)
 };
 

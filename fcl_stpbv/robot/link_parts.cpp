@@ -2,9 +2,15 @@
 // of the whole body.
 #include "fcl_stpbv/robot/link_parts.h"
 
+#include <mutex>
+
 #include "fcl_stpbv/adapter/hull_geometry.h"
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/parts/convex_parts.h"
 #include "fcl_stpbv/robot/mesh_file.h"
+#include "fcl_stpbv/robot/shape_source.h"
+#include "fcl_stpbv/robot/share_out.h"
+#include "fcl_stpbv/robot/volume_cache.h"
 
 namespace fcl_stpbv {
 namespace {
@@ -23,6 +29,7 @@ Body partOf(const Body& whole, int index, int number, const ConvexPart& part) {
   body.radii = whole.radii;
   body.partOf = index;
   body.excess = part.excess.upper;
+  body.openExcess = part.openExcess.upper;
   body.hull = part.points;
   if (whole.volume) {
     body.volume = StpBv::build(part.points, {whole.volume->radii().r, whole.volume->radii().R});
@@ -42,23 +49,84 @@ Body partOf(const Body& whole, int index, int number, const ConvexPart& part) {
 
 }  // namespace
 
-const std::vector<Body>& LinkParts::of(int index, int most) {
-  const auto [found, isNew] = known_.try_emplace({index, most});
-  const Body& whole = whole_->bodies[at(index)];
-  if (!isNew || whole.file.empty() || most < 2) return found->second;
-  const TriangleMesh mesh = loadMesh(whole.file, whole.scale);
-  if (mesh.triangles.empty()) return found->second;
-  PartsOptions options;
-  options.most = most;
-  try {
-    int number = 0;
-    for (const ConvexPart& part : convexParts(mesh, options).parts)
-      found->second.push_back(partOf(whole, index, ++number, part));
-  } catch (const Error& error) {
-    found->second.clear();
-    throw Error(whole.file + ": " + error.what());
+// Entries stay where they are in a map; each is made by the first thread that needs it, and others wait.
+class LinkParts::Store {
+ public:
+  Store(const RobotGeometry& whole, const std::string& cacheFolder) : whole_(whole), cache_(cacheFolder) {}
+
+  const std::vector<Body>& of(int index, int most) {
+    Split& split = entry(splits_, std::pair(index, most));
+    std::call_once(split.made, [&] { split.bodies = made(index, most); });
+    return split.bodies;
   }
-  return found->second;
+
+ private:
+  struct Split {
+    std::once_flag made;
+    std::vector<Body> bodies;
+  };
+  struct Mesh {
+    std::once_flag named, read;
+    std::string content;
+    TriangleMesh mesh;
+  };
+
+  template <class Map>
+  typename Map::mapped_type& entry(Map& map, const typename Map::key_type& key) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return map[key];
+  }
+
+  std::vector<Body> made(int index, int most) {
+    const Body& whole = whole_.bodies[at(index)];
+    std::vector<Body> bodies;
+    if (whole.file.empty() || most < 1) return bodies;
+    Mesh& known = entry(meshes_, index);
+    std::call_once(known.named, [&] { known.content = meshContent(whole.file, whole.scale); });
+    PartsOptions options;
+    options.most = most;
+    try {
+      const ConvexParts parts = cache_.parts(known.content, options, [&] {
+        std::call_once(known.read, [&] { known.mesh = loadMesh(whole.file, whole.scale); });
+        return known.mesh.triangles.empty() ? ConvexParts() : convexParts(known.mesh, options);
+      });
+      int number = 0;
+      for (const ConvexPart& part : parts.parts) bodies.push_back(partOf(whole, index, ++number, part));
+    } catch (const Error& error) {
+      const std::string message = error.what();
+      const bool named = message.find(whole.file) != std::string::npos;
+      throw Error(named ? message : whole.file + ": " + message);
+    }
+    return bodies;
+  }
+
+  const RobotGeometry& whole_;
+  VolumeCache cache_;
+  std::mutex mutex_;
+  std::map<std::pair<int, int>, Split> splits_;  // by body and most
+  std::map<int, Mesh> meshes_;                   // by body
+};
+
+LinkParts::LinkParts(std::shared_ptr<const RobotGeometry> whole, const std::string& cacheFolder)
+    : whole_(std::move(whole)), store_(std::make_unique<Store>(*whole_, cacheFolder)) {}
+
+LinkParts::~LinkParts() = default;
+
+const std::vector<Body>& LinkParts::of(int body, int most) { return store_->of(body, most); }
+
+void LinkParts::prepare(const std::map<int, int>& most, int threads,
+                        const std::function<void(std::size_t, std::size_t, const std::string&)>& progress) {
+  std::vector<std::pair<int, int>> wanted;  // body and most
+  for (std::size_t i = 0; i < whole_->bodies.size(); ++i) {
+    const Body& body = whole_->bodies[i];
+    const auto found = most.find(body.link);
+    if (found != most.end() && !body.file.empty()) wanted.emplace_back(static_cast<int>(i), found->second);
+  }
+  shareOut(
+      wanted.size(), threads, [&](std::size_t i) { of(wanted[i].first, wanted[i].second); },
+      [&](std::size_t i) {
+        if (progress) progress(i, wanted.size(), "parts of " + whole_->bodies[at(wanted[i].first)].name);
+      });
 }
 
 RobotGeometry LinkParts::geometry(const std::map<int, int>& most, const std::set<LinkPair>& byParts) {

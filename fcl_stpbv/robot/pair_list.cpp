@@ -9,12 +9,9 @@
 #include "fcl_stpbv/robot/pair_list.h"
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <cmath>
-#include <exception>
 #include <map>
-#include <mutex>
 #include <optional>
 #include <random>
 #include <tuple>
@@ -25,7 +22,7 @@
 #include "fcl_stpbv/robot/pair_proof.h"
 #include "fcl_stpbv/robot/pair_samples.h"
 #include "fcl_stpbv/robot/pair_search.h"
-#include "fcl_stpbv/robot/worker_pool.h"
+#include "fcl_stpbv/robot/share_out.h"
 
 namespace fcl_stpbv {
 namespace {
@@ -137,25 +134,9 @@ class Search {
   template <class Settle>
   void settleAll(std::size_t count, Settle settleOne) {
     std::vector<std::optional<Open>> left(count);
-    std::atomic<std::size_t> next{0};
-    std::mutex mutex;
-    std::exception_ptr failure;
-    auto work = [&](int) {
-      for (std::size_t i; (i = next++) < count;) {
-        try {
-          {
-            const std::lock_guard<std::mutex> lock(mutex);
-            tell("descents", i, count);
-          }
-          left[i] = settleOne(i);
-        } catch (...) {
-          const std::lock_guard<std::mutex> lock(mutex);
-          failure = std::current_exception();
-        }
-      }
-    };
-    WorkerPool(options_.threads).run(work);
-    if (failure) std::rethrow_exception(failure);
+    shareOut(
+        count, options_.threads, [&](std::size_t i) { left[i] = settleOne(i); },
+        [&](std::size_t i) { tell("descents", i, count); });
     for (std::optional<Open>& open : left)
       if (open) open_.push_back(std::move(*open));
   }

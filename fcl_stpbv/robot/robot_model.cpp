@@ -83,8 +83,7 @@ std::vector<ShapeModel> readShapes(const XMLElement& link, const char* use, cons
   std::vector<ShapeModel> shapes;
   int number = 0;
   for (const XMLElement* e = link.FirstChildElement(use); e; e = e->NextSiblingElement(use)) {
-    const std::string place =
-        xmlPlace(*e, path) + "link '" + link.Attribute("name") + "', " + use + " " + std::to_string(++number);
+    const std::string place = shapePlace(*e, path, link.Attribute("name"), use, ++number);
     LoadFaults::gather(faults, [&] { shapes.push_back(readShape(*e, place)); });
   }
   joinCapsules(shapes);

@@ -13,21 +13,6 @@ namespace {
 
 using Shapes = std::vector<ShapeModel> LinkModel::*;
 
-// The file's bytes and the scale; for glTF, which keeps its vertices in other files, the points.
-std::string contentOf(const ShapeSource& source) {
-  std::string content;
-  appendVector(content, source.shape->scale);
-  content += '\n';
-  const std::string& path = source.file;
-  const bool several = path.size() > 5 && path.compare(path.size() - 5, 5, ".gltf") == 0;
-  if (!several) return content + readText(path);
-  for (const Eigen::Vector3d& p : source.points()) {
-    appendVector(content, p);
-    content += '\n';
-  }
-  return content;
-}
-
 std::size_t linksWith(const RobotModel& robot, Shapes shapes) {
   return static_cast<std::size_t>(
       std::count_if(robot.links.begin(), robot.links.end(),
@@ -97,7 +82,7 @@ class Reader {
     try {
       if (source.shape->kind == ShapeModel::Kind::mesh) {
         source.file = paths_.resolve(source.shape->mesh);
-        source.content = contentOf(source);
+        source.content = meshContent(source.file, source.shape->scale);
         if (!isCached(robot_.links[static_cast<std::size_t>(source.link)].name, source.content))
           source.points();
       }
@@ -114,6 +99,23 @@ class Reader {
 };
 
 }  // namespace
+
+// The file's bytes and the scale; for glTF, which keeps its vertices in other files, what these hold.
+std::string meshContent(const std::string& file, const Eigen::Vector3d& scale) {
+  std::string content;
+  appendVector(content, scale);
+  content += '\n';
+  const bool several = file.size() > 5 && file.compare(file.size() - 5, 5, ".gltf") == 0;
+  if (!several) return content + readText(file);
+  const TriangleMesh mesh = loadMesh(file, scale);
+  for (const Eigen::Vector3d& p : mesh.vertices) {
+    appendVector(content, p);
+    content += '\n';
+  }
+  for (const auto& [a, b, c] : mesh.triangles)
+    content += std::to_string(a) + ' ' + std::to_string(b) + ' ' + std::to_string(c) + '\n';
+  return content;
+}
 
 const std::vector<Eigen::Vector3d>& ShapeSource::points() const {
   if (!points_.empty()) return points_;

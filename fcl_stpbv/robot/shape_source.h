@@ -10,13 +10,16 @@
 
 namespace fcl_stpbv::detail {
 
+/// What the cache (volume_cache.h) knows a mesh by. @throws Error naming the file.
+std::string meshContent(const std::string& file, const Eigen::Vector3d& scale);
+
 /// One shape of one link; of a mesh, its file.
 struct ShapeSource {
   int link = -1;
   int number = 1;  ///< of the link's shapes, from 1
   const ShapeModel* shape = nullptr;
   std::string file;     ///< "" for a primitive
-  std::string content;  ///< what the volume cache knows the mesh by
+  std::string content;  ///< meshContent()
 
   /// The mesh's points, scaled; read when first asked for and kept. @throws Error naming the file.
   const std::vector<Eigen::Vector3d>& points() const;

@@ -13,6 +13,7 @@
 #include <string_view>
 
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/robot/xml_text.h"
 
 namespace fcl_stpbv::detail {
 namespace {
@@ -130,6 +131,11 @@ urdf::JointSharedPtr readJointElement(const XMLElement& joint) {
       model ? model->joints_.find("j") : std::map<std::string, urdf::JointSharedPtr>::iterator();
   if (!model || read == model->joints_.end()) refuse(reason);
   return read->second;
+}
+
+std::string shapePlace(const tinyxml2::XMLElement& shape, const std::string& path, const std::string& link,
+                       const char* use, int number) {
+  return xmlPlace(shape, path) + "link '" + link + "', " + use + " " + std::to_string(number);
 }
 
 }  // namespace fcl_stpbv::detail

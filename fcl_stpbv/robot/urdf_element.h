@@ -5,12 +5,19 @@
 #include <urdf_model/joint.h>
 #include <urdf_model/link.h>
 
+#include <string>
+
 namespace fcl_stpbv::detail {
 
 /// A `<collision>`, or a `<visual>` in its place: only its `<origin>` and `<geometry>` count. A capsule,
 /// newer than this urdfdom, comes as a cylinder.
 /// @throws Error saying what is wrong, without the element's place.
 urdf::CollisionSharedPtr readShapeElement(const tinyxml2::XMLElement& shape);
+
+/// ShapeModel::place of a shape: the `number`th `use` ("collision" or "visual") of its link, from 1. `path`
+/// is the URDF's.
+std::string shapePlace(const tinyxml2::XMLElement& shape, const std::string& path, const std::string& link,
+                       const char* use, int number);
 
 /// An `<inertial>`. @throws as above.
 urdf::InertialSharedPtr readInertialElement(const tinyxml2::XMLElement& inertial);

@@ -1,5 +1,6 @@
-// Volumes on disk: the file's name is a digest of the content, r and R; its first line a digest of name and
-// content. An entry that another user could have written, or that does not match, is built anew.
+// Entries on disk: the file's name is a digest of the mesh's content and of the options; its first line a
+// digest of name and entry. An entry that another user could have written, or that does not match, is built
+// anew.
 #include "fcl_stpbv/robot/volume_cache.h"
 
 #include <fcntl.h>
@@ -15,13 +16,15 @@
 #include "fcl_stpbv/io/atomic_write.h"
 #include "fcl_stpbv/io/stpbv_file.h"
 #include "fcl_stpbv/io/text_scanner.h"
+#include "fcl_stpbv/parts/parts_text.h"
 
 namespace fcl_stpbv::detail {
 namespace {
 
 namespace fs = std::filesystem;
 
-// Changes when the builder gives other volumes, or a fit other radii, for the same points.
+// Changes when the builder gives other volumes, a fit other radii, or the search other parts, for the same
+// mesh.
 constexpr std::string_view kVersion = "fcl_stpbv volume cache 3\n";
 
 // Two streams of 64 bits: FNV-1a, and the same steps over a mixed state. Guards against accidents, not
@@ -65,6 +68,35 @@ std::string readEntry(const std::string& path) {
   return text;
 }
 
+std::string pathIn(const std::string& folder, const std::string& key, const char* extension) {
+  return (fs::path(folder) / (digest(key) + extension)).string();
+}
+
+// An entry is a line with the digest of its key and the rest, then the volume's or the parts' own format.
+// Nothing for one that is not to be believed.
+std::string believed(const std::string& path) {
+  const std::string text = readEntry(path);
+  const std::size_t line = text.find('\n');
+  const bool whole =
+      line != std::string::npos && digest(keyOf(path) + text.substr(line)) == text.substr(0, line);
+  return whole ? text.substr(line + 1) : "";
+}
+
+std::string textOf(const StpBv::Ptr& volume) {
+  std::ostringstream out;
+  saveStpBv(out, *volume);
+  return out.str();
+}
+std::string textOf(const ConvexParts& parts) { return toText(parts); }
+
+void read(const std::string& text, const std::string& path, StpBv::Ptr& volume) {
+  std::istringstream in(text);
+  volume = loadStpBv(in, path);
+}
+void read(const std::string& text, const std::string& path, ConvexParts& parts) {
+  parts = partsFromText(text, path);
+}
+
 }  // namespace
 
 std::string VolumeCache::pathOf(std::string_view content, const StpBvOptions& options) const {
@@ -74,7 +106,19 @@ std::string VolumeCache::pathOf(std::string_view content, const StpBvOptions& op
   appendNumber(key, options.R);
   key += '\n';
   key += content;
-  return (fs::path(folder_) / (digest(key) + ".stpbv")).string();
+  return pathIn(folder_, key, ".stpbv");
+}
+
+std::string VolumeCache::pathOf(std::string_view content, const PartsOptions& options) const {
+  std::string key(kVersion);
+  key += "parts " + std::to_string(options.most);
+  for (const double value : {options.excess, options.effort}) {
+    key += ' ';
+    appendNumber(key, value);
+  }
+  key += '\n';
+  key += content;
+  return pathIn(folder_, key, ".parts");
 }
 
 bool VolumeCache::has(std::string_view content, const StpBvOptions& options) const {
@@ -83,43 +127,41 @@ bool VolumeCache::has(std::string_view content, const StpBvOptions& options) con
   return file >= 0;
 }
 
+template <class Kept>
+Kept VolumeCache::find(const std::string& path, const std::function<Kept()>& build) {
+  if (folder_.empty()) return build();
+  try {
+    const std::string text = believed(path);
+    if (!text.empty()) {
+      Kept kept;
+      read(text, path, kept);
+      ++hits_;
+      return kept;
+    }
+  } catch (const std::exception&) {
+    // built anew
+  }
+  const Kept built = build();
+  keep(path, textOf(built));
+  return built;
+}
+
 StpBv::Ptr VolumeCache::volume(std::string_view content, const StpBvOptions& options,
                                const std::function<StpBv::Ptr()>& build) {
-  if (folder_.empty()) return build();
-  const std::string path = pathOf(content, options);
-  StpBv::Ptr volume = load(path);
-  if (volume) {
-    ++hits_;
-    return volume;
-  }
-  volume = build();
-  keep(path, *volume);
-  return volume;
+  return find(pathOf(content, options), build);
 }
 
-// An entry is a line with the digest of its key and the rest, then the volume's own format.
-StpBv::Ptr VolumeCache::load(const std::string& path) const {
-  try {
-    const std::string text = readEntry(path);
-    const std::size_t line = text.find('\n');
-    if (line == std::string::npos || digest(keyOf(path) + text.substr(line)) != text.substr(0, line))
-      return nullptr;
-    std::istringstream in(text.substr(line + 1));
-    return loadStpBv(in, path);
-  } catch (const std::exception&) {
-    return nullptr;
-  }
+ConvexParts VolumeCache::parts(std::string_view content, const PartsOptions& options,
+                               const std::function<ConvexParts()>& build) {
+  return find(pathOf(content, options), build);
 }
 
-void VolumeCache::keep(const std::string& path, const StpBv& volume) {
+void VolumeCache::keep(const std::string& path, const std::string& entry) {
   try {
     std::error_code ignored;
     fs::create_directories(folder_, ignored);
-    if (!swept_) sweepTemporaries(folder_);
-    swept_ = true;
-    std::ostringstream out;
-    saveStpBv(out, volume);
-    const std::string text = "\n" + out.str();
+    std::call_once(swept_, [this] { sweepTemporaries(folder_); });
+    const std::string text = "\n" + entry;
     atomicWriteOwn(path, digest(keyOf(path) + text) + text);
   } catch (const std::exception&) {
     return;  // built again next time

@@ -1,6 +1,4 @@
 // Bodies of links from meshes and primitives, and the cache of volumes.
-#include <sys/resource.h>
-
 #include <catch2/catch.hpp>
 #include <filesystem>
 
@@ -11,6 +9,7 @@
 #include "fcl_stpbv/volume/verify.h"
 #include "test/reference/robots.h"
 #include "test/reference/volume_files.h"
+#include "test/robot/mesh_reads.h"
 #include "test/robot/urdf_texts.h"
 
 using namespace fcl_stpbv;
@@ -32,13 +31,6 @@ RobotModel tetrahedron(const TemporaryFolder& folder, double size) {
       "v 0 0 0\nv " + s + " 0 0\nv 0 " + s + " 0\nv 0 0 " + s + "\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n");
   put(folder / "r.urdf", robot(link("a", "<mesh filename=\"mesh.obj\" scale=\"1 -1 1\"/>")));
   return loadUrdf(folder / "r.urdf");
-}
-
-// Pages that child processes have touched so far: meshes are read in children, so without a page none was.
-long pagesOfChildren() {
-  rusage usage{};
-  ::getrusage(RUSAGE_CHILDREN, &usage);
-  return usage.ru_minflt;
 }
 
 bool sameVolume(const StpBv& a, const StpBv& b) {

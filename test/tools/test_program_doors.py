@@ -11,7 +11,8 @@ import unittest
 
 BIN, PROJECT = (pathlib.Path(folder).resolve() for folder in sys.argv[1:3])
 PROGRAMS = [BIN / name for name in (
-    "mesh_to_stpbv", "urdf_collision_report", "find_posture", "demo", "adapter_figures", "build_benchmark", "constraints_benchmark",
+    "mesh_to_stpbv", "urdf_collision_report", "urdf_to_stpbv", "find_posture", "demo", "adapter_figures", "build_benchmark",
+    "constraints_benchmark",
     "jump_sweep", "posture_study", "proof_boxes", "speed_accuracy", "stability")]
 PROGRAMS += [BIN / name for name in ("control_bench", "optimise_bench", "parts_benchmark") if (BIN / name).exists()]  # where Bullet, or IPOPT, is
 SOAKS = [BIN / name for name in (

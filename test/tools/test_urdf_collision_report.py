@@ -424,6 +424,24 @@ class Report(unittest.TestCase):
         for wrong in ("1", "65", "some"):
             self.assertEqual(self.run_tool(*robot, "--parts", wrong).returncode, 2)
 
+    def test_parts_come_from_the_cache_and_do_not_depend_on_the_number_of_threads(self):
+        robot = (*self.slides_through_a_gate(), "--parts", "4", "--format", "json")
+        kept = os.path.join(self.folder.name, "cache", "fcl_stpbv")
+
+        def report(*arguments):
+            found = json.loads(self.run_tool(*robot, *arguments).stdout)
+            for times in (found["summary"], found["summary"]["rows"]):  # measured anew each time
+                for name in [n for n in times if "us_per" in n or "ns_per" in n]:
+                    del times[name]
+            return found
+
+        cold = report("--jobs", "1")
+        entries = {name: os.stat(os.path.join(kept, name)).st_mtime_ns for name in os.listdir(kept)}
+        self.assertEqual(sorted(name.endswith(".parts") for name in entries), 3 * [False] + 3 * [True])
+        self.assertEqual(report("--jobs", "3"), cold)
+        self.assertEqual({name: os.stat(os.path.join(kept, name)).st_mtime_ns for name in os.listdir(kept)}, entries)
+        self.assertEqual(report("--jobs", "2", "--no-cache"), cold)
+
     def test_parts_are_not_made_where_meshes_meet(self):
         far = self.boxes("far.obj", 0.01, (5, 0, 0))
         gate = self.boxes("gate.obj", 0.1, (-0.3, 0, 0), (0.3, 0, 0))

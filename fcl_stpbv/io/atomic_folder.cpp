@@ -1,0 +1,95 @@
+// 1. a new folder beside the old one, named as temporary files are (atomic_write.h);
+// 2. all files into it, and on to the disk at once;
+// 3. the two folders change names in one step, where the file system can do that; the old one is removed.
+#include "fcl_stpbv/io/atomic_folder.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+#include "fcl_stpbv/error.h"
+#include "fcl_stpbv/io/signals_held.h"
+
+namespace fcl_stpbv::detail {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void refuse(const fs::path& path, int error) {
+  throw Error(path.string() + ": cannot be written: " + std::strerror(error));
+}
+
+// Removes what it names at the end, if it is there.
+struct Removed {
+  fs::path path;
+  ~Removed() {
+    std::error_code ignored;
+    fs::remove_all(path, ignored);
+  }
+};
+
+void writeFile(const fs::path& path, const std::string& content) {
+  std::error_code error;
+  fs::create_directories(path.parent_path(), error);
+  if (error) refuse(path.parent_path(), error.value());
+  errno = 0;
+  std::ofstream out(path, std::ios::binary);
+  out.write(content.data(), static_cast<std::streamsize>(content.size()));
+  out.close();
+  if (!out) refuse(path, errno != 0 ? errno : EIO);
+}
+
+// One call for all files instead of one each.
+void toDisk(const fs::path& folder) {
+  const int open = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  const bool done = open >= 0 && ::syncfs(open) == 0;
+  const int error = errno;
+  if (open >= 0) ::close(open);
+  if (!done) refuse(folder, error);
+}
+
+void takeName(const fs::path& made, const fs::path& name) {
+  struct stat old {};
+  if (::stat(name.c_str(), &old) != 0) {
+    if (::rename(made.c_str(), name.c_str()) != 0) refuse(name, errno);
+    return;
+  }
+  if (::chmod(made.c_str(), old.st_mode & 07777) != 0) refuse(name, errno);
+  if (::renameat2(AT_FDCWD, made.c_str(), AT_FDCWD, name.c_str(), RENAME_EXCHANGE) == 0) return;
+  if (errno != EINVAL && errno != ENOSYS) refuse(name, errno);
+  const Removed aside{made.string() + ".old"};
+  if (::rename(name.c_str(), aside.path.c_str()) != 0) refuse(name, errno);
+  if (::rename(made.c_str(), name.c_str()) != 0) {
+    const int error = errno;
+    ::rename(aside.path.c_str(), name.c_str());
+    refuse(name, error);
+  }
+}
+
+}  // namespace
+
+void atomicWriteFolder(const std::string& folder, const FolderFiles& files) {
+  const SignalsHeld held(kEndingSignals);
+  fs::path name = fs::path(folder).lexically_normal();
+  if (name.filename().empty()) name = name.parent_path();  // it ended in a slash
+  std::error_code none;
+  if (const fs::path real = fs::canonical(name, none); !none) name = real;
+  const fs::path parent = name.parent_path().empty() ? "." : name.parent_path();
+  std::string made = (parent / ".fcl_stpbv-XXXXXX").string();
+  if (::mkdtemp(made.data()) == nullptr) refuse(folder, errno);
+  const Removed temporary{made};  // after a swap the old folder
+  const mode_t mask = ::umask(0);
+  ::umask(mask);
+  if (::chmod(made.c_str(), 0777 & ~mask) != 0) refuse(folder, errno);
+  for (const auto& [file, content] : files) writeFile(fs::path(made) / file, content);
+  toDisk(made);
+  takeName(made, name);
+}
+
+}  // namespace fcl_stpbv::detail

@@ -1,0 +1,80 @@
+// The manifest names every file of the folder with its SHA-256.
+#include "fcl_stpbv/report/kept_folder.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "fcl_stpbv/error.h"
+#include "fcl_stpbv/io/text_scanner.h"
+#include "fcl_stpbv/report/digest.h"
+#include "fcl_stpbv/robot/json_text.h"
+
+namespace fcl_stpbv::report {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+// What a conversion's manifest says, or an Error: this folder is somebody else's.
+json manifestOf(const fs::path& folder) {
+  const fs::path path = folder / kManifest;
+  std::error_code ignored;
+  if (!fs::is_regular_file(fs::symlink_status(path, ignored)))
+    throw Error(folder.string() + ": holds files that no conversion wrote; name a new or an empty folder");
+  const json manifest = detail::parseJson(detail::readText(path.string()), path.string());
+  const bool ours = manifest.is_object() && manifest.value("program", json()) == "urdf_to_stpbv" &&
+                    manifest.value("key", json()).is_string() && manifest.value("files", json()).is_object();
+  if (!ours) throw Error(path.string() + ": is no manifest of a conversion; name a new or an empty folder");
+  return manifest;
+}
+
+// Whether `path` is in the folder or in one of its folders.
+bool isIn(const fs::path& folder, const std::string& path) {
+  std::error_code ignored;
+  const fs::path real = fs::weakly_canonical(path, ignored), around = fs::weakly_canonical(folder, ignored);
+  return std::mismatch(around.begin(), around.end(), real.begin(), real.end()).first == around.end();
+}
+
+}  // namespace
+
+std::string keyOfFolder(const std::string& path, const std::vector<std::string>& inputs, bool force) {
+  if (path.empty()) throw Error("-o: expected the name of a folder");
+  std::error_code ignored;
+  const fs::path name = (fs::path(path) / "").parent_path();  // without a slash at the end
+  const fs::path parent = name.parent_path().empty() ? "." : name.parent_path();
+  if (!fs::is_directory(parent, ignored))
+    throw Error("-o " + path + ": the folder " + parent.string() + " does not exist; make it first");
+  for (const std::string& input : inputs)
+    if (isIn(name, input))
+      throw Error("-o " + path + ": " + input + " lies in it and is read; name another folder");
+  if (!fs::exists(fs::symlink_status(name, ignored))) return "";
+  if (!fs::is_directory(name, ignored)) throw Error("-o " + path + ": is a file, expected a folder");
+  if (fs::is_empty(name, ignored)) return "";
+  const json manifest = manifestOf(name);
+  std::size_t found = 0;
+  bool same = true;
+  for (const auto& entry : fs::recursive_directory_iterator(name)) {
+    if (entry.is_directory() && !entry.is_symlink()) continue;
+    const std::string file = fs::relative(entry.path(), name).string();
+    if (file == kManifest) continue;
+    const auto known = manifest["files"].find(file);
+    if (known == manifest["files"].end() || entry.is_symlink())
+      throw Error(entry.path().string() +
+                  ": no conversion wrote it, and it would be lost; move it away or name another folder");
+    ++found;
+    if (*known == sha256(detail::readText(entry.path().string()))) continue;
+    same = false;
+    if (!force)
+      throw Error(entry.path().string() +
+                  ": was changed since it was written; give --force to replace it, or name another folder");
+  }
+  return same && found == manifest["files"].size() ? manifest["key"].get<std::string>() : "";
+}
+
+void addFiles(nlohmann::ordered_json& manifest, const std::string& key, const detail::FolderFiles& files) {
+  manifest["key"] = key;
+  for (const auto& [name, content] : files) manifest["files"][name] = sha256(content);
+}
+
+}  // namespace fcl_stpbv::report

@@ -1,0 +1,25 @@
+// The folder that a conversion wrote before, and whether it may be replaced.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "fcl_stpbv/io/atomic_folder.h"
+
+namespace fcl_stpbv::report {
+
+inline constexpr const char* kManifest = "manifest.json";
+
+/// Looks at a folder before anything is computed: one that holds what a conversion did not write, or what
+/// was changed since, is refused, so that nothing of the user's is lost.
+/// @param inputs files that the conversion reads, none of which may lie in the folder
+/// @param force files that a conversion wrote may have been changed since
+/// @return the key that the folder's manifest names, "" unless all its files are as they were written.
+/// @throws Error naming the folder or file, and what would work.
+std::string keyOfFolder(const std::string& folder, const std::vector<std::string>& inputs, bool force);
+
+/// The manifest's own entries: the key and each file's SHA-256.
+void addFiles(nlohmann::ordered_json& manifest, const std::string& key, const detail::FolderFiles& files);
+
+}  // namespace fcl_stpbv::report

@@ -1,0 +1,26 @@
+// A URDF with the parts of its collision meshes in their places.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "fcl_stpbv/robot/robot_model.h"
+
+namespace fcl_stpbv::report {
+
+/// What a URDF with parts is made of.
+struct PartUrdf {
+  const RobotModel* robot;
+  bool visual = false;  ///< the bodies were made of the visual shapes: they become the collision shapes
+  /// Names of the meshes that stand for a mesh shape, by the place of the shape. A shape without an entry
+  /// stays as it is.
+  std::map<std::string, std::vector<std::string>> meshes;
+  std::string folder;  ///< where the URDF will be: relative names of other meshes are changed to lead there
+};
+
+/// The robot's file with one `<collision>` a part: name, origin and what else it holds as the mesh's were, no
+/// scale, since the parts have it. Everything else stays. @throws Error naming the file.
+std::string urdfWithParts(const PartUrdf& parts);
+
+}  // namespace fcl_stpbv::report

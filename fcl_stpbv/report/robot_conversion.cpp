@@ -1,0 +1,113 @@
+// 1. the inputs' key: their SHA-256 and the options; where the folder has that key there is nothing to do;
+// 2. the report, with the links split for all their pairs (collision_report.h);
+// 3. the files (part_files.h), all at once.
+#include "fcl_stpbv/report/robot_conversion.h"
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "fcl_stpbv/io/text_scanner.h"
+#include "fcl_stpbv/report/digest.h"
+#include "fcl_stpbv/report/formatted.h"
+#include "fcl_stpbv/report/kept_folder.h"
+#include "fcl_stpbv/report/part_files.h"
+
+namespace fcl_stpbv::report {
+namespace {
+
+using namespace detail;
+using nlohmann::ordered_json;
+namespace fs = std::filesystem;
+
+// A posture may be a file, or the name of a state in the SRDF.
+ordered_json digestOf(const std::string& path) {
+  std::error_code ignored;
+  return fs::is_regular_file(path, ignored) ? ordered_json(sha256(readText(path))) : ordered_json(path);
+}
+
+ordered_json optionsOf(const RobotConversion& conversion) {
+  const ReportRequest& report = conversion.report;
+  const GeometryOptions& g = report.files.geometry;
+  ordered_json json;
+  json["parts"] = report.partsAuto ? ordered_json("auto") : ordered_json(report.partsAll);
+  json["r"] = g.fitr ? ordered_json("auto") : ordered_json(g.radii.r);
+  json["R"] = g.fitR ? ordered_json("auto") : ordered_json(g.radii.R);
+  json["over_cover"] = g.overCoverBudget;
+  for (const auto& [name, radii] : g.links) json["links"][name] = {radii.r, radii.R};
+  for (const auto& [name, budget] : g.budgets) json["budgets"][name] = budget;
+  json["flat"] = g.flatLinks;
+  json["flat_obstacles"] = report.files.flatObstacles;
+  json["flat_primitives"] = report.files.flatPrimitives;
+  json["visual"] = g.visual;
+  json["skip_invalid"] = report.files.skipInvalid;
+  json["samples"] = report.search.samples;
+  json["seed"] = report.search.seed;
+  json["margin"] = report.search.margin;
+  json["prove"] = report.search.proofSeconds;
+  json["disable_default"] = conversion.disableDefault;
+  json["mesh_prefix"] = conversion.meshPrefix;
+  return json;
+}
+
+// All that the output follows from, and the files that it was read from.
+struct Inputs {
+  ordered_json json;
+  std::vector<std::string> files;
+};
+
+Inputs inputsOf(const RobotConversion& conversion) {
+  const RobotFiles& files = conversion.report.files;
+  RobotLoader loader(files);
+  loader.read();
+  loader.faults().refuse(files.skipInvalid);
+  Inputs inputs;
+  const auto add = [&](const char* what, const std::string& path) {
+    if (path.empty()) return;
+    inputs.files.push_back(path);
+    inputs.json[what] = {{"file", path}, {"sha256", sha256(readText(path))}};
+  };
+  inputs.json["version"] = FCL_STPBV_VERSION;
+  add("urdf", files.urdf);
+  add("srdf", files.srdf);
+  add("obstacles", files.obstacles);
+  if (!conversion.report.neutral.empty()) inputs.json["neutral"] = digestOf(conversion.report.neutral);
+  for (const ShapeSources* sources : {&loader.shapes(), &loader.sceneShapes()}) {
+    for (const ShapeSource& source : sources->shapes) {
+      if (source.file.empty()) continue;
+      inputs.files.push_back(source.file);
+      inputs.json["meshes"].push_back({source.file, sha256(source.content)});
+    }
+  }
+  inputs.json["left_out"] = loader.skipped();
+  inputs.json["options"] = optionsOf(conversion);
+  return inputs;
+}
+
+}  // namespace
+
+ConversionResult convertRobot(const RobotConversion& conversion) {
+  ConversionResult result;
+  const Inputs inputs = inputsOf(conversion);
+  const std::string key = sha256(inputs.json.dump(-1, ' ', false, ordered_json::error_handler_t::replace));
+  const std::string kept = keyOfFolder(conversion.folder, inputs.files, conversion.force);
+  if (kept == key && !conversion.force) {
+    result.upToDate = true;
+    for (const auto& shape : inputs.json["left_out"]) result.skipped.push_back(shape);
+    result.summary = conversion.folder + " is up to date";
+    return result;
+  }
+  ReportRequest request = conversion.report;
+  request.partsForAllPairs = true;
+  const CollisionReport report = makeReport(request);
+  PartFiles output(conversion, report);
+  atomicWriteFolder(conversion.folder, output.make(inputs.json, key));
+  result.warnings = report.warnings;
+  result.skipped = report.skipped;
+  result.summary = formatted(
+      "%s: %d convex parts, their volumes within %.3f mm of the meshes; %d of %zu pairs to check -> %s",
+      report.robot->name.c_str(), output.parts(), output.excess() * 1e3, report.checked, report.pairs.size(),
+      conversion.folder.c_str());
+  return result;
+}
+
+}  // namespace fcl_stpbv::report

@@ -1,0 +1,39 @@
+// Threads take the next piece as soon as they are done with the last one.
+#include "fcl_stpbv/robot/share_out.h"
+
+#include <algorithm>
+#include <exception>
+#include <mutex>
+
+#include "fcl_stpbv/robot/worker_pool.h"
+
+namespace fcl_stpbv::detail {
+
+void shareOut(std::size_t count, int threads, const std::function<void(std::size_t)>& each,
+              const std::function<void(std::size_t)>& begun) {
+  std::mutex mutex;
+  std::size_t next = 0, firstFailed = count;
+  std::exception_ptr failure;
+  const auto take = [&] {
+    const std::lock_guard<std::mutex> lock(mutex);
+    if (next < count && begun) begun(next);
+    return next < count ? next++ : count;
+  };
+  auto work = [&](int) {
+    for (std::size_t i; (i = take()) < count;) {
+      try {
+        each(i);
+      } catch (...) {
+        const std::lock_guard<std::mutex> lock(mutex);
+        if (i >= firstFailed) continue;
+        firstFailed = i;
+        failure = std::current_exception();
+      }
+    }
+  };
+  WorkerPool(static_cast<int>(std::min<std::size_t>(count, static_cast<std::size_t>(std::max(1, threads)))))
+      .run(work);
+  if (failure) std::rethrow_exception(failure);
+}
+
+}  // namespace fcl_stpbv::detail

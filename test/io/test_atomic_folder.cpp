@@ -1,0 +1,70 @@
+// A folder is written whole or not at all.
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+#include <csignal>
+#include <filesystem>
+
+#include "fcl_stpbv/error.h"
+#include "fcl_stpbv/io/atomic_folder.h"
+#include "test/reference/volume_files.h"
+
+using namespace fcl_stpbv;
+using namespace fcl_stpbv::detail;
+using namespace fcl_stpbv::test;
+using Catch::Matchers::Contains;
+namespace fs = std::filesystem;
+
+TEST_CASE("a folder is made with its files, and replaced by exactly others") {
+  const TemporaryFolder around;
+  const std::string folder = around / "out";
+  atomicWriteFolder(folder, {{"a", "one"}, {"deep/er/b", "two"}});
+  CHECK(contentOf(folder + "/a") == "one");
+  CHECK(contentOf(folder + "/deep/er/b") == "two");
+  ::chmod(folder.c_str(), 0750);
+  atomicWriteFolder(folder + "/", {{"c", "three"}});
+  CHECK(contentOf(folder + "/c") == "three");
+  CHECK_FALSE(fs::exists(folder + "/a"));
+  CHECK_FALSE(fs::exists(folder + "/deep"));
+  struct stat status {};
+  REQUIRE(::stat(folder.c_str(), &status) == 0);
+  CHECK((status.st_mode & 0777) == 0750);
+  CHECK(around.files() == std::vector<std::string>{"out"});
+}
+
+TEST_CASE("a link to a folder stays a link") {
+  const TemporaryFolder around;
+  fs::create_directory(around / "real");
+  fs::create_directory_symlink(around / "real", around / "link");
+  atomicWriteFolder(around / "link", {{"a", "one"}});
+  CHECK(fs::is_symlink(around / "link"));
+  CHECK(contentOf(around / "real/a") == "one");
+}
+
+TEST_CASE("a folder that cannot be written is left as it was, and nothing beside it") {
+  const TemporaryFolder around;
+  const std::string folder = around / "out";
+  CHECK_THROWS_WITH(atomicWriteFolder(around / "none/out", {{"a", "one"}}), Contains("none/out"));
+  atomicWriteFolder(folder, {{"a", "one"}});
+  const pid_t child = ::fork();  // with a limit that the second file is beyond
+  if (child == 0) {
+    const rlimit limit{1000, 1000};
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+    try {
+      atomicWriteFolder(folder, {{"a", "two"}, {"b", std::string(100000, 'x')}});
+    } catch (const Error&) {
+      ::_exit(3);
+    }
+    ::_exit(0);
+  }
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  CHECK(WIFEXITED(status));
+  CHECK(WEXITSTATUS(status) == 3);
+  CHECK(contentOf(folder + "/a") == "one");
+  CHECK_FALSE(fs::exists(folder + "/b"));
+  CHECK(around.files() == std::vector<std::string>{"out"});
+}
