@@ -38,7 +38,7 @@ class PythonPostureSearch {
   /// A problem of its own for each start: what others left in its caches would change the last bits.
   Posture solve(const std::string& task, const std::string& path, int start, std::uint64_t seed,
                 const std::optional<Floats<Eigen::VectorXd>>& from) const {
-    PostureSetup setup = setUp(parseTask(task, path), scene_);
+    PostureSetup setup = setUp(taskOf(task, path), scene_);
     requirePairs(setup.pairs.size(), *scene_.robot, "the task and the robot's joints leave none");
     if (from) {
       requireNumbers(from->value, setup.start.size(), "start_from");
@@ -53,10 +53,17 @@ class PythonPostureSearch {
   }
 
   std::vector<std::string> names(const std::string& task, const std::string& path) const {
-    return setUp(parseTask(task, path), scene_).problem->kinematics().names();
+    return setUp(taskOf(task, path), scene_).problem->kinematics().names();
   }
 
  private:
+  static PostureTask taskOf(const std::string& text, const std::string& path) {
+    PostureTask task = parseTask(text, path);
+    if (task.partsAuto || task.parts > 1)
+      throw Error(path + ": collisions.parts: only the program find_posture splits links; leave it out here");
+    return task;
+  }
+
   PostureScene scene_;
 };
 

@@ -1,9 +1,12 @@
 // find_posture: joint values for a task, free of collisions, or which of its constraints cannot hold
 // together.
 #include <iostream>
+#include <memory>
+#include <tuple>
 
 #include "fcl_stpbv/io/atomic_write.h"
 #include "fcl_stpbv/report/posture_formats.h"
+#include "fcl_stpbv/report/posture_parts.h"
 #include "tools/program.h"
 #include "tools/robot_options.h"
 
@@ -36,7 +39,7 @@ Exit status: 0 a posture was found; 1 none was found; 2 the command line or an i
 
 struct Arguments {
   RobotArguments robot;
-  std::string task, format = "text", output;
+  std::string task, format = "text", output, parts;
   PostureOptions options;
   bool careless = false, quiet = false;
 };
@@ -50,11 +53,22 @@ void describe(Program& app, Arguments& a) {
   app.option("--seed", a.options.seed, "Of the random starts").whole().shown();
   app.option("--format", a.format, "text, json or html").oneOf({"text", "json", "html"}).shown();
   app.option("-o,--output", a.output, "File to write instead of standard output").type("OUT");
+  app.option(
+      "--parts", a.parts,
+      "Convex parts of concave links: none; auto, where no posture is found and parts move a pair out of the "
+      "way; or a number, at most so many of every link; instead of the task's");
   app.flag("--ignore-collisions", a.careless, "Solve without the pairs, which are reported all the same");
   app.flag("-q,--quiet", a.quiet, "No warnings");
 }
 
-void load(const Arguments& a, PostureReport& report) {
+void tell(const PostureReport& report) {
+  for (const std::string& shape : report.skipped)
+    std::cerr << "find_posture: left out and not checked: " << shape << "\n";
+  for (const std::string& warning : report.warnings) std::cerr << "find_posture: " << warning << "\n";
+}
+
+// @return the links' parts, where any are asked for.
+std::unique_ptr<PostureParts> load(const Arguments& a, PostureReport& report) {
   RobotFiles files = filesOf(a.robot);
   files.base = report.task.base;
   RobotLoader loader(files);
@@ -68,25 +82,26 @@ void load(const Arguments& a, PostureReport& report) {
   if (!scene.srdf) scene.selfPairs = searchedPairs(scene.robot, scene.geometry);
   report.warnings = loader.warnings();
   report.skipped = loader.skipped();
-  if (a.quiet) return;
-  for (const std::string& shape : report.skipped)
-    std::cerr << "find_posture: left out and not checked: " << shape << "\n";
-  for (const std::string& warning : report.warnings) std::cerr << "find_posture: " << warning << "\n";
+  const bool split = report.task.partsAuto || report.task.parts > 1;
+  if (!a.quiet) tell(report);
+  return split ? std::make_unique<PostureParts>(report.task, scene, loader.sceneGeometry(), files.geometry)
+               : nullptr;
 }
 
 int run(Arguments& a) {
   checkOutput(a.output);
   PostureReport report;
   report.task = loadTask(a.task);
-  load(a, report);
+  if (!a.parts.empty()) std::tie(report.task.partsAuto, report.task.parts) = partsAsked(a.parts);
+  const std::unique_ptr<PostureParts> parts = load(a, report);
   PostureSetup setup = setUp(report.task, report.scene);
   if (!a.careless)
     requirePairs(setup.pairs.size(), *report.scene.robot,
                  "the task and the robot's joints leave none; --ignore-collisions solves without");
   if (a.careless) setup.problem = setUpWithoutCollisions(report.task, report.scene).problem;
   report.kinematics = std::make_shared<const Kinematics>(setup.problem->kinematics());
+  report.posture = parts && !a.careless ? parts->find(setup, a.options) : findPosture(setup, a.options);
   report.pairs = setup.pairs;
-  report.posture = findPosture(setup, a.options);
   if (!setup.pairs.empty() && !a.careless) {
     PostureSetup free = setUpWithoutCollisions(report.task, report.scene);
     report.withoutCollisions = findPosture(free, a.options);

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <sstream>
+#include <tuple>
 
 #include "fcl_stpbv/error.h"
 #include "tools/number_check.h"
@@ -99,19 +100,6 @@ void setRadii(const RobotArguments& a, GeometryOptions& geometry) {
                 ": R must be larger than r; it is 10 unless given");
 }
 
-// none, auto or a number.
-void takeParts(const std::string& parts, report::ReportRequest& request) {
-  constexpr int kMost = 64;  // more make rows without end
-  request.partsAuto = parts == "auto";
-  if (parts == "none" || parts == "auto") return;
-  const bool digits =
-      !parts.empty() && parts.size() < 3 && parts.find_first_not_of("0123456789") == std::string::npos;
-  request.partsAll = digits ? std::stoi(parts) : 0;
-  if (request.partsAll < 2 || request.partsAll > kMost)
-    throw Error("--parts " + parts + ": expected none, auto or a whole number from 2 to " +
-                std::to_string(kMost));
-}
-
 }  // namespace
 
 void describeRobot(Program& app, RobotArguments& arguments) {
@@ -142,13 +130,25 @@ void describeSearch(Program& app, SearchArguments& a) {
            "Let an SRDF leave out the pairs that collide in the neutral posture but are clear in others");
 }
 
+std::pair<bool, int> partsAsked(const std::string& parts) {
+  constexpr int kMost = 64;  // more make rows without end
+  if (parts == "none" || parts == "auto") return {parts == "auto", 1};
+  const bool digits =
+      !parts.empty() && parts.size() < 3 && parts.find_first_not_of("0123456789") == std::string::npos;
+  const int most = digits ? std::stoi(parts) : 0;
+  if (most < 2 || most > kMost)
+    throw Error("--parts " + parts + ": expected none, auto or a whole number from 2 to " +
+                std::to_string(kMost));
+  return {false, most};
+}
+
 report::ReportRequest requestOf(const RobotArguments& robot, const SearchArguments& search,
                                 const Progress& progress) {
   report::ReportRequest request = search.request;
   request.files = filesOf(robot);
   request.search.threads = robot.jobs;
   request.files.geometry.progress = request.search.progress = progress;
-  takeParts(search.parts, request);
+  std::tie(request.partsAuto, request.partsAll) = partsAsked(search.parts);
   return request;
 }
 

@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "fcl_stpbv/report/collision_report.h"
@@ -31,6 +32,10 @@ struct SearchArguments {
   bool disableDefault = false;
 };
 void describeSearch(Program& app, SearchArguments& arguments);
+
+/// What --parts asks for: auto, and the most parts of every link, 1 for none.
+/// @throws Error where it is none of "none", "auto" and a number.
+std::pair<bool, int> partsAsked(const std::string& parts);
 
 /// Called with the steps done, all steps and what is being done.
 using Progress = std::function<void(std::size_t, std::size_t, const std::string&)>;

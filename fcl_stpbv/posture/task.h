@@ -68,6 +68,10 @@ struct PostureTask {
   bool selfCollisions = true;         ///< whether the robot is kept from itself
   std::vector<LinkObstacles> pairs;   ///< checked; none: every moving body against every obstacle
   std::vector<LinkObstacles> ignore;  ///< left out all the same
+  /// Concave links are split for the pairs that are in the way although their meshes are farther apart. For
+  /// the program find_posture, or whoever makes the scene's bodies: setUp() takes these as they are.
+  bool partsAuto = false;
+  int parts = 1;  ///< or all of them into so many convex parts at most
 };
 
 /// @throws Error naming the file and the key, and what would work.

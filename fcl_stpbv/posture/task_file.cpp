@@ -15,6 +15,8 @@ namespace {
 using namespace detail;
 using nlohmann::json;
 
+constexpr int kMostParts = 64;  // of a link: more make rows without end
+
 // A value and the way to it, for messages such as "task.json: placements[1].link: ...".
 class Field {
  public:
@@ -55,6 +57,14 @@ class Field {
     if (!(number >= least && number <= most))
       refuse("a number from " + toDecimal(least) + " to " + toDecimal(most));
     return number;
+  }
+  // Whether it is the word auto; none says no.
+  bool autoOrNone(const std::string& orElse) const {
+    if (value_ != "auto" && value_ != "none") refuse("auto, none or " + orElse);
+    return value_ == "auto";
+  }
+  bool isWhole(int least, int most) const {
+    return value_.is_number_integer() && value_ >= least && value_ <= most;
   }
   bool boolean() const {
     if (!value_.is_boolean()) refuse("true or false");
@@ -172,11 +182,17 @@ std::vector<LinkObstacles> readPairs(const Field& field, const std::set<std::str
 }
 
 void readCollisions(const Field& field, PostureTask& task) {
-  field.object({"margin", "self", "pairs", "ignore"});
+  field.object({"margin", "self", "pairs", "ignore", "parts"});
   if (field.has("margin")) task.collisionMargin = field["margin"].number(-1, 1);
   if (field.has("self")) task.selfCollisions = field["self"].boolean();
   if (field.has("pairs")) task.pairs = readPairs(field["pairs"], {"links", "obstacles"});
   if (field.has("ignore")) task.ignore = readPairs(field["ignore"], {"links", "obstacles", "self"});
+  if (!field.has("parts")) return;
+  const Field parts = field["parts"];
+  if (parts.isWhole(2, kMostParts))
+    task.parts = static_cast<int>(parts.number());
+  else
+    task.partsAuto = parts.autoOrNone("a whole number from 2 to " + std::to_string(kMostParts));
 }
 
 }  // namespace

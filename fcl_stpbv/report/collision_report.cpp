@@ -180,6 +180,23 @@ void examine(const ReportRequest& request, const PairListOptions& search, const 
   }
 }
 
+// Pairs whose meshes do not meet although their hulls do: in the configuration that each is reported in, and
+// in the neutral one where the pair list leaves it out as colliding there.
+std::vector<PartsCandidate> hullOnly(const CollisionReport& report, PairCauses& causes,
+                                     const Eigen::VectorXd& neutral) {
+  std::vector<PartsCandidate> candidates;
+  for (const PairReport& pair : report.pairs) {
+    if (pair.checked && pair.colliding && pair.cause == kHullOnly)
+      candidates.push_back({pair.links, pair.configuration});
+    const bool byDefault = pair.reason == reasonText(PairReason::byDefault) ||
+                           pair.reason == reasonText(PairReason::defaultClears);
+    if (byDefault &&
+        causes.explain(bodiesOf(*report.geometry, pair.links), neutral, report.margin).cause == kHullOnly)
+      candidates.push_back({pair.links, neutral});
+  }
+  return candidates;
+}
+
 // The volumes contain the meshes, and within the two excesses of their witness points there are points of the
 // meshes.
 void boundMeshDistances(const RobotGeometry* scene, PairCauses& causes, CollisionReport& report) {
@@ -216,7 +233,8 @@ CollisionReport makeReport(const ReportRequest& request) {
 
   const std::shared_ptr<const RobotGeometry> whole = report.geometry;
   const bool split = request.partsAuto || request.partsAll > 1;
-  PartsChoice parts(report, request.files.geometry, request.partsAll > 1 || request.partsForAllPairs);
+  PartsChoice parts({report.kinematics, whole, report.obstacles, search.margin}, request.files.geometry,
+                    request.partsAll > 1 || request.partsForAllPairs);
   PairCauses causes(report.kinematics, whole, report.obstacles, loader.sceneGeometry());
   const auto examineAll = [&] {
     report.geometry = parts.geometry();
@@ -227,7 +245,7 @@ CollisionReport makeReport(const ReportRequest& request) {
   examineAll();
   constexpr int kMostRefinements = 3;  // two, four and eight parts
   for (int k = 0; request.partsAuto && k < kMostRefinements; ++k) {
-    if (!parts.refine(report, causes, postures.neutral)) break;
+    if (!parts.refine(hullOnly(report, causes, postures.neutral))) break;
     examineAll();
   }
   for (const Body& body : report.geometry->bodies) report.fits.push_back(meshFit(body, causes.exact(body)));

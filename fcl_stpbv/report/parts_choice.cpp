@@ -1,8 +1,8 @@
-// 1. Of the pairs in collision, those whose meshes do not meet and whose hulls do are candidates.
+// 1. Candidates are pairs in collision whose meshes do not meet and whose hulls do; whoever calls finds them.
 // 2. Splits of their two links are tried, fewest rows first: 2, 4 or 8 parts of either or both.
 // 3. The first that puts the parts' volumes farther apart than the margin is kept, for this pair.
-// Whoever calls makes the report anew with the parts, since another configuration may now be the worst, and
-// asks again.
+// Whoever calls looks at all anew with the parts, since another configuration may now be the worst, and asks
+// again.
 #include "fcl_stpbv/report/parts_choice.h"
 
 #include <algorithm>
@@ -18,20 +18,23 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
 
-PartsChoice::PartsChoice(const CollisionReport& report, const GeometryOptions& options, bool everyPair)
-    : parts_(report.geometry, options.cacheFolder), threads_(options.threads), progress_(options.progress) {
-  const int links = static_cast<int>(report.robot->links.size());
+PartsChoice::PartsChoice(PartsScene scene, const GeometryOptions& options, bool everyPair)
+    : scene_(std::move(scene)),
+      parts_(scene_.whole, options.cacheFolder),
+      threads_(options.threads),
+      progress_(options.progress) {
+  const int links = static_cast<int>(scene_.kinematics->robot().links.size());
   for (int i = 0; everyPair && i < links; ++i) {
     for (int j = i + 1; j < links; ++j) byParts_.insert({i, j});
-    for (int o = 0; o < static_cast<int>(report.obstacles.size()); ++o) byParts_.insert({i, o, true});
+    for (int o = 0; o < static_cast<int>(scene_.obstacles.size()); ++o) byParts_.insert({i, o, true});
   }
 }
 
 // The least distance of the bodies, each split as far; ends with the first that is not above the margin.
-double PartsChoice::clearance(const CollisionReport& report, const Candidate& candidate, const Split& split) {
+double PartsChoice::clearance(const PartsCandidate& candidate, const Split& split) {
   const LinkPair& pair = candidate.pair;
-  Kinematics::State state = report.kinematics->makeState();
-  report.kinematics->forward(candidate.q, state);
+  Kinematics::State state = scene_.kinematics->makeState();
+  scene_.kinematics->forward(candidate.q, state);
   struct Placed {
     const fcl::CollisionGeometryd* geometry;
     Eigen::Isometry3d pose;
@@ -54,7 +57,7 @@ double PartsChoice::clearance(const CollisionReport& report, const Candidate& ca
   const std::vector<Placed> first = bodiesOf(pair.link1, split.first);
   std::vector<Placed> second;
   if (pair.obstacle) {
-    const Obstacle& obstacle = report.obstacles[at(pair.link2)];
+    const Obstacle& obstacle = scene_.obstacles[at(pair.link2)];
     second.push_back({obstacle.geometry.get(), obstacle.pose});
   } else {
     second = bodiesOf(pair.link2, split.second);
@@ -63,14 +66,13 @@ double PartsChoice::clearance(const CollisionReport& report, const Candidate& ca
   for (const Placed& a : first)
     for (const Placed& b : second) {
       least = std::min(least, distance(*a.geometry, a.pose, *b.geometry, b.pose).distance);
-      if (!(least > report.margin)) return least;
+      if (!(least > scene_.margin)) return least;
     }
   return least;
 }
 
 // The fewest rows that clear a pair, finer than what it has; none where eight parts of both do not.
-std::optional<PartsChoice::Split> PartsChoice::splitFor(const CollisionReport& report,
-                                                        const Candidate& candidate) {
+std::optional<PartsChoice::Split> PartsChoice::splitFor(const PartsCandidate& candidate) {
   const LinkPair& pair = candidate.pair;
   const bool known = byParts_.count(pair) > 0;
   const auto now = [&](int link) {
@@ -87,27 +89,15 @@ std::optional<PartsChoice::Split> PartsChoice::splitFor(const CollisionReport& r
   std::stable_sort(splits.begin(), splits.end(),
                    [](const Split& a, const Split& b) { return a.first * a.second < b.first * b.second; });
   for (const Split& split : splits)
-    if (clearance(report, candidate, split) > report.margin) return split;
+    if (clearance(candidate, split) > scene_.margin) return split;
   return std::nullopt;
 }
 
-bool PartsChoice::refine(const CollisionReport& report, PairCauses& causes, const Eigen::VectorXd& neutral) {
-  std::vector<Candidate> candidates;
-  for (const PairReport& pair : report.pairs) {
-    const LinkPair& links = pair.links;
-    if (pair.checked && pair.colliding && pair.cause == kHullOnly)
-      candidates.push_back({links, pair.configuration});
-    // In collision in the neutral posture, which would leave it unchecked.
-    const bool byDefault = pair.reason == reasonText(PairReason::byDefault) ||
-                           pair.reason == reasonText(PairReason::defaultClears);
-    if (byDefault &&
-        causes.explain(bodiesOf(*report.geometry, links), neutral, report.margin).cause == kHullOnly)
-      candidates.push_back({links, neutral});
-  }
+bool PartsChoice::refine(const std::vector<PartsCandidate>& candidates) {
   // Each is looked at by itself, from what held before, so that their order does not matter.
   std::vector<std::optional<Split>> found(candidates.size());
   detail::shareOut(
-      candidates.size(), threads_, [&](std::size_t i) { found[i] = splitFor(report, candidates[i]); },
+      candidates.size(), threads_, [&](std::size_t i) { found[i] = splitFor(candidates[i]); },
       [&](std::size_t i) {
         if (progress_) progress_(i, candidates.size(), "parts for pairs that collide by their hulls alone");
       });

@@ -8,25 +8,38 @@
 #include <set>
 #include <string>
 #include <utility>
+#include <vector>
 
-#include "fcl_stpbv/report/collision_report.h"
-#include "fcl_stpbv/report/pair_cause.h"
+#include "fcl_stpbv/robot/checked_pairs.h"
+#include "fcl_stpbv/robot/kinematics.h"
 #include "fcl_stpbv/robot/link_parts.h"
 
 namespace fcl_stpbv::report {
+
+/// What parts are chosen for.
+struct PartsScene {
+  std::shared_ptr<const Kinematics> kinematics;
+  std::shared_ptr<const RobotGeometry> whole;  ///< no body of which has parts yet
+  std::vector<Obstacle> obstacles;
+  double margin = 0;  ///< parts are to be farther apart (m)
+};
+
+/// A pair that parts may clear, and in which configuration.
+struct PartsCandidate {
+  LinkPair pair;
+  Eigen::VectorXd q;
+};
 
 /// Coarse to fine: each link starts whole. A pair that collides although its meshes do not meet gets as few
 /// parts as clear it there; all other pairs keep the whole bodies.
 class PartsChoice {
  public:
-  /// Of the report's bodies, none of which has parts yet; `options`: those that they were built with.
-  /// `everyPair`: a link that is split is so for all its pairs.
-  PartsChoice(const CollisionReport& report, const GeometryOptions& options, bool everyPair);
+  /// `options`: those that the bodies were built with. `everyPair`: a link that is split is so for all its
+  /// pairs.
+  PartsChoice(PartsScene scene, const GeometryOptions& options, bool everyPair);
 
-  /// Looks at the pairs of a report made with geometry(): in the configuration that each is reported in, and
-  /// in `neutral` where the pair list leaves it out as colliding there. Whether more parts were found to
-  /// help.
-  bool refine(const CollisionReport& report, PairCauses& causes, const Eigen::VectorXd& neutral);
+  /// Splits the links of these pairs as far as clears them. Whether more parts were found to help.
+  bool refine(const std::vector<PartsCandidate>& candidates);
 
   /// Splits every concave link into at most `most` parts.
   void splitAll(int most);
@@ -38,15 +51,10 @@ class PartsChoice {
  private:
   using Split = std::pair<int, int>;  // most parts of the first and of the second body
 
-  /// A pair that parts may clear, and where.
-  struct Candidate {
-    LinkPair pair;
-    Eigen::VectorXd q;
-  };
+  double clearance(const PartsCandidate& candidate, const Split& split);
+  std::optional<Split> splitFor(const PartsCandidate& candidate);
 
-  double clearance(const CollisionReport& report, const Candidate& candidate, const Split& split);
-  std::optional<Split> splitFor(const CollisionReport& report, const Candidate& candidate);
-
+  PartsScene scene_;
   LinkParts parts_;
   int threads_;
   std::function<void(std::size_t, std::size_t, const std::string&)> progress_;

@@ -1,6 +1,7 @@
 // A posture as text and as JSON.
 #include "fcl_stpbv/report/posture_formats.h"
 
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "fcl_stpbv/report/formatted.h"
@@ -22,6 +23,14 @@ std::string run(const Posture& posture) {
                    posture.distanceCalls, posture.gradientCalls, posture.cost);
 }
 
+// The bodies that are split, and into how many parts.
+std::map<std::string, int> partsOf(const PostureReport& report) {
+  std::map<std::string, int> parts;
+  for (const Body& body : report.scene.geometry->bodies)
+    if (body.parts > 0) parts[body.name] = body.parts;
+  return parts;
+}
+
 std::string bulleted(const std::vector<Violation>& violations) {
   std::string text;
   for (const Violation& v : violations) text += "  " + v.name + formatted(": %.3g", v.amount) + "\n";
@@ -38,6 +47,7 @@ std::string toText(const PostureReport& report) {
   text += " (" + posture.status + "): " + run(posture) + "\n";
   for (const std::string& shape : report.skipped) text += "LEFT OUT, NOT CHECKED: " + shape + "\n";
   text += formatted("%zu pairs, %zu of them with obstacles\n", report.pairs.size(), obstacles);
+  for (const auto& [body, count] : partsOf(report)) text += body + formatted(" in %d parts\n", count);
   if (report.withoutCollisions)
     text += std::string("without collisions ") +
             (report.withoutCollisions->feasible ? "feasible: " : "not feasible: ") +
@@ -70,6 +80,7 @@ std::string toJson(const PostureReport& report) {
                 {"distance_calls", posture.distanceCalls},
                 {"gradient_calls", posture.gradientCalls},
                 {"pairs", report.pairs.size()},
+                {"parts", partsOf(report)},
                 {"cost", posture.cost},
                 {"q", q},
                 {"warnings", report.warnings},

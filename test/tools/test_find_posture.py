@@ -45,6 +45,84 @@ class FindPosture(unittest.TestCase):
         with open(f"{FRIDGE}/pick_can.json", encoding="utf-8") as file:
             return json.load(file)
 
+    def gate_task(self, height, **collisions):
+        """A box that is to be in the gap of a gate of two posts, or at some height in front of it."""
+        def boxes(name, side, *middles):
+            text = ""
+            for k, middle in enumerate(middles):
+                for x in (-side, side):
+                    for y in (-side, side):
+                        text += "".join("v %g %g %g\n" % (middle + x, y, z) for z in (-side, side))
+                for face in ((1, 2, 4, 3), (5, 7, 8, 6), (1, 5, 6, 2), (3, 4, 8, 7), (1, 3, 7, 5), (2, 6, 8, 4)):
+                    text += "f " + " ".join(str(v + 8 * k) for v in face) + "\n"
+            with open(os.path.join(self.folder.name, name), "w", encoding="utf-8") as file:
+                file.write(text)
+
+        def link(name, mesh=""):
+            shape = f'<collision><geometry><mesh filename="{mesh}"/></geometry></collision>' if mesh else ""
+            return f'<link name="{name}">{shape}</link>'
+
+        def joint(name, parent, child, kind, axis):
+            return (f'<joint name="{name}" type="{kind}"><parent link="{parent}"/><child link="{child}"/><axis xyz="{axis}"/>'
+                    '<limit lower="-1" upper="1" effort="1" velocity="1"/></joint>')
+
+        boxes("gate.obj", 0.1, -0.3, 0.3)
+        boxes("box.obj", 0.05, 0)
+        boxes("far.obj", 0.05, 9)
+        with open(os.path.join(self.folder.name, "gate.urdf"), "w", encoding="utf-8") as file:
+            file.write('<robot name="gate">' + link("gate", "gate.obj") + link("far", "far.obj") + link("box", "box.obj")
+                       + joint("slide", "gate", "far", "prismatic", "0 0 1") + joint("turn", "far", "box", "revolute", "0 0 1")
+                       + "</robot>")
+        with open(os.path.join(self.folder.name, "gate.srdf"), "w", encoding="utf-8") as file:
+            file.write('<robot name="gate"/>')
+        task = {"base": "fixed", "start": {"joints": {"slide": 1}}, "collisions": collisions,
+                "placements": [{"link": "box", "target": {"position": [0, 0, height]}, "free": ["x", "y", "rx", "ry", "rz"]}]}
+        with open(os.path.join(self.folder.name, "gate.json"), "w", encoding="utf-8") as file:
+            json.dump(task, file)
+
+    def gate_posture(self, *arguments):
+        names = [os.path.join(self.folder.name, name) for name in ("gate.urdf", "gate.json", "gate.srdf")]
+        run = self.run_tool(*names[:2], "--srdf", names[2], "-r", "0.01", "--format", "json", *arguments)
+        return run.returncode, json.loads(run.stdout or "{}"), run.stderr
+
+    def test_a_link_in_the_way_by_its_hull_alone_is_split(self):
+        self.gate_task(0)
+        status, whole, _ = self.gate_posture()
+        self.assertEqual((status, whole["feasible"], whole["parts"]), (1, False, {}))
+        for parts in ("auto", "2", "5"):
+            status, split, complaints = self.gate_posture("--parts", parts)
+            self.assertEqual(status, 0, complaints)
+            self.assertEqual(split["parts"], {"gate": 2})
+            self.assertAlmostEqual(split["q"]["slide"], 0, delta=1e-6)
+        # The file may ask for it too, and the command line wins.
+        self.gate_task(0, parts="auto")
+        self.assertEqual(self.gate_posture()[0], 0)
+        self.assertEqual(self.gate_posture("--parts", "none")[0], 1)
+        self.gate_task(0, parts=4)
+        self.assertEqual(self.gate_posture()[1]["parts"], {"gate": 2})
+
+    def test_no_link_is_split_where_none_is_in_the_way_or_the_meshes_are(self):
+        self.gate_task(0.5, parts="auto")
+        status, far, _ = self.gate_posture()
+        self.assertEqual((status, far["parts"]), (0, {}))
+        with open(os.path.join(self.folder.name, "gate.json"), encoding="utf-8") as file:
+            task = json.load(file)
+        task["collisions"]["margin"] = 0.14  # more than the posts leave: 0.15 m less r twice
+        task["placements"][0]["target"]["position"] = [0, 0, 0]
+        with open(os.path.join(self.folder.name, "gate.json"), "w", encoding="utf-8") as file:
+            json.dump(task, file)
+        self.assertEqual(self.gate_posture()[0], 1)
+
+    def test_parts_that_are_none_are_refused(self):
+        for wrong in (1, 65, 2.5, "some", True, None):
+            self.gate_task(0, parts=wrong)
+            status, _, complaint = self.gate_posture()
+            self.assertEqual(status, 2)
+            self.assertIn("gate.json: collisions.parts: expected auto, none or a whole number from 2 to 64", complaint)
+        self.gate_task(0)
+        for wrong in ("1", "65", "some", "-2"):
+            self.assertEqual(self.gate_posture("--parts", wrong)[0], 2)
+
     def test_the_can_is_picked(self):
         run = self.run_task(self.pick_can(), "--format", "json")
         self.assertEqual(run.returncode, 0, run.stderr)

@@ -1,0 +1,37 @@
+// A posture's links split into convex parts, as far as its task needs.
+#pragma once
+
+#include <optional>
+
+#include "fcl_stpbv/posture/find_posture.h"
+#include "fcl_stpbv/report/pair_cause.h"
+#include "fcl_stpbv/report/parts_choice.h"
+
+namespace fcl_stpbv::report {
+
+/// Gives a scene's robot parts, by the task's `parts` and `partsAuto`. The scene must outlive it.
+class PostureParts {
+ public:
+  /// `around`: the bodies behind the scene's obstacles. All links are split at once where the task asks for a
+  /// number of parts.
+  PostureParts(const PostureTask& task, PostureScene& scene, std::shared_ptr<const RobotGeometry> around,
+               const GeometryOptions& options);
+
+  /// Solves the task. As long as that fails with pairs in the way by their hulls alone, links are split and
+  /// it is solved again.
+  /// @param setup that of the task; replaced where links are split
+  Posture find(PostureSetup& setup, const PostureOptions& options);
+
+ private:
+  std::vector<PartsCandidate> inTheWay(const PostureSetup& setup, const Eigen::VectorXd& q);
+  void use(std::shared_ptr<const RobotGeometry> geometry);
+
+  const PostureTask& task_;
+  PostureScene& scene_;
+  std::shared_ptr<const Kinematics> kinematics_;
+  double near_;
+  PartsChoice choice_;
+  PairCauses causes_;
+};
+
+}  // namespace fcl_stpbv::report
