@@ -39,11 +39,13 @@ CollisionConstraints::CollisionConstraints(std::shared_ptr<const Kinematics> kin
   if (options_.exactUpTo < 0 || always) options_.exactUpTo = options_.influence / 2;
   if (options_.exactUpTo > options_.influence)
     throw Error("CollisionConstraints: exactUpTo must not exceed influence");
+  if (!(options_.handOver > 0)) throw Error("CollisionConstraints: handOver must be larger than 0");
   for (const Obstacle& obstacle : options_.obstacles) {
     pose_.push_back(obstacle.pose);
     centre_.push_back(obstacle.centre);
   }
   leaveOutReplaced();
+  addWholePairs();
   for (const CheckedPair& pair : pairs_) addPair(pair);
   for (const SmoothConstraint& constraint : options_.smooth) addSmooth(constraint);
   caches_.resize(pairs_.size());
@@ -87,7 +89,23 @@ void CollisionConstraints::addPair(const CheckedPair& pair) {
   const Body& body = geometry_->bodies[at(pair.body)];
   const StpBvGeometry* first = asStpBv(body.geometry.get());
   const StpBvGeometry* other = asStpBv(&second(pair));
-  Row row{nullptr, nullptr, pair.body, pair.other, static_cast<int>(terms_.size()), 0, options_.influence};
+  Row row{nullptr,
+          nullptr,
+          pair.body,
+          pair.other,
+          static_cast<int>(terms_.size()),
+          0,
+          options_.influence,
+          options_.exactUpTo,
+          options_.influence,
+          groupOf_[rows_.size()],
+          false};
+  if (row.group >= 0) {
+    row.whole = wholeRow_[at(row.group)] == rows_.size();
+    row.start = std::min(options_.handOver / 2, options_.exactUpTo);
+    row.end = std::min(options_.handOver, options_.influence);
+    if (!row.whole) row.far = row.end;
+  }
   if (first && other) {
     row.first = &first->volume();
     row.second = &other->volume();
@@ -168,20 +186,9 @@ RowAnswer CollisionConstraints::answer(int row) const {
   return answer;
 }
 
-double CollisionConstraints::bend(double d, double& slope, double& curvature) const {
-  const double start = options_.exactUpTo, width = options_.influence - start;
-  slope = 1;
-  curvature = 0;
-  if (!(d > start)) return d;
-  const double t = std::min(1.0, (d - start) / width);
-  slope = 1 - t * t * (3 - 2 * t);
-  if (t < 1) curvature = 6 * t * (t - 1) / width;
-  return start + width * (t - t * t * t * (1 - t / 2));
-}
-
 // The query, but for pairs too far apart: status `invalid`, and the largest value that a row may have. A
 // query that failed, as with links 1e160 m away, is not clear: the lowest value.
-CollisionConstraints::Witness CollisionConstraints::ask(std::size_t row) {
+CollisionConstraints::Witness CollisionConstraints::query(std::size_t row) {
   const Row& r = rows_[row];
   const double apart = (centre_[at(r.b)] - centre_[at(r.a)]).squaredNorm();
   const bool far = apart >= r.far * r.far && std::isfinite(apart);
@@ -200,7 +207,7 @@ CollisionConstraints::Witness CollisionConstraints::ask(std::size_t row) {
     if (answer.status != DistanceStatus::invalid)
       return {answer.status, answer.distance, answer.normal, answer.points};
   }
-  const double most = far ? options_.influence : std::numeric_limits<double>::lowest();
+  const double most = far ? (r.whole ? options_.influence : r.end) : std::numeric_limits<double>::lowest();
   return {DistanceStatus::invalid, most, Eigen::Vector3d::Zero(), {}};
 }
 
@@ -217,7 +224,7 @@ CollisionConstraints::Witness CollisionConstraints::known(std::size_t row) const
 double CollisionConstraints::pairRow(std::size_t row, double* values) {
   const Witness witness = ask(row);
   double slope, curvature;
-  const double value = bend(witness.distance, slope, curvature);
+  const double value = bend(row, witness.distance, slope, curvature);
   if (values) writeRow(row, witness, slope, values);
   return value;
 }
@@ -244,6 +251,7 @@ void CollisionConstraints::place(const ConstVector& q) {
     pose_[i] = state_.link[at(body.link)] * body.pose;
     centre_[i] = state_.link[at(body.link)] * body.centre;
   }
+  askWhole();
 }
 
 void CollisionConstraints::nothingKnown(double* d, double* values) {

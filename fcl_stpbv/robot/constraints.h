@@ -39,7 +39,13 @@ struct ConstraintOptions {
   /// beyond `exactUpTo` a row leaves the distance d and bends over, twice continuously differentiable, to
   /// (influence + exactUpTo) / 2.
   double influence = std::numeric_limits<double>::infinity();
-  double exactUpTo = -1;                 ///< negative: half the influence
+  double exactUpTo = -1;  ///< negative: half the influence
+  /// Two bodies whose convex parts are among the pairs (RobotGeometry::byParts) get one more row, that of the
+  /// whole bodies, before the first of their parts'. Where the whole ones are farther apart than this (m), no
+  /// part is asked and the parts' rows are constant at 3/4 of it, or less with `exactUpTo`; from half of it
+  /// down the new row is constant there and the parts' are exact; between, every row bends as above.
+  /// Infinite: no such rows.
+  double handOver = std::numeric_limits<double>::infinity();
   std::vector<Obstacle> obstacles;       ///< that pairs may name
   std::vector<SmoothConstraint> smooth;  ///< rows after those of the pairs
   int threads = 1;                       ///< that share the rows
@@ -85,7 +91,8 @@ class CollisionConstraints {
   int rows() const { return static_cast<int>(rowStart_.size()) - 1; }
   /// Number of coordinates.
   int columns() const { return kinematics_->size(); }
-  /// The pairs of the first rows, without those that smooth constraints replace.
+  /// The pairs of the first rows: without those that smooth constraints replace, with those of whole bodies
+  /// that hand over to their parts.
   const std::vector<CheckedPair>& pairs() const { return pairs_; }
   /// The two bodies of a row, or the smooth constraint's name.
   std::string name(int row) const;
@@ -162,7 +169,10 @@ class CollisionConstraints {
     const StpBv *first, *second;  // null where one of the two is no STP-BV
     int a, b;                     // places among pose_ and centre_
     int firstTerm, lastTerm;
-    double far;  // centres farther apart than this need no query
+    double far;         // centres farther apart than this need no query
+    double start, end;  // where the row leaves the distance, and where it is constant
+    int group;          // of the whole bodies that hand over to it, -1 for none
+    bool whole;         // hands over to the parts
   };
   struct Witness {
     DistanceStatus status;
@@ -172,20 +182,23 @@ class CollisionConstraints {
   };
 
   void leaveOutReplaced();
+  void addWholePairs();
   void addPair(const CheckedPair& pair);
   void addSmooth(const SmoothConstraint& constraint);
   const fcl::CollisionGeometryd& second(const CheckedPair& pair) const;
   void place(const ConstVector& q);
+  void askWhole();
   template <class Work>
   void eachPair(const Work& work);
   bool compute(const ConstVector& q, double* d, double* values);
   void nothingKnown(double* d, double* values);
   void spread(Eigen::Ref<Eigen::MatrixXd> jacobian) const;
   Witness ask(std::size_t row);
+  Witness query(std::size_t row);
   Witness known(std::size_t row) const;
   double pairRow(std::size_t row, double* values);
   void writeRow(std::size_t row, const Witness& witness, double slope, double* values) const;
-  double bend(double d, double& slope, double& curvature) const;
+  double bend(std::size_t row, double d, double& slope, double& curvature) const;
   void bodyVelocities(std::size_t row, Twist& first, Twist& second) const;
   bool move(std::size_t row);
   bool rateRow(std::size_t row, RowRates& rates, double* values);
@@ -202,6 +215,9 @@ class CollisionConstraints {
   ConstraintOptions options_;
   std::vector<int> rowStart_{0}, column_;
   std::vector<Row> rows_;
+  std::vector<int> groupOf_;           // of each pair, -1 for none
+  std::vector<std::size_t> wholeRow_;  // of each group
+  std::vector<Witness> whole_;         // what its bodies are at, once placed
   std::vector<Term> terms_;
   Kinematics::State state_;
   Kinematics::Rate rate_;

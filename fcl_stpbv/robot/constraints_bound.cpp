@@ -65,7 +65,7 @@ double CollisionConstraints::gradientRateBound(int row) const {
     slide[side] = skew * apart + std::min(own, others) * spin;
   }
   double slope, curvature;
-  bend(w.distance, slope, curvature);
+  bend(at(row), w.distance, slope, curvature);
   const double speed = n.dot(velocityOf(w.point[1], other) - velocityOf(w.point[0], first));
   double sum = 0;
   for (int t = r.firstTerm; t < r.lastTerm; ++t) {

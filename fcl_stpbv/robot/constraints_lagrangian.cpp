@@ -79,7 +79,7 @@ bool CollisionConstraints::rowHessian(std::size_t row, Eigen::MatrixXd& h) {
     }
   }
   double slope, curvature;
-  bend(witness.distance, slope, curvature);
+  bend(row, witness.distance, slope, curvature);
   if (slope != 1 || curvature != 0) {
     change_.segment(start, count).setZero();
     writeRow(row, witness, 1.0, change_.data());

@@ -1,0 +1,118 @@
+// How rows leave the distance for a constant: all of them far away, and those of whole bodies and of their
+// convex parts where one hands over to the other.
+//
+// The parts lie in their whole bodies, so these are the nearest: while they are farther apart than the
+// hand-over no part can be nearer, and its row is constant without a query. Each row is a function of its own
+// distance alone, so nothing else is asked of its derivatives.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <tuple>
+
+#include "fcl_stpbv/robot/constraints_threads.h"
+
+namespace fcl_stpbv {
+namespace {
+
+using namespace detail;
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+/// A function of the distance with its derivatives.
+struct Bent {
+  double value, slope, curvature;
+};
+
+// The distance itself up to `start`, constant from `end` on at the middle between them; its slope falls as a
+// cubic, so it is C2.
+Bent levelOff(double d, double start, double end) {
+  if (!(d > start)) return {d, 1, 0};
+  const double width = end - start, t = std::min(1.0, (d - start) / width);
+  return {start + width * (t - t * t * t * (1 - t / 2)), 1 - t * t * (3 - 2 * t),
+          t < 1 ? 6 * t * (t - 1) / width : 0};
+}
+
+}  // namespace
+
+// What is left of the distance once the parts' own rise is taken off it: constant where their rows are exact,
+// the distance where they are constant.
+double CollisionConstraints::bend(std::size_t row, double d, double& slope, double& curvature) const {
+  const Row& r = rows_[row];
+  const bool unknown = d == std::numeric_limits<double>::lowest();
+  Bent bent = levelOff(d, options_.exactUpTo, options_.influence);
+  if (r.group >= 0 && !unknown) {
+    const Bent part = levelOff(d, r.start, r.end);
+    if (!r.whole)
+      bent = part;
+    else if (d > r.start)
+      bent = {bent.value + (levelOff(r.end, r.start, r.end).value - part.value), bent.slope - part.slope,
+              bent.curvature - part.curvature};
+    else
+      bent = {levelOff(r.end, r.start, r.end).value, 0, 0};
+  }
+  slope = bent.slope;
+  curvature = bent.curvature;
+  return bent.value;
+}
+
+// Puts a pair of whole bodies before the first of two or more pairs of their parts.
+void CollisionConstraints::addWholePairs() {
+  groupOf_.assign(pairs_.size(), -1);
+  if (options_.handOver == std::numeric_limits<double>::infinity()) return;
+  const std::vector<Body>& bodies = geometry_->bodies;
+  const auto wholeOf = [&](int body) {
+    return at(body) < bodies.size() && bodies[at(body)].partOf >= 0 ? bodies[at(body)].partOf : body;
+  };
+  const auto keyOf = [&](const CheckedPair& pair) {
+    return std::tuple(wholeOf(pair.body), pair.obstacle ? pair.other : wholeOf(pair.other), pair.obstacle);
+  };
+  // A volume with fewer vertices than its mesh need not hold the volumes of the mesh's parts.
+  const auto holdsItsParts = [&](int body) { return at(body) < bodies.size() && !bodies[at(body)].full; };
+  const auto handsOver = [&](const CheckedPair& pair) {
+    const auto [a, b, obstacle] = keyOf(pair);
+    return (a != pair.body || b != pair.other) && holdsItsParts(a) && (obstacle || holdsItsParts(b));
+  };
+  std::map<std::tuple<int, int, bool>, int> count, group;
+  for (const CheckedPair& pair : pairs_)
+    if (handsOver(pair)) ++count[keyOf(pair)];
+  std::vector<CheckedPair> all;
+  groupOf_.clear();
+  for (const CheckedPair& pair : pairs_) {
+    int mine = -1;
+    if (handsOver(pair) && count[keyOf(pair)] > 1) {
+      const auto [found, isNew] = group.try_emplace(keyOf(pair), static_cast<int>(wholeRow_.size()));
+      mine = found->second;
+      if (isNew) {
+        const auto [a, b, obstacle] = keyOf(pair);
+        wholeRow_.push_back(all.size());
+        all.push_back({a, b, obstacle});
+        groupOf_.push_back(mine);
+      }
+    }
+    all.push_back(pair);
+    groupOf_.push_back(mine);
+  }
+  pairs_ = std::move(all);
+  whole_.resize(wholeRow_.size());
+}
+
+void CollisionConstraints::askWhole() {
+  if (wholeRow_.empty()) return;
+  auto share = [&](int k) {
+    for (std::size_t i = at(k); i < wholeRow_.size(); i += at(pool_->threads()))
+      whole_[i] = query(wholeRow_[i]);
+  };
+  pool_->run(share);
+}
+
+CollisionConstraints::Witness CollisionConstraints::ask(std::size_t row) {
+  const Row& r = rows_[row];
+  if (r.group < 0) return query(row);
+  if (r.whole) return whole_[at(r.group)];
+  if (!(whole_[at(r.group)].distance >= r.end)) return query(row);
+  found_[row].status = answers_[row].status = DistanceStatus::invalid;
+  return {DistanceStatus::invalid, r.end, Eigen::Vector3d::Zero(), {}};
+}
+
+}  // namespace fcl_stpbv
