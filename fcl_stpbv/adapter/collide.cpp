@@ -111,7 +111,7 @@ std::size_t collide(const fcl::CollisionObjectd* object1, const fcl::CollisionOb
 
 bool collisionCallback(fcl::CollisionObjectd* object1, fcl::CollisionObjectd* object2, void* data) {
   CollisionData& query = *static_cast<CollisionData*>(data);
-  if (query.done) return true;
+  if (query.done || (query.leaveOut && query.leaveOut(object1, object2))) return query.done;
   PairCache* cache = query.caches ? &query.caches->of(object1, object2) : nullptr;
   query.done =
       collide(object1, object2, query.request, query.result, cache) >= query.request.num_max_contacts;

@@ -6,6 +6,7 @@
 #include <fcl/narrowphase/collision_result.h>
 
 #include <cstddef>
+#include <functional>
 
 #include "fcl_stpbv/adapter/fcl_distance.h"
 
@@ -47,6 +48,8 @@ struct CollisionData {
   fcl::CollisionResultd result;    ///< contacts of all pairs so far
   bool done = false;               ///< set it to stop; set where the result holds all the contacts asked for
   PairCaches* caches = nullptr;    ///< optional: makes repeated queries of a slowly moving scene faster
+  /// Optional: pairs that are not asked, as DistanceData's.
+  std::function<bool(const fcl::CollisionObjectd*, const fcl::CollisionObjectd*)> leaveOut = nullptr;
 };
 
 /// For `manager.collide(&data, fcl_stpbv::collisionCallback)` with `data` a CollisionData.

@@ -1,4 +1,5 @@
-// The callback for FCL's broadphase managers, for each pair that they offer:
+// The callback for FCL's broadphase managers, for each pair that they offer and the caller does not leave
+// out:
 // 1. ask fcl_stpbv::distance, from the pair's cache if the caller keeps one;
 // 2. keep the answer if it is the closest, or deepest, so far;
 // 3. return a bound above 0, so that the manager goes on to overlapping pairs.
@@ -12,7 +13,7 @@ namespace fcl_stpbv {
 bool distanceCallback(fcl::CollisionObjectd* object1, fcl::CollisionObjectd* object2, void* data,
                       double& dist) {
   DistanceData& query = *static_cast<DistanceData*>(data);
-  if (!query.done) {
+  if (!query.done && !(query.leaveOut && query.leaveOut(object1, object2))) {
     ++query.pairs;
     QueryContext context;
     context.mapping = query.mapping;

@@ -50,8 +50,11 @@ struct DistanceData {
   bool stopAtContact = false;
   PairCaches* caches = nullptr;      ///< optional: makes repeated queries of a slowly moving scene faster
   MappingCounts* mapping = nullptr;  ///< optional: gets how good FCL's features were as starts; slower
-  std::size_t pairs = 0;             ///< pairs asked
-  std::size_t invalid = 0;           ///< of these, pairs without an answer, left out of the result
+  /// Optional: pairs that are not asked, as two parts of one body, which FCL's managers offer like any others
+  /// (docs/fcl.md). Takes the objects in the manager's order.
+  std::function<bool(const fcl::CollisionObjectd*, const fcl::CollisionObjectd*)> leaveOut = nullptr;
+  std::size_t pairs = 0;    ///< pairs asked
+  std::size_t invalid = 0;  ///< of these, pairs without an answer, left out of the result
 
   /// Forgets everything found, keeps the settings, caches and counts.
   void clear() {

@@ -259,20 +259,18 @@ CollisionReport makeReport(const ReportRequest& request) {
   const std::vector<std::string> warnings = reportWarnings(report, request.neutral, causes);
   report.warnings.insert(report.warnings.end(), warnings.begin(), warnings.end());
   const auto tick = [&](const std::shared_ptr<const RobotGeometry>& geometry,
-                        const std::vector<CheckedPair>& rows) {
-    return tickTime(report, geometry, rows, postures.asked.value_or(report.kinematics->neutral()),
-                    search.threads);
+                        const std::vector<CheckedPair>& rows, double handOver) {
+    return tickCost(report, geometry, rows, postures.asked.value_or(report.kinematics->neutral()),
+                    search.threads, handOver);
   };
-  const double closest = tick(report.geometry, closestBodies(report));
-  report.usPerTick = closest * 1e6;
-  report.nsPerPair = closest * 1e9 / report.checked;
+  constexpr double kNever = std::numeric_limits<double>::infinity();
+  report.usPerTick = tick(report.geometry, closestBodies(report), kNever).usPerTick;
+  report.nsPerPair = report.usPerTick * 1e3 / report.checked;
   if (split) {
-    const auto cost = [&](const std::shared_ptr<const RobotGeometry>& geometry) {
-      const std::vector<CheckedPair> rows = rowsOf(report, *geometry);
-      return RowCost{static_cast<int>(rows.size()), tick(geometry, rows) * 1e6};
-    };
-    report.wholeCost = cost(whole);
-    report.partsCost = cost(report.geometry);
+    report.wholeCost = tick(whole, rowsOf(report, *whole), kNever);
+    const std::vector<CheckedPair> rows = rowsOf(report, *report.geometry);
+    report.partsCost = tick(report.geometry, rows, kNever);
+    report.handOverCost = tick(report.geometry, rows, kHandOver);
   }
   return report;
 }

@@ -72,8 +72,11 @@ struct PairReport {
 /// What parts cost: the rows of a controller that keeps all checked pairs of bodies apart.
 struct RowCost {
   int rows = 0;
+  int live = 0;          ///< of these, how many are not constant
   double usPerTick = 0;  ///< with their Jacobian, in small steps
 };
+
+constexpr double kHandOver = 0.1;  ///< m
 
 struct CollisionReport {
   std::shared_ptr<const RobotModel> robot;
@@ -95,7 +98,9 @@ struct CollisionReport {
   std::map<std::string, int> causes;    ///< of the checked pairs in collision, how many of each
   double minDistance = 0;               ///< of the checked pairs (m)
   double nsPerPair = 0, usPerTick = 0;  ///< of all checked pairs with their Jacobian, in small steps
-  RowCost wholeCost, partsCost;         ///< of whole bodies, and with those parts that are taken; 0 without
+  /// Of whole bodies, of those parts that are taken, and of these where whole bodies hand over to them at
+  /// kHandOver; 0 without parts.
+  RowCost wholeCost, partsCost, handOverCost;
 };
 
 /// @throws Error naming the file or the argument.

@@ -103,9 +103,11 @@ std::string splits(const CollisionReport& report) {
     }
     text += (count > 3 ? " and " + std::to_string(count - 3) + " more pairs\n" : "\n");
   }
-  const std::string cost =
-      formatted("rows %d, %.1f us a tick with whole bodies; %d, %.1f us with parts\n", report.wholeCost.rows,
-                report.wholeCost.usPerTick, report.partsCost.rows, report.partsCost.usPerTick);
+  const std::string cost = formatted(
+      "rows %d, %.1f us a tick with whole bodies; %d, %.1f us with parts; %d of %d not constant, "
+      "%.1f us where whole bodies hand over to parts at %g m\n",
+      report.wholeCost.rows, report.wholeCost.usPerTick, report.partsCost.rows, report.partsCost.usPerTick,
+      report.handOverCost.live, report.handOverCost.rows, report.handOverCost.usPerTick, kHandOver);
   return (text.empty() ? "No link needs to be split into parts\n" : "Split into convex parts:\n" + text) +
          cost;
 }
@@ -340,7 +342,10 @@ std::string toJson(const CollisionReport& report) {
     json["summary"]["rows"] = {{"whole", report.wholeCost.rows},
                                {"whole_us_per_tick", report.wholeCost.usPerTick},
                                {"parts", report.partsCost.rows},
-                               {"parts_us_per_tick", report.partsCost.usPerTick}};
+                               {"parts_us_per_tick", report.partsCost.usPerTick},
+                               {"hand_over", report.handOverCost.rows},
+                               {"hand_over_live", report.handOverCost.live},
+                               {"hand_over_us_per_tick", report.handOverCost.usPerTick}};
   return json.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 

@@ -9,6 +9,12 @@ namespace fcl_stpbv::report {
 
 using namespace detail;
 
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+}  // namespace
+
 std::vector<CheckedPair> closestBodies(const CollisionReport& report) {
   const int count = static_cast<int>(report.geometry->bodies.size());
   std::vector<CheckedPair> bodies;
@@ -20,13 +26,14 @@ std::vector<CheckedPair> closestBodies(const CollisionReport& report) {
   return bodies;
 }
 
-double tickTime(const CollisionReport& report, std::shared_ptr<const RobotGeometry> geometry,
-                const std::vector<CheckedPair>& rows, Eigen::VectorXd q, int threads) {
+RowCost tickCost(const CollisionReport& report, std::shared_ptr<const RobotGeometry> geometry,
+                 const std::vector<CheckedPair>& rows, Eigen::VectorXd q, int threads, double handOver) {
   constexpr int kTicks = 300;
   constexpr double kStep = 1e-3;  // rad or m
   ConstraintOptions options;
   options.obstacles = report.obstacles;
   options.threads = threads;
+  options.handOver = handOver;
   CollisionConstraints constraints(report.kinematics, std::move(geometry), rows, options);
   Eigen::VectorXd d(constraints.rows()), values(constraints.nonZeros());
   std::vector<double> times;
@@ -37,7 +44,11 @@ double tickTime(const CollisionReport& report, std::shared_ptr<const RobotGeomet
     times.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   }
   std::nth_element(times.begin(), times.begin() + kTicks / 2, times.end());
-  return times[kTicks / 2];
+  RowCost cost{constraints.rows(), 0, times[kTicks / 2] * 1e6};
+  const std::vector<int>& start = constraints.rowStart();
+  for (int row = 0; row < constraints.rows(); ++row)
+    cost.live += !values.segment(start[at(row)], start[at(row + 1)] - start[at(row)]).isZero(0);
+  return cost;
 }
 
 }  // namespace fcl_stpbv::report

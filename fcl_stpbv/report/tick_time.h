@@ -5,9 +5,10 @@
 
 namespace fcl_stpbv::report {
 
-/// Median time for rows with their Jacobian (s), in small steps around `q`, everything warm.
-double tickTime(const CollisionReport& report, std::shared_ptr<const RobotGeometry> geometry,
-                const std::vector<CheckedPair>& rows, Eigen::VectorXd q, int threads);
+/// Rows with their Jacobian, in small steps around `q`, everything warm; the time is a median. `handOver` as
+/// in ConstraintOptions.
+RowCost tickCost(const CollisionReport& report, std::shared_ptr<const RobotGeometry> geometry,
+                 const std::vector<CheckedPair>& rows, Eigen::VectorXd q, int threads, double handOver);
 
 /// The closest bodies of each checked pair.
 std::vector<CheckedPair> closestBodies(const CollisionReport& report);

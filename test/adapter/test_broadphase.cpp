@@ -12,6 +12,7 @@
 #include <memory>
 #include <string>
 
+#include "fcl_stpbv/adapter/collide.h"
 #include "fcl_stpbv/adapter/distance_callback.h"
 #include "test/reference/shapes.h"
 
@@ -85,6 +86,46 @@ TEST_CASE("every manager finds the closest pair of a separated scene") {
       REQUIRE(data.result.object[0] != nullptr);
       CHECK(std::abs(distance(*data.result.object[0], *data.result.object[1]).distance - expected) <= 1e-13);
     }
+  }
+}
+
+TEST_CASE("parts of one body are left out, and every manager finds the nearest parts of two bodies") {
+  Random random(4);
+  for (int trial = 0; trial < 20; ++trial) {
+    Scene scene;
+    int bodies[3];
+    double expected = std::numeric_limits<double>::max();
+    for (int& body : bodies) {
+      const Eigen::Isometry3d at = pose(random.rotation(), 0.6 * random.direction());
+      for (const double side : {-0.1, 0.1}) {  // two bars that overlap in the middle
+        Cloud bar = box(0.3, 0.05, 0.05);
+        for (Vector3d& p : bar) p.x() += side;
+        const auto part = std::make_shared<StpBvGeometry>(StpBv::build(bar, {0.01, 5}));
+        scene.push_back(std::make_shared<fcl::CollisionObjectd>(part, at));
+        scene.back()->setUserData(&body);
+      }
+    }
+    for (std::size_t i = 0; i < scene.size(); ++i)
+      for (std::size_t j = i + 1; j < scene.size(); ++j)
+        if (i / 2 != j / 2) expected = std::min(expected, distance(*scene[i], *scene[j]).distance);
+    DistanceData settings;
+    settings.leaveOut = [](const auto* a, const auto* b) { return a->getUserData() == b->getUserData(); };
+    for (auto& [name, manager] : allManagers()) {
+      CAPTURE(name, trial);
+      const DistanceData data = ask(*manager, scene, settings);
+      CHECK(std::abs(data.result.distance - expected) <= 1e-13);
+      REQUIRE(data.result.object[0]);
+      CHECK(data.result.object[0]->getUserData() != data.result.object[1]->getUserData());
+    }
+    fcl::NaiveCollisionManagerd naive;
+    for (const auto& object : scene) naive.registerObject(object.get());
+    CollisionData contact;
+    contact.leaveOut = settings.leaveOut;
+    naive.collide(&contact, collisionCallback);
+    CHECK(contact.result.isCollision() == (expected <= 0));
+    contact = {};
+    naive.collide(&contact, collisionCallback);
+    CHECK(contact.result.isCollision());
   }
 }
 

@@ -414,6 +414,8 @@ class Report(unittest.TestCase):
         self.assertEqual([p["by_parts"] for p in report["pairs"] if p is not pair], [False, False])
         rows = report["summary"]["rows"]
         self.assertEqual((rows["whole"], rows["parts"]), (3, 4))
+        self.assertEqual(rows["hand_over"], 5)  # one more for the pair taken by parts
+        self.assertLessEqual(rows["hand_over_live"], 5)
         text = self.run_tool(*robot, "--parts", "auto").stdout
         self.assertIn("gate in 2 parts", text)
         # Everything in parts says the same of this pair, at more rows.
