@@ -36,8 +36,8 @@ class Polytope {
     for (const Eigen::Vector3d& p : corner) point_[at(points_++)] = pack(p);
     const bool flip = dot(cross(point(1) - point(0), point(2) - point(0)), point(3) - point(0)) > 0.0;
     const Index i1 = flip ? 2 : 1, i2 = flip ? 1 : 2;
+    while (faces_ < 4) newFace();
     sound_ = set(0, 0, i1, i2) && set(1, 0, i2, 3) && set(2, i2, i1, 3) && set(3, i1, 0, 3);
-    faces_ = 4;
     join(0, 0, 3, 0), join(0, 1, 2, 0), join(0, 2, 1, 0);
     join(1, 1, 2, 2), join(2, 1, 3, 2), join(3, 1, 1, 2);
   }
@@ -47,14 +47,23 @@ class Polytope {
 
   /// The face nearest to the origin of those not put aside; at an infinite distance if all are.
   Face nearest() {
-    nearest_ = 0;
-    for (std::size_t i = 1; i < static_cast<std::size_t>(faces_); ++i)
-      if (rank_[i] < rank_[nearest_]) nearest_ = i;
-    return {unpack(face_[nearest_].normal), rank_[nearest_], face_[nearest_].corner};
+    Packed least = rank_[0];
+    PackedBits four{};  // which four each is of
+    for (int i = 1; 4 * i < faces_; ++i) {
+      const PackedBits less = rank_[i] < least;
+      least = less ? rank_[i] : least;
+      four = less ? PackedBits{} + i : four;
+    }
+    const bool second = least[1] < least[0], fourth = least[3] < least[2];
+    const double low = second ? least[1] : least[0], high = fourth ? least[3] : least[2];
+    nearest_ = static_cast<int>(high < low ? 4 * four[fourth ? 3 : 2] + (fourth ? 3 : 2)
+                                           : 4 * four[second ? 1 : 0] + (second ? 1 : 0));
+    const Triangle& f = face(nearest_);
+    return {unpack(f.normal), std::min(low, high), f.corner};
   }
 
   /// Takes the face that nearest() gave out of the search.
-  void putAside() { rank_[nearest_] = std::numeric_limits<double>::infinity(); }
+  void putAside() { setRank(nearest_, kNowhere); }
 
   /// The point taken in last.
   Index lastPoint() const { return static_cast<Index>(points_ - 1); }
@@ -66,7 +75,7 @@ class Polytope {
     const Packed p = pack(outside);
     const double size = outside.lpNorm<1>();
     const auto sees = [&](int i) { return dot(face(i).normal, p) - face(i).distance > face(i).flat * size; };
-    int first = static_cast<int>(nearest_);
+    int first = nearest_;
     if (face(first).corner[0] == kNone || !sees(first))
       for (first = 0; first < faces_ && (face(first).corner[0] == kNone || !sees(first));) ++first;
     if (first == faces_) return false;
@@ -80,7 +89,7 @@ class Polytope {
       Triangle& f = face(i);
       for (int k = count; k > 0; --k) open[at(opened++)] = f.across[at(kTurn[at(side + k)])];
       f.corner[0] = kNone;
-      rank_[at(i)] = std::numeric_limits<double>::infinity();
+      setRank(i, kNowhere);
       free_[at(freed_++)] = static_cast<Index>(i);
     };
     enter(first, 0, 3);
@@ -112,6 +121,15 @@ class Polytope {
 
   static constexpr std::array<int, 6> kTurn{0, 1, 2, 0, 1, 2};  // sides modulo 3
 
+  static constexpr double kNowhere = std::numeric_limits<double>::infinity();
+  static_assert(kMaxFaces % 4 == 0);
+  void setRank(int i, double distance) { rank_[i / 4][i % 4] = distance; }
+  /// A place for one more face, those beside it in its four without one.
+  int newFace() {
+    if (faces_ % 4 == 0) rank_[faces_ / 4] = Packed{} + kNowhere;
+    return faces_++;
+  }
+
   static std::size_t at(int i) { return static_cast<std::size_t>(i); }
   Triangle& face(int i) { return face_[at(i)]; }
   const Packed& point(int i) const { return point_[at(i)]; }
@@ -130,7 +148,7 @@ class Polytope {
     for (int i = 0; i < sides; ++i) {
       if (freed_ == 0 && faces_ == kMaxFaces) return false;
       const int j = horizon[i] >> 2, side = horizon[i] & 3,
-                made = freed_ > 0 ? free_[at(--freed_)] : faces_++;
+                made = freed_ > 0 ? free_[at(--freed_)] : newFace();
       if (!set(made, face(j).corner[at(kTurn[at(side + 1)])], face(j).corner[at(side)], index)) return false;
       join(made, 0, j, side);
       if (before < 0)
@@ -150,23 +168,24 @@ class Polytope {
     const Packed e = point(b) - point(a), f = point(c) - point(a), normal = cross(e, f);
     const double length = std::sqrt(dot(normal, normal)), sides2 = dot(e, e) + dot(f, f);
     if (!(length > 1e-14 * sides2)) return false;
+    const double inverse = 1.0 / length;
     Triangle& t = face(i);
     t.corner = {a, b, c};
-    t.normal = normal / length;
-    t.distance = rank_[at(i)] = dot(t.normal, point(a));
+    t.normal = normal * inverse;
+    t.distance = dot(t.normal, point(a));
+    setRank(i, t.distance);
     // A sliver's normal is as much less certain as it is narrow.
-    t.flat = kFlat * std::min(sides2 / length, kNarrow);
+    t.flat = kFlat * std::min(sides2 * inverse, kNarrow);
     // Else the origin is on the surface, to rounding.
     return origin_ == Origin::anywhere || t.distance >= 0.0;
   }
 
   Packed point_[kMaxPoints];
   std::array<Triangle, kMaxFaces> face_;
-  std::array<double, kMaxFaces> rank_;  // distance, or infinity for a face put aside or gone
+  Packed rank_[kMaxFaces / 4];  // distances, infinite for faces put aside, gone or not there yet
   std::array<Index, kMaxFaces> free_;
   Origin origin_;
-  std::size_t nearest_ = 0;
-  int points_ = 0, faces_ = 0, freed_ = 0;
+  int nearest_ = 0, points_ = 0, faces_ = 0, freed_ = 0;
   bool sound_;
 };
 

@@ -126,11 +126,10 @@ FeatureCorners cornersAround(const BodyPair& pair, const Sample& top) {
   return c;
 }
 
-bool isOnlyMaximum(const BodyPair& pair, const Sample& top, double distance) {
-  constexpr double kSafe = 1.1;     // second order
-  constexpr double kLevel = 1e-14;  // rounding of 1 - cos^2
-  const double depth = -top.core, cosine = distance / depth,
-               sine = std::sqrt(std::max(1.0 - cosine * cosine, kLevel));
+double onlyMaximumFrom(const BodyPair& pair, const Sample& top) {
+  constexpr double kSafe = 1.1;    // second order
+  constexpr double kLevel = 1e-7;  // rounding of a sine from its cosine
+  const double depth = -top.core;
   // Least radius of curvature of the difference there, at least.
   const auto onFace = [&](const StpBv& body, int patch) {
     return body.kind(patch) == PatchKind::face ? body.radii().rho : 0.0;
@@ -143,7 +142,9 @@ bool isOnlyMaximum(const BodyPair& pair, const Sample& top, double distance) {
   }
   const double inside =
       -std::max(pair.a().outside(top.patch[0], top.n), pair.b().outside(top.patch[1], pair.opposite(top.n)));
-  return inside * radius > kSafe * 2.0 * depth * sine;
+  const double sine = inside * radius / (kSafe * 2.0 * depth);
+  if (!(sine > kLevel)) return std::numeric_limits<double>::infinity();
+  return depth * std::sqrt(std::max(0.0, 1.0 - sine * sine));
 }
 
 FCL_STPBV_VECTORIZED
@@ -187,7 +188,8 @@ bool provesWidest(const BodyPair& pair, const Sample& top, double& bound) {
     if (!side.beyond((1.0 - kClose) * depth)) return false;
     least2 = std::min(least2, side.distance2());
   }
-  if (!isOnlyMaximum(pair, top, std::sqrt(least2))) return false;
+  const double from = onlyMaximumFrom(pair, top);
+  if (!(least2 > from * from)) return false;
   const double innerRadius = pair.a().innerRadius() + pair.b().innerRadius();
   if (!closesOverBall(pair.centreDifference(), innerRadius, corners, n, depth) &&
       !closesWithTriangles(pair, corners, n, depth))

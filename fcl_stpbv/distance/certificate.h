@@ -22,11 +22,11 @@ struct FeatureCorners {
 /// maximum. None of other features, which are rarely one.
 FeatureCorners cornersAround(const BodyPair& pair, const Sample& top);
 
-/// Whether no other maximum, less deep than `top`, has room outside a triangle with the top's point for a
-/// corner, its plane `distance` from the origin. Its own point would be as near to the origin, so within `2
-/// depth sin(a)` of the top's, `cos(a) = distance / depth`; true where all that is so near belongs to the
-/// top's own patches, which have one maximum.
-bool isOnlyMaximum(const BodyPair& pair, const Sample& top, double distance);
+/// Least distance from the origin of a triangle with the point of `top` for a corner, outside whose plane no
+/// other maximum, less deep, has room; infinite where there is none (m). Its own point would be as near to
+/// the origin, so within `2 depth sin(a)` of the top's, `cos(a) = distance / depth`; all that is so near must
+/// belong to the top's own patches, which have one maximum.
+double onlyMaximumFrom(const BodyPair& pair, const Sample& top);
 
 /// Closes a surface around the origin: from the maximum to the corners of its feature, and from there over a
 /// ball inside or, where that is too small, in a dozen triangles to points beyond the corners and one behind.

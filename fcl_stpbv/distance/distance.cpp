@@ -21,6 +21,7 @@
 
 #include "fcl_stpbv/distance/ascent.h"
 #include "fcl_stpbv/distance/body_pair.h"
+#include "fcl_stpbv/distance/overlap.h"
 #include "fcl_stpbv/distance/wide_search.h"
 #include "fcl_stpbv/vectorized.h"
 
@@ -39,10 +40,17 @@ Packed renormalized(const Packed& n) {
   return n * (std::abs(length2 - 1.0) < 1e-8 ? 1.5 - 0.5 * length2 : 1.0 / std::sqrt(length2));
 }
 
-/// The first guess when nothing near is remembered: from centre to centre. The tables take a direction that
-/// is not normalised, because the lookup's latency exceeds the square root's.
+/// The first guess when nothing near is remembered: from centre to centre, unless balls inside the bodies
+/// tell that the way out need not be there. The tables take a direction that is not normalised, because the
+/// lookup's latency exceeds the square root's.
 SearchStart fromCentres(const BodyPair& pair) {
-  const UnnormalizedNormal h = unnormalizedOr(pair.centreDifference(), Packed{1, 0, 0, 0});
+  const Packed between = pair.centreDifference();
+  const double inside = pair.a().innerRadius() + pair.b().innerRadius();
+  if (dot(between, between) < inside * inside) {
+    const Sample start = shallowStart(pair);
+    return {start.n, start.patch, false};
+  }
+  const UnnormalizedNormal h = unnormalizedOr(between, Packed{1, 0, 0, 0});
   return {unpack(h.unit()), pair.near(unpack(h.d)), false};
 }
 

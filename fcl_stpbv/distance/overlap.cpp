@@ -56,6 +56,7 @@ class CoreEpa {
   bool addTop() {
     if (!add(furthest(x_))) return false;
     top_ = polytope_.lastPoint();
+    topFrom_ = onlyMaximumFrom(pair_, x_);
     return true;
   }
 
@@ -70,7 +71,7 @@ class CoreEpa {
       proven = -x_.core - nearest.distance <= pair_.gapRounding();
       if (proven) return false;
       if (nearest.has(top_) && -x_.core - nearest.distance <= kClose * nearest.distance &&
-          isOnlyMaximum(pair_, x_, nearest.distance)) {
+          nearest.distance > topFrom_) {
         putAside(nearest);
         return true;
       }
@@ -119,8 +120,9 @@ class CoreEpa {
   Polytope polytope_;
   Sample& x_;
   SearchWork& work_;
-  Polytope::Index top_ = Polytope::kNone;                   // point of the maximum in `x`
-  double least_ = std::numeric_limits<double>::infinity();  // distance of the faces done with
+  Polytope::Index top_ = Polytope::kNone;                     // point of a maximum
+  double topFrom_ = std::numeric_limits<double>::infinity();  // of a face there that leaves no room beyond
+  double least_ = std::numeric_limits<double>::infinity();    // distance of the faces done with
 };
 
 /// The few best of many starts, apart from each other so that they do not all lead to the same maximum.
@@ -182,6 +184,29 @@ bool expandPolytope(const BodyPair& pair, Sample& x, double& bound, SearchWork& 
   const auto from = [&](const Vector3d& n) { return furthest(pair.sampleFrom(n, {-1, -1}, work.steps)); };
   return CoreEpa(pair, {from(m[0]), from(m[1]), from(m[2]), from(-x.n)}, Polytope::Origin::anywhere, x, work)
       .run(bound);
+}
+
+FCL_STPBV_VECTORIZED
+Sample shallowStart(const BodyPair& pair) {
+  const PatchTable &a = pair.tablesA().patches, &b = pair.tablesB().patches;
+  Packed along = unnormalizedOr(pair.centreDifference(), Packed{1, 0, 0, 0}).unit();
+  std::array<int, 2> patch = pair.near(unpack(along));
+  double widest = dot(along, pair.vertexDifference(patch));
+  const auto offer = [&](const Packed& n, const Packed& pointA, const Packed& pointB, int onA, int onB) {
+    const double gap = dot(n, pointB - pointA);
+    if (gap > widest) widest = gap, along = n, patch = {onA, onB};
+  };
+  for (const int face : pair.tablesA().shallowFaces) {
+    const Packed n = pack(a.face(face).normal);
+    const int vertex = pair.tablesB().vertexNear[unpack(pair.opposite(n))];
+    offer(n, pack(a.face(face).anchor), pair.pose().placed(pack(b.vertex(vertex).point)), face, vertex);
+  }
+  for (const int face : pair.tablesB().shallowFaces) {
+    const Packed n = -(pair.pose().rotation * pack(b.face(face).normal));
+    const int vertex = pair.tablesA().vertexNear[unpack(n)];
+    offer(n, pack(a.vertex(vertex).point), pair.pose().placed(pack(b.face(face).anchor)), vertex, face);
+  }
+  return Sample::unevaluated(unpack(along), patch);
 }
 
 void leastPenetration(const BodyPair& pair, Sample& x, SearchWork& work) {

@@ -7,6 +7,11 @@
 
 namespace fcl_stpbv::detail {
 
+/// For bodies deep in each other: the widest gap along the line of centres and the normals of the faces near
+/// either body's centre, from where a search for the widest of all is likely to end there. Not evaluated; the
+/// patches are near those that own it.
+Sample shallowStart(const BodyPair& pair);
+
 /// Grows a polytope inside the difference of the two cores where its surface is nearest to the origin (van
 /// den Bergen 2001, "expanding polytope"), from around `x.n`. Leaves the maximum of the gap with the least
 /// overlap in `x`, and in `bound` what holds for all: along no normal is the gap of the cores more than this

@@ -26,15 +26,15 @@ bool isFartherByBounds(double x, const StpBv& a, const Isometry3d& poseA, const 
   const BodyPair pair(a, b, pose);
   const double rounding = pair.certificateRounding();
   const Packed between = pair.centreDifference();
-  if (std::sqrt(dot(between, between)) - a.enclosingRadius() - b.enclosingRadius() - rounding > x)
-    return true;
+  const double length = std::sqrt(dot(between, between));
+  if (length - a.enclosingRadius() - b.enclosingRadius() - rounding > x) return true;
+  if (length - a.innerRadius() - b.innerRadius() - pair.margins() <= x) return false;  // no plane is
   const Packed last = pose.toWorld.inverse(pack(cache.normal));
   const double length2 = dot(last, last);
   if (!(length2 > 0.25 && length2 < 4.0)) return false;
   int ignored = 0;
-  const std::array<int, 2> hint{cache.patch[0] < a.patchCount() ? cache.patch[0] : -1,
-                                cache.patch[1] < b.patchCount() ? cache.patch[1] : -1};
-  const Sample plane = pair.sampleFrom(unpack(last / std::sqrt(length2)), hint, ignored);
+  // From the tables: the cache's patches may be far off by now.
+  const Sample plane = pair.sampleFrom(unpack(last / std::sqrt(length2)), {-1, -1}, ignored);
   return plane.core - pair.margins() - rounding > x;
 }
 

@@ -1,6 +1,8 @@
 // What a query reads of a volume: made once, when the volume is built.
 #pragma once
 
+#include <vector>
+
 #include "fcl_stpbv/volume/direction_table.h"
 #include "fcl_stpbv/volume/patch_table.h"
 #include "fcl_stpbv/volume/vertex_graph.h"
@@ -8,14 +10,18 @@
 namespace fcl_stpbv::detail {
 
 struct QueryTables {
-  PatchTable patches;         ///< with the boundaries of their regions of normals
+  PatchTable patches;  ///< with the boundaries of their regions of normals
+  /// Faces near the centre, nearest first, each the nearest of those about its direction: along their normals
+  /// the body is likely to be left soonest.
+  std::vector<int> shallowFaces;
   VertexGraph graph;          ///< the way from vertex to vertex
   DirectionTable patchNear;   ///< the patch that owns the middle of each cell of directions
   DirectionTable vertexNear;  ///< the vertex furthest along that middle
 
   /// Memory they hold, in bytes.
   std::size_t memory() const {
-    return sizeof *this + patches.memory() + graph.memory() + patchNear.memory() + vertexNear.memory();
+    return sizeof *this + patches.memory() + shallowFaces.capacity() * sizeof(int) + graph.memory() +
+           patchNear.memory() + vertexNear.memory();
   }
 };
 

@@ -45,6 +45,28 @@ EdgeRecord withoutWalls(const Vector3d& first, const Vector3d& second, const Stp
   return {withFourth(pack(middle), kappa), withFourth(pack(u), sine), {wall, wall}};
 }
 
+/// A few faces near `centre`, the nearest first, their normals well apart.
+std::vector<int> shallowFaces(const PatchTable& patches, const Vector3d& centre) {
+  constexpr std::size_t kMost = 6;      // as many as a box has
+  constexpr double kNeighbours = 0.87;  // cosine of 30 degrees
+  std::vector<int> shallow;
+  while (shallow.size() < kMost) {
+    int lowest = -1;
+    double least = std::numeric_limits<double>::infinity();
+    for (int f = patches.firstFace(); f < patches.count(); ++f) {
+      const Packed normal = pack(patches.face(f).normal);
+      const double height = dot(normal, pack(patches.face(f).anchor) - pack(centre));
+      if (height < least && std::all_of(shallow.begin(), shallow.end(), [&](int other) {
+            return dot(normal, pack(patches.face(other).normal)) < kNeighbours;
+          }))
+        least = height, lowest = f;
+    }
+    if (lowest < 0) break;
+    shallow.push_back(lowest);
+  }
+  return shallow;
+}
+
 }  // namespace
 
 StpBv::Ptr StpBv::make(std::vector<Vector3d> vertices, std::vector<Ring> faces, const StpBvOptions& options) {
@@ -154,6 +176,7 @@ void StpBv::makePatches(QueryTables& tables) {
   }
   tables.patches = PatchTable(vertices_, std::move(records), faces_, faceNormals_);
   firstFace_ = tables.patches.firstFace();
+  tables.shallowFaces = shallowFaces(tables.patches, centre_);
 }
 
 void StpBv::makeDirectionTables(QueryTables& tables) const {

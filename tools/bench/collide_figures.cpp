@@ -1,80 +1,118 @@
-// Nanoseconds of fcl_stpbv::collide beside fcl::collide of the same hulls, the ways taking turns; for
-// docs/fcl.md. Usage: collide_figures [QUERIES]
+// Nanoseconds of fcl_stpbv::collide beside fcl::collide of the same hulls, the ways taking turns; for the
+// table and the chart of docs/fcl.md.
 #include <fcl/narrowphase/collision.h>
 
-#include <algorithm>
-#include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <functional>
+#include <utility>
+#include <vector>
 
 #include "fcl_stpbv/adapter/collide.h"
-#include "test/reference/arguments.h"
 #include "test/reference/motion.h"
 #include "test/reference/shapes.h"
+#include "tools/bench/measurement.h"
+#include "tools/program.h"
 
 using namespace fcl_stpbv;
 using namespace fcl_stpbv::test;
 using Eigen::Isometry3d;
+using Json = nlohmann::ordered_json;
 
 namespace {
 
 using Query = std::function<std::size_t(const Isometry3d&, const Isometry3d&)>;
 
-/// The best of nine passes each.
+/// The median of nine passes each, and how many of the poses collide.
 std::vector<double> nanoseconds(const benchmark::Poses& poses, const std::vector<Query>& ways,
                                 std::size_t& hits) {
-  std::vector<double> best(ways.size(), 1e300);
+  std::vector<std::vector<double>> passes(ways.size());
   for (int pass = 0; pass < 9; ++pass)
     for (std::size_t k = 0; k < ways.size(); ++k) {
       hits = 0;
-      const auto start = std::chrono::steady_clock::now();
+      const double start = benchmark::threadTime();
       for (std::size_t i = 0; i < poses.a.size(); ++i) hits += ways[k](poses.a[i], poses.b[i]);
-      const std::chrono::duration<double, std::nano> spent = std::chrono::steady_clock::now() - start;
-      best[k] = std::min(best[k], spent.count() / static_cast<double>(poses.a.size()));
+      passes[k].push_back((benchmark::threadTime() - start) / static_cast<double>(poses.a.size()));
     }
-  return best;
+  std::vector<double> middle;
+  for (const std::vector<double>& times : passes) middle.push_back(benchmark::median(times));
+  return middle;
 }
 
-/// Centres `nearest` and up to 0.42 m more apart (m).
-void report(const char* name, const Cloud& cloud, int queries, double nearest) {
-  const StpBvGeometry g(StpBv::build(cloud, {0.01, 10.0}));
-  for (const bool contact : {false, true}) {
-    benchmark::Poses poses;
-    benchmark::GeodesicMotion(benchmark::smallStep(), 1, nearest).next(poses, queries);
-    const fcl::CollisionRequestd request(1, contact);
-    PairCache cache;
-    const auto ours = [&](PairCache* known) {
-      return [&, known](const Isometry3d& a, const Isometry3d& b) {
-        fcl::CollisionResultd result;
-        return fcl_stpbv::collide(&g, a, &g, b, request, result, known);
-      };
-    };
-    std::size_t hits = 0;
-    const std::vector<double> ns = nanoseconds(poses,
-                                               {[&](const Isometry3d& a, const Isometry3d& b) {
-                                                  fcl::CollisionResultd result;
-                                                  return fcl::collide(&g, a, &g, b, request, result);
-                                                },
-                                                ours(nullptr), ours(&cache)},
-                                               hits);
-    std::printf("| %s | %.2f | %.0f %% | %s | %.0f | %.0f | %.0f | %.2f | %.2f |\n", name, nearest,
-                100 * static_cast<double>(hits) / queries, contact ? "contact" : "yes or no", ns[0], ns[1],
-                ns[2], ns[1] / ns[0], ns[2] / ns[0]);
+/// The share of FCL's contacts (%) that are deeper than the shortest way out by more than 1 %. That of the
+/// cores is taken, which hold the hulls.
+double tooDeep(const StpBvGeometry& g, const benchmark::Poses& poses) {
+  const fcl::CollisionRequestd request(1, true);
+  std::size_t contacts = 0, deep = 0;
+  for (std::size_t i = 0; i < poses.a.size(); ++i) {
+    fcl::CollisionResultd theirs, ours;
+    if (fcl::collide(&g, poses.a[i], &g, poses.b[i], request, theirs) == 0 ||
+        fcl_stpbv::collide(&g, poses.a[i], &g, poses.b[i], request, ours) == 0)
+      continue;
+    ++contacts;
+    const double least = ours.getContact(0).penetration_depth - 2.0 * g.volume().radii().r;
+    deep += theirs.getContact(0).penetration_depth > 1.01 * least;
   }
+  return benchmark::significant(100.0 * static_cast<double>(deep) / static_cast<double>(contacts), 3);
+}
+
+/// Two equal bodies under the paper's small motions, their centres `nearest` and up to 0.42 m more apart (m).
+Json figures(const char* name, const Cloud& cloud, int queries, double nearest, bool contact) {
+  const StpBvGeometry g(StpBv::build(cloud, {0.01, 10.0}));
+  benchmark::Poses poses;
+  benchmark::GeodesicMotion(benchmark::smallStep(), 1, nearest).next(poses, queries);
+  const fcl::CollisionRequestd request(1, contact);
+  PairCache cache;
+  const auto ours = [&](PairCache* known) {
+    return [&, known](const Isometry3d& a, const Isometry3d& b) {
+      fcl::CollisionResultd result;
+      return fcl_stpbv::collide(&g, a, &g, b, request, result, known);
+    };
+  };
+  const auto fcls = [&](const Isometry3d& a, const Isometry3d& b) {
+    fcl::CollisionResultd result;
+    return fcl::collide(&g, a, &g, b, request, result);
+  };
+  std::size_t hits = 0;
+  const std::vector<double> ns = nanoseconds(poses, {fcls, ours(nullptr), ours(&cache)}, hits);
+  Json row{{"body", name},
+           {"nearest", nearest},
+           {"hits", benchmark::significant(100.0 * static_cast<double>(hits) / queries, 3)},
+           {"asked", contact ? "contact" : "yes or no"},
+           {"ns_fcl", std::round(ns[0])},
+           {"ns_cold", std::round(ns[1])},
+           {"ns_warm", std::round(ns[2])}};
+  if (contact && hits > 0) row["fcl_too_deep"] = tooDeep(g, poses);
+  return row;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  const int queries = Arguments(argc, argv, "[QUERIES]", 1).number(1, 8400);
-  std::printf(
-      "| body | nearest centres (m) | collide | asked | fcl::collide | cold | warm | cold / FCL | warm / FCL "
-      "|\n"
-      "|---|---|---|---|---|---|---|---|---|\n");
-  for (const double nearest : {0.15, 0.38}) {
-    report("geodesic 42", geodesicSphere(0.2, 1), queries, nearest);
-    report("geodesic 642", geodesicSphere(0.2, 3), queries, nearest);
-    report("box", box(0.2, 0.3, 0.4), queries, nearest);
-    report("hull of 200", randomHull(200, {0.2, 0.15, 0.1}, 3), queries, nearest);
-  }
+  tools::Program app("Times of collide() beside fcl::collide() on the same hulls: a JSON object a line",
+                     "collide_figures");
+  int queries = 4200;
+  std::string folder;
+  app.option("QUERIES", queries, "a body and nearest distance").whole(1).shown();
+  app.option("-o,--output", folder, "folder for collide.json");
+  const std::vector<std::pair<const char*, Cloud>> bodies{
+      {"geodesic 42", geodesicSphere(0.2, 1)},
+      {"geodesic 642", geodesicSphere(0.2, 3)},
+      {"box", box(0.2, 0.3, 0.4)},
+      {"cylinder", cylinder(0.1, 0.4)},
+      {"plate", plate(0.3, 0.2, 0.01)},
+      {"hull of 200", randomHull(200, {0.2, 0.15, 0.1}, 3)}};
+  return app.run(argc, argv, [&] {
+    benchmark::Measurement result;
+    result.name = "collide";
+    for (const bool contact : {true, false})
+      for (const double nearest : {0.05, 0.15, 0.38})
+        for (const auto& [name, cloud] : bodies) {
+          Json row = figures(name, cloud, queries, nearest, contact);
+          std::printf("%s\n", row.dump().c_str());
+          result.rows.push_back(std::move(row));
+        }
+    if (!folder.empty()) benchmark::write(result, benchmark::commandLine(argc, argv), folder);
+    return 0;
+  });
 }

@@ -1,4 +1,4 @@
-"""Charts of docs/performance.md and the README's speed against accuracy."""
+"""Charts of docs/performance.md and docs/fcl.md, and the README's speed against accuracy."""
 from . import palette
 from .plot import TIME_TICS, UNLABEL, block, draw, legend, measured, origin, panels, single
 
@@ -145,4 +145,27 @@ def jump_test(height=440):
          text + legend(entries, height) + "plot " + ", ".join(plots), below, height)
 
 
-CHARTS = (speed_accuracy, size, solver_error, model_error, jump_test)
+def collide(height=460):
+    """Contacts and booleans beside FCL's own, body by body, the deeper the further left."""
+    data = measured("collide")
+    ways = (("ns_fcl", palette.FCL, 7, "fcl::collide"), ("ns_cold", palette.SECOND, 13, "fcl_stpbv::collide, no memory"),
+            ("ns_warm", palette.SMOOTH, 7, "the same with a PairCache"))
+    nearest = list(dict.fromkeys(row["nearest"] for row in data["rows"]))
+    bodies = list(dict.fromkeys(row["body"] for row in data["rows"]))
+    depths = ", ".join(f"{100 * d:.0f}" for d in nearest)
+    small_print = origin(data, [f"Each body three times: two of it, centres {depths} cm to 42 cm more apart, 1° and 1 mm a step. Medians of nine passes."])
+    text = panels(2, height, small_print, legend_rows=1, panel_titles=True) + \
+        legend([(colour, mark, name) for _, colour, mark, name in ways], height) + \
+        f"set logscale y\nset ytics {TIME_TICS}\nset yrange [50:20000]\nset xrange [-0.5:{len(bodies) - 0.5}]\n" \
+        "set xtics (" + ", ".join(f"'{body}' {i}" for i, body in enumerate(bodies)) + ") rotate by 30 right font ',12'\n"
+    for panel, (asked, title) in enumerate((("contact", "contacts: depth, normal, points"), ("yes or no", "yes or no"))):
+        plots = []
+        for i, (key, colour, mark, _) in enumerate(ways):
+            text += block(f"$collide{panel}{i}", [(bodies.index(row["body"]) + 0.25 * (nearest.index(row["nearest"]) - 1), row[key])
+                                                  for row in data["rows"] if row["asked"] == asked])
+            plots.append(f"$collide{panel}{i} using 1:2 with points pt {mark} ps 0.9 lc rgb '{colour}'")
+        text += f"set title '{title}' offset 0,-0.6\nplot " + ", ".join(plots) + "\n" + UNLABEL
+    draw("collide", "Collision queries beside FCL's own", text + "unset multiplot\n", small_print, height)
+
+
+CHARTS = (speed_accuracy, size, solver_error, model_error, jump_test, collide)

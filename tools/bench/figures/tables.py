@@ -127,6 +127,14 @@ def adapter_costs():
                       *(f"{ns(row, way) / ns(row, 'fcl'):.2f}" for way in ("exact_cold", "exact_warm"))) for row in rows])
 
 
+@table("collide")
+def collide():
+    return markdown(("body", "nearest centres (m)", "collide", "asked", "fcl::collide", "cold", "warm", "cold / FCL", "warm / FCL", "FCL's depth over 1 % too large"),
+                    [(row["body"], f"{row['nearest']:.2f}", f"{row['hits']:.0f} %", row["asked"], *(f"{row[way]:.0f}" for way in ("ns_fcl", "ns_cold", "ns_warm")),
+                      *(f"{row[way] / row['ns_fcl']:.2f}" for way in ("ns_cold", "ns_warm")),
+                      f"{row['fcl_too_deep']:.0f} %" if "fcl_too_deep" in row else "") for row in measured("collide")["rows"]])
+
+
 @table("constraints", "constraints_jvrc1")
 def constraints():
     body = []
