@@ -148,7 +148,7 @@ class Prover {
       reach(obstacle.centre, obstacle.radius);
     }
     const double m = static_cast<double>(joints_.size());
-    const double steps = static_cast<double>(scene_.kinematics->robot().joints.size()) + m * m + 16;
+    const double steps = static_cast<double>(scene_.kinematics->robot().joints.size()) + m * m * m + 16;
     slack_ = 16 * kEps * steps * length;
   }
 

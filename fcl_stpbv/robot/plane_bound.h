@@ -51,7 +51,13 @@ class PlaneBound {
   void fixTo(std::size_t reference);
   void prepare(const Eigen::Vector3d& n, const Side& side);
   double mostPush(const Side& side) const;
+  double mostTurned(const Side& side) const;
+  std::size_t foremost(const Eigen::Vector3d& n, const Side& side) const;
   double push(const Eigen::Vector3d& n, const Side& side, const Eigen::Vector3d& x);
+  double along(const Side& side, std::size_t l, const Eigen::Vector3d& turned, double size,
+               const Eigen::Vector3d& x) const;
+  double couple(const Side& side, std::size_t i, std::size_t l, const Eigen::Vector3d& x);
+  double mostAtCorners(std::size_t i, std::size_t m, int tries);
   double together(const Eigen::Vector3d& n, const Side& side, const Eigen::Vector3d& x) const;
   double support(const Eigen::Vector3d& n, const Side& side, Eigen::VectorXd& shares);
   Eigen::Vector3d farthest(const Eigen::Vector3d& n, const Side& side) const;
@@ -61,12 +67,15 @@ class PlaneBound {
   bool shared_ = false;  // whether a coordinate moves several joints
   Side first_, second_;
   // Of the side at hand, for the normal n: n x axis of each joint, that crossed with the axis of each joint
-  // further out, their lengths, and the way from the outermost turning joint back to each one.
-  std::vector<Eigen::Vector3d> turned_, coupled_;
-  std::vector<double> tilt_, coupling_, way_;
+  // further out, and again; n across each axis, and that crossed with the axes further out; their lengths;
+  // the way from the outermost turning joint back to each one.
+  std::vector<Eigen::Vector3d> turned_, coupled_, tripled_, flat_, bulged_;
+  std::vector<double> tilt_, coupling_, tripling_, bulging_, way_;
   // Of a point: its distance from each axis, the same once the joints further out have moved, how far those
   // move it, and what each joint pushes.
   std::vector<double> lever_, reach_, moved_, share_, bestShare_;
+  // What it is pushed in first order by each joint, and in second order by each two (mostAtCorners()).
+  std::vector<double> slope_, product_;
   std::vector<std::pair<double, std::size_t>> order_;
   Eigen::VectorXd trial_;
 };

@@ -100,6 +100,13 @@ TEST_CASE("a collision that a proof finds is one, and ends it") {
   CHECK((scene.kinematics->upper() - *proof.collision).minCoeff() >= 0);
 }
 
+TEST_CASE("an arm's proof against the other arm takes few boxes: products of turns are weighed together") {
+  const ProofScene scene = humanoid();
+  const LinkPair pair = pairNamed(scene, "RARM_LINK2", "LARM_LINK4");
+  const PairProof proof = provePair(scene, pair, unproven(scene, pair).open, 2500);
+  CHECK(proof.proven());  // in 1,707 boxes; bounded one by one, the products take 3,749
+}
+
 TEST_CASE("joints without limits leave a pair unproven, a rigid pair needs one box") {
   const std::string ball = "<sphere radius=\"0.1\"/>";
   const auto model = std::make_shared<const RobotModel>(
