@@ -191,6 +191,30 @@ def test_a_bad_mesh_fails_its_own_job_and_no_other(tmp_path, jobs):
     assert (tmp_path / "volumes/BODY.stpbv").exists() and (tmp_path / "all").read_bytes() == results
 
 
+@pytest.mark.parametrize("jobs", [1, 2])
+def test_a_task_that_leaves_nothing_to_check_fails_its_own_job_and_no_other(tmp_path, jobs):
+    task, nothing = TOOLS / "reach.json", tmp_path / "nothing.json"
+    nothing.write_text(json.dumps({**json.loads(task.read_text()), "collisions": {"self": False}}))
+    message = batch("postures", ARM, nothing, task, "--jobs", jobs, "-o", tmp_path / "out", status=1)
+    assert "no pair of bodies is checked" in message
+    records = {record["job"][0]: record for record in map(json.loads, (tmp_path / "out").read_text().splitlines()[1:])}
+    assert records[str(task)]["feasible"] and "error" in records[str(nothing)] and len(records) == 2
+
+
+def test_a_robot_with_a_bad_mesh_is_refused_before_any_job(tmp_path):
+    (tmp_path / "bad.stl").write_bytes(b"solid nothing")
+    ball = '<collision><geometry><sphere radius="0.1"/></geometry></collision>'
+    urdf = tmp_path / "bad.urdf"
+    urdf.write_text(f"""<robot name="bad"><link name="a">{ball}</link><link name="b">{ball}</link>
+        <link name="c"><collision><geometry><mesh filename="bad.stl"/></geometry></collision></link>""" + "".join(
+        f"""<joint name="{child}" type="revolute"><parent link="{parent}"/><child link="{child}"/><origin xyz="0.5 0 0"/><axis xyz="0 0 1"/>
+        <limit lower="-1" upper="1" effort="1" velocity="1"/></joint>""" for parent, child in (("a", "b"), ("b", "c"))) + "</robot>")
+    for arguments in (["prove", urdf], ["sample", urdf], ["postures", urdf, TOOLS / "reach.json"], ["prove", ARM, "--obstacles", urdf],
+                      ["postures", ARM, TOOLS / "reach.json", "--obstacles", urdf]):
+        message = batch(*arguments, "-o", tmp_path / "out", status=2)
+        assert "bad.stl" in message and "Traceback" not in message and not (tmp_path / "out").exists()
+
+
 def test_wrong_input_is_refused_in_one_line(proofs, tmp_path):
     out = tmp_path / "out"
     for arguments, what in [
