@@ -67,7 +67,7 @@ class Adviser {
     RadiiAdvice asked = with(task_.acceleration);
     asked.leastClearance = asked.overCover + reserve_;
     asked.meetsBoth = asked.leastClearance <= task_.clearance;
-    if (asked.meetsBoth) return asked;
+    if (asked.meetsBoth) return rounder(asked);
     double low = task_.acceleration, high = low * kStep;
     RadiiAdvice best = with(high);
     for (; !keeps(best); best = with(high)) {
@@ -89,11 +89,32 @@ class Adviser {
   // The first step that keeps the clearance is found, then the place between it and the last to a thousandth.
   static constexpr double kStep = 2;
   static constexpr int kRounds = 10;
+  static constexpr double kWithin = 1e-3;
 
   bool keeps(const RadiiAdvice& advice) const { return advice.overCover + reserve_ <= task_.clearance; }
 
-  RadiiAdvice with(double acceleration) const {
-    RadiiAdvice advice{radiiFor(task_, acceleration), false, 0, kInfinity, 0, kInfinity};
+  /// Spends what is left of the clearance on a smaller R: the witness points then slide less.
+  RadiiAdvice rounder(const RadiiAdvice& asked) const {
+    const double r = asked.radii.r;
+    double low = StpBv::smallestR(points_, 0) + r, high = asked.radii.R;
+    RadiiAdvice best = asked;
+    low = std::max(low, 1e-9 * high);  // of a single point
+    while (high > (1 + kWithin) * low) {
+      const double middle = std::sqrt(low * high);
+      const RadiiAdvice tried = withRadii({r, middle});
+      const bool good = keeps(tried);
+      (good ? high : low) = middle;
+      if (good) best = tried;
+    }
+    best.meetsBoth = true;
+    best.leastClearance = asked.leastClearance;
+    return best;
+  }
+
+  RadiiAdvice with(double acceleration) const { return withRadii(radiiFor(task_, acceleration)); }
+
+  RadiiAdvice withRadii(const StpBvOptions& radii) const {
+    RadiiAdvice advice{radii, false, 0, kInfinity, 0, kInfinity};
     const double r = advice.radii.r, R = advice.radii.R;
     if (!(R > StpBv::smallestR(points_, 0) + r)) return advice;
     const ContactAcceleration reached = accelerationOf(task_, r, R);

@@ -24,8 +24,8 @@ struct RadiiTask {
 /// The radii and what they reach.
 struct RadiiAdvice {
   StpBvOptions radii;
-  /// Whether they keep both promises. If so no others lose less space; if not they have the least
-  /// acceleration of all that keep the clearance.
+  /// Whether they keep both promises: then r is the least that does, and R the smallest that the clearance
+  /// takes. If not they have the least acceleration of all that keep the clearance.
   bool meetsBoth;
   double acceleration;    ///< most that the shapes add to d'' (m/s^2), whatever the other body is
   double overCover;       ///< of the volume of these radii (m)
@@ -33,8 +33,8 @@ struct RadiiAdvice {
   double leastClearance;  ///< that allows the stated acceleration (m); infinite where no volume does
 };
 
-/// For a body given by its points, from docs/choosing_r_and_R.md. Builds one volume where both promises can
-/// be kept, else some thirty. @throws Error for points without a volume, for numbers that make no sense, and
+/// For a body given by its points, from docs/choosing_r_and_R.md. Builds some thirty
+/// volumes. @throws Error for points without a volume, for numbers that make no sense, and
 /// for a clearance that no radii keep.
 RadiiAdvice adviseRadii(const std::vector<Eigen::Vector3d>& points, const RadiiTask& task);
 

@@ -159,6 +159,11 @@ TEST_CASE("advised radii keep the stated clearance and the allowed acceleration,
     if (advice.meetsBoth) {
       CHECK(advice.acceleration <= task.acceleration);
       CHECK(advice.overCover + advice.perPeriod <= task.clearance);
+      // A smaller R would lose too much, or there is no volume of it.
+      const StpBvOptions rounder{advice.radii.r, 0.998 * advice.radii.R};
+      if (rounder.R > StpBv::smallestR(cloud, rounder.r))
+        CHECK(overCover(*StpBv::build(cloud, rounder), cloud).max + 1e-6 * task.acceleration >
+              task.clearance);
     }
     Pair pair;
     pair.moving = volume;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "tools/bench/control/advice.h"
 #include "tools/bench/control/loop.h"
 #include "tools/bench/measurement.h"
 #include "tools/program.h"
@@ -53,7 +54,7 @@ Summary summary(const std::vector<Outcome>& all) {
 
 struct Arguments {
   int runs = 20;
-  bool all = false;
+  bool all = false, advise = false;
   LoopOptions loop;
   std::vector<std::string> scenarios = benchmark::scenarios();
   std::string name = "control";
@@ -61,7 +62,6 @@ struct Arguments {
 
 Measurement measure(const Arguments& a) {
   Measurement result;
-  result.name = a.name;
   result.about = {{"runs", a.runs}, {"acceleration", a.loop.acceleration}, {"noise", a.loop.noise}};
   std::printf("%-6s %-32s %9s %9s %8s %9s %8s %8s %9s %9s %8s %7s %5s\n", "", "medians (worst: *)", "peak",
               "peak*", "rms", "jerk", "rev/s", "switch/s", "clear mm", "clear* mm", "track mm", "us", "fail");
@@ -103,12 +103,15 @@ int main(int argc, char** argv) {
   app.option("--runs", a.runs, "runs a row, each with its own path and start").whole(1).shown();
   app.option("--scenario", a.scenarios, "only these").oneOf(scenarios());
   app.flag("--all", a.all, "every r and R, not only r = 10 mm with R = 1 and 10 m");
+  app.flag("--advise", a.advise,
+           "radii advised for some allowed accelerations, and what runs with them measure");
   app.flag("--acceleration", a.loop.acceleration, "tasks at acceleration level");
   app.flag("--noise", a.loop.noise, "with encoder steps, a tick of delay and a model error of 1 %");
   app.option("-o,--output", output, "folder for NAME.json");
   app.option("--name", a.name, "of the file").shown();
   return app.run(argc, argv, [&] {
-    const Measurement result = measure(a);
+    Measurement result = a.advise ? measureAdvice(a.scenarios, a.runs) : measure(a);
+    result.name = a.name;
     if (!output.empty()) write(result, commandLine(argc, argv), output);
     return 0;
   });

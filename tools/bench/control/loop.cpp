@@ -39,6 +39,7 @@ class Controller {
         truth_(constraintsOf(scene, {Model::hull, 0, 0, ""})),
         state_(scene.kinematics->makeState()) {
     if (constraints_ && method.model != Model::manifold) damper_.emplace(*constraints_, damperOf(method));
+    if (options.contacts && damper_) contacts_.emplace(scene, method, kInfluence + margins(method));
   }
 
   Outcome go() {
@@ -57,6 +58,7 @@ class Controller {
       spent_.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() * 1e6);
       const VectorXd difference = next - qd;
       if (time > scene_.begin) measure(now, difference, change);
+      if (contacts_ && time > scene_.begin) contacts_->measure(now, spread(now.size(), next));
       change = difference;
       qd = next;
       if (options_.noise)  // read at the next tick: what is true at this one
@@ -67,6 +69,13 @@ class Controller {
   }
 
  private:
+  /// The moved joints' velocities among those of all coordinates.
+  VectorXd spread(Eigen::Index size, const VectorXd& qd) const {
+    VectorXd all = VectorXd::Zero(size);
+    for (int j = 0; j < size_; ++j) all[scene_.joints[at(j)]] = qd[j];
+    return all;
+  }
+
   void jacobian(int link, const Vector3d& x, MatrixXd& linear, MatrixXd& angular) const {
     linear.setZero(3, size_);
     angular.setZero(3, size_);
@@ -126,9 +135,7 @@ class Controller {
 
   void damperRows(const VectorXd& q, const VectorXd& qd, std::vector<VectorXd>& rows,
                   std::vector<double>& bounds) {
-    VectorXd all = VectorXd::Zero(q.size());
-    for (int j = 0; j < size_; ++j) all[scene_.joints[at(j)]] = qd[j];
-    damper_->update(q, all);
+    damper_->update(q, spread(q.size(), qd));
     for (int row : damper_->near()) {
       VectorXd entries = VectorXd::Zero(size_);
       for (CollisionConstraints::SparseJacobian::InnerIterator it(damper_->A(), row); it; ++it) {
@@ -201,6 +208,7 @@ class Controller {
     std::nth_element(spent_.begin(), spent_.begin() + static_cast<long>(spent_.size() / 2), spent_.end());
     out_.solve = spent_[spent_.size() / 2];
     out_.failed = failed_;
+    if (contacts_) out_.contact = contacts_->most();
     return out_;
   }
 
@@ -210,6 +218,7 @@ class Controller {
   const int size_;
   std::unique_ptr<CollisionConstraints> constraints_, truth_;
   std::optional<VelocityDamper> damper_;
+  std::optional<ContactMeter> contacts_;
   Kinematics::State state_;
   Program program_;
   std::vector<int> keys_;

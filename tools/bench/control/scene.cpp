@@ -139,7 +139,7 @@ std::vector<Vector3d> boxCorners(const Vector3d& size) {
 
 double margins(const Method& method) {
   if (method.model == Model::hull || method.model == Model::manifold) return 2 * method.r;
-  return method.model == Model::half ? method.r : 0;
+  return method.model == Model::half && !method.bare ? method.r : 0;
 }
 
 Variation variationOf(int seed) {

@@ -24,6 +24,7 @@ struct Method {
   Model model;
   double r, R;  ///< m
   std::string name;
+  bool bare = false;  ///< flat obstacles have no margin
 };
 
 /// What a method's margins add to the distances of its bodies (m).

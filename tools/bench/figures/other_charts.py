@@ -205,4 +205,25 @@ def posture_grid_ladder(height=340):
                 lambda value: f"left foot {value:.0f} rung{'s' * (value > 1)} up" if value else "feet on one rung", height, 0.2)
 
 
-CHARTS = (jump, stability, proof_boxes, radii, posture_profile, control, clearance, posture_grid_fridge, posture_grid_ladder)
+def advice(height=440):
+    """What advised radii promise and keep, and what clearance buys at the joints."""
+    data = measured("control_advice")
+    colours = dict(zip(dict.fromkeys(row["scenario"] for row in data["rows"]), (*palette.SWEEPS, palette.SMOOTH)))
+    small_print = ["Radii advised for clearances of 0.5 to 32 mm and 4 m/s² that the shapes may add; what is held at 1 kHz, the obstacle flat (boxes: both round).",
+                   "Left: measured against the bound; only runs that moved as stated. Right: what the hulls keep beyond the 10 mm asked for.", data["command"]]
+    text = panels(2, height, small_print, legend_rows=1, panel_titles=True) + \
+        legend([(colour, 7, scenario) for scenario, colour in colours.items()], height, columns=4) + "set logscale xy\n"
+    for panel, (title, axes) in enumerate((
+            ("added by the shapes", "set xrange [0.3:100]\nset yrange [0.0001:100]\nset xlabel 'the advice\'\'s bound (m/s²)'\nset ylabel 'measured (m/s²)'\n"),
+            ("at the joints", "set xrange [0.1:300]\nset yrange [0.3:1000]\nset xlabel 'clearance lost (mm)'\nset ylabel 'peak joint acceleration (rad/s²)'\n"))):
+        plots = [f"x with lines lw 1.5 dt 2 lc rgb '{palette.NEUTRAL}'"] if not panel else []
+        for i, (scenario, colour) in enumerate(colours.items()):
+            rows = [row for row in data["rows"] if row["scenario"] == scenario]
+            points = [(1e3 * max(row["lost"], 1e-4), row["peak"]) for row in rows] if panel else [(row["at_most"], row["added"]) for row in rows if row["as_stated"]]
+            text += block(f"$points{panel}{i}", points)
+            plots.append(f"$points{panel}{i} using 1:2 with linespoints pt 7 ps 0.8 lw 2 lc rgb '{colour}'")
+        text += axes + f"set title '{title}' offset 0,-0.6\nplot " + ", ".join(plots) + "\n" + UNLABEL
+    draw("advice", "Advised radii add less than their bound; clearance buys calm joints", text + "unset multiplot\n", small_print, height)
+
+
+CHARTS = (jump, stability, proof_boxes, radii, posture_profile, control, clearance, advice, posture_grid_fridge, posture_grid_ladder)

@@ -313,6 +313,15 @@ def control_acceleration():
     return peaks("control_acceleration")
 
 
+@table("control_advice")
+def control_advice():
+    mm = lambda metres: f"{1e3 * metres:.2g}" if metres > 5e-5 else "0.0"
+    return markdown(("scenario, speeds stated", "clearance (mm)", "at most (m/s²)", "r (mm)", "R (m)", "over-cover (mm)", "added (m/s²)", "lost (mm)", "joints' peak (rad/s²)"),
+                    [(f"{SCENARIOS[row['scenario']]}, {row['speed']:.2g} m/s, {row['turning']:.2g} rad/s", f"{1e3 * row['clearance']:g}", three(row["at_most"]), mm(row["r"]), three(row["R"]),
+                      mm(row["over_cover"]), three(row["added"]) if row["as_stated"] else f"{three(row['added'])}, too fast", mm(row["lost"]), three(row["peak"]))
+                     for row in measured("control_advice")["rows"]])
+
+
 @table("control", "control_more", *(f"optimise_{task}" for task in TASKS), "posture_study")
 def continuity():
     """All tasks: what hulls need, what their manifold of rows needs, what STP-BVs need."""

@@ -1,0 +1,34 @@
+// What the bodies' shapes do to a controller's distances: the c of docs/choosing_r_and_R.md, measured.
+#pragma once
+
+#include "tools/bench/control/scene.h"
+
+namespace fcl_stpbv::benchmark {
+
+/// Largest values, as each pair's second body sees them, of the pairs nearer than an influence.
+struct ContactMotion {
+  double added = 0;    ///< |c|, what the shapes add to d'' (m/s^2)
+  double speed = 0;    ///< across the normal (m/s)
+  double turning = 0;  ///< across the normal (rad/s)
+};
+
+class ContactMeter {
+ public:
+  ContactMeter(const Scene& scene, const Method& method, double influence);
+
+  /// At q with velocity qd, of all coordinates.
+  void measure(const Eigen::VectorXd& q, const Eigen::VectorXd& qd);
+  const ContactMotion& most() const { return most_; }
+
+ private:
+  const Scene& scene_;
+  double influence_;
+  std::unique_ptr<CollisionConstraints> constraints_;
+  RowRates rates_;
+  CollisionConstraints::SparseJacobian jacobian_;
+  Kinematics::State state_;
+  Kinematics::Rate rate_;
+  ContactMotion most_;
+};
+
+}  // namespace fcl_stpbv::benchmark
