@@ -97,8 +97,8 @@ struct RelativePose {
   Packed origin{};       ///< of the first body's frame, in the world (m)
   Rotation rotation;     ///< second body's frame to the first one's
   Packed translation{};  ///< the second body's origin in the first one's frame (m)
-  bool valid =
-      false;  ///< both poses are rotations, or next to one, with finite translations not too far apart
+  bool valid = false;    ///< both poses are rotations, or next to one, at less than 1e150 m from the origin
+                         ///< and from each other
 
   RelativePose(const Eigen::Isometry3d& poseA, const Eigen::Isometry3d& poseB) : toWorld(poseA) {
     constexpr double kHuge = 1e300;  // squares must not overflow
@@ -111,7 +111,7 @@ struct RelativePose {
     origin = column(poseA, 3);
     rotation = toWorld.relative(x, y, z);
     translation = toWorld.inverse(column(poseB, 3) - origin);
-    valid = dot(translation, translation) < kHuge;
+    valid = dot(translation, translation) < kHuge && dot(origin, origin) < kHuge;
   }
 
   /// A point of the second body in the first one's frame, and the second body's direction where the first's

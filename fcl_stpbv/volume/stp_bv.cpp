@@ -57,6 +57,14 @@ Ball checkRadius(const std::vector<Vector3d>& points, const StpBvOptions& option
                 " m is too small: the smallest usable R for these points with r = " + number(options.r) +
                 " m is just above " + number(smallest * (1 + 1e-9)) + " m");
   }
+  // A face of size s bulges by about s^2 / (8 R): past s / epsilon that is far below the rounding of its
+  // points.
+  const double largest = (ball.radius + options.r) / std::numeric_limits<double>::epsilon();
+  if (points.size() > 1 && ball.radius > 0 && rho > largest)
+    throw Error(
+        "R = " + number(options.R) +
+        " m is too large: such faces are flat to rounding; the largest usable R for these points with r = " +
+        number(options.r) + " m is just below " + number(largest) + " m");
   return ball;
 }
 

@@ -95,18 +95,21 @@ TEST_CASE("A cache filled with nonsense is harmless") {
 TEST_CASE("A pose that is not a finite rotation and translation is reported, not answered") {
   const StpBv::Ptr a = StpBv::build(box(0.3, 0.2, 0.5), {0.01, 10});
   const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
-  std::vector<Isometry3d> bad(6, at(1, 0, 0));
+  std::vector<Isometry3d> bad(8, at(1, 0, 0));
   bad[0].translation().x() = nan;
   bad[1].translation().y() = inf;
   bad[2].linear()(1, 2) = nan;
   bad[3].linear()(0, 0) = -inf;
   bad[4].linear().setZero();
   bad[5].linear() *= 2.0;
+  bad[6].translation().z() = 1e151;
+  bad[7].translation().x() = 1e300;
   for (const Isometry3d& p : bad) {
     PairCache cache;
     cache.normal = Vector3d::UnitX();
     cache.patch = {1, 1};
-    for (const Distance& d : {distance(*a, p, *a, kOrigin, &cache), distance(*a, kOrigin, *a, p, &cache)}) {
+    for (const Distance& d : {distance(*a, p, *a, kOrigin, &cache), distance(*a, kOrigin, *a, p, &cache),
+                              distance(*a, p, *a, p, &cache)}) {
       CHECK(d.status == DistanceStatus::invalid);
       CHECK(d.distance == 0);
       CHECK(d.normal == Vector3d::Zero());

@@ -217,6 +217,25 @@ TEST_CASE("The smallest usable radius is the minimum enclosing ball's and the on
   }
 }
 
+TEST_CASE("Radii are refused from where faces are flat to rounding, and right just below") {
+  for (const Named& cloud : smallClouds()) {
+    if (cloud.points.size() < 2) continue;
+    const double size = StpBv::smallestR(cloud.points, 0.01), eps = std::numeric_limits<double>::epsilon();
+    INFO(cloud.name);
+    CHECK_THROWS_WITH(StpBv::build(cloud.points, {0.01, 1.001 * size / eps}), Catch::Contains("too large"));
+    CHECK_THROWS_WITH(StpBv::build(cloud.points, {0.01, 1e300}), Catch::Contains("largest usable R"));
+    const StpBv::Ptr volume = StpBv::build(cloud.points, {0.01, 0.999 * size / eps});
+    Random random(8);
+    for (int k = 0; k < 300; ++k) {
+      const Vector3d n = random.direction();
+      double hull = -std::numeric_limits<double>::infinity();
+      for (const Vector3d& p : cloud.points) hull = std::max(hull, n.dot(p));
+      // The bulge is a part of the rounding, which is a few sums of two products here.
+      CHECK(std::abs(volume->support(n) - hull - 0.01) <= 16 * eps * size);
+    }
+  }
+}
+
 TEST_CASE("Every normal belongs to one region and every walk finds it") {
   for (const Named& cloud : smallClouds()) {
     for (const double R : {StpBv::smallestR(cloud.points, 0.01) * 1.01, 10.0}) {
