@@ -5,7 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <numeric>
 #include <string>
 
 #include "fcl_stpbv/error.h"
@@ -21,12 +21,25 @@ std::vector<HalfEdge> pairHalfEdges(const std::vector<Vector3d>& points, const s
   const auto at = [&](int i) -> const Vector3d& { return points[static_cast<std::size_t>(i)]; };
   constexpr double kPi = 3.14159265358979323846;
   std::vector<HalfEdge> halfEdges;
-  std::multimap<std::pair<int, int>, int> byEnds;
+  const auto startOf = [&](const HalfEdge& e) {
+    return faces[static_cast<std::size_t>(e.face)][static_cast<std::size_t>(e.corner)];
+  };
+  const auto endOf = [&](const HalfEdge& e) {
+    const Ring& ring = faces[static_cast<std::size_t>(e.face)];
+    return ring[(static_cast<std::size_t>(e.corner) + 1) % ring.size()];
+  };
   for (std::size_t f = 0; f < faces.size(); ++f)
-    for (std::size_t k = 0; k < faces[f].size(); ++k) {
-      byEnds.insert({{faces[f][k], faces[f][(k + 1) % faces[f].size()]}, static_cast<int>(halfEdges.size())});
+    for (std::size_t k = 0; k < faces[f].size(); ++k)
       halfEdges.push_back({static_cast<int>(f), static_cast<int>(k)});
-    }
+  // Those that start from vertex v are leaving[begin[v]] to leaving[begin[v + 1]].
+  std::vector<std::size_t> begin(points.size() + 1, 0);
+  for (const HalfEdge& e : halfEdges) ++begin[static_cast<std::size_t>(startOf(e)) + 1];
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  std::vector<int> leaving(halfEdges.size());
+  std::vector<std::size_t> filled(begin.begin(), begin.end() - 1);
+  for (std::size_t h = 0; h < halfEdges.size(); ++h)
+    leaving[filled[static_cast<std::size_t>(startOf(halfEdges[h]))]++] = static_cast<int>(h);
+
   for (std::size_t h = 0; h < halfEdges.size(); ++h) {
     HalfEdge& edge = halfEdges[h];
     const Ring& ring = faces[static_cast<std::size_t>(edge.face)];
@@ -41,17 +54,20 @@ std::vector<HalfEdge> pairHalfEdges(const std::vector<Vector3d>& points, const s
     const Vector3d from = across(edge.face), side = u.cross(from);
     // Nearly a whole turn is possible only where the face's other vertices hardly rise over the arc that the
     // ball rolls on: straight ahead of its normal, seen along the edge.
-    const bool isSpindle = std::any_of(ring.begin(), ring.end(), [&](int i) {
-      const Vector3d q = (at(i) - at(a)) - (at(i) - at(a)).dot(u) * u;
-      return i != a && i != b && q.dot(from) > 0.99 * q.norm() * from.norm();
-    });
-    const auto range = byEnds.equal_range({b, a});
-    for (auto it = range.first; it != range.second; ++it) {
-      const int face = halfEdges[static_cast<std::size_t>(it->second)].face;
-      const Vector3d to = across(face);
+    const auto isSpindle = [&] {
+      return std::any_of(ring.begin(), ring.end(), [&](int i) {
+        const Vector3d q = (at(i) - at(a)) - (at(i) - at(a)).dot(u) * u;
+        return i != a && i != b && q.dot(from) > 0.99 * q.norm() * from.norm();
+      });
+    };
+    for (std::size_t i = begin[static_cast<std::size_t>(b)]; i < begin[static_cast<std::size_t>(b) + 1];
+         ++i) {
+      const HalfEdge& other = halfEdges[static_cast<std::size_t>(leaving[i])];
+      if (endOf(other) != a) continue;
+      const Vector3d to = across(other.face);
       double turn = std::atan2(to.dot(side), to.dot(from));
-      if (turn < 0) turn = turn > -1e-6 && !isSpindle ? 0 : turn + 2 * kPi;  // a turn of nothing, rounded
-      if (edge.twin < 0 || turn < edge.turn) edge.twin = it->second, edge.turn = turn;
+      if (turn < 0) turn = turn > -1e-6 && !isSpindle() ? 0 : turn + 2 * kPi;  // a turn of nothing, rounded
+      if (edge.twin < 0 || turn < edge.turn) edge.twin = leaving[i], edge.turn = turn;
     }
     if (edge.twin < 0)
       throw Error("the faces do not close: the edge from vertex " + std::to_string(a) + " to vertex " +

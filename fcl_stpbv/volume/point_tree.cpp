@@ -1,8 +1,11 @@
-// A tree of boxes over a cloud, split at the median of its longest side. The highest point over a ball is
-// found by branch and bound: a box's bound is the sum of the largest values of each coordinate, or the bound
-// by the sphere around the cloud's centre if that is lower.
+// A tree of boxes over a cloud, each along its points' principal axes (as in Gottschalk, Lin, Manocha,
+// OBBTree, 1996), split at the median of the longest one. The highest point over a ball is found by branch
+// and bound: a box's bound is the sum of the largest values of each coordinate, or the bound by the sphere
+// around the cloud's centre if that is lower. Points on a surface have thin boxes, which is what makes the
+// bound close.
 #include "fcl_stpbv/volume/point_tree.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -16,6 +19,18 @@ namespace {
 
 constexpr int kLeaf = 8;    // points a leaf: scanning eight costs about as much as one more level of boxes
 constexpr int kStack = 96;  // deeper than any balanced tree of 2^31 points needs
+
+// Rows: the directions in which points[begin, end) spread independently of each other; any three at right
+// angles where they are too large or too small to tell.
+template <class Point>
+Eigen::Matrix3d principalAxes(const Point& point, int begin, int end) {
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (int i = begin; i < end; ++i) mean += point(i) / (end - begin);
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  for (int i = begin; i < end; ++i) spread += (point(i) - mean) * (point(i) - mean).transpose();
+  if (!spread.allFinite()) return Eigen::Matrix3d::Identity();
+  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvectors().transpose();
+}
 
 }  // namespace
 
@@ -34,26 +49,29 @@ PointTree::PointTree(const std::vector<Eigen::Vector3d>& points)
 }
 
 int PointTree::makeNode(int begin, int end) {
-  Node node{
-      points_[static_cast<std::size_t>(order_[static_cast<std::size_t>(begin)])], {}, 0, begin, end, -1};
-  node.high = node.low;
-  node.far2 = (node.low - centre_).squaredNorm();
-  for (int i = begin + 1; i < end; ++i) {
-    const Eigen::Vector3d& p = points_[static_cast<std::size_t>(order_[static_cast<std::size_t>(i)])];
+  const auto fromCentre = [&](int i) -> Eigen::Vector3d {
+    return points_[static_cast<std::size_t>(order_[static_cast<std::size_t>(i)])] - centre_;
+  };
+  Node node{principalAxes(fromCentre, begin, end), {}, {}, 0, begin, end, -1};
+  node.low = node.high = node.axes * fromCentre(begin);
+  for (int i = begin; i < end; ++i) {
+    const Eigen::Vector3d q = fromCentre(i), p = node.axes * q;
     node.low = node.low.cwiseMin(p);
     node.high = node.high.cwiseMax(p);
-    node.far2 = std::max(node.far2, (p - centre_).squaredNorm());
+    node.far2 = std::max(node.far2, q.squaredNorm());
   }
   const int index = static_cast<int>(nodes_.size());
   nodes_.push_back(node);
   if (end - begin > kLeaf) {
-    int axis = 0;
-    (node.high - node.low).maxCoeff(&axis);
+    int longest = 0;
+    (node.high - node.low).maxCoeff(&longest);
+    const Eigen::Vector3d axis = node.axes.row(longest);
     const int middle = begin + (end - begin) / 2;
-    std::nth_element(
-        order_.begin() + begin, order_.begin() + middle, order_.begin() + end, [&](int i, int j) {
-          return points_[static_cast<std::size_t>(i)][axis] < points_[static_cast<std::size_t>(j)][axis];
-        });
+    std::nth_element(order_.begin() + begin, order_.begin() + middle, order_.begin() + end,
+                     [&](int i, int j) {
+                       return axis.dot(points_[static_cast<std::size_t>(i)]) <
+                              axis.dot(points_[static_cast<std::size_t>(j)]);
+                     });
     makeNode(begin, middle);
     const int right = makeNode(middle, end);
     nodes_[static_cast<std::size_t>(index)].right = right;
@@ -68,28 +86,33 @@ PointTree::Highest PointTree::highest(const Eigen::Vector3d& anchor, const Eigen
   best.height = -std::numeric_limits<double>::infinity();
   if (nodes_.empty()) return best;
 
-  // The height is a sum over the coordinates of convex functions, so over a box each takes its largest value
-  // at one of its two ends.
+  // In any three directions at right angles the height is a sum over the coordinates of convex functions, so
+  // over a box each takes its largest value at one of its two ends.
+  const Eigen::Vector3d from = anchor - centre_;
+  const double size = std::sqrt(nodes_[0].far2) + from.norm();
+  const double boxRounding =
+      32 * std::numeric_limits<double>::epsilon() * size * (curvature * size + normal.norm());
   const auto bound = [&](const Node& node) {
-    double sum = 0;
+    const Eigen::Vector3d a = node.axes * from, n = node.axes * normal;
+    double sum = boxRounding;
     for (int k = 0; k < 3; ++k) {
-      const double l = node.low[k] - anchor[k], h = node.high[k] - anchor[k];
-      sum += std::max(l * (0.5 * curvature * l + normal[k]), h * (0.5 * curvature * h + normal[k]));
+      const double l = node.low[k] - a[k], h = node.high[k] - a[k];
+      sum += std::max(l * (0.5 * curvature * l + n[k]), h * (0.5 * curvature * h + n[k]));
     }
     return sum;
   };
   // Over a box of points on a sphere that bound is as much too high as the sphere bulges in the box, and no
   // box falls out when the ball is nearly that sphere. From the sphere's centre o on, the height is linear in
   // p and |p - o|^2 together, of which each node knows the largest.
-  const Eigen::Vector3d o = centre_ - anchor, slope = curvature * o + normal;
+  const Eigen::Vector3d o = -from, slope = curvature * o + normal;
   const double level = 0.5 * curvature * o.squaredNorm() + normal.dot(o);
   const double rounding = 32 * std::numeric_limits<double>::epsilon() *
                           (curvature * (nodes_[0].far2 + o.squaredNorm()) + normal.norm() * o.norm() +
                            slope.norm() * std::sqrt(nodes_[0].far2));
   const auto sphereBound = [&](const Node& node) {
-    const Eigen::Vector3d l = node.low - centre_, h = node.high - centre_;
-    return level + 0.5 * curvature * node.far2 + slope.cwiseProduct(l).cwiseMax(slope.cwiseProduct(h)).sum() +
-           rounding;
+    const Eigen::Vector3d s = node.axes * slope;
+    return level + 0.5 * curvature * node.far2 +
+           s.cwiseProduct(node.low).cwiseMax(s.cwiseProduct(node.high)).sum() + rounding;
   };
   struct Waiting {
     double bound;
@@ -148,14 +171,18 @@ void PointTree::within(const Eigen::Vector3d& centre, double radius, std::vector
   found->clear();
   if (nodes_.empty()) return;
   const double radius2 = radius * radius;
+  const Eigen::Vector3d from = centre - centre_;
+  const double reach = radius + 8 * std::numeric_limits<double>::epsilon() *
+                                    (std::sqrt(nodes_[0].far2) + from.norm());  // the boxes' own rounding
   std::array<int, kStack> stack;
   int waiting = 0;
   stack[static_cast<std::size_t>(waiting++)] = 0;
   while (waiting > 0 && found->size() < atMost) {
     const int current = stack[static_cast<std::size_t>(--waiting)];
     const Node& node = nodes_[static_cast<std::size_t>(current)];
-    const Eigen::Vector3d closest = centre.cwiseMax(node.low).cwiseMin(node.high);
-    if ((closest - centre).squaredNorm() > radius2) continue;
+    const Eigen::Vector3d c = node.axes * from;
+    const double away = (c.cwiseMax(node.low).cwiseMin(node.high) - c).norm();
+    if (away > reach) continue;
     if (node.right < 0) {
       for (int i = node.begin; i < node.end; ++i) {
         const int index = order_[static_cast<std::size_t>(i)];

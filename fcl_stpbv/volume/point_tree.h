@@ -1,4 +1,5 @@
-// A tree of boxes over a cloud: which point rises highest over a ball, and which points are near another.
+// A tree of oriented boxes over a cloud: which point rises highest over a ball, and which points are near
+// another.
 #pragma once
 
 #include <Eigen/Core>
@@ -36,10 +37,11 @@ class PointTree {
 
  private:
   struct Node {
-    Eigen::Vector3d low, high;
-    double far2;     // of its points, the largest squared distance from centre_
-    int begin, end;  // range of order_
-    int right;       // second child; the first one follows its parent; -1 for a leaf
+    Eigen::Matrix3d axes;       // rows: the box's directions
+    Eigen::Vector3d low, high;  // of its points in these, from centre_
+    double far2;                // of its points, the largest squared distance from centre_
+    int begin, end;             // range of order_
+    int right;                  // second child; the first one follows its parent; -1 for a leaf
   };
   int makeNode(int begin, int end);
 

@@ -13,13 +13,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/volume/ball_faces.h"
 #include "fcl_stpbv/volume/ball_side.h"
 #include "fcl_stpbv/volume/join_faces.h"
 #include "fcl_stpbv/volume/minimum_ball.h"
+#include "fcl_stpbv/volume/open_edges.h"
 #include "fcl_stpbv/volume/point_tree.h"
 
 namespace fcl_stpbv::detail {
@@ -32,12 +32,17 @@ constexpr double kDiametral = 1 + 1e-9;  // the edge's own ends must not fall ou
 class Roller {
  public:
   Roller(const std::vector<Vector3d>& points, double radius)
-      : points_(points), radius_(radius), curvature_(std::isinf(radius) ? 0 : 1 / radius), tree_(points) {
+      : points_(points),
+        radius_(radius),
+        curvature_(std::isinf(radius) ? 0 : 1 / radius),
+        tree_(points),
+        isVertex_(points.size(), 0),
+        faceAt_(points.size(), -1),
+        open_(points.size()) {
     Vector3d low = points[0], high = points[0];
     for (const Vector3d& p : points) low = low.cwiseMin(p), high = high.cwiseMax(p);
     extent_ = (high - low).norm();
     same_ = touchTolerance(points);
-    isVertex_.assign(points.size(), 0);
   }
 
   void roll();
@@ -57,7 +62,7 @@ class Roller {
   double leavingAngle(int a, int b, const Vector3d& across, int p) const;
   // The same from the ball at rest, for a point so close to a or b that its own angle is lost in rounding.
   double angleOf(const TouchingBall& ball, int a, int b, const Vector3d& across) const;
-  Ring pivot(int a, int b, const Vector3d& across, int candidate);
+  Ring pivot(int a, int b, const Vector3d& across, int candidate, bool lone);
   bool claim(const Ring& ring);
   int leftOnTheWay(int a, int b, const Vector3d& across, double rest);
   void removeTwins(int i);
@@ -73,13 +78,13 @@ class Roller {
   PointTree tree_;
   std::vector<char> isVertex_;
   std::vector<TouchingBall> balls_;
-  std::map<std::array<int, 3>, int> known_;  // faces by their first three vertices from the smallest one on
-  std::vector<std::vector<char>> matched_;   // per face and corner: the other side is known
+  // Faces in lists by their smallest vertex, with which their rings start.
+  std::vector<int> faceAt_, nextFace_;
+  std::vector<std::vector<char>> matched_;  // per face and corner: the other side is known
   struct Open {
     int face, corner;
   };
-  std::multimap<std::pair<int, int>, Open>
-      open_;  // half-edges by (from, to) whose other side is not known yet
+  OpenEdges open_;
   std::vector<Open> waiting_;
   mutable std::vector<int> near_;
 };
@@ -199,9 +204,8 @@ int Roller::leftOnTheWay(int a, int b, const Vector3d& across, double rest) {
 
 // Rolls over the edge a -> b away from the face on its left and returns the face where the ball comes to
 // rest. `across` is the unit part of the ball's normal across the edge, `candidate` any point it may come to
-// rest on.
-Ring Roller::pivot(int a, int b, const Vector3d& across, int candidate) {
-  const bool lone = isLone(a, b);
+// rest on; `lone` is isLone(a, b).
+Ring Roller::pivot(int a, int b, const Vector3d& across, int candidate, bool lone) {
   std::vector<int> sent;
   for (int round = 0; round < 10000; ++round) {
     const TouchingBall ball(at(b), at(a), at(candidate), radius_);
@@ -270,16 +274,20 @@ bool Roller::claim(const Ring& ring) {
 
 int Roller::addFace(Ring ring) {
   std::rotate(ring.begin(), std::min_element(ring.begin(), ring.end()), ring.end());
-  const auto [found, isNew] =
-      known_.emplace(std::array<int, 3>{ring[0], ring[1], ring[2]}, static_cast<int>(faces.size()));
-  if (!isNew) return found->second;
+  int& first = faceAt_[static_cast<std::size_t>(ring[0])];
+  for (int f = first; f >= 0; f = nextFace_[static_cast<std::size_t>(f)]) {
+    const Ring& known = faces[static_cast<std::size_t>(f)];
+    if (known[1] == ring[1] && known[2] == ring[2]) return f;
+  }
   const std::array<int, 3> t = wideTriangle(points_, ring);
   const int face = static_cast<int>(faces.size());
+  nextFace_.push_back(first);
+  first = face;
   balls_.emplace_back(at(t[0]), at(t[1]), at(t[2]), radius_);
   const int corners = static_cast<int>(ring.size());
   for (int k = 0; k < corners; ++k) {
     const int next = ring[static_cast<std::size_t>((k + 1) % corners)];
-    open_.insert({{ring[static_cast<std::size_t>(k)], next}, {face, k}});
+    open_.add(ring[static_cast<std::size_t>(k)], next, face, k);
     waiting_.push_back({face, k});
   }
   matched_.emplace_back(ring.size(), 0);
@@ -318,7 +326,7 @@ bool Roller::start() {
       return false;
     }
     try {
-      addFace(pivot(a, b, across, c));
+      addFace(pivot(a, b, across, c, isLone(a, b)));
       return true;
     } catch (const Error&) {  // the edge from a to b is none
     }
@@ -338,26 +346,18 @@ void Roller::roll() {
     const std::size_t k = static_cast<std::size_t>(h.corner);
     const int a = ring[k], b = ring[(k + 1) % ring.size()], c = ring[(k + 2) % ring.size()];
 
-    int face = -1;
-    if (isLone(a, b)) {  // only one edge can join a and b
-      const auto other = open_.find({b, a});
-      if (other != open_.end()) face = other->second.face;
-    }
+    const bool lone = isLone(a, b);
+    int face = lone ? open_.face(b, a) : -1;  // only one edge can join them there
     if (face < 0) {
       const Vector3d u = (at(b) - at(a)).normalized(), m = normalAt(h.face, a);
-      face = addFace(pivot(a, b, (m - m.dot(u) * u).normalized(), c));
+      face = addFace(pivot(a, b, (m - m.dot(u) * u).normalized(), c, lone));
     }
-    const auto close = [&](std::pair<int, int> key, int owner) {
-      const auto range = open_.equal_range(key);
-      for (auto it = range.first; it != range.second; ++it) {
-        if (it->second.face != owner) continue;
-        matched_[static_cast<std::size_t>(owner)][static_cast<std::size_t>(it->second.corner)] = 1;
-        open_.erase(it);
-        return true;
-      }
-      return false;
+    const auto close = [&](int from, int to, int owner) {
+      const int corner = open_.close(from, to, owner);
+      if (corner >= 0) matched_[static_cast<std::size_t>(owner)][static_cast<std::size_t>(corner)] = 1;
+      return corner >= 0;
     };
-    if (!close({b, a}, face) || !close({a, b}, h.face) || faces.size() > 2 * points_.size() + 4)
+    if (!close(b, a, face) || !close(a, b, h.face) || faces.size() > 2 * points_.size() + 4)
       throw Error(
           "the rolling ball's faces do not close: the cloud's coordinates are too close to degenerate for "
           "double precision");

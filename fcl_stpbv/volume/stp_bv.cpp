@@ -58,9 +58,11 @@ Ball checkRadius(const std::vector<Vector3d>& points, const StpBvOptions& option
                 " m is just above " + number(smallest * (1 + 1e-9)) + " m");
   }
   // A face of size s bulges by about s^2 / (8 R): past s / epsilon that is far below the rounding of its
-  // points.
-  const double largest = (ball.radius + options.r) / std::numeric_limits<double>::epsilon();
-  if (points.size() > 1 && ball.radius > 0 && rho > largest)
+  // points. The smallest of clouds, a few roundings wide, still takes what any robot does.
+  constexpr double kAlways = 1e8;  // m
+  const double largest =
+      std::max(kAlways, (ball.radius + options.r) / std::numeric_limits<double>::epsilon());
+  if (points.size() > 1 && rho > largest)
     throw Error(
         "R = " + number(options.R) +
         " m is too large: such faces are flat to rounding; the largest usable R for these points with r = " +

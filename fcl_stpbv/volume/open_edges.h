@@ -1,0 +1,51 @@
+// The half-edges of a growing surface whose other side is not known yet.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace fcl_stpbv::detail {
+
+/// Half-edges in lists by the vertex they start from: a vertex has few, so that each is found in a few steps.
+class OpenEdges {
+ public:
+  explicit OpenEdges(std::size_t vertices) : first_(vertices, kNone) {}
+
+  /// The half-edge `from` -> `to` at a face's corner.
+  void add(int from, int to, int face, int corner) {
+    int& first = first_[static_cast<std::size_t>(from)];
+    edges_.push_back({to, face, corner, first});
+    first = static_cast<int>(edges_.size()) - 1;
+  }
+
+  /// Face of an open half-edge `from` -> `to`; -1 where there is none.
+  int face(int from, int to) const {
+    for (int e = first_[static_cast<std::size_t>(from)]; e != kNone; e = edge(e).next)
+      if (edge(e).to == to) return edge(e).face;
+    return kNone;
+  }
+
+  /// Takes the half-edge `from` -> `to` of this face out; its corner, or -1 where it is not open.
+  int close(int from, int to, int face) {
+    for (int* link = &first_[static_cast<std::size_t>(from)]; *link != kNone; link = &edge(*link).next) {
+      const Edge found = edge(*link);
+      if (found.to != to || found.face != face) continue;
+      *link = found.next;
+      return found.corner;
+    }
+    return kNone;
+  }
+
+ private:
+  static constexpr int kNone = -1;
+  struct Edge {
+    int to, face, corner, next;
+  };
+  Edge& edge(int i) { return edges_[static_cast<std::size_t>(i)]; }
+  const Edge& edge(int i) const { return edges_[static_cast<std::size_t>(i)]; }
+
+  std::vector<int> first_;
+  std::vector<Edge> edges_;
+};
+
+}  // namespace fcl_stpbv::detail
