@@ -8,7 +8,9 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <optional>
+#include <set>
 
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/report/named_posture.h"
@@ -18,6 +20,7 @@
 #include "fcl_stpbv/report/report_warnings.h"
 #include "fcl_stpbv/report/tick_time.h"
 #include "fcl_stpbv/report/trajectory_file.h"
+#include "fcl_stpbv/robot/pair_list_again.h"
 
 namespace fcl_stpbv::report {
 
@@ -152,10 +155,17 @@ void summarise(CollisionReport& report) {
   }
 }
 
-// The pair list, and every pair in its configuration, with the bodies that report.geometry holds.
+// The pair list, and every pair in its configuration, with the bodies that report.geometry holds. Where the
+// report holds all that already, only what the bodies of `changed` pairs change is found anew.
 void examine(const ReportRequest& request, const PairListOptions& search, const Postures& postures,
-             const Srdf* srdf, PairCauses& causes, CollisionReport& report) {
-  report.list = pairList(report.kinematics, report.geometry, srdf, search);
+             const Srdf* srdf, PairCauses& causes, const std::set<LinkPair>& changed,
+             CollisionReport& report) {
+  std::map<LinkPair, PairReport> kept;
+  for (PairReport& pair : report.pairs)
+    if (changed.count(pair.links) == 0) kept.emplace(pair.links, std::move(pair));
+  report.list = report.list.empty()
+                    ? pairList(report.kinematics, report.geometry, srdf, search)
+                    : pairListAgain(report.kinematics, report.geometry, srdf, search, report.list, changed);
   report.pairs.clear();
   report.trajectory.reset();
   report.trajectoryPairs.clear();
@@ -175,7 +185,12 @@ void examine(const ReportRequest& request, const PairListOptions& search, const 
       throw Error(report.robot->path + ": the distance of " + pair.link1 + " and " + pair.link2 +
                   " cannot be computed; look for numbers out of all proportion");
     pair.colliding = pair.answer.distance <= search.margin;
-    explain(bodies, search.margin, causes, pair);
+    if (const auto known = kept.find(pair.links); known != kept.end()) {
+      pair.meshDistance = known->second.meshDistance;
+      pair.cause = known->second.cause;
+    } else {
+      explain(bodies, search.margin, causes, pair);
+    }
     report.pairs.push_back(std::move(pair));
   }
 }
@@ -236,17 +251,18 @@ CollisionReport makeReport(const ReportRequest& request) {
   PartsChoice parts({report.kinematics, whole, report.obstacles, search.margin}, request.files.geometry,
                     request.partsAll > 1 || request.partsForAllPairs);
   PairCauses causes(report.kinematics, whole, report.obstacles, loader.sceneGeometry());
-  const auto examineAll = [&] {
+  const auto examineAgain = [&](const std::set<LinkPair>& changed) {
     report.geometry = parts.geometry();
     causes.use(report.geometry);
-    examine(request, search, postures, srdf, causes, report);
+    examine(request, search, postures, srdf, causes, changed, report);
   };
   if (request.partsAll > 1) parts.splitAll(request.partsAll);
-  examineAll();
+  examineAgain({});
   constexpr int kMostRefinements = 3;  // two, four and eight parts
   for (int k = 0; request.partsAuto && k < kMostRefinements; ++k) {
-    if (!parts.refine(hullOnly(report, causes, postures.neutral))) break;
-    examineAll();
+    const std::set<LinkPair> changed = parts.refine(hullOnly(report, causes, postures.neutral));
+    if (changed.empty()) break;
+    examineAgain(changed);
   }
   for (const Body& body : report.geometry->bodies) report.fits.push_back(meshFit(body, causes.exact(body)));
   if (!request.polyhedra.empty()) report.polyhedra = comparePolyhedra(*report.geometry, request.polyhedra);

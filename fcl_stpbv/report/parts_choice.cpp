@@ -93,7 +93,7 @@ std::optional<PartsChoice::Split> PartsChoice::splitFor(const PartsCandidate& ca
   return std::nullopt;
 }
 
-bool PartsChoice::refine(const std::vector<PartsCandidate>& candidates) {
+std::set<LinkPair> PartsChoice::refine(const std::vector<PartsCandidate>& candidates) {
   // Each is looked at by itself, from what held before, so that their order does not matter.
   std::vector<std::optional<Split>> found(candidates.size());
   detail::shareOut(
@@ -101,9 +101,12 @@ bool PartsChoice::refine(const std::vector<PartsCandidate>& candidates) {
       [&](std::size_t i) {
         if (progress_) progress_(i, candidates.size(), "parts for pairs that collide by their hulls alone");
       });
-  bool changed = false;
+  std::set<LinkPair> changed;
+  std::set<int> finer;  // links
   const auto raise = [&](int link, int parts) {
-    if (parts > 1) most_[link] = std::max(parts, most_[link]);
+    if (parts < 2 || most_[link] >= parts) return;
+    most_[link] = parts;
+    finer.insert(link);
   };
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     if (!found[i]) continue;
@@ -111,8 +114,10 @@ bool PartsChoice::refine(const std::vector<PartsCandidate>& candidates) {
     raise(pair.link1, found[i]->first);
     if (!pair.obstacle) raise(pair.link2, found[i]->second);
     byParts_.insert(pair);
-    changed = true;
+    changed.insert(pair);
   }
+  for (const LinkPair& pair : byParts_)
+    if (finer.count(pair.link1) > 0 || (!pair.obstacle && finer.count(pair.link2) > 0)) changed.insert(pair);
   return changed;
 }
 

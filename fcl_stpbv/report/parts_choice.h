@@ -38,8 +38,9 @@ class PartsChoice {
   /// pairs.
   PartsChoice(PartsScene scene, const GeometryOptions& options, bool everyPair);
 
-  /// Splits the links of these pairs as far as clears them. Whether more parts were found to help.
-  bool refine(const std::vector<PartsCandidate>& candidates);
+  /// Splits the links of these pairs as far as clears them.
+  /// @return the pairs whose parts are others now; none where no split was found to help
+  std::set<LinkPair> refine(const std::vector<PartsCandidate>& candidates);
 
   /// Splits every concave link into at most `most` parts.
   void splitAll(int most);

@@ -34,7 +34,7 @@ Posture PostureParts::find(PostureSetup& setup, const PostureOptions& options) {
   Posture posture = findPosture(setup, options);
   constexpr int kMostRefinements = 3;  // two, four and eight parts
   for (int k = 0; task_.partsAuto && !posture.feasible && k < kMostRefinements; ++k) {
-    if (!choice_.refine(inTheWay(setup, posture.q))) break;
+    if (choice_.refine(inTheWay(setup, posture.q)).empty()) break;
     use(choice_.geometry());
     setup = setUp(task_, scene_);
     posture = findPosture(setup, options);

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "fcl_stpbv/error.h"
 #include "fcl_stpbv/io/text_scanner.h"
 #include "fcl_stpbv/report/digest.h"
 #include "fcl_stpbv/report/formatted.h"
@@ -57,6 +58,11 @@ struct Inputs {
 
 Inputs inputsOf(const RobotConversion& conversion) {
   const RobotFiles& files = conversion.report.files;
+  for (const std::string& path : {files.urdf, files.srdf, files.obstacles}) {
+    std::error_code ignored;
+    if (path == "-" || (fs::exists(path, ignored) && !fs::is_regular_file(path, ignored)))
+      throw Error(path + ": is no regular file, and it is read more than once; save it as one first");
+  }
   RobotLoader loader(files);
   loader.read();
   loader.faults().refuse(files.skipInvalid);

@@ -19,6 +19,7 @@
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/number_check.h"
 #include "fcl_stpbv/robot/adjacency.h"
+#include "fcl_stpbv/robot/pair_list_again.h"
 #include "fcl_stpbv/robot/pair_proof.h"
 #include "fcl_stpbv/robot/pair_samples.h"
 #include "fcl_stpbv/robot/pair_search.h"
@@ -46,15 +47,25 @@ class Search {
                   std::to_string(kinematics_->size()) + " coordinates");
   }
 
-  std::vector<PairEntry> run(const Srdf* srdf) {
+  // `before`, null for none: entries to keep for pairs that are not among `changed`.
+  std::vector<PairEntry> run(const Srdf* srdf, const std::vector<PairEntry>* before = nullptr,
+                             const std::set<LinkPair>& changed = {}) {
     enumerate(srdf);
+    std::vector<PairEntry*> fresh;
+    for (std::size_t e = 0; e < list_.size(); ++e) {
+      isFresh_.push_back(!before || changed.count(list_[e]) > 0);
+      if (isFresh_.back())
+        fresh.push_back(&list_[e]);
+      else
+        list_[e] = (*before)[e];
+    }
     PairSampler all = sampler([](const PairEntry&) { return true; });
     const Eigen::VectorXd least = all.distances(neutral_);
-    for (std::size_t e = 0; e < list_.size(); ++e)
-      list_[e].neutralDistance = list_[e].minDistance = least[static_cast<Eigen::Index>(e)];
+    for (std::size_t e = 0; e < fresh.size(); ++e)
+      fresh[e]->neutralDistance = fresh[e]->minDistance = least[static_cast<Eigen::Index>(e)];
     sample();
     prove();
-    for (PairEntry& entry : list_) propose(entry);
+    for (PairEntry* entry : fresh) propose(*entry);
     return std::move(list_);
   }
 
@@ -97,11 +108,12 @@ class Search {
         if (!none(i) && moves(robot, i, kinematics_->baseMoves())) add({i, o, true}, PairReason::sometimes);
   }
 
+  // Of those wanted among the fresh ones.
   template <class Wanted>
   PairSampler sampler(Wanted wanted) const {
     std::vector<LinkPair> pairs;
-    for (const PairEntry& entry : list_)
-      if (wanted(entry)) pairs.push_back(entry);
+    for (std::size_t e = 0; e < list_.size(); ++e)
+      if (isFresh_[e] && wanted(list_[e])) pairs.push_back(list_[e]);
     return PairSampler(kinematics_, geometry_, pairs, options_.obstacles, options_.threads);
   }
 
@@ -114,8 +126,8 @@ class Search {
   // The pairs that the tree left open are judged by samples; those found clear go on to descents and proofs.
   void sample() {
     std::vector<PairEntry*> open;
-    for (PairEntry& entry : list_)
-      if (entry.reason == PairReason::sometimes) open.push_back(&entry);
+    for (std::size_t e = 0; e < list_.size(); ++e)
+      if (isFresh_[e] && list_[e].reason == PairReason::sometimes) open.push_back(&list_[e]);
     PairSampler random = sampler([](const PairEntry& e) { return e.reason == PairReason::sometimes; });
     const std::vector<PairSamples> found =
         random.sample(options_.samples, options_.seed, options_.margin, options_.descents,
@@ -239,6 +251,7 @@ class Search {
   const PairListOptions& options_;
   Eigen::VectorXd neutral_;
   std::vector<PairEntry> list_;
+  std::vector<char> isFresh_;  // for each entry, whether it is searched
   ProofScene scene_;
   std::vector<Open> open_;
 };
@@ -277,6 +290,18 @@ void requireRoomForPairs(const Kinematics& kinematics, const RobotGeometry& geom
               std::to_string(geometry.bodies.size()) + " bodies and " + std::to_string(obstacles) +
               " obstacles do not fit into memory (4 GB); give fewer collision shapes");
 }
+
+namespace detail {
+
+std::vector<PairEntry> pairListAgain(std::shared_ptr<const Kinematics> kinematics,
+                                     std::shared_ptr<const RobotGeometry> geometry, const Srdf* srdf,
+                                     const PairListOptions& options, const std::vector<PairEntry>& before,
+                                     const std::set<LinkPair>& changed) {
+  requireRoomForPairs(*kinematics, *geometry, options.obstacles.size());
+  return Search(std::move(kinematics), std::move(geometry), options).run(srdf, &before, changed);
+}
+
+}  // namespace detail
 
 std::vector<PairEntry> pairList(std::shared_ptr<const Kinematics> kinematics,
                                 std::shared_ptr<const RobotGeometry> geometry, const Srdf* srdf,

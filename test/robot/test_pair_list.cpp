@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <set>
 
 #include "fcl_stpbv/robot/neutral_posture.h"
 #include "fcl_stpbv/robot/pair_list.h"
+#include "fcl_stpbv/robot/pair_list_again.h"
 #include "fcl_stpbv/robot/pair_search.h"
 #include "test/reference/robots.h"
 #include "test/reference/shapes.h"
@@ -145,6 +147,38 @@ TEST_CASE("what is proven never stays apart in samples and descents of another s
       }
     }
     CHECK(proven >= 10);
+  }
+}
+
+TEST_CASE("pairs that are searched again come out as in a search of all, the others are kept as they were") {
+  LoadedRobot loaded = load(robots()[0]);
+  const Arm arm = armFrom(loaded.model, std::move(loaded.geometry));
+  PairListOptions options;
+  options.samples = 30;
+  options.randomDescents = 5;
+  const std::vector<PairEntry> all = pairList(arm.kinematics, arm.geometry, nullptr, options);
+  std::vector<PairEntry> before = all;
+  std::set<LinkPair> changed;
+  for (std::size_t e = 0; e < all.size(); ++e) {
+    if (e % 3 != 0) continue;
+    before[e].reason = PairReason::user;  // what a search would not give here
+    before[e].minDistance = before[e].security = 1e9;
+    before[e].closest = Eigen::VectorXd();
+    if (e % 2 == 0) changed.insert(all[e]);
+  }
+  const std::vector<PairEntry> again =
+      pairListAgain(arm.kinematics, arm.geometry, nullptr, options, before, changed);
+  REQUIRE(again.size() == all.size());
+  REQUIRE(changed.size() > 2);
+  for (std::size_t e = 0; e < all.size(); ++e) {
+    const PairEntry& expected = changed.count(all[e]) > 0 ? all[e] : before[e];
+    CHECK(again[e].reason == expected.reason);
+    CHECK(again[e].minDistance == expected.minDistance);
+    CHECK(again[e].collisions == expected.collisions);
+    CHECK(again[e].closest == expected.closest);
+    CHECK(again[e].neutralDistance == expected.neutralDistance);
+    CHECK(again[e].security == expected.security);
+    CHECK(again[e].boxes == expected.boxes);
   }
 }
 

@@ -230,6 +230,7 @@ class Conversion(unittest.TestCase):
         urdf = self.gate()
         sound = urdf.read_text()
         self.refused(self.run_tool(self.place / "none.urdf", "-o", self.out), "none.urdf")
+        self.refused(self.run_tool("-", "-o", self.out, input=sound), "-: is no regular file")
         for change, says in ((lambda t: t.replace("fork.obj", "spoon.obj"), "spoon.obj"),
                              (lambda t: t.replace('lower="-1"', 'lower="x"'), "gate.urdf"), (lambda t: t[:600], "gate.urdf")):
             urdf.write_text(change(sound))
