@@ -104,6 +104,9 @@ class BodyPair {
   /// by (m).
   double certificateRounding() const { return certificateRounding_; }
 
+  /// How far a core point may lie beside the point that its normal touches (m).
+  double acrossRounding() const { return acrossRounding_; }
+
   /// Cores nearer than this all but touch: a patch reaches past its boundary by the rounding of a normal,
   /// `rho` times that in metres, which is a part of the gap and turns the normal by as much. What starts from
   /// the vertices, which do not reach past theirs, is safe from it (m).

@@ -151,6 +151,20 @@ bool walkFeatures(const BodyPair& pair, const SearchStart& start, Sample& x, Sea
   return false;
 }
 
+/// No gap of the cores is wider than this (m): the distance of the two core points, or what the search of
+/// overlapping cores has proven. A normal is good to an ulp, so a core point may lie beside its body, along
+/// the surface, by as much as `acrossRounding`. Cores apart by far more do not feel it.
+inline double mostGap(const BodyPair& pair, const WidestGap& found) {
+  const Sample& at = found.at;
+  const double beside = pair.acrossRounding();
+  if (found.status == DistanceStatus::local)
+    return std::max(found.bound, at.core) + (at.core > -pair.touching() ? beside : 0.0);
+  const double across2 = at.across.squaredNorm(), beside2 = beside * beside;
+  if (across2 <= beside2)  // (|across| + beside)^2 is less
+    return std::sqrt(at.core * at.core + across2 + 3.0 * beside2);
+  return std::hypot(at.core, std::sqrt(across2) + beside);
+}
+
 }  // namespace
 
 FCL_STPBV_VECTORIZED
@@ -174,9 +188,7 @@ Distance distance(const StpBv& a, const Isometry3d& poseA, const StpBv& b, const
 
   const Sample& at = found.at;
   result.status = found.status;
-  const double upper = found.status == DistanceStatus::local
-                           ? std::max(found.bound, at.core)
-                           : std::sqrt(at.core * at.core + at.across.squaredNorm());
+  const double upper = mostGap(pair, found);
   result.distance = at.core - pair.margins();
   result.lower = result.distance - pair.certificateRounding();
   result.upper = upper - pair.margins() + 2.0 * pair.certificateRounding();

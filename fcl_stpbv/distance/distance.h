@@ -15,8 +15,8 @@ enum class DistanceStatus {
   exact,    ///< the signed distance to rounding: separated, touching, or penetrating by at most r1 + r2
   local,    ///< deeper: a locally best separating translation; the true value lies in [lower, upper]
   bounded,  ///< not solved to rounding; the true value lies in [lower, upper]
-  invalid,  ///< a pose is no rigid motion, each entry of its rotation to 1e-6; bounds are infinite,
-            ///< everything else is zero
+  invalid,  ///< a pose is no rigid motion, each entry of its rotation to 1e-6, or is 1e150 m away; bounds
+            ///< are infinite, everything else is zero
 };
 
 /// [linear; angular] derivative with respect to a body's twist about the body's origin, world axes.
@@ -31,7 +31,7 @@ struct Distance {
   double lower = -std::numeric_limits<double>::infinity();
   /// Certified: from the distance of the cores' points, or how deep they are at least, rounded up. Both
   /// bounds are rounded by more than arithmetic can be off, so `lower <= truth <= upper` holds as it stands
-  /// (docs/theory.md, 5).
+  /// (docs/theory.md, 5). They are apart by roundings of the size, or of R where the cores all but touch.
   double upper = std::numeric_limits<double>::infinity();
   Eigen::Vector3d normal{0, 0, 0};  ///< unit, from body 1 to body 2
   std::array<Eigen::Vector3d, 2> point{Eigen::Vector3d(0, 0, 0),

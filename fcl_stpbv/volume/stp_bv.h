@@ -44,15 +44,13 @@ class StpBv {
 
   /// Rolls a ball of radius `R - r` over the cloud (paper IV.A, Algorithm 1). Points that it cannot touch are
   /// inside and drop out; cospherical ones share one k-gon face.
-  /// @throws Error for an empty cloud, a coordinate that is not finite, r < 0, R <= r, or R below the
-  /// smallest
-  ///   usable one, which the message states.
+  /// @throws Error for an empty cloud, a coordinate that is not finite, r < 0, R <= r, R below the smallest
+  /// usable one, and R so large that faces are flat to rounding; the message states the usable one.
   static Ptr build(const std::vector<Eigen::Vector3d>& points, const StpBvOptions& options = {});
 
   /// Puts a volume together from its own vertices and faces, as a file holds them.
   /// @throws Error where they are not an STP-BV's for these radii: an index out of range, faces that do not
-  /// close, or a
-  ///   vertex outside a face's ball.
+  /// close, or a vertex outside a face's ball.
   static Ptr assemble(std::vector<Eigen::Vector3d> vertices, std::vector<Ring> faces,
                       const StpBvOptions& options);
 

@@ -1,5 +1,6 @@
 """The Python module: arrays in and out, files, errors, a robot's constraints against differences."""
 import copy
+import functools
 import math
 import os
 import pathlib
@@ -46,12 +47,12 @@ def test_the_gradient_is_what_differences_say():
 
 
 def test_advised_radii_keep_the_clearance_and_say_what_else_they_reach():
-    task = dict(acceleration=2.0, speed=0.15, turning=0.5, distance=0.01)
-    advice = fcl_stpbv.advise_radii(BOX, clearance=0.02, **task)
+    advise = functools.partial(fcl_stpbv.advise_radii, BOX, acceleration=2.0, speed=0.15, turning=0.5, distance=0.01)
+    advice = advise(clearance=0.02)
     volume = fcl_stpbv.StpBv.build(BOX, advice.r, advice.R)
     assert advice.meets_both and advice.acceleration <= 2
     assert volume.over_cover()[0] == advice.over_cover <= 0.02 - advice.per_period
-    less = fcl_stpbv.advise_radii(BOX, clearance=0.5 * advice.least_clearance, **task)
+    less = advise(clearance=0.5 * advice.least_clearance)
     assert not less.meets_both and less.acceleration > 2 and less.over_cover <= 0.5 * advice.least_clearance
     assert less.least_clearance == advice.least_clearance
     with pytest.raises(fcl_stpbv.Error, match="clearance"):
