@@ -23,7 +23,7 @@ struct RadiiTask {
 
 /// The radii and what they reach.
 struct RadiiAdvice {
-  StpBvOptions radii;
+  StpBvOptions radii;  ///< r and R (m)
   /// Whether they keep both promises: then r is the least that does, and R the smallest that the clearance
   /// takes. If not they have the least acceleration of all that keep the clearance.
   bool meetsBoth;

@@ -1,5 +1,6 @@
 """Runs the jobs of a batch: one after the other here, or on a Dask cluster. What comes out is the same."""
 import collections
+import concurrent.futures
 import contextlib
 import json
 import os
@@ -100,7 +101,7 @@ def connected(scheduler, workers):
                                   "start one with dask-scheduler") from None
         try:
             yield client
-        except distributed.comm.CommClosedError:  # asked while it went
+        except (distributed.comm.CommClosedError, concurrent.futures.CancelledError):  # asked while it went
             raise Stopped("the Dask scheduler is gone") from None
 
 
@@ -124,6 +125,9 @@ def run_on(client, schedule, show):
                 done.add(future)
         show(len(schedule.results.jobs), len(jobs) + len(schedule.ready))
         future = next(done)
+        if future.status in ("lost", "pending"):  # its worker died with the result, which is computed again
+            done.add(future)
+            continue
         group, key = jobs.pop(future.key)
         if future.status == "finished":
             schedule.finish(group, key, *future.result())
