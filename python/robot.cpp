@@ -1,4 +1,5 @@
 // A robot's collision constraints in Python.
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <string>
@@ -6,7 +7,7 @@
 #include <vector>
 
 #include "fcl_stpbv/error.h"
-#include "fcl_stpbv/robot/constraints.h"
+#include "fcl_stpbv/robot/batch.h"
 #include "fcl_stpbv/robot/smooth_pairs.h"
 #include "parts.h"
 
@@ -26,6 +27,9 @@ BaseMotion baseMotion(const std::string& name) {
 class PythonRobot {
  public:
   using Given = Floats<Eigen::VectorXd>;
+  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;  // NumPy's order
+  using GivenRows = Floats<Rows>;
+  using Verdicts = Eigen::Array<bool, Eigen::Dynamic, 1>;
 
   PythonRobot(const Path& urdf, const std::optional<Path>& srdf, double r, double R, const std::string& base,
               const std::vector<Path>& packagePath, double influence) {
@@ -43,6 +47,7 @@ class PythonRobot {
     ConstraintOptions constraintOptions;
     constraintOptions.influence = influence;
     constraints_ = std::make_unique<CollisionConstraints>(kinematics_, geometry, pairs, constraintOptions);
+    if (!pairs.empty()) checker_ = std::make_unique<CollisionChecker>(kinematics_, geometry, pairs);
   }
 
   const Kinematics& kinematics() const { return *kinematics_; }
@@ -69,6 +74,51 @@ class PythonRobot {
     constraints_->evaluate(q, d, jacobian);
     return {std::move(d), std::move(jacobian)};
   }
+  bool collides(const Given& given, double margin) {
+    const Eigen::VectorXd& q = checked(given, "q", kinematics_->size());
+    return checker(margin).collides(q);
+  }
+  py::object firstHit(const Given& given, double margin) {
+    const Eigen::VectorXd& q = checked(given, "q", kinematics_->size());
+    const std::optional<Hit> hit = checker(margin).firstHit(q);
+    if (!hit) return py::none();
+    if (hit->pair < 0) throw Error("q: its links are too far away to be placed");
+    return py::int_(hit->pair);
+  }
+  double minDistance(const Given& given) {
+    const Eigen::VectorXd& q = checked(given, "q", kinematics_->size());
+    return checker(0).minDistance(q);
+  }
+
+  Verdicts collidesMany(const GivenRows& given, double margin, bool path, int threads) {
+    const Rows& q = checkedRows(given);
+    Verdicts hit(q.rows());
+    CheckerBatch batch(checker(margin), threads);
+    const py::gil_scoped_release others;
+    batch.collides(q.transpose(), sequenceOf(path), hit);
+    return hit;
+  }
+  std::pair<Rows, py::array_t<double>> evaluateMany(const GivenRows& given, bool path, int threads) {
+    const Rows& q = checkedRows(given);
+    Rows d(q.rows(), rows());
+    Rows values(q.rows(), constraints_->nonZeros());
+    py::array_t<double> jacobian({q.rows(), static_cast<Eigen::Index>(rows()), q.cols()});
+    double* const dense = jacobian.mutable_data();
+    ConstraintsBatch batch(*constraints_, threads);
+    const py::gil_scoped_release others;
+    batch.evaluateValues(q.transpose(), sequenceOf(path), d.transpose(), values.transpose());
+    spread(values, q.cols(), dense);
+    return {std::move(d), std::move(jacobian)};
+  }
+  Rows distancesMany(const GivenRows& given, bool path, int threads) {
+    const Rows& q = checkedRows(given);
+    Rows d(q.rows(), rows());
+    ConstraintsBatch batch(*constraints_, threads);
+    const py::gil_scoped_release others;
+    batch.evaluate(q.transpose(), sequenceOf(path), d.transpose());
+    return d;
+  }
+
   py::tuple rates(const Given& givenQ, const Given& givenQd) {
     const Eigen::VectorXd &q = checked(givenQ, "q", kinematics_->size()),
                           &qd = checked(givenQd, "qd", kinematics_->size());
@@ -101,9 +151,35 @@ class PythonRobot {
     return given.value;
   }
 
+  const Rows& checkedRows(const GivenRows& given) const {
+    const Rows& q = given.value;
+    if (q.cols() != kinematics_->size())
+      throw Error("q: got rows of " + std::to_string(q.cols()) + " numbers, expected " +
+                  std::to_string(kinematics_->size()));
+    requireFinite(q, "q");
+    return q;
+  }
+  static Sequence sequenceOf(bool path) { return path ? Sequence::path : Sequence::independent; }
+  CollisionChecker& checker(double margin) {
+    if (!checker_) throw Error("no pair of bodies is checked, so that nothing can be said about collisions");
+    checker_->setMargin(margin);
+    return *checker_;
+  }
+  /// The entries of each J in their places among zeros.
+  void spread(const Rows& values, Eigen::Index columns, double* dense) const {
+    const Eigen::Index size = rows() * columns;
+    std::fill(dense, dense + values.rows() * size, 0.0);
+    const std::vector<int>&start = constraints_->rowStart(), &column = constraints_->columnIndices();
+    for (Eigen::Index i = 0; i < values.rows(); ++i, dense += size)
+      for (int row = 0; row < rows(); ++row)
+        for (int k = start[static_cast<std::size_t>(row)]; k < start[static_cast<std::size_t>(row) + 1]; ++k)
+          dense[row * columns + column[static_cast<std::size_t>(k)]] = values(i, k);
+  }
+
   Srdf srdf_;
   std::shared_ptr<const Kinematics> kinematics_;
   std::unique_ptr<CollisionConstraints> constraints_;
+  std::unique_ptr<CollisionChecker> checker_;  // null where no pair is checked
 };
 
 }  // namespace
@@ -128,6 +204,18 @@ void addRobot(py::module_& module) {
            "q of one of the SRDF's group states.")
       .def("distances", &PythonRobot::distances, py::arg("q"), "d(q), one row a pair (m).")
       .def("evaluate", &PythonRobot::evaluate, py::arg("q"), "(d(q), J(q)), J dense, a row a pair.")
+      .def("collides", &PythonRobot::collides, py::arg("q"), py::kw_only(), py::arg("margin") = 0.0,
+           "Whether any pair is not proven to be farther apart than margin (m).")
+      .def("first_hit", &PythonRobot::firstHit, py::arg("q"), py::kw_only(), py::arg("margin") = 0.0,
+           "Such a pair, an index into rows; None where all are clear.")
+      .def("min_distance", &PythonRobot::minDistance, py::arg("q"), "Least of all pairs (m).")
+      .def("collides_many", &PythonRobot::collidesMany, py::arg("q"), py::kw_only(), py::arg("margin") = 0.0,
+           py::arg("path") = false, py::arg("threads") = 1,
+           "collides() for each row of q. path: the rows are small steps along one path.")
+      .def("distances_many", &PythonRobot::distancesMany, py::arg("q"), py::kw_only(),
+           py::arg("path") = false, py::arg("threads") = 1, "d for each row of q: (N, rows).")
+      .def("evaluate_many", &PythonRobot::evaluateMany, py::arg("q"), py::kw_only(), py::arg("path") = false,
+           py::arg("threads") = 1, "(d, J) for each row of q: (N, rows) and (N, rows, coordinates).")
       .def("rates", &PythonRobot::rates, py::arg("q"), py::arg("qd"),
            "(d, J, dd/dt, qd' H qd): how each distance changes while q moves with velocity qd; H is its "
            "Hessian.")

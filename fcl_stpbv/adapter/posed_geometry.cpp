@@ -32,6 +32,12 @@ Isometry3d between(const Isometry3d& pose1, const Isometry3d& pose2) {
 
 }  // namespace
 
+bool isConvex(const fcl::CollisionGeometryd& geometry, ConvexBody& body) {
+  const PosedGeometry still(geometry, Isometry3d::Identity(), Isometry3d::Identity());
+  if (still.isBody()) body = still.body();
+  return still.isBody();
+}
+
 Distance distance(const ConvexBody& a, const ConvexBody& b, PairCache* cache) {
   if (a.volume && b.volume) return distance(*a.volume, a.pose, *b.volume, b.pose, cache);
   if (a.volume) return distance(*a.volume, a.pose, b.shape, b.pose, cache);

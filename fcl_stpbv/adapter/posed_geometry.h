@@ -34,6 +34,9 @@ struct ConvexBody {
   }
 };
 
+/// Whether the geometry is one valid convex body, and if so that body, without a pose.
+bool isConvex(const fcl::CollisionGeometryd& geometry, ConvexBody& body);
+
 /// Signed distance of two bodies; the cache serves pairs with an STP-BV.
 Distance distance(const ConvexBody& a, const ConvexBody& b, PairCache* cache = nullptr);
 

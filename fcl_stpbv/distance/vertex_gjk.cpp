@@ -60,7 +60,7 @@ class VertexDifference {
 }  // namespace
 
 FCL_STPBV_VECTORIZED
-VertexGjk vertexGjk(const BodyPair& pair, const Vector3d& n) {
+VertexGjk vertexGjk(const BodyPair& pair, const Vector3d& n, double level) {
   using Corner = VertexDifference::Corner;
   constexpr int kSteps = 20;
   constexpr double kGap =
@@ -76,13 +76,16 @@ VertexGjk vertexGjk(const BodyPair& pair, const Vector3d& n) {
   start.add(corner(i, j));
   start.add(corner(pair.tablesA().graph.beside(i, n.cast<float>(), 1.0f), j));
   start.add(corner(i, pair.tablesB().graph.beside(j, pair.opposite(n).cast<float>(), 1.0f)));
-  const auto found = gjk(difference, start, n, kRounding, kSteps,
-                         [](double lower, double upper) { return upper - lower <= kGap * upper; });
+  const auto enough = [level](double lower, double upper) {
+    return upper - lower <= kGap * upper || upper <= level || lower > level;
+  };
+  const auto found = gjk(difference, start, n, kRounding, kSteps, enough);
   VertexGjk result;
   result.vertex = difference.vertex();
   result.n = found.n;
   const bool overlap = found.verdict == GjkResult<Corner>::Verdict::overlap;
   result.apart = !overlap;
+  result.nearest = overlap ? 0.0 : found.upper;
   result.surrounded = overlap && found.simplex.size == 4;
   if (result.surrounded)
     for (std::size_t k = 0; k < 4; ++k) result.corner[k] = found.simplex.corner[k].w;

@@ -1,6 +1,8 @@
 // A normal near the answer's, from the bodies' vertices alone: GJK on the two point sets.
 #pragma once
 
+#include <limits>
+
 #include "fcl_stpbv/distance/body_pair.h"
 
 namespace fcl_stpbv::detail {
@@ -10,17 +12,19 @@ struct VertexGjk {
   bool apart = false;       ///< a gap, widest along `n`
   bool surrounded = false;  ///< four points of the difference, second set minus first, with the origin inside
   Eigen::Vector3d n{0, 0, 0};
+  double nearest = 0;                     ///< at least as near are two points of the sets' hulls (m)
   std::array<int, 2> vertex{0, 0};        ///< last support vertices
   std::array<Eigen::Vector3d, 4> corner;  ///< set where `surrounded`
 };
 
 /// Unit normal of the widest gap between the two point sets: the paper's first step (IV.B), by GJK
 /// (convex/gjk.h). Starts from the normal `n`. A hint only: it may be off where the STP-BV's own
-/// triangulation is not convex.
+/// triangulation is not convex. Stops as soon as the gap is known to be above `level` (m) or not above it.
 ///
 /// The normal of a polyhedral witness falls into the region of the smooth patch of the same name: an edge's
 /// cone is centred on the plane across it, a face's region holds its plane's normal (paper IV.C, IV.D).
-VertexGjk vertexGjk(const BodyPair& pair, const Eigen::Vector3d& n);
+VertexGjk vertexGjk(const BodyPair& pair, const Eigen::Vector3d& n,
+                    double level = std::numeric_limits<double>::quiet_NaN());
 
 /// A point of the second core less one of the first, about as far against the unit vector `n` as any: the
 /// difference of two vertices.

@@ -277,7 +277,7 @@ CollisionReport makeReport(const ReportRequest& request) {
   const auto tick = [&](const std::shared_ptr<const RobotGeometry>& geometry,
                         const std::vector<CheckedPair>& rows, double handOver) {
     return tickCost(report, geometry, rows, postures.asked.value_or(report.kinematics->neutral()),
-                    search.threads, handOver);
+                    handOver);
   };
   constexpr double kNever = std::numeric_limits<double>::infinity();
   report.usPerTick = tick(report.geometry, closestBodies(report), kNever).usPerTick;

@@ -27,12 +27,11 @@ std::vector<CheckedPair> closestBodies(const CollisionReport& report) {
 }
 
 RowCost tickCost(const CollisionReport& report, std::shared_ptr<const RobotGeometry> geometry,
-                 const std::vector<CheckedPair>& rows, Eigen::VectorXd q, int threads, double handOver) {
+                 const std::vector<CheckedPair>& rows, Eigen::VectorXd q, double handOver) {
   constexpr int kTicks = 300;
   constexpr double kStep = 1e-3;  // rad or m
   ConstraintOptions options;
   options.obstacles = report.obstacles;
-  options.threads = threads;
   options.handOver = handOver;
   CollisionConstraints constraints(report.kinematics, std::move(geometry), rows, options);
   Eigen::VectorXd d(constraints.rows()), values(constraints.nonZeros());

@@ -8,7 +8,7 @@ namespace fcl_stpbv::report {
 /// Rows with their Jacobian, in small steps around `q`, everything warm; the time is a median. `handOver` as
 /// in ConstraintOptions.
 RowCost tickCost(const CollisionReport& report, std::shared_ptr<const RobotGeometry> geometry,
-                 const std::vector<CheckedPair>& rows, Eigen::VectorXd q, int threads, double handOver);
+                 const std::vector<CheckedPair>& rows, Eigen::VectorXd q, double handOver);
 
 /// The closest bodies of each checked pair.
 std::vector<CheckedPair> closestBodies(const CollisionReport& report);

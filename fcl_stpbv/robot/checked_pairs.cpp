@@ -28,6 +28,23 @@ Obstacle obstacleOf(const fcl::CollisionObjectd& object, const std::string& name
           nullptr};
 }
 
+std::string nameOf(const CheckedPair& pair, const RobotGeometry& geometry,
+                   const std::vector<Obstacle>& obstacles) {
+  const auto other = static_cast<std::size_t>(pair.other);
+  return geometry.bodies[static_cast<std::size_t>(pair.body)].name + " - " +
+         (pair.obstacle ? obstacles[other].name : geometry.bodies[other].name);
+}
+
+void requireBodies(const CheckedPair& pair, const RobotGeometry& geometry, std::size_t obstacles,
+                   const std::string& who) {
+  const auto exists = [](int index, std::size_t count) {
+    return index >= 0 && static_cast<std::size_t>(index) < count;
+  };
+  if (!exists(pair.body, geometry.bodies.size()) ||
+      !exists(pair.other, pair.obstacle ? obstacles : geometry.bodies.size()))
+    throw Error(who + ": a pair names a body or an obstacle that does not exist");
+}
+
 std::vector<Obstacle> obstaclesOf(std::shared_ptr<const RobotModel> scene, const RobotGeometry& geometry) {
   const Kinematics kinematics(std::move(scene));
   Kinematics::State state = kinematics.makeState();

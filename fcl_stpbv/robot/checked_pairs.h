@@ -33,6 +33,14 @@ struct Obstacle {
 /// An FCL object as an obstacle, where it stands now.
 Obstacle obstacleOf(const fcl::CollisionObjectd& object, const std::string& name);
 
+/// The names of a pair's bodies.
+std::string nameOf(const CheckedPair& pair, const RobotGeometry& geometry,
+                   const std::vector<Obstacle>& obstacles);
+
+/// @throws Error, as `who`, for a pair that names a body or an obstacle that does not exist.
+void requireBodies(const CheckedPair& pair, const RobotGeometry& geometry, std::size_t obstacles,
+                   const std::string& who);
+
 /// The bodies of a scene's URDF, its joints at their neutral values.
 std::vector<Obstacle> obstaclesOf(std::shared_ptr<const RobotModel> scene, const RobotGeometry& geometry);
 

@@ -11,12 +11,9 @@
 #include <limits>
 
 #include "fcl_stpbv/error.h"
-#include "fcl_stpbv/robot/constraints_threads.h"
 
 namespace fcl_stpbv {
 namespace {
-
-using namespace detail;
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
@@ -57,11 +54,7 @@ CollisionConstraints::CollisionConstraints(std::shared_ptr<const Kinematics> kin
   change_.resize(nonZeros());
   otherChange_.resize(nonZeros());
   moved_.resize(columns());
-  pool_ = std::make_unique<WorkerPool>(std::max(1, options_.threads));
 }
-
-CollisionConstraints::CollisionConstraints(CollisionConstraints&&) noexcept = default;
-CollisionConstraints::~CollisionConstraints() = default;
 
 void CollisionConstraints::leaveOutReplaced() {
   const RobotModel& robot = kinematics_->robot();
@@ -82,10 +75,7 @@ void CollisionConstraints::leaveOutReplaced() {
 }
 
 void CollisionConstraints::addPair(const CheckedPair& pair) {
-  const std::size_t others = pair.obstacle ? options_.obstacles.size() : geometry_->bodies.size();
-  if (pair.body < 0 || at(pair.body) >= geometry_->bodies.size() || pair.other < 0 ||
-      at(pair.other) >= others)
-    throw Error("CollisionConstraints: a pair names a body or an obstacle that does not exist");
+  requireBodies(pair, *geometry_, options_.obstacles.size(), "CollisionConstraints");
   const Body& body = geometry_->bodies[at(pair.body)];
   const StpBvGeometry* first = asStpBv(body.geometry.get());
   const StpBvGeometry* other = asStpBv(&second(pair));
@@ -156,9 +146,7 @@ const fcl::CollisionGeometryd& CollisionConstraints::second(const CheckedPair& p
 
 std::string CollisionConstraints::name(int row) const {
   if (at(row) >= pairs_.size()) return options_.smooth[at(row) - pairs_.size()].name;
-  const CheckedPair& pair = pairs_[at(row)];
-  return geometry_->bodies[at(pair.body)].name + " - " +
-         (pair.obstacle ? options_.obstacles[at(pair.other)].name : geometry_->bodies[at(pair.other)].name);
+  return nameOf(pairs_[at(row)], *geometry_, options_.obstacles);
 }
 
 CollisionConstraints::SparseJacobian CollisionConstraints::makeJacobian() const {
@@ -262,18 +250,27 @@ void CollisionConstraints::nothingKnown(double* d, double* values) {
 }
 
 bool CollisionConstraints::compute(const ConstVector& q, double* d, double* values) {
+  const bool known = computePairs(q, d, values);
+  if (known) computeSmooth(q, d, values);
+  return known;
+}
+
+bool CollisionConstraints::computePairs(const ConstVector& q, double* d, double* values) {
   if (!q.allFinite()) {
     nothingKnown(d, values);
     return false;
   }
   place(q);
   moving_ = false;
-  eachPair([&](std::size_t row) { d[row] = pairRow(row, values); });
+  for (std::size_t row = 0; row < pairs_.size(); ++row) d[row] = pairRow(row, values);
+  return true;
+}
+
+void CollisionConstraints::computeSmooth(const ConstVector& q, double* d, double* values) const {
   for (std::size_t i = 0; i < options_.smooth.size(); ++i) {
     const std::size_t row = pairs_.size() + i;
     d[row] = options_.smooth[i].value(q, values ? values + rowStart_[row] : nullptr);
   }
-  return true;
 }
 
 void CollisionConstraints::spread(Eigen::Ref<Eigen::MatrixXd> jacobian) const {

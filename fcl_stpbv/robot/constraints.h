@@ -17,10 +17,6 @@
 
 namespace fcl_stpbv {
 
-namespace detail {
-class WorkerPool;
-}
-
 /// A smooth function of some coordinates that stands for pairs whose hulls would be too fat, as around a hip
 /// or a shoulder (paper VI: 8 of its 117 constraints).
 struct SmoothConstraint {
@@ -48,7 +44,6 @@ struct ConstraintOptions {
   double handOver = std::numeric_limits<double>::infinity();
   std::vector<Obstacle> obstacles;       ///< that pairs may name
   std::vector<SmoothConstraint> smooth;  ///< rows after those of the pairs
-  int threads = 1;                       ///< that share the rows
 };
 
 /// What a controller asks for at every tick, row by row.
@@ -68,7 +63,7 @@ struct RowAnswer : DistanceAnswer {
 
 /// d(q) and J(q): one row per pair of bodies, then one per smooth constraint. Each row starts its query from
 /// its last answer. One thread at a time may use one; no allocation after construction where every pair is of
-/// STP-BVs.
+/// STP-BVs. ConstraintsBatch (batch.h) has threads, and a copy shares the robot and nothing else.
 ///
 /// J is the paper's eq. 2 with the velocities of the witness points taken as fixed to their bodies; the
 /// motions of Kinematics are its pre-gradient matrices, put together once per configuration for all pairs.
@@ -83,10 +78,6 @@ class CollisionConstraints {
   CollisionConstraints(std::shared_ptr<const Kinematics> kinematics,
                        std::shared_ptr<const RobotGeometry> geometry, std::vector<CheckedPair> pairs,
                        ConstraintOptions options = {});
-  /// Takes over all that the other one has; the other one may only be destroyed.
-  CollisionConstraints(CollisionConstraints&&) noexcept;
-  ~CollisionConstraints();
-
   /// Number of rows: one per pair, then one per smooth constraint.
   int rows() const { return static_cast<int>(rowStart_.size()) - 1; }
   /// Number of coordinates.
@@ -160,6 +151,7 @@ class CollisionConstraints {
   void forget();
 
  private:
+  friend class ConstraintsBatch;
   struct Term {
     int motion;
     int side;  // 0: it carries the first body, 1: the second
@@ -188,9 +180,9 @@ class CollisionConstraints {
   const fcl::CollisionGeometryd& second(const CheckedPair& pair) const;
   void place(const ConstVector& q);
   void askWhole();
-  template <class Work>
-  void eachPair(const Work& work);
   bool compute(const ConstVector& q, double* d, double* values);
+  bool computePairs(const ConstVector& q, double* d, double* values);
+  void computeSmooth(const ConstVector& q, double* d, double* values) const;
   void nothingKnown(double* d, double* values);
   void spread(Eigen::Ref<Eigen::MatrixXd> jacobian) const;
   Witness ask(std::size_t row);
@@ -231,7 +223,6 @@ class CollisionConstraints {
   Eigen::VectorXd values_, change_, otherChange_, moved_;
   std::vector<Kinematics::Rate> alongEach_;  // at a unit velocity of each coordinate, for hessian()
   std::vector<char> open_;                   // rows whose change is left to differences
-  std::unique_ptr<detail::WorkerPool> pool_;
 };
 
 }  // namespace fcl_stpbv

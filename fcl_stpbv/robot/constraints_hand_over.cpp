@@ -10,7 +10,7 @@
 #include <map>
 #include <tuple>
 
-#include "fcl_stpbv/robot/constraints_threads.h"
+#include "fcl_stpbv/robot/constraints.h"
 
 namespace fcl_stpbv {
 namespace {
@@ -98,12 +98,7 @@ void CollisionConstraints::addWholePairs() {
 }
 
 void CollisionConstraints::askWhole() {
-  if (wholeRow_.empty()) return;
-  auto share = [&](int k) {
-    for (std::size_t i = at(k); i < wholeRow_.size(); i += at(pool_->threads()))
-      whole_[i] = query(wholeRow_[i]);
-  };
-  pool_->run(share);
+  for (std::size_t i = 0; i < wholeRow_.size(); ++i) whole_[i] = query(wholeRow_[i]);
 }
 
 CollisionConstraints::Witness CollisionConstraints::ask(std::size_t row) {

@@ -3,7 +3,7 @@
 // (docs/robot.md, Second derivatives). Rows without a closed form use central differences.
 #include <algorithm>
 
-#include "fcl_stpbv/robot/constraints_threads.h"
+#include "fcl_stpbv/robot/constraints.h"
 
 namespace fcl_stpbv {
 namespace {
@@ -84,7 +84,7 @@ bool CollisionConstraints::evaluateValues(const ConstVector& q, const ConstVecto
   kinematics_->differentiate(q, qd, state_, rate_);
   moving_ = true;
   std::fill(open_.begin(), open_.end(), 1);
-  eachPair([&](std::size_t row) { open_[row] = !rateRow(row, rates, values.data()); });
+  for (std::size_t row = 0; row < pairs_.size(); ++row) open_[row] = !rateRow(row, rates, values.data());
   for (std::size_t i = 0; i < options_.smooth.size(); ++i) {
     const std::size_t row = pairs_.size() + i;
     rates.d[static_cast<Eigen::Index>(row)] = options_.smooth[i].value(q, values.data() + rowStart_[row]);
@@ -198,7 +198,7 @@ bool CollisionConstraints::hessianVector(const ConstVector& q, const ConstVector
   kinematics_->differentiate(q, v, state_, rate_);
   moving_ = true;
   std::fill(open_.begin(), open_.end(), 1);
-  eachPair([&](std::size_t row) { open_[row] = !rowChange(row, change_.data()); });
+  for (std::size_t row = 0; row < pairs_.size(); ++row) open_[row] = !rowChange(row, change_.data());
   if (std::find(open_.begin(), open_.end(), 1) != open_.end()) differences(q, v);
   for (int row = 0; row < rows(); ++row)
     for (int k = rowStart_[at(row)]; k < rowStart_[at(row) + 1]; ++k)

@@ -1,12 +1,16 @@
 // Forward kinematics in the order of the tree: pose of each link from its parent's, joint by joint
-// (exponential map for floating joints), and the world's twist of each coordinate.
+// (exponential map for floating joints), and the world's twist of each coordinate. A joint that turns is
+// three constant matrices in its angle's sine and cosine, times the parent's pose, one column a register.
 #include "fcl_stpbv/robot/kinematics.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/packed.h"
+#include "fcl_stpbv/vectorized.h"
 
 namespace fcl_stpbv {
 namespace {
@@ -60,6 +64,28 @@ Isometry3d pose(const Matrix3d& rotation, const Vector3d& position) {
   t.translation() = position;
   t.makeAffine();
   return t;
+}
+
+/// Three columns of a rotation and that of an origin, each with its fourth number: 0, 1 for the origin.
+struct Frame {
+  detail::Packed column[4];
+};
+
+Frame frameOf(const Isometry3d& pose) {
+  using detail::column;
+  return {{column(pose, 0), column(pose, 1), column(pose, 2), column(pose, 3)}};
+}
+
+/// The frame `local`, seen from `parent`.
+inline void compose(const Frame& parent, const Frame& local, Isometry3d& pose) {
+  using detail::Packed;
+  const Packed* p = parent.column;
+  for (Eigen::Index i = 0; i < 4; ++i) {
+    const Packed& l = local.column[i];
+    Packed c = l[0] * p[0] + l[1] * p[1] + l[2] * p[2];
+    if (i == 3) c += p[3];
+    std::memcpy(pose.matrix().col(i).data(), &c, sizeof c);
+  }
 }
 
 Twist turning(const Vector3d& axis, const Vector3d& origin) { return {origin.cross(axis), axis}; }
@@ -126,9 +152,14 @@ void Kinematics::addCoordinates(const std::string& name, JointType type, double 
 
 void Kinematics::addStep(int joint, const JointModel& model, int coordinate, double multiplier,
                          double offset) {
-  Step step{model.type, model.parent, model.child,  -1,         coordinate,
-            multiplier, offset,       model.origin, model.axis, Matrix3d::Identity()};
+  Step step{model.type,   model.parent, model.child,          -1, coordinate, multiplier, offset,
+            model.origin, model.axis,   Matrix3d::Identity(), {}, {},         {}};
   if (model.type == JointType::planar) step.plane = planeAcross(model.axis);
+  // Rodrigues: v turns to a (a.v) + cos (v - a (a.v)) + sin (a cross v).
+  const Matrix3d on = model.axis * model.axis.transpose(),
+                 turn[3] = {on, Matrix3d::Identity() - on, cross(model.axis)};
+  Eigen::Matrix<double, 4, 3, Eigen::DontAlign>* part[3] = {&step.along, &step.even, &step.odd};
+  for (int k = 0; k < 3; ++k) *part[k] << model.origin.linear() * turn[k], 0, 0, 0;
   if (freedoms(model.type) > 0) step.motion = static_cast<int>(motions_.size());
   for (int k = 0; k < freedoms(model.type); ++k) motions_.push_back({joint, coordinate + k, multiplier});
   stepOf_[at(model.child)] = static_cast<int>(steps_.size());
@@ -162,45 +193,73 @@ Kinematics::State Kinematics::makeState() const {
           std::vector<Twist>(motions_.size())};
 }
 
+FCL_STPBV_VECTORIZED
 void Kinematics::forward(const Eigen::Ref<const Eigen::VectorXd>& q, State& state) const {
   if (stepOf_[0] < 0) state.link[0].setIdentity();
-  for (const Step& step : steps_) place(step, q, state);
+  for (const Step& step : steps_) place<true>(step, q, state);
 }
 
+FCL_STPBV_VECTORIZED
+void Kinematics::forwardPoses(const Eigen::Ref<const Eigen::VectorXd>& q, State& state) const {
+  if (stepOf_[0] < 0) state.link[0].setIdentity();
+  for (const Step& step : steps_) place<false>(step, q, state);
+}
+
+template <bool withMotions>
 void Kinematics::place(const Step& step, const Eigen::Ref<const Eigen::VectorXd>& q, State& state) const {
+  const Frame parent = frameOf(step.parent < 0 ? Isometry3d::Identity() : state.link[at(step.parent)]);
+  Isometry3d& link = state.link[at(step.child)];
+  Twist* twist = withMotions && step.motion >= 0 ? &state.motion[at(step.motion)] : nullptr;
+  if (step.type == JointType::fixed) {
+    compose(parent, frameOf(step.origin), link);
+  } else if (step.type == JointType::planar || step.type == JointType::floating) {
+    placeFree(step, q, state, twist);
+  } else if (step.type == JointType::prismatic) {
+    compose(parent, frameOf(step.origin), link);
+    const Vector3d axis = link.linear() * step.axis;
+    link.translation() += (step.multiplier * q[step.coordinate] + step.offset) * axis;
+    if (twist) *twist = sliding(step.multiplier * axis);
+  } else {
+    const double angle = step.multiplier * q[step.coordinate] + step.offset;
+    const double sine = std::sin(angle), cosine = std::cos(angle);
+    Frame local{{{}, {}, {}, detail::column(step.origin, 3)}};
+    for (Eigen::Index i = 0; i < 3; ++i) {
+      detail::Packed part[3];
+      std::memcpy(&part[0], step.along.col(i).data(), sizeof part[0]);
+      std::memcpy(&part[1], step.even.col(i).data(), sizeof part[1]);
+      std::memcpy(&part[2], step.odd.col(i).data(), sizeof part[2]);
+      local.column[i] = part[0] + cosine * part[1] + sine * part[2];
+    }
+    compose(parent, local, link);
+    if (twist) *twist = turning(step.multiplier * (link.linear() * step.axis), link.translation());
+  }
+}
+
+// A joint with several coordinates, which are never mimic ones.
+void Kinematics::placeFree(const Step& step, const Eigen::Ref<const Eigen::VectorXd>& q, State& state,
+                           Twist* twist) const {
   const Isometry3d frame = step.parent < 0 ? step.origin : state.link[at(step.parent)] * step.origin;
   Isometry3d& link = state.link[at(step.child)];
-  if (step.type == JointType::fixed) {
-    link = frame;
-    return;
-  }
-  Twist* twist = &state.motion[at(step.motion)];
-  const double value = step.multiplier * q[step.coordinate] + step.offset;
-  const Vector3d axis = frame.linear() * step.axis;
-  if (step.type == JointType::prismatic) {
-    link = pose(frame.linear(), frame.translation() + value * axis);
-    twist[0] = sliding(step.multiplier * axis);
-  } else if (step.type == JointType::planar) {
+  if (step.type == JointType::planar) {
     const Matrix3d plane = frame.linear() * step.plane;
     const Vector3d position = frame.translation() + plane.leftCols<2>() * q.segment<2>(step.coordinate);
     const Eigen::AngleAxisd turn(q[step.coordinate + 2], step.axis);
     link = pose(frame.linear() * turn.toRotationMatrix(), position);
+    if (!twist) return;
     twist[0] = sliding(plane.col(0));
     twist[1] = sliding(plane.col(1));
-    twist[2] = turning(axis, position);
-  } else if (step.type == JointType::floating) {
+    twist[2] = turning(frame.linear() * step.axis, position);
+  } else {
     Matrix3d rotation, rate;
     exponential(q.segment<3>(step.coordinate + 3), rotation, rate);
     const Vector3d position = frame * Vector3d(q.segment<3>(step.coordinate));
     link = pose(frame.linear() * rotation, position);
+    if (!twist) return;
     rate = frame.linear() * rate;
     for (int k = 0; k < 3; ++k) {
       twist[k] = sliding(frame.linear().col(k));
       twist[3 + k] = turning(rate.col(k), position);
     }
-  } else {
-    link = pose(frame.linear() * Eigen::AngleAxisd(value, step.axis).toRotationMatrix(), frame.translation());
-    twist[0] = turning(step.multiplier * axis, frame.translation());
   }
 }
 

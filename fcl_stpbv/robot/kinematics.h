@@ -83,6 +83,8 @@ class Kinematics {
   State makeState() const;
   /// Fills the state. Never throws or allocates; `q` has size() entries.
   void forward(const Eigen::Ref<const Eigen::VectorXd>& q, State& state) const;
+  /// Fills the links' poses alone, as they are in forward(): all that a collision check needs.
+  void forwardPoses(const Eigen::Ref<const Eigen::VectorXd>& q, State& state) const;
 
   /// Room for differentiate().
   Rate makeRate() const;
@@ -105,10 +107,15 @@ class Kinematics {
     Eigen::Isometry3d origin;
     Eigen::Vector3d axis;
     Eigen::Matrix3d plane;  // turns z into the axis
+    // The frame's columns in the parent's, of a joint that turns: along + cos(angle) even + sin(angle) odd.
+    Eigen::Matrix<double, 4, 3, Eigen::DontAlign> along, even, odd;
   };
   void addCoordinates(const std::string& name, JointType type, double lower, double upper);
   void addStep(int joint, const JointModel& model, int coordinate, double multiplier, double offset);
+  template <bool withMotions>
   void place(const Step& step, const Eigen::Ref<const Eigen::VectorXd>& q, State& state) const;
+  void placeFree(const Step& step, const Eigen::Ref<const Eigen::VectorXd>& q, State& state,
+                 Twist* twist) const;
   void differentiate(const Step& step, const Eigen::Ref<const Eigen::VectorXd>& q,
                      const Eigen::Ref<const Eigen::VectorXd>& v, const State& state, Rate& rate) const;
 

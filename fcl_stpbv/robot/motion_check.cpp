@@ -13,11 +13,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "fcl_stpbv/adapter/motion_search.h"
 #include "fcl_stpbv/adapter/posed_geometry.h"
-#include "fcl_stpbv/adapter/proximity.h"
-#include "fcl_stpbv/error.h"
+#include "fcl_stpbv/robot/collision_checker.h"
 #include "fcl_stpbv/robot/joint_path.h"
 
 namespace fcl_stpbv {
@@ -28,12 +28,6 @@ using Eigen::Index;
 using Eigen::Vector3d;
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-bool isConvex(const fcl::CollisionGeometryd& geometry, ConvexBody& body) {
-  const PosedGeometry still(geometry, Eigen::Isometry3d::Identity(), Eigen::Isometry3d::Identity());
-  if (still.isBody()) body = still.body();
-  return still.isBody();
-}
 
 Cover longer(const Cover& a, const Cover& b) {
   return {std::max(a.before, b.before), std::max(a.after, b.after)};
@@ -99,6 +93,7 @@ class MotionCheck::Impl {
   std::shared_ptr<const RobotGeometry> geometry_;
   std::vector<Obstacle> obstacles_;
   std::vector<CheckedPair> pairs_;
+  std::optional<CollisionChecker> checker_;  // of single configurations; none where there are no pairs
   std::vector<Placed> bodies_;
   std::vector<Pair> moving_;
   std::vector<int> hops_;              // joints of all chains
@@ -188,6 +183,7 @@ MotionCheck::Impl::Impl(std::shared_ptr<const Kinematics> kinematics,
   }
   addBodies();
   for (const CheckedPair& pair : pairs_) addPair(pair);
+  if (!pairs_.empty()) checker_.emplace(kinematics_, geometry_, pairs_, obstacles_);
 }
 
 void MotionCheck::Impl::addBodies() {
@@ -206,10 +202,8 @@ void MotionCheck::Impl::addBodies() {
 }
 
 void MotionCheck::Impl::addPair(const CheckedPair& pair) {
-  const std::size_t bodies = geometry_->bodies.size(), others = pair.obstacle ? obstacles_.size() : bodies;
-  if (pair.body < 0 || at(pair.body) >= bodies || pair.other < 0 || at(pair.other) >= others)
-    throw Error("MotionCheck: a pair names a body or an obstacle that does not exist");
-  const int second = pair.other + (pair.obstacle ? static_cast<int>(bodies) : 0);
+  requireBodies(pair, *geometry_, obstacles_.size(), "MotionCheck");
+  const int second = pair.other + (pair.obstacle ? static_cast<int>(geometry_->bodies.size()) : 0);
   Pair added{};
   added.root = -1;
   if (!pair.obstacle) {
@@ -387,18 +381,10 @@ Cover MotionCheck::Impl::cover(const Pair& pair, const Distance& found, double m
 }
 
 bool MotionCheck::Impl::isFree(const ConstVector& q, double margin) {
-  if (!set(q, q)) return false;
-  place(0);
-  for (Pair& pair : moving_) {
-    const Placed &a = bodies_[at(pair.side[0].body)], &b = bodies_[at(pair.side[1].body)];
-    const double far = a.radius + b.radius + margin + slack_;
-    if (far >= 0 && (b.where - a.where).squaredNorm() > far * far) continue;
-    const bool free = a.convex && b.convex
-                          ? isFartherThan(margin, a.body, b.body, &pair.cache)
-                          : isFartherThan(margin, *a.geometry, a.body.pose, *b.geometry, b.body.pose);
-    if (!free) return false;
-  }
-  return true;
+  if (!set(q, q) || std::isnan(margin)) return false;
+  if (!checker_) return true;
+  if (margin != checker_->margin()) checker_->setMargin(margin);
+  return !checker_->collides(q);
 }
 
 MotionBracket MotionCheck::Impl::firstContact(const ConstVector& q0, const ConstVector& q1,

@@ -16,10 +16,9 @@ std::vector<CheckedPair> allBodies(const RobotGeometry& geometry, const std::vec
   return bodies;
 }
 
-ConstraintOptions optionsOf(const std::vector<Obstacle>& obstacles, int threads) {
+ConstraintOptions optionsOf(const std::vector<Obstacle>& obstacles) {
   ConstraintOptions options;
   options.obstacles = obstacles;
-  options.threads = threads;
   return options;
 }
 
@@ -50,7 +49,8 @@ PairSampler::PairSampler(std::shared_ptr<const Kinematics> kinematics,
                          std::shared_ptr<const RobotGeometry> geometry, const std::vector<LinkPair>& pairs,
                          const std::vector<Obstacle>& obstacles, int threads)
     : kinematics_(kinematics),
-      constraints_(kinematics, geometry, allBodies(*geometry, pairs), optionsOf(obstacles, threads)),
+      constraints_(kinematics, geometry, allBodies(*geometry, pairs), optionsOf(obstacles)),
+      batch_(constraints_, std::max(1, threads)),
       rows_(constraints_.rows()),
       least_(static_cast<Index>(pairs.size())) {
   for (std::size_t p = 0; p < pairs.size(); ++p)
@@ -59,10 +59,14 @@ PairSampler::PairSampler(std::shared_ptr<const Kinematics> kinematics,
 
 const Eigen::VectorXd& PairSampler::distances(const Eigen::VectorXd& q) {
   constraints_.evaluate(q, rows_);
+  return leastOf(rows_);
+}
+
+const Eigen::VectorXd& PairSampler::leastOf(const Eigen::Ref<const Eigen::VectorXd>& rows) {
   least_.setConstant(std::numeric_limits<double>::infinity());
-  for (Index row = 0; row < rows_.size(); ++row) {
+  for (Index row = 0; row < rows.size(); ++row) {
     double& value = least_[pairOf_[static_cast<std::size_t>(row)]];
-    value = std::min(value, rows_[row]);
+    value = std::min(value, rows[row]);
   }
   return least_;
 }
@@ -71,19 +75,25 @@ std::vector<PairSamples> PairSampler::sample(int count, std::uint64_t seed, doub
                                              const std::function<void(int)>& progress) {
   std::vector<PairSamples> found(static_cast<std::size_t>(least_.size()));
   std::mt19937_64 random(seed);
-  for (int s = 0; s < count && !found.empty(); ++s) {
-    if (s % 50 == 0) progress(s);
-    const Eigen::VectorXd q = randomConfiguration(*kinematics_, random);
-    distances(q);
-    for (std::size_t p = 0; p < found.size(); ++p) {
-      PairSamples& pair = found[p];
-      const double d = least_[static_cast<Index>(p)];
-      ++pair.samples;
-      pair.collisions += d <= margin;
-      note(d, q, static_cast<std::size_t>(std::max(1, keep)), pair);
-      if (pair.farthest.size() == 0 || d > pair.largest) {
-        pair.largest = d;
-        pair.farthest = q;
+  constexpr int kBlock = 512;  // a few pieces of a batch for each thread, and little memory
+  Eigen::MatrixXd q(kinematics_->size(), kBlock), rows(constraints_.rows(), kBlock);
+  for (int done = 0; done < count && !found.empty(); done += kBlock) {
+    progress(done);
+    const Index block = std::min(kBlock, count - done);
+    for (Index s = 0; s < block; ++s) q.col(s) = randomConfiguration(*kinematics_, random);
+    batch_.evaluate(q.leftCols(block), Sequence::path, rows.leftCols(block));
+    for (Index s = 0; s < block; ++s) {
+      leastOf(rows.col(s));
+      for (std::size_t p = 0; p < found.size(); ++p) {
+        PairSamples& pair = found[p];
+        const double d = least_[static_cast<Index>(p)];
+        ++pair.samples;
+        pair.collisions += d <= margin;
+        note(d, q.col(s), static_cast<std::size_t>(std::max(1, keep)), pair);
+        if (pair.farthest.size() == 0 || d > pair.largest) {
+          pair.largest = d;
+          pair.farthest = q.col(s);
+        }
       }
     }
   }

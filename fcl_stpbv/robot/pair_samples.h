@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "fcl_stpbv/robot/constraints.h"
+#include "fcl_stpbv/robot/batch.h"
 
 namespace fcl_stpbv::detail {
 
@@ -34,14 +34,18 @@ class PairSampler {
   /// Least distance over the bodies of each pair (m).
   const Eigen::VectorXd& distances(const Eigen::VectorXd& q);
 
-  /// Random configurations; the `keep` closest of each pair are kept, at least one.
+  /// Random configurations, the same for any number of threads; the `keep` closest of each pair are kept, at
+  /// least one.
   std::vector<PairSamples> sample(int count, std::uint64_t seed, double margin, int keep,
                                   const std::function<void(int)>& progress);
 
  private:
+  const Eigen::VectorXd& leastOf(const Eigen::Ref<const Eigen::VectorXd>& rows);
+
   std::shared_ptr<const Kinematics> kinematics_;
   std::vector<Eigen::Index> pairOf_;  // of each row
   CollisionConstraints constraints_;
+  ConstraintsBatch batch_;
   Eigen::VectorXd rows_, least_;
 };
 

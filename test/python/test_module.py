@@ -128,6 +128,37 @@ def test_rates_and_hessians_of_a_robot_agree_with_its_jacobian():
         robot.distances(q[:-1])
 
 
+@pytest.mark.parametrize("path", [False, True])
+def test_a_batch_is_what_its_rows_are_one_by_one(path):
+    folder = DATA / "hrp2_style"
+    robot = fcl_stpbv.Robot(folder / "hrp2_style.urdf", folder / "hrp2_style.srdf")
+    random = np.random.default_rng(4)
+    q = random.uniform(robot.lower, robot.upper, size=(70, len(robot.names)))
+    if path:
+        q = q[0] + 1e-2 * np.cumsum(random.normal(size=q.shape), axis=0)
+    d, jacobian = robot.evaluate_many(q, path=path, threads=2)
+    assert d.shape == (70, len(robot.rows)) and jacobian.shape == (70, len(robot.rows), len(robot.names))
+    np.testing.assert_array_equal(d, robot.distances_many(q, path=path))  # any number of threads, bit by bit
+    hit = robot.collides_many(q, margin=0.01, path=path, threads=2)
+    assert hit.dtype == bool and hit.shape == (70,)
+    for k in range(70):
+        alone, alone_jacobian = robot.evaluate(q[k])
+        shallow = alone > -0.02  # both margins; deeper the answer may depend on where the search starts
+        np.testing.assert_allclose(d[k][shallow], alone[shallow], rtol=0, atol=1e-13)
+        np.testing.assert_allclose(jacobian[k][shallow], alone_jacobian[shallow], rtol=0, atol=1e-9)
+        assert hit[k] == (alone.min() <= 0.01) == robot.collides(q[k], margin=0.01)
+        pair = robot.first_hit(q[k], margin=0.01)
+        assert (pair is not None) == hit[k] and (pair is None or alone[pair] <= 0.01)
+    assert robot.min_distance(robot.configuration("half_sitting")) == pytest.approx(
+        robot.distances(robot.configuration("half_sitting")).min(), abs=1e-14)
+    with pytest.raises(fcl_stpbv.Error, match="rows of 3"):
+        robot.collides_many(q[:, :3])
+    with pytest.raises(fcl_stpbv.Error, match="threads"):
+        robot.collides_many(q, threads=0)
+    with pytest.raises(fcl_stpbv.Error, match="not a number"):
+        robot.collides(q[0], margin=float("nan"))
+
+
 def test_paths_are_text_bytes_or_path_objects(tmp_path):
     path = tmp_path / "box.stpbv"
     box().save(path)
@@ -204,6 +235,10 @@ def test_numbers_that_are_not_finite_raise(bad):
     good, weights = robot.neutral, np.ones(len(robot.rows))
     broken = weights.copy()
     broken[0] = bad
+    for ask in (lambda: robot.collides(q), lambda: robot.first_hit(q), lambda: robot.min_distance(q),
+                lambda: robot.collides_many([good, q]), lambda: robot.evaluate_many([q]), lambda: robot.distances_many([q])):
+        with pytest.raises(fcl_stpbv.Error, match="not finite"):
+            ask()
     for ask in (lambda: robot.evaluate(q), lambda: robot.distances(q), lambda: robot.rates(q, good), lambda: robot.rates(good, q),
                 lambda: robot.hessian(q, weights), lambda: robot.hessian(good, broken),
                 lambda: robot.hessian_vector(q, weights, good), lambda: robot.hessian_vector(good, broken, good),

@@ -94,20 +94,17 @@ TEST_CASE("rows bend over smoothly to a constant at the influence distance") {
   CHECK(far > bent.rows() / 4);
 }
 
-TEST_CASE("sparse, dense and threaded evaluations give the same numbers") {
+TEST_CASE("sparse and dense evaluations give the same numbers") {
   const Problem p = problem(robots()[0]);
-  ConstraintOptions options;
-  options.threads = 3;
-  CollisionConstraints one(p.kinematics, p.geometry, p.pairs),
-      several(p.kinematics, p.geometry, p.pairs, options);
+  CollisionConstraints one(p.kinematics, p.geometry, p.pairs), other(p.kinematics, p.geometry, p.pairs);
   Random random(5);
   Eigen::VectorXd d1(one.rows()), d2(one.rows());
   Eigen::MatrixXd dense(one.rows(), one.columns());
-  CollisionConstraints::SparseJacobian sparse = several.makeJacobian();
+  CollisionConstraints::SparseJacobian sparse = other.makeJacobian();
   for (int trial = 0; trial < 20; ++trial) {
     const Eigen::VectorXd q = randomConfiguration(*p.kinematics, random);
     one.evaluate(q, d1, dense);
-    several.evaluate(q, d2, sparse);
+    other.evaluate(q, d2, sparse);
     CHECK(d1 == d2);
     CHECK(dense == Eigen::MatrixXd(sparse));
   }

@@ -1,7 +1,7 @@
 // An evaluation allocates nothing after construction: this program counts every operator new.
 #include <catch2/catch.hpp>
 
-#include "fcl_stpbv/robot/constraints.h"
+#include "fcl_stpbv/robot/batch.h"
 #include "test/reference/allocations.h"
 #include "test/reference/robots.h"
 #include "test/reference/shapes.h"
@@ -9,39 +9,51 @@
 using namespace fcl_stpbv;
 using namespace fcl_stpbv::test;
 
-TEST_CASE(
-    "distances, Jacobians, rates and Hessian products of a humanoid allocate nothing, with threads or "
-    "without") {
+TEST_CASE("distances, Jacobians, rates, Hessian products and verdicts of a humanoid allocate nothing") {
   const TestRobot robot = robots()[0];
   LoadedRobot loaded = load(robot);
   const auto kinematics = std::make_shared<const Kinematics>(loaded.model);
   const auto geometry = std::make_shared<const RobotGeometry>(std::move(loaded.geometry));
   const Srdf srdf = loadSrdf(robot.srdf, *loaded.model);
-  for (const int threads : {1, 2}) {
-    ConstraintOptions options;
-    options.threads = threads;
-    CollisionConstraints constraints(kinematics, geometry, selfPairs(*loaded.model, *geometry, &srdf),
-                                     options);
-    Eigen::VectorXd d(constraints.rows()), values(constraints.nonZeros()), q(constraints.columns()), out(q),
-        v(q);
-    Eigen::MatrixXd dense(constraints.rows(), constraints.columns());
-    CollisionConstraints::SparseJacobian sparse = constraints.makeJacobian();
-    v.setOnes();
-    Random random(1);
-    RowRates rates = constraints.makeRates();
-    const long before = allocations;
-    for (int i = 0; i < 50; ++i) {
-      for (Eigen::Index k = 0; k < q.size(); ++k)
-        q[k] = random.uniform(kinematics->lower()[k], kinematics->upper()[k]);
-      constraints.evaluate(q, d);
-      constraints.evaluateValues(q, d, values);
-      constraints.evaluate(q, d, sparse);
-      constraints.evaluate(q, d, dense);
-      constraints.hessianVector(q, d, v, out);
-      constraints.evaluateValues(q, v, rates, values);
-      constraints.evaluate(q, v, rates, sparse);
-      constraints.evaluate(q, v, rates, dense);
-    }
-    CHECK(allocations == before);
+  const std::vector<CheckedPair> pairs = selfPairs(*loaded.model, *geometry, &srdf);
+  CollisionConstraints constraints(kinematics, geometry, pairs);
+  CollisionChecker checker(kinematics, geometry, pairs, {}, 0.01);
+  Eigen::VectorXd d(constraints.rows()), values(constraints.nonZeros()), q(constraints.columns()), out(q),
+      v(q);
+  Eigen::MatrixXd dense(constraints.rows(), constraints.columns());
+  CollisionConstraints::SparseJacobian sparse = constraints.makeJacobian();
+  v.setOnes();
+  Random random(1);
+  RowRates rates = constraints.makeRates();
+  const long before = allocations;
+  for (int i = 0; i < 50; ++i) {
+    for (Eigen::Index k = 0; k < q.size(); ++k)
+      q[k] = random.uniform(kinematics->lower()[k], kinematics->upper()[k]);
+    constraints.evaluate(q, d);
+    constraints.evaluateValues(q, d, values);
+    constraints.evaluate(q, d, sparse);
+    constraints.evaluate(q, d, dense);
+    constraints.hessianVector(q, d, v, out);
+    constraints.evaluateValues(q, v, rates, values);
+    constraints.evaluate(q, v, rates, sparse);
+    constraints.evaluate(q, v, rates, dense);
+    checker.collides(q);
+    checker.allHits(q);
+    checker.minDistance(q);
   }
+  CHECK(allocations == before);
+}
+
+TEST_CASE("a batch in two threads allocates nothing") {
+  const Problem p = problem(robots()[0]);
+  ConstraintsBatch constraints(CollisionConstraints(p.kinematics, p.geometry, p.pairs), 2);
+  CheckerBatch checker(CollisionChecker(p.kinematics, p.geometry, p.pairs), 2);
+  Eigen::MatrixXd q(p.kinematics->size(), 200), d(p.pairs.size(), 200);
+  Eigen::Array<bool, Eigen::Dynamic, 1> hit(200);
+  Random random(2);
+  for (Eigen::Index i = 0; i < 200; ++i) q.col(i) = randomConfiguration(*p.kinematics, random);
+  const long before = allocations;
+  constraints.evaluate(q, Sequence::independent, d);
+  checker.collides(q, Sequence::independent, hit);
+  CHECK(allocations == before);
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/robot/batch.h"
 #include "test/reference/robots.h"
 #include "test/reference/shapes.h"
 
@@ -190,21 +191,20 @@ TEST_CASE("through the hand-over no row and no gradient changes faster than its 
   CHECK(tightest > 0.2);
 }
 
-TEST_CASE("hand-over: threads, single Hessians and a caller that goes back and forth give the same rows") {
+TEST_CASE("hand-over: batches, single Hessians and a caller that goes back and forth give the same rows") {
   TwoHooks hooks;
   ConstraintOptions options;
   options.handOver = kHandOver;
   options.influence = 0.3;
   const auto rows = hooks.rows(hooks.parts, options);
-  options.threads = 3;
-  const auto shared = hooks.rows(hooks.parts, options);
+  ConstraintsBatch batch(*hooks.rows(hooks.parts, options), 3);
   Random random(9);
   VectorXd d(8), other(8), along(rows->columns()), weights(8);
   MatrixXd full(rows->columns(), rows->columns());
   for (int trial = 0; trial < 100; ++trial) {
     const VectorXd q = hooks.reaching(random), v = randomDirection(q.size(), random);
     rows->evaluate(q, d);
-    shared->evaluate(q, other);
+    batch.evaluate(q, Sequence::independent, other);
     CHECK((d - other).norm() <= 1e-13);
     for (int row = 0; row < 8; ++row) {
       if (d[row] < 0.002) continue;  // deep ones have no Hessian to compare

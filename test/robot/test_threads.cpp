@@ -1,5 +1,5 @@
-// What may be shared between threads is: volumes and geometries by any number, a constraint's rows by its own
-// pool. Built with the thread sanitizer (preset tsan) this is what finds a race.
+// What may be shared between threads is: volumes and geometries by any number, a batch by its own threads.
+// Built with the thread sanitizer (preset tsan) this is what finds a race.
 #include <fcl/broadphase/broadphase_dynamic_AABB_tree.h>
 #include <fcl/config.h>
 #include <fcl/geometry/bvh/BVH_model.h>
@@ -15,7 +15,7 @@
 #include "fcl_stpbv/adapter/fcl_distance.h"
 #include "fcl_stpbv/adapter/hull_geometry.h"
 #include "fcl_stpbv/adapter/proximity.h"
-#include "fcl_stpbv/robot/constraints.h"
+#include "fcl_stpbv/robot/batch.h"
 #include "test/reference/robots.h"
 
 namespace fcl_stpbv::test {
@@ -137,19 +137,21 @@ TEST_CASE("volumes built in several threads at once are the same") {
   }
 }
 
-TEST_CASE("constraints shared out among three threads are those of one") {
+TEST_CASE("a batch of a robot's configurations in three threads is that of one") {
   const Problem p = problem(robots().front());
-  ConstraintOptions options;
-  CollisionConstraints alone(p.kinematics, p.geometry, p.pairs, options);
-  options.threads = 3;
-  CollisionConstraints shared(p.kinematics, p.geometry, p.pairs, options);
-  Eigen::VectorXd q = p.kinematics->neutral(), d(alone.rows()), other(alone.rows());
-  for (int step = 0; step < 20; ++step) {
-    alone.evaluate(q, d);
-    shared.evaluate(q, other);
-    CHECK(d == other);
-    q.array() += 0.01;
-  }
+  const CollisionConstraints rows(p.kinematics, p.geometry, p.pairs);
+  const CollisionChecker checker(p.kinematics, p.geometry, p.pairs);
+  constexpr int kCount = 260;  // pieces for all three
+  Random random(6);
+  Eigen::MatrixXd q(rows.columns(), kCount), d(rows.rows(), kCount), other = d;
+  Eigen::Array<bool, Eigen::Dynamic, 1> hit(kCount), otherHit(kCount);
+  for (int i = 0; i < kCount; ++i) q.col(i) = randomConfiguration(*p.kinematics, random);
+  ConstraintsBatch(rows, 1).evaluate(q, Sequence::path, d);
+  ConstraintsBatch(rows, 3).evaluate(q, Sequence::path, other);
+  CheckerBatch(checker, 1).collides(q, Sequence::path, hit);
+  CheckerBatch(checker, 3).collides(q, Sequence::path, otherHit);
+  CHECK(d == other);
+  CHECK((hit == otherHit).all());
 }
 
 }  // namespace fcl_stpbv::test

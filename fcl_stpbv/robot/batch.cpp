@@ -1,0 +1,121 @@
+// Threads take pieces of a batch, a few columns each, until none is left. A piece begins without a memory,
+// wherever the thread was before, so that the answers do not depend on who computes it.
+#include "fcl_stpbv/robot/batch.h"
+
+#include <algorithm>
+#include <atomic>
+#include <string>
+
+#include "fcl_stpbv/error.h"
+#include "fcl_stpbv/robot/worker_pool.h"
+
+namespace fcl_stpbv {
+namespace {
+
+using Eigen::Index;
+
+void requireSize(Index rows, Index columns, Index wantedRows, Index wantedColumns, const char* what) {
+  if (rows == wantedRows && columns == wantedColumns) return;
+  const auto size = [](Index m, Index n) { return std::to_string(m) + " x " + std::to_string(n); };
+  throw Error(std::string("a batch's ") + what + ": got " + size(rows, columns) + ", expected " +
+              size(wantedRows, wantedColumns));
+}
+
+int positive(int threads) {
+  if (threads < 1) throw Error("a batch's threads: got " + std::to_string(threads) + ", expected 1 or more");
+  return threads;
+}
+
+/// One worker for each thread, a copy of the first.
+template <class Worker>
+class Crew {
+ public:
+  Crew(const Worker& first, int threads)
+      : pool_(positive(threads)), workers_(static_cast<std::size_t>(threads), first) {}
+
+  Worker& first() { return workers_.front(); }
+
+  /// `work(worker, column)` for each column of a batch, by a worker that remembers only the column before,
+  /// and that on a path alone.
+  template <class Work>
+  void each(Index columns, Sequence sequence, const Work& work) {
+    constexpr Index kPiece = 64;  // few enough to share out evenly; a path's first one costs some more
+    std::atomic<Index> next{0};
+    auto share = [&](int k) {
+      Worker& worker = workers_[static_cast<std::size_t>(k)];
+      for (Index start; (start = next.fetch_add(kPiece)) < columns;)
+        for (Index column = start; column < std::min(start + kPiece, columns); ++column) {
+          if (column == start || sequence == Sequence::independent) worker.forget();
+          work(worker, column);
+        }
+    };
+    pool_.run(share);
+  }
+
+ private:
+  detail::WorkerPool pool_;
+  std::vector<Worker> workers_;
+};
+
+}  // namespace
+
+class ConstraintsBatch::Impl : public Crew<CollisionConstraints> {
+ public:
+  using Crew::Crew;
+};
+
+ConstraintsBatch::ConstraintsBatch(const CollisionConstraints& constraints, int threads)
+    : impl_(std::make_unique<Impl>(constraints, threads)) {}
+ConstraintsBatch::ConstraintsBatch(ConstraintsBatch&&) noexcept = default;
+ConstraintsBatch::~ConstraintsBatch() = default;
+
+bool ConstraintsBatch::compute(const Configurations& q, Sequence sequence, Matrix d, Matrix* values) {
+  CollisionConstraints& first = impl_->first();
+  requireSize(q.rows(), q.cols(), first.columns(), q.cols(), "configurations");
+  requireSize(d.rows(), d.cols(), first.rows(), q.cols(), "distances");
+  if (values) requireSize(values->rows(), values->cols(), first.nonZeros(), q.cols(), "values of J");
+  const auto valuesAt = [&](Index i) { return values ? values->col(i).data() : nullptr; };
+  std::atomic<bool> finite{true};
+  impl_->each(q.cols(), sequence, [&](CollisionConstraints& rows, Index i) {
+    if (!rows.computePairs(q.col(i), d.col(i).data(), valuesAt(i))) finite = false;
+  });
+  // Smooth constraints are called from one thread at a time.
+  for (Index i = 0; i < q.cols(); ++i)
+    if (q.col(i).allFinite()) first.computeSmooth(q.col(i), d.col(i).data(), valuesAt(i));
+  return finite;
+}
+
+bool ConstraintsBatch::evaluate(const Configurations& q, Sequence sequence, Matrix d) {
+  return compute(q, sequence, d, nullptr);
+}
+
+bool ConstraintsBatch::evaluateValues(const Configurations& q, Sequence sequence, Matrix d, Matrix values) {
+  return compute(q, sequence, d, &values);
+}
+
+class CheckerBatch::Impl : public Crew<CollisionChecker> {
+ public:
+  using Crew::Crew;
+};
+
+CheckerBatch::CheckerBatch(const CollisionChecker& checker, int threads)
+    : impl_(std::make_unique<Impl>(checker, threads)) {}
+CheckerBatch::CheckerBatch(CheckerBatch&&) noexcept = default;
+CheckerBatch::~CheckerBatch() = default;
+
+void CheckerBatch::collides(const Configurations& q, Sequence sequence, Verdicts hit) {
+  requireSize(q.rows(), q.cols(), impl_->first().kinematics().size(), q.cols(), "configurations");
+  requireSize(hit.size(), 1, q.cols(), 1, "verdicts");
+  impl_->each(q.cols(), sequence,
+              [&](CollisionChecker& checker, Index i) { hit[i] = checker.collides(q.col(i)); });
+}
+
+void CheckerBatch::minDistance(const Configurations& q, Sequence sequence,
+                               Eigen::Ref<Eigen::VectorXd> least) {
+  requireSize(q.rows(), q.cols(), impl_->first().kinematics().size(), q.cols(), "configurations");
+  requireSize(least.size(), 1, q.cols(), 1, "least distances");
+  impl_->each(q.cols(), sequence,
+              [&](CollisionChecker& checker, Index i) { least[i] = checker.minDistance(q.col(i)); });
+}
+
+}  // namespace fcl_stpbv

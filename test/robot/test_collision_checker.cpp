@@ -1,0 +1,233 @@
+// Verdicts of CollisionChecker against the exact distances of CollisionConstraints, and configurations that
+// nothing may call clear.
+#include <fcl/geometry/bvh/BVH_model.h>
+#include <fcl/geometry/geometric_shape_to_BVH_model.h>
+#include <fcl/geometry/shape/box.h>
+#include <fcl/geometry/shape/halfspace.h>
+#include <fcl/geometry/shape/sphere.h>
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
+
+#include "fcl_stpbv/error.h"
+#include "fcl_stpbv/robot/collision_checker.h"
+#include "fcl_stpbv/robot/constraints.h"
+#include "test/reference/robots.h"
+
+using namespace fcl_stpbv;
+using namespace fcl_stpbv::test;
+using Eigen::VectorXd;
+
+namespace {
+
+constexpr double kLowest = std::numeric_limits<double>::lowest();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// A robot, and things of every kind around it.
+struct Scene {
+  Problem robot;
+  std::vector<Obstacle> obstacles;
+};
+
+Scene sceneOf(const TestRobot& robot, BaseMotion base, bool obstacles) {
+  Scene scene{problem(robot, base), {}};
+  if (!obstacles) return scene;
+  const auto add = [&](std::shared_ptr<fcl::CollisionGeometryd> geometry, const Eigen::Vector3d& where) {
+    const fcl::CollisionObjectd object(geometry, pose(Eigen::Matrix3d::Identity(), where));
+    scene.obstacles.push_back(obstacleOf(object, "obstacle"));
+  };
+  auto mesh = std::make_shared<fcl::BVHModel<fcl::OBBRSSd>>();
+  fcl::generateBVHModel(*mesh, fcl::Sphered(0.2), Eigen::Isometry3d::Identity(), 8, 8);
+  add(mesh, {0.7, 0.3, 0.3});
+  add(std::make_shared<fcl::Boxd>(0.2, 0.3, 0.4), {0.5, -0.4, 0.2});
+  add(std::make_shared<StpBvGeometry>(StpBv::build(box(0.3, 0.2, 0.1))), {-0.5, 0.1, 0.1});
+  add(std::make_shared<fcl::Halfspaced>(Eigen::Vector3d(0, 0, 1), -1.2), {0, 0, 0});
+  const Problem& p = scene.robot;
+  const std::vector<CheckedPair> around =
+      obstaclePairs(*p.model, *p.geometry, scene.obstacles.size(), base != BaseMotion::fixed);
+  scene.robot.pairs.insert(scene.robot.pairs.end(), around.begin(), around.end());
+  return scene;
+}
+
+/// The verdicts on one configuration beside the distances' certified bounds.
+class Judge {
+ public:
+  Judge(const Scene& scene, double margin)
+      : margin_(margin),
+        rows_(scene.robot.kinematics, scene.robot.geometry, scene.robot.pairs, optionsOf(scene)),
+        d_(rows_.rows()),
+        checker_(scene.robot.kinematics, scene.robot.geometry, scene.robot.pairs, scene.obstacles, margin) {}
+
+  CollisionChecker& checker() { return checker_; }
+  int hits() const { return hits_; }
+  int clear() const { return clear_; }
+
+  /// The least distance at q.
+  double look(const VectorXd& q) {
+    rows_.evaluate(q, d_);
+    std::vector<bool> isHit(static_cast<std::size_t>(rows_.rows()));
+    for (const Hit& hit : checker_.allHits(q)) isHit[static_cast<std::size_t>(hit.pair)] = true;
+    bool surelyHit = false, surelyClear = true;
+    for (int row = 0; row < rows_.rows(); ++row) {
+      const DistanceAnswer answer = rows_.answer(row);
+      // What a pair's rounding is, doubled: the verdict's own bounds may differ by it from the answer's.
+      const double rounding = 1e-12;
+      const bool hit = isHit[static_cast<std::size_t>(row)];
+      CAPTURE(row, rows_.name(row), d_[row], answer.lower, answer.upper, hit);
+      if (answer.lower > margin_ + rounding) CHECK_FALSE(hit);
+      if (answer.upper <= margin_ - rounding) {
+        CHECK(hit);
+        surelyHit = true;
+      }
+      surelyClear = surelyClear && answer.lower > margin_ + rounding;
+    }
+    const std::optional<Hit> first = checker_.firstHit(q);
+    if (surelyHit) CHECK(first);
+    if (surelyClear) CHECK_FALSE(first);
+    if (first) {
+      REQUIRE(first->pair >= 0);
+      CHECK(rows_.answer(first->pair).lower <= margin_ + 1e-12);
+      CHECK(first->bodies.body == checker_.pairs()[static_cast<std::size_t>(first->pair)].body);
+    }
+    CHECK(checker_.collides(q) == first.has_value());
+    ++(first ? hits_ : clear_);
+    return d_.minCoeff();
+  }
+
+  /// Beside the least of all rows, where that is exact.
+  void lookAtLeast(const VectorXd& q) {
+    const double least = checker_.minDistance(q);
+    rows_.evaluate(q, d_);
+    Eigen::Index row;
+    const double expected = d_.minCoeff(&row);
+    CAPTURE(least, expected, rows_.name(static_cast<int>(row)));
+    const DistanceAnswer answer = rows_.answer(static_cast<int>(row));
+    if (answer.status == DistanceStatus::exact)
+      CHECK(least == Approx(expected).margin(1e-12));  // both are exact, found from different starts
+    else
+      CHECK((least >= answer.lower - 1e-12 && least <= answer.upper + 1e-12));
+  }
+
+ private:
+  static ConstraintOptions optionsOf(const Scene& scene) {
+    ConstraintOptions options;
+    options.obstacles = scene.obstacles;
+    return options;
+  }
+
+  double margin_;
+  CollisionConstraints rows_;
+  VectorXd d_;
+  CollisionChecker checker_;
+  int hits_ = 0, clear_ = 0;
+};
+
+/// On the line between two configurations, one clear and one not: where it changes, to 40 halvings.
+VectorXd nearContact(CollisionChecker& checker, VectorXd clear, VectorXd hit) {
+  for (int i = 0; i < 40; ++i) {
+    const VectorXd middle = 0.5 * (clear + hit);
+    (checker.collides(middle) ? hit : clear) = middle;
+  }
+  return clear;
+}
+
+}  // namespace
+
+TEST_CASE("verdicts on random configurations and small steps are those of the certified distances") {
+  Random random(11);
+  for (const TestRobot& robot : robots())
+    for (const bool obstacles : {false, true}) {
+      const Scene scene = sceneOf(robot, obstacles ? BaseMotion::floating : BaseMotion::fixed, obstacles);
+      for (const double margin : {0.0, 0.03, -0.015}) {
+        CAPTURE(robot.name, obstacles, margin);
+        Judge judge(scene, margin);
+        const Kinematics& kinematics = judge.checker().kinematics();
+        for (int start = 0; start < 12; ++start) {
+          VectorXd q = start == 0 ? kinematics.neutral() : randomConfiguration(kinematics, random);
+          for (int step = 0; step < 8; ++step) {
+            judge.look(q);
+            judge.lookAtLeast(q);
+            q += (step % 4 == 3 ? 0.3 : 0.02) * randomDirection(q.size(), random);
+          }
+        }
+        CHECK(judge.hits() > 0);
+        CHECK(judge.clear() + judge.hits() == 96);
+      }
+    }
+}
+
+TEST_CASE("next to contact, to the last bits of q, verdicts keep to the certified distances") {
+  Random random(12);
+  const Scene scene = sceneOf(robots()[0], BaseMotion::floating, true);
+  for (const double margin : {0.0, 0.02}) {
+    Judge judge(scene, margin);
+    int looked = 0;
+    for (int i = 0; i < 40; ++i) {
+      const VectorXd a = randomConfiguration(*scene.robot.kinematics, random),
+                     b = randomConfiguration(*scene.robot.kinematics, random);
+      const bool hitA = judge.checker().collides(a), hitB = judge.checker().collides(b);
+      if (hitA == hitB) continue;
+      const VectorXd q = nearContact(judge.checker(), hitA ? b : a, hitA ? a : b);
+      for (const double step : {0.0, 1e-12, -1e-12, 1e-9, -1e-9, 1e-6, -1e-6}) {
+        const double least = judge.look(q + step * (b - a));
+        CHECK(std::abs(least - margin) < 1e-4);  // next to contact it is
+        ++looked;
+      }
+    }
+    CHECK(looked > 50);
+    CHECK((judge.hits() > 10 && judge.clear() > 10));
+  }
+}
+
+TEST_CASE("a configuration that is none is never clear") {
+  const Problem p = problem(robots()[0], BaseMotion::floating);
+  CollisionChecker checker(p.kinematics, p.geometry, p.pairs);
+  const VectorXd q = p.kinematics->configuration(loadSrdf(robots()[0].srdf, *p.model).state("half_sitting"));
+  REQUIRE_FALSE(checker.collides(q));
+  for (const double wrong : {std::nan(""), kInfinity, -kInfinity, 1e160})
+    for (const int k : {0, 3, 20}) {
+      VectorXd other = q;
+      other[k] = wrong;
+      CAPTURE(wrong, k);
+      const bool turns = k == 20 && std::isfinite(wrong);  // a joint may turn by any angle
+      CHECK((turns || checker.collides(other)));
+      if (!other.allFinite()) {
+        REQUIRE(checker.firstHit(other));
+        CHECK(checker.firstHit(other)->pair == -1);
+        CHECK(checker.allHits(other).size() == 1);
+      }
+      CHECK((turns || checker.minDistance(other) == kLowest));
+    }
+  CHECK(checker.collides(VectorXd::Zero(q.size() - 1)));
+  CHECK(checker.minDistance(VectorXd::Zero(q.size() + 1)) == kLowest);
+  CHECK_FALSE(checker.collides(q));
+}
+
+TEST_CASE("the verdict does not depend on what was asked before, nor a copy on its original") {
+  const Problem p = problem(robots()[0]);
+  CollisionChecker walked(p.kinematics, p.geometry, p.pairs, {}, 0.01);
+  Random random(13);
+  for (int i = 0; i < 200; ++i) {
+    const VectorXd q = randomConfiguration(*p.kinematics, random);
+    CollisionChecker fresh(p.kinematics, p.geometry, p.pairs, {}, 0.01);
+    const bool hit = fresh.collides(q);
+    CHECK(walked.collides(q) == hit);
+    CollisionChecker copy = walked;
+    CHECK(copy.collides(q) == hit);
+    walked.setMargin(0.5);
+    CHECK(walked.collides(q));
+    walked.setMargin(0.01);
+  }
+}
+
+TEST_CASE("a checker without pairs, with a pair of nothing, or with a margin that is none is refused") {
+  const Problem p = problem(robots()[0]);
+  CHECK_THROWS_AS(CollisionChecker(p.kinematics, p.geometry, {}), Error);
+  CHECK_THROWS_AS(CollisionChecker(p.kinematics, p.geometry, {{0, 1000}}), Error);
+  CHECK_THROWS_AS(CollisionChecker(p.kinematics, p.geometry, {{0, 0, true}}), Error);
+  CHECK_THROWS_AS(CollisionChecker(p.kinematics, p.geometry, p.pairs, {}, std::nan("")), Error);
+  CollisionChecker checker(p.kinematics, p.geometry, p.pairs);
+  CHECK_THROWS_AS(checker.setMargin(std::nan("")), Error);
+  CHECK(checker.name(0).find(" - ") != std::string::npos);
+}
