@@ -4,7 +4,7 @@
 #include "docs/examples/reported.h"
 #include "fcl_stpbv/posture/find_posture.h"
 #include "fcl_stpbv/posture/task.h"
-#include "fcl_stpbv/robot/constraints.h"
+#include "fcl_stpbv/robot/batch.h"
 #include "fcl_stpbv/robot/link_geometry.h"
 #include "fcl_stpbv/robot/robot_model.h"
 #include "fcl_stpbv/robot/smooth_pairs.h"
@@ -50,6 +50,23 @@ Eigen::VectorXd d(constraints.rows());
 constraints.evaluate(q, d, jacobian);                // d(q), J(q)
   // clang-format on
   std::printf("%d pairs, closest %g m\n", static_cast<int>(d.size()), d.minCoeff());
+
+  const Eigen::Index many = 100;
+  const Eigen::MatrixXd samples = q.replicate(1, many), path = samples;
+  Eigen::Array<bool, Eigen::Dynamic, 1> hits(many);
+  Eigen::MatrixXd distances(constraints.rows(), many), values(constraints.nonZeros(), many);
+  // clang-format off
+CollisionChecker checker(kinematics, geometry, selfPairs(*robot, *geometry, srdf.get()), {}, 0.005);   // obstacles; margin 5 mm
+checker.collides(q);                                 // yes or no
+if (auto hit = checker.firstHit(q)) checker.name(hit->pair);
+checker.minDistance(q);                              // least of all pairs
+
+CheckerBatch batch(checker, 2);                      // two threads
+batch.collides(samples, Sequence::independent, hits);          // one configuration a column
+ConstraintsBatch rows(constraints, 2);
+rows.evaluateValues(path, Sequence::path, distances, values);  // d and J along a path
+  // clang-format on
+  std::printf("%d of %d collide\n", static_cast<int>(hits.count()), static_cast<int>(many));
 
   auto mine = std::make_shared<Mine>();
   // clang-format off

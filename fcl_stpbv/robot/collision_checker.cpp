@@ -122,6 +122,7 @@ class CollisionChecker::Impl {
   std::optional<Hit> firstHit(const ConstVector& q);
   const std::vector<Hit>& allHits(const ConstVector& q);
   double minDistance(const ConstVector& q);
+  const CheckerWork& work() const { return work_; }
   void forget();
 
  private:
@@ -157,7 +158,7 @@ class CollisionChecker::Impl {
   std::vector<Near> near_;
   std::size_t nearCount_ = 0;
   std::vector<Hit> hits_;
-  long configuration_ = 0;
+  CheckerWork work_;
   std::size_t closest_ = 0;  // the pair of the last least distance
 };
 
@@ -230,7 +231,7 @@ void CollisionChecker::Impl::setMargin(double margin) {
 }
 
 bool CollisionChecker::Impl::place(const ConstVector& q) {
-  ++configuration_;
+  ++work_.configurations;
   if (q.size() != kinematics_->size() || !q.allFinite()) return false;
   kinematics_->forwardPoses(q, state_);
   placeSpheres();
@@ -291,6 +292,7 @@ double CollisionChecker::Impl::planeGap(Pair& pair) const {
 
 bool CollisionChecker::Impl::isClear(const Near& near) {
   Pair& pair = checked_[at(near.pair)];
+  ++work_.near;
   const double within = bodies_[pair.a].inner + bodies_[pair.b].inner + margin_ - slack_ - pair.rounding;
   bool clear = false;
   if (!(within > 0 && near.apart2 < within * within)) {
@@ -298,12 +300,13 @@ bool CollisionChecker::Impl::isClear(const Near& near) {
       pair.cache = {};
     else if (planeGap(pair) > margin_)
       return true;
+    ++work_.searched;
     clear = searchSaysClear(pair);
   }
   if (clear) {
     keepPlane(pair);
   } else {
-    pair.lastHit = configuration_;
+    pair.lastHit = work_.configurations;
     pair.kept = false;
     pair.cache = {};
   }
@@ -445,6 +448,7 @@ bool CollisionChecker::collides(const ConstVector& q) { return impl_->firstHit(q
 std::optional<Hit> CollisionChecker::firstHit(const ConstVector& q) { return impl_->firstHit(q); }
 const std::vector<Hit>& CollisionChecker::allHits(const ConstVector& q) { return impl_->allHits(q); }
 double CollisionChecker::minDistance(const ConstVector& q) { return impl_->minDistance(q); }
+const CheckerWork& CollisionChecker::work() const { return impl_->work(); }
 void CollisionChecker::forget() { impl_->forget(); }
 
 }  // namespace fcl_stpbv

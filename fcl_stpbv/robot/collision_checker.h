@@ -19,6 +19,13 @@ struct Hit {
   CheckedPair bodies{-1, -1, false};  ///< the pair's
 };
 
+/// What verdicts took, counted: what a change must not raise, whatever the machine does beside it.
+struct CheckerWork {
+  long configurations = 0;  ///< asked about
+  long near = 0;            ///< pairs that their spheres did not clear, and that were looked at
+  long searched = 0;        ///< of these, pairs that neither balls nor a plane decided
+};
+
 /// Decides for a robot's fixed pairs whether any comes within a margin. Clear means proven: a q that is not
 /// finite or has another size, and a pair that cannot be measured, as with links 1e160 m away, are not clear.
 ///
@@ -66,6 +73,8 @@ class CollisionChecker {
   /// lower bound. The lowest of all doubles where q is no configuration or a pair cannot be measured.
   double minDistance(const ConstVector& q);
 
+  /// What all verdicts so far took.
+  const CheckerWork& work() const;
   /// Forgets all pairs' planes: the next configuration has nothing to do with the last one.
   void forget();
 

@@ -148,6 +148,18 @@ def constraints():
     return markdown(("robot", "pairs", "what", "steps", "median", "99th percentile", "a pair", "times FCL's speed"), body)
 
 
+@table("robot", "robot_jvrc1")
+def robot():
+    body = []
+    for name in "robot", "robot_jvrc1":
+        data = measured(name)
+        for row in data["rows"]:
+            hits = f"{row['hits'] / data['about']['configurations']:.2f}" if row["what"] in ("all pairs", "first hit", "batch, first hit") else ""
+            ratio = f"{row['ratio']:.2f} ({row['ratio_least']:.2f} to {row['ratio_most']:.2f})"
+            body.append((data["about"]["robot"], data["about"]["pairs"], row["what"], row["steps"], row["way"], f"{row['us']:.3g} µs", ratio, hits))
+    return markdown(("robot", "pairs", "what", "steps", "way", "a configuration", "times the first way's", "hits"), body)
+
+
 @table("distance_soak")
 def distance_soak():
     _, lines = captured("distance_soak")

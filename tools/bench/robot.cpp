@@ -1,0 +1,210 @@
+// A whole robot's verdicts and distances beside FCL's and Bullet's, as a planner or a controller asks for
+// them. The ways take turns on the same random walks; the table of docs/robot.md.
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <functional>
+
+#include "fcl_stpbv/robot/batch.h"
+#include "fcl_stpbv/robot/smooth_pairs.h"
+#include "test/reference/shapes.h"
+#include "tools/bench/measurement.h"
+#include "tools/bench/robot/peer.h"
+#include "tools/program.h"
+
+using namespace fcl_stpbv;
+using namespace fcl_stpbv::benchmark;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace {
+
+struct Arguments {
+  std::string urdf, srdf, folder, name = "robot";
+  std::vector<std::string> packagePath;
+  int configurations = 2000, turns = 5;
+  bool json = false;
+};
+
+/// One configuration a column: each a step of the joints' ranges away from the one before.
+MatrixXd walk(const Kinematics& kinematics, double step, int count) {
+  test::Random random(1);
+  MatrixXd all(kinematics.size(), count);
+  VectorXd q = kinematics.neutral();
+  for (int i = 0; i < count; ++i) {
+    for (Eigen::Index k = 0; k < q.size(); ++k) {
+      const double low = std::max(kinematics.lower()[k], -M_PI), high = std::min(kinematics.upper()[k], M_PI);
+      q[k] = std::min(std::max(q[k] + step * (high - low) * random.uniform(-1, 1), low), high);
+    }
+    all.col(i) = q;
+  }
+  return all;
+}
+
+/// One way to answer all configurations of a walk; the first of a question is this library's.
+struct Way {
+  std::string what, way;
+  std::function<long(const MatrixXd&)> run;  ///< how many it counted: hits
+  bool shared = false;                       ///< in several threads: by the clock on the wall
+};
+
+/// `ask` for each configuration.
+template <class Ask>
+std::function<long(const MatrixXd&)> each(Ask ask) {
+  return [ask](const MatrixXd& all) {
+    long count = 0;
+    for (Eigen::Index i = 0; i < all.cols(); ++i) count += static_cast<long>(ask(all.col(i)));
+    return count;
+  };
+}
+
+using Q = Eigen::Ref<const VectorXd>;
+
+class Bench {
+ public:
+  explicit Bench(const Arguments& arguments) : arguments_(arguments) {
+    robot_.model = std::make_shared<const RobotModel>(loadUrdf(arguments.urdf));
+    GeometryOptions options;
+    options.packagePath = arguments.packagePath;
+    RobotGeometry bodies = loadGeometry(*robot_.model, options);
+    Srdf srdf;
+    if (!arguments.srdf.empty()) srdf = loadSrdf(arguments.srdf, *robot_.model);
+    robot_.pairs = selfPairs(*robot_.model, bodies, arguments.srdf.empty() ? nullptr : &srdf);
+    requirePairs(robot_.pairs.size(), *robot_.model, "those of the SRDF and adjacent ones are left out");
+    coverPrimitives(robot_.pairs, bodies);
+    robot_.geometry = std::make_shared<const RobotGeometry>(std::move(bodies));
+    robot_.kinematics = std::make_shared<const Kinematics>(robot_.model);
+    checker_ = std::make_unique<CollisionChecker>(robot_.kinematics, robot_.geometry, robot_.pairs);
+    rows_ = std::make_unique<CollisionConstraints>(robot_.kinematics, robot_.geometry, robot_.pairs);
+    fcl_ = fclPeer(robot_);
+    bullet_ = bulletPeer(robot_);
+  }
+
+  Measurement measure() {
+    Measurement result;
+    result.name = arguments_.name;
+    result.about = {{"robot", robot_.model->name},
+                    {"pairs", robot_.pairs.size()},
+                    {"configurations", arguments_.configurations},
+                    {"turns", arguments_.turns}};
+    for (const bool small : {true, false}) measureSteps(small, result);
+    return result;
+  }
+
+ private:
+  std::vector<Way> ways() {
+    d_.resize(rows_->rows());
+    values_.resize(rows_->nonZeros());
+    std::vector<Way> all{
+        {"all pairs", "fcl_stpbv", each([&](const Q& q) { return checker_->allHits(q).size(); })},
+        {"first hit", "fcl_stpbv", each([&](const Q& q) { return checker_->collides(q); })},
+        {"d and J", "fcl_stpbv",
+         each([&](const Q& q) { return rows_->evaluateValues(q, d_, values_) ? 0 : 1; })},
+        {"least distance", "fcl_stpbv", each([&](const Q& q) { return checker_->minDistance(q) <= 0; })}};
+    const auto add = [&](Peer* peer) {
+      if (!peer) return;
+      all.push_back({"all pairs", peer->name, each([peer](const Q& q) { return peer->hits(q, false); })});
+      all.push_back({"first hit", peer->name, each([peer](const Q& q) { return peer->hits(q, true); })});
+    };
+    add(fcl_.get());
+    add(bullet_.get());
+    all.push_back({"d and J", "fcl::distance, no J", each([&](const Q& q) { return fcl_->distances(q); })});
+    return all;
+  }
+
+  /// The batches of this library: in one and two threads.
+  std::vector<Way> batches(Sequence sequence) {
+    std::vector<Way> all;
+    for (const int threads : {1, 2}) {
+      const std::string name = threads == 1 ? "1 thread" : "2 threads";
+      const auto checks = std::make_shared<CheckerBatch>(*checker_, threads);
+      const auto rows = std::make_shared<ConstraintsBatch>(*rows_, threads);
+      const Eigen::Index count = rows_->rows(), entries = rows_->nonZeros();
+      all.push_back({"batch, first hit", name,
+                     [=](const MatrixXd& q) {
+                       Eigen::Array<bool, Eigen::Dynamic, 1> hit(q.cols());
+                       checks->collides(q, sequence, hit);
+                       return static_cast<long>(hit.count());
+                     },
+                     true});
+      all.push_back({"batch, d and J", name,
+                     [=](const MatrixXd& q) {
+                       MatrixXd d(count, q.cols()), values(entries, q.cols());
+                       return rows->evaluateValues(q, sequence, d, values) ? 0L : 1L;
+                     },
+                     true});
+    }
+    return all;
+  }
+
+  void measureSteps(bool small, Measurement& result) {
+    const MatrixXd q = walk(*robot_.kinematics, small ? 1e-3 : 0.5, arguments_.configurations);
+    std::vector<Way> all = ways();
+    for (Way& way : batches(small ? Sequence::path : Sequence::independent)) all.push_back(std::move(way));
+    std::vector<std::vector<double>> us(all.size());
+    std::vector<long> counted(all.size());
+    for (int turn = 0; turn < arguments_.turns; ++turn)
+      for (std::size_t k = 0; k < all.size(); ++k) {
+        const double thread = threadTime();
+        const auto wall = std::chrono::steady_clock::now();
+        counted[k] = all[k].run(q);
+        const std::chrono::duration<double, std::nano> passed = std::chrono::steady_clock::now() - wall;
+        const double ns = all[k].shared ? passed.count() : threadTime() - thread;
+        us[k].push_back(1e-3 * ns / static_cast<double>(q.cols()));
+      }
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      std::size_t own = 0;  // what it is compared with
+      while (all[own].what != all[k].what) ++own;
+      std::vector<double> ratio;
+      for (std::size_t turn = 0; turn < us[k].size(); ++turn) ratio.push_back(us[k][turn] / us[own][turn]);
+      const double middle = median(ratio);
+      const auto [least, most] = std::minmax_element(ratio.begin(), ratio.end());
+      result.rows.push_back({{"what", all[k].what},
+                             {"steps", small ? "small" : "random"},
+                             {"way", all[k].way},
+                             {"us", significant(median(us[k]), 3)},
+                             {"ratio", significant(middle, 3)},
+                             {"ratio_least", significant(*least, 3)},
+                             {"ratio_most", significant(*most, 3)},
+                             {"hits", counted[k]}});
+      result.spread = std::max(result.spread, (*most - *least) / (2 * middle));
+    }
+  }
+
+  Arguments arguments_;
+  PosedModel robot_;
+  std::unique_ptr<CollisionChecker> checker_;
+  std::unique_ptr<CollisionConstraints> rows_;
+  std::unique_ptr<Peer> fcl_, bullet_;
+  VectorXd d_, values_;
+};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  tools::Program app("A robot's verdicts, distances and batches beside FCL and Bullet, us a configuration",
+                     "robot_bench");
+  Arguments arguments;
+  app.option("ROBOT", arguments.urdf, "the robot's URDF").required();
+  app.option("--srdf", arguments.srdf, "whose pairs are left out; else adjacent ones are");
+  app.option("--package-path", arguments.packagePath, "folder that holds packages").repeated();
+  app.option("--configurations", arguments.configurations, "of each random walk").whole(1).shown();
+  app.option("--turns", arguments.turns, "of all ways").whole(1).shown();
+  app.flag("--json", arguments.json, "print one JSON object instead of lines");
+  app.option("-o,--output", arguments.folder, "folder for the JSON file");
+  app.option("--name", arguments.name, "its name").shown();
+  return app.run(argc, argv, [&] {
+    const Measurement result = Bench(arguments).measure();
+    if (arguments.json) {
+      nlohmann::ordered_json all = result.about;
+      all["spread"] = significant(result.spread, 2);
+      all["rows"] = result.rows;
+      std::printf("%s\n", all.dump(1).c_str());
+    } else {
+      for (const auto& row : result.rows) std::printf("%s\n", row.dump().c_str());
+    }
+    if (!arguments.folder.empty()) write(result, commandLine(argc, argv), arguments.folder);
+    return 0;
+  });
+}

@@ -1,0 +1,107 @@
+// Bullet's collision world: hulls without margins, pairs filtered before the narrowphase, which keeps
+// manifolds from one configuration to the next. Bullet is optional: without it this file says so.
+#include <algorithm>
+
+#include "fcl_stpbv/adapter/stp_bv_geometry.h"
+#include "fcl_stpbv/convex/hull_graph.h"
+#include "tools/bench/robot/peer.h"
+
+#ifdef FCL_STPBV_BULLET
+#include <btBulletCollisionCommon.h>
+#endif
+
+namespace fcl_stpbv::benchmark {
+
+#ifdef FCL_STPBV_BULLET
+
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+btVector3 toBullet(const Eigen::Vector3d& v) {
+  return {static_cast<btScalar>(v.x()), static_cast<btScalar>(v.y()), static_cast<btScalar>(v.z())};
+}
+
+class Bullet : public Peer, private btOverlapFilterCallback {
+ public:
+  explicit Bullet(const PosedModel& robot)
+      : Peer("Bullet, collision world"), robot_(robot), state_(robot.kinematics->makeState()) {
+    const std::vector<Body>& bodies = robot.geometry->bodies;
+    isChecked_.assign(bodies.size(), std::vector<char>(bodies.size(), 0));
+    for (const CheckedPair& pair : robot.pairs)
+      isChecked_[at(pair.body)][at(pair.other)] = isChecked_[at(pair.other)][at(pair.body)] = 1;
+    world_.getPairCache()->setOverlapFilterCallback(this);
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+      shapes_.push_back(std::make_unique<btConvexHullShape>());
+      const detail::HullGraph& hull = asStpBv(bodies[i].geometry.get())->hull();
+      for (int v = 0; v < hull.vertexCount(); ++v)
+        shapes_.back()->addPoint(toBullet(hull.point(v) + hull.centre()), false);
+      shapes_.back()->recalcLocalAabb();
+      shapes_.back()->setMargin(0);
+      objects_.push_back(std::make_unique<btCollisionObject>());
+      objects_.back()->setCollisionShape(shapes_.back().get());
+      objects_.back()->setUserIndex(static_cast<int>(i));
+      world_.addCollisionObject(objects_.back().get());
+    }
+  }
+  ~Bullet() override {
+    for (const auto& object : objects_) world_.removeCollisionObject(object.get());
+  }
+
+  // The world looks at all pairs at once: it has no first hit.
+  long hits(const Eigen::Ref<const Eigen::VectorXd>& q, bool first) override {
+    robot_.kinematics->forwardPoses(q, state_);
+    for (std::size_t i = 0; i < objects_.size(); ++i) {
+      const Body& body = robot_.geometry->bodies[i];
+      const Eigen::Isometry3d pose = state_.link[at(body.link)] * body.pose;
+      btMatrix3x3 rotation;
+      for (int row = 0; row < 3; ++row) rotation[row] = toBullet(Eigen::Vector3d(pose.linear().row(row)));
+      objects_[i]->setWorldTransform(btTransform(rotation, toBullet(Eigen::Vector3d(pose.translation()))));
+    }
+    world_.performDiscreteCollisionDetection();
+    long meet = 0;
+    for (int i = 0; i < dispatcher_.getNumManifolds(); ++i) {
+      const btPersistentManifold& manifold = *dispatcher_.getManifoldByIndexInternal(i);
+      bool deep = false;
+      for (int k = 0; k < manifold.getNumContacts(); ++k)
+        deep = deep || manifold.getContactPoint(k).getDistance() <= 0;
+      meet += deep;
+    }
+    return first ? std::min(meet, 1L) : meet;
+  }
+
+ private:
+  bool needBroadphaseCollision(btBroadphaseProxy* a, btBroadphaseProxy* b) const override {
+    const auto indexOf = [](btBroadphaseProxy* proxy) {
+      return at(static_cast<btCollisionObject*>(proxy->m_clientObject)->getUserIndex());
+    };
+    return isChecked_[indexOf(a)][indexOf(b)] != 0;
+  }
+
+  const PosedModel& robot_;
+  Kinematics::State state_;
+  std::vector<std::vector<char>> isChecked_;
+  std::vector<std::unique_ptr<btConvexHullShape>> shapes_;
+  std::vector<std::unique_ptr<btCollisionObject>> objects_;
+  btDefaultCollisionConfiguration configuration_;
+  btCollisionDispatcher dispatcher_{&configuration_};
+  btDbvtBroadphase broadphase_;
+  btCollisionWorld world_{&dispatcher_, &broadphase_, &configuration_};
+};
+
+}  // namespace
+
+// Hulls alone: a robot with other bodies is not compared.
+std::unique_ptr<Peer> bulletPeer(const PosedModel& robot) {
+  for (const Body& body : robot.geometry->bodies)
+    if (!asStpBv(body.geometry.get())) return nullptr;
+  return std::make_unique<Bullet>(robot);
+}
+
+#else
+
+std::unique_ptr<Peer> bulletPeer(const PosedModel&) { return nullptr; }
+
+#endif
+
+}  // namespace fcl_stpbv::benchmark
