@@ -23,7 +23,7 @@ void describeFiles(Program& app, RobotArguments& a) {
   app.flag("--visual", files.geometry.visual, "Use the visual shapes");
   app.flag("--skip-invalid", files.skipInvalid,
            "Go on without the shapes that are wrong; exit status 3, not 0");
-  app.flag("--no-cache", a.noCache, "Build every volume and part, keep none in the cache folder");
+  app.flag("--no-cache", a.noCache, "Build and search everything anew, keep nothing in the cache folder");
   app.option("-j,--jobs", a.jobs, "Threads; any number gives the same").whole(1, kMostJobs).shown();
 }
 

@@ -41,8 +41,8 @@ class BodyPair {
     constexpr double kRounding = 8.0 * std::numeric_limits<double>::epsilon();
     const double size = a.extent() + b.extent() + unpack(pose.translation).lpNorm<1>();
     gapRounding_ = kRounding * size;
-    certificateRounding_ = kGapRounding * size;
     acrossRounding_ = gapRounding_ + kRounding * (a.radii().rho + b.radii().rho);
+    certificateRounding_ = kGapRounding * size + acrossRounding_ / kTouching;
   }
 
   const StpBv& a() const { return a_; }
@@ -101,7 +101,8 @@ class BodyPair {
   double gapRounding() const { return gapRounding_; }
 
   /// Bound on the rounding of a gap, of the poses that lead to it too: what a certificate is rounded outward
-  /// by (m).
+  /// by (m). The part of `acrossRounding` is what twice that across adds to the distance of core points more
+  /// than `touching` apart: (2 a)^2 / (2 touching), of which `upper` adds two.
   double certificateRounding() const { return certificateRounding_; }
 
   /// How far a core point may lie beside the point that its normal touches (m).
@@ -110,7 +111,7 @@ class BodyPair {
   /// Cores nearer than this all but touch: a patch reaches past its boundary by the rounding of a normal,
   /// `rho` times that in metres, which is a part of the gap and turns the normal by as much. What starts from
   /// the vertices, which do not reach past theirs, is safe from it (m).
-  double touching() const { return 1e6 * acrossRounding_; }
+  double touching() const { return kTouching * acrossRounding_; }
 
   /// Whether the gap is as wide as it gets near the sample's normal: its gradient is rounding.
   bool isStationary(const Sample& s) const {
@@ -118,6 +119,7 @@ class BodyPair {
   }
 
  private:
+  static constexpr double kTouching = 1e6;
   const StpBv& a_;
   const StpBv& b_;
   const QueryTables& tablesA_;

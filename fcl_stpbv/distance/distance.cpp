@@ -153,16 +153,13 @@ bool walkFeatures(const BodyPair& pair, const SearchStart& start, Sample& x, Sea
 
 /// No gap of the cores is wider than this (m): the distance of the two core points, or what the search of
 /// overlapping cores has proven. A normal is good to an ulp, so a core point may lie beside its body, along
-/// the surface, by as much as `acrossRounding`. Cores apart by far more do not feel it.
-inline double mostGap(const BodyPair& pair, const WidestGap& found) {
+/// the surface, by as much as `acrossRounding`.
+[[gnu::noinline]] double mostGap(const BodyPair& pair, const WidestGap& found) {
   const Sample& at = found.at;
   const double beside = pair.acrossRounding();
   if (found.status == DistanceStatus::local)
     return std::max(found.bound, at.core) + (at.core > -pair.touching() ? beside : 0.0);
-  const double across2 = at.across.squaredNorm(), beside2 = beside * beside;
-  if (across2 <= beside2)  // (|across| + beside)^2 is less
-    return std::sqrt(at.core * at.core + across2 + 3.0 * beside2);
-  return std::hypot(at.core, std::sqrt(across2) + beside);
+  return std::hypot(at.core, at.across.norm() + beside);
 }
 
 }  // namespace
@@ -183,12 +180,13 @@ Distance distance(const StpBv& a, const Isometry3d& poseA, const StpBv& b, const
     if (found.at.patch[0] != cache->patch[0]) a.tables().patches.prefetchAround(found.at.patch[0]);
     if (found.at.patch[1] != cache->patch[1]) b.tables().patches.prefetchAround(found.at.patch[1]);
   }
-  if (!settled || !(found.at.core > pair.touching()))
-    searchWidely(pair, start, settled && found.at.core < -pair.touching(), found, work);
+  const bool apart = settled && found.at.core > pair.touching();
+  if (!apart) searchWidely(pair, start, settled && found.at.core < -pair.touching(), found, work);
 
   const Sample& at = found.at;
   result.status = found.status;
-  const double upper = mostGap(pair, found);
+  const double upper =
+      apart ? std::sqrt(at.core * at.core + at.across.squaredNorm()) : mostGap(pair, found);
   result.distance = at.core - pair.margins();
   result.lower = result.distance - pair.certificateRounding();
   result.upper = upper - pair.margins() + 2.0 * pair.certificateRounding();

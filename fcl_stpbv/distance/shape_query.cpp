@@ -162,9 +162,9 @@ class CornerSet {
     if (count_ == 2) return nearestOnSegment(q, corner_[0], corner_[1], start);
     if (count_ == 3) return nearestOnTriangle(q, corner_[0], corner_[1], corner_[2], start);
     // The fourth is the new one, and the nearest point lies on a face that has it.
-    constexpr std::array<std::array<int, 3>, 3> kFaces{{{0, 1, 3}, {1, 2, 3}, {2, 0, 3}}};
+    constexpr std::array<std::array<int, 3>, 3> kWithNew{{{0, 1, 3}, {1, 2, 3}, {2, 0, 3}}};
     Nearest best;
-    for (const auto& face : kFaces) {
+    for (const auto& face : kWithNew) {
       Nearest next = nearestOnTriangle(q, at(face[0]), at(face[1]), at(face[2]), start);
       for (int& corner : next.corner) corner = face[static_cast<std::size_t>(corner)];
       if (!next.apart) return next;

@@ -13,6 +13,7 @@
 #include <set>
 
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/report/kept_list.h"
 #include "fcl_stpbv/report/named_posture.h"
 #include "fcl_stpbv/report/pair_cause.h"
 #include "fcl_stpbv/report/pair_measure.h"
@@ -158,13 +159,13 @@ void summarise(CollisionReport& report) {
 // The pair list, and every pair in its configuration, with the bodies that report.geometry holds. Where the
 // report holds all that already, only what the bodies of `changed` pairs change is found anew.
 void examine(const ReportRequest& request, const PairListOptions& search, const Postures& postures,
-             const Srdf* srdf, PairCauses& causes, const std::set<LinkPair>& changed,
+             const Srdf* srdf, PairCauses& causes, const std::set<LinkPair>& changed, VolumeCache& cache,
              CollisionReport& report) {
   std::map<LinkPair, PairReport> kept;
   for (PairReport& pair : report.pairs)
     if (changed.count(pair.links) == 0) kept.emplace(pair.links, std::move(pair));
   report.list = report.list.empty()
-                    ? pairList(report.kinematics, report.geometry, srdf, search)
+                    ? keptPairList(report.kinematics, report.geometry, srdf, search, cache)
                     : pairListAgain(report.kinematics, report.geometry, srdf, search, report.list, changed);
   report.pairs.clear();
   report.trajectory.reset();
@@ -214,11 +215,16 @@ std::vector<PartsCandidate> hullOnly(const CollisionReport& report, PairCauses& 
 
 // The volumes contain the meshes, and within the two excesses of their witness points there are points of the
 // meshes.
-void boundMeshDistances(const RobotGeometry* scene, PairCauses& causes, CollisionReport& report) {
+void boundMeshDistances(const RobotGeometry* scene, PairCauses& causes, VolumeCache& cache,
+                        CollisionReport& report) {
+  const auto fitOf = [&](const Body& body) {
+    return meshFit(body, [&]() -> const ExactBody& { return causes.exact(body); }, cache);
+  };
+  for (const Body& body : report.geometry->bodies) report.fits.push_back(fitOf(body));
   std::vector<double> excess;
   for (const MeshFit& fit : report.fits) excess.push_back(fit.volumeExcess);
   if (scene)
-    for (const Body& body : scene->bodies) excess.push_back(meshFit(body, causes.exact(body)).volumeExcess);
+    for (const Body& body : scene->bodies) excess.push_back(fitOf(body).volumeExcess);
   for (PairReport& pair : report.pairs)
     if (pair.answer.distance > 0)
       pair.meshDistanceMost = pair.answer.upper + excess[at(pair.body1)] + excess[at(pair.body2)];
@@ -250,11 +256,12 @@ CollisionReport makeReport(const ReportRequest& request) {
   const bool split = request.partsAuto || request.partsAll > 1;
   PartsChoice parts({report.kinematics, whole, report.obstacles, search.margin}, request.files.geometry,
                     request.partsAll > 1 || request.partsForAllPairs);
+  VolumeCache cache(request.files.geometry.cacheFolder);
   PairCauses causes(report.kinematics, whole, report.obstacles, loader.sceneGeometry());
   const auto examineAgain = [&](const std::set<LinkPair>& changed) {
     report.geometry = parts.geometry();
     causes.use(report.geometry);
-    examine(request, search, postures, srdf, causes, changed, report);
+    examine(request, search, postures, srdf, causes, changed, cache, report);
   };
   if (request.partsAll > 1) parts.splitAll(request.partsAll);
   examineAgain({});
@@ -264,9 +271,8 @@ CollisionReport makeReport(const ReportRequest& request) {
     if (changed.empty()) break;
     examineAgain(changed);
   }
-  for (const Body& body : report.geometry->bodies) report.fits.push_back(meshFit(body, causes.exact(body)));
   if (!request.polyhedra.empty()) report.polyhedra = comparePolyhedra(*report.geometry, request.polyhedra);
-  boundMeshDistances(loader.sceneGeometry().get(), causes, report);
+  boundMeshDistances(loader.sceneGeometry().get(), causes, cache, report);
   summarise(report);
   requirePairs(at(report.checked), *report.robot, countsOf(report.list));
 

@@ -1,21 +1,59 @@
 // How far a link's hull exceeds its mesh (parts/mesh_excess.h) and, with the over-cover, how far its volume
-// does.
+// does. A mesh's figures are kept with the volumes, found by the mesh's content and the volume.
 #include "fcl_stpbv/report/mesh_fit.h"
 
+#include <cmath>
+#include <sstream>
+#include <vector>
+
+#include "fcl_stpbv/io/stpbv_file.h"
 #include "fcl_stpbv/parts/mesh_excess.h"
+#include "fcl_stpbv/robot/shape_source.h"
 
 namespace fcl_stpbv::report {
 
-MeshFit meshFit(const Body& body, const ExactBody& exact) {
+using namespace detail;
+
+namespace {
+
+// Of a whole body.
+MeshFit measured(const Body& body, const ExactBody& exact) {
   MeshFit fit;
-  if (body.partOf >= 0)
-    fit.hullExcess = body.openExcess;
-  else if (const MeshSolid* solid = exact.solid())
+  if (const MeshSolid* solid = exact.solid())
     fit.hullExcess = hullExcess(solid->pieces().vertices, *solid, quickExcess(false)).upper;
-  fit.volumeExcess = fit.hullExcess + body.cover.max;
-  if (body.volume && body.partOf < 0)
+  if (body.volume)
     fit.volumeRatio =
         enclosedVolume(*body.volume) / (body.primitive ? body.primitive->computeVolume() : exact.volume());
+  return fit;
+}
+
+std::string contentOf(const Body& body) {
+  std::ostringstream content;
+  if (body.volume) saveStpBv(content, *body.volume);
+  return content.str() + meshContent(body.file, body.scale);
+}
+
+// As the cache keeps it: finite numbers, 0 for no ratio.
+std::vector<double> toNumbers(const MeshFit& fit) {
+  return {fit.hullExcess, std::isfinite(fit.volumeRatio) ? fit.volumeRatio : 0.0};
+}
+
+}  // namespace
+
+MeshFit meshFit(const Body& body, const std::function<const ExactBody&()>& exact, VolumeCache& cache) {
+  MeshFit fit;
+  if (body.partOf >= 0) {
+    fit.hullExcess = body.openExcess;
+  } else if (body.file.empty()) {
+    fit = measured(body, exact());
+  } else {
+    const auto measure = [&] { return toNumbers(measured(body, exact())); };
+    std::vector<double> kept = cache.numbers(contentOf(body), "fit", measure);
+    if (kept.size() != 2) kept = measure();
+    fit.hullExcess = kept[0];
+    if (kept[1] != 0.0) fit.volumeRatio = kept[1];
+  }
+  fit.volumeExcess = fit.hullExcess + body.cover.max;
   return fit;
 }
 

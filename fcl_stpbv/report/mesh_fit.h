@@ -1,9 +1,11 @@
 // How far a link's convex hull and its volume exceed its mesh.
 #pragma once
 
+#include <functional>
 #include <limits>
 
 #include "fcl_stpbv/report/exact_body.h"
+#include "fcl_stpbv/robot/volume_cache.h"
 
 namespace fcl_stpbv::report {
 
@@ -18,6 +20,7 @@ struct MeshFit {
   double volumeRatio = std::numeric_limits<double>::quiet_NaN();
 };
 
-MeshFit meshFit(const Body& body, const ExactBody& exact);
+/// What was measured before is taken from the cache. `exact`, the body's, is only asked for where it was not.
+MeshFit meshFit(const Body& body, const std::function<const ExactBody&()>& exact, detail::VolumeCache& cache);
 
 }  // namespace fcl_stpbv::report

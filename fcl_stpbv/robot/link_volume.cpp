@@ -29,7 +29,7 @@ class VolumeMaker {
       return StpBv::build(points(), radiiFor(options, link, [this] { return sizeOf(points()); }));
     });
     body_.radii = {body_.volume->radii().r, body_.volume->radii().R};
-    body_.cover = overCover(*body_.volume);
+    body_.cover = keptCover(key);
     if (budget > 0) reduceTo(budget);
     body_.geometry = std::make_shared<StpBvGeometry>(body_.volume);
     body_.centre = body_.volume->centre();
@@ -38,6 +38,21 @@ class VolumeMaker {
 
  private:
   const Points& points() const { return source_.points(); }
+
+  OverCover keptCover(const VolumeKey& key) {
+    std::string from;
+    appendNumber(from, key.radii.r);
+    from += ' ';
+    appendNumber(from, key.radii.R);
+    from += '\n' + key.content;
+    const auto measure = [this] {
+      const OverCover cover = overCover(*body_.volume);
+      return std::vector<double>{cover.max, cover.mean};
+    };
+    std::vector<double> kept = cache_.numbers(from, "cover", measure);
+    if (kept.size() != 2) kept = measure();
+    return {kept[0], kept[1]};
+  }
 
   void reduceTo(double budget) {
     constexpr double kLargest = 1e5;  // beyond it a big sphere is flat to rounding

@@ -11,6 +11,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <sstream>
+#include <type_traits>
 
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/io/atomic_write.h"
@@ -88,6 +89,14 @@ std::string textOf(const StpBv::Ptr& volume) {
   return out.str();
 }
 std::string textOf(const ConvexParts& parts) { return toText(parts); }
+std::string textOf(const std::vector<double>& numbers) {
+  std::string text;
+  for (const double value : numbers) {
+    appendNumber(text, value);
+    text += '\n';
+  }
+  return text;
+}
 
 void read(const std::string& text, const std::string& path, StpBv::Ptr& volume) {
   std::istringstream in(text);
@@ -95,6 +104,10 @@ void read(const std::string& text, const std::string& path, StpBv::Ptr& volume) 
 }
 void read(const std::string& text, const std::string& path, ConvexParts& parts) {
   parts = partsFromText(text, path);
+}
+void read(const std::string& text, const std::string& path, std::vector<double>& numbers) {
+  TextScanner in(text, path);
+  while (!in.atEnd()) numbers.push_back(in.number("a number"));
 }
 
 }  // namespace
@@ -121,6 +134,13 @@ std::string VolumeCache::pathOf(std::string_view content, const PartsOptions& op
   return pathIn(folder_, key, ".parts");
 }
 
+std::string VolumeCache::pathOf(std::string_view content, const std::string& kind) const {
+  std::string key(kVersion);
+  key += kind + "\n";
+  key += content;
+  return pathIn(folder_, key, ("." + kind).c_str());
+}
+
 bool VolumeCache::has(std::string_view content, const StpBvOptions& options) const {
   const int file = folder_.empty() ? -1 : openEntry(pathOf(content, options));
   if (file >= 0) ::close(file);
@@ -135,7 +155,7 @@ Kept VolumeCache::find(const std::string& path, const std::function<Kept()>& bui
     if (!text.empty()) {
       Kept kept;
       read(text, path, kept);
-      ++hits_;
+      hits_ += !std::is_same_v<Kept, std::vector<double>>;
       return kept;
     }
   } catch (const std::exception&) {
@@ -154,6 +174,11 @@ StpBv::Ptr VolumeCache::volume(std::string_view content, const StpBvOptions& opt
 ConvexParts VolumeCache::parts(std::string_view content, const PartsOptions& options,
                                const std::function<ConvexParts()>& build) {
   return find(pathOf(content, options), build);
+}
+
+std::vector<double> VolumeCache::numbers(std::string_view content, const std::string& kind,
+                                         const std::function<std::vector<double>()>& build) {
+  return find(pathOf(content, kind), build);
 }
 
 void VolumeCache::keep(const std::string& path, const std::string& entry) {

@@ -1,5 +1,5 @@
-// Volumes, and the convex parts of meshes, kept on disk between runs, found by the content they were built
-// from.
+// Volumes, the convex parts of meshes, and what was measured of them, kept on disk between runs, found by the
+// content they were built from.
 #pragma once
 
 #include <atomic>
@@ -7,6 +7,7 @@
 #include <mutex>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "fcl_stpbv/parts/convex_parts.h"
 #include "fcl_stpbv/volume/stp_bv.h"
@@ -32,10 +33,15 @@ class VolumeCache {
   ConvexParts parts(std::string_view content, const PartsOptions& options,
                     const std::function<ConvexParts()>& build);
 
+  /// The same of finite numbers that follow from `content` and whose kind, a short word, is the end of the
+  /// entry's name. They may be as many as were ever built for another content: the caller checks.
+  std::vector<double> numbers(std::string_view content, const std::string& kind,
+                              const std::function<std::vector<double>()>& build);
+
   /// Whether there is an entry for a volume; a damaged one counts.
   bool has(std::string_view content, const StpBvOptions& options) const;
 
-  /// How often an entry was believed.
+  /// How often an entry for a volume or parts was believed.
   int hits() const { return hits_; }
 
  private:
@@ -43,6 +49,7 @@ class VolumeCache {
   Kept find(const std::string& path, const std::function<Kept()>& build);
   std::string pathOf(std::string_view content, const StpBvOptions& options) const;
   std::string pathOf(std::string_view content, const PartsOptions& options) const;
+  std::string pathOf(std::string_view content, const std::string& kind) const;
   void keep(const std::string& path, const std::string& text);
 
   std::string folder_;

@@ -439,10 +439,49 @@ class Report(unittest.TestCase):
 
         cold = report("--jobs", "1")
         entries = {name: os.stat(os.path.join(kept, name)).st_mtime_ns for name in os.listdir(kept)}
-        self.assertEqual(sorted(name.endswith(".parts") for name in entries), 3 * [False] + 3 * [True])
+        for ending in (".parts", ".stpbv"):
+            self.assertEqual(sum(name.endswith(ending) for name in entries), 3)
         self.assertEqual(report("--jobs", "3"), cold)
         self.assertEqual({name: os.stat(os.path.join(kept, name)).st_mtime_ns for name in os.listdir(kept)}, entries)
         self.assertEqual(report("--jobs", "2", "--no-cache"), cold)
+
+    def test_a_search_is_kept_and_done_again_where_anything_it_reads_changes(self):
+        box = self.boxes("box.obj", 0.1, (0.5, 0, 0))
+
+        def arm(limit="1", origin="0 0 0.5"):
+            bodies = "".join(link(name, box) for name in "abcd")
+            joints = joint("one", "a", "b", origin=origin) + joint("two", "b", "c", origin="0 0 0.5") + joint("three", "c", "d")
+            return self.robot((bodies + joints).replace('upper="1"', f'upper="{limit}"'))
+
+        def report(*arguments):
+            found = json.loads(self.run_tool(*arguments, "--format", "json").stdout)
+            for name in [n for n in found["summary"] if "us_per" in n or "ns_per" in n]:
+                del found["summary"][name]
+            return found
+
+        kept = os.path.join(self.folder.name, "cache", "fcl_stpbv")
+        entries = lambda: {name: os.stat(os.path.join(kept, name)).st_mtime_ns for name in os.listdir(kept) if name.endswith(".pairs")}
+        first = report(arm())
+        (entry, written), = entries().items()
+        self.assertEqual(report(arm(), "--no-cache"), first)
+        self.assertEqual(report(arm()), first)
+        self.assertEqual(entries(), {entry: written})
+        user = self.put("user.srdf", '<robot name="small"><disable_collisions link1="a" link2="c" reason="User"/></robot>')
+        scene = self.put("scene.urdf", '<robot name="scene"><link name="ball"><collision><origin xyz="0 0 2"/><geometry>'
+                                       '<sphere radius="0.1"/></geometry></collision></link></robot>')
+        other = self.put("neutral.json", '{"one": 0.5}')
+        for count, change in enumerate(([arm(), "--seed", "2"], [arm(), "--samples", "100"], [arm(), "--margin", "0.01"],
+                                        [arm(), "-r", "0.01"], [arm(), "--srdf", user], [arm(), "--obstacles", scene],
+                                        [arm(), "--neutral", other], ["2"], ["1", "0 0 0.4"])):
+            if not os.path.isabs(change[0]):
+                change = [arm(*change)]
+            found = report(*change)
+            self.assertEqual(len(entries()), count + 2, change)
+            self.assertEqual(report(*change, "--no-cache"), found)
+        with open(os.path.join(kept, entry), "r+b") as file:
+            file.seek(-30, os.SEEK_END)
+            file.write(b"9")
+        self.assertEqual(report(arm()), first)
 
     def test_parts_are_not_made_where_meshes_meet(self):
         far = self.boxes("far.obj", 0.01, (5, 0, 0))

@@ -1,0 +1,177 @@
+// The cache knows a list by all that the search reads, written out: the tree of joints, each body with its
+// place, the SRDF's reasons, the obstacles, the options. A list is kept as the numbers of its entries.
+#include "fcl_stpbv/report/kept_list.h"
+
+#include <sstream>
+#include <string>
+
+#include "fcl_stpbv/adapter/posed_geometry.h"
+#include "fcl_stpbv/io/stpbv_file.h"
+#include "fcl_stpbv/io/text_scanner.h"
+
+namespace fcl_stpbv::report {
+
+using namespace detail;
+
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+/// All that a search reads, as text.
+class Question {
+ public:
+  Question(const Kinematics& kinematics, const RobotGeometry& geometry, const Srdf* srdf,
+           const PairListOptions& options) {
+    robot(kinematics);
+    for (const Body& body : geometry.bodies) {
+      add(body.link, body.partOf, body.parts, body.radius);
+      add(body.centre);
+      add(body.pose);
+      add(*body.geometry);
+    }
+    for (const LinkPair& pair : geometry.byParts) add(pair.link1, pair.link2, pair.obstacle);
+    text_ += "srdf\n";
+    if (srdf) reasons(kinematics.robot(), *srdf);
+    for (const Obstacle& obstacle : options.obstacles) {
+      add(obstacle.radius);
+      add(obstacle.centre);
+      add(obstacle.pose);
+      add(*obstacle.geometry);
+    }
+    search(options);
+  }
+
+  /// Whether that is all: not where a body is neither a volume nor one convex shape.
+  bool whole() const { return whole_; }
+  const std::string& text() const { return text_; }
+
+ private:
+  void add(double value) {
+    appendNumber(text_, value);
+    text_ += ' ';
+  }
+  template <class... More>
+  void add(double first, double second, More... more) {
+    add(first);
+    add(second, static_cast<double>(more)...);
+  }
+  void add(const Vector3d& v) { add(v.x(), v.y(), v.z()); }
+  void add(const Isometry3d& pose) {
+    for (int c = 0; c < 4; ++c) add(Vector3d(pose.matrix().col(c).head<3>()));
+    text_ += '\n';
+  }
+
+  void add(const fcl::CollisionGeometryd& geometry) {
+    ConvexBody body;
+    if (!isConvex(geometry, body)) {
+      whole_ = false;
+    } else if (body.volume) {
+      std::ostringstream volume;
+      saveStpBv(volume, *body.volume);
+      text_ += volume.str();
+    } else {
+      const Shape& shape = body.shape;
+      add(static_cast<int>(shape.kind), shape.margin, shape.radius, shape.half, shape.offset, shape.reach);
+      for (const Vector3d& v : {shape.size, shape.normal, shape.centre}) add(v);
+      for (const Vector3d& v : shape.corner) add(v);
+      for (int i = 0; i < shape.vertexCount; ++i) add(shape.vertices[i]);
+      text_ += '\n';
+    }
+  }
+
+  void robot(const Kinematics& kinematics) {
+    const RobotModel& robot = kinematics.robot();
+    add(static_cast<double>(robot.links.size()), kinematics.size(), kinematics.baseMoves());
+    for (const LinkModel& link : robot.links) add(link.parentJoint);
+    for (const JointModel& joint : robot.joints) {
+      add(static_cast<int>(joint.type), joint.parent, joint.child, joint.lower, joint.upper);
+      add(joint.axis);
+      if (joint.mimic) add(joint.mimic->joint, joint.mimic->multiplier, joint.mimic->offset);
+      add(joint.origin);
+    }
+  }
+
+  void reasons(const RobotModel& robot, const Srdf& srdf) {
+    for (std::size_t i = 0; i < robot.links.size(); ++i)
+      for (std::size_t j = i + 1; j < robot.links.size(); ++j) {
+        const std::string reason = srdf.reasonToSkip(robot.links[i].name, robot.links[j].name);
+        if (reason.empty()) continue;
+        add(static_cast<double>(i), static_cast<double>(j));
+        text_ += reason + "\n";
+      }
+  }
+
+  void search(const PairListOptions& options) {
+    text_ += "search " + std::to_string(options.seed) + " ";
+    add(options.samples, options.descents, options.randomDescents, static_cast<double>(options.proofBoxes));
+    add(options.margin, options.alwaysFraction);
+    for (const double value : options.neutral) add(value);
+  }
+
+  std::string text_;
+  bool whole_ = true;
+};
+
+constexpr std::size_t kFields = 12;  // of an entry, before its configuration
+
+std::vector<double> toNumbers(const std::vector<PairEntry>& list) {
+  std::vector<double> numbers;
+  for (const PairEntry& e : list) {
+    for (const double value :
+         {double(e.link1), double(e.link2), double(e.obstacle), double(e.reason), double(e.samples),
+          double(e.collisions), e.minDistance, double(e.byDescent), e.neutralDistance, double(e.boxes),
+          e.security, e.influence})
+      numbers.push_back(value);
+    numbers.insert(numbers.end(), e.closest.begin(), e.closest.end());
+  }
+  return numbers;
+}
+
+std::vector<PairEntry> toList(const std::vector<double>& numbers, std::size_t coordinates) {
+  std::vector<PairEntry> list(numbers.size() / (kFields + coordinates));
+  const double* from = numbers.data();
+  const auto whole = [&from] { return static_cast<int>(*from++); };
+  for (PairEntry& e : list) {
+    e.link1 = whole();
+    e.link2 = whole();
+    e.obstacle = whole() != 0;
+    e.reason = static_cast<PairReason>(whole());
+    e.samples = whole();
+    e.collisions = whole();
+    e.minDistance = *from++;
+    e.byDescent = whole() != 0;
+    e.neutralDistance = *from++;
+    e.boxes = static_cast<long>(*from++);
+    e.security = *from++;
+    e.influence = *from++;
+    e.closest = Eigen::Map<const Eigen::VectorXd>(from, static_cast<Eigen::Index>(coordinates));
+    from += coordinates;
+  }
+  return list;
+}
+
+}  // namespace
+
+std::vector<PairEntry> keptPairList(const std::shared_ptr<const Kinematics>& kinematics,
+                                    const std::shared_ptr<const RobotGeometry>& geometry, const Srdf* srdf,
+                                    const PairListOptions& options, VolumeCache& cache) {
+  const auto search = [&] { return pairList(kinematics, geometry, srdf, options); };
+  constexpr std::size_t kMostNumbers = 2000000;  // some 30 MB
+  const std::size_t links = kinematics->robot().links.size(), coordinates = at(kinematics->size());
+  const std::size_t most = links * (links + options.obstacles.size()) * (kFields + coordinates);
+  if (options.proofSeconds > 0 || most > kMostNumbers) return search();
+  const Question question(*kinematics, *geometry, srdf, options);
+  if (!question.whole()) return search();
+  std::vector<PairEntry> list;
+  const std::vector<double> numbers = cache.numbers(question.text(), "pairs", [&] {
+    list = search();
+    return toNumbers(list);
+  });
+  if (!list.empty()) return list;
+  return numbers.size() % (kFields + coordinates) == 0 ? toList(numbers, coordinates) : search();
+}
+
+}  // namespace fcl_stpbv::report
