@@ -168,4 +168,28 @@ def collide(height=460):
     draw("collide", "Collision queries beside FCL's own", text + "unset multiplot\n", small_print, height)
 
 
-CHARTS = (speed_accuracy, size, solver_error, model_error, jump_test, collide)
+def robot(height=460):
+    """Verdicts and distances of whole configurations, for the pairs of two robots."""
+    asked = [(what, steps) for what in ("first hit", "all pairs", "d and J") for steps in ("small", "random")]
+    ways = (("fcl_stpbv", palette.SMOOTH, 7, "CollisionChecker; d and J: CollisionConstraints"),
+            ("2 threads", palette.SECOND, 13, "their batch on 2 threads"),
+            ("FCL, broadphase", palette.FCL, 7, "FCL's broadphase; d: fcl::distance, no J"),
+            ("Bullet, collision world", palette.OTHER, 9, "Bullet's collision world"))
+    small_print = origin({**measured("robot"), "command": "robot_bench"}, ["First hit and all pairs: collisions only; d and J: distances. Medians of the turns."])
+    text = panels(2, height, small_print, legend_rows=2, panel_titles=True) + \
+        legend([(colour, mark, name) for _, colour, mark, name in ways], height, columns=2) + \
+        f"set logscale y\nset ytics {TIME_TICS}\nset yrange [800:3e6]\nset xrange [-0.5:{len(asked) - 0.5}]\n" \
+        "set xtics (" + ", ".join(f"'{what}, {steps}' {i}" for i, (what, steps) in enumerate(asked)) + ") rotate by 30 right font ',12'\n"
+    for panel, name in enumerate(("robot", "robot_jvrc1")):
+        data, plots = measured(name), []
+        for i, (way, colour, mark, _) in enumerate(ways):
+            names = {way, "fcl::distance, no J"} if way.startswith("FCL") else {way}
+            text += block(f"$robot{panel}{i}", [(asked.index(key), 1e3 * row["us"]) for row in data["rows"] if row["way"] in names
+                                                for key in [(row["what"].removeprefix("batch, "), row["steps"])] if key in asked])
+            plots.append(f"$robot{panel}{i} using 1:2 with points pt {mark} ps 1.1 lc rgb '{colour}'")
+        about = data["about"]
+        text += f"set title '{about['robot']}: {about['pairs']} pairs, a configuration' offset 0,-0.6\nplot " + ", ".join(plots) + "\n" + UNLABEL
+    draw("robot", "A robot's verdicts take a fraction of FCL's time", text + "unset multiplot\n", small_print, height)
+
+
+CHARTS = (speed_accuracy, size, solver_error, model_error, jump_test, collide, robot)
