@@ -185,8 +185,7 @@ Distance distance(const StpBv& a, const Isometry3d& poseA, const StpBv& b, const
 
   const Sample& at = found.at;
   result.status = found.status;
-  const double upper =
-      apart ? std::sqrt(at.core * at.core + at.across.squaredNorm()) : mostGap(pair, found);
+  const double upper = apart ? std::sqrt(at.core * at.core + at.across.squaredNorm()) : mostGap(pair, found);
   result.distance = at.core - pair.margins();
   result.lower = result.distance - pair.certificateRounding();
   result.upper = upper - pair.margins() + 2.0 * pair.certificateRounding();

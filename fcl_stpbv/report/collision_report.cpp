@@ -218,7 +218,8 @@ std::vector<PartsCandidate> hullOnly(const CollisionReport& report, PairCauses& 
 void boundMeshDistances(const RobotGeometry* scene, PairCauses& causes, VolumeCache& cache,
                         CollisionReport& report) {
   const auto fitOf = [&](const Body& body) {
-    return meshFit(body, [&]() -> const ExactBody& { return causes.exact(body); }, cache);
+    return meshFit(
+        body, [&]() -> const ExactBody& { return causes.exact(body); }, cache);
   };
   for (const Body& body : report.geometry->bodies) report.fits.push_back(fitOf(body));
   std::vector<double> excess;
@@ -282,8 +283,7 @@ CollisionReport makeReport(const ReportRequest& request) {
   report.warnings.insert(report.warnings.end(), warnings.begin(), warnings.end());
   const auto tick = [&](const std::shared_ptr<const RobotGeometry>& geometry,
                         const std::vector<CheckedPair>& rows, double handOver) {
-    return tickCost(report, geometry, rows, postures.asked.value_or(report.kinematics->neutral()),
-                    handOver);
+    return tickCost(report, geometry, rows, postures.asked.value_or(report.kinematics->neutral()), handOver);
   };
   constexpr double kNever = std::numeric_limits<double>::infinity();
   report.usPerTick = tick(report.geometry, closestBodies(report), kNever).usPerTick;

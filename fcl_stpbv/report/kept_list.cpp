@@ -120,10 +120,9 @@ constexpr std::size_t kFields = 12;  // of an entry, before its configuration
 std::vector<double> toNumbers(const std::vector<PairEntry>& list) {
   std::vector<double> numbers;
   for (const PairEntry& e : list) {
-    for (const double value :
-         {double(e.link1), double(e.link2), double(e.obstacle), double(e.reason), double(e.samples),
-          double(e.collisions), e.minDistance, double(e.byDescent), e.neutralDistance, double(e.boxes),
-          e.security, e.influence})
+    for (const double value : {double(e.link1), double(e.link2), double(e.obstacle), double(e.reason),
+                               double(e.samples), double(e.collisions), e.minDistance, double(e.byDescent),
+                               e.neutralDistance, double(e.boxes), e.security, e.influence})
       numbers.push_back(value);
     numbers.insert(numbers.end(), e.closest.begin(), e.closest.end());
   }
