@@ -50,13 +50,8 @@ ordered_json optionsOf(const RobotConversion& conversion) {
   return json;
 }
 
-// All that the output follows from, and the files that it was read from.
-struct Inputs {
-  ordered_json json;
-  std::vector<std::string> files;
-};
-
-Inputs inputsOf(const RobotConversion& conversion) {
+// All that the output follows from; `read` gets the files that it was read from.
+ordered_json inputsOf(const RobotConversion& conversion, std::vector<std::string>& read) {
   const RobotFiles& files = conversion.report.files;
   for (const std::string& path : {files.urdf, files.srdf, files.obstacles}) {
     std::error_code ignored;
@@ -66,26 +61,26 @@ Inputs inputsOf(const RobotConversion& conversion) {
   RobotLoader loader(files);
   loader.read();
   loader.faults().refuse(files.skipInvalid);
-  Inputs inputs;
+  ordered_json inputs;
   const auto add = [&](const char* what, const std::string& path) {
     if (path.empty()) return;
-    inputs.files.push_back(path);
-    inputs.json[what] = {{"file", path}, {"sha256", sha256(readText(path))}};
+    read.push_back(path);
+    inputs[what] = {{"file", path}, {"sha256", sha256(readText(path))}};
   };
-  inputs.json["version"] = FCL_STPBV_VERSION;
+  inputs["version"] = FCL_STPBV_VERSION;
   add("urdf", files.urdf);
   add("srdf", files.srdf);
   add("obstacles", files.obstacles);
-  if (!conversion.report.neutral.empty()) inputs.json["neutral"] = digestOf(conversion.report.neutral);
+  if (!conversion.report.neutral.empty()) inputs["neutral"] = digestOf(conversion.report.neutral);
   for (const ShapeSources* sources : {&loader.shapes(), &loader.sceneShapes()}) {
     for (const ShapeSource& source : sources->shapes) {
       if (source.file.empty()) continue;
-      inputs.files.push_back(source.file);
-      inputs.json["meshes"].push_back({source.file, sha256(source.content)});
+      read.push_back(source.file);
+      inputs["meshes"].push_back({source.file, sha256(source.content)});
     }
   }
-  inputs.json["left_out"] = loader.skipped();
-  inputs.json["options"] = optionsOf(conversion);
+  inputs["left_out"] = loader.skipped();
+  inputs["options"] = optionsOf(conversion);
   return inputs;
 }
 
@@ -93,12 +88,13 @@ Inputs inputsOf(const RobotConversion& conversion) {
 
 ConversionResult convertRobot(const RobotConversion& conversion) {
   ConversionResult result;
-  const Inputs inputs = inputsOf(conversion);
-  const std::string key = sha256(inputs.json.dump(-1, ' ', false, ordered_json::error_handler_t::replace));
-  const std::string kept = keyOfFolder(conversion.folder, inputs.files, conversion.force);
+  std::vector<std::string> read;
+  const ordered_json inputs = inputsOf(conversion, read);
+  const std::string key = sha256(inputs.dump(-1, ' ', false, ordered_json::error_handler_t::replace));
+  const std::string kept = keyOfFolder(conversion.folder, read, conversion.force);
   if (kept == key && !conversion.force) {
     result.upToDate = true;
-    for (const auto& shape : inputs.json["left_out"]) result.skipped.push_back(shape);
+    for (const auto& shape : inputs["left_out"]) result.skipped.push_back(shape);
     result.summary = conversion.folder + " is up to date";
     return result;
   }
@@ -106,7 +102,7 @@ ConversionResult convertRobot(const RobotConversion& conversion) {
   request.partsForAllPairs = true;
   const CollisionReport report = makeReport(request);
   PartFiles output(conversion, report);
-  atomicWriteFolder(conversion.folder, output.make(inputs.json, key));
+  atomicWriteFolder(conversion.folder, output.make(inputs, key));
   result.warnings = report.warnings;
   result.skipped = report.skipped;
   result.summary = formatted(
