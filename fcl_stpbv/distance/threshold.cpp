@@ -1,7 +1,7 @@
 // Bounds from both sides, the cheapest first:
 // 1. Balls around the volumes apart, or balls inside them near each other.
-// 2. Where the pair's last plane is known and the bodies have hardly turned: that plane, then, unless the
-//    cores overlap along it, the distance, a step or two away.
+// 2. Where the pair's last plane is known and the bodies have hardly turned: the distance, a step or two
+//    away, unless the cores overlap along that plane.
 // 3. The plane across the line of centres between the volumes.
 // 4. GJK on the vertices, until two points of the cores are near enough, which proves that the volumes are,
 //    or a plane is between the hulls.
@@ -84,8 +84,7 @@ bool isFartherThan(double x, const StpBv& a, const Isometry3d& poseA, const StpB
     const auto known = [](const StpBv& body, int patch) { return patch < body.patchCount() ? patch : -1; };
     const Sample last = pair.sampleFrom(pose.toWorld.inverse(cache->normal).normalized(),
                                         {known(a, cache->patch[0]), known(b, cache->patch[1])}, ignored);
-    if (isPlaneBetween(last)) return true;
-    if (last.core > 0) return isDistanceFarther(cache);
+    if (last.core > 0) return isDistanceFarther(cache);  // and the best plane for the next time
   }
   const Vector3d n = length > 0 ? Vector3d(between / length) : Vector3d::UnitX();
   Sample plane = pair.sampleFrom(n, {-1, -1}, ignored);

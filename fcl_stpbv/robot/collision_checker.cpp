@@ -18,6 +18,8 @@
 #include "fcl_stpbv/distance/threshold.h"
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/packed.h"
+#include "fcl_stpbv/robot/kept_plane.h"
+#include "fcl_stpbv/robot/sphere_pairs.h"
 #include "fcl_stpbv/vectorized.h"
 
 namespace fcl_stpbv {
@@ -29,7 +31,6 @@ using Eigen::Vector3d;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kLowest = std::numeric_limits<double>::lowest();
-constexpr std::size_t kLanes = 4;
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
@@ -48,13 +49,6 @@ struct Placed {
   ConvexBody body;  ///< where it is convex; posed at the last query
 };
 
-/// The plane that kept a pair apart, as both bodies saw it.
-struct KeptPlane {
-  Packed outward[2];  ///< unit, in each body's frame
-  double height;      ///< of both supporting planes over the spheres' centres, summed (m)
-  Packed touching;    ///< where the second body touches its plane, from its centre, in its frame (m)
-};
-
 struct Pair {
   std::size_t a, b;     ///< among the bodies
   double bend;          ///< half the second body's R; infinite where it is no STP-BV (m)
@@ -65,47 +59,6 @@ struct Pair {
   KeptPlane plane{};
   PairCache cache;
 };
-
-/// Structs, because as a template's argument alone a Packed would lose its alignment.
-struct Sphere {
-  Packed centre;  ///< in the world, and a 1
-};
-struct FourPairs {
-  std::size_t a[kLanes], b[kLanes];
-  Packed reach;  ///< centres farther apart than this are clear (m)
-};
-
-/// A pair that its spheres do not clear.
-struct Near {
-  int pair;
-  double apart2;  ///< of the centres (m^2)
-};
-
-inline Packed turned(const Isometry3d& frame, const Packed& v) {
-  return v[0] * column(frame, 0) + v[1] * column(frame, 1) + v[2] * column(frame, 2);
-}
-
-/// How far the bodies have turned against each other since a plane was kept (rad, squared).
-FCL_STPBV_VECTORIZED
-double turnSince(const KeptPlane& plane, const Isometry3d& frameA, const Isometry3d& frameB) {
-  const Packed t = turned(frameA, plane.outward[0]) + turned(frameB, plane.outward[1]);
-  return dot(t, t);
-}
-
-/// Least gap along a kept plane where the bodies are now (m), along the first body's direction u. The second
-/// body's direction w, then -u, is now t = u + w away from that, and its support along -u is bounded twice:
-/// the support function of a body within a ball of radius `radius` about its centre changes by at most radius
-/// |t|; and an STP-BV lies in the ball of radius R that touches it where it touches its plane, whose support
-/// along -u is higher by R |t|^2 / 2 less point.t.
-FCL_STPBV_VECTORIZED
-double gapAlong(const KeptPlane& plane, const Isometry3d& frameA, const Isometry3d& frameB, const Sphere& a,
-                const Sphere& b, double radius, double bend) {
-  const Packed u = turned(frameA, plane.outward[0]), w = turned(frameB, plane.outward[1]), t = u + w;
-  const double turn2 = dot(t, t);
-  double rise = radius * std::sqrt(turn2);
-  if (bend < kInfinity) rise = std::min(rise, bend * turn2 - dot(turned(frameB, plane.touching), t));
-  return dot(u, b.centre - a.centre) - plane.height - rise;
-}
 
 }  // namespace
 
@@ -131,8 +84,7 @@ class CollisionChecker::Impl {
   void addPair(const CheckedPair& pair);
   bool place(const ConstVector& q);
   void placeSpheres();
-  void compareSpheres();
-  bool isClear(const Near& near);
+  bool isClear(const NearPair& near);
   bool isRecent(const Pair& pair) const;
   double planeGap(Pair& pair) const;
   bool searchSaysClear(Pair& pair);
@@ -152,11 +104,9 @@ class CollisionChecker::Impl {
   double margin_ = 0, largest_ = 0, slack_ = 0;  // of the margin, of all radii, of the poses' rounding (m)
   Kinematics::State state_;                      // with the world's frame as one more link
   std::vector<Placed> bodies_;
-  std::vector<Sphere> spheres_;
+  std::vector<SphereCentre> centres_;  // of the bodies' spheres
   std::vector<Pair> checked_;
-  std::vector<FourPairs> fours_;
-  std::vector<Near> near_;
-  std::size_t nearCount_ = 0;
+  SpherePairs near_;
   std::vector<Hit> hits_;
   CheckerWork work_;
   std::size_t closest_ = 0;  // the pair of the last least distance
@@ -179,8 +129,8 @@ CollisionChecker::Impl::Impl(std::shared_ptr<const Kinematics> kinematics,
   for (const Obstacle& obstacle : obstacles_)
     addBody(world, *obstacle.geometry, obstacle.pose, obstacle.centre, obstacle.radius);
   for (const CheckedPair& pair : pairs_) addPair(pair);
-  spheres_.resize(bodies_.size());
-  near_.resize(pairs_.size() + kLanes);
+  centres_.resize(bodies_.size());
+  near_.resize(pairs_.size());
   hits_.reserve(pairs_.size());
   setMargin(margin);
 }
@@ -219,14 +169,11 @@ void CollisionChecker::Impl::addPair(const CheckedPair& pair) {
 void CollisionChecker::Impl::setMargin(double margin) {
   if (std::isnan(margin)) throw Error("CollisionChecker: the margin is not a number");
   margin_ = margin;
-  fours_.assign((checked_.size() + kLanes - 1) / kLanes, FourPairs{});
   for (std::size_t p = 0; p < checked_.size(); ++p) {
-    FourPairs& four = fours_[p / kLanes];
     const Pair& pair = checked_[p];
-    four.a[p % kLanes] = pair.a;
-    four.b[p % kLanes] = pair.b;
     const double reach = bodies_[pair.a].radius + bodies_[pair.b].radius + margin;
-    four.reach[p % kLanes] = reach >= 0 ? reach : kInfinity;  // spheres say nothing about so deep an overlap
+    near_.set(p, pair.a, pair.b,
+              reach >= 0 ? reach : kInfinity);  // spheres say nothing about so deep an overlap
   }
 }
 
@@ -246,32 +193,11 @@ void CollisionChecker::Impl::placeSpheres() {
     const Placed& body = bodies_[i];
     const Isometry3d& frame = state_.link[body.frame];
     const Packed c = turned(frame, pack3(body.centre)) + column(frame, 3);
-    spheres_[i].centre = c;
+    centres_[i].at = c;
     most = larger(most, larger(c, -c));
   }
   // The products of a chain of links and the poses of both bodies, each off by some units in the last place.
   slack_ = 2 * kGapRounding * (largest(most) + largest_);
-}
-
-// What is not finite is not clear.
-FCL_STPBV_VECTORIZED
-void CollisionChecker::Impl::compareSpheres() {
-  nearCount_ = 0;
-  int pair = 0;
-  const int count = static_cast<int>(checked_.size());
-  for (const FourPairs& four : fours_) {
-    Packed squares[kLanes];
-    for (std::size_t k = 0; k < kLanes; ++k) {
-      const Packed d = spheres_[four.b[k]].centre - spheres_[four.a[k]].centre;
-      squares[k] = d * d;
-    }
-    const Packed apart2 = sums(squares[0], squares[1], squares[2], squares[3]), reach = four.reach + slack_;
-    for (std::size_t k = 0; k < kLanes; ++k, ++pair) {
-      near_[nearCount_] = {pair, apart2[k]};
-      const bool clear = apart2[k] > reach[k] * reach[k] && apart2[k] < kInfinity;
-      nearCount_ += !clear && pair < count;
-    }
-  }
 }
 
 // After more of a turn the plane tells little, and a search from the centres takes fewer steps than one from
@@ -285,12 +211,12 @@ bool CollisionChecker::Impl::isRecent(const Pair& pair) const {
 double CollisionChecker::Impl::planeGap(Pair& pair) const {
   if (!pair.lifted) lift(pair);
   const Placed &a = bodies_[pair.a], &b = bodies_[pair.b];
-  return gapAlong(pair.plane, state_.link[a.frame], state_.link[b.frame], spheres_[pair.a], spheres_[pair.b],
+  return gapAlong(pair.plane, state_.link[a.frame], state_.link[b.frame], centres_[pair.a], centres_[pair.b],
                   b.radius, pair.bend) -
          pair.rounding - slack_;
 }
 
-bool CollisionChecker::Impl::isClear(const Near& near) {
+bool CollisionChecker::Impl::isClear(const NearPair& near) {
   Pair& pair = checked_[at(near.pair)];
   ++work_.near;
   const double within = bodies_[pair.a].inner + bodies_[pair.b].inner + margin_ - slack_ - pair.rounding;
@@ -355,14 +281,13 @@ void CollisionChecker::Impl::lift(Pair& pair) const {
 
 std::optional<Hit> CollisionChecker::Impl::firstHit(const ConstVector& q) {
   if (!place(q)) return Hit{};
-  compareSpheres();
-  const auto first = near_.begin(), last = first + static_cast<std::ptrdiff_t>(nearCount_);
-  std::sort(first, last, [&](const Near& x, const Near& y) {
+  near_.compare(centres_, slack_);
+  std::sort(near_.begin(), near_.end(), [&](const NearPair& x, const NearPair& y) {
     const long hitX = checked_[at(x.pair)].lastHit, hitY = checked_[at(y.pair)].lastHit;
     return hitX != hitY ? hitX > hitY : x.pair < y.pair;
   });
-  for (auto near = first; near != last; ++near)
-    if (!isClear(*near)) return hitOf(near->pair);
+  for (const NearPair& near : near_)
+    if (!isClear(near)) return hitOf(near.pair);
   return std::nullopt;
 }
 
@@ -372,9 +297,9 @@ const std::vector<Hit>& CollisionChecker::Impl::allHits(const ConstVector& q) {
     hits_.push_back({});
     return hits_;
   }
-  compareSpheres();
-  for (std::size_t i = 0; i < nearCount_; ++i)
-    if (!isClear(near_[i])) hits_.push_back(hitOf(near_[i].pair));
+  near_.compare(centres_, slack_);
+  for (const NearPair& near : near_)
+    if (!isClear(near)) hits_.push_back(hitOf(near.pair));
   return hits_;
 }
 
@@ -411,7 +336,7 @@ double CollisionChecker::Impl::minDistance(const ConstVector& q) {
   for (std::size_t p = 0; p < checked_.size() && least > kLowest; ++p) {
     Pair& pair = checked_[p];
     if (p == first) continue;
-    const Packed d = spheres_[pair.b].centre - spheres_[pair.a].centre;
+    const Packed d = centres_[pair.b].at - centres_[pair.a].at;
     const double apart = std::sqrt(dot(d, d));
     const double gap = apart - bodies_[pair.a].radius - bodies_[pair.b].radius - slack_;
     if (gap > least && apart < kInfinity) continue;

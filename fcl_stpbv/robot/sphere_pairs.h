@@ -1,0 +1,44 @@
+// Which pairs of bodies do their bounding spheres not keep apart? One array, compared four pairs at a time.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "fcl_stpbv/robot/kept_plane.h"
+
+namespace fcl_stpbv::detail {
+
+/// A pair that its spheres do not clear.
+struct NearPair {
+  int pair;
+  double apart2;  ///< of the centres (m^2)
+};
+
+/// The pairs of a fixed list.
+class SpherePairs {
+ public:
+  /// Room for so many pairs; none is set.
+  void resize(std::size_t pairs);
+  /// Spheres `a` and `b` are clear where their centres are farther apart than `reach` (m).
+  void set(std::size_t pair, std::size_t a, std::size_t b, double reach);
+
+  /// Looks at all pairs, of centres that are off by up to `slack` together (m). What is not finite is not
+  /// clear.
+  void compare(const std::vector<SphereCentre>& centre, double slack);
+  /// Those that are not clear, ascending until the caller sorts them.
+  NearPair* begin() { return near_.data(); }
+  NearPair* end() { return near_.data() + nearCount_; }
+
+ private:
+  static constexpr std::size_t kLanes = 4;
+  struct Four {
+    std::size_t a[kLanes], b[kLanes];
+    Packed reach;
+  };
+
+  std::vector<Four> fours_;
+  std::vector<NearPair> near_;
+  std::size_t count_ = 0, nearCount_ = 0;
+};
+
+}  // namespace fcl_stpbv::detail
