@@ -242,9 +242,21 @@ def posture_grid():
 
 @table("scale")
 def scale():
-    return markdown(("batch", "jobs", "seconds a job", "one process (s)", "two processes (s)", "efficiency", "bytes a result", "at most"),
-                    [(row["batch"], row["jobs"], row["seconds_a_job"], row["one_process"], row["two_processes"], row["efficiency"], f"{row['bytes_a_result']:,}",
+    return markdown(("batch", "jobs", "seconds a job", "one process (s)", "two processes (s)", "efficiency", "of what the machine gives", "bytes a result", "at most"),
+                    [(row["batch"], row["jobs"], row["seconds_a_job"], row["one_process"], row["two_processes"], row["efficiency"], row["of_the_machine"], f"{row['bytes_a_result']:,}",
                       f"{row['most_bytes']:,}") for row in measured("scale")["rows"]])
+
+
+@table("scene", "scene_jvrc1")
+def scene():
+    rows = []
+    for robot, name in (("hrp2_style", "scene"), ("JVRC-1", "scene_jvrc1")):
+        figures = measured(name)
+        rows += [(robot, row["model"], f"{row['vertices']:,}", f"{row['rows']:,}", f"{row['us_a_tick']:.0f} / {row['us_handed_over']:.0f}",
+                  f"{1e3 * row['excess_mean']:.0f} ({1e3 * row['excess_most']:.0f})", f"{row['verdicts_differ']:,} of {row['pairs_differ']} pairs",
+                  f"{row['others_differ']:,}") for row in figures["rows"]]
+    return markdown(("robot", "model", "vertices", "rows", "µs a tick / with hand-over", "excess over the meshes, mean (most), mm", "verdicts that differ",
+                     "elsewhere"), rows)
 
 
 @table("radii")
