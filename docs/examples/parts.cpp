@@ -9,6 +9,7 @@
 #include "fcl_stpbv/adapter/distance_callback.h"
 #include "fcl_stpbv/parts/convex_parts.h"
 #include "fcl_stpbv/robot/mesh_file.h"
+#include "fcl_stpbv/robot/scene_model.h"
 #include "fcl_stpbv/volume/stp_bv.h"
 
 using namespace fcl_stpbv;
@@ -42,9 +43,27 @@ data.leaveOut = [](const auto* a, const auto* b) { return a->getUserData() == b-
     for (const auto& object : objects) scene.registerObject(object.get());
     scene.setup();
     scene.distance(&data, distanceCallback);
+    // Three pairs of the robot as fine as they need to be in its neutral posture.
+    const auto robot = std::make_shared<const RobotModel>(loadUrdf("hrp2_style.urdf"));
+    const auto kinematics = std::make_shared<const Kinematics>(robot);
+    const Eigen::VectorXd q = kinematics->neutral();
+    const std::vector<Obstacle> obstacles;
+    std::vector<LinkPair> pairs;
+    for (const char* name : {"HEAD_LINK1", "RARM_LINK5", "RLEG_LINK5"})
+      pairs.push_back({robot->link("BODY"), robot->link(name)});
+    // clang-format off
+GeometryOptions options;
+options.radii = {0.01, 10.0};
+const auto levels = loadLevels(*robot, options, {0.05, 0.02});  // over-covers of up to 5 and 2 cm, then r = 1 cm with all vertices
+std::vector<SceneNeed> needs;                                   // pairs that the coarsest bodies make collide in configurations that matter
+for (const LinkPair& pair : pairs) needs.push_back({pair, q, 0.0});
+const SceneModel model = modelForScene(kinematics, levels, obstacles, needs);
+    // clang-format on
+    std::printf("%d of %d needs are met\n", static_cast<int>(needs.size() - model.unmet.size()),
+                static_cast<int>(needs.size()));
     std::printf("the two bodies are %.3f m apart\n", data.result.distance);
     std::printf("%d parts, %.3f mm from the mesh at most\n", static_cast<int>(volumes.size()),
                 parts.excess * 1e3);
-    return volumes.empty() || volumes.size() > 8 || !(data.result.distance > 1) ? 1 : 0;
+    return volumes.empty() || volumes.size() > 8 || !(data.result.distance > 1) || !model.unmet.empty() ? 1 : 0;
   });
 }

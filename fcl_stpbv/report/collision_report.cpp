@@ -2,7 +2,7 @@
 // 1. the pair list with its reasons (robot/pair_list.h);
 // 2. each checked pair in the given posture or its closest one: distances of volumes, hulls and meshes,
 //    gradient;
-// 3. with --parts, both again with the links split that need it (parts_choice.h);
+// 3. with --parts, both again with the links split that need it (robot/detail_choice.h);
 // 4. how far the links' volumes exceed their meshes, and what each collision comes from.
 #include "fcl_stpbv/report/collision_report.h"
 
@@ -17,10 +17,10 @@
 #include "fcl_stpbv/report/named_posture.h"
 #include "fcl_stpbv/report/pair_cause.h"
 #include "fcl_stpbv/report/pair_measure.h"
-#include "fcl_stpbv/report/parts_choice.h"
 #include "fcl_stpbv/report/report_warnings.h"
 #include "fcl_stpbv/report/tick_time.h"
 #include "fcl_stpbv/report/trajectory_file.h"
+#include "fcl_stpbv/robot/detail_choice.h"
 #include "fcl_stpbv/robot/pair_list_again.h"
 
 namespace fcl_stpbv::report {
@@ -198,19 +198,19 @@ void examine(const ReportRequest& request, const PairListOptions& search, const 
 
 // Pairs whose meshes do not meet although their hulls do: in the configuration that each is reported in, and
 // in the neutral one where the pair list leaves it out as colliding there.
-std::vector<PartsCandidate> hullOnly(const CollisionReport& report, PairCauses& causes,
-                                     const Eigen::VectorXd& neutral) {
-  std::vector<PartsCandidate> candidates;
+std::vector<SceneNeed> hullOnly(const CollisionReport& report, PairCauses& causes,
+                                const Eigen::VectorXd& neutral) {
+  std::vector<SceneNeed> needs;
   for (const PairReport& pair : report.pairs) {
     if (pair.checked && pair.colliding && pair.cause == kHullOnly)
-      candidates.push_back({pair.links, pair.configuration});
+      needs.push_back({pair.links, pair.configuration, report.margin});
     const bool byDefault = pair.reason == reasonText(PairReason::byDefault) ||
                            pair.reason == reasonText(PairReason::defaultClears);
     if (byDefault &&
         causes.explain(bodiesOf(*report.geometry, pair.links), neutral, report.margin).cause == kHullOnly)
-      candidates.push_back({pair.links, neutral});
+      needs.push_back({pair.links, neutral, report.margin});
   }
-  return candidates;
+  return needs;
 }
 
 // The volumes contain the meshes, and within the two excesses of their witness points there are points of the
@@ -255,10 +255,12 @@ CollisionReport makeReport(const ReportRequest& request) {
 
   const std::shared_ptr<const RobotGeometry> whole = report.geometry;
   const bool split = request.partsAuto || request.partsAll > 1;
-  PartsChoice parts({report.kinematics, whole, report.obstacles, search.margin}, request.files.geometry,
-                    request.partsAll > 1 || request.partsForAllPairs);
-  VolumeCache cache(request.files.geometry.cacheFolder);
-  PairCauses causes(report.kinematics, whole, report.obstacles, loader.sceneGeometry());
+  const GeometryOptions& options = request.files.geometry;
+  DetailChoice parts(report.kinematics, {whole}, report.obstacles,
+                     {options.cacheFolder, options.threads, options.progress},
+                     request.partsAll > 1 || request.partsForAllPairs);
+  VolumeCache cache(options.cacheFolder);
+  PairCauses causes(report.kinematics, whole, report.obstacles, loader.sceneGeometry(), &cache);
   const auto examineAgain = [&](const std::set<LinkPair>& changed) {
     report.geometry = parts.geometry();
     causes.use(report.geometry);
@@ -279,7 +281,7 @@ CollisionReport makeReport(const ReportRequest& request) {
 
   report.neutral =
       judgeNeutral(report.kinematics, report.geometry, report.list, postures.neutral, srdf, search.margin);
-  const std::vector<std::string> warnings = reportWarnings(report, request.neutral, causes);
+  const std::vector<std::string> warnings = reportWarnings(report, request.neutral);
   report.warnings.insert(report.warnings.end(), warnings.begin(), warnings.end());
   const auto tick = [&](const std::shared_ptr<const RobotGeometry>& geometry,
                         const std::vector<CheckedPair>& rows, double handOver) {

@@ -19,6 +19,7 @@ namespace {
 // Of a whole body.
 MeshFit measured(const Body& body, const ExactBody& exact) {
   MeshFit fit;
+  fit.closed = exact.closed();
   if (const MeshSolid* solid = exact.solid())
     fit.hullExcess = hullExcess(solid->pieces().vertices, *solid, quickExcess(false)).upper;
   if (body.volume)
@@ -35,7 +36,7 @@ std::string contentOf(const Body& body) {
 
 // As the cache keeps it: finite numbers, 0 for no ratio.
 std::vector<double> toNumbers(const MeshFit& fit) {
-  return {fit.hullExcess, std::isfinite(fit.volumeRatio) ? fit.volumeRatio : 0.0};
+  return {fit.hullExcess, std::isfinite(fit.volumeRatio) ? fit.volumeRatio : 0.0, fit.closed ? 1.0 : 0.0};
 }
 
 }  // namespace
@@ -48,10 +49,11 @@ MeshFit meshFit(const Body& body, const std::function<const ExactBody&()>& exact
     fit = measured(body, exact());
   } else {
     const auto measure = [&] { return toNumbers(measured(body, exact())); };
-    std::vector<double> kept = cache.numbers(contentOf(body), "fit", measure);
-    if (kept.size() != 2) kept = measure();
+    std::vector<double> kept = cache.numbers(contentOf(body), "measures", measure);
+    if (kept.size() != 3) kept = measure();
     fit.hullExcess = kept[0];
     if (kept[1] != 0.0) fit.volumeRatio = kept[1];
+    fit.closed = kept[2] != 0.0;
   }
   fit.volumeExcess = fit.hullExcess + body.cover.max;
   return fit;

@@ -18,6 +18,7 @@ struct MeshFit {
   /// Volume enclosed by the smooth surface as a multiple of the mesh's or the primitive's; NaN where the mesh
   /// is open, the body flat or a part.
   double volumeRatio = std::numeric_limits<double>::quiet_NaN();
+  bool closed = true;  ///< ExactBody::closed(); true for a part
 };
 
 /// What was measured before is taken from the cache. `exact`, the body's, is only asked for where it was not.

@@ -1,17 +1,25 @@
 // What a collision comes from: the meshes meet; else the hulls do; else only the volumes. Body by body,
 // nearest first, so that the mesh distance of far ones need not be found. Exact bodies are made once and
-// kept.
+// kept. The cache knows an answer by the meshes, the volumes and where they are.
 #include "fcl_stpbv/report/pair_cause.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <numeric>
 #include <set>
+#include <sstream>
 
 #include "fcl_stpbv/adapter/hull_geometry.h"
 #include "fcl_stpbv/adapter/proximity.h"
+#include "fcl_stpbv/io/stpbv_file.h"
+#include "fcl_stpbv/io/text_scanner.h"
+#include "fcl_stpbv/robot/shape_source.h"
 
 namespace fcl_stpbv::report {
+
+using namespace detail;
+
 namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
@@ -20,15 +28,17 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 PairCauses::PairCauses(std::shared_ptr<const Kinematics> kinematics,
                        std::shared_ptr<const RobotGeometry> robot, std::vector<Obstacle> obstacles,
-                       std::shared_ptr<const RobotGeometry> scene)
+                       std::shared_ptr<const RobotGeometry> scene, VolumeCache* cache)
     : kinematics_(std::move(kinematics)),
       robot_(std::move(robot)),
       scene_(std::move(scene)),
-      obstacles_(std::move(obstacles)) {}
+      obstacles_(std::move(obstacles)),
+      cache_(cache) {}
 
 void PairCauses::use(std::shared_ptr<const RobotGeometry> robot) {
   robot_ = std::move(robot);
   partHulls_.clear();
+  contents_.clear();
 }
 
 const ExactBody& PairCauses::exact(const Body& body) {
@@ -62,6 +72,65 @@ PairCauses::Placed PairCauses::second(const CheckedPair& pair, const Kinematics:
 
 PairCause PairCauses::explain(const std::vector<CheckedPair>& bodies, const Eigen::VectorXd& q,
                               double margin) {
+  const std::optional<std::string> asked = cache_ ? question(bodies, q, margin) : std::nullopt;
+  if (!asked) return measured(bodies, q, margin);
+  const std::array<const char*, 4> causes{"", kMarginOnly, kHullOnly, kMeshesMeet};
+  const auto measure = [&]() -> std::vector<double> {
+    const PairCause found = measured(bodies, q, margin);
+    const auto cause = std::find(causes.begin(), causes.end(), found.cause);
+    return {found.meshDistance, static_cast<double>(cause - causes.begin())};
+  };
+  std::vector<double> kept = cache_->numbers(*asked, "cause", measure);
+  if (kept.size() != 2 || !(kept[1] >= 0 && kept[1] < 4)) kept = measure();
+  return {kept[0], causes[static_cast<std::size_t>(kept[1])]};
+}
+
+// What a mesh or its part, and the volume around it, are made of.
+const std::string& PairCauses::content(const Body& body) {
+  std::string& text = contents_[&body];
+  if (!text.empty()) return text;
+  text = meshContent(body.file, body.scale);
+  if (body.volume) {
+    std::ostringstream volume;
+    saveStpBv(volume, *body.volume);
+    text += volume.str();
+  }
+  for (const Eigen::Vector3d& p : body.hull)
+    for (const double x : p) appendNumber(text += ' ', x);
+  return text;
+}
+
+// All that measured() reads; none where a body is no mesh.
+std::optional<std::string> PairCauses::question(const std::vector<CheckedPair>& bodies,
+                                                const Eigen::VectorXd& q, double margin) {
+  Kinematics::State state = kinematics_->makeState();
+  kinematics_->forward(q, state);
+  std::string text;
+  appendNumber(text, margin);
+  const auto add = [&](const Body& body, const Eigen::Isometry3d& pose) {
+    if (body.file.empty()) return false;
+    text += '\n';
+    for (int column = 0; column < 4; ++column)
+      for (int row = 0; row < 3; ++row) appendNumber(text += ' ', pose(row, column));
+    text += content(body);
+    return true;
+  };
+  const auto addOwn = [&](int index) {
+    const Body& body = robot_->bodies[at(index)];
+    return add(body, state.link[at(body.link)] * body.pose);
+  };
+  for (const CheckedPair& pair : bodies) {
+    const bool meshes = addOwn(pair.body) &&
+                        (pair.obstacle ? add(scene_->bodies[at(pair.other)], obstacles_[at(pair.other)].pose)
+                                       : addOwn(pair.other));
+    if (!meshes) return std::nullopt;
+  }
+  return text;
+}
+
+// Body by body, nearest first.
+PairCause PairCauses::measured(const std::vector<CheckedPair>& bodies, const Eigen::VectorXd& q,
+                               double margin) {
   ConstraintOptions options;
   options.obstacles = obstacles_;
   CollisionConstraints constraints(kinematics_, robot_, bodies, options);

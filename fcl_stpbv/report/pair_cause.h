@@ -4,12 +4,14 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <tuple>
 #include <vector>
 
 #include "fcl_stpbv/report/mesh_distance.h"
 #include "fcl_stpbv/robot/constraints.h"
+#include "fcl_stpbv/robot/volume_cache.h"
 
 namespace fcl_stpbv::report {
 
@@ -26,9 +28,11 @@ struct PairCause {
 /// that it stands for, and kept.
 class PairCauses {
  public:
-  /// `scene`: the bodies behind `obstacles`, in their order.
+  /// `scene`: the bodies behind `obstacles`, in their order. With a `cache`, which must outlive this, what is
+  /// found about pairs of meshes is kept in it.
   PairCauses(std::shared_ptr<const Kinematics> kinematics, std::shared_ptr<const RobotGeometry> robot,
-             std::vector<Obstacle> obstacles, std::shared_ptr<const RobotGeometry> scene);
+             std::vector<Obstacle> obstacles, std::shared_ptr<const RobotGeometry> scene,
+             detail::VolumeCache* cache = nullptr);
 
   /// A distance not above `margin` (m) is a collision, of volumes, hulls and meshes alike, but meshes meet at
   /// 0 at the latest where it is negative. `bodies` are those of one pair of links.
@@ -46,6 +50,10 @@ class PairCauses {
     const fcl::CollisionGeometryd* hull;
     Eigen::Isometry3d pose;
   };
+  PairCause measured(const std::vector<CheckedPair>& bodies, const Eigen::VectorXd& q, double margin);
+  std::optional<std::string> question(const std::vector<CheckedPair>& bodies, const Eigen::VectorXd& q,
+                                      double margin);
+  const std::string& content(const Body& body);
   const fcl::CollisionGeometryd& hull(const Body& body);
   Placed first(const CheckedPair& pair, const Kinematics::State& state);
   Placed second(const CheckedPair& pair, const Kinematics::State& state);
@@ -53,6 +61,8 @@ class PairCauses {
   std::shared_ptr<const Kinematics> kinematics_;
   std::shared_ptr<const RobotGeometry> robot_, scene_;
   std::vector<Obstacle> obstacles_;
+  detail::VolumeCache* cache_;
+  std::map<const Body*, std::string> contents_;  // of robot_ and scene_
   // By file and scale, or by the primitive itself.
   std::map<std::tuple<std::string, double, double, double, const void*>, std::unique_ptr<ExactBody>> exact_;
   std::map<const Body*, std::shared_ptr<const fcl::CollisionGeometryd>> partHulls_;

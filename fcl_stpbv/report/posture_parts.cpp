@@ -23,7 +23,8 @@ PostureParts::PostureParts(const PostureTask& task, PostureScene& scene,
       scene_(scene),
       kinematics_(std::make_shared<const Kinematics>(scene.robot, task.base)),
       near_(task.collisionMargin + kNear),
-      choice_({kinematics_, scene.geometry, scene.obstacles, near_}, options, task.parts > 1),
+      choice_(kinematics_, {scene.geometry}, scene.obstacles,
+              {options.cacheFolder, options.threads, options.progress}, task.parts > 1),
       causes_(kinematics_, scene.geometry, scene.obstacles, std::move(around)) {
   if (task.parts < 2) return;
   choice_.splitAll(task.parts);
@@ -42,9 +43,9 @@ Posture PostureParts::find(PostureSetup& setup, const PostureOptions& options) {
   return posture;
 }
 
-std::vector<PartsCandidate> PostureParts::inTheWay(const PostureSetup& setup, const Eigen::VectorXd& q) {
-  std::vector<PartsCandidate> candidates;
-  if (setup.pairs.empty()) return candidates;
+std::vector<SceneNeed> PostureParts::inTheWay(const PostureSetup& setup, const Eigen::VectorXd& q) {
+  std::vector<SceneNeed> needs;
+  if (setup.pairs.empty()) return needs;
   ConstraintOptions options;
   options.obstacles = scene_.obstacles;
   CollisionConstraints constraints(kinematics_, scene_.geometry, setup.pairs, options);
@@ -55,8 +56,8 @@ std::vector<PartsCandidate> PostureParts::inTheWay(const PostureSetup& setup, co
     if (d[static_cast<Eigen::Index>(i)] <= near_) close.insert(linksOf(setup.pairs[i], *scene_.geometry));
   for (const LinkPair& pair : close)
     if (causes_.explain(bodiesOf(*scene_.geometry, pair), q, near_).cause != kMeshesMeet)
-      candidates.push_back({pair, q});
-  return candidates;
+      needs.push_back({pair, q, near_});
+  return needs;
 }
 
 // The robot's own pairs name bodies by number, which parts change.

@@ -5,7 +5,7 @@
 
 #include "fcl_stpbv/posture/find_posture.h"
 #include "fcl_stpbv/report/pair_cause.h"
-#include "fcl_stpbv/report/parts_choice.h"
+#include "fcl_stpbv/robot/detail_choice.h"
 
 namespace fcl_stpbv::report {
 
@@ -23,14 +23,14 @@ class PostureParts {
   Posture find(PostureSetup& setup, const PostureOptions& options);
 
  private:
-  std::vector<PartsCandidate> inTheWay(const PostureSetup& setup, const Eigen::VectorXd& q);
+  std::vector<SceneNeed> inTheWay(const PostureSetup& setup, const Eigen::VectorXd& q);
   void use(std::shared_ptr<const RobotGeometry> geometry);
 
   const PostureTask& task_;
   PostureScene& scene_;
   std::shared_ptr<const Kinematics> kinematics_;
   double near_;
-  PartsChoice choice_;
+  detail::DetailChoice choice_;
   PairCauses causes_;
 };
 

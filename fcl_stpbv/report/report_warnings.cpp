@@ -2,6 +2,7 @@
 #include "fcl_stpbv/report/report_warnings.h"
 
 #include <algorithm>
+#include <cstddef>
 
 namespace fcl_stpbv::report {
 
@@ -9,10 +10,12 @@ using namespace detail;
 
 namespace {
 
-std::string openMeshes(const CollisionReport& report, PairCauses& causes) {
-  const auto& bodies = report.geometry->bodies;
-  const auto open = std::count_if(bodies.begin(), bodies.end(),
-                                  [&](const Body& body) { return !causes.exact(body).closed(); });
+std::string openMeshes(const CollisionReport& report) {
+  std::size_t open = 0;
+  for (std::size_t i = 0; i < report.fits.size(); ++i) {
+    const int whole = report.geometry->bodies[i].partOf;
+    open += !report.fits[whole < 0 ? i : static_cast<std::size_t>(whole)].closed;
+  }
   if (open == 0) return "";
   return std::to_string(open) +
          " meshes are not closed: whether another lies inside one of them is judged by its winding number, "
@@ -44,11 +47,10 @@ std::string kinks(const CollisionReport& report) {
 
 }  // namespace
 
-std::vector<std::string> reportWarnings(const CollisionReport& report, const std::string& neutral,
-                                        PairCauses& causes) {
+std::vector<std::string> reportWarnings(const CollisionReport& report, const std::string& neutral) {
   std::vector<std::string> warnings;
   for (const std::string& text :
-       {openMeshes(report, causes), neutralCollisions(report.neutral, neutral), kinks(report)})
+       {openMeshes(report), neutralCollisions(report.neutral, neutral), kinks(report)})
     if (!text.empty()) warnings.push_back(report.robot->path + ": " + text);
   return warnings;
 }

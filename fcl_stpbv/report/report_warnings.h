@@ -4,13 +4,12 @@
 #include <string>
 
 #include "fcl_stpbv/report/collision_report.h"
-#include "fcl_stpbv/report/pair_cause.h"
 
 namespace fcl_stpbv::report {
 
 /// Whole sentences for meshes that are not closed, for bodies that meet in the neutral posture (`neutral` is
-/// its name, "" for the usual one) and for pairs whose gradient may jump. The report's pairs are there.
-std::vector<std::string> reportWarnings(const CollisionReport& report, const std::string& neutral,
-                                        PairCauses& causes);
+/// its name, "" for the usual one) and for pairs whose gradient may jump. The report's pairs and fits are
+/// there.
+std::vector<std::string> reportWarnings(const CollisionReport& report, const std::string& neutral);
 
 }  // namespace fcl_stpbv::report

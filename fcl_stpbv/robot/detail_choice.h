@@ -1,0 +1,73 @@
+// How fine each link is modelled: the coarsest whole bodies, or the fewest convex parts, that show what pairs
+// need.
+#pragma once
+
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "fcl_stpbv/robot/kinematics.h"
+#include "fcl_stpbv/robot/link_parts.h"
+#include "fcl_stpbv/robot/scene_model.h"
+
+namespace fcl_stpbv::detail {
+
+/// Coarse to fine: every link starts whole, at the first level. refine() makes links finer, never coarser.
+class DetailChoice {
+ public:
+  using Levels = std::vector<std::shared_ptr<const RobotGeometry>>;
+
+  /// `levels`: whole bodies, coarse to fine; parts get the radii of the last. `everyPair`: a link that is
+  /// split is so for all its pairs. @throws Error where the levels' bodies are not of the same shapes.
+  DetailChoice(std::shared_ptr<const Kinematics> kinematics, Levels levels, std::vector<Obstacle> obstacles,
+               const SceneModelOptions& options, bool everyPair);
+
+  /// Makes links as fine as it takes to meet these needs. Those that the finest bodies do not meet change
+  /// nothing. @return the pairs whose bodies are others now
+  std::set<LinkPair> refine(const std::vector<SceneNeed>& needs);
+
+  /// Splits every concave link into at most `most` parts.
+  void splitAll(int most);
+
+  /// Whether the bodies as they are now meet a need.
+  bool meets(const SceneNeed& need);
+
+  std::shared_ptr<const RobotGeometry> geometry();
+
+ private:
+  using Detail = int;  // a level, or after the last of them 2, 3, 4 ... parts at most
+  using Details = std::pair<Detail, Detail>;
+  struct OpenNeed {
+    SceneNeed need;
+    std::map<Details, bool> met;  // what is known
+  };
+
+  Detail levels() const { return static_cast<Detail>(levels_.size()); }
+  Detail inParts(int most) const { return levels() + most - 2; }
+  int mostParts(Detail detail) const { return std::max(1, detail - levels() + 2); }
+  Detail detailOf(int link) const;
+  Details detailsOf(const LinkPair& pair) const;
+  Details raised(const LinkPair& pair, int link, Detail detail) const;
+  std::vector<const Body*> bodiesOf(int link, Detail detail);
+  bool meets(const SceneNeed& need, Details details);
+  bool meets(OpenNeed& open, Details details);
+  bool refineOneLink(std::vector<OpenNeed>& open, Detail detail);
+  bool refineBothLinks(OpenNeed& open);
+  void raise(int link, Detail detail);
+  void take(const LinkPair& pair, Details details);
+
+  std::shared_ptr<const Kinematics> kinematics_;
+  Levels levels_;
+  std::vector<Obstacle> obstacles_;
+  LinkParts parts_;
+  SceneModelOptions options_;
+  std::map<int, Detail> detail_;  // by link, where above 0
+  std::set<LinkPair> byParts_;    // as RobotGeometry's
+  std::set<LinkPair> changed_;    // since refine() began
+  std::vector<Detail> ladder_;    // that refine() tries
+};
+
+}  // namespace fcl_stpbv::detail

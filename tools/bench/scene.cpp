@@ -1,0 +1,270 @@
+// scene_models: what models of a robot cost and show, from coarse volumes to eight convex parts a link, and
+// the one that modelForScene() finds (docs/parts.md).
+// 1. The scene: all pairs of links, in the neutral and in random configurations.
+// 2. Uniform models, coarse to fine. What the finest shows clear is what a scene asks for.
+// 3. modelForScene() for that, beside them: vertices, rows, time, excess over the meshes, verdicts.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <exception>
+#include <limits>
+#include <optional>
+#include <set>
+
+#include "fcl_stpbv/robot/constraints.h"
+#include "fcl_stpbv/robot/detail_choice.h"
+#include "test/reference/shapes.h"
+#include "tools/bench/measurement.h"
+#include "tools/program.h"
+
+namespace {
+
+using namespace fcl_stpbv;
+using namespace fcl_stpbv::detail;
+using benchmark::significant;
+using Geometry = std::shared_ptr<const RobotGeometry>;
+
+struct Arguments {
+  std::string urdf, srdf, folder, name = "scene";
+  std::vector<std::string> packagePath;
+  std::vector<double> budgets{0.05, 0.02};
+  int samples = 1000, threads = 1;
+  double clearance = 0;
+};
+
+struct Scene {
+  std::shared_ptr<const Kinematics> kinematics;
+  std::vector<LinkPair> pairs;
+  std::vector<Eigen::VectorXd> configurations;
+};
+
+constexpr double kNever = std::numeric_limits<double>::infinity();
+constexpr double kHandOver = 0.1;  // m
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+// All joints' ranges, uniformly.
+std::vector<Eigen::VectorXd> randomConfigurations(const Kinematics& kinematics, int count,
+                                                  std::uint64_t seed) {
+  test::Random random(seed);
+  std::vector<Eigen::VectorXd> all;
+  for (int i = 0; i < count; ++i) {
+    Eigen::VectorXd q(kinematics.size());
+    for (Eigen::Index k = 0; k < q.size(); ++k)
+      q[k] = random.uniform(kinematics.lower()[k], kinematics.upper()[k]);
+    all.push_back(q);
+  }
+  return all;
+}
+
+Scene makeScene(const Arguments& arguments, const std::shared_ptr<const RobotModel>& robot,
+                const RobotGeometry& bodies) {
+  Scene scene{std::make_shared<const Kinematics>(robot), {}, {}};
+  std::optional<Srdf> srdf;
+  if (!arguments.srdf.empty()) srdf = loadSrdf(arguments.srdf, *robot);
+  std::set<LinkPair> links;
+  for (const CheckedPair& pair : selfPairs(*robot, bodies, srdf ? &*srdf : nullptr))
+    links.insert({bodies.bodies[at(pair.body)].link, bodies.bodies[at(pair.other)].link});
+  scene.pairs.assign(links.begin(), links.end());
+  scene.configurations = randomConfigurations(*scene.kinematics, arguments.samples, 1);
+  scene.configurations.insert(scene.configurations.begin(), scene.kinematics->neutral());
+  return scene;
+}
+
+// A model's rows, those of each pair of links together.
+class Rows {
+ public:
+  explicit Rows(const Scene& scene, Geometry geometry, double handOver = kNever) {
+    std::vector<CheckedPair> bodies;
+    for (const LinkPair& pair : scene.pairs) {
+      const std::vector<CheckedPair> more = bodiesOf(*geometry, pair);
+      bodies.insert(bodies.end(), more.begin(), more.end());
+      end_.push_back(static_cast<Eigen::Index>(bodies.size()));
+    }
+    ConstraintOptions options;
+    options.handOver = handOver;
+    constraints_ =
+        std::make_unique<CollisionConstraints>(scene.kinematics, std::move(geometry), bodies, options);
+    d_.resize(constraints_->rows());
+    values_.resize(constraints_->nonZeros());
+  }
+
+  int count() const { return constraints_->rows(); }
+
+  /// Whether each pair is clear in q.
+  void clear(const Eigen::VectorXd& q, double clearance, std::vector<char>& verdicts) {
+    constraints_->evaluate(q, d_);
+    Eigen::Index row = 0;
+    for (const Eigen::Index end : end_) {
+      bool apart = true;
+      for (; row < end; ++row) apart = apart && d_[row] > clearance;
+      verdicts.push_back(apart);
+    }
+  }
+
+  /// Median time of d and J in small steps (us).
+  double tick(Eigen::VectorXd q) {
+    constexpr int kTicks = 300;
+    constexpr double kStep = 1e-3;  // rad or m
+    std::vector<double> times;
+    for (int i = 0; i < kTicks; ++i) {
+      for (Eigen::Index k = 0; k < q.size(); ++k) q[k] += kStep * std::sin(static_cast<double>(i * (k + 1)));
+      const double start = benchmark::threadTime();
+      constraints_->evaluateValues(q, d_, values_);
+      times.push_back(1e-3 * (benchmark::threadTime() - start));
+    }
+    return benchmark::median(times);
+  }
+
+ private:
+  std::unique_ptr<CollisionConstraints> constraints_;
+  std::vector<Eigen::Index> end_;
+  Eigen::VectorXd d_, values_;
+};
+
+// Most that each body exceeds its mesh by (m): a part's hull or the whole one, and the volume's over-cover.
+std::vector<double> excesses(const RobotGeometry& geometry, LinkParts& parts) {
+  std::vector<double> all;
+  int whole = 0;
+  for (const Body& body : geometry.bodies) {
+    double hull = body.excess;
+    if (body.partOf < 0) {
+      const std::vector<Body>& one = parts.of(whole++, 1);
+      hull = one.empty() ? 0 : one[0].excess;
+    }
+    all.push_back(hull + body.cover.max);
+  }
+  return all;
+}
+
+struct Judged {
+  std::vector<char> verdicts;  // of each configuration and pair: whether it is clear
+  std::vector<char> others;    // in configurations that no model was made for
+  nlohmann::ordered_json row;
+};
+
+Judged judge(const std::string& name, const Scene& scene, const Geometry& geometry, LinkParts& parts,
+             const std::vector<Eigen::VectorXd>& others, double clearance) {
+  Rows rows(scene, geometry);
+  Judged judged;
+  const double us = rows.tick(scene.configurations.front());
+  const double usHandedOver = Rows(scene, geometry, kHandOver).tick(scene.configurations.front());
+  for (const Eigen::VectorXd& q : scene.configurations) rows.clear(q, clearance, judged.verdicts);
+  for (const Eigen::VectorXd& q : others) rows.clear(q, clearance, judged.others);
+  const std::vector<double> excess = excesses(*geometry, parts);
+  double sum = 0, most = 0;
+  std::set<int> used;
+  for (const LinkPair& pair : scene.pairs)
+    for (const CheckedPair& row : bodiesOf(*geometry, pair)) {
+      const double both = excess[at(row.body)] + excess[at(row.other)];
+      sum += both;
+      most = std::max(most, both);
+      used.insert({row.body, row.other});
+    }
+  std::size_t vertices = 0;
+  for (const int body : used)
+    if (geometry->bodies[at(body)].volume) vertices += geometry->bodies[at(body)].volume->vertexCount();
+  judged.row = {{"model", name},
+                {"bodies", used.size()},
+                {"vertices", vertices},
+                {"rows", rows.count()},
+                {"us_a_tick", significant(us, 3)},
+                {"us_handed_over", significant(usHandedOver, 3)},
+                {"excess_mean", significant(sum / rows.count(), 3)},
+                {"excess_most", significant(most, 3)}};
+  return judged;
+}
+
+// How many verdicts, and those of how many pairs, differ from the finest model's.
+void compare(const Judged& finest, std::size_t pairs, Judged& judged) {
+  int verdicts = 0, others = 0;
+  std::set<std::size_t> differ;
+  for (std::size_t i = 0; i < finest.verdicts.size(); ++i) {
+    if (judged.verdicts[i] == finest.verdicts[i]) continue;
+    ++verdicts;
+    differ.insert(i % pairs);
+  }
+  for (std::size_t i = 0; i < finest.others.size(); ++i) others += judged.others[i] != finest.others[i];
+  judged.row["verdicts_differ"] = verdicts;
+  judged.row["pairs_differ"] = differ.size();
+  judged.row["others_differ"] = others;
+}
+
+benchmark::Measurement measure(const Arguments& arguments) {
+  const auto robot = std::make_shared<const RobotModel>(loadUrdf(arguments.urdf));
+  GeometryOptions options;
+  options.packagePath = arguments.packagePath;
+  options.threads = arguments.threads;
+  const std::vector<Geometry> levels = loadLevels(*robot, options, arguments.budgets);
+  const Scene scene = makeScene(arguments, robot, *levels.back());
+  const SceneModelOptions sceneOptions{options.cacheFolder, options.threads, nullptr};
+  LinkParts parts(levels.back(), options.cacheFolder);
+  const std::vector<Eigen::VectorXd> others = randomConfigurations(*scene.kinematics, arguments.samples, 2);
+
+  std::vector<Judged> models;
+  const auto add = [&](const std::string& name, const Geometry& geometry) {
+    models.push_back(judge(name, scene, geometry, parts, others, arguments.clearance));
+    std::fprintf(stderr, "%s\n", models.back().row.dump().c_str());
+  };
+  for (std::size_t i = 0; i < levels.size(); ++i)
+    add(i < arguments.budgets.size()
+            ? "over-cover up to " + benchmark::shown(1e3 * arguments.budgets[i]) + " mm"
+            : "hulls",
+        levels[i]);
+  for (const int most : {2, 4, 8}) {
+    DetailChoice choice(scene.kinematics, {levels.back()}, {}, sceneOptions, true);
+    choice.splitAll(most);
+    add("up to " + std::to_string(most) + " parts", choice.geometry());
+  }
+  const Judged finest = models.back();
+  std::vector<SceneNeed> needs;
+  for (std::size_t i = 0; i < finest.verdicts.size(); ++i)
+    if (finest.verdicts[i] && !models.front().verdicts[i])
+      needs.push_back({scene.pairs[i % scene.pairs.size()], scene.configurations[i / scene.pairs.size()],
+                       arguments.clearance});
+  const double start = benchmark::threadTime();
+  const SceneModel model = modelForScene(scene.kinematics, levels, {}, needs, sceneOptions);
+  const double seconds = 1e-9 * (benchmark::threadTime() - start);
+  add("for the scene", model.geometry);
+
+  benchmark::Measurement result;
+  result.name = arguments.name;
+  std::vector<std::string> split;
+  for (const Body& body : model.geometry->bodies)
+    if (body.parts > 0) split.push_back(body.name + " in " + std::to_string(body.parts));
+  result.about = {{"pairs", scene.pairs.size()},
+                  {"configurations", scene.configurations.size()},
+                  {"needs", needs.size()},
+                  {"unmet", model.unmet.size()},
+                  {"pairs_by_parts", model.geometry->byParts.size()},
+                  {"split", split},
+                  {"seconds", significant(seconds, 2)}};
+  for (Judged& judged : models) {
+    compare(finest, scene.pairs.size(), judged);
+    result.rows.push_back(judged.row);
+  }
+  return result;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  tools::Program app("What models of a robot cost and show, from coarse volumes to convex parts",
+                     "scene_models");
+  Arguments arguments;
+  app.option("ROBOT", arguments.urdf, "the robot's URDF").required();
+  app.option("--srdf", arguments.srdf, "whose pairs are left out; else adjacent ones are");
+  app.option("--package-path", arguments.packagePath, "folder that holds packages").repeated();
+  app.option("--samples", arguments.samples, "random configurations").whole(1).shown();
+  app.option("--jobs", arguments.threads, "threads that share the work").whole(1).shown();
+  app.option("-o,--output", arguments.folder, "folder for the JSON file");
+  app.option("--name", arguments.name, "its name").shown();
+  return app.run(argc, argv, [&] {
+    const benchmark::Measurement result = measure(arguments);
+    std::printf("%s\n", result.about.dump().c_str());
+    for (const auto& row : result.rows) std::printf("%s\n", row.dump().c_str());
+    if (!arguments.folder.empty())
+      benchmark::write(result, benchmark::commandLine(argc, argv), arguments.folder);
+    return 0;
+  });
+}
