@@ -279,8 +279,7 @@ CollisionReport makeReport(const ReportRequest& request) {
   summarise(report);
   requirePairs(at(report.checked), *report.robot, countsOf(report.list));
 
-  report.neutral =
-      judgeNeutral(report.kinematics, report.geometry, report.list, postures.neutral, srdf, search.margin);
+  report.neutral = keptNeutral(report.kinematics, report.geometry, report.list, srdf, search, cache);
   const std::vector<std::string> warnings = reportWarnings(report, request.neutral);
   report.warnings.insert(report.warnings.end(), warnings.begin(), warnings.end());
   const auto tick = [&](const std::shared_ptr<const RobotGeometry>& geometry,

@@ -2,6 +2,7 @@
 // place, the SRDF's reasons, the obstacles, the options. A list is kept as the numbers of its entries.
 #include "fcl_stpbv/report/kept_list.h"
 
+#include <algorithm>
 #include <sstream>
 #include <string>
 
@@ -171,6 +172,45 @@ std::vector<PairEntry> keptPairList(const std::shared_ptr<const Kinematics>& kin
   });
   if (!list.empty()) return list;
   return numbers.size() % (kFields + coordinates) == 0 ? toList(numbers, coordinates) : search();
+}
+
+// The numbers: colliding here and there, which of the SRDF's states is better or -1, that posture.
+NeutralPosture keptNeutral(const std::shared_ptr<const Kinematics>& kinematics,
+                           const std::shared_ptr<const RobotGeometry>& geometry,
+                           const std::vector<PairEntry>& list, const Srdf* srdf,
+                           const PairListOptions& options, VolumeCache& cache) {
+  const auto judge = [&] {
+    return judgeNeutral(kinematics, geometry, list, options.neutral, srdf, options.margin);
+  };
+  const Question question(*kinematics, *geometry, srdf, options);
+  if (!question.whole() || options.proofSeconds > 0) return judge();
+  std::string asked = question.text() + "neutral";
+  std::vector<std::string> states;
+  if (srdf)
+    for (const Srdf::State& state : srdf->states) {
+      states.push_back(state.name);
+      for (const double value : kinematics->configuration(state)) appendNumber(asked += ' ', value);
+    }
+  for (const PairEntry& entry : list) asked += ' ' + std::to_string(static_cast<int>(entry.reason));
+  const auto measure = [&] {
+    const NeutralPosture found = judge();
+    const auto state = std::find(states.begin(), states.end(), found.state);
+    std::vector<double> numbers{double(found.colliding), double(found.collidingThere),
+                                found.state.empty() ? -1.0 : double(state - states.begin())};
+    numbers.insert(numbers.end(), found.better.begin(), found.better.end());
+    return numbers;
+  };
+  const std::vector<double> kept = cache.numbers(asked, "neutral", measure);
+  const std::size_t coordinates = at(kinematics->size());
+  if (kept.size() != 3 && kept.size() != 3 + coordinates) return judge();
+  NeutralPosture found;
+  found.colliding = static_cast<int>(kept[0]);
+  found.collidingThere = static_cast<int>(kept[1]);
+  if (kept[2] >= 0 && kept[2] < static_cast<double>(states.size()))
+    found.state = states[static_cast<std::size_t>(kept[2])];
+  found.better =
+      Eigen::Map<const Eigen::VectorXd>(kept.data() + 3, static_cast<Eigen::Index>(kept.size() - 3));
+  return found;
 }
 
 }  // namespace fcl_stpbv::report

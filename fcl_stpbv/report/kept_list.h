@@ -1,9 +1,10 @@
-// The pair list of a robot, kept on disk between runs.
+// The pair list of a robot and what is said of its neutral posture, kept on disk between runs.
 #pragma once
 
 #include <memory>
 #include <vector>
 
+#include "fcl_stpbv/robot/neutral_posture.h"
 #include "fcl_stpbv/robot/pair_list.h"
 #include "fcl_stpbv/robot/volume_cache.h"
 
@@ -14,5 +15,11 @@ namespace fcl_stpbv::report {
 std::vector<PairEntry> keptPairList(const std::shared_ptr<const Kinematics>& kinematics,
                                     const std::shared_ptr<const RobotGeometry>& geometry, const Srdf* srdf,
                                     const PairListOptions& options, detail::VolumeCache& cache);
+
+/// As judgeNeutral() of such a list, kept likewise.
+detail::NeutralPosture keptNeutral(const std::shared_ptr<const Kinematics>& kinematics,
+                                   const std::shared_ptr<const RobotGeometry>& geometry,
+                                   const std::vector<PairEntry>& list, const Srdf* srdf,
+                                   const PairListOptions& options, detail::VolumeCache& cache);
 
 }  // namespace fcl_stpbv::report

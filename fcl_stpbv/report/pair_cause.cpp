@@ -14,6 +14,7 @@
 #include "fcl_stpbv/adapter/proximity.h"
 #include "fcl_stpbv/io/stpbv_file.h"
 #include "fcl_stpbv/io/text_scanner.h"
+#include "fcl_stpbv/report/digest.h"
 #include "fcl_stpbv/robot/shape_source.h"
 
 namespace fcl_stpbv::report {
@@ -85,19 +86,17 @@ PairCause PairCauses::explain(const std::vector<CheckedPair>& bodies, const Eige
   return {kept[0], causes[static_cast<std::size_t>(kept[1])]};
 }
 
-// What a mesh or its part, and the volume around it, are made of.
+// Stands for what a mesh or its part, and the volume around it, are made of.
 const std::string& PairCauses::content(const Body& body) {
-  std::string& text = contents_[&body];
-  if (!text.empty()) return text;
-  text = meshContent(body.file, body.scale);
-  if (body.volume) {
-    std::ostringstream volume;
-    saveStpBv(volume, *body.volume);
-    text += volume.str();
-  }
+  std::string& known = contents_[&body];
+  if (!known.empty()) return known;
+  std::ostringstream text;
+  text << meshContent(body.file, body.scale);
+  if (body.volume) saveStpBv(text, *body.volume);
+  std::string hull;
   for (const Eigen::Vector3d& p : body.hull)
-    for (const double x : p) appendNumber(text += ' ', x);
-  return text;
+    for (const double x : p) appendNumber(hull += ' ', x);
+  return known = sha256(text.str() + hull);
 }
 
 // All that measured() reads; none where a body is no mesh.
@@ -112,7 +111,7 @@ std::optional<std::string> PairCauses::question(const std::vector<CheckedPair>& 
     text += '\n';
     for (int column = 0; column < 4; ++column)
       for (int row = 0; row < 3; ++row) appendNumber(text += ' ', pose(row, column));
-    text += content(body);
+    text += ' ' + content(body);
     return true;
   };
   const auto addOwn = [&](int index) {

@@ -62,7 +62,7 @@ class PairCauses {
   std::shared_ptr<const RobotGeometry> robot_, scene_;
   std::vector<Obstacle> obstacles_;
   detail::VolumeCache* cache_;
-  std::map<const Body*, std::string> contents_;  // of robot_ and scene_
+  std::map<const Body*, std::string> contents_;  // digests, of robot_'s and scene_'s
   // By file and scale, or by the primitive itself.
   std::map<std::tuple<std::string, double, double, double, const void*>, std::unique_ptr<ExactBody>> exact_;
   std::map<const Body*, std::shared_ptr<const fcl::CollisionGeometryd>> partHulls_;

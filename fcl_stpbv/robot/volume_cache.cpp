@@ -7,8 +7,10 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <sstream>
 #include <type_traits>
@@ -26,16 +28,18 @@ namespace fs = std::filesystem;
 
 // Changes when the builder gives other volumes, a fit other radii, or the search other parts, for the same
 // mesh.
-constexpr std::string_view kVersion = "fcl_stpbv volume cache 3\n";
+constexpr std::string_view kVersion = "fcl_stpbv volume cache 4\n";
 
-// Two streams of 64 bits: FNV-1a, and the same steps over a mixed state. Guards against accidents, not
-// against somebody who may write into the user's own cache.
+// Two streams of 64 bits, eight characters a step, each step mixed by a product and a shift. Guards against
+// accidents, not against somebody who may write into the user's own cache.
 std::string digest(std::string_view text) {
-  std::uint64_t a = 0xcbf29ce484222325u, b = 0x9e3779b97f4a7c15u;
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    a = (a ^ byte) * 0x100000001b3u;
-    b = (b + byte) * 0xff51afd7ed558ccdu;
+  std::uint64_t a = 0xcbf29ce484222325u, b = 0x9e3779b97f4a7c15u ^ text.size();
+  for (std::size_t at = 0; at < text.size(); at += sizeof a) {
+    std::uint64_t word = 0;
+    std::memcpy(&word, text.data() + at, std::min(sizeof word, text.size() - at));
+    a = (a ^ word) * 0xd6e8feb86659fd93u;
+    a ^= a >> 32;
+    b = (b + word) * 0xff51afd7ed558ccdu;
     b ^= b >> 29;
   }
   std::string hex;
