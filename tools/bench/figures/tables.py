@@ -323,8 +323,19 @@ def controllers(*names):
 def peaks(name):
     at, scenarios = controllers(name)
     cell = lambda row: f"{three(row['peak'])} ({three(row['worst_peak'])})" if row else "-"
-    return markdown((f"{measured(name)['about']['runs']} runs", *CONTROLLERS),
+    about = measured(name)["about"]
+    return markdown((f"{about['runs']} runs" + ", noise" * about["noise"], *CONTROLLERS),
                     [(SCENARIOS[s], *(cell(at.get((s, method))) for method in CONTROLLERS.values())) for s in scenarios])
+
+
+@table("control")
+def control():
+    return peaks("control")
+
+
+@table("control_noise")
+def control_noise():
+    return peaks("control_noise")
 
 
 @table("control_more")
