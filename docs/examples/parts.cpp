@@ -64,6 +64,7 @@ const SceneModel model = modelForScene(kinematics, levels, obstacles, needs);
     std::printf("the two bodies are %.3f m apart\n", data.result.distance);
     std::printf("%d parts, %.3f mm from the mesh at most\n", static_cast<int>(volumes.size()),
                 parts.excess * 1e3);
-    return volumes.empty() || volumes.size() > 8 || !(data.result.distance > 1) || !model.unmet.empty() ? 1 : 0;
+    const bool shown = !volumes.empty() && volumes.size() <= 8 && data.result.distance > 1;
+    return shown && model.unmet.empty() ? 0 : 1;
   });
 }
