@@ -137,57 +137,56 @@ std::vector<double> excesses(const RobotGeometry& geometry, LinkParts& parts) {
   return all;
 }
 
-struct Judged {
-  std::vector<char> verdicts;  // of each configuration and pair: whether it is clear
-  std::vector<char> others;    // in configurations that no model was made for
-  nlohmann::ordered_json row;
+struct Verdicts {
+  std::vector<char> clear;   // of each configuration and pair
+  std::vector<char> others;  // in configurations that no model was made for
 };
 
-Judged judge(const std::string& name, const Scene& scene, const Geometry& geometry, LinkParts& parts,
-             const std::vector<Eigen::VectorXd>& others, double clearance) {
+Verdicts judge(const std::string& name, const Scene& scene, const Geometry& geometry, LinkParts& parts,
+               const std::vector<Eigen::VectorXd>& others, double clearance, nlohmann::ordered_json& row) {
   Rows rows(scene, geometry);
-  Judged judged;
+  Verdicts found;
   const double us = rows.tick(scene.configurations.front());
   const double usHandedOver = Rows(scene, geometry, kHandOver).tick(scene.configurations.front());
-  for (const Eigen::VectorXd& q : scene.configurations) rows.clear(q, clearance, judged.verdicts);
-  for (const Eigen::VectorXd& q : others) rows.clear(q, clearance, judged.others);
+  for (const Eigen::VectorXd& q : scene.configurations) rows.clear(q, clearance, found.clear);
+  for (const Eigen::VectorXd& q : others) rows.clear(q, clearance, found.others);
   const std::vector<double> excess = excesses(*geometry, parts);
   double sum = 0, most = 0;
   std::set<int> used;
   for (const LinkPair& pair : scene.pairs)
-    for (const CheckedPair& row : bodiesOf(*geometry, pair)) {
-      const double both = excess[at(row.body)] + excess[at(row.other)];
+    for (const CheckedPair& bodies : bodiesOf(*geometry, pair)) {
+      const double both = excess[at(bodies.body)] + excess[at(bodies.other)];
       sum += both;
       most = std::max(most, both);
-      used.insert({row.body, row.other});
+      used.insert({bodies.body, bodies.other});
     }
   std::size_t vertices = 0;
   for (const int body : used)
     if (geometry->bodies[at(body)].volume) vertices += geometry->bodies[at(body)].volume->vertexCount();
-  judged.row = {{"model", name},
-                {"bodies", used.size()},
-                {"vertices", vertices},
-                {"rows", rows.count()},
-                {"us_a_tick", significant(us, 3)},
-                {"us_handed_over", significant(usHandedOver, 3)},
-                {"excess_mean", significant(sum / rows.count(), 3)},
-                {"excess_most", significant(most, 3)}};
-  return judged;
+  row = {{"model", name},
+         {"bodies", used.size()},
+         {"vertices", vertices},
+         {"rows", rows.count()},
+         {"us_a_tick", significant(us, 3)},
+         {"us_handed_over", significant(usHandedOver, 3)},
+         {"excess_mean", significant(sum / rows.count(), 3)},
+         {"excess_most", significant(most, 3)}};
+  return found;
 }
 
 // How many verdicts, and those of how many pairs, differ from the finest model's.
-void compare(const Judged& finest, std::size_t pairs, Judged& judged) {
+void compare(const Verdicts& finest, std::size_t pairs, const Verdicts& found, nlohmann::ordered_json& row) {
   int verdicts = 0, others = 0;
   std::set<std::size_t> differ;
-  for (std::size_t i = 0; i < finest.verdicts.size(); ++i) {
-    if (judged.verdicts[i] == finest.verdicts[i]) continue;
+  for (std::size_t i = 0; i < finest.clear.size(); ++i) {
+    if (found.clear[i] == finest.clear[i]) continue;
     ++verdicts;
     differ.insert(i % pairs);
   }
-  for (std::size_t i = 0; i < finest.others.size(); ++i) others += judged.others[i] != finest.others[i];
-  judged.row["verdicts_differ"] = verdicts;
-  judged.row["pairs_differ"] = differ.size();
-  judged.row["others_differ"] = others;
+  for (std::size_t i = 0; i < finest.others.size(); ++i) others += found.others[i] != finest.others[i];
+  row["verdicts_differ"] = verdicts;
+  row["pairs_differ"] = differ.size();
+  row["others_differ"] = others;
 }
 
 benchmark::Measurement measure(const Arguments& arguments) {
@@ -201,10 +200,13 @@ benchmark::Measurement measure(const Arguments& arguments) {
   LinkParts parts(levels.back(), options.cacheFolder);
   const std::vector<Eigen::VectorXd> others = randomConfigurations(*scene.kinematics, arguments.samples, 2);
 
-  std::vector<Judged> models;
+  benchmark::Measurement result;
+  result.name = arguments.name;
+  std::vector<Verdicts> models;
   const auto add = [&](const std::string& name, const Geometry& geometry) {
-    models.push_back(judge(name, scene, geometry, parts, others, arguments.clearance));
-    std::fprintf(stderr, "%s\n", models.back().row.dump().c_str());
+    result.rows.emplace_back();
+    models.push_back(judge(name, scene, geometry, parts, others, arguments.clearance, result.rows.back()));
+    std::fprintf(stderr, "%s\n", result.rows.back().dump().c_str());
   };
   for (std::size_t i = 0; i < levels.size(); ++i)
     add(i < arguments.budgets.size()
@@ -216,10 +218,10 @@ benchmark::Measurement measure(const Arguments& arguments) {
     choice.splitAll(most);
     add("up to " + std::to_string(most) + " parts", choice.geometry());
   }
-  const Judged finest = models.back();
+  const Verdicts finest = models.back();
   std::vector<SceneNeed> needs;
-  for (std::size_t i = 0; i < finest.verdicts.size(); ++i)
-    if (finest.verdicts[i] && !models.front().verdicts[i])
+  for (std::size_t i = 0; i < finest.clear.size(); ++i)
+    if (finest.clear[i] && !models.front().clear[i])
       needs.push_back({scene.pairs[i % scene.pairs.size()], scene.configurations[i / scene.pairs.size()],
                        arguments.clearance});
   const double start = benchmark::threadTime();
@@ -227,8 +229,6 @@ benchmark::Measurement measure(const Arguments& arguments) {
   const double seconds = 1e-9 * (benchmark::threadTime() - start);
   add("for the scene", model.geometry);
 
-  benchmark::Measurement result;
-  result.name = arguments.name;
   std::vector<std::string> split;
   for (const Body& body : model.geometry->bodies)
     if (body.parts > 0) split.push_back(body.name + " in " + std::to_string(body.parts));
@@ -239,10 +239,8 @@ benchmark::Measurement measure(const Arguments& arguments) {
                   {"pairs_by_parts", model.geometry->byParts.size()},
                   {"split", split},
                   {"seconds", significant(seconds, 2)}};
-  for (Judged& judged : models) {
-    compare(finest, scene.pairs.size(), judged);
-    result.rows.push_back(judged.row);
-  }
+  for (std::size_t i = 0; i < models.size(); ++i)
+    compare(finest, scene.pairs.size(), models[i], result.rows[i]);
   return result;
 }
 
