@@ -1,14 +1,13 @@
 // Coarse to fine, greedily.
-// 1. For the least detail (a finer level, 2, 4, then 8 parts) that meets some need by one link alone: the
-// link
-//    that meets the most needs is made as fine. From the start again until no link helps alone.
-// 2. The first need that two finer links meet together gets them, those with the fewest rows; on with 1.
+// 1. Details in turn, coarse first: finer levels, then 2, 4 and 8 parts. The first with which one finer
+//    link alone meets some need is given to the link that meets the most needs so. Again, until no link
+//    helps alone.
+// 2. The first need that two finer links meet together gets them, with the fewest rows. On with 1.
 // 3. What is left is not met by the finest bodies.
 // A pair is taken by parts only if a need of its own asks for them.
 #include "fcl_stpbv/robot/detail_choice.h"
 
 #include <limits>
-#include <optional>
 
 #include "fcl_stpbv/adapter/fcl_distance.h"
 #include "fcl_stpbv/error.h"

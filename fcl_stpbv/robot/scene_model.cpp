@@ -24,6 +24,8 @@ void requireNeeds(const std::vector<SceneNeed>& needs, const Kinematics& kinemat
     const int others = need.pair.obstacle ? static_cast<int>(obstacles) : links;
     if (need.pair.link1 < 0 || need.pair.link1 >= links || need.pair.link2 < 0 || need.pair.link2 >= others)
       refuse("is of a link or an obstacle that does not exist");
+    if (!need.pair.obstacle && need.pair.link1 == need.pair.link2)
+      refuse("is of a link and itself; give two links");
     if (need.q.size() != kinematics.size() || !need.q.allFinite())
       refuse("wants a configuration of " + std::to_string(kinematics.size()) + " finite numbers");
     if (!std::isfinite(need.clearance)) refuse("has a clearance that is not finite");
@@ -53,7 +55,8 @@ SceneModel modelForScene(std::shared_ptr<const Kinematics> kinematics,
                          const SceneModelOptions& options) {
   requireNeeds(needs, *kinematics, obstacles.size());
   DetailChoice choice(std::move(kinematics), levels, obstacles, options, false);
-  choice.refine(needs);
+  while (!choice.refine(needs).empty()) {  // a finer body need not lie within the coarse one
+  }
   SceneModel model{choice.geometry(), {}};
   std::copy_if(needs.begin(), needs.end(), std::back_inserter(model.unmet),
                [&](const SceneNeed& need) { return !choice.meets(need); });

@@ -200,6 +200,7 @@ TEST_CASE("levels of other shapes and needs that make no sense are refused") {
   const VectorXd q = workshop.at(0, 0);
   CHECK_THAT(refused({{0, 99}, q, 0}), Contains("does not exist"));
   CHECK_THAT(refused({{0, 0, true}, q, 0}), Contains("does not exist"));
+  CHECK_THAT(refused({{1, 1}, q, 0}), Contains("a link and itself"));
   CHECK_THAT(refused({workshop.cupAndL, VectorXd::Zero(2), 0}), Contains("3 finite numbers"));
   CHECK_THAT(refused({workshop.cupAndL, VectorXd::Constant(3, kInfinity), 0}), Contains("3 finite numbers"));
   CHECK_THAT(refused({workshop.cupAndL, q, kInfinity}), Contains("not finite"));
