@@ -17,11 +17,12 @@ namespace fcl_stpbv {
 /// What a model is to show: two links, or a link and an obstacle, farther apart than this in one
 /// configuration. Where the links themselves are nearer no model shows it, and none gets finer for it.
 struct SceneNeed {
-  LinkPair pair;
-  Eigen::VectorXd q;
-  double clearance = 0;  ///< (m)
+  LinkPair pair;         ///< the two
+  Eigen::VectorXd q;     ///< the configuration (rad, m)
+  double clearance = 0;  ///< that their distance is to exceed (m)
 };
 
+/// How the work is done; what comes out does not depend on it.
 struct SceneModelOptions {
   std::string cacheFolder = defaultCacheFolder();  ///< of convex parts, "" for no cache
   int threads = 1;                                 ///< that share the work; any number gives the same
