@@ -183,7 +183,7 @@ NeutralPosture keptNeutral(const std::shared_ptr<const Kinematics>& kinematics,
     return judgeNeutral(kinematics, geometry, list, options.neutral, srdf, options.margin);
   };
   const Question question(*kinematics, *geometry, srdf, options);
-  if (!question.whole() || options.proofSeconds > 0) return judge();
+  if (!question.whole()) return judge();
   std::string asked = question.text() + "neutral";
   std::vector<std::string> states;
   if (srdf)

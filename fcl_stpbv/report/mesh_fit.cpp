@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "fcl_stpbv/io/stpbv_file.h"
+#include "fcl_stpbv/io/text_scanner.h"
 #include "fcl_stpbv/parts/mesh_excess.h"
 #include "fcl_stpbv/robot/shape_source.h"
 
@@ -28,18 +29,21 @@ MeshFit measured(const Body& body, const ExactBody& exact) {
   return fit;
 }
 
-std::string contentOf(const Body& body) {
-  std::ostringstream content;
-  if (body.volume) saveStpBv(content, *body.volume);
-  return content.str() + meshContent(body.file, body.scale);
-}
-
 // As the cache keeps it: finite numbers, 0 for no ratio.
 std::vector<double> toNumbers(const MeshFit& fit) {
   return {fit.hullExcess, std::isfinite(fit.volumeRatio) ? fit.volumeRatio : 0.0, fit.closed ? 1.0 : 0.0};
 }
 
 }  // namespace
+
+std::string contentOf(const Body& body) {
+  std::ostringstream volume;
+  if (body.volume) saveStpBv(volume, *body.volume);
+  std::string content = volume.str() + meshContent(body.file, body.scale);
+  for (const Eigen::Vector3d& p : body.hull)
+    for (const double x : p) appendNumber(content += ' ', x);
+  return content;
+}
 
 MeshFit meshFit(const Body& body, const std::function<const ExactBody&()>& exact, VolumeCache& cache) {
   MeshFit fit;

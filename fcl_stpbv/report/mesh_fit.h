@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <limits>
+#include <string>
 
 #include "fcl_stpbv/report/exact_body.h"
 #include "fcl_stpbv/robot/volume_cache.h"
@@ -20,6 +21,9 @@ struct MeshFit {
   double volumeRatio = std::numeric_limits<double>::quiet_NaN();
   bool closed = true;  ///< ExactBody::closed(); true for a part
 };
+
+/// All that a mesh's body is made of: its volume, the mesh file and, of a part, the hull.
+std::string contentOf(const Body& body);
 
 /// What was measured before is taken from the cache. `exact`, the body's, is only asked for where it was not.
 MeshFit meshFit(const Body& body, const std::function<const ExactBody&()>& exact, detail::VolumeCache& cache);

@@ -8,14 +8,12 @@
 #include <limits>
 #include <numeric>
 #include <set>
-#include <sstream>
 
 #include "fcl_stpbv/adapter/hull_geometry.h"
 #include "fcl_stpbv/adapter/proximity.h"
-#include "fcl_stpbv/io/stpbv_file.h"
 #include "fcl_stpbv/io/text_scanner.h"
 #include "fcl_stpbv/report/digest.h"
-#include "fcl_stpbv/robot/shape_source.h"
+#include "fcl_stpbv/report/mesh_fit.h"
 
 namespace fcl_stpbv::report {
 
@@ -39,7 +37,7 @@ PairCauses::PairCauses(std::shared_ptr<const Kinematics> kinematics,
 void PairCauses::use(std::shared_ptr<const RobotGeometry> robot) {
   robot_ = std::move(robot);
   partHulls_.clear();
-  contents_.clear();
+  digests_.clear();
 }
 
 const ExactBody& PairCauses::exact(const Body& body) {
@@ -86,17 +84,10 @@ PairCause PairCauses::explain(const std::vector<CheckedPair>& bodies, const Eige
   return {kept[0], causes[static_cast<std::size_t>(kept[1])]};
 }
 
-// Stands for what a mesh or its part, and the volume around it, are made of.
-const std::string& PairCauses::content(const Body& body) {
-  std::string& known = contents_[&body];
-  if (!known.empty()) return known;
-  std::ostringstream text;
-  text << meshContent(body.file, body.scale);
-  if (body.volume) saveStpBv(text, *body.volume);
-  std::string hull;
-  for (const Eigen::Vector3d& p : body.hull)
-    for (const double x : p) appendNumber(hull += ' ', x);
-  return known = sha256(text.str() + hull);
+const std::string& PairCauses::contentDigest(const Body& body) {
+  std::string& known = digests_[&body];
+  if (known.empty()) known = sha256(contentOf(body));
+  return known;
 }
 
 // All that measured() reads; none where a body is no mesh.
@@ -111,7 +102,7 @@ std::optional<std::string> PairCauses::question(const std::vector<CheckedPair>& 
     text += '\n';
     for (int column = 0; column < 4; ++column)
       for (int row = 0; row < 3; ++row) appendNumber(text += ' ', pose(row, column));
-    text += ' ' + content(body);
+    text += ' ' + contentDigest(body);
     return true;
   };
   const auto addOwn = [&](int index) {

@@ -53,7 +53,7 @@ class PairCauses {
   PairCause measured(const std::vector<CheckedPair>& bodies, const Eigen::VectorXd& q, double margin);
   std::optional<std::string> question(const std::vector<CheckedPair>& bodies, const Eigen::VectorXd& q,
                                       double margin);
-  const std::string& content(const Body& body);
+  const std::string& contentDigest(const Body& body);
   const fcl::CollisionGeometryd& hull(const Body& body);
   Placed first(const CheckedPair& pair, const Kinematics::State& state);
   Placed second(const CheckedPair& pair, const Kinematics::State& state);
@@ -62,7 +62,7 @@ class PairCauses {
   std::shared_ptr<const RobotGeometry> robot_, scene_;
   std::vector<Obstacle> obstacles_;
   detail::VolumeCache* cache_;
-  std::map<const Body*, std::string> contents_;  // digests, of robot_'s and scene_'s
+  std::map<const Body*, std::string> digests_;  // of contentOf(), robot_'s and scene_'s
   // By file and scale, or by the primitive itself.
   std::map<std::tuple<std::string, double, double, double, const void*>, std::unique_ptr<ExactBody>> exact_;
   std::map<const Body*, std::shared_ptr<const fcl::CollisionGeometryd>> partHulls_;
