@@ -180,25 +180,33 @@ bool DetailChoice::refineBothLinks(OpenNeed& open) {
   return true;
 }
 
+// A finer body need not lie within the coarse one, so all needs are asked again at the end.
 std::set<LinkPair> DetailChoice::refine(const std::vector<SceneNeed>& needs) {
   changed_.clear();
-  std::vector<char> met(needs.size());
-  shareOut(needs.size(), options_.threads, [&](std::size_t i) { met[i] = meets(needs[i]); });
+  std::vector<char> hopeless(needs.size());
   std::vector<OpenNeed> open;
-  for (std::size_t i = 0; i < needs.size(); ++i)
-    if (!met[i]) open.push_back({needs[i], {}});
-  const std::size_t all = open.size();
-  const auto drop = [&](const auto& which) {
-    open.erase(std::remove_if(open.begin(), open.end(), which), open.end());
+  const auto gather = [&] {
+    std::vector<char> settled(needs.size());
+    shareOut(needs.size(), options_.threads,
+             [&](std::size_t i) { settled[i] = hopeless[i] || meets(needs[i]); });
+    for (std::size_t i = 0; i < needs.size(); ++i)
+      if (!settled[i]) open.push_back({needs[i], i, {}});
+    return !open.empty();
   };
-  while (!open.empty()) {
-    if (options_.progress) options_.progress(all - open.size(), all, "needs that whole bodies do not meet");
-    bool finer = false;
-    for (std::size_t k = 0; !finer && k < ladder_.size(); ++k) finer = refineOneLink(open, ladder_[k]);
-    if (!finer) {  // those at the front that nothing meets go with it
-      while (!open.empty() && !refineBothLinks(open.front())) open.erase(open.begin());
+  while (gather()) {
+    const std::size_t all = open.size();
+    while (!open.empty()) {
+      if (options_.progress) options_.progress(all - open.size(), all, "needs that whole bodies do not meet");
+      bool finer = false;
+      for (std::size_t k = 0; !finer && k < ladder_.size(); ++k) finer = refineOneLink(open, ladder_[k]);
+      while (!finer && !open.empty() && !refineBothLinks(open.front())) {  // nothing meets it
+        hopeless[open.front().index] = 1;
+        open.erase(open.begin());
+      }
+      open.erase(std::remove_if(open.begin(), open.end(),
+                                [&](OpenNeed& o) { return meets(o, detailsOf(o.need.pair)); }),
+                 open.end());
     }
-    drop([&](OpenNeed& o) { return meets(o, detailsOf(o.need.pair)); });
   }
   return std::move(changed_);
 }

@@ -42,6 +42,7 @@ class DetailChoice {
   using Details = std::pair<Detail, Detail>;
   struct OpenNeed {
     SceneNeed need;
+    std::size_t index;            // among all
     std::map<Details, bool> met;  // what is known
   };
 

@@ -55,8 +55,7 @@ SceneModel modelForScene(std::shared_ptr<const Kinematics> kinematics,
                          const SceneModelOptions& options) {
   requireNeeds(needs, *kinematics, obstacles.size());
   DetailChoice choice(std::move(kinematics), levels, obstacles, options, false);
-  while (!choice.refine(needs).empty()) {  // a finer body need not lie within the coarse one
-  }
+  choice.refine(needs);
   SceneModel model{choice.geometry(), {}};
   std::copy_if(needs.begin(), needs.end(), std::back_inserter(model.unmet),
                [&](const SceneNeed& need) { return !choice.meets(need); });
