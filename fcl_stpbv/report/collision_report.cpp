@@ -284,7 +284,11 @@ CollisionReport makeReport(const ReportRequest& request) {
   report.warnings.insert(report.warnings.end(), warnings.begin(), warnings.end());
   const auto tick = [&](const std::shared_ptr<const RobotGeometry>& geometry,
                         const std::vector<CheckedPair>& rows, double handOver) {
-    return tickCost(report, geometry, rows, postures.asked.value_or(report.kinematics->neutral()), handOver);
+    ConstraintOptions constraints;
+    constraints.obstacles = report.obstacles;
+    constraints.handOver = handOver;
+    return tickCost(report.kinematics, geometry, rows, constraints,
+                    postures.asked.value_or(report.kinematics->neutral()));
   };
   constexpr double kNever = std::numeric_limits<double>::infinity();
   report.usPerTick = tick(report.geometry, closestBodies(report), kNever).usPerTick;

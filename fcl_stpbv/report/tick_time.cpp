@@ -26,14 +26,11 @@ std::vector<CheckedPair> closestBodies(const CollisionReport& report) {
   return bodies;
 }
 
-RowCost tickCost(const CollisionReport& report, std::shared_ptr<const RobotGeometry> geometry,
-                 const std::vector<CheckedPair>& rows, Eigen::VectorXd q, double handOver) {
+RowCost tickCost(std::shared_ptr<const Kinematics> kinematics, std::shared_ptr<const RobotGeometry> geometry,
+                 const std::vector<CheckedPair>& rows, const ConstraintOptions& options, Eigen::VectorXd q) {
   constexpr int kTicks = 300;
   constexpr double kStep = 1e-3;  // rad or m
-  ConstraintOptions options;
-  options.obstacles = report.obstacles;
-  options.handOver = handOver;
-  CollisionConstraints constraints(report.kinematics, std::move(geometry), rows, options);
+  CollisionConstraints constraints(std::move(kinematics), std::move(geometry), rows, options);
   Eigen::VectorXd d(constraints.rows()), values(constraints.nonZeros());
   std::vector<double> times;
   for (int i = 0; i < kTicks; ++i) {

@@ -5,10 +5,9 @@
 
 namespace fcl_stpbv::report {
 
-/// Rows with their Jacobian, in small steps around `q`, everything warm; the time is a median. `handOver` as
-/// in ConstraintOptions.
-RowCost tickCost(const CollisionReport& report, std::shared_ptr<const RobotGeometry> geometry,
-                 const std::vector<CheckedPair>& rows, Eigen::VectorXd q, double handOver);
+/// Rows with their Jacobian, in small steps around `q`, everything warm; the time is a median.
+RowCost tickCost(std::shared_ptr<const Kinematics> kinematics, std::shared_ptr<const RobotGeometry> geometry,
+                 const std::vector<CheckedPair>& rows, const ConstraintOptions& options, Eigen::VectorXd q);
 
 /// The closest bodies of each checked pair.
 std::vector<CheckedPair> closestBodies(const CollisionReport& report);

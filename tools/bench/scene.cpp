@@ -4,16 +4,15 @@
 // 2. Uniform models, coarse to fine. What the finest shows clear is what a scene asks for.
 // 3. modelForScene() for that, beside them: vertices, rows, time, excess over the meshes, verdicts.
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <exception>
-#include <limits>
 #include <optional>
+#include <random>
 #include <set>
 
-#include "fcl_stpbv/robot/constraints.h"
+#include "fcl_stpbv/report/tick_time.h"
 #include "fcl_stpbv/robot/detail_choice.h"
-#include "test/reference/shapes.h"
+#include "fcl_stpbv/robot/pair_samples.h"
 #include "tools/bench/measurement.h"
 #include "tools/program.h"
 
@@ -38,22 +37,13 @@ struct Scene {
   std::vector<Eigen::VectorXd> configurations;
 };
 
-constexpr double kNever = std::numeric_limits<double>::infinity();
-constexpr double kHandOver = 0.1;  // m
-
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-// All joints' ranges, uniformly.
 std::vector<Eigen::VectorXd> randomConfigurations(const Kinematics& kinematics, int count,
                                                   std::uint64_t seed) {
-  test::Random random(seed);
+  std::mt19937_64 random(seed);
   std::vector<Eigen::VectorXd> all;
-  for (int i = 0; i < count; ++i) {
-    Eigen::VectorXd q(kinematics.size());
-    for (Eigen::Index k = 0; k < q.size(); ++k)
-      q[k] = random.uniform(kinematics.lower()[k], kinematics.upper()[k]);
-    all.push_back(q);
-  }
+  for (int i = 0; i < count; ++i) all.push_back(randomConfiguration(kinematics, random));
   return all;
 }
 
@@ -72,55 +62,36 @@ Scene makeScene(const Arguments& arguments, const std::shared_ptr<const RobotMod
 }
 
 // A model's rows, those of each pair of links together.
-class Rows {
- public:
-  explicit Rows(const Scene& scene, Geometry geometry, double handOver = kNever) {
-    std::vector<CheckedPair> bodies;
-    for (const LinkPair& pair : scene.pairs) {
-      const std::vector<CheckedPair> more = bodiesOf(*geometry, pair);
-      bodies.insert(bodies.end(), more.begin(), more.end());
-      end_.push_back(static_cast<Eigen::Index>(bodies.size()));
-    }
-    ConstraintOptions options;
-    options.handOver = handOver;
-    constraints_ =
-        std::make_unique<CollisionConstraints>(scene.kinematics, std::move(geometry), bodies, options);
-    d_.resize(constraints_->rows());
-    values_.resize(constraints_->nonZeros());
-  }
-
-  int count() const { return constraints_->rows(); }
-
-  /// Whether each pair is clear in q.
-  void clear(const Eigen::VectorXd& q, double clearance, std::vector<char>& verdicts) {
-    constraints_->evaluate(q, d_);
-    Eigen::Index row = 0;
-    for (const Eigen::Index end : end_) {
-      bool apart = true;
-      for (; row < end; ++row) apart = apart && d_[row] > clearance;
-      verdicts.push_back(apart);
-    }
-  }
-
-  /// Median time of d and J in small steps (us).
-  double tick(Eigen::VectorXd q) {
-    constexpr int kTicks = 300;
-    constexpr double kStep = 1e-3;  // rad or m
-    std::vector<double> times;
-    for (int i = 0; i < kTicks; ++i) {
-      for (Eigen::Index k = 0; k < q.size(); ++k) q[k] += kStep * std::sin(static_cast<double>(i * (k + 1)));
-      const double start = benchmark::threadTime();
-      constraints_->evaluateValues(q, d_, values_);
-      times.push_back(1e-3 * (benchmark::threadTime() - start));
-    }
-    return benchmark::median(times);
-  }
-
- private:
-  std::unique_ptr<CollisionConstraints> constraints_;
-  std::vector<Eigen::Index> end_;
-  Eigen::VectorXd d_, values_;
+struct Rows {
+  std::vector<CheckedPair> bodies;
+  std::vector<Eigen::Index> end;  // of each pair's
 };
+
+Rows rowsOf(const Scene& scene, const RobotGeometry& geometry) {
+  Rows rows;
+  for (const LinkPair& pair : scene.pairs) {
+    const std::vector<CheckedPair> more = bodiesOf(geometry, pair);
+    rows.bodies.insert(rows.bodies.end(), more.begin(), more.end());
+    rows.end.push_back(static_cast<Eigen::Index>(rows.bodies.size()));
+  }
+  return rows;
+}
+
+// Whether each pair is clear in each configuration.
+std::vector<char> verdicts(const Rows& rows, const std::vector<Eigen::VectorXd>& configurations,
+                           CollisionConstraints& constraints, double clearance) {
+  std::vector<char> clear;
+  Eigen::VectorXd d(constraints.rows());
+  for (const Eigen::VectorXd& q : configurations) {
+    constraints.evaluate(q, d);
+    Eigen::Index row = 0;
+    for (const Eigen::Index end : rows.end) {
+      clear.push_back(d.segment(row, end - row).minCoeff() > clearance);
+      row = end;
+    }
+  }
+  return clear;
+}
 
 // Most that each body exceeds its mesh by (m): a part's hull or the whole one, and the volume's over-cover.
 std::vector<double> excesses(const RobotGeometry& geometry, LinkParts& parts) {
@@ -144,32 +115,36 @@ struct Verdicts {
 
 Verdicts judge(const std::string& name, const Scene& scene, const Geometry& geometry, LinkParts& parts,
                const std::vector<Eigen::VectorXd>& others, double clearance, nlohmann::ordered_json& row) {
-  Rows rows(scene, geometry);
-  Verdicts found;
-  const double us = rows.tick(scene.configurations.front());
-  const double usHandedOver = Rows(scene, geometry, kHandOver).tick(scene.configurations.front());
-  for (const Eigen::VectorXd& q : scene.configurations) rows.clear(q, clearance, found.clear);
-  for (const Eigen::VectorXd& q : others) rows.clear(q, clearance, found.others);
+  const Rows rows = rowsOf(scene, *geometry);
+  ConstraintOptions handedOver;
+  handedOver.handOver = report::kHandOver;
+  const auto microseconds = [&](const ConstraintOptions& options) {
+    return report::tickCost(scene.kinematics, geometry, rows.bodies, options, scene.configurations.front())
+        .usPerTick;
+  };
+  const double us = microseconds({}), usHandedOver = microseconds(handedOver);
+  CollisionConstraints constraints(scene.kinematics, geometry, rows.bodies);
+  const Verdicts found{verdicts(rows, scene.configurations, constraints, clearance),
+                       verdicts(rows, others, constraints, clearance)};
   const std::vector<double> excess = excesses(*geometry, parts);
   double sum = 0, most = 0;
   std::set<int> used;
-  for (const LinkPair& pair : scene.pairs)
-    for (const CheckedPair& bodies : bodiesOf(*geometry, pair)) {
-      const double both = excess[at(bodies.body)] + excess[at(bodies.other)];
-      sum += both;
-      most = std::max(most, both);
-      used.insert({bodies.body, bodies.other});
-    }
+  for (const CheckedPair& pair : rows.bodies) {
+    const double both = excess[at(pair.body)] + excess[at(pair.other)];
+    sum += both;
+    most = std::max(most, both);
+    used.insert({pair.body, pair.other});
+  }
   std::size_t vertices = 0;
   for (const int body : used)
     if (geometry->bodies[at(body)].volume) vertices += geometry->bodies[at(body)].volume->vertexCount();
   row = {{"model", name},
          {"bodies", used.size()},
          {"vertices", vertices},
-         {"rows", rows.count()},
+         {"rows", rows.bodies.size()},
          {"us_a_tick", significant(us, 3)},
          {"us_handed_over", significant(usHandedOver, 3)},
-         {"excess_mean", significant(sum / rows.count(), 3)},
+         {"excess_mean", significant(sum / static_cast<double>(rows.bodies.size()), 3)},
          {"excess_most", significant(most, 3)}};
   return found;
 }
