@@ -75,7 +75,7 @@ void takeName(const fs::path& made, const fs::path& name) {
 }  // namespace
 
 void atomicWriteFolder(const std::string& folder, const FolderFiles& files) {
-  const SignalsHeld held(kEndingSignals);
+  const EndPutOff putOff;
   fs::path name = fs::path(folder).lexically_normal();
   if (name.filename().empty()) name = name.parent_path();  // it ended in a slash
   std::error_code none;

@@ -1,7 +1,7 @@
 // Atomic writes:
 // 1. a temporary file in the target's folder, with the old file's permissions;
 // 2. write, fsync, rename over the target, fsync the folder;
-// 3. signals that would end the process wait until this is done.
+// 3. signals that would end the process wait until this is done, in whatever thread they arrive.
 // Devices, pipes and open descriptors are written directly.
 #include "fcl_stpbv/io/atomic_write.h"
 
@@ -41,7 +41,7 @@ int writeAll(int file, std::string_view content) {
 
 // Opening a pipe waits for its reader, and writing to a full one waits for space. Both can be interrupted.
 void writeStraight(const std::string& path, std::string_view content) {
-  const SignalsHeld held(kSignalsOfWrites);
+  const WriteSignalsHeld held;
   const int file = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
   if (file < 0) refuse(path, errno);
   int error = writeAll(file, content);
@@ -103,7 +103,7 @@ void syncFolder(const std::string& path) {
 
 // `old` is the file to be replaced whose permissions stay, or null.
 void replace(const std::string& file, std::string_view content, mode_t mode, const struct stat* old) {
-  const SignalsHeld held(kEndingSignals);
+  const EndPutOff putOff;
   std::string temporary;
   const int out = openBeside(file, mode, temporary);
   if (out < 0) refuse(file, errno);
@@ -124,7 +124,7 @@ void replace(const std::string& file, std::string_view content, mode_t mode, con
 void atomicWrite(const std::string& path, std::string_view content) {
   const int descriptor = descriptorOf(path);
   if (descriptor >= 0) {
-    const SignalsHeld held(kSignalsOfWrites);
+    const WriteSignalsHeld held;
     if (const int error = writeAll(descriptor, content)) refuse(path, error);
     return;
   }

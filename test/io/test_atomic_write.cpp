@@ -4,12 +4,15 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <catch2/catch.hpp>
 #include <csignal>
 #include <filesystem>
+#include <thread>
 
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/io/atomic_write.h"
+#include "fcl_stpbv/io/signals_held.h"
 #include "test/reference/shapes.h"
 #include "test/reference/volume_files.h"
 
@@ -99,4 +102,57 @@ TEST_CASE("a run that is interrupted leaves a whole file and nothing else") {
     CHECK((content == one || content == two));
     CHECK(folder.files() == Names{"a"});
   }
+}
+
+TEST_CASE("a signal that another thread takes waits for the write as well") {
+  const TemporaryFolder folder;
+  const std::string one(300000, '1'), two(300000, '2');
+  Random random(6);
+  for (int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGQUIT, SIGQUIT}) {
+    const pid_t child = ::fork();
+    REQUIRE(child >= 0);
+    if (child == 0) {
+      const rlimit noCore{0, 0};  // SIGQUIT would leave one
+      ::setrlimit(RLIMIT_CORE, &noCore);
+      std::signal(signal, SIG_DFL);
+      const auto writes = [&](const char* name) {
+        for (;;) {
+          atomicWrite(folder / name, two);
+          atomicWrite(folder / name, one);
+        }
+      };
+      std::thread a(writes, "a"), b(writes, "b");
+      for (;;) ::pause();  // takes the signals
+    }
+    ::usleep(static_cast<useconds_t>(20000 + random.below(20000)));
+    ::kill(child, signal);
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    CHECK(WIFSIGNALED(status));
+    CHECK(WTERMSIG(status) == signal);
+    for (const std::string& name : folder.files()) {
+      CHECK((name == "a" || name == "b"));
+      const std::string content = contentOf(folder / name);
+      CHECK((content == one || content == two));
+    }
+  }
+}
+
+TEST_CASE("a signal that the application handles or ignores is left to it") {
+  static std::atomic<int> handled{0};
+  const TemporaryFolder folder;
+  const auto before = std::signal(
+      SIGTERM, +[](int) { ++handled; });
+  {
+    const EndPutOff putOff;
+    ::raise(SIGTERM);
+    CHECK(handled == 1);
+  }
+  CHECK(handled == 1);
+  std::signal(SIGTERM, SIG_IGN);
+  {
+    const EndPutOff putOff;
+    ::raise(SIGTERM);
+  }
+  CHECK(std::signal(SIGTERM, before) == SIG_IGN);
 }
