@@ -7,6 +7,7 @@
 
 #include "fcl_stpbv/error.h"
 #include "tools/number_check.h"
+#include "tools/radii_task.h"
 
 namespace fcl_stpbv::tools {
 namespace {
@@ -28,26 +29,38 @@ void describeFiles(Program& app, RobotArguments& a) {
 }
 
 void describeBodies(Program& app, RobotArguments& a) {
-  app.option("-r,--r", a.r,
-             "Radius of the small spheres, the margin, or 'auto': a twentieth of each link's smallest "
-             "width, 1 cm at most")
-      .type("LENGTH|auto")
-      .number(0, kLargest, true, "auto")
-      .shown();
-  app.option("-R,--R", a.R,
-             "Radius of the big spheres, or 'auto': so large that they add no more than r; without it "
-             "auto where r is, else 10")
-      .type("LENGTH|auto")
-      .number(0, kLargestR, false, "auto");
+  const Option r =
+      app.option("-r,--r", a.r,
+                 "Radius of the small spheres, the margin, or 'auto': a twentieth of each link's smallest "
+                 "width, 1 cm at most")
+          .type("LENGTH|auto")
+          .number(0, kLargest, true, "auto")
+          .shown();
+  const Option R =
+      app.option("-R,--R", a.R,
+                 "Radius of the big spheres, or 'auto': so large that they add no more than r; without it "
+                 "auto where r is, else 10")
+          .type("LENGTH|auto")
+          .number(0, kLargestR, false, "auto");
+  Option advise = app.option("--advise", a.advise,
+                             "Instead of -r and -R, of each link's meshes those that lose the least space "
+                             "and add at most this acceleration to a controller's rows: clearance [0.005 m], "
+                             "acceleration [1 m/s^2], speed [0.3 m/s], turning [1 rad/s], period [0.001 s], "
+                             "distance [0 m], others [flat]")
+                      .type("KEY=VALUE,...")
+                      .excludes(r)
+                      .excludes(R);
   app.option("--primitives", a.primitives,
              "smooth: spheres, capsules, boxes and cylinders get smooth covers where a pair has no "
              "smooth body; flat: none")
       .oneOf({"smooth", "flat"})
       .shown();
-  app.option("--over-cover", a.files.geometry.overCoverBudget,
-             "Most that a volume may exceed its mesh's hull by; spends it on fewer vertices, 0 for no limit")
-      .number(0, kLargest)
-      .shown();
+  advise.excludes(
+      app.option("--over-cover", a.files.geometry.overCoverBudget,
+                 "Most that a volume may exceed its mesh's hull by; spends it on fewer vertices, 0 for no "
+                 "limit")
+          .number(0, kLargest)
+          .shown());
   app.option("--link", a.links, "Values of a single link; may be given again")
       .type("NAME=r,R[,OVER_COVER]")
       .repeated();
@@ -155,6 +168,7 @@ report::ReportRequest requestOf(const RobotArguments& robot, const SearchArgumen
 report::RobotFiles filesOf(const RobotArguments& arguments) {
   report::RobotFiles files = arguments.files;
   setRadii(arguments, files.geometry);
+  if (!arguments.advise.empty()) files.geometry.advice = radiiTask(arguments.advise);
   files.flatPrimitives = arguments.primitives == "flat";
   for (const std::string& link : arguments.links) readLink(link, files.geometry);
   for (const std::string& link : arguments.flat) {

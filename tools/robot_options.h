@@ -16,7 +16,7 @@ namespace fcl_stpbv::tools {
 
 struct RobotArguments {
   report::RobotFiles files;
-  std::string r = "auto", R, primitives = "smooth";
+  std::string r = "auto", R, advise, primitives = "smooth";
   std::vector<std::string> links, flat;
   bool noCache = false;
   int jobs = allCores();

@@ -101,6 +101,14 @@ struct CollisionReport {
   /// Of whole bodies, of those parts that are taken, and of these where whole bodies hand over to them at
   /// kHandOver; 0 without parts.
   RowCost wholeCost, partsCost, handOverCost;
+
+  /// Whether the pair is taken by its links' parts.
+  bool isByParts(const PairReport& pair) const { return geometry->byParts.count(pair.links) > 0; }
+  /// "link1 - link2" of one of `trajectoryPairs`.
+  std::string trajectoryPair(int pair) const {
+    const auto& [first, second] = trajectoryPairs[static_cast<std::size_t>(pair)];
+    return first + " - " + second;
+  }
 };
 
 /// @throws Error naming the file or the argument.

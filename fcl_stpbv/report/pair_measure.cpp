@@ -38,7 +38,7 @@ struct Placed {
 Placed placed(const Body& body, const Kinematics::State& state) {
   std::shared_ptr<const fcl::CollisionGeometryd> hull = body.geometry;
   if (body.primitive) hull = body.primitive;
-  if (body.full) hull = std::make_shared<StpBvGeometry>(body.full);
+  if (body.full) hull = body.full;
   return {body.geometry.get(), hull, state.link[at(body.link)] * body.pose};
 }
 

@@ -26,7 +26,7 @@ std::vector<PolyhedronReport> comparePolyhedra(const RobotGeometry& geometry, co
         report.file = file.string();
     }
     if (!report.file.empty()) {
-      const StpBv& mesh = body.full ? *body.full : *body.volume;
+      const StpBv& mesh = body.isReduced() ? body.full->volume() : *body.volume;
       const StpBv::Ptr polyhedron = StpBv::build(loadPoints(report.file), {mesh.radii().r, mesh.radii().R});
       report.meshVertices = mesh.vertexCount();
       report.vertices = polyhedron->vertexCount();

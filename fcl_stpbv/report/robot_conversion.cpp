@@ -33,6 +33,9 @@ ordered_json optionsOf(const RobotConversion& conversion) {
   json["parts"] = report.partsAuto ? ordered_json("auto") : ordered_json(report.partsAll);
   json["r"] = g.fitr ? ordered_json("auto") : ordered_json(g.radii.r);
   json["R"] = g.fitR ? ordered_json("auto") : ordered_json(g.radii.R);
+  if (g.advice)
+    json["advise"] = {g.advice->clearance, g.advice->acceleration, g.advice->speed,    g.advice->turning,
+                      g.advice->period,    g.advice->distance,     g.advice->bothRound};
   json["over_cover"] = g.overCoverBudget;
   for (const auto& [name, radii] : g.links) json["links"][name] = {radii.r, radii.R};
   for (const auto& [name, budget] : g.budgets) json["budgets"][name] = budget;

@@ -39,6 +39,7 @@ std::vector<CheckedPair> pairsToCover(const Kinematics& kinematics, const RobotG
 RobotLoader::RobotLoader(RobotFiles files) : files_(std::move(files)), sceneOptions_(files_.geometry) {
   sceneOptions_.links.clear();  // these name the robot's
   sceneOptions_.budgets.clear();
+  sceneOptions_.advice.reset();  // what is large had better be flat (docs/choosing_r_and_R.md)
   sceneOptions_.flatLinks.clear();
   sceneOptions_.flat = files_.flatObstacles;
 }

@@ -68,7 +68,9 @@ void CollisionConstraints::addWholePairs() {
     return std::tuple(wholeOf(pair.body), pair.obstacle ? pair.other : wholeOf(pair.other), pair.obstacle);
   };
   // A volume with fewer vertices than its mesh need not hold the volumes of the mesh's parts.
-  const auto holdsItsParts = [&](int body) { return at(body) < bodies.size() && !bodies[at(body)].full; };
+  const auto holdsItsParts = [&](int body) {
+    return at(body) < bodies.size() && !bodies[at(body)].isReduced();
+  };
   const auto handsOver = [&](const CheckedPair& pair) {
     const auto [a, b, obstacle] = keyOf(pair);
     return (a != pair.body || b != pair.other) && holdsItsParts(a) && (obstacle || holdsItsParts(b));

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <tuple>
@@ -82,6 +83,7 @@ class Builder {
       else
         faults_.shapes.push_back(std::move(wrong[i]));
     }
+    warnOfAdvice();
     geometry_.fromCache = cache_.hits();
     return std::move(geometry_);
   }
@@ -89,6 +91,38 @@ class Builder {
  private:
   const std::string& nameOf(const ShapeSource& source) const {
     return robot_.links[static_cast<std::size_t>(source.link)].name;
+  }
+
+  // What the advice does not say: how many primitives there are, which it is not for, how many meshes cannot
+  // keep both promises, and which is furthest from it.
+  void warnOfAdvice() {
+    if (!options_.advice) return;
+    const auto isPrimitive = [](const Body& body) { return body.file.empty(); };
+    const auto primitives = std::count_if(geometry_.bodies.begin(), geometry_.bodies.end(), isPrimitive);
+    if (primitives > 0)
+      geometry_.warnings.push_back(robot_.path + ": " + std::to_string(primitives) +
+                                   " primitives keep the general r and R: advice is for meshes");
+    int all = 0, count = 0;
+    const Body* worst = nullptr;
+    for (const Body& body : geometry_.bodies) {
+      all += body.advice.has_value();
+      if (!body.advice || body.advice->meetsBoth) continue;
+      ++count;
+      if (!worst || body.advice->acceleration > worst->advice->acceleration) worst = &body;
+    }
+    if (!worst) return;
+    const RadiiAdvice& advice = *worst->advice;
+    char text[256];
+    std::snprintf(text, sizeof text,
+                  ": no r and R keep %d of %d meshes within a clearance of %.4g m and %.4g m/s^2; the most "
+                  "is ",
+                  count, all, options_.advice->clearance, options_.advice->acceleration);
+    std::string warning = robot_.path + text + worst->name;
+    std::snprintf(text, sizeof text, ", whose shape may add %.4g m/s^2", advice.acceleration);
+    warning += text;
+    std::snprintf(text, sizeof text, ", or needs a clearance of %.4g m", advice.leastClearance);
+    if (std::isfinite(advice.leastClearance)) warning += text;
+    geometry_.warnings.push_back(warning);
   }
 
   Body bodyOf(const ShapeSource& source) {

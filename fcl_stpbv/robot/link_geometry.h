@@ -7,6 +7,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -14,6 +15,7 @@
 #include "fcl_stpbv/adapter/stp_bv_geometry.h"
 #include "fcl_stpbv/robot/robot_model.h"
 #include "fcl_stpbv/volume/measure.h"
+#include "fcl_stpbv/volume/radii_advice.h"
 
 namespace fcl_stpbv {
 
@@ -26,6 +28,9 @@ struct GeometryOptions {
   StpBvOptions radii;  ///< of every link's volumes
   bool fitr = false;   ///< an r that fits each body's size instead (docs/choosing_r_and_R.md)
   bool fitR = false;   ///< an R that does
+  /// Both radii of each mesh by adviseRadii() for this task, before all of the above. A warning counts the
+  /// bodies that cannot keep both promises. Primitives have the radii above.
+  std::optional<RadiiTask> advice;
   std::map<std::string, StpBvOptions> links;  ///< of single links, by name: these win
   /// Most that a volume may exceed the hull of its mesh by (m), 0 for any. With one a volume gets few
   /// vertices (reduce()) and a larger r to cover the others; R is doubled first until all vertices keep to
@@ -50,7 +55,10 @@ struct Body {
   std::shared_ptr<fcl::CollisionGeometryd> geometry;  ///< what queries get
   StpBvOptions radii;  ///< those asked for, or fitted; where a primitive is flat, those of its cover to be
   StpBv::Ptr volume;   ///< null for a flat primitive and for a flat mesh
-  StpBv::Ptr full;     ///< the volume of all the mesh's points where `volume` is a reduced one, else null
+  std::optional<RadiiAdvice> advice;  ///< where GeometryOptions::advice asked for it
+  /// The volume of all the mesh's points where `volume` is a reduced one, or so round that corners of the
+  /// hull lie inside; else null.
+  std::shared_ptr<const StpBvGeometry> full;
   std::shared_ptr<fcl::CollisionGeometryd> primitive;  ///< the primitive under its smooth cover, else null
   std::string file;                                    ///< "" for a primitive
   Eigen::Vector3d scale{1, 1, 1};                      ///< of the mesh
@@ -62,6 +70,9 @@ struct Body {
   double excess = 0;  ///< of a part: most that its hull exceeds the mesh's solid by (m)
   double openExcess = 0;              ///< the same over the mesh's triangles alone (m)
   std::vector<Eigen::Vector3d> hull;  ///< of a part: the corners of its hull, in the body's frame (m)
+
+  /// Whether `volume` has fewer vertices than its r and R leave, and a larger r instead.
+  bool isReduced() const { return full && volume->radii().r > full->volume().radii().r; }
 };
 
 /// Two links, or a link and an obstacle.

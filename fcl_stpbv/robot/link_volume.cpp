@@ -2,6 +2,14 @@
 // over-cover budget R is doubled until the volume keeps to it, then reduce() drops vertices.
 #include "fcl_stpbv/robot/link_volume.h"
 
+#include <fcl/geometry/shape/sphere.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "fcl_stpbv/adapter/fcl_distance.h"
+#include "fcl_stpbv/adapter/hull_geometry.h"
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/io/text_scanner.h"
 #include "fcl_stpbv/volume/reduce.h"
@@ -11,9 +19,19 @@ namespace {
 
 using Points = std::vector<Eigen::Vector3d>;
 
-// Whether r or R of a link's bodies follow the body's size.
+// Whether r or R of a link's bodies follow the body.
 bool areFitted(const GeometryOptions& options, const std::string& link) {
-  return options.links.count(link) == 0 && (options.fitr || options.fitR);
+  return options.links.count(link) == 0 && (options.fitr || options.fitR || options.advice);
+}
+
+std::string textOf(const RadiiTask& task) {
+  std::string text = task.bothRound ? "round" : "flat";
+  for (const double number :
+       {task.clearance, task.acceleration, task.speed, task.turning, task.period, task.distance}) {
+    text += ' ';
+    appendNumber(text, number);
+  }
+  return text;
 }
 
 // One mesh on its way to a volume; the points are read when they are needed, which with a warm cache may be
@@ -25,11 +43,14 @@ class VolumeMaker {
 
   void make(const GeometryOptions& options, const std::string& link, double budget) {
     const VolumeKey key = volumeKey(options, link, source_.content);
+    if (options.advice && options.links.count(link) == 0) body_.advice = keptAdvice(key, *options.advice);
     body_.volume = cache_.volume(key.content, key.radii, [&] {
-      return StpBv::build(points(), radiiFor(options, link, [this] { return sizeOf(points()); }));
+      return StpBv::build(points(), body_.advice ? body_.advice->radii : radiiFor(options, link, [this] {
+                            return sizeOf(points());
+                          }));
     });
     body_.radii = {body_.volume->radii().r, body_.volume->radii().R};
-    body_.cover = keptCover(key);
+    keepCover(key);
     if (budget > 0) reduceTo(budget);
     body_.geometry = std::make_shared<StpBvGeometry>(body_.volume);
     body_.centre = body_.volume->centre();
@@ -39,23 +60,73 @@ class VolumeMaker {
  private:
   const Points& points() const { return source_.points(); }
 
-  OverCover keptCover(const VolumeKey& key) {
+  // Also the volume of all points, where a small R leaves some inside that the hull has as corners.
+  void keepCover(const VolumeKey& key) {
     std::string from;
     appendNumber(from, key.radii.r);
     from += ' ';
     appendNumber(from, key.radii.R);
     from += '\n' + key.content;
     const auto measure = [this] {
-      const OverCover cover = overCover(*body_.volume);
-      return std::vector<double>{cover.max, cover.mean};
+      const OverCover cover = overCover(*body_.volume, points());
+      return std::vector<double>{cover.max, cover.mean, leavesNoneInside()};
     };
-    std::vector<double> kept = cache_.numbers(from, "cover", measure);
-    if (kept.size() != 2) kept = measure();
-    return {kept[0], kept[1]};
+    std::vector<double> kept = cache_.numbers(from, "over-cover", measure);
+    if (kept.size() != 3) kept = measure();
+    body_.cover = {kept[0], kept[1]};
+    if (!(kept[2] > body_.radii.R)) return;
+    const StpBvOptions wide{body_.radii.r, kept[2]};
+    body_.full = std::make_shared<StpBvGeometry>(
+        cache_.volume(source_.content, wide, [&] { return StpBv::build(points(), wide); }));
+  }
+
+  // The body's R, or a larger one where its own leaves corners of the hull inside.
+  double leavesNoneInside() const {
+    StpBvOptions wide = body_.radii;
+    for (StpBv::Ptr v = body_.volume; leftInside(*v) > kNothing && wide.R < kLargest;) {
+      wide.R *= 4;
+      v = StpBv::build(points(), wide);
+    }
+    return wide.R;
+  }
+
+  // How far a point is from the hull of the volume's vertices at most (m).
+  double leftInside(const StpBv& volume) const {
+    constexpr double kBall = 1e-3;  // FCL has no shape that is a point
+    const fcl::Sphered ball(kBall);
+    const auto hull = hullGeometry(points()), kept = hullGeometry(volume.vertices());
+    double most = 0;
+    for (const Eigen::Vector3d& v : hull->getVertices()) {
+      const fcl::Transform3d there{Eigen::Translation3d(v)};
+      const DistanceAnswer found = distance(ball, there, *kept, fcl::Transform3d::Identity());
+      if (found.status != DistanceStatus::invalid) most = std::max(most, found.distance + kBall);
+    }
+    return most;
+  }
+
+  RadiiAdvice keptAdvice(const VolumeKey& key, const RadiiTask& task) {
+    constexpr double kNever = -1;  // for a least clearance that is infinite: what is kept is finite
+    const auto ask = [&] {
+      const RadiiAdvice a = adviseRadii(points(), task);
+      return std::vector<double>{a.radii.r,
+                                 a.radii.R,
+                                 double(a.meetsBoth),
+                                 a.acceleration,
+                                 a.overCover,
+                                 a.perPeriod,
+                                 std::isfinite(a.leastClearance) ? a.leastClearance : kNever};
+    };
+    std::vector<double> kept = cache_.numbers(key.content, "advice", ask);
+    if (kept.size() != 7) kept = ask();
+    return {{kept[0], kept[1]},
+            kept[2] != 0,
+            kept[3],
+            kept[4],
+            kept[5],
+            kept[6] < 0 ? std::numeric_limits<double>::infinity() : kept[6]};
   }
 
   void reduceTo(double budget) {
-    constexpr double kLargest = 1e5;  // beyond it a big sphere is flat to rounding
     StpBvOptions& radii = body_.radii;
     body_.cover = overCover(*body_.volume, points());
     for (; body_.cover.max > budget && radii.R < kLargest; body_.cover = overCover(*body_.volume, points())) {
@@ -68,10 +139,13 @@ class VolumeMaker {
     const StpBv::Ptr few = cache_.volume(source_.content + "\nreduced to " + toDecimal(budget), radii,
                                          [&] { return reduce(points(), radii, budget); });
     if (few->vertexCount() >= body_.volume->vertexCount()) return;
-    body_.full = body_.volume;
+    if (!body_.full) body_.full = std::make_shared<StpBvGeometry>(body_.volume);
     body_.volume = few;
     body_.cover = overCover(*few, points());
   }
+
+  static constexpr double kLargest = 1e5;   // beyond it a big sphere is flat to rounding (m)
+  static constexpr double kNothing = 1e-5;  // what a distance to the hull may be off by (m)
 
   const ShapeSource& source_;
   VolumeCache& cache_;
@@ -82,6 +156,7 @@ class VolumeMaker {
 
 VolumeKey volumeKey(const GeometryOptions& options, const std::string& link, const std::string& content) {
   if (!areFitted(options, link)) return {content, radiiFor(options, link, nullptr)};
+  if (options.advice) return {content + "\nadvised " + textOf(*options.advice), options.radii};
   return {content + (options.fitr ? "\nr fitted" : "") + (options.fitR ? "\nR fitted" : ""), options.radii};
 }
 
@@ -89,7 +164,7 @@ StpBvOptions radiiFor(const GeometryOptions& options, const std::string& link,
                       const std::function<BodySize()>& size) {
   const auto own = options.links.find(link);
   if (own != options.links.end()) return own->second;
-  if (!areFitted(options, link)) return options.radii;
+  if (!options.fitr && !options.fitR) return options.radii;
   const BodySize known = size();
   const double r = options.fitr ? fittedRadii(known).r : options.radii.r;
   return {r, options.fitR ? fittedR(known.ball, r) : options.radii.R};

@@ -17,7 +17,7 @@ struct VolumeKey {
 VolumeKey volumeKey(const GeometryOptions& options, const std::string& link, const std::string& content);
 
 /// r and R of a link's bodies: the link's own, those for all links, or what fits the body (GeometryOptions).
-/// `size` is only asked where they are fitted.
+/// `size` is only asked where they are fitted. Without GeometryOptions::advice, which is for meshes.
 StpBvOptions radiiFor(const GeometryOptions& options, const std::string& link,
                       const std::function<BodySize()>& size);
 

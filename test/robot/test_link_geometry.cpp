@@ -79,6 +79,91 @@ TEST_CASE("fitted radii come from the cache with the volume, and the mesh is not
   }
 }
 
+TEST_CASE("each mesh gets the radii that its task asks for, and they are kept with the volume") {
+  TemporaryFolder folder;
+  const RobotModel robot = tetrahedron(folder, 0.3);
+  GeometryOptions options = cachedIn(folder / "cache");
+  RadiiTask task;
+  task.acceleration = 4;
+  task.clearance = 0.05;
+  options.advice = task;
+  options.fitr = true;  // the advice comes first
+  const RobotGeometry cold = loadGeometry(robot, options);
+  const Body& body = cold.bodies[0];
+  const RadiiAdvice alone = adviseRadii(loadPoints(body.file), task);
+  REQUIRE(alone.meetsBoth);
+  REQUIRE(body.advice);
+  CHECK(body.radii.r == alone.radii.r);
+  CHECK(body.radii.R == alone.radii.R);
+  CHECK(body.cover.max <= task.clearance);
+  CHECK(cold.warnings.empty());
+
+  const long before = pagesOfChildren();
+  const RobotGeometry warm = loadGeometry(robot, options);
+  CHECK(pagesOfChildren() == before);
+  CHECK(warm.fromCache == 1);
+  CHECK(sameVolume(*warm.bodies[0].volume, *body.volume));
+  CHECK(warm.bodies[0].advice->acceleration == alone.acceleration);
+  CHECK(warm.bodies[0].advice->leastClearance == alone.leastClearance);
+
+  // Another task is another volume; one that cannot be kept is told of, by a warm cache too.
+  options.advice->clearance = alone.leastClearance / 2;
+  for (const int fromCache : {0, 1}) {
+    const RobotGeometry tight = loadGeometry(robot, options);
+    CHECK(tight.fromCache == fromCache);
+    CHECK(tight.bodies[0].cover.max <= options.advice->clearance);
+    REQUIRE(tight.warnings.size() == 1);
+    CHECK_THAT(tight.warnings[0], Contains("no r and R keep 1 of 1 meshes within a clearance"));
+  }
+  put(folder / "box.urdf", fcl_stpbv::test::robot(link("b", "<box size=\"1 1 1\"/>")));
+  const RobotGeometry box = loadGeometry(loadUrdf(folder / "box.urdf"), options);
+  REQUIRE(box.warnings.size() == 1);
+  CHECK_THAT(box.warnings[0], Contains("1 primitives keep the general r and R"));
+  options.links[robot.links[0].name] = {0.01, 5};
+  CHECK(loadGeometry(robot, options).bodies[0].radii.R == 5);
+  options.links.clear();
+  options.advice->clearance = 1e-8;  // less than a period's
+  CHECK_THROWS_WITH(loadGeometry(robot, options), Contains(body.file) && Contains("clearance"));
+}
+
+TEST_CASE("a volume so round that corners of the hull lie inside keeps one that has them") {
+  TemporaryFolder folder;
+  // A square of 20 cm with a corner 1 mm above its middle, and one far below: at R = 0.3 m the former is
+  // inside.
+  put(folder / "mesh.obj",
+      "v -0.1 -0.1 0\nv 0.1 -0.1 0\nv 0.1 0.1 0\nv -0.1 0.1 0\nv 0 0 0.001\nv 0 0 -0.1\n"
+      "f 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\nf 2 1 6\nf 3 2 6\nf 4 3 6\nf 1 4 6\n");
+  put(folder / "r.urdf", robot(link("a", "<mesh filename=\"mesh.obj\"/>")));
+  const RobotModel robot = loadUrdf(folder / "r.urdf");
+  GeometryOptions options = cachedIn(folder / "cache");
+  for (const double R : {100.0, 0.3}) {
+    options.radii = {0.001, R};
+    for (const bool warm : {false, true}) {
+      const RobotGeometry geometry = loadGeometry(robot, options);
+      CHECK((geometry.fromCache > 0) == warm);
+      const Body& body = geometry.bodies[0];
+      CHECK((body.full != nullptr) == (R < 1));
+      CHECK(body.volume->vertexCount() == (R < 1 ? 5 : 6));
+      if (body.full) CHECK(body.full->volume().vertexCount() == 6);
+      // Over the hull of all points: less than over that of the five by about the millimetre.
+      const double most = overCover(*body.volume).max;
+      CHECK(body.cover.max == overCover(*body.volume, loadPoints(body.file)).max);
+      if (R < 1) CHECK(body.cover.max < most - 5e-4);
+    }
+  }
+}
+
+TEST_CASE("flat meshes and single triangles leave no corner inside") {
+  TemporaryFolder folder;
+  for (const char* faces : {"f 1 2 3\nf 1 3 4\n", "f 1 2 3\n"}) {
+    put(folder / "mesh.obj", std::string("v 0 0 0\nv 0.3 0 0\nv 0.3 0.2 0\nv 0 0.2 0\n") + faces);
+    put(folder / "r.urdf", robot(link("a", "<mesh filename=\"mesh.obj\"/>")));
+    const Body body = loadGeometry(loadUrdf(folder / "r.urdf"), cachedIn("")).bodies[0];
+    CHECK(body.full == nullptr);
+    CHECK(body.cover.max >= body.radii.r);
+  }
+}
+
 TEST_CASE("a second load takes volumes from the cache, and others when content or radii change") {
   TemporaryFolder folder;
   const RobotModel model = tetrahedron(folder, 0.1);
@@ -154,7 +239,7 @@ TEST_CASE("an over-cover budget is spent on fewer vertices that still cover ever
     CHECK(overCover(*body.volume, points).max <= budget);
     CHECK(body.cover.max == overCover(*body.volume, points).max);
     if (body.name == "BODY") CHECK(body.volume->vertexCount() <= 2);
-    if (body.full) CHECK(body.full->vertexCount() > body.volume->vertexCount());
+    if (body.full) CHECK(body.full->volume().vertexCount() > body.volume->vertexCount());
   }
   CHECK(after < before / 2);
   const RobotGeometry again = loadGeometry(*model, options);

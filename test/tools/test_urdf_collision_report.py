@@ -183,6 +183,27 @@ class Report(unittest.TestCase):
                              set(report["summary"]))
         self.assertGreater(report["summary"]["ns_per_pair"], 0)
 
+    def test_advice_gives_each_link_the_radii_that_its_task_asks_for(self):
+        task = "clearance=0.03,acceleration=2,speed=0.2,turning=0.5"
+        done = self.humanoid("--pose", "zero", "--advise", task, "--format", "json")
+        self.assertEqual(done.returncode, 1, done.stderr)  # some of the links meet there
+        report = json.loads(done.stdout)
+        self.assertNotIn("no r and R", str(report["warnings"]))
+        for body in report["links"]:
+            self.assertLessEqual(body["over_cover_max"], 0.03)
+            self.assertLessEqual(body["advised_acceleration"], 2)
+            self.assertLessEqual(body["advised_least_clearance"], 0.03)
+        self.assertRegex(self.humanoid("--pose", "zero", "--advise", task).stdout,
+                         r"advised r from \S+ to \S+ mm, R from \S+ to \S+ m: shapes add at most [12]\.\d+ m/s\^2")
+        tight = self.humanoid("--pose", "zero", "--advise", task.replace("0.03", "0.01"))
+        self.assertIn("no r and R keep 31 of 31 meshes within a clearance of 0.01 m and 2 m/s^2", tight.stderr)
+        for arguments, word in ((("--advise", task, "-r", "0.01"), "excludes"), (("--advise", "sped=1"), "clearance="),
+                                (("--advise", task, "--over-cover", "0.1"), "excludes")):
+            wrong = self.humanoid(*arguments)
+            self.assertEqual(wrong.returncode, 2)
+            self.assertIn(word, wrong.stderr)
+            self.assertEqual(wrong.stdout, "")
+
     def test_radii_and_budgets_of_all_links_and_of_one(self):
         done = self.humanoid("--pose", "zero", "-r", "0.005", "-R", "20", "--over-cover", "0.02", "--link", "BODY=0.01,5,0.2",
                              "--link", "CHEST_LINK0=0.008,4", "--format", "json")

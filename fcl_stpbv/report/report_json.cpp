@@ -1,0 +1,165 @@
+// A collision report as JSON: links, pairs, trajectory, summary. Numbers that are not finite become null.
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "fcl_stpbv/report/report_formats.h"
+
+namespace fcl_stpbv::report {
+namespace {
+
+nlohmann::json numbers(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+
+nlohmann::json joints(const Eigen::VectorXd& q, const Kinematics& kinematics) {
+  nlohmann::json json = nlohmann::json::object();
+  for (int i = 0; i < kinematics.size(); ++i) json[kinematics.names()[static_cast<std::size_t>(i)]] = q[i];
+  return json;
+}
+
+nlohmann::json orNull(double value) {
+  return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json();
+}
+
+const char* statusName(DistanceStatus status) {
+  switch (status) {
+    case DistanceStatus::exact:
+      return "exact";
+    case DistanceStatus::local:
+      return "local";
+    case DistanceStatus::bounded:
+      return "bounded";
+    default:
+      return "invalid";
+  }
+}
+
+nlohmann::json trajectoryJson(const CollisionReport& report) {
+  if (!report.trajectory) return {};
+  const TrajectoryReport& t = *report.trajectory;
+  const char* const verdicts[] = {"free", "contact", "undecided"};
+  nlohmann::json json{{"file", t.path},
+                      {"way_points", t.trajectory.points.size()},
+                      {"timed", t.trajectory.timed},
+                      {"verdict", verdicts[static_cast<int>(t.verdict)]},
+                      {"free_until", t.from},
+                      {"closest_proven", t.closestProven},
+                      {"closest_precision", TrajectoryReport::kPrecision},
+                      {"steepest_approach", t.steepest},
+                      {"steepest_time", t.steepestTime},
+                      {"chart", {{"time", t.chartTime}, {"distance", t.chartDistance}}}};
+  if (t.steepestPair >= 0) json["steepest_pair"] = report.trajectoryPair(t.steepestPair);
+  if (t.verdict != MotionVerdict::free) {
+    const auto& [first, second] = report.trajectoryPairs[static_cast<std::size_t>(t.pair)];
+    json["contact"] = {{"time", t.until},
+                       {"link1", first},
+                       {"link2", second},
+                       {"point1", numbers(t.contact.points[0])},
+                       {"point2", numbers(t.contact.points[1])}};
+  }
+  return json;
+}
+
+nlohmann::json linkJson(const CollisionReport& report, std::size_t i) {
+  const Body& body = report.geometry->bodies[i];
+  nlohmann::json link{{"name", body.name}, {"file", body.file}};
+  if (body.volume) {
+    link["vertices"] = body.volume->vertexCount();
+    link["vertices_unreduced"] = (body.isReduced() ? body.full->volume() : *body.volume).vertexCount();
+    link["r"] = body.volume->radii().r;
+    link["R"] = body.volume->radii().R;
+    if (body.advice) {
+      link["advised_acceleration"] = body.advice->acceleration;
+      link["advised_least_clearance"] = orNull(body.advice->leastClearance);
+    }
+    link["over_cover_max"] = body.cover.max;
+    link["over_cover_mean"] = body.cover.mean;
+  }
+  if (body.parts > 0) link["parts"] = body.parts;
+  if (body.partOf >= 0) {
+    link["part_of"] = report.geometry->bodies[static_cast<std::size_t>(body.partOf)].name;
+    link["excess_max"] = body.excess;
+  }
+  if (i < report.fits.size()) {
+    link["hull_excess"] = report.fits[i].hullExcess;
+    link["volume_excess"] = report.fits[i].volumeExcess;
+    link["volume_ratio"] = orNull(report.fits[i].volumeRatio);
+  }
+  if (i < report.polyhedra.size() && !report.polyhedra[i].file.empty()) {
+    const PolyhedronReport& p = report.polyhedra[i];
+    link["polyhedron"] = {{"file", p.file},
+                          {"vertices", p.vertices},
+                          {"without_partner", p.alone},
+                          {"mesh_without_partner", p.meshAlone},
+                          {"surface_difference", p.difference}};
+  }
+  return link;
+}
+
+nlohmann::json pairJson(const CollisionReport& report, const PairReport& pair) {
+  return {{"link1", pair.link1},
+          {"link2", pair.link2},
+          {"obstacle", pair.links.obstacle},
+          {"reason", pair.reason},
+          {"srdf_reason", pair.srdfReason},
+          {"checked", pair.checked},
+          {"distance", orNull(pair.answer.distance)},
+          {"status", statusName(pair.answer.status)},
+          {"continuous", pair.answer.continuous},
+          {"point1", numbers(pair.answer.points[0])},
+          {"point2", numbers(pair.answer.points[1])},
+          {"normal", numbers(pair.answer.normal)},
+          {"gradient", pair.gradient},
+          {"over_cover1", pair.overCover1},
+          {"over_cover2", pair.overCover2},
+          {"hull_distance", orNull(pair.hullDistance)},
+          {"mesh_distance_most", orNull(pair.meshDistanceMost)},
+          {"mesh_distance", orNull(pair.meshDistance)},
+          {"by_parts", report.isByParts(pair)},
+          {"cause", pair.cause},
+          {"lipschitz", orNull(pair.lipschitz)},
+          {"time", orNull(pair.time)},
+          {"min_distance", orNull(pair.minDistance)},
+          {"closest", joints(pair.closest, *report.kinematics)},
+          {"probability_bound", pair.probabilityBound},
+          {"security_distance", pair.security},
+          {"influence_distance", pair.influence}};
+}
+
+}  // namespace
+
+std::string toJson(const CollisionReport& report) {
+  nlohmann::json json;
+  json["robot"] = report.robot->name;
+  json["pose"] = report.pose.empty() ? nlohmann::json() : nlohmann::json(report.pose);
+  json["neutral"] = {{"colliding", report.neutral.colliding}};
+  if (report.neutral.better.size() > 0)
+    json["neutral"].update({{"better", joints(report.neutral.better, *report.kinematics)},
+                            {"better_state", report.neutral.state},
+                            {"better_colliding", report.neutral.collidingThere}});
+  json["trajectory"] = trajectoryJson(report);
+  json["warnings"] = report.warnings;
+  json["skipped"] = report.skipped;
+  json["links"] = nlohmann::json::array();
+  for (std::size_t i = 0; i < report.geometry->bodies.size(); ++i)
+    json["links"].push_back(linkJson(report, i));
+  json["pairs"] = nlohmann::json::array();
+  for (const PairReport& pair : report.pairs) json["pairs"].push_back(pairJson(report, pair));
+  json["summary"] = {{"pairs_total", report.pairs.size()},
+                     {"checked", report.checked},
+                     {"disabled", static_cast<int>(report.pairs.size()) - report.checked},
+                     {"min_distance", orNull(report.minDistance)},
+                     {"colliding", report.colliding},
+                     {"causes", report.causes},
+                     {"ns_per_pair", report.nsPerPair},
+                     {"us_per_tick", report.usPerTick}};
+  if (report.partsCost.rows > 0)
+    json["summary"]["rows"] = {{"whole", report.wholeCost.rows},
+                               {"whole_us_per_tick", report.wholeCost.usPerTick},
+                               {"parts", report.partsCost.rows},
+                               {"parts_us_per_tick", report.partsCost.usPerTick},
+                               {"hand_over", report.handOverCost.rows},
+                               {"hand_over_live", report.handOverCost.live},
+                               {"hand_over_us_per_tick", report.handOverCost.usPerTick}};
+  return json.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace fcl_stpbv::report

@@ -1,0 +1,202 @@
+// A collision report for people: a summary, then lists cut after `top` lines.
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+#include "fcl_stpbv/report/formatted.h"
+#include "fcl_stpbv/report/report_formats.h"
+
+namespace fcl_stpbv::report {
+namespace {
+
+constexpr double kMm = 1e3;
+
+std::string steepest(const PairReport& pair) {
+  const auto top =
+      std::max_element(pair.gradient.begin(), pair.gradient.end(),
+                       [](const auto& a, const auto& b) { return std::abs(a.second) < std::abs(b.second); });
+  return top == pair.gradient.end() ? "" : formatted("%+.3f ", top->second) + top->first;
+}
+
+// What a list cut after `top` lines ends with.
+std::string unshown(std::size_t all, std::size_t top) {
+  return all > top ? "... and " + std::to_string(all - top) + " more (--top)\n" : "";
+}
+
+// How far hulls and volumes exceed meshes, worst first.
+std::string fits(const CollisionReport& report, std::size_t top) {
+  std::vector<std::size_t> order(report.fits.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) {
+    return report.fits[i].volumeExcess > report.fits[j].volumeExcess;
+  });
+  const std::string rest = unshown(order.size(), top);
+  if (order.size() > top) order.resize(top);
+  std::string text = formatted("\n%-44s %11s %13s %9s %8s %8s\n", "link", "hull [mm]", "volume [mm]", "ratio",
+                               "r [mm]", "R [m]");
+  for (const std::size_t i : order) {
+    const MeshFit& fit = report.fits[i];
+    const Body& body = report.geometry->bodies[i];
+    text +=
+        formatted("%-44s %11.3f %13.3f ", body.name.c_str(), fit.hullExcess * kMm, fit.volumeExcess * kMm) +
+        (std::isfinite(fit.volumeRatio) ? formatted("%9.3f", fit.volumeRatio) : formatted("%9s", "-")) +
+        (body.volume ? formatted(" %8.3f %8.3f\n", body.volume->radii().r * kMm, body.volume->radii().R)
+                     : formatted(" %8s %8s\n", "-", "-"));
+  }
+  return text + rest +
+         "hull, volume: at most so far are their surfaces from the mesh; ratio: the volume's to the mesh's\n";
+}
+
+// The radii that --advise chose.
+std::string advised(const CollisionReport& report) {
+  StpBvOptions least{HUGE_VAL, HUGE_VAL}, most{0, 0};
+  double acceleration = 0;
+  for (const Body& body : report.geometry->bodies) {
+    if (!body.advice) continue;
+    least = {std::min(least.r, body.radii.r), std::min(least.R, body.radii.R)};
+    most = {std::max(most.r, body.radii.r), std::max(most.R, body.radii.R)};
+    acceleration = std::max(acceleration, body.advice->acceleration);
+  }
+  if (most.R == 0) return "";
+  return formatted("advised r from %.3f to %.3f mm, R from %.3f to %.3f m: shapes add at most %.3f m/s^2\n",
+                   least.r * kMm, most.r * kMm, least.R, most.R, acceleration);
+}
+
+// The links that are split, for which pairs, and what that costs.
+std::string splits(const CollisionReport& report) {
+  if (report.partsCost.rows == 0) return "";
+  std::string text;
+  const std::vector<Body>& bodies = report.geometry->bodies;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (bodies[i].parts == 0) continue;
+    double excess = 0;
+    for (const Body& body : bodies)
+      if (body.partOf == static_cast<int>(i)) excess = std::max(excess, body.excess);
+    text += "  " + bodies[i].name +
+            formatted(" in %d parts, %.3f mm from the mesh at most, for", bodies[i].parts, excess * kMm);
+    int count = 0;
+    for (const PairReport& pair : report.pairs) {
+      const LinkPair& links = pair.links;
+      const bool own = links.link1 == bodies[i].link || (!links.obstacle && links.link2 == bodies[i].link);
+      if (!own || !report.isByParts(pair)) continue;
+      if (++count <= 3) text += (count > 1 ? ", " : " ") + pair.link1 + " - " + pair.link2;
+    }
+    text += (count > 3 ? " and " + std::to_string(count - 3) + " more pairs\n" : "\n");
+  }
+  const std::string cost = formatted(
+      "rows %d, %.1f us a tick with whole bodies; %d, %.1f us with parts; %d of %d not constant, "
+      "%.1f us where whole bodies hand over to parts at %g m\n",
+      report.wholeCost.rows, report.wholeCost.usPerTick, report.partsCost.rows, report.partsCost.usPerTick,
+      report.handOverCost.live, report.handOverCost.rows, report.handOverCost.usPerTick, kHandOver);
+  return (text.empty() ? "No link needs to be split into parts\n" : "Split into convex parts:\n" + text) +
+         cost;
+}
+
+// The meshes' volumes beside those of their published polyhedra, those that differ most first.
+std::string polyhedra(const CollisionReport& report, std::size_t top) {
+  std::vector<std::size_t> order;
+  for (std::size_t i = 0; i < report.polyhedra.size(); ++i)
+    if (!report.polyhedra[i].file.empty()) order.push_back(i);
+  if (order.empty()) return "";
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) {
+    return report.polyhedra[i].difference > report.polyhedra[j].difference;
+  });
+  std::string text = formatted("\n%zu meshes have a published polyhedron\n%-44s %14s %11s %21s\n",
+                               order.size(), "link", "surfaces [um]", "vertices", "without a partner");
+  for (std::size_t k = 0; k < std::min(top, order.size()); ++k) {
+    const std::size_t i = order[k];
+    const PolyhedronReport& p = report.polyhedra[i];
+    text += formatted("%-44s %14.3f %5d, %4d %15d, %4d\n", report.geometry->bodies[i].name.c_str(),
+                      p.difference * 1e6, p.meshVertices, p.vertices, p.meshAlone, p.alone);
+  }
+  return text + unshown(order.size(), top) +
+         "two figures: the mesh's, the polyhedron's; surfaces: how far the two volumes are apart\n";
+}
+
+// What became of the trajectory, in a few lines.
+std::string trajectory(const CollisionReport& report) {
+  if (!report.trajectory) return "";
+  const TrajectoryReport& t = *report.trajectory;
+  const char* unit = t.trajectory.timed ? " s" : "";
+  const char* speed = t.trajectory.timed ? "m/s" : "m a way point";
+  std::string text =
+      "Trajectory " + t.path + ", " + std::to_string(t.trajectory.points.size()) + " way points: ";
+  if (t.verdict == MotionVerdict::free) {
+    text += "proven free\n";
+  } else if (t.verdict == MotionVerdict::contact) {
+    text += "CONTACT of " + report.trajectoryPair(t.pair) +
+            formatted(" between %.9g and %.9g%s, at", t.from, t.until, unit);
+    for (const Eigen::Vector3d& p : t.contact.points)
+      text += formatted(" (%.6f %.6f %.6f)", p.x(), p.y(), p.z());
+    text += "\n";
+  } else {
+    text += "NOT DECIDED for " + report.trajectoryPair(t.pair) +
+            formatted(" at %.9g%s, free before: the distance is the margin to rounding\n", t.from, unit);
+  }
+  if (t.steepestPair >= 0)
+    text += formatted("fastest approach %.4f %s, ", t.steepest, speed) +
+            report.trajectoryPair(t.steepestPair) + formatted(" at %.4g%s\n", t.steepestTime, unit);
+  if (!t.closestProven) text += "some closest approaches are those that were found, without a proof\n";
+  return text;
+}
+
+// Pairs that the SRDF leaves out and that collide, each with where.
+std::string contradictions(const CollisionReport& report, std::size_t top) {
+  std::string text;
+  std::size_t count = 0;
+  for (const PairReport& pair : report.pairs) {
+    if (!pair.contradictsSrdf || count++ >= top) continue;
+    text += "\nThe SRDF leaves out " + pair.link1 + " - " + pair.link2 + " as " + pair.srdfReason +
+            "; found: " + pair.reason + (pair.cause.empty() ? "" : ", " + pair.cause) +
+            formatted(", %.3f mm at", pair.minDistance * kMm);
+    for (const auto& [joint, slope] : pair.gradient) {
+      const auto& names = report.kinematics->names();
+      const auto k = std::find(names.begin(), names.end(), joint) - names.begin();
+      text += " " + joint + formatted("=%.4f", pair.closest[k]);
+    }
+  }
+  return count == 0 ? "" : text + "\n" + unshown(count, top);
+}
+
+}  // namespace
+
+std::string toText(const CollisionReport& report, std::size_t top) {
+  std::string text = report.robot->name + ": " + std::to_string(report.robot->links.size()) + " links, " +
+                     std::to_string(report.geometry->bodies.size()) + " bodies, " +
+                     std::to_string(report.kinematics->size()) + " coordinates\n";
+  for (const std::string& shape : report.skipped) text += "LEFT OUT, NOT CHECKED: " + shape + "\n";
+  std::map<std::string, int> reasons;
+  for (const PairReport& pair : report.pairs) ++reasons[pair.reason];
+  text += std::to_string(report.pairs.size()) + " pairs:";
+  for (const auto& [reason, count] : reasons) text += " " + std::to_string(count) + " " + reason + ",";
+  text.back() = '\n';
+  text += std::to_string(report.checked) + " checked, " + std::to_string(report.colliding) +
+          " of them in collision";
+  text += report.trajectory     ? " at their closest on the trajectory\n"
+          : report.pose.empty() ? " in their closest configurations found\n"
+                                : " in the posture " + report.pose + "\n";
+  text += trajectory(report) + advised(report);
+  for (const auto& [cause, count] : report.causes) text += "  " + std::to_string(count) + " " + cause + "\n";
+  if (report.checked > 0)
+    text += formatted("%.1f us for all checked pairs with gradients, %.0f ns a pair\n", report.usPerTick,
+                      report.nsPerPair);
+  text += splits(report);
+  text += formatted("\n%-44s %11s %11s %11s %-26s %s\n", "pair", "STP-BV [mm]", "hulls [mm]", "cover [mm]",
+                    "reason", "steepest joint [m/rad]");
+  std::size_t shown = 0;
+  for (const PairReport& pair : report.pairs) {
+    if (!pair.checked || shown++ >= top) break;
+    const std::string hull =
+        std::isfinite(pair.hullDistance) ? formatted("%.3f", pair.hullDistance * kMm) : "-";
+    text += formatted("%-44s %11.3f %11s %11.3f %-26s ", (pair.link1 + " - " + pair.link2).c_str(),
+                      pair.answer.distance * kMm, hull.c_str(), (pair.overCover1 + pair.overCover2) * kMm,
+                      pair.reason.c_str()) +
+            steepest(pair) + "\n";
+  }
+  text += unshown(static_cast<std::size_t>(report.checked), top);
+  text += "\ncover: how much closer the two smooth surfaces are than their hulls, along the normal\n";
+  return text + fits(report, top) + polyhedra(report, top) + contradictions(report, top);
+}
+
+}  // namespace fcl_stpbv::report
