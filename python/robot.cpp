@@ -2,26 +2,19 @@
 #include <algorithm>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/robot/batch.h"
-#include "fcl_stpbv/robot/smooth_pairs.h"
-#include "parts.h"
+#include "scene.h"
 
 namespace py = pybind11;
 
 namespace fcl_stpbv {
 namespace {
-
-BaseMotion baseMotion(const std::string& name) {
-  if (name == "fixed") return BaseMotion::fixed;
-  if (name == "planar") return BaseMotion::planar;
-  if (name == "floating") return BaseMotion::floating;
-  throw Error("base: got \"" + name + "\", expected \"fixed\", \"planar\" or \"floating\"");
-}
 
 /// A robot, its volumes and the pairs that its SRDF leaves to be checked.
 class PythonRobot {
@@ -31,26 +24,42 @@ class PythonRobot {
   using GivenRows = Floats<Rows>;
   using Verdicts = Eigen::Array<bool, Eigen::Dynamic, 1>;
 
-  PythonRobot(const Path& urdf, const std::optional<Path>& srdf, double r, double R, const std::string& base,
-              const std::vector<Path>& packagePath, double influence) {
-    const auto model = std::make_shared<const RobotModel>(loadUrdf(urdf.string()));
-    const bool given = srdf && !srdf->empty();
-    if (given) srdf_ = loadSrdf(srdf->string(), *model);
-    GeometryOptions options;
-    options.radii = {r, R};
-    options.packagePath = toText(packagePath);
-    RobotGeometry bodies = loadGeometry(*model, options);
-    const std::vector<CheckedPair> pairs = selfPairs(*model, bodies, given ? &srdf_ : nullptr);
-    coverPrimitives(pairs, bodies);
-    const auto geometry = std::make_shared<const RobotGeometry>(std::move(bodies));
-    kinematics_ = std::make_shared<const Kinematics>(model, baseMotion(base));
-    ConstraintOptions constraintOptions;
-    constraintOptions.influence = influence;
-    constraints_ = std::make_unique<CollisionConstraints>(kinematics_, geometry, pairs, constraintOptions);
-    if (!pairs.empty()) checker_ = std::make_unique<CollisionChecker>(kinematics_, geometry, pairs);
+  PythonRobot(const Path& urdf, const std::optional<Path>& srdf, const std::optional<Path>& obstacles,
+              double r, double R, const std::string& base, const std::vector<Path>& packagePath,
+              double influence, double handOver) {
+    const auto scene = std::make_shared<PythonScene>();
+    scene->robot = std::make_shared<const RobotModel>(loadUrdf(urdf.string()));
+    if (srdf && !srdf->empty()) scene->srdf = loadSrdf(srdf->string(), *scene->robot);
+    scene->options.radii = {r, R};
+    scene->options.packagePath = toText(packagePath);
+    const auto geometry = scene->load(base, obstacles);
+    scene_ = scene;
+    options_.influence = influence;
+    options_.handOver = handOver;
+    options_.obstacles = scene->obstacles;
+    use(geometry);
+  }
+
+  /// The same robot, as fine as the needs ask for, and the places of those that no bodies meet.
+  std::pair<std::unique_ptr<PythonRobot>, std::vector<std::size_t>> modelFor(
+      const std::vector<PythonScene::Need>& needs, const std::vector<double>& budgets, int threads) const {
+    std::vector<std::size_t> unmet;
+    const py::gil_scoped_release others;
+    const auto geometry = scene_->modelFor(needs, budgets, threads, unmet);
+    return {std::unique_ptr<PythonRobot>(new PythonRobot(*this, geometry)), std::move(unmet)};
   }
 
   const Kinematics& kinematics() const { return *kinematics_; }
+  int vertices() const {
+    std::set<const StpBv*> volumes;
+    for (const CheckedPair& pair : constraints_->pairs())
+      for (const int body : {pair.body, pair.obstacle ? pair.body : pair.other})
+        volumes.insert(geometry_->bodies[static_cast<std::size_t>(body)].volume.get());
+    volumes.erase(nullptr);
+    int sum = 0;
+    for (const StpBv* volume : volumes) sum += volume->vertexCount();
+    return sum;
+  }
   int rows() const { return constraints_->rows(); }
   std::vector<std::string> rowNames() const {
     std::vector<std::string> names;
@@ -58,7 +67,7 @@ class PythonRobot {
     return names;
   }
   Eigen::VectorXd configuration(const std::string& state) const {
-    return kinematics_->configuration(srdf_.state(state));
+    return kinematics_->configuration((scene_->srdf ? *scene_->srdf : Srdf()).state(state));
   }
 
   Eigen::VectorXd distances(const Given& given) {
@@ -145,6 +154,20 @@ class PythonRobot {
   }
 
  private:
+  PythonRobot(const PythonRobot& coarse, const std::shared_ptr<const RobotGeometry>& geometry)
+      : scene_(coarse.scene_), options_(coarse.options_) {
+    use(geometry);
+  }
+
+  void use(const std::shared_ptr<const RobotGeometry>& geometry) {
+    geometry_ = geometry;
+    kinematics_ = scene_->kinematics;
+    const std::vector<CheckedPair> pairs = scene_->pairs(*geometry);
+    constraints_ = std::make_unique<CollisionConstraints>(kinematics_, geometry, pairs, options_);
+    if (!pairs.empty())
+      checker_ = std::make_unique<CollisionChecker>(kinematics_, geometry, pairs, scene_->obstacles);
+  }
+
   /// @throws Error naming the argument.
   static const Eigen::VectorXd& checked(const Given& given, const char* name, int size) {
     requireNumbers(given.value, size, name);
@@ -176,7 +199,9 @@ class PythonRobot {
           dense[row * columns + column[static_cast<std::size_t>(k)]] = values(i, k);
   }
 
-  Srdf srdf_;
+  std::shared_ptr<const PythonScene> scene_;
+  ConstraintOptions options_;
+  std::shared_ptr<const RobotGeometry> geometry_;
   std::shared_ptr<const Kinematics> kinematics_;
   std::unique_ptr<CollisionConstraints> constraints_;
   std::unique_ptr<CollisionChecker> checker_;  // null where no pair is checked
@@ -186,14 +211,23 @@ class PythonRobot {
 
 void addRobot(py::module_& module) {
   py::class_<PythonRobot>(module, "Robot", "Distances d(q) and Jacobian J(q) of a robot's pairs of bodies.")
-      .def(
-          py::init<const Path&, const std::optional<Path>&, double, double, const std::string&,
-                   const std::vector<Path>&, double>(),
-          py::arg("urdf"), py::arg("srdf") = py::none(), py::kw_only(), py::arg("r") = 0.01,
-          py::arg("R") = 10.0, py::arg("base") = "fixed", py::arg("package_path") = std::vector<Path>{},
-          py::arg("influence") = std::numeric_limits<double>::infinity(),
-          "Loads a URDF; pairs that the SRDF disables (without one, adjacent and rigid links) are left out.\n"
-          "base: \"fixed\", \"planar\" or \"floating\". influence: farther pairs are constant (m).")
+      .def(py::init<const Path&, const std::optional<Path>&, const std::optional<Path>&, double, double,
+                    const std::string&, const std::vector<Path>&, double, double>(),
+           py::arg("urdf"), py::arg("srdf") = py::none(), py::arg("obstacles") = py::none(), py::kw_only(),
+           py::arg("r") = 0.01, py::arg("R") = 10.0, py::arg("base") = "fixed",
+           py::arg("package_path") = std::vector<Path>{},
+           py::arg("influence") = std::numeric_limits<double>::infinity(),
+           py::arg("hand_over") = std::numeric_limits<double>::infinity(),
+           "Loads a URDF, and the bodies of another one as obstacles. Pairs that the SRDF disables (without\n"
+           "one, adjacent and rigid links) are left out. base: \"fixed\", \"planar\" or \"floating\".\n"
+           "influence: farther pairs are constant (m). hand_over: links farther apart than this (m) are one\n"
+           "row, nearer ones a row for each pair of their parts (model_for).")
+      .def("model_for", &PythonRobot::modelFor, py::arg("needs"), py::kw_only(),
+           py::arg("budgets") = std::vector<double>{}, py::arg("threads") = 1,
+           "(a Robot as fine as the needs ask for, places of the needs that no bodies meet).\n"
+           "A need: (link, link or obstacle, q, clearance in m that their distance is to exceed at q).\n"
+           "budgets: coarser volumes to start from may exceed the hulls by each of these (m, falling).")
+      .def_property_readonly("vertices", &PythonRobot::vertices, "of all volumes that its rows ask")
       .def_property_readonly(
           "names", [](const PythonRobot& robot) { return robot.kinematics().names(); }, "of the coordinates")
       .def_property_readonly("rows", &PythonRobot::rowNames, "names of the pairs, in the order of d")

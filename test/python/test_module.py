@@ -206,6 +206,73 @@ def test_lists_of_numbers_and_single_precision_are_taken():
             box().support(wrong)  # type: ignore[arg-type]
 
 
+def prism(outline, height):
+    """A Wavefront mesh of an outline in the xy plane, counter-clockwise, that is a star around its first corner."""
+    n = len(outline)
+    lines = [f"v {x} {y} {z}" for z in (0, height) for x, y in outline]
+    triangles = [(1, i + 1, i) for i in range(2, n)] + [(n + 1, n + i, n + i + 1) for i in range(2, n)]
+    for i in range(1, n + 1):
+        j = i % n + 1
+        triangles += [(i, j, n + j), (i, n + j, n + i)]
+    return "\n".join(lines + ["f %d %d %d" % t for t in triangles]) + "\n"
+
+
+@pytest.fixture
+def hook(tmp_path):
+    """A block that slides along x into the notch of an L, and a post beside them."""
+    (tmp_path / "l.obj").write_text(prism([(0, 0), (0.4, 0), (0.4, 0.1), (0.1, 0.1), (0.1, 0.4), (0, 0.4)], 0.1))
+    block = "<collision><geometry><box size='0.1 0.1 0.1'/></geometry></collision>"
+    (tmp_path / "hook.urdf").write_text(
+        "<robot name='hook'><link name='l'><collision><geometry><mesh filename='l.obj'/></geometry></collision></link>"
+        "<link name='block'>" + block + "</link><joint name='slide' type='prismatic'><parent link='l'/><child link='block'/>"
+        "<origin xyz='0.2 0.2 0.05'/><axis xyz='1 0 0'/><limit lower='-1' upper='1' effort='1' velocity='1'/></joint></robot>")
+    (tmp_path / "hook.srdf").write_text("<robot name='hook'/>")
+    (tmp_path / "post.urdf").write_text("<robot name='post'><link name='post'><collision><origin xyz='0.6 0.2 0'/>"
+                                        "<geometry><box size='0.1 0.1 0.4'/></geometry></collision></link></robot>")
+    return tmp_path
+
+
+def test_a_robot_is_as_fine_as_its_needs_ask_for(hook):
+    files = hook / "hook.urdf", hook / "hook.srdf", hook / "post.urdf"
+    hulls = fcl_stpbv.Robot(*files, r=0.001)
+    assert len(hulls.rows) == 2  # the L and the post do not move
+    q = np.zeros(1)
+    assert hulls.distances(q)[0] < 0  # in the notch: inside the hull
+    same, unmet = hulls.model_for([])
+    assert same.rows == hulls.rows and unmet == []
+    # The post's row is as far as it should be: 0.55 - 0.25, but for r and what R adds.
+    assert hulls.distances(q)[1] == pytest.approx(0.3, abs=0.004)
+    needs = [("l", "block", q, 0.01), ("post_unknown", "block", q, 0.0)]
+    with pytest.raises(fcl_stpbv.Error, match=r'needs\[1\]: .*"post_unknown"'):
+        hulls.model_for(needs)
+    with pytest.raises(fcl_stpbv.Error, match=r'needs\[0\]: .*"l" and "post".*no pair'):
+        hulls.model_for([("l", hulls.rows[1].split()[-1], q, 0.0)])
+    with pytest.raises(fcl_stpbv.Error, match="need 0 wants a configuration of 1"):
+        hulls.model_for([("l", "block", [0.0, 0.0], 0.0)])
+    with pytest.raises(TypeError):
+        hulls.model_for([("l", "block")])  # type: ignore[list-item]
+
+    # 5 cm from the block to either arm of the L; 4 cm are asked for, and 6 cm cannot be had.
+    needs = [("block", "l", q, 0.06), ("l", "block", q, 0.04), ("block", "l", np.ones(1), 0.3)]
+    fine, unmet = hulls.model_for(needs, budgets=[0.05], threads=2)
+    assert unmet == [0]
+    split = [d for d, row in zip(fine.distances(q), fine.rows) if "post" not in row]
+    assert len(split) == 2 and 0.04 < min(split) < 0.05
+    assert not fine.collides(q) and hulls.collides(q)
+    assert fine.vertices < 40
+
+    # One more row, the hulls', stands for the parts where they are far; d jumps nowhere.
+    handing = fcl_stpbv.Robot(*files, r=0.001, hand_over=0.2).model_for(needs, budgets=[0.05])[0]
+    assert len(handing.rows) == len(fine.rows) + 1
+    far = handing.distances(np.ones(1))
+    assert sum(abs(far - 0.15) < 1e-12) == 2  # both parts' rows are constant at 3/4 of the distance
+    path = np.linspace(-0.05, 1, 2000)[:, None]
+    d, jacobian = handing.evaluate_many(path, path=True)
+    assert abs(np.diff(d, axis=0)).max() < 2 * 1.05 / 2000  # slopes are at most 2
+    with pytest.raises(fcl_stpbv.Error, match="hand"):
+        fcl_stpbv.Robot(*files, hand_over=-1)
+
+
 @pytest.mark.parametrize("bad", [math.nan, math.inf, -math.inf])
 def test_options_that_are_not_finite_raise(bad):
     urdf = DATA / "hrp2_style" / "hrp2_style.urdf"

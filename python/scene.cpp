@@ -1,0 +1,94 @@
+// Loading a robot among obstacles for Python, and modelForScene() of it.
+#include "scene.h"
+
+#include <algorithm>
+
+#include "fcl_stpbv/error.h"
+#include "fcl_stpbv/robot/smooth_pairs.h"
+
+namespace fcl_stpbv {
+namespace {
+
+BaseMotion baseMotion(const std::string& name) {
+  if (name == "fixed") return BaseMotion::fixed;
+  if (name == "planar") return BaseMotion::planar;
+  if (name == "floating") return BaseMotion::floating;
+  throw Error("base: got \"" + name + "\", expected \"fixed\", \"planar\" or \"floating\"");
+}
+
+}  // namespace
+
+std::shared_ptr<const RobotGeometry> PythonScene::load(const std::string& base,
+                                                       const std::optional<Path>& obstaclesUrdf) {
+  const BaseMotion motion = baseMotion(base);
+  kinematics = std::make_shared<const Kinematics>(robot, motion);
+  baseMoves = motion != BaseMotion::fixed;
+  RobotGeometry bodies = loadGeometry(*robot, options), things;
+  if (obstaclesUrdf && !obstaclesUrdf->empty()) {
+    around = std::make_shared<const RobotModel>(loadUrdf(obstaclesUrdf->string()));
+    things = loadGeometry(*around, options);
+    obstacles = obstaclesOf(around, things);
+  }
+  coverPrimitives(pairs(bodies), bodies, &things);
+  if (around) obstacles = obstaclesOf(around, things);  // as they are covered
+  return std::make_shared<const RobotGeometry>(std::move(bodies));
+}
+
+std::vector<CheckedPair> PythonScene::pairs(const RobotGeometry& geometry) const {
+  std::vector<CheckedPair> all = selfPairs(*robot, geometry, srdf ? &*srdf : nullptr);
+  const std::vector<CheckedPair> withObstacles = obstaclePairs(*robot, geometry, obstacles.size(), baseMoves);
+  all.insert(all.end(), withObstacles.begin(), withObstacles.end());
+  return all;
+}
+
+SceneNeed PythonScene::toNeed(const Need& given, const std::string& name,
+                              const std::vector<CheckedPair>& checked, const RobotGeometry& geometry) const {
+  const auto& [first, second, q, clearance] = given;
+  const auto obstacle = std::find_if(obstacles.begin(), obstacles.end(),
+                                     [&, &wanted = second](const Obstacle& o) { return o.name == wanted; });
+  SceneNeed need;
+  need.q = q.value;
+  need.clearance = clearance;
+  const int link1 = robot->link(first), link2 = robot->link(second);
+  if (link1 < 0) throw Error(name + ": the robot has no link \"" + first + "\"");
+  if (link2 < 0 && obstacle == obstacles.end())
+    throw Error(name + ": there is no link or obstacle \"" + second + "\"");
+  need.pair = link2 >= 0 ? LinkPair{link1, link2}
+                         : LinkPair{link1, static_cast<int>(obstacle - obstacles.begin()), true};
+  const auto linkOf = [&](int body) { return geometry.bodies[static_cast<std::size_t>(body)].link; };
+  const bool known = std::any_of(checked.begin(), checked.end(), [&](const CheckedPair& pair) {
+    const LinkPair links{linkOf(pair.body), pair.obstacle ? pair.other : linkOf(pair.other), pair.obstacle};
+    return !(links < need.pair) && !(need.pair < links);
+  });
+  if (!known)
+    throw Error(name + ": \"" + first + "\" and \"" + second + "\" are no pair of this robot's rows");
+  return need;
+}
+
+std::shared_ptr<const RobotGeometry> PythonScene::modelFor(const std::vector<Need>& given,
+                                                           const std::vector<double>& budgets, int threads,
+                                                           std::vector<std::size_t>& unmet) const {
+  std::vector<std::shared_ptr<const RobotGeometry>> levels = loadLevels(*robot, options, budgets);
+  const std::vector<CheckedPair> checked = pairs(*levels.back());
+  const RobotGeometry flat = around ? loadGeometry(*around, options) : RobotGeometry();
+  for (std::shared_ptr<const RobotGeometry>& level : levels) {
+    RobotGeometry covered = *level, things = flat;
+    coverPrimitives(checked, covered, &things);
+    level = std::make_shared<const RobotGeometry>(std::move(covered));
+  }
+  std::vector<SceneNeed> needs;
+  for (std::size_t i = 0; i < given.size(); ++i)
+    needs.push_back(toNeed(given[i], "needs[" + std::to_string(i) + "]", checked, *levels.back()));
+  SceneModelOptions how;
+  how.threads = threads;
+  const SceneModel model = modelForScene(kinematics, levels, obstacles, needs, how);
+  unmet.clear();
+  for (std::size_t i = 0; i < needs.size() && unmet.size() < model.unmet.size(); ++i) {
+    const SceneNeed& next = model.unmet[unmet.size()];  // in the order of the needs
+    const bool same = !(needs[i].pair < next.pair) && !(next.pair < needs[i].pair);
+    if (same && needs[i].q == next.q && needs[i].clearance == next.clearance) unmet.push_back(i);
+  }
+  return model.geometry;
+}
+
+}  // namespace fcl_stpbv

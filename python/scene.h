@@ -1,0 +1,46 @@
+// A robot and what stands around it, loaded for Python, and its pairs of bodies.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "fcl_stpbv/robot/scene_model.h"
+#include "parts.h"
+
+namespace fcl_stpbv {
+
+/// What does not depend on how fine the links are modelled.
+struct PythonScene {
+  /// First link, second link or obstacle, configuration, clearance (m).
+  using Need = std::tuple<std::string, std::string, Floats<Eigen::VectorXd>, double>;
+
+  std::shared_ptr<const RobotModel> robot;
+  std::optional<Srdf> srdf;
+  std::shared_ptr<const Kinematics> kinematics;
+  GeometryOptions options;
+  std::shared_ptr<const RobotModel> around;  ///< null without obstacles
+  std::vector<Obstacle> obstacles;
+  bool baseMoves = false;
+
+  /// Loads all and covers primitives. @return the robot's bodies @throws Error naming the file.
+  std::shared_ptr<const RobotGeometry> load(const std::string& base,
+                                            const std::optional<Path>& obstaclesUrdf);
+
+  /// The pairs to be checked: those that the SRDF leaves, and with the obstacles.
+  std::vector<CheckedPair> pairs(const RobotGeometry& geometry) const;
+
+  /// The bodies as fine as the needs ask for (scene_model.h). `unmet` gets the places of those that no bodies
+  /// meet. @throws Error naming the argument.
+  std::shared_ptr<const RobotGeometry> modelFor(const std::vector<Need>& needs,
+                                                const std::vector<double>& budgets, int threads,
+                                                std::vector<std::size_t>& unmet) const;
+
+ private:
+  SceneNeed toNeed(const Need& need, const std::string& name, const std::vector<CheckedPair>& checked,
+                   const RobotGeometry& geometry) const;
+};
+
+}  // namespace fcl_stpbv
