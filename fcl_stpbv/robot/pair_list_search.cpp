@@ -1,0 +1,278 @@
+// Reasons for pairs, as MoveIt's setup assistant finds them by sampling; here descents and proofs follow
+// the samples. Each stage takes the pairs that those before it could not decide.
+// 1. The tree of joints: pairs that are adjacent, rigidly joined, or left out by the user's SRDF.
+// 2. Random samples: in collision in the neutral configuration, in (nearly) all samples, in some, or in
+//    none.
+// 3. Of those in none: descents of the distance from the closest samples, then a short proof by boxes of
+//    joint values (pair_proof.h), then descents from random configurations.
+// 4. Longer proofs, with twice the boxes in each round, until the seconds allowed are spent.
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <optional>
+#include <random>
+
+#include "fcl_stpbv/error.h"
+#include "fcl_stpbv/number_check.h"
+#include "fcl_stpbv/robot/adjacency.h"
+#include "fcl_stpbv/robot/pair_list.h"
+#include "fcl_stpbv/robot/pair_list_again.h"
+#include "fcl_stpbv/robot/pair_proof.h"
+#include "fcl_stpbv/robot/pair_samples.h"
+#include "fcl_stpbv/robot/pair_search.h"
+#include "fcl_stpbv/robot/share_out.h"
+
+namespace fcl_stpbv {
+namespace {
+
+using namespace detail;
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+class Search {
+ public:
+  Search(std::shared_ptr<const Kinematics> kinematics, std::shared_ptr<const RobotGeometry> geometry,
+         const PairListOptions& options)
+      : kinematics_(std::move(kinematics)), geometry_(std::move(geometry)), options_(options) {
+    constexpr double kLargest = 1e9;  // m, s
+    requireNumber("PairListOptions: margin", options.margin, -kLargest, kLargest);
+    requireNumber("PairListOptions: proofSeconds", options.proofSeconds, 0, kLargest);
+    requireNumber("PairListOptions: alwaysFraction", options.alwaysFraction, 0, 1);
+    neutral_ = options.neutral.size() > 0 ? options.neutral : kinematics_->neutral();
+    if (neutral_.size() != kinematics_->size() || !neutral_.allFinite())
+      throw Error("PairListOptions: neutral must be a finite number for each of the " +
+                  std::to_string(kinematics_->size()) + " coordinates");
+  }
+
+  // `before`, null for none: entries to keep for pairs that are not among `changed`.
+  std::vector<PairEntry> run(const Srdf* srdf, const std::vector<PairEntry>* before = nullptr,
+                             const std::set<LinkPair>& changed = {}) {
+    enumerate(srdf);
+    std::vector<PairEntry*> fresh;
+    for (std::size_t e = 0; e < list_.size(); ++e) {
+      isFresh_.push_back(!before || changed.count(list_[e]) > 0);
+      if (isFresh_.back())
+        fresh.push_back(&list_[e]);
+      else
+        list_[e] = (*before)[e];
+    }
+    PairSampler all = sampler([](const PairEntry&) { return true; });
+    const Eigen::VectorXd least = all.distances(neutral_);
+    for (std::size_t e = 0; e < fresh.size(); ++e)
+      fresh[e]->neutralDistance = fresh[e]->minDistance = least[static_cast<Eigen::Index>(e)];
+    sample();
+    prove();
+    for (PairEntry* entry : fresh) propose(*entry);
+    return std::move(list_);
+  }
+
+ private:
+  struct Open {  // a pair that no proof has decided yet
+    PairEntry* entry;
+    PairProof proof;
+  };
+
+  void tell(const char* what, std::size_t done, std::size_t all) const {
+    if (options_.progress) options_.progress(done, all, what);
+  }
+
+  void enumerate(const Srdf* srdf) {
+    const RobotModel& robot = kinematics_->robot();
+    const Adjacency adjacency(robot, *geometry_);
+    const int links = static_cast<int>(robot.links.size());
+    const auto none = [&](int link) { return geometry_->of(link).first == geometry_->of(link).second; };
+    const auto add = [&](const LinkPair& pair, PairReason reason) {
+      PairEntry entry;
+      static_cast<LinkPair&>(entry) = pair;
+      entry.reason = reason;
+      entry.closest = neutral_;
+      list_.push_back(entry);
+    };
+    for (int i = 0; i < links; ++i) {
+      for (int j = i + 1; j < links; ++j) {
+        if (none(i) || none(j)) continue;
+        const Joining joining = adjacency.of(i, j);
+        const bool user =
+            srdf && srdf->reasonToSkip(robot.links[at(i)].name, robot.links[at(j)].name) == "User";
+        add({i, j}, user                           ? PairReason::user
+                    : joining == Joining::rigid    ? PairReason::rigid
+                    : joining == Joining::adjacent ? PairReason::adjacent
+                                                   : PairReason::sometimes);
+      }
+    }
+    for (int i = 0; i < links; ++i)
+      for (int o = 0; o < static_cast<int>(options_.obstacles.size()); ++o)
+        if (!none(i) && moves(robot, i, kinematics_->baseMoves())) add({i, o, true}, PairReason::sometimes);
+  }
+
+  // Of those wanted among the fresh ones.
+  template <class Wanted>
+  PairSampler sampler(Wanted wanted) const {
+    std::vector<LinkPair> pairs;
+    for (std::size_t e = 0; e < list_.size(); ++e)
+      if (isFresh_[e] && wanted(list_[e])) pairs.push_back(list_[e]);
+    return PairSampler(kinematics_, geometry_, pairs, options_.obstacles, options_.threads);
+  }
+
+  PairSearch searchOf(const PairEntry& entry) const {
+    return entry.obstacle
+               ? PairSearch(kinematics_, geometry_, entry.link1, options_.obstacles[at(entry.link2)])
+               : PairSearch(kinematics_, geometry_, entry.link1, entry.link2);
+  }
+
+  // The pairs that the tree left open are judged by samples; those found clear go on to descents and proofs.
+  void sample() {
+    std::vector<PairEntry*> open;
+    for (std::size_t e = 0; e < list_.size(); ++e)
+      if (isFresh_[e] && list_[e].reason == PairReason::sometimes) open.push_back(&list_[e]);
+    PairSampler random = sampler([](const PairEntry& e) { return e.reason == PairReason::sometimes; });
+    const std::vector<PairSamples> found =
+        random.sample(options_.samples, options_.seed, options_.margin, options_.descents,
+                      [&](int done) { tell("samples", at(done), at(options_.samples)); });
+    std::vector<std::size_t> clear;
+    for (std::size_t i = 0; i < open.size(); ++i) {
+      judge(*open[i], found[i]);
+      if (open[i]->reason == PairReason::neverSampled) clear.push_back(i);
+    }
+    if (options_.proofBoxes > 0 || options_.proofSeconds > 0)
+      scene_ = proofScene(kinematics_, geometry_, options_.obstacles, options_.margin);
+    settleAll(clear.size(), [&](std::size_t i) { return settle(*open[clear[i]], found[clear[i]]); });
+  }
+
+  // Each pair is settled by itself, so that it does not matter how many threads share them.
+  template <class Settle>
+  void settleAll(std::size_t count, Settle settleOne) {
+    std::vector<std::optional<Open>> left(count);
+    shareOut(
+        count, options_.threads, [&](std::size_t i) { left[i] = settleOne(i); },
+        [&](std::size_t i) { tell("descents", i, count); });
+    for (std::optional<Open>& open : left)
+      if (open) open_.push_back(std::move(*open));
+  }
+
+  void judge(PairEntry& entry, const PairSamples& found) {
+    entry.samples = found.samples;
+    entry.collisions = found.collisions;
+    note(entry, found.closest.front().first, found.closest.front().second);
+    if (!entry.obstacle && entry.neutralDistance <= options_.margin) {
+      Eigen::VectorXd q = found.farthest;
+      const bool clears =
+          found.largest > options_.margin || searchOf(entry).climb(q, options_.margin) > options_.margin;
+      entry.reason = clears ? PairReason::defaultClears : PairReason::byDefault;
+    } else if (entry.neutralDistance > options_.margin && entry.collisions == 0) {
+      entry.reason = PairReason::neverSampled;
+    } else if (entry.collisions >= options_.alwaysFraction * entry.samples) {
+      entry.reason = PairReason::always;
+    }
+  }
+
+  bool note(PairEntry& entry, double distance, const Eigen::VectorXd& q) const {
+    if (distance >= entry.minDistance) return false;
+    entry.minDistance = distance;
+    entry.closest = q;
+    return true;
+  }
+
+  // Descents from the closest samples, a short proof, descents from random configurations, until one of them
+  // decides. @return the proof that is left open, none where the pair is decided.
+  std::optional<Open> settle(PairEntry& entry, const PairSamples& found) const {
+    PairSearch search = searchOf(entry);
+    const auto descend = [&](Eigen::VectorXd q) {
+      const double reached = search.descend(q, options_.margin);
+      entry.byDescent |= note(entry, reached, q);
+      if (reached <= options_.margin) entry.reason = PairReason::sometimes;
+      return reached <= options_.margin;
+    };
+    for (int i = 0; i < options_.descents && at(i) < found.closest.size(); ++i)
+      if (descend(found.closest[at(i)].second)) return std::nullopt;
+    Open open{&entry, {}};
+    if (scene_.kinematics) open.proof = unproven(scene_, entry);
+    if (scene_.kinematics && advance(open, options_.proofBoxes)) return std::nullopt;
+    // Each pair has its own random numbers, whatever became of those before it.
+    std::mt19937_64 random(options_.seed +
+                           0x9e3779b97f4a7c15u * (1 + static_cast<std::size_t>(&entry - list_.data())));
+    for (int i = 0; i < options_.randomDescents; ++i)
+      if (descend(randomConfiguration(*kinematics_, random))) return std::nullopt;
+    return open;
+  }
+
+  // Goes on with a proof; whether that decided the pair.
+  bool advance(Open& open, long boxes) const {
+    const long before = open.proof.boxes;
+    open.proof = provePair(scene_, *open.entry, std::move(open.proof.open), boxes);
+    open.proof.boxes += before;
+    PairEntry& entry = *open.entry;
+    entry.boxes = open.proof.boxes;
+    if (open.proof.collision) {
+      entry.reason = PairReason::sometimes;
+      note(entry, searchOf(entry).distance(*open.proof.collision), *open.proof.collision);
+      return true;
+    }
+    if (open.proof.proven()) entry.reason = PairReason::neverProven;
+    return open.proof.proven();
+  }
+
+  // Rounds over the pairs still open with twice the boxes each time, so that the ones that take few are
+  // decided first.
+  void prove() {
+    using Clock = std::chrono::steady_clock;
+    constexpr long kBoxesAtOnce = 500;  // some 10 ms
+    const auto end = Clock::now() + std::chrono::duration<double>(options_.proofSeconds);
+    const std::size_t all = open_.size();
+    for (long round = kBoxesAtOnce; !open_.empty() && options_.proofSeconds > 0; round *= 2) {
+      const auto decided = [&](Open& open) {
+        tell("proofs", all - open_.size(), all);
+        for (long boxes = 0; boxes < round; boxes += kBoxesAtOnce) {
+          if (Clock::now() >= end) return false;
+          const long before = open.proof.boxes;
+          if (advance(open, kBoxesAtOnce)) return true;
+          if (open.proof.boxes == before) return false;  // nothing a box could cover
+        }
+        return false;
+      };
+      open_.erase(std::remove_if(open_.begin(), open_.end(), decided), open_.end());
+      if (Clock::now() >= end) return;
+    }
+  }
+
+  // The neutral configuration must stay outside the influence, or an optimiser starts inside the damping
+  // zone.
+  static void propose(PairEntry& entry) {
+    const double room = std::max(0.0, entry.neutralDistance);
+    entry.security = std::min(0.01, 0.25 * room);
+    entry.influence = std::min(0.1, 0.75 * room);
+  }
+
+  std::shared_ptr<const Kinematics> kinematics_;
+  std::shared_ptr<const RobotGeometry> geometry_;
+  const PairListOptions& options_;
+  Eigen::VectorXd neutral_;
+  std::vector<PairEntry> list_;
+  std::vector<char> isFresh_;  // for each entry, whether it is searched
+  ProofScene scene_;
+  std::vector<Open> open_;
+};
+
+}  // namespace
+
+namespace detail {
+
+std::vector<PairEntry> pairListAgain(std::shared_ptr<const Kinematics> kinematics,
+                                     std::shared_ptr<const RobotGeometry> geometry, const Srdf* srdf,
+                                     const PairListOptions& options, const std::vector<PairEntry>& before,
+                                     const std::set<LinkPair>& changed) {
+  requireRoomForPairs(*kinematics, *geometry, options.obstacles.size());
+  return Search(std::move(kinematics), std::move(geometry), options).run(srdf, &before, changed);
+}
+
+}  // namespace detail
+
+std::vector<PairEntry> pairList(std::shared_ptr<const Kinematics> kinematics,
+                                std::shared_ptr<const RobotGeometry> geometry, const Srdf* srdf,
+                                const PairListOptions& options) {
+  if (options.samples < 1) throw Error("pairList: samples must be 1 or more");
+  requireRoomForPairs(*kinematics, *geometry, options.obstacles.size());
+  return Search(std::move(kinematics), std::move(geometry), options).run(srdf);
+}
+
+}  // namespace fcl_stpbv
