@@ -25,7 +25,7 @@ using Eigen::Vector3d;
 
 constexpr int kStartPieces = 24;         // of a mesh that begins as one part a piece
 constexpr std::size_t kSearched = 2500;  // triangles that the search looks at
-constexpr double kHulls = 12000;         // what the search spends at effort 1
+constexpr double kHulls = 15000;         // what the search spends at effort 1
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 

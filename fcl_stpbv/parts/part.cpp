@@ -13,6 +13,17 @@ namespace fcl_stpbv::detail {
 
 using Eigen::Vector3d;
 
+namespace {
+
+// Of the box around it.
+double diagonal(const PartHull& hull) {
+  Vector3d low = hull.vertices.front(), high = low;
+  for (const Vector3d& v : hull.vertices) low = low.cwiseMin(v), high = high.cwiseMax(v);
+  return (high - low).norm();
+}
+
+}  // namespace
+
 PartSpace::PartSpace(const MeshSolid& solid)
     : mesh(solid), size((solid.high() - solid.low()).norm()), slack(1e-7 * size), fine(5e-4 * size) {}
 
@@ -75,14 +86,17 @@ std::pair<BspLeaves, BspLeaves> cut(const Part& part, const CutPlane& plane, con
 }
 
 double volumeOfCut(const Part& part, const CutPlane& plane, const PartSpace& space) {
-  double sum = 0;
+  double sum = 0, longest = 0;
   for (const CutPlane& towards : {plane, plane.turned()}) {
     std::vector<Vector3d> points;
     for (const auto& leaf : part.leaves) pointsAbove(leaf->soup, towards, space.slack, points);
     if (points.empty()) return -1;
-    sum += partHull(points).volume;
+    const PartHull half = partHull(points);
+    sum += half.volume;
+    longest = std::max(longest, diagonal(half));
   }
-  return sum;
+  constexpr double kLong = 0.002;
+  return sum * (1 + kLong * longest / diagonal(part.hull));
 }
 
 }  // namespace fcl_stpbv::detail

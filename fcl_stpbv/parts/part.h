@@ -65,8 +65,9 @@ Part joined(const Part& a, const Part& b, const PartSpace& space, const Measure&
 /// side only stays whole, so each point of the mesh stays in a leaf.
 std::pair<BspLeaves, BspLeaves> cut(const Part& part, const CutPlane& plane, const PartSpace& space);
 
-/// Sum of the volumes of the two hulls that cut() would leave, without making the leaves; less than 0 where
-/// the plane leaves nothing on one side (m^3).
+/// Sum of the volumes of the two hulls that cut() would leave, without making the leaves, and up to 0.2 %
+/// more the longer they are: no single cut lowers the volume of a ring's hull, and cuts across it lead on.
+/// Less than 0 where the plane leaves nothing on one side (m^3).
 double volumeOfCut(const Part& part, const CutPlane& plane, const PartSpace& space);
 
 }  // namespace fcl_stpbv::detail

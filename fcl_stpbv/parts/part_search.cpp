@@ -1,11 +1,17 @@
-// Beam search for few convex parts with small excess:
-// 1. the worst part is cut in four ways: two of the least volume, two of the best score of excess and volume;
-// 2. of all sets so reached, two of the least excess and two of the least volume go on;
-// 3. past the number asked for, the two parts whose common hull is nearest to the mesh are joined;
-// 4. then cut and join again while that lowers the worst excess by 1 %, until the effort is spent.
+// Search for few convex parts with small excess:
+// 1. Beam search. The worst part is cut in four ways: two of the least volume, two of the best score of
+// excess
+//    and volume. Of all sets so reached, two of the least excess and two of the least volume go on. Past the
+//    number asked for, the two parts whose common hull is nearest to the mesh are joined.
+// 2. Local search: cut and join again while that makes the worst parts better.
+// 3. Where that is not near enough, local search from two other starts: the best cut each time until there
+// are
+//    many parts, joined again; and the uncut mesh. The best answer counts. The effort bounds all of it.
 #include "fcl_stpbv/parts/part_search.h"
 
 #include <algorithm>
+#include <cmath>
+#include <functional>
 #include <limits>
 #include <tuple>
 
@@ -25,6 +31,26 @@ std::size_t worstOf(const PartSearch::Parts& parts) {
 }
 
 double worstExcess(const PartSearch::Parts& parts) { return excessOf(parts[worstOf(parts)]); }
+
+// By the worst part by 1 % of it, then by the second worst and so on: where two parts are equally bad, a step
+// mends only one of them.
+bool isBetter(const PartSearch::Parts& a, const PartSearch::Parts& b) {
+  const auto worstFirst = [](const PartSearch::Parts& parts, std::size_t size) {
+    std::vector<double> excess;
+    for (const PartPtr& part : parts) excess.push_back(excessOf(part));
+    std::sort(excess.begin(), excess.end(), std::greater<>());
+    excess.resize(size);
+    return excess;
+  };
+  const std::size_t most = std::max(a.size(), b.size());
+  const std::vector<double> first = worstFirst(a, most), second = worstFirst(b, most);
+  for (std::size_t i = 0; i < most; ++i)
+    if (std::abs(first[i] - second[i]) > 0.01 * second.front()) return first[i] < second[i];
+  return false;
+}
+
+// Parts to cut into before they are joined to at most `most`.
+std::size_t manyParts(int most) { return static_cast<std::size_t>(std::max(most, std::min(2 * most, 24))); }
 
 }  // namespace
 
@@ -46,6 +72,7 @@ PartSearch::Line PartSearch::line(Parts parts) const {
 // tells a useful cut before the excess does.
 const std::vector<PartSearch::Split>& PartSearch::splits(const PartPtr& part) {
   constexpr std::size_t kByVolume = 2, kByScore = 2;
+  constexpr std::size_t kScored = 48;  // planes; the other halves have more volume
   const auto [place, isNew] = splits_.try_emplace(part.get());
   std::vector<Split>& ways = place->second;
   if (!isNew) return ways;
@@ -57,6 +84,7 @@ const std::vector<PartSearch::Split>& PartSearch::splits(const PartPtr& part) {
     if (volume >= 0) byVolume.push_back({volume, i});
   }
   std::sort(byVolume.begin(), byVolume.end());
+  if (byVolume.size() > kScored) byVolume.resize(kScored);
   spent_ += static_cast<long>(planes.size());
   std::vector<Split> best;  // by score
   double lastVolume = -1;
@@ -75,7 +103,7 @@ const std::vector<PartSearch::Split>& PartSearch::splits(const PartPtr& part) {
     if (excessOf(up) > measure.enough) continue;
     const auto down = std::make_shared<Part>(makePart(std::move(below), space_, measure));
     ++spent_;
-    const auto [less, more] = std::minmax(excessOf(up), excessOf(down));
+    const auto [less, more] = std::minmax({excessOf(up), excessOf(down)});
     const Split split{(more + 0.5 * less) * weight + 1e-5 * space_.size * left, up, down};
     if (kept) {
       ways.push_back(split);
@@ -149,30 +177,25 @@ std::vector<PartSearch::Line> PartSearch::cutOn(const std::vector<Line>& beam) {
 
 PartSearch::Parts PartSearch::improved(Parts parts, int most, double bound) {
   while (!exhausted() && worstExcess(parts) > bound) {
-    Parts best;
-    double least = 0.99 * worstExcess(parts);
+    Parts best = parts;
     std::vector<Line> beam{line(parts)};
     for (int more = 0; more < 2; ++more) {
       beam = cutOn(beam);
       for (const Line& tried : beam) {
         Parts few = joined(tried.parts, most, 0.5 * bound);
-        if (worstExcess(few) >= least) continue;
-        least = worstExcess(few);
-        best = std::move(few);
+        if (isBetter(few, best)) best = std::move(few);
       }
     }
-    if (best.empty()) break;
+    if (best == parts) break;
     parts = std::move(best);
   }
   return parts;
 }
 
-PartSearch::Parts PartSearch::fewParts(const Parts& start, int most, double bound) {
-  bound = std::max(bound, space_.fine);
-  Parts best = start.size() > static_cast<std::size_t>(most) ? joined(start, most, bound) : start;
+PartSearch::Parts PartSearch::byBeam(const Parts& start, int most, double bound) {
+  Parts best = joined(start, most, 0);
   std::vector<Line> beam{line(start)};
-  const std::size_t goal = static_cast<std::size_t>(std::max(most, std::min(2 * most, 24)));
-  while (!beam.empty() && worstExcess(best) > bound && beam.front().parts.size() < goal) {
+  while (!beam.empty() && worstExcess(best) > bound && beam.front().parts.size() < manyParts(most)) {
     if (beam.front().parts.size() >= static_cast<std::size_t>(most))
       beam.resize(1);  // on to what is joined again
     beam = cutOn(beam);
@@ -183,7 +206,30 @@ PartSearch::Parts PartSearch::fewParts(const Parts& start, int most, double boun
       if (worstExcess(parts) < worstExcess(best)) best = std::move(parts);
     }
   }
-  return joined(improved(best, most, bound), most, bound);
+  return best;
+}
+
+PartSearch::Parts PartSearch::byBestCuts(Parts parts, int most, double bound) {
+  while (!exhausted() && worstExcess(parts) > bound && parts.size() < manyParts(most)) {
+    const std::size_t w = worstOf(parts);
+    const std::vector<Split>& ways = splits(parts[w]);
+    if (ways.empty()) break;
+    parts[w] = ways.front().up;
+    parts.push_back(ways.front().down);
+  }
+  return joined(std::move(parts), most, 0.5 * bound);
+}
+
+PartSearch::Parts PartSearch::fewParts(const Parts& start, int most, double bound) {
+  bound = std::max(bound, space_.fine);
+  Parts best = improved(byBeam(start, most, bound), most, bound);
+  const auto another = [&](Parts from) {
+    Parts found = improved(std::move(from), most, bound);
+    if (isBetter(found, best)) best = std::move(found);
+  };
+  if (!exhausted() && worstExcess(best) > bound) another(byBestCuts(start, most, bound));
+  if (!exhausted() && worstExcess(best) > bound) another(joined(start, most, 0));
+  return joined(best, most, bound);
 }
 
 }  // namespace fcl_stpbv::detail

@@ -12,8 +12,8 @@ namespace fcl_stpbv::detail {
 
 /// Cuts the worst part again and again, in several lines of cuts at once, since those that lower the excess
 /// most are rarely those that look best at first; cuts into more parts than asked for and joins those whose
-/// common hull is least far from the mesh; then cuts and joins on while it helps. What was measured once is
-/// remembered.
+/// common hull is least far from the mesh; then cuts and joins on while it helps, from several starts where
+/// one is not near enough. What was measured once is remembered.
 class PartSearch {
  public:
   using Parts = std::vector<PartPtr>;
@@ -39,6 +39,8 @@ class PartSearch {
   std::vector<Line> cutOn(const std::vector<Line>& beam);
   PartPtr join(const PartPtr& a, const PartPtr& b, double worst);
   Parts joined(Parts parts, int most, double bound);
+  Parts byBeam(const Parts& start, int most, double bound);
+  Parts byBestCuts(Parts parts, int most, double bound);
   Parts improved(Parts parts, int most, double bound);
   bool exhausted() const { return spent_ >= work_; }
 
