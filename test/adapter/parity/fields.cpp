@@ -162,8 +162,7 @@ std::vector<Field> collisionFields() {
        [](const Library& l) {
          Collisions result;
          l.collide(l.box, l.box, at(0.15), fcl::CollisionRequestd(10, false), result);
-         return std::to_string(result.numContacts()) + " contact" +
-                yes(result.getContact(0).penetration_depth == 0, " without a depth", " with a depth");
+         return std::to_string(result.numContacts()) + " contact";  // FCL leaves its depth as the memory was
        },
        "both"},
       {"`enable_contact` true", "two boxes 5 cm deep, side on side",
