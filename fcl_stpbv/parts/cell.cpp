@@ -1,12 +1,13 @@
 // A convex cell of space between cutting planes, as a polyhedron of corners and faces.
 // 1. Start: the mesh's box, a little larger.
 // 2. above(): clips each face by the plane, joins the new corners to a face; a corner on the cut asks the
-//    mesh once whether it is inside.
+//    mesh, if there is one, whether it is inside.
 #include "fcl_stpbv/parts/cell.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <utility>
 
@@ -40,7 +41,7 @@ Cell::Cell(const MeshSolid& mesh) {
   faces_ = {{0, 2, 6, 4}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 3, 7, 6}, {0, 1, 3, 2}, {4, 5, 7, 6}};
 }
 
-Cell Cell::above(const CutPlane& plane, double slack, const MeshSolid& mesh) const {
+Cell Cell::above(const CutPlane& plane, double slack, const MeshSolid* mesh) const {
   Cell out;
   std::vector<double> height;
   for (const Corner& c : corners_) {
@@ -64,7 +65,7 @@ Cell Cell::above(const CutPlane& plane, double slack, const MeshSolid& mesh) con
       const double first = height[at(low)], second = height[at(high)];
       const Vector3d& from = corners_[at(low)].point;
       const Vector3d p = from + first / (first - second) * (corners_[at(high)].point - from);
-      out.corners_.push_back({p, mesh.side(p) != MeshSolid::Side::outside});
+      out.corners_.push_back({p, mesh && mesh->side(p) != MeshSolid::Side::outside});
       cap.push_back(place->second);
     }
     return place->second;
@@ -83,6 +84,21 @@ Cell Cell::above(const CutPlane& plane, double slack, const MeshSolid& mesh) con
     out.faces_.push_back(std::move(cap));
   }
   return out;
+}
+
+std::pair<double, double> Cell::reach(const CutPlane& plane) const {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const Corner& c : corners_) {
+    low = std::min(low, plane.height(c.point));
+    high = std::max(high, plane.height(c.point));
+  }
+  return {low, high};
+}
+
+Vector3d Cell::middle() const {
+  Vector3d sum = Vector3d::Zero();
+  for (const Corner& c : corners_) sum += c.point;
+  return sum / static_cast<double>(corners_.size());
 }
 
 std::vector<Vector3d> Cell::enclosedCorners() const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <utility>
 #include <vector>
 
 #include "fcl_stpbv/parts/mesh_solid.h"
@@ -18,8 +19,16 @@ class Cell {
   /// The box around the mesh, a little larger.
   explicit Cell(const MeshSolid& mesh);
 
-  /// What the plane leaves on the side its normal points to. The new corners are looked up in the mesh.
-  Cell above(const CutPlane& plane, double slack, const MeshSolid& mesh) const;
+  /// What the plane leaves on the side its normal points to. The new corners are looked up in the mesh, if
+  /// one is given. Corners within `slack` (m) of the plane count as on it.
+  Cell above(const CutPlane& plane, double slack, const MeshSolid* mesh = nullptr) const;
+
+  /// Least and largest height of its corners over a plane (m).
+  std::pair<double, double> reach(const CutPlane& plane) const;
+  /// Whether it has no inside.
+  bool isFlat() const { return faces_.size() < 4; }
+  /// The mean of its corners, a point inside where it is not flat.
+  Eigen::Vector3d middle() const;
 
   /// Corners that the mesh encloses, or that are too near its surface to tell.
   std::vector<Eigen::Vector3d> enclosedCorners() const;

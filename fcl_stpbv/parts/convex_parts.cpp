@@ -1,7 +1,11 @@
 // Convex parts of a mesh:
 // 1. take the connected pieces (mesh_pieces.h) and make them coarser for the search;
 // 2. search for few parts (part_search.h), by cutting and joining;
-// 3. cut the whole mesh again by the same planes, and certify each hull's excess (mesh_excess.h).
+// 3. cut the whole mesh again by the same planes;
+// 4. prove the inside covered (inside_proof.h); a part gets those corners of its cells that this needs. Where
+// they
+//    take it away from the mesh, search again with all corners in the parts, and take the better answer;
+// 5. certify each hull's excess (mesh_excess.h).
 #include "fcl_stpbv/parts/convex_parts.h"
 
 #include <algorithm>
@@ -14,6 +18,7 @@
 
 #include "fcl_stpbv/number_check.h"
 #include "fcl_stpbv/parts/cut_planes.h"
+#include "fcl_stpbv/parts/inside_proof.h"
 #include "fcl_stpbv/parts/part_search.h"
 #include "fcl_stpbv/volume/rolling_ball.h"
 
@@ -94,15 +99,54 @@ TriangleSoup forSearch(const TriangleSoup& soup, const PartSpace& space) {
   return few;
 }
 
-// All corners of what the mesh has in a part's leaves, cut anew from the whole mesh.
-std::vector<Vector3d> pointsIn(const Part& part, const std::vector<TriangleSoup>& groups,
+// What the mesh has in a leaf, cut anew from the whole mesh.
+std::vector<Vector3d> pointsIn(const BspLeaf& leaf, const std::vector<TriangleSoup>& groups,
                                const PartSpace& space) {
-  std::vector<Vector3d> points;
-  for (const auto& leaf : part.leaves) {
-    TriangleSoup soup = groups[at(leaf->group)];
-    for (const CutPlane& plane : leaf->path) soup = above(soup, plane, space.slack);
-    points.insert(points.end(), soup.points.begin(), soup.points.end());
-    points.insert(points.end(), leaf->corners.begin(), leaf->corners.end());
+  TriangleSoup soup = groups[at(leaf.group)];
+  for (const CutPlane& plane : leaf.path) soup = above(soup, plane, space.slack);
+  return soup.points;
+}
+
+void append(std::vector<Vector3d>& all, const std::vector<Vector3d>& more) {
+  all.insert(all.end(), more.begin(), more.end());
+}
+
+// What a part is the hull of.
+struct PartPoints {
+  std::vector<Vector3d> found;   // by the search: all of the triangles, and corners where it had them
+  std::vector<Vector3d> needed;  // corners of its cells that the inside needs besides
+};
+
+std::vector<PartPoints> pointsOf(const PartSearch::Parts& parts, const std::vector<TriangleSoup>& groups,
+                                 const PartSpace& space) {
+  std::vector<PartPoints> points;
+  for (const PartPtr& part : parts) {
+    points.emplace_back();
+    for (const auto& leaf : part->leaves) {
+      append(points.back().found, pointsIn(*leaf, groups, space));
+      append(points.back().found, leaf->corners);
+    }
+  }
+  if (space.mesh.pieces().closedPieces() == 0) return points;
+  std::vector<HullPlanes> hulls;
+  for (const PartPoints& one : points) hulls.push_back(hullPlanes(one.found, 2 * space.slack));
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    if (points[p].found.empty()) continue;
+    std::vector<HullPlanes> ownFirst = hulls;
+    std::swap(ownFirst[0], ownFirst[p]);
+    for (const auto& leaf : parts[p]->leaves) {
+      if (!leaf->corners.empty()) continue;  // the search had them
+      Cell cell(space.mesh);
+      for (const CutPlane& plane : leaf->path) cell = cell.above(plane, space.slack, &space.mesh);
+      const std::vector<Vector3d> corners = cell.enclosedCorners();
+      if (corners.empty()) continue;
+      // With its corners the leaf has all of the solid in its cell: the rest of the cell does not matter.
+      std::vector<Vector3d> whole = corners;
+      append(whole, pointsIn(*leaf, groups, space));
+      for (const CutPlane& plane : hullPlanes(whole, 2 * space.slack))
+        cell = cell.above(plane.turned(), space.slack);
+      if (!isInsideCovered(cell, ownFirst, space.mesh, space.slack)) append(points[p].needed, corners);
+    }
   }
   return points;
 }
@@ -118,6 +162,39 @@ ConvexPart certified(const std::vector<Vector3d>& points, const MeshSolid& mesh)
   return out;
 }
 
+// One search: with the cells' corners in the parts from the start, or without. `asFound`: no part is farther
+// from the mesh for corners that it turned out to need.
+ConvexParts searched(const PartSpace& space, const std::vector<TriangleSoup>& soups,
+                     const PartsOptions& options, bool corners, bool& asFound) {
+  const MeshSolid& mesh = space.mesh;
+  const Cell cell = corners && mesh.pieces().closedPieces() > 0 ? Cell(mesh) : Cell();
+  PartSearch::Parts start;
+  for (std::size_t g = 0; g < soups.size(); ++g) {
+    auto leaf = std::make_shared<BspLeaf>();
+    leaf->soup = forSearch(soups[g], space);
+    leaf->cell = cell;
+    leaf->group = static_cast<int>(g);
+    start.push_back(std::make_shared<Part>(makePart({leaf}, space, {space.fine})));
+  }
+  PartSearch search(space, static_cast<long>(kHulls * options.effort));
+  ConvexParts out;
+  asFound = true;
+  for (PartPoints& points : pointsOf(search.fewParts(start, options.most, options.excess), soups, space)) {
+    if (points.found.empty()) continue;  // a leaf of the coarse mesh alone
+    ConvexPart part = certified(points.found, mesh);
+    if (!points.needed.empty()) {
+      const double before = part.excess.upper;
+      append(points.found, points.needed);
+      part = certified(points.found, mesh);
+      asFound = asFound && part.excess.upper <= before + 0.5 * space.fine;
+    }
+    out.excess = std::max(out.excess, part.excess.upper);
+    out.openExcess = std::max(out.openExcess, part.openExcess.upper);
+    out.parts.push_back(std::move(part));
+  }
+  return out;
+}
+
 }  // namespace
 
 ConvexParts convexParts(const TriangleMesh& input, const PartsOptions& options) {
@@ -130,29 +207,16 @@ ConvexParts convexParts(const TriangleMesh& input, const PartsOptions& options) 
   std::vector<int> facetOf;
   space.facets = flatParts(mesh, space.slack, facetOf);
   const bool each = mesh.pieces().pieces() <= kStartPieces;
-  PartSearch::Parts start;
-  const Cell cell = mesh.pieces().closedPieces() > 0 ? Cell(mesh) : Cell();
-  std::vector<TriangleSoup> soups = groups(mesh, facetOf, each);
-  for (std::size_t g = 0; g < soups.size(); ++g) {
-    auto leaf = std::make_shared<BspLeaf>();
-    leaf->soup = forSearch(soups[g], space);
-    leaf->cell = cell;
-    leaf->group = static_cast<int>(g);
-    start.push_back(std::make_shared<Part>(makePart({leaf}, space, {space.fine})));
+  const std::vector<TriangleSoup> soups = groups(mesh, facetOf, each);
+  bool asFound = true;
+  ConvexParts out = searched(space, soups, options, false, asFound);
+  if (!asFound) {
+    ConvexParts other = searched(space, soups, options, true, asFound);
+    if (other.excess < out.excess) out = std::move(other);
   }
-  PartSearch search(space, static_cast<long>(kHulls * options.effort));
-  const PartSearch::Parts found = search.fewParts(start, options.most, options.excess);
-  ConvexParts out;
   out.pieces = mesh.pieces().pieces();
   out.closedPieces = mesh.pieces().closedPieces();
   out.slack = 2 * space.slack;
-  for (const PartPtr& part : found) {
-    const std::vector<Vector3d> points = pointsIn(*part, soups, space);
-    if (points.empty()) continue;  // a leaf of the coarse mesh alone
-    out.parts.push_back(certified(points, mesh));
-    out.excess = std::max(out.excess, out.parts.back().excess.upper);
-    out.openExcess = std::max(out.openExcess, out.parts.back().openExcess.upper);
-  }
   return out;
 }
 

@@ -76,7 +76,7 @@ std::pair<BspLeaves, BspLeaves> cut(const Part& part, const CutPlane& plane, con
       continue;
     }
     for (BspLeaf* half : {&up, &down}) {
-      half->cell = leaf->cell.above(half->path.back(), space.slack, space.mesh);
+      half->cell = leaf->cell.above(half->path.back(), space.slack, &space.mesh);
       half->corners = half->cell.enclosedCorners();
     }
     sides.first.push_back(std::make_shared<const BspLeaf>(std::move(up)));

@@ -1,0 +1,81 @@
+// A convex cell without some convex hulls:
+// 1. a hull's planes cut the cell one after the other; what is outside a plane is one piece that the hull
+// does
+//    not hold, what is left at the end it holds;
+// 2. the pieces are cut by the next hull in the same way;
+// 3. the triangles are all in hulls, so a piece that is left is inside the solid or outside as a whole, and
+// one
+//    point of it tells.
+#include "fcl_stpbv/parts/inside_proof.h"
+
+#include <algorithm>
+
+#include "fcl_stpbv/parts/mesh_excess.h"
+#include "fcl_stpbv/parts/part_hull.h"
+
+namespace fcl_stpbv::detail {
+namespace {
+
+using Eigen::Vector3d;
+
+// What a hull leaves of a cell.
+void subtract(const Cell& cell, const HullPlanes& hull, double slack, std::vector<Cell>& out) {
+  const auto apart = [&](const CutPlane& plane) { return cell.reach(plane).first >= -slack; };
+  if (hull.empty() || std::any_of(hull.begin(), hull.end(), apart)) {
+    out.push_back(cell);
+    return;
+  }
+  Cell rest = cell;
+  for (const CutPlane& plane : hull) {
+    const auto [low, high] = rest.reach(plane);
+    if (high <= slack) continue;
+    if (low >= -slack) {
+      out.push_back(rest);
+      return;
+    }
+    out.push_back(rest.above(plane, slack));
+    rest = rest.above(plane.turned(), slack);
+    if (rest.isFlat()) return;
+  }
+}
+
+}  // namespace
+
+HullPlanes hullPlanes(const std::vector<Vector3d>& points, double cover) {
+  const PartHull hull = partHull(points);
+  if (!(hull.volume > 0)) return {};
+  Vector3d middle = Vector3d::Zero();
+  for (const Vector3d& v : hull.vertices) middle += v / static_cast<double>(hull.vertices.size());
+  HullPlanes planes;
+  for (const Triangle& t : hull.surface) {
+    const Vector3d n = (t[1] - t[0]).cross(t[2] - t[0]);
+    if (!(n.norm() > 0)) continue;  // its neighbours bound the hull there
+    CutPlane plane{n.normalized(), 0};
+    if (plane.normal.dot(middle - t[0]) > 0) plane.normal = -plane.normal;
+    // The farthest vertex, not the triangle's own: where the triangle is a sliver its normal is off.
+    plane.offset = plane.normal.dot(hull.vertices.front());
+    for (const Vector3d& v : hull.vertices) plane.offset = std::max(plane.offset, plane.normal.dot(v));
+    plane.offset += cover;
+    planes.push_back(plane);
+  }
+  return planes;
+}
+
+bool isInsideCovered(const Cell& cell, const std::vector<HullPlanes>& hulls, const MeshSolid& mesh,
+                     double slack) {
+  constexpr std::size_t kMostPieces = 5000;
+  std::vector<Cell> pieces{cell};
+  for (const HullPlanes& hull : hulls) {
+    std::vector<Cell> left;
+    for (const Cell& piece : pieces) subtract(piece, hull, slack, left);
+    left.erase(std::remove_if(left.begin(), left.end(), [](const Cell& c) { return c.isFlat(); }),
+               left.end());
+    pieces = std::move(left);
+    if (pieces.size() > kMostPieces) return false;
+  }
+  return std::all_of(pieces.begin(), pieces.end(), [&](const Cell& piece) {
+    return mesh.side(piece.middle()) == MeshSolid::Side::outside;
+  });
+}
+
+}  // namespace fcl_stpbv::detail

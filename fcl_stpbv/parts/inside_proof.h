@@ -1,0 +1,24 @@
+// Whether parts cover the inside of a mesh also where they hold no corners of their cells.
+#pragma once
+
+#include <vector>
+
+#include "fcl_stpbv/parts/cell.h"
+#include "fcl_stpbv/parts/mesh_solid.h"
+#include "fcl_stpbv/parts/plane_cut.h"
+
+namespace fcl_stpbv::detail {
+
+/// A convex hull as planes with normals outwards; none for a flat one.
+using HullPlanes = std::vector<CutPlane>;
+
+/// The planes of a cloud's hull, moved outwards by `cover` (m).
+HullPlanes hullPlanes(const std::vector<Eigen::Vector3d>& points, double cover);
+
+/// True where every point of the solid in `cell` is in one of the hulls, which together hold the mesh's
+/// triangles. False may also mean that it took too many pieces to tell. Pieces thinner than `slack` (m) are
+/// let go.
+bool isInsideCovered(const Cell& cell, const std::vector<HullPlanes>& hulls, const MeshSolid& mesh,
+                     double slack);
+
+}  // namespace fcl_stpbv::detail
