@@ -18,6 +18,7 @@
 
 #include "fcl_stpbv/number_check.h"
 #include "fcl_stpbv/parts/cut_planes.h"
+#include "fcl_stpbv/parts/facet_parts.h"
 #include "fcl_stpbv/parts/inside_proof.h"
 #include "fcl_stpbv/parts/part_search.h"
 #include "fcl_stpbv/volume/rolling_ball.h"
@@ -30,7 +31,7 @@ using Eigen::Vector3d;
 
 constexpr int kStartPieces = 24;         // of a mesh that begins as one part a piece
 constexpr std::size_t kSearched = 2500;  // triangles that the search looks at
-constexpr double kHulls = 15000;         // what the search spends at effort 1
+constexpr double kHulls = 12000;         // what the search spends at effort 1
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
@@ -99,9 +100,10 @@ TriangleSoup forSearch(const TriangleSoup& soup, const PartSpace& space) {
   return few;
 }
 
-// What the mesh has in a leaf, cut anew from the whole mesh.
+// What the mesh has in a leaf, cut anew from the whole mesh. A facet is that of the whole mesh already.
 std::vector<Vector3d> pointsIn(const BspLeaf& leaf, const std::vector<TriangleSoup>& groups,
                                const PartSpace& space) {
+  if (leaf.isFacet) return leaf.soup.points;
   TriangleSoup soup = groups[at(leaf.group)];
   for (const CutPlane& plane : leaf.path) soup = above(soup, plane, space.slack);
   return soup.points;
@@ -117,19 +119,14 @@ struct PartPoints {
   std::vector<Vector3d> needed;  // corners of its cells that the inside needs besides
 };
 
-std::vector<PartPoints> pointsOf(const PartSearch::Parts& parts, const std::vector<TriangleSoup>& groups,
-                                 const PartSpace& space) {
-  std::vector<PartPoints> points;
-  for (const PartPtr& part : parts) {
-    points.emplace_back();
-    for (const auto& leaf : part->leaves) {
-      append(points.back().found, pointsIn(*leaf, groups, space));
-      append(points.back().found, leaf->corners);
-    }
-  }
-  if (space.mesh.pieces().closedPieces() == 0) return points;
+// Whether the hulls hold what the mesh encloses, as they hold its triangles. Where a leaf does not, its
+// cell's corners make it, unless it is of facets and has no cell: false.
+bool coverInside(const PartSearch::Parts& parts, const std::vector<TriangleSoup>& groups,
+                 const PartSpace& space, std::vector<PartPoints>& points) {
   std::vector<HullPlanes> hulls;
   for (const PartPoints& one : points) hulls.push_back(hullPlanes(one.found, 2 * space.slack));
+  if (parts.front()->leaves.front()->isFacet)
+    return isInsideCovered(Cell(space.mesh), hulls, space.mesh, space.slack);
   for (std::size_t p = 0; p < parts.size(); ++p) {
     if (points[p].found.empty()) continue;
     std::vector<HullPlanes> ownFirst = hulls;
@@ -148,7 +145,7 @@ std::vector<PartPoints> pointsOf(const PartSearch::Parts& parts, const std::vect
       if (!isInsideCovered(cell, ownFirst, space.mesh, space.slack)) append(points[p].needed, corners);
     }
   }
-  return points;
+  return true;
 }
 
 ConvexPart certified(const std::vector<Vector3d>& points, const MeshSolid& mesh) {
@@ -162,37 +159,80 @@ ConvexPart certified(const std::vector<Vector3d>& points, const MeshSolid& mesh)
   return out;
 }
 
-// One search: with the cells' corners in the parts from the start, or without. `asFound`: no part is farther
-// from the mesh for corners that it turned out to need.
-ConvexParts searched(const PartSpace& space, const std::vector<TriangleSoup>& soups,
-                     const PartsOptions& options, bool corners, bool& asFound) {
-  const MeshSolid& mesh = space.mesh;
-  const Cell cell = corners && mesh.pieces().closedPieces() > 0 ? Cell(mesh) : Cell();
-  PartSearch::Parts start;
+struct Certified {
+  ConvexParts parts;
+  bool covers = true;   // what the mesh encloses too
+  bool asFound = true;  // no part is farther from the mesh for corners that it turned out to need
+};
+
+Certified certified(const PartSearch::Parts& parts, const std::vector<TriangleSoup>& soups,
+                    const PartSpace& space) {
+  std::vector<PartPoints> points;
+  for (const PartPtr& part : parts) {
+    points.emplace_back();
+    for (const auto& leaf : part->leaves) {
+      append(points.back().found, pointsIn(*leaf, soups, space));
+      append(points.back().found, leaf->corners);
+    }
+  }
+  Certified out;
+  if (space.mesh.pieces().closedPieces() > 0) out.covers = coverInside(parts, soups, space, points);
+  if (!out.covers) return out;
+  for (PartPoints& one : points) {
+    if (one.found.empty()) continue;  // a leaf of the coarse mesh alone
+    ConvexPart part = certified(one.found, space.mesh);
+    if (!one.needed.empty()) {
+      const double before = part.excess.upper;
+      append(one.found, one.needed);
+      part = certified(one.found, space.mesh);
+      out.asFound = out.asFound && part.excess.upper <= before + 0.5 * space.fine;
+    }
+    out.parts.excess = std::max(out.parts.excess, part.excess.upper);
+    out.parts.openExcess = std::max(out.parts.openExcess, part.openExcess.upper);
+    out.parts.parts.push_back(std::move(part));
+  }
+  return out;
+}
+
+// The groups uncut, one part each; with the corners of their cells in what is cut from them, or without.
+PartSearch::Parts uncut(const std::vector<TriangleSoup>& soups, const PartSpace& space, bool corners) {
+  PartSearch::Parts parts;
   for (std::size_t g = 0; g < soups.size(); ++g) {
     auto leaf = std::make_shared<BspLeaf>();
     leaf->soup = forSearch(soups[g], space);
-    leaf->cell = cell;
+    if (corners && space.mesh.pieces().closedPieces() > 0) leaf->cell = Cell(space.mesh);
     leaf->group = static_cast<int>(g);
-    start.push_back(std::make_shared<Part>(makePart({leaf}, space, {space.fine})));
+    parts.push_back(std::make_shared<Part>(makePart({leaf}, space, {space.fine})));
   }
-  PartSearch search(space, static_cast<long>(kHulls * options.effort));
-  ConvexParts out;
-  asFound = true;
-  for (PartPoints& points : pointsOf(search.fewParts(start, options.most, options.excess), soups, space)) {
-    if (points.found.empty()) continue;  // a leaf of the coarse mesh alone
-    ConvexPart part = certified(points.found, mesh);
-    if (!points.needed.empty()) {
-      const double before = part.excess.upper;
-      append(points.found, points.needed);
-      part = certified(points.found, mesh);
-      asFound = asFound && part.excess.upper <= before + 0.5 * space.fine;
-    }
-    out.excess = std::max(out.excess, part.excess.upper);
-    out.openExcess = std::max(out.openExcess, part.openExcess.upper);
-    out.parts.push_back(std::move(part));
+  return parts;
+}
+
+// 1. Facets, joined, where these are enough.
+// 2. Parts by cuts. Where these are not enough, facets again, joined and cut on.
+// 3. Where the inside needs corners that raise the excess: by cuts again, with corners from the start.
+ConvexParts searched(const PartSpace& space, const std::vector<TriangleSoup>& soups,
+                     const PartsOptions& options) {
+  const long work = static_cast<long>(kHulls * options.effort);
+  PartSearch search(space, options.most, options.excess);
+  const PartSearch::Parts facets = facetParts(soups, space, options.most, options.excess);
+  if (!facets.empty()) {
+    const PartSearch::Parts few = search.improved(facets, work / 10);
+    if (search.isEnough(few))
+      if (Certified done = certified(few, soups, space); done.covers) return std::move(done.parts);
   }
-  return out;
+  const PartSearch::Parts cuts = search.byCuts(uncut(soups, space, false), work);
+  if (!facets.empty() && !search.isEnough(cuts)) {
+    const PartSearch::Parts other = search.improved(facets, work / 4);
+    if (PartSearch::isBetter(other, cuts))
+      if (Certified done = certified(other, soups, space); done.covers) return std::move(done.parts);
+  }
+  Certified found = certified(cuts, soups, space);
+  if (!found.asFound) {
+    PartSearch withCorners(space, options.most, options.excess);
+    Certified other = certified(withCorners.byCuts(uncut(soups, space, true), work), soups, space);
+    if (other.parts.excess < found.parts.excess) return std::move(other.parts);
+  }
+  return std::move(found.parts);
 }
 
 }  // namespace
@@ -208,12 +248,7 @@ ConvexParts convexParts(const TriangleMesh& input, const PartsOptions& options) 
   space.facets = flatParts(mesh, space.slack, facetOf);
   const bool each = mesh.pieces().pieces() <= kStartPieces;
   const std::vector<TriangleSoup> soups = groups(mesh, facetOf, each);
-  bool asFound = true;
-  ConvexParts out = searched(space, soups, options, false, asFound);
-  if (!asFound) {
-    ConvexParts other = searched(space, soups, options, true, asFound);
-    if (other.excess < out.excess) out = std::move(other);
-  }
+  ConvexParts out = searched(space, soups, options);
   out.pieces = mesh.pieces().pieces();
   out.closedPieces = mesh.pieces().closedPieces();
   out.slack = 2 * space.slack;

@@ -68,7 +68,6 @@ std::vector<CutPlane> flatParts(const MeshSolid& mesh, double slack, std::vector
   constexpr double kGrid = 1e-3;
   std::map<std::array<long, 4>, int> number;
   std::vector<CutPlane> planes;
-  std::vector<double> area;
   facetOf.clear();
   for (const Triangle& t : mesh.triangles()) {
     const Vector3d n = (t[1] - t[0]).cross(t[2] - t[0]);
@@ -79,11 +78,7 @@ std::vector<CutPlane> flatParts(const MeshSolid& mesh, double slack, std::vector
     const std::array<long, 4> key{cellOf(plane.normal.x(), kGrid), cellOf(plane.normal.y(), kGrid),
                                   cellOf(plane.normal.z(), kGrid), cellOf(plane.offset, 1e3 * slack)};
     const auto [place, isNew] = number.try_emplace(key, static_cast<int>(planes.size()));
-    if (isNew) {
-      planes.push_back(plane);
-      area.push_back(0);
-    }
-    area[at(place->second)] += size;
+    if (isNew) planes.push_back(plane);
     facetOf.push_back(place->second);
   }
   return planes;

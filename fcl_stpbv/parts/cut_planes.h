@@ -7,7 +7,7 @@
 
 namespace fcl_stpbv::detail {
 
-/// The mesh's flat parts, largest area first, and for each triangle which of them it belongs to.
+/// The planes of the mesh's flat parts, and for each triangle which of them it belongs to.
 std::vector<CutPlane> flatParts(const MeshSolid& mesh, double slack, std::vector<int>& facetOf);
 
 /// Across the axes and the part's own principal axes in even steps, through the point that is farthest from

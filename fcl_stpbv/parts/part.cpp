@@ -5,24 +5,12 @@
 //    triangles on one side only is not clipped.
 #include "fcl_stpbv/parts/part.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <utility>
 
 namespace fcl_stpbv::detail {
 
 using Eigen::Vector3d;
-
-namespace {
-
-// Of the box around it.
-double diagonal(const PartHull& hull) {
-  Vector3d low = hull.vertices.front(), high = low;
-  for (const Vector3d& v : hull.vertices) low = low.cwiseMin(v), high = high.cwiseMax(v);
-  return (high - low).norm();
-}
-
-}  // namespace
 
 PartSpace::PartSpace(const MeshSolid& solid)
     : mesh(solid), size((solid.high() - solid.low()).norm()), slack(1e-7 * size), fine(5e-4 * size) {}
@@ -31,10 +19,18 @@ void measureAgain(Part& part, const PartSpace& space, const Measure& measure) {
   ExcessOptions options;
   options.absolute = std::max(measure.resolution, 0.5 * space.fine);
   options.relative = 0.1;
-  options.queries = 1000 + 2 * static_cast<long>(part.hull.surface.size());
+  options.queries = measure.queries + 2 * static_cast<long>(part.hull.surface.size());
   options.enough = measure.enough;
+  const MeshExcess before = part.excess;
   part.excess = excessOf(part.hull.surface, space.mesh, options);
-  part.resolution = options.absolute;
+  if (part.queries == 0) {
+    part.resolution = options.absolute;
+  } else {  // both measures hold
+    part.excess.upper = std::min(part.excess.upper, before.upper);
+    if (before.lower > part.excess.lower) part.excess.lower = before.lower, part.excess.where = before.where;
+    part.resolution = std::min(part.resolution, options.absolute);
+  }
+  part.queries = std::max(part.queries, measure.queries);
 }
 
 Part makePart(BspLeaves leaves, const PartSpace& space, const Measure& measure) {
@@ -67,6 +63,7 @@ std::pair<BspLeaves, BspLeaves> cut(const Part& part, const CutPlane& plane, con
       out.soup = above(leaf->soup, towards, space.slack);
       out.path = leaf->path;
       out.path.push_back(towards);
+      out.isFacet = leaf->isFacet;
       out.group = leaf->group;
       return out;
     };
@@ -93,10 +90,10 @@ double volumeOfCut(const Part& part, const CutPlane& plane, const PartSpace& spa
     if (points.empty()) return -1;
     const PartHull half = partHull(points);
     sum += half.volume;
-    longest = std::max(longest, diagonal(half));
+    longest = std::max(longest, half.diagonal());
   }
   constexpr double kLong = 0.002;
-  return sum * (1 + kLong * longest / diagonal(part.hull));
+  return sum * (1 + kLong * longest / part.hull.diagonal());
 }
 
 }  // namespace fcl_stpbv::detail

@@ -25,13 +25,14 @@ struct PartSpace {
 };
 
 /// A leaf of the binary space partition (BSP) that the cuts make: the mesh's triangles in it, and the corners
-/// of its cell that are inside the solid.
+/// of its cell that are inside the solid. Or a facet of the mesh, or what cuts left of one: it has no cell.
 struct BspLeaf {
   TriangleSoup soup;
   Cell cell;
   std::vector<Eigen::Vector3d> corners;
   std::vector<CutPlane> path;  ///< the cuts that made it, normals towards it
-  int group = 0;               ///< the group of the mesh's pieces that it was cut from
+  bool isFacet = false;
+  int group = 0;  ///< the group of the mesh's pieces that it was cut from
 };
 
 using BspLeaves = std::vector<std::shared_ptr<const BspLeaf>>;
@@ -41,15 +42,18 @@ struct Part {
   BspLeaves leaves;
   PartHull hull;
   MeshExcess excess;
-  double resolution = 0;  ///< that the excess is known to (m)
+  double resolution = 0;  ///< that the excess is known to (m), if `queries` were enough
+  long queries = 0;       ///< of distances that its last measure could spend
 };
 
 using PartPtr = std::shared_ptr<Part>;
 
-/// How well to know a part's excess: to `resolution`, and no better where it is above `enough` (m).
+/// How well to know a part's excess: to `resolution`, no better where it is above `enough` (m), and no better
+/// than `queries` distances tell, and two for each triangle of its surface.
 struct Measure {
   double resolution;
   double enough = std::numeric_limits<double>::infinity();
+  long queries = 1000;
 };
 
 /// Measures a part's excess anew.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
+#include <utility>
 
 #include "fcl_stpbv/parts/mesh_excess.h"
 #include "fcl_stpbv/volume/rolling_ball.h"
@@ -64,11 +65,37 @@ bool byQhull(const std::vector<Vector3d>& points, PartHull& hull) {
   return !failed;
 }
 
+// Whether the points are within a millionth of their extent of one plane: qhull may then merge facets without
+// end.
+bool isNearlyFlat(const std::vector<Vector3d>& points) {
+  const Vector3d& first = points.front();
+  const auto farthest = [&](const auto& distance) {
+    std::pair<double, Vector3d> most{0, first};
+    for (const Vector3d& p : points)
+      if (const double d = distance(p); d > most.first) most = {d, p};
+    return most;
+  };
+  const auto [extent, second] = farthest([&](const Vector3d& p) { return (p - first).norm(); });
+  if (!(extent > 0)) return true;
+  const Vector3d along = (second - first) / extent;
+  const auto [width, third] = farthest([&](const Vector3d& p) { return along.cross(p - first).norm(); });
+  if (!(width > 0)) return true;
+  const Vector3d normal = along.cross(third - first) / width;
+  const auto [height, fourth] = farthest([&](const Vector3d& p) { return std::abs(normal.dot(p - first)); });
+  return height < 1e-6 * extent;
+}
+
 }  // namespace
+
+double PartHull::diagonal() const {
+  Vector3d low = vertices.front(), high = low;
+  for (const Vector3d& v : vertices) low = low.cwiseMin(v), high = high.cwiseMax(v);
+  return (high - low).norm();
+}
 
 PartHull partHull(const std::vector<Vector3d>& points) {
   PartHull hull;
-  if (points.size() >= 4 && byQhull(points, hull)) return hull;
+  if (points.size() >= 4 && !isNearlyFlat(points) && byQhull(points, hull)) return hull;
   hull = {};
   for (const int v : rollBall(points).vertices) hull.vertices.push_back(points[at(v)]);
   hull.surface = hullTriangles(hull.vertices);

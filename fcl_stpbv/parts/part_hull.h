@@ -12,6 +12,8 @@ struct PartHull {
   std::vector<Eigen::Vector3d> vertices;
   std::vector<Triangle> surface;
   double volume = 0;  ///< 0 for a flat hull (m^3)
+  /// Of the box around it (m).
+  double diagonal() const;
 };
 
 /// By qhull, or for flat clouds, which qhull refuses, by the rolling ball.

@@ -1,12 +1,11 @@
-// Search for few convex parts with small excess:
+// Search for few convex parts with small excess, by cuts:
 // 1. Beam search. The worst part is cut in four ways: two of the least volume, two of the best score of
-// excess
-//    and volume. Of all sets so reached, two of the least excess and two of the least volume go on. Past the
-//    number asked for, the two parts whose common hull is nearest to the mesh are joined.
+//    excess and volume. Of all sets so reached, two of the least excess and two of the least volume go on.
+//    Past the number asked for, the two parts whose common hull is nearest to the mesh are joined.
 // 2. Local search: cut and join again while that makes the worst parts better.
 // 3. Where that is not near enough, local search from two other starts: the best cut each time until there
-// are
-//    many parts, joined again; and the uncut mesh. The best answer counts. The effort bounds all of it.
+//    are many parts, joined again; and the uncut mesh, for half as many parts first. The best answer counts.
+//    The work given bounds all of it.
 #include "fcl_stpbv/parts/part_search.h"
 
 #include <algorithm>
@@ -22,6 +21,8 @@ namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr double kResolution = 0.15;  // of the excess to be lowered: what is below does not matter yet
+constexpr long kStep = 20;            // hulls that a step counts for at least, so that each search ends
+constexpr long kConfirm = 10000;      // distances to know what the search goes on with
 
 double excessOf(const PartPtr& part) { return part->excess.lower; }
 
@@ -32,10 +33,22 @@ std::size_t worstOf(const PartSearch::Parts& parts) {
 
 double worstExcess(const PartSearch::Parts& parts) { return excessOf(parts[worstOf(parts)]); }
 
-// By the worst part by 1 % of it, then by the second worst and so on: where two parts are equally bad, a step
-// mends only one of them.
-bool isBetter(const PartSearch::Parts& a, const PartSearch::Parts& b) {
-  const auto worstFirst = [](const PartSearch::Parts& parts, std::size_t size) {
+// Parts to cut into before they are joined to at most `most`.
+std::size_t manyParts(int most) {
+  return static_cast<std::size_t>(std::max({most, 16, std::min(2 * most, 24)}));
+}
+
+}  // namespace
+
+PartSearch::PartSearch(const PartSpace& space, int most, double bound)
+    : space_(space), most_(most), bound_(std::max(bound, space.fine)) {}
+
+bool PartSearch::isEnough(const Parts& parts) const {
+  return parts.size() <= static_cast<std::size_t>(most_) && worstExcess(parts) <= bound_;
+}
+
+bool PartSearch::isBetter(const Parts& a, const Parts& b) {
+  const auto worstFirst = [](const Parts& parts, std::size_t size) {
     std::vector<double> excess;
     for (const PartPtr& part : parts) excess.push_back(excessOf(part));
     std::sort(excess.begin(), excess.end(), std::greater<>());
@@ -49,11 +62,6 @@ bool isBetter(const PartSearch::Parts& a, const PartSearch::Parts& b) {
   return false;
 }
 
-// Parts to cut into before they are joined to at most `most`.
-std::size_t manyParts(int most) { return static_cast<std::size_t>(std::max(most, std::min(2 * most, 24))); }
-
-}  // namespace
-
 PartSearch::Line PartSearch::line(Parts parts) const {
   Line out;
   out.worst = worstExcess(parts);
@@ -66,6 +74,14 @@ PartSearch::Line PartSearch::line(Parts parts) const {
   for (const PartPtr& part : parts) out.volume += part->hull.volume;
   out.parts = std::move(parts);
   return out;
+}
+
+// The excess of many parts is but a lower bound: those that may be the worst are measured again, well.
+void PartSearch::confirm(const Parts& parts) const {
+  const double worst = std::max(worstExcess(parts), space_.fine);
+  for (const PartPtr& part : parts)
+    if (part->excess.upper > 1.2 * worst + space_.fine && part->queries < kConfirm)
+      measureAgain(*part, space_, {std::max(0.05 * worst, 0.5 * space_.fine), kInfinite, kConfirm});
 }
 
 // The best four ways: two by a score of excess and volume, and among the others two by volume alone, which
@@ -143,8 +159,14 @@ PartSearch::Parts PartSearch::joined(Parts parts, int most, double bound) {
         if (excess < best) best = excess, first = i, second = k;
       }
     }
-    if (parts.size() <= static_cast<std::size_t>(most) && best > bound) break;
-    parts[first] = join(parts[first], parts[second], worst);
+    const bool few = parts.size() <= static_cast<std::size_t>(most);
+    if (few && best > bound) break;
+    const PartPtr both = join(parts[first], parts[second], worst);
+    if (few && both->excess.upper > bound + space_.fine && both->queries < kConfirm) {
+      measureAgain(*both, space_, {0.5 * space_.fine, kInfinite, kConfirm});
+      continue;  // it may not be within the bound
+    }
+    parts[first] = both;
     parts.erase(parts.begin() + static_cast<std::ptrdiff_t>(second));
   }
   return line(std::move(parts)).parts;
@@ -175,14 +197,18 @@ std::vector<PartSearch::Line> PartSearch::cutOn(const std::vector<Line>& beam) {
   return next;
 }
 
-PartSearch::Parts PartSearch::improved(Parts parts, int most, double bound) {
-  while (!exhausted() && worstExcess(parts) > bound) {
+PartSearch::Parts PartSearch::improved(Parts parts, int most) {
+  confirm(parts);
+  while (!exhausted() && worstExcess(parts) > bound_) {
+    spent_ += kStep;
     Parts best = parts;
     std::vector<Line> beam{line(parts)};
     for (int more = 0; more < 2; ++more) {
       beam = cutOn(beam);
       for (const Line& tried : beam) {
-        Parts few = joined(tried.parts, most, 0.5 * bound);
+        Parts few = joined(tried.parts, most, 0.5 * bound_);
+        if (!isBetter(few, best)) continue;
+        confirm(few);
         if (isBetter(few, best)) best = std::move(few);
       }
     }
@@ -192,44 +218,53 @@ PartSearch::Parts PartSearch::improved(Parts parts, int most, double bound) {
   return parts;
 }
 
-PartSearch::Parts PartSearch::byBeam(const Parts& start, int most, double bound) {
-  Parts best = joined(start, most, 0);
+PartSearch::Parts PartSearch::improved(const Parts& parts, long work) {
+  work_ = spent_ + work;
+  return joined(improved(joined(parts), most_));
+}
+
+PartSearch::Parts PartSearch::byBeam(const Parts& start) {
+  const auto most = static_cast<std::size_t>(most_);
+  Parts best = joined(start, most_, 0);
   std::vector<Line> beam{line(start)};
-  while (!beam.empty() && worstExcess(best) > bound && beam.front().parts.size() < manyParts(most)) {
-    if (beam.front().parts.size() >= static_cast<std::size_t>(most))
-      beam.resize(1);  // on to what is joined again
+  while (!beam.empty() && worstExcess(best) > bound_ && beam.front().parts.size() < manyParts(most_)) {
+    if (beam.front().parts.size() >= most) beam.resize(1);  // on to what is joined again
     beam = cutOn(beam);
     for (const Line& tried : beam) {
-      const bool few = tried.parts.size() <= static_cast<std::size_t>(most);
+      const bool few = tried.parts.size() <= most;
       if (!few && exhausted()) continue;
-      Parts parts = few ? tried.parts : joined(tried.parts, most, 0.5 * bound);
+      Parts parts = few ? tried.parts : joined(tried.parts, most_, 0.5 * bound_);
       if (worstExcess(parts) < worstExcess(best)) best = std::move(parts);
     }
   }
   return best;
 }
 
-PartSearch::Parts PartSearch::byBestCuts(Parts parts, int most, double bound) {
-  while (!exhausted() && worstExcess(parts) > bound && parts.size() < manyParts(most)) {
+PartSearch::Parts PartSearch::byBestCuts(Parts parts) {
+  while (!exhausted() && worstExcess(parts) > bound_ && parts.size() < manyParts(most_)) {
     const std::size_t w = worstOf(parts);
     const std::vector<Split>& ways = splits(parts[w]);
     if (ways.empty()) break;
     parts[w] = ways.front().up;
     parts.push_back(ways.front().down);
   }
-  return joined(std::move(parts), most, 0.5 * bound);
+  return joined(std::move(parts), most_, 0.5 * bound_);
 }
 
-PartSearch::Parts PartSearch::fewParts(const Parts& start, int most, double bound) {
-  bound = std::max(bound, space_.fine);
-  Parts best = improved(byBeam(start, most, bound), most, bound);
+PartSearch::Parts PartSearch::byCuts(const Parts& start, long work) {
+  work_ = spent_ + work;
+  Parts best = improved(byBeam(start), most_);
   const auto another = [&](Parts from) {
-    Parts found = improved(std::move(from), most, bound);
+    Parts found = improved(std::move(from), most_);
     if (isBetter(found, best)) best = std::move(found);
   };
-  if (!exhausted() && worstExcess(best) > bound) another(byBestCuts(start, most, bound));
-  if (!exhausted() && worstExcess(best) > bound) another(joined(start, most, 0));
-  return joined(best, most, bound);
+  const auto goesOn = [&] { return !exhausted() && worstExcess(best) > bound_; };
+  if (goesOn()) another(byBestCuts(start));
+  if (goesOn()) {
+    const int half = most_ < 4 ? most_ : most_ / 2;
+    another(half == most_ ? joined(start, half, 0) : improved(joined(start, half, 0), half));
+  }
+  return joined(best);
 }
 
 }  // namespace fcl_stpbv::detail

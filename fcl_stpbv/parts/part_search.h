@@ -12,17 +12,26 @@ namespace fcl_stpbv::detail {
 
 /// Cuts the worst part again and again, in several lines of cuts at once, since those that lower the excess
 /// most are rarely those that look best at first; cuts into more parts than asked for and joins those whose
-/// common hull is least far from the mesh; then cuts and joins on while it helps, from several starts where
-/// one is not near enough. What was measured once is remembered.
+/// common hull is least far from the mesh; then cuts and joins on while it helps. What was measured once is
+/// remembered.
 class PartSearch {
  public:
   using Parts = std::vector<PartPtr>;
 
-  /// `work` is the number of hulls to spend.
-  PartSearch(const PartSpace& space, long work) : space_(space), work_(work) {}
+  /// For at most `most` parts, as few as found once they are within `bound` (m) of the mesh.
+  PartSearch(const PartSpace& space, int most, double bound);
 
-  /// From parts that cover all: at most `most`, as few of them as found once their excess is within `bound`.
-  Parts fewParts(const Parts& start, int most, double bound);
+  /// From parts that cover all, found by cutting them; `work` is the number of hulls to spend.
+  Parts byCuts(const Parts& start, long work);
+  /// The same parts, joined to few, then cut and joined on while that makes the worst of them better; `work`
+  /// is the number of hulls to spend.
+  Parts improved(const Parts& parts, long work);
+
+  /// Whether the search would end with these.
+  bool isEnough(const Parts& parts) const;
+  /// By the worst part by 1 % of it, then by the second worst and so on: where two parts are equally bad, a
+  /// step mends only one of them.
+  static bool isBetter(const Parts& a, const Parts& b);
 
  private:
   struct Split {
@@ -35,17 +44,21 @@ class PartSearch {
     double worst = 0, volume = 0;
   };
   Line line(Parts parts) const;
+  void confirm(const Parts& parts) const;
   const std::vector<Split>& splits(const PartPtr& part);
   std::vector<Line> cutOn(const std::vector<Line>& beam);
   PartPtr join(const PartPtr& a, const PartPtr& b, double worst);
   Parts joined(Parts parts, int most, double bound);
-  Parts byBeam(const Parts& start, int most, double bound);
-  Parts byBestCuts(Parts parts, int most, double bound);
-  Parts improved(Parts parts, int most, double bound);
+  Parts joined(const Parts& parts) { return joined(parts, most_, bound_); }
+  Parts byBeam(const Parts& start);
+  Parts byBestCuts(Parts parts);
+  Parts improved(Parts parts, int most);
   bool exhausted() const { return spent_ >= work_; }
 
   const PartSpace& space_;
-  long work_, spent_ = 0;
+  int most_;
+  double bound_;
+  long work_ = 0, spent_ = 0;
   std::map<const Part*, std::vector<Split>> splits_;
   std::map<std::pair<const Part*, const Part*>, PartPtr> joins_;
   Parts kept_;  // all that were looked at, so that no two ever share an address

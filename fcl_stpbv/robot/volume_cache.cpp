@@ -28,7 +28,7 @@ namespace fs = std::filesystem;
 
 // Changes when the builder gives other volumes, a fit other radii, or the search other parts, for the same
 // mesh.
-constexpr std::string_view kVersion = "fcl_stpbv volume cache 5\n";
+constexpr std::string_view kVersion = "fcl_stpbv volume cache 6\n";
 
 // Two streams of 64 bits, eight characters a step, each step mixed by a product and a shift. Guards against
 // accidents, not against somebody who may write into the user's own cache.

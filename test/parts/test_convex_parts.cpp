@@ -36,6 +36,39 @@ TriangleMesh spikyBall() {
   return mesh;
 }
 
+// A tall pyramid on each face of a tetrahedron: none of the mesh's triangles belongs to the tetrahedron.
+TriangleMesh caltrop(double size) {
+  TriangleMesh mesh;
+  mesh.vertices = {{size, size, size}, {size, -size, -size}, {-size, size, -size}, {-size, -size, size}};
+  for (int face = 0; face < 4; ++face) {
+    const int apex = 4 + face;
+    mesh.vertices.push_back(-4 * mesh.vertices[static_cast<std::size_t>(face)]);
+    for (int k = 1; k < 4; ++k)  // the edges of the face across from that vertex
+      mesh.triangles.push_back({(face + k) % 4, (face + 1 + k % 3) % 4, apex});
+  }
+  return mesh;
+}
+
+// Two discs and a bar between them, about z.
+TriangleMesh dumbbell(int around) {
+  const std::vector<std::pair<double, double>> profile{{0, 0},      {0.05, 0},   {0.05, 0.03}, {0.02, 0.03},
+                                                       {0.02, 0.1}, {0.05, 0.1}, {0.05, 0.13}, {0, 0.13}};
+  TriangleMesh mesh;
+  const int rings = static_cast<int>(profile.size());
+  for (int i = 0; i < around; ++i)
+    for (const auto& [radius, height] : profile) {
+      const double turn = 2 * M_PI * i / around;
+      mesh.vertices.push_back({radius * std::cos(turn), radius * std::sin(turn), height});
+    }
+  for (int i = 0; i < around; ++i)
+    for (int k = 0; k + 1 < rings; ++k) {
+      const int a = i * rings + k, b = (i + 1) % around * rings + k;
+      if (k > 0) mesh.triangles.push_back({a, b, a + 1});
+      if (k + 2 < rings) mesh.triangles.push_back({b, b + 1, a + 1});
+    }
+  return mesh;
+}
+
 std::vector<StpBv::Ptr> volumesOf(const ConvexParts& parts) {
   std::vector<StpBv::Ptr> volumes;
   for (const ConvexPart& part : parts.parts) volumes.push_back(StpBv::build(part.points, {1e-6, 10}));
@@ -107,6 +140,32 @@ TEST_CASE("an L is two boxes, and two separate boxes are two parts") {
   CHECK(boxes.parts.size() == 2);
   CHECK(boxes.excess < 2e-4);
   CHECK(convexParts(boxMesh({0, 0, 0}, {0.1, 0.2, 0.3}), quick(8)).parts.size() == 1);
+}
+
+TEST_CASE("an inside that no face of the mesh belongs to is covered too") {
+  const TriangleMesh mesh = caltrop(0.02);
+  const ConvexParts parts = convexParts(mesh, quick(8));
+  CHECK(parts.closedPieces == 1);
+  CHECK(parts.parts.size() > 3);
+  const std::vector<StpBv::Ptr> volumes = volumesOf(parts);
+  Random random(37);
+  int open = 0;
+  for (int i = 0; i < 1000; ++i) {  // of the tetrahedron
+    Eigen::Vector4d weights;
+    for (double& weight : weights) weight = random.uniform(0, 1);
+    weights /= weights.sum();
+    Eigen::Vector3d p = Eigen::Vector3d::Zero();
+    for (int k = 0; k < 4; ++k) p += weights[k] * mesh.vertices[static_cast<std::size_t>(k)];
+    open += !covered(volumes, p);
+  }
+  CHECK(open == 0);
+}
+
+TEST_CASE("a turned body is found in the cylinders that it is made of") {
+  const ConvexParts parts = convexParts(dumbbell(20), quick(8));
+  CHECK(parts.closedPieces == 1);
+  CHECK(parts.parts.size() == 3);
+  CHECK(parts.excess < 2e-4);  // what the bound is known to
 }
 
 TEST_CASE("more parts are closer, and an excess asked for takes no more parts than it needs") {

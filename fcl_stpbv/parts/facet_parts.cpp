@@ -1,0 +1,141 @@
+// Agglomerative joining, as in hierarchical approximate convex decomposition (HACD; Mamou and Ghorbel, ICIP
+// 2009), with the excess of the joined hull over the mesh as its cost:
+// 1. triangles of one plane that share edges are one facet, and each facet is a part;
+// 2. of all parts that share an edge, the two whose hull is nearest to the mesh are joined; among those that
+// are
+//    near enough, the two whose hull is smallest;
+// 3. until no join is near enough and few are left.
+#include "fcl_stpbv/parts/facet_parts.h"
+
+#include <algorithm>
+#include <iterator>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <set>
+#include <tuple>
+#include <utility>
+
+namespace fcl_stpbv::detail {
+namespace {
+
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+constexpr std::size_t kMostFacets = 1500;
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+// Triangles of one facet each, and which of them share an edge.
+struct Facets {
+  std::vector<TriangleSoup> soups;
+  std::set<std::pair<int, int>> neighbours;
+};
+
+int rootOf(std::vector<int>& parent, int i) {
+  while (parent[at(i)] != i) i = parent[at(i)] = parent[at(parent[at(i)])];
+  return i;
+}
+
+void append(Facets& out, const TriangleSoup& soup) {
+  std::map<std::pair<int, int>, std::vector<int>> atEdge;
+  for (std::size_t t = 0; t < soup.triangles.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const int a = soup.triangles[t][k], b = soup.triangles[t][(k + 1) % 3];
+      atEdge[std::minmax(a, b)].push_back(static_cast<int>(t));
+    }
+  std::vector<int> parent(soup.triangles.size());
+  std::iota(parent.begin(), parent.end(), 0);
+  for (const auto& [edge, triangles] : atEdge)
+    for (const int t : triangles)
+      if (soup.facet[at(t)] == soup.facet[at(triangles[0])])
+        parent[at(rootOf(parent, t))] = rootOf(parent, triangles[0]);
+  std::map<int, int> place;  // of a root
+  for (std::size_t t = 0; t < parent.size(); ++t) {
+    const auto [found, isNew] =
+        place.try_emplace(rootOf(parent, static_cast<int>(t)), static_cast<int>(out.soups.size()));
+    if (isNew) out.soups.emplace_back();
+    TriangleSoup& facet = out.soups[at(found->second)];
+    std::array<int, 3> triangle{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      triangle[k] = static_cast<int>(facet.points.size());
+      facet.points.push_back(soup.points[at(soup.triangles[t][k])]);
+    }
+    facet.triangles.push_back(triangle);
+    facet.facet.push_back(soup.facet[t]);
+  }
+  for (const auto& [edge, triangles] : atEdge)
+    for (const int t : triangles) {
+      const int a = place[rootOf(parent, t)], b = place[rootOf(parent, triangles[0])];
+      if (a != b) out.neighbours.insert(std::minmax(a, b));
+    }
+}
+
+// Two neighbours' common hull.
+struct Join {
+  double excess = 0;  // over the mesh; 0 within the bound
+  double size = 0;
+  PartPtr part;
+
+  Join() = default;
+  Join(const Part& a, const Part& b, const PartSpace& space, double bound)
+      : part(std::make_shared<Part>(joined(a, b, space, {space.fine, kInfinite, 300}))) {
+    size = part->hull.diagonal();
+    excess = part->excess.lower <= bound ? 0 : part->excess.lower;
+  }
+  bool isBefore(const Join& other) const {
+    return std::tie(excess, size) < std::tie(other.excess, other.size);
+  }
+  // Measures what may not be within the bound again, well. Whether that was called for.
+  bool confirm(const PartSpace& space, double bound) {
+    constexpr long kQueries = 10000;
+    if (excess > 0 || part->excess.upper <= bound + space.fine || part->queries == kQueries) return false;
+    measureAgain(*part, space, {space.fine, bound, kQueries});
+    excess = part->excess.lower <= bound ? 0 : part->excess.lower;
+    return true;
+  }
+};
+
+}  // namespace
+
+PartSearch::Parts facetParts(const std::vector<TriangleSoup>& groups, const PartSpace& space, int most,
+                             double bound) {
+  const std::size_t many = std::max<std::size_t>(16, static_cast<std::size_t>(most));
+  bound = std::max(bound, space.fine);
+  Facets facets;
+  for (std::size_t g = 0; g < groups.size(); ++g) append(facets, groups[g]);
+  if (facets.soups.size() > kMostFacets) return {};
+  PartSearch::Parts parts;
+  for (TriangleSoup& soup : facets.soups) {
+    auto leaf = std::make_shared<BspLeaf>();
+    leaf->soup = std::move(soup);
+    leaf->isFacet = true;
+    parts.push_back(std::make_shared<Part>(makePart({leaf}, space, {space.fine})));
+  }
+  std::map<std::pair<int, int>, Join> joins;
+  const auto add = [&](int a, int b) {
+    joins[std::minmax(a, b)] = Join(*parts[at(a)], *parts[at(b)], space, bound);
+  };
+  for (const auto& [a, b] : facets.neighbours) add(a, b);
+  for (std::size_t left = parts.size(); left > 1 && !joins.empty();) {
+    const auto best = std::min_element(
+        joins.begin(), joins.end(), [](const auto& x, const auto& y) { return x.second.isBefore(y.second); });
+    if (left <= many && best->second.excess > 0) break;
+    if (best->second.confirm(space, bound)) continue;  // it may no longer be the best
+    const auto [a, b] = best->first;
+    parts[at(a)] = best->second.part;
+    parts[at(b)] = nullptr;
+    --left;
+    std::set<int> around;
+    for (auto j = joins.begin(); j != joins.end();) {
+      const auto [i, k] = j->first;
+      const bool isOld = i == a || i == b || k == a || k == b;
+      if (isOld) around.insert({i, k});
+      j = isOld ? joins.erase(j) : std::next(j);
+    }
+    for (const int other : around)
+      if (other != a && other != b) add(a, other);
+  }
+  parts.erase(std::remove(parts.begin(), parts.end(), nullptr), parts.end());
+  return parts;
+}
+
+}  // namespace fcl_stpbv::detail
