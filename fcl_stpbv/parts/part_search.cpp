@@ -33,9 +33,9 @@ std::size_t worstOf(const PartSearch::Parts& parts) {
 
 double worstExcess(const PartSearch::Parts& parts) { return excessOf(parts[worstOf(parts)]); }
 
-// Parts to cut into before they are joined to at most `most`.
+// Parts to cut into before they are joined to at most `most`. For two, many are not worth their time.
 std::size_t manyParts(int most) {
-  return static_cast<std::size_t>(std::max({most, 16, std::min(2 * most, 24)}));
+  return static_cast<std::size_t>(std::max({most, most < 4 ? 2 * most : 16, std::min(2 * most, 24)}));
 }
 
 }  // namespace

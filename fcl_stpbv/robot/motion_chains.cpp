@@ -1,0 +1,193 @@
+// Bodies along a straight line between two configurations.
+// 1. Once for a robot: the joints from the link where a pair's chains meet out to each of its bodies.
+// 2. Once for a motion: the joints' speeds and the lengths behind them, and from these a bound on the
+// acceleration
+//    of every point of a body: each joint's own centripetal one, and Coriolis' from the joints further in.
+// 3. At a time: poses and velocities of all links from the kinematics.
+#include "fcl_stpbv/robot/motion_chains.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "fcl_stpbv/robot/joint_path.h"
+
+namespace fcl_stpbv::detail {
+namespace {
+
+using Eigen::Index;
+using Eigen::Vector3d;
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+}  // namespace
+
+MotionChains::MotionChains(const Kinematics& kinematics, const RobotGeometry& geometry,
+                           const std::vector<Obstacle>& obstacles, const std::vector<CheckedPair>& pairs)
+    : kinematics_(kinematics), state_(kinematics.makeState()) {
+  const RobotModel& robot = kinematics_.robot();
+  parent_.assign(robot.links.size(), -1);
+  own_.resize(robot.links.size());
+  twist_.resize(robot.links.size());
+  hop_.resize(robot.joints.size() + 1);
+  motionOf_.assign(hop_.size(), -1);
+  for (std::size_t l = 0; l < robot.links.size(); ++l)
+    if (robot.links[l].parentJoint >= 0) parent_[l] = robot.joints[at(robot.links[l].parentJoint)].parent;
+  const auto& motions = kinematics_.motions();
+  for (std::size_t m = 0; m < motions.size(); ++m) {
+    const int joint = motions[m].joint;
+    own_[joint < 0 ? 0 : at(robot.joints[at(joint)].child)].push_back(static_cast<int>(m));
+    int& first = motionOf_[joint < 0 ? robot.joints.size() : at(joint)];
+    if (first < 0) first = static_cast<int>(m);
+  }
+  addBodies(geometry, obstacles);
+  for (const CheckedPair& pair : pairs) {
+    requireBodies(pair, geometry, obstacles.size(), "MotionCheck");
+    addPair(pair, static_cast<int>(geometry.bodies.size()));
+  }
+}
+
+void MotionChains::addBodies(const RobotGeometry& geometry, const std::vector<Obstacle>& obstacles) {
+  const auto add = [&](int link, const fcl::CollisionGeometryd& shape, const Eigen::Isometry3d& pose,
+                       const Vector3d& centre, double radius) {
+    Placed placed{link, &shape, pose, centre, radius, false, {}};
+    placed.convex = isConvex(shape, placed.body);
+    placed.body.pose = pose;
+    placed.where = centre;
+    bodies_.push_back(placed);
+  };
+  for (const Body& body : geometry.bodies)
+    add(body.link, *body.geometry, body.pose, body.centre, body.radius);
+  for (const Obstacle& obstacle : obstacles)
+    add(-1, *obstacle.geometry, obstacle.pose, obstacle.centre, obstacle.radius);
+}
+
+void MotionChains::addPair(const CheckedPair& pair, int bodies) {
+  const int second = pair.other + (pair.obstacle ? bodies : 0);
+  Pair added{};
+  added.root = -1;
+  if (!pair.obstacle) {
+    const int link1 = bodies_[at(pair.body)].link, link2 = bodies_[at(second)].link;
+    const JointPath path = jointPath(kinematics_.robot(), link1, link2);
+    added.root = path.up > 0 ? kinematics_.robot().joints[at(path.joints[path.up - 1])].parent : link1;
+  }
+  added.side[0] = sideOf(pair.body, added.root);
+  added.side[1] = sideOf(second, added.root);
+  pairs_.push_back(added);
+}
+
+// The joints from `root` out to the body's link; the base is one more where the root is the world.
+MotionChains::Side MotionChains::sideOf(int body, int root) {
+  Side side{body, static_cast<int>(hops_.size()), 0};
+  for (int link = bodies_[at(body)].link; link >= 0 && link != root; link = parent_[at(link)]) {
+    const int joint = kinematics_.robot().links[at(link)].parentJoint;
+    hops_.push_back(joint >= 0 ? joint : static_cast<int>(hop_.size()) - 1);
+  }
+  std::reverse(hops_.begin() + side.firstHop, hops_.end());
+  side.lastHop = static_cast<int>(hops_.size());
+  return side;
+}
+
+bool MotionChains::set(const ConstVector& q0, const ConstVector& q1) {
+  if (q0.size() != kinematics_.size() || q1.size() != q0.size() || !q0.allFinite() || !q1.allFinite())
+    return false;
+  q0_ = q0;
+  way_ = q1 - q0;
+  return true;
+}
+
+// Speeds and lengths of all joints for the motion, then the bounds of all pairs.
+bool MotionChains::begin(const ConstVector& q0, const ConstVector& q1) {
+  if (!set(q0, q1)) return false;
+  const RobotModel& robot = kinematics_.robot();
+  for (std::size_t j = 0; j < hop_.size(); ++j) {
+    const bool base = j == robot.joints.size();
+    Hop& hop = hop_[j] = {};
+    hop.length = base ? 0 : robot.joints[j].origin.translation().norm();
+    if (motionOf_[j] < 0) continue;
+    const Kinematics::Motion& motion = kinematics_.motions()[at(motionOf_[j])];
+    const Index k = motion.coordinate;
+    std::size_t freedoms = 0;
+    for (const Kinematics::Motion& other : kinematics_.motions()) freedoms += other.joint == motion.joint;
+    const auto farthest = [&](Index count) {
+      return std::max(q0.segment(k, count).norm(), q1.segment(k, count).norm());
+    };
+    if (freedoms == 1) {
+      const bool slides = robot.joints[j].type == JointType::prismatic;
+      (slides ? hop.slide : hop.spin) = std::abs(motion.multiplier * way_[k]);
+      const std::optional<Mimic>& mimic = robot.joints[j].mimic;
+      if (slides)
+        hop.length += std::abs(motion.multiplier) * farthest(1) + (mimic ? std::abs(mimic->offset) : 0);
+    } else {
+      const Index across = freedoms == 3 ? 2 : 3;
+      hop.slide = way_.segment(k, across).norm();
+      hop.spin = way_.segment(k + across, static_cast<Index>(freedoms) - across).norm();
+      // A rotation vector that moves evenly turns the body unevenly: |dw/dt| <= |dr/dt|^2 / 2
+      // (docs/motion.md).
+      if (freedoms == 6) hop.turns = 1.5;
+      hop.length += farthest(across);
+    }
+  }
+  for (Pair& pair : pairs_)
+    for (Side& side : pair.side) prepare(side);
+  return true;
+}
+
+// From the outermost joint in: its own centripetal acceleration, and that of the joints further in, which
+// carry what it moves around (Coriolis).
+void MotionChains::prepare(Side& side) const {
+  const Placed& body = bodies_[at(side.body)];
+  side.acceleration = 0;
+  if (body.link < 0) return;
+  double inner = 0;
+  for (int h = side.firstHop; h < side.lastHop; ++h) inner += hop_[at(hops_[at(h)])].spin;
+  double lever = body.centre.norm() + body.radius;
+  for (int h = side.lastHop; h-- > side.firstHop;) {
+    const Hop& hop = hop_[at(hops_[at(h)])];
+    inner = std::max(0.0, inner - hop.spin);
+    side.acceleration += hop.turns * hop.spin * hop.spin * lever + 2 * (hop.slide + hop.spin * lever) * inner;
+    lever += hop.length;
+  }
+}
+
+void MotionChains::place(double t) {
+  q_ = q0_ + t * way_;
+  kinematics_.forward(q_, state_);
+  for (std::size_t l = 0; l < twist_.size(); ++l) {
+    twist_[l] = parent_[l] >= 0 ? twist_[at(parent_[l])] : Twist{};
+    for (const int m : own_[l]) {
+      const double speed = way_[kinematics_.motions()[at(m)].coordinate];
+      twist_[l].linear += speed * state_.motion[at(m)].linear;
+      twist_[l].angular += speed * state_.motion[at(m)].angular;
+    }
+  }
+  double length = 0, spin = 0;
+  for (Placed& body : bodies_) {
+    if (body.link >= 0) {
+      const Eigen::Isometry3d& link = state_.link[at(body.link)];
+      body.body.pose = link * body.local;
+      body.where = link * body.centre;
+      spin = std::max(spin, twist_[at(body.link)].angular.norm());
+    }
+    length = std::max(length, body.where.lpNorm<1>() + body.radius);
+  }
+  // Each of the products and sums from the root out to a bound is off by a few units in the last place of the
+  // longest length.
+  const double steps = static_cast<double>(hop_.size() + 16);
+  slack_ = 16 * std::numeric_limits<double>::epsilon() * steps * length * (1 + spin);
+}
+
+BodyVelocity MotionChains::velocityOf(const Pair& pair, int side, const Vector3d& about) const {
+  const Side& of = pair.side[side];
+  const int link = body(of).link;
+  if (link < 0) return {};
+  Twist twist = twist_[at(link)];
+  if (pair.root >= 0) {
+    twist.linear -= twist_[at(pair.root)].linear;
+    twist.angular -= twist_[at(pair.root)].angular;
+  }
+  return {twist.linear + twist.angular.cross(about), twist.angular, of.acceleration};
+}
+
+}  // namespace fcl_stpbv::detail
