@@ -212,9 +212,11 @@ PartSearch::Parts uncut(const std::vector<TriangleSoup>& soups, const PartSpace&
 // 3. Where the inside needs corners that raise the excess: by cuts again, with corners from the start.
 ConvexParts searched(const PartSpace& space, const std::vector<TriangleSoup>& soups,
                      const PartsOptions& options) {
-  // Beyond kSearched triangles the search sees a coarser mesh, of which it need not get the last bit.
-  const double share = std::clamp(
-      static_cast<double>(kSearched) / static_cast<double>(space.mesh.triangles().size()), 0.3, 1.0);
+  // Beyond kSearched triangles the search sees a coarser mesh, of which it need not get the last bit. And few
+  // parts are found sooner.
+  const double triangles = static_cast<double>(space.mesh.triangles().size());
+  const double share =
+      std::clamp(static_cast<double>(kSearched) / triangles, 0.3, 1.0) * std::min(1.0, options.most / 8.0);
   const long work = static_cast<long>(kHulls * options.effort * share);
   PartSearch search(space, options.most, options.excess);
   const PartSearch::Parts facets = facetParts(soups, space, options.most, options.excess);

@@ -20,7 +20,7 @@ namespace fcl_stpbv::detail {
 namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
-constexpr std::size_t kMostFacets = 1500;
+constexpr std::size_t kMostFacets = 700;  // a round mesh, of small facets, is not made of few convex bodies
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
