@@ -1,8 +1,10 @@
 """Runs the jobs of a batch: one after the other here, or on a Dask cluster. What comes out is the same."""
+import asyncio
 import collections
 import concurrent.futures
 import contextlib
 import json
+import logging
 import os
 import pickle
 import sys
@@ -90,6 +92,9 @@ def connected(scheduler, workers):
         raise fcl_stpbv.Error("more than one process needs Dask: install Debian's python3-distributed, or give --jobs 1, "
                               "or share out with --shard") from None
     quiet = {"distributed.worker.daemon": False, "distributed.logging.distributed": "critical", "distributed.admin.tick.limit": "1h"}
+    logging.disable(logging.CRITICAL)  # a connection that breaks ends in one message, ours, and not in Dask's tracebacks
+    # A call that is under way when the scheduler goes ends in either kind of cancellation: the second is no Exception.
+    gone = (distributed.comm.CommClosedError, concurrent.futures.CancelledError, asyncio.CancelledError)
     with dask.config.set(quiet), contextlib.ExitStack() as stack:
         try:
             if not scheduler:
@@ -101,7 +106,7 @@ def connected(scheduler, workers):
                                   "start one with dask-scheduler") from None
         try:
             yield client
-        except (distributed.comm.CommClosedError, concurrent.futures.CancelledError):  # asked while it went
+        except gone:
             raise Stopped("the Dask scheduler is gone") from None
 
 
