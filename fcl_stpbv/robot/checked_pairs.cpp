@@ -105,7 +105,8 @@ std::vector<CheckedPair> bodiesOf(const RobotGeometry& geometry, const LinkPair&
 void requirePairs(std::size_t checked, const RobotModel& robot, const std::string& why) {
   if (checked > 0) return;
   throw Error(
-      robot.path + ": no pair of bodies is checked (" + why +
+      robot.path + ": no pair of bodies is checked (" +
+      (why.empty() ? "fewer than two links have a body" : why) +
       "), so that nothing can be said about collisions; give an SRDF that leaves pairs to be checked, or "
       "obstacles");
 }

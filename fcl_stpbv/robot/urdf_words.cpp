@@ -14,19 +14,18 @@ namespace {
 using tinyxml2::XMLElement;
 using Words = std::vector<std::string_view>;
 
-/// An element that counts, and all of its attributes.
+/// An element that counts, its attributes, and those that several tools write and none here uses.
 struct Known {
   std::string_view element;
-  Words attributes;
+  Words attributes, unused{};
 };
 
-// Speed and acceleration limits are written by several tools and used by none here.
 const std::vector<Known> kInJoint = {
     {"origin", {"xyz", "rpy"}},
     {"parent", {"link"}},
     {"child", {"link"}},
     {"axis", {"xyz"}},
-    {"limit", {"lower", "upper", "effort", "velocity", "acceleration", "deceleration", "jerk"}},
+    {"limit", {"lower", "upper", "effort", "velocity"}, {"acceleration", "deceleration", "jerk"}},
     {"mimic", {"joint", "multiplier", "offset"}}};
 const std::vector<Known> kInShape = {{"origin", {"xyz", "rpy"}}, {"geometry", {"name"}}};
 const std::vector<Known> kInGeometry = {{"box", {"size"}},
@@ -39,6 +38,9 @@ bool holds(const Words& words, std::string_view word) {
   return std::find(words.begin(), words.end(), word) != words.end();
 }
 
+// Self filters have shapes of their own, to take a robot out of its sensors' point clouds.
+bool ofSelfFilter(std::string_view name) { return name == "self_filter"; }
+
 bool ofOtherTools(std::string_view name) { return name.find(':') != std::string_view::npos; }
 
 std::string listed(const Words& words) {
@@ -47,9 +49,15 @@ std::string listed(const Words& words) {
   return text.empty() ? "none" : text;
 }
 
+// Other tools add attributes of their own. One is let pass only where none that counts is missing, so that it
+// cannot be one of those, misspelt.
 void checkAttributes(const XMLElement& element, const Known& known) {
+  const bool complete =
+      std::all_of(known.attributes.begin(), known.attributes.end(),
+                  [&](std::string_view name) { return element.Attribute(std::string(name).c_str()); });
+  if (complete) return;
   for (const tinyxml2::XMLAttribute* a = element.FirstAttribute(); a; a = a->Next()) {
-    if (!holds(known.attributes, a->Name()) && !ofOtherTools(a->Name()))
+    if (!holds(known.attributes, a->Name()) && !holds(known.unused, a->Name()) && !ofOtherTools(a->Name()))
       throw Error("<" + std::string(known.element) + "> has an attribute '" + a->Name() +
                   "' that URDF does not know there; it knows " + listed(known.attributes));
   }
@@ -116,10 +124,15 @@ int checkPlaces(const XMLElement& robot, const std::string& path, LoadFaults& fa
                        at.Parent()->Parent() == &robot;
     for (const XMLElement* e = at.FirstChildElement(); e; e = e->NextSiblingElement()) {
       const std::string_view name = e->Name();
-      if (name == "gazebo") continue;
-      if ((name == "collision" && !link) || (name == "geometry" && !shape))
-        faults.errors.push_back(xmlPlace(*e, path) + "<" + std::string(name) + "> within <" + at.Name() +
-                                ">, where no robot has one; is <" + at.Name() + "> misspelt?");
+      if (name == "gazebo" || ofSelfFilter(name) || ofOtherTools(name)) continue;
+      if ((name == "collision" && !link) || (name == "geometry" && !shape)) {
+        const bool inLink = name == "geometry" && named(at.Parent(), "link");  // costs no more than a shape
+        (inLink ? faults.shapes : faults.errors)
+            .push_back(xmlPlace(*e, path) + "<" + std::string(name) + "> within <" + at.Name() +
+                       ">, where no robot has one; is <" + at.Name() +
+                       "> misspelt? Where it is another tool's, put a prefix before its name, as in <tool:" +
+                       at.Name() + ">");
+      }
       collisions += name == "collision" && link;
       open.push_back(e);
     }

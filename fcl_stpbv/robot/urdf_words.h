@@ -10,7 +10,8 @@
 namespace fcl_stpbv::detail {
 
 /// Checks a `<collision>` or `<visual>`: one geometry of one shape, at most one origin, and no attribute or
-/// element that looks like a misspelt one. Names with a prefix (`drake:...`) are other tools' own.
+/// element that may be a misspelt one. Names with a prefix (`drake:...`) are other tools' own, and so is an
+/// attribute of an element that has all of URDF's.
 /// @throws Error saying what is wrong, without the element's place.
 void checkShapeWords(const tinyxml2::XMLElement& shape);
 
@@ -18,7 +19,8 @@ void checkShapeWords(const tinyxml2::XMLElement& shape);
 void checkJointWords(const tinyxml2::XMLElement& joint);
 
 /// Finds `<collision>` and `<geometry>` where no robot has them, outside `<gazebo>`, whose content is the
-/// simulator's. Each is an entry of `faults.errors`.
+/// simulator's, and `<self_filter>`. A geometry in an unknown element of a link is an entry of
+/// `faults.shapes`, all else of `faults.errors`.
 /// @returns the number of `<collision>` elements of links.
 int checkPlaces(const tinyxml2::XMLElement& robot, const std::string& path, LoadFaults& faults);
 

@@ -74,6 +74,35 @@ TEST_CASE("words that look misspelt are refused, those of other tools are not") 
         1);
   CHECK(parseUrdf(robot(link("a") + "<gazebo><collision><geometry/></collision></gazebo>"), "g.urdf")
             .links.size() == 1);
+  CHECK(shapesIn(kBox + "<self_filter>" + box + "</self_filter><x:filter>" + box + "</x:filter>") == 1);
+}
+
+TEST_CASE("another tool's attribute is let pass where none of URDF's is missing") {
+  const auto jointWith = [](const std::string& limit) {
+    return robot(link("a") + link("b") +
+                 "<joint name=\"j\" type=\"revolute\"><parent link=\"a\"/><child link=\"b\"/><limit " +
+                 limit + "/></joint>");
+  };
+  const RobotModel model =
+      parseUrdf(jointWith("lower=\"-1\" upper=\"2\" effort=\"3\" velocity=\"4\" current=\"5\""), "a.urdf");
+  CHECK(model.joints[0].lower == -1);
+  CHECK(model.joints[0].upper == 2);
+  CHECK_THAT(refused(jointWith("lowr=\"-1\" upper=\"2\" effort=\"3\" velocity=\"4\"")), Contains("'lowr'"));
+  CHECK_THAT(refused(jointWith("upper=\"2\" effort=\"3\" velocity=\"4\" current=\"5\"")),
+             Contains("'current'"));
+  CHECK(shapesIn("<collision><geometry><box size=\"1 1 1\" colour=\"red\"/></geometry></collision>") == 1);
+  CHECK_THAT(refused(robot(link("a", "<mesh filename=\"m\" convex=\"yes\"/>"))), Contains("'convex'"));
+}
+
+TEST_CASE("a geometry in an element of unknown name costs a shape, which may be left out") {
+  const std::string text = robot(
+      "<link name=\"a\"><colision><geometry><box size=\"1 1 1\"/></geometry></colision>" + kBox + "</link>");
+  LoadFaults faults;
+  const RobotModel model = parseUrdf(text, "small.urdf", faults);
+  CHECK(faults.errors.empty());
+  REQUIRE(faults.shapes.size() == 1);
+  CHECK_THAT(faults.shapes[0], Contains("<colision>") && Contains("misspelt"));
+  CHECK(model.links[0].collision.size() == 1);
 }
 
 TEST_CASE("xacro is told by its elements and attributes, not by comments, texts or a bare declaration") {

@@ -276,6 +276,8 @@ class Report(unittest.TestCase):
             self.assertIn("no pair of bodies is checked (1 adjacent)", done.stderr)
             self.assertIn(urdf, done.stderr)
             self.assertFalse(os.path.exists(output))
+        alone = self.robot(link("a", ball) + link("b") + joint("j", "a", "b"))
+        self.assertIn("no pair of bodies is checked (fewer than two links have a body)", self.run_tool(alone).stderr)
         everything = self.put("all.srdf", '<robot name="small"><disable_collisions link1="a" link2="b" reason="User"/></robot>')
         self.assertEqual(self.run_tool(urdf, "--srdf", everything).returncode, 2)
 
