@@ -1,5 +1,6 @@
 // An allowed acceleration gives the least r and the largest R, and these the smallest volume that keeps it.
 // Its over-cover falls as the acceleration grows, so the least acceleration for a clearance is a bisection.
+// What is left of the clearance, or what a fifth more of that least acceleration saves, makes R smaller.
 #include "fcl_stpbv/volume/radii_advice.h"
 
 #include <cmath>
@@ -68,36 +69,41 @@ class Adviser {
     asked.leastClearance = asked.overCover + reserve_;
     asked.meetsBoth = asked.leastClearance <= task_.clearance;
     if (asked.meetsBoth) return rounder(asked);
-    double low = task_.acceleration, high = low * kStep;
-    RadiiAdvice best = with(high);
-    for (; !keeps(best); best = with(high)) {
-      if (high > kMost) refuse();
-      low = high;
-      high *= kStep;
-    }
-    for (int round = 0; round < kRounds; ++round) {
-      const double middle = std::sqrt(low * high);
-      const RadiiAdvice tried = with(middle);
-      (keeps(tried) ? high : low) = middle;
-      if (keeps(tried)) best = tried;
-    }
+    RadiiAdvice best = rounder(with(kSpare * leastKept()));
     best.leastClearance = asked.leastClearance;
     return best;
   }
 
  private:
+  /// What may be above the least acceleration. The last bit of clearance lowers it by little, but R by a lot:
+  /// with all of it in r, R is tens of metres, and a controller's joints follow every tilt.
+  static constexpr double kSpare = 1.2;
   // The first step that keeps the clearance is found, then the place between it and the last to a thousandth.
   static constexpr double kStep = 2;
   static constexpr int kRounds = 10;
   static constexpr double kWithin = 1e-3;
 
+  /// The least acceleration of all radii that keep the clearance, where the task's own is below that.
+  double leastKept() const {
+    double low = task_.acceleration, high = low * kStep;
+    for (; !keeps(with(high)); high *= kStep) {
+      if (high > kMost) refuse();
+      low = high;
+    }
+    for (int round = 0; round < kRounds; ++round) {
+      const double middle = std::sqrt(low * high);
+      (keeps(with(middle)) ? high : low) = middle;
+    }
+    return high;
+  }
+
   bool keeps(const RadiiAdvice& advice) const { return advice.overCover + reserve_ <= task_.clearance; }
 
   /// Spends what is left of the clearance on a smaller R: the witness points then slide less.
-  RadiiAdvice rounder(const RadiiAdvice& asked) const {
+  RadiiAdvice rounder(RadiiAdvice best) const {
+    const RadiiAdvice asked = best;
     const double r = asked.radii.r;
     double low = StpBv::smallestR(points_, 0) + r, high = asked.radii.R;
-    RadiiAdvice best = asked;
     low = std::max(low, 1e-9 * high);  // of a single point
     while (high > (1 + kWithin) * low) {
       const double middle = std::sqrt(low * high);
@@ -106,7 +112,7 @@ class Adviser {
       (good ? high : low) = middle;
       if (good) best = tried;
     }
-    best.meetsBoth = true;
+    best.meetsBoth = asked.meetsBoth;
     best.leastClearance = asked.leastClearance;
     return best;
   }

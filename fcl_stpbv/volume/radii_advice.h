@@ -24,8 +24,9 @@ struct RadiiTask {
 /// The radii and what they reach.
 struct RadiiAdvice {
   StpBvOptions radii;  ///< r and R (m)
-  /// Whether they keep both promises: then r is the least that does, and R the smallest that the clearance
-  /// takes. If not they have the least acceleration of all that keep the clearance.
+  /// Whether they keep both promises. Then r is the least that does. If not, r is the least for an
+  /// acceleration a fifth above the least of all radii that keep the clearance. In both cases R is the
+  /// smallest that the clearance takes.
   bool meetsBoth;
   double acceleration;    ///< most that the shapes add to d'' (m/s^2), whatever the other body is
   double overCover;       ///< of the volume of these radii (m)
