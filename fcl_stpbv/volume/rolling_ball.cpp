@@ -14,6 +14,7 @@
 
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/volume/ball_faces.h"
+#include "fcl_stpbv/volume/ball_quickhull.h"
 #include "fcl_stpbv/volume/ball_side.h"
 #include "fcl_stpbv/volume/first_face.h"
 #include "fcl_stpbv/volume/join_faces.h"
@@ -153,6 +154,14 @@ RolledHull rollBall(const std::vector<Vector3d>& points, double radius) {
     return hull;
   }
   return hullOf(points, std::move(roller.faces), std::move(roller.loneVertices), radius);
+}
+
+RolledHull quickBallHull(const std::vector<Vector3d>& points, double radius) {
+  QuickFaces quick = quickhull(points, radius);
+  if (quick.faces.empty()) return {};
+  if (quick.mayJoin) return hullOf(points, std::move(quick.faces), {}, radius);
+  std::vector<int> vertices = verticesOf(points.size(), quick.faces);
+  return {std::move(vertices), std::move(quick.faces)};
 }
 
 RolledHull hullByDefinition(const std::vector<Vector3d>& points, double radius) {

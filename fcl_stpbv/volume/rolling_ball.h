@@ -28,6 +28,10 @@ RolledHull rollBall(const std::vector<Eigen::Vector3d>& points,
 /// have no face.
 RolledHull hullByDefinition(const std::vector<Eigen::Vector3d>& points, double radius);
 
+/// The same hull by quickhull (ball_quickhull.h), much faster; without faces where that does not suit the
+/// cloud. The caller has to check what comes back (surface_check.h).
+RolledHull quickBallHull(const std::vector<Eigen::Vector3d>& points, double radius);
+
 /// Radius of a ball that bulges over the cloud by less than its coordinates' rounding: what rollBall() rolls
 /// in place of a plane. Unlike a plane it has no point on a side of one of its triangles but the two ends, so
 /// no vertex of the convex hull lies inside a side or a flat face.
