@@ -143,7 +143,16 @@ RolledHull hullOf(const std::vector<Vector3d>& points, std::vector<Ring> faces, 
 }  // namespace
 
 RolledHull rollBall(const std::vector<Vector3d>& points, double radius) {
-  if (std::isinf(radius)) radius = flatRadius(points);
+  if (std::isinf(radius)) {
+    radius = flatRadius(points);
+    // So large a ball leaves no point on its way from one face to the next that both of them hold: what
+    // quickhull finds is the hull without a further check.
+    try {
+      RolledHull quick = quickBallHull(points, radius);
+      if (!quick.faces.empty()) return quick;
+    } catch (const Error&) {  // its faces do not close
+    }
+  }
   Roller roller(points, radius);
   try {
     roller.roll();

@@ -18,7 +18,8 @@ struct RolledHull {
 /// together than rounding count as one. A flat cloud gives two faces back to back; two points, or collinear
 /// ones, no face.
 ///
-/// Works on any cloud that is not empty, finite, and has a minimum enclosing ball smaller than `radius`.
+/// Works on any cloud that is not empty, finite, and has a minimum enclosing ball smaller than `radius`. The
+/// convex hull comes from quickhull (ball_quickhull.h) where that suits the cloud.
 /// @throws Error where rounding defeats it.
 RolledHull rollBall(const std::vector<Eigen::Vector3d>& points,
                     double radius = std::numeric_limits<double>::infinity());

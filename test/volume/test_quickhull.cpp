@@ -89,6 +89,35 @@ TEST_CASE("Quickhull finds the faces that the ball rolls onto") {
   }
 }
 
+TEST_CASE("The convex hull of a finely divided box has no vertex inside its flat faces but by rounding") {
+  // Every point is doubled and most lie in a flat face: turned, they are off it by their rounding.
+  constexpr int kSide = 30;
+  Cloud points;
+  for (int i = 0; i <= kSide; ++i)
+    for (int j = 0; j <= kSide; ++j)
+      for (const double z : {-0.125, 0.125}) {
+        const double x = -0.125 + 0.25 * i / kSide, y = -0.125 + 0.25 * j / kSide;
+        for (const Vector3d& p : {Vector3d(x, y, z), Vector3d(y, z, x), Vector3d(z, x, y)})
+          points.push_back(p);
+      }
+  const RolledHull straight = rollBall(points);
+  CHECK(straight.vertices.size() == 8);
+  CHECK(straight.faces.size() == 6);
+  const Eigen::Matrix3d turn = Random(3).rotation();
+  for (Vector3d& p : points) p = turn * p;
+  const RolledHull turned = rollBall(points);
+  CHECK(turned.vertices.size() < 200);
+  for (const std::vector<int>& ring : turned.faces) {
+    const auto t = wideTriangle(points, ring);
+    const Vector3d& a = points[static_cast<std::size_t>(t[0])];
+    const Vector3d n =
+        (points[static_cast<std::size_t>(t[1])] - a).cross(points[static_cast<std::size_t>(t[2])] - a);
+    // A face as thin as rounding tells no plane.
+    if (n.norm() < 1e-6) continue;
+    for (const Vector3d& p : points) CHECK(n.normalized().dot(p - a) <= 1e-15);
+  }
+}
+
 TEST_CASE("A point that sticks out over the middle of an edge alone is a vertex") {
   // The ball that rolls over the edge of a ridge leaves the point on its way, although neither of the faces'
   // balls does: it is lower than the arc in which they meet, higher than the torus between them.
