@@ -5,14 +5,15 @@
 //   (b) neighbours lie on different sides of their boundary, and the angles around a corner add up to 2 pi;
 //   (c) vertices - edges + faces be 2.
 // By (a) a region is mapped one to one to the sphere of normals: a loop that turns left everywhere winds
-// round its inside once, or its turns would add up to 2 pi more. With (b) the map is one to one near every
-// normal, so the glued surface covers the sphere evenly, and by (c) once. The patches then are the surface of
-// a convex body with normals all around, whose radii of curvature are at most R. By Blaschke's theorem any
-// ball of radius R that touches it from around holds it: it is the ball hull of its vertices. (b) follows
-// from the faces' corners: there a face's angle and a vertex's make pi, an edge's two make the rest, as long
-// as the face turns left. An edge between two faces is on both of their balls, if these touch its vertices,
-// and between their normals, if it turns forward. A concave edge would turn by nearly 2 pi: wide turns are
-// measured.
+// round its inside once, or its turns would add up to 2 pi more and the area come out negative, unless it
+// bounded a quarter of the sphere twice over. With (b) the map is one to one near every normal, so the glued
+// surface covers the sphere evenly, and by (c) once. The patches then are the surface of a convex body with
+// normals all around, whose radii of curvature are at most R. By Blaschke's theorem any ball of radius R that
+// touches it from around holds it: it is the ball hull of its vertices.
+//
+// For (b): where a face turns left at a corner, its angle and the vertex's there make pi, and the two of the
+// edges make the rest. An edge is on both of its faces' balls, if these touch its ends, and between their
+// normals, if it turns forward. A concave edge would turn by nearly 2 pi: wide turns are measured.
 #include "fcl_stpbv/volume/surface_check.h"
 
 #include <Eigen/Geometry>
