@@ -1,16 +1,7 @@
-// The gap between two bodies over a box of joint values, by interval bounds on products of exponentials
-// (docs/proofs.md).
-// 1. With the plane's link at rest, a point x of a body goes to E_1 E_2 ... E_m x, E_i the motion about
-//    joint i's axis in the middle of the box, the outermost one m applied first: all axes and the normal n
-//    stay those of the middle.
-// 2. One turn by t moves a point y, r = y - origin, along n by sin(t) (n x a).r - (1 - cos(t)) (n.r -
-//    (n.a)(a.r)) (Rodrigues). push() bounds this over the box, to second order in the sines exactly, plus
-//    what is left of higher order.
-// 3. support(): the largest height plus push of all points of a body. Points that cannot reach it are
-//    skipped.
-// 4. gap(): fixes the plane to the links that lose least at the nearest points, starts from the normal of
-//    the distance in the middle, and turns it as GJK does, towards the shortest difference of points that
-//    the bodies can reach.
+// The gap between two bodies over a box of joint values (docs/proofs.md): fixes the plane to the links that
+// lose least at the nearest points, starts from the normal of the distance in the middle, and turns it as GJK
+// does, towards the shortest difference of points that the bodies can reach. How far the joints push a body
+// towards the plane is bounded in push_bound.h.
 #include "fcl_stpbv/robot/plane_bound.h"
 
 #include <algorithm>
@@ -24,28 +15,44 @@ using Eigen::Vector3d;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// Of what a joint pushes, the part that is linear in its range counts half when a coordinate is chosen to be
-// cut: that part halves, the others fall to a quarter.
-constexpr double kLinearShare = 0.5;
-
-// Joints whose direction is tried both ways where it is not plain which pushes most: 2^8 corners at most.
-constexpr int kCorners = 8;
-
 // Links that the plane is tried on, and steps that improve its normal.
 constexpr std::size_t kReferences = 2;
 constexpr int kSteps = 4;
+
+// The point farthest along n that the joints bring the body to, in first order.
+Vector3d farthest(const Vector3d& n, const BodySide& side) {
+  const auto motion = [](const BoxJoint& joint, const Vector3d& x) -> Vector3d {
+    return joint.slides ? joint.axis : Vector3d(joint.axis.cross(x - joint.origin));
+  };
+  double best = -kInfinity;
+  Vector3d point = Vector3d::Zero();
+  for (const Vector3d& x : side.body->points) {
+    double reached = n.dot(x);
+    for (const OutwardJoint& o : side.joints) reached += o.joint.half * std::abs(n.dot(motion(o.joint, x)));
+    if (reached <= best) continue;
+    best = reached;
+    point = x;
+  }
+  const Vector3d x = point;
+  for (const OutwardJoint& o : side.joints) {
+    const Vector3d along = motion(o.joint, x);
+    point += (o.joint.slides ? o.joint.half : o.sine) * (n.dot(along) > 0 ? along : Vector3d(-along));
+  }
+  return point + side.body->radius * n;
+}
 
 }  // namespace
 
 void PlaneBound::set(const std::vector<BoxJoint>& joints, const BodyPoints& first, const BodyPoints& second) {
   joints_.clear();
-  shared_ = false;
+  bool shared = false;
   for (const BoxJoint& joint : joints) {
-    for (const Outward& other : joints_) shared_ |= other.joint.slot == joint.slot;
+    for (const OutwardJoint& other : joints_) shared |= other.joint.slot == joint.slot;
     const double half = std::min(joint.half, M_PI);
     joints_.push_back(
         {joint, std::sin(std::min(half, M_PI / 2)), 1 - std::cos(half), 2 * std::sin(half / 2), 0});
   }
+  push_.setShared(shared);
   first_.body = &first;
   second_.body = &second;
 }
@@ -54,297 +61,14 @@ void PlaneBound::set(const std::vector<BoxJoint>& joints, const BodyPoints& firs
 void PlaneBound::fixTo(std::size_t reference) {
   first_.joints.assign(joints_.rend() - static_cast<std::ptrdiff_t>(reference), joints_.rend());
   second_.joints.assign(joints_.begin() + static_cast<std::ptrdiff_t>(reference), joints_.end());
-  for (Outward& o : first_.joints) o.outwardRate = o.joint.up ? o.joint.rate : -o.joint.rate;
-  for (Outward& o : second_.joints) o.outwardRate = o.joint.up ? -o.joint.rate : o.joint.rate;
-}
-
-void PlaneBound::prepare(const Vector3d& n, const Side& side) {
-  const std::size_t m = side.joints.size();
-  turned_.resize(m);
-  tilt_.resize(m);
-  way_.resize(m);
-  flat_.resize(m);
-  coupled_.resize(m * m);
-  coupling_.resize(m * m);
-  bulged_.resize(m * m);
-  bulging_.resize(m * m);
-  tripled_.resize(m * m * m);
-  tripling_.resize(m * m * m);
-  lever_.resize(m);
-  reach_.resize(m);
-  moved_.resize(m + 1);
-  share_.resize(m);
-  bestShare_.resize(m);
-  slope_.resize((m + 1) * m);
-  double way = 0;
-  const BoxJoint* outer = nullptr;
-  for (std::size_t i = m; i-- > 0;) {
-    const BoxJoint& joint = side.joints[i].joint;
-    turned_[i] = joint.slides ? Vector3d(Vector3d::Zero()) : Vector3d(n.cross(joint.axis));
-    tilt_[i] = turned_[i].norm();
-    if (joint.slides) {
-      way += joint.half;
-    } else {
-      if (outer) way += (outer->origin - joint.origin).norm();
-      outer = &joint;
-    }
-    way_[i] = way;
-  }
-  const auto cross = [&](const Vector3d& v, std::size_t l, Vector3d& crossed, double& size) {
-    const BoxJoint& joint = side.joints[l].joint;
-    crossed = v.cross(joint.axis);
-    size = joint.slides ? std::abs(v.dot(joint.axis)) : crossed.norm();
-  };
-  for (std::size_t i = 0; i < m; ++i) {
-    flat_[i] = n - n.dot(side.joints[i].joint.axis) * side.joints[i].joint.axis;
-    for (std::size_t l = i + 1; l < m; ++l) {
-      const std::size_t at = i * m + l;
-      cross(turned_[i], l, coupled_[at], coupling_[at]);
-      cross(flat_[i], l, bulged_[at], bulging_[at]);
-      for (std::size_t k = l + 1; k < m; ++k)
-        cross(coupled_[at], k, tripled_[at * m + k], tripling_[at * m + k]);
-    }
-  }
-}
-
-// Most that the joints push any point of the body along the normal: the chord of each turn.
-double PlaneBound::mostPush(const Side& side) const {
-  const std::size_t m = side.joints.size();
-  double sum = 0, moved = 0, fromOuter = -1;
-  for (std::size_t i = m; i-- > 0;) {
-    const Outward& o = side.joints[i];
-    if (o.joint.slides) {
-      moved += o.joint.half;
-      sum += o.joint.half;
-      continue;
-    }
-    const Vector3d r = side.body->centre - o.joint.origin;
-    if (fromOuter < 0) fromOuter = r.norm() + side.body->reach;
-    const double reach =
-        std::min(o.joint.axis.cross(r).norm() + side.body->reach + moved, fromOuter + way_[i]);
-    sum += o.chord * tilt_[i] * reach;
-    moved += o.chord * reach;
-  }
-  return sum;
-}
-
-// Most that the joints push the point x along n; share_ gets each joint's part.
-double PlaneBound::push(const Vector3d& n, const Side& side, const Vector3d& x) {
-  const std::size_t m = side.joints.size();
-  double fromOuter = -1;
-  moved_[m] = 0;
-  for (std::size_t i = m; i-- > 0;) {
-    const Outward& o = side.joints[i];
-    if (o.joint.slides) {
-      moved_[i] = moved_[i + 1] + o.joint.half;
-      continue;
-    }
-    const Vector3d r = x - o.joint.origin;
-    if (fromOuter < 0) fromOuter = r.norm();
-    lever_[i] = o.joint.axis.cross(r).norm();
-    reach_[i] = std::min(lever_[i] + moved_[i + 1], fromOuter + way_[i]);
-    moved_[i] = moved_[i + 1] + o.chord * reach_[i];
-  }
-  std::fill(share_.begin(), share_.end(), 0.0);
-  product_.assign(m * m, 0);
-  double rest = 0, uncapped = 0;
-  for (std::size_t i = 0; i < m; ++i) {
-    const Outward& o = side.joints[i];
-    if (o.joint.slides) {
-      slope_[i] = o.joint.half * n.dot(o.joint.axis);
-      share_[i] += kLinearShare * std::abs(slope_[i]);
-      uncapped += std::abs(slope_[i]);
-      continue;
-    }
-    const Vector3d r = x - o.joint.origin;
-    slope_[i] = o.sine * turned_[i].dot(r);
-    double inwards = 0;
-    for (std::size_t l = i + 1; l < m; ++l)
-      inwards += along(side, l, bulged_[i * m + l], bulging_[i * m + l], x);
-    inwards = std::min(inwards, tilt_[i] * moved_[i + 1]) - flat_[i].dot(r);
-    double others = o.bulge * std::max(0.0, inwards);
-    share_[i] += kLinearShare * std::abs(slope_[i]) + others;
-    double total = std::abs(slope_[i]) + others;
-    for (std::size_t l = i + 1; l < m; ++l) {
-      const double more = couple(side, i, l, x);
-      const double both = std::abs(product_[i * m + l]) + more;
-      others += more;
-      total += both;
-      share_[i] += both / 2;
-      share_[l] += both / 2;
-    }
-    uncapped += total;
-    const double most = o.chord * tilt_[i] * reach_[i];
-    rest += total <= most ? others : most;
-    if (total <= most) continue;
-    slope_[i] = 0;
-    std::fill_n(product_.begin() + static_cast<std::ptrdiff_t>(i * m), m, 0.0);
-  }
-  const double sum = rest + mostAtCorners(0, m, kCorners);
-  return shared_ ? std::min(sum, uncapped - together(n, side, x)) : sum;
-}
-
-// Most that joint l moves x, once the joints further out have, in a direction whose cross product with the
-// joint's axis is `turned`, `size` long; for a joint that slides, `size` is the direction's part along it.
-double PlaneBound::along(const Side& side, std::size_t l, const Vector3d& turned, double size,
-                         const Vector3d& x) const {
-  const Outward& o = side.joints[l];
-  if (o.joint.slides) return o.joint.half * size;
-  const double exact = o.sine * std::abs(turned.dot(x - o.joint.origin)) +
-                       size * (o.bulge * lever_[l] + o.chord * moved_[l + 1]);
-  return std::min(exact, size * o.chord * reach_[l]);
-}
-
-// How joint i pushes differently because joint l, further out, has moved the point x: product_ gets what is
-// proportional to the sines of both, and all else is at most what is returned.
-double PlaneBound::couple(const Side& side, std::size_t i, std::size_t l, const Vector3d& x) {
-  const Outward &o = side.joints[i], &outer = side.joints[l];
-  const std::size_t m = side.joints.size(), at = i * m + l;
-  if (outer.joint.slides) {
-    product_[at] = o.sine * outer.joint.half * turned_[i].dot(outer.joint.axis);
-    return 0;
-  }
-  const Vector3d r = x - outer.joint.origin;
-  const Vector3d& axis = outer.joint.axis;
-  product_[at] = o.sine * outer.sine * coupled_[at].dot(r);
-  double further = 0;
-  for (std::size_t k = l + 1; k < m; ++k)
-    further += along(side, k, tripled_[at * m + k], tripling_[at * m + k], x);
-  const double moved = coupling_[at] * moved_[l + 1];
-  const double inwards = std::abs(turned_[i].dot(r) - turned_[i].dot(axis) * axis.dot(r)) + moved;
-  const double more = o.sine * (outer.bulge * inwards + outer.sine * std::min(further, moved));
-  const double most = o.sine * coupling_[at] * outer.chord * reach_[l];
-  if (std::abs(product_[at]) + more <= most) return more;
-  product_[at] = 0;
-  return most;
-}
-
-// Most of the sum over joints k from i on of (slope s_k + the sum over l > k of product s_k s_l), each s from
-// -1 to 1: it is linear in each s, so it is largest at a corner. The slopes stand in slope_ from i m on.
-// Where a slope outweighs its products, s has its sign; of the others, `tries` are tried both ways.
-double PlaneBound::mostAtCorners(std::size_t i, std::size_t m, int tries) {
-  if (i == m) return 0;
-  const double* slope = &slope_[i * m];
-  double* next = &slope_[(i + 1) * m];
-  double coupled = 0;
-  for (std::size_t l = i + 1; l < m; ++l) coupled += std::abs(product_[i * m + l]);
-  const bool decided = std::abs(slope[i]) >= coupled;
-  if (!decided && tries == 0) {
-    std::copy(slope + i + 1, slope + m, next + i + 1);
-    return std::abs(slope[i]) + coupled + mostAtCorners(i + 1, m, tries);
-  }
-  double best = -kInfinity;
-  for (const double sign : {1.0, -1.0}) {
-    if (decided && sign * slope[i] < 0) continue;
-    for (std::size_t l = i + 1; l < m; ++l) next[l] = slope[l] + sign * product_[i * m + l];
-    best = std::max(best, sign * slope[i] + mostAtCorners(i + 1, m, decided ? tries : tries - 1));
-    if (decided) break;
-  }
-  return best;
-}
-
-// What is saved where one coordinate moves several joints: their linear parts then add up with their signs,
-// once sin(t) is taken as t with an error of at most half - sin(half).
-double PlaneBound::together(const Vector3d& n, const Side& side, const Vector3d& x) const {
-  const std::size_t m = side.joints.size();
-  double saved = 0;
-  for (std::size_t i = 0; i < m; ++i) {
-    const int slot = side.joints[i].joint.slot;
-    const auto same = [&](std::size_t l) { return side.joints[l].joint.slot == slot; };
-    bool firstOfSlot = true;
-    for (std::size_t l = 0; l < i; ++l) firstOfSlot &= !same(l);
-    if (!firstOfSlot) continue;
-    double apart = 0, slope = 0, bend = 0;
-    for (std::size_t l = i; l < m; ++l) {
-      if (!same(l)) continue;
-      const Outward& o = side.joints[l];
-      const double along = o.joint.slides ? n.dot(o.joint.axis) : turned_[l].dot(x - o.joint.origin);
-      slope += o.outwardRate * along;
-      apart += (o.joint.slides ? o.joint.half : o.sine) * std::abs(along);
-      if (!o.joint.slides) bend += (o.joint.half - o.sine) * std::abs(along);
-    }
-    const Outward& o = side.joints[i];
-    const double half = o.joint.rate == 0 ? 0 : o.joint.half / std::abs(o.joint.rate);
-    saved += std::max(0.0, apart - (half * std::abs(slope) + bend));
-  }
-  return saved;
-}
-
-// Most that the turns change the normal as the body sees it: the chord of each, outwards.
-double PlaneBound::mostTurned(const Side& side) const {
-  double turned = 0;
-  for (std::size_t i = 0; i < side.joints.size(); ++i)
-    if (!side.joints[i].joint.slides) turned += side.joints[i].chord * std::min(1.0, tilt_[i] + turned);
-  return turned;
-}
-
-// The point that gets farthest along n in first order.
-std::size_t PlaneBound::foremost(const Vector3d& n, const Side& side) const {
-  const std::vector<Vector3d>& points = side.body->points;
-  std::size_t found = 0;
-  double best = -kInfinity;
-  for (std::size_t v = 0; v < points.size(); ++v) {
-    double reached = n.dot(points[v]);
-    for (std::size_t i = 0; i < side.joints.size(); ++i)
-      if (!side.joints[i].joint.slides)
-        reached += side.joints[i].sine * std::abs(turned_[i].dot(points[v] - side.joints[i].joint.origin));
-    if (reached <= best) continue;
-    best = reached;
-    found = v;
-  }
-  return found;
-}
-
-// Bound on the support function of the body along n over the box. Adds the shares of the point that decides.
-// A point gets no farther than another one does, plus their way along n and what the turns make of it.
-double PlaneBound::support(const Vector3d& n, const Side& side, Eigen::VectorXd& shares) {
-  prepare(n, side);
-  const std::vector<Vector3d>& points = side.body->points;
-  const double most = mostPush(side), turned = mostTurned(side);
-  const std::size_t first = foremost(n, side);
-  const double reachedFirst = n.dot(points[first]) + push(n, side, points[first]);
-  double best = reachedFirst;
-  bestShare_ = share_;
-  for (std::size_t v = 0; v < points.size(); ++v) {
-    const Vector3d way = points[v] - points[first];
-    const double height = n.dot(points[v]);
-    if (v == first || std::min(height + most, reachedFirst + n.dot(way) + turned * way.norm()) <= best)
-      continue;
-    const double reached = height + push(n, side, points[v]);
-    if (reached <= best) continue;
-    best = reached;
-    bestShare_ = share_;
-  }
-  for (std::size_t i = 0; i < side.joints.size(); ++i) shares[side.joints[i].joint.slot] += bestShare_[i];
-  return best + side.body->radius;
+  for (OutwardJoint& o : first_.joints) o.outwardRate = o.joint.up ? o.joint.rate : -o.joint.rate;
+  for (OutwardJoint& o : second_.joints) o.outwardRate = o.joint.up ? -o.joint.rate : o.joint.rate;
 }
 
 double PlaneBound::gapAlong(const Vector3d& n, std::size_t reference, Eigen::VectorXd& shares) {
   fixTo(reference);
   shares.setZero();
-  return -support(-n, second_, shares) - support(n, first_, shares);
-}
-
-// The point farthest along n that the joints bring the body to, in first order.
-Vector3d PlaneBound::farthest(const Vector3d& n, const Side& side) const {
-  const auto motion = [](const BoxJoint& joint, const Vector3d& x) -> Vector3d {
-    return joint.slides ? joint.axis : Vector3d(joint.axis.cross(x - joint.origin));
-  };
-  double best = -kInfinity;
-  Vector3d point = Vector3d::Zero();
-  for (const Vector3d& x : side.body->points) {
-    double reached = n.dot(x);
-    for (const Outward& o : side.joints) reached += o.joint.half * std::abs(n.dot(motion(o.joint, x)));
-    if (reached <= best) continue;
-    best = reached;
-    point = x;
-  }
-  const Vector3d x = point;
-  for (const Outward& o : side.joints) {
-    const Vector3d along = motion(o.joint, x);
-    point += (o.joint.slides ? o.joint.half : o.sine) * (n.dot(along) > 0 ? along : Vector3d(-along));
-  }
-  return point + side.body->radius * n;
+  return -push_.support(-n, second_, shares) - push_.support(n, first_, shares);
 }
 
 // The links that the plane is best fixed to, as the nearest points alone tell.
@@ -352,10 +76,10 @@ void PlaneBound::rank(const Vector3d& n, const std::array<Vector3d, 2>& nearest)
   order_.clear();
   for (std::size_t reference = 0; reference <= joints_.size(); ++reference) {
     fixTo(reference);
-    prepare(n, first_);
-    double loss = push(n, first_, nearest[0]);
-    prepare(-n, second_);
-    loss += push(-n, second_, nearest[1]);
+    push_.prepare(n, first_);
+    double loss = push_.push(n, first_, nearest[0]);
+    push_.prepare(-n, second_);
+    loss += push_.push(-n, second_, nearest[1]);
     order_.emplace_back(loss, reference);
   }
   std::sort(order_.begin(), order_.end());

@@ -21,27 +21,40 @@ std::vector<HalfEdge> pairHalfEdges(const std::vector<Vector3d>& points, const s
   const auto at = [&](int i) -> const Vector3d& { return points[static_cast<std::size_t>(i)]; };
   constexpr double kPi = 3.14159265358979323846;
   std::vector<HalfEdge> halfEdges;
-  const auto startOf = [&](const HalfEdge& e) {
-    return faces[static_cast<std::size_t>(e.face)][static_cast<std::size_t>(e.corner)];
+  std::size_t count = 0;
+  for (const Ring& ring : faces) count += ring.size();
+  halfEdges.reserve(count);
+  // Those that start from vertex v are leaving[begin[v]] to leaving[begin[v + 1]], with where they lead.
+  struct Leaving {
+    int to, half;
   };
-  const auto endOf = [&](const HalfEdge& e) {
-    const Ring& ring = faces[static_cast<std::size_t>(e.face)];
-    return ring[(static_cast<std::size_t>(e.corner) + 1) % ring.size()];
-  };
-  for (std::size_t f = 0; f < faces.size(); ++f)
-    for (std::size_t k = 0; k < faces[f].size(); ++k)
-      halfEdges.push_back({static_cast<int>(f), static_cast<int>(k)});
-  // Those that start from vertex v are leaving[begin[v]] to leaving[begin[v + 1]].
   std::vector<std::size_t> begin(points.size() + 1, 0);
-  for (const HalfEdge& e : halfEdges) ++begin[static_cast<std::size_t>(startOf(e)) + 1];
+  for (std::size_t f = 0; f < faces.size(); ++f)
+    for (std::size_t k = 0; k < faces[f].size(); ++k) {
+      halfEdges.push_back({static_cast<int>(f), static_cast<int>(k)});
+      ++begin[static_cast<std::size_t>(faces[f][k]) + 1];
+    }
   std::partial_sum(begin.begin(), begin.end(), begin.begin());
-  std::vector<int> leaving(halfEdges.size());
+  std::vector<Leaving> leaving(count);
   std::vector<std::size_t> filled(begin.begin(), begin.end() - 1);
-  for (std::size_t h = 0; h < halfEdges.size(); ++h)
-    leaving[filled[static_cast<std::size_t>(startOf(halfEdges[h]))]++] = static_cast<int>(h);
+  int half = 0;
+  for (const Ring& ring : faces)
+    for (std::size_t k = 0; k < ring.size(); ++k)
+      leaving[filled[static_cast<std::size_t>(ring[k])]++] = {ring[(k + 1) % ring.size()], half++};
+  const auto only = [&](int from, int to) {  // half-edge; -1 where there are several or none
+    int found = -1;
+    for (std::size_t i = begin[static_cast<std::size_t>(from)]; i < begin[static_cast<std::size_t>(from) + 1];
+         ++i) {
+      if (leaving[i].to != to) continue;
+      if (found >= 0) return -1;
+      found = leaving[i].half;
+    }
+    return found;
+  };
 
   for (std::size_t h = 0; h < halfEdges.size(); ++h) {
     HalfEdge& edge = halfEdges[h];
+    if (edge.twin >= 0) continue;
     const Ring& ring = faces[static_cast<std::size_t>(edge.face)];
     const std::size_t k = static_cast<std::size_t>(edge.corner);
     const int a = ring[k], b = ring[(k + 1) % ring.size()];
@@ -62,12 +75,16 @@ std::vector<HalfEdge> pairHalfEdges(const std::vector<Vector3d>& points, const s
     };
     for (std::size_t i = begin[static_cast<std::size_t>(b)]; i < begin[static_cast<std::size_t>(b) + 1];
          ++i) {
-      const HalfEdge& other = halfEdges[static_cast<std::size_t>(leaving[i])];
-      if (endOf(other) != a) continue;
-      const Vector3d to = across(other.face);
+      if (leaving[i].to != a) continue;
+      const Vector3d to = across(halfEdges[static_cast<std::size_t>(leaving[i].half)].face);
       double turn = std::atan2(to.dot(side), to.dot(from));
       if (turn < 0) turn = turn > -1e-6 && !isSpindle() ? 0 : turn + 2 * kPi;  // a turn of nothing, rounded
-      if (edge.twin < 0 || turn < edge.turn) edge.twin = leaving[i], edge.turn = turn;
+      if (edge.twin < 0 || turn < edge.turn) edge.twin = leaving[i].half, edge.turn = turn;
+    }
+    // As for nearly all edges: the ball rolls back by the same angle.
+    if (only(b, a) >= 0 && only(a, b) >= 0) {
+      HalfEdge& twin = halfEdges[static_cast<std::size_t>(edge.twin)];
+      twin.twin = static_cast<int>(h), twin.turn = edge.turn;
     }
     if (edge.twin < 0)
       throw Error("the faces do not close: the edge from vertex " + std::to_string(a) + " to vertex " +

@@ -60,6 +60,8 @@ PatchTable::PatchTable(const std::vector<Vector3d>& vertices, std::vector<EdgeRe
 /// An edge's first vertex and first wall belong to its first part, the second ones to its last.
 void PatchTable::joinSides(std::vector<std::vector<std::int32_t>>& atVertex,
                            std::vector<std::vector<std::int32_t>>& atFace) {
+  for (auto& sides : atVertex) sides.reserve(Sides::kSize);  // nearly always enough
+  for (auto& sides : atFace) sides.reserve(FaceRecord::kSize);
   for (std::size_t e = 0; e < edges_.size(); ++e)
     for (const std::size_t k : {0u, 1u}) {
       const std::int32_t past = edges_[e].past(2 + k), side = EdgeRecord::side(e, k);

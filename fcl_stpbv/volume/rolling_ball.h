@@ -18,7 +18,8 @@ struct RolledHull {
 /// together than rounding count as one. A flat cloud gives two faces back to back; two points, or collinear
 /// ones, no face.
 ///
-/// Works on any cloud that is not empty, finite, and has a minimum enclosing ball smaller than `radius`.
+/// Works on any cloud that is not empty, finite, and has a minimum enclosing ball smaller than `radius`. The
+/// convex hull comes from quickhull (ball_quickhull.h) where that suits the cloud.
 /// @throws Error where rounding defeats it.
 RolledHull rollBall(const std::vector<Eigen::Vector3d>& points,
                     double radius = std::numeric_limits<double>::infinity());
@@ -27,6 +28,10 @@ RolledHull rollBall(const std::vector<Eigen::Vector3d>& points,
 /// (ball_faces.h) and a finite radius. Empty for a sphere or a spindle, which
 /// have no face.
 RolledHull hullByDefinition(const std::vector<Eigen::Vector3d>& points, double radius);
+
+/// The same hull by quickhull (ball_quickhull.h), much faster; without faces where that does not suit the
+/// cloud. The caller has to check what comes back (surface_check.h).
+RolledHull quickBallHull(const std::vector<Eigen::Vector3d>& points, double radius);
 
 /// Radius of a ball that bulges over the cloud by less than its coordinates' rounding: what rollBall() rolls
 /// in place of a plane. Unlike a plane it has no point on a side of one of its triangles but the two ends, so

@@ -14,9 +14,8 @@
 #include "fcl_stpbv/volume/minimum_ball.h"
 #include "fcl_stpbv/volume/patch_view.h"
 #include "fcl_stpbv/volume/point_tree.h"
-#include "fcl_stpbv/volume/regions.h"
 #include "fcl_stpbv/volume/rolling_ball.h"
-#include "fcl_stpbv/volume/verify.h"
+#include "fcl_stpbv/volume/surface_check.h"
 
 namespace fcl_stpbv {
 namespace {
@@ -70,51 +69,6 @@ Ball checkRadius(const std::vector<Vector3d>& points, const StpBvOptions& option
   return ball;
 }
 
-// How far a point of the cloud is outside of a ball that touches one of the volume's faces or rolls over one
-// of its wider edges (m).
-double farthestOut(const StpBv& volume, const std::vector<Vector3d>& points) {
-  const PointTree tree(points);
-  const double curvature = 1 / volume.radii().rho;
-  std::vector<int> near;
-  double out = -std::numeric_limits<double>::infinity();
-  const auto consider = [&](const Vector3d& touched, const Vector3d& normal) {
-    out = std::max(out, tree.highest(touched, normal, curvature, 0, &near).height);
-  };
-  for (int f = 0; f < volume.faceCount(); ++f) {
-    const Patch face = volume.patch(volume.facePatch(f));
-    consider(face.anchor, face.axis);
-  }
-  constexpr double kWide = 0.3;  // rad between two normals that are tried
-  for (int e = 0; e < volume.edgeCount(); ++e) {
-    const StpBv::Edge& edge = volume.edges()[static_cast<std::size_t>(e)];
-    if (edge.turn < kWide) continue;
-    const Vector3d &from = volume.vertices()[static_cast<std::size_t>(edge.vertex[0])],
-                   &to = volume.vertices()[static_cast<std::size_t>(edge.vertex[1])];
-    const double sine = 0.5 * curvature * (to - from).norm();
-    const double cosine = curvature * volume.patch(volume.edgePatch(e)).kappa;
-    const Arc arc = edgeArc(volume, e);
-    const int count = static_cast<int>(edge.turn / kWide) + 1;
-    for (int k = 0; k < count; ++k) consider(from, cosine * arc.at((k + 0.5) / count) - sine * arc.axis);
-  }
-  return out;
-}
-
-// What was built holds its points to rounding, is off by more than that, or is no ball hull at all.
-enum class State { sound, off, broken };
-
-State stateOf(const StpBv& volume, const std::vector<Vector3d>& points, const std::vector<Vector3d>& others) {
-  const Verification check = verify(volume);
-  const double out =
-      std::max(check.containment, others.empty() ? check.containment : farthestOut(volume, others));
-  const double size = volume.enclosingRadius(), same = 2 * touchTolerance(points);
-  const double wide = 1e-9 * size + same;
-  const double shift = 1e-3 * size + wide + 64 * std::numeric_limits<double>::epsilon() * volume.radii().rho;
-  if (!(out <= wide && std::abs(check.solidAngleError) <= 1e-6 && check.boundaryGap <= shift))
-    return State::broken;
-  return out <= same + 8 * std::numeric_limits<double>::epsilon() * volume.radii().rho ? State::sound
-                                                                                       : State::off;
-}
-
 }  // namespace
 
 double StpBv::smallestR(const std::vector<Vector3d>& points, double r) {
@@ -125,7 +79,7 @@ double StpBv::smallestR(const std::vector<Vector3d>& points, double r) {
 StpBv::Ptr StpBv::build(const std::vector<Vector3d>& points, const StpBvOptions& options) {
   checkInput(points, options);
   checkRadius(points, options);
-  State state = State::sound;
+  Soundness found = Soundness::broken;
   const auto built = [&](RolledHull hull) {
     std::vector<int> newIndex(points.size(), -1);
     std::vector<Vector3d> vertices, others;
@@ -138,18 +92,24 @@ StpBv::Ptr StpBv::build(const std::vector<Vector3d>& points, const StpBvOptions&
     for (std::size_t i = 0; i < points.size(); ++i)
       if (newIndex[i] < 0) others.push_back(points[i]);
     const Ptr volume = make(std::move(vertices), std::move(hull.faces), options);
-    state = stateOf(*volume, points, others);
+    found = soundnessOf(*volume, points, others);
     return volume;
   };
   const double rho = options.R - options.r;
-  Ptr volume = built(rollBall(points, rho));
+  Ptr volume;
+  try {
+    RolledHull quick = quickBallHull(points, rho);
+    if (!quick.faces.empty()) volume = built(std::move(quick));
+  } catch (const Error&) {  // its faces do not close: the cloud needs the roll
+  }
+  if (found != Soundness::exact) volume = built(rollBall(points, rho));
   // Clusters of points that differ by a few roundings can defeat the roll: a wrong volume must not leave the
   // builder.
-  if (state != State::sound && points.size() <= kMostByDefinition) {
+  if (found >= Soundness::off && points.size() <= kMostByDefinition) {
     RolledHull sure = hullByDefinition(points, rho);
     if (!sure.faces.empty()) volume = built(std::move(sure));
   }
-  if (state == State::broken)
+  if (found == Soundness::broken)
     throw Error(
         "the points are too close to each other to be told apart: merge those closer together than about " +
         number(1e-9 * volume->enclosingRadius()) + " m and build again");

@@ -15,10 +15,9 @@
 #include "fcl_stpbv/volume/ball_faces.h"
 #include "fcl_stpbv/volume/join_faces.h"
 #include "fcl_stpbv/volume/measure.h"
-#include "fcl_stpbv/volume/patch_view.h"
 #include "fcl_stpbv/volume/point_tree.h"
-#include "fcl_stpbv/volume/regions.h"
 #include "fcl_stpbv/volume/rolling_ball.h"
+#include "fcl_stpbv/volume/surface_check.h"
 
 namespace fcl_stpbv {
 namespace {
@@ -28,44 +27,10 @@ using Eigen::Vector3d;
 
 constexpr double kPi = 3.14159265358979323846;
 
-// Angle by which a walk along unit direction a must turn left, about the outward normal n, to follow b: (-pi,
-// pi].
-double exteriorAngle(const Vector3d& n, const Vector3d& a, const Vector3d& b) {
-  return std::atan2(n.dot(a.cross(b)), a.dot(b));
-}
-
-Vector3d at(const StpBv& volume, int vertex) { return volume.vertices()[static_cast<std::size_t>(vertex)]; }
-
 std::string number(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.3g", value);
   return text;
-}
-
-// Largest height of a vertex over the ball of its own face or of one beside it. That decides for all vertices
-// and all balls where the regions of normals tile the sphere once: the patches are then one closed convex
-// surface whose radii of curvature are at most R, and any ball of radius R that touches such a surface from
-// around holds it (Blaschke).
-double vertexHeight(const StpBv& volume) {
-  double worst = -std::numeric_limits<double>::infinity();
-  const auto consider = [&](int f, int vertex) {
-    const Patch face = volume.patch(volume.facePatch(f));
-    const Vector3d q = at(volume, vertex) - face.anchor;
-    worst = std::max(worst, q.squaredNorm() / (2 * volume.radii().rho) + q.dot(face.axis));
-  };
-  for (int f = 0; f < volume.faceCount(); ++f)
-    for (const int vertex : volume.faces()[static_cast<std::size_t>(f)]) consider(f, vertex);
-  for (const StpBv::Edge& edge : volume.edges()) {
-    if (edge.face[0] < 0) continue;
-    for (const std::size_t side : {0u, 1u}) {
-      const StpBv::Ring& ring = volume.faces()[static_cast<std::size_t>(edge.face[side])];
-      const auto from =
-          static_cast<std::size_t>(std::find(ring.begin(), ring.end(), edge.vertex[side]) - ring.begin());
-      consider(edge.face[1 - side], ring[(from + 2) % ring.size()]);
-      consider(edge.face[1 - side], ring[(from + ring.size() - 1) % ring.size()]);
-    }
-  }
-  return worst;
 }
 
 // Largest height over the surface pulled in by `margin`, of the volume's own vertices and of a cloud's. A
@@ -92,79 +57,25 @@ struct BoundaryGap {
 
 BoundaryGap boundaryGapOf(const StpBv& volume, double rounding) {
   BoundaryGap result;
-  const auto compare = [&](int a, int b, const Vector3d& n, double allowed) {
-    const double gap = (corePoint(volume, a, n) - corePoint(volume, b, n)).norm();
-    result.largest = std::max(result.largest, gap);
-    result.ok = result.ok && gap <= allowed;
+  // A joined face's ball, and with it the edge's arc, may be tilted by as much as the join allows.
+  const auto isJoined = [&](int face) {
+    return face >= 0 && volume.faces()[static_cast<std::size_t>(face)].size() > 3;
   };
+  const double tilted = rounding + 2 * kJoinTilt * volume.radii().rho;
   for (int e = 0; e < volume.edgeCount(); ++e) {
     const StpBv::Edge& edge = volume.edges()[static_cast<std::size_t>(e)];
-    const double sine =
-        0.5 * (at(volume, edge.vertex[1]) - at(volume, edge.vertex[0])).norm() / volume.radii().rho;
-    const double cosine = volume.patch(volume.edgePatch(e)).kappa / volume.radii().rho;
-    const Arc arc = edgeArc(volume, e);
-    // A joined face's ball, and with it the edge's arc, may be tilted by as much as the join allows.
-    const auto isJoined = [&](int face) {
-      return face >= 0 && volume.faces()[static_cast<std::size_t>(face)].size() > 3;
-    };
-    const double tilted = rounding + 2 * kJoinTilt * volume.radii().rho;
-    const double beside = isJoined(edge.face[0]) || isJoined(edge.face[1]) ? tilted : rounding;
-    for (int k = 0; k <= 8; ++k) {
-      const Vector3d w = arc.at(k / 8.0);
-      compare(volume.edgePatch(e), edge.vertex[0], cosine * w - sine * arc.axis, rounding);
-      compare(volume.edgePatch(e), edge.vertex[1], cosine * w + sine * arc.axis, rounding);
-      if (k > 0 && k < 8)
-        compare(volume.edgePatch(e), volume.owner(w), w, beside);  // the region holds its arc
-    }
-    if (edge.face[0] < 0) continue;
-    for (const int face : edge.face) {
-      const Vector3d a = volume.corner(face, edge.vertex[0]), b = volume.corner(face, edge.vertex[1]);
-      for (int k = 0; k <= 4; ++k)
-        compare(volume.edgePatch(e), volume.facePatch(face), ((1 - k / 4.0) * a + k / 4.0 * b).normalized(),
-                isJoined(face) ? tilted : rounding);
-    }
+    const EdgeGap gap = edgeGap(volume, e);
+    const bool joined0 = isJoined(edge.face[0]), joined1 = isJoined(edge.face[1]);
+    result.largest = std::max(result.largest, gap.largest());
+    result.ok = result.ok && gap.ends <= rounding && gap.arc <= (joined0 || joined1 ? tilted : rounding) &&
+                gap.side[0] <= (joined0 ? tilted : rounding) && gap.side[1] <= (joined1 ? tilted : rounding);
   }
   return result;
 }
 
 }  // namespace
 
-std::vector<double> solidAngles(const StpBv& volume) {
-  std::vector<double> angles(static_cast<std::size_t>(volume.patchCount()), 0.0);
-  if (volume.edgeCount() == 0) {
-    angles[0] = 4 * kPi;
-    return angles;
-  }
-  // By Gauss-Bonnet: 2 pi minus the boundary's turning. Faces turn at their corners only; a vertex region is
-  // bounded by the cones of its edges, small circles, which turn along the way too.
-  for (int v = 0; v < volume.vertexCount(); ++v) angles[static_cast<std::size_t>(v)] = 2 * kPi;
-  for (int e = 0; e < volume.edgeCount(); ++e) {
-    const StpBv::Edge& edge = volume.edges()[static_cast<std::size_t>(e)];
-    const double sine =
-        0.5 * (at(volume, edge.vertex[1]) - at(volume, edge.vertex[0])).norm() / volume.radii().rho;
-    angles[static_cast<std::size_t>(volume.edgePatch(e))] = 2 * sine * edge.turn;
-    for (const int v : edge.vertex) angles[static_cast<std::size_t>(v)] -= sine * edge.turn;
-  }
-  for (int f = 0; f < volume.faceCount(); ++f) {
-    const StpBv::Ring& ring = volume.faces()[static_cast<std::size_t>(f)];
-    double& area = angles[static_cast<std::size_t>(volume.facePatch(f))];
-    area = 2 * kPi;
-    for (std::size_t k = 0; k < ring.size(); ++k) {
-      const int before = ring[(k + ring.size() - 1) % ring.size()], here = ring[k],
-                after = ring[(k + 1) % ring.size()];
-      const Vector3d n = volume.corner(f, here);
-      const Vector3d arrive = at(volume, here) - at(volume, before),
-                     leave = at(volume, after) - at(volume, here);
-      const double turn =
-          exteriorAngle(n, n.cross(arrive.cross(n)).normalized(), n.cross(leave.cross(n)).normalized());
-      area -= turn;
-      // At the same corner the vertex region turns between the cones of the two edges.
-      angles[static_cast<std::size_t>(here)] -=
-          exteriorAngle(n, leave.cross(n).normalized(), arrive.cross(n).normalized()) + kPi;
-    }
-  }
-  return angles;
-}
+std::vector<double> solidAngles(const StpBv& volume) { return regionAngles(volume).area; }
 
 Verification verify(const StpBv& volume, const std::vector<Vector3d>& points) {
   return verify(volume, points, volume.radii().r);

@@ -1,0 +1,103 @@
+// What a CollisionChecker keeps: where the bodies and their spheres are, and of each pair the plane between.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstddef>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "fcl_stpbv/adapter/posed_geometry.h"
+#include "fcl_stpbv/distance/distance.h"
+#include "fcl_stpbv/packed.h"
+#include "fcl_stpbv/robot/collision_checker.h"
+#include "fcl_stpbv/robot/kept_plane.h"
+#include "fcl_stpbv/robot/sphere_pairs.h"
+
+namespace fcl_stpbv {
+namespace detail {
+
+/// `v`, with 0 as the fourth number: of use in sums over all four.
+inline Packed pack3(const Eigen::Vector3d& v) { return Packed{v.x(), v.y(), v.z(), 0.0}; }
+
+/// A body of the robot or an obstacle. The world stands behind the links as a frame of its own.
+struct PlacedBody {
+  std::size_t frame;
+  const fcl::CollisionGeometryd* geometry;
+  Eigen::Isometry3d inFrame;
+  Eigen::Vector3d centre;  ///< of a sphere that holds it, in its frame (m)
+  double radius;           ///< of that sphere (m)
+  double inner;            ///< of a ball about the same centre that it holds (m)
+  bool convex;
+  ConvexBody body;  ///< where it is convex; posed at the last query
+};
+
+/// A pair of bodies and what keeps it apart.
+struct KeptPair {
+  std::size_t a, b;     ///< among the bodies
+  double bend;          ///< half the second body's R; infinite where it is no STP-BV (m)
+  double rounding;      ///< of their gap along a kept plane, but for the poses' (m)
+  long lastHit = 0;     ///< the configuration's number
+  bool kept = false;    ///< whether there is a plane, by its directions
+  bool lifted = false;  ///< whether its height is known: it is looked for when it is asked for
+  KeptPlane plane{};
+  PairCache cache;
+};
+
+}  // namespace detail
+
+class CollisionChecker::Impl {
+ public:
+  Impl(std::shared_ptr<const Kinematics> kinematics, std::shared_ptr<const RobotGeometry> geometry,
+       std::vector<CheckedPair> pairs, std::vector<Obstacle> obstacles, double margin);
+
+  const std::vector<CheckedPair>& pairs() const { return pairs_; }
+  const Kinematics& kinematics() const { return *kinematics_; }
+  std::string name(int pair) const {
+    return nameOf(pairs_.at(static_cast<std::size_t>(pair)), *geometry_, obstacles_);
+  }
+  double margin() const { return margin_; }
+  void setMargin(double margin);
+  std::optional<Hit> firstHit(const ConstVector& q);
+  const std::vector<Hit>& allHits(const ConstVector& q);
+  double minDistance(const ConstVector& q);
+  const CheckerWork& work() const { return work_; }
+  void forget();
+
+ private:
+  void addBody(std::size_t frame, const fcl::CollisionGeometryd& geometry, const Eigen::Isometry3d& pose,
+               const Eigen::Vector3d& centre, double radius);
+  void addPair(const CheckedPair& pair);
+  bool place(const ConstVector& q);
+  void placeSpheres();
+  bool isClear(const detail::NearPair& near);
+  bool isRecent(const detail::KeptPair& pair) const;
+  double planeGap(detail::KeptPair& pair) const;
+  bool searchSaysClear(detail::KeptPair& pair);
+  double measured(detail::KeptPair& pair);
+  void keepPlane(detail::KeptPair& pair) const;
+  void lift(detail::KeptPair& pair) const;
+  Hit hitOf(int pair) const { return {pair, pairs_[static_cast<std::size_t>(pair)]}; }
+  const detail::ConvexBody& posed(detail::PlacedBody& placed) const {
+    placed.body.pose = state_.link[placed.frame] * placed.inFrame;
+    return placed.body;
+  }
+
+  std::shared_ptr<const Kinematics> kinematics_;
+  std::shared_ptr<const RobotGeometry> geometry_;
+  std::vector<CheckedPair> pairs_;
+  std::vector<Obstacle> obstacles_;
+  double margin_ = 0, largest_ = 0, slack_ = 0;  // of the margin, of all radii, of the poses' rounding (m)
+  Kinematics::State state_;                      // with the world's frame as one more link
+  std::vector<detail::PlacedBody> bodies_;
+  std::vector<detail::SphereCentre> centres_;  // of the bodies' spheres
+  std::vector<detail::KeptPair> checked_;
+  detail::SpherePairs near_;
+  std::vector<Hit> hits_;
+  CheckerWork work_;
+  std::size_t closest_ = 0;  // the pair of the last least distance
+};
+
+}  // namespace fcl_stpbv

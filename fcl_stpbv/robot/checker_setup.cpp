@@ -1,0 +1,88 @@
+// Sets a CollisionChecker up: its bodies with their spheres, its pairs with their rounding, its margin.
+#include <algorithm>
+#include <cmath>
+
+#include "fcl_stpbv/convex/relative_pose.h"
+#include "fcl_stpbv/error.h"
+#include "fcl_stpbv/robot/checker_impl.h"
+
+namespace fcl_stpbv {
+
+using namespace detail;
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+}  // namespace
+
+CollisionChecker::Impl::Impl(std::shared_ptr<const Kinematics> kinematics,
+                             std::shared_ptr<const RobotGeometry> geometry, std::vector<CheckedPair> pairs,
+                             std::vector<Obstacle> obstacles, double margin)
+    : kinematics_(std::move(kinematics)),
+      geometry_(std::move(geometry)),
+      pairs_(std::move(pairs)),
+      obstacles_(std::move(obstacles)),
+      state_(kinematics_->makeState()) {
+  if (pairs_.empty())
+    throw Error("CollisionChecker: no pairs are given, so that nothing could be said about collisions");
+  const std::size_t world = state_.link.size();
+  state_.link.push_back(Isometry3d::Identity());
+  for (const Body& body : geometry_->bodies)
+    addBody(at(body.link), *body.geometry, body.pose, body.centre, body.radius);
+  for (const Obstacle& obstacle : obstacles_)
+    addBody(world, *obstacle.geometry, obstacle.pose, obstacle.centre, obstacle.radius);
+  for (const CheckedPair& pair : pairs_) addPair(pair);
+  centres_.resize(bodies_.size());
+  near_.resize(pairs_.size());
+  hits_.reserve(pairs_.size());
+  setMargin(margin);
+}
+
+void CollisionChecker::Impl::addBody(std::size_t frame, const fcl::CollisionGeometryd& geometry,
+                                     const Isometry3d& pose, const Vector3d& centre, double radius) {
+  PlacedBody placed{frame, &geometry, pose, centre, radius, 0, false, {}};
+  placed.convex = isConvex(geometry, placed.body);
+  if (const StpBv* volume = placed.body.volume) {
+    placed.centre = pose * volume->centre();
+    placed.radius = volume->enclosingRadius();
+    placed.inner = volume->innerRadius() + volume->radii().r;
+  }
+  if (!placed.centre.allFinite() || !std::isfinite(placed.radius)) {  // a half space, whose box is infinite
+    placed.centre = pose.translation();
+    placed.radius = kInfinity;
+  } else {
+    largest_ = std::max(largest_, placed.radius);
+  }
+  bodies_.push_back(placed);
+}
+
+void CollisionChecker::Impl::addPair(const CheckedPair& pair) {
+  requireBodies(pair, *geometry_, obstacles_.size(), "CollisionChecker");
+  KeptPair added{};
+  added.a = at(pair.body);
+  added.b = at(pair.other) + (pair.obstacle ? geometry_->bodies.size() : 0);
+  const PlacedBody &a = bodies_[added.a], &b = bodies_[added.b];
+  added.bend = b.body.volume ? 0.5 * b.body.volume->radii().R : kInfinity;
+  added.rounding = kGapRounding * (a.radius + b.radius);
+  if (a.convex && b.convex) added.rounding += kGapRounding * (a.body.extent() + b.body.extent());
+  if (b.body.volume) added.rounding += kGapRounding * b.body.volume->radii().R;  // 1 + u.w for |t|^2 / 2
+  checked_.push_back(added);
+}
+
+void CollisionChecker::Impl::setMargin(double margin) {
+  if (std::isnan(margin)) throw Error("CollisionChecker: the margin is not a number");
+  margin_ = margin;
+  for (std::size_t p = 0; p < checked_.size(); ++p) {
+    const KeptPair& pair = checked_[p];
+    const double reach = bodies_[pair.a].radius + bodies_[pair.b].radius + margin;
+    near_.set(p, pair.a, pair.b,
+              reach >= 0 ? reach : kInfinity);  // spheres say nothing about so deep an overlap
+  }
+}
+
+}  // namespace fcl_stpbv

@@ -1,0 +1,75 @@
+// How far the joints out to a body can push it along a direction, over a box of joint values
+// (docs/proofs.md).
+#pragma once
+
+#include <Eigen/Geometry>
+#include <vector>
+
+#include "fcl_stpbv/robot/body_points.h"
+
+namespace fcl_stpbv::detail {
+
+/// A joint on the way from the first body to the second, as it is at the middle of the box.
+struct BoxJoint {
+  bool slides = false;              ///< else it turns
+  bool up = false;                  ///< the first body is on the child's side
+  int slot = 0;                     ///< which of the box's coordinates moves it
+  double rate = 1;                  ///< its motion per unit of that coordinate, 1 but for mimic joints
+  double half = 0;                  ///< most that it moves from the middle (rad or m)
+  Eigen::Vector3d axis{0, 0, 1};    ///< unit, world
+  Eigen::Vector3d origin{0, 0, 0};  ///< a point of the axis
+};
+
+/// A joint with what half its range makes of it: sin, 1 - cos, 2 sin(half / 2).
+struct OutwardJoint {
+  BoxJoint joint;
+  double sine, bulge, chord;
+  double outwardRate;
+};
+
+/// A body and the joints from the plane's link out to it.
+struct BodySide {
+  std::vector<OutwardJoint> joints;
+  const BodyPoints* body;
+};
+
+/// One direction and one body at a time. Allocates nothing once it has seen its largest body and longest way.
+class PushBound {
+ public:
+  /// Whether one coordinate moves several of the joints.
+  void setShared(bool shared) { shared_ = shared; }
+
+  /// Takes the unit direction n, as it is at the plane's link, for the pushes that are asked next.
+  void prepare(const Eigen::Vector3d& n, const BodySide& side);
+
+  /// Most that the joints push the point x along n (m).
+  double push(const Eigen::Vector3d& n, const BodySide& side, const Eigen::Vector3d& x);
+
+  /// Bound on the support function of the body along n (m). Adds to `shares`, by coordinate, what each joint
+  /// pushes the point that decides.
+  double support(const Eigen::Vector3d& n, const BodySide& side, Eigen::VectorXd& shares);
+
+ private:
+  double along(const BodySide& side, std::size_t l, const Eigen::Vector3d& turned, double size,
+               const Eigen::Vector3d& x) const;
+  double couple(const BodySide& side, std::size_t i, std::size_t l, const Eigen::Vector3d& x);
+  double mostAtCorners(std::size_t i, std::size_t m, int tries);
+  double together(const Eigen::Vector3d& n, const BodySide& side, const Eigen::Vector3d& x) const;
+  double mostPush(const BodySide& side) const;
+  double mostTurned(const BodySide& side) const;
+  std::size_t foremost(const Eigen::Vector3d& n, const BodySide& side) const;
+
+  bool shared_ = false;
+  // Of the side at hand, for the normal n: n x axis of each joint, that crossed with the axis of each joint
+  // further out, and again; n across each axis, and that crossed with the axes further out; their lengths;
+  // the way from the outermost turning joint back to each one.
+  std::vector<Eigen::Vector3d> turned_, coupled_, tripled_, flat_, bulged_;
+  std::vector<double> tilt_, coupling_, tripling_, bulging_, way_;
+  // Of a point: its distance from each axis, the same once the joints further out have moved, how far those
+  // move it, and what each joint pushes.
+  std::vector<double> lever_, reach_, moved_, share_, bestShare_;
+  // What it is pushed in first order by each joint, and in second order by each two (mostAtCorners()).
+  std::vector<double> slope_, product_;
+};
+
+}  // namespace fcl_stpbv::detail

@@ -1,0 +1,37 @@
+// What the roll keeps of its cloud, and how points vanish into their neighbours.
+#include "fcl_stpbv/volume/rolling_cloud.h"
+
+namespace fcl_stpbv::detail {
+
+using Eigen::Vector3d;
+
+RollingCloud::RollingCloud(const std::vector<Vector3d>& cloud, double ballRadius)
+    : points(cloud),
+      radius(ballRadius),
+      curvature(std::isinf(radius) ? 0 : 1 / radius),
+      tree(points),
+      same_(touchTolerance(points)),
+      isVertex_(points.size(), 0) {
+  Vector3d low = points[0], high = points[0];
+  for (const Vector3d& p : points) low = low.cwiseMin(p), high = high.cwiseMax(p);
+  extent = (high - low).norm();
+}
+
+void RollingCloud::removeTwins(int i) {
+  std::vector<int> twins;
+  tree.within(at(i), same_, &twins);
+  for (const int j : twins)
+    if (j != i) tree.remove(j);
+}
+
+bool RollingCloud::claim(const Ring& ring) {
+  for (const int i : ring) {
+    if (tree.isRemoved(i)) return false;
+    if (isVertex_[static_cast<std::size_t>(i)]) continue;
+    removeTwins(i);
+    isVertex_[static_cast<std::size_t>(i)] = 1;
+  }
+  return true;
+}
+
+}  // namespace fcl_stpbv::detail

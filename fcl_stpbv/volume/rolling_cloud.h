@@ -1,0 +1,37 @@
+// A cloud while a ball rolls over it: its points, how large it is, and which of them have become vertices.
+#pragma once
+
+#include <Eigen/Core>
+#include <cmath>
+#include <vector>
+
+#include "fcl_stpbv/volume/ball_faces.h"
+#include "fcl_stpbv/volume/point_tree.h"
+
+namespace fcl_stpbv::detail {
+
+/// Points that lie closer than rounding to a vertex vanish into it: the tree does not see them any more.
+class RollingCloud {
+ public:
+  RollingCloud(const std::vector<Eigen::Vector3d>& points, double radius);
+
+  const Eigen::Vector3d& at(int i) const { return points[static_cast<std::size_t>(i)]; }
+  int count() const { return static_cast<int>(points.size()); }
+
+  /// Points closer to i than rounding vanish into it.
+  void removeTwins(int i);
+
+  /// Makes the ring's points vertices. False where one of them has vanished into another.
+  bool claim(const Ring& ring);
+
+  const std::vector<Eigen::Vector3d>& points;
+  double radius, curvature;  ///< the ball's
+  double extent;             ///< diagonal of the bounding box (m)
+  PointTree tree;
+
+ private:
+  double same_;  // points closer together count as one (m)
+  std::vector<char> isVertex_;
+};
+
+}  // namespace fcl_stpbv::detail

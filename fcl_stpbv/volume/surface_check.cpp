@@ -1,0 +1,226 @@
+// Local tests that prove the whole. A volume's patches lie over regions of normals that are glued along their
+// boundaries, an edge's region between two faces' and two vertices'. Let
+//   (a) each region be bounded by a loop that turns left at its corners and along its arcs, by 2 pi less the
+//       region's area in all, and that area not be negative;
+//   (b) neighbours lie on different sides of their boundary, and the angles around a corner add up to 2 pi;
+//   (c) vertices - edges + faces be 2.
+// By (a) a region is mapped one to one to the sphere of normals: a loop that turns left everywhere winds
+// round its inside once, or its turns would add up to 2 pi more and the area come out negative, unless it
+// bounded a quarter of the sphere twice over. With (b) the map is one to one near every normal, so the glued
+// surface covers the sphere evenly, and by (c) once. The patches then are the surface of a convex body with
+// normals all around, whose radii of curvature are at most R. By Blaschke's theorem any ball of radius R that
+// touches it from around holds it: it is the ball hull of its vertices.
+//
+// For (b): where a face turns left at a corner, its angle and the vertex's there make pi, and the two of the
+// edges make the rest. An edge is on both of its faces' balls, if these touch its ends, and between their
+// normals, if it turns forward. A concave edge would turn by nearly 2 pi: wide turns are measured.
+#include "fcl_stpbv/volume/surface_check.h"
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <limits>
+
+#include "fcl_stpbv/volume/ball_faces.h"
+#include "fcl_stpbv/volume/patch_view.h"
+#include "fcl_stpbv/volume/point_tree.h"
+#include "fcl_stpbv/volume/regions.h"
+
+namespace fcl_stpbv::detail {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+// Two normals of an edge that are tried are that far apart (rad).
+constexpr double kWide = 0.3;
+
+const Vector3d& at(const StpBv& volume, int vertex) {
+  return volume.vertices()[static_cast<std::size_t>(vertex)];
+}
+
+// Height of a vertex over the ball of a face (m).
+double height(const StpBv& volume, int face, int vertex) {
+  const FaceRecord& f = volume.tables().patches.face(volume.facePatch(face));
+  const Vector3d q = at(volume, vertex) - f.anchor;
+  return q.squaredNorm() / (2 * volume.radii().rho) + q.dot(f.normal);
+}
+
+// The most that a point is outside of the ball that rolls over an edge, in between its ends (m).
+double heightOnTheWay(const StpBv& volume, int edge, const Arc& arc, const Vector3d& p) {
+  const StpBv::Edge& e = volume.edges()[static_cast<std::size_t>(edge)];
+  const Vector3d &from = at(volume, e.vertex[0]), along = at(volume, e.vertex[1]) - from, q = p - from;
+  const Patch patch = volume.patch(volume.edgePatch(edge));
+  const double curvature = 1 / volume.radii().rho, cosine = curvature * patch.kappa;
+  const double x = q.dot(arc.start), y = q.dot(arc.axis.cross(arc.start));
+  double angle = std::atan2(y, x);
+  if (angle < 0) angle += 2 * kPi;
+  if (angle >= e.turn) return -kInfinity;
+  return 0.5 * curvature * q.dot(q - along) + cosine * std::hypot(x, y);
+}
+
+// How far a point of the cloud is outside of a ball that touches one of the volume's faces or rolls over one
+// of its edges (m).
+double farthestOut(const StpBv& volume, const std::vector<Vector3d>& points) {
+  const PointTree tree(points);
+  const double curvature = 1 / volume.radii().rho;
+  std::vector<int> near;
+  double out = -kInfinity;
+  for (int f = 0; f < volume.faceCount(); ++f) {
+    const FaceRecord& face = volume.tables().patches.face(volume.facePatch(f));
+    out = std::max(out, tree.highest(face.anchor, face.normal, curvature, 0, &near).height);
+  }
+  // A point that leaves the rolling ball and meets it again within half a turn is in the ball over the edge
+  // as diameter, nearer to either end than its length l. Its height changes with the roll as a sinusoid of at
+  // most that amplitude: where it is out by an angle x from where it is asked, it is at least -l x^2 / 2
+  // high.
+  for (int e = 0; e < volume.edgeCount(); ++e) {
+    const StpBv::Edge& edge = volume.edges()[static_cast<std::size_t>(e)];
+    const Vector3d &from = at(volume, edge.vertex[0]), &to = at(volume, edge.vertex[1]);
+    const Arc arc = edgeArc(volume, e);
+    const double length = (to - from).norm(), sine = 0.5 * curvature * length,
+                 cosine = curvature * volume.patch(volume.edgePatch(e)).kappa;
+    const int count = static_cast<int>(edge.turn / kWide) + 1;
+    const double x = 0.5 * edge.turn / count, low = 0.5 * length * x * x;
+    for (int k = 0; k < count; ++k) {
+      const Vector3d normal = cosine * arc.at((k + 0.5) / count) - sine * arc.axis;
+      const PointTree::Highest top = tree.highest(from, normal, curvature, low, &near);
+      if (top.height > low)
+        out = std::max(out, top.height);
+      else
+        for (const int i : near)
+          out = std::max(out, heightOnTheWay(volume, e, arc, points[static_cast<std::size_t>(i)]));
+    }
+  }
+  return out;
+}
+
+// The largest distance between patches that should meet. Those of an edge part by as much as its ends are off
+// its faces' balls, so that only wide turns, which may be none, are measured.
+double largestGap(const StpBv& volume) {
+  double gap = 0;
+  for (int f = 0; f < volume.faceCount(); ++f)
+    for (const int i : volume.faces()[static_cast<std::size_t>(f)])
+      gap = std::max(gap, std::abs(height(volume, f, i)));
+  for (int e = 0; e < volume.edgeCount(); ++e)
+    if (volume.edges()[static_cast<std::size_t>(e)].turn >= kWide)
+      gap = std::max(gap, edgeGap(volume, e).largest());
+  return gap;
+}
+
+// Whether every region is bounded by a loop that turns left, and they tile the sphere.
+bool tilesSphere(const StpBv& volume) {
+  constexpr double kOff = 1e-6;  // rad and sr: what slivers' rounding may add up to
+  const RegionAngles angles = regionAngles(volume);
+  double sum = 0, least = 0;
+  for (const double angle : angles.area) sum += angle, least = std::min(least, angle);
+  return std::abs(sum - 4 * kPi) <= kOff && least >= -kOff && angles.leastTurn >= -kOff;
+}
+
+// Angle by which the boundary of a face's region turns left at the `k`th corner of its ring (rad), (-pi, pi].
+double cornerTurn(const StpBv& volume, int face, std::size_t k) {
+  const StpBv::Ring& ring = volume.faces()[static_cast<std::size_t>(face)];
+  const std::size_t corners = ring.size();
+  const Vector3d& here = at(volume, ring[k]);
+  const Vector3d n = volume.corner(face, ring[k]);
+  const auto across = [&](const Vector3d& v) { return n.cross(v.cross(n)); };
+  const Vector3d arrive = across(here - at(volume, ring[k > 0 ? k - 1 : corners - 1])),
+                 leave = across(at(volume, ring[k + 1 < corners ? k + 1 : 0]) - here);
+  return std::atan2(n.dot(arrive.cross(leave)), arrive.dot(leave));
+}
+
+}  // namespace
+
+RegionAngles regionAngles(const StpBv& volume) {
+  RegionAngles angles;
+  angles.area.assign(static_cast<std::size_t>(volume.patchCount()), 0.0);
+  const auto area = [&](int patch) -> double& { return angles.area[static_cast<std::size_t>(patch)]; };
+  if (volume.edgeCount() == 0) {
+    area(0) = 4 * kPi;
+    return angles;
+  }
+  // 2 pi minus the boundary's turning. Faces turn at their corners only; a vertex region is bounded by the
+  // cones of its edges, small circles, which turn along the way too.
+  for (int v = 0; v < volume.vertexCount(); ++v) area(v) = 2 * kPi;
+  for (int e = 0; e < volume.edgeCount(); ++e) {
+    const StpBv::Edge& edge = volume.edges()[static_cast<std::size_t>(e)];
+    const double sine =
+        0.5 * (at(volume, edge.vertex[1]) - at(volume, edge.vertex[0])).norm() / volume.radii().rho;
+    area(volume.edgePatch(e)) = 2 * sine * edge.turn;
+    for (const int v : edge.vertex) area(v) -= sine * edge.turn;
+  }
+  for (int f = 0; f < volume.faceCount(); ++f) {
+    const StpBv::Ring& ring = volume.faces()[static_cast<std::size_t>(f)];
+    double sum = 0;
+    for (std::size_t k = 0; k < ring.size(); ++k) {
+      // At the same corner the vertex region turns between the cones of the two edges, by what is left of pi.
+      const double turn = cornerTurn(volume, f, k);
+      angles.leastTurn = std::min(angles.leastTurn, turn);
+      sum += turn;
+      area(ring[k]) -= kPi - turn;
+    }
+    area(volume.facePatch(f)) = 2 * kPi - sum;
+  }
+  return angles;
+}
+
+double vertexHeight(const StpBv& volume) {
+  double worst = -kInfinity;
+  for (int f = 0; f < volume.faceCount(); ++f)
+    for (const int i : volume.faces()[static_cast<std::size_t>(f)])
+      worst = std::max(worst, height(volume, f, i));
+  for (const StpBv::Edge& edge : volume.edges()) {
+    if (edge.face[0] < 0) continue;
+    for (const std::size_t side : {0u, 1u}) {
+      const StpBv::Ring& ring = volume.faces()[static_cast<std::size_t>(edge.face[side])];
+      const auto from =
+          static_cast<std::size_t>(std::find(ring.begin(), ring.end(), edge.vertex[side]) - ring.begin());
+      const int over = edge.face[1 - side];
+      worst = std::max(worst, height(volume, over, ring[(from + 2) % ring.size()]));
+      if (ring.size() > 3)
+        worst = std::max(worst, height(volume, over, ring[(from + ring.size() - 1) % ring.size()]));
+    }
+  }
+  return worst;
+}
+
+EdgeGap edgeGap(const StpBv& volume, int e) {
+  EdgeGap gap;
+  const auto compare = [&](int a, int b, const Vector3d& n, double* largest) {
+    *largest = std::max(*largest, (corePoint(volume, a, n) - corePoint(volume, b, n)).norm());
+  };
+  const StpBv::Edge& edge = volume.edges()[static_cast<std::size_t>(e)];
+  const int own = volume.edgePatch(e);
+  const double sine =
+      0.5 * (at(volume, edge.vertex[1]) - at(volume, edge.vertex[0])).norm() / volume.radii().rho;
+  const double cosine = volume.patch(own).kappa / volume.radii().rho;
+  const Arc arc = edgeArc(volume, e);
+  for (int k = 0; k <= 8; ++k) {
+    const Vector3d w = arc.at(k / 8.0);
+    compare(own, edge.vertex[0], cosine * w - sine * arc.axis, &gap.ends);
+    compare(own, edge.vertex[1], cosine * w + sine * arc.axis, &gap.ends);
+    if (k > 0 && k < 8) compare(own, volume.owner(w), w, &gap.arc);  // the region holds its arc
+  }
+  if (edge.face[0] < 0) return gap;
+  for (const std::size_t side : {0u, 1u}) {
+    const int face = edge.face[side];
+    const Vector3d a = volume.corner(face, edge.vertex[0]), b = volume.corner(face, edge.vertex[1]);
+    for (int k = 0; k <= 4; ++k)
+      compare(own, volume.facePatch(face), ((1 - k / 4.0) * a + k / 4.0 * b).normalized(), &gap.side[side]);
+  }
+  return gap;
+}
+
+Soundness soundnessOf(const StpBv& volume, const std::vector<Vector3d>& points,
+                      const std::vector<Vector3d>& others) {
+  const double held = vertexHeight(volume), left = others.empty() ? -kInfinity : farthestOut(volume, others);
+  const double size = volume.enclosingRadius(), same = 2 * touchTolerance(points), out = std::max(held, left);
+  const double wide = 1e-9 * size + same;
+  const double shift = 1e-3 * size + wide + 64 * kEpsilon * volume.radii().rho;
+  if (!(out <= wide && tilesSphere(volume) && largestGap(volume) <= shift)) return Soundness::broken;
+  if (!(out <= same + 8 * kEpsilon * volume.radii().rho)) return Soundness::off;
+  return left <= 16 * kEpsilon * size ? Soundness::exact : Soundness::sound;
+}
+
+}  // namespace fcl_stpbv::detail

@@ -1,0 +1,174 @@
+// Quickhull with balls, and the local tests of what it makes.
+#include <Eigen/Geometry>
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "fcl_stpbv/volume/ball_quickhull.h"
+#include "fcl_stpbv/volume/minimum_ball.h"
+#include "fcl_stpbv/volume/quick_ball.h"
+#include "fcl_stpbv/volume/rolling_ball.h"
+#include "fcl_stpbv/volume/space_order.h"
+#include "fcl_stpbv/volume/surface_check.h"
+#include "fcl_stpbv/volume/verify.h"
+#include "test/reference/shapes.h"
+
+using namespace fcl_stpbv;
+using namespace fcl_stpbv::detail;
+using namespace fcl_stpbv::test;
+using Eigen::Vector3d;
+
+namespace {
+
+Cloud onEllipsoid(int count, const Vector3d& half, std::uint64_t seed) {
+  Random random(seed);
+  Cloud points;
+  for (int i = 0; i < count; ++i) points.push_back(half.cwiseProduct(random.direction()));
+  return points;
+}
+
+}  // namespace
+
+TEST_CASE("A side in double precision is the exact one") {
+  Random random(21);
+  int uncertain = 0;
+  for (int k = 0; k < 3000; ++k) {
+    const double thin = std::pow(10, random.uniform(-7, 0)), radius = std::pow(10, random.uniform(-0.2, 3));
+    const Vector3d a = 0.3 * random.direction(), b = a + 0.1 * random.direction(),
+                   c = b + 0.1 * thin * random.direction();
+    QuickBall quick(a, b, c, radius);
+    const TouchingBall exact(a, b, c, radius);
+    REQUIRE(quick.valid() == exact.valid());
+    for (int i = 0; i < 20; ++i) {
+      Vector3d p = i < 10 ? Vector3d(0.3 * random.direction()) : Vector3d((a + b + c) / 3);
+      // Next to the ball: onto it along its normal, and off by little.
+      if (i >= 5) {
+        p -= static_cast<double>(exact.height(p)) * exact.normalAt(p);
+        p += std::pow(10, random.uniform(-18, -9)) * random.direction();
+      }
+      double height = 0;
+      CHECK(quick.side(p, &height) == exact.side(p));
+      uncertain += std::abs(height) <= quick.heightError(p);
+      CHECK(std::abs(height - static_cast<double>(exact.height(p))) <= quick.heightError(p));
+    }
+  }
+  CHECK(uncertain > 100);  // both ways were tried
+}
+
+TEST_CASE("Quickhull finds the faces that the ball rolls onto") {
+  Random random(22);
+  for (int k = 0; k < 80; ++k) {
+    Cloud points;
+    switch (k % 4) {
+      case 0:
+        points = onEllipsoid(20 + 10 * k, {0.3, 0.2, 0.1}, k + 1);
+        break;
+      case 1:
+        points = randomHull(20 + 20 * k, {0.3, 0.2, 0.1}, k + 1);
+        break;
+      case 2:
+        points = geodesicSphere(0.2, 1 + k % 3);
+        break;
+      default:  // inside, on the surface, and twice
+        points = onEllipsoid(100, {0.3, 0.2, 0.1}, k + 1);
+        for (int i = 0; i < 200; ++i)
+          points.push_back(random.uniform(0, 1) * points[static_cast<std::size_t>(random.below(100))]);
+    }
+    const double least = minimumEnclosingBall(points).radius;
+    for (const double radius : {least * (1 + 1e-6), least * 1.01, least * 3, 10.0, 1e4, flatRadius(points)}) {
+      CAPTURE(k, radius, points.size());
+      const RolledHull quick = quickBallHull(points, radius), rolled = rollBall(points, radius);
+      if (radius > 2 * least) REQUIRE(!quick.faces.empty());
+      if (quick.faces.empty())
+        continue;  // an ellipsoid near its smallest ball is no surface of triangles alone
+      // With a small ball a point may stick out over an edge alone: then the check sends the cloud to the
+      // roll.
+      if (quick.vertices.size() < rolled.vertices.size()) continue;
+      CHECK(quick.vertices == rolled.vertices);
+      CHECK(quick.faces == rolled.faces);
+    }
+  }
+}
+
+TEST_CASE("The convex hull of a finely divided box has no vertex inside its flat faces but by rounding") {
+  // Every point is doubled and most lie in a flat face: turned, they are off it by their rounding.
+  constexpr int kSide = 30;
+  Cloud points;
+  for (int i = 0; i <= kSide; ++i)
+    for (int j = 0; j <= kSide; ++j)
+      for (const double z : {-0.125, 0.125}) {
+        const double x = -0.125 + 0.25 * i / kSide, y = -0.125 + 0.25 * j / kSide;
+        for (const Vector3d& p : {Vector3d(x, y, z), Vector3d(y, z, x), Vector3d(z, x, y)})
+          points.push_back(p);
+      }
+  const RolledHull straight = rollBall(points);
+  CHECK(straight.vertices.size() == 8);
+  CHECK(straight.faces.size() == 6);
+  const Eigen::Matrix3d turn = Random(3).rotation();
+  for (Vector3d& p : points) p = turn * p;
+  const RolledHull turned = rollBall(points);
+  CHECK(turned.vertices.size() < 200);
+  for (const std::vector<int>& ring : turned.faces) {
+    const auto t = wideTriangle(points, ring);
+    const Vector3d& a = points[static_cast<std::size_t>(t[0])];
+    const Vector3d n =
+        (points[static_cast<std::size_t>(t[1])] - a).cross(points[static_cast<std::size_t>(t[2])] - a);
+    // A face as thin as rounding tells no plane.
+    if (n.norm() < 1e-6) continue;
+    for (const Vector3d& p : points) CHECK(n.normalized().dot(p - a) <= 1e-15);
+  }
+}
+
+TEST_CASE("A point that sticks out over the middle of an edge alone is a vertex") {
+  // The ball that rolls over the edge of a ridge leaves the point on its way, although neither of the faces'
+  // balls does: it is lower than the arc in which they meet, higher than the torus between them.
+  const double length = 0.2, R = 1, half = 0.5 * length;
+  const Cloud ridge{{-half, 0, 0}, {half, 0, 0}, {0, 0.1, -0.1}, {0, -0.1, -0.1}};
+  const StpBv::Ptr without = StpBv::build(ridge, {0, R});
+  REQUIRE(without->faceCount() == 4);
+  const double torus = without->surfacePoint({0, 0, 1}).z();
+  for (const double out : {1e-6, 1e-9, 1e-12, -1e-12, -1e-6}) {
+    Cloud points = ridge;
+    points.push_back({0, 0, torus + out});
+    CAPTURE(out, torus);
+    const StpBv::Ptr volume = StpBv::build(points, {0, R});
+    CHECK(volume->vertexCount() == (out > 0 ? 5 : 4));
+    CHECK(verify(*volume, points).message == "ok");
+    const Soundness found = soundnessOf(*without, points, {points.back()});
+    CHECK((found == Soundness::exact) == (out < 0));
+  }
+}
+
+TEST_CASE("A point outside a volume makes it broken, one outside by rounding does not") {
+  const Cloud points = geodesicSphere(0.2, 2);
+  const StpBv::Ptr volume = StpBv::build(points, {0.01, 10});
+  const Vector3d n = volume->patch(volume->facePatch(7)).axis, x = volume->surfacePoint(n) - 0.01 * n;
+  CHECK(soundnessOf(*volume, points, {}) == Soundness::exact);
+  CHECK(soundnessOf(*volume, points, {x - 1e-6 * n}) == Soundness::exact);
+  CHECK(soundnessOf(*volume, points, {x + 3e-15 * n}) == Soundness::sound);
+  CHECK(soundnessOf(*volume, points, {x + 1e-12 * n}) == Soundness::off);
+  CHECK(soundnessOf(*volume, points, {x + 1e-6 * n}) == Soundness::broken);
+}
+
+TEST_CASE("Points in space order are each there once") {
+  Cloud points = onEllipsoid(500, {0.3, 0.2, 0.1}, 4);
+  for (int i = 0; i < 100; ++i) points.push_back(points[static_cast<std::size_t>(3 * i)]);
+  std::vector<int> order = spaceOrder(points);
+  double steps = 0;
+  for (std::size_t i = 1; i < order.size(); ++i)
+    steps +=
+        (points[static_cast<std::size_t>(order[i])] - points[static_cast<std::size_t>(order[i - 1])]).norm();
+  CHECK(steps < 0.05 * 500);  // the next is near: at random it would be 0.3 m on
+  std::sort(order.begin(), order.end());
+  REQUIRE(order.size() == 500);
+  for (int i = 0; i < 500; ++i) CHECK(order[static_cast<std::size_t>(i)] == i);
+  CHECK(spaceOrder({}).empty());
+  CHECK(spaceOrder({{1, 2, 3}, {1, 2, 3}}).size() == 1);
+}
+
+TEST_CASE("Quickhull asks the sides of a few points a vertex, however many") {
+  for (const int count : {1000, 30000}) {
+    const QuickFaces quick = quickhull(onEllipsoid(count, {0.2, 0.2, 0.2}, 1), 10);
+    REQUIRE(quick.faces.size() == static_cast<std::size_t>(2 * count - 4));
+    CHECK(static_cast<double>(quick.asked) < 12 * count * std::log2(count));
+  }
+}
