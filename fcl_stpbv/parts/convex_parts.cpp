@@ -148,12 +148,14 @@ bool coverInside(const PartSearch::Parts& parts, const std::vector<TriangleSoup>
   return true;
 }
 
-ConvexPart certified(const std::vector<Vector3d>& points, const MeshSolid& mesh) {
+ConvexPart certified(const std::vector<Vector3d>& points, const PartSpace& space) {
+  const MeshSolid& mesh = space.mesh;
   ConvexPart out;
   for (const int v : rollBall(points).vertices) out.points.push_back(points[at(v)]);
   const std::vector<Triangle> surface = hullTriangles(out.points);
-  out.excess = out.openExcess = excessOf(surface, mesh);
   ExcessOptions open;
+  open.absolute = 0.04 * space.fine;
+  out.excess = out.openExcess = excessOf(surface, mesh, open);
   open.filled = false;
   if (mesh.pieces().closedPieces() > 0) out.openExcess = excessOf(surface, mesh, open);
   return out;
@@ -180,11 +182,11 @@ Certified certified(const PartSearch::Parts& parts, const std::vector<TriangleSo
   if (!out.covers) return out;
   for (PartPoints& one : points) {
     if (one.found.empty()) continue;  // a leaf of the coarse mesh alone
-    ConvexPart part = certified(one.found, space.mesh);
+    ConvexPart part = certified(one.found, space);
     if (!one.needed.empty()) {
       const double before = part.excess.upper;
       append(one.found, one.needed);
-      part = certified(one.found, space.mesh);
+      part = certified(one.found, space);
       out.asFound = out.asFound && part.excess.upper <= before + 0.5 * space.fine;
     }
     out.parts.excess = std::max(out.parts.excess, part.excess.upper);
@@ -212,22 +214,27 @@ PartSearch::Parts uncut(const std::vector<TriangleSoup>& soups, const PartSpace&
 // 3. Where the inside needs corners that raise the excess: by cuts again, with corners from the start.
 ConvexParts searched(const PartSpace& space, const std::vector<TriangleSoup>& soups,
                      const PartsOptions& options) {
-  // Beyond kSearched triangles the search sees a coarser mesh, of which it need not get the last bit. And few
-  // parts are found sooner.
+  // Beyond kSearched triangles the search sees a coarser mesh, of which it need not get the last bit. And two
+  // or three parts are found sooner.
   const double triangles = static_cast<double>(space.mesh.triangles().size());
   const double share =
-      std::clamp(static_cast<double>(kSearched) / triangles, 0.3, 1.0) * std::min(1.0, options.most / 8.0);
+      std::clamp(static_cast<double>(kSearched) / triangles, 0.3, 1.0) * std::min(1.0, options.most / 4.0);
   const long work = static_cast<long>(kHulls * options.effort * share);
   PartSearch search(space, options.most, options.excess);
-  const PartSearch::Parts facets = facetParts(soups, space, options.most, options.excess);
+  const std::vector<PartSearch::Parts> facets = facetParts(soups, space, options.most, options.excess);
   if (!facets.empty()) {
-    const PartSearch::Parts few = search.improved(facets, work / 10);
+    const PartSearch::Parts few = search.improved(facets.front(), work / 10);
     if (search.isEnough(few))
       if (Certified done = certified(few, soups, space); done.covers) return std::move(done.parts);
   }
   const PartSearch::Parts cuts = search.byCuts(uncut(soups, space, false), work);
   if (!facets.empty() && !search.isEnough(cuts)) {
-    const PartSearch::Parts other = search.improved(facets, work / 4);
+    PartSearch::Parts best;  // of the facets' sets, joined
+    for (const PartSearch::Parts& one : facets) {
+      PartSearch::Parts few = search.improved(one, 0L);
+      if (best.empty() || PartSearch::isBetter(few, best)) best = std::move(few);
+    }
+    const PartSearch::Parts other = search.improved(best, work / 4);
     if (PartSearch::isBetter(other, cuts))
       if (Certified done = certified(other, soups, space); done.covers) return std::move(done.parts);
   }

@@ -1,12 +1,14 @@
 // Agglomerative joining, as in hierarchical approximate convex decomposition (HACD; Mamou and Ghorbel, ICIP
 // 2009), with the excess of the joined hull over the mesh as its cost:
-// 1. triangles of one plane that share edges are one facet, and each facet is a part;
+// 1. triangles of one plane that share edges are one facet, and each facet is a part; of a facet that is not
+//    convex, as an L's or a ring's, each triangle is one;
 // 2. of all parts that share an edge, the two whose hull is nearest to the mesh are joined; among those that
-// are
-//    near enough, the two whose hull is smallest;
-// 3. until no join is near enough and few are left.
+//    are near enough, the two whose hull has the least surface;
+// 3. until no join is near enough and no more are left than asked for. What was joined last may be better
+//    apart, and others joined instead; so each set on the way, from a few too many, is an answer.
 #include "fcl_stpbv/parts/facet_parts.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <iterator>
 #include <limits>
@@ -20,6 +22,7 @@ namespace fcl_stpbv::detail {
 namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
+constexpr double kFiner = 0.1;            // of what other searches look at: what fits here fits to rounding
 constexpr std::size_t kMostFacets = 700;  // a round mesh, of small facets, is not made of few convex bodies
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
@@ -35,7 +38,8 @@ int rootOf(std::vector<int>& parent, int i) {
   return i;
 }
 
-void append(Facets& out, const TriangleSoup& soup) {
+// The triangles of `soup` by facet, those in `loose` each on its own.
+void append(Facets& out, const TriangleSoup& soup, const std::set<int>& loose) {
   std::map<std::pair<int, int>, std::vector<int>> atEdge;
   for (std::size_t t = 0; t < soup.triangles.size(); ++t)
     for (std::size_t k = 0; k < 3; ++k) {
@@ -46,7 +50,7 @@ void append(Facets& out, const TriangleSoup& soup) {
   std::iota(parent.begin(), parent.end(), 0);
   for (const auto& [edge, triangles] : atEdge)
     for (const int t : triangles)
-      if (soup.facet[at(t)] == soup.facet[at(triangles[0])])
+      if (soup.facet[at(t)] == soup.facet[at(triangles[0])] && !loose.count(soup.facet[at(t)]))
         parent[at(rootOf(parent, t))] = rootOf(parent, triangles[0]);
   std::map<int, int> place;  // of a root
   for (std::size_t t = 0; t < parent.size(); ++t) {
@@ -69,6 +73,12 @@ void append(Facets& out, const TriangleSoup& soup) {
     }
 }
 
+double areaOf(const std::vector<Triangle>& surface) {
+  double area = 0;
+  for (const Triangle& t : surface) area += 0.5 * (t[1] - t[0]).cross(t[2] - t[0]).norm();
+  return area;
+}
+
 // Two neighbours' common hull.
 struct Join {
   double excess = 0;  // over the mesh; 0 within the bound
@@ -77,8 +87,8 @@ struct Join {
 
   Join() = default;
   Join(const Part& a, const Part& b, const PartSpace& space, double bound)
-      : part(std::make_shared<Part>(joined(a, b, space, {space.fine, kInfinite, 300}))) {
-    size = part->hull.diagonal();
+      : part(std::make_shared<Part>(joined(a, b, space, {kFiner * space.fine, kInfinite, 300}))) {
+    size = areaOf(part->hull.surface);
     excess = part->excess.lower <= bound ? 0 : part->excess.lower;
   }
   bool isBefore(const Join& other) const {
@@ -87,29 +97,44 @@ struct Join {
   // Measures what may not be within the bound again, well. Whether that was called for.
   bool confirm(const PartSpace& space, double bound) {
     constexpr long kQueries = 10000;
-    if (excess > 0 || part->excess.upper <= bound + space.fine || part->queries == kQueries) return false;
-    measureAgain(*part, space, {space.fine, bound, kQueries});
+    if (excess > 0 || part->excess.upper <= bound + kFiner * space.fine || part->queries == kQueries)
+      return false;
+    measureAgain(*part, space, {kFiner * space.fine, bound, kQueries});
     excess = part->excess.lower <= bound ? 0 : part->excess.lower;
     return true;
   }
 };
 
+// Those that are left.
+PartSearch::Parts leftOf(PartSearch::Parts parts) {
+  parts.erase(std::remove(parts.begin(), parts.end(), nullptr), parts.end());
+  return parts;
+}
+
 }  // namespace
 
-PartSearch::Parts facetParts(const std::vector<TriangleSoup>& groups, const PartSpace& space, int most,
-                             double bound) {
-  const std::size_t many = std::max<std::size_t>(16, static_cast<std::size_t>(most));
-  bound = std::max(bound, space.fine);
+std::vector<PartSearch::Parts> facetParts(const std::vector<TriangleSoup>& groups, const PartSpace& space,
+                                          int most, double bound) {
+  const std::size_t few = static_cast<std::size_t>(most), many = std::max<std::size_t>(16, few);
+  bound = std::max(bound, 2 * kFiner * space.fine);
   Facets facets;
-  for (std::size_t g = 0; g < groups.size(); ++g) append(facets, groups[g]);
-  if (facets.soups.size() > kMostFacets) return {};
   PartSearch::Parts parts;
-  for (TriangleSoup& soup : facets.soups) {
-    auto leaf = std::make_shared<BspLeaf>();
-    leaf->soup = std::move(soup);
-    leaf->isFacet = true;
-    parts.push_back(std::make_shared<Part>(makePart({leaf}, space, {space.fine})));
+  std::set<int> loose;  // facets that are not convex, as an L's or a ring's, go triangle by triangle
+  for (const bool again : {false, true}) {
+    facets = {};
+    for (const TriangleSoup& group : groups) append(facets, group, loose);
+    if (facets.soups.size() > kMostFacets) return {};
+    parts.clear();
+    for (TriangleSoup& soup : facets.soups) {
+      auto leaf = std::make_shared<BspLeaf>();
+      leaf->soup = std::move(soup);
+      leaf->isFacet = true;
+      parts.push_back(std::make_shared<Part>(makePart({leaf}, space, {kFiner * space.fine})));
+      if (!again && parts.back()->excess.upper > 2 * bound) loose.insert(leaf->soup.facet.front());
+    }
+    if (loose.empty()) break;
   }
+  std::vector<PartSearch::Parts> found;
   std::map<std::pair<int, int>, Join> joins;
   const auto add = [&](int a, int b) {
     joins[std::minmax(a, b)] = Join(*parts[at(a)], *parts[at(b)], space, bound);
@@ -118,8 +143,11 @@ PartSearch::Parts facetParts(const std::vector<TriangleSoup>& groups, const Part
   for (std::size_t left = parts.size(); left > 1 && !joins.empty();) {
     const auto best = std::min_element(
         joins.begin(), joins.end(), [](const auto& x, const auto& y) { return x.second.isBefore(y.second); });
-    if (left <= many && best->second.excess > 0) break;
     if (best->second.confirm(space, bound)) continue;  // it may no longer be the best
+    if (left <= many && best->second.excess > 0) {
+      found.push_back(leftOf(parts));
+      if (left <= few) break;
+    }
     const auto [a, b] = best->first;
     parts[at(a)] = best->second.part;
     parts[at(b)] = nullptr;
@@ -134,8 +162,8 @@ PartSearch::Parts facetParts(const std::vector<TriangleSoup>& groups, const Part
     for (const int other : around)
       if (other != a && other != b) add(a, other);
   }
-  parts.erase(std::remove(parts.begin(), parts.end(), nullptr), parts.end());
-  return parts;
+  if (found.empty() || found.back().size() > few) found.push_back(leftOf(parts));
+  return found;
 }
 
 }  // namespace fcl_stpbv::detail

@@ -8,9 +8,10 @@
 namespace fcl_stpbv::detail {
 
 /// Flat parts of the mesh, each in one piece, joined with neighbours while their common hull is within
-/// `bound` (m) of the mesh, and on until few more than `most` are left. They hold all triangles; what the
-/// mesh encloses is for the caller to prove. None where the mesh has too many flat parts for that.
-PartSearch::Parts facetParts(const std::vector<TriangleSoup>& groups, const PartSpace& space, int most,
-                             double bound);
+/// `bound` (m) of the mesh, and on until `most` are left: the sets of parts passed on the way, each a little
+/// coarser than the one before. Each set holds all triangles; what the mesh encloses is for the caller to
+/// prove. None where the mesh has too many flat parts for that.
+std::vector<PartSearch::Parts> facetParts(const std::vector<TriangleSoup>& groups, const PartSpace& space,
+                                          int most, double bound);
 
 }  // namespace fcl_stpbv::detail

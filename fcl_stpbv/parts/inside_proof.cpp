@@ -8,6 +8,7 @@
 //    point of it tells.
 #include "fcl_stpbv/parts/inside_proof.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 
 #include "fcl_stpbv/parts/mesh_excess.h"

@@ -10,7 +10,7 @@ namespace fcl_stpbv {
 
 /// How close a bound is asked for, and when to end.
 struct ExcessOptions {
-  double absolute = 1e-4;  ///< the bound is within this (m)
+  double absolute = 1e-5;  ///< the bound is within this (m)
   double relative = 1e-3;  ///< plus this part of it, of the truth,
   long queries = 1000000;  ///< unless that would take more distances than this
   bool filled = true;      ///< points that the mesh encloses count 0; else all points from its triangles

@@ -152,6 +152,25 @@ MeshSolid::Nearest MeshSolid::nearest(const Vector3d& p, int guess) const {
   return {std::sqrt(best), found};
 }
 
+bool MeshSolid::within(const Vector3d& low, const Vector3d& high,
+                       const std::function<bool(int)>& visit) const {
+  std::array<int, 64> open;  // halved at each level: no deeper than 32
+  std::size_t count = 0;
+  open[count++] = 0;
+  while (count > 0) {
+    const Node& node = nodes_[at(open[--count])];
+    if ((node.low.array() > high.array()).any() || (node.high.array() < low.array()).any()) continue;
+    if (node.left >= 0) {
+      open[count++] = node.left;
+      open[count++] = node.right;
+      continue;
+    }
+    for (int i = node.begin; i < node.end; ++i)
+      if (!visit(order_[at(i)])) return false;
+  }
+  return true;
+}
+
 template <class Visit>
 bool MeshSolid::alongRay(const Vector3d& p, const Vector3d& direction, Visit visit) const {
   const Vector3d inverse = direction.cwiseInverse();

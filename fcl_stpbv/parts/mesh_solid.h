@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <functional>
 #include <limits>
 #include <vector>
 
@@ -45,6 +46,11 @@ class MeshSolid {
   };
   /// `guess` is a triangle that is probably near, or -1.
   Nearest nearest(const Eigen::Vector3d& p, int guess = -1) const;
+
+  /// Calls `visit` with triangles until it says false: all whose boxes meet the box from `low` to `high`.
+  /// Whether it never did.
+  bool within(const Eigen::Vector3d& low, const Eigen::Vector3d& high,
+              const std::function<bool(int)>& visit) const;
 
   /// Which side of the closed pieces a point is on, by crossings of a ray. `unsure` is for points on the
   /// surface to rounding, and where every ray tried touches an edge.

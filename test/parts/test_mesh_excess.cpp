@@ -159,3 +159,21 @@ TEST_CASE("a mesh without triangles, or with coordinates that are no numbers, is
   CHECK_THROWS_WITH(MeshSolid({{{0, 0, 0}, {1, 0, nan}, {0, 1, 0}}, {{0, 1, 2}}}), Contains("finite"));
   CHECK_THROWS_WITH(MeshSolid({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 3}}}), Contains("does not exist"));
 }
+
+TEST_CASE(
+    "parts whose faces end on flat parts' borders and inside the solid are known to a millionth, quickly") {
+  // The lower box of an L, and the whole height of its upright: their faces lie on the L's own, in part, and
+  // cross its inside.
+  const MeshSolid solid(lShape());
+  const Eigen::Vector3d low = solid.low(), high = solid.high();
+  ExcessOptions fine;
+  fine.absolute = 1e-6;
+  fine.queries = 2000;                  // halves alone would take more than 100,000
+  std::vector<Eigen::Vector3d> corner;  // a box inside, whose faces lie on three of the L's
+  for (int k = 0; k < 8; ++k)
+    corner.push_back(low + 0.05 * Eigen::Vector3d(k & 1, k >> 1 & 1, k >> 2 & 1).cwiseProduct(high - low));
+  CHECK(hullExcess(corner, solid, fine).upper <= 1e-6);
+  const MeshExcess whole = hullExcess(solid.pieces().vertices, solid, fine);
+  CHECK(whole.upper <= 1.001 * whole.lower + 1.001e-6);
+  CHECK(whole.lower > 1e-3);
+}
