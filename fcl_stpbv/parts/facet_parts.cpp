@@ -16,13 +16,12 @@
 #include <tuple>
 #include <utility>
 
+#include "fcl_stpbv/numbers.h"
+
 namespace fcl_stpbv::detail {
 namespace {
 
-constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr std::size_t kMostFacets = 700;  // a round mesh, of small facets, is not made of few convex bodies
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 // Triangles of one facet each, and which of them share an edge.
 struct Facets {
@@ -77,7 +76,7 @@ struct Join {
 
   Join() = default;
   Join(const Part& a, const Part& b, const PartSpace& space, double bound)
-      : part(std::make_shared<Part>(joined(a, b, space, {space.fine, kInfinite, 300}))) {
+      : part(std::make_shared<Part>(joined(a, b, space, {space.fine, kInfinity, 300}))) {
     size = part->hull.diagonal();
     excess = part->excess.lower <= bound ? 0 : part->excess.lower;
   }

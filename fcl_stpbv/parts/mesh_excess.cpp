@@ -9,6 +9,7 @@
 #include <cmath>
 #include <utility>
 
+#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/volume/rolling_ball.h"
 
 namespace fcl_stpbv {
@@ -16,8 +17,6 @@ namespace {
 
 using namespace detail;
 using Eigen::Vector3d;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 class Bound {
  public:

@@ -17,6 +17,7 @@
 #include "fcl_stpbv/convex/relative_pose.h"
 #include "fcl_stpbv/distance/threshold.h"
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/packed.h"
 #include "fcl_stpbv/robot/kept_plane.h"
 #include "fcl_stpbv/robot/sphere_pairs.h"
@@ -29,10 +30,7 @@ using namespace detail;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kLowest = std::numeric_limits<double>::lowest();
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// `v`, with 0 as the fourth number: of use in sums over all four.
 Packed pack3(const Vector3d& v) { return Packed{v.x(), v.y(), v.z(), 0.0}; }

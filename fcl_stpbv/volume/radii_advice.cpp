@@ -8,6 +8,7 @@
 
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/number_check.h"
+#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/volume/contact_acceleration.h"
 #include "fcl_stpbv/volume/hull_excess.h"
 
@@ -17,17 +18,16 @@ namespace {
 using namespace detail;
 using Points = std::vector<Eigen::Vector3d>;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Nothing on a robot is smaller or larger (m, s, m/s, rad/s, m/s^2); products of a few stay finite.
-constexpr double kLeast = 1e-9, kMost = 1e9;
+constexpr double kLeast = 1e-9, kGreatest = 1e9;
 
 void check(const RadiiTask& task) {
-  requireNumber("adviseRadii: clearance", task.clearance, kLeast, kMost);
-  requireNumber("adviseRadii: acceleration", task.acceleration, kLeast, kMost);
-  requireNumber("adviseRadii: speed", task.speed, 0, kMost);
-  requireNumber("adviseRadii: turning", task.turning, 0, kMost);
-  requireNumber("adviseRadii: period", task.period, 0, kMost);
-  requireNumber("adviseRadii: distance", task.distance, 0, kMost);
+  requireNumber("adviseRadii: clearance", task.clearance, kLeast, kGreatest);
+  requireNumber("adviseRadii: acceleration", task.acceleration, kLeast, kGreatest);
+  requireNumber("adviseRadii: speed", task.speed, 0, kGreatest);
+  requireNumber("adviseRadii: turning", task.turning, 0, kGreatest);
+  requireNumber("adviseRadii: period", task.period, 0, kGreatest);
+  requireNumber("adviseRadii: distance", task.distance, 0, kGreatest);
 }
 
 /// The last number on the way from `good` to `bad` that is good, to rounding.
@@ -71,7 +71,7 @@ class Adviser {
     double low = task_.acceleration, high = low * kStep;
     RadiiAdvice best = with(high);
     for (; !keeps(best); best = with(high)) {
-      if (high > kMost) refuse();
+      if (high > kGreatest) refuse();
       low = high;
       high *= kStep;
     }

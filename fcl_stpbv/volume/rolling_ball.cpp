@@ -15,6 +15,7 @@
 #include <cmath>
 
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/volume/ball_faces.h"
 #include "fcl_stpbv/volume/ball_side.h"
 #include "fcl_stpbv/volume/join_faces.h"
@@ -26,7 +27,6 @@ namespace fcl_stpbv::detail {
 namespace {
 
 using Eigen::Vector3d;
-constexpr double kTwoPi = 6.283185307179586476925;
 constexpr double kDiametral = 1 + 1e-9;  // the edge's own ends must not fall out by rounding
 
 class Roller {
