@@ -7,17 +7,16 @@
 #include "fcl_stpbv/adapter/posed_geometry.h"
 #include "fcl_stpbv/convex/relative_pose.h"
 #include "fcl_stpbv/distance/shape_pair.h"
+#include "fcl_stpbv/numbers.h"
 
 namespace fcl_stpbv::detail {
 namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-class Nearest {
+class NearestElements {
  public:
-  explicit Nearest(const PosedPair& pair)
+  explicit NearestElements(const PosedPair& pair)
       : pair_(pair), surfaces_(!pair.first.isBody() && !pair.second.isBody()) {}
 
   const ElementsDistance& result() const { return result_; }
@@ -95,7 +94,7 @@ class Nearest {
 ElementsDistance nearestElements(const fcl::CollisionGeometryd& geometry1, const Eigen::Isometry3d& pose1,
                                  const fcl::CollisionGeometryd& geometry2, const Eigen::Isometry3d& pose2) {
   const PosedPair pair(geometry1, pose1, geometry2, pose2);
-  Nearest nearest(pair);
+  NearestElements nearest(pair);
   if (pair.valid && pair.first.finite() && pair.second.finite())
     descend(pair, pair.first.whole(), pair.second.whole(), nearest);
   return nearest.result();

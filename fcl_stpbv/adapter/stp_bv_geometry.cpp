@@ -8,14 +8,13 @@
 
 #include "fcl_stpbv/adapter/hull_geometry.h"
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/numbers.h"
 
 namespace fcl_stpbv {
 namespace {
 
 using namespace detail;
 using Eigen::Vector3d;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 const std::vector<Vector3d>& verticesOf(const StpBv::Ptr& volume) {
   if (!volume) throw Error("StpBvGeometry: the volume is null; build or load one first");

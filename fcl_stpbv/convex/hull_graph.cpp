@@ -15,6 +15,7 @@
 #include <numeric>
 
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/vectorized.h"
 #include "fcl_stpbv/volume/rolling_ball.h"
 
@@ -23,8 +24,6 @@ namespace {
 
 // Up to this many vertices a scan of all beats a climb: no indirection, and no branch to mispredict.
 constexpr int kScanLimit = 32;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 // Newell's normal: the sum over the ring is exact for planar rings and fair to slightly bent ones.
 Eigen::Vector3d ringNormal(const std::vector<Eigen::Vector3d>& points, const std::vector<int>& ring) {

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "fcl_stpbv/convex/shape_curvature.h"
+#include "fcl_stpbv/cross_matrix.h"
 #include "fcl_stpbv/distance/patch_pair.h"
 
 namespace fcl_stpbv {
@@ -22,12 +23,6 @@ using Eigen::Vector3d;
 namespace {
 
 using namespace detail;
-
-Matrix3d cross(const Vector3d& v) {
-  Matrix3d m;
-  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return m;
-}
 
 /// A surface's radii of curvature at a normal, the second derivative of its support function: `least` in all
 /// directions across the normal, and what an edge's patch adds around its edge and across.
@@ -122,12 +117,12 @@ void secondOrder(const Touch& touch, const Isometry3d& poseA, const Isometry3d& 
                  DistanceHessian& result) {
   const Matrix3d curvatureA = touch.a.matrix();
   const Vector3d &n = d.normal, &armA = touch.armA, &fromB = touch.fromB;
-  const Matrix3d spin = -cross(n);  // w x n = spin w
+  const Matrix3d spin = -crossMatrix(n);  // w x n = spin w
 
   // What the twists do to the normal in body 1 while `tau` is zero, and to the gap's gradient.
   Eigen::Matrix<double, 3, 12> carried, mixed;
   carried << Matrix3d::Zero(), -spin, Matrix3d::Zero(), spin;
-  mixed << -Matrix3d::Identity(), cross(armA), Matrix3d::Identity(), -cross(fromB);
+  mixed << -Matrix3d::Identity(), crossMatrix(armA), Matrix3d::Identity(), -crossMatrix(fromB);
   mixed -= curvatureA * carried;
   const Eigen::Matrix<double, 3, 12> turn = touch.inverse.matrix() * mixed;
 
@@ -137,8 +132,8 @@ void secondOrder(const Touch& touch, const Isometry3d& poseA, const Isometry3d& 
     h.block<3, 3>(row, column) += m;
     h.block<3, 3>(column, row) += m.transpose();
   };
-  add(9, 6, cross(n));  // (w_B x n).(v_B - v_A)
-  add(9, 0, -cross(n));
+  add(9, 6, crossMatrix(n));  // (w_B x n).(v_B - v_A)
+  add(9, 0, -crossMatrix(n));
   add(3, 9, n * armA.transpose() - armA.dot(n) * Matrix3d::Identity());  // armA.(w_A x (w_B x n))
   h.block<3, 3>(3, 3) -= bend(armA, n);
   h.block<3, 3>(9, 9) -= bend(fromB, n);
@@ -152,7 +147,7 @@ void secondOrder(const Touch& touch, const Isometry3d& poseA, const Isometry3d& 
   const Eigen::Matrix<double, 3, 12> against = turn + carried;
   result.point[0] = curvatureA * against;
   result.point[0].block<3, 3>(0, 0) += Matrix3d::Identity();
-  result.point[0].block<3, 3>(0, 3) -= cross(armA);
+  result.point[0].block<3, 3>(0, 3) -= crossMatrix(armA);
   Eigen::Matrix<double, 1, 12> gradient;
   gradient << d.gradient(0, poseA.translation()).transpose(), d.gradient(1, poseB.translation()).transpose();
   result.point[1] = result.point[0] + n * gradient + d.distance * result.normal;

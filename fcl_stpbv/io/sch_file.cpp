@@ -107,7 +107,7 @@ void compare(const sch::File& file, const StpBv& volume) {
   }
 }
 
-StpBv::Ptr fromText(const std::string& text, const std::string& name) {
+StpBv::Ptr volumeOfSch(const std::string& text, const std::string& name) {
   const sch::File file = sch::parse(text, name);
   const std::vector<Triangle> triangles = sch::check(file);
   const StpBvOptions options{file.r, file.R};
@@ -133,9 +133,11 @@ StpBv::Ptr fromText(const std::string& text, const std::string& name) {
 
 }  // namespace
 
-StpBv::Ptr loadSch(const std::string& path) { return fromText(readText(path), path); }
+StpBv::Ptr loadSch(const std::string& path) { return volumeOfSch(readText(path), path); }
 
-StpBv::Ptr loadSch(std::istream& in, const std::string& name) { return fromText(readText(in, name), name); }
+StpBv::Ptr loadSch(std::istream& in, const std::string& name) {
+  return volumeOfSch(readText(in, name), name);
+}
 
 bool looksLikeSch(std::string_view text) {
   TextScanner in(text, "");

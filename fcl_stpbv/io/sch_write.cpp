@@ -181,7 +181,7 @@ class Writer {
   std::map<std::array<int, 3>, int> edgeOf_;  // face, first and second vertex of a side in its ring
 };
 
-std::string toText(const StpBv& volume) {
+std::string schText(const StpBv& volume) {
   requireWritable(volume);
   return Writer(volume).run();
 }
@@ -191,7 +191,7 @@ std::string toText(const StpBv& volume) {
 void saveSch(const std::string& path, const StpBv& volume) {
   std::string text;
   try {
-    text = toText(volume);
+    text = schText(volume);
   } catch (const Error& error) {
     throw Error(path + ": " + error.what());
   }
@@ -199,7 +199,7 @@ void saveSch(const std::string& path, const StpBv& volume) {
 }
 
 void saveSch(std::ostream& out, const StpBv& volume) {
-  const std::string text = toText(volume);
+  const std::string text = schText(volume);
   if (!out.write(text.data(), static_cast<std::streamsize>(text.size()))) {
     throw Error("the stream for an STP-BV in sch-core's format cannot be written");
   }

@@ -16,11 +16,11 @@ constexpr std::string_view kMagic = "stpbv";
 constexpr int kVersion = 1;
 
 // Shortest possible lines: "0 0 0\n", and a face is at least "2 0 1\n" once its own count is read.
-constexpr std::size_t kVertexBytes = 6;
-constexpr std::size_t kFaceBytes = 8;  // "3 0 1 2\n"
+constexpr std::size_t kVertexLine = 6;
+constexpr std::size_t kFaceLine = 8;  // "3 0 1 2\n"
 constexpr std::size_t kCornerBytes = 2;
 
-std::string toText(const StpBv& volume) {
+std::string stpbvText(const StpBv& volume) {
   std::string text = std::string(kMagic) + " " + std::to_string(kVersion) + "\nr ";
   appendNumber(text, volume.radii().r);
   text += "\nR ";
@@ -50,7 +50,7 @@ void readHeader(TextScanner& in) {
   }
 }
 
-StpBv::Ptr fromText(const std::string& text, const std::string& name) {
+StpBv::Ptr volumeOfStpbv(const std::string& text, const std::string& name) {
   TextScanner in(text, name);
   readHeader(in);
   StpBvOptions options;
@@ -61,11 +61,11 @@ StpBv::Ptr fromText(const std::string& text, const std::string& name) {
 
   in.keyword("vertices");
   std::vector<Eigen::Vector3d> vertices(
-      static_cast<std::size_t>(in.count("number of vertices", 1, kVertexBytes)));
+      static_cast<std::size_t>(in.count("number of vertices", 1, kVertexLine)));
   for (Eigen::Vector3d& vertex : vertices) vertex = in.vector("a vertex coordinate");
 
   in.keyword("faces");
-  std::vector<StpBv::Ring> faces(static_cast<std::size_t>(in.count("number of faces", 0, kFaceBytes)));
+  std::vector<StpBv::Ring> faces(static_cast<std::size_t>(in.count("number of faces", 0, kFaceLine)));
   for (StpBv::Ring& ring : faces) {
     ring.resize(static_cast<std::size_t>(in.count("number of a face's vertices", 3, kCornerBytes)));
     for (int& vertex : ring) {
@@ -84,18 +84,20 @@ StpBv::Ptr fromText(const std::string& text, const std::string& name) {
 
 }  // namespace
 
-void saveStpBv(const std::string& path, const StpBv& volume) { atomicWrite(path, toText(volume)); }
+void saveStpBv(const std::string& path, const StpBv& volume) { atomicWrite(path, stpbvText(volume)); }
 
 void saveStpBv(std::ostream& out, const StpBv& volume) {
-  const std::string text = toText(volume);
+  const std::string text = stpbvText(volume);
   if (!out.write(text.data(), static_cast<std::streamsize>(text.size()))) {
     throw Error("the stream for an .stpbv volume cannot be written");
   }
 }
 
-StpBv::Ptr loadStpBv(const std::string& path) { return fromText(readText(path), path); }
+StpBv::Ptr loadStpBv(const std::string& path) { return volumeOfStpbv(readText(path), path); }
 
-StpBv::Ptr loadStpBv(std::istream& in, const std::string& name) { return fromText(readText(in, name), name); }
+StpBv::Ptr loadStpBv(std::istream& in, const std::string& name) {
+  return volumeOfStpbv(readText(in, name), name);
+}
 
 bool looksLikeStpBv(std::string_view text) { return text.substr(0, kMagic.size()) == kMagic; }
 

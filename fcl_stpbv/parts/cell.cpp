@@ -11,12 +11,12 @@
 #include <map>
 #include <utility>
 
+#include "fcl_stpbv/numbers.h"
+
 namespace fcl_stpbv::detail {
 namespace {
 
 using Eigen::Vector3d;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 // Points of one plane in order around their middle.
 template <class Place>

@@ -17,6 +17,7 @@
 #include <utility>
 
 #include "fcl_stpbv/number_check.h"
+#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/parts/cut_planes.h"
 #include "fcl_stpbv/parts/facet_parts.h"
 #include "fcl_stpbv/parts/inside_proof.h"
@@ -32,8 +33,6 @@ using Eigen::Vector3d;
 constexpr int kStartPieces = 24;         // of a mesh that begins as one part a piece
 constexpr std::size_t kSearched = 2500;  // triangles that the search looks at
 constexpr double kHulls = 12000;         // what the search spends at effort 1
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 // The mesh's triangles by group: one a piece, or all in one.
 std::vector<TriangleSoup> groups(const MeshSolid& mesh, const std::vector<int>& facetOf, bool each) {

@@ -11,6 +11,8 @@
 #include <map>
 #include <numeric>
 
+#include "fcl_stpbv/numbers.h"
+
 namespace fcl_stpbv::detail {
 namespace {
 
@@ -18,8 +20,6 @@ using Eigen::Vector3d;
 
 constexpr int kSteps = 12;   // cuts across an axis
 constexpr int kFacets = 30;  // flat parts tried
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 // Lowest and highest of the part along a direction.
 std::pair<double, double> reach(const Part& part, const Vector3d& n) {

@@ -18,14 +18,13 @@
 #include <tuple>
 #include <utility>
 
+#include "fcl_stpbv/numbers.h"
+
 namespace fcl_stpbv::detail {
 namespace {
 
-constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr double kFiner = 0.1;            // of what other searches look at: what fits here fits to rounding
 constexpr std::size_t kMostFacets = 700;  // a round mesh, of small facets, is not made of few convex bodies
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 // Triangles of one facet each, and which of them share an edge.
 struct Facets {
@@ -87,7 +86,7 @@ struct Join {
 
   Join() = default;
   Join(const Part& a, const Part& b, const PartSpace& space, double bound)
-      : part(std::make_shared<Part>(joined(a, b, space, {kFiner * space.fine, kInfinite, 300}))) {
+      : part(std::make_shared<Part>(joined(a, b, space, {kFiner * space.fine, kInfinity, 300}))) {
     size = areaOf(part->hull.surface);
     excess = part->excess.lower <= bound ? 0 : part->excess.lower;
   }

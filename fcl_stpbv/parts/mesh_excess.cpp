@@ -17,6 +17,7 @@
 #include <tuple>
 #include <utility>
 
+#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/parts/cut_triangle.h"
 #include "fcl_stpbv/volume/rolling_ball.h"
 
@@ -25,8 +26,6 @@ namespace {
 
 using namespace detail;
 using Eigen::Vector3d;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 class Bound {
  public:

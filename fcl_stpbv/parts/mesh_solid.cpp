@@ -11,12 +11,14 @@
 #include <numeric>
 #include <utility>
 
+#include "fcl_stpbv/numbers.h"
+
 namespace fcl_stpbv {
 namespace {
 
 using Eigen::Vector3d;
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
+using detail::at;
 
 Vector3d nearestOnSegment(const Vector3d& a, const Vector3d& b, const Vector3d& p) {
   const Vector3d along = b - a;

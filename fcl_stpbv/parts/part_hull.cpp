@@ -8,6 +8,7 @@
 #include <memory>
 #include <utility>
 
+#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/parts/mesh_excess.h"
 #include "fcl_stpbv/volume/rolling_ball.h"
 
@@ -19,8 +20,6 @@ namespace fcl_stpbv::detail {
 namespace {
 
 using Eigen::Vector3d;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 // Discards qhull's messages: it prints one for every flat cloud.
 std::FILE* nowhere() {

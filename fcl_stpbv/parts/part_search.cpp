@@ -14,12 +14,12 @@
 #include <limits>
 #include <tuple>
 
+#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/parts/cut_planes.h"
 
 namespace fcl_stpbv::detail {
 namespace {
 
-constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr double kResolution = 0.15;  // of the excess to be lowered: what is below does not matter yet
 constexpr long kStep = 20;            // hulls that a step counts for at least, so that each search ends
 constexpr long kConfirm = 10000;      // distances to know what the search goes on with
@@ -81,7 +81,7 @@ void PartSearch::confirm(const Parts& parts) const {
   const double worst = std::max(worstExcess(parts), space_.fine);
   for (const PartPtr& part : parts)
     if (part->excess.upper > 1.2 * worst + space_.fine && part->queries < kConfirm)
-      measureAgain(*part, space_, {std::max(0.05 * worst, 0.5 * space_.fine), kInfinite, kConfirm});
+      measureAgain(*part, space_, {std::max(0.05 * worst, 0.5 * space_.fine), kInfinity, kConfirm});
 }
 
 // The best four ways: two by a score of excess and volume, and among the others two by volume alone, which
@@ -109,11 +109,11 @@ const std::vector<PartSearch::Split>& PartSearch::splits(const PartPtr& part) {
         volume > lastVolume * (1 + 1e-3);  // planes of nearly one place have nearly one volume
     const bool kept = ways.size() < kByVolume && another;
     const double left = part->hull.volume > 0 ? volume / part->hull.volume : 1, weight = 0.5 + 0.5 * left;
-    const double bar = best.size() < kByScore ? kInfinite : best.back().score;
+    const double bar = best.size() < kByScore ? kInfinity : best.back().score;
     auto [above, below] = cut(*part, planes[i], space_);
     if (above.empty() || below.empty()) continue;
     // A half that is worse than the bar allows rules the plane out.
-    const Measure measure{kResolution * excessOf(part), kept ? kInfinite : bar / weight};
+    const Measure measure{kResolution * excessOf(part), kept ? kInfinity : bar / weight};
     const auto up = std::make_shared<Part>(makePart(std::move(above), space_, measure));
     ++spent_;
     if (excessOf(up) > measure.enough) continue;
@@ -150,7 +150,7 @@ PartPtr PartSearch::join(const PartPtr& a, const PartPtr& b, double worst) {
 // The two whose common hull is least far from the mesh, until few are left and no join is within the bound.
 PartSearch::Parts PartSearch::joined(Parts parts, int most, double bound) {
   while (parts.size() > 1) {
-    double best = kInfinite;
+    double best = kInfinity;
     std::size_t first = 0, second = 0;
     const double worst = worstExcess(parts);
     for (std::size_t i = 0; i < parts.size(); ++i) {
@@ -163,7 +163,7 @@ PartSearch::Parts PartSearch::joined(Parts parts, int most, double bound) {
     if (few && best > bound) break;
     const PartPtr both = join(parts[first], parts[second], worst);
     if (few && both->excess.upper > bound + space_.fine && both->queries < kConfirm) {
-      measureAgain(*both, space_, {0.5 * space_.fine, kInfinite, kConfirm});
+      measureAgain(*both, space_, {0.5 * space_.fine, kInfinity, kConfirm});
       continue;  // it may not be within the bound
     }
     parts[first] = both;

@@ -7,12 +7,12 @@
 #include <algorithm>
 #include <unordered_map>
 
+#include "fcl_stpbv/numbers.h"
+
 namespace fcl_stpbv::detail {
 namespace {
 
 using Eigen::Vector3d;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 class Cutter {
  public:

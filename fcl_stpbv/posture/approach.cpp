@@ -40,11 +40,11 @@ Model modelAt(const PostureValues& values, const Eigen::VectorXd& costCurvature,
 
 }  // namespace
 
-Approach approach(PostureProblem& problem, const Eigen::VectorXd& start, const ApproachOptions& options) {
+NearPosture approach(PostureProblem& problem, const Eigen::VectorXd& start, const ApproachOptions& options) {
   constexpr double kDamping = 1e-2;  // of the first step, in the units of the Hessian: m^2 or rad^2 per rad^2
   constexpr double kLeastDamping = 1e-9, kMostDamping = 1e6;
   const int n = problem.variables();
-  Approach result{start, Eigen::VectorXd::Zero(n), 0};
+  NearPosture result{start, Eigen::VectorXd::Zero(n), 0};
   double damping = kDamping, growth = 2;
   Model model = modelAt(problem.evaluate(result.x), problem.costCurvature(), options);
   while (result.iterations < options.maxIterations && damping < kMostDamping) {

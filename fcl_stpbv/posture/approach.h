@@ -12,7 +12,7 @@ struct ApproachOptions {
   double relativeChange = 1e-9;  ///< of the sum in one step, at which it is least
 };
 
-struct Approach {
+struct NearPosture {
   Eigen::VectorXd x;
   Eigen::VectorXd slope;  ///< of the sum at x; 0 where no bound holds x back
   int iterations = 0;
@@ -22,6 +22,6 @@ struct Approach {
 /// Marquardt; steps end at bounds, variables that would leave them are held). Unlike a step of sequential
 /// quadratic programming its steps stay short where the constraints' Jacobian is singular, as it is for a
 /// robot that stands with straight knees.
-Approach approach(PostureProblem& problem, const Eigen::VectorXd& start, const ApproachOptions& options);
+NearPosture approach(PostureProblem& problem, const Eigen::VectorXd& start, const ApproachOptions& options);
 
 }  // namespace fcl_stpbv::detail

@@ -54,7 +54,7 @@ std::vector<std::string> activeAt(PostureProblem& problem, const Eigen::VectorXd
 }
 
 // Variables that the violated constraints push against a bound.
-std::vector<std::string> pushedLimits(const PostureProblem& problem, const Approach& least) {
+std::vector<std::string> pushedLimits(const PostureProblem& problem, const NearPosture& least) {
   const double push = 0.05 * least.slope.cwiseAbs().maxCoeff();  // less is what the descent left
   std::vector<std::string> names;
   for (int i = 0; i < problem.variables(); ++i) {
@@ -73,7 +73,7 @@ SolverOutcome solve(PostureProblem& problem, const Eigen::VectorXd& start, const
   constexpr double kSoft = 0.3, kFirm = 1;
   // Farther away than this (m, rad) where the damped steps end, the start leads into a dead end.
   constexpr double kNear = 0.1;
-  Approach near{start, {}, 0};
+  NearPosture near{start, {}, 0};
   int iterations = 0;
   for (const double weight : {kSoft, kFirm}) {
     near = approach(problem, near.x, {kCostWeight, weight});
@@ -117,7 +117,7 @@ Posture findPosture(PostureSetup& setup, const PostureOptions& options) {
   best.active = activeAt(problem, bestX);
   best.distanceCalls = best.gradientCalls = problem.queries() - queriesBefore;
   if (best.feasible) return best;
-  const Approach least = approach(problem, bestX, {});
+  const NearPosture least = approach(problem, bestX, {});
   best.conflict = problem.violations(least.x, options.solver.tolerance);
   if (!best.conflict.empty()) best.conflictLimits = pushedLimits(problem, least);
   return best;

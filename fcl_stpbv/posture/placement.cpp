@@ -6,19 +6,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fcl_stpbv/cross_matrix.h"
 #include "fcl_stpbv/error.h"
 
 namespace fcl_stpbv {
 namespace {
 
+using detail::crossMatrix;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-
-Matrix3d cross(const Vector3d& w) {
-  Matrix3d m;
-  m << 0, -w.z(), w.y(), w.z(), 0, -w.x(), -w.y(), w.x(), 0;
-  return m;
-}
 
 // Rotation vector of a rotation, below half a turn or at it.
 Vector3d logarithm(const Matrix3d& rotation) {
@@ -34,7 +30,7 @@ Matrix3d inverseRate(const Vector3d& e) {
   // 1/t^2 - cot(t/2)/(2t); the series' next term is below 1e-15
   const double c = angle < 1e-2 ? 1.0 / 12 + angle2 / 720 * (1 + angle2 / 42)
                                 : (1 - angle / 2 / std::tan(angle / 2)) / angle2;
-  const Matrix3d k = cross(e);
+  const Matrix3d k = crossMatrix(e);
   return Matrix3d::Identity() - k / 2 + c * k * k;
 }
 
@@ -95,8 +91,8 @@ void PlacementRows::rotation(const Matrix3d& frame, Vector3d& error, Matrix3d& r
   double g, slope;
   angleBySine(cosine, turn.norm(), g, slope);
   error = g * turn;
-  const Matrix3d tiltedRate = -cross(tilted) * target.transpose();  // w cross tilted
-  rate = g * cross(axis) * tiltedRate + slope * turn * (axis.transpose() * tiltedRate);
+  const Matrix3d tiltedRate = -crossMatrix(tilted) * target.transpose();  // w cross tilted
+  rate = g * crossMatrix(axis) * tiltedRate + slope * turn * (axis.transpose() * tiltedRate);
 }
 
 void PlacementRows::evaluate(const Point& at, Eigen::Ref<Eigen::VectorXd> values,

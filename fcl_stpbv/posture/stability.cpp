@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/posture/convex_polygon.h"
 
 namespace fcl_stpbv {
@@ -17,8 +18,6 @@ namespace {
 using namespace detail;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 // A convex polygon, counter-clockwise, without what is nearer than `margin` to its edges.
 std::vector<Vector2d> inner(const std::vector<Vector2d>& corners, double margin) {

@@ -13,6 +13,7 @@
 #include <set>
 
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/report/kept_list.h"
 #include "fcl_stpbv/report/named_posture.h"
 #include "fcl_stpbv/report/pair_cause.h"
@@ -28,8 +29,6 @@ namespace fcl_stpbv::report {
 using namespace detail;
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 struct Postures {
   Eigen::VectorXd neutral;

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "fcl_stpbv/adapter/hull_geometry.h"
+#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/robot/mesh_file.h"
 
 namespace fcl_stpbv::report {
@@ -17,8 +18,6 @@ using namespace detail;
 namespace {
 
 using Eigen::Vector3d;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 std::shared_ptr<const fcl::CollisionGeometryd> bvhOf(const MeshPieces& mesh) {
   auto model = std::make_shared<fcl::BVHModel<fcl::OBBRSSd>>();

@@ -14,17 +14,17 @@ namespace fcl_stpbv::report {
 namespace {
 
 namespace fs = std::filesystem;
-using nlohmann::json;
 
 // What a conversion's manifest says, or an Error: this folder is somebody else's.
-json manifestOf(const fs::path& folder) {
+nlohmann::json manifestOf(const fs::path& folder) {
   const fs::path path = folder / kManifest;
   std::error_code ignored;
   if (!fs::is_regular_file(fs::symlink_status(path, ignored)))
     throw Error(folder.string() + ": holds files that no conversion wrote; name a new or an empty folder");
-  const json manifest = detail::parseJson(detail::readText(path.string()), path.string());
-  const bool ours = manifest.is_object() && manifest.value("program", json()) == "urdf_to_stpbv" &&
-                    manifest.value("key", json()).is_string() && manifest.value("files", json()).is_object();
+  const nlohmann::json manifest = detail::parseJson(detail::readText(path.string()), path.string());
+  const bool ours = manifest.is_object() && manifest.value("program", nlohmann::json()) == "urdf_to_stpbv" &&
+                    manifest.value("key", nlohmann::json()).is_string() &&
+                    manifest.value("files", nlohmann::json()).is_object();
   if (!ours) throw Error(path.string() + ": is no manifest of a conversion; name a new or an empty folder");
   return manifest;
 }
@@ -51,7 +51,7 @@ std::string keyOfFolder(const std::string& path, const std::vector<std::string>&
   if (!fs::exists(fs::symlink_status(name, ignored))) return "";
   if (!fs::is_directory(name, ignored)) throw Error("-o " + path + ": is a file, expected a folder");
   if (fs::is_empty(name, ignored)) return "";
-  const json manifest = manifestOf(name);
+  const nlohmann::json manifest = manifestOf(name);
   std::size_t found = 0;
   bool same = true;
   for (const auto& entry : fs::recursive_directory_iterator(name)) {

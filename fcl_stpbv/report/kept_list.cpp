@@ -9,6 +9,7 @@
 #include "fcl_stpbv/adapter/posed_geometry.h"
 #include "fcl_stpbv/io/stpbv_file.h"
 #include "fcl_stpbv/io/text_scanner.h"
+#include "fcl_stpbv/numbers.h"
 
 namespace fcl_stpbv::report {
 
@@ -18,8 +19,6 @@ namespace {
 
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// All that a search reads, as text.
 class Question {

@@ -12,6 +12,7 @@
 #include "fcl_stpbv/adapter/hull_geometry.h"
 #include "fcl_stpbv/adapter/proximity.h"
 #include "fcl_stpbv/io/text_scanner.h"
+#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/report/digest.h"
 #include "fcl_stpbv/report/mesh_fit.h"
 
@@ -19,11 +20,7 @@ namespace fcl_stpbv::report {
 
 using namespace detail;
 
-namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-}  // namespace
+namespace {}  // namespace
 
 PairCauses::PairCauses(std::shared_ptr<const Kinematics> kinematics,
                        std::shared_ptr<const RobotGeometry> robot, std::vector<Obstacle> obstacles,

@@ -3,14 +3,13 @@
 
 #include "fcl_stpbv/adapter/fcl_shapes.h"
 #include "fcl_stpbv/distance/shape_pair.h"
+#include "fcl_stpbv/numbers.h"
 
 namespace fcl_stpbv::report {
 
 using namespace detail;
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 // Height of the supporting plane with the unit normal `n` over the geometry's origin (m).
 double supportOf(const fcl::CollisionGeometryd& geometry, const Eigen::Vector3d& n) {

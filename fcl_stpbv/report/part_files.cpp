@@ -9,6 +9,7 @@
 
 #include "fcl_stpbv/io/stpbv_file.h"
 #include "fcl_stpbv/io/text_scanner.h"
+#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/parts/mesh_excess.h"
 #include "fcl_stpbv/report/digest.h"
 #include "fcl_stpbv/report/kept_folder.h"
@@ -23,8 +24,6 @@ using nlohmann::ordered_json;
 namespace {
 
 namespace fs = std::filesystem;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 // The hull of a part; the coordinates are written so that they read back exactly.
 std::string objOf(const std::vector<Eigen::Vector3d>& points) {

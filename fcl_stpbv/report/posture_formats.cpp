@@ -9,10 +9,8 @@
 namespace fcl_stpbv::report {
 namespace {
 
-using nlohmann::json;
-
-json list(const std::vector<Violation>& violations) {
-  json items = json::array();
+nlohmann::json list(const std::vector<Violation>& violations) {
+  nlohmann::json items = nlohmann::json::array();
   for (const Violation& v : violations) items.push_back({{"constraint", v.name}, {"amount", v.amount}});
   return items;
 }
@@ -69,32 +67,32 @@ std::string toText(const PostureReport& report) {
 
 std::string toJson(const PostureReport& report) {
   const Posture& posture = report.posture;
-  json q = json::object();
+  nlohmann::json q = nlohmann::json::object();
   for (int i = 0; i < report.kinematics->size(); ++i)
     q[report.kinematics->names()[static_cast<std::size_t>(i)]] = posture.q[i];
-  json document{{"feasible", posture.feasible},
-                {"status", posture.status},
-                {"seconds", posture.seconds},
-                {"iterations", posture.iterations},
-                {"starts", posture.starts},
-                {"distance_calls", posture.distanceCalls},
-                {"gradient_calls", posture.gradientCalls},
-                {"pairs", report.pairs.size()},
-                {"parts", partsOf(report)},
-                {"cost", posture.cost},
-                {"q", q},
-                {"warnings", report.warnings},
-                {"skipped", report.skipped},
-                {"violations", list(posture.violations)},
-                {"active", posture.active},
-                {"conflict", list(posture.conflict)},
-                {"conflict_limits", posture.conflictLimits}};
+  nlohmann::json document{{"feasible", posture.feasible},
+                          {"status", posture.status},
+                          {"seconds", posture.seconds},
+                          {"iterations", posture.iterations},
+                          {"starts", posture.starts},
+                          {"distance_calls", posture.distanceCalls},
+                          {"gradient_calls", posture.gradientCalls},
+                          {"pairs", report.pairs.size()},
+                          {"parts", partsOf(report)},
+                          {"cost", posture.cost},
+                          {"q", q},
+                          {"warnings", report.warnings},
+                          {"skipped", report.skipped},
+                          {"violations", list(posture.violations)},
+                          {"active", posture.active},
+                          {"conflict", list(posture.conflict)},
+                          {"conflict_limits", posture.conflictLimits}};
   if (report.withoutCollisions)
     document["without_collisions"] = {{"feasible", report.withoutCollisions->feasible},
                                       {"seconds", report.withoutCollisions->seconds},
                                       {"iterations", report.withoutCollisions->iterations},
                                       {"cost", report.withoutCollisions->cost}};
-  return document.dump(1, ' ', false, json::error_handler_t::replace) + "\n";
+  return document.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace fcl_stpbv::report

@@ -17,8 +17,6 @@ using namespace detail;
 
 namespace {
 
-using nlohmann::json;
-
 // What a drawn body may lack, as a part of its size: an edge rounded by r = 1 cm on a link of 30 cm gets
 // three steps.
 constexpr double kTolerance = 1.0 / 500;
@@ -32,7 +30,7 @@ std::string base64(const std::vector<Number>& values) {
 }
 
 // Corners as steps within the body's box, triangles as indices.
-json shapeOf(const fcl::CollisionGeometryd& geometry) {
+nlohmann::json shapeOf(const fcl::CollisionGeometryd& geometry) {
   const TriangleMesh mesh = outline(geometry, kTolerance * geometry.aabb_radius, kMostCorners);
   Eigen::Vector3d low(0, 0, 0), high(0, 0, 0);
   if (!mesh.vertices.empty()) low = high = mesh.vertices[0];
@@ -53,8 +51,8 @@ json shapeOf(const fcl::CollisionGeometryd& geometry) {
           {"triangles", base64(triangles)}};
 }
 
-json rowsOf(const Eigen::Isometry3d& pose) {
-  json rows = json::array();
+nlohmann::json rowsOf(const Eigen::Isometry3d& pose) {
+  nlohmann::json rows = nlohmann::json::array();
   for (int i = 0; i < 3; ++i)
     for (int k = 0; k < 4; ++k) rows.push_back(pose(i, k));
   return rows;
@@ -70,12 +68,12 @@ class Bodies {
     for (const Obstacle& obstacle : report.obstacles)
       add(obstacle.name, obstacle.name, -1, obstacle.pose, *obstacle.geometry, false);
   }
-  json shapes = json::array(), list = json::array();
+  nlohmann::json shapes = nlohmann::json::array(), list = nlohmann::json::array();
 
  private:
   void add(const std::string& name, const std::string& owner, int link, const Eigen::Isometry3d& pose,
            const fcl::CollisionGeometryd& geometry, bool split) {
-    json shape = shapeOf(geometry);
+    nlohmann::json shape = shapeOf(geometry);
     const auto [known, isNew] = known_.emplace(shape.dump(), shapes.size());
     if (isNew) shapes.push_back(std::move(shape));
     list.push_back({{"name", name},
@@ -91,7 +89,7 @@ class Bodies {
 };
 
 // The links' poses in all the postures that pairs are in: position and quaternion, in 16-bit steps.
-json posturesOf(const CollisionReport& report, const std::vector<Eigen::VectorXd>& configurations) {
+nlohmann::json posturesOf(const CollisionReport& report, const std::vector<Eigen::VectorXd>& configurations) {
   constexpr double kMost = 32767;
   std::vector<Eigen::Isometry3d> poses;
   Kinematics::State state = report.kinematics->makeState();
@@ -115,19 +113,19 @@ json posturesOf(const CollisionReport& report, const std::vector<Eigen::VectorXd
 }
 
 // To eight digits: what nobody reads off a page, and what compresses badly.
-void shorten(json& value) {
+void shorten(nlohmann::json& value) {
   if (value.is_number_float()) {
     const double x = value.get<double>();
     const double places = 7 - std::floor(std::log10(std::max(std::abs(x), 1e-12)));
     const double scale = std::pow(10, std::max(0.0, places));
     if (std::isfinite(x)) value = std::round(x * scale) / scale;
   } else if (value.is_structured()) {
-    for (json& item : value) shorten(item);
+    for (nlohmann::json& item : value) shorten(item);
   }
 }
 
-json dataOf(const CollisionReport& report, const std::string& title) {
-  json data = json::parse(toJson(report));
+nlohmann::json dataOf(const CollisionReport& report, const std::string& title) {
+  nlohmann::json data = nlohmann::json::parse(toJson(report));
   data["title"] = title;
   data.erase("trajectory");  // drawn by chartOf()
   data["joints"] = report.kinematics->names();
@@ -136,7 +134,7 @@ json dataOf(const CollisionReport& report, const std::string& title) {
     const PairReport& pair = report.pairs[i];
     auto found = std::find(configurations.begin(), configurations.end(), pair.configuration);
     if (found == configurations.end()) found = configurations.insert(found, pair.configuration);
-    json& item = data["pairs"][i];
+    nlohmann::json& item = data["pairs"][i];
     item["posture"] = found - configurations.begin();
     item["cover"] = pair.overCover1 + pair.overCover2;
     item["colliding"] = pair.colliding;
@@ -144,7 +142,7 @@ json dataOf(const CollisionReport& report, const std::string& title) {
     item.erase("closest");
   }
   if (configurations.empty()) configurations.push_back(report.kinematics->neutral());
-  data["configurations"] = json::array();
+  data["configurations"] = nlohmann::json::array();
   for (const Eigen::VectorXd& q : configurations)
     data["configurations"].push_back(std::vector<double>(q.data(), q.data() + q.size()));
   shorten(data);
@@ -184,7 +182,8 @@ static std::string trajectorySection(const CollisionReport& report) {
 }
 
 std::string toHtml(const CollisionReport& report, const std::string& title) {
-  const std::string data = dataOf(report, title).dump(-1, ' ', false, json::error_handler_t::replace);
+  const std::string data =
+      dataOf(report, title).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   return filled(kPageHtml, {{"TRAJECTORY", trajectorySection(report)},
                             {"STYLE", std::string(kPageStyle)},
                             {"SCRIPT", std::string(kPageScript)},

@@ -5,15 +5,13 @@
 #include <chrono>
 #include <cmath>
 
+#include "fcl_stpbv/numbers.h"
+
 namespace fcl_stpbv::report {
 
 using namespace detail;
 
-namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-}  // namespace
+namespace {}  // namespace
 
 std::vector<CheckedPair> closestBodies(const CollisionReport& report) {
   const int count = static_cast<int>(report.geometry->bodies.size());

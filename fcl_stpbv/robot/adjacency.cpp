@@ -3,12 +3,11 @@
 // other body on the way makes the two links separate.
 #include "fcl_stpbv/robot/adjacency.h"
 
+#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/robot/joint_path.h"
 
 namespace fcl_stpbv::detail {
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 // Joint origins nearer to each other than this count as one (m). URDFs are written with six decimals or
 // fewer, so that origins meant to coincide may be some micrometres apart; axes that are offset on purpose are

@@ -4,6 +4,7 @@
 
 #include "fcl_stpbv/convex/relative_pose.h"
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/robot/checker_impl.h"
 
 namespace fcl_stpbv {
@@ -11,14 +12,6 @@ namespace fcl_stpbv {
 using namespace detail;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
-
-namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-}  // namespace
 
 CollisionChecker::Impl::Impl(std::shared_ptr<const Kinematics> kinematics,
                              std::shared_ptr<const RobotGeometry> geometry, std::vector<CheckedPair> pairs,

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "fcl_stpbv/convex/relative_pose.h"
+#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/robot/checker_impl.h"
 #include "fcl_stpbv/vectorized.h"
 
@@ -18,10 +19,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kLowest = std::numeric_limits<double>::lowest();
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
 

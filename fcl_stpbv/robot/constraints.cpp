@@ -11,11 +11,12 @@
 #include <limits>
 
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/numbers.h"
 
 namespace fcl_stpbv {
 namespace {
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
+using detail::at;
 
 }  // namespace
 

@@ -4,17 +4,18 @@
 #include <cmath>
 #include <limits>
 
+#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/robot/constraints.h"
+#include "fcl_stpbv/robot/twist.h"
 
 namespace fcl_stpbv {
 namespace {
 
+using detail::at;
+using detail::kInfinity;
+using detail::velocityOf;
 using Eigen::Vector3d;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-Vector3d velocityOf(const Vector3d& x, const Twist& body) { return body.linear + body.angular.cross(x); }
 double across(const Vector3d& v, const Vector3d& n) { return (v - n.dot(v) * n).norm(); }
 
 /// Least and largest radius of curvature of a body's surface.

@@ -10,14 +10,13 @@
 #include <map>
 #include <tuple>
 
+#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/robot/constraints.h"
 
 namespace fcl_stpbv {
 namespace {
 
 using namespace detail;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// A function of the distance with its derivatives.
 struct Bent {

@@ -3,7 +3,9 @@
 // (docs/robot.md, Second derivatives). Rows without a closed form use central differences.
 #include <algorithm>
 
+#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/robot/constraints.h"
+#include "fcl_stpbv/robot/twist.h"
 
 namespace fcl_stpbv {
 namespace {
@@ -11,14 +13,10 @@ namespace {
 using namespace detail;
 using Eigen::Vector3d;
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 // Finite, and so small that products of two with lengths and curvatures stay finite.
-bool isUsable(const CollisionConstraints::ConstVector& velocity) {
+bool isUsableVelocity(const CollisionConstraints::ConstVector& velocity) {
   return (velocity.array().abs() <= 1e100).all();
 }
-
-Vector3d velocityOf(const Vector3d& x, const Twist& body) { return body.linear + body.angular.cross(x); }
 
 }  // namespace
 
@@ -74,7 +72,7 @@ bool CollisionConstraints::rateRow(std::size_t row, RowRates& rates, double* val
 
 bool CollisionConstraints::evaluateValues(const ConstVector& q, const ConstVector& qd, RowRates& rates,
                                           Vector values) {
-  if (!q.allFinite() || !isUsable(qd)) {
+  if (!q.allFinite() || !isUsableVelocity(qd)) {
     nothingKnown(rates.d.data(), values.data());
     rates.speed.setZero();
     rates.drift.setZero();
@@ -193,7 +191,7 @@ void CollisionConstraints::differences(const ConstVector& q, const ConstVector& 
 bool CollisionConstraints::hessianVector(const ConstVector& q, const ConstVector& weights,
                                          const ConstVector& v, Vector out) {
   out.setZero();
-  if (!q.allFinite() || !weights.allFinite() || !isUsable(v)) return false;
+  if (!q.allFinite() || !weights.allFinite() || !isUsableVelocity(v)) return false;
   place(q);
   kinematics_->differentiate(q, v, state_, rate_);
   moving_ = true;

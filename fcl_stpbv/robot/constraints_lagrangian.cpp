@@ -2,6 +2,7 @@
 // Hessian between the twists of the joints, plus the change of the twists with each joint above.
 #include <algorithm>
 
+#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/robot/constraints.h"
 
 namespace fcl_stpbv {
@@ -9,7 +10,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
+using detail::at;
 
 // A column for each coordinate of the row: what it does to both bodies, as DistanceHessian takes it.
 using Side = Eigen::Matrix<double, 12, Eigen::Dynamic>;

@@ -11,12 +11,11 @@
 
 #include "fcl_stpbv/adapter/fcl_distance.h"
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/robot/share_out.h"
 
 namespace fcl_stpbv::detail {
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 void requireSameShapes(const DetailChoice::Levels& levels) {
   if (levels.empty()) throw Error("modelForScene: no level of bodies was given");

@@ -8,7 +8,9 @@
 #include <cstring>
 #include <limits>
 
+#include "fcl_stpbv/cross_matrix.h"
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/packed.h"
 #include "fcl_stpbv/vectorized.h"
 
@@ -19,7 +21,8 @@ using Eigen::Isometry3d;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
+using detail::at;
+using detail::crossMatrix;
 
 int freedoms(JointType type) {
   switch (type) {
@@ -32,12 +35,6 @@ int freedoms(JointType type) {
     default:
       return 1;
   }
-}
-
-Matrix3d cross(const Vector3d& w) {
-  Matrix3d m;
-  m << 0, -w.z(), w.y(), w.z(), 0, -w.x(), -w.y(), w.x(), 0;
-  return m;
 }
 
 // Rotation by a rotation vector, and the matrix that turns its rate into the angular velocity.
@@ -53,7 +50,7 @@ void exponential(const Vector3d& w, Matrix3d& rotation, Matrix3d& rate) {
     b = (1 - std::cos(angle)) / angle2;
     c = (1 - a) / angle2;
   }
-  const Matrix3d k = cross(w), k2 = k * k;
+  const Matrix3d k = crossMatrix(w), k2 = k * k;
   rotation = Matrix3d::Identity() + a * k + b * k2;
   rate = Matrix3d::Identity() + b * k + c * k2;
 }
@@ -157,7 +154,7 @@ void Kinematics::addStep(int joint, const JointModel& model, int coordinate, dou
   if (model.type == JointType::planar) step.plane = planeAcross(model.axis);
   // Rodrigues: v turns to a (a.v) + cos (v - a (a.v)) + sin (a cross v).
   const Matrix3d on = model.axis * model.axis.transpose(),
-                 turn[3] = {on, Matrix3d::Identity() - on, cross(model.axis)};
+                 turn[3] = {on, Matrix3d::Identity() - on, crossMatrix(model.axis)};
   Eigen::Matrix<double, 4, 3, Eigen::DontAlign>* part[3] = {&step.along, &step.even, &step.odd};
   for (int k = 0; k < 3; ++k) *part[k] << model.origin.linear() * turn[k], 0, 0, 0;
   if (freedoms(model.type) > 0) step.motion = static_cast<int>(motions_.size());

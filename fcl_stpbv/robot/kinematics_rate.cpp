@@ -2,6 +2,8 @@
 // as the links above carry it; for a floating joint also by the rate matrix of its rotation vector.
 #include <cmath>
 
+#include "fcl_stpbv/cross_matrix.h"
+#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/robot/kinematics.h"
 
 namespace fcl_stpbv {
@@ -10,7 +12,8 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
+using detail::at;
+using detail::crossMatrix;
 
 // Change of a twist that is fixed to a body of this velocity.
 Twist carried(const Twist& velocity, const Twist& twist) {
@@ -21,12 +24,6 @@ Twist carried(const Twist& velocity, const Twist& twist) {
 void add(Twist& sum, double factor, const Twist& twist) {
   sum.linear += factor * twist.linear;
   sum.angular += factor * twist.angular;
-}
-
-Matrix3d cross(const Vector3d& w) {
-  Matrix3d m;
-  m << 0, -w.z(), w.y(), w.z(), 0, -w.x(), -w.y(), w.x(), 0;
-  return m;
 }
 
 // Change, as the rotation vector w moves by u, of the matrix I + b K + c K^2 that turns its rate into the
@@ -46,7 +43,7 @@ Matrix3d rateChange(const Vector3d& w, const Vector3d& u) {
     bx = (a - 2 * b) / (2 * x);
     cx = (b - 3 * c) / (2 * x);
   }
-  const Matrix3d k = cross(w), ku = cross(u);
+  const Matrix3d k = crossMatrix(w), ku = crossMatrix(u);
   const double change = 2 * w.dot(u);
   return b * ku + c * (k * ku + ku * k) + change * (bx * k + cx * k * k);
 }

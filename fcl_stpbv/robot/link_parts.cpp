@@ -6,6 +6,7 @@
 
 #include "fcl_stpbv/adapter/hull_geometry.h"
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/parts/convex_parts.h"
 #include "fcl_stpbv/robot/mesh_file.h"
 #include "fcl_stpbv/robot/shape_source.h"
@@ -16,8 +17,6 @@ namespace fcl_stpbv {
 namespace {
 
 using namespace detail;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 Body partOf(const Body& whole, int index, int number, const ConvexPart& part) {
   Body body;

@@ -3,13 +3,10 @@
 #include "fcl_stpbv/robot/mimic_chain.h"
 
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/numbers.h"
 
 namespace fcl_stpbv::detail {
-namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-}  // namespace
+namespace {}  // namespace
 
 MimicChains::MimicChains(std::vector<Follower> joints) : joints_(std::move(joints)) {
   std::unordered_map<std::string, int> index;

@@ -11,6 +11,7 @@
 #include <limits>
 #include <optional>
 
+#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/robot/joint_path.h"
 
 namespace fcl_stpbv::detail {
@@ -18,8 +19,6 @@ namespace {
 
 using Eigen::Index;
 using Eigen::Vector3d;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
 

@@ -15,6 +15,7 @@
 #include <optional>
 
 #include "fcl_stpbv/adapter/motion_search.h"
+#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/robot/collision_checker.h"
 #include "fcl_stpbv/robot/motion_chains.h"
 
@@ -23,8 +24,6 @@ namespace {
 
 using namespace detail;
 using Eigen::Vector3d;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 Cover longer(const Cover& a, const Cover& b) {
   return {std::max(a.before, b.before), std::max(a.after, b.after)};

@@ -6,12 +6,13 @@
 #include <tuple>
 
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/robot/checked_pairs.h"
 
 namespace fcl_stpbv {
 namespace {
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
+using detail::at;
 
 // In MoveIt's words. What no joint can change is said by how it is: "Always" or "Never" in collision.
 const char* srdfReason(const PairEntry& entry) {

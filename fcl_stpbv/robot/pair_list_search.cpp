@@ -14,6 +14,7 @@
 
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/number_check.h"
+#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/robot/adjacency.h"
 #include "fcl_stpbv/robot/pair_list.h"
 #include "fcl_stpbv/robot/pair_list_again.h"
@@ -26,8 +27,6 @@ namespace fcl_stpbv {
 namespace {
 
 using namespace detail;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 class Search {
  public:

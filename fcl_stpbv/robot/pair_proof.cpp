@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 
+#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/robot/body_points.h"
 #include "fcl_stpbv/robot/joint_path.h"
 #include "fcl_stpbv/robot/pair_search.h"
@@ -34,9 +35,6 @@ using Eigen::Index;
 using Eigen::Vector3d;
 
 constexpr double kEps = std::numeric_limits<double>::epsilon();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 PairSearch searchOf(const ProofScene& scene, const LinkPair& pair) {
   if (pair.obstacle)

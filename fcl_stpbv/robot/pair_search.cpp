@@ -7,12 +7,11 @@
 #include <cmath>
 #include <limits>
 
+#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/robot/joint_path.h"
 
 namespace fcl_stpbv::detail {
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 // How far a link's bodies reach from its origin.
 double reachOf(const RobotGeometry& geometry, int link) {
@@ -62,11 +61,11 @@ PairSearch::PairSearch(std::shared_ptr<const Kinematics> kinematics,
 void PairSearch::boundSlopes(int link1, double reach1, int link2, double reach2) {
   const RobotModel& robot = kinematics_->robot();
   const JointPath joints = jointPath(robot, link1, link2);
-  struct Part {
+  struct Span {
     int joint;
     double length;
   };
-  std::vector<Part> path;  // from link1 up, then down to link2
+  std::vector<Span> path;  // from link1 up, then down to link2
   const auto lengthOf = [&](int j) {
     const JointModel& joint = robot.joints[at(j)];
     double slide =
@@ -80,7 +79,7 @@ void PairSearch::boundSlopes(int link1, double reach1, int link2, double reach2)
   };
   for (int j : joints.joints) path.push_back({j, lengthOf(j)});
   double total = 0;
-  for (const Part& part : path) total += part.length;
+  for (const Span& part : path) total += part.length;
 
   lipschitz_.assign(coordinates_.size(), 0);
   for (const Kinematics::Motion& motion : kinematics_->motions())  // a moving base has no limits

@@ -8,16 +8,16 @@
 #include <cmath>
 #include <limits>
 
+#include "fcl_stpbv/numbers.h"
+
 namespace fcl_stpbv::detail {
 namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 // Links that the plane is tried on, and steps that improve its normal.
 constexpr std::size_t kReferences = 2;
-constexpr int kSteps = 4;
+constexpr int kPlaneSteps = 4;
 
 // The point farthest along n that the joints bring the body to, in first order.
 Vector3d farthest(const Vector3d& n, const BodySide& side) {
@@ -101,7 +101,7 @@ double PlaneBound::gap(const Vector3d& normal, const std::array<Vector3d, 2>& ne
     tryOut(normal, reference);
     // Towards the shortest difference of two points that the bodies are brought to, as GJK does.
     Vector3d shortest = normal * std::max(1e-6, normal.dot(nearest[1] - nearest[0]));
-    for (int step = 0; step < kSteps && best <= enough; ++step) {
+    for (int step = 0; step < kPlaneSteps && best <= enough; ++step) {
       const Vector3d n = shortest.normalized();
       const Vector3d corner = farthest(-n, second_) - farthest(n, first_);
       if (step == 0 && n.dot(corner) > 0) shortest = n.dot(corner) * n;

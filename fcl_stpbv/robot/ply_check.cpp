@@ -87,9 +87,9 @@ Header readHeader(TextScanner& in) {
   return header;
 }
 
-class Body {
+class PlyBody {
  public:
-  Body(std::string_view bytes, Encoding encoding, const std::string& name)
+  PlyBody(std::string_view bytes, Encoding encoding, const std::string& name)
       : bytes_(bytes), big_(encoding == Encoding::bigEndian), name_(name) {}
 
   void pass(const Element& element) {
@@ -143,7 +143,7 @@ void checkPly(std::string_view text, const std::string& name) {
   if (header.encoding == Encoding::text) {
     for (const Element& element : header.elements) passText(in, element);
   } else {
-    Body body(text.substr(in.position()), header.encoding, name);
+    PlyBody body(text.substr(in.position()), header.encoding, name);
     for (const Element& element : header.elements) body.pass(element);
   }
 }

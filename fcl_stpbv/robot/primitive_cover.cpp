@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/robot/fitted_radii.h"
 
 namespace fcl_stpbv::detail {
@@ -30,7 +31,7 @@ struct Skeleton {
 // circle is a convex combination of two of them.
 void addPolygon(double radius, double r, double z, Skeleton& skeleton) {
   constexpr int kFewest = 8, kMost = 64;
-  constexpr double kPi = 3.14159265358979323846, kPartOfMargin = 0.25;
+  constexpr double kPartOfMargin = 0.25;
   const double wanted = kPi / std::acos(radius / (radius + kPartOfMargin * r));
   const int corners = wanted < kMost ? std::max(kFewest, static_cast<int>(std::ceil(wanted))) : kMost;
   const double outer = radius / std::cos(kPi / corners);

@@ -11,12 +11,12 @@
 #include <cmath>
 #include <limits>
 
+#include "fcl_stpbv/numbers.h"
+
 namespace fcl_stpbv::detail {
 namespace {
 
 using Eigen::Vector3d;
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // Of what a joint pushes, the part that is linear in its range counts half when a coordinate is chosen to be
 // cut: that part halves, the others fall to a quarter.

@@ -29,9 +29,9 @@ const std::set<std::string_view> kOthers = {"group",
                                             "enable_collisions",
                                             "disable_collisions"};
 
-class Reader {
+class SrdfReader {
  public:
-  Reader(const std::string& path, const RobotModel& robot, LoadFaults& faults)
+  SrdfReader(const std::string& path, const RobotModel& robot, LoadFaults& faults)
       : path_(path), robot_(robot), faults_(faults) {
     for (const LinkModel& link : robot.links) links_.insert(link.name);
   }
@@ -144,7 +144,7 @@ const Srdf::State& Srdf::state(const std::string& name) const {
 }
 
 Srdf loadSrdf(const std::string& path, const RobotModel& robot, LoadFaults& faults) {
-  return Reader(path, robot, faults).read();
+  return SrdfReader(path, robot, faults).read();
 }
 
 Srdf loadSrdf(const std::string& path, const RobotModel& robot) {

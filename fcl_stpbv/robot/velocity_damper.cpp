@@ -8,13 +8,12 @@
 
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/number_check.h"
+#include "fcl_stpbv/numbers.h"
 
 namespace fcl_stpbv {
 namespace {
 
 using namespace detail;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 // Beyond these in m, m/s, s and 1/s is a mistake; a gain or a period is never 0.
 constexpr double kLeast = 1e-9, kLargest = 1e9;

@@ -19,14 +19,18 @@ namespace {
 
 using Integer = boost::multiprecision::cpp_int;
 
-struct Vec {
+struct IntegerVector {
   Integer x, y, z;
 };
-Vec operator-(const Vec& p, const Vec& q) { return {p.x - q.x, p.y - q.y, p.z - q.z}; }
-Vec operator+(const Vec& p, const Vec& q) { return {p.x + q.x, p.y + q.y, p.z + q.z}; }
-Vec operator*(const Integer& s, const Vec& p) { return {s * p.x, s * p.y, s * p.z}; }
-Integer dot(const Vec& p, const Vec& q) { return p.x * q.x + p.y * q.y + p.z * q.z; }
-Vec cross(const Vec& p, const Vec& q) {
+IntegerVector operator-(const IntegerVector& p, const IntegerVector& q) {
+  return {p.x - q.x, p.y - q.y, p.z - q.z};
+}
+IntegerVector operator+(const IntegerVector& p, const IntegerVector& q) {
+  return {p.x + q.x, p.y + q.y, p.z + q.z};
+}
+IntegerVector operator*(const Integer& s, const IntegerVector& p) { return {s * p.x, s * p.y, s * p.z}; }
+Integer dot(const IntegerVector& p, const IntegerVector& q) { return p.x * q.x + p.y * q.y + p.z * q.z; }
+IntegerVector cross(const IntegerVector& p, const IntegerVector& q) {
   return {p.y * q.z - p.z * q.y, p.z * q.x - p.x * q.z, p.x * q.y - p.y * q.x};
 }
 
@@ -51,7 +55,9 @@ class Scale {
     const int last = lastBit(value);
     return Integer(static_cast<std::int64_t>(std::ldexp(value, -last))) << (last - least_);
   }
-  Vec operator()(const Eigen::Vector3d& p) const { return {(*this)(p.x()), (*this)(p.y()), (*this)(p.z())}; }
+  IntegerVector operator()(const Eigen::Vector3d& p) const {
+    return {(*this)(p.x()), (*this)(p.y()), (*this)(p.z())};
+  }
 
  private:
   int least_ = std::numeric_limits<double>::max_exponent;
@@ -66,13 +72,13 @@ int signOf(const Integer& a, const Integer& b, const Integer& d) {
 }
 
 struct IntegerBall {
-  Vec a, normal, towards;  // N and T
+  IntegerVector a, normal, towards;  // N and T
   Integer n2, discriminant;
   bool isPlane;
 
   IntegerBall(const BallPoints& ball, const Scale& scale)
       : a(scale(ball.a)), isPlane(std::isinf(ball.radius)) {
-    const Vec u = scale(ball.b) - a, v = scale(ball.c) - a, w = u - v;
+    const IntegerVector u = scale(ball.b) - a, v = scale(ball.c) - a, w = u - v;
     normal = cross(u, v);
     if (isPlane) return;
     const Integer u2 = dot(u, u), v2 = dot(v, v), rho = scale(ball.radius);
@@ -95,7 +101,7 @@ Scale scaleOf(const BallPoints& ball, std::initializer_list<Eigen::Vector3d> oth
 int exactSide(const BallPoints& points, const Eigen::Vector3d& p) {
   const Scale scale = scaleOf(points, {p});
   const IntegerBall ball(points, scale);
-  const Vec q = scale(p) - ball.a;
+  const IntegerVector q = scale(p) - ball.a;
   if (ball.isPlane) return dot(q, ball.normal).sign();
   return signOf(ball.n2 * dot(q, q) - dot(q, ball.towards), dot(q, ball.normal), ball.discriminant);
 }
@@ -104,7 +110,7 @@ int exactTurn(const BallPoints& points, const Eigen::Vector3d& p, const Eigen::V
               const Eigen::Vector3d& s) {
   const Scale scale = scaleOf(points, {p, q, s});
   const IntegerBall ball(points, scale);
-  const Vec at = scale(p), around = cross(scale(q) - at, scale(s) - at);
+  const IntegerVector at = scale(p), around = cross(scale(q) - at, scale(s) - at);
   const Integer up = dot(around, ball.normal);
   if (ball.isPlane) return up.sign();
   return signOf(dot(around, 2 * ball.n2 * (at - ball.a) - ball.towards), up, ball.discriminant);

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/numbers.h"
 
 namespace fcl_stpbv::detail {
 
@@ -19,7 +20,6 @@ std::vector<HalfEdge> pairHalfEdges(const std::vector<Vector3d>& points, const s
                                     const std::vector<Vector3d>& normals, double radius) {
   const double curvature = std::isinf(radius) ? 0 : 1 / radius;
   const auto at = [&](int i) -> const Vector3d& { return points[static_cast<std::size_t>(i)]; };
-  constexpr double kPi = 3.14159265358979323846;
   std::vector<HalfEdge> halfEdges;
   std::size_t count = 0;
   for (const Ring& ring : faces) count += ring.size();

@@ -10,18 +10,18 @@
 namespace fcl_stpbv::detail {
 namespace {
 
-using Vector = Eigen::Matrix<long double, 3, 1>;
+using LongVector = Eigen::Matrix<long double, 3, 1>;
 
 struct Candidate {
-  Vector centre = Vector::Zero();
+  LongVector centre = LongVector::Zero();
   long double radius2 = -1;
 };
 
 // Smallest ball through all of the given one to four points, or none where they are dependent.
-Candidate ballThrough(const std::vector<Vector>& p) {
+Candidate ballThrough(const std::vector<LongVector>& p) {
   Candidate ball;
   const Eigen::Index k = static_cast<Eigen::Index>(p.size()) - 1;
-  Vector offset = Vector::Zero();
+  LongVector offset = LongVector::Zero();
   if (k > 0) {
     Eigen::Matrix<long double, 3, Eigen::Dynamic, 0, 3, 3> edges(3, k);
     for (Eigen::Index j = 0; j < k; ++j) edges.col(j) = p[static_cast<std::size_t>(j) + 1] - p[0];
@@ -40,7 +40,7 @@ Candidate ballThrough(const std::vector<Vector>& p) {
 
 Ball minimumEnclosingBall(const std::vector<Eigen::Vector3d>& points) {
   const Eigen::Vector3d& origin = points.front();
-  std::vector<Vector> held{Vector::Zero()};
+  std::vector<LongVector> held{LongVector::Zero()};
   Candidate ball = ballThrough(held);
   // Each round the radius grows; a few rounds do for any cloud, the bound only stops rounding from cycling.
   for (int round = 0; round < 1000; ++round) {
@@ -51,21 +51,21 @@ Ball minimumEnclosingBall(const std::vector<Eigen::Vector3d>& points) {
       const double d2 = (points[i] - centre).squaredNorm();
       if (d2 > farthest2) farthest2 = d2, farthest = i;
     }
-    const Vector p = (points[farthest] - origin).cast<long double>();
+    const LongVector p = (points[farthest] - origin).cast<long double>();
     if ((p - ball.centre).squaredNorm() <= ball.radius2 * (1 + 1e-15L)) break;
     held.push_back(p);
     Candidate best;
-    std::vector<Vector> bestHeld;
+    std::vector<LongVector> bestHeld;
     const unsigned all = 1u << held.size();
     for (unsigned subset = 1; subset < all; ++subset) {
-      std::vector<Vector> trial;
+      std::vector<LongVector> trial;
       for (std::size_t i = 0; i < held.size(); ++i)
         if (subset >> i & 1u) trial.push_back(held[i]);
       if (trial.size() > 4) continue;
       const Candidate c = ballThrough(trial);
       if (c.radius2 < 0 || (best.radius2 >= 0 && c.radius2 >= best.radius2)) continue;
       bool holdsAll = true;
-      for (const Vector& h : held)
+      for (const LongVector& h : held)
         holdsAll = holdsAll && (h - c.centre).squaredNorm() <= c.radius2 * (1 + 1e-15L);
       if (holdsAll) best = c, bestHeld = trial;
     }

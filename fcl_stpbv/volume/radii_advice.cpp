@@ -9,6 +9,7 @@
 
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/number_check.h"
+#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/volume/contact_acceleration.h"
 #include "fcl_stpbv/volume/hull_excess.h"
 
@@ -18,17 +19,16 @@ namespace {
 using namespace detail;
 using Points = std::vector<Eigen::Vector3d>;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Nothing on a robot is smaller or larger (m, s, m/s, rad/s, m/s^2); products of a few stay finite.
-constexpr double kLeast = 1e-9, kMost = 1e9;
+constexpr double kLeast = 1e-9, kGreatest = 1e9;
 
 void check(const RadiiTask& task) {
-  requireNumber("adviseRadii: clearance", task.clearance, kLeast, kMost);
-  requireNumber("adviseRadii: acceleration", task.acceleration, kLeast, kMost);
-  requireNumber("adviseRadii: speed", task.speed, 0, kMost);
-  requireNumber("adviseRadii: turning", task.turning, 0, kMost);
-  requireNumber("adviseRadii: period", task.period, 0, kMost);
-  requireNumber("adviseRadii: distance", task.distance, 0, kMost);
+  requireNumber("adviseRadii: clearance", task.clearance, kLeast, kGreatest);
+  requireNumber("adviseRadii: acceleration", task.acceleration, kLeast, kGreatest);
+  requireNumber("adviseRadii: speed", task.speed, 0, kGreatest);
+  requireNumber("adviseRadii: turning", task.turning, 0, kGreatest);
+  requireNumber("adviseRadii: period", task.period, 0, kGreatest);
+  requireNumber("adviseRadii: distance", task.distance, 0, kGreatest);
 }
 
 /// The last number on the way from `good` to `bad` that is good, to rounding.
@@ -87,7 +87,7 @@ class Adviser {
   double leastKept() const {
     double low = task_.acceleration, high = low * kStep;
     for (; !keeps(with(high)); high *= kStep) {
-      if (high > kMost) refuse();
+      if (high > kGreatest) refuse();
       low = high;
     }
     for (int round = 0; round < kRounds; ++round) {

@@ -5,14 +5,12 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "fcl_stpbv/numbers.h"
+
 namespace fcl_stpbv::detail {
 namespace {
 
 using Eigen::Vector3d;
-
-const Vector3d& at(const StpBv& volume, int vertex) {
-  return volume.vertices()[static_cast<std::size_t>(vertex)];
-}
 
 void setCentre(Region* region) {
   Vector3d sum = Vector3d::Zero();
@@ -48,7 +46,6 @@ std::vector<Region> regions(const StpBv& volume) {
   std::vector<Region> all(static_cast<std::size_t>(volume.vertexCount()));
   for (int v = 0; v < volume.vertexCount(); ++v) all[static_cast<std::size_t>(v)].patch = v;
   if (volume.edgeCount() == 0) {
-    constexpr double kTwoPi = 6.283185307179586476925;
     const Vector3d z = Vector3d::UnitZ();
     return {{0, z, {{Vector3d::UnitX(), z, kTwoPi}}}, {0, -z, {{Vector3d::UnitX(), -z, kTwoPi}}}};
   }

@@ -8,6 +8,10 @@
 
 namespace fcl_stpbv::detail {
 
+inline const Eigen::Vector3d& at(const StpBv& volume, int vertex) {
+  return volume.vertices()[static_cast<std::size_t>(vertex)];
+}
+
 /// Part of a circle on the unit sphere: `start` turned about the unit `axis` by up to `turn` (rad).
 struct Arc {
   Eigen::Vector3d start, axis;

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/volume/ball_faces.h"
 #include "fcl_stpbv/volume/ball_quickhull.h"
 #include "fcl_stpbv/volume/ball_side.h"

@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/volume/ball_faces.h"
 #include "fcl_stpbv/volume/ball_side.h"
 #include "fcl_stpbv/volume/half_edges.h"
@@ -19,8 +20,6 @@ namespace {
 
 using namespace detail;
 using Eigen::Vector3d;
-
-constexpr double kTwoPi = 6.283185307179586476925;
 
 // An edge that turns by more is cut into parts: the boundaries of a region past half a turn do not intersect
 // in it, however little it is past. A flat plate's rim turns by nearly half a turn and stays whole.

@@ -20,6 +20,7 @@
 #include <cmath>
 #include <limits>
 
+#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/volume/ball_faces.h"
 #include "fcl_stpbv/volume/patch_view.h"
 #include "fcl_stpbv/volume/point_tree.h"
@@ -31,8 +32,6 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
-constexpr double kPi = 3.14159265358979323846;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Two normals of an edge that are tried are that far apart (rad).
 constexpr double kWide = 0.3;
 

@@ -12,6 +12,7 @@
 #include <cstdio>
 #include <limits>
 
+#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/volume/ball_faces.h"
 #include "fcl_stpbv/volume/join_faces.h"
 #include "fcl_stpbv/volume/measure.h"
@@ -25,9 +26,7 @@ namespace {
 using namespace detail;
 using Eigen::Vector3d;
 
-constexpr double kPi = 3.14159265358979323846;
-
-std::string number(double value) {
+std::string brief(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.3g", value);
   return text;
@@ -106,14 +105,13 @@ Verification verify(const StpBv& volume, const std::vector<Vector3d>& points, do
   // A point may have vanished into a vertex next to it, and the vertex may be as much outside a face that was
   // joined.
   if (!(result.containment <= length + touchTolerance(all)))
-    result.message =
-        "a point lies " + number(result.containment) + " m nearer to the surface than the margin";
+    result.message = "a point lies " + brief(result.containment) + " m nearer to the surface than the margin";
   else if (!(std::abs(result.solidAngleError) <= angle) || !(least >= -angle))
     result.message =
-        "the regions of normals do not tile the sphere: off by " + number(result.solidAngleError) + " sr";
+        "the regions of normals do not tile the sphere: off by " + brief(result.solidAngleError) + " sr";
   else if (!boundaries.ok)
     result.message =
-        "neighbouring patches part by " + number(result.boundaryGap) + " m at their region boundary";
+        "neighbouring patches part by " + brief(result.boundaryGap) + " m at their region boundary";
   else
     result.message = "ok";
   result.ok = result.message == "ok";

@@ -23,8 +23,6 @@ using Eigen::Vector3d;
 
 namespace {
 
-Isometry3d at(double x, double y, double z) { return pose(Eigen::Matrix3d::Identity(), {x, y, z}); }
-
 fcl::ContinuousCollisionRequestd requestOf(fcl::CCDMotionType type, double tolerance = 1e-9) {
   return fcl::ContinuousCollisionRequestd(10, tolerance, type);
 }

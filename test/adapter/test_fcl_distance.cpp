@@ -1,4 +1,3 @@
-#include <fcl/geometry/bvh/BVH_model.h>
 #include <fcl/geometry/shape/box.h>
 #include <fcl/geometry/shape/halfspace.h>
 #include <fcl/geometry/shape/plane.h>
@@ -14,6 +13,7 @@
 #include "fcl_stpbv/adapter/pair_distance.h"
 #include "fcl_stpbv/convex/relative_pose.h"
 #include "fcl_stpbv/volume/measure.h"
+#include "test/adapter/bodies.h"
 #include "test/adapter/mirrored_pairs.h"
 #include "test/reference/hard_cases.h"
 #include "test/reference/shapes.h"
@@ -27,12 +27,6 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 namespace {
-
-std::shared_ptr<StpBvGeometry> geometryOf(const Cloud& cloud, double r = 0.01, double R = 10) {
-  return std::make_shared<StpBvGeometry>(StpBv::build(cloud, {r, R}));
-}
-
-Isometry3d at(double x, double y, double z) { return pose(Matrix3d::Identity(), {x, y, z}); }
 
 /// A result as it comes out of a penetrating FCL query on other objects.
 fcl::DistanceResultd dirtyResult() {

@@ -1,6 +1,5 @@
 // Second derivatives through the drop-in against differences of its gradient: shapes, meshes, octrees.
 #include <fcl/config.h>
-#include <fcl/geometry/bvh/BVH_model.h>
 #include <fcl/geometry/shape/box.h>
 #include <fcl/geometry/shape/capsule.h>
 #include <fcl/geometry/shape/cone.h>
@@ -15,7 +14,7 @@
 #include <catch2/catch.hpp>
 
 #include "fcl_stpbv/adapter/fcl_hessian.h"
-#include "test/reference/shapes.h"
+#include "test/adapter/bodies.h"
 
 using namespace fcl_stpbv;
 using namespace fcl_stpbv::test;
@@ -24,34 +23,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-using Geometry = std::shared_ptr<const fcl::CollisionGeometryd>;
-
-Geometry link() {
-  return std::make_shared<StpBvGeometry>(StpBv::build(randomHull(20, {0.2, 0.15, 0.1}, 3), {0.02, 2}));
-}
-
-// Hills whose faces, edges and tops all get to be nearest.
-Geometry hills() {
-  constexpr std::size_t kSide = 8;
-  auto mesh = std::make_shared<fcl::BVHModel<fcl::OBBRSSd>>();
-  std::vector<Vector3d> points;
-  std::vector<fcl::Triangle> triangles;
-  Random random(4);
-  for (std::size_t i = 0; i <= kSide; ++i)
-    for (std::size_t j = 0; j <= kSide; ++j)
-      points.emplace_back(0.3 * static_cast<double>(i) - 1.2, 0.3 * static_cast<double>(j) - 1.2,
-                          random.uniform(-0.1, 0.1));
-  for (std::size_t i = 0; i < kSide; ++i)
-    for (std::size_t j = 0; j < kSide; ++j) {
-      const std::size_t p = i * (kSide + 1) + j, q = p + kSide + 1;
-      triangles.emplace_back(p, q, p + 1);
-      triangles.emplace_back(q, q + 1, p + 1);
-    }
-  mesh->beginModel();
-  mesh->addSubModel(points, triangles);
-  mesh->endModel();
-  return mesh;
-}
+using Geometry = std::shared_ptr<fcl::CollisionGeometryd>;
 
 #if FCL_HAVE_OCTOMAP
 Geometry cells() {
@@ -65,15 +37,6 @@ Geometry cells() {
   return std::make_shared<fcl::OcTreed>(tree);
 }
 #endif
-
-Isometry3d moved(const Isometry3d& p, int component, double step) {
-  Isometry3d result = p;
-  if (component < 3)
-    result.translation()[component] += step;
-  else
-    result.linear() = Eigen::AngleAxisd(step, Vector3d::Unit(component - 3)).toRotationMatrix() * p.linear();
-  return result;
-}
 
 struct Compared {
   double worst = 0;
@@ -121,7 +84,7 @@ void compare(const fcl::CollisionGeometryd& a, const Isometry3d& poseA, const fc
 }  // namespace
 
 TEST_CASE("the Hessian through the drop-in is the change of its gradient, for shapes, triangles and cells") {
-  const Geometry body = link();
+  const Geometry body = link(0.02, 2);
   std::vector<Geometry> others{std::make_shared<fcl::Sphered>(0.1),
                                std::make_shared<fcl::Capsuled>(0.1, 0.3),
                                std::make_shared<fcl::Ellipsoidd>(0.1, 0.2, 0.3),
@@ -129,8 +92,8 @@ TEST_CASE("the Hessian through the drop-in is the change of its gradient, for sh
                                std::make_shared<fcl::Cylinderd>(0.1, 0.3),
                                std::make_shared<fcl::Coned>(0.1, 0.3),
                                std::make_shared<fcl::Halfspaced>(Vector3d(0, 0, 1), 0.1),
-                               link(),
-                               hills()};
+                               link(0.02, 2),
+                               bumpyGround<fcl::OBBRSSd>(8, 0.1)};
 #if FCL_HAVE_OCTOMAP
   others.push_back(cells());
 #endif
@@ -158,7 +121,8 @@ TEST_CASE("the Hessian through the drop-in is the change of its gradient, for sh
 }
 
 TEST_CASE("there is no Hessian of two plain shapes, of no answer, and of an element that is not there") {
-  const Geometry body = link(), ground = hills(), ball = std::make_shared<fcl::Sphered>(0.1);
+  const Geometry body = link(0.02, 2), ground = bumpyGround<fcl::OBBRSSd>(8, 0.1),
+                 ball = std::make_shared<fcl::Sphered>(0.1);
   const Isometry3d at = Isometry3d::Identity(), above = pose(Eigen::Matrix3d::Identity(), {0, 0, 1});
   DistanceHessian h;
   CHECK_FALSE(hessian(*ball, at, *ball, above, distance(*ball, at, *ball, above), h));

@@ -21,42 +21,14 @@
 
 #include "fcl_stpbv/adapter/proximity.h"
 #include "fcl_stpbv/distance/shape_distance.h"
-#include "test/reference/shapes.h"
+#include "test/adapter/bodies.h"
 
 using namespace fcl_stpbv;
 using namespace fcl_stpbv::test;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-namespace {
-
-std::shared_ptr<StpBvGeometry> link() {
-  return std::make_shared<StpBvGeometry>(StpBv::build(randomHull(20, {0.2, 0.15, 0.1}, 3), {0.01, 10}));
-}
-
-template <typename BV>
-std::shared_ptr<fcl::BVHModel<BV>> bumpyGround() {
-  constexpr int kSide = 24;
-  auto mesh = std::make_shared<fcl::BVHModel<BV>>();
-  std::vector<Vector3d> points;
-  std::vector<fcl::Triangle> triangles;
-  Random random(4);
-  for (int i = 0; i <= kSide; ++i)
-    for (int j = 0; j <= kSide; ++j)
-      points.emplace_back(0.1 * i - 1.2, 0.1 * j - 1.2, random.uniform(-0.05, 0.05));
-  for (std::size_t i = 0; i < kSide; ++i)
-    for (std::size_t j = 0; j < kSide; ++j) {
-      const std::size_t p = i * (kSide + 1) + j, q = p + kSide + 1;
-      triangles.emplace_back(p, q, p + 1);
-      triangles.emplace_back(q, q + 1, p + 1);
-    }
-  mesh->beginModel();
-  mesh->addSubModel(points, triangles);
-  mesh->endModel();
-  return mesh;
-}
-
-}  // namespace
+namespace {}  // namespace
 
 TEST_CASE("every FCL shape is answered exactly, in both orders alike") {
   const auto body = link();
@@ -95,7 +67,7 @@ TEST_CASE("every FCL shape is answered exactly, in both orders alike") {
 TEMPLATE_TEST_CASE("a mesh of any bounding volume gives the minimum over its triangles", "", fcl::AABBd,
                    fcl::OBBd, fcl::RSSd, fcl::kIOSd, fcl::OBBRSSd, (fcl::KDOP<double, 16>),
                    (fcl::KDOP<double, 18>), (fcl::KDOP<double, 24>)) {
-  const auto mesh = bumpyGround<TestType>();
+  const auto mesh = bumpyGround<TestType>(24, 0.05);
   const auto body = link();
   Random random(3);
   for (int i = 0; i < 12; ++i) {

@@ -7,7 +7,7 @@
 #include "fcl_stpbv/adapter/stp_bv_geometry.h"
 #include "fcl_stpbv/convex/hull_graph.h"
 #include "fcl_stpbv/error.h"
-#include "test/reference/shapes.h"
+#include "test/adapter/bodies.h"
 
 using namespace fcl_stpbv;
 using namespace fcl_stpbv::detail;
@@ -15,10 +15,6 @@ using namespace fcl_stpbv::test;
 using Eigen::Vector3d;
 
 namespace {
-
-std::shared_ptr<StpBvGeometry> geometryOf(const Cloud& cloud, double r = 0.01, double R = 10) {
-  return std::make_shared<StpBvGeometry>(StpBv::build(cloud, {r, R}));
-}
 
 std::vector<Cloud> shapes() {
   return {box(0.2, 0.3, 0.4), plate(0.3, 0.2),        needle(0.5),

@@ -13,13 +13,13 @@ using Eigen::Vector3d;
 
 namespace {
 
-struct Body {
+struct Covered {
   Cloud cloud;
   StpBvOptions radii;
   StpBv::Ptr volume;
 };
 
-Body make(Cloud cloud, double r, double R) {
+Covered make(Cloud cloud, double r, double R) {
   const StpBvOptions radii{r, R};
   StpBv::Ptr volume = StpBv::build(cloud, radii);
   return {std::move(cloud), radii, std::move(volume)};
@@ -32,12 +32,12 @@ struct Outcome {
 
 // Pairs at gaps of the cores from 1 m down to 1e-18 m, at turns of all sizes, against the long double
 // reference.
-Outcome check(const std::vector<Body>& first, const std::vector<Body>& second, int count) {
+Outcome check(const std::vector<Covered>& first, const std::vector<Covered>& second, int count) {
   Random random(1);
   Outcome outcome;
   for (int i = 0; i < count; ++i) {
-    const Body& a = first[static_cast<std::size_t>(random.below(static_cast<int>(first.size())))];
-    const Body& b = second[static_cast<std::size_t>(random.below(static_cast<int>(second.size())))];
+    const Covered& a = first[static_cast<std::size_t>(random.below(static_cast<int>(first.size())))];
+    const Covered& b = second[static_cast<std::size_t>(random.below(static_cast<int>(second.size())))];
     const Vector3d towards = random.below(2) ? random.direction() : Vector3d(Vector3d::Unit(random.below(3)));
     Isometry3d at = pose(Eigen::Matrix3d::Identity(), 2 * towards);
     const int turn = random.below(3);
@@ -76,10 +76,10 @@ Outcome check(const std::vector<Body>& first, const std::vector<Body>& second, i
 TEST_CASE(
     "Where regions of normals are as narrow as rounding an answer may be bounded, and the bounds hold") {
   const Cloud speck = box(1e-4, 1e-4, 1e-4);  // at R = 1e10 m its faces own 1e-14 rad
-  const std::vector<Body> narrow{make(speck, 0, 1e10), make(speck, 1e-3, 1e10), make(speck, 0.01, 1e8)};
-  const std::vector<Body> others{make(box(0.2, 0.3, 0.4), 0, 10),    make(plate(0.3, 0.2), 0, 0.2),
-                                 make(needle(0.5), 1e-3, 0.26),      make(cylinder(0.1, 0.3), 0.01, 1),
-                                 make(geodesicSphere(0.2, 1), 0, 1), make({{0, 0, 0}}, 1e-3, 10)};
+  const std::vector<Covered> narrow{make(speck, 0, 1e10), make(speck, 1e-3, 1e10), make(speck, 0.01, 1e8)};
+  const std::vector<Covered> others{make(box(0.2, 0.3, 0.4), 0, 10),    make(plate(0.3, 0.2), 0, 0.2),
+                                    make(needle(0.5), 1e-3, 0.26),      make(cylinder(0.1, 0.3), 0.01, 1),
+                                    make(geodesicSphere(0.2, 1), 0, 1), make({{0, 0, 0}}, 1e-3, 10)};
   const Outcome outcome = check(narrow, others, 6000);
   INFO(outcome.exact << " exact, " << outcome.bounded << " bounded, by up to " << outcome.widest << " m");
   CHECK(outcome.exact > 5000);
@@ -93,7 +93,7 @@ TEST_CASE("Up to R = 1e6 m no answer is bounded: boxes, plates, flat clouds and 
   for (std::size_t i = 0; i < 8; ++i) twins.push_back(twins[i] + 1e-8 * random.direction());
   Cloud flat = randomHull(30, {0.3, 0.2, 0.1}, 5);
   for (Vector3d& p : flat) p.z() = 0;
-  std::vector<Body> all;
+  std::vector<Covered> all;
   for (const Cloud& cloud :
        {twins, flat, box(0.2, 0.3, 0.4), plate(0.3, 0.2), needle(0.5), geodesicSphere(0.2, 1)})
     for (const double r : {0.0, 0.01})

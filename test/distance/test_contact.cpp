@@ -18,7 +18,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr double kEpsilon = 2.2e-16, kMargin = 0.01;
+constexpr double kRoundoff = 2.2e-16, kMargin = 0.01;
 
 struct Pair {
   const char* name;
@@ -56,7 +56,7 @@ struct Sweep {
   void run(const std::function<Isometry3d(double)>& poseAt, int steps, double length, double angle,
            bool warm) const {
     // A core point is good to some ulp of the big radii, a normal to that over what curves the gap.
-    const double rounding = 8 * kEpsilon * (bigRadii() + 2);
+    const double rounding = 8 * kRoundoff * (bigRadii() + 2);
     PairCache cache;
     Distance last;
     double worstTurn = 0, worstStep = 0;

@@ -14,15 +14,6 @@ namespace {
 
 using Vector12 = Eigen::Matrix<double, 12, 1>;
 
-Isometry3d moved(const Isometry3d& p, int component, double step) {
-  Isometry3d result = p;
-  if (component < 3)
-    result.translation()[component] += step;
-  else
-    result.linear() = Eigen::AngleAxisd(step, Vector3d::Unit(component - 3)).toRotationMatrix() * p.linear();
-  return result;
-}
-
 Vector12 gradient(const Distance& d, const Isometry3d& poseA, const Isometry3d& poseB) {
   Vector12 g;
   g << d.gradient(0, poseA.translation()), d.gradient(1, poseB.translation());

@@ -20,8 +20,6 @@ namespace {
 
 const Isometry3d kOrigin = Isometry3d::Identity();
 
-Isometry3d at(double x, double y, double z) { return pose(Matrix3d::Identity(), Vector3d(x, y, z)); }
-
 bool finiteAnswer(const Distance& d) {
   return std::isfinite(d.distance) && std::isfinite(d.lower) && std::isfinite(d.upper) &&
          d.normal.allFinite() && d.point[0].allFinite() && d.point[1].allFinite() &&

@@ -22,13 +22,13 @@ namespace {
 const char* const kSamples[] = {"cube2x2.txt", "s2x2.txt", "sample_stp_p.txt", "sample_stpbv1.txt",
                                 "sample_stpbv2.txt"};
 
-std::string saved(const StpBv& volume) {
+std::string asSch(const StpBv& volume) {
   std::ostringstream out;
   saveSch(out, volume);
   return out.str();
 }
 
-StpBv::Ptr loaded(const std::string& text) {
+StpBv::Ptr fromSch(const std::string& text) {
   std::istringstream in(text);
   return loadSch(in, "file");
 }
@@ -109,12 +109,12 @@ std::size_t tokens(const std::string& text) {
 TEST_CASE("a volume through sch-core's format is the same bit by bit") {
   for (const auto& [name, volume] : volumesForSch()) {
     INFO(name);
-    const std::string text = saved(*volume);
+    const std::string text = asSch(*volume);
     CHECK(looksLikeSch(text));
-    const StpBv::Ptr back = loaded(text);
+    const StpBv::Ptr back = fromSch(text);
     CHECK(back->vertices() == volume->vertices());
     CHECK(back->faces() == volume->faces());
-    CHECK(saved(*back) == text);
+    CHECK(asSch(*back) == text);
     CHECK(verify(*back).ok);
   }
 }
@@ -122,7 +122,7 @@ TEST_CASE("a volume through sch-core's format is the same bit by bit") {
 TEST_CASE("a written file means the same surface to a reader of its numbers") {
   for (const auto& [name, volume] : volumesForSch()) {
     INFO(name);
-    Reader reader(saved(*volume));
+    Reader reader(asSch(*volume));
     const double rounding = 1e-15 * 4 * (volume->radii().R + volume->centre().norm());
     Random random(3);
     for (int i = 0; i < 1000; ++i) {
@@ -155,7 +155,7 @@ TEST_CASE("files of sch-creator load, with the surface they describe within thei
     }
     CHECK(worst <= reader.rounding());
     // What we make of it reads back exactly.
-    CHECK(loaded(saved(*volume))->vertices() == volume->vertices());
+    CHECK(fromSch(asSch(*volume))->vertices() == volume->vertices());
   }
 }
 
@@ -172,29 +172,29 @@ TEST_CASE("what the format cannot hold is said, not written") {
 }
 
 TEST_CASE("a file of sch-core's cut off anywhere is refused") {
-  const std::string text = saved(*StpBv::build(box(0.2, 0.3, 0.5)));
+  const std::string text = asSch(*StpBv::build(box(0.2, 0.3, 0.5)));
   const std::size_t lastToken = text.find_last_of(' ');
   for (std::size_t length = 0; length <= lastToken; ++length) {
     INFO(length);
-    CHECK(refusal(loaded, text.substr(0, length)).find("file:") == 0);
+    CHECK(refusal(fromSch, text.substr(0, length)).find("file:") == 0);
   }
   const std::string folder = sharedFolder("sch_samples");
   for (const char* const sample : kSamples) {
     if (folder.empty()) break;
     const std::string whole = contentOf(folder + "/" + sample);
-    CHECK(refusal(loaded, whole.substr(0, whole.size() / 2)).find("file:") == 0);
+    CHECK(refusal(fromSch, whole.substr(0, whole.size() / 2)).find("file:") == 0);
   }
 }
 
 TEST_CASE("a number changed anywhere is refused") {
-  const std::string text = saved(*StpBv::build(box(0.2, 0.3, 0.5)));
+  const std::string text = asSch(*StpBv::build(box(0.2, 0.3, 0.5)));
   const std::size_t count = tokens(text);
   std::string accepted;
   for (std::size_t token = 0; token < count; ++token) {
     for (const char* const other : {"0.017", "5", "-1", "1000000000", "nan", "x"}) {
       const std::string damaged = replacedAt(text, token, other);
       if (damaged == text) continue;
-      const std::string message = refusal(loaded, damaged);
+      const std::string message = refusal(fromSch, damaged);
       if (message.find("file:") != 0) accepted += std::to_string(token) + " -> " + other + "\n";
     }
   }
@@ -203,14 +203,14 @@ TEST_CASE("a number changed anywhere is refused") {
 
 TEST_CASE("a file of sch-core's with flipped bits is refused or still holds a volume") {
   Random random(43);
-  const std::string texts[] = {saved(*StpBv::build(box(0.2, 0.3, 0.5))),
-                               saved(*StpBv::build(randomHull(30, {0.1, 0.2, 0.3}, 3), {0.01, 2}))};
+  const std::string texts[] = {asSch(*StpBv::build(box(0.2, 0.3, 0.5))),
+                               asSch(*StpBv::build(randomHull(30, {0.1, 0.2, 0.3}, 3), {0.01, 2}))};
   for (int i = 0; i < 2000; ++i) {
     std::string text = texts[i % 2];
     char& c = text[static_cast<std::size_t>(random.below(static_cast<int>(text.size())))];
     c = static_cast<char>(c ^ (1 << random.below(8)));
     try {
-      const StpBv::Ptr volume = loaded(text);
+      const StpBv::Ptr volume = fromSch(text);
       CHECK(verify(*volume).ok);
     } catch (const Error& error) {
       CHECK(std::string(error.what()).find("file") == 0);
@@ -219,10 +219,10 @@ TEST_CASE("a file of sch-core's with flipped bits is refused or still holds a vo
 }
 
 TEST_CASE("damaged fields of sch-core's format are refused with their line") {
-  const std::string text = saved(*StpBv::build(box(0.2, 0.3, 0.5)));
+  const std::string text = asSch(*StpBv::build(box(0.2, 0.3, 0.5)));
   const auto check = [&](std::size_t token, const std::string& with, const std::string& place,
                          const std::string& expected) {
-    const std::string message = refusal(loaded, replacedAt(text, token, with));
+    const std::string message = refusal(fromSch, replacedAt(text, token, with));
     INFO(message);
     CHECK(message.find(place) == 0);
     CHECK(message.find(expected) != std::string::npos);

@@ -13,13 +13,13 @@ using namespace fcl_stpbv::test;
 
 namespace {
 
-std::string saved(const StpBv& volume) {
+std::string asStpBv(const StpBv& volume) {
   std::ostringstream out;
   saveStpBv(out, volume);
   return out.str();
 }
 
-StpBv::Ptr loaded(const std::string& text) {
+StpBv::Ptr fromStpBv(const std::string& text) {
   std::istringstream in(text);
   return loadStpBv(in, "file");
 }
@@ -37,13 +37,13 @@ StpBv::Ptr smallBox() { return StpBv::build(box(0.2, 0.3, 0.5)); }
 TEST_CASE("a volume written and read back is the same bit by bit") {
   for (const auto& [name, volume] : volumesOfEveryKind()) {
     INFO(name);
-    const std::string text = saved(*volume);
-    const StpBv::Ptr back = loaded(text);
+    const std::string text = asStpBv(*volume);
+    const StpBv::Ptr back = fromStpBv(text);
     CHECK(back->vertices() == volume->vertices());
     CHECK(back->faces() == volume->faces());
     CHECK(back->radii().r == volume->radii().r);
     CHECK(back->radii().R == volume->radii().R);
-    CHECK(saved(*back) == text);
+    CHECK(asStpBv(*back) == text);
     CHECK(verify(*back).ok);
     Random random(1);
     for (int i = 0; i < 200; ++i) {
@@ -60,10 +60,10 @@ TEST_CASE("the locale does not change a file") {
     std::string do_grouping() const override { return "\3"; }
   };
   const StpBv::Ptr volume = StpBv::build(box(0.2, 1000.25, 0.5), {0.01, 2000});
-  const std::string text = saved(*volume);
+  const std::string text = asStpBv(*volume);
   const std::locale before = std::locale::global(std::locale(std::locale::classic(), new Comma));
-  const std::string other = saved(*volume);
-  const std::string message = refusal(loaded, other);
+  const std::string other = asStpBv(*volume);
+  const std::string message = refusal(fromStpBv, other);
   std::locale::global(before);
   CHECK(other == text);
   CHECK(message.empty());
@@ -73,23 +73,23 @@ TEST_CASE("a file and a stream hold the same") {
   const TemporaryFolder folder;
   const StpBv::Ptr volume = smallBox();
   saveStpBv(folder / "box.stpbv", *volume);
-  CHECK(contentOf(folder / "box.stpbv") == saved(*volume));
-  CHECK(saved(*loadStpBv(folder / "box.stpbv")) == saved(*volume));
+  CHECK(contentOf(folder / "box.stpbv") == asStpBv(*volume));
+  CHECK(asStpBv(*loadStpBv(folder / "box.stpbv")) == asStpBv(*volume));
   CHECK(folder.files() == std::vector<std::string>{"box.stpbv"});
 }
 
 TEST_CASE("a file cut off anywhere is refused with its line") {
-  const std::string text = saved(*smallBox());
+  const std::string text = asStpBv(*smallBox());
   for (std::size_t length = 0; length + 1 < text.size(); ++length) {
     INFO(text.substr(0, length));
-    CHECK(refusal(loaded, text.substr(0, length)).find("file:") == 0);
+    CHECK(refusal(fromStpBv, text.substr(0, length)).find("file:") == 0);
   }
 }
 
 TEST_CASE("a file with flipped bits is refused or still holds a volume") {
   Random random(42);
-  const std::string texts[] = {saved(*smallBox()),
-                               saved(*StpBv::build(randomHull(30, {0.1, 0.2, 0.3}, 3), {0.01, 2}))};
+  const std::string texts[] = {asStpBv(*smallBox()),
+                               asStpBv(*StpBv::build(randomHull(30, {0.1, 0.2, 0.3}, 3), {0.01, 2}))};
   int refused = 0;
   constexpr int kTries = 3000;
   for (int i = 0; i < kTries; ++i) {
@@ -101,7 +101,7 @@ TEST_CASE("a file with flipped bits is refused or still holds a volume") {
     }
     INFO(text);
     try {
-      const StpBv::Ptr volume = loaded(text);
+      const StpBv::Ptr volume = fromStpBv(text);
       const Verification verification = verify(*volume);
       INFO(verification.message);
       CHECK(verification.ok);
@@ -114,9 +114,9 @@ TEST_CASE("a file with flipped bits is refused or still holds a volume") {
 }
 
 TEST_CASE("a damaged field is refused with its line and what was expected") {
-  const std::string text = saved(*smallBox());
+  const std::string text = asStpBv(*smallBox());
   const auto check = [](const std::string& damaged, const std::string& place, const std::string& expected) {
-    const std::string message = refusal(loaded, damaged);
+    const std::string message = refusal(fromStpBv, damaged);
     INFO(message);
     CHECK(message.find(place) == 0);
     CHECK(message.find(expected) != std::string::npos);

@@ -125,4 +125,16 @@ Eigen::Isometry3d pose(const Eigen::Matrix3d& rotation, const Vector3d& translat
   return result;
 }
 
+Eigen::Isometry3d at(double x, double y, double z) { return pose(Eigen::Matrix3d::Identity(), {x, y, z}); }
+
+Eigen::Isometry3d moved(const Eigen::Isometry3d& pose, int component, double step) {
+  Eigen::Isometry3d result = pose;
+  if (component < 3)
+    result.translation()[component] += step;
+  else
+    result.linear() =
+        Eigen::AngleAxisd(step, Vector3d::Unit(component - 3)).toRotationMatrix() * pose.linear();
+  return result;
+}
+
 }  // namespace fcl_stpbv::test

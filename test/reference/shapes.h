@@ -54,4 +54,11 @@ Eigen::Matrix3d rotationBetween(const Eigen::Vector3d& from, const Eigen::Vector
 /// A pose from its rotation and translation.
 Eigen::Isometry3d pose(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& translation);
 
+/// A pose without a turn.
+Eigen::Isometry3d at(double x, double y, double z);
+
+/// A body's pose after a small step: a shift along axis 0, 1 or 2 of the world, or with 3, 4 or 5 a turn
+/// about it through the body's origin.
+Eigen::Isometry3d moved(const Eigen::Isometry3d& pose, int component, double step);
+
 }  // namespace fcl_stpbv::test

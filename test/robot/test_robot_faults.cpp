@@ -20,9 +20,6 @@ namespace {
 
 const std::string kBox = "<collision><geometry><box size=\"1 1 1\"/></geometry></collision>";
 
-std::string refused(const std::string& text) {
-  return refusal([](const std::string& t) { parseUrdf(t, "small.urdf"); }, text);
-}
 std::size_t shapesIn(const std::string& insideLink) {
   return parseUrdf(robot("<link name=\"a\">" + insideLink + "</link>"), "small.urdf")
       .links[0]

@@ -16,9 +16,6 @@ using Catch::Matchers::Contains;
 namespace {
 
 RobotModel parse(const std::string& body) { return parseUrdf(robot(body), "small.urdf"); }
-std::string refused(const std::string& text) {
-  return refusal([](const std::string& t) { parseUrdf(t, "small.urdf"); }, text);
-}
 
 }  // namespace
 

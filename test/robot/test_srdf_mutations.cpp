@@ -40,11 +40,11 @@ bool hides(const Srdf& whole, const Srdf& mutated, const RobotModel& robot) {
   return false;
 }
 
-struct Outcome {
+struct SrdfOutcome {
   int tried = 0, refused = 0, warned = 0;
 };
 
-Outcome mutateAll(const RobotModel& robot, const std::string& text) {
+SrdfOutcome mutateAll(const RobotModel& robot, const std::string& text) {
   const TemporaryFolder folder;
   const std::string path = folder / "mutated.srdf";
   const auto load = [&](const std::string& content) {
@@ -54,7 +54,7 @@ Outcome mutateAll(const RobotModel& robot, const std::string& text) {
   const Srdf whole = load(text);
   REQUIRE(whole.warnings.empty());
   const std::string content = decisionsOf(whole, robot);
-  Outcome outcome;
+  SrdfOutcome outcome;
   for (int shift : {0, 4})  // each element is damaged in two ways
     forEachMutation(text, shift, 1, [&](const std::string& mutated, const Mutation& mutation) {
       ++outcome.tried;
@@ -89,7 +89,7 @@ TEST_CASE("an SRDF mutated in any element or attribute hides no pair") {
                        shared + "/panda_description/srdf/panda.srdf");
   for (const auto& [urdf, srdf] : files) {
     CAPTURE(srdf);
-    const Outcome outcome = mutateAll(loadUrdf(urdf), readText(srdf));
+    const SrdfOutcome outcome = mutateAll(loadUrdf(urdf), readText(srdf));
     CHECK(outcome.tried > 100);
     CHECK(outcome.refused + outcome.warned > outcome.tried / 4);
   }
@@ -102,7 +102,7 @@ TEST_CASE("every kind of SRDF entry is held by the mutations") {
       "link=\"b\"/><child "
       "link=\"c\"/></joint>";
   const RobotModel robot = parseUrdf("<robot name=\"r\">" + links + "</robot>", "r.urdf");
-  const Outcome outcome = mutateAll(
+  const SrdfOutcome outcome = mutateAll(
       robot,
       "<robot name=\"r\"><group name=\"g\"><joint name=\"k\"/></group><group_state name=\"s\" "
       "group=\"g\"><joint name=\"k\" value=\"0.5\"/></group_state><virtual_joint name=\"v\" "

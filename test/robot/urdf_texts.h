@@ -3,6 +3,9 @@
 
 #include <string>
 
+#include "fcl_stpbv/robot/robot_model.h"
+#include "test/reference/volume_files.h"
+
 namespace fcl_stpbv::test {
 
 inline std::string robot(const std::string& body) {
@@ -17,6 +20,11 @@ inline std::string joint(const std::string& name, const std::string& type, const
   return "<joint name=\"" + name + "\" type=\"" + type + "\"><parent link=\"" + parent +
          "\"/><child link=\"" + child + "\"/><limit lower=\"-1\" upper=\"1\" effort=\"1\" velocity=\"1\"/>" +
          more + "</joint>";
+}
+
+/// What is said where a robot's text is refused.
+inline std::string refused(const std::string& text) {
+  return refusal([](const std::string& t) { parseUrdf(t, "small.urdf"); }, text);
 }
 
 /// How many <collision> elements a text has, counted without a parser.

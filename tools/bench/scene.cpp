@@ -10,6 +10,7 @@
 #include <random>
 #include <set>
 
+#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/report/tick_time.h"
 #include "fcl_stpbv/robot/detail_choice.h"
 #include "fcl_stpbv/robot/pair_samples.h"
@@ -36,8 +37,6 @@ struct Scene {
   std::vector<LinkPair> pairs;
   std::vector<Eigen::VectorXd> configurations;
 };
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 std::vector<Eigen::VectorXd> randomConfigurations(const Kinematics& kinematics, int count,
                                                   std::uint64_t seed) {

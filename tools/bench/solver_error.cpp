@@ -11,7 +11,7 @@ namespace fcl_stpbv::benchmark {
 
 namespace {
 
-constexpr std::size_t kCheckEvery = 23;  // the reference of the STP-BVs takes milliseconds
+constexpr std::size_t kPoseStride = 23;  // the reference of the STP-BVs takes milliseconds
 constexpr double kWrong = 1e-6;          // m: what FCL's default tolerance promises
 
 /// One method's errors, and what it missed.
@@ -89,7 +89,7 @@ Measurement solverError(const SpeedOptions& options) {
     std::vector<Times> times =
         timed(methods, motion, options.blocks, GeodesicMotion::kCycle, true,
               [&](std::size_t m, const Poses& poses, const std::vector<Answer>& answers) {
-                for (std::size_t i = 0; i < answers.size(); i += kCheckEvery) {
+                for (std::size_t i = 0; i < answers.size(); i += kPoseStride) {
                   const Truth& truth = truths.of(poses, i, methods[m]->smooth);
                   if (truth.proven) records[m].add(answers[i], truth, methods[m]->smooth);
                 }

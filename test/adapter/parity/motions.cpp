@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kTolerance = 1e-4;  // of the time of contact: FCL's default
 constexpr double kClear = 1e-6;      // m: nearer than this rounding tells
-constexpr double kCoarse = 1e-3;     // m: where FCL's advancement may stop
+constexpr double kAdvanced = 1e-3;   // m: where FCL's advancement may stop
 
 /// From one pose to another, the frame's origin on a line. FCL's own for two poses leaves the point that
 /// moves straight uninitialised.
@@ -48,7 +48,7 @@ void askMotion(bool conservative, const Type& ta, const Type& tb, Random& random
   if (t < 0) return;
   if (theirs.is_collide) {
     const double there = truth(theirs);
-    found.theirs('u', there > (conservative ? kCoarse : kClear));
+    found.theirs('u', there > (conservative ? kAdvanced : kClear));
     found.ours("a contact is missed", !ours.is_collide && there <= 0);
     found.theirs('l', ours.is_collide && when > t + kTolerance);
     found.ours("late", ours.is_collide && there <= 0 && t > when + kTolerance);

@@ -13,12 +13,6 @@ using test::Random;
 
 namespace {
 
-std::string named(const char* format, double value) {
-  char buffer[96];
-  std::snprintf(buffer, sizeof buffer, format, value);
-  return buffer;
-}
-
 /// Two bodies about their own size apart and close together, in random directions and orientations.
 std::vector<Placement> around(Random& random, const Body& a, const Body& b, int count) {
   const StpBv &va = a.smooth->volume(), &vb = b.smooth->volume();

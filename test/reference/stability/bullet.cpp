@@ -22,8 +22,6 @@ btTransform toBullet(const Eigen::Isometry3d& pose) {
   return btTransform(rotation, toBullet(Vector3d(pose.translation())));
 }
 
-void put(const Vector3d& v, double (&to)[3]) { Eigen::Map<Vector3d>(to, 3) = v; }
-
 class Bullet : public Contestant {
  public:
   explicit Bullet(const Situation& s) {

@@ -16,8 +16,6 @@ using Eigen::Vector3d;
 
 namespace {
 
-void put(const Vector3d& v, double (&to)[3]) { Eigen::Map<Vector3d>(to, 3) = v; }
-
 template <fcl::GJKSolverType kSolver, bool kSigned, int kExponent>
 class Fcl : public Contestant {
  public:

@@ -32,6 +32,8 @@ struct Answer {
   bool onlyLocal = false;  ///< it says that the depth may not be the least
 };
 
+inline void put(const Eigen::Vector3d& v, double (&to)[3]) { Eigen::Map<Eigen::Vector3d>(to, 3) = v; }
+
 /// One way to ask about the two bodies of a situation; made anew for each situation.
 class Contestant {
  public:

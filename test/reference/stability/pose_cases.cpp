@@ -14,12 +14,6 @@ using test::Random;
 
 namespace {
 
-std::string named(const char* format, double value) {
-  char buffer[96];
-  std::snprintf(buffer, sizeof buffer, format, value);
-  return buffer;
-}
-
 struct Shape {
   const char* name;
   Cloud cloud;

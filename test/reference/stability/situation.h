@@ -64,6 +64,9 @@ double sizeOf(const Situation& situation, const Placement& at);
 /// @throws std::runtime_error where the folder with the published cases is missing.
 std::vector<Situation> allSituations(std::uint64_t seed, const std::string& hardCases, bool large);
 
+/// A name with a number in it, as printf prints it.
+std::string named(const char* format, double value);
+
 // By kind; each adds to `all`.
 void addContacts(std::vector<Situation>& all, std::uint64_t seed);  ///< what is parallel or touches
 void addMotions(std::vector<Situation>& all, std::uint64_t seed);   ///< slides and rocks through them

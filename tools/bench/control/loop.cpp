@@ -7,6 +7,7 @@
 #include <random>
 #include <set>
 
+#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/robot/velocity_damper.h"
 #include "tools/bench/control/manifold.h"
 #include "tools/bench/control/program.h"
@@ -19,7 +20,7 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
+using detail::at;
 
 DamperOptions damperOf(const Method& m) {
   DamperOptions options;

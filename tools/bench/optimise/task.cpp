@@ -49,9 +49,9 @@ std::shared_ptr<const Kinematics> freeBodies(int count) {
 
 Isometry3d at(double x, double y, double z) { return Isometry3d(Eigen::Translation3d(x, y, z)); }
 
-class Builder {
+class TaskBuilder {
  public:
-  Builder(const std::string& name, int bodies, int knots, bool clearance) {
+  TaskBuilder(const std::string& name, int bodies, int knots, bool clearance) {
     task_.name = name;
     task_.scene.kinematics = freeBodies(bodies);
     task_.knots = knots;
@@ -118,7 +118,7 @@ Isometry3d turnedAboutZ(double angle) { return Isometry3d(Eigen::AngleAxisd(angl
 
 /// A box onto a plate, towards a place inside it: flush at the optimum.
 Task place(Random& random) {
-  Builder build("place", 1, 1, false);
+  TaskBuilder build("place", 1, 1, false);
   const Vector3d size(random.in(0.08, 0.2), random.in(0.08, 0.2), random.in(0.05, 0.1));
   build.body(size, turnedAboutZ(random.in(-3, 3)));
   build.obstacle({1, 1, 0.2}, at(0, 0, -0.1));
@@ -133,7 +133,7 @@ Task place(Random& random) {
 
 /// The pose with the widest clearance between two plates.
 Task slot(Random& random) {
-  Builder build("slot", 1, 1, true);
+  TaskBuilder build("slot", 1, 1, true);
   const double gap = random.in(0.12, 0.16);
   build.body({random.in(0.08, 0.2), random.in(0.08, 0.2), 0.08}, turnedAboutZ(random.in(-3, 3)));
   build.obstacle({1, 1, 0.2}, at(0, 0, -0.1 - gap / 2));
@@ -153,7 +153,7 @@ Task slot(Random& random) {
 /// Five boxes pulled together.
 Task pack(Random& random) {
   constexpr int kBoxes = 5;
-  Builder build("pack", kBoxes, 1, false);
+  TaskBuilder build("pack", kBoxes, 1, false);
   for (int i = 0; i < kBoxes; ++i) {
     const Vector3d angles = random.box(-0.5, 0.5);
     const double length = angles.norm();
@@ -171,7 +171,7 @@ Task pack(Random& random) {
 /// Ten knots of a path around a block's corner, while the box turns by a right angle.
 Task corner(Random& random) {
   constexpr int kKnots = 10;
-  Builder build("corner", 1, kKnots, false);
+  TaskBuilder build("corner", 1, kKnots, false);
   build.body({0.14, 0.10, 0.05});
   build.obstacle({0.3, 0.4, 0.3}, at(0, 0, 0));
   const auto small = [&] { return random.in(-0.05, 0.05); };

@@ -5,12 +5,13 @@
 #include <fcl/narrowphase/distance.h>
 
 #include "fcl_stpbv/adapter/fcl_distance.h"
+#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/posture/task.h"
 
 namespace fcl_stpbv::tools {
 namespace {
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
+using detail::at;
 
 // The polyhedron under a volume, as FCL's own class and not recognised as anything else.
 std::shared_ptr<fcl::CollisionGeometryd> hullOf(const Body& body) {

@@ -4,6 +4,7 @@
 
 #include "fcl_stpbv/adapter/stp_bv_geometry.h"
 #include "fcl_stpbv/convex/hull_graph.h"
+#include "fcl_stpbv/numbers.h"
 #include "tools/bench/robot/peer.h"
 
 #ifdef FCL_STPBV_BULLET
@@ -16,7 +17,7 @@ namespace fcl_stpbv::benchmark {
 
 namespace {
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
+using detail::at;
 
 btVector3 toBullet(const Eigen::Vector3d& v) {
   return {static_cast<btScalar>(v.x()), static_cast<btScalar>(v.y()), static_cast<btScalar>(v.z())};

@@ -4,12 +4,13 @@
 #include <fcl/narrowphase/collision.h>
 #include <fcl/narrowphase/distance.h>
 
+#include "fcl_stpbv/numbers.h"
 #include "tools/bench/robot/peer.h"
 
 namespace fcl_stpbv::benchmark {
 namespace {
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
+using detail::at;
 
 class Fcl : public Peer {
  public:
