@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/volume/ball_side.h"
 #include "fcl_stpbv/volume/minimum_ball.h"
 #include "fcl_stpbv/volume/pivot.h"
@@ -14,7 +15,6 @@ namespace fcl_stpbv::detail {
 namespace {
 
 using Eigen::Vector3d;
-constexpr double kTwoPi = 6.283185307179586476925;
 
 // Moves the ball, holding all points, against `direction` from around them until one stops it; `normal`
 // becomes the ball's normal there. With q = p - centre, split into q.d along the direction d and a vector t

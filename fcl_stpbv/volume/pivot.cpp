@@ -9,13 +9,13 @@
 #include <vector>
 
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/volume/ball_side.h"
 
 namespace fcl_stpbv::detail {
 namespace {
 
 using Eigen::Vector3d;
-constexpr double kTwoPi = 6.283185307179586476925;
 constexpr double kDiametral = 1 + 1e-9;  // the edge's own ends must not fall out by rounding
 
 // leavingAngle() from the ball at rest, for a point so close to a or b that its own angle is lost in

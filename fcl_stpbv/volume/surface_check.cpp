@@ -35,10 +35,6 @@ constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 // Two normals of an edge that are tried are that far apart (rad).
 constexpr double kWide = 0.3;
 
-const Vector3d& at(const StpBv& volume, int vertex) {
-  return volume.vertices()[static_cast<std::size_t>(vertex)];
-}
-
 // Height of a vertex over the ball of a face (m).
 double height(const StpBv& volume, int face, int vertex) {
   const FaceRecord& f = volume.tables().patches.face(volume.facePatch(face));

@@ -210,16 +210,16 @@ def advice(height=440):
     data = measured("control_advice")
     colours = dict(zip(dict.fromkeys(row["scenario"] for row in data["rows"]), (*palette.SWEEPS, palette.SMOOTH)))
     small_print = ["Radii advised for clearances of 0.5 to 32 mm and 4 m/s² that the shapes may add; what is held at 1 kHz, the obstacle flat (boxes: both round).",
-                   "Left: measured against the bound; only runs that moved as stated. Right: what the hulls keep beyond the 10 mm asked for.", data["command"]]
+                   "Left: measured against the bound; only runs that moved as stated.", data["command"]]
     text = panels(2, height, small_print, legend_rows=1, panel_titles=True) + \
         legend([(colour, 7, scenario) for scenario, colour in colours.items()], height, columns=4) + "set logscale xy\n"
     for panel, (title, axes) in enumerate((
             ("added by the shapes", "set xrange [0.3:100]\nset yrange [0.0001:100]\nset xlabel 'the advice\'\'s bound (m/s²)'\nset ylabel 'measured (m/s²)'\n"),
-            ("at the joints", "set xrange [0.1:300]\nset yrange [0.3:1000]\nset xlabel 'clearance lost (mm)'\nset ylabel 'peak joint acceleration (rad/s²)'\n"))):
+            ("at the joints", "set xrange [0.3:100]\nset yrange [1:100]\nset xlabel 'clearance given (mm)'\nset ylabel 'peak joint acceleration (rad/s²)'\n"))):
         plots = [f"x with lines lw 1.5 dt 2 lc rgb '{palette.NEUTRAL}'"] if not panel else []
         for i, (scenario, colour) in enumerate(colours.items()):
             rows = [row for row in data["rows"] if row["scenario"] == scenario]
-            points = [(1e3 * max(row["lost"], 1e-4), row["peak"]) for row in rows] if panel else [(row["at_most"], row["added"]) for row in rows if row["as_stated"]]
+            points = [(1e3 * row["clearance"], row["peak"]) for row in rows] if panel else [(row["at_most"], row["added"]) for row in rows if row["as_stated"]]
             text += block(f"$points{panel}{i}", points)
             plots.append(f"$points{panel}{i} using 1:2 with linespoints pt 7 ps 0.8 lw 2 lc rgb '{colour}'")
         text += axes + f"set title '{title}' offset 0,-0.6\nplot " + ", ".join(plots) + "\n" + UNLABEL
