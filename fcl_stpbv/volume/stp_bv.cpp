@@ -12,6 +12,7 @@
 #include "fcl_stpbv/vectorized.h"
 #include "fcl_stpbv/volume/ball_faces.h"
 #include "fcl_stpbv/volume/minimum_ball.h"
+#include "fcl_stpbv/volume/outer_points.h"
 #include "fcl_stpbv/volume/patch_view.h"
 #include "fcl_stpbv/volume/point_tree.h"
 #include "fcl_stpbv/volume/rolling_ball.h"
@@ -78,6 +79,13 @@ double StpBv::smallestR(const std::vector<Vector3d>& points, double r) {
 
 StpBv::Ptr StpBv::build(const std::vector<Vector3d>& points, const StpBvOptions& options) {
   checkInput(points, options);
+  const std::vector<int> outer = outerPoints(points);
+  if (2 * outer.size() < points.size()) {
+    std::vector<Vector3d> fewer;
+    fewer.reserve(outer.size());
+    for (const int i : outer) fewer.push_back(points[static_cast<std::size_t>(i)]);
+    return build(fewer, options);
+  }
   checkRadius(points, options);
   Soundness found = Soundness::broken;
   const auto built = [&](RolledHull hull) {

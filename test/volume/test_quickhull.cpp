@@ -5,6 +5,7 @@
 
 #include "fcl_stpbv/volume/ball_quickhull.h"
 #include "fcl_stpbv/volume/minimum_ball.h"
+#include "fcl_stpbv/volume/outer_points.h"
 #include "fcl_stpbv/volume/quick_ball.h"
 #include "fcl_stpbv/volume/rolling_ball.h"
 #include "fcl_stpbv/volume/space_order.h"
@@ -147,6 +148,38 @@ TEST_CASE("A point outside a volume makes it broken, one outside by rounding doe
   CHECK(soundnessOf(*volume, points, {x + 3e-15 * n}) == Soundness::sound);
   CHECK(soundnessOf(*volume, points, {x + 1e-12 * n}) == Soundness::off);
   CHECK(soundnessOf(*volume, points, {x + 1e-6 * n}) == Soundness::broken);
+}
+
+TEST_CASE("Of a large cloud only points well inside are left out") {
+  Random random(6);
+  const Eigen::Matrix3d turn = random.rotation();
+  for (const bool isBall : {false, true})
+    for (const Vector3d& half : {Vector3d(0.3, 0.2, 0.1), Vector3d(0.3, 0.2, 1e-4)})
+      for (const double away : {0.0, 1e3}) {
+        Cloud points;
+        for (int i = 0; i < 40000; ++i) {
+          const Vector3d p(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+          if (!isBall || p.norm() < 1)
+            points.push_back(turn * half.cwiseProduct(p) + away * Vector3d(1, 2, 3));
+        }
+        CAPTURE(isBall, half.transpose(), away);
+        const std::vector<int> outer = outerPoints(points);
+        std::vector<char> stays(points.size(), 0);
+        for (const int i : outer) stays[static_cast<std::size_t>(i)] = 1;
+        for (const int i : rollBall(points).vertices) CHECK(stays[static_cast<std::size_t>(i)]);
+        if (half.z() > 0.01 && away == 0) CHECK(outer.size() < points.size() / 2);
+        Cloud left;
+        for (const int i : outer) left.push_back(points[static_cast<std::size_t>(i)]);
+        const StpBv::Ptr all = StpBv::build(points, {0.01, 10});
+        CHECK(all->vertices() == StpBv::build(left, {0.01, 10})->vertices());
+        CHECK(soundnessOf(*all, points, points) <= Soundness::sound);
+      }
+  Cloud flat = randomHull(20000, {0.3, 0.2, 0.1}, 1);
+  for (Vector3d& p : flat) p.z() = 0;
+  CHECK(outerPoints(flat).size() == 20000);
+  CHECK(outerPoints(onEllipsoid(20000, {0.3, 0.2, 0.1}, 1)).size() == 20000);
+  CHECK(outerPoints(randomHull(1000, {0.3, 0.2, 0.1}, 1)).size() == 1000);
+  CHECK(outerPoints(Cloud(20000, Vector3d(1, 2, 3))).size() == 20000);
 }
 
 TEST_CASE("Points in space order are each there once") {

@@ -1,0 +1,124 @@
+// Leaves out points that are well inside, in one pass:
+// 1. the convex hull of some points, a body inside that of all;
+// 2. a grid of cells: one whose corners are all in that body is in it, and so are its points.
+// The hull's own corners are in none of these cells and stay, so that what holds the points that stay holds
+// all.
+#include "fcl_stpbv/volume/outer_points.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <numeric>
+
+#include "fcl_stpbv/error.h"
+#include "fcl_stpbv/volume/ball_faces.h"
+#include "fcl_stpbv/volume/rolling_ball.h"
+
+namespace fcl_stpbv::detail {
+namespace {
+
+using Eigen::Vector3d;
+
+// Smaller clouds are built sooner than they are sorted out.
+constexpr std::size_t kFew = 10000;
+// Points whose hull is made. That of 3000 spread through a body lacks a few hundredths of its volume.
+constexpr std::size_t kSome = 3000;
+
+struct Plane {
+  Vector3d normal;
+  double offset;
+};
+
+// Planes around a body inside the points' hull, by `margin`; none where the points are a surface, or too
+// thin.
+std::vector<Plane> bodyInside(const std::vector<Vector3d>& points, double margin) {
+  std::vector<Vector3d> some;
+  for (std::size_t k = 0; k < kSome; ++k) some.push_back(points[k * points.size() / kSome]);
+  RolledHull hull;
+  try {
+    hull = quickBallHull(some, flatRadius(some));
+  } catch (const Error&) {
+    return {};
+  }
+  if (hull.faces.size() > kSome / 2) return {};  // a quarter of the points are vertices, or more
+  std::vector<Plane> planes;
+  for (const Ring& ring : hull.faces) {
+    const std::array<int, 3> t = wideTriangle(some, ring);
+    const Vector3d& a = some[static_cast<std::size_t>(t[0])];
+    const Vector3d u = some[static_cast<std::size_t>(t[1])] - a, v = some[static_cast<std::size_t>(t[2])] - a,
+                   n = u.cross(v);
+    constexpr double kThin = 1e-6;  // a thinner triangle's plane may be off by as much as the margin
+    if (!(n.norm() > kThin * u.norm() * v.norm())) return {};
+    planes.push_back({n.normalized(), n.normalized().dot(a) - margin});
+  }
+  return planes;
+}
+
+// Cells over the cloud's bounding box.
+struct Grid {
+  Vector3d low, cell;
+  int side;
+
+  std::size_t index(int i, int j, int k, int across) const {
+    return static_cast<std::size_t>((i * across + j) * across + k);
+  }
+  std::size_t cellOf(const Vector3d& p) const {
+    const Vector3d at = (p - low).cwiseQuotient(cell);
+    const auto slot = [&](double x) { return std::clamp(static_cast<int>(x), 0, side - 1); };
+    return index(slot(at.x()), slot(at.y()), slot(at.z()), side);
+  }
+};
+
+// For each cell whether all its corners are below all planes.
+std::vector<char> cellsInside(const Grid& grid, const std::vector<Plane>& planes) {
+  const int side = grid.side, corners = side + 1;
+  std::vector<char> corner;
+  corner.reserve(static_cast<std::size_t>(corners * corners * corners));
+  std::size_t last = 0;  // the plane that the last corner was above is likely above this one too
+  for (int i = 0; i < corners; ++i)
+    for (int j = 0; j < corners; ++j)
+      for (int k = 0; k < corners; ++k) {
+        const Vector3d p = grid.low + Vector3d(i, j, k).cwiseProduct(grid.cell);
+        const auto isBelow = [&](const Plane& plane) { return plane.normal.dot(p) <= plane.offset; };
+        bool isInside = isBelow(planes[last]);
+        for (std::size_t f = 0; f < planes.size() && isInside; ++f)
+          if (!isBelow(planes[f])) isInside = false, last = f;
+        corner.push_back(isInside);
+      }
+  std::vector<char> inside;
+  inside.reserve(static_cast<std::size_t>(side * side * side));
+  for (int i = 0; i < side; ++i)
+    for (int j = 0; j < side; ++j)
+      for (int k = 0; k < side; ++k) {
+        bool all = true;
+        for (const int c : {0, 1, 2, 3, 4, 5, 6, 7})
+          all = all && corner[grid.index(i + (c & 1), j + (c >> 1 & 1), k + (c >> 2), corners)];
+        inside.push_back(all);
+      }
+  return inside;
+}
+
+}  // namespace
+
+std::vector<int> outerPoints(const std::vector<Vector3d>& points) {
+  std::vector<int> outer(points.size());
+  std::iota(outer.begin(), outer.end(), 0);
+  if (points.size() <= kFew) return outer;
+  Vector3d low = points[0], high = points[0];
+  for (const Vector3d& p : points) low = low.cwiseMin(p), high = high.cwiseMax(p);
+  const double size = std::max(low.cwiseAbs().maxCoeff(), high.cwiseAbs().maxCoeff());
+  const std::vector<Plane> planes = bodyInside(points, 1e-6 * size);
+  if (planes.empty()) return outer;
+  // About eight points a cell; more cells than the last would take longer than they save.
+  const int side = std::clamp(static_cast<int>(std::cbrt(static_cast<double>(points.size())) / 2), 2, 50);
+  const Grid grid{low, (high - low) / side, side};
+  const std::vector<char> inside = cellsInside(grid, planes);
+  outer.erase(std::remove_if(outer.begin(), outer.end(),
+                             [&](int i) { return inside[grid.cellOf(points[static_cast<std::size_t>(i)])]; }),
+              outer.end());
+  return outer;
+}
+
+}  // namespace fcl_stpbv::detail
