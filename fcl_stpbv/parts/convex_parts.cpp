@@ -219,7 +219,7 @@ ConvexParts searched(const PartSpace& space, const std::vector<TriangleSoup>& so
   // or three parts are found sooner.
   const double triangles = static_cast<double>(space.mesh.triangles().size());
   const double share =
-      std::clamp(static_cast<double>(kSearched) / triangles, 0.3, 1.0) * std::min(1.0, options.most / 4.0);
+      std::clamp(static_cast<double>(kSearched) / triangles, 0.2, 1.0) * std::min(1.0, options.most / 4.0);
   const long work = static_cast<long>(kHulls * options.effort * share / space.costly);
   PartSearch search(space, options.most, options.excess);
   const std::vector<PartSearch::Parts> facets = facetParts(soups, space, options.most, options.excess);
