@@ -154,6 +154,7 @@ ConvexPart certified(const std::vector<Vector3d>& points, const PartSpace& space
   const std::vector<Triangle> surface = hullTriangles(out.points);
   ExcessOptions open;
   open.absolute = 0.04 * space.fine;
+  open.queries = std::max(10000L, static_cast<long>(1e6 / space.costly));
   out.excess = out.openExcess = excessOf(surface, mesh, open);
   open.filled = false;
   if (mesh.pieces().closedPieces() > 0) out.openExcess = excessOf(surface, mesh, open);
@@ -217,8 +218,8 @@ ConvexParts searched(const PartSpace& space, const std::vector<TriangleSoup>& so
   // or three parts are found sooner.
   const double triangles = static_cast<double>(space.mesh.triangles().size());
   const double share =
-      std::clamp(static_cast<double>(kSearched) / triangles, 0.3, 1.0) * std::min(1.0, options.most / 4.0);
-  const long work = static_cast<long>(kHulls * options.effort * share);
+      std::clamp(static_cast<double>(kSearched) / triangles, 0.2, 1.0) * std::min(1.0, options.most / 4.0);
+  const long work = static_cast<long>(kHulls * options.effort * share / space.costly);
   PartSearch search(space, options.most, options.excess);
   const std::vector<PartSearch::Parts> facets = facetParts(soups, space, options.most, options.excess);
   if (!facets.empty()) {

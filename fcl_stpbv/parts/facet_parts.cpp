@@ -139,7 +139,8 @@ std::vector<PartSearch::Parts> facetParts(const std::vector<TriangleSoup>& group
     joins[std::minmax(a, b)] = Join(*parts[at(a)], *parts[at(b)], space, bound);
   };
   for (const auto& [a, b] : facets.neighbours) add(a, b);
-  for (std::size_t left = parts.size(); left > 1 && !joins.empty();) {
+  std::size_t left = parts.size();
+  while (left > 1 && !joins.empty()) {
     const auto best = std::min_element(
         joins.begin(), joins.end(), [](const auto& x, const auto& y) { return x.second.isBefore(y.second); });
     if (best->second.confirm(space, bound)) continue;  // it may no longer be the best
@@ -161,6 +162,7 @@ std::vector<PartSearch::Parts> facetParts(const std::vector<TriangleSoup>& group
     for (const int other : around)
       if (other != a && other != b) add(a, other);
   }
+  if (left > 2 * many) return {};  // loose pieces: joining each with each takes too long
   if (found.empty() || found.back().size() > few) found.push_back(leftOf(parts));
   return found;
 }

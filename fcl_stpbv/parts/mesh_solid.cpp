@@ -124,7 +124,7 @@ int MeshSolid::build(int begin, int end) {
   return number;
 }
 
-MeshSolid::Nearest MeshSolid::nearest(const Vector3d& p, int guess) const {
+MeshSolid::Nearest MeshSolid::nearest(const Vector3d& p, int guess, long* tried) const {
   double best = std::numeric_limits<double>::infinity();
   int found = guess;
   if (guess >= 0) best = (nearestOf(triangles_[at(guess)], p) - p).squaredNorm();
@@ -140,6 +140,7 @@ MeshSolid::Nearest MeshSolid::nearest(const Vector3d& p, int guess) const {
     if (least >= best) continue;
     const Node& node = nodes_[at(number)];
     if (node.left < 0) {
+      if (tried) *tried += node.end - node.begin;
       for (int i = node.begin; i < node.end; ++i) {
         const double d = (nearestOf(triangles_[at(order_[at(i)])], p) - p).squaredNorm();
         if (d < best) best = d, found = order_[at(i)];

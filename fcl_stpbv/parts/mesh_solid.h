@@ -44,8 +44,8 @@ class MeshSolid {
     double distance;  ///< from the surface (m)
     int triangle;     ///< index into triangles()
   };
-  /// `guess` is a triangle that is probably near, or -1.
-  Nearest nearest(const Eigen::Vector3d& p, int guess = -1) const;
+  /// `guess` is a triangle that is probably near, or -1; the triangles looked at are added to `tried`.
+  Nearest nearest(const Eigen::Vector3d& p, int guess = -1, long* tried = nullptr) const;
 
   /// Calls `visit` with triangles until it says false: all whose boxes meet the box from `low` to `high`.
   /// Whether it never did.

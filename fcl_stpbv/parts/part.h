@@ -19,6 +19,7 @@ struct PartSpace {
   double size;                   ///< of the box around the mesh (m)
   double slack;                  ///< corners this near a plane count as on it (m)
   double fine;                   ///< excess that the search does not look below (m)
+  double costly;                 ///< what a distance costs, in distances to a usual mesh; at least 1
   std::vector<CutPlane> facets;  ///< flat parts of the mesh
 
   explicit PartSpace(const MeshSolid& solid);

@@ -211,3 +211,58 @@ TEST_CASE("one triangle, slivers and lines are covered; no triangle at all is re
   CHECK_THROWS_WITH(convexParts({{{0, 0, 0}}, {}}), Contains("no triangles"));
   CHECK_THROWS_WITH(convexParts(one, quick(0)), Contains("most: got 0, expected a number from 1"));
 }
+
+TEST_CASE("bodies with faces that are not convex are found in the boxes that they are made of") {
+  // A U, whose two faces are U's themselves, and a ring of twelve wedges, whose upper face is a ring.
+  TriangleMesh u = lShape();
+  TriangleMesh other = u;
+  for (Eigen::Vector3d& v : other.vertices) v.x() = -v.x();
+  const ConvexParts both = convexParts(together({u, turned(other)}), quick(8));
+  CHECK(both.parts.size() <= 4);
+  CHECK(both.excess < 1e-5);
+  const ConvexParts wedges = convexParts(torusMesh(0.12, 0.03, 12, 6), quick(12));
+  CHECK(wedges.parts.size() == 12);
+  CHECK(wedges.excess < 1e-5);
+}
+
+TEST_CASE("triangles that hang together nowhere, or all about one edge, take no longer than a link's") {
+  Random random(41);
+  TriangleMesh soup;
+  for (int i = 0; i < 300; ++i) {
+    for (int k = 0; k < 3; ++k)
+      soup.vertices.push_back({random.uniform(0, 0.1), random.uniform(0, 0.1), random.uniform(0, 0.1)});
+    soup.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+  }
+  TriangleMesh fan{{{0, 0, 0}, {0, 0, 0.1}}, {}};
+  for (int i = 0; i < 3000; ++i) {
+    fan.vertices.push_back({0.1 * std::cos(0.002 * i), 0.1 * std::sin(0.002 * i), 0.05});
+    fan.triangles.push_back({0, 1, 2 + i});
+  }
+  for (const TriangleMesh& mesh : {soup, fan}) {
+    const std::vector<StpBv::Ptr> volumes = volumesOf(convexParts(mesh, quick(4)));
+    int open = 0;
+    for (int i = 0; i < 300; ++i) open += !covered(volumes, pointOn(mesh, random));
+    CHECK(open == 0);
+  }
+}
+
+TEST_CASE("shells in shells, copies and crossings, at any size, are covered by few parts") {
+  const TriangleMesh box = boxMesh({0, 0, 0}, {0.1, 0.1, 0.1}),
+                     in = boxMesh({0.02, 0.02, 0.02}, {0.08, 0.08, 0.08});
+  for (const TriangleMesh& nested :
+       {together({box, in}), together({box, turned(in)}), together({turned(box), in})}) {
+    const ConvexParts parts = convexParts(nested, quick(8));
+    CHECK(parts.parts.size() == 1);
+    CHECK(parts.excess < 1e-9);
+  }
+  const ConvexParts copies = convexParts(together({lShape(), lShape(), lShape()}), quick(8));
+  CHECK(copies.parts.size() == 2);
+  CHECK(copies.excess < 1e-5);
+  for (const double size : {1e-9, 1e-3, 1e7}) {
+    TriangleMesh mesh = lShape();
+    for (Eigen::Vector3d& v : mesh.vertices) v *= size;
+    const ConvexParts parts = convexParts(mesh, quick(8));
+    CHECK(parts.parts.size() == 2);
+    CHECK(parts.excess < 1e-4 * size);
+  }
+}

@@ -1,4 +1,6 @@
 """Charts of the jump, the hard cases, proofs, postures and controllers."""
+import statistics
+
 from . import palette, stability_verdicts
 from .plot import UNLABEL, block, captured, draw, legend, measured, origin, panels, quoted, single
 
@@ -226,4 +228,37 @@ def advice(height=440):
     draw("advice", "Advised radii add less than their bound; clearance buys calm joints", text + "unset multiplot\n", small_print, height)
 
 
-CHARTS = (jump, stability, proof_boxes, radii, posture_profile, control, clearance, advice, posture_grid_fridge, posture_grid_ladder)
+def parts(height=440):
+    """How near convex parts are to their meshes, by their number and by what they cost a controller."""
+    data = measured("parts")
+    rows, ticks, links = data["rows"], data["about"]["ticks"], data["about"]["concave_links"]
+    hulls = {row["mesh"]: row["hull_excess"] for row in rows}
+    mean = lambda values: 1e3 * statistics.mean(values)
+    curves = {}
+    for method in dict.fromkeys(row["method"] for row in rows):
+        curves[method] = [(1, mean(hulls.values()), ticks[0]["us_a_tick"])]
+        for tick in ticks:
+            if tick["method"] == method:
+                of = [row["excess"] for row in rows if (row["method"], row["most"]) == (method, tick["most"])]
+                curves[method].append((tick["most"], mean(of), tick["us_a_tick"]))
+    small_print = [f"JVRC-1: the mean of its {links} concave links; excess: the most that a hull is from the mesh's solid. A tick: distances and Jacobian of all",
+                   f"pairs of all links' parts, {ticks[0]['rows']} to {max(tick['rows'] for tick in ticks):,} rows, without what leaves far rows out. Numbers: parts a link at most.", data["command"] + ":", data["machine"]]
+    text = panels(2, height, small_print, legend_rows=1, panel_titles=True, between=72) + \
+        legend([palette.PEERS[method] for method in curves], height) + \
+        f"set logscale xy\nset yrange [{0.5 * min(y for curve in curves.values() for _, y, _ in curve):g}:{2 * mean(hulls.values()):g}]\nset ytics (0.5, 1, 2, 5, 10, 20, 50)\n"
+    for panel, (column, words, axes) in enumerate(((1, "convex parts of a link, at most", "set xrange [0.9:9]\nset xtics (1, 2, 4, 8)\nset ylabel 'excess over the mesh (mm), mean'\n"),
+                                                   (3, "what all pairs cost, µs a tick", "set xrange [50:5000]\nset xtics (50, 100, 200, 500, 1000, 2000, 5000)\nunset ylabel\n"))):
+        plots = []
+        for i, (method, curve) in enumerate(curves.items()):
+            colour, mark, _ = palette.PEERS[method]
+            if not panel:
+                text += block(f"$parts{i}", curve)
+            plots.append(f"$parts{i} using {column}:2 with linespoints pt {mark} ps 0.9 lw 2 lc rgb '{colour}'")
+            if panel:
+                plots.append(f"$parts{i} using 3:2:1 with labels offset {'-1.2,-0.8' if not i else '1.2,0.8'} font ',12' tc rgb '{colour}'")
+        text += axes + f"set xlabel '{words}'\nplot " + ", ".join(plots) + "\n" + UNLABEL
+    at = {(method, most): y for method, curve in curves.items() for most, y, _ in curve}
+    draw("parts", f"Four parts a link: on average {at['ours', 4]:.2g} mm from the mesh, HACD's {at['HACD', 4]:.2g} mm", text + "unset multiplot\n", small_print, height)
+
+
+CHARTS = (jump, stability, proof_boxes, radii, parts, posture_profile, control, clearance, advice, posture_grid_fridge, posture_grid_ladder)

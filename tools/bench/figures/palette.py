@@ -11,6 +11,7 @@ METHODS = {
 }
 SMOOTH, SECOND, EXACT_HULL, FCL, FCL_OTHER, OTHER = (METHODS[name][0] for name in METHODS)
 SWEEPS = ("#b0528f", "#2f7f86", "#8c613c")  # not methods: settings, robots
+PEERS = {"ours": (SMOOTH, 7, "these parts"), "HACD": (FCL, 5, "hulls of HACD's partition")}  # of convex parts
 NEUTRAL, QUIET, GRID = "#555555", "#888888", "#dddddd"
 
 # Verdicts of the hard cases, from best to worst: (words, colour).

@@ -259,6 +259,47 @@ def scene():
                      "elsewhere"), rows)
 
 
+def parts_by_link():
+    """{link: {(method, most): row}} of parts_benchmark on a robot."""
+    links = {}
+    for row in measured("parts")["rows"]:
+        links.setdefault(row["mesh"], {})[row["method"], row["most"]] = row
+    return links
+
+
+def mm(metres):
+    """Two digits after the point; what is below is known to a hundredth of a millimetre."""
+    return f"{1e3 * metres:.2f}"
+
+
+@table("parts")
+def parts():
+    """The links, mirrored ones once."""
+    links = {name: rows for name, rows in parts_by_link().items() if not (name.startswith("L_") and "R" + name[1:] in parts_by_link())}
+    counts = list(dict.fromkeys(most for rows in links.values() for _, most in rows))
+    cell = lambda rows, most: f"{mm(rows['ours', most]['excess'])} ({rows['ours', most]['parts']}) / {mm(rows['HACD', most]['excess'])}"
+    first = lambda rows: next(iter(rows.values()))
+    return markdown(("link", "triangles", "hull", *(f"{most} parts" for most in counts)),
+                    [(name.removesuffix("_S"), first(rows)["triangles"], mm(first(rows)["hull_excess"]), *(cell(rows, most) for most in counts)) for name, rows in links.items()])
+
+
+@table("parts")
+def parts_summary():
+    links, level = parts_by_link(), 1e-5  # m, that the bounds are within of the truth
+    body = []
+    for most in dict.fromkeys(most for rows in links.values() for _, most in rows):
+        pairs = [(rows["ours", most], rows["HACD", most]) for rows in links.values()]
+        apart = [(ours, theirs) for ours, theirs in pairs if abs(ours["excess"] - theirs["excess"]) > level + 1e-3 * theirs["excess"]]
+        nearer = [ours["excess"] / theirs["excess"] for ours, theirs in apart if ours["excess"] < theirs["excess"]]
+        tick = {row["method"]: row for row in measured("parts")["about"]["ticks"] if row["most"] == most}
+        body.append((most, len(nearer), len(pairs) - len(apart), len(apart) - len(nearer),
+                     f"{statistics.median(nearer):.2f}" if nearer else "", *(f"{mm(statistics.mean(one[i]['excess'] for one in pairs))}" for i in (0, 1)),
+                     *(f"{tick[method]['rows']:,} / {tick[method]['us_a_tick']:.0f}" for method in ("ours", "HACD")),
+                     *(f"{sum(one[i]['seconds'] for one in pairs):.0f}" for i in (0, 1))))
+    return markdown(("parts at most", "nearer", "level", "farther", "share of HACD's excess where nearer, median", "excess, mean (mm)", "HACD's", "rows / µs a tick", "HACD's",
+                     "seconds", "HACD's"), body)
+
+
 @table("radii")
 def radii():
     return markdown(("robot", "r", "volumes meet", "meshes meet", "hull only", "margin only", "normal turns (rad/m), median"),
