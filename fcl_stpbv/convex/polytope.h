@@ -71,7 +71,7 @@ class Polytope {
   /// Takes `p` into the hull. False where it is inside already, or in a face's plane to rounding, or without
   /// room.
   bool expand(const Eigen::Vector3d& outside) {
-    if (points_ == kMaxPoints) return sound_ = false;
+    if (!sound_ || points_ == kMaxPoints) return sound_ = false;
     const Packed p = pack(outside);
     const double size = outside.lpNorm<1>();
     const auto sees = [&](int i) { return dot(face(i).normal, p) - face(i).distance > face(i).flat * size; };

@@ -4,7 +4,8 @@
 //    are as far from the origin as the maximum is deep, but for a part that leaves no room for another
 //    maximum.
 // 2. From the sides of that feature a closed surface over a ball inside both cores, or where the ball is
-//    too small a dozen triangles to points beyond the corners and one behind.
+//    too small over the other sides of the difference of two boxes, or a dozen triangles to points beyond the
+//    corners and one behind.
 // 3. All of it lies in the difference of the cores, which is convex. So if every plane of it is as far
 //    from the origin as the maximum is deep, no direction leads out sooner.
 #include "fcl_stpbv/distance/certificate.h"
@@ -14,6 +15,7 @@
 #include <cmath>
 #include <limits>
 
+#include "fcl_stpbv/distance/box_axes.h"
 #include "fcl_stpbv/distance/vertex_gjk.h"
 #include "fcl_stpbv/vectorized.h"
 
@@ -106,6 +108,22 @@ bool closesWithTriangles(const BodyPair& pair, const FeatureCorners& corners, co
   return true;
 }
 
+/// Of two boxes, whose difference has a side along each of fifteen axes and its opposite, and no others:
+/// whether the feature is one of these sides, and all others are at least `depth` from the origin. The
+/// feature lies in its side's plane to rounding. Were it only a part of that side, another side would be in
+/// the plane too, or next to it: those are asked for more than that.
+bool closesOverBoxes(const BodyPair& pair, const Sample& top, const FeatureCorners& corners, double depth) {
+  constexpr double kSame = 2e-14;  // of the size: rounding, and how far the corners may be beside a box's
+  constexpr double kApart = 1e-9;  // of the size: what the same tilts a side as thin as a box may be, 1e-3
+  if (!pair.tablesA().box.isHull || !pair.tablesB().box.isHull || corners.count != 4) return false;
+  const double size = pair.a().extent() + pair.b().extent();
+  const BoxAxes axes(pair);
+  const BoxAxes::Axis axis = axes.of(top);
+  if (axis.kind == BoxAxes::Axis::kinds || !axes.othersBeyond(axis, depth + kApart * size)) return false;
+  const Triangle half{corners.point[0], corners.point[1], corners.point[2]};
+  return std::abs(std::sqrt(half.distance2()) - axes.overlap(axis)) <= kSame * size;
+}
+
 }  // namespace
 
 FeatureCorners cornersAround(const BodyPair& pair, const Sample& top) {
@@ -123,6 +141,8 @@ FeatureCorners cornersAround(const BodyPair& pair, const Sample& top) {
     const Packed nearest = nearestOf(a.count, onA, pack(top.point));
     for (c.count = 0; c.count < b.count; ++c.count) c.point[c.count] = onB(c.count) - nearest;
   }
+  if (c.count > 0 && dot(cross(c.point[1] - c.point[0], c.point[2] - c.point[1]), pack(top.n)) > 0.0)
+    std::reverse(c.point, c.point + c.count);
   return c;
 }
 
@@ -174,25 +194,22 @@ bool closesOverBall(const Packed& centre, double radius, const FeatureCorners& c
 }
 
 FCL_STPBV_VECTORIZED
-bool provesWidest(const BodyPair& pair, const Sample& top, double& bound) {
+bool provesWidest(const BodyPair& pair, const Sample& top, const FeatureCorners& corners, double from,
+                  double& bound) {
   const double depth = -top.core - pair.gapRounding();
-  auto corners = cornersAround(pair, top);
-  auto& [corner, count] = corners;
+  const auto& [corner, count] = corners;
   if (count == 0 || !(depth > 0.0)) return false;
   const Packed n = pack(top.n), summit = top.core * n + pack(top.across);
-  if (dot(cross(corner[1] - corner[0], corner[2] - corner[1]), n) > 0.0) std::reverse(corner, corner + count);
-
   double least2 = depth * depth;
   for (std::size_t i = 0; i < count; ++i) {
     const Triangle side{corner[i], corner[(i + 1) % count], summit};
     if (!side.beyond((1.0 - kClose) * depth)) return false;
     least2 = std::min(least2, side.distance2());
   }
-  const double from = onlyMaximumFrom(pair, top);
   if (!(least2 > from * from)) return false;
   const double innerRadius = pair.a().innerRadius() + pair.b().innerRadius();
   if (!closesOverBall(pair.centreDifference(), innerRadius, corners, n, depth) &&
-      !closesWithTriangles(pair, corners, n, depth))
+      !closesOverBoxes(pair, top, corners, depth) && !closesWithTriangles(pair, corners, n, depth))
     return false;
   bound = -std::sqrt(least2);
   return true;

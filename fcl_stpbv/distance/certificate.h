@@ -17,9 +17,9 @@ struct FeatureCorners {
   std::size_t count = 0;
 };
 
-/// The corners, in order, of the difference's feature that a maximum is on: of a face against a vertex, or of
-/// two edges that cross. Of a face against more than a vertex those against the vertex nearest to the
-/// maximum. None of other features, which are rarely one.
+/// The corners, counter-clockwise from outside, of the difference's feature that a maximum is on: of a face
+/// against a vertex, or of two edges that cross. Of a face against more than a vertex those against the
+/// vertex nearest to the maximum. None of other features, which are rarely one.
 FeatureCorners cornersAround(const BodyPair& pair, const Sample& top);
 
 /// Least distance from the origin of a triangle with the point of `top` for a corner, outside whose plane no
@@ -29,14 +29,17 @@ FeatureCorners cornersAround(const BodyPair& pair, const Sample& top);
 double onlyMaximumFrom(const BodyPair& pair, const Sample& top);
 
 /// Closes a surface around the origin: from the maximum to the corners of its feature, and from there over a
-/// ball inside or, where that is too small, in a dozen triangles to points beyond the corners and one behind.
+/// ball inside, over the other sides of two boxes' difference, or in a dozen triangles to points beyond the
+/// corners and one behind.
 /// All of it lies in the difference of the cores, which is convex, so no direction leads out of it sooner
-/// than through the nearest plane. True where that is one at the top and leaves no room for another maximum;
-/// along no normal is the gap of the cores then more than `bound` (m, negative).
+/// than through the nearest plane. True where that is one at the top and leaves no room for another maximum,
+/// which `from` tells (onlyMaximumFrom); along no normal is the gap of the cores then more than `bound` (m,
+/// negative). `corners` are those around the top.
 ///
 /// The points only have to put the origin on the inner side of every triangle: then each ray from the origin
 /// meets the surface.
-bool provesWidest(const BodyPair& pair, const Sample& top, double& bound);
+bool provesWidest(const BodyPair& pair, const Sample& top, const FeatureCorners& corners, double from,
+                  double& bound);
 
 /// Closes a surface around the origin from the corners of a maximum's feature over a ball that the difference
 /// holds: from each side of the feature along the plane that touches the ball, from each corner along the

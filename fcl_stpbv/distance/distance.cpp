@@ -40,15 +40,29 @@ Packed renormalized(const Packed& n) {
   return n * (std::abs(length2 - 1.0) < 1e-8 ? 1.5 - 0.5 * length2 : 1.0 / std::sqrt(length2));
 }
 
-/// The first guess when nothing near is remembered: from centre to centre, unless balls inside the bodies
-/// tell that the way out need not be there. The tables take a direction that is not normalised, because the
-/// lookup's latency exceeds the square root's.
+/// A start for bodies near each other, where the line of centres is a poor one: of two long or flat ones
+/// whose enclosing balls meet from the boxes around them, of others deep in each other, as balls inside them
+/// tell, from the flattest way out.
+[[gnu::noinline]] bool startNear(const BodyPair& pair, const Packed& between, Sample& start) {
+  const double between2 = dot(between, between), inside = pair.a().innerRadius() + pair.b().innerRadius(),
+               around = pair.a().enclosingRadius() + pair.b().enclosingRadius();
+  if (pair.tablesA().box.isTelling && pair.tablesB().box.isTelling && between2 < around * around)
+    start = boxStart(pair);
+  else if (between2 < inside * inside)
+    start = shallowStart(pair);
+  else
+    return false;
+  return true;
+}
+
+/// The first guess when nothing near is remembered: mostly from centre to centre. The tables take a direction
+/// that is not normalised, because the lookup's latency exceeds the square root's.
 SearchStart fromCentres(const BodyPair& pair) {
   const Packed between = pair.centreDifference();
   const double inside = pair.a().innerRadius() + pair.b().innerRadius();
-  if (dot(between, between) < inside * inside) {
-    const Sample start = shallowStart(pair);
-    return {start.n, start.patch, false};
+  if (dot(between, between) < inside * inside || pair.tablesA().box.isTelling) {
+    Sample start;
+    if (startNear(pair, between, start)) return {start.n, start.patch, false};
   }
   const UnnormalizedNormal h = unnormalizedOr(between, Packed{1, 0, 0, 0});
   return {unpack(h.unit()), pair.near(unpack(h.d)), false};

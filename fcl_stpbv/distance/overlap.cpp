@@ -17,6 +17,7 @@
 #include <limits>
 
 #include "fcl_stpbv/convex/epa.h"
+#include "fcl_stpbv/distance/box_axes.h"
 #include "fcl_stpbv/distance/certificate.h"
 #include "fcl_stpbv/distance/vertex_gjk.h"
 #include "fcl_stpbv/vectorized.h"
@@ -52,11 +53,11 @@ class CoreEpa {
           SearchWork& work)
       : pair_(pair), polytope_(corner, origin), x_(x), work_(work) {}
 
-  /// Takes in the point of the maximum in `x`.
-  bool addTop() {
+  /// Takes in the point of the maximum in `x`, where a face further than `from` leaves no room for another.
+  bool addTop(double from) {
     if (!add(furthest(x_))) return false;
     top_ = polytope_.lastPoint();
-    topFrom_ = onlyMaximumFrom(pair_, x_);
+    topFrom_ = from;
     return true;
   }
 
@@ -106,7 +107,7 @@ class CoreEpa {
     const bool better = trial.core > x_.core;
     if (better) x_ = trial;
     if (open <= pair_.gapRounding() || (top && open <= kClose * nearest.distance) ||
-        !((another && better && addTop()) || polytope_.expand(point)))
+        !((another && better && addTop(onlyMaximumFrom(pair_, x_))) || polytope_.expand(point)))
       putAside(nearest);
     return true;
   }
@@ -168,21 +169,23 @@ bool expandPolytope(const BodyPair& pair, const std::array<Vector3d, 4>& corner,
 FCL_STPBV_VECTORIZED
 bool expandPolytope(const BodyPair& pair, Sample& x, double& bound, SearchWork& work) {
   const bool top = pair.isStationary(x);
-  if (top && provesWidest(pair, x, bound)) return true;
+  const FeatureCorners known = cornersAround(pair, x);
+  const double from = top ? onlyMaximumFrom(pair, x) : 0.0;
+  if (top && provesWidest(pair, x, known, from, bound)) return true;
   const std::array<Vector3d, 3> m = around(x.n);
   std::array<Vector3d, 4> corner;
   for (std::size_t i = 0; i < 3; ++i) corner[i] = unpack(pair.differenceAgainst(x.n - kRing * m[i]));
   corner[3] = unpack(pair.differenceAgainst(-x.n));
   CoreEpa search(pair, corner, Polytope::Origin::anywhere, x, work);
-  const FeatureCorners known = cornersAround(pair, x);
   for (std::size_t i = 0; i < known.count; ++i) search.add(unpack(known.point[i]));
   if (top)
-    search.addTop();
+    search.addTop(from);
   else if (known.count == 0)
     search.add(vertexDifference(pair, x.n));
   if (search.run(bound)) return true;
-  const auto from = [&](const Vector3d& n) { return furthest(pair.sampleFrom(n, {-1, -1}, work.steps)); };
-  return CoreEpa(pair, {from(m[0]), from(m[1]), from(m[2]), from(-x.n)}, Polytope::Origin::anywhere, x, work)
+  const auto along = [&](const Vector3d& n) { return furthest(pair.sampleFrom(n, {-1, -1}, work.steps)); };
+  return CoreEpa(pair, {along(m[0]), along(m[1]), along(m[2]), along(-x.n)}, Polytope::Origin::anywhere, x,
+                 work)
       .run(bound);
 }
 
@@ -207,6 +210,13 @@ Sample shallowStart(const BodyPair& pair) {
     offer(n, pack(a.vertex(vertex).point), pair.pose().placed(pack(b.face(face).anchor)), vertex, face);
   }
   return Sample::unevaluated(unpack(along), patch);
+}
+
+FCL_STPBV_VECTORIZED
+Sample boxStart(const BodyPair& pair) {
+  const BoxAxes axes(pair);
+  int ignored = 0;
+  return pair.sampleFrom(axes.normal(axes.least()), {-1, -1}, ignored);
 }
 
 void leastPenetration(const BodyPair& pair, Sample& x, SearchWork& work) {

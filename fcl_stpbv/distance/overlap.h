@@ -12,6 +12,10 @@ namespace fcl_stpbv::detail {
 /// patches are near those that own it.
 Sample shallowStart(const BodyPair& pair);
 
+/// For long or flat bodies near each other: the axis along which the boxes around them are furthest apart or
+/// overlap least.
+Sample boxStart(const BodyPair& pair);
+
 /// Grows a polytope inside the difference of the two cores where its surface is nearest to the origin (van
 /// den Bergen 2001, "expanding polytope"), from around `x.n`. Leaves the maximum of the gap with the least
 /// overlap in `x`, and in `bound` what holds for all: along no normal is the gap of the cores more than this

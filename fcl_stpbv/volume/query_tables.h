@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "fcl_stpbv/volume/body_box.h"
 #include "fcl_stpbv/volume/direction_table.h"
 #include "fcl_stpbv/volume/patch_table.h"
 #include "fcl_stpbv/volume/vertex_graph.h"
@@ -14,6 +15,7 @@ struct QueryTables {
   /// Faces near the centre, nearest first, each the nearest of those about its direction: along their normals
   /// the body is likely to be left soonest.
   std::vector<int> shallowFaces;
+  BodyBox box;
   VertexGraph graph;          ///< the way from vertex to vertex
   DirectionTable patchNear;   ///< the patch that owns the middle of each cell of directions
   DirectionTable vertexNear;  ///< the vertex furthest along that middle

@@ -183,6 +183,7 @@ void StpBv::makeDirectionTables(QueryTables& tables) const {
   ends.reserve(edges_.size());
   for (const Edge& edge : edges_) ends.push_back(edge.vertex);
   tables.graph = VertexGraph(vertices_, ends);
+  tables.box = boxAround(vertices_, ends);
   // Three cells a patch: the vertex of a direction's cell is nearly always the furthest along it. But one of
   // a large volume, where the table would be read from far away; up to millions.
   const double count = std::min(3.0 * patchCount(), patchCount() + 2000.0);

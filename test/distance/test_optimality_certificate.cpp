@@ -1,5 +1,5 @@
 // A ball and the corners of a feature around the origin: where the proof holds, no direction leads out of
-// their hull sooner than over the feature.
+// their hull sooner than over the feature. The axes of two boxes, and the answers that they prove.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "fcl_stpbv/distance/box_axes.h"
 #include "fcl_stpbv/distance/certificate.h"
 #include "test/reference/shapes.h"
 
@@ -122,5 +123,62 @@ TEST_CASE("The inner ball is inside the vertices' hull, and as large as the cent
       for (const Vector3d& p : cloud) reach = std::max(reach, m.dot(p - volume->centre()));
       CHECK(volume->innerRadius() <= reach);
     }
+  }
+}
+
+TEST_CASE("A body's box is its hull only where the vertices are its corners") {
+  Random some(7);
+  const auto boxOf = [](const Cloud& cloud) { return StpBv::build(cloud, {0.01, 10.0})->tables().box; };
+  const auto turned = [&](Cloud cloud, double noise) {
+    const Eigen::Matrix3d turn = some.rotation();
+    for (Vector3d& p : cloud) p = turn * p + Vector3d(0.3, -0.2, 0.1) + noise * some.direction();
+    return cloud;
+  };
+  for (const Cloud& cloud : {box(0.2, 0.3, 0.4), plate(0.3, 0.2, 0.01)}) {
+    CHECK(boxOf(cloud).isHull);
+    CHECK(boxOf(cloud).isTelling);
+    for (int i = 0; i < 20; ++i) {
+      CHECK(boxOf(turned(cloud, 0)).isHull);
+      CHECK_FALSE(boxOf(turned(cloud, 1e-9)).isHull);
+    }
+  }
+  CHECK_FALSE(boxOf(cylinder(0.1, 0.4)).isHull);
+  CHECK(boxOf(cylinder(0.1, 0.4)).isTelling);
+  CHECK_FALSE(boxOf(geodesicSphere(0.2, 1)).isTelling);
+  CHECK_FALSE(boxOf({Vector3d(1, 2, 3)}).isTelling);
+  CHECK_FALSE(boxOf(plate(0.5, 0.5, 1e-4)).isHull);  // too thin
+}
+
+TEST_CASE("Two boxes overlap least along one of fifteen axes") {
+  Random some(8);
+  for (int i = 0; i < 200; ++i) {
+    const auto sizes = [&] { return Vector3d(some.uniform(0.05, 0.5), some.uniform(0.05, 0.5), 0.3); };
+    const Vector3d sizeA = sizes(), sizeB = sizes();
+    const Cloud cloudA = box(sizeA.x(), sizeA.y(), sizeA.z()), cloudB = box(sizeB.x(), sizeB.y(), sizeB.z());
+    const StpBv::Ptr a = StpBv::build(cloudA, {0.01, 10.0}), b = StpBv::build(cloudB, {0.01, 10.0});
+    const RelativePose pose(fcl_stpbv::test::pose(some.rotation(), some.direction()),
+                            fcl_stpbv::test::pose(some.rotation(), some.direction()));
+    const BodyPair pair(*a, *b, pose);
+    const auto overlap = [&](const Vector3d& n) {
+      double most = -1e300, least = 1e300;
+      for (const Vector3d& p : cloudA) most = std::max(most, n.dot(p));
+      for (const Vector3d& p : cloudB) least = std::min(least, n.dot(pose.placed(p)));
+      return most - least;
+    };
+    const BoxAxes axes(pair);
+    std::vector<double> along;
+    for (std::size_t kind = 0; kind < BoxAxes::Axis::kinds; ++kind)
+      for (int which = 0; which < 3; ++which) {
+        const BoxAxes::Axis axis{kind, which};
+        along.push_back(axes.overlap(axis));
+        CHECK(std::abs(along.back() - overlap(axes.normal(axis))) < 1e-12);
+      }
+    const BoxAxes::Axis least = axes.least();
+    std::sort(along.begin(), along.end());
+    CHECK(axes.overlap(least) == along[0]);
+    if (!(along[0] > 0.0)) continue;
+    for (int k = 0; k < 1000; ++k) CHECK(overlap(some.direction()) >= along[0]);
+    CHECK(axes.othersBeyond(least, along[1] * (1 - 1e-9)));
+    CHECK_FALSE(axes.othersBeyond(least, along[1] * (1 + 1e-9)));
   }
 }

@@ -1,0 +1,147 @@
+// The axes along which two boxes may overlap least: separating axes (Gottschalk, Lin, Manocha 1996).
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+#include "fcl_stpbv/distance/body_pair.h"
+
+namespace fcl_stpbv::detail {
+
+/// How far the boxes around two bodies' vertices overlap along the normals of either's sides and the cross
+/// products of their edges: the difference of two boxes has no other sides. Frame of the first body.
+class BoxAxes {
+ public:
+  /// One axis: of the first box's sides, of the second one's, or of an edge of the first one, by its place
+  /// from `firstCross` on, with one of the second.
+  struct Axis {
+    enum Kind : std::size_t { firstSides, secondSides, firstCross, kinds = 5 };
+    std::size_t kind;
+    int which;
+  };
+
+  explicit BoxAxes(const BodyPair& pair);
+
+  /// The axis of the least overlap, and the unit vector along one, from the first body to the second.
+  Axis least() const;
+  Eigen::Vector3d normal(const Axis& axis) const;
+
+  /// Overlap along it, negative of boxes that are apart (m).
+  double overlap(const Axis& axis) const {
+    return overlap_[axis.kind][axis.which] / std::sqrt(length2_[axis.kind][axis.which]);
+  }
+
+  /// Whether the overlap is at least `depth` (m, positive) along all others. False where two edges are so
+  /// nearly parallel that their cross product is uncertain.
+  bool othersBeyond(const Axis& axis, double depth) const;
+
+  /// The axis of the side or of the two edges that the maximum's patches are of; its kind is `kinds` where
+  /// there is none.
+  Axis of(const Sample& top) const;
+
+ private:
+  /// Squared sine between two edges below which their cross product is not looked at.
+  static constexpr double kParallel2 = 1e-6;
+
+  static Packed magnitude(const Packed& v) { return v < 0.0 ? -v : v; }
+
+  static Packed turned(const Packed& v) { return __builtin_shufflevector(v, v, 1, 2, 0, 3); }
+
+  /// The first of three axes whose cosine with `n` is above `least`, either way round; -1: none.
+  static int along(const Packed (&axis)[3], const Packed& n, double least) {
+    for (int i = 0; i < 3; ++i)
+      if (std::abs(dot(axis[i], n)) > least) return i;
+    return -1;
+  }
+
+  const BodyPair& pair_;
+  Packed second_[3];                                    // the second box's axes
+  Packed between_;                                      // from centre to centre
+  Packed overlap_[Axis::kinds], length2_[Axis::kinds];  // an axis each; times the length of what it is along
+};
+
+inline BoxAxes::BoxAxes(const BodyPair& pair) : pair_(pair) {
+  const BodyBox &a = pair.tablesA().box, &b = pair.tablesB().box;
+  for (int j = 0; j < 3; ++j) second_[j] = pair.pose().rotation * b.axis[j];
+  between_ = pair.pose().placed(b.centre) - a.centre;
+  const Rotation first(a.axis[0], a.axis[1], a.axis[2]), second(second_[0], second_[1], second_[2]);
+  const Packed row[] = {second.inverse(a.axis[0]), second.inverse(a.axis[1]), second.inverse(a.axis[2])},
+               t = first.inverse(between_), s = second.inverse(between_);
+  const Packed inRow[] = {magnitude(row[0]), magnitude(row[1]), magnitude(row[2])};
+  const Rotation cosines(inRow[0], inRow[1], inRow[2]);
+
+  constexpr Packed kUnit{1, 1, 1, 1};
+  overlap_[Axis::firstSides] = a.half + cosines.inverse(b.half) - magnitude(t);
+  overlap_[Axis::secondSides] = b.half + cosines * a.half - magnitude(s);
+  length2_[Axis::firstSides] = length2_[Axis::secondSides] = kUnit;
+  const Packed half1 = turned(b.half), half2 = turned(half1);
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3, k = (i + 2) % 3;
+    const Packed cosines1 = turned(inRow[i]), cosines2 = turned(cosines1);
+    overlap_[Axis::firstCross + static_cast<std::size_t>(i)] = a.half[j] * inRow[k] + a.half[k] * inRow[j] +
+                                                               half1 * cosines2 + half2 * cosines1 -
+                                                               magnitude(t[k] * row[j] - t[j] * row[k]);
+    length2_[Axis::firstCross + static_cast<std::size_t>(i)] = row[j] * row[j] + row[k] * row[k];
+  }
+}
+
+inline BoxAxes::Axis BoxAxes::least() const {
+  Axis least{0, 0};
+  double overlap = std::numeric_limits<double>::infinity();
+  for (std::size_t kind = 0; kind < Axis::kinds; ++kind)
+    for (int i = 0; i < 3; ++i) {
+      const double length2 = length2_[kind][i], here = overlap_[kind][i];
+      if (!(length2 > kParallel2)) continue;
+      const double scaled = kind < Axis::firstCross ? here : here / std::sqrt(length2);
+      if (scaled < overlap) overlap = scaled, least = {kind, i};
+    }
+  return least;
+}
+
+inline Eigen::Vector3d BoxAxes::normal(const Axis& axis) const {
+  const Packed* first = pair_.tablesA().box.axis;
+  Packed n = axis.kind == Axis::firstSides ? first[axis.which] : second_[axis.which];
+  if (axis.kind >= Axis::firstCross) n = cross(first[axis.kind - Axis::firstCross], n);
+  return unpack(n * ((dot(n, between_) < 0.0 ? -1.0 : 1.0) / std::sqrt(dot(n, n))));
+}
+
+inline bool BoxAxes::othersBeyond(const Axis& axis, double depth) const {
+  Packed nearer{};
+  for (std::size_t kind = 0; kind < Axis::kinds; ++kind) {
+    const Packed over = overlap_[kind], length2 = length2_[kind];
+    const PackedBits beyond =
+        (over > 0.0) & (over * over >= depth * depth * length2) & (length2 > kParallel2);
+    Packed open = beyond ? Packed{} : Packed{} + 1.0;
+    if (kind == axis.kind) open[axis.which] = 0.0;
+    nearer = larger(nearer, open);
+  }
+  return !(std::max(std::max(nearer[0], nearer[1]), nearer[2]) > 0.0);
+}
+
+inline BoxAxes::Axis BoxAxes::of(const Sample& top) const {
+  constexpr double kSide = 0.9;         // cosine: the normal of a bulging side's maximum is near the side's
+  constexpr double kEdge = 1.0 - 1e-9;  // an edge's is the box's, unless it is a side's diagonal
+  constexpr Axis kNone{Axis::kinds, 0};
+  const BodyBox& box = pair_.tablesA().box;
+  const PatchKind kindA = pair_.a().kind(top.patch[0]), kindB = pair_.b().kind(top.patch[1]);
+  const Packed n = pack(top.n);
+  int which = -1;
+  std::size_t kind = Axis::kinds;
+  if (kindA == PatchKind::face && kindB == PatchKind::vertex) {
+    kind = Axis::firstSides;
+    which = along(box.axis, n, kSide);
+  } else if (kindA == PatchKind::vertex && kindB == PatchKind::face) {
+    kind = Axis::secondSides;
+    which = along(second_, n, kSide);
+  } else if (kindA == PatchKind::edge && kindB == PatchKind::edge) {
+    const int i = along(box.axis, pair_.patchA(top.patch[0]).axis, kEdge);
+    which = along(second_, pair_.patchB(top.patch[1]).axis, kEdge);
+    if (i < 0) return kNone;
+    kind = Axis::firstCross + static_cast<std::size_t>(i);
+  }
+  return which < 0 ? kNone : Axis{kind, which};
+}
+
+}  // namespace fcl_stpbv::detail
