@@ -33,6 +33,11 @@ class BoxAxes {
     return overlap_[axis.kind][axis.which] / std::sqrt(length2_[axis.kind][axis.which]);
   }
 
+  /// How far the boxes would have to go the other way along it to part (m).
+  double opposite(const Axis& axis) const {
+    return overlap(axis) + 2.0 * std::abs(dot(pack(normal(axis)), between_));
+  }
+
   /// Whether the overlap is at least `depth` (m, positive) along all others. False where two edges are so
   /// nearly parallel that their cross product is uncertain.
   bool othersBeyond(const Axis& axis, double depth) const;

@@ -119,7 +119,9 @@ bool closesOverBoxes(const BodyPair& pair, const Sample& top, const FeatureCorne
   const double size = pair.a().extent() + pair.b().extent();
   const BoxAxes axes(pair);
   const BoxAxes::Axis axis = axes.of(top);
-  if (axis.kind == BoxAxes::Axis::kinds || !axes.othersBeyond(axis, depth + kApart * size)) return false;
+  const double beyond = depth + kApart * size;
+  if (axis.kind == BoxAxes::Axis::kinds || !axes.othersBeyond(axis, beyond) || axes.opposite(axis) < beyond)
+    return false;
   const Triangle half{corners.point[0], corners.point[1], corners.point[2]};
   return std::abs(std::sqrt(half.distance2()) - axes.overlap(axis)) <= kSame * size;
 }

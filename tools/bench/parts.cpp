@@ -13,6 +13,7 @@
 
 #include "fcl_stpbv/adapter/stp_bv_geometry.h"
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/parts/convex_parts.h"
 #include "fcl_stpbv/report/tick_time.h"
 #include "fcl_stpbv/robot/checked_pairs.h"
@@ -29,8 +30,6 @@ using benchmark::significant;
 using Clouds = std::vector<std::vector<Eigen::Vector3d>>;
 
 constexpr double kConcave = 0.005;  // m that the hull of a robot's link exceeds its mesh by, to be split
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 double processorTime() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
