@@ -158,9 +158,9 @@ bool Quickhull::start() {
 bool Quickhull::findRim(int p, int f) {
   ++round_;
   const auto sees = [&](int g) {
-    Face& f = face(g);
-    if (f.round != round_) f.round = round_, f.sees = sideOf(g, p) > 0;
-    return f.sees;
+    Face& seen = face(g);
+    if (seen.round != round_) seen.round = round_, seen.sees = sideOf(g, p) > 0;
+    return seen.sees;
   };
   visible_.assign(1, f);
   face(f).round = round_, face(f).sees = true;
