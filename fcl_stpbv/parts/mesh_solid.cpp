@@ -155,14 +155,14 @@ MeshSolid::Nearest MeshSolid::nearest(const Vector3d& p, int guess, long* tried)
   return {std::sqrt(best), found};
 }
 
-bool MeshSolid::within(const Vector3d& low, const Vector3d& high,
-                       const std::function<bool(int)>& visit) const {
+template <class Misses, class Visit>
+bool MeshSolid::each(const Misses& misses, const Visit& visit) const {
   std::array<int, 64> open;  // halved at each level: no deeper than 32
   std::size_t count = 0;
   open[count++] = 0;
   while (count > 0) {
     const Node& node = nodes_[at(open[--count])];
-    if ((node.low.array() > high.array()).any() || (node.high.array() < low.array()).any()) continue;
+    if (misses(node)) continue;
     if (node.left >= 0) {
       open[count++] = node.left;
       open[count++] = node.right;
@@ -174,27 +174,26 @@ bool MeshSolid::within(const Vector3d& low, const Vector3d& high,
   return true;
 }
 
+bool MeshSolid::within(const Vector3d& low, const Vector3d& high,
+                       const std::function<bool(int)>& visit) const {
+  return each(
+      [&](const Node& node) {
+        return (node.low.array() > high.array()).any() || (node.high.array() < low.array()).any();
+      },
+      visit);
+}
+
 template <class Visit>
 bool MeshSolid::alongRay(const Vector3d& p, const Vector3d& direction, Visit visit) const {
   const Vector3d inverse = direction.cwiseInverse();
   const double slack = 1e-12 * (high() - low()).norm();  // boxes a little larger: no triangle is missed
-  std::array<int, 64> open;
-  std::size_t count = 0;
-  open[count++] = 0;
-  while (count > 0) {
-    const Node& node = nodes_[at(open[--count])];
-    const Vector3d s = (node.low.array() - slack - p.array()) * inverse.array();
-    const Vector3d t = (node.high.array() + slack - p.array()) * inverse.array();
-    if (s.cwiseMin(t).maxCoeff() > s.cwiseMax(t).minCoeff() || s.cwiseMax(t).minCoeff() < 0) continue;
-    if (node.left >= 0) {
-      open[count++] = node.left;
-      open[count++] = node.right;
-      continue;
-    }
-    for (int i = node.begin; i < node.end; ++i)
-      if (!visit(order_[at(i)])) return false;
-  }
-  return true;
+  return each(
+      [&](const Node& node) {
+        const Vector3d s = (node.low.array() - slack - p.array()) * inverse.array();
+        const Vector3d t = (node.high.array() + slack - p.array()) * inverse.array();
+        return s.cwiseMin(t).maxCoeff() > s.cwiseMax(t).minCoeff() || s.cwiseMax(t).minCoeff() < 0;
+      },
+      visit);
 }
 
 MeshSolid::Side MeshSolid::side(const Vector3d& p, const Vector3d& direction) const {

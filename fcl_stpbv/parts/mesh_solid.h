@@ -68,6 +68,9 @@ class MeshSolid {
     int left = -1, right = -1;
   };
   int build(int begin, int end);
+  /// The triangles in boxes that are not missed, until `visit` returns false. @returns whether it never did.
+  template <class Misses, class Visit>
+  bool each(const Misses& misses, const Visit& visit) const;
   template <class Visit>
   bool alongRay(const Eigen::Vector3d& p, const Eigen::Vector3d& direction, Visit visit) const;
   Side side(const Eigen::Vector3d& p, const Eigen::Vector3d& direction) const;

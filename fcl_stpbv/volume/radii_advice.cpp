@@ -100,10 +100,10 @@ class Adviser {
   bool keeps(const RadiiAdvice& advice) const { return advice.overCover + reserve_ <= task_.clearance; }
 
   /// Spends what is left of the clearance on a smaller R: the witness points then slide less.
-  RadiiAdvice rounder(RadiiAdvice best) const {
-    const RadiiAdvice asked = best;
+  RadiiAdvice rounder(const RadiiAdvice& asked) const {
     const double r = asked.radii.r;
     double low = StpBv::smallestR(points_, 0) + r, high = asked.radii.R;
+    RadiiAdvice best = asked;
     low = std::max(low, 1e-9 * high);  // of a single point
     while (high > (1 + kWithin) * low) {
       const double middle = std::sqrt(low * high);
