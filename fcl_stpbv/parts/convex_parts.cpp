@@ -3,8 +3,7 @@
 // 2. search for few parts (part_search.h), by cutting and joining;
 // 3. cut the whole mesh again by the same planes;
 // 4. prove the inside covered (inside_proof.h); a part gets those corners of its cells that this needs. Where
-// they
-//    take it away from the mesh, search again with all corners in the parts, and take the better answer;
+//    they take it away from the mesh, search again with all corners in the parts, and take the better answer;
 // 5. certify each hull's excess (mesh_excess.h).
 #include "fcl_stpbv/parts/convex_parts.h"
 
@@ -91,10 +90,12 @@ TriangleSoup coarser(const TriangleSoup& soup, const Vector3d& middle, double gr
 TriangleSoup forSearch(const TriangleSoup& soup, const PartSpace& space) {
   TriangleSoup few = soup;
   const Vector3d middle = 0.5 * (space.mesh.low() + space.mesh.high());
-  for (double grid = space.size / 150; few.triangles.size() > kSearched; grid *= 1.3) {
+  double grid = space.size / 150;
+  while (few.triangles.size() > kSearched) {
     TriangleSoup coarse = coarser(soup, middle, grid);
     if (coarse.triangles.empty()) break;  // nothing but slivers
     few = std::move(coarse);
+    grid *= few.triangles.size() > 20 * kSearched ? 2.0 : 1.3;
   }
   return few;
 }
@@ -218,7 +219,7 @@ ConvexParts searched(const PartSpace& space, const std::vector<TriangleSoup>& so
   // or three parts are found sooner.
   const double triangles = static_cast<double>(space.mesh.triangles().size());
   const double share =
-      std::clamp(static_cast<double>(kSearched) / triangles, 0.2, 1.0) * std::min(1.0, options.most / 4.0);
+      std::clamp(std::pow(kSearched / triangles, 1.5), 0.1, 1.0) * std::min(1.0, options.most / 4.0);
   const long work = static_cast<long>(kHulls * options.effort * share / space.costly);
   PartSearch search(space, options.most, options.excess);
   const std::vector<PartSearch::Parts> facets = facetParts(soups, space, options.most, options.excess);

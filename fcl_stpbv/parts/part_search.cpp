@@ -88,7 +88,8 @@ void PartSearch::confirm(const Parts& parts) const {
 // tells a useful cut before the excess does.
 const std::vector<PartSearch::Split>& PartSearch::splits(const PartPtr& part) {
   constexpr std::size_t kByVolume = 2, kByScore = 2;
-  constexpr std::size_t kScored = 48;  // planes; the other halves have more volume
+  // Planes that are looked at; the other halves have more volume.
+  const std::size_t scored = exhausted() ? 4 : 48;
   const auto [place, isNew] = splits_.try_emplace(part.get());
   std::vector<Split>& ways = place->second;
   if (!isNew) return ways;
@@ -100,7 +101,7 @@ const std::vector<PartSearch::Split>& PartSearch::splits(const PartPtr& part) {
     if (volume >= 0) byVolume.push_back({volume, i});
   }
   std::sort(byVolume.begin(), byVolume.end());
-  if (byVolume.size() > kScored) byVolume.resize(kScored);
+  if (byVolume.size() > scored) byVolume.resize(scored);
   spent_ += static_cast<long>(planes.size());
   std::vector<Split> best;  // by score
   double lastVolume = -1;
@@ -136,13 +137,16 @@ const std::vector<PartSearch::Split>& PartSearch::splits(const PartPtr& part) {
   return ways;
 }
 
-PartPtr PartSearch::join(const PartPtr& a, const PartPtr& b, double worst) {
+// Their common hull, its excess known up to `measure.enough`: far from the mesh it is found out soon.
+PartPtr PartSearch::join(const PartPtr& a, const PartPtr& b, const Measure& measure) {
   PartPtr& found = joins_[std::minmax(a.get(), b.get())];
   if (!found) {
-    found = std::make_shared<Part>(detail::joined(*a, *b, space_, {kResolution * worst}));
+    found = std::make_shared<Part>(detail::joined(*a, *b, space_, measure));
     kept_.push_back(a);
     kept_.push_back(b);
     ++spent_;
+  } else if (!std::isfinite(found->excess.upper) && excessOf(found) < measure.enough) {
+    measureAgain(*found, space_, measure);  // it was enough then
   }
   return found;
 }
@@ -150,18 +154,19 @@ PartPtr PartSearch::join(const PartPtr& a, const PartPtr& b, double worst) {
 // The two whose common hull is least far from the mesh, until few are left and no join is within the bound.
 PartSearch::Parts PartSearch::joined(Parts parts, int most, double bound) {
   while (parts.size() > 1) {
-    double best = kInfinity;
+    const bool few = parts.size() <= static_cast<std::size_t>(most);
+    double best = few ? bound : kInfinity;  // what the next must be within
+    PartPtr both;
     std::size_t first = 0, second = 0;
     const double worst = worstExcess(parts);
     for (std::size_t i = 0; i < parts.size(); ++i) {
       for (std::size_t k = i + 1; k < parts.size(); ++k) {
-        const double excess = excessOf(join(parts[i], parts[k], worst));
-        if (excess < best) best = excess, first = i, second = k;
+        const PartPtr tried = join(parts[i], parts[k], {kResolution * worst, best});
+        if (both ? excessOf(tried) >= best : excessOf(tried) > best) continue;
+        best = excessOf(tried), both = tried, first = i, second = k;
       }
     }
-    const bool few = parts.size() <= static_cast<std::size_t>(most);
-    if (few && best > bound) break;
-    const PartPtr both = join(parts[first], parts[second], worst);
+    if (!both) break;
     if (few && both->excess.upper > bound + space_.fine && both->queries < kConfirm) {
       measureAgain(*both, space_, {0.5 * space_.fine, kInfinity, kConfirm});
       continue;  // it may not be within the bound
@@ -228,7 +233,7 @@ PartSearch::Parts PartSearch::byBeam(const Parts& start) {
   Parts best = joined(start, most_, 0);
   std::vector<Line> beam{line(start)};
   while (!beam.empty() && worstExcess(best) > bound_ && beam.front().parts.size() < manyParts(most_)) {
-    if (beam.front().parts.size() >= most) beam.resize(1);  // on to what is joined again
+    if (exhausted() || beam.front().parts.size() >= most) beam.resize(1);  // then on to what is joined again
     beam = cutOn(beam);
     for (const Line& tried : beam) {
       const bool few = tried.parts.size() <= most;

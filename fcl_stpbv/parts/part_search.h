@@ -47,7 +47,7 @@ class PartSearch {
   void confirm(const Parts& parts) const;
   const std::vector<Split>& splits(const PartPtr& part);
   std::vector<Line> cutOn(const std::vector<Line>& beam);
-  PartPtr join(const PartPtr& a, const PartPtr& b, double worst);
+  PartPtr join(const PartPtr& a, const PartPtr& b, const Measure& measure);
   Parts joined(Parts parts, int most, double bound);
   Parts joined(const Parts& parts) { return joined(parts, most_, bound_); }
   Parts byBeam(const Parts& start);
