@@ -1,5 +1,5 @@
-// Everything a user of the drop-in needs: volumes and their files, exact distance and derivatives, the FCL
-// side.
+// Everything a user of the drop-in needs: volumes and their files, exact
+// distance and derivatives, the FCL side.
 #pragma once
 
 #include "fcl_stpbv/adapter/distance_callback.h"

@@ -1,5 +1,5 @@
-// Functions compiled twice, with and without the processor's wider instructions, chosen when the program
-// starts.
+// Functions compiled twice, with and without the processor's wider
+// instructions, chosen when the program starts.
 #pragma once
 
 /// Put before the definition of a function that makes up a query. The choice is per function: whole

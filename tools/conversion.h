@@ -32,8 +32,8 @@ struct Report {
   std::optional<RadiiAdvice> advice;  ///< where it was asked for
   OverCover overCover{};
   double cubicMetres = 0;
-  /// Most that the volume exceeds the mesh by: what it encloses, or its triangles alone (m); none for what
-  /// has no triangles.
+  /// Most that the volume exceeds the mesh by: what it encloses, or its triangles
+  /// alone (m); none for what has no triangles.
   std::optional<double> excessMax, openExcessMax;
   double buildSeconds = 0;
   std::optional<bool> verified;  ///< set where it was asked for

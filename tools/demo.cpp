@@ -146,8 +146,8 @@ void printPairs(const PosedRobot& posed, const Kinematics& kinematics, const Rob
       wrong, rows.size());
 }
 
-// A random posture with the left limbs as the mirror image of the right ones: what humanoids stand and walk
-// in.
+// A random posture with the left limbs as the mirror image of the right
+// ones: what humanoids stand and walk in.
 Eigen::VectorXd mirrored(const Kinematics& kinematics, std::mt19937_64& random) {
   Eigen::VectorXd q = kinematics.neutral();
   for (int i = 0; i < kinematics.size(); ++i) {

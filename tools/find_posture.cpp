@@ -1,5 +1,5 @@
-// find_posture: joint values for a task, free of collisions, or which of its constraints cannot hold
-// together.
+// find_posture: joint values for a task, free of collisions, or which of
+// its constraints cannot hold together.
 #include <iostream>
 #include <memory>
 #include <tuple>

@@ -162,8 +162,8 @@ Outcome runJob(const Job& job, const Arguments& arguments) {
   }
 }
 
-// Does all jobs and tells what became of them in their order, however many threads share them. @return how
-// many failed.
+// Does all jobs and tells what became of them in their order, however many threads
+// share them. @return how many failed.
 std::size_t runAll(const std::vector<Job>& jobs, const Arguments& arguments) {
   // Where a volume goes to standard output nothing else does.
   std::ostream& reports = isStandardOutput(arguments.output) ? std::cerr : std::cout;

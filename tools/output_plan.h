@@ -1,5 +1,5 @@
-// Which file each input of mesh_to_stpbv goes to. Everything that can be refused is refused before anything
-// is written.
+// Which file each input of mesh_to_stpbv goes to. Everything that can be refused
+// is refused before anything is written.
 #pragma once
 
 #include <stdexcept>
@@ -10,8 +10,8 @@
 
 namespace fcl_stpbv::tools {
 
-/// The command line asks for something that cannot be done; the message names the argument and what would
-/// work.
+/// The command line asks for something that cannot be done; the message
+/// names the argument and what would work.
 class UsageError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

@@ -8,8 +8,8 @@
 
 namespace fcl_stpbv::tools {
 
-/// For `std::ref()` as the progress of GeometryOptions and of PairListOptions. A stage's steps are only known
-/// when it begins.
+/// For `std::ref()` as the progress of GeometryOptions and of PairListOptions. A
+/// stage's steps are only known when it begins.
 class Stages {
  public:
   explicit Stages(bool wanted) : wanted_(wanted) {}

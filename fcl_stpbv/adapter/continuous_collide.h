@@ -27,13 +27,13 @@ MotionAnswer firstContact(const fcl::CollisionGeometryd& geometry1, const Steady
                           const fcl::CollisionGeometryd& geometry2, const SteadyMotion& motion2,
                           const MotionRequest& request = {});
 
-/// In the shape of `fcl::continuousCollide`: returns the time of contact, 1 if there is none, and fills
-/// `result`.
+/// In the shape of `fcl::continuousCollide`: returns the time of contact, 1 if
+/// there is none, and fills `result`.
 ///
 /// `toc_err` is the tolerance and `ccd_motion_type` the motion; all else in the request changes nothing.
-/// `is_collide` is false only where the motion is proven free. `time_of_contact` and the poses are those of
-/// `MotionAnswer::until`, in contact. -1 with `is_collide` at time 0 for what has no answer: splines, poses
-/// that are not rigid, pairs without a distance.
+/// `is_collide` is false only where the motion is proven free. `time_of_contact` and the poses are those
+/// of `MotionAnswer::until`, in contact. -1 with `is_collide` at time 0 for what has no answer: splines,
+/// poses that are not rigid, pairs without a distance.
 double continuousCollide(const fcl::CollisionGeometryd* geometry1, const fcl::MotionBased* motion1,
                          const fcl::CollisionGeometryd* geometry2, const fcl::MotionBased* motion2,
                          const fcl::ContinuousCollisionRequestd& request,

@@ -1,5 +1,5 @@
-// The callback for FCL's broadphase managers, for each pair that they offer and the caller does not leave
-// out:
+// The callback for FCL's broadphase managers, for each pair that they offer
+// and the caller does not leave out:
 // 1. ask fcl_stpbv::distance, from the pair's cache if the caller keeps one;
 // 2. keep the answer if it is the closest, or deepest, so far;
 // 3. return a bound above 0, so that the manager goes on to overlapping pairs.
@@ -24,9 +24,9 @@ bool distanceCallback(fcl::CollisionObjectd* object1, fcl::CollisionObjectd* obj
     else if (answer.distance < query.result.distance)
       query.result = answer;
   }
-  // Above 0, so that pairs of overlapping boxes are still asked (their distance is 0, and FCL prunes by `<`).
-  // Below the largest double, at which the sweeping managers begin and which they would take for "not called"
-  // for ever.
+  // Above 0, so that pairs of overlapping boxes are still asked (their distance is 0, and FCL
+  // prunes by `<`). Below the largest double, at which the sweeping managers begin and which
+  // they would take for "not called" for ever.
   dist = std::clamp(query.result.distance, std::numeric_limits<double>::min(),
                     0.5 * std::numeric_limits<double>::max());
   return query.done || (query.stopAtContact && query.result.distance <= 0);

@@ -39,8 +39,8 @@ class PairCaches {
 
 /// What `distanceCallback` reads and writes; pass its address to a manager's `distance`.
 ///
-/// The result accumulates over calls, as FCL's own callback data does: give each query fresh data, or
-/// `clear()` it.
+/// The result accumulates over calls, as FCL's own callback data does: give
+/// each query fresh data, or `clear()` it.
 struct DistanceData {
   /// For code that shares FCL's callback data; nothing in it changes the answer.
   fcl::DistanceRequestd request = fcl::DistanceRequestd(true);

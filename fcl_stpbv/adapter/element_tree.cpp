@@ -34,8 +34,8 @@ OrientedBox boxAround(const fcl::KDOP<double, N>& bv) {  // its first three slab
   return {0.5 * (low + high), Matrix3d::Identity(), 0.5 * (high - low)};
 }
 
-/// Rounding in FCL's fitting of a bounding volume may leave a triangle's corner outside by this part of its
-/// size.
+/// Rounding in FCL's fitting of a bounding volume may leave a triangle's
+/// corner outside by this part of its size.
 constexpr double kFit = 1e-9;
 
 template <typename BV>

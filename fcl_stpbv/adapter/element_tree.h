@@ -20,8 +20,8 @@ struct OrientedBox {
   double reach(const Eigen::Vector3d& n) const { return half.dot((axes.transpose() * n).cwiseAbs()); }
 };
 
-/// A view of a BVHModel of any bounding volume or of an OcTree; the geometry must outlive it. Allocates
-/// nothing.
+/// A view of a BVHModel of any bounding volume or of an OcTree; the geometry
+/// must outlive it. Allocates nothing.
 class ElementTree {
  public:
   struct Node {

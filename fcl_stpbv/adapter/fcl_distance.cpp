@@ -1,6 +1,6 @@
-// The drop-in distance: two STP-BVs by the core's query, an STP-BV and any other geometry by
-// other_geometry.h, two simple shapes by distance/shape_pair.h, and meshes and trees without one by
-// nearest_pair.h.
+// The drop-in distance: two STP-BVs by the core's query, an STP-BV and any other
+// geometry by other_geometry.h, two simple shapes by distance/shape_pair.h, and meshes
+// and trees without one by nearest_pair.h.
 #include "fcl_stpbv/adapter/fcl_distance.h"
 
 #include <utility>
@@ -94,8 +94,8 @@ bool shapeDistance(const CollisionGeometryd& geometry1, const Transform3d& pose1
   return true;
 }
 
-/// Any pair but two STP-BVs. A pose next to a rigid one is taken for the nearest, any other has no answer,
-/// whatever the geometries.
+/// Any pair but two STP-BVs. A pose next to a rigid one is taken for the nearest, any
+/// other has no answer, whatever the geometries.
 DistanceAnswer otherDistance(const StpBvGeometry* a, const CollisionGeometryd& geometry1, Transform3d pose1,
                              const StpBvGeometry* b, const CollisionGeometryd& geometry2, Transform3d pose2,
                              const QueryContext& context) {
@@ -161,8 +161,8 @@ fcl::DistanceResultd toFclResult(const DistanceAnswer& answer) {
   return result;
 }
 
-// The request's flags say how FCL should compute and what it may leave out; here all of it is exact and at
-// hand.
+// The request's flags say how FCL should compute and what it may leave out;
+// here all of it is exact and at hand.
 double distance(const fcl::CollisionObjectd* object1, const fcl::CollisionObjectd* object2,
                 const fcl::DistanceRequestd& /*request*/, fcl::DistanceResultd& result) {
   result = toFclResult(distance(*object1, *object2));

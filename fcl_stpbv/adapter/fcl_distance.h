@@ -29,19 +29,19 @@ struct DistanceAnswer {
   Eigen::Vector3d normal{0, 0, 0};  ///< unit, from geometry 1 to 2; zero where it is not known
   std::array<Eigen::Vector3d, 2> points{Eigen::Vector3d(0, 0, 0),
                                         Eigen::Vector3d(0, 0, 0)};  ///< witness points
-  /// Derivatives with respect to the twist [linear; angular] of each body about its frame's origin, world
-  /// axes.
+  /// Derivatives with respect to the twist [linear; angular] of each body
+  /// about its frame's origin, world axes.
   std::array<TwistGradient, 2> gradient{TwistGradient::Zero(), TwistGradient::Zero()};
   std::array<int, 2> patch{-1, -1};  ///< of the STP-BVs; -1 for any other geometry
   /// Nearest triangle or cell of a mesh or tree, FCL's `b1`, `b2`; -1 for any other geometry.
   std::array<std::intptr_t, 2> element{-1, -1};
-  /// Distance to the next triangle or cell (m), infinite where there is none: the nearest one can switch once
-  /// both have come nearer to each other by the difference. Equal where the nearest point is on a shared edge
-  /// or corner.
+  /// Distance to the next triangle or cell (m), infinite where there is none: the nearest one
+  /// can switch once both have come nearer to each other by the difference. Equal where the
+  /// nearest point is on a shared edge or corner.
   double runnerUp = std::numeric_limits<double>::infinity();
-  /// Whether distance and gradient are continuous over motions: true for an STP-BV against one or a
-  /// simple shape; false for meshes and trees, whose nearest element switches, and for two geometries
-  /// without an STP-BV.
+  /// Whether distance and gradient are continuous over motions: true for an STP-BV against
+  /// one or a simple shape; false for meshes and trees, whose nearest element switches,
+  /// and for two geometries without an STP-BV.
   bool continuous = false;
   std::array<const fcl::CollisionGeometryd*, 2> geometry{nullptr, nullptr};  ///< the two asked about
   std::array<const fcl::CollisionObjectd*, 2> object{nullptr,
@@ -57,19 +57,19 @@ struct ProximityCounts {
 /// What a query may remember and report; all optional, all owned by the caller.
 struct QueryContext {
   PairCache* cache = nullptr;  ///< starts the query near the pair's last answer instead of asking FCL
-  /// Gets the outcome of the feature mapping, for queries that ask FCL: from the exact witness then, which
-  /// takes longer.
+  /// Gets the outcome of the feature mapping, for queries that ask FCL: from the
+  /// exact witness then, which takes longer.
   MappingCounts* mapping = nullptr;
   ProximityCounts* proximity = nullptr;  ///< gets what a question about a threshold took
 };
 
 /// Distance between two geometries. Never throws or allocates; FCL is never asked for a distance.
 ///
-/// An STP-BV against one, or against any other FCL geometry in either order: exact and signed, with status,
-/// bounds and derivatives. Two other shapes, one of them bounded: signed, by this library's own GJK, and at
-/// overlap by an expanding polytope (distance/shape_pair.h), `continuous` false. Meshes and trees: of their
-/// nearest elements (nearest_pair.h), `continuous` false; two of them that overlap: 0, with the elements that
-/// meet.
+/// An STP-BV against one, or against any other FCL geometry in either order: exact and signed, with
+/// status, bounds and derivatives. Two other shapes, one of them bounded: signed, by this library's
+/// own GJK, and at overlap by an expanding polytope (distance/shape_pair.h), `continuous` false.
+/// Meshes and trees: of their nearest elements (nearest_pair.h), `continuous` false; two of them
+/// that overlap: 0, with the elements that meet.
 DistanceAnswer distance(const fcl::CollisionGeometryd& geometry1, const fcl::Transform3d& pose1,
                         const fcl::CollisionGeometryd& geometry2, const fcl::Transform3d& pose2,
                         const QueryContext& context = {});
@@ -82,12 +82,12 @@ DistanceAnswer distance(const fcl::CollisionObjectd& object1, const fcl::Collisi
 DistanceAnswer inFclTerms(const Distance& found, const fcl::Transform3d& pose1,
                           const fcl::Transform3d& pose2);
 
-/// In the shape of `fcl::distance`: returns the distance and fills `result` afresh, nearest points always
-/// included.
+/// In the shape of `fcl::distance`: returns the distance and fills `result`
+/// afresh, nearest points always included.
 ///
-/// Differs from FCL where FCL sets traps (docs/fcl.md): `result` holds this pair and no earlier one, the
-/// distance is always signed where a body is convex, no field is left uninitialised. A query that has no
-/// answer is -1, FCL's own value for it.
+/// Differs from FCL where FCL sets traps (docs/fcl.md): `result` holds this pair and no earlier one,
+/// the distance is always signed where a body is convex, no field is left uninitialised. A query
+/// that has no answer is -1, FCL's own value for it.
 double distance(const fcl::CollisionObjectd* object1, const fcl::CollisionObjectd* object2,
                 const fcl::DistanceRequestd& request, fcl::DistanceResultd& result);
 /// The same for two geometries at their poses.

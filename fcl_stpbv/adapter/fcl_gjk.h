@@ -1,8 +1,8 @@
 // FCL's GJK (fcl::detail::libccd_extension) without its assertions.
 //
-// They test rounding against absolute bounds and end the process where a touching pair exceeds one; the
-// caller checks the simplex itself. What the header pulls in is included first, so that only its own
-// functions lose them.
+// They test rounding against absolute bounds and end the process where a touching pair
+// exceeds one; the caller checks the simplex itself. What the header pulls in is included
+// first, so that only its own functions lose them.
 #pragma once
 
 #include <fcl/geometry/shape/box.h>

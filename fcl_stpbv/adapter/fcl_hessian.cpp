@@ -13,8 +13,8 @@ namespace {
 using namespace detail;
 using Eigen::Vector3d;
 
-/// The body that an answer is about in the frame of its geometry: a simple shape, or an element of a mesh or
-/// a tree.
+/// The body that an answer is about in the frame of its geometry: a simple
+/// shape, or an element of a mesh or a tree.
 class OtherBody {
  public:
   OtherBody(const fcl::CollisionGeometryd& geometry, std::intptr_t element, const Vector3d& point) {
@@ -41,8 +41,8 @@ class OtherBody {
   std::array<Vector3d, 8> corner_;
 };
 
-/// Calls `ask` with both bodies as the core of the library knows them, in their order; false where it does
-/// not.
+/// Calls `ask` with both bodies as the core of the library knows them, in
+/// their order; false where it does not.
 template <class Ask>
 bool askBoth(const fcl::CollisionGeometryd& geometry1, const fcl::Transform3d& pose1,
              const fcl::CollisionGeometryd& geometry2, const fcl::Transform3d& pose2, const DistanceAnswer& d,

@@ -1,9 +1,9 @@
-// The paper's map from polyhedral features to smooth patches (IV.B to IV.D), and a count of how often it is
-// right.
+// The paper's map from polyhedral features to smooth patches (IV.B to IV.D),
+// and a count of how often it is right.
 //
 // 1. Each feature of the hulls names the patch of the same name.
-// 2. Where the other body's witness point lies outside that patch's Voronoi region, take the neighbour on
-// that side.
+// 2. Where the other body's witness point lies outside that patch's Voronoi
+//    region, take the neighbour on that side.
 // 3. The same once more with the smooth points that these patches give.
 #include "fcl_stpbv/adapter/feature_map.h"
 
@@ -31,8 +31,8 @@ UnnormalizedNormal towards(const StpBv& volume, int index, const Vector3d& x) {
   return widestNormal(posedPatch(volume, index), point, Packed{1, 0, 0, 0});
 }
 
-/// One step from a patch to the neighbour on whose side `x` lies, if `x` is outside the patch's Voronoi
-/// region.
+/// One step from a patch to the neighbour on whose side `x` lies, if `x` is
+/// outside the patch's Voronoi region.
 int chooseNeighbour(const StpBv& volume, int patch, const Vector3d& x) {
   const UnnormalizedNormal to = towards(volume, patch, x);
   const Crossing over = volume.tables().patches.crossing(patch, to.d, to.length);
@@ -47,8 +47,8 @@ Vector3d nearestCorePoint(const StpBv& volume, int patch, const Vector3d& x) {
 
 bool contains(const StpBv::Ring& ring, int v) { return std::find(ring.begin(), ring.end(), v) != ring.end(); }
 
-/// Whether two patches share a region boundary, or are a face and one of its vertices, whose regions share a
-/// corner.
+/// Whether two patches share a region boundary, or are a face and one of its
+/// vertices, whose regions share a corner.
 bool areNeighbours(const StpBv& volume, int p, int q) {
   for (const RegionBoundary s : volume.tables().patches.boundaries(p))
     if (s.neighbour == q) return true;

@@ -15,8 +15,8 @@ namespace fcl_stpbv::detail {
 std::shared_ptr<const std::vector<fcl::Vector3d>> fclVertices(const HullGraph& hull,
                                                               const std::vector<Eigen::Vector3d>& cloud);
 
-/// The hull's faces in the format of `fcl::Convexd`: each as its number of vertices followed by them,
-/// counter-clockwise from outside.
+/// The hull's faces in the format of `fcl::Convexd`: each as its number of vertices
+/// followed by them, counter-clockwise from outside.
 std::shared_ptr<const std::vector<int>> fclFaces(const HullGraph& hull);
 
 /// The convex hull of a cloud (m), flat: a body for a pair whose other one is smooth. May be degenerate.

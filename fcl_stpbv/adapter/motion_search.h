@@ -1,5 +1,5 @@
-// The first contact of moving pairs, or the proof that there is none: halving of the time, earlier half
-// first.
+// The first contact of moving pairs, or the proof that there is none:
+// halving of the time, earlier half first.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// How long two moving bodies certainly stay apart: the one bound under every proof about a motion
-// (docs/motion.md).
+// How long two moving bodies certainly stay apart: the one bound under every
+// proof about a motion (docs/motion.md).
 #pragma once
 
 #include <Eigen/Core>
@@ -9,8 +9,8 @@
 
 namespace fcl_stpbv::detail {
 
-/// How a body moves now, per unit of time, in a frame that any plane between two bodies is fixed to; world
-/// axes.
+/// How a body moves now, per unit of time, in a frame that any plane between
+/// two bodies is fixed to; world axes.
 struct BodyVelocity {
   Eigen::Vector3d linear{0, 0, 0};  ///< of the point `about` (plane_cover), as if the body carried it
   Eigen::Vector3d angular{0, 0, 0};
@@ -22,8 +22,8 @@ struct Cover {
   double before = 0, after = 0;
 };
 
-/// The longest time up to `most` for which `gap + rate t - acceleration t^2 / 2` stays above 0 with the rate
-/// at most 0.
+/// The longest time up to `most` for which `gap + rate t - acceleration t^2 / 2`
+/// stays above 0 with the rate at most 0.
 inline double timeAbove(double gap, double rate, double acceleration, double most) {
   if (!(gap > 0)) return 0;
   const double k = std::min(rate, 0.0);

@@ -1,5 +1,5 @@
-// An STP-BV against another FCL geometry: a simple shape is solved at once, a mesh or tree by its nearest
-// element.
+// An STP-BV against another FCL geometry: a simple shape is solved at once, a
+// mesh or tree by its nearest element.
 #include "fcl_stpbv/adapter/other_geometry.h"
 
 #include "fcl_stpbv/adapter/fcl_shapes.h"

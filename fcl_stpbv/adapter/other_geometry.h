@@ -18,8 +18,8 @@ struct OtherDistance {
   bool continuous = true;  ///< the gradient too: false for meshes and trees, whose nearest element switches
 };
 
-/// Solves the pair. False where this library has no answer: a type it does not know, or nothing to measure
-/// to. Allocates nothing.
+/// Solves the pair. False where this library has no answer: a type it does not know, or
+/// nothing to measure to. Allocates nothing.
 bool distanceToOther(const StpBv& volume, const Eigen::Isometry3d& poseVolume,
                      const fcl::CollisionGeometryd& other, const Eigen::Isometry3d& poseOther,
                      PairCache* cache, OtherDistance& result);

@@ -14,8 +14,8 @@ class PairDistance {
  public:
   using Geometry = std::shared_ptr<const fcl::CollisionGeometryd>;  ///< shared with whoever else uses it
 
-  /// `mapping`, optional, gets how good FCL's features were as starts, and makes the queries that ask FCL
-  /// slower.
+  /// `mapping`, optional, gets how good FCL's features were as starts, and
+  /// makes the queries that ask FCL slower.
   PairDistance(Geometry geometry1, Geometry geometry2, MappingCounts* mapping = nullptr)
       : geometry1_(std::move(geometry1)), geometry2_(std::move(geometry2)), mapping_(mapping) {}
 

@@ -1,7 +1,7 @@
 // FCL's witness with a stop that proves convergence.
 //
-// 1. A first supporting plane from the start's direction. If it separates the hulls, FCL's test would end
-// there too.
+// 1. A first supporting plane from the start's direction. If it separates the
+//    hulls, FCL's test would end there too.
 // 2. Else FCL's own GJK intersection test (fcl_gjk.h) leads to a simplex.
 // 3. This library's GJK goes on from there until the duality gap is small enough (convex/gjk.h).
 // 4. The simplex's vertices name the features that hold the witness points.
@@ -24,8 +24,8 @@ using Eigen::Vector3d;
 constexpr int kMaxSteps = 100;
 // Stop where the gap is at the rounding of support points of about 1, a few times 2.2e-16.
 constexpr double kGapTolerance = 1e-15;
-// A corner of smaller weight does not hold the witness point: it is the rounding of a point on a smaller
-// feature.
+// A corner of smaller weight does not hold the witness point: it is the
+// rounding of a point on a smaller feature.
 constexpr double kMinWeight = 1e-12;
 
 /// FCL's intersection test from the first direction; its simplex with the vertices behind each corner.

@@ -18,11 +18,11 @@ struct HullCorner {
   int vertexA = -1, vertexB = -1;
 };
 
-/// A pair of hulls in A's frame, origin at A's centre, lengths divided by a power of two so that the pair is
-/// about 1.
+/// A pair of hulls in A's frame, origin at A's centre, lengths divided by a
+/// power of two so that the pair is about 1.
 ///
-/// The scale being a power of two, scaling loses nothing. Support points climb from the last ones; the struct
-/// lives on the stack of one query.
+/// The scale being a power of two, scaling loses nothing. Support points climb from the last ones;
+/// the struct lives on the stack of one query.
 class PosedHulls {
  public:
   PosedHulls(const HullGraph& a, const Eigen::Isometry3d& poseA, const HullGraph& b,
@@ -33,8 +33,8 @@ class PosedHulls {
     fit();
   }
 
-  /// Whether the poses are rigid and every coordinate is finite and small enough for products of three of
-  /// them.
+  /// Whether the poses are rigid and every coordinate is finite and small
+  /// enough for products of three of them.
   bool usable() const { return usable_; }
   double scale() const { return scale_; }                     ///< scaled = metres * scale
   Eigen::Vector3d offset() const { return unpack(offset_); }  ///< B's centre, scaled

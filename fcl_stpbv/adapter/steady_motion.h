@@ -8,8 +8,8 @@
 
 namespace fcl_stpbv {
 
-/// Over the time from 0 to 1 the body turns evenly while the point moves evenly: FCL's translations,
-/// interpolations and screws.
+/// Over the time from 0 to 1 the body turns evenly while the point moves evenly: FCL's
+/// translations, interpolations and screws.
 struct SteadyMotion {
   Eigen::Isometry3d begin = Eigen::Isometry3d::Identity();  ///< pose at the time 0
   Eigen::Vector3d point{0, 0, 0};                           ///< of the axis, at the time 0 (world, m)
@@ -20,9 +20,9 @@ struct SteadyMotion {
   Eigen::Isometry3d at(double t) const;
 };
 
-/// Between two poses as FCL would move: CCDM_TRANS (the rotation stays that of the beginning), CCDM_LINEAR
-/// (the origin on a line) or CCDM_SCREW. False for poses that are not rigid and for CCDM_SPLINE, which FCL
-/// leaves open.
+/// Between two poses as FCL would move: CCDM_TRANS (the rotation stays that of the
+/// beginning), CCDM_LINEAR (the origin on a line) or CCDM_SCREW. False for poses that are not
+/// rigid and for CCDM_SPLINE, which FCL leaves open.
 bool steadyMotion(const Eigen::Isometry3d& begin, const Eigen::Isometry3d& end, fcl::CCDMotionType type,
                   SteadyMotion& motion);
 

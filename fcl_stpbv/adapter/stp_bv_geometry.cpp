@@ -26,8 +26,8 @@ const std::vector<Vector3d>& verticesOf(const StpBv::Ptr& volume) {
 StpBvGeometry::StpBvGeometry(StpBv::Ptr volume)
     : StpBvGeometry(volume, std::make_shared<const HullGraph>(verticesOf(volume))) {}
 
-// FCL's check of the mesh would throw on degenerate volumes, and everything else it checks holds by
-// construction.
+// FCL's check of the mesh would throw on degenerate volumes, and everything
+// else it checks holds by construction.
 StpBvGeometry::StpBvGeometry(StpBv::Ptr volume, std::shared_ptr<const HullGraph> hull)
     : fcl::Convexd(fclVertices(*hull, volume->vertices()), hull->faceCount(), fclFaces(*hull),
                    /*throw_if_invalid=*/false),

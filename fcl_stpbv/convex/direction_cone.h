@@ -39,11 +39,11 @@ struct DirectionTrial {
 
 /// Looks for the widest gap between two convex cores by bisection of the directions left.
 ///
-/// 1. The points of a trial bound the gap everywhere: along `m` it is at most `m.difference`. So where a
-/// trial has no
-///    gap, all directions with one lie in the half space of its difference, and the trial itself does not.
-/// 2. Where it has a gap, the wider ones lie where its gradient points (docs/theory.md, 5: the set is
-/// convex).
+/// 1. The points of a trial bound the gap everywhere: along `m` it is at most `m.difference`.
+///    So where a trial has no gap, all directions with one lie in the half space of its
+///    difference, and the trial itself does not.
+/// 2. Where it has a gap, the wider ones lie where its gradient points
+///    (docs/theory.md, 5: the set is convex).
 /// 3. Either way a plane cuts the cone in two, and the next trial is the middle of what is left.
 ///
 /// `trial(n)` looks along `n`, and `done(t)` ends the search. True where it did; false where no direction is

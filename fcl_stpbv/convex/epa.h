@@ -2,14 +2,12 @@
 //
 // The set is the difference B - A of two bodies' cores that overlap, known by its support points alone:
 // 1. Begin with four points of the difference that span a volume. The origin need not be inside yet.
-// 2. Take the polytope's face nearest to the origin. The polytope lies inside the difference, so once
-//    the origin is inside it no direction leads out sooner than that face is far: a lower bound of the
-//    depth.
-// 3. The support point along the face's normal gives an upper one: a translation along that normal
-//    separates.
+// 2. Take the polytope's face nearest to the origin. The polytope lies inside the difference, so once the
+//    origin is inside it no direction leads out sooner than that face is far: a lower bound of the depth.
+// 3. The support point along the face's normal gives an upper one: a translation along that normal separates.
 // 4. Stop where both agree. Else expand the polytope over the point and go to 2.
-// Rounding may spoil a polytope, of slivers along edges and generators: another first tetrahedron makes other
-// faces.
+// Rounding may spoil a polytope, of slivers along edges and generators: another
+// first tetrahedron makes other faces.
 #pragma once
 
 #include <Eigen/Core>
@@ -31,8 +29,8 @@ void expandAtNearest(Polytope& polytope, Visit&& visit) {
   }
 }
 
-/// The least overlap of two cores. `Difference` is a ConvexDifference, or has the same `Corner` and
-/// `support`.
+/// The least overlap of two cores. `Difference` is a ConvexDifference, or
+/// has the same `Corner` and `support`.
 template <typename Difference>
 class Epa {
  public:
@@ -57,8 +55,8 @@ class Epa {
     return c;
   }
 
-  /// A point of A and the way from there to one of B: kept where it comes nearer to the answer's than what is
-  /// known.
+  /// A point of A and the way from there to one of B: kept where it comes nearer
+  /// to the answer's than what is known.
   void offer(const Eigen::Vector3d& pointOfA, const Eigen::Vector3d& toB) {
     if (!(off(toB) < off(toB_))) return;
     onA = pointOfA;
@@ -68,8 +66,8 @@ class Epa {
   /// Whether both bounds agree, to 1e-6 of the depth or to rounding.
   bool solved() const { return bound - gap <= kRelative * -bound + rounding_; }
 
-  /// Searches until the bounds agree. False where rounding or the polytope's size stopped it; both bounds
-  /// hold.
+  /// Searches until the bounds agree. False where rounding or the polytope's
+  /// size stopped it; both bounds hold.
   bool run() {
     constexpr int kAttempts = 4;
     for (int attempt = 0; attempt < kAttempts && !solved(); ++attempt) {

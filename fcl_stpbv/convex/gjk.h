@@ -1,15 +1,13 @@
 // GJK: the point of a convex set nearest to the origin (Gilbert, Johnson, Keerthi 1988).
 //
 // The set is the difference B - A of two bodies' cores, known by its support points alone:
-// 1. Begin with a few points of the difference, or with the one that is furthest against the first
-//    normal.
-// 2. Find the point v of their simplex nearest to the origin, and drop the corners that do not hold it.
-//    A tetrahedron around the origin proves that the bodies overlap.
-// 3. |v| is an upper bound of the distance, as the distance of two points. The unit normal n along v
-//    gives a lower one, n.w with w the difference's point furthest against n, as the gap of two
-//    supporting planes.
-// 4. Stop where the two bounds agree (the duality gap), where the caller stops it, or where
-//    rounding allows no improvement. Else take w into the simplex and go to 2.
+// 1. Begin with a few points of the difference, or with the one that is furthest against the first normal.
+// 2. Find the point v of their simplex nearest to the origin, and drop the corners that do not hold it. A
+//    tetrahedron around the origin proves that the bodies overlap.
+// 3. |v| is an upper bound of the distance, as the distance of two points. The unit normal n along v gives a
+//    lower one, n.w with w the difference's point furthest against n, as the gap of two supporting planes.
+// 4. Stop where the two bounds agree (the duality gap), where the caller stops it, or where rounding allows
+//    no improvement. Else take w into the simplex and go to 2.
 // The duality gap is a proof. FCL's own stop, two norms that agree, is none (docs/fcl.md).
 #pragma once
 

@@ -1,10 +1,10 @@
 // A convex hull's features and how to climb its edges.
 //
-// 1. Roll a plane around the points: the rolling ball with R infinite gives the hull's facets
-// (volume/rolling_ball.h).
+// 1. Roll a plane around the points: the rolling ball with R infinite gives the
+//    hull's facets (volume/rolling_ball.h).
 // 2. Name its edges and the faces around each vertex.
-// 3. Support: hill climbing from the last vertex (as FCL's), eight neighbours at once; a table of directions
-// names a start.
+// 3. Support: hill climbing from the last vertex (as FCL's), eight neighbours at
+//    once; a table of directions names a start.
 #include "fcl_stpbv/convex/hull_graph.h"
 
 #include <Eigen/Geometry>
@@ -144,8 +144,8 @@ void HullGraph::addChunks(const std::int32_t* begin, const std::int32_t* end) {
   }
 }
 
-// Replaces `vertex` by the highest one in the chunks if that is higher. The only branch is taken once a
-// chunk.
+// Replaces `vertex` by the highest one in the chunks if that is higher. The
+// only branch is taken once a chunk.
 bool HullGraph::higherIn(std::int32_t firstChunk, std::int32_t lastChunk, const Eigen::Vector3d& direction,
                          double& height, int& vertex) const {
   const double nx = direction[0], ny = direction[1], nz = direction[2];

@@ -19,9 +19,9 @@ struct HullFeature {
 
 /// Convex hull of a cloud: strictly extreme vertices only, coplanar faces merged. Immutable.
 ///
-/// Hill climbing needs exactly that: from a vertex inside a face that is flat to rounding it can stop at the
-/// minimum. Points are kept relative to `centre()`, so that a cloud far from its frame's origin loses no
-/// digits.
+/// Hill climbing needs exactly that: from a vertex inside a face that is flat to rounding
+/// it can stop at the minimum. Points are kept relative to `centre()`, so that a cloud far
+/// from its frame's origin loses no digits.
 class HullGraph {
  public:
   using Ring = std::vector<int>;
@@ -59,13 +59,13 @@ class HullGraph {
   /// where `from` is negative. Allocates nothing.
   int extremeVertex(const Eigen::Vector3d& direction, int from) const;
 
-  /// The smallest feature that holds all the given vertices (one to three, distinct); a vertex alone if none
-  /// does.
+  /// The smallest feature that holds all the given vertices (one to three,
+  /// distinct); a vertex alone if none does.
   HullFeature featureOf(const int* vertices, int count) const;
 
  private:
-  /// Eight vertices side by side, so that their heights along a direction are computed at once; a short chunk
-  /// repeats its first.
+  /// Eight vertices side by side, so that their heights along a direction are computed at
+  /// once; a short chunk repeats its first.
   struct Chunk {
     using Eight = Eigen::Array<double, 8, 1, Eigen::DontAlign>;
     Eight x, y, z;

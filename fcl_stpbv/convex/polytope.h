@@ -68,8 +68,8 @@ class Polytope {
   /// The point taken in last.
   Index lastPoint() const { return static_cast<Index>(points_ - 1); }
 
-  /// Takes `p` into the hull. False where it is inside already, or in a face's plane to rounding, or without
-  /// room.
+  /// Takes `p` into the hull. False where it is inside already, or in a face's
+  /// plane to rounding, or without room.
   bool expand(const Eigen::Vector3d& outside) {
     if (!sound_ || points_ == kMaxPoints) return sound_ = false;
     const Packed p = pack(outside);
@@ -80,8 +80,8 @@ class Polytope {
       for (first = 0; first < faces_ && (face(first).corner[0] == kNone || !sees(first));) ++first;
     if (first == faces_) return false;
 
-    // From face to face that sees `p`, each side in turn: what does not see it comes in the order of the
-    // horizon.
+    // From face to face that sees `p`, each side in turn: what does not see it
+    // comes in the order of the horizon.
     std::array<Index, 3 * kMaxFaces> open;
     std::array<Index, kMaxFaces> horizon;
     int opened = 0, sides = 0;

@@ -37,9 +37,9 @@ class Rotation {
     return {inverse(x), inverse(y), inverse(z)};
   }
 
-  /// Whether each of three columns is the cross product of the other two, to the rounding of a product of two
-  /// rotations. True for no mirror and no number that is none. At most `kFine` from the nearest rotation then
-  /// (Frobenius).
+  /// Whether each of three columns is the cross product of the other two, to the rounding of a
+  /// product of two rotations. True for no mirror and no number that is none. At most `kFine`
+  /// from the nearest rotation then (Frobenius).
   static bool isFine(const Packed& x, const Packed& y, const Packed& z) {
     const Packed offX = cross(y, z) - x, offY = cross(z, x) - y, offZ = cross(x, y) - z,
                  squares = offX * offX + offY * offY + offZ * offZ;
@@ -114,8 +114,8 @@ struct RelativePose {
     valid = dot(translation, translation) < kHuge && dot(origin, origin) < kHuge;
   }
 
-  /// A point of the second body in the first one's frame, and the second body's direction where the first's
-  /// is `n`.
+  /// A point of the second body in the first one's frame, and the second body's
+  /// direction where the first's is `n`.
   Packed placed(const Packed& p) const { return rotation * p + translation; }
   Eigen::Vector3d placed(const Eigen::Vector3d& p) const { return unpack(rotation * pack(p) + translation); }
   Packed opposite(const Packed& n) const { return rotation.inverse(-n); }

@@ -58,12 +58,12 @@ struct Shape {
   /// All x with normal.x = offset; `normal` is unit.
   static Shape planeOf(const Eigen::Vector3d& normal, double offset);
 
-  /// Whether all lengths are finite and none is negative, and there is a vertex and a unit normal where one
-  /// is needed.
+  /// Whether all lengths are finite and none is negative, and there is a vertex
+  /// and a unit normal where one is needed.
   bool valid() const;
 
-  /// The core's point furthest along `d` (any length), one of them where there are several. Bounded kinds
-  /// only.
+  /// The core's point furthest along `d` (any length), one of them where
+  /// there are several. Bounded kinds only.
   Eigen::Vector3d support(const Eigen::Vector3d& d) const;
 
   /// A half space or a plane.

@@ -1,13 +1,13 @@
 // The point of a small simplex nearest to the origin, and which of its corners hold it.
 //
 // 1. One corner: the corner itself. Two: the foot on the segment, clamped to its ends.
-// 2. Three: the foot on the triangle's plane by its barycentric coordinates, which are areas seen along
-//    the normal. Outside the triangle, the nearest of the edges that it may lie beyond.
-// 3. Four: inside if all four signed volumes have one sign, else the nearest of the faces that the
-//    origin
-// lies beyond. Each case is decided by comparing distances, never by the sign of a small determinant alone:
-// flat and needle-shaped simplices are the rule near parallel faces (Ericson, Real-Time Collision
-// Detection, 5.1; van den Bergen 2003, 4.3).
+// 2. Three: the foot on the triangle's plane by its barycentric coordinates, which are areas seen along the
+//    normal. Outside the triangle, the nearest of the edges that it may lie beyond.
+// 3. Four: inside if all four signed volumes have one sign, else the nearest of the faces that the origin
+//    lies beyond.
+// Each case is decided by comparing distances, never by the sign of a small determinant alone: flat and
+// needle-shaped simplices are the rule near parallel faces (Ericson, Real-Time Collision Detection, 5.1;
+// van den Bergen 2003, 4.3).
 #pragma once
 
 #include <Eigen/Core>
@@ -43,11 +43,11 @@ struct Simplex {
 
 /// The point of a simplex nearest to the origin.
 struct NearestPoint {
-  /// The corners' weighted sum: a point of the simplex to the rounding of coordinates, however thin the
-  /// simplex is.
+  /// The corners' weighted sum: a point of the simplex to the rounding of
+  /// coordinates, however thin the simplex is.
   Eigen::Vector3d point;
-  /// The way there, any length. Of a triangle near the origin its normal, which keeps its digits however near
-  /// that is.
+  /// The way there, any length. Of a triangle near the origin its normal, which
+  /// keeps its digits however near that is.
   Eigen::Vector3d direction;
   bool inside;  ///< the origin is inside a tetrahedron, or on the simplex to rounding
 };
@@ -118,8 +118,8 @@ inline double volume(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const E
   return a.dot(b.cross(c));
 }
 
-/// The face of a tetrahedron nearest to the origin. False with the origin inside; `weight` are then the
-/// corners'.
+/// The face of a tetrahedron nearest to the origin. False with the origin
+/// inside; `weight` are then the corners'.
 inline bool nearestOnTetrahedron(const SimplexPoints& s, SimplexFace& best, std::array<double, 4>& weight) {
   constexpr double kFlat = 1e-10;  // volumes below this part of the larger ones say nothing about a side
   const Eigen::Vector3d &a = s[0], &b = s[1], &c = s[2], &d = s[3];

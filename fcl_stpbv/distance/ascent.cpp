@@ -1,12 +1,11 @@
 // Ascent of the gap s(n) over the sphere of normals (docs/theory.md, 5).
 //
-// 1. Solve the pair of patches that own the normal. If its widest normal is in both regions, that is a
-// maximum.
-// 2. Else go towards it along a great circle as far as the gap grows, to where its slope is about zero,
-//    and
-// again.
-// 3. Where the gap grows by less than its rounding, try the patches across the region boundaries on the
-//    way, and last the bisection of the directions left, which cannot fail (convex/direction_cone.h).
+// 1. Solve the pair of patches that own the normal. If its widest normal is
+//    in both regions, that is a maximum.
+// 2. Else go towards it along a great circle as far as the gap grows, to where
+//    its slope is about zero, and again.
+// 3. Where the gap grows by less than its rounding, try the patches across the region boundaries on the way,
+//    and last the bisection of the directions left, which cannot fail (convex/direction_cone.h).
 #include "fcl_stpbv/distance/ascent.h"
 
 #include <cmath>
@@ -26,9 +25,9 @@ constexpr int kMaxPairs =
 /// Slope of the gap at `m` along the great circle with this pole.
 double slopeAlong(const Sample& m, const Vector3d& pole) { return m.across.dot(pole.cross(m.n)); }
 
-/// A normal on the arc from `x` towards `to` where the gap has grown and its slope along the arc is about
-/// zero. The slope is continuous, so a bracket of its sign always shrinks on a maximum; `x` itself when the
-/// gap cannot grow.
+/// A normal on the arc from `x` towards `to` where the gap has grown and its slope along the
+/// arc is about zero. The slope is continuous, so a bracket of its sign always shrinks on a
+/// maximum; `x` itself when the gap cannot grow.
 Sample ascendArc(const BodyPair& pair, const Sample& x, const Vector3d& to, const Sample* atEnd,
                  SearchWork& work) {
   constexpr int kTrials = 60;     // bisection alone would go from 1 rad to an ulp
@@ -88,8 +87,8 @@ bool settle(const BodyPair& pair, Sample& x, Vector3d& next, SearchWork& work) {
         pair.tablesB().patches.crossing(x.patch[1], pair.opposite(n)).past > kOnBoundary)
       return false;
     const Sample there = BodyPair::sample(n, x.patch, a, b);
-    // At deep overlap the pair's other maximum may lie in the same regions; moving there must not lower the
-    // gap.
+    // At deep overlap the pair's other maximum may lie in the same regions;
+    // moving there must not lower the gap.
     if (there.core < x.core - pair.gapRounding()) return false;
     if (pair.isStationary(there)) {
       x = there;
@@ -138,8 +137,8 @@ bool ascend(const BodyPair& pair, Sample& x, SearchWork& work) {
       y = x;
     }
     if (!(y.core > x.core)) {
-      // Only deep inside each other, or at rounding: the pair's maximum is not uphill; follow the gradient
-      // instead.
+      // Only deep inside each other, or at rounding: the pair's maximum is not
+      // uphill; follow the gradient instead.
       y = ascendArc(pair, x, (x.n + x.across.normalized()).normalized(), nullptr, work);
       if (!(y.core > x.core)) return false;
     }
@@ -190,8 +189,8 @@ bool bisectToWidest(const BodyPair& pair, Sample& x, SearchWork& work) {
     x = trial;
     return true;
   }
-  // The gap is flat at its top, so its gradient tells the better normal where the values are equal to
-  // rounding.
+  // The gap is flat at its top, so its gradient tells the better normal where
+  // the values are equal to rounding.
   if (flattest.core >= x.core - pair.gapRounding()) x = flattest;
   return pair.isStationary(x);
 }

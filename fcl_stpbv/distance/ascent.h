@@ -37,14 +37,14 @@ enum class CoreContact {
 
 /// Looks for a normal along which the cores are apart, from `x` on; leaves the best one in `x`.
 ///
-/// Core points `y` of a trial normal `n` bound the gap everywhere: along `m` it is at most `m.(y_B - y_A)`.
-/// So a trial that fails rules out half of all directions, its own included, and what is left is a convex
-/// cone.
+/// Core points `y` of a trial normal `n` bound the gap everywhere: along `m` it is at most
+/// `m.(y_B - y_A)`. So a trial that fails rules out half of all directions, its own
+/// included, and what is left is a convex cone.
 CoreContact separateCores(const BodyPair& pair, Sample& x, SearchWork& work);
 
-/// Finds the widest gap between cores that are apart along `x`, where `ascend` gave up. Normals with a wider
-/// gap than at `n` lie where the gradient at `n` points (docs/theory.md, 5: the set is convex), so each trial
-/// halves the cone.
+/// Finds the widest gap between cores that are apart along `x`, where `ascend` gave up. Normals
+/// with a wider gap than at `n` lie where the gradient at `n` points (docs/theory.md, 5: the set
+/// is convex), so each trial halves the cone.
 bool bisectToWidest(const BodyPair& pair, Sample& x, SearchWork& work);
 
 }  // namespace fcl_stpbv::detail

@@ -12,8 +12,8 @@
 
 namespace fcl_stpbv::detail {
 
-/// What the two bodies look like along one normal: the exact gap there and its gradient. Frame of the first
-/// body.
+/// What the two bodies look like along one normal: the exact gap there and its
+/// gradient. Frame of the first body.
 struct Sample {
   Eigen::Vector3d n;         ///< unit, from the first body to the second
   std::array<int, 2> patch;  ///< patches owning `n` and `-n`
@@ -73,8 +73,8 @@ class BodyPair {
     return {unpack(n), patch, gap.value, unpack(gap.across), unpack(gap.point)};
   }
 
-  /// Patches near those that own `n`, of any length, and its opposite: of vertices about as far along them as
-  /// any.
+  /// Patches near those that own `n`, of any length, and its opposite: of
+  /// vertices about as far along them as any.
   std::array<int, 2> near(const Eigen::Vector3d& n) const {
     return {tablesA_.vertexNear[n], tablesB_.vertexNear[opposite(n)]};
   }

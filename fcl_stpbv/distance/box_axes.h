@@ -42,8 +42,8 @@ class BoxAxes {
   /// nearly parallel that their cross product is uncertain.
   bool othersBeyond(const Axis& axis, double depth) const;
 
-  /// The axis of the side or of the two edges that the maximum's patches are of; its kind is `kinds` where
-  /// there is none.
+  /// The axis of the side or of the two edges that the maximum's patches are of; its
+  /// kind is `kinds` where there is none.
   Axis of(const Sample& top) const;
 
  private:

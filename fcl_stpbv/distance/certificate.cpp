@@ -1,13 +1,12 @@
 // The optimality certificate of a maximum between overlapping cores (docs/theory.md, 5, "Deeper").
 //
-// 1. A side: triangles from the maximum's own point to the corners of the feature that it is on. They
-//    are as far from the origin as the maximum is deep, but for a part that leaves no room for another
-//    maximum.
-// 2. From the sides of that feature a closed surface over a ball inside both cores, or where the ball is
-//    too small over the other sides of the difference of two boxes, or a dozen triangles to points beyond the
-//    corners and one behind.
-// 3. All of it lies in the difference of the cores, which is convex. So if every plane of it is as far
-//    from the origin as the maximum is deep, no direction leads out sooner.
+// 1. A side: triangles from the maximum's own point to the corners of the feature that it is on. They are as
+//    far from the origin as the maximum is deep, but for a part that leaves no room for another maximum.
+// 2. From the sides of that feature a closed surface over a ball inside both cores, or where the
+//    ball is too small over the other sides of the difference of two boxes, or a dozen triangles
+//    to points beyond the corners and one behind.
+// 3. All of it lies in the difference of the cores, which is convex. So if every plane of it is as far from
+//    the origin as the maximum is deep, no direction leads out sooner.
 #include "fcl_stpbv/distance/certificate.h"
 
 #include <algorithm>

@@ -28,16 +28,16 @@ FeatureCorners cornersAround(const BodyPair& pair, const Sample& top);
 /// belong to the top's own patches, which have one maximum.
 double onlyMaximumFrom(const BodyPair& pair, const Sample& top);
 
-/// Closes a surface around the origin: from the maximum to the corners of its feature, and from there over a
-/// ball inside, over the other sides of two boxes' difference, or in a dozen triangles to points beyond the
-/// corners and one behind.
+/// Closes a surface around the origin: from the maximum to the corners of its feature, and from
+/// there over a ball inside, over the other sides of two boxes' difference, or in a dozen triangles
+/// to points beyond the corners and one behind.
 /// All of it lies in the difference of the cores, which is convex, so no direction leads out of it sooner
-/// than through the nearest plane. True where that is one at the top and leaves no room for another maximum,
-/// which `from` tells (onlyMaximumFrom); along no normal is the gap of the cores then more than `bound` (m,
-/// negative). `corners` are those around the top.
+/// than through the nearest plane. True where that is one at the top and leaves no room for another
+/// maximum, which `from` tells (onlyMaximumFrom); along no normal is the gap of the cores then more than
+/// `bound` (m, negative). `corners` are those around the top.
 ///
-/// The points only have to put the origin on the inner side of every triangle: then each ray from the origin
-/// meets the surface.
+/// The points only have to put the origin on the inner side of every triangle: then
+/// each ray from the origin meets the surface.
 bool provesWidest(const BodyPair& pair, const Sample& top, const FeatureCorners& corners, double from,
                   double& bound);
 

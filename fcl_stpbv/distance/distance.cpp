@@ -3,16 +3,16 @@
 // Mirtich's V-Clip walks the Voronoi regions of two polyhedra's features (ACM Transactions on Graphics 17(3),
 // 1998); the smooth Voronoi regions of an STP-BV are regions of normals, its patches' normal cones.
 // 1. Start from the last answer's patches, else from the line of centres.
-// 2. Solve the pair of patches: the normal of its widest gap, in closed form or by two Newton passes
-// (patch_pair.h).
-// 3. If that normal is in both normal cones, it is the answer while the cores are apart: any maximum is the
-// only one.
+// 2. Solve the pair of patches: the normal of its widest gap, in closed form or
+//    by two Newton passes (patch_pair.h).
+// 3. If that normal is in both normal cones, it is the answer while the cores are
+//    apart: any maximum is the only one.
 // 4. Else cross the one region boundary, on either body, that it passes furthest, and go to 2.
-// 5. A pair that holds no maximum on this side of the sphere leads nowhere: go uphill to the first boundary
-// in the way.
+// 5. A pair that holds no maximum on this side of the sphere leads nowhere: go
+//    uphill to the first boundary in the way.
 // 6. After a dozen pairs, or between cores that overlap, the whole search takes over (wide_search.h).
-// This path is apart from GJK and EPA for speed: it evaluates one closed form per step, and no support
-// function.
+// This path is apart from GJK and EPA for speed: it evaluates one closed form
+// per step, and no support function.
 #include "fcl_stpbv/distance/distance.h"
 
 #include <algorithm>

@@ -51,9 +51,9 @@ struct Distance {
   }
 };
 
-/// What a pair remembers between queries to start the next one near its answer; the adapter fills one from
-/// FCL's polyhedral witness. Owned by the caller; optional; never changes an answer, only how soon it is
-/// found.
+/// What a pair remembers between queries to start the next one near its answer; the
+/// adapter fills one from FCL's polyhedral witness. Owned by the caller; optional; never
+/// changes an answer, only how soon it is found.
 struct PairCache {
   Eigen::Vector3d normal{0, 0, 0};   ///< last normal, world frame; zero: none
   std::array<int, 2> patch{-1, -1};  ///< last patches; -1: none
@@ -61,8 +61,8 @@ struct PairCache {
   std::array<Eigen::Vector3f, 2> seen{Eigen::Vector3f(0, 0, 0), Eigen::Vector3f(0, 0, 0)};
 };
 
-/// Signed distance between `a` placed at `poseA` and `b` placed at `poseB`. Never throws, allocates or
-/// returns NaN.
+/// Signed distance between `a` placed at `poseA` and `b` placed at `poseB`.
+/// Never throws, allocates or returns NaN.
 Distance distance(const StpBv& a, const Eigen::Isometry3d& poseA, const StpBv& b,
                   const Eigen::Isometry3d& poseB, PairCache* cache = nullptr);
 

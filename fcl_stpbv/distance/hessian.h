@@ -29,9 +29,9 @@ struct DistanceHessian {
 bool hessian(const StpBv& a, const Eigen::Isometry3d& poseA, const StpBv& b, const Eigen::Isometry3d& poseB,
              const Distance& d, DistanceHessian& result);
 
-/// The same for a simple shape, in either order, where `d` is `exact`. Flat features keep the normal, edges
-/// and generators let it turn one way: what the bodies' motion alone does not settle is the maximum over
-/// those ways.
+/// The same for a simple shape, in either order, where `d` is `exact`. Flat features keep
+/// the normal, edges and generators let it turn one way: what the bodies' motion alone does
+/// not settle is the maximum over those ways.
 bool hessian(const StpBv& volume, const Eigen::Isometry3d& poseVolume, const Shape& shape,
              const Eigen::Isometry3d& poseShape, const Distance& d, DistanceHessian& result);
 /// The same, the other way round.

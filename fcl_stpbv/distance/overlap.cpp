@@ -1,15 +1,12 @@
-// Depth of overlapping cores: EPA (convex/epa.h) on the difference of two STP-BVs, and a search from many
-// starts.
+// Depth of overlapping cores: EPA (convex/epa.h) on the difference of two
+// STP-BVs, and a search from many starts.
 //
 // 1. A maximum that carries its own certificate needs no more (certificate.h).
 // 2. Else a polytope grows from points around it. Far from the surface, vertices that the tables of
-//    directions name will do; near it, the smooth surface's own point, and the maximum of the patches
-//    there.
-// 3. A face that the maximum found leaves no room beyond is put aside. The rest of the polytope bounds
-//    the
-// depth.
-// 4. Where rounding stops that, the best of the maxima from a fixed set of normals stands, without a
-//    bound.
+//    directions name will do; near it, the smooth surface's own point, and the maximum of the patches there.
+// 3. A face that the maximum found leaves no room beyond is put aside. The
+//    rest of the polytope bounds the depth.
+// 4. Where rounding stops that, the best of the maxima from a fixed set of normals stands, without a bound.
 #include "fcl_stpbv/distance/overlap.h"
 
 #include <algorithm>

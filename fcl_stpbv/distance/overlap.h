@@ -12,8 +12,8 @@ namespace fcl_stpbv::detail {
 /// patches are near those that own it.
 Sample shallowStart(const BodyPair& pair);
 
-/// For long or flat bodies near each other: the axis along which the boxes around them are furthest apart or
-/// overlap least.
+/// For long or flat bodies near each other: the axis along which the boxes around
+/// them are furthest apart or overlap least.
 Sample boxStart(const BodyPair& pair);
 
 /// Grows a polytope inside the difference of the two cores where its surface is nearest to the origin (van

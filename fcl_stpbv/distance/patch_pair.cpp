@@ -126,8 +126,8 @@ void turnToWidestOfEdges(const PosedPatch& a, const PosedPatch& b, Packed& n) {
     const double x1 = (m22 * g1 - m12 * g2) / det, x2 = (m11 * g2 - m12 * g1) / det;
     n += x1 * e1 + x2 * e2;
     n /= std::sqrt(dot(n, n));
-    // Quadratic convergence: after steps p, q the next is about q^3 / p^2, or q^2 should p have been a lucky
-    // one.
+    // Quadratic convergence: after steps p, q the next is about q^3 / p^2, or
+    // q^2 should p have been a lucky one.
     const double step2 = x1 * x1 + x2 * x2;
     if (step2 < kSmall && step2 * step2 * step2 <= kConverged * kConverged * lastStep2 * lastStep2) return;
     lastStep2 = step2;

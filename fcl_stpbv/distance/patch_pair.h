@@ -46,8 +46,8 @@ inline UnnormalizedNormal circlePoint(const PosedPatch& circle, const Packed& d,
   double distance2 = dot(across, across);
   const double length2 = along * along + distance2;
   if (distance2 < 0.5 * length2) {
-    // A point near the axis' line leaves rounding along it in `across`, which the large `kappa` would
-    // magnify.
+    // A point near the axis' line leaves rounding along it in `across`, which
+    // the large `kappa` would magnify.
     across -= dot(across, circle.axis) * circle.axis;
     distance2 = dot(across, across);
   }

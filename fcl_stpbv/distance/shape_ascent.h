@@ -18,24 +18,24 @@
 
 namespace fcl_stpbv::detail {
 
-/// Looks at one patch along the unit normal `n`, its formula continued past its own region of normals. Body
-/// frame.
+/// Looks at one patch along the unit normal `n`, its formula continued past
+/// its own region of normals. Body frame.
 inline SupportPoint viewPatch(const StpBv& body, const Eigen::Vector3d& n, int index) {
   const PosedPatch patch = posedPatch(body, index);
   const CoreView view = viewCore(patch, pack(n));
   return {n, index, unpack(patch.anchor), view.rise, unpack(patch.anchor + view.offset)};
 }
 
-/// Looks at the volume along `n`; the owner is sought from the patch `hint` (-1: anywhere). Counts patches
-/// changed.
+/// Looks at the volume along `n`; the owner is sought from the patch `hint`
+/// (-1: anywhere). Counts patches changed.
 inline SupportPoint viewVolume(const StpBv& body, const Eigen::Vector3d& n, int hint, int& steps) {
   const int index = body.owner(n, hint);
   steps += index != hint;
   return viewPatch(body, n, index);
 }
 
-/// An STP-BV's core as a body of the support concept (convex/support.h). Looks for each normal's patch from
-/// the last.
+/// An STP-BV's core as a body of the support concept (convex/support.h). Looks
+/// for each normal's patch from the last.
 struct StpBvCore {
   const StpBv& body;
   int patch;   ///< the last one; -1: none
@@ -84,8 +84,8 @@ struct LineFeature {
   double wobble(const Eigen::Vector3d&) const { return 0.0; }
 };
 
-/// A circle's convex side: the rim of a disc, which is the torus formula with the other sign of kappa
-/// (docs/theory.md, 2).
+/// A circle's convex side: the rim of a disc, which is the torus formula with the
+/// other sign of kappa (docs/theory.md, 2).
 struct RimFeature {
   Eigen::Vector3d centre;
   Eigen::Vector3d axis;  ///< unit
@@ -186,8 +186,8 @@ bool findGap(const StpBv& body, const Feature& feature, AscentPoint& x, double t
   return x.gap > touch;
 }
 
-/// Newton's step on the sphere (docs/theory.md, 6): the matrix W_A + W_B + gap, positive while there is a
-/// gap.
+/// Newton's step on the sphere (docs/theory.md, 6): the matrix W_A + W_B +
+/// gap, positive while there is a gap.
 inline Eigen::Vector3d newtonTarget(const StpBv& body, const AscentPoint& x, const Eigen::Vector3d* line) {
   const Eigen::Vector3d& n = x.view.n;
   Eigen::Vector3d e1;
@@ -235,8 +235,8 @@ bool ascendFeature(const StpBv& body, const Feature& feature, AscentPoint& x, co
     if (!accepted) {
       if (flat <= rounded) return true;
       if (y.view.patch != x.view.patch) {
-        // The step went over a boundary, past which the gap bends otherwise: as the patch there tells it from
-        // here.
+        // The step went over a boundary, past which the gap bends otherwise: as
+        // the patch there tells it from here.
         const AscentPoint there = ascentPoint(viewPatch(body, x.view.n, y.view.patch), feature);
         const AscentPoint z =
             ascentPoint(body, feature, newtonTarget(body, there, feature.direction()), y.view.patch, steps);
@@ -247,8 +247,8 @@ bool ascendFeature(const StpBv& body, const Feature& feature, AscentPoint& x, co
       }
       if (!(sine > 1e-15) || !(start > 0.0)) return false;
       double low = 0.0, high = 1.0, lowSlope = start, highSlope = slope(y);
-      // Over a boundary of the volume Newton may overshoot down to where gaps are equal to rounding: the
-      // flatter is it.
+      // Over a boundary of the volume Newton may overshoot down to where gaps are
+      // equal to rounding: the flatter is it.
       const auto better = [&](const AscentPoint& p, const AscentPoint& than) {
         return p.gap > than.gap + rounding.gap ||
                (p.gap >= than.gap - rounding.gap && p.across.norm() < than.across.norm());

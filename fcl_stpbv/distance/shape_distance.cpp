@@ -1,12 +1,11 @@
 // An STP-BV against a simple shape.
 //
-// 1. Search the shape's nearest feature, kind by kind (shape_query.h), from the remembered normal or the
-//    line
-// of centres.
+// 1. Search the shape's nearest feature, kind by kind (shape_query.h), from the
+//    remembered normal or the line of centres.
 // 2. Test the answer against the whole shape. If it holds, it is exact.
 // 3. Else bisect the directions left with support points of the two whole bodies
-//    (convex/direction_cone.h): slow, sure. From the normal found, a feature search again proves the
-//    last digits.
+//    (convex/direction_cone.h): slow, sure. From the normal found, a feature
+//    search again proves the last digits.
 // 4. Cores that overlap: EPA (convex/epa.h).
 #include "fcl_stpbv/distance/shape_distance.h"
 
@@ -157,8 +156,8 @@ LeastOverlap leastOverlap(ShapeQuery& q, const StartNormal& start) {
   Epa<Difference> epa(difference, q.rounding.gap);
   epa.look(start.n);
   if (!epa.run()) climbToLeastOverlap(epa);
-  // The strictly convex body's point is the only one; of a face the shape gave a corner, so take what is
-  // opposite.
+  // The strictly convex body's point is the only one; of a face the shape gave
+  // a corner, so take what is opposite.
   LeastOverlap best{{}, std::max(epa.bound, epa.gap), true, epa.solved()};
   const SupportPoint onBody = supportPoint(core, epa.n);
   best.at.n = epa.n;

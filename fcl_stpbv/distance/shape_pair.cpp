@@ -1,12 +1,12 @@
-// Two simple shapes: GJK between their cores where these are apart, EPA where they overlap (convex/gjk.h,
-// epa.h).
+// Two simple shapes: GJK between their cores where these are apart, EPA where
+// they overlap (convex/gjk.h, epa.h).
 //
 // 1. Put the pair into one order, so that both orders of a call are the same query.
 // 2. Half spaces and planes: the gap along their normal is all there is to know.
-// 3. GJK with the duality gap as its stop. Its upper bound is the distance of two points of the bodies,
-//    its lower one the gap between the supporting planes of the answer's normal.
-// 4. Overlap: bodies of revolution on parallel axes are as deep towards all generators as towards one,
-//    more than EPA has room for; a polygon in the plane of their axes tells their depth. Then EPA.
+// 3. GJK with the duality gap as its stop. Its upper bound is the distance of two points of the bodies, its
+//    lower one the gap between the supporting planes of the answer's normal.
+// 4. Overlap: bodies of revolution on parallel axes are as deep towards all generators as towards one, more
+//    than EPA has room for; a polygon in the plane of their axes tells their depth. Then EPA.
 #include "fcl_stpbv/distance/shape_pair.h"
 
 #include <algorithm>
@@ -81,8 +81,8 @@ struct Pair {
   }
 };
 
-/// What a search found, in the world: `n` from A to B, `onA` a point of A's core, `toB` from there to B's
-/// core.
+/// What a search found, in the world: `n` from A to B, `onA` a point of A's
+/// core, `toB` from there to B's core.
 Distance inWorld(const Pair& p, const Vector3d& n, const Vector3d& onA, const Vector3d& toB) {
   Distance result;
   result.normal = p.pose.normalInWorld(n);

@@ -1,9 +1,9 @@
-// The nearest point of a plane, a segment, a triangle and a polytope to an STP-BV's core, and the test that
-// it is one.
+// The nearest point of a plane, a segment, a triangle and a polytope to an
+// STP-BV's core, and the test that it is one.
 //
-// A polytope's is found by GJK with a smooth body (Gilbert, Johnson, Keerthi 1988; Wolfe 1976): up to four
-// corners, the nearest point of their hull, and the corner that faces the body most, until none does more
-// than that point.
+// A polytope's is found by GJK with a smooth body (Gilbert, Johnson, Keerthi 1988; Wolfe
+// 1976): up to four corners, the nearest point of their hull, and the corner that faces the
+// body most, until none does more than that point.
 #include "fcl_stpbv/distance/shape_query.h"
 
 #include <algorithm>

@@ -86,8 +86,8 @@ Nearest nearestOnPolytope(ShapeQuery& q, const StartNormal& start);
 Nearest nearestOnCylinder(ShapeQuery& q, const StartNormal& start);
 Nearest nearestOnCone(ShapeQuery& q, const StartNormal& start);
 
-/// The plane of a flat end: its normal is fixed, only the position is to be checked. `apart` where the core
-/// is above.
+/// The plane of a flat end: its normal is fixed, only the position is to be
+/// checked. `apart` where the core is above.
 Nearest nearestOnPlane(ShapeQuery& q, const Eigen::Vector3d& onPlane, const Eigen::Vector3d& n, int hint);
 
 /// Whether nothing of the whole shape faces the body more than `found.y`, and the two points face each other:

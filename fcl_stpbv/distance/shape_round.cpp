@@ -78,8 +78,8 @@ class ConeSide {
     x.bend = cos_ * e.dot(difference) - turning.dot(curvatureRadii(q.body, x.view) * turning);
     return x;
   }
-  /// Where the slope is zero between `x` and `y`, which is `turn` away, by halving that mends its steps
-  /// (Illinois).
+  /// Where the slope is zero between `x` and `y`, which is `turn` away, by
+  /// halving that mends its steps (Illinois).
   State between(ShapeQuery& q, const State& x, const State& y, double turn) const {
     double low = 0.0, high = turn, lowWeight = x.slope, highWeight = y.slope;
     State best = std::abs(x.slope) < std::abs(y.slope) ? x : y;

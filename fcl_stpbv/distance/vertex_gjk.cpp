@@ -38,8 +38,8 @@ class VertexDifference {
   const std::array<int, 2>& vertex() const { return vertex_; }
 
  private:
-  /// To the vertices furthest along `d` and, in the second body's frame, `e`: neither body waits for the
-  /// other.
+  /// To the vertices furthest along `d` and, in the second body's frame, `e`:
+  /// neither body waits for the other.
   void climb(const Vector3d& d, const Vector3d& e) {
     const VertexGraph &a = pair_.tablesA().graph, &b = pair_.tablesB().graph;
     const Eigen::Vector3f up = d.cast<float>(), down = e.cast<float>();

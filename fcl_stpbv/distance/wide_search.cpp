@@ -1,13 +1,13 @@
-// The whole search for the widest gap of two STP-BVs, for the few pairs where the feature walk does not get
-// there.
+// The whole search for the widest gap of two STP-BVs, for the few pairs where
+// the feature walk does not get there.
 //
 // 1. A maximum between cores that overlap: prove that it is the widest, or find the one that is (overlap.h).
-// 2. GJK on the vertices gives the polyhedra's closest features, whose patches are a start (paper IV.B).
-// Solve there.
+// 2. GJK on the vertices gives the polyhedra's closest features, whose patches
+//    are a start (paper IV.B). Solve there.
 // 3. Else ascend from there (ascent.h).
 // 4. Where the vertices' difference surrounds the origin, the cores overlap: step 1 from there.
-// 5. Where rounding defeats both, bisect the directions left: a plane between the cores, a common point, or
-// overlap.
+// 5. Where rounding defeats both, bisect the directions left: a plane between
+//    the cores, a common point, or overlap.
 #include "fcl_stpbv/distance/wide_search.h"
 
 #include <algorithm>
@@ -46,8 +46,8 @@ bool polyhedralStart(const BodyPair& pair, const VertexGjk& search, WidestGap& f
   return true;
 }
 
-/// Cores that overlap, from a maximum in `found`: their widest gap as far as the polytope around that proves
-/// it.
+/// Cores that overlap, from a maximum in `found`: their widest gap as far as
+/// the polytope around that proves it.
 bool overlapAround(const BodyPair& pair, WidestGap& found, SearchWork& work) {
   found.status = DistanceStatus::local;
   const bool proven = expandPolytope(pair, found.at, found.bound, work);

@@ -1,5 +1,5 @@
-// The whole search for the widest gap, for pairs where hopping from patch pair to patch pair does not get
-// there.
+// The whole search for the widest gap, for pairs where hopping from patch
+// pair to patch pair does not get there.
 #pragma once
 
 #include "fcl_stpbv/distance/ascent.h"

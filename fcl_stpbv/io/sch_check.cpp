@@ -186,8 +186,8 @@ class Checker {
     }
   }
 
-  // All vertices lie in all balls iff those across each edge do: the surface is convex where it is at every
-  // edge.
+  // All vertices lie in all balls iff those across each edge do: the surface
+  // is convex where it is at every edge.
   void checkContainment(const Torus& torus, const Face& ball, const Face& across) const {
     for (const Vector3d& p : across.corner) {
       require((p - ball.centre).norm() <= rho_ + sphereError(p, ball.centre), torus.line,
@@ -199,8 +199,8 @@ class Checker {
             torus.line, "the torus is marked degenerate, but its two face spheres differ");
   }
 
-  // A sphere through three points that are uncertain by e is uncertain by about e rho / (the triangle's
-  // height).
+  // A sphere through three points that are uncertain by e is uncertain by
+  // about e rho / (the triangle's height).
   double centreError(const Face& face) const {
     const Vector3d side = face.corner[1] - face.corner[0], other = face.corner[2] - face.corner[0];
     const double longest = std::max({side.norm(), other.norm(), (side - other).norm()});

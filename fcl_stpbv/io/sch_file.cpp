@@ -20,8 +20,8 @@ using namespace detail;
 using Eigen::Vector3d;
 using Triangle = std::array<int, 3>;
 
-// A double's shortest exact form takes up to 17 digits; a file whose longest number has this many was not
-// rounded.
+// A double's shortest exact form takes up to 17 digits; a file whose longest
+// number has this many was not rounded.
 constexpr int kFullDigits = 15;
 
 // The k-gon behind a fan: sides between triangles that name each other fall away.

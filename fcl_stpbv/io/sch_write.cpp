@@ -107,8 +107,8 @@ class Writer {
     }
   }
 
-  // Triangle t of a face's fan has corners 0, t + 1, t + 2 of the ring. Its neighbour over a side from corner
-  // `a`:
+  // Triangle t of a face's fan has corners 0, t + 1, t + 2 of the ring. Its
+  // neighbour over a side from corner `a`:
   int neighbour(int face, int t, int a, int b) const {
     const int size = static_cast<int>(ring(face).size()),
               triangle = firstFace() + firstTriangle_[index(face)] + t;

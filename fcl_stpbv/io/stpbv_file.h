@@ -1,5 +1,5 @@
-// The library's own `.stpbv` format: a short text that holds vertices, faces and radii exactly
-// (docs/file_formats.md).
+// The library's own `.stpbv` format: a short text that holds vertices, faces and
+// radii exactly (docs/file_formats.md).
 #pragma once
 
 #include <iosfwd>

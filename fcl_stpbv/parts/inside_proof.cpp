@@ -1,11 +1,9 @@
 // A convex cell without some convex hulls:
 // 1. a hull's planes cut the cell one after the other; what is outside a plane is one piece that the hull
-// does
-//    not hold, what is left at the end it holds;
+//    does not hold, what is left at the end it holds;
 // 2. the pieces are cut by the next hull in the same way;
-// 3. the triangles are all in hulls, so a piece that is left is inside the solid or outside as a whole, and
-// one
-//    point of it tells.
+// 3. the triangles are all in hulls, so a piece that is left is inside the solid or
+//    outside as a whole, and one point of it tells.
 #include "fcl_stpbv/parts/inside_proof.h"
 
 #include <Eigen/Geometry>

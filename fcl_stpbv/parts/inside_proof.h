@@ -15,9 +15,9 @@ using HullPlanes = std::vector<CutPlane>;
 /// The planes of a cloud's hull, moved outwards by `cover` (m).
 HullPlanes hullPlanes(const std::vector<Eigen::Vector3d>& points, double cover);
 
-/// True where every point of the solid in `cell` is in one of the hulls, which together hold the mesh's
-/// triangles. False may also mean that it took too many pieces to tell. Pieces thinner than `slack` (m) are
-/// let go.
+/// True where every point of the solid in `cell` is in one of the hulls, which together
+/// hold the mesh's triangles. False may also mean that it took too many pieces to tell.
+/// Pieces thinner than `slack` (m) are let go.
 bool isInsideCovered(const Cell& cell, const std::vector<HullPlanes>& hulls, const MeshSolid& mesh,
                      double slack);
 

@@ -126,10 +126,10 @@ class Bound {
     return true;
   }
 
-  // What the mesh's surface does not cross is inside the solid as a whole where one point is. Looked at is
-  // the piece a little smaller, and a little aside of mesh triangles that touch it from one side; so all of
-  // it is as near to the inside as that. Where a mesh triangle crosses the piece, it is cut there. False
-  // where neither helps.
+  // What the mesh's surface does not cross is inside the solid as a whole where one point is.
+  // Looked at is the piece a little smaller, and a little aside of mesh triangles that touch it
+  // from one side; so all of it is as near to the inside as that. Where a mesh triangle crosses the
+  // piece, it is cut there. False where neither helps.
   bool settleInside(const Open& piece) {
     ++queries_;
     const Triangle& t = piece.corners;
@@ -164,8 +164,8 @@ class Bound {
     int crossings = 0, crossing = -1;  // how many cross it, and the one of the largest part in it
   };
 
-  // What closed pieces' triangles do in the prism over a triangle made smaller. Within 4 slack of its plane
-  // they touch it.
+  // What closed pieces' triangles do in the prism over a triangle made smaller.
+  // Within 4 slack of its plane they touch it.
   Touching touching(const Triangle& t, const Vector3d& normal, const Vector3d& middle, double smaller) const {
     Touching found;
     double largest = 0;

@@ -46,8 +46,8 @@ MeshExcess excessOf(const std::vector<Triangle>& surface, const MeshSolid& mesh,
 MeshExcess hullExcess(const std::vector<Eigen::Vector3d>& points, const MeshSolid& mesh,
                       const ExcessOptions& options = {});
 
-/// The triangles of the convex hull's surface; a flat hull has two sides, a segment and a point one triangle
-/// that is one.
+/// The triangles of the convex hull's surface; a flat hull has two sides, a segment
+/// and a point one triangle that is one.
 std::vector<Triangle> hullTriangles(const std::vector<Eigen::Vector3d>& points);
 
 }  // namespace fcl_stpbv

@@ -1,5 +1,5 @@
-// A part of a mesh while the parts are searched for: what it holds, its hull and how far that is from the
-// mesh.
+// A part of a mesh while the parts are searched for: what it holds, its hull
+// and how far that is from the mesh.
 #pragma once
 
 #include <memory>

@@ -64,8 +64,8 @@ bool byQhull(const std::vector<Vector3d>& points, PartHull& hull) {
   return !failed;
 }
 
-// Whether the points are within a millionth of their extent of one plane: qhull may then merge facets without
-// end.
+// Whether the points are within a millionth of their extent of one plane:
+// qhull may then merge facets without end.
 bool isNearlyFlat(const std::vector<Vector3d>& points) {
   const Vector3d& first = points.front();
   const auto farthest = [&](const auto& distance) {

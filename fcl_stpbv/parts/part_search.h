@@ -10,10 +10,10 @@
 
 namespace fcl_stpbv::detail {
 
-/// Cuts the worst part again and again, in several lines of cuts at once, since those that lower the excess
-/// most are rarely those that look best at first; cuts into more parts than asked for and joins those whose
-/// common hull is least far from the mesh; then cuts and joins on while it helps. What was measured once is
-/// remembered.
+/// Cuts the worst part again and again, in several lines of cuts at once, since those that lower
+/// the excess most are rarely those that look best at first; cuts into more parts than asked for
+/// and joins those whose common hull is least far from the mesh; then cuts and joins on while it
+/// helps. What was measured once is remembered.
 class PartSearch {
  public:
   using Parts = std::vector<PartPtr>;

@@ -1,5 +1,5 @@
-// A line of counts, then for each part its two bounds and its points; `end` tells a whole text from one that
-// was cut off.
+// A line of counts, then for each part its two bounds and its points; `end` tells a
+// whole text from one that was cut off.
 #include "fcl_stpbv/parts/parts_text.h"
 
 #include "fcl_stpbv/io/text_scanner.h"

@@ -1,6 +1,6 @@
-// Triangles cut by a plane: each is clipped to the upper side and split into triangles. A crossing is
-// computed once per edge, from the lower index to the higher, so that neighbours and both sides share the
-// same point.
+// Triangles cut by a plane: each is clipped to the upper side and split into triangles. A
+// crossing is computed once per edge, from the lower index to the higher, so that
+// neighbours and both sides share the same point.
 #include "fcl_stpbv/parts/plane_cut.h"
 
 #include <Eigen/Geometry>

@@ -1,5 +1,5 @@
-// Andrew's monotone chain (1979): the points from left to right give the lower side, back again the upper
-// one.
+// Andrew's monotone chain (1979): the points from left to right give the
+// lower side, back again the upper one.
 #include "fcl_stpbv/posture/convex_polygon.h"
 
 #include <algorithm>

@@ -2,8 +2,8 @@
 // 1. approach the constraints (approach.h), first with light obstacles, then in full;
 // 2. solve by SLSQP from there (slsqp.cpp);
 // 3. stop at the first feasible posture.
-// Without one, the least sum of squared violations names the constraints in conflict and the limits they push
-// against.
+// Without one, the least sum of squared violations names the constraints in
+// conflict and the limits they push against.
 #include "fcl_stpbv/posture/find_posture.h"
 
 #include <chrono>

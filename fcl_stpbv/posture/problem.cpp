@@ -1,5 +1,5 @@
-// A posture as an optimisation problem: gathers the rows, variables, bounds and cost, and evaluates all at
-// once per x.
+// A posture as an optimisation problem: gathers the rows, variables, bounds and
+// cost, and evaluates all at once per x.
 #include "fcl_stpbv/posture/problem.h"
 
 #include <algorithm>

@@ -39,9 +39,9 @@ struct Violation {
 /// A cost and constraints over the robot's coordinates and the constraints' own variables.
 class PostureProblem {
  public:
-  /// The joints keep to their limits. A moving base's rotation vector keeps within a quarter turn, axis by
-  /// axis, of that at `start`: then it stays away from the full turn, where it is singular, wherever the
-  /// start faces.
+  /// The joints keep to their limits. A moving base's rotation vector keeps within a
+  /// quarter turn, axis by axis, of that at `start`: then it stays away from the full turn,
+  /// where it is singular, wherever the start faces.
   PostureProblem(std::shared_ptr<const Kinematics> kinematics, PostureCost cost,
                  const Eigen::VectorXd& start);
 

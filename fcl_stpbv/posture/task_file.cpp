@@ -1,5 +1,5 @@
-// Reads the task's JSON (docs/posture.md) field by field; an unknown key or a wrong type is an Error that
-// names its path.
+// Reads the task's JSON (docs/posture.md) field by field; an unknown key or a wrong
+// type is an Error that names its path.
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <set>

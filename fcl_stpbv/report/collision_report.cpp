@@ -1,7 +1,7 @@
 // What urdf_collision_report finds:
 // 1. the pair list with its reasons (robot/pair_list.h);
-// 2. each checked pair in the given posture or its closest one: distances of volumes, hulls and meshes,
-//    gradient;
+// 2. each checked pair in the given posture or its closest one: distances of
+//    volumes, hulls and meshes, gradient;
 // 3. with --parts, both again with the links split that need it (robot/detail_choice.h);
 // 4. how far the links' volumes exceed their meshes, and what each collision comes from.
 #include "fcl_stpbv/report/collision_report.h"
@@ -212,8 +212,8 @@ std::vector<SceneNeed> hullOnly(const CollisionReport& report, PairCauses& cause
   return needs;
 }
 
-// The volumes contain the meshes, and within the two excesses of their witness points there are points of the
-// meshes.
+// The volumes contain the meshes, and within the two excesses of their witness
+// points there are points of the meshes.
 void boundMeshDistances(const RobotGeometry* scene, PairCauses& causes, VolumeCache& cache,
                         CollisionReport& report) {
   const auto fitOf = [&](const Body& body) {

@@ -27,8 +27,8 @@ class ExactBody {
 
   /// Whether the mesh has an inside everywhere; true without a mesh.
   bool closed() const { return !solid_ || solid_->closed(); }
-  /// Volume that a closed mesh encloses (m^3): the sum over its pieces. NaN for an open one and without a
-  /// mesh.
+  /// Volume that a closed mesh encloses (m^3): the sum over its pieces. NaN
+  /// for an open one and without a mesh.
   double volume() const;
   /// A point of each connected piece of the mesh, or of the primitive.
   const std::vector<Eigen::Vector3d>& partPoints() const { return partPoints_; }

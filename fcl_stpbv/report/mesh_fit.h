@@ -11,8 +11,8 @@
 namespace fcl_stpbv::report {
 
 struct MeshFit {
-  /// Largest distance of a point of the hull's surface from the mesh's triangles (m), at most. 0 for a
-  /// primitive.
+  /// Largest distance of a point of the hull's surface from the mesh's
+  /// triangles (m), at most. 0 for a primitive.
   double hullExcess = 0;
   /// The same of the volume's surface, at most: the volume exceeds the hull by `Body::cover` at most.
   double volumeExcess = 0;

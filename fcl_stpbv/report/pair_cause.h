@@ -1,5 +1,5 @@
-// What a collision of two links comes from: their meshes, hulls fatter than the meshes, or the margins r and
-// R.
+// What a collision of two links comes from: their meshes, hulls fatter than
+// the meshes, or the margins r and R.
 #pragma once
 
 #include <map>

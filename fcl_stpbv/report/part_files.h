@@ -14,8 +14,8 @@
 
 namespace fcl_stpbv::report {
 
-/// Meshes and volumes of a robot's parts, its URDF and SRDF, and the manifest. Both arguments must outlive
-/// it.
+/// Meshes and volumes of a robot's parts, its URDF and SRDF, and the
+/// manifest. Both arguments must outlive it.
 class PartFiles {
  public:
   PartFiles(const RobotConversion& conversion, const CollisionReport& report);

@@ -1,5 +1,5 @@
-// A robot's bodies as FCL objects in one posture, moved with the kinematics, with the check of which pairs
-// count.
+// A robot's bodies as FCL objects in one posture, moved with the kinematics,
+// with the check of which pairs count.
 #include "fcl_stpbv/report/posed_robot.h"
 
 #include <algorithm>

@@ -12,8 +12,8 @@ namespace fcl_stpbv::report {
 /// Gives a scene's robot parts, by the task's `parts` and `partsAuto`. The scene must outlive it.
 class PostureParts {
  public:
-  /// `around`: the bodies behind the scene's obstacles. All links are split at once where the task asks for a
-  /// number of parts.
+  /// `around`: the bodies behind the scene's obstacles. All links are split at once
+  /// where the task asks for a number of parts.
   PostureParts(const PostureTask& task, PostureScene& scene, std::shared_ptr<const RobotGeometry> around,
                const GeometryOptions& options);
 

@@ -13,8 +13,8 @@ std::string toJson(const CollisionReport& report);
 std::string toCsv(const CollisionReport& report);
 /// The SRDF (at `path`, "" for none) with the pairs that need no check.
 std::string toSrdfText(const CollisionReport& report, const std::string& path, bool defaultToo = false);
-/// One page with all it needs inside: table, heat map, and the robot in 3-D. The title follows the robot's
-/// name.
+/// One page with all it needs inside: table, heat map, and the robot in 3-D.
+/// The title follows the robot's name.
 std::string toHtml(const CollisionReport& report, const std::string& title = "self-collision report");
 
 }  // namespace fcl_stpbv::report

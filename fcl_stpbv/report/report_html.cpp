@@ -17,8 +17,8 @@ using namespace detail;
 
 namespace {
 
-// What a drawn body may lack, as a part of its size: an edge rounded by r = 1 cm on a link of 30 cm gets
-// three steps.
+// What a drawn body may lack, as a part of its size: an edge rounded by r = 1 cm
+// on a link of 30 cm gets three steps.
 constexpr double kTolerance = 1.0 / 500;
 // Corners of a body: enough for the tolerance on links of robots, and a bound on the page.
 constexpr int kMostCorners = 400;

@@ -7,9 +7,9 @@
 
 namespace fcl_stpbv::report {
 
-/// Whole sentences for meshes that are not closed, for bodies that meet in the neutral posture (`neutral` is
-/// its name, "" for the usual one) and for pairs whose gradient may jump. The report's pairs and fits are
-/// there.
+/// Whole sentences for meshes that are not closed, for bodies that meet in the neutral
+/// posture (`neutral` is its name, "" for the usual one) and for pairs whose gradient may
+/// jump. The report's pairs and fits are there.
 std::vector<std::string> reportWarnings(const CollisionReport& report, const std::string& neutral);
 
 }  // namespace fcl_stpbv::report

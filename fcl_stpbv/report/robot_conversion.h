@@ -1,5 +1,5 @@
-// What urdf_to_stpbv does: a robot into a folder of convex parts, their volumes, and what is certain about
-// them.
+// What urdf_to_stpbv does: a robot into a folder of convex parts, their
+// volumes, and what is certain about them.
 #pragma once
 
 #include <string>

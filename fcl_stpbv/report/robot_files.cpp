@@ -1,5 +1,5 @@
-// Loads robot, SRDF, scene and posture for a tool, and gathers what is wrong with any of them into one
-// message.
+// Loads robot, SRDF, scene and posture for a tool, and gathers what is wrong
+// with any of them into one message.
 #include "fcl_stpbv/report/robot_files.h"
 
 #include "fcl_stpbv/error.h"

@@ -17,8 +17,8 @@ struct TrajectoryReport {
   int pair = -1;                  ///< among the pairs of bodies; -1 without a contact
   DistanceAnswer contact;         ///< at `until`
   std::vector<Approach> closest;  ///< of each pair of bodies, its time that of the trajectory
-  /// Every `closest` is that of the whole trajectory to this (m); false where a pair was too deep in another
-  /// one.
+  /// Every `closest` is that of the whole trajectory to this (m); false where
+  /// a pair was too deep in another one.
   static constexpr double kPrecision = 1e-6;
   bool closestProven = false;
   double steepest = 0;  ///< fastest approach of any pair at the times of the chart (m a unit of time)
@@ -29,8 +29,8 @@ struct TrajectoryReport {
   Eigen::VectorXd at(double time) const;
 };
 
-/// Straight lines through the way points. `pairs` are those of bodies to be kept apart by more than `margin`
-/// (m).
+/// Straight lines through the way points. `pairs` are those of bodies to be
+/// kept apart by more than `margin` (m).
 TrajectoryReport follow(Trajectory trajectory, std::shared_ptr<const Kinematics> kinematics,
                         std::shared_ptr<const RobotGeometry> geometry, const std::vector<CheckedPair>& pairs,
                         const std::vector<Obstacle>& obstacles, double margin);

@@ -1,6 +1,6 @@
-// A body as points, each with a ball: vertices of a polyhedron or STP-BV (with its over-cover), ends of a
-// capsule, polygons of 24 corners around the rims of cylinders and cones, an ellipsoid's box. Their hull
-// contains the body.
+// A body as points, each with a ball: vertices of a polyhedron or STP-BV (with its over-cover),
+// ends of a capsule, polygons of 24 corners around the rims of cylinders and cones, an
+// ellipsoid's box. Their hull contains the body.
 #include "fcl_stpbv/robot/body_points.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// A body as points with a ball around each: their convex hull holds it, so that what clears these clears the
-// body.
+// A body as points with a ball around each: their convex hull holds it, so
+// that what clears these clears the body.
 #pragma once
 
 #include <fcl/geometry/collision_geometry.h>

@@ -57,8 +57,8 @@ std::vector<CheckedPair> pairsWithObstacle(const RobotGeometry& geometry, int li
 /// The bodies behind a pair of links, or of a link and an obstacle.
 std::vector<CheckedPair> bodiesOf(const RobotGeometry& geometry, const LinkPair& pair);
 
-/// Refuses to go on without any pair to check: nothing checked is not clear. `why` says what became of all
-/// pairs.
+/// Refuses to go on without any pair to check: nothing checked is not clear.
+/// `why` says what became of all pairs.
 /// @throws Error naming the robot's file and what would work, unless `checked` is above 0.
 void requirePairs(std::size_t checked, const RobotModel& robot, const std::string& why);
 

@@ -22,8 +22,8 @@
 namespace fcl_stpbv::detail {
 namespace {
 
-// What meshes take at most is about 150 bytes of memory and 2 us of processor time a byte
-// (docs/file_formats.md).
+// What meshes take at most is about 150 bytes of memory and 2 us of processor
+// time a byte (docs/file_formats.md).
 constexpr std::size_t kMemory = 256u << 20, kMemoryPerByte = 256;
 constexpr double kSeconds = 5, kSecondsPerByte = 5e-6;
 

@@ -1,5 +1,5 @@
-// Work on a file that may be hostile, done by a foreign library: in a child process, so that only the child
-// can crash.
+// Work on a file that may be hostile, done by a foreign library: in a child
+// process, so that only the child can crash.
 #pragma once
 
 #include <cstddef>
@@ -22,8 +22,8 @@ class ChildLimits {
 };
 
 /// Runs `work` in a child process and returns what it returns. `name` stands for the file in messages.
-/// @throws Error what `work` throws; or that the file is damaged, where the child fell over or went past its
-/// limits.
+/// @throws Error what `work` throws; or that the file is damaged, where the
+/// child fell over or went past its limits.
 std::string inChildProcess(const std::string& name, const std::function<std::string(ChildLimits&)>& work);
 
 }  // namespace fcl_stpbv::detail

@@ -1,7 +1,7 @@
 // All distances of a robot and their Jacobian at q:
 // 1. place the links and find each joint's twist, once for all rows;
-// 2. per row: skip a pair that bounding spheres put beyond the influence, else ask the distance from its last
-//    answer;
+// 2. per row: skip a pair that bounding spheres put beyond the influence, else
+//    ask the distance from its last answer;
 // 3. the row of J is the gradient's product with the twists of the joints that move the pair (paper, eq. 2);
 // 4. bend d to a constant near the influence, twice continuously differentiable.
 #include "fcl_stpbv/robot/constraints.h"

@@ -22,9 +22,9 @@ namespace fcl_stpbv {
 struct SmoothConstraint {
   std::string name;              ///< for messages and reports
   std::vector<int> coordinates;  ///< ascending
-  /// Value at q, positive where allowed; writes one derivative per coordinate unless `gradient` is null.
-  /// Called from one thread at a time for each constraint; must neither throw nor allocate where those
-  /// matter.
+  /// Value at q, positive where allowed; writes one derivative per coordinate unless
+  /// `gradient` is null. Called from one thread at a time for each constraint; must
+  /// neither throw nor allocate where those matter.
   std::function<double(const Eigen::Ref<const Eigen::VectorXd>& q, double* gradient)> value;
   std::vector<std::pair<std::string, std::string>> replaces;  ///< pairs of links that are left out for it
 };

@@ -148,8 +148,8 @@ bool CollisionConstraints::rowChange(std::size_t row, double* change) {
   return true;
 }
 
-// Fills the open rows' part of change_, and of moves_, along v. Their answers are those at q again
-// afterwards.
+// Fills the open rows' part of change_, and of moves_, along v. Their
+// answers are those at q again afterwards.
 void CollisionConstraints::differences(const ConstVector& q, const ConstVector& v) {
   // Rounding in J divided by the step and what the step misses of a region boundary are then about equal.
   constexpr double kStep = 1e-6;

@@ -1,7 +1,7 @@
 // Coarse to fine, greedily.
-// 1. Details in turn, coarse first: finer levels, then 2, 4 and 8 parts. The first with which one finer
-//    link alone meets some need is given to the link that meets the most needs so. Again, until no link
-//    helps alone.
+// 1. Details in turn, coarse first: finer levels, then 2, 4 and 8 parts. The first with
+//    which one finer link alone meets some need is given to the link that meets the most
+//    needs so. Again, until no link helps alone.
 // 2. The first need that two finer links meet together gets them, with the fewest rows. On with 1.
 // 3. What is left is not met by the finest bodies.
 // A pair is taken by parts only if a need of its own asks for them.

@@ -1,5 +1,5 @@
-// How fine each link is modelled: the coarsest whole bodies, or the fewest convex parts, that show what pairs
-// need.
+// How fine each link is modelled: the coarsest whole bodies, or the fewest
+// convex parts, that show what pairs need.
 #pragma once
 
 #include <algorithm>

@@ -88,8 +88,8 @@ inline void compose(const Frame& parent, const Frame& local, Isometry3d& pose) {
 Twist turning(const Vector3d& axis, const Vector3d& origin) { return {origin.cross(axis), axis}; }
 Twist sliding(const Vector3d& axis) { return {axis, Vector3d::Zero()}; }
 
-/// The plane a planar joint moves in: the frame whose z axis is the joint's, turned from the link's frame by
-/// the smallest angle.
+/// The plane a planar joint moves in: the frame whose z axis is the joint's, turned from
+/// the link's frame by the smallest angle.
 Matrix3d planeAcross(const Vector3d& axis) {
   const Vector3d across = Vector3d::UnitZ().cross(axis);
   const Vector3d turn = across.norm() > 0 ? across.stableNormalized() : Vector3d::UnitX();

@@ -19,8 +19,8 @@
 
 namespace fcl_stpbv {
 
-/// The usual place of built volumes: $XDG_CACHE_HOME/fcl_stpbv, else ~/.cache/fcl_stpbv; "" where neither is
-/// known.
+/// The usual place of built volumes: $XDG_CACHE_HOME/fcl_stpbv, else
+/// ~/.cache/fcl_stpbv; "" where neither is known.
 std::string defaultCacheFolder();
 
 /// What volumes a robot's links get.

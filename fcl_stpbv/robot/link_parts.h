@@ -32,8 +32,8 @@ class LinkParts {
   void prepare(const std::map<int, int>& most, int threads,
                const std::function<void(std::size_t, std::size_t, const std::string&)>& progress = nullptr);
 
-  /// The whole bodies, and beside them the parts of those links that have an entry in `most`; `byParts` as
-  /// given.
+  /// The whole bodies, and beside them the parts of those links that have an
+  /// entry in `most`; `byParts` as given.
   RobotGeometry geometry(const std::map<int, int>& most, const std::set<LinkPair>& byParts);
 
   /// The bodies as they were given.

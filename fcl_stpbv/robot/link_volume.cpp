@@ -34,8 +34,8 @@ std::string textOf(const RadiiTask& task) {
   return text;
 }
 
-// One mesh on its way to a volume; the points are read when they are needed, which with a warm cache may be
-// never.
+// One mesh on its way to a volume; the points are read when they are needed,
+// which with a warm cache may be never.
 class VolumeMaker {
  public:
   VolumeMaker(const ShapeSource& source, VolumeCache& cache, Body& body)

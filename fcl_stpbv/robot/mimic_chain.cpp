@@ -1,5 +1,5 @@
-// Resolves mimic joints that follow mimic joints: walks each chain to a joint that moves by itself, refuses
-// loops.
+// Resolves mimic joints that follow mimic joints: walks each chain to a joint
+// that moves by itself, refuses loops.
 #include "fcl_stpbv/robot/mimic_chain.h"
 
 #include "fcl_stpbv/error.h"

@@ -21,8 +21,8 @@ class MimicChains {
  public:
   explicit MimicChains(std::vector<Follower> joints);
 
-  /// What the value of a joint is, in that of the joint at its chain's end; of a joint that follows none, its
-  /// own value.
+  /// What the value of a joint is, in that of the joint at its chain's end; of a
+  /// joint that follows none, its own value.
   /// @throws Error where the chain has no end, without the joint's place.
   Mimic end(std::size_t joint);
 

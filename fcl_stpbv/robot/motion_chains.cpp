@@ -1,8 +1,8 @@
 // Bodies along a straight line between two configurations.
 // 1. Once for a robot: the joints from the link where a pair's chains meet out to each of its bodies.
-// 2. Once for a motion: the joints' speeds and the lengths behind them, and from these a bound on the
-// acceleration
-//    of every point of a body: each joint's own centripetal one, and Coriolis' from the joints further in.
+// 2. Once for a motion: the joints' speeds and the lengths behind them, and from these a
+//    bound on the acceleration of every point of a body: each joint's own centripetal one,
+//    and Coriolis' from the joints further in.
 // 3. At a time: poses and velocities of all links from the kinematics.
 #include "fcl_stpbv/robot/motion_chains.h"
 
@@ -122,8 +122,8 @@ bool MotionChains::begin(const ConstVector& q0, const ConstVector& q1) {
       const Index across = freedoms == 3 ? 2 : 3;
       hop.slide = way_.segment(k, across).norm();
       hop.spin = way_.segment(k + across, static_cast<Index>(freedoms) - across).norm();
-      // A rotation vector that moves evenly turns the body unevenly: |dw/dt| <= |dr/dt|^2 / 2
-      // (docs/motion.md).
+      // A rotation vector that moves evenly turns the body unevenly: |dw/dt|
+      // <= |dr/dt|^2 / 2 (docs/motion.md).
       if (freedoms == 6) hop.turns = 1.5;
       hop.length += farthest(across);
     }
@@ -171,8 +171,8 @@ void MotionChains::place(double t) {
     }
     length = std::max(length, body.where.lpNorm<1>() + body.radius);
   }
-  // Each of the products and sums from the root out to a bound is off by a few units in the last place of the
-  // longest length.
+  // Each of the products and sums from the root out to a bound is off by a few units
+  // in the last place of the longest length.
   const double steps = static_cast<double>(hop_.size() + 16);
   slack_ = 16 * std::numeric_limits<double>::epsilon() * steps * length * (1 + spin);
 }

@@ -1,13 +1,12 @@
 // Conservative advancement (Mirtich and Canny 1995) over the straight line between two configurations, with
 // a plane in place of a distance (docs/motion.md).
 // 1. robot/motion_chains.h says how the bodies move, and how much each can accelerate at most.
-// 2. At each time looked at: how long before and after it a plane keeps the bodies apart (planeCover), from
-// their
-//    velocities. First the plane between their bounding balls; where that does not cover enough, the plane of
-//    the exact distance's normal. Bodies that are not convex have no such plane: the bound on their speed
-//    takes its place.
-// 3. adapter/motion_search.h chooses the times until the covers hold the whole motion, or a contact is
-//    found. For the closest approach the margin is the smallest distance so far.
+// 2. At each time looked at: how long before and after it a plane keeps the bodies apart
+//    (planeCover), from their velocities. First the plane between their bounding balls; where that
+//    does not cover enough, the plane of the exact distance's normal. Bodies that are not convex have
+//    no such plane: the bound on their speed takes its place.
+// 3. adapter/motion_search.h chooses the times until the covers hold the whole motion, or a contact is found.
+//    For the closest approach the margin is the smallest distance so far.
 #include "fcl_stpbv/robot/motion_check.h"
 
 #include <algorithm>

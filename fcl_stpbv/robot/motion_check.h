@@ -42,8 +42,8 @@ class MotionCheck {
   /// The robot.
   const Kinematics& kinematics() const;
 
-  /// Whether no pair is within `margin` (m) at q; ends at the first that is. False for a q that is not
-  /// finite.
+  /// Whether no pair is within `margin` (m) at q; ends at the first that is.
+  /// False for a q that is not finite.
   bool isFree(const ConstVector& q, double margin = 0);
 
   /// Whether all along the way no pair comes within `margin` (m): a proof, not samples. What cannot be
@@ -54,9 +54,9 @@ class MotionCheck {
   /// that is not finite.
   MotionBracket firstContact(const ConstVector& q0, const ConstVector& q1, const MotionRequest& request = {});
 
-  /// Lowers each pair's `best` to what it comes to between q0 and q1, to within `precision` (m): nowhere is a
-  /// pair nearer than its best less that. Times are those of the way plus `offset`. False where that could
-  /// not be proven.
+  /// Lowers each pair's `best` to what it comes to between q0 and q1, to within `precision`
+  /// (m): nowhere is a pair nearer than its best less that. Times are those of the way plus
+  /// `offset`. False where that could not be proven.
   bool closest(const ConstVector& q0, const ConstVector& q1, double precision, double offset,
                std::vector<Approach>& best);
 

@@ -1,5 +1,5 @@
-// Whether the neutral configuration is free of collisions, and which posture would serve better where it is
-// not.
+// Whether the neutral configuration is free of collisions, and which posture
+// would serve better where it is not.
 #pragma once
 
 #include <memory>

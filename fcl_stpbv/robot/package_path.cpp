@@ -86,8 +86,8 @@ std::vector<std::string> PackagePath::candidates(const std::string& uri) const {
     for (const std::string& folder : folders_) {
       if (isPackage(folder, package)) add(fs::path(folder) / rest);
       add(fs::path(folder) / package / rest);
-      // A package inside another one, as in a checkout of a part of it: its own folder is the last that
-      // counts.
+      // A package inside another one, as in a checkout of a part of it: its
+      // own folder is the last that counts.
       for (std::size_t next = rest.find('/');
            next != std::string::npos && rest.find('/', next + 1) != std::string::npos;
            next = rest.find('/', next + 1))

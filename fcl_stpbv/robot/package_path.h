@@ -8,10 +8,10 @@ namespace fcl_stpbv::detail {
 
 /// Turns the file names of one URDF into paths.
 ///
-/// `package://name/rest` is looked for in each given folder (as `folder/name/rest`, or `folder/rest` where
-/// the folder is that package itself, or by the last folders of `rest`, for a package inside another), then
-/// in ROS_PACKAGE_PATH, in `share` of AMENT_PREFIX_PATH, in the package that encloses the URDF, and beside
-/// that package.
+/// `package://name/rest` is looked for in each given folder (as `folder/name/rest`, or
+/// `folder/rest` where the folder is that package itself, or by the last folders of `rest`, for a
+/// package inside another), then in ROS_PACKAGE_PATH, in `share` of AMENT_PREFIX_PATH, in the
+/// package that encloses the URDF, and beside that package.
 class PackagePath {
  public:
   /// `urdf` is the file that names will come from; `folders` go before everything else.

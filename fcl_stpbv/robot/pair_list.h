@@ -1,5 +1,5 @@
-// Which pairs of links can meet at all: MoveIt's reasons for leaving a pair out, from samples, descents and
-// proofs.
+// Which pairs of links can meet at all: MoveIt's reasons for leaving a pair
+// out, from samples, descents and proofs.
 #pragma once
 
 #include <Eigen/Core>

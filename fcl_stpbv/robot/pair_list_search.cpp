@@ -1,8 +1,7 @@
-// Reasons for pairs, as MoveIt's setup assistant finds them by sampling; here descents and proofs follow
-// the samples. Each stage takes the pairs that those before it could not decide.
+// Reasons for pairs, as MoveIt's setup assistant finds them by sampling; here descents and proofs follow the
+// samples. Each stage takes the pairs that those before it could not decide.
 // 1. The tree of joints: pairs that are adjacent, rigidly joined, or left out by the user's SRDF.
-// 2. Random samples: in collision in the neutral configuration, in (nearly) all samples, in some, or in
-//    none.
+// 2. Random samples: in collision in the neutral configuration, in (nearly) all samples, in some, or in none.
 // 3. Of those in none: descents of the distance from the closest samples, then a short proof by boxes of
 //    joint values (pair_proof.h), then descents from random configurations.
 // 4. Longer proofs, with twice the boxes in each round, until the seconds allowed are spent.
@@ -211,8 +210,8 @@ class Search {
     return open.proof.proven();
   }
 
-  // Rounds over the pairs still open with twice the boxes each time, so that the ones that take few are
-  // decided first.
+  // Rounds over the pairs still open with twice the boxes each time, so that the
+  // ones that take few are decided first.
   void prove() {
     using Clock = std::chrono::steady_clock;
     constexpr long kBoxesAtOnce = 500;  // some 10 ms
@@ -234,8 +233,8 @@ class Search {
     }
   }
 
-  // The neutral configuration must stay outside the influence, or an optimiser starts inside the damping
-  // zone.
+  // The neutral configuration must stay outside the influence, or an
+  // optimiser starts inside the damping zone.
   static void propose(PairEntry& entry) {
     const double room = std::max(0.0, entry.neutralDistance);
     entry.security = std::min(0.01, 0.25 * room);

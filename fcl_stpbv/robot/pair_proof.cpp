@@ -1,5 +1,5 @@
-// Proofs that two links never meet, by branch and bound over the box of their joints' values
-// (docs/proofs.md):
+// Proofs that two links never meet, by branch and bound over the box of
+// their joints' values (docs/proofs.md):
 // 1. the distance in the box's middle less what the joints' levers can change it;
 // 2. else the gap along a plane fixed to a link between the two, less how far the joints push each body;
 // 3. else cut the box where that gains most. Each box's result depends on the box alone.
@@ -98,9 +98,9 @@ class Prover {
     place();
   }
 
-  // Lower bound on the distance all over the box: the cheap one, and where that is not above `enough` that of
-  // planes. Ends with the first pair of bodies that no bound takes above `enough`; widest_ is the coordinate
-  // to cut then.
+  // Lower bound on the distance all over the box: the cheap one, and where that is not above
+  // `enough` that of planes. Ends with the first pair of bodies that no bound takes above
+  // `enough`; widest_ is the coordinate to cut then.
   double bound(double enough) {
     const CollisionConstraints& rows = search_.constraints();
     const Eigen::VectorXd share = lipschitz_.cwiseProduct(half_);

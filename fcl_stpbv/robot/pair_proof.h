@@ -1,6 +1,6 @@
-// Proofs that two links never meet, by branch and bound over the joints' ranges, in pieces that can be shared
-// out: each is a pure function of its boxes, and what pieces find is put together in any order
-// (docs/proofs.md).
+// Proofs that two links never meet, by branch and bound over the joints' ranges, in pieces
+// that can be shared out: each is a pure function of its boxes, and what pieces find is
+// put together in any order (docs/proofs.md).
 #pragma once
 
 #include <Eigen/Core>
@@ -32,8 +32,8 @@ ProofScene proofScene(std::shared_ptr<const Kinematics> kinematics,
                       std::shared_ptr<const RobotGeometry> geometry, std::vector<Obstacle> obstacles,
                       double margin);
 
-/// Ranges of the coordinates that the pair's distance depends on, in the order of proofCoordinates() (rad or
-/// m).
+/// Ranges of the coordinates that the pair's distance depends on, in the
+/// order of proofCoordinates() (rad or m).
 struct JointBox {
   Eigen::VectorXd lower;  ///< of each coordinate in turn
   Eigen::VectorXd upper;  ///< not below `lower`

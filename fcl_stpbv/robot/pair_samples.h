@@ -12,8 +12,8 @@
 
 namespace fcl_stpbv::detail {
 
-/// Uniform within the limits; coordinates without limits within 1 rad or m around zero. The same with every
-/// compiler.
+/// Uniform within the limits; coordinates without limits within 1 rad or m
+/// around zero. The same with every compiler.
 Eigen::VectorXd randomConfiguration(const Kinematics& kinematics, std::mt19937_64& random);
 
 /// What the samples said about one pair.
@@ -34,8 +34,8 @@ class PairSampler {
   /// Least distance over the bodies of each pair (m).
   const Eigen::VectorXd& distances(const Eigen::VectorXd& q);
 
-  /// Random configurations, the same for any number of threads; the `keep` closest of each pair are kept, at
-  /// least one.
+  /// Random configurations, the same for any number of threads; the `keep` closest
+  /// of each pair are kept, at least one.
   std::vector<PairSamples> sample(int count, std::uint64_t seed, double margin, int keep,
                                   const std::function<void(int)>& progress);
 

@@ -29,8 +29,8 @@ class PairSearch {
   /// The same uphill, until the distance exceeds `margin` or grows no more.
   double climb(Eigen::VectorXd& q, double margin);
 
-  /// Bound on the change of the distance per unit of each coordinate between the links, infinite where there
-  /// is none.
+  /// Bound on the change of the distance per unit of each coordinate between the
+  /// links, infinite where there is none.
   const std::vector<double>& lipschitz() const { return lipschitz_; }
   const std::vector<int>& coordinates() const { return coordinates_; }
 

@@ -23,8 +23,8 @@ class PlaneBound {
   double gap(const Eigen::Vector3d& normal, const std::array<Eigen::Vector3d, 2>& nearest, double enough,
              Eigen::VectorXd& shares);
 
-  /// The bound for one plane: fixed to the link after the first `reference` joints, of unit normal n in the
-  /// middle.
+  /// The bound for one plane: fixed to the link after the first `reference`
+  /// joints, of unit normal n in the middle.
   double gapAlong(const Eigen::Vector3d& n, std::size_t reference, Eigen::VectorXd& shares);
 
  private:

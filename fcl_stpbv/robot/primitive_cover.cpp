@@ -20,8 +20,8 @@ namespace {
 using Eigen::Vector3d;
 using Points = std::vector<Vector3d>;
 
-// The primitive lies in the hull of `points` with a ball of radius `margin` around each, which exceeds it by
-// at most `beyond`.
+// The primitive lies in the hull of `points` with a ball of radius `margin` around
+// each, which exceeds it by at most `beyond`.
 struct Skeleton {
   Points points;
   double margin = 0, beyond = 0;

@@ -7,8 +7,8 @@
 
 namespace fcl_stpbv::detail {
 
-/// A volume around a primitive, and what it exceeds the primitive by (m): largest is never less than the
-/// truth.
+/// A volume around a primitive, and what it exceeds the primitive by (m):
+/// largest is never less than the truth.
 struct PrimitiveCover {
   StpBv::Ptr volume;  ///< null for a geometry that has none
   OverCover excess{0, 0};

@@ -1,5 +1,5 @@
-// How far the joints out to a body can push it along a direction, over a box of joint values
-// (docs/proofs.md).
+// How far the joints out to a body can push it along a direction, over a
+// box of joint values (docs/proofs.md).
 #pragma once
 
 #include <Eigen/Geometry>

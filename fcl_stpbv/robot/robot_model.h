@@ -75,9 +75,9 @@ struct RobotModel {
 /// Reads a URDF. A cylinder with a sphere of its radius at either end is a capsule, and so is `<capsule>`.
 /// Every `<collision>` element of the text is in the model, or the robot is refused; nothing else in the file
 /// can take one away. A bad `<inertial>` is a warning, and the link counts as without mass.
-/// @throws Error naming all that is wrong, each with its line: links that form a loop or have two parents, a
-/// mimic joint that follows itself, limits that exclude each other, numbers that are not finite, words that
-/// look misspelt.
+/// @throws Error naming all that is wrong, each with its line: links that form a loop or have
+/// two parents, a mimic joint that follows itself, limits that exclude each other, numbers
+/// that are not finite, words that look misspelt.
 RobotModel loadUrdf(const std::string& path);
 /// The same, but what is wrong is added to `faults` for the caller to refuse. Shapes that cannot be read are
 /// not in the model then, and where there are errors the model is only fit to look for more of them.

@@ -38,8 +38,8 @@ struct ShapeSources {
 
 /// Finds all meshes of a robot and reads those that are not cached. What is wrong is added to
 /// `faults.shapes`, and the shape is left out. `faults` holds what was wrong with the robot's URDF.
-/// @param visual the visual shapes; they are taken as well, with a warning, where the robot has no collision
-/// shape at all.
+/// @param visual the visual shapes; they are taken as well, with a warning, where
+/// the robot has no collision shape at all.
 ShapeSources readShapes(const RobotModel& robot, bool visual, const std::vector<std::string>& packagePath,
                         const IsCached& isCached, LoadFaults& faults);
 

@@ -1,5 +1,5 @@
-// Which primitives get a smooth cover, so that every pair has a smooth body: greedy weighted vertex cover
-// (Chvatal 1979).
+// Which primitives get a smooth cover, so that every pair has a smooth body: greedy
+// weighted vertex cover (Chvatal 1979).
 // 1. Cover the body with the least excess for each open pair it settles, until none is open.
 // 2. Take back covers, largest excess first, that the others make needless.
 #include "fcl_stpbv/robot/smooth_pairs.h"

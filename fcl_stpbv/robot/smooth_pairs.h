@@ -12,11 +12,11 @@ namespace fcl_stpbv {
 /// through parallel, as a capsule does along a box. Bodies that are smooth already are not touched, nor
 /// meshes that were asked to stay flat: a pair of two of those stays without.
 ///
-/// Chosen per body: those first whose cover exceeds the primitive least for each pair it settles, then those
-/// are taken back, the largest excess first, that the others have made needless. Deterministic; a few more
-/// covers than the fewest are possible. `scene` holds the bodies that `pairs` name as obstacles, in their
-/// order; null without any. @throws Error for a pair of bodies that do not exist, or a cover that cannot be
-/// built.
+/// Chosen per body: those first whose cover exceeds the primitive least for each pair it settles,
+/// then those are taken back, the largest excess first, that the others have made needless.
+/// Deterministic; a few more covers than the fewest are possible. `scene` holds the bodies that
+/// `pairs` name as obstacles, in their order; null without any. @throws Error for a pair of bodies
+/// that do not exist, or a cover that cannot be built.
 void coverPrimitives(const std::vector<CheckedPair>& pairs, RobotGeometry& robot,
                      RobotGeometry* scene = nullptr);
 

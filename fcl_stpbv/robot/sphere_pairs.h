@@ -22,8 +22,8 @@ class SpherePairs {
   /// Spheres `a` and `b` are clear where their centres are farther apart than `reach` (m).
   void set(std::size_t pair, std::size_t a, std::size_t b, double reach);
 
-  /// Looks at all pairs, of centres that are off by up to `slack` together (m). What is not finite is not
-  /// clear.
+  /// Looks at all pairs, of centres that are off by up to `slack` together
+  /// (m). What is not finite is not clear.
   void compare(const std::vector<SphereCentre>& centre, double slack);
   /// Those that are not clear, ascending until the caller sorts them.
   NearPair* begin() { return near_.data(); }

@@ -39,8 +39,8 @@ class Lines {
  public:
   Lines(std::string_view text, const std::string& name) : text_(text), name_(name) {}
 
-  /// The words of the next line that has any, a line ended by a backslash going on in the next; none at the
-  /// end.
+  /// The words of the next line that has any, a line ended by a backslash
+  /// going on in the next; none at the end.
   Words next() {
     Words words;
     for (bool goesOn = true; (goesOn || words.empty()) && !text_.empty();) {

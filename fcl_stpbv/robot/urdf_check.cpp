@@ -10,8 +10,8 @@ namespace {
 
 using tinyxml2::XMLElement;
 
-// Time and memory grow with the square of the number of bodies; the largest published robots have some
-// hundreds.
+// Time and memory grow with the square of the number of bodies; the largest
+// published robots have some hundreds.
 constexpr std::size_t kMostLinks = 20000;
 
 struct Tree {

@@ -1,5 +1,5 @@
-// Reads one shape, inertial or joint by urdfdom: wraps it in a small robot of its own, so a fault costs no
-// other.
+// Reads one shape, inertial or joint by urdfdom: wraps it in a small robot of
+// its own, so a fault costs no other.
 #include "fcl_stpbv/robot/urdf_element.h"
 
 #include <console_bridge/console.h>

@@ -14,8 +14,8 @@ namespace fcl_stpbv::detail {
 /// @throws Error saying what is wrong, without the element's place.
 urdf::CollisionSharedPtr readShapeElement(const tinyxml2::XMLElement& shape);
 
-/// ShapeModel::place of a shape: the `number`th `use` ("collision" or "visual") of its link, from 1. `path`
-/// is the URDF's.
+/// ShapeModel::place of a shape: the `number`th `use` ("collision" or "visual") of
+/// its link, from 1. `path` is the URDF's.
 std::string shapePlace(const tinyxml2::XMLElement& shape, const std::string& path, const std::string& link,
                        const char* use, int number);
 

@@ -63,8 +63,8 @@ void checkAttributes(const XMLElement& element, const Known& known) {
   }
 }
 
-// An element of an unknown name is let pass, as other tools add their own, unless it says what a known one
-// would say.
+// An element of an unknown name is let pass, as other tools add their own,
+// unless it says what a known one would say.
 void checkUnknown(const XMLElement& element, const std::vector<Known>& list) {
   for (const Known& known : list) {
     for (const std::string_view attribute : known.attributes) {

@@ -84,9 +84,9 @@ struct ProgramChange {
   double multiplier = 0;  ///< norm of the acting rows' multipliers
   double solution = 0;    ///< |x|
 };
-/// Most of |dx/dt| that collision rows add to what the task alone asks for, in the norm x'Hx, while the same
-/// rows act: `smallestH` is the smallest eigenvalue of H, `smallestG` that of A H^-1 A' of the acting rows
-/// (docs/control.md).
+/// Most of |dx/dt| that collision rows add to what the task alone asks for, in the norm x'Hx,
+/// while the same rows act: `smallestH` is the smallest eigenvalue of H, `smallestG` that of A
+/// H^-1 A' of the acting rows (docs/control.md).
 double collisionAccelerationBound(const ProgramChange& change, double smallestH, double smallestG);
 
 }  // namespace fcl_stpbv

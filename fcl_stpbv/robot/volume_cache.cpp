@@ -1,6 +1,6 @@
-// Entries on disk: the file's name is a digest of the mesh's content and of the options; its first line a
-// digest of name and entry. An entry that another user could have written, or that does not match, is built
-// anew.
+// Entries on disk: the file's name is a digest of the mesh's content and of the options;
+// its first line a digest of name and entry. An entry that another user could have
+// written, or that does not match, is built anew.
 #include "fcl_stpbv/robot/volume_cache.h"
 
 #include <fcntl.h>
@@ -26,8 +26,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Changes when the builder gives other volumes, a fit other radii, or the search other parts, for the same
-// mesh.
+// Changes when the builder gives other volumes, a fit other radii, or the
+// search other parts, for the same mesh.
 constexpr std::string_view kVersion = "fcl_stpbv volume cache 6\n";
 
 // Two streams of 64 bits, eight characters a step, each step mixed by a product and a shift. Guards against

@@ -17,9 +17,9 @@ namespace fcl_stpbv::detail {
 /// A folder of what was built. Any number of processes and threads may share it. Whatever goes wrong with it,
 /// a missing or read-only folder, a damaged entry, is cured by building anew and never reported.
 ///
-/// Entries are believed where they carry the digest of what they were built from and of themselves, belong to
-/// the user or to root, and can be written by nobody else: only who may already act as the user can forge
-/// one.
+/// Entries are believed where they carry the digest of what they were built from and of
+/// themselves, belong to the user or to root, and can be written by nobody else: only who
+/// may already act as the user can forge one.
 class VolumeCache {
  public:
   /// `folder` is made when the first entry is kept; "" keeps nothing.

@@ -18,8 +18,8 @@ class WorkerPool {
 
   int threads() const { return static_cast<int>(workers_.size()) + 1; }
 
-  /// Calls `work(k)` once for each k below threads(), each in its own thread, and waits for all. `work` must
-  /// not throw.
+  /// Calls `work(k)` once for each k below threads(), each in its own thread, and
+  /// waits for all. `work` must not throw.
   template <class Work>
   void run(Work& work) {
     start([](void* w, int k) { (*static_cast<Work*>(w))(k); }, &work);

@@ -1,13 +1,12 @@
 // Quickhull (Barber, Dobkin, Huhdanpaa 1996) with balls in place of planes:
 // 1. four points far apart make the first surface; each face lists points outside its ball;
 // 2. a face's farthest point enters: the faces whose balls do not hold it give way to new ones that join it
-// to
-//    their rim, and the points in their lists go to the new faces or, inside all of them, nowhere;
+//    to their rim, and the points in their lists go to the new faces or, inside all of them, nowhere;
 // 3. done when all lists are empty.
-// In the space of the balls' centres step 2 cuts a ball around the point out of a convex body. What it cuts
-// off is one disc, and the rim a single loop, unless it takes the middle of an arc and leaves both ends, or
-// the other way round: such clouds are left to the rolling ball. Sides are decided exactly, in double where
-// that is certain (quick_ball.h).
+// In the space of the balls' centres step 2 cuts a ball around the point out of a convex body. What it
+// cuts off is one disc, and the rim a single loop, unless it takes the middle of an arc and leaves
+// both ends, or the other way round: such clouds are left to the rolling ball. Sides are decided
+// exactly, in double where that is certain (quick_ball.h).
 #include "fcl_stpbv/volume/ball_quickhull.h"
 
 #include <Eigen/Geometry>
@@ -179,8 +178,8 @@ bool Quickhull::findRim(int p, int f) {
   return rim_.size() >= 3;
 }
 
-// Whether the rim is one loop that meets no vertex twice; newFrom_ then leads from each vertex to its side's
-// new face.
+// Whether the rim is one loop that meets no vertex twice; newFrom_ then leads
+// from each vertex to its side's new face.
 bool Quickhull::isLoop() {
   bool isSimple = true;
   for (std::size_t k = 0; k < rim_.size(); ++k) {

@@ -1,5 +1,5 @@
-// The ball hull of a cloud by quickhull: fast where the cloud is far from degenerate, and it says where it is
-// not.
+// The ball hull of a cloud by quickhull: fast where the cloud is far from
+// degenerate, and it says where it is not.
 #pragma once
 
 #include <Eigen/Core>

@@ -6,14 +6,14 @@
 
 namespace fcl_stpbv::detail {
 
-/// Ball of a given radius that touches three points, counter-clockwise seen from outside, from the inside of
-/// their hull (paper III.A). An infinite radius makes it the half space below their plane, so that the same
-/// code builds ball hulls and convex hulls.
+/// Ball of a given radius that touches three points, counter-clockwise seen from outside, from the
+/// inside of their hull (paper III.A). An infinite radius makes it the half space below their plane, so
+/// that the same code builds ball hulls and convex hulls.
 ///
-/// The height of a point p over the ball's surface, to first order, is `kappa |q|^2 / 2 + q.m` with `q = p -
-/// a`, `kappa` the curvature and `m` the unit outward normal at the first point a. It holds no large number
-/// for any radius. Its sign is decided in long double where that is certain and in quadruple precision
-/// otherwise.
+/// The height of a point p over the ball's surface, to first order, is `kappa |q|^2 / 2 + q.m`
+/// with `q = p - a`, `kappa` the curvature and `m` the unit outward normal at the first point a.
+/// It holds no large number for any radius. Its sign is decided in long double where that is
+/// certain and in quadruple precision otherwise.
 class TouchingBall {
  public:
   TouchingBall(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c, double radius);

@@ -15,8 +15,8 @@ class DirectionTable {
  public:
   DirectionTable() = default;
 
-  /// Asks `find` for the number of each cell's middle, a unit vector, row by row: each is near the one
-  /// before.
+  /// Asks `find` for the number of each cell's middle, a unit vector, row by
+  /// row: each is near the one before.
   template <typename Find>
   DirectionTable(int side, const Find& find) : side_(side) {
     entries_.reserve(static_cast<std::size_t>(side) * static_cast<std::size_t>(side));

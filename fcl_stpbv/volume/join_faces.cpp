@@ -19,8 +19,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-// The single loop around a group of faces; empty where there is none (a ring, a pinch) and the group must
-// stay apart.
+// The single loop around a group of faces; empty where there is none (a ring, a
+// pinch) and the group must stay apart.
 Ring boundary(const std::vector<Ring>& faces, const std::vector<HalfEdge>& halfEdges,
               const std::vector<int>& first, const std::vector<int>& group,
               const std::vector<std::size_t>& members) {

@@ -11,10 +11,10 @@ namespace fcl_stpbv::detail {
 /// at most this times the ball's radius.
 constexpr double kJoinTilt = 1e-12;
 
-/// Faces of a rolled hull with those on one ball joined. Points on one ball (each face of every box) give
-/// triangles with edges of no width between them where rounding has put them off it; a join grows from the
-/// face with the largest triangle and takes in a neighbour whose vertices all lie on that ball within
-/// touchTolerance().
+/// Faces of a rolled hull with those on one ball joined. Points on one ball (each face of every
+/// box) give triangles with edges of no width between them where rounding has put them off it; a
+/// join grows from the face with the largest triangle and takes in a neighbour whose vertices
+/// all lie on that ball within touchTolerance().
 std::vector<std::vector<int>> joinFaces(const std::vector<Eigen::Vector3d>& points,
                                         std::vector<std::vector<int>> faces, double radius);
 

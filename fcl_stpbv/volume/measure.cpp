@@ -65,8 +65,8 @@ double faceVolume(const StpBv& volume, const Region& region) {
   return sum * volume.radii().R * volume.radii().R / 3;
 }
 
-// With n = cos(a) w + sin(a) u the surface element is R (R cos a - kappa) da dphi and h = n.I + R - kappa cos
-// a.
+// With n = cos(a) w + sin(a) u the surface element is R (R cos a - kappa) da
+// dphi and h = n.I + R - kappa cos a.
 double edgeVolume(const StpBv& volume, int edge) {
   const Patch patch = volume.patch(volume.edgePatch(edge));
   const Radii& radii = volume.radii();
@@ -147,9 +147,9 @@ double enclosedVolume(const StpBv& volume) {
 
 double signedDistance(const StpBv& volume, const Vector3d& point) {
   if (!point.allFinite()) return -std::numeric_limits<double>::infinity();
-  // The largest value lies on the patch that owns its normal. Any normal gives a lower bound with the support
-  // of its true owner, so one that rounding has put past a boundary, as close to a vertex it may, does no
-  // harm.
+  // The largest value lies on the patch that owns its normal. Any normal gives a lower
+  // bound with the support of its true owner, so one that rounding has put past a boundary,
+  // as close to a vertex it may, does no harm.
   constexpr double kNear = 1e-3;
   double best = -2 * volume.radii().R;
   for (int index = 0; index < volume.patchCount(); ++index) {

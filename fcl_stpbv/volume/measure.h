@@ -23,8 +23,8 @@ OverCover overCover(const StpBv& volume);
 OverCover overCover(const StpBv& volume, const std::vector<Eigen::Vector3d>& cloud);
 
 /// Bound on the over-cover for a body whose faces are acute and whose longest edge is `a` (m): R - sqrt(rho^2
-/// - a^2/3). The paper (III.C) prints a^2/12, which is the inradius of an equilateral face and too small;
-/// docs/theory.md, 4.
+/// - a^2/3). The paper (III.C) prints a^2/12, which is the inradius of an equilateral
+///   face and too small; docs/theory.md, 4.
 double overCoverBound(const Radii& radii, double longestEdge);
 
 /// Volume enclosed (m^3).

@@ -1,8 +1,7 @@
 // Leaves out points that are well inside, in one pass:
 // 1. the convex hull of some points, a body inside that of all;
-// 2. a grid of cells: one whose corners are all in that body is in it, and so are its points.
-// The hull's own corners are in none of these cells and stay, so that what holds the points that stay holds
-// all.
+// 2. a grid of cells: one whose corners are all in that body is in it, and so are its points. The hull's own
+//    corners are in none of these cells and stay, so that what holds the points that stay holds all.
 #include "fcl_stpbv/volume/outer_points.h"
 
 #include <Eigen/Geometry>
@@ -31,8 +30,8 @@ struct Plane {
   double offset;
 };
 
-// Planes around a body inside the points' hull, by `margin`; none where the points are a surface, or too
-// thin.
+// Planes around a body inside the points' hull, by `margin`; none where the
+// points are a surface, or too thin.
 std::vector<Plane> bodyInside(const std::vector<Vector3d>& points, double margin) {
   std::vector<Vector3d> some;
   for (std::size_t k = 0; k < kSome; ++k) some.push_back(points[k * points.size() / kSome]);

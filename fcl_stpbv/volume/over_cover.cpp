@@ -22,9 +22,9 @@ namespace {
 using namespace detail;
 using Eigen::Vector3d;
 
-// Largest difference of the support functions over the normals of one hull edge: an arc about the edge, where
-// the hull's is that of the edge's points. The difference grows where the surface point lies ahead of the
-// edge.
+// Largest difference of the support functions over the normals of one hull edge: an arc
+// about the edge, where the hull's is that of the edge's points. The difference grows where
+// the surface point lies ahead of the edge.
 double largestOverEdge(const StpBv& volume, const Vector3d& p, const Vector3d& u, const Vector3d& start,
                        double turn) {
   const Vector3d side = u.cross(start);

@@ -25,15 +25,15 @@ struct RegionBoundary {
   int neighbour;
 };
 
-/// The boundary that a normal passes furthest: `past` is the largest `n.normal - limit`, <= 0 inside all of
-/// them.
+/// The boundary that a normal passes furthest: `past` is the largest `n.normal
+/// - limit`, <= 0 inside all of them.
 struct Crossing {
   double past;
   int neighbour;
 };
 
-/// Patches by number: vertices, then edges with their further parts, then faces. Boundaries are tested four
-/// at a time.
+/// Patches by number: vertices, then edges with their further parts, then faces.
+/// Boundaries are tested four at a time.
 class PatchTable {
  public:
   class Boundaries;
@@ -158,8 +158,8 @@ class PatchTable {
     for (std::size_t k = 0; k < 3; ++k) prefetch(edgeOf(face.side[k]));
   }
 
-  /// A boundary as its normal and less its limit, so that times a unit vector and 1 it is how far that is
-  /// past.
+  /// A boundary as its normal and less its limit, so that times a unit vector
+  /// and 1 it is how far that is past.
   Packed boundaryAtVertex(std::int32_t side) const {
     static constexpr PackedBits opposite[2] = {{}, kOpposite3};
     PackedBits bits;

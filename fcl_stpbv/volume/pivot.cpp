@@ -18,8 +18,8 @@ namespace {
 using Eigen::Vector3d;
 constexpr double kDiametral = 1 + 1e-9;  // the edge's own ends must not fall out by rounding
 
-// leavingAngle() from the ball at rest, for a point so close to a or b that its own angle is lost in
-// rounding.
+// leavingAngle() from the ball at rest, for a point so close to a or b that
+// its own angle is lost in rounding.
 double angleOf(const RollingCloud& cloud, const TouchingBall& ball, int a, int b, const Vector3d& across) {
   const Vector3d side = (cloud.at(b) - cloud.at(a)).normalized().cross(across);
   const double angle = std::atan2(ball.normal().dot(side), ball.normal().dot(across));

@@ -1,8 +1,8 @@
-// A tree of boxes over a cloud, each along its points' principal axes (as in Gottschalk, Lin, Manocha,
-// OBBTree, 1996), split at the median of the longest one. The highest point over a ball is found by branch
-// and bound: a box's bound is the sum of the largest values of each coordinate, or the bound by the sphere
-// around the cloud's centre if that is lower. Points on a surface have thin boxes, which is what makes the
-// bound close.
+// A tree of boxes over a cloud, each along its points' principal axes (as in Gottschalk, Lin,
+// Manocha, OBBTree, 1996), split at the median of the longest one. The highest point over a ball
+// is found by branch and bound: a box's bound is the sum of the largest values of each coordinate,
+// or the bound by the sphere around the cloud's centre if that is lower. Points on a surface have
+// thin boxes, which is what makes the bound close.
 #include "fcl_stpbv/volume/point_tree.h"
 
 #include <Eigen/Eigenvalues>

@@ -1,5 +1,5 @@
-// A tree of oriented boxes over a cloud: which point rises highest over a ball, and which points are near
-// another.
+// A tree of oriented boxes over a cloud: which point rises highest over a
+// ball, and which points are near another.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,9 +17,9 @@ class PointTree {
     double height = 0;
   };
 
-  /// The point with the largest height `curvature |q|^2 / 2 + normal.q`, `q = p - anchor`, over a ball's
-  /// surface. Where that is at most `tolerance`, `near` gets all points higher than `-tolerance`; else `near`
-  /// is meaningless.
+  /// The point with the largest height `curvature |q|^2 / 2 + normal.q`, `q = p - anchor`, over
+  /// a ball's surface. Where that is at most `tolerance`, `near` gets all points higher than
+  /// `-tolerance`; else `near` is meaningless.
   Highest highest(const Eigen::Vector3d& anchor, const Eigen::Vector3d& normal, double curvature,
                   double tolerance, std::vector<int>* near) const;
 

@@ -4,9 +4,9 @@
 //
 // Rounding, in units e = 2^-53, with s the sine of the angle between u and v and w the root above:
 // - N is off by at most 10 e / s of its length: its terms are products of lengths |u||v|.
-// - O = ((u^2 v - v^2 u) x N) / (2 N^2) is off with N, in all by 40 e / s of kappa O <= 1 after the division,
-//   and by the roundings of its two terms, 10 e kappa (|u| + |v|) / (2 s) <= 20 e / s since u and v are
-//   chords.
+// - O = ((u^2 v - v^2 u) x N) / (2 N^2) is off with N, in all by 40 e / s of kappa O <= 1
+//   after the division, and by the roundings of its two terms, 10 e kappa (|u| + |v|) / (2
+//   s) <= 20 e / s since u and v are chords.
 // - The root of 1 - kappa^2 O^2 is off by the error of kappa O over w, N/|N| by 20 e / s.
 // So the normal is off by at most (60 (1 + 1/w) + 20) e / s, and a height by that and 10 e for its own sums,
 // by |q|. That the chords are at most 2/kappa holds for q too, as the ball is larger than the smallest one

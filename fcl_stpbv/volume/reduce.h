@@ -13,9 +13,8 @@ namespace fcl_stpbv {
 /// larger than `options.r` by what the points left out stick out. A point or a segment (sphere, spindle)
 /// serves where it fits. Vertices are taken where the points stick out most, then dropped while the budget
 /// allows: few, not proven to be the fewest. `verify(volume, points, options.r)` proves the margin.
-/// @throws Error as StpBv::build() does, and where even the volume of all points exceeds the budget; the
-/// message states
-///   the over-cover it has.
+/// @throws Error as StpBv::build() does, and where even the volume of all points exceeds the
+/// budget; the message states the over-cover it has.
 StpBv::Ptr reduce(const std::vector<Eigen::Vector3d>& points, const StpBvOptions& options, double overCover);
 
 }  // namespace fcl_stpbv

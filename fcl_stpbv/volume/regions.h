@@ -19,8 +19,8 @@ struct Arc {
   Eigen::Vector3d at(double part) const;  ///< part in [0, 1]
 };
 
-/// A region with its boundary, counter-clockwise, and a normal inside it from which all of the boundary is in
-/// sight.
+/// A region with its boundary, counter-clockwise, and a normal inside it from
+/// which all of the boundary is in sight.
 struct Region {
   int patch;
   Eigen::Vector3d centre;
@@ -33,8 +33,8 @@ struct Region {
 /// Regions of all vertices, then of all faces (paper III.D). A single point's sphere comes as two halves.
 std::vector<Region> regions(const StpBv& volume);
 
-/// The arc of an edge's normals halfway between its ends, from its first face to its second; a spindle's is a
-/// circle.
+/// The arc of an edge's normals halfway between its ends, from its first face to
+/// its second; a spindle's is a circle.
 Arc edgeArc(const StpBv& volume, int edge);
 
 }  // namespace fcl_stpbv::detail

@@ -13,10 +13,10 @@ struct RolledHull {
   std::vector<std::vector<int>> faces;  ///< rings of touched points, counter-clockwise seen from outside
 };
 
-/// Hull of the cloud under a ball of `radius` that touches it from the inner side: the ball hull, or for the
-/// infinite radius the convex hull. Points of one ball to rounding share one k-gon face, points closer
-/// together than rounding count as one. A flat cloud gives two faces back to back; two points, or collinear
-/// ones, no face.
+/// Hull of the cloud under a ball of `radius` that touches it from the inner side: the ball hull,
+/// or for the infinite radius the convex hull. Points of one ball to rounding share one k-gon
+/// face, points closer together than rounding count as one. A flat cloud gives two faces back to
+/// back; two points, or collinear ones, no face.
 ///
 /// Works on any cloud that is not empty, finite, and has a minimum enclosing ball smaller than `radius`. The
 /// convex hull comes from quickhull (ball_quickhull.h) where that suits the cloud.

@@ -24,8 +24,8 @@ namespace {
 using namespace detail;
 using Eigen::Vector3d;
 
-// A normal this far past a region boundary still counts as inside: the rounding of one dot product of unit
-// vectors.
+// A normal this far past a region boundary still counts as inside: the rounding
+// of one dot product of unit vectors.
 constexpr double kBoundaryRounding = 4 * std::numeric_limits<double>::epsilon();
 
 std::string number(double value) {
@@ -111,8 +111,8 @@ StpBv::Ptr StpBv::build(const std::vector<Vector3d>& points, const StpBvOptions&
   } catch (const Error&) {  // its faces do not close: the cloud needs the roll
   }
   if (found != Soundness::exact) volume = built(rollBall(points, rho));
-  // Clusters of points that differ by a few roundings can defeat the roll: a wrong volume must not leave the
-  // builder.
+  // Clusters of points that differ by a few roundings can defeat the roll: a
+  // wrong volume must not leave the builder.
   if (found >= Soundness::off && points.size() <= kMostByDefinition) {
     RolledHull sure = hullByDefinition(points, rho);
     if (!sure.faces.empty()) volume = built(std::move(sure));

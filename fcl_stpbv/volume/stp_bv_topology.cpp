@@ -1,6 +1,6 @@
-// From vertices and faces to the whole volume (paper, III.A, III.B, III.D): pairs half edges, makes the
-// patches with the planes and cones between them, an inscribed ball, and the table from directions to
-// patches.
+// From vertices and faces to the whole volume (paper, III.A, III.B, III.D): pairs half
+// edges, makes the patches with the planes and cones between them, an inscribed ball,
+// and the table from directions to patches.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -77,8 +77,8 @@ StpBv::Ptr StpBv::make(std::vector<Vector3d> vertices, std::vector<Ring> faces, 
   volume->faces_.shrink_to_fit();
   const Ball ball = minimumEnclosingBall(volume->vertices_);
   volume->centre_ = ball.centre;
-  // A ball smaller than rho is itself an intersection of balls of radius rho, so it holds the core with the
-  // vertices.
+  // A ball smaller than rho is itself an intersection of balls of radius rho, so
+  // it holds the core with the vertices.
   volume->enclosingRadius_ = ball.radius + options.r;
   volume->extent_ = ball.centre.lpNorm<1>() + volume->enclosingRadius_;
   volume->makeEdges();

@@ -66,10 +66,10 @@ double farthestOut(const StpBv& volume, const std::vector<Vector3d>& points) {
     const FaceRecord& face = volume.tables().patches.face(volume.facePatch(f));
     out = std::max(out, tree.highest(face.anchor, face.normal, curvature, 0, &near).height);
   }
-  // A point that leaves the rolling ball and meets it again within half a turn is in the ball over the edge
-  // as diameter, nearer to either end than its length l. Its height changes with the roll as a sinusoid of at
-  // most that amplitude: where it is out by an angle x from where it is asked, it is at least -l x^2 / 2
-  // high.
+  // A point that leaves the rolling ball and meets it again within half a turn is in the ball
+  // over the edge as diameter, nearer to either end than its length l. Its height changes with
+  // the roll as a sinusoid of at most that amplitude: where it is out by an angle x from where
+  // it is asked, it is at least -l x^2 / 2 high.
   for (int e = 0; e < volume.edgeCount(); ++e) {
     const StpBv::Edge& edge = volume.edges()[static_cast<std::size_t>(e)];
     const Vector3d &from = at(volume, edge.vertex[0]), &to = at(volume, edge.vertex[1]);

@@ -34,8 +34,8 @@ RegionAngles regionAngles(const StpBv& volume);
 /// surface from around holds it (Blaschke).
 double vertexHeight(const StpBv& volume);
 
-/// Largest distances between two patches' core points at a common normal, on the boundaries of an edge's
-/// region (m).
+/// Largest distances between two patches' core points at a common normal, on the
+/// boundaries of an edge's region (m).
 struct EdgeGap {
   double ends = 0;                   ///< to its vertices' patches
   double arc = 0;                    ///< along its middle, to the patches that hold those normals

@@ -1,9 +1,9 @@
-// Where a ray from inside leaves a volume. Of all supporting planes that the ray meets, the first one
-// touches the surface there: a convex minimisation over the normals.
-// 1. Solve the exit of the patch that owns the current normal in closed form; if its normal is the patch's
-//    own, done.
-// 2. Else the plane rules out half of the normals; done where no normal that is left can be lower by more
-//    than rounding.
+// Where a ray from inside leaves a volume. Of all supporting planes that the ray meets, the first one touches
+// the surface there: a convex minimisation over the normals.
+// 1. Solve the exit of the patch that owns the current normal in closed form; if
+//    its normal is the patch's own, done.
+// 2. Else the plane rules out half of the normals; done where no normal that is
+//    left can be lower by more than rounding.
 // 3. Go on at that exit's normal, or at the centroid of what is left.
 #include "fcl_stpbv/volume/surface_height.h"
 
@@ -27,8 +27,8 @@ double exitHeight(const Patch& patch, PatchKind kind, const Radii& radii, const 
                   const Vector3d& d) {
   const Vector3d q = y - patch.anchor;
   if (kind != PatchKind::edge) {
-    // |q + t d + rho m|^2 = R^2 for a face, |q + t d|^2 = r^2 for a vertex; the constant term holds no large
-    // square.
+    // |q + t d + rho m|^2 = R^2 for a face, |q + t d|^2 = r^2 for a vertex; the
+    // constant term holds no large square.
     const double rho = kind == PatchKind::face ? radii.rho : 0,
                  c = kind == PatchKind::face ? radii.R : radii.r;
     const double half = d.dot(q + rho * patch.axis);
@@ -38,8 +38,8 @@ double exitHeight(const Patch& patch, PatchKind kind, const Radii& radii, const 
     const double root = std::sqrt(half * half - constant);
     return half > 0 ? -constant / (half + root) : root - half;
   }
-  // The distance to the circle's farthest point is convex along the ray: Newton from beyond comes down
-  // monotonically.
+  // The distance to the circle's farthest point is convex along the ray: Newton
+  // from beyond comes down monotonically.
   const double half = halfLength(patch, radii), half2 = half * half;
   const double rest = radii.r * (radii.R + radii.rho) + half2;  // R^2 - kappa^2
   double t = radii.r + sag(patch, radii) + half + q.norm();
@@ -154,8 +154,8 @@ SurfaceHeight surfaceHeight(const StpBv& volume, const Vector3d& y, const Vector
     // The height is convex: no normal in the fence is lower than the tangent says. An exit normal that has
     // many roundings itself, as on a thin edge patch with r = 0, is recognised as the answer by this alone.
     if (fence.isSpent() || fence.least(a, uphill) >= -rounding) break;
-    // The patch's own exit is the answer where it is inside the patch; every third step makes sure of
-    // progress.
+    // The patch's own exit is the answer where it is inside the patch; every
+    // third step makes sure of progress.
     const Vector3d exit = exitNormal(volume, index, y, d);
     const double slope = exit.dot(d);
     const Vector2d target(exit.dot(e) / slope, exit.dot(f) / slope);

@@ -15,9 +15,9 @@ struct TriangleMesh {
   std::vector<std::array<int, 3>> triangles;  ///< indices into `vertices`
 };
 
-/// Closed mesh of points on the surface, each patch cut so that normals turn by at most about `angle` (rad,
-/// 0.02 to 1) from one point to the next. Corners shared by patches are shared vertices. @throws Error for
-/// another angle.
+/// Closed mesh of points on the surface, each patch cut so that normals turn by at most about
+/// `angle` (rad, 0.02 to 1) from one point to the next. Corners shared by patches are shared
+/// vertices. @throws Error for another angle.
 TriangleMesh tessellate(const StpBv& volume, double angle = 0.2);
 
 }  // namespace fcl_stpbv

@@ -32,9 +32,9 @@ std::string brief(double value) {
   return text;
 }
 
-// Largest height over the surface pulled in by `margin`, of the volume's own vertices and of a cloud's. A
-// vertex is on its own patch; any other point may come closest to an edge, and of a cloud only the hull
-// counts.
+// Largest height over the surface pulled in by `margin`, of the volume's own vertices and
+// of a cloud's. A vertex is on its own patch; any other point may come closest to an
+// edge, and of a cloud only the hull counts.
 double containmentOf(const StpBv& volume, const std::vector<Vector3d>& cloud, double margin) {
   double worst = vertexHeight(volume);
   if (cloud.empty()) return worst;
@@ -102,8 +102,8 @@ Verification verify(const StpBv& volume, const std::vector<Vector3d>& points, do
   result.boundaryGap = boundaries.largest;
   // Angles: each corner is rounded by a few units, and an edge's turn by one over the cosine as much.
   const double angle = 1e-13 * (16 + volume.edgeCount()) + 4 * kEpsilon / cosine;
-  // A point may have vanished into a vertex next to it, and the vertex may be as much outside a face that was
-  // joined.
+  // A point may have vanished into a vertex next to it, and the vertex may be as
+  // much outside a face that was joined.
   if (!(result.containment <= length + touchTolerance(all)))
     result.message = "a point lies " + brief(result.containment) + " m nearer to the surface than the margin";
   else if (!(std::abs(result.solidAngleError) <= angle) || !(least >= -angle))

@@ -25,8 +25,8 @@ Verification verify(const StpBv& volume, const std::vector<Eigen::Vector3d>& poi
 /// The same with another margin than the volume's r.
 Verification verify(const StpBv& volume, const std::vector<Eigen::Vector3d>& points, double margin);
 
-/// Solid angle of each patch's region of normals (sr), by spherical excess; an edge's further parts count
-/// with their edge.
+/// Solid angle of each patch's region of normals (sr), by spherical excess; an
+/// edge's further parts count with their edge.
 std::vector<double> solidAngles(const StpBv& volume);
 
 }  // namespace fcl_stpbv

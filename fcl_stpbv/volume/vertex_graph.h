@@ -71,8 +71,8 @@ class VertexGraph {
     return best > enough ? over : vertex;
   }
 
-  /// A neighbour of the vertex, itself highest along `d`, that is least below it. `length` is at least that
-  /// of `d`.
+  /// A neighbour of the vertex, itself highest along `d`, that is least below
+  /// it. `length` is at least that of `d`.
   int beside(int vertex, const Eigen::Vector3f& d, float length) const {
     const VertexStar& star = stars_[static_cast<std::size_t>(vertex)];
     return star.neighbour[star.steepest(d, 2.0f * length) & (VertexStar::kSize - 1)];

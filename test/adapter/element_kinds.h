@@ -1,5 +1,5 @@
-// Meshes of every bounding volume, clouds, octrees and flat shapes as FCL has them, with their triangles in
-// long double.
+// Meshes of every bounding volume, clouds, octrees and flat shapes as FCL has
+// them, with their triangles in long double.
 #pragma once
 
 #include <fcl/config.h>

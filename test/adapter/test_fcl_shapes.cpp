@@ -1,5 +1,5 @@
-// An STP-BV against FCL's other geometries through the drop-in: shapes, meshes of every bounding volume,
-// octrees.
+// An STP-BV against FCL's other geometries through the drop-in: shapes,
+// meshes of every bounding volume, octrees.
 #include <fcl/config.h>
 #include <fcl/geometry/bvh/BVH_model.h>
 #include <fcl/geometry/geometric_shape_to_BVH_model.h>

@@ -1,5 +1,5 @@
-// Sizes and poses that describe no body: `invalid` for every pair of types alike, and libccd's assertions are
-// never reached.
+// Sizes and poses that describe no body: `invalid` for every pair of types alike, and
+// libccd's assertions are never reached.
 #include <fcl/geometry/bvh/BVH_model.h>
 #include <fcl/geometry/geometric_shape_to_BVH_model.h>
 #include <fcl/geometry/shape/box.h>

@@ -153,8 +153,8 @@ TEST_CASE(
         }
         ++(d.lower > 0 ? apart : overlapping);
         CAPTURE(d.lower, d.upper);
-        // A depth of round bodies is good to 1e-6 of it: an ulp in a cell's place may move its bounds by
-        // that.
+        // A depth of round bodies is good to 1e-6 of it: an ulp in a cell's
+        // place may move its bounds by that.
         const double slack = 1e-12 * far + (d.lower < 0 ? 1e-6 * -d.lower : 0);
         CHECK(farther(d.lower - slack));
         CHECK_FALSE(farther(d.upper + slack));

@@ -1,5 +1,5 @@
-// Warm queries on turning geodesic spheres, for a tool that counts instructions: geodesic_queries QUERIES
-// small|large.
+// Warm queries on turning geodesic spheres, for a tool that counts instructions:
+// geodesic_queries QUERIES small|large.
 #include <cstdio>
 
 #include "fcl_stpbv/distance/distance.h"

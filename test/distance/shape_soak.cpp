@@ -1,8 +1,8 @@
-// shape_soak POSES SEED [SHAPE]: random poses of an STP-BV against each simple shape, all against the
-// independent reference, in both orders, with gradient and Hessian against differences and the turn of the
-// normal against its Lipschitz bound. Prints one line a shape and fails on any error above 1e-12 m (1e-9 for
-// cone and ellipsoid), any difference between the orders, witness points that do not face each other, and any
-// bound exceeded.
+// shape_soak POSES SEED [SHAPE]: random poses of an STP-BV against each simple shape, all against
+// the independent reference, in both orders, with gradient and Hessian against differences and the
+// turn of the normal against its Lipschitz bound. Prints one line a shape and fails on any error
+// above 1e-12 m (1e-9 for cone and ellipsoid), any difference between the orders, witness points
+// that do not face each other, and any bound exceeded.
 #include <algorithm>
 #include <chrono>
 #include <cmath>

@@ -30,8 +30,8 @@ struct Outcome {
   double widest = 0;  // between the bounds (m)
 };
 
-// Pairs at gaps of the cores from 1 m down to 1e-18 m, at turns of all sizes, against the long double
-// reference.
+// Pairs at gaps of the cores from 1 m down to 1e-18 m, at turns of all sizes,
+// against the long double reference.
 Outcome check(const std::vector<Covered>& first, const std::vector<Covered>& second, int count) {
   Random random(1);
   Outcome outcome;

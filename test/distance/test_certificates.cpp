@@ -155,8 +155,8 @@ TEST_CASE("Each pose within 1e-6 of a rotation is taken for the nearest rotation
     };
     check(distance(*a, pa, *b, pb), distance(*a, qa, *b, qb));
     check(distance(*a, pa, shape, pb), distance(*a, qa, shape, qb));
-    // Two flat shapes: as far as GJK got, which its bounds tell; its normal is only good to the root of the
-    // gap.
+    // Two flat shapes: as far as GJK got, which its bounds tell; its normal is
+    // only good to the root of the gap.
     const Distance d = distance(other, pa, shape, pb), e = distance(other, qa, shape, qb);
     CHECK((d.status != DistanceStatus::invalid && e.status != DistanceStatus::invalid));
     CHECK((d.lower <= e.upper && e.lower <= d.upper));

@@ -1,6 +1,6 @@
-// Through contact and through the depth of both margins: the sign is right, the distance continuous, the
-// normal turns no faster than docs/theory.md, 6 allows, and only deeper than r1 + r2 is an answer anything
-// but exact.
+// Through contact and through the depth of both margins: the sign is right, the distance
+// continuous, the normal turns no faster than docs/theory.md, 6 allows, and only deeper
+// than r1 + r2 is an answer anything but exact.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <functional>

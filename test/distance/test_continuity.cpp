@@ -1,5 +1,5 @@
-// The distance is C1: its gradient is what differences say, and the normal turns no faster than theory
-// allows.
+// The distance is C1: its gradient is what differences say, and the normal
+// turns no faster than theory allows.
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -21,8 +21,8 @@ Isometry3d turned(const Isometry3d& p, const Vector3d& axis, double angle) {
 /// Slides `b` by steps of `length` and checks every turn of the normal against docs/theory.md, 6.
 void sweep(const StpBv& a, const Isometry3d& poseA, const StpBv& b, Isometry3d poseB,
            const Vector3d& direction, double length, int steps) {
-  // A normal is good to the rounding of the core points (8 ulp of both radii) over the weakest curvature
-  // there is.
+  // A normal is good to the rounding of the core points (8 ulp of both radii)
+  // over the weakest curvature there is.
   const double margins = a.radii().r + b.radii().r;
   const Vector3d start = poseB.translation();
   PairCache cache;

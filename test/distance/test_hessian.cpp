@@ -45,9 +45,9 @@ TEST_CASE("The Hessian and the velocities of normal and witness points are what 
     DistanceHessian h;
     if (!hessian(a, poseA, b, poseB, d, h)) continue;
     CHECK(h.matrix == h.matrix.transpose());
-    // The rates are the matrices times the twists, by another order of the same sums: rounding of levers
-    // below 3 m over radii of curvature of at least a centimetre, magnified where edges cross at a small
-    // angle.
+    // The rates are the matrices times the twists, by another order of the same sums:
+    // rounding of levers below 3 m over radii of curvature of at least a centimetre,
+    // magnified where edges cross at a small angle.
     BodyTwists twists;
     for (Eigen::Index k = 0; k < 12; ++k) twists[k] = motions.uniform(-1, 1);
     DistanceRate moves;

@@ -186,8 +186,8 @@ TEST_CASE("Two boxes overlap least along one of fifteen axes") {
 }
 
 TEST_CASE("What an answer for two boxes proves holds for the maximum on the other side") {
-  // Long thin boxes bulge by millimetres: the nearer side of the vertices' difference need not be the way
-  // out.
+  // Long thin boxes bulge by millimetres: the nearer side of the vertices'
+  // difference need not be the way out.
   Random some(9);
   const StpBv::Ptr a = StpBv::build(box(0.3, 0.2, 0.1), {0.005, 100.0}),
                    b = StpBv::build(needle(0.5, 0.01), {0.005, 10.0});

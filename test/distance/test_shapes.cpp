@@ -22,8 +22,8 @@ std::vector<std::string> allShapes() {
 }  // namespace
 
 TEST_CASE("along fine paths the normal never turns faster than theory allows, for every pair of shapes") {
-  // docs/theory.md, 6: a translation eps turns n by at most eps / (delta + r1 + r2), and a flat body has r =
-  // 0.
+  // docs/theory.md, 6: a translation eps turns n by at most eps / (delta + r1
+  // + r2), and a flat body has r = 0.
   const std::vector<StpBv::Ptr> volumes{
       StpBv::build(box(0.3, 0.2, 0.1), {0.01, 10}), StpBv::build(geodesicSphere(0.2, 1), {0.01, 1}),
       StpBv::build(plate(0.3, 0.2), {0.005, 10}), StpBv::build(cylinder(0.1, 0.4, 16), {0.02, 100}),

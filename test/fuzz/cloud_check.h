@@ -1,5 +1,5 @@
-// What the builder, its self-check and the measures make of a cloud, against a check that shares no code with
-// them.
+// What the builder, its self-check and the measures make of a cloud, against a
+// check that shares no code with them.
 #pragma once
 
 #include <string>

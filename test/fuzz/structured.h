@@ -16,8 +16,8 @@ void checkVolume(const std::string& text, const std::string& folder);
 /// A task: what is set up has a finite start.
 std::string randomTask(test::Random& random);
 void checkTask(const std::string& text, const std::string& folder);
-/// q and qd of a small robot: rows, rates and Hessians hold no NaN, and none reads as clear without an
-/// answer.
+/// q and qd of a small robot: rows, rates and Hessians hold no NaN, and none
+/// reads as clear without an answer.
 std::string randomPosture(test::Random& random);
 void checkPosture(const std::string& text, const std::string& folder);
 

@@ -11,8 +11,8 @@ namespace fcl_stpbv::fuzz {
 struct Target {
   const char* name;
   std::string (*generate)(test::Random& random);
-  /// @throws std::logic_error where a property does not hold. Anything but `Error` that the library throws
-  /// passes on.
+  /// @throws std::logic_error where a property does not hold. Anything but
+  /// `Error` that the library throws passes on.
   void (*check)(const std::string& text, const std::string& folder);
 };
 

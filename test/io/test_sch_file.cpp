@@ -1,5 +1,5 @@
-// sch-core's format: what we write means the same to its reader, what others wrote loads, damaged files are
-// refused.
+// sch-core's format: what we write means the same to its reader, what others
+// wrote loads, damaged files are refused.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
@@ -63,12 +63,12 @@ class Reader {
     return best_;
   }
 
-  /// How far the direction asked last is outside the feature taken, at most rounding where the features tile
-  /// the sphere.
+  /// How far the direction asked last is outside the feature taken, at most
+  /// rounding where the features tile the sphere.
   double outside() const { return worst_; }
 
-  /// What the file's digits make of a support value: the sum of numbers as large as a face's centre and
-  /// radius.
+  /// What the file's digits make of a support value: the sum of numbers as
+  /// large as a face's centre and radius.
   double rounding() const {
     double farthest = 0;
     for (const sch::Face& face : file_.faces) farthest = std::max(farthest, face.centre.norm());

@@ -14,8 +14,8 @@ namespace {
 
 constexpr double kSlack = 1e-7;
 
-// The corners of each eighth of a cube of 2 m, moved a bit from its corner in the middle, or without that
-// one.
+// The corners of each eighth of a cube of 2 m, moved a bit from its corner
+// in the middle, or without that one.
 std::vector<HullPlanes> eighths(bool middle, double gap = 0) {
   std::vector<HullPlanes> hulls;
   for (int k = 0; k < 8; ++k) {

@@ -162,8 +162,8 @@ TEST_CASE("a mesh without triangles, or with coordinates that are no numbers, is
 
 TEST_CASE(
     "parts whose faces end on flat parts' borders and inside the solid are known to a millionth, quickly") {
-  // The lower box of an L, and the whole height of its upright: their faces lie on the L's own, in part, and
-  // cross its inside.
+  // The lower box of an L, and the whole height of its upright: their faces lie on the
+  // L's own, in part, and cross its inside.
   const MeshSolid solid(lShape());
   const Eigen::Vector3d low = solid.low(), high = solid.high();
   ExcessOptions fine;

@@ -10,8 +10,8 @@ namespace {
 
 using Vector = Eigen::Matrix<long double, 3, 1>;
 
-// A point along n, on two points' segment or in three points' triangle, that is nearest to q across n: its
-// weights.
+// A point along n, on two points' segment or in three points' triangle, that is
+// nearest to q across n: its weights.
 struct Weights {
   long double a, b, c;
 };
@@ -48,8 +48,8 @@ BallHullClaim checkBallHull(const std::vector<Eigen::Vector3d>& points, double r
     size = std::max(size, p.norm());
     near.push_back({-height, p});
   }
-  // What the claimed ball touches bounds best; more points than needed do no harm, nor does one of several
-  // close together.
+  // What the claimed ball touches bounds best; more points than needed do no harm,
+  // nor does one of several close together.
   std::sort(near.begin(), near.end(), [](const auto& s, const auto& t) { return s.first < t.first; });
   std::vector<Vector> touched;
   const long double rounding =

@@ -1,5 +1,5 @@
-// Bounds on a ball hull's support function from the points alone, in long double, sharing nothing with the
-// library.
+// Bounds on a ball hull's support function from the points alone, in long
+// double, sharing nothing with the library.
 #pragma once
 
 #include <Eigen/Core>

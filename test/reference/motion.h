@@ -1,5 +1,5 @@
-// The workload "geodesic" (the paper's V.B): two geodesic spheres that turn while their distance goes to and
-// fro.
+// The workload "geodesic" (the paper's V.B): two geodesic spheres that turn
+// while their distance goes to and fro.
 #pragma once
 
 #include <Eigen/Geometry>

@@ -1,9 +1,9 @@
 // An independent answer to check every query against: long double, straight from the definition, no topology.
 //
-// A volume is the intersection of all balls of radius R that hold the margin spheres (docs/theory.md, 1), so
-// its support is h(n) = R + min n.C over the centres C within rho = R - r of every point. That minimum has at
-// most three active points and is found by adding the point its ball misses most. Nothing here is shared with
-// the library.
+// A volume is the intersection of all balls of radius R that hold the margin spheres
+// (docs/theory.md, 1), so its support is h(n) = R + min n.C over the centres C within rho = R - r of
+// every point. That minimum has at most three active points and is found by adding the point its
+// ball misses most. Nothing here is shared with the library.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,8 +18,8 @@ template <class Real>
 using Vector3Of = Eigen::Matrix<Real, 3, 1>;
 using Vector3L = Vector3Of<long double>;
 
-/// A volume's points in world coordinates and its radii (m). Numbers of other precision than long double are
-/// for reference_of.h.
+/// A volume's points in world coordinates and its radii (m). Numbers of other precision
+/// than long double are for reference_of.h.
 template <class Real>
 struct ReferenceBodyOf {
   std::vector<Vector3Of<Real>> points;

@@ -41,8 +41,8 @@ bool lowestCentre(const std::vector<Vector3Of<Real>>& p, const Vector3Of<Real>& 
   return true;
 }
 
-/// The lowest feasible centre for a few points: the best over their subsets of at most three, kept in
-/// `basis`.
+/// The lowest feasible centre for a few points: the best over their subsets
+/// of at most three, kept in `basis`.
 template <class Real>
 Vector3Of<Real> solveSmall(std::vector<Vector3Of<Real>>& basis, const Vector3Of<Real>& n, Real rho,
                            Real tolerance) {
@@ -78,8 +78,8 @@ ReferenceBodyOf<Real> bodyOf(const Cloud& points, double r, double R, const Eige
   body.r = r;
   body.R = R;
   Eigen::Matrix<Real, 3, 3> rotation = pose.linear().cast<Real>();
-  // A body is rigid: without this a rotation matrix's rounding would stretch it, which shows near the
-  // smallest R.
+  // A body is rigid: without this a rotation matrix's rounding would stretch
+  // it, which shows near the smallest R.
   for (int i = 0; i < 4; ++i) rotation = (rotation * 3 - rotation * rotation.transpose() * rotation) / 2;
   const Vector3Of<Real> translation = pose.translation().cast<Real>();
   for (const Eigen::Vector3d& p : points) body.points.push_back(rotation * p.cast<Real>() + translation);
@@ -127,8 +127,8 @@ ReferenceDistanceOf<Real> distanceOf(const ReferenceBodyOf<Real>& a, const Refer
                                      double reach = 1e3) {
   using std::sqrt;
   const Vector3Of<Real> z = towards.normalized();
-  // The normals with a wider gap than a trial's are a convex set on one side of the plane across its
-  // gradient.
+  // The normals with a wider gap than a trial's are a convex set on one side
+  // of the plane across its gradient.
   NormalPolygonOf<Real> left(z, reach);
   ReferenceDistanceOf<Real> best{-std::numeric_limits<Real>::infinity(), 0, z, {}};
   Real flattest = std::numeric_limits<Real>::infinity();

@@ -30,8 +30,8 @@ struct TestShape {
 TestShape randomShape(const std::string& name, Random& random);
 const std::vector<std::string>& boundedShapes();
 
-/// Widest gap between the cores, less the margins. Exact while the cores are apart; else only `overlap` says
-/// something.
+/// Widest gap between the cores, less the margins. Exact while the cores are
+/// apart; else only `overlap` says something.
 struct ReferenceAnswer {
   long double distance;
   Vector3L normal;

@@ -18,8 +18,8 @@ void addQuad(TriangleMesh& mesh, int a, int b, int c, int d) {
   mesh.triangles.push_back({a, c, d});
 }
 
-// A prism over a polygon without convexity, given by its triangles; corners counter-clockwise seen from
-// above.
+// A prism over a polygon without convexity, given by its triangles; corners
+// counter-clockwise seen from above.
 TriangleMesh prism(const std::vector<Eigen::Vector2d>& ring, const std::vector<std::array<int, 3>>& floor,
                    double height) {
   TriangleMesh mesh;

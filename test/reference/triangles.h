@@ -1,5 +1,5 @@
-// Distance of triangles in long double, from the definition: corners to faces, edges to edges, edges through
-// faces.
+// Distance of triangles in long double, from the definition: corners to faces,
+// edges to edges, edges through faces.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,5 +1,5 @@
-// The distance of meshes and primitives beside all pairs of triangles in long double, and what lies inside
-// what.
+// The distance of meshes and primitives beside all pairs of triangles in long
+// double, and what lies inside what.
 #include <fcl/geometry/shape/box.h>
 #include <fcl/geometry/shape/sphere.h>
 

@@ -1,5 +1,5 @@
-// d(q) and J(q) of whole robots: against differences, across the influence distance, with obstacles, without
-// allocation.
+// d(q) and J(q) of whole robots: against differences, across the influence
+// distance, with obstacles, without allocation.
 #include <fcl/geometry/shape/sphere.h>
 
 #include <catch2/catch.hpp>

@@ -47,8 +47,8 @@ class Line {
   Eigen::VectorXd from_, to_, d_, values_;
 };
 
-// Not deeper than half the margins, so that by theory the gradient changes by at most lever^2 / (margins / 2)
-// per radian.
+// Not deeper than half the margins, so that by theory the gradient changes by at
+// most lever^2 / (margins / 2) per radian.
 bool smoothThere(const DistanceAnswer& answer) {
   return answer.status == DistanceStatus::exact && answer.continuous && answer.distance > -0.01;
 }

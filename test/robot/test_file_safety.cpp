@@ -30,8 +30,8 @@ constexpr bool kMemoryIsMeasured = false;
 constexpr bool kMemoryIsMeasured = true;
 #endif
 
-/// What a call took: processor time (s) and memory above what there was (bytes), its own child processes with
-/// it.
+/// What a call took: processor time (s) and memory above what there was
+/// (bytes), its own child processes with it.
 struct Cost {
   bool ended = false, refused = false;
   double seconds = 0, bytes = 0;

@@ -128,8 +128,8 @@ TEST_CASE("each mesh gets the radii that its task asks for, and they are kept wi
 
 TEST_CASE("a volume so round that corners of the hull lie inside keeps one that has them") {
   TemporaryFolder folder;
-  // A square of 20 cm with a corner 1 mm above its middle, and one far below: at R = 0.3 m the former is
-  // inside.
+  // A square of 20 cm with a corner 1 mm above its middle, and one far below:
+  // at R = 0.3 m the former is inside.
   put(folder / "mesh.obj",
       "v -0.1 -0.1 0\nv 0.1 -0.1 0\nv 0.1 0.1 0\nv -0.1 0.1 0\nv 0 0 0.001\nv 0 0 -0.1\n"
       "f 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\nf 2 1 6\nf 3 2 6\nf 4 3 6\nf 1 4 6\n");

@@ -224,8 +224,8 @@ TEST_CASE("the humanoid's meshes and their polyhedra are the same bodies") {
     std::string name = entry.path().filename().string();
     name.resize(name.size() - std::string("-ch.txt").size());
     INFO(name);
-    // Shipped for the same links by the robot's authors: support functions agree, so up_axis was rightly left
-    // aside.
+    // Shipped for the same links by the robot's authors: support functions agree,
+    // so up_axis was rightly left aside.
     const std::vector<Vector3d> polyhedron = loadPoints(entry.path().string());
     const std::vector<Vector3d> mesh = loadPoints(robot + "/meshes/" + name + ".dae");
     const auto height = [](const std::vector<Vector3d>& points, const Vector3d& n) {

@@ -1,5 +1,5 @@
-// The cache is believed only where nobody else can have written it, and writes nowhere but into its own
-// folder.
+// The cache is believed only where nobody else can have written it, and
+// writes nowhere but into its own folder.
 #include <sys/stat.h>
 #include <unistd.h>
 

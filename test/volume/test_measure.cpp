@@ -153,9 +153,9 @@ TEST_CASE("The height of the surface over a point of the hull agrees with halvin
         INFO(cloud.size() << " points, r = " << radii.r << ", R = " << R << ", ray " << k);
         // Halving ends where the distance's rounding, a few units of rho's normals, hides its sign.
         CHECK(std::abs(over.height - halvedHeight(*volume, y, d)) <= 1e-14 + 4e-16 * R);
-        // Measured: half of the rays take 27 or fewer with r > 0 and 68 with r = 0, where the fence is 1e8
-        // wide at first. Of seeds 4 to 9 the worst ray takes 95, near a thin edge patch. The search gives up
-        // at 400.
+        // Measured: half of the rays take 27 or fewer with r > 0 and 68 with r = 0, where the
+        // fence is 1e8 wide at first. Of seeds 4 to 9 the worst ray takes 95, near a thin
+        // edge patch. The search gives up at 400.
         CHECK(over.planes <= 150);
       }
     }
@@ -209,8 +209,8 @@ TEST_CASE("The mean over-cover of a box agrees with a fine grid over its sides")
 TEST_CASE("The enclosed volume agrees with closed forms") {
   CHECK(enclosedVolume(*StpBv::build({{1, 2, 3}}, {0.05, 1})) ==
         Approx(4 * kPi / 3 * 0.05 * 0.05 * 0.05).epsilon(1e-13));
-  // A huge R makes the box a box rounded by r: Steiner's formula. What R adds is its over-cover times the
-  // area.
+  // A huge R makes the box a box rounded by r: Steiner's formula. What R adds
+  // is its over-cover times the area.
   const double a = 0.2, b = 0.4, c = 0.6, r = 0.01;
   const double steiner =
       a * b * c + 2 * r * (a * b + b * c + c * a) + kPi * r * r * (a + b + c) + 4 * kPi / 3 * r * r * r;

@@ -62,8 +62,8 @@ TEST_CASE("The minimum enclosing ball is held by its points and no smaller one h
       CHECK((p - ball.centre).norm() <= ball.radius);
       if ((p - ball.centre).norm() > ball.radius * (1 - 1e-12)) held.push_back(p);
     }
-    // Moving the centre in any direction must push some holding point away: the centre is in their convex
-    // hull.
+    // Moving the centre in any direction must push some holding point away:
+    // the centre is in their convex hull.
     for (int d = 0; d < 100; ++d) {
       const Vector3d step = 1e-3 * random.direction();
       double farthest = 0;

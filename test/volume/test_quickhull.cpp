@@ -81,8 +81,8 @@ TEST_CASE("Quickhull finds the faces that the ball rolls onto") {
       if (radius > 2 * least) REQUIRE(!quick.faces.empty());
       if (quick.faces.empty())
         continue;  // an ellipsoid near its smallest ball is no surface of triangles alone
-      // With a small ball a point may stick out over an edge alone: then the check sends the cloud to the
-      // roll.
+      // With a small ball a point may stick out over an edge alone: then the
+      // check sends the cloud to the roll.
       if (quick.vertices.size() < rolled.vertices.size()) continue;
       CHECK(quick.vertices == rolled.vertices);
       CHECK(quick.faces == rolled.faces);

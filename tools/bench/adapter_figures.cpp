@@ -29,8 +29,8 @@ struct Motion {
   std::vector<Isometry3d> a, b;
 };
 
-/// The paper's motion (V.B): both bodies turn about three axes, the distance of their centres goes to and
-/// fro.
+/// The paper's motion (V.B): both bodies turn about three axes, the distance
+/// of their centres goes to and fro.
 Motion paperMotion(double degrees, double step, int queries, double nearest) {
   const double angle = degrees * std::acos(-1.0) / 180;
   const auto turn = [&](double f) {

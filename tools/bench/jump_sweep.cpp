@@ -1,7 +1,6 @@
-// Rocks a box past parallel faces over a plate and prints, at each angle, the gradient of the distance with
-// respect to the rocking: from FCL on the polyhedra, and from this library on the STP-BVs over them. CSV on
-// standard output.
-//   jump_sweep [STEPS]
+// Rocks a box past parallel faces over a plate and prints, at each angle, the gradient of the distance
+// with respect to the rocking: from FCL on the polyhedra, and from this library on the STP-BVs over
+// them. CSV on standard output. jump_sweep [STEPS]
 #include <fcl/narrowphase/distance.h>
 
 #include <cstdio>

@@ -56,8 +56,8 @@ double largestEigenvalue(const DistanceHessian& h, int first) {
   return solver.eigenvalues().cwiseAbs().maxCoeff();
 }
 
-/// Over random poses 1 to 50 mm apart; half of them with ends or sides nearly parallel, where the gradient
-/// turns fastest.
+/// Over random poses 1 to 50 mm apart; half of them with ends or sides nearly
+/// parallel, where the gradient turns fastest.
 Steepness steepnessOf(const StpBv& volume, std::uint64_t seed) {
   test::Random random(seed);
   Steepness steepest;

@@ -21,8 +21,8 @@ struct Record {
 
   void add(const Answer& answer, const Truth& truth, bool smooth) {
     ++checked;
-    // Polyhedra apart are to be found apart; STP-BVs may overlap within their margins and have an answer
-    // then.
+    // Polyhedra apart are to be found apart; STP-BVs may overlap within their
+    // margins and have an answer then.
     if (answer.outcome == Outcome::failed || (!smooth && answer.outcome != Outcome::apart)) {
       ++missed;
       return;

@@ -19,8 +19,8 @@ struct Figures {
   double ns, speedup;
 };
 
-/// How many times as long one method takes as the other, block by block: what slows the machine for a while
-/// slows both.
+/// How many times as long one method takes as the other, block by block: what
+/// slows the machine for a while slows both.
 double ratio(const Times& one, const Times& other, Summary& summary) {
   std::vector<double> blocks;
   for (std::size_t i = 0; i < one.block.size(); ++i) blocks.push_back(one.block[i] / other.block[i]);

@@ -1,5 +1,5 @@
-// What the planner found, as a page to look at: the robot along its way from the side, and the least
-// distance.
+// What the planner found, as a page to look at: the robot along its way
+// from the side, and the least distance.
 #pragma once
 
 #include <string>

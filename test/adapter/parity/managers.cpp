@@ -47,8 +47,8 @@ Scene sceneOf(int count, double half, std::uint64_t seed) {
   return scene;
 }
 
-/// How many pairs collide, and the least distance, of all pairs within `a`, or of each of `a` with each of
-/// `b`.
+/// How many pairs collide, and the least distance, of all pairs within `a`,
+/// or of each of `a` with each of `b`.
 struct Expected {
   std::size_t contacts = 0;
   double least = std::numeric_limits<double>::max();

@@ -16,8 +16,8 @@ constexpr double kTolerance = 1e-4;  // of the time of contact: FCL's default
 constexpr double kClear = 1e-6;      // m: nearer than this rounding tells
 constexpr double kAdvanced = 1e-3;   // m: where FCL's advancement may stop
 
-/// From one pose to another, the frame's origin on a line. FCL's own for two poses leaves the point that
-/// moves straight uninitialised.
+/// From one pose to another, the frame's origin on a line. FCL's own for two poses leaves
+/// the point that moves straight uninitialised.
 std::shared_ptr<fcl::MotionBased> motionOf(const Isometry3d& begin, const Isometry3d& end) {
   const Eigen::Matrix3d r1 = begin.linear(), r2 = end.linear();
   return std::make_shared<fcl::InterpMotion<double>>(r1, begin.translation(), r2, end.translation(),

@@ -1,5 +1,5 @@
-// Extreme bodies and radii: thin, tiny, huge, almost degenerate, almost cospherical, of very few or very many
-// vertices.
+// Extreme bodies and radii: thin, tiny, huge, almost degenerate, almost
+// cospherical, of very few or very many vertices.
 #include <cmath>
 #include <cstdio>
 

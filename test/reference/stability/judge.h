@@ -48,10 +48,10 @@ Truths truthsOf(const Situation& situation);
 
 /// Judges all answers: those with a known truth by it, a path's also by its steps.
 ///
-/// Off by: the largest of the distance's error; of what the normal's error would make of the distance; of how
-/// much the witness points disagree with both. A jump: the gradient of the distance (with respect to the
-/// second body's twist) changes in a step by more than it can between STP-BVs of these radii (docs/theory.md,
-/// 6).
+/// Off by: the largest of the distance's error; of what the normal's error would make of the
+/// distance; of how much the witness points disagree with both. A jump: the gradient of the
+/// distance (with respect to the second body's twist) changes in a step by more than it can
+/// between STP-BVs of these radii (docs/theory.md, 6).
 Judgement judge(const Method& method, const Situation& situation, const Truths& truths,
                 const std::vector<Answer>& answers);
 

@@ -63,8 +63,8 @@ void addPoses(std::vector<Situation>& all, std::uint64_t seed) {
           for (int k = 0; k < 9; ++k) p->linear()(k / 3, k % 3) += error * random.uniform(-1, 1);
         s.placements.push_back(at);
       }
-      // A matrix off by e moves points by up to 3 e of their distance; which rotation is meant is open by as
-      // much.
+      // A matrix off by e moves points by up to 3 e of their distance; which
+      // rotation is meant is open by as much.
       s.slack = 10 * error;
       all.push_back(std::move(s));
     }

@@ -55,12 +55,12 @@ struct Situation {
 std::shared_ptr<const Body> makeBody(const Cloud& points, const StpBvOptions& radii = {},
                                      const std::vector<int>& facets = {});
 
-/// A length that says how big the pair is: both bodies and, where they are farther apart than that, their
-/// distance (m).
+/// A length that says how big the pair is: both bodies and, where they are farther
+/// apart than that, their distance (m).
 double sizeOf(const Situation& situation, const Placement& at);
 
-/// All situations; `seed` moves whatever is random in them. Those that take more than a second to set up only
-/// if `large`.
+/// All situations; `seed` moves whatever is random in them. Those that take more
+/// than a second to set up only if `large`.
 /// @throws std::runtime_error where the folder with the published cases is missing.
 std::vector<Situation> allSituations(std::uint64_t seed, const std::string& hardCases, bool large);
 

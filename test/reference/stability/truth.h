@@ -33,8 +33,8 @@ struct SharpTruth {
 SmoothTruth smoothTruth(const Situation& situation, const Placement& at);
 SharpTruth sharpTruth(const Situation& situation, const Placement& at);
 
-/// The gap between the STP-BVs' supporting planes along a unit normal from a to b: a lower bound of the
-/// distance.
+/// The gap between the STP-BVs' supporting planes along a unit normal from a
+/// to b: a lower bound of the distance.
 long double smoothGap(const Situation& situation, const Placement& at, const Eigen::Vector3d& normal);
 
 }  // namespace fcl_stpbv::stability

@@ -7,8 +7,8 @@
 
 namespace fcl_stpbv::benchmark {
 
-/// A distance, its direction and the points it is between, world frame; `key` tells it from the pair's
-/// others.
+/// A distance, its direction and the points it is between, world frame;
+/// `key` tells it from the pair's others.
 struct FeaturePair {
   double d;
   Eigen::Vector3d normal, first, second;  ///< from `first` to `second`

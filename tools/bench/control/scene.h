@@ -1,5 +1,5 @@
-// Where a controller runs along something: a robot's arm or leg with what it holds, what is near, and the
-// motion asked for.
+// Where a controller runs along something: a robot's arm or leg with what it holds,
+// what is near, and the motion asked for.
 #pragma once
 
 #include <memory>

@@ -1,6 +1,6 @@
-// The peer of the parts: HACD, hierarchical approximate convex decomposition (Mamou and Ghorbel, ICIP 2009),
-// as Bullet's extras have it. Its partition of the triangles is used, and the hulls of that: its own hulls
-// leave triangles uncovered.
+// The peer of the parts: HACD, hierarchical approximate convex decomposition (Mamou and Ghorbel,
+// ICIP 2009), as Bullet's extras have it. Its partition of the triangles is used, and the hulls of
+// that: its own hulls leave triangles uncovered.
 #pragma once
 
 #include <vector>

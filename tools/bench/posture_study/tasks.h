@@ -1,5 +1,5 @@
-// Randomised tasks for the HRP-2-style robot: reaching into a fridge, over and under tables, into shelves,
-// between the legs.
+// Randomised tasks for the HRP-2-style robot: reaching into a fridge, over and under
+// tables, into shelves, between the legs.
 #pragma once
 
 #include <cstdint>

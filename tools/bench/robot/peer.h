@@ -32,8 +32,8 @@ class Peer {
   const std::string name;
 };
 
-/// FCL's dynamic tree of boxes, whose callback asks `fcl::collide` about the checked pairs; distances by
-/// `fcl::distance` of each.
+/// FCL's dynamic tree of boxes, whose callback asks `fcl::collide` about the checked
+/// pairs; distances by `fcl::distance` of each.
 std::unique_ptr<Peer> fclPeer(const PosedModel& robot);
 /// Bullet's collision world with its tree of boxes; null where Bullet was not found when this was built.
 std::unique_ptr<Peer> bulletPeer(const PosedModel& robot);
