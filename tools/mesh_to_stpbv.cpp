@@ -100,7 +100,8 @@ void describe(Program& app, Arguments& arguments) {
           .type("K");
   parts.excludes(advise);
   app.option("--excess", arguments.excess,
-             "As few such volumes as keep the parts' hulls this close to the mesh, about [m]")
+             "As few such volumes as keep the parts' hulls this close to the mesh; where none are found the "
+             "report says so [m]")
       .number(0, kLargest, false)
       .type("M");
   app.option("--effort", arguments.effort, "Search for the parts this many times as long as usual [1]")

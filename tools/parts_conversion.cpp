@@ -46,6 +46,7 @@ PartsReport convertToParts(const std::string& input, const std::string& output,
                            const ConversionOptions& options, bool force) {
   PartsReport report;
   report.input = input;
+  report.asked = options.parts->excess;
   const TriangleMesh mesh = loadMesh(input, Eigen::Vector3d::Constant(options.scale));
   const auto start = std::chrono::steady_clock::now();
   StpBvOptions radii;
@@ -94,6 +95,8 @@ std::string toText(const PartsReport& report) {
                      " of its triangles; volumes within " + millimetres(report.excessMax()) + "; " +
                      std::to_string(parts.closedPieces) + " of " + std::to_string(parts.pieces) +
                      " pieces closed, their inside is covered";
+  if (!report.isReached())
+    text += "; NOT within the " + millimetres(report.asked) + " asked for: more --parts or --effort may be";
   char seconds[32];
   std::snprintf(seconds, sizeof seconds, "; %.2f s", report.seconds);
   return text + seconds + " -> " + report.outputs.front() + (report.outputs.size() > 1 ? " ..." : "");
@@ -103,6 +106,7 @@ std::string toJson(const PartsReport& report) {
   nlohmann::ordered_json json;
   json["input"] = report.input;
   json["hull_excess_max"] = report.parts.excess;
+  if (report.asked > 0) json["excess_reached"] = report.isReached();
   json["excess_max"] = report.excessMax();
   json["excess_max_open"] = report.openExcessMax();
   json["pieces"] = report.parts.pieces;

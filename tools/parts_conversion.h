@@ -16,10 +16,13 @@ struct PartsReport {
   ConvexParts parts;
   std::vector<StpBv::Ptr> volumes;
   std::vector<OverCover> overCovers;  ///< of each volume over its part
+  double asked = 0;                   ///< excess that the hulls were to keep; 0 for none
   double seconds = 0;                 ///< for the parts and their volumes
   bool verified = true;               ///< each volume holds its part; where it was asked for
   std::string verification;
 
+  /// Whether the hulls are as near as asked for.
+  bool isReached() const { return asked == 0 || parts.excess <= asked; }
   /// Most that a point of the volumes' surfaces is from the mesh's solid, or from its triangles alone.
   double excessMax() const;
   double openExcessMax() const;

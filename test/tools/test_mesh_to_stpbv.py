@@ -61,6 +61,26 @@ class MeshToStpbv(unittest.TestCase):
         after = {name: os.path.isfile(self.at(name)) and read(self.at(name)) for name in self.names()}
         self.assertEqual(before, after)
 
+    def test_an_excess_is_kept_or_the_report_says_that_it_is_not(self):
+        steps = [(x, 0) for x in range(7)] + [(6, 6)] + [(x + (k == 0), 6 - x) for x in range(5, -1, -1) for k in (0, 1)]
+        corners = [(*steps[i], z) for z in (0, 1) for i in range(len(steps))]
+        n = len(steps)
+        sides = [(i, (i + 1) % n, n + (i + 1) % n, n + i) for i in range(n)]  # walls of a staircase, without ends
+        write(self.at("stairs.obj"), "".join("v %d %d %d\n" % p for p in corners)
+              + "".join("f %s\n" % " ".join(str(i + 1) for i in side) for side in sides))
+        def made(*arguments):
+            return self.run_tool("stairs.obj", "-r", "0.001", "-o", "stairs.stpbv", "--force", *arguments).stdout
+        near = json.loads(made("--excess", "0.3", "--json"))
+        self.assertTrue(near["excess_reached"])
+        self.assertLessEqual(near["hull_excess_max"], 0.3)
+        self.assertNotIn("excess_reached", json.loads(made("--parts", "2", "--json")))
+        far = json.loads(made("--excess", "0.3", "--parts", "2", "--json"))
+        self.assertEqual(len(far["parts"]), 2)
+        self.assertFalse(far["excess_reached"])
+        self.assertGreater(far["hull_excess_max"], 0.3)
+        self.assertIn("NOT within the 300.000 mm asked for", made("--excess", "0.3", "--parts", "2"))
+        self.assertNotIn("NOT", made("--excess", "0.3"))
+
     def test_advised_radii_keep_what_is_asked_for_or_nothing_is_written(self):
         task = "clearance=0.6,acceleration=1,speed=0.3,turning=1,distance=0.01,others=round"
         done = json.loads(self.run_tool("cube.txt", "-o", "cube.stpbv", "--json", "--advise", task).stdout)
