@@ -72,17 +72,34 @@ void takeName(const fs::path& made, const fs::path& name) {
   }
 }
 
-}  // namespace
-
-void atomicWriteFolder(const std::string& folder, const FolderFiles& files) {
-  const EndPutOff putOff;
+// Without a slash at the end, and where a link leads to.
+fs::path placeOf(const std::string& folder) {
   fs::path name = fs::path(folder).lexically_normal();
-  if (name.filename().empty()) name = name.parent_path();  // it ended in a slash
+  if (name.filename().empty()) name = name.parent_path();
   std::error_code none;
   if (const fs::path real = fs::canonical(name, none); !none) name = real;
+  return name;
+}
+
+// An empty folder beside it.
+std::string madeBeside(const fs::path& name, const std::string& folder) {
   const fs::path parent = name.parent_path().empty() ? "." : name.parent_path();
   std::string made = (parent / ".fcl_stpbv-XXXXXX").string();
   if (::mkdtemp(made.data()) == nullptr) refuse(folder, errno);
+  return made;
+}
+
+}  // namespace
+
+void requireFolderPlace(const std::string& folder) {
+  const EndPutOff putOff;
+  const Removed temporary{madeBeside(placeOf(folder), folder)};
+}
+
+void atomicWriteFolder(const std::string& folder, const FolderFiles& files) {
+  const EndPutOff putOff;
+  const fs::path name = placeOf(folder);
+  const std::string made = madeBeside(name, folder);
   const Removed temporary{made};  // after a swap the old folder
   const mode_t mask = ::umask(0);
   ::umask(mask);

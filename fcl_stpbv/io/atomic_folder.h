@@ -15,4 +15,8 @@ using FolderFiles = std::map<std::string, std::string>;
 /// @throws Error naming the folder and the reason; the old one is as it was then.
 void atomicWriteFolder(const std::string& folder, const FolderFiles& files);
 
+/// Tries whether a folder can be made there, for who will write it after long work.
+/// @throws Error as atomicWriteFolder() does.
+void requireFolderPlace(const std::string& folder);
+
 }  // namespace fcl_stpbv::detail

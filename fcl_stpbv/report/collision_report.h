@@ -22,14 +22,14 @@ namespace fcl_stpbv::report {
 
 struct ReportRequest {
   RobotFiles files;
-  std::string pose;  ///< a state's name or a JSON file, "" for each pair's closest configuration
-  std::string
-      trajectory;       ///< file of way points that pairs are followed along (trajectory_file.h), "" for none
-  std::string neutral;  ///< as pose, "" for all joints at zero or at the limit nearest to it
-  std::string polyhedra;          ///< folder of published ones, "" for none
-  bool partsAuto = false;         ///< concave links are split for the pairs that collide by their hulls alone
+  std::string pose;        ///< a state's name or a JSON file, "" for each pair's closest configuration
+  std::string trajectory;  ///< way points that pairs are followed along (trajectory_file.h), "" for none
+  std::string neutral;     ///< as pose, "" for all joints at zero or at the limit nearest to it
+  std::string polyhedra;   ///< folder of published ones, "" for none
+  bool partsAuto = false;  ///< concave links are split for the pairs that collide by their hulls alone
   bool partsForAllPairs = false;  ///< and then for all the pairs of these links
   int partsAll = 1;               ///< or all of them into so many at most, for all pairs
+  bool mayCheckNothing = false;   ///< no error where no pair is left to check
   PairListOptions search;
 };
 

@@ -103,6 +103,8 @@ ConversionResult convertRobot(const RobotConversion& conversion) {
   }
   ReportRequest request = conversion.report;
   request.partsForAllPairs = true;
+  request.mayCheckNothing = true;  // a gripper of one link has parts too
+  requireFolderPlace(conversion.folder);
   const CollisionReport report = makeReport(request);
   PartFiles output(conversion, report);
   atomicWriteFolder(conversion.folder, output.make(inputs, key));

@@ -295,7 +295,9 @@ class Conversion(unittest.TestCase):
             '</link><joint name="slide" type="prismatic"><parent link="gate"/><child link="ball"/><origin xyz="0 1 0"/>'
             '<axis xyz="0 1 0"/><limit lower="-2" upper="0" effort="1" velocity="1"/></joint></robot>')
         done = self.convert("--parts", "2", "-r", "0.01", "--neutral", str(self.pose({"slide": -1.2})))
-        self.assertEqual(done.returncode, 2, done)  # the two are adjacent: no pair is checked
+        self.assertEqual(done.returncode, 0, done)
+        self.assertIn("0 of 1 pairs to check", done.stdout)  # the two are adjacent
+        self.assertEqual(self.manifest()["pairs"]["checked"], 0)
         text = (self.place / "gate.urdf").read_text().replace(
             "</robot>", '<link name="far"><visual><geometry><box size="1 1 1"/></geometry></visual></link><joint name="j" '
             'type="prismatic"><parent link="ball"/><child link="far"/><origin xyz="9 0 0"/><limit lower="0" upper="1" effort="1" '
