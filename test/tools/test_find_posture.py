@@ -26,12 +26,19 @@ def page_data(page):
 
 
 class FindPosture(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        """A cache for the robot that the tests share: built once."""
+        cls.shared = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(cls.shared.cleanup)
+
     def setUp(self):
         self.folder = tempfile.TemporaryDirectory()
         self.addCleanup(self.folder.cleanup)
 
     def run_tool(self, *arguments):
-        environment = dict(os.environ, XDG_CACHE_HOME=os.path.join(self.folder.name, "cache"))
+        cache = self.shared.name if f"{ROBOT}.urdf" in arguments else os.path.join(self.folder.name, "cache")
+        environment = dict(os.environ, XDG_CACHE_HOME=cache)
         return subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, env=environment, timeout=120)
 
     def run_task(self, task, *arguments):

@@ -28,12 +28,19 @@ def joint(name, parent, child, kind="revolute", origin="0 0 0"):
 
 
 class Report(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        """A cache for the robots that many tests ask for: built once. Robots of a single test have its own."""
+        cls.shared = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(cls.shared.cleanup)
+
     def setUp(self):
         self.folder = tempfile.TemporaryDirectory()
         self.addCleanup(self.folder.cleanup)
 
     def run_tool(self, *arguments, timeout=120):
-        environment = dict(os.environ, XDG_CACHE_HOME=os.path.join(self.folder.name, "cache"))
+        cache = self.shared.name if ROBOT + ".urdf" in arguments else os.path.join(self.folder.name, "cache")
+        environment = dict(os.environ, XDG_CACHE_HOME=cache)
         return subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, env=environment, timeout=timeout)
 
     def put(self, name, text):
