@@ -17,6 +17,7 @@ bool distanceCallback(fcl::CollisionObjectd* object1, fcl::CollisionObjectd* obj
     ++query.pairs;
     QueryContext context;
     context.mapping = query.mapping;
+    context.start = query.start;
     if (query.caches) context.cache = &query.caches->of(object1, object2);
     const DistanceAnswer answer = distance(*object1, *object2, context);
     if (answer.status == DistanceStatus::invalid)

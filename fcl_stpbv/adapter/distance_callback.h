@@ -48,8 +48,9 @@ struct DistanceData {
   bool done = false;      ///< set it to stop the search
   /// Stop at the first pair in contact, as FCL's own callback does; else the deepest pair is found.
   bool stopAtContact = false;
-  PairCaches* caches = nullptr;      ///< optional: makes repeated queries of a slowly moving scene faster
-  MappingCounts* mapping = nullptr;  ///< optional: gets how good FCL's features were as starts; slower
+  PairCaches* caches = nullptr;          ///< optional: makes repeated queries of a slowly moving scene faster
+  MappingCounts* mapping = nullptr;      ///< optional: gets how good FCL's features were as starts; slower
+  StartFrom start = StartFrom::centres;  ///< of pairs without a last answer
   /// Optional: pairs that are not asked, as two parts of one body, which FCL's managers offer like any others
   /// (docs/fcl.md). Takes the objects in the manager's order.
   std::function<bool(const fcl::CollisionObjectd*, const fcl::CollisionObjectd*)> leaveOut = nullptr;

@@ -21,7 +21,7 @@ using namespace detail;
 using fcl::CollisionGeometryd;
 using fcl::Transform3d;
 
-/// A start from FCL's polyhedral witness (paper IV.B), which the solver goes on from by hopping: cheaper than
+/// A start from FCL's polyhedral witness (paper IV.B), which the feature walk goes on from: cheaper than
 /// the last of GJK's steps and than the choice of neighbours, so both are left out.
 PairCache startFromFcl(const StpBvGeometry& a, const Transform3d& poseA, const StpBvGeometry& b,
                        const Transform3d& poseB) {
@@ -41,14 +41,14 @@ Distance countedDistance(const StpBvGeometry& a, const Transform3d& poseA, const
   return found;
 }
 
-/// Two STP-BVs: from the last answer if there is one, else from FCL's witness.
+/// Two STP-BVs: from the last answer if there is one, else as the caller wants it.
 Distance smoothDistance(const StpBvGeometry& a, const Transform3d& poseA, const StpBvGeometry& b,
                         const Transform3d& poseB, const QueryContext& context) {
   PairCache start;
   PairCache& cache = context.cache ? *context.cache : start;
   if (!(cache.normal.squaredNorm() > 0)) {
     if (context.mapping) return countedDistance(a, poseA, b, poseB, cache, *context.mapping);
-    cache = startFromFcl(a, poseA, b, poseB);
+    if (context.start == StartFrom::fclWitness) cache = startFromFcl(a, poseA, b, poseB);
   }
   return distance(a.volume(), poseA, b.volume(), poseB, &cache);
 }

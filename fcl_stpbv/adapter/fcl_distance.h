@@ -54,13 +54,20 @@ struct ProximityCounts {
   long solved = 0;  ///< pairs of bodies whose distance had to be searched for
 };
 
+/// Where a query of two STP-BVs starts that knows no last answer. Either way the answer is the same.
+enum class StartFrom {
+  centres,     ///< the line between the centres: the fastest
+  fclWitness,  ///< the features of FCL's polyhedral witness: the paper's way (IV.B)
+};
+
 /// What a query may remember and report; all optional, all owned by the caller.
 struct QueryContext {
-  PairCache* cache = nullptr;  ///< starts the query near the pair's last answer instead of asking FCL
-  /// Gets the outcome of the feature mapping, for queries that ask FCL: from the
-  /// exact witness then, which takes longer.
+  PairCache* cache = nullptr;  ///< starts the query near the pair's last answer
+  /// Gets the outcome of the feature mapping: queries without a last answer start from FCL's exact witness
+  /// then, which takes longer.
   MappingCounts* mapping = nullptr;
   ProximityCounts* proximity = nullptr;  ///< gets what a question about a threshold took
+  StartFrom start = StartFrom::centres;
 };
 
 /// Distance between two geometries. Never throws or allocates; FCL is never asked for a distance.

@@ -24,7 +24,7 @@ class PairDistance {
     return distance(*geometry1_, pose1, *geometry2_, pose2, {&cache_, mapping_});
   }
 
-  /// Makes the next query start from FCL's witness again.
+  /// Makes the next query start as the first one did.
   void forget() { cache_ = {}; }
 
  private:

@@ -8,6 +8,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "fcl_stpbv/adapter/distance_callback.h"
 #include "fcl_stpbv/adapter/fcl_distance.h"
 #include "fcl_stpbv/adapter/fcl_shapes.h"
 #include "fcl_stpbv/adapter/pair_distance.h"
@@ -281,6 +282,34 @@ TEST_CASE("a pair asked again and again agrees with single queries and asks FCL 
   pair.forget();
   pair(at(0, 0, 0), at(1, 0, 0));
   CHECK(counts.total() == 2);
+}
+
+TEST_CASE("the answer is the same from the line of centres and from FCL's witness, for both callers") {
+  Random random(22);
+  QueryContext fromWitness;
+  fromWitness.start = StartFrom::fclWitness;
+  for (const Cloud& cloud :
+       {box(0.2, 0.3, 0.4), geodesicSphere(0.2, 2), plate(0.3, 0.2), cylinder(0.1, 0.4)}) {
+    const auto a = geometryOf(cloud), b = geometryOf(box(0.1, 0.2, 0.5));
+    for (int i = 0; i < 400; ++i) {
+      const Isometry3d poseA = pose(random.rotation(), {0, 0, 0}),
+                       poseB = pose(random.rotation(), random.uniform(0.02, 1.2) * random.direction());
+      const DistanceAnswer d = distance(*a, poseA, *b, poseB),
+                           e = distance(*a, poseA, *b, poseB, fromWitness);
+      // Each within its bounds; apart, these are nothing but rounding.
+      CHECK(d.lower <= e.upper);
+      CHECK(e.lower <= d.upper);
+      if (d.distance > 0) CHECK(std::abs(d.distance - e.distance) <= 1e-14);
+      DistanceData fromCentres, asThePaper;
+      asThePaper.start = StartFrom::fclWitness;
+      fcl::CollisionObjectd one(a, poseA), two(b, poseB);
+      double ignored = 0;
+      distanceCallback(&one, &two, &fromCentres, ignored);
+      distanceCallback(&one, &two, &asThePaper, ignored);
+      CHECK(fromCentres.result.distance == d.distance);
+      CHECK(asThePaper.result.distance == e.distance);
+    }
+  }
 }
 
 TEST_CASE("degenerate volumes are bodies like any other") {

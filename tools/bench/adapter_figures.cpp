@@ -112,25 +112,33 @@ Json figures(const char* name, const Cloud& cloud, int queries, bool large) {
   request.distance_tolerance = 1e-10;
   WitnessStart start;
   PairCache cache;
+  QueryContext fromWitness;
+  fromWitness.start = StartFrom::fclWitness;
   const std::vector<double> ns = nanoseconds(
-      motion, {[&](const Isometry3d& a, const Isometry3d& b) {
-                 fcl::DistanceResultd answer;
-                 return fcl::distance(&g, a, &g, b, request, answer);
-               },
-               [&](const Isometry3d& a, const Isometry3d& b) {
-                 return polyhedralWitness(g.hull(), a, g.hull(), b).upper;
-               },
-               [&](const Isometry3d& a, const Isometry3d& b) {
-                 const PolyhedralWitness w = polyhedralWitness(g.hull(), a, g.hull(), b, start);
-                 start = w.start();
-                 return w.upper;
-               },
-               [&](const Isometry3d& a, const Isometry3d& b) { return distance(g, a, g, b).distance; },
-               [&](const Isometry3d& a, const Isometry3d& b) {
-                 return distance(g, a, g, b, {&cache, nullptr}).distance;
-               }});
+      motion,
+      {[&](const Isometry3d& a, const Isometry3d& b) {
+         fcl::DistanceResultd answer;
+         return fcl::distance(&g, a, &g, b, request, answer);
+       },
+       [&](const Isometry3d& a, const Isometry3d& b) {
+         return polyhedralWitness(g.hull(), a, g.hull(), b).upper;
+       },
+       [&](const Isometry3d& a, const Isometry3d& b) {
+         const PolyhedralWitness w = polyhedralWitness(g.hull(), a, g.hull(), b, start);
+         start = w.start();
+         return w.upper;
+       },
+       [&](const Isometry3d& a, const Isometry3d& b) { return distance(g, a, g, b, fromWitness).distance; },
+       [&](const Isometry3d& a, const Isometry3d& b) { return distance(g, a, g, b).distance; },
+       [&](const Isometry3d& a, const Isometry3d& b) {
+         return distance(g, a, g, b, {&cache, nullptr}).distance;
+       },
+       [&](const Isometry3d& a, const Isometry3d& b) {
+         return distance(g.volume(), a, g.volume(), b).distance;
+       }});
   std::size_t k = 0;
-  for (const char* way : {"fcl", "witness_cold", "witness_warm", "exact_cold", "exact_warm"})
+  for (const char* way :
+       {"fcl", "witness_cold", "witness_warm", "exact_from_witness", "exact_cold", "exact_warm", "core_cold"})
     result[std::string("ns_") + way] = std::round(ns[k++]);
   return result;
 }

@@ -79,7 +79,9 @@ class ThroughFcl : public Method {
   explicit ThroughFcl(const Bodies& bodies) : Method("STP-BV through FCL", "cold", true), bodies_(bodies) {}
 
   void query(const Isometry3d& a, const Isometry3d& b, Answer& answer) override {
-    const DistanceAnswer d = distance(*bodies_.a, a, *bodies_.b, b);
+    QueryContext context;
+    context.start = StartFrom::fclWitness;
+    const DistanceAnswer d = distance(*bodies_.a, a, *bodies_.b, b, context);
     answer.outcome = outcomeOf(d.status, d.distance);
     answer.distance = d.distance;
     answer.point = d.points;

@@ -72,7 +72,9 @@ class ThroughFcl : public Contestant {
   explicit ThroughFcl(const Situation& s) : a_(*s.a->smooth), b_(*s.b->smooth) {}
 
   Answer query(const Placement& at) override {
-    const DistanceAnswer d = distance(a_, at.a, b_, at.b);
+    QueryContext context;
+    context.start = StartFrom::fclWitness;
+    const DistanceAnswer d = distance(a_, at.a, b_, at.b, context);
     return smoothAnswer(d, d.points);
   }
 

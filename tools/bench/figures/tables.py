@@ -122,9 +122,11 @@ def features():
 def adapter_costs():
     rows = [row for row in measured("adapter")["rows"] if row["motion"] != "apart"]
     ns = lambda row, way: row[f"ns_{way}"]
-    return markdown(("", "", "fcl::distance", "witness, cold", "witness, warm", "exact, cold", "exact, warm", "exact, cold / FCL", "exact, warm / FCL"),
-                    [(row["shape"], row["motion"], *(f"{ns(row, way):.0f}" for way in ("fcl", "witness_cold", "witness_warm", "exact_cold", "exact_warm")),
-                      *(f"{ns(row, way) / ns(row, 'fcl'):.2f}" for way in ("exact_cold", "exact_warm"))) for row in rows])
+    return markdown(("", "", "fcl::distance", "witness, cold", "witness, warm", "exact, from the witness", "exact, cold", "exact, warm", "exact, cold / FCL",
+                     "exact, warm / FCL", "cold / without FCL"),
+                    [(row["shape"], row["motion"], *(f"{ns(row, way):.0f}" for way in ("fcl", "witness_cold", "witness_warm", "exact_from_witness", "exact_cold", "exact_warm")),
+                      *(f"{ns(row, way) / ns(row, 'fcl'):.2f}" for way in ("exact_cold", "exact_warm")),
+                      f"{ns(row, 'exact_cold') / ns(row, 'core_cold'):.2f}") for row in rows])
 
 
 @table("collide")
