@@ -67,7 +67,7 @@ struct QueryContext {
   /// then, which takes longer.
   MappingCounts* mapping = nullptr;
   ProximityCounts* proximity = nullptr;  ///< gets what a question about a threshold took
-  StartFrom start = StartFrom::centres;
+  StartFrom start = StartFrom::centres;  ///< of queries without a last answer
 };
 
 /// Distance between two geometries. Never throws or allocates; FCL is never asked for a distance.

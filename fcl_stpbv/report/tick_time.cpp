@@ -11,8 +11,6 @@ namespace fcl_stpbv::report {
 
 using namespace detail;
 
-namespace {}  // namespace
-
 std::vector<CheckedPair> closestBodies(const CollisionReport& report) {
   const int count = static_cast<int>(report.geometry->bodies.size());
   std::vector<CheckedPair> bodies;

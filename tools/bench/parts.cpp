@@ -109,10 +109,12 @@ class Tick {
       rows.insert(rows.end(), more.begin(), more.end());
     }
     const auto kinematics = std::make_shared<const Kinematics>(robot_);
-    const report::RowCost cost = report::tickCost(kinematics, geometry, rows, {}, kinematics->neutral());
+    std::vector<double> us;
+    for (int i = 0; i < 7; ++i)
+      us.push_back(report::tickCost(kinematics, geometry, rows, {}, kinematics->neutral()).usPerTick);
     return {{"bodies", geometry->bodies.size()},
             {"rows", rows.size()},
-            {"us_a_tick", significant(cost.usPerTick, 3)}};
+            {"us_a_tick", significant(benchmark::median(us), 3)}};
   }
 
  private:

@@ -3,7 +3,7 @@
 # name in the measurements: (colour, gnuplot's point type, name in a chart)
 METHODS = {
     "STP-BV warm": ("#1f4e96", 7, "STP-BV, from the last answer"),
-    "STP-BV through FCL": ("#4fb3d9", 13, "STP-BV through FCL, no memory"),
+    "STP-BV through FCL": ("#4fb3d9", 13, "STP-BV, from FCL's witness"),
     "FCL with gap stop": ("#55a868", 11, "FCL's GJK, duality-gap stop"),
     "FCL libccd": ("#c44e52", 7, "FCL libccd"),
     "FCL indep": ("#dd8452", 5, "FCL indep"),

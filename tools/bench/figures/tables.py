@@ -64,7 +64,7 @@ def summary():
 
 
 NAMES = {"FCL libccd": "FCL libccd", "FCL indep": "FCL indep", "Bullet GJK": "Bullet GJK", "FCL with gap stop": "FCL's GJK, duality-gap stop, warm",
-         "STP-BV through FCL": "STP-BV through FCL, no memory", "STP-BV warm": "STP-BV, from the last answer"}
+         "STP-BV through FCL": "STP-BV, from FCL's witness", "STP-BV warm": "STP-BV, from the last answer"}
 
 
 @table("size")
