@@ -4,6 +4,7 @@
 //     sqrt(D) N - T with the integers T = |u|^2 v x N + |v|^2 N x u and D = 4 |N|^2 rho^2 - |u|^2 |v|^2 |u -
 //     v|^2 (docs/theory.md, 2). So both predicates have the form A + B sqrt(D).
 //  3. Where A and B differ in sign, A^2 against B^2 D decides.
+// Corners of flat faces are asked most: there B = 0, and A is small enough for integers of a fixed size.
 // D < 0, a ball too small by rounding, counts as 0: the ball around the three points' own circle.
 #include "fcl_stpbv/volume/exact_sign.h"
 
@@ -13,54 +14,87 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <optional>
 
 namespace fcl_stpbv::detail {
 namespace {
 
-using Integer = boost::multiprecision::cpp_int;
+namespace integers = boost::multiprecision;
+using Integer = integers::number<integers::cpp_int_backend<>, integers::et_off>;
+constexpr int kFixedBits = 512;
+using FixedInteger = integers::number<
+    integers::cpp_int_backend<kFixedBits, kFixedBits, integers::signed_magnitude, integers::unchecked, void>,
+    integers::et_off>;
 
+template <class Int>
 struct IntegerVector {
-  Integer x, y, z;
+  Int x, y, z;
 };
-IntegerVector operator-(const IntegerVector& p, const IntegerVector& q) {
+template <class Int>
+IntegerVector<Int> operator-(const IntegerVector<Int>& p, const IntegerVector<Int>& q) {
   return {p.x - q.x, p.y - q.y, p.z - q.z};
 }
-IntegerVector operator+(const IntegerVector& p, const IntegerVector& q) {
+template <class Int>
+IntegerVector<Int> operator+(const IntegerVector<Int>& p, const IntegerVector<Int>& q) {
   return {p.x + q.x, p.y + q.y, p.z + q.z};
 }
-IntegerVector operator*(const Integer& s, const IntegerVector& p) { return {s * p.x, s * p.y, s * p.z}; }
-Integer dot(const IntegerVector& p, const IntegerVector& q) { return p.x * q.x + p.y * q.y + p.z * q.z; }
-IntegerVector cross(const IntegerVector& p, const IntegerVector& q) {
+template <class Int>
+IntegerVector<Int> operator*(const Int& s, const IntegerVector<Int>& p) {
+  return {s * p.x, s * p.y, s * p.z};
+}
+template <class Int>
+Int dot(const IntegerVector<Int>& p, const IntegerVector<Int>& q) {
+  return p.x * q.x + p.y * q.y + p.z * q.z;
+}
+template <class Int>
+IntegerVector<Int> cross(const IntegerVector<Int>& p, const IntegerVector<Int>& q) {
   return {p.y * q.z - p.z * q.y, p.z * q.x - p.x * q.z, p.x * q.y - p.y * q.x};
 }
 
-// The exponent of a double's last bit; that of its last bit that is set is not needed.
-int lastBit(double value) {
-  int exponent = 0;
-  std::frexp(value, &exponent);
-  return exponent - std::numeric_limits<double>::digits;
-}
+// A double is an odd integer times a power of two.
+struct Odd {
+  std::int64_t factor;
+  int exponent;
+  int bits;  // of the factor
+
+  explicit Odd(double value) {  // not 0
+    constexpr int kDigits = std::numeric_limits<double>::digits;
+    factor = static_cast<std::int64_t>(std::ldexp(std::frexp(value, &exponent), kDigits));
+    exponent -= kDigits, bits = kDigits;
+    const int zeros = __builtin_ctzll(static_cast<unsigned long long>(factor));
+    factor /= std::int64_t{1} << zeros, exponent += zeros, bits -= zeros;
+  }
+};
 
 // Scales doubles to integers, by one power of two for all.
 class Scale {
  public:
   void include(double value) {
-    if (value != 0 && std::isfinite(value)) least_ = std::min(least_, lastBit(value));
+    if (value == 0 || !std::isfinite(value)) return;
+    const Odd odd(value);
+    least_ = std::min(least_, odd.exponent);
+    most_ = std::max(most_, odd.exponent + odd.bits);
   }
   void include(const Eigen::Vector3d& p) {
     for (int k = 0; k < 3; ++k) include(p[k]);
   }
-  Integer operator()(double value) const {
+  // Of the largest integer.
+  int bits() const { return std::max(most_ - least_, 0); }
+
+  template <class Int>
+  Int of(double value) const {
     if (value == 0) return 0;
-    const int last = lastBit(value);
-    return Integer(static_cast<std::int64_t>(std::ldexp(value, -last))) << (last - least_);
+    const Odd odd(value);
+    return Int(odd.factor) << (odd.exponent - least_);
   }
-  IntegerVector operator()(const Eigen::Vector3d& p) const {
-    return {(*this)(p.x()), (*this)(p.y()), (*this)(p.z())};
+  template <class Int>
+  IntegerVector<Int> of(const Eigen::Vector3d& p) const {
+    return {of<Int>(p.x()), of<Int>(p.y()), of<Int>(p.z())};
   }
 
  private:
   int least_ = std::numeric_limits<double>::max_exponent;
+  int most_ = std::numeric_limits<double>::min_exponent - std::numeric_limits<double>::digits;
 };
 
 // Sign of A + B sqrt(D).
@@ -72,16 +106,17 @@ int signOf(const Integer& a, const Integer& b, const Integer& d) {
 }
 
 struct IntegerBall {
-  IntegerVector a, normal, towards;  // N and T
+  IntegerVector<Integer> a, normal, towards;  // N and T
   Integer n2, discriminant;
   bool isPlane;
 
   IntegerBall(const BallPoints& ball, const Scale& scale)
-      : a(scale(ball.a)), isPlane(std::isinf(ball.radius)) {
-    const IntegerVector u = scale(ball.b) - a, v = scale(ball.c) - a, w = u - v;
+      : a(scale.of<Integer>(ball.a)), isPlane(std::isinf(ball.radius)) {
+    const IntegerVector<Integer> u = scale.of<Integer>(ball.b) - a, v = scale.of<Integer>(ball.c) - a,
+                                 w = u - v;
     normal = cross(u, v);
     if (isPlane) return;
-    const Integer u2 = dot(u, u), v2 = dot(v, v), rho = scale(ball.radius);
+    const Integer u2 = dot(u, u), v2 = dot(v, v), rho = scale.of<Integer>(ball.radius);
     n2 = dot(normal, normal);
     towards = u2 * cross(v, normal) + v2 * cross(normal, u);
     discriminant = 4 * n2 * rho * rho - u2 * v2 * dot(w, w);
@@ -98,10 +133,24 @@ Scale scaleOf(const BallPoints& ball, std::initializer_list<Eigen::Vector3d> oth
 
 }  // namespace
 
+std::optional<int> coplanarSide(const BallPoints& points, const Eigen::Vector3d& p) {
+  Scale scale;
+  for (const Eigen::Vector3d& x : {points.a, points.b, points.c, p}) scale.include(x);
+  // A has products of six differences, each of one bit more than a coordinate; fewer than 128 of them.
+  if (6 * (scale.bits() + 1) + 7 > kFixedBits) return std::nullopt;
+  const IntegerVector<FixedInteger> a = scale.of<FixedInteger>(points.a),
+                                    u = scale.of<FixedInteger>(points.b) - a,
+                                    v = scale.of<FixedInteger>(points.c) - a,
+                                    q = scale.of<FixedInteger>(p) - a, normal = cross(u, v);
+  if (dot(q, normal) != 0) return std::nullopt;
+  const IntegerVector<FixedInteger> towards = dot(u, u) * cross(v, normal) + dot(v, v) * cross(normal, u);
+  return FixedInteger(dot(normal, normal) * dot(q, q) - dot(q, towards)).sign();
+}
+
 int exactSide(const BallPoints& points, const Eigen::Vector3d& p) {
   const Scale scale = scaleOf(points, {p});
   const IntegerBall ball(points, scale);
-  const IntegerVector q = scale(p) - ball.a;
+  const IntegerVector<Integer> q = scale.of<Integer>(p) - ball.a;
   if (ball.isPlane) return dot(q, ball.normal).sign();
   return signOf(ball.n2 * dot(q, q) - dot(q, ball.towards), dot(q, ball.normal), ball.discriminant);
 }
@@ -110,16 +159,11 @@ int exactTurn(const BallPoints& points, const Eigen::Vector3d& p, const Eigen::V
               const Eigen::Vector3d& s) {
   const Scale scale = scaleOf(points, {p, q, s});
   const IntegerBall ball(points, scale);
-  const IntegerVector at = scale(p), around = cross(scale(q) - at, scale(s) - at);
+  const IntegerVector<Integer> at = scale.of<Integer>(p),
+                               around = cross(scale.of<Integer>(q) - at, scale.of<Integer>(s) - at);
   const Integer up = dot(around, ball.normal);
   if (ball.isPlane) return up.sign();
-  return signOf(dot(around, 2 * ball.n2 * (at - ball.a) - ball.towards), up, ball.discriminant);
-}
-
-bool spanPlane(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
-  const IntegerBall plane({a, b, c, std::numeric_limits<double>::infinity()},
-                          scaleOf({a, b, c, std::numeric_limits<double>::infinity()}, {}));
-  return plane.normal.x != 0 || plane.normal.y != 0 || plane.normal.z != 0;
+  return signOf(dot(around, Integer(2 * ball.n2) * (at - ball.a) - ball.towards), up, ball.discriminant);
 }
 
 }  // namespace fcl_stpbv::detail

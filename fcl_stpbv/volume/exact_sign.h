@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 
 namespace fcl_stpbv::detail {
 
@@ -14,11 +15,12 @@ struct BallPoints {
 /// 1 where p lies outside the ball, 0 on it, -1 inside. No rounding: the coordinates as they are.
 int exactSide(const BallPoints& ball, const Eigen::Vector3d& p);
 
+/// The same where all four points lie exactly in one plane, as corners of a flat face do: quick, and for any
+/// radius the same. None where they do not, or their coordinates differ too much in size.
+std::optional<int> coplanarSide(const BallPoints& ball, const Eigen::Vector3d& p);
+
 /// 1 where p, q, s on the ball turn counter-clockwise seen from outside, 0 on one great circle, -1 otherwise.
 int exactTurn(const BallPoints& ball, const Eigen::Vector3d& p, const Eigen::Vector3d& q,
               const Eigen::Vector3d& s);
-
-/// False where a, b and c lie exactly on one line.
-bool spanPlane(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c);
 
 }  // namespace fcl_stpbv::detail

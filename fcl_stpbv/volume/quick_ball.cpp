@@ -17,6 +17,8 @@
 #include <cmath>
 #include <limits>
 
+#include "fcl_stpbv/volume/exact_sign.h"
+
 namespace fcl_stpbv::detail {
 
 using Eigen::Vector3d;
@@ -30,7 +32,7 @@ QuickBall::QuickBall(const Vector3d& a, const Vector3d& b, const Vector3d& c, do
   else if (ca > bc)
     touched_ = {&b, &c, &a};
   anchor_ = *touched_[0];
-  const double curvature = std::isinf(radius) ? 0 : 1 / radius;
+  const double curvature = 1 / radius;
   halfCurvature_ = 0.5 * curvature;
   const Vector3d u = *touched_[1] - anchor_, v = *touched_[2] - anchor_, n = u.cross(v);
   const double u2 = u.squaredNorm(), v2 = v.squaredNorm(), n2 = n.squaredNorm();
@@ -57,7 +59,8 @@ TouchingBall& QuickBall::exact() {
 int QuickBall::exactSide(const Vector3d& p) {
   for (const Vector3d* touched : touched_)
     if (p == *touched) return 0;
-  return exact().side(p);
+  const std::optional<int> side = coplanarSide({*touched_[0], *touched_[1], *touched_[2], radius_}, p);
+  return side ? *side : exact().side(p);
 }
 
 }  // namespace fcl_stpbv::detail

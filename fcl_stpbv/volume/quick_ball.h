@@ -11,7 +11,7 @@ namespace fcl_stpbv::detail {
 
 /// A TouchingBall (ball_side.h) that decides in double precision where that is certain, as for
 /// nearly all points: a dozen operations. The exact ball is made when a point first needs it.
-/// The three points must stay where they are.
+/// The radius is finite, and the three points must stay where they are.
 class QuickBall {
  public:
   QuickBall() = default;

@@ -6,6 +6,7 @@
 
 #include "fcl_stpbv/volume/ball_faces.h"
 #include "fcl_stpbv/volume/ball_side.h"
+#include "fcl_stpbv/volume/exact_sign.h"
 #include "fcl_stpbv/volume/minimum_ball.h"
 #include "fcl_stpbv/volume/point_tree.h"
 #include "fcl_stpbv/volume/rolling_ball.h"
@@ -40,6 +41,39 @@ TEST_CASE("The side of a ball through a sliver is decided where quadruple precis
     CHECK(ball.turn({0.125, 0, 0}, {0, 0, 0}, {0, -width, 0}) == 1);
     CHECK(ball.turn({0.125, 0, 0}, {0, -width, 0}, {0, 0, 0}) == -1);
   }
+}
+
+TEST_CASE("Points of one plane have the side that the integers for any points tell") {
+  Random random(7);
+  int inside = 0, on = 0, outside = 0, undecided = 0;
+  for (int k = 0; k < 3000; ++k) {
+    // Small multiples of two integer vectors, scaled: exactly in one plane. Every third time one vector is so
+    // short that some coordinates need more bits than the quick way has.
+    const double far = std::ldexp(1, k % 3 == 0 ? random.below(90) : 0);
+    const auto whole = [&](int most) { return static_cast<double>(random.below(2 * most + 1) - most); };
+    const Vector3d u = far * Vector3d(whole(9), whole(9), whole(9)), v(whole(9), whole(9), whole(9));
+    const auto at = [&](double x, double y) { return Vector3d(std::ldexp(1, -12) * (x * u + y * v)); };
+    const Vector3d a = at(0, 0), b = at(whole(5), whole(5)), c = at(whole(5), whole(5));
+    // The fourth corner of a parallelogram is on the ball where that is a rectangle.
+    const Vector3d p = k % 2 == 0 ? Vector3d(b + c - a) : at(whole(5), whole(5));
+    const TouchingBall ball(a, b, c, std::ldexp(far, 5));
+    if (!ball.valid()) continue;
+    const BallPoints points{a, b, c, std::ldexp(far, 5)};
+    const std::optional<int> side = coplanarSide(points, p);
+    undecided += !side;
+    if (!side) continue;
+    CAPTURE(k, a, b, c, p);
+    CHECK(*side == exactSide(points, p));
+    CHECK(*side == ball.side(p));
+    ++(*side < 0 ? inside : *side > 0 ? outside : on);
+  }
+  CAPTURE(inside, on, outside, undecided);
+  CHECK(std::min({inside, on, outside, undecided}) > 10);
+  // Off the plane by the last bit.
+  CHECK(!coplanarSide({{0, 0, 1}, {1, 0, 1}, {0, 1, 1}, 10}, {0.25, 0.25, std::nextafter(1, 2)}));
+  CHECK(coplanarSide({{0, 0, 1}, {1, 0, 1}, {0, 1, 1}, 10}, {1, 1, 1}) == 0);
+  CHECK(coplanarSide({{0, 0, 1}, {1, 0, 1}, {0, 1, 1}, 10}, {1, std::nextafter(1, 2), 1}) == 1);
+  CHECK(coplanarSide({{0, 0, 1}, {1, 0, 1}, {0, 1, 1}, 10}, {1, std::nextafter(1, 0), 1}) == -1);
 }
 
 TEST_CASE("An infinite radius makes the ball the plane through its points") {
