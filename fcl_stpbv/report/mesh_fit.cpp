@@ -3,11 +3,9 @@
 #include "fcl_stpbv/report/mesh_fit.h"
 
 #include <cmath>
-#include <sstream>
+#include <string>
 #include <vector>
 
-#include "fcl_stpbv/io/stpbv_file.h"
-#include "fcl_stpbv/io/text_scanner.h"
 #include "fcl_stpbv/parts/mesh_excess.h"
 #include "fcl_stpbv/robot/shape_source.h"
 
@@ -34,15 +32,23 @@ std::vector<double> toNumbers(const MeshFit& fit) {
   return {fit.hullExcess, std::isfinite(fit.volumeRatio) ? fit.volumeRatio : 0.0, fit.closed ? 1.0 : 0.0};
 }
 
+template <class T>
+void appendBytes(std::string& content, const std::vector<T>& values) {
+  content.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
+}
+
 }  // namespace
 
 std::string contentOf(const Body& body) {
-  std::ostringstream volume;
-  if (body.volume) saveStpBv(volume, *body.volume);
-  std::string content = volume.str() + meshContent(body.file, body.scale);
-  for (const Eigen::Vector3d& p : body.hull)
-    for (const double x : p) appendNumber(content += ' ', x);
-  return content;
+  std::string content = std::to_string(body.hull.size());
+  appendBytes(content, body.hull);
+  if (body.volume) {
+    const StpBv& volume = *body.volume;
+    appendBytes(content, std::vector<double>{volume.radii().r, volume.radii().R});
+    appendBytes(content, volume.vertices());
+    for (const StpBv::Ring& ring : volume.faces()) appendBytes(content, ring);
+  }
+  return content + meshContent(body.file, body.scale);
 }
 
 MeshFit meshFit(const Body& body, const std::function<const ExactBody&()>& exact, VolumeCache& cache) {

@@ -20,8 +20,6 @@ namespace fcl_stpbv::report {
 
 using namespace detail;
 
-namespace {}  // namespace
-
 PairCauses::PairCauses(std::shared_ptr<const Kinematics> kinematics,
                        std::shared_ptr<const RobotGeometry> robot, std::vector<Obstacle> obstacles,
                        std::shared_ptr<const RobotGeometry> scene, VolumeCache* cache)

@@ -24,7 +24,7 @@ std::vector<CheckedPair> closestBodies(const CollisionReport& report) {
 
 RowCost tickCost(std::shared_ptr<const Kinematics> kinematics, std::shared_ptr<const RobotGeometry> geometry,
                  const std::vector<CheckedPair>& rows, const ConstraintOptions& options, Eigen::VectorXd q) {
-  constexpr int kTicks = 300;
+  constexpr int kTicks = 100;
   constexpr double kStep = 1e-3;  // rad or m
   CollisionConstraints constraints(std::move(kinematics), std::move(geometry), rows, options);
   Eigen::VectorXd d(constraints.rows()), values(constraints.nonZeros());

@@ -6,7 +6,6 @@
 #include "fcl_stpbv/numbers.h"
 
 namespace fcl_stpbv::detail {
-namespace {}  // namespace
 
 MimicChains::MimicChains(std::vector<Follower> joints) : joints_(std::move(joints)) {
   std::unordered_map<std::string, int> index;

@@ -28,8 +28,6 @@ using namespace fcl_stpbv::test;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-namespace {}  // namespace
-
 TEST_CASE("every FCL shape is answered exactly, in both orders alike") {
   const auto body = link();
   const std::vector<std::pair<std::shared_ptr<fcl::CollisionGeometryd>, Shape>> shapes{
