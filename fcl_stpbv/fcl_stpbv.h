@@ -2,20 +2,17 @@
 // distance and derivatives, the FCL side.
 #pragma once
 
+#include "fcl_stpbv/adapter/collide.h"
+#include "fcl_stpbv/adapter/continuous_collide.h"
 #include "fcl_stpbv/adapter/distance_callback.h"
 #include "fcl_stpbv/adapter/fcl_distance.h"
 #include "fcl_stpbv/adapter/fcl_hessian.h"
-#include "fcl_stpbv/adapter/pair_distance.h"
-#include "fcl_stpbv/adapter/proximity.h"
 #include "fcl_stpbv/adapter/stp_bv_geometry.h"
 #include "fcl_stpbv/distance/distance.h"
 #include "fcl_stpbv/distance/hessian.h"
 #include "fcl_stpbv/distance/shape_distance.h"
 #include "fcl_stpbv/error.h"
-#include "fcl_stpbv/io/qhull_file.h"
-#include "fcl_stpbv/io/sch_file.h"
-#include "fcl_stpbv/io/stpbv_file.h"
-#include "fcl_stpbv/volume/compare.h"
+#include "fcl_stpbv/io/volume_files.h"
 #include "fcl_stpbv/volume/measure.h"
 #include "fcl_stpbv/volume/reduce.h"
 #include "fcl_stpbv/volume/stp_bv.h"

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "fcl_stpbv/error.h"
-#include "fcl_stpbv/robot/smooth_pairs.h"
+#include "fcl_stpbv/robot/checked_pairs.h"
 
 namespace fcl_stpbv {
 namespace {

@@ -4,7 +4,7 @@
 #include <sstream>
 
 #include "fcl_stpbv/distance/distance.h"
-#include "fcl_stpbv/io/stpbv_file.h"
+#include "fcl_stpbv/io/volume_files.h"
 #include "fcl_stpbv/robot/mesh_file.h"
 #include "fcl_stpbv/volume/measure.h"
 #include "fcl_stpbv/volume/radii_advice.h"

@@ -11,11 +11,9 @@
 #include <vector>
 
 #include "fcl_stpbv/error.h"
-#include "fcl_stpbv/io/qhull_file.h"
-#include "fcl_stpbv/io/sch_file.h"
-#include "fcl_stpbv/io/stpbv_file.h"
 #include "fcl_stpbv/io/text_scanner.h"
-#include "fcl_stpbv/parts/mesh_excess.h"
+#include "fcl_stpbv/io/volume_files.h"
+#include "fcl_stpbv/parts/mesh_solid.h"
 #include "fcl_stpbv/robot/mesh_file.h"
 #include "fcl_stpbv/volume/tessellate.h"
 #include "fcl_stpbv/volume/verify.h"

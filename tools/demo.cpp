@@ -10,14 +10,14 @@
 #include <random>
 
 #include "fcl_stpbv/adapter/polyhedral_witness.h"
-#include "fcl_stpbv/report/posed_robot.h"
+#include "tools/posed_robot.h"
 #include "tools/program.h"
 
 namespace {
 
 using namespace fcl_stpbv;
 using namespace fcl_stpbv::detail;
-using namespace fcl_stpbv::report;
+using namespace fcl_stpbv::tools;
 
 constexpr double kMm = 1e3;
 constexpr double kDegree = 180 / M_PI;

@@ -8,8 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "fcl_stpbv/error.h"
-#include "fcl_stpbv/io/sch_file.h"
-#include "fcl_stpbv/io/stpbv_file.h"
+#include "fcl_stpbv/io/volume_files.h"
 #include "fcl_stpbv/robot/mesh_file.h"
 #include "fcl_stpbv/volume/tessellate.h"
 #include "fcl_stpbv/volume/verify.h"

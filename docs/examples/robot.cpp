@@ -5,9 +5,9 @@
 #include "fcl_stpbv/posture/find_posture.h"
 #include "fcl_stpbv/posture/task.h"
 #include "fcl_stpbv/robot/batch.h"
+#include "fcl_stpbv/robot/checked_pairs.h"
 #include "fcl_stpbv/robot/link_geometry.h"
 #include "fcl_stpbv/robot/robot_model.h"
-#include "fcl_stpbv/robot/smooth_pairs.h"
 #include "fcl_stpbv/robot/srdf.h"
 
 using namespace fcl_stpbv;

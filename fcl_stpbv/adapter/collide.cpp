@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "fcl_stpbv/adapter/distance_callback.h"
+#include "fcl_stpbv/adapter/fcl_distance.h"
 #include "fcl_stpbv/adapter/posed_geometry.h"
-#include "fcl_stpbv/adapter/proximity.h"
 
 namespace fcl_stpbv {
 namespace {

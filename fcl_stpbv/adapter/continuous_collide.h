@@ -1,15 +1,61 @@
 // The drop-in for fcl::continuousCollide: a motion is proven free, or its first contact is bracketed.
 #pragma once
 
+#include <fcl/math/motion/motion_base.h>
 #include <fcl/narrowphase/continuous_collision_object.h>
 #include <fcl/narrowphase/continuous_collision_request.h>
 #include <fcl/narrowphase/continuous_collision_result.h>
 
+#include <Eigen/Geometry>
+
 #include "fcl_stpbv/adapter/fcl_distance.h"
-#include "fcl_stpbv/adapter/motion_request.h"
-#include "fcl_stpbv/adapter/steady_motion.h"
 
 namespace fcl_stpbv {
+
+/// Over the time from 0 to 1 the body turns evenly while the point moves evenly: FCL's
+/// translations, interpolations and screws.
+struct SteadyMotion {
+  Eigen::Isometry3d begin = Eigen::Isometry3d::Identity();  ///< pose at the time 0
+  Eigen::Vector3d point{0, 0, 0};                           ///< of the axis, at the time 0 (world, m)
+  Eigen::Vector3d linear{0, 0, 0};                          ///< velocity of that point
+  Eigen::Vector3d angular{0, 0, 0};                         ///< rad per unit of time
+
+  /// The pose at the time t.
+  Eigen::Isometry3d at(double t) const;
+};
+
+/// Between two poses as FCL would move: CCDM_TRANS (the rotation stays that of the
+/// beginning), CCDM_LINEAR (the origin on a line) or CCDM_SCREW. False for poses that are not
+/// rigid and for CCDM_SPLINE, which FCL leaves open.
+bool steadyMotion(const Eigen::Isometry3d& begin, const Eigen::Isometry3d& end, fcl::CCDMotionType type,
+                  SteadyMotion& motion);
+
+/// What one of FCL's motion objects does. False for splines and types of others.
+bool steadyMotion(const fcl::MotionBased& motion, SteadyMotion& result);
+
+/// What became of a motion.
+enum class MotionVerdict {
+  free,       ///< proven: at no time does a pair come within the margin
+  contact,    ///< one does, first between `from` and `until`
+  undecided,  ///< free until `from`; about there the distance is the margin to rounding, or it took too many
+              ///< queries
+};
+
+/// What is asked about a motion.
+struct MotionRequest {
+  double margin = 0;          ///< a distance not above it is a contact (m)
+  double tolerance = 1e-4;    ///< of the time of contact; 1 for any contact instead of the first
+  long mostQueries = 200000;  ///< then undecided
+};
+
+/// What becomes of pairs over the time from 0 to 1.
+struct MotionBracket {
+  MotionVerdict verdict = MotionVerdict::free;  ///< of all pairs together
+  double from = 1;                              ///< proven free before it
+  double until = 1;                             ///< in contact at it; 1 for a free motion
+  int pair = -1;                                ///< the one in contact, or not decided
+  long queries = 0;                             ///< distances asked for
+};
 
 /// What became of a motion over the time from 0 to 1.
 struct MotionAnswer {

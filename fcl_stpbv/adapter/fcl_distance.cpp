@@ -1,5 +1,5 @@
 // The drop-in distance: two STP-BVs by the core's query, an STP-BV and any other
-// geometry by other_geometry.h, two simple shapes by distance/shape_pair.h, and meshes
+// geometry by other_geometry.h, two simple shapes by distance/shape_distance.h, and meshes
 // and trees without one by nearest_pair.h.
 #include "fcl_stpbv/adapter/fcl_distance.h"
 
@@ -11,7 +11,7 @@
 #include "fcl_stpbv/adapter/other_geometry.h"
 #include "fcl_stpbv/adapter/polyhedral_witness.h"
 #include "fcl_stpbv/convex/relative_pose.h"
-#include "fcl_stpbv/distance/shape_pair.h"
+#include "fcl_stpbv/distance/shape_distance.h"
 #include "fcl_stpbv/vectorized.h"
 
 namespace fcl_stpbv {

@@ -1,4 +1,5 @@
-// The drop-in for fcl::distance: exact distance of every pair of FCL's geometries, C1 where one is an STP-BV.
+// The drop-in for fcl::distance: exact distance of every pair of FCL's geometries, C1 where one is an STP-BV;
+// a pair asked again and again, and the questions whose answer needs no full distance.
 #pragma once
 
 #include <fcl/narrowphase/collision_object.h>
@@ -8,13 +9,34 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <type_traits>
+#include <utility>
 
-#include "fcl_stpbv/adapter/mapping_counts.h"
 #include "fcl_stpbv/adapter/stp_bv_geometry.h"
 #include "fcl_stpbv/distance/distance.h"
 
 namespace fcl_stpbv {
+
+/// How good the mapped patches turned out to be, counted over queries (paper IV.B: 0.3 % were wrong, nearly
+/// all of them by one neighbour).
+struct MappingCounts {
+  long right = 0;      ///< both mapped patches own the answer's normal
+  long neighbour = 0;  ///< at least one is a direct neighbour of the patch that does, none is farther
+  long farther = 0;    ///< at least one is farther away
+  long unmapped = 0;   ///< no feature to map: the polyhedra overlap, or were not decided
+
+  /// Queries counted.
+  long total() const { return right + neighbour + farther + unmapped; }
+  /// Adds another count.
+  MappingCounts& operator+=(const MappingCounts& other) {
+    right += other.right;
+    neighbour += other.neighbour;
+    farther += other.farther;
+    unmapped += other.unmapped;
+    return *this;
+  }
+};
 
 /// Whether a scalar of FCL's templates is the one that this library answers in.
 template <typename S>
@@ -48,7 +70,7 @@ struct DistanceAnswer {
                                                      nullptr};  ///< null if asked by geometry and pose
 };
 
-/// What a question about a threshold took (proximity.h).
+/// What a question about a threshold took (isFartherThan()).
 struct ProximityCounts {
   long bounds = 0;  ///< pairs of boxes, balls or planes compared
   long solved = 0;  ///< pairs of bodies whose distance had to be searched for
@@ -74,7 +96,7 @@ struct QueryContext {
 ///
 /// An STP-BV against one, or against any other FCL geometry in either order: exact and signed, with
 /// status, bounds and derivatives. Two other shapes, one of them bounded: signed, by this library's
-/// own GJK, and at overlap by an expanding polytope (distance/shape_pair.h), `continuous` false.
+/// own GJK, and at overlap by an expanding polytope (distance/shape_distance.h), `continuous` false.
 /// Meshes and trees: of their nearest elements (nearest_pair.h), `continuous` false; two of them
 /// that overlap: 0, with the elements that meet.
 DistanceAnswer distance(const fcl::CollisionGeometryd& geometry1, const fcl::Transform3d& pose1,
@@ -119,5 +141,53 @@ DistanceAnswer distance(const fcl::CollisionObject<S>&, const fcl::CollisionObje
 
 /// An answer in FCL's words.
 fcl::DistanceResultd toFclResult(const DistanceAnswer& answer);
+
+/// Distance of a fixed pair of geometries over many poses; each query starts from the last answer. One thread
+/// at a time may use one; any number of them may share geometries.
+class PairDistance {
+ public:
+  using Geometry = std::shared_ptr<const fcl::CollisionGeometryd>;  ///< shared with whoever else uses it
+
+  /// `mapping`, optional, gets how good FCL's features were as starts, and
+  /// makes the queries that ask FCL slower.
+  PairDistance(Geometry geometry1, Geometry geometry2, MappingCounts* mapping = nullptr)
+      : geometry1_(std::move(geometry1)), geometry2_(std::move(geometry2)), mapping_(mapping) {}
+
+  /// The distance at these poses, as distance() answers it.
+  DistanceAnswer operator()(const fcl::Transform3d& pose1, const fcl::Transform3d& pose2) {
+    return distance(*geometry1_, pose1, *geometry2_, pose2, {&cache_, mapping_});
+  }
+
+  /// Makes the next query start as the first one did.
+  void forget() { cache_ = {}; }
+
+ private:
+  Geometry geometry1_, geometry2_;
+  PairCache cache_;
+  MappingCounts* mapping_;
+};
+
+/// Whether the geometries are certainly farther apart than `x` (m; negative:
+/// whether they are less deep in each other).
+///
+/// For every pair of types, with or without an STP-BV. Meshes and trees are walked down from both
+/// roots: pairs of boxes farther apart are left out, and the first pair of elements that is not ends
+/// the walk. Of two bodies balls, the supporting planes of the remembered normal, and only then a
+/// search are asked, which ends as soon as its bounds tell where neither is an STP-BV. False for a pair
+/// without an answer: nothing is certain about it.
+bool isFartherThan(double x, const fcl::CollisionGeometryd& geometry1, const fcl::Transform3d& pose1,
+                   const fcl::CollisionGeometryd& geometry2, const fcl::Transform3d& pose2,
+                   const QueryContext& context = {});
+
+/// Whether the geometries come within `margin` (m) of each other; what is not known counts as a collision.
+inline bool collides(const fcl::CollisionGeometryd& geometry1, const fcl::Transform3d& pose1,
+                     const fcl::CollisionGeometryd& geometry2, const fcl::Transform3d& pose2,
+                     double margin = 0.0, const QueryContext& context = {}) {
+  return !isFartherThan(margin, geometry1, pose1, geometry2, pose2, context);
+}
+
+/// Signed distance of a world point to an STP-BV; `normal` points from the volume to the point.
+Distance distance(const StpBvGeometry& geometry, const fcl::Transform3d& pose, const Eigen::Vector3d& point,
+                  PairCache* cache = nullptr);
 
 }  // namespace fcl_stpbv

@@ -4,7 +4,7 @@
 #include <Eigen/Geometry>
 #include <array>
 
-#include "fcl_stpbv/adapter/mapping_counts.h"
+#include "fcl_stpbv/adapter/fcl_distance.h"
 #include "fcl_stpbv/adapter/polyhedral_witness.h"
 #include "fcl_stpbv/adapter/stp_bv_geometry.h"
 #include "fcl_stpbv/distance/distance.h"

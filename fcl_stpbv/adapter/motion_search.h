@@ -7,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-#include "fcl_stpbv/adapter/motion_request.h"
+#include "fcl_stpbv/adapter/continuous_collide.h"
 #include "fcl_stpbv/adapter/moving_bodies.h"
 
 namespace fcl_stpbv::detail {

@@ -14,7 +14,6 @@
 #include "fcl_stpbv/adapter/stp_bv_geometry.h"
 #include "fcl_stpbv/convex/relative_pose.h"
 #include "fcl_stpbv/distance/shape_distance.h"
-#include "fcl_stpbv/distance/shape_pair.h"
 
 namespace fcl_stpbv::detail {
 

@@ -4,14 +4,12 @@
 // 2. Down both hierarchies, near children first.
 // 3. Of two bodies the gap along the remembered normal.
 // 4. A search that ends as soon as its bounds tell.
-#include "fcl_stpbv/adapter/proximity.h"
-
 #include <cmath>
 
+#include "fcl_stpbv/adapter/fcl_distance.h"
 #include "fcl_stpbv/adapter/posed_geometry.h"
 #include "fcl_stpbv/convex/relative_pose.h"
 #include "fcl_stpbv/distance/shape_distance.h"
-#include "fcl_stpbv/distance/shape_pair.h"
 #include "fcl_stpbv/distance/threshold.h"
 
 namespace fcl_stpbv {

@@ -4,14 +4,13 @@
 // 3. CCDM_SCREW: Chasles' theorem. Some axis moves along itself only; it lies where the translation across
 //    it is the chord of the turn: point = origin + (across + axis x way / tan(angle / 2)) / 2.
 // 4. FCL's objects are read by their type, and go the same way.
-#include "fcl_stpbv/adapter/steady_motion.h"
-
 #include <fcl/math/motion/interp_motion.h>
 #include <fcl/math/motion/screw_motion.h>
 #include <fcl/math/motion/translation_motion.h>
 
 #include <cmath>
 
+#include "fcl_stpbv/adapter/continuous_collide.h"
 #include "fcl_stpbv/convex/relative_pose.h"
 
 namespace fcl_stpbv {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "fcl_stpbv/volume/direction_table.h"
-#include "fcl_stpbv/volume/patch.h"
+#include "fcl_stpbv/volume/stp_bv.h"
 
 namespace fcl_stpbv::detail {
 

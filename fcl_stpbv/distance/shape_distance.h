@@ -1,4 +1,5 @@
-// Exact signed distance between an STP-BV and a simple convex body, and point queries.
+// Exact signed distance between an STP-BV and a simple convex body or a point; and of two simple shapes,
+// certified but without a continuous gradient.
 #pragma once
 
 #include "fcl_stpbv/convex/shape.h"
@@ -21,5 +22,29 @@ Distance distance(const Shape& shape, const Eigen::Isometry3d& poseShape, const 
 /// Signed distance of a world point; `normal` points from the volume to the point.
 Distance distance(const StpBv& volume, const Eigen::Isometry3d& pose, const Eigen::Vector3d& point,
                   PairCache* cache = nullptr);
+
+/// Signed distance of two shapes, one of them bounded. Never throws or allocates.
+///
+/// A half space or a plane: closed form. Cores apart: GJK. Cores that overlap: EPA. Status `exact`
+/// where both bounds agree to rounding, `bounded` where they do not; at overlap of round bodies within
+/// 1e-6 of the cores' depth, unless rounding or the size of the polytope stopped it sooner. `invalid`
+/// for a shape that is not `valid()`, a pose that is not rigid, and two unbounded shapes. Both orders
+/// give the same answer seen from the other side.
+///
+/// Apart, `distance` is that of the two witness points; overlapping, the
+/// translation along `normal` that separates.
+Distance distance(const Shape& a, const Eigen::Isometry3d& poseA, const Shape& b,
+                  const Eigen::Isometry3d& poseB);
+
+/// Whether the two shapes are certainly farther apart than `x` (m): the same searches,
+/// ended as soon as a bound tells. Overlapping shapes are asked for their depth where `x`
+/// is negative. False for an invalid pair.
+bool isFartherThan(double x, const Shape& a, const Eigen::Isometry3d& poseA, const Shape& b,
+                   const Eigen::Isometry3d& poseB);
+
+/// A point of both of two bounded shapes that overlap, to rounding (world, m); of two that do not, one
+/// between them. The pair must be valid.
+Eigen::Vector3d commonPoint(const Shape& a, const Eigen::Isometry3d& poseA, const Shape& b,
+                            const Eigen::Isometry3d& poseB);
 
 }  // namespace fcl_stpbv

@@ -7,8 +7,6 @@
 //    lower one the gap between the supporting planes of the answer's normal.
 // 4. Overlap: bodies of revolution on parallel axes are as deep towards all generators as towards one, more
 //    than EPA has room for; a polygon in the plane of their axes tells their depth. Then EPA.
-#include "fcl_stpbv/distance/shape_pair.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -18,6 +16,7 @@
 #include "fcl_stpbv/convex/gjk.h"
 #include "fcl_stpbv/convex/meridian.h"
 #include "fcl_stpbv/convex/support.h"
+#include "fcl_stpbv/distance/shape_distance.h"
 
 namespace fcl_stpbv {
 

@@ -1,12 +1,11 @@
 // Reader of qhull's text: a header of counts decides between a polyhedron (points, facets) and a point file.
 // Points are kept. Facets are only checked, to notice a file that was cut off.
-#include "fcl_stpbv/io/qhull_file.h"
-
 #include <algorithm>
 #include <cctype>
 #include <limits>
 
 #include "fcl_stpbv/io/text_scanner.h"
+#include "fcl_stpbv/io/volume_files.h"
 
 namespace fcl_stpbv {
 namespace {

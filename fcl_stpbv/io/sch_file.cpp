@@ -2,8 +2,6 @@
 // 1. Parse (sch_parse.cpp) and derive the tolerance from the digits in the file.
 // 2. Build a volume from the file's vertices and faces.
 // 3. Compare every redundant number of the file with that volume; refuse a contradiction with its line.
-#include "fcl_stpbv/io/sch_file.h"
-
 #include <cmath>
 #include <numeric>
 #include <ostream>
@@ -12,6 +10,7 @@
 #include "fcl_stpbv/io/atomic_write.h"
 #include "fcl_stpbv/io/sch_data.h"
 #include "fcl_stpbv/io/text_scanner.h"
+#include "fcl_stpbv/io/volume_files.h"
 
 namespace fcl_stpbv {
 namespace {

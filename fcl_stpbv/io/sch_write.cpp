@@ -10,8 +10,8 @@
 #include <utility>
 
 #include "fcl_stpbv/io/atomic_write.h"
-#include "fcl_stpbv/io/sch_file.h"
 #include "fcl_stpbv/io/text_scanner.h"
+#include "fcl_stpbv/io/volume_files.h"
 #include "fcl_stpbv/volume/patch_view.h"
 
 namespace fcl_stpbv {

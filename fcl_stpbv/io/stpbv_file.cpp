@@ -1,11 +1,10 @@
 // The `.stpbv` format: a header, vertices, faces, `end`. Numbers are the shortest decimals that read back
 // exactly; on reading, edges and patches are rebuilt and the faces checked against their balls.
-#include "fcl_stpbv/io/stpbv_file.h"
-
 #include <ostream>
 
 #include "fcl_stpbv/io/atomic_write.h"
 #include "fcl_stpbv/io/text_scanner.h"
+#include "fcl_stpbv/io/volume_files.h"
 
 namespace fcl_stpbv {
 namespace {

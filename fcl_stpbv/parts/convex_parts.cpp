@@ -1,10 +1,10 @@
 // Convex parts of a mesh:
-// 1. take the connected pieces (mesh_pieces.h) and make them coarser for the search;
+// 1. take the connected pieces (mesh_solid.h) and make them coarser for the search;
 // 2. search for few parts (part_search.h), by cutting and joining;
 // 3. cut the whole mesh again by the same planes;
 // 4. prove the inside covered (inside_proof.h); a part gets those corners of its cells that this needs. Where
 //    they take it away from the mesh, search again with all corners in the parts, and take the better answer;
-// 5. certify each hull's excess (mesh_excess.h).
+// 5. certify each hull's excess (mesh_solid.h).
 #include "fcl_stpbv/parts/convex_parts.h"
 
 #include <algorithm>

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "fcl_stpbv/parts/mesh_excess.h"
+#include "fcl_stpbv/parts/mesh_solid.h"
 #include "fcl_stpbv/volume/tessellate.h"
 
 namespace fcl_stpbv {

@@ -9,7 +9,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
-#include "fcl_stpbv/parts/mesh_excess.h"
+#include "fcl_stpbv/parts/mesh_solid.h"
 #include "fcl_stpbv/parts/part_hull.h"
 
 namespace fcl_stpbv::detail {

@@ -8,8 +8,6 @@
 //    - where none does, it is inside or outside as a whole;
 //    - else across its longest edge. Halves alone take ten times as many triangles for each digit where a
 //      hull's face ends on a border of a flat part, or where it leaves the solid.
-#include "fcl_stpbv/parts/mesh_excess.h"
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
@@ -19,6 +17,7 @@
 
 #include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/parts/cut_triangle.h"
+#include "fcl_stpbv/parts/mesh_solid.h"
 #include "fcl_stpbv/volume/rolling_ball.h"
 
 namespace fcl_stpbv {

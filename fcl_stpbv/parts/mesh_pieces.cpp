@@ -2,8 +2,6 @@
 // 1. weld vertices with equal coordinates;
 // 2. walk over shared edges from triangle to triangle, turning each to agree with its neighbour;
 // 3. a piece is closed if every edge is run through equally often both ways.
-#include "fcl_stpbv/parts/mesh_pieces.h"
-
 #include <algorithm>
 #include <map>
 #include <numeric>
@@ -12,6 +10,7 @@
 
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/numbers.h"
+#include "fcl_stpbv/parts/mesh_solid.h"
 
 namespace fcl_stpbv {
 namespace {

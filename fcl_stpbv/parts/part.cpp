@@ -1,6 +1,6 @@
 // One part during the search.
 // 1. Its hull is that of all points of its leaves; a joined part takes the hull vertices of both.
-// 2. Its excess over the mesh (mesh_excess.h) is measured only as well as the search needs it.
+// 2. Its excess over the mesh (mesh_solid.h) is measured only as well as the search needs it.
 // 3. A cut clips each leaf's triangles (Sutherland-Hodgman) and its cell by the plane. A leaf with
 //    triangles on one side only is not clipped.
 #include "fcl_stpbv/parts/part.h"

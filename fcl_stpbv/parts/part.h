@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "fcl_stpbv/parts/cell.h"
-#include "fcl_stpbv/parts/mesh_excess.h"
+#include "fcl_stpbv/parts/mesh_solid.h"
 #include "fcl_stpbv/parts/part_hull.h"
 #include "fcl_stpbv/parts/plane_cut.h"
 

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "fcl_stpbv/numbers.h"
-#include "fcl_stpbv/parts/mesh_excess.h"
+#include "fcl_stpbv/parts/mesh_solid.h"
 #include "fcl_stpbv/volume/rolling_ball.h"
 
 extern "C" {

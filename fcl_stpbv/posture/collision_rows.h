@@ -1,7 +1,7 @@
 // The distances of a robot as rows: d(q) - margin, not to be negative.
 #pragma once
 
-#include "fcl_stpbv/posture/rows.h"
+#include "fcl_stpbv/posture/problem.h"
 #include "fcl_stpbv/robot/constraints.h"
 
 namespace fcl_stpbv::detail {

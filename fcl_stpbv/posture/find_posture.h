@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "fcl_stpbv/posture/solver.h"
+#include "fcl_stpbv/posture/problem.h"
 #include "fcl_stpbv/posture/task.h"
 
 namespace fcl_stpbv {

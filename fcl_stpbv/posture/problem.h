@@ -1,13 +1,44 @@
-// A posture as a constrained optimisation problem: variables, bounds, cost, constraints.
+// A posture as a constrained optimisation problem: variables, bounds, cost, constraints; and its solver.
 #pragma once
 
+#include <Eigen/Core>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "fcl_stpbv/posture/rows.h"
+#include "fcl_stpbv/robot/kinematics.h"
 
 namespace fcl_stpbv {
+
+/// One constraint after the other.
+using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+/// A few rows g(x), all of which are to be 0 or all of which are not to be negative. The variables x are the
+/// robot's coordinates q (Kinematics) and, after them, what a constraint brings along (StaticStability).
+class PostureRows {
+ public:
+  /// What is asked of the rows.
+  enum class Kind { equal, atLeast };
+
+  /// A vector of variables and where it puts the links.
+  struct Point {
+    Eigen::Ref<const Eigen::VectorXd> x;  ///< the variables
+    const Kinematics::State& state;       ///< of the coordinates in x
+  };
+
+  virtual ~PostureRows() = default;
+  /// The same for all rows.
+  virtual Kind kind() const = 0;
+  /// Number of rows.
+  virtual int size() const = 0;
+  /// What a row is about, for messages.
+  virtual std::string name(int row) const = 0;
+  /// Writes g and its Jacobian, size() x variables, which comes zeroed. Lengths in m, angles in rad.
+  virtual void evaluate(const Point& at, Eigen::Ref<Eigen::VectorXd> values,
+                        Eigen::Ref<RowMatrix> jacobian) = 0;
+  /// Distances computed so far, each with its gradient.
+  virtual long queries() const { return 0; }
+};
 
 /// Sum of weight_i (q_i - reference_i)^2.
 struct PostureCost {
@@ -93,5 +124,26 @@ class PostureProblem {
   PostureValues values_;
   bool known_ = false;
 };
+
+/// When a solver ends.
+struct SolverOptions {
+  int maxIterations = 300;      ///< models built at most
+  double maxSeconds = 10;       ///< s
+  double tolerance = 1e-6;      ///< a constraint holds within this (m, rad)
+  double costTolerance = 1e-8;  ///< relative change of the cost in one iteration at which it ends
+  /// Inequalities with more slack than this are left out of an iteration's model until they have less.
+  double activation = 0.1;
+};
+
+/// Where a solver ended.
+struct SolverOutcome {
+  Eigen::VectorXd x;   ///< best found: the constraints hold, or are least violated
+  int iterations = 0;  ///< models built, each from one evaluation of all derivatives
+  std::string status;  ///< why it ended, for people
+};
+
+/// Sequential quadratic programming by NLopt's SLSQP.
+SolverOutcome solveBySlsqp(PostureProblem& problem, const Eigen::VectorXd& start,
+                           const SolverOptions& options);
 
 }  // namespace fcl_stpbv

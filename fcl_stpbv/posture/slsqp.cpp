@@ -1,4 +1,4 @@
-// NLopt's SLSQP (Kraft 1988) behind solver.h, with few rows in its model:
+// NLopt's SLSQP (Kraft 1988) behind problem.h, with few rows in its model:
 // 1. begin with the rows that have little slack;
 // 2. when an iterate violates a row outside the model, begin again there with the row included;
 // 3. stop a search that gets no nearer to feasible.
@@ -11,7 +11,7 @@
 #include <memory>
 #include <vector>
 
-#include "fcl_stpbv/posture/solver.h"
+#include "fcl_stpbv/posture/problem.h"
 
 namespace fcl_stpbv {
 namespace {

@@ -2,8 +2,6 @@
 // 1. Hull of each contact (convex_polygon.h).
 // 2. Clip it by its edges moved inward by the margin (Sutherland and Hodgman 1974).
 // 3. Rows: centre of mass = sum of weights times points; derivatives by the mass below each joint.
-#include "fcl_stpbv/posture/stability.h"
-
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
@@ -11,6 +9,7 @@
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/posture/convex_polygon.h"
+#include "fcl_stpbv/posture/task.h"
 
 namespace fcl_stpbv {
 namespace {

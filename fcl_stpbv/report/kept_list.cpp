@@ -7,8 +7,8 @@
 #include <string>
 
 #include "fcl_stpbv/adapter/posed_geometry.h"
-#include "fcl_stpbv/io/stpbv_file.h"
 #include "fcl_stpbv/io/text_scanner.h"
+#include "fcl_stpbv/io/volume_files.h"
 #include "fcl_stpbv/numbers.h"
 
 namespace fcl_stpbv::report {

@@ -11,7 +11,6 @@
 #include <exception>
 
 #include "fcl_stpbv/adapter/fcl_distance.h"
-#include "fcl_stpbv/adapter/proximity.h"
 
 namespace fcl_stpbv::report {
 namespace {

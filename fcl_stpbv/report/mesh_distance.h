@@ -15,7 +15,7 @@ struct MeshDistance {
 /// lies inside the other (MeshSolid::holds; certain where the outer one is closed, a hollow in it included).
 ///
 /// FCL's distance of two meshes is a guess that two walks down both hierarchies confirm
-/// (proximity.h); where they do not, and for a mesh and a primitive, for which FCL's GJK may stop
+/// (adapter/fcl_distance.h); where they do not, and for a mesh and a primitive, for which FCL's GJK may stop
 /// early (docs/fcl.md), bisection takes over. `atLeast` is a lower bound that is known already, as
 /// from volumes around the bodies; it saves time.
 MeshDistance meshDistance(const ExactBody& a, const Eigen::Isometry3d& poseA, const ExactBody& b,

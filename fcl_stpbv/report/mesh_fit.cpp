@@ -1,4 +1,4 @@
-// How far a link's hull exceeds its mesh (parts/mesh_excess.h) and, with the over-cover, how far its volume
+// How far a link's hull exceeds its mesh (parts/mesh_solid.h) and, with the over-cover, how far its volume
 // does. A mesh's figures are kept with the volumes, found by the mesh's content and the volume.
 #include "fcl_stpbv/report/mesh_fit.h"
 
@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "fcl_stpbv/parts/mesh_excess.h"
+#include "fcl_stpbv/parts/mesh_solid.h"
 #include "fcl_stpbv/robot/shape_source.h"
 
 namespace fcl_stpbv::report {

@@ -9,8 +9,8 @@
 #include <numeric>
 #include <set>
 
+#include "fcl_stpbv/adapter/fcl_distance.h"
 #include "fcl_stpbv/adapter/hull_geometry.h"
-#include "fcl_stpbv/adapter/proximity.h"
 #include "fcl_stpbv/io/text_scanner.h"
 #include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/report/digest.h"

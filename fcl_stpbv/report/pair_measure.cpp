@@ -2,7 +2,7 @@
 #include "fcl_stpbv/report/pair_measure.h"
 
 #include "fcl_stpbv/adapter/fcl_shapes.h"
-#include "fcl_stpbv/distance/shape_pair.h"
+#include "fcl_stpbv/distance/shape_distance.h"
 #include "fcl_stpbv/numbers.h"
 
 namespace fcl_stpbv::report {

@@ -7,10 +7,10 @@
 #include <filesystem>
 #include <sstream>
 
-#include "fcl_stpbv/io/stpbv_file.h"
 #include "fcl_stpbv/io/text_scanner.h"
+#include "fcl_stpbv/io/volume_files.h"
 #include "fcl_stpbv/numbers.h"
-#include "fcl_stpbv/parts/mesh_excess.h"
+#include "fcl_stpbv/parts/mesh_solid.h"
 #include "fcl_stpbv/report/digest.h"
 #include "fcl_stpbv/report/kept_folder.h"
 #include "fcl_stpbv/report/report_formats.h"

@@ -10,7 +10,7 @@
 #include "fcl_stpbv/io/atomic_folder.h"
 #include "fcl_stpbv/report/part_urdf.h"
 #include "fcl_stpbv/report/robot_conversion.h"
-#include "fcl_stpbv/robot/link_parts.h"
+#include "fcl_stpbv/robot/link_geometry.h"
 
 namespace fcl_stpbv::report {
 

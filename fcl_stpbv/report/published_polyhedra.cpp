@@ -7,7 +7,7 @@
 
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/robot/mesh_file.h"
-#include "fcl_stpbv/volume/compare.h"
+#include "fcl_stpbv/volume/measure.h"
 
 namespace fcl_stpbv::report {
 

@@ -17,9 +17,11 @@ std::string openMeshes(const CollisionReport& report) {
     open += !report.fits[whole < 0 ? i : static_cast<std::size_t>(whole)].closed;
   }
   if (open == 0) return "";
-  return std::to_string(open) +
-         " meshes are not closed: whether another lies inside one of them is judged by its winding number, "
-         "and their volume is not known.";
+  return open == 1 ? "1 mesh is not closed: whether another lies inside it is judged by its winding number, "
+                     "and its volume is not known."
+                   : std::to_string(open) +
+                         " meshes are not closed: whether another lies inside one of them is "
+                         "judged by its winding number, and their volume is not known.";
 }
 
 std::string neutralCollisions(const NeutralPosture& found, const std::string& neutral) {
@@ -27,7 +29,7 @@ std::string neutralCollisions(const NeutralPosture& found, const std::string& ne
   std::string warning = "in the neutral posture (" +
                         (neutral.empty() ? "all joints at zero, or at the limit nearest to it" : neutral) +
                         ") the bodies of " + std::to_string(found.colliding) +
-                        " pairs of links meet that are not adjacent";
+                        (found.colliding == 1 ? " pair" : " pairs") + " of links meet that are not adjacent";
   if (found.better.size() > 0)
     warning += "; those of " + std::to_string(found.collidingThere) + " do in another posture: " +
                (found.state.empty() ? "neutral.better in the JSON, which --neutral takes from a file"
@@ -41,8 +43,9 @@ std::string kinks(const CollisionReport& report) {
   });
   if (kinked == 0) return "";
   return std::to_string(kinked) +
-         " checked pairs have no smooth body, so their gradients may jump (\"continuous\" is false in the "
-         "JSON).";
+         (kinked == 1 ? " checked pair has no smooth body, so its gradient may jump"
+                      : " checked pairs have no smooth body, so their gradients may jump") +
+         " (\"continuous\" is false in the JSON).";
 }
 
 }  // namespace

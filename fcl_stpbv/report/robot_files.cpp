@@ -3,8 +3,8 @@
 #include "fcl_stpbv/report/robot_files.h"
 
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/robot/checked_pairs.h"
 #include "fcl_stpbv/robot/pair_list.h"
-#include "fcl_stpbv/robot/smooth_pairs.h"
 
 namespace fcl_stpbv::report {
 namespace {

@@ -18,7 +18,7 @@ struct RobotFiles {
   std::string urdf, srdf, obstacles;  ///< "" where not given
   GeometryOptions geometry;           ///< the scene's too, but for what names single links
   bool flatObstacles = false;         ///< the scene's meshes stay convex polyhedra
-  bool flatPrimitives = false;  ///< primitives get no smooth cover where a pair needs one (smooth_pairs.h)
+  bool flatPrimitives = false;  ///< primitives get no smooth cover where a pair needs one (checked_pairs.h)
   bool skipInvalid = false;     ///< go on without the shapes that are wrong
   BaseMotion base = BaseMotion::fixed;  ///< a base that moves makes pairs of all links and obstacles
 };

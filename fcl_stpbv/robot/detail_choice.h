@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "fcl_stpbv/robot/kinematics.h"
-#include "fcl_stpbv/robot/link_parts.h"
+#include "fcl_stpbv/robot/link_geometry.h"
 #include "fcl_stpbv/robot/scene_model.h"
 
 namespace fcl_stpbv::detail {

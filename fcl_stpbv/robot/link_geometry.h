@@ -10,6 +10,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "fcl_stpbv/adapter/stp_bv_geometry.h"
@@ -65,10 +66,10 @@ struct Body {
   Eigen::Vector3d centre;  ///< of a sphere that holds the body, in the link's frame
   double radius = 0;       ///< of that sphere (m)
   OverCover cover{0, 0};   ///< what the volume exceeds the mesh's hull or the primitive by (m)
-  int partOf = -1;    ///< index of the body that this is a convex part of (link_parts.h), -1 for a whole one
-  int parts = 0;      ///< of a whole body: how many parts stand for it in pairs taken by parts
-  double excess = 0;  ///< of a part: most that its hull exceeds the mesh's solid by (m)
-  double openExcess = 0;              ///< the same over the mesh's triangles alone (m)
+  int partOf = -1;        ///< index of the body that this is a convex part of (LinkParts), -1 for a whole one
+  int parts = 0;          ///< of a whole body: how many parts stand for it in pairs taken by parts
+  double excess = 0;      ///< of a part: most that its hull exceeds the mesh's solid by (m)
+  double openExcess = 0;  ///< the same over the mesh's triangles alone (m)
   std::vector<Eigen::Vector3d> hull;  ///< of a part: the corners of its hull, in the body's frame (m)
 
   /// Whether `volume` has fewer vertices than its r and R leave, and a larger r instead.
@@ -98,10 +99,42 @@ struct RobotGeometry {
 };
 
 /// Reads the meshes and builds the volumes; primitives stay as they are until coverPrimitives()
-/// (smooth_pairs.h). A link without collision shapes has no body; where the whole robot has none, its visual
+/// (checked_pairs.h). A link without collision shapes has no body; where the whole robot has none, its visual
 /// shapes are taken with a warning.
 /// @throws Error listing all that is wrong, each naming the URDF, the link, the file and what would work;
 /// what can be told before a volume is built is told before.
 RobotGeometry loadGeometry(const RobotModel& robot, const GeometryOptions& options = {});
+
+/// A robot's bodies and their convex parts. Each mesh is read at most once, and split once for each number of
+/// parts, by any number of threads that ask; what was found is kept in the cache for the next run.
+class LinkParts {
+ public:
+  /// `whole` has no parts yet. `cacheFolder`: as GeometryOptions::cacheFolder, "" for no cache.
+  explicit LinkParts(std::shared_ptr<const RobotGeometry> whole,
+                     const std::string& cacheFolder = defaultCacheFolder());
+  ~LinkParts();
+
+  /// The bodies that stand for one whole body when it is split into `most` parts: with its radii, or flat as
+  /// it is; `partOf` is `body`. One alone is the mesh's hull: of a convex mesh, or where `most` is 1. None
+  /// for a primitive and for points without triangles.
+  /// @throws Error naming the mesh.
+  const std::vector<Body>& of(int body, int most);
+
+  /// Makes by several threads what geometry(most, ...) would have to make; `progress` as GeometryOptions'.
+  void prepare(const std::map<int, int>& most, int threads,
+               const std::function<void(std::size_t, std::size_t, const std::string&)>& progress = nullptr);
+
+  /// The whole bodies, and beside them the parts of those links that have an
+  /// entry in `most`; `byParts` as given.
+  RobotGeometry geometry(const std::map<int, int>& most, const std::set<LinkPair>& byParts);
+
+  /// The bodies as they were given.
+  const RobotGeometry& whole() const { return *whole_; }
+
+ private:
+  class Store;
+  std::shared_ptr<const RobotGeometry> whole_;
+  std::unique_ptr<Store> store_;
+};
 
 }  // namespace fcl_stpbv

@@ -1,13 +1,12 @@
 // Splits the meshes of single links (parts/convex_parts.h) and builds a volume for each part, with the radii
 // of the whole body.
-#include "fcl_stpbv/robot/link_parts.h"
-
 #include <mutex>
 
 #include "fcl_stpbv/adapter/hull_geometry.h"
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/parts/convex_parts.h"
+#include "fcl_stpbv/robot/link_geometry.h"
 #include "fcl_stpbv/robot/mesh_file.h"
 #include "fcl_stpbv/robot/shape_source.h"
 #include "fcl_stpbv/robot/share_out.h"

@@ -1,5 +1,5 @@
 // Gathers what is wrong with a robot's files and throws it as one Error.
-#include "fcl_stpbv/robot/load_faults.h"
+#include "fcl_stpbv/robot/robot_model.h"
 
 namespace fcl_stpbv {
 namespace {

@@ -22,8 +22,8 @@
 #include <utility>
 
 #include "fcl_stpbv/error.h"
-#include "fcl_stpbv/io/qhull_file.h"
 #include "fcl_stpbv/io/text_scanner.h"
+#include "fcl_stpbv/io/volume_files.h"
 #include "fcl_stpbv/robot/child_process.h"
 #include "fcl_stpbv/robot/ply_check.h"
 #include "fcl_stpbv/robot/text_mesh_check.h"

@@ -6,8 +6,8 @@
 #include <memory>
 #include <vector>
 
+#include "fcl_stpbv/adapter/continuous_collide.h"
 #include "fcl_stpbv/adapter/fcl_distance.h"
-#include "fcl_stpbv/adapter/motion_request.h"
 #include "fcl_stpbv/robot/checked_pairs.h"
 #include "fcl_stpbv/robot/kinematics.h"
 #include "fcl_stpbv/robot/link_geometry.h"

@@ -1,5 +1,5 @@
 // The words for why a pair is checked or left out, and which of them count without an SRDF.
-#include "fcl_stpbv/robot/pair_reason.h"
+#include "fcl_stpbv/robot/pair_list.h"
 
 namespace fcl_stpbv {
 

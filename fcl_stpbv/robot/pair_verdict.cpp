@@ -3,11 +3,12 @@
 // 2. The plane that kept a pair apart last time is kept in both bodies' frames. When they have turned, what
 //    the second body rises over it is bounded twice: by its sphere's radius times the turn, and by the ball
 //    of radius R that holds an STP-BV and touches it at the plane (docs/performance.md).
-// 3. Else the search of distance/threshold.h, or that of proximity.h for bodies that are not convex.
+// 3. Else the search of distance/threshold.h, or that of adapter/proximity.cpp for bodies that are not
+// convex.
 #include <algorithm>
 #include <cmath>
 
-#include "fcl_stpbv/adapter/proximity.h"
+#include "fcl_stpbv/adapter/fcl_distance.h"
 #include "fcl_stpbv/distance/threshold.h"
 #include "fcl_stpbv/robot/checker_impl.h"
 

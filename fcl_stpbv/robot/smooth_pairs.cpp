@@ -2,13 +2,12 @@
 // weighted vertex cover (Chvatal 1979).
 // 1. Cover the body with the least excess for each open pair it settles, until none is open.
 // 2. Take back covers, largest excess first, that the others make needless.
-#include "fcl_stpbv/robot/smooth_pairs.h"
-
 #include <algorithm>
 #include <limits>
 #include <numeric>
 
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/robot/checked_pairs.h"
 #include "fcl_stpbv/robot/primitive_cover.h"
 
 namespace fcl_stpbv {

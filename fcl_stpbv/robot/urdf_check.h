@@ -7,7 +7,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "fcl_stpbv/robot/load_faults.h"
+#include "fcl_stpbv/robot/robot_model.h"
 
 namespace fcl_stpbv::detail {
 

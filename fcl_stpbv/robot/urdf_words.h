@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "fcl_stpbv/robot/load_faults.h"
+#include "fcl_stpbv/robot/robot_model.h"
 
 namespace fcl_stpbv::detail {
 

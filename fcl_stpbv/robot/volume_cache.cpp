@@ -17,8 +17,8 @@
 
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/io/atomic_write.h"
-#include "fcl_stpbv/io/stpbv_file.h"
 #include "fcl_stpbv/io/text_scanner.h"
+#include "fcl_stpbv/io/volume_files.h"
 #include "fcl_stpbv/parts/parts_text.h"
 
 namespace fcl_stpbv::detail {

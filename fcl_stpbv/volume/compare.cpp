@@ -1,10 +1,9 @@
 // How far two volumes that should be equal are apart: the difference of their support functions over normals
 // of both, and the vertices of one without a partner in the other.
-#include "fcl_stpbv/volume/compare.h"
-
 #include <algorithm>
 #include <cmath>
 
+#include "fcl_stpbv/volume/measure.h"
 #include "fcl_stpbv/volume/point_tree.h"
 
 namespace fcl_stpbv {

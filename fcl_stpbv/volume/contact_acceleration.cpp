@@ -1,6 +1,6 @@
 // The bounds of docs/choosing_r_and_R.md. c falls as any radius of curvature grows: two balls of radii r
 // reach the most, a body 2 of radius R against a plane the least.
-#include "fcl_stpbv/volume/contact_acceleration.h"
+#include "fcl_stpbv/volume/radii_advice.h"
 
 namespace fcl_stpbv {
 

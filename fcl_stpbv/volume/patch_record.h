@@ -17,7 +17,7 @@ struct Wall {
                                      ///< and of the first, the second wall's past the two walls
 };
 
-/// An edge's patch (patch.h) with the four boundaries around it; a spindle has no walls, and the vertices
+/// An edge's patch (stp_bv.h) with the four boundaries around it; a spindle has no walls, and the vertices
 /// twice. All boundaries of a volume are edges': vertices and faces name their sides. An edge has two, each
 /// one of its ends and one of its walls; a side's number is where that wall lies among all records, in bytes.
 struct alignas(64) EdgeRecord {

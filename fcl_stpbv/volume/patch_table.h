@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "fcl_stpbv/packed.h"
-#include "fcl_stpbv/volume/patch.h"
 #include "fcl_stpbv/volume/patch_record.h"
+#include "fcl_stpbv/volume/stp_bv.h"
 
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wpsabi"  // packed.h says why

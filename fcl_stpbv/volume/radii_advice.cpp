@@ -10,7 +10,6 @@
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/number_check.h"
 #include "fcl_stpbv/numbers.h"
-#include "fcl_stpbv/volume/contact_acceleration.h"
 #include "fcl_stpbv/volume/hull_excess.h"
 
 namespace fcl_stpbv {

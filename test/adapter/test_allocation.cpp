@@ -9,7 +9,7 @@
 #include <limits>
 
 #include "fcl_stpbv/adapter/distance_callback.h"
-#include "fcl_stpbv/adapter/pair_distance.h"
+#include "fcl_stpbv/adapter/fcl_distance.h"
 #include "fcl_stpbv/adapter/polyhedral_witness.h"
 #include "test/reference/allocations.h"
 #include "test/reference/shapes.h"

@@ -19,7 +19,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 
-#include "fcl_stpbv/adapter/proximity.h"
+#include "fcl_stpbv/adapter/fcl_distance.h"
 #include "fcl_stpbv/distance/shape_distance.h"
 #include "test/adapter/bodies.h"
 

@@ -14,7 +14,6 @@
 #include <limits>
 
 #include "fcl_stpbv/adapter/fcl_distance.h"
-#include "fcl_stpbv/adapter/proximity.h"
 #include "test/reference/shapes.h"
 
 using namespace fcl_stpbv;

@@ -18,11 +18,10 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "fcl_stpbv/adapter/fcl_distance.h"
 #include "fcl_stpbv/adapter/fcl_shapes.h"
 #include "fcl_stpbv/adapter/hull_geometry.h"
-#include "fcl_stpbv/adapter/proximity.h"
 #include "fcl_stpbv/distance/shape_distance.h"
-#include "fcl_stpbv/distance/shape_pair.h"
 #include "fcl_stpbv/distance/threshold.h"
 #include "test/reference/shapes.h"
 

@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "fcl_stpbv/distance/shape_distance.h"
-#include "fcl_stpbv/distance/shape_pair.h"
 #include "test/distance/enclosure.h"
 #include "test/reference/reference.h"
 #include "test/reference/shape_reference.h"

@@ -9,10 +9,10 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "fcl_stpbv/io/stpbv_file.h"
+#include "fcl_stpbv/io/volume_files.h"
 #include "fcl_stpbv/posture/task.h"
+#include "fcl_stpbv/robot/checked_pairs.h"
 #include "fcl_stpbv/robot/constraints.h"
-#include "fcl_stpbv/robot/smooth_pairs.h"
 #include "test/fuzz/clouds.h"
 #include "test/fuzz/property.h"
 #include "test/fuzz/target.h"

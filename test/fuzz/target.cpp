@@ -6,9 +6,7 @@
 #include <sstream>
 
 #include "fcl_stpbv/distance/distance.h"
-#include "fcl_stpbv/io/qhull_file.h"
-#include "fcl_stpbv/io/sch_file.h"
-#include "fcl_stpbv/io/stpbv_file.h"
+#include "fcl_stpbv/io/volume_files.h"
 #include "fcl_stpbv/robot/mesh_file.h"
 #include "fcl_stpbv/robot/robot_model.h"
 #include "fcl_stpbv/robot/srdf.h"

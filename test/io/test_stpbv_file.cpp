@@ -3,7 +3,7 @@
 #include <locale>
 #include <sstream>
 
-#include "fcl_stpbv/io/stpbv_file.h"
+#include "fcl_stpbv/io/volume_files.h"
 #include "fcl_stpbv/volume/verify.h"
 #include "test/reference/shapes.h"
 #include "test/reference/volume_files.h"

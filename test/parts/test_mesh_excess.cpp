@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "fcl_stpbv/error.h"
-#include "fcl_stpbv/parts/mesh_excess.h"
+#include "fcl_stpbv/parts/mesh_solid.h"
 #include "test/reference/mesh_reference.h"
 #include "test/reference/solids.h"
 

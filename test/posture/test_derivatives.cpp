@@ -2,8 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include "fcl_stpbv/posture/collision_rows.h"
-#include "fcl_stpbv/posture/placement.h"
-#include "fcl_stpbv/posture/stability.h"
+#include "fcl_stpbv/posture/task.h"
 #include "test/posture/scenes.h"
 #include "test/reference/shapes.h"
 

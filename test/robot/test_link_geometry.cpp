@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "fcl_stpbv/error.h"
-#include "fcl_stpbv/io/stpbv_file.h"
+#include "fcl_stpbv/io/volume_files.h"
 #include "fcl_stpbv/robot/constraints.h"
 #include "fcl_stpbv/robot/mesh_file.h"
 #include "fcl_stpbv/volume/verify.h"

@@ -4,7 +4,7 @@
 
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/parts/parts_text.h"
-#include "fcl_stpbv/robot/link_parts.h"
+#include "fcl_stpbv/robot/link_geometry.h"
 #include "fcl_stpbv/robot/mesh_file.h"
 #include "fcl_stpbv/robot/volume_cache.h"
 #include "test/reference/solids.h"

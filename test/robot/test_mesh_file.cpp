@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "fcl_stpbv/error.h"
-#include "fcl_stpbv/io/qhull_file.h"
+#include "fcl_stpbv/io/volume_files.h"
 #include "fcl_stpbv/robot/mesh_file.h"
 #include "fcl_stpbv/volume/stp_bv.h"
 #include "test/reference/shapes.h"

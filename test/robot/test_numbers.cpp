@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "fcl_stpbv/adapter/proximity.h"
+#include "fcl_stpbv/adapter/fcl_distance.h"
 #include "fcl_stpbv/parts/convex_parts.h"
 #include "fcl_stpbv/robot/pair_list.h"
 #include "fcl_stpbv/robot/velocity_damper.h"

@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "fcl_stpbv/robot/mesh_file.h"
-#include "fcl_stpbv/volume/compare.h"
+#include "fcl_stpbv/volume/measure.h"
 #include "test/reference/reference.h"
 #include "test/reference/robots.h"
 #include "test/reference/volume_files.h"

@@ -2,8 +2,8 @@
 #include <catch2/catch.hpp>
 #include <set>
 
+#include "fcl_stpbv/robot/checked_pairs.h"
 #include "fcl_stpbv/robot/constraints.h"
-#include "fcl_stpbv/robot/smooth_pairs.h"
 #include "test/reference/robots.h"
 #include "test/robot/urdf_texts.h"
 

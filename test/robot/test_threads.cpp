@@ -14,7 +14,6 @@
 #include "fcl_stpbv/adapter/distance_callback.h"
 #include "fcl_stpbv/adapter/fcl_distance.h"
 #include "fcl_stpbv/adapter/hull_geometry.h"
-#include "fcl_stpbv/adapter/proximity.h"
 #include "fcl_stpbv/robot/batch.h"
 #include "test/reference/robots.h"
 

@@ -6,7 +6,6 @@
 
 #include "fcl_stpbv/distance/shape_distance.h"
 #include "fcl_stpbv/error.h"
-#include "fcl_stpbv/volume/contact_acceleration.h"
 #include "fcl_stpbv/volume/measure.h"
 #include "fcl_stpbv/volume/radii_advice.h"
 #include "test/reference/shapes.h"

@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 #include <filesystem>
 
-#include "fcl_stpbv/io/qhull_file.h"
+#include "fcl_stpbv/io/volume_files.h"
 #include "fcl_stpbv/volume/stp_bv.h"
 #include "fcl_stpbv/volume/verify.h"
 #include "test/reference/source_folder.h"

@@ -5,9 +5,9 @@
 #include <cstdio>
 #include <exception>
 
+#include "fcl_stpbv/robot/checked_pairs.h"
 #include "fcl_stpbv/robot/constraints.h"
 #include "fcl_stpbv/robot/motion_check.h"
-#include "fcl_stpbv/robot/smooth_pairs.h"
 #include "test/reference/arguments.h"
 #include "test/reference/shapes.h"
 #include "test/reference/source_folder.h"

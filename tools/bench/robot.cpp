@@ -7,7 +7,7 @@
 #include <functional>
 
 #include "fcl_stpbv/robot/batch.h"
-#include "fcl_stpbv/robot/smooth_pairs.h"
+#include "fcl_stpbv/robot/checked_pairs.h"
 #include "test/reference/shapes.h"
 #include "tools/bench/measurement.h"
 #include "tools/bench/robot/peer.h"

@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-#include "fcl_stpbv/posture/rows.h"
+#include "fcl_stpbv/posture/problem.h"
 #include "fcl_stpbv/robot/checked_pairs.h"
 #include "fcl_stpbv/robot/link_geometry.h"
 

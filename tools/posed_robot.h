@@ -14,7 +14,7 @@
 #include "fcl_stpbv/robot/kinematics.h"
 #include "fcl_stpbv/robot/link_geometry.h"
 
-namespace fcl_stpbv::report {
+namespace fcl_stpbv::tools {
 
 /// Each object's user data is its Body. The model and the geometry must outlive it.
 class PosedRobot {
@@ -50,4 +50,4 @@ struct SelfCheck {
 };
 bool selfDistanceCallback(fcl::CollisionObjectd* a, fcl::CollisionObjectd* b, void* check, double& dist);
 
-}  // namespace fcl_stpbv::report
+}  // namespace fcl_stpbv::tools

@@ -1,10 +1,10 @@
 // A robot's bodies as FCL objects in one posture, moved with the kinematics,
 // with the check of which pairs count.
-#include "fcl_stpbv/report/posed_robot.h"
+#include "tools/posed_robot.h"
 
 #include <algorithm>
 
-namespace fcl_stpbv::report {
+namespace fcl_stpbv::tools {
 
 PosedRobot::PosedRobot(const Kinematics& kinematics, const RobotGeometry& geometry, const Srdf& srdf)
     : kinematics_(kinematics), geometry_(geometry), state_(kinematics.makeState()) {
@@ -49,4 +49,4 @@ bool selfDistanceCallback(fcl::CollisionObjectd* a, fcl::CollisionObjectd* b, vo
   return self.robot->checked(a, b) && distanceCallback(a, b, &self.data, dist);
 }
 
-}  // namespace fcl_stpbv::report
+}  // namespace fcl_stpbv::tools
