@@ -117,9 +117,10 @@ class PythonPairSearch {
       if (links.obstacle) continue;
       list.push_back(entryOf(links, PairReason::neverProven));
     }
+    const SkipReasons reasons(&known);
     for (PairEntry& entry : list) {
       const auto name = [&](int link) { return robot.links[static_cast<std::size_t>(link)].name; };
-      if (known.reasonToSkip(name(entry.link1), name(entry.link2)) == "User") entry.reason = PairReason::user;
+      if (reasons.of(name(entry.link1), name(entry.link2)) == "User") entry.reason = PairReason::user;
     }
     return withPairs(base, robot.name, toSrdf(robot, list), comments);
   }

@@ -9,12 +9,13 @@ namespace fcl_stpbv::tools {
 PosedRobot::PosedRobot(const Kinematics& kinematics, const RobotGeometry& geometry, const Srdf& srdf)
     : kinematics_(kinematics), geometry_(geometry), state_(kinematics.makeState()) {
   const std::vector<LinkModel>& links = kinematics.robot().links;
+  const SkipReasons reasons(&srdf);
   const auto linkOf = [&](std::size_t body) { return static_cast<std::size_t>(geometry.bodies[body].link); };
   for (std::size_t i = 0; i < geometry.bodies.size(); ++i) {
     objects_.push_back(std::make_unique<fcl::CollisionObjectd>(geometry.bodies[i].geometry));
     objects_.back()->setUserData(const_cast<Body*>(&geometry.bodies[i]));
     for (std::size_t j = 0; j < i; ++j) {
-      if (linkOf(i) == linkOf(j) || !srdf.reasonToSkip(links[linkOf(j)].name, links[linkOf(i)].name).empty())
+      if (linkOf(i) == linkOf(j) || !reasons.of(links[linkOf(j)].name, links[linkOf(i)].name).empty())
         continue;
       pairs_.emplace_back(static_cast<int>(j), static_cast<int>(i));
     }

@@ -69,16 +69,17 @@ std::string nameOfSecond(const PairEntry& entry, const CollisionReport& report) 
   return entry.obstacle ? report.obstacles[at(entry.link2)].name : report.robot->links[at(entry.link2)].name;
 }
 
-bool isChecked(const PairEntry& entry, const CollisionReport& report, const Srdf* srdf) {
+// `srdf` is null without one.
+bool isChecked(const PairEntry& entry, const CollisionReport& report, const SkipReasons* srdf) {
   if (entry.obstacle || !srdf) return entry.obstacle || checkedWithoutSrdf(entry.reason);
   const auto& links = report.robot->links;
-  return srdf->reasonToSkip(links[at(entry.link1)].name, links[at(entry.link2)].name).empty();
+  return srdf->of(links[at(entry.link1)].name, links[at(entry.link2)].name).empty();
 }
 
 // Follows the bodies of the checked pairs along the way points. For each entry of the list the first of its
 // pairs of bodies, and one past the last at the end.
 std::vector<std::size_t> followTrajectory(const ReportRequest& request, const Trajectory& trajectory,
-                                          const Srdf* srdf, CollisionReport& report) {
+                                          const SkipReasons* srdf, CollisionReport& report) {
   std::vector<CheckedPair> pairs;
   std::vector<std::size_t> first;
   for (const PairEntry& entry : report.list) {
@@ -110,13 +111,13 @@ void placeOnTrajectory(const TrajectoryReport& trajectory, std::size_t first, st
 }
 
 // What the search and the SRDF say about a pair.
-PairReport said(const PairEntry& entry, const CollisionReport& report, const Srdf* srdf) {
+PairReport said(const PairEntry& entry, const CollisionReport& report, const SkipReasons* srdf) {
   PairReport pair;
   pair.links = entry;
   pair.link1 = report.robot->links[at(entry.link1)].name;
   pair.link2 = nameOfSecond(entry, report);
   pair.reason = reasonText(entry.reason);
-  if (srdf && !entry.obstacle) pair.srdfReason = srdf->reasonToSkip(pair.link1, pair.link2);
+  if (srdf && !entry.obstacle) pair.srdfReason = srdf->of(pair.link1, pair.link2);
   pair.checked = isChecked(entry, report, srdf);
   const bool explained = entry.reason == PairReason::adjacent || entry.reason == PairReason::rigid ||
                          entry.reason == PairReason::neverSampled || entry.reason == PairReason::neverProven;
@@ -169,11 +170,14 @@ void examine(const ReportRequest& request, const PairListOptions& search, const 
   report.pairs.clear();
   report.trajectory.reset();
   report.trajectoryPairs.clear();
+  const SkipReasons reasons(srdf);
+  const SkipReasons* toSkip = srdf ? &reasons : nullptr;
   std::vector<std::size_t> firstBodies;
-  if (!request.trajectory.empty()) firstBodies = followTrajectory(request, postures.trajectory, srdf, report);
+  if (!request.trajectory.empty())
+    firstBodies = followTrajectory(request, postures.trajectory, toSkip, report);
   for (std::size_t i = 0; i < report.list.size(); ++i) {
     const PairEntry& entry = report.list[i];
-    PairReport pair = said(entry, report, srdf);
+    PairReport pair = said(entry, report, toSkip);
     pair.configuration = postures.asked.value_or(entry.closest);
     if (report.trajectory) {
       pair.configuration = postures.trajectory.points.front();

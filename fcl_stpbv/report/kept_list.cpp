@@ -95,9 +95,10 @@ class Question {
   }
 
   void reasons(const RobotModel& robot, const Srdf& srdf) {
+    const SkipReasons known(&srdf);
     for (std::size_t i = 0; i < robot.links.size(); ++i)
       for (std::size_t j = i + 1; j < robot.links.size(); ++j) {
-        const std::string reason = srdf.reasonToSkip(robot.links[i].name, robot.links[j].name);
+        const std::string reason = known.of(robot.links[i].name, robot.links[j].name);
         if (reason.empty()) continue;
         add(static_cast<double>(i), static_cast<double>(j));
         text_ += reason + "\n";

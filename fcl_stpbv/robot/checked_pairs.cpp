@@ -62,6 +62,7 @@ std::vector<CheckedPair> selfPairs(const RobotModel& robot, const RobotGeometry&
   std::vector<CheckedPair> pairs;
   const int count = static_cast<int>(geometry.bodies.size());
   const Adjacency adjacency(robot, geometry);
+  const SkipReasons reasons(srdf);
   const auto linkOf = [&](int body) { return geometry.bodies[static_cast<std::size_t>(body)].link; };
   const auto nameOf = [&](int body) { return robot.links[static_cast<std::size_t>(linkOf(body))].name; };
   for (int i = 0; i < count; ++i) {
@@ -69,7 +70,7 @@ std::vector<CheckedPair> selfPairs(const RobotModel& robot, const RobotGeometry&
       if (linkOf(i) == linkOf(j)) continue;
       const bool inParts = geometry.byParts.count({linkOf(i), linkOf(j)}) > 0;
       if (!geometry.counts(i, inParts) || !geometry.counts(j, inParts)) continue;
-      const bool skip = srdf ? !srdf->reasonToSkip(nameOf(i), nameOf(j)).empty()
+      const bool skip = srdf ? !reasons.of(nameOf(i), nameOf(j)).empty()
                              : adjacency.of(linkOf(i), linkOf(j)) != Joining::separate;
       if (!skip) pairs.push_back({i, j, false});
     }

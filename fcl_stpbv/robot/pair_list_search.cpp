@@ -86,12 +86,12 @@ class Search {
       entry.closest = neutral_;
       list_.push_back(entry);
     };
+    const SkipReasons reasons(srdf);
     for (int i = 0; i < links; ++i) {
       for (int j = i + 1; j < links; ++j) {
         if (none(i) || none(j)) continue;
         const Joining joining = adjacency.of(i, j);
-        const bool user =
-            srdf && srdf->reasonToSkip(robot.links[at(i)].name, robot.links[at(j)].name) == "User";
+        const bool user = reasons.of(robot.links[at(i)].name, robot.links[at(j)].name) == "User";
         add({i, j}, user                           ? PairReason::user
                     : joining == Joining::rigid    ? PairReason::rigid
                     : joining == Joining::adjacent ? PairReason::adjacent

@@ -115,22 +115,24 @@ class SrdfReader {
   Srdf srdf_;
 };
 
-bool same(const Srdf::Pair& pair, const std::string& a, const std::string& b) {
-  return (pair.link1 == a && pair.link2 == b) || (pair.link1 == b && pair.link2 == a);
-}
-
-bool holds(const std::vector<std::string>& names, const std::string& name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
+std::pair<std::string, std::string> ascending(const std::string& link1, const std::string& link2) {
+  return link1 < link2 ? std::pair(link1, link2) : std::pair(link2, link1);
 }
 
 }  // namespace
 
-std::string Srdf::reasonToSkip(const std::string& link1, const std::string& link2) const {
-  const auto matches = [&](const Pair& pair) { return same(pair, link1, link2); };
-  if (std::any_of(enabled.begin(), enabled.end(), matches)) return "";
-  const auto found = std::find_if(disabled.begin(), disabled.end(), matches);
-  if (found != disabled.end()) return found->reason;
-  return holds(defaultsOff, link1) || holds(defaultsOff, link2) ? "User" : "";
+SkipReasons::SkipReasons(const Srdf* srdf) {
+  if (!srdf) return;
+  off_.insert(srdf->defaultsOff.begin(), srdf->defaultsOff.end());
+  for (const Srdf::Pair& pair : srdf->enabled) named_.emplace(ascending(pair.link1, pair.link2), "");
+  for (const Srdf::Pair& pair : srdf->disabled)  // does not replace: the first entry counts
+    named_.emplace(ascending(pair.link1, pair.link2), pair.reason);
+}
+
+std::string SkipReasons::of(const std::string& link1, const std::string& link2) const {
+  const auto named = named_.find(ascending(link1, link2));
+  if (named != named_.end()) return named->second;
+  return off_.count(link1) + off_.count(link2) > 0 ? "User" : "";
 }
 
 const Srdf::State& Srdf::state(const std::string& name) const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -35,10 +36,22 @@ struct Srdf {
   /// nothing as in MoveIt; elements that SRDF does not know; the name of another robot.
   std::vector<std::string> warnings;
 
-  /// Whether the pair is to be left out, and why; "" where it is to be checked.
-  std::string reasonToSkip(const std::string& link1, const std::string& link2) const;
   /// @throws Error naming the states there are.
   const State& state(const std::string& name) const;
+};
+
+/// What an SRDF says of any two links, as it was when this was made. Finds one pair among many at once.
+class SkipReasons {
+ public:
+  /// O(n log n) for n entries; null for no SRDF, which leaves nothing out.
+  explicit SkipReasons(const Srdf* srdf);
+
+  /// Why the pair is to be left out; "" where it is to be checked. The order of the links is no matter.
+  std::string of(const std::string& link1, const std::string& link2) const;
+
+ private:
+  std::map<std::pair<std::string, std::string>, std::string> named_;  // names ascending
+  std::set<std::string> off_;
 };
 
 /// Reads an SRDF for `robot`. @throws Error listing all that is wrong, each with its line.

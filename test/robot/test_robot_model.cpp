@@ -173,6 +173,25 @@ TEST_CASE("a missing file names every path that was tried") {
     CHECK_THAT(message, Contains(tried));
 }
 
+TEST_CASE("an SRDF's enabled pairs win, then its disabled ones, then its links without defaults") {
+  Srdf srdf;
+  srdf.enabled = {{"a", "b", ""}, {"e", "a", ""}};
+  srdf.disabled = {{"b", "a", "Never"}, {"b", "c", "Adjacent"}, {"c", "b", "Never"}, {"e", "b", "Never"}};
+  srdf.defaultsOff = {"e"};
+  const SkipReasons reasons(&srdf), none(nullptr);
+  const auto of = [&](const char* one, const char* other) {
+    CHECK(reasons.of(one, other) == reasons.of(other, one));
+    CHECK(none.of(one, other).empty());
+    return reasons.of(one, other);
+  };
+  CHECK(of("a", "b").empty());
+  CHECK(of("b", "c") == "Adjacent");
+  CHECK(of("a", "c").empty());
+  CHECK(of("a", "e").empty());
+  CHECK(of("b", "e") == "Never");
+  CHECK(of("c", "e") == "User");
+}
+
 TEST_CASE("an SRDF gives pairs, states and the way the base moves") {
   TemporaryFolder folder;
   const RobotModel model = parse(link("a") + link("b") + joint("j", "revolute", "a", "b"));
@@ -182,7 +201,7 @@ TEST_CASE("an SRDF gives pairs, states and the way the base moves") {
       "<disable_collisions link1=\"b\" link2=\"a\" reason=\"Adjacent\"/>"
       "<group_state name=\"up\" group=\"g\"><joint name=\"j\" value=\"0.5\"/></group_state></robot>");
   const Srdf srdf = loadSrdf(folder / "s.srdf", model);
-  CHECK(srdf.reasonToSkip("a", "b") == "Adjacent");
+  CHECK(SkipReasons(&srdf).of("a", "b") == "Adjacent");
   CHECK(srdf.baseType == "floating");
   CHECK(srdf.state("up").joints.at("j")[0] == 0.5);
   CHECK_THAT(refusal([&](const std::string& name) { srdf.state(name); }, "down"), Contains("up"));

@@ -18,9 +18,10 @@ namespace {
 // All that the file decides: pairs left out, the named postures, the base.
 std::string decisionsOf(const Srdf& srdf, const RobotModel& robot) {
   std::string text = srdf.baseJoint + " " + srdf.baseType;
+  const SkipReasons reasons(&srdf);
   for (const LinkModel& a : robot.links)
     for (const LinkModel& b : robot.links)
-      if (!srdf.reasonToSkip(a.name, b.name).empty()) text += "\n" + a.name + " " + b.name;
+      if (!reasons.of(a.name, b.name).empty()) text += "\n" + a.name + " " + b.name;
   for (const Srdf::State& state : srdf.states) {
     text += "\n" + state.name;
     for (const auto& [joint, values] : state.joints) {
@@ -33,10 +34,10 @@ std::string decisionsOf(const Srdf& srdf, const RobotModel& robot) {
 
 // Whether `mutated` leaves out a pair that `whole` checks.
 bool hides(const Srdf& whole, const Srdf& mutated, const RobotModel& robot) {
+  const SkipReasons before(&whole), after(&mutated);
   for (const LinkModel& a : robot.links)
     for (const LinkModel& b : robot.links)
-      if (whole.reasonToSkip(a.name, b.name).empty() && !mutated.reasonToSkip(a.name, b.name).empty())
-        return true;
+      if (before.of(a.name, b.name).empty() && !after.of(a.name, b.name).empty()) return true;
   return false;
 }
 
