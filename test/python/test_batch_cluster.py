@@ -155,6 +155,17 @@ def test_a_scheduler_that_dies_costs_no_result_and_a_new_one_goes_on(cluster, so
     assert some.run("stopped", "--scheduler", cluster.address) == (some.status, some.expected, some.volumes)
 
 
+def test_a_connection_that_cannot_be_made_again_is_a_scheduler_that_is_gone(cluster, tmp_path):
+    # What Dask raises where it connects anew to fetch a result, and the scheduler goes meanwhile.
+    broken = ("import sys, distributed, fcl_stpbv.batch.__main__ as batch\n"
+              "def result(self): raise OSError('Timed out during handshake')\n"
+              "distributed.Future.result = result\n"
+              "sys.exit(batch.main())")
+    command = [sys.executable, "-B", "-c", broken, *map(str, SAMPLE), "--scheduler", cluster.address, "-o", str(tmp_path / "out")]
+    run = subprocess.run(command, capture_output=True, text=True, timeout=60)
+    assert run.returncode == 1 and run.stderr == "fcl_stpbv.batch: the Dask scheduler is gone; run again to go on\n", run.stderr
+
+
 def test_a_run_that_is_interrupted_keeps_what_is_done(expected, tmp_path):
     out = tmp_path / "out"
     run = start("fcl_stpbv.batch", *SAMPLE, "--jobs", 1, "-o", out)

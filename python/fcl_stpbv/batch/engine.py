@@ -110,6 +110,15 @@ def connected(scheduler, workers):
             raise Stopped("the Dask scheduler is gone") from None
 
 
+@contextlib.contextmanager
+def answering():
+    """Around a call that asks the scheduler: one that is gone may show as a connection that cannot be made again."""
+    try:
+        yield
+    except OSError:
+        raise Stopped("the Dask scheduler is gone") from None
+
+
 def run_on(client, schedule, show):
     """Every job to any worker. One whose worker dies runs again elsewhere; results that nobody has are computed anew."""
     import distributed
@@ -121,7 +130,8 @@ def run_on(client, schedule, show):
     done = distributed.as_completed(loop=client.loop)
     while schedule.ready or jobs:
         if schedule.ready and len(jobs) <= most // 2:
-            most = max(8, AHEAD * sum(client.nthreads().values()))  # workers come and go
+            with answering():
+                most = max(8, AHEAD * sum(client.nthreads().values()))  # workers come and go
             while schedule.ready and len(jobs) < most:
                 group, key, given = schedule.ready.popleft()
                 future = client.submit(work, kind.name, kind.options, bundle, digest, fcl_stpbv.__version__, key,
@@ -135,7 +145,9 @@ def run_on(client, schedule, show):
             continue
         group, key = jobs.pop(future.key)
         if future.status == "finished":
-            schedule.finish(group, key, *future.result())
+            with answering():
+                result = future.result()
+            schedule.finish(group, key, *result)
         elif future.status == "error":
             failed[key] = future.exception()
         else:
