@@ -32,15 +32,17 @@ std::vector<double> toNumbers(const MeshFit& fit) {
   return {fit.hullExcess, std::isfinite(fit.volumeRatio) ? fit.volumeRatio : 0.0, fit.closed ? 1.0 : 0.0};
 }
 
+// With their number before them, so that no two contents give the same bytes.
 template <class T>
 void appendBytes(std::string& content, const std::vector<T>& values) {
+  content += std::to_string(values.size()) + ' ';
   content.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
 }
 
 }  // namespace
 
 std::string contentOf(const Body& body) {
-  std::string content = std::to_string(body.hull.size());
+  std::string content;
   appendBytes(content, body.hull);
   if (body.volume) {
     const StpBv& volume = *body.volume;

@@ -98,7 +98,7 @@ class VolumeMaker {
     double most = 0;
     for (const Eigen::Vector3d& v : hull->getVertices()) {
       const fcl::Transform3d there{Eigen::Translation3d(v)};
-      const DistanceAnswer found = fcl_stpbv::distance(ball, there, *kept, fcl::Transform3d::Identity());
+      const DistanceAnswer found = distance(ball, there, *kept, fcl::Transform3d::Identity());
       if (found.status != DistanceStatus::invalid) most = std::max(most, found.distance + kBall);
     }
     return most;

@@ -9,7 +9,6 @@
 #include "fcl_stpbv/volume/exact_sign.h"
 
 #include <algorithm>
-#include <array>
 #include <boost/multiprecision/cpp_int.hpp>
 #include <cmath>
 #include <cstdint>
@@ -101,25 +100,31 @@ class Scale {
 int signOf(const Integer& a, const Integer& b, const Integer& d) {
   const int signA = a.sign(), signB = d.sign() > 0 ? b.sign() : 0;
   if (signA * signB >= 0) return signA != 0 ? signA : signB;
-  const int larger = Integer(a * a - b * b * d).sign();
+  const int larger = (a * a - b * b * d).sign();
   return larger == 0 ? 0 : larger > 0 ? signA : signB;
 }
 
-struct IntegerBall {
-  IntegerVector<Integer> a, normal, towards;  // N and T
-  Integer n2, discriminant;
-  bool isPlane;
+// What all balls through three points share, as big as they may be.
+template <class Int>
+struct Circle {
+  IntegerVector<Int> a, u, v, normal;  // the normal is N
 
-  IntegerBall(const BallPoints& ball, const Scale& scale)
-      : a(scale.of<Integer>(ball.a)), isPlane(std::isinf(ball.radius)) {
-    const IntegerVector<Integer> u = scale.of<Integer>(ball.b) - a, v = scale.of<Integer>(ball.c) - a,
-                                 w = u - v;
-    normal = cross(u, v);
-    if (isPlane) return;
-    const Integer u2 = dot(u, u), v2 = dot(v, v), rho = scale.of<Integer>(ball.radius);
-    n2 = dot(normal, normal);
-    towards = u2 * cross(v, normal) + v2 * cross(normal, u);
-    discriminant = 4 * n2 * rho * rho - u2 * v2 * dot(w, w);
+  Circle(const BallPoints& ball, const Scale& scale)
+      : a(scale.of<Int>(ball.a)),
+        u(scale.of<Int>(ball.b) - a),
+        v(scale.of<Int>(ball.c) - a),
+        normal(cross(u, v)) {}
+
+  Int n2() const { return dot(normal, normal); }
+  IntegerVector<Int> towards() const {  // T
+    return dot(u, u) * cross(v, normal) + dot(v, v) * cross(normal, u);
+  }
+  // A of a point at q from a.
+  Int outside(const IntegerVector<Int>& q) const { return n2() * dot(q, q) - dot(q, towards()); }
+  // D for the radius rho.
+  Int discriminant(const Int& rho) const {
+    const IntegerVector<Int> w = u - v;
+    return 4 * n2() * rho * rho - dot(u, u) * dot(v, v) * dot(w, w);
   }
 };
 
@@ -138,32 +143,31 @@ std::optional<int> coplanarSide(const BallPoints& points, const Eigen::Vector3d&
   for (const Eigen::Vector3d& x : {points.a, points.b, points.c, p}) scale.include(x);
   // A has products of six differences, each of one bit more than a coordinate; fewer than 128 of them.
   if (6 * (scale.bits() + 1) + 7 > kFixedBits) return std::nullopt;
-  const IntegerVector<FixedInteger> a = scale.of<FixedInteger>(points.a),
-                                    u = scale.of<FixedInteger>(points.b) - a,
-                                    v = scale.of<FixedInteger>(points.c) - a,
-                                    q = scale.of<FixedInteger>(p) - a, normal = cross(u, v);
-  if (dot(q, normal) != 0) return std::nullopt;
-  const IntegerVector<FixedInteger> towards = dot(u, u) * cross(v, normal) + dot(v, v) * cross(normal, u);
-  return FixedInteger(dot(normal, normal) * dot(q, q) - dot(q, towards)).sign();
+  const Circle<FixedInteger> circle(points, scale);
+  const IntegerVector<FixedInteger> q = scale.of<FixedInteger>(p) - circle.a;
+  if (dot(q, circle.normal) != 0) return std::nullopt;
+  return circle.outside(q).sign();
 }
 
 int exactSide(const BallPoints& points, const Eigen::Vector3d& p) {
   const Scale scale = scaleOf(points, {p});
-  const IntegerBall ball(points, scale);
-  const IntegerVector<Integer> q = scale.of<Integer>(p) - ball.a;
-  if (ball.isPlane) return dot(q, ball.normal).sign();
-  return signOf(ball.n2 * dot(q, q) - dot(q, ball.towards), dot(q, ball.normal), ball.discriminant);
+  const Circle<Integer> circle(points, scale);
+  const IntegerVector<Integer> q = scale.of<Integer>(p) - circle.a;
+  const Integer up = dot(q, circle.normal);
+  if (std::isinf(points.radius)) return up.sign();
+  return signOf(circle.outside(q), up, circle.discriminant(scale.of<Integer>(points.radius)));
 }
 
 int exactTurn(const BallPoints& points, const Eigen::Vector3d& p, const Eigen::Vector3d& q,
               const Eigen::Vector3d& s) {
   const Scale scale = scaleOf(points, {p, q, s});
-  const IntegerBall ball(points, scale);
+  const Circle<Integer> circle(points, scale);
   const IntegerVector<Integer> at = scale.of<Integer>(p),
                                around = cross(scale.of<Integer>(q) - at, scale.of<Integer>(s) - at);
-  const Integer up = dot(around, ball.normal);
-  if (ball.isPlane) return up.sign();
-  return signOf(dot(around, Integer(2 * ball.n2) * (at - ball.a) - ball.towards), up, ball.discriminant);
+  const Integer up = dot(around, circle.normal);
+  if (std::isinf(points.radius)) return up.sign();
+  return signOf(dot(around, 2 * circle.n2() * (at - circle.a) - circle.towards()), up,
+                circle.discriminant(scale.of<Integer>(points.radius)));
 }
 
 }  // namespace fcl_stpbv::detail
