@@ -57,19 +57,22 @@ void StpBvGeometry::nameFaces() {
 }
 
 void StpBvGeometry::nameEdges() {
-  std::multimap<std::array<int, 2>, int>
-      patches;  // by an edge's ends, ascending; two ends may have several edges
+  std::vector<std::array<int, 3>> patches;  // an edge's ends, ascending, and its patch, one of several
   for (int e = 0; e < volume_->edgeCount(); ++e) {
     const auto [a, b] = volume_->edges()[at(e)].vertex;
-    patches.emplace(std::array<int, 2>{std::min(a, b), std::max(a, b)}, volume_->edgePatch(e));
+    patches.push_back({std::min(a, b), std::max(a, b), volume_->edgePatch(e)});
   }
+  std::sort(patches.begin(), patches.end());
   for (int e = 0; e < hull_->edgeCount(); ++e) {
     const int a = hull_->cloudIndex(hull_->edges()[at(e)][0]),
               b = hull_->cloudIndex(hull_->edges()[at(e)][1]);
-    const auto [begin, end] = patches.equal_range({std::min(a, b), std::max(a, b)});
+    const std::array<int, 2> ends{std::min(a, b), std::max(a, b)};
+    const auto begin =
+        std::lower_bound(patches.begin(), patches.end(), std::array<int, 3>{ends[0], ends[1], 0});
+    const auto end = std::lower_bound(begin, patches.end(), std::array<int, 3>{ends[0], ends[1] + 1, 0});
     const std::array<int, 2>& sides = hull_->edgeFaces()[at(e)];
     if (sides[0] < 0) {  // a bare segment: any of its edge patches
-      edgePatch_.push_back(begin != end ? begin->second : a);
+      edgePatch_.push_back(begin != end ? (*begin)[2] : a);
       continue;
     }
     Vector3d middle = hull_->faceNormal(sides[0]) + hull_->faceNormal(sides[1]);
@@ -84,8 +87,8 @@ void StpBvGeometry::nameEdges() {
     int best = -1;
     double least = 0;
     for (auto it = begin; it != end; ++it) {
-      const double outside = volume_->outside(it->second, middle);
-      if (best < 0 || outside < least) best = it->second, least = outside;
+      const double outside = volume_->outside((*it)[2], middle);
+      if (best < 0 || outside < least) best = (*it)[2], least = outside;
     }
     edgePatch_.push_back(best >= 0 ? best : volume_->owner(middle));
   }

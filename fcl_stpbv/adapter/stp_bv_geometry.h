@@ -26,6 +26,9 @@ class StpBvGeometry : public fcl::Convexd {
   /// Takes the hull and the correspondence of its features to the volume's patches. O(n log n).
   explicit StpBvGeometry(StpBv::Ptr volume);
 
+  /// The same where the hull of the volume's vertices is known.
+  StpBvGeometry(StpBv::Ptr volume, std::shared_ptr<const detail::HullGraph> hull);
+
   /// The smooth body.
   const StpBv& volume() const { return *volume_; }
 
@@ -41,7 +44,6 @@ class StpBvGeometry : public fcl::Convexd {
   void computeLocalAABB() override;
 
  private:
-  StpBvGeometry(StpBv::Ptr volume, std::shared_ptr<const detail::HullGraph> hull);
   void nameEdges();
   void nameFaces();
 

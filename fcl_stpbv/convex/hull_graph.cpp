@@ -11,13 +11,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <numeric>
 
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/vectorized.h"
-#include "fcl_stpbv/volume/rolling_ball.h"
 
 namespace fcl_stpbv::detail {
 namespace {
@@ -34,14 +32,18 @@ Eigen::Vector3d ringNormal(const std::vector<Eigen::Vector3d>& points, const std
   return sum.normalized();
 }
 
-}  // namespace
-
-HullGraph::HullGraph(const std::vector<Eigen::Vector3d>& cloud) {
+RolledHull convexHull(const std::vector<Eigen::Vector3d>& cloud) {
   if (cloud.empty()) throw Error("convex hull: the cloud is empty; give at least one point");
   for (const Eigen::Vector3d& p : cloud)
     if (!p.allFinite()) throw Error("convex hull: a coordinate is not finite");
+  return rollBall(cloud);
+}
 
-  RolledHull hull = rollBall(cloud);
+}  // namespace
+
+HullGraph::HullGraph(const std::vector<Eigen::Vector3d>& cloud) : HullGraph(cloud, convexHull(cloud)) {}
+
+HullGraph::HullGraph(const std::vector<Eigen::Vector3d>& cloud, RolledHull hull) {
   cloudIndex_ = std::move(hull.vertices);
   std::vector<int> vertexOf(cloud.size(), -1);
   Eigen::Vector3d low = cloud[at(cloudIndex_[0])], high = low;
@@ -68,22 +70,25 @@ HullGraph::HullGraph(const std::vector<Eigen::Vector3d>& cloud) {
 }
 
 void HullGraph::makeEdges() {
-  std::map<std::array<int, 2>, int> numbers;
-  const auto addEdge = [&](int a, int b, int face) {
-    const std::array<int, 2> ends{std::min(a, b), std::max(a, b)};
-    const auto [it, isNew] = numbers.emplace(ends, edgeCount());
-    if (isNew) {
-      edges_.push_back(ends);
-      edgeFaces_.push_back({face, -1});
-    } else {
-      edgeFaces_[at(it->second)][1] = face;
-    }
-  };
+  std::vector<std::array<int, 3>> sides;  // of every face: the side's ends, ascending, and the face
   for (int f = 0; f < faceCount(); ++f) {
     const Ring& ring = faces_[at(f)];
-    for (std::size_t i = 0; i < ring.size(); ++i) addEdge(ring[i], ring[(i + 1) % ring.size()], f);
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const int a = ring[i], b = ring[(i + 1) % ring.size()];
+      sides.push_back({std::min(a, b), std::max(a, b), f});
+    }
   }
-  if (faces_.empty() && vertexCount() == 2) addEdge(0, 1, -1);
+  if (faces_.empty() && vertexCount() == 2) sides.push_back({0, 1, -1});
+  std::sort(sides.begin(), sides.end());
+  for (const auto& [a, b, face] : sides) {
+    const std::array<int, 2> ends{a, b};
+    if (!edges_.empty() && edges_.back() == ends) {
+      edgeFaces_.back()[1] = face;
+    } else {
+      edges_.push_back(ends);
+      edgeFaces_.push_back({face, -1});
+    }
+  }
 
   std::vector<std::vector<std::array<int, 2>>> around(points_.size());
   for (int e = 0; e < edgeCount(); ++e) {

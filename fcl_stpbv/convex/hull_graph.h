@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "fcl_stpbv/volume/direction_table.h"
+#include "fcl_stpbv/volume/rolling_ball.h"
 #include "fcl_stpbv/volume/stp_bv.h"
 
 namespace fcl_stpbv::detail {
@@ -28,6 +29,9 @@ class HullGraph {
 
   /// @throws Error for a cloud that is empty or not finite.
   explicit HullGraph(const std::vector<Eigen::Vector3d>& cloud);
+
+  /// The same where the cloud's convex hull, as rollBall() gives it, is known.
+  HullGraph(const std::vector<Eigen::Vector3d>& cloud, RolledHull hull);
 
   int vertexCount() const { return static_cast<int>(points_.size()); }
   int edgeCount() const { return static_cast<int>(edges_.size()); }

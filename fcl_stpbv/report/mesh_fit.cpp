@@ -50,7 +50,7 @@ std::string contentOf(const Body& body) {
     appendBytes(content, volume.vertices());
     for (const StpBv::Ring& ring : volume.faces()) appendBytes(content, ring);
   }
-  return content + meshContent(body.file, body.scale);
+  return content + meshKey(body);
 }
 
 MeshFit meshFit(const Body& body, const std::function<const ExactBody&()>& exact, VolumeCache& cache) {

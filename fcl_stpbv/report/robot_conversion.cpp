@@ -79,7 +79,7 @@ ordered_json inputsOf(const RobotConversion& conversion, std::vector<std::string
     for (const ShapeSource& source : sources->shapes) {
       if (source.file.empty()) continue;
       read.push_back(source.file);
-      inputs["meshes"].push_back({source.file, sha256(source.content)});
+      inputs["meshes"].push_back({source.file, source.key});
     }
   }
   inputs["left_out"] = loader.skipped();

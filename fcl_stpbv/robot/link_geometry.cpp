@@ -132,6 +132,7 @@ class Builder {
     body.name = source.number == 1 ? link : link + "#" + std::to_string(source.number);
     body.pose = source.shape->pose;
     body.file = source.file;
+    body.meshKey = source.key;
     body.scale = source.shape->scale;
     if (source.shape->kind == ShapeModel::Kind::mesh)
       addMesh(link, source, body);
@@ -236,8 +237,8 @@ ShapeSources readGeometry(const RobotModel& robot, const GeometryOptions& option
   checkNames(robot, options, faults);
   checkNumbers(robot, options, faults);
   const VolumeCache cache(options.cacheFolder);
-  const IsCached isCached = [&](const std::string& link, const std::string& content) {
-    const VolumeKey key = volumeKey(options, link, content);
+  const IsCached isCached = [&](const std::string& link, const std::string& meshKey) {
+    const VolumeKey key = volumeKey(options, link, meshKey);
     return !isFlat(options, link) && cache.has(key.content, key.radii);
   };
   return readShapes(robot, options.visual, options.packagePath, isCached, faults);

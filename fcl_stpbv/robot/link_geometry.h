@@ -62,6 +62,7 @@ struct Body {
   std::shared_ptr<const StpBvGeometry> full;
   std::shared_ptr<fcl::CollisionGeometryd> primitive;  ///< the primitive under its smooth cover, else null
   std::string file;                                    ///< "" for a primitive
+  std::string meshKey;                                 ///< of the file and the scale, for caches; else ""
   Eigen::Vector3d scale{1, 1, 1};                      ///< of the mesh
   Eigen::Vector3d centre;  ///< of a sphere that holds the body, in the link's frame
   double radius = 0;       ///< of that sphere (m)

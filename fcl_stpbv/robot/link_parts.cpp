@@ -23,6 +23,7 @@ Body partOf(const Body& whole, int index, int number, const ConvexPart& part) {
   body.name = whole.name + ":" + std::to_string(number);
   body.pose = whole.pose;
   body.file = whole.file;
+  body.meshKey = whole.meshKey;
   body.scale = whole.scale;
   body.radii = whole.radii;
   body.partOf = index;
@@ -64,8 +65,7 @@ class LinkParts::Store {
     std::vector<Body> bodies;
   };
   struct Mesh {
-    std::once_flag named, read;
-    std::string content;
+    std::once_flag read;
     TriangleMesh mesh;
   };
 
@@ -79,12 +79,11 @@ class LinkParts::Store {
     const Body& whole = whole_.bodies[at(index)];
     std::vector<Body> bodies;
     if (whole.file.empty() || most < 1) return bodies;
-    Mesh& known = entry(meshes_, index);
-    std::call_once(known.named, [&] { known.content = meshContent(whole.file, whole.scale); });
     PartsOptions options;
     options.most = most;
     try {
-      const ConvexParts parts = cache_.parts(known.content, options, [&] {
+      const ConvexParts parts = cache_.parts(meshKey(whole), options, [&] {
+        Mesh& known = entry(meshes_, index);
         std::call_once(known.read, [&] { known.mesh = loadMesh(whole.file, whole.scale); });
         return known.mesh.triangles.empty() ? ConvexParts() : convexParts(known.mesh, options);
       });

@@ -10,6 +10,7 @@
 
 #include "fcl_stpbv/adapter/fcl_distance.h"
 #include "fcl_stpbv/adapter/hull_geometry.h"
+#include "fcl_stpbv/convex/hull_graph.h"
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/io/text_scanner.h"
 #include "fcl_stpbv/volume/reduce.h"
@@ -42,7 +43,7 @@ class VolumeMaker {
       : source_(source), cache_(cache), body_(body) {}
 
   void make(const GeometryOptions& options, const std::string& link, double budget) {
-    const VolumeKey key = volumeKey(options, link, source_.content);
+    const VolumeKey key = volumeKey(options, link, source_.key);
     if (options.advice && options.links.count(link) == 0) body_.advice = keptAdvice(key, *options.advice);
     body_.volume = cache_.volume(key.content, key.radii, [&] {
       return StpBv::build(points(), body_.advice ? body_.advice->radii : radiiFor(options, link, [this] {
@@ -52,13 +53,20 @@ class VolumeMaker {
     body_.radii = {body_.volume->radii().r, body_.volume->radii().R};
     keepCover(key);
     if (budget > 0) reduceTo(budget);
-    body_.geometry = std::make_shared<StpBvGeometry>(body_.volume);
+    body_.geometry = geometryOf(body_.volume);
     body_.centre = body_.volume->centre();
     body_.radius = body_.volume->enclosingRadius();
   }
 
  private:
   const Points& points() const { return source_.points(); }
+
+  // For FCL: rolling the hull again takes longer than all else that a kept volume needs.
+  std::shared_ptr<StpBvGeometry> geometryOf(const StpBv::Ptr& volume) {
+    const Points& vertices = volume->vertices();
+    return std::make_shared<StpBvGeometry>(
+        volume, std::make_shared<const HullGraph>(vertices, cache_.convexHull(vertices)));
+  }
 
   // Also the volume of all points, where a small R leaves some inside that the hull has as corners.
   void keepCover(const VolumeKey& key) {
@@ -76,8 +84,7 @@ class VolumeMaker {
     body_.cover = {kept[0], kept[1]};
     if (!(kept[2] > body_.radii.R)) return;
     const StpBvOptions wide{body_.radii.r, kept[2]};
-    body_.full = std::make_shared<StpBvGeometry>(
-        cache_.volume(source_.content, wide, [&] { return StpBv::build(points(), wide); }));
+    body_.full = geometryOf(cache_.volume(source_.key, wide, [&] { return StpBv::build(points(), wide); }));
   }
 
   // The body's R, or a larger one where its own leaves corners of the hull inside.
@@ -131,15 +138,15 @@ class VolumeMaker {
     body_.cover = overCover(*body_.volume, points());
     for (; body_.cover.max > budget && radii.R < kLargest; body_.cover = overCover(*body_.volume, points())) {
       radii.R *= 2;  // the over-cover falls towards r
-      body_.volume = cache_.volume(source_.content, radii, [&] { return StpBv::build(points(), radii); });
+      body_.volume = cache_.volume(source_.key, radii, [&] { return StpBv::build(points(), radii); });
     }
     if (body_.cover.max > budget)
       throw Error("no R keeps its over-cover within " + toDecimal(budget) +
                   " m with r = " + toDecimal(radii.r) + " m; give a larger budget or a smaller r");
-    const StpBv::Ptr few = cache_.volume(source_.content + "\nreduced to " + toDecimal(budget), radii,
+    const StpBv::Ptr few = cache_.volume(source_.key + "\nreduced to " + toDecimal(budget), radii,
                                          [&] { return reduce(points(), radii, budget); });
     if (few->vertexCount() >= body_.volume->vertexCount()) return;
-    if (!body_.full) body_.full = std::make_shared<StpBvGeometry>(body_.volume);
+    if (!body_.full) body_.full = geometryOf(body_.volume);
     body_.volume = few;
     body_.cover = overCover(*few, points());
   }
@@ -154,10 +161,10 @@ class VolumeMaker {
 
 }  // namespace
 
-VolumeKey volumeKey(const GeometryOptions& options, const std::string& link, const std::string& content) {
-  if (!areFitted(options, link)) return {content, radiiFor(options, link, nullptr)};
-  if (options.advice) return {content + "\nadvised " + textOf(*options.advice), options.radii};
-  return {content + (options.fitr ? "\nr fitted" : "") + (options.fitR ? "\nR fitted" : ""), options.radii};
+VolumeKey volumeKey(const GeometryOptions& options, const std::string& link, const std::string& meshKey) {
+  if (!areFitted(options, link)) return {meshKey, radiiFor(options, link, nullptr)};
+  if (options.advice) return {meshKey + "\nadvised " + textOf(*options.advice), options.radii};
+  return {meshKey + (options.fitr ? "\nr fitted" : "") + (options.fitR ? "\nR fitted" : ""), options.radii};
 }
 
 StpBvOptions radiiFor(const GeometryOptions& options, const std::string& link,

@@ -14,7 +14,7 @@ struct VolumeKey {
   std::string content;
   StpBvOptions radii;  ///< those asked for, whether or not they are fitted instead
 };
-VolumeKey volumeKey(const GeometryOptions& options, const std::string& link, const std::string& content);
+VolumeKey volumeKey(const GeometryOptions& options, const std::string& link, const std::string& meshKey);
 
 /// r and R of a link's bodies: the link's own, those for all links, or what fits the body (GeometryOptions).
 /// `size` is only asked where they are fitted. Without GeometryOptions::advice, which is for meshes.

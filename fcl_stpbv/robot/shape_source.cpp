@@ -7,6 +7,7 @@
 #include "fcl_stpbv/io/text_scanner.h"
 #include "fcl_stpbv/robot/mesh_file.h"
 #include "fcl_stpbv/robot/package_path.h"
+#include "fcl_stpbv/robot/volume_cache.h"
 
 namespace fcl_stpbv::detail {
 namespace {
@@ -82,9 +83,8 @@ class Reader {
     try {
       if (source.shape->kind == ShapeModel::Kind::mesh) {
         source.file = paths_.resolve(source.shape->mesh);
-        source.content = meshContent(source.file, source.shape->scale);
-        if (!isCached(robot_.links[static_cast<std::size_t>(source.link)].name, source.content))
-          source.points();
+        source.key = meshKey(source.file, source.shape->scale);
+        if (!isCached(robot_.links[static_cast<std::size_t>(source.link)].name, source.key)) source.points();
       }
       sources_.shapes.push_back(std::move(source));
     } catch (const Error& error) {
@@ -100,21 +100,26 @@ class Reader {
 
 }  // namespace
 
-// The file's bytes and the scale; for glTF, which keeps its vertices in other files, what these hold.
-std::string meshContent(const std::string& file, const Eigen::Vector3d& scale) {
-  std::string content;
-  appendVector(content, scale);
-  content += '\n';
+// Of the file's bytes; of glTF, which keeps its vertices in other files, of what these hold.
+std::string meshKey(const std::string& file, const Eigen::Vector3d& scale) {
+  std::string key;
+  appendVector(key, scale);
+  key += ' ';
   const bool several = file.size() > 5 && file.compare(file.size() - 5, 5, ".gltf") == 0;
-  if (!several) return content + readText(file);
+  if (!several) return key + digestOf(readText(file));
   const TriangleMesh mesh = loadMesh(file, scale);
+  std::string content;
   for (const Eigen::Vector3d& p : mesh.vertices) {
     appendVector(content, p);
     content += '\n';
   }
   for (const auto& [a, b, c] : mesh.triangles)
     content += std::to_string(a) + ' ' + std::to_string(b) + ' ' + std::to_string(c) + '\n';
-  return content;
+  return key + digestOf(content);
+}
+
+std::string meshKey(const Body& body) {
+  return body.meshKey.empty() ? meshKey(body.file, body.scale) : body.meshKey;
 }
 
 const std::vector<Eigen::Vector3d>& ShapeSource::points() const {

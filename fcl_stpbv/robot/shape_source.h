@@ -6,20 +6,25 @@
 #include <string>
 #include <vector>
 
+#include "fcl_stpbv/robot/link_geometry.h"
 #include "fcl_stpbv/robot/robot_model.h"
 
 namespace fcl_stpbv::detail {
 
-/// What the cache (volume_cache.h) knows a mesh by. @throws Error naming the file.
-std::string meshContent(const std::string& file, const Eigen::Vector3d& scale);
+/// What the cache (volume_cache.h) knows a mesh by: a digest of the file and of the scale.
+/// @throws Error naming the file.
+std::string meshKey(const std::string& file, const Eigen::Vector3d& scale);
+
+/// The same of a body's mesh, which is read only where nobody has named it yet.
+std::string meshKey(const Body& body);
 
 /// One shape of one link; of a mesh, its file.
 struct ShapeSource {
   int link = -1;
   int number = 1;  ///< of the link's shapes, from 1
   const ShapeModel* shape = nullptr;
-  std::string file;     ///< "" for a primitive
-  std::string content;  ///< meshContent()
+  std::string file;  ///< "" for a primitive
+  std::string key;   ///< meshKey(); "" for a primitive
 
   /// The mesh's points, scaled; read when first asked for and kept. @throws Error naming the file.
   const std::vector<Eigen::Vector3d>& points() const;
@@ -28,8 +33,8 @@ struct ShapeSource {
   mutable std::vector<Eigen::Vector3d> points_;
 };
 
-/// Whether a volume of the link (by name) built from this content need not be built again.
-using IsCached = std::function<bool(const std::string& link, const std::string& content)>;
+/// Whether a volume of the link (by name) built from the mesh of this key need not be built again.
+using IsCached = std::function<bool(const std::string& link, const std::string& meshKey)>;
 
 struct ShapeSources {
   std::vector<ShapeSource> shapes;    ///< in the order of the links; they point into the robot's model

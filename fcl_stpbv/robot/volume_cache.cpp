@@ -12,6 +12,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <limits>
 #include <sstream>
 #include <type_traits>
 
@@ -19,6 +20,7 @@
 #include "fcl_stpbv/io/atomic_write.h"
 #include "fcl_stpbv/io/text_scanner.h"
 #include "fcl_stpbv/io/volume_files.h"
+#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/parts/parts_text.h"
 
 namespace fcl_stpbv::detail {
@@ -28,25 +30,7 @@ namespace fs = std::filesystem;
 
 // Changes when the builder gives other volumes, a fit other radii, or the
 // search other parts, for the same mesh.
-constexpr std::string_view kVersion = "fcl_stpbv volume cache 6\n";
-
-// Two streams of 64 bits, eight characters a step, each step mixed by a product and a shift. Guards against
-// accidents, not against somebody who may write into the user's own cache.
-std::string digest(std::string_view text) {
-  std::uint64_t a = 0xcbf29ce484222325u, b = 0x9e3779b97f4a7c15u ^ text.size();
-  for (std::size_t at = 0; at < text.size(); at += sizeof a) {
-    std::uint64_t word = 0;
-    std::memcpy(&word, text.data() + at, std::min(sizeof word, text.size() - at));
-    a = (a ^ word) * 0xd6e8feb86659fd93u;
-    a ^= a >> 32;
-    b = (b + word) * 0xff51afd7ed558ccdu;
-    b ^= b >> 29;
-  }
-  std::string hex;
-  for (std::uint64_t word : {a, b})
-    for (int shift = 60; shift >= 0; shift -= 4) hex += "0123456789abcdef"[word >> shift & 15];
-  return hex;
-}
+constexpr std::string_view kVersion = "fcl_stpbv volume cache 7\n";
 
 // The name of an entry's file without its ending: the digest of what it was built from.
 std::string keyOf(const std::string& path) { return fs::path(path).stem().string(); }
@@ -74,17 +58,20 @@ std::string readEntry(const std::string& path) {
 }
 
 std::string pathIn(const std::string& folder, const std::string& key, const char* extension) {
-  return (fs::path(folder) / (digest(key) + extension)).string();
+  return (fs::path(folder) / (digestOf(key) + extension)).string();
 }
 
 // An entry is a line with the digest of its key and the rest, then the volume's or the parts' own format.
 // Nothing for one that is not to be believed.
 std::string believed(const std::string& path) {
-  const std::string text = readEntry(path);
+  std::string text = readEntry(path);
   const std::size_t line = text.find('\n');
-  const bool whole =
-      line != std::string::npos && digest(keyOf(path) + text.substr(line)) == text.substr(0, line);
-  return whole ? text.substr(line + 1) : "";
+  if (line == std::string::npos) return "";
+  const std::string told = text.substr(0, line);
+  text.replace(0, line, keyOf(path));
+  if (digestOf(text) != told) return "";
+  text.erase(0, text.find('\n') + 1);
+  return text;
 }
 
 std::string textOf(const StpBv::Ptr& volume) {
@@ -101,6 +88,17 @@ std::string textOf(const std::vector<double>& numbers) {
   }
   return text;
 }
+std::string textOf(const RolledHull& hull) {
+  std::string text;
+  const auto append = [&text](const std::vector<int>& indices) {
+    text += std::to_string(indices.size());
+    for (const int i : indices) text += " " + std::to_string(i);
+    text += '\n';
+  };
+  append(hull.vertices);
+  for (const std::vector<int>& ring : hull.faces) append(ring);
+  return text;
+}
 
 void read(const std::string& text, const std::string& path, StpBv::Ptr& volume) {
   std::istringstream in(text);
@@ -113,8 +111,35 @@ void read(const std::string& text, const std::string& path, std::vector<double>&
   TextScanner in(text, path);
   while (!in.atEnd()) numbers.push_back(in.number("a number"));
 }
+void read(const std::string& text, const std::string& path, RolledHull& hull) {
+  TextScanner in(text, path);
+  const auto indices = [&in] {
+    std::vector<int> read(at(in.count("a number of points", 1, 2)));
+    for (int& i : read) i = static_cast<int>(in.integer("a point", 0, std::numeric_limits<int>::max()));
+    return read;
+  };
+  hull.vertices = indices();
+  while (!in.atEnd()) hull.faces.push_back(indices());
+}
 
 }  // namespace
+
+// Two streams of 64 bits, eight characters a step, each step mixed by a product and a shift.
+std::string digestOf(std::string_view text) {
+  std::uint64_t a = 0xcbf29ce484222325u, b = 0x9e3779b97f4a7c15u ^ text.size();
+  for (std::size_t at = 0; at < text.size(); at += sizeof a) {
+    std::uint64_t word = 0;
+    std::memcpy(&word, text.data() + at, std::min(sizeof word, text.size() - at));
+    a = (a ^ word) * 0xd6e8feb86659fd93u;
+    a ^= a >> 32;
+    b = (b + word) * 0xff51afd7ed558ccdu;
+    b ^= b >> 29;
+  }
+  std::string hex;
+  for (std::uint64_t word : {a, b})
+    for (int shift = 60; shift >= 0; shift -= 4) hex += "0123456789abcdef"[word >> shift & 15];
+  return hex;
+}
 
 std::string VolumeCache::pathOf(std::string_view content, const StpBvOptions& options) const {
   std::string key(kVersion);
@@ -159,7 +184,7 @@ Kept VolumeCache::find(const std::string& path, const std::function<Kept()>& bui
     if (!text.empty()) {
       Kept kept;
       read(text, path, kept);
-      hits_ += !std::is_same_v<Kept, std::vector<double>>;
+      hits_ += std::is_same_v<Kept, StpBv::Ptr> || std::is_same_v<Kept, ConvexParts>;
       return kept;
     }
   } catch (const std::exception&) {
@@ -180,6 +205,11 @@ ConvexParts VolumeCache::parts(std::string_view content, const PartsOptions& opt
   return find(pathOf(content, options), build);
 }
 
+RolledHull VolumeCache::convexHull(const std::vector<Eigen::Vector3d>& cloud) {
+  const std::string_view content(reinterpret_cast<const char*>(cloud.data()), cloud.size() * sizeof cloud[0]);
+  return find<RolledHull>(pathOf(content, "hull"), [&cloud] { return rollBall(cloud); });
+}
+
 std::vector<double> VolumeCache::numbers(std::string_view content, const std::string& kind,
                                          const std::function<std::vector<double>()>& build) {
   return find(pathOf(content, kind), build);
@@ -191,7 +221,7 @@ void VolumeCache::keep(const std::string& path, const std::string& entry) {
     fs::create_directories(folder_, ignored);
     std::call_once(swept_, [this] { sweepTemporaries(folder_); });
     const std::string text = "\n" + entry;
-    atomicWriteOwn(path, digest(keyOf(path) + text) + text);
+    atomicWriteOwn(path, digestOf(keyOf(path) + text) + text);
   } catch (const std::exception&) {
     return;  // built again next time
   }

@@ -1,5 +1,5 @@
-// Volumes, the convex parts of meshes, and what was measured of them, kept on disk between runs, found by the
-// content they were built from.
+// Volumes, the convex parts and hulls of meshes, and what was measured of them, kept on disk between runs,
+// found by the content they were built from.
 #pragma once
 
 #include <atomic>
@@ -10,9 +10,14 @@
 #include <vector>
 
 #include "fcl_stpbv/parts/convex_parts.h"
+#include "fcl_stpbv/volume/rolling_ball.h"
 #include "fcl_stpbv/volume/stp_bv.h"
 
 namespace fcl_stpbv::detail {
+
+/// 32 characters that tell contents apart: 128 bits mixed against accidents, not against somebody who makes
+/// two alike.
+std::string digestOf(std::string_view content);
 
 /// A folder of what was built. Any number of processes and threads may share it. Whatever goes wrong with it,
 /// a missing or read-only folder, a damaged entry, is cured by building anew and never reported.
@@ -32,6 +37,10 @@ class VolumeCache {
   /// The same of a mesh's convex parts; the content is the whole mesh's.
   ConvexParts parts(std::string_view content, const PartsOptions& options,
                     const std::function<ConvexParts()>& build);
+
+  /// The convex hull of a cloud that is finite and not empty: the one found before, or else a new one.
+  /// @throws Error as rollBall().
+  RolledHull convexHull(const std::vector<Eigen::Vector3d>& cloud);
 
   /// The same of finite numbers that follow from `content` and whose kind, a short word, is the end of the
   /// entry's name. They may be as many as were ever built for another content: the caller checks.

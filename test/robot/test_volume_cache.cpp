@@ -57,6 +57,30 @@ TEST_CASE("an entry of another mesh, of another user or that others may write is
     WARN("another user's entry skipped: only root can make one");
 }
 
+TEST_CASE("a hull is rolled once, and again where its entry is damaged") {
+  const TemporaryFolder folder;
+  const std::vector<std::vector<Eigen::Vector3d>> clouds{box(0.1, 0.2, 0.3),
+                                                         geodesicSphere(0.1, 2),
+                                                         {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}},
+                                                         {{0, 0, 0}, {1, 2, 3}}};
+  const auto isRolled = [&](const std::vector<Eigen::Vector3d>& cloud) {
+    const RolledHull hull = VolumeCache(folder / "a").convexHull(cloud), rolled = rollBall(cloud);
+    return hull.vertices == rolled.vertices && hull.faces == rolled.faces;
+  };
+  for (const auto& cloud : clouds) CHECK(isRolled(cloud));
+  for (const auto& entry : fs::directory_iterator(folder / "a")) {
+    CAPTURE(entry.path().string());
+    const std::string whole = contentOf(entry.path().string());
+    for (const std::string& damaged :
+         {whole + "3 0 1 2\n", whole.substr(0, whole.size() - 3), std::string()}) {
+      put(entry.path().string(), damaged);
+      for (const auto& cloud : clouds) CHECK(isRolled(cloud));
+      CHECK(contentOf(entry.path().string()) == whole);
+    }
+  }
+  for (const auto& cloud : clouds) CHECK(isRolled(cloud));  // from the cache
+}
+
 TEST_CASE("a link or a pipe in an entry's place is neither read nor written through") {
   const TemporaryFolder folder;
   CHECK_FALSE(cached(folder / "a", 0.2));
