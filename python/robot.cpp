@@ -177,8 +177,8 @@ class PythonRobot {
   const Rows& checkedRows(const GivenRows& given) const {
     const Rows& q = given.value;
     if (q.cols() != kinematics_->size())
-      throw Error("q: got rows of " + std::to_string(q.cols()) + " numbers, expected " +
-                  std::to_string(kinematics_->size()));
+      throw Error("q: got rows of " + std::to_string(q.cols()) + " numbers, expected (N, " +
+                  std::to_string(kinematics_->size()) + "), one row a configuration");
     requireFinite(q, "q");
     return q;
   }

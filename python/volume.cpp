@@ -21,12 +21,14 @@ namespace {
 /// pybind11 has no holder for pointers to const; no bound method changes a volume.
 std::shared_ptr<StpBv> held(const StpBv::Ptr& volume) { return std::const_pointer_cast<StpBv>(volume); }
 
-Eigen::Isometry3d toPose(const Floats<Eigen::Matrix4d>& given) {
+// A pose that is not finite is answered as invalid.
+Eigen::Isometry3d toPose(const Floats<Eigen::Matrix4d>& given, const char* name) {
   const Eigen::Matrix4d& matrix = given.value;
-  if (matrix.row(3) != Eigen::RowVector4d(0, 0, 0, 1))
-    throw py::value_error("pose: its last row must be 0 0 0 1");
+  if (matrix.allFinite() && matrix.row(3) != Eigen::RowVector4d(0, 0, 0, 1))
+    throw py::value_error(std::string(name) + ": its last row must be 0 0 0 1");
   Eigen::Isometry3d pose;
   pose.matrix() = matrix;
+  if (!matrix.allFinite()) pose.matrix().setConstant(std::numeric_limits<double>::quiet_NaN());
   return pose;
 }
 
@@ -39,7 +41,7 @@ struct PlacedDistance : Distance {
 
 PlacedDistance ask(const StpBv& a, const Floats<Eigen::Matrix4d>& poseA, const StpBv& b,
                    const Floats<Eigen::Matrix4d>& poseB, PairCache* cache) {
-  const Eigen::Isometry3d first = toPose(poseA), second = toPose(poseB);
+  const Eigen::Isometry3d first = toPose(poseA, "first_pose"), second = toPose(poseB, "second_pose");
   return {distance(a, first, b, second, cache), first.translation(), second.translation()};
 }
 

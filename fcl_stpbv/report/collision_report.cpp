@@ -34,16 +34,31 @@ struct Postures {
   Eigen::VectorXd neutral;
   std::optional<Eigen::VectorXd> asked;  // none: each pair is reported in its closest configuration
   Trajectory trajectory;                 // no points: none was asked for
+  std::vector<std::string> warnings;
 };
 
 // Both are read before a volume is built, so that a mistake in them is told at once.
 Postures readPostures(const ReportRequest& request, const Kinematics& kinematics, const Srdf* srdf) {
-  Postures postures{kinematics.neutral(), std::nullopt, {}};
-  if (!request.pose.empty()) postures.asked = namedPosture("--pose", request.pose, kinematics, srdf);
-  if (!request.neutral.empty())
-    postures.neutral = namedPosture("--neutral", request.neutral, kinematics, srdf);
-  if (!request.trajectory.empty())
+  Postures postures{kinematics.neutral(), std::nullopt, {}, {}};
+  const auto posture = [&](const char* option, const std::string& name) {
+    return namedPosture(option, name, kinematics, srdf, postures.neutral, !request.files.obstacles.empty());
+  };
+  const auto checkLimits = [&](const std::string& name, const std::vector<Eigen::VectorXd>& points) {
+    const std::string warning = limitWarning(name, points, kinematics);
+    if (!warning.empty()) postures.warnings.push_back(warning);
+  };
+  if (!request.neutral.empty()) {
+    postures.neutral = posture("--neutral", request.neutral);
+    checkLimits("--neutral " + request.neutral, {postures.neutral});
+  }
+  if (!request.pose.empty()) {
+    postures.asked = posture("--pose", request.pose);
+    checkLimits("--pose " + request.pose, {*postures.asked});
+  }
+  if (!request.trajectory.empty()) {
     postures.trajectory = readTrajectory(request.trajectory, kinematics, postures.neutral);
+    checkLimits("--trajectory " + request.trajectory, postures.trajectory.points);
+  }
   return postures;
 }
 
@@ -61,6 +76,7 @@ Postures load(const ReportRequest& request, RobotLoader& loader, CollisionReport
   report.obstacles = loader.obstacles();
   report.skipped = loader.skipped();
   report.warnings = loader.warnings();
+  report.warnings.insert(report.warnings.end(), postures.warnings.begin(), postures.warnings.end());
   report.pose = request.pose;
   return postures;
 }

@@ -1,11 +1,13 @@
 // See named_posture.h.
 #include "fcl_stpbv/report/named_posture.h"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <vector>
 
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/io/text_scanner.h"
 #include "fcl_stpbv/robot/json_text.h"
 
 namespace fcl_stpbv::report {
@@ -15,7 +17,8 @@ using namespace detail;
 namespace {
 
 // A configuration from a JSON object of joints' values, or a list of all coordinates.
-Eigen::VectorXd poseFromJson(const std::string& path, const Kinematics& kinematics) {
+Eigen::VectorXd poseFromJson(const std::string& path, const Kinematics& kinematics,
+                             const Eigen::VectorXd& rest) {
   // A joint value larger than any robot's is a mistake, and past 1e9 its sine has no exact digit left.
   constexpr double kMost = 1e6;
   const auto values = [&](const nlohmann::json& json) {
@@ -39,22 +42,62 @@ Eigen::VectorXd poseFromJson(const std::string& path, const Kinematics& kinemati
       if (kinematics.robot().joint(joint) < 0) throw Error(path + ": the robot has no joint '" + joint + "'");
       state.joints[joint] = values(value);
     }
-    return kinematics.configuration(state);
+    return kinematics.configuration(state, rest);
   } catch (const nlohmann::json::exception& error) {
     throw Error(path + ": expected a JSON object of joints and their values (" + error.what() + ")");
   }
 }
 
+// Whether a virtual joint's values, x, y and angle or x, y, z and a quaternion, are not those of no motion.
+bool moves(const std::vector<double>& values) {
+  const std::size_t counts = values.size() == 7 ? 6 : values.size();  // the quaternion's w tells nothing more
+  return std::any_of(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(counts),
+                     [](double value) { return std::abs(value) > 1e-9; });
+}
+
 }  // namespace
 
 Eigen::VectorXd namedPosture(const std::string& option, const std::string& name, const Kinematics& kinematics,
-                             const Srdf* srdf) {
+                             const Srdf* srdf, const Eigen::VectorXd& rest, bool obstacles) {
   std::error_code ignored;
-  if (std::filesystem::is_regular_file(name, ignored)) return poseFromJson(name, kinematics);
+  if (std::filesystem::is_regular_file(name, ignored)) return poseFromJson(name, kinematics, rest);
   if (!srdf)
     throw Error(option + " " + name +
                 ": no such file, and no SRDF with postures; give --srdf or a JSON file");
-  return kinematics.configuration(srdf->state(name));
+  const Srdf::State state = srdf->state(name);
+  const auto base = state.joints.find(srdf->baseJoint);
+  if (obstacles && base != state.joints.end() && moves(base->second))
+    throw Error(option + " " + name + ": places the base by the virtual joint '" + base->first +
+                "', but the obstacles are seen from the robot's root link; give obstacles placed so that the "
+                "base stays at the origin, and a posture without that joint");
+  return kinematics.configuration(state, rest);
+}
+
+std::string limitWarning(const std::string& name, const std::vector<Eigen::VectorXd>& postures,
+                         const Kinematics& kinematics) {
+  constexpr double kOff = 1e-6;  // what a rounded number is off by (rad or m)
+  std::string first;
+  int more = -1;
+  for (const JointModel& joint : kinematics.robot().joints) {
+    if (joint.mimic || (joint.type != JointType::revolute && joint.type != JointType::prismatic)) continue;
+    const int k = kinematics.coordinate(joint.name);
+    const auto outside = std::find_if(postures.begin(), postures.end(), [&](const Eigen::VectorXd& q) {
+      return !(q[k] >= kinematics.lower()[k] - kOff && q[k] <= kinematics.upper()[k] + kOff);
+    });
+    if (outside == postures.end() || ++more > 0) continue;
+    const char* unit = joint.type == JointType::revolute ? " rad" : " m";
+    first =
+        name + ": " +
+        (postures.size() > 1 ? "way point " + std::to_string(outside - postures.begin() + 1) + ": " : "") +
+        "the joint '" + joint.name + "' is at " + toDecimal((*outside)[k]) + unit +
+        ", outside of its limits " + toDecimal(kinematics.lower()[k]) + " to " +
+        toDecimal(kinematics.upper()[k]) + unit;
+  }
+  if (more > 0)
+    first += ", and " + std::to_string(more) +
+             (more == 1 ? " other joint leaves its" : " other joints leave theirs");
+  if (!first.empty()) first += "; what the pair list proves holds within the limits.";
+  return first;
 }
 
 }  // namespace fcl_stpbv::report

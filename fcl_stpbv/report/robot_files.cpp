@@ -12,11 +12,11 @@ namespace {
 using namespace detail;
 
 // Nothing can be said about a robot of which nothing was loaded, least of all that it is clear.
-void requireBodies(const RobotModel& robot, const RobotGeometry& geometry) {
+void requireBodies(const RobotModel& robot, const RobotGeometry& geometry, bool visual) {
   if (geometry.bodies.empty())
-    throw Error(robot.path +
-                ": no link has a shape that could be checked; give a URDF with <collision> shapes" +
-                ", or --visual where only the visual ones are there");
+    throw Error(robot.path + ": no link has a shape that could be checked; give a URDF with " +
+                (visual ? "<visual> shapes, or leave out --visual where only <collision> ones are there"
+                        : "<collision> shapes, or --visual where only the visual ones are there"));
 }
 
 void append(std::vector<std::string>& all, const std::vector<std::string>& more) {
@@ -32,6 +32,23 @@ std::vector<CheckedPair> pairsToCover(const Kinematics& kinematics, const RobotG
       obstaclePairs(kinematics.robot(), bodies, obstacles, kinematics.baseMoves());
   pairs.insert(pairs.end(), around.begin(), around.end());
   return pairs;
+}
+
+// A warning that names the joints for which `still` holds; none where there are none.
+template <class Still>
+std::vector<std::string> stillJoints(const RobotModel& robot, const Still& still, const char* one,
+                                     const char* several) {
+  constexpr int kNamed = 5;
+  std::string list;
+  int count = 0;
+  for (const JointModel& joint : robot.joints) {
+    if (!still(joint)) continue;
+    if (++count <= kNamed) list += (count == 1 ? "'" : ", '") + joint.name + "'";
+  }
+  if (count == 0) return {};
+  if (count > kNamed) list += " and " + std::to_string(count - kNamed) + " more";
+  return {robot.path + ": " + (count == 1 ? "the joint " : "the joints ") + list + " " +
+          (count == 1 ? one : several) + "."};
 }
 
 }  // namespace
@@ -69,8 +86,8 @@ void RobotLoader::build() {
   RobotGeometry bodies = buildGeometry(*robot_, files_.geometry, shapes_, faults_), around;
   if (scene_) around = buildGeometry(*scene_, sceneOptions_, sceneShapes_, faults_);
   faults_.refuse(files_.skipInvalid);
-  requireBodies(*robot_, bodies);
-  if (scene_) requireBodies(*scene_, around);
+  requireBodies(*robot_, bodies, files_.geometry.visual);
+  if (scene_) requireBodies(*scene_, around, files_.geometry.visual);
   requireRoomForPairs(*kinematics_, bodies, around.bodies.size());
   if (!files_.flatPrimitives)
     coverPrimitives(pairsToCover(*kinematics_, bodies, srdf_.get(), around.bodies.size()), bodies, &around);
@@ -85,6 +102,20 @@ std::vector<Obstacle> RobotLoader::obstacles() const {
 std::vector<std::string> RobotLoader::warnings() const {
   std::vector<std::string> all = faults_.warnings;
   if (srdf_) append(all, srdf_->warnings);
+  append(all, stillJoints(
+                  *robot_,
+                  [](const JointModel& joint) {
+                    const bool single =
+                        joint.type == JointType::revolute || joint.type == JointType::prismatic;
+                    return single && !joint.mimic && joint.lower == joint.upper;
+                  },
+                  "has no range between its limits, so it never moves",
+                  "have no range between their limits, so they never move"));
+  if (scene_)
+    append(all, stillJoints(
+                    *scene_, [](const JointModel& joint) { return joint.type != JointType::fixed; },
+                    "stands still in the neutral posture, as all obstacles do",
+                    "stand still in the neutral posture, as all obstacles do"));
   append(all, geometry_->warnings);
   append(all, sceneGeometry_->warnings);
   return all;

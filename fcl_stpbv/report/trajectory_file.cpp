@@ -77,6 +77,9 @@ Columns fromJson(const std::string& text, const std::string& path) {
   const nlohmann::json json = parseJson(text, path);
   Columns columns;
   try {
+    for (const auto& [key, value] : json.items())
+      if (key != "joints" && key != "points" && key != "time")
+        throw Error(path + ": \"" + key + "\" is none of \"joints\", \"points\" and \"time\"");
     columns.names = json.at("joints").get<std::vector<std::string>>();
     columns.rows = json.at("points").get<std::vector<std::vector<double>>>();
     for (std::size_t i = 0; i < columns.rows.size(); ++i) {
@@ -122,7 +125,8 @@ std::vector<int> coordinatesOf(const Columns& columns, const std::string& path,
 
 Trajectory readTrajectory(const std::string& path, const Kinematics& kinematics,
                           const Eigen::VectorXd& rest) {
-  const std::string text = readText(path, kMostText);
+  std::string text = readText(path, kMostText);
+  if (text.compare(0, 3, "\xef\xbb\xbf") == 0) text.erase(0, 3);  // a byte order mark
   const std::size_t first = text.find_first_not_of(" \t\r\n");
   if (first == std::string::npos)
     throw Error(path + ": is empty; expected a line of joint names and way points");
@@ -141,8 +145,10 @@ Trajectory readTrajectory(const std::string& path, const Kinematics& kinematics,
       (coordinates[k] < 0 ? time : q[coordinates[k]]) = value;
     }
     trajectory.timed = std::count(coordinates.begin(), coordinates.end(), -1) > 0;
-    if (i > 0 && !(time > trajectory.time.back()))
-      throw Error(columns.places[i] + ": the time must grow from one way point to the next");
+    constexpr double kLeastStep = 1e-9;  // s; in less no robot gets anywhere
+    if (i > 0 && !(time - trajectory.time.back() >= kLeastStep))
+      throw Error(columns.places[i] +
+                  ": the time must grow from one way point to the next, by 1e-9 s or more");
     trajectory.points.push_back(std::move(q));
     trajectory.time.push_back(time);
   }

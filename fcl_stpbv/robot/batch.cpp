@@ -21,8 +21,11 @@ void requireSize(Index rows, Index columns, Index wantedRows, Index wantedColumn
               size(wantedRows, wantedColumns));
 }
 
-int positive(int threads) {
-  if (threads < 1) throw Error("a batch's threads: got " + std::to_string(threads) + ", expected 1 or more");
+int checkedThreads(int threads) {
+  constexpr int kMost = 256;  // each has a copy of all rows
+  if (threads < 1 || threads > kMost)
+    throw Error("a batch's threads: got " + std::to_string(threads) + ", expected 1 to " +
+                std::to_string(kMost));
   return threads;
 }
 
@@ -31,7 +34,7 @@ template <class Worker>
 class Crew {
  public:
   Crew(const Worker& first, int threads)
-      : pool_(positive(threads)), workers_(static_cast<std::size_t>(threads), first) {}
+      : pool_(checkedThreads(threads)), workers_(static_cast<std::size_t>(pool_.threads()), first) {}
 
   Worker& first() { return workers_.front(); }
 

@@ -74,8 +74,13 @@ class Kinematics {
 
   /// All zero, clamped into the limits.
   const Eigen::VectorXd& neutral() const { return neutral_; }
-  /// The neutral configuration with what a group_state says. @throws Error naming state and joint.
-  Eigen::VectorXd configuration(const Srdf::State& state) const;
+  /// The neutral configuration with what a group_state says. Joints that the robot does not have count for
+  /// nothing (loadSrdf() warns of them), and so does a virtual joint.
+  /// @throws Error naming state and joint: where the number of values is wrong, or a joint that is fixed or
+  /// mimics another one would have another value than it takes.
+  Eigen::VectorXd configuration(const Srdf::State& state) const { return configuration(state, neutral_); }
+  /// The same with `rest` in place of the neutral configuration.
+  Eigen::VectorXd configuration(const Srdf::State& state, Eigen::VectorXd rest) const;
   /// First coordinate of a joint by name, -1 for fixed, mimic and unknown ones.
   int coordinate(const std::string& joint) const;
 

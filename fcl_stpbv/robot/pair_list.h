@@ -44,7 +44,7 @@ struct PairListOptions {
   long proofBoxes = 200;    ///< looked at for each pair found clear so far
   double proofSeconds = 0;  ///< time for further proofs in all; a pair that is not decided then stays sampled
   double margin = 0;  ///< a distance not above it is a collision (m); FCL's own answers are 0 at overlap
-  double alwaysFraction = 0.95;     ///< of the samples in collision, as MoveIt has it
+  double alwaysFraction = 0.95;     ///< of at least 60 samples in collision, as MoveIt has it
   Eigen::VectorXd neutral;          ///< the neutral configuration; empty for Kinematics::neutral()
   int threads = 1;                  ///< that share the work
   std::vector<Obstacle> obstacles;  ///< each is a pair with each link that joints or the base move

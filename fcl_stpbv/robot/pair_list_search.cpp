@@ -149,6 +149,7 @@ class Search {
   }
 
   void judge(PairEntry& entry, const PairSamples& found) {
+    constexpr int kFewest = 60;  // below 0.95^60 = 5 %, a pair that often clears has not done so
     entry.samples = found.samples;
     entry.collisions = found.collisions;
     note(entry, found.closest.front().first, found.closest.front().second);
@@ -159,7 +160,7 @@ class Search {
       entry.reason = clears ? PairReason::defaultClears : PairReason::byDefault;
     } else if (entry.neutralDistance > options_.margin && entry.collisions == 0) {
       entry.reason = PairReason::neverSampled;
-    } else if (entry.collisions >= options_.alwaysFraction * entry.samples) {
+    } else if (entry.samples >= kFewest && entry.collisions >= options_.alwaysFraction * entry.samples) {
       entry.reason = PairReason::always;
     }
   }

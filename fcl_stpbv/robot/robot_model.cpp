@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <numeric>
+#include <utility>
 
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/robot/capsule_fit.h"
@@ -192,6 +195,42 @@ void setMimic(const Mimic& end, int joint, RobotModel& robot) {
   model.mimic = end;
 }
 
+// Of how many turns of the leader a joint that follows it at `ratio` comes back; 0 for too many.
+int turnsOf(double ratio) {
+  constexpr int kMostTurns = 64;
+  constexpr double kOff = 1e-5;  // what decimals such as 0.333333 are off by
+  for (int turns = 1; turns <= kMostTurns; ++turns)
+    if (std::abs(turns * ratio - std::round(turns * ratio)) <= kOff) return turns;
+  return 0;
+}
+
+// Half a turn either way is all of a continuous joint, but not of what follows it at another speed: a wheel
+// at half of it takes two turns, a rack as many as its limits leave room for.
+void widenFollowed(RobotModel& robot) {
+  std::map<int, long> turns;  // by leader; 0 for any number
+  for (const JointModel& follower : robot.joints) {
+    if (!follower.mimic || follower.mimic->multiplier == 0) continue;
+    JointModel& leader = robot.joints[static_cast<std::size_t>(follower.mimic->joint)];
+    if (leader.type != JointType::continuous) continue;
+    const auto [ratio, offset] = std::pair(follower.mimic->multiplier, follower.mimic->offset);
+    if (follower.type == JointType::prismatic) {
+      const auto [low, high] =
+          std::minmax({(follower.lower - offset) / ratio, (follower.upper - offset) / ratio});
+      leader.lower = std::max(std::min(leader.lower, low), -kMost);
+      leader.upper = std::min(std::max(leader.upper, high), kMost);
+    } else {
+      long& all = turns.emplace(follower.mimic->joint, 1).first->second;
+      all = std::lcm(all, static_cast<long>(turnsOf(ratio)));  // 0 stays 0
+    }
+  }
+  for (const auto& [joint, all] : turns) {
+    JointModel& leader = robot.joints[static_cast<std::size_t>(joint)];
+    const double reach = all > 0 ? std::min(M_PI * static_cast<double>(all), kMost) : kMost;
+    leader.lower = std::min(leader.lower, -reach);
+    leader.upper = std::max(leader.upper, reach);
+  }
+}
+
 void readJoints(const UrdfTree& tree, RobotModel& robot, LoadFaults& faults) {
   std::vector<Follower> followers;
   std::vector<std::string> places;
@@ -220,6 +259,7 @@ void readJoints(const UrdfTree& tree, RobotModel& robot, LoadFaults& faults) {
     if (!followers[j].mimics.empty())
       gather(places[j], [&] { setMimic(chains.end(j), static_cast<int>(j), robot); });
   }
+  widenFollowed(robot);
 }
 
 // The text counted on its own: no element may have gone missing on the way into the model.

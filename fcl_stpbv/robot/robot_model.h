@@ -49,9 +49,9 @@ struct JointModel {
   int child = -1;                                            ///< link below it
   Eigen::Isometry3d origin = Eigen::Isometry3d::Identity();  ///< of the joint's frame in the parent link's
   Eigen::Vector3d axis{1, 0, 0};                             ///< unit; a planar joint's normal
-  double lower = 0;                                          ///< rad or m; -pi for a continuous joint
-  double upper = 0;                                          ///< rad or m; pi for a continuous joint
-  std::optional<Mimic> mimic;                                ///< never of a joint that mimics itself
+  double lower = 0;  ///< rad or m; of a continuous joint -pi, less where what mimics it needs several turns
+  double upper = 0;  ///< rad or m; of a continuous joint pi, or more likewise
+  std::optional<Mimic> mimic;  ///< never of a joint that mimics itself
 };
 
 /// A shape of a link, for collision or for looks.

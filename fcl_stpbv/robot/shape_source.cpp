@@ -1,6 +1,8 @@
 // A robot's shapes before anything is built: which count, and their mesh files found and read once each.
 #include "fcl_stpbv/robot/shape_source.h"
 
+#include <strings.h>
+
 #include <algorithm>
 
 #include "fcl_stpbv/error.h"
@@ -105,7 +107,7 @@ std::string meshKey(const std::string& file, const Eigen::Vector3d& scale) {
   std::string key;
   appendVector(key, scale);
   key += ' ';
-  const bool several = file.size() > 5 && file.compare(file.size() - 5, 5, ".gltf") == 0;
+  const bool several = file.size() > 5 && ::strcasecmp(file.c_str() + file.size() - 5, ".gltf") == 0;
   if (!several) return key + digestOf(readText(file));
   const TriangleMesh mesh = loadMesh(file, scale);
   std::string content;

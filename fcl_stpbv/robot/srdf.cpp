@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
 #include <sstream>
 #include <unordered_set>
@@ -43,11 +44,14 @@ class SrdfReader {
     const XMLElement& root = *document.RootElement();
     if (std::string_view(root.Name()) != "robot")
       throw Error(xmlPlace(root, path_) + "its root element is <" + root.Name() + ">, expected <robot>");
+    if (root.FirstChildElement("link") && root.FirstChildElement("joint"))
+      throw Error(path_ + ": is a URDF, with <link> and <joint>; give the robot's SRDF");
     const char* name = root.Attribute("name");
     if (name && name != robot_.name)
       warn(root, std::string("is of the robot '") + name + "', used for '" + robot_.name + "'");
     for (const XMLElement* e = root.FirstChildElement(); e; e = e->NextSiblingElement())
       LoadFaults::gather(faults_.errors, [&] { take(*e); });
+    for (const Srdf::State& state : srdf_.states) warnOfUnknown(state);
     return std::move(srdf_);
   }
 
@@ -61,6 +65,7 @@ class SrdfReader {
     if (name == "group_state") srdf_.states.push_back(state(e));
     if (name == "virtual_joint") {
       srdf_.baseJoint = requiredAttribute(e, "name", path_);
+      virtual_.insert(srdf_.baseJoint);
       srdf_.baseType = requiredAttribute(e, "type", path_);
     }
     if (kOthers.count(name) == 0 && name.find(':') == std::string_view::npos) {
@@ -72,6 +77,17 @@ class SrdfReader {
 
   void warn(const XMLElement& e, const std::string& message) {
     srdf_.warnings.push_back(xmlPlace(e, path_) + message);
+  }
+
+  // A state may be of a variant of the robot, as one with a gripper.
+  void warnOfUnknown(const Srdf::State& state) {
+    std::string list;
+    for (const auto& [joint, values] : state.joints)
+      if (robot_.joint(joint) < 0 && virtual_.count(joint) == 0)
+        list += (list.empty() ? "'" : ", '") + joint + "'";
+    if (list.empty()) return;
+    srdf_.warnings.push_back(path_ + ": the group_state '" + state.name +
+                             "' counts without joints that the robot does not have: " + list + ".");
   }
 
   bool known(const XMLElement& e, const char* attribute) {
@@ -112,6 +128,7 @@ class SrdfReader {
   const RobotModel& robot_;
   LoadFaults& faults_;
   std::unordered_set<std::string> links_;
+  std::set<std::string> virtual_;
   Srdf srdf_;
 };
 
@@ -135,12 +152,19 @@ std::string SkipReasons::of(const std::string& link1, const std::string& link2) 
   return off_.count(link1) + off_.count(link2) > 0 ? "User" : "";
 }
 
-const Srdf::State& Srdf::state(const std::string& name) const {
+Srdf::State Srdf::state(const std::string& name) const {
   std::string known;
+  std::optional<State> found;
   for (const State& state : states) {
-    if (state.name == name) return state;
     known += (known.empty() ? "" : ", ") + state.name;
+    if (state.name != name) continue;
+    if (!found) found = State{name, state.group, {}};
+    for (const auto& [joint, values] : state.joints)
+      if (found->joints.emplace(joint, values).first->second != values)
+        throw Error(path + ": several group_states are named '" + name + "' and differ in the joint '" +
+                    joint + "'; give one of them another name");
   }
+  if (found) return *found;
   throw Error(path + ": no group_state is named '" + name + "'; " +
               (known.empty() ? "it has none" : "there are: " + known));
 }
@@ -171,9 +195,15 @@ std::string withPairs(const std::string& path, const std::string& robotName,
   for (XMLElement* e = root->FirstChildElement("disable_collisions"); e;) {
     XMLElement* next = e->NextSiblingElement("disable_collisions");
     const char* reason = e->Attribute("reason");
-    if (reason && std::string_view(reason) != "User") root->DeleteChild(e);
+    if (reason && *reason && std::string_view(reason) != "User") root->DeleteChild(e);
     e = next;
   }
+  // Other readers let a disabled pair win over an enabled one: those that the file enables stay so.
+  std::set<std::pair<std::string, std::string>> enabled;
+  for (const XMLElement* e = root->FirstChildElement("enable_collisions"); e;
+       e = e->NextSiblingElement("enable_collisions"))
+    if (e->Attribute("link1") && e->Attribute("link2"))
+      enabled.insert(ascending(e->Attribute("link1"), e->Attribute("link2")));
   for (std::string comment : comments) {
     comment = " " + comment + " ";
     for (std::size_t at; (at = comment.find("--")) != std::string::npos;)
@@ -181,6 +211,7 @@ std::string withPairs(const std::string& path, const std::string& robotName,
     root->InsertEndChild(document.NewComment(comment.c_str()));
   }
   for (const Srdf::Pair& pair : pairs) {
+    if (enabled.count(ascending(pair.link1, pair.link2))) continue;
     XMLElement* e = document.NewElement("disable_collisions");
     e->SetAttribute("link1", pair.link1.c_str());
     e->SetAttribute("link2", pair.link2.c_str());

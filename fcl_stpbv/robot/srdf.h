@@ -36,8 +36,9 @@ struct Srdf {
   /// nothing as in MoveIt; elements that SRDF does not know; the name of another robot.
   std::vector<std::string> warnings;
 
-  /// @throws Error naming the states there are.
-  const State& state(const std::string& name) const;
+  /// The posture of this name; of several groups together, where each has a state of the name.
+  /// @throws Error naming the states there are, or a joint in which states of the name differ.
+  State state(const std::string& name) const;
 };
 
 /// What an SRDF says of any two links, as it was when this was made. Finds one pair among many at once.
@@ -60,7 +61,8 @@ Srdf loadSrdf(const std::string& path, const RobotModel& robot);
 Srdf loadSrdf(const std::string& path, const RobotModel& robot, LoadFaults& faults);
 
 /// The SRDF at `path` (a bare one where `path` is "") with its disable_collisions replaced by `pairs`.
-/// Entries of the reason "User" and everything else stay as they are. Each of `comments` goes before them.
+/// Entries of the reason "User" or of none and everything else stay as they are; pairs that the SRDF enables
+/// by name are left out of `pairs`. Each of `comments` goes before them.
 std::string withPairs(const std::string& path, const std::string& robotName,
                       const std::vector<Srdf::Pair>& pairs, const std::vector<std::string>& comments = {});
 

@@ -1,10 +1,16 @@
 // A fixed set of threads that wait on a condition variable, so that sharing out work allocates nothing.
 #include "fcl_stpbv/robot/worker_pool.h"
 
+#include <exception>
+
 namespace fcl_stpbv::detail {
 
 WorkerPool::WorkerPool(int threads) {
-  for (int k = 1; k < threads; ++k) workers_.emplace_back([this, k] { serve(k); });
+  try {
+    for (int k = 1; k < threads; ++k) workers_.emplace_back([this, k] { serve(k); });
+  } catch (const std::exception&) {
+    // No room for more threads: those that started share the work.
+  }
 }
 
 WorkerPool::~WorkerPool() {

@@ -10,7 +10,8 @@ namespace fcl_stpbv::detail {
 
 class WorkerPool {
  public:
-  /// `threads` in all, the caller's own among them; 1 starts none.
+  /// `threads` in all, the caller's own among them; 1 starts none. Fewer where the system has no room for
+  /// them.
   explicit WorkerPool(int threads);
   ~WorkerPool();
   WorkerPool(const WorkerPool&) = delete;

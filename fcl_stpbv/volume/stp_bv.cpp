@@ -163,6 +163,10 @@ StpBv::Ptr StpBv::assemble(std::vector<Vector3d> vertices, std::vector<Ring> fac
   if (volume->faceCount() > 0 && euler != 2)
     throw Error("the faces are not one closed surface: vertices - edges + faces is " + std::to_string(euler) +
                 ", not 2");
+  // Vertices that coincide pass all of that, and so does a surface that goes round twice.
+  if (soundnessOf(*volume, volume->vertices_, {}) == Soundness::broken)
+    throw Error(
+        "the faces are no convex surface: their patches overlap or leave gaps; do two vertices coincide?");
   return volume;
 }
 

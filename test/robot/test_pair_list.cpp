@@ -297,6 +297,49 @@ TEST_CASE("what collides in the neutral posture stays checked where some posture
   }
 }
 
+TEST_CASE(
+    "few samples do not say that a pair always collides, nor half a turn that a geared one never does") {
+  // The sphere hits the box near half a turn of its arm, which turns at a part of the wheel's speed.
+  const std::string drive =
+      link("base", "<box size=\"0.1 0.1 0.1\"/>") + link("drive") + link("arm", "<sphere radius=\"0.05\"/>");
+  const auto armOf = [&](const std::string& ratio) {
+    const auto model = std::make_shared<const RobotModel>(parseUrdf(
+        robot(drive +
+              "<joint name=\"j\" type=\"continuous\"><parent link=\"base\"/><child link=\"drive\"/></joint>"
+              "<joint name=\"m\" type=\"continuous\"><parent link=\"drive\"/><child link=\"middle\"/>"
+              "<origin xyz=\"0.5 0 0\"/><axis xyz=\"0 0 1\"/><mimic joint=\"k\" multiplier=\"" +
+              ratio +
+              "\"/></joint><joint name=\"k\" type=\"continuous\"><parent link=\"base\"/>"
+              "<child link=\"wheel\"/></joint>"
+              "<joint name=\"f\" type=\"revolute\"><parent link=\"middle\"/><child link=\"arm\"/>"
+              "<origin xyz=\"0.5 0 0\"/><limit lower=\"-0.1\" upper=\"0.1\" effort=\"1\" "
+              "velocity=\"1\"/></joint>" +
+              link("middle") + link("wheel")),
+        "small.urdf"));
+    GeometryOptions options;
+    options.cacheFolder.clear();
+    return armFrom(model, loadGeometry(*model, options));
+  };
+  for (const char* ratio : {"1", "0.5", "0.25"}) {
+    const Arm arm = armOf(ratio);
+    PairListOptions options;
+    const PairEntry entry =
+        entryOf(arm, pairList(arm.kinematics, arm.geometry, nullptr, options), "base", "arm");
+    CAPTURE(ratio, reasonText(entry.reason));
+    CHECK(entry.reason == PairReason::sometimes);
+  }
+  // Clear in the neutral posture alone, or nearly.
+  const Arm bar = bars(3.1);
+  for (const int samples : {1, 5, 59}) {
+    PairListOptions options;
+    options.samples = samples;
+    options.margin = 0.2;
+    options.alwaysFraction = 0;
+    for (const PairEntry& entry : pairList(bar.kinematics, bar.geometry, nullptr, options))
+      CHECK(entry.reason != PairReason::always);
+  }
+}
+
 TEST_CASE("another neutral posture is another default, and a better one is suggested") {
   const Arm arm = folded();
   PairListOptions options;

@@ -218,3 +218,69 @@ TEST_CASE("new pairs replace old ones in an SRDF and leave the user's own alone"
                        !Contains("Never"));
   CHECK_THAT(withPairs("", "small", {{"b", "c", "Adjacent"}}), Contains("<robot name=\"small\">"));
 }
+
+TEST_CASE(
+    "an SRDF keeps what the user disabled without a reason, and what is enabled is not disabled again") {
+  TemporaryFolder folder;
+  put(folder / "s.srdf",
+      "<robot name=\"small\"><enable_collisions link1=\"c\" link2=\"b\"/>"
+      "<disable_collisions link1=\"a\" link2=\"c\" reason=\"\"/>"
+      "<disable_collisions link1=\"a\" link2=\"d\"/></robot>");
+  const std::string text =
+      withPairs(folder / "s.srdf", "small", {{"a", "b", "Never"}, {"b", "c", "Adjacent"}});
+  CHECK_THAT(text, Contains("link1=\"a\" link2=\"c\"") && Contains("link1=\"a\" link2=\"d\"") &&
+                       Contains("Never") && !Contains("Adjacent"));
+}
+
+TEST_CASE("a posture of several groups is taken whole, and nothing of it is left out without a word") {
+  TemporaryFolder folder;
+  const std::string mimic = joint("m", "revolute", "b", "c", "<mimic joint=\"j\" multiplier=\"2\"/>");
+  const auto model = std::make_shared<const RobotModel>(parse(link("a") + link("b") + link("c") + link("d") +
+                                                              joint("j", "revolute", "a", "b") + mimic +
+                                                              joint("k", "revolute", "a", "d")));
+  const auto srdfOf = [&](const std::string& states) {
+    put(folder / "s.srdf", "<robot name=\"small\">" + states + "</robot>");
+    return loadSrdf(folder / "s.srdf", *model);
+  };
+  const auto state = [](const char* name, const std::string& joint, const char* value) {
+    return std::string("<group_state name=\"") + name + "\" group=\"of_" + joint + "\"><joint name=\"" +
+           joint + "\" value=\"" + value + "\"/></group_state>";
+  };
+  const Srdf srdf = srdfOf(state("home", "j", "0.2") + state("home", "k", "0.3") + state("odd", "j", "0.2") +
+                           state("odd", "j", "0.3") + state("typo", "jj", "1") +
+                           state("follows", "m", "0.4") + state("still", "m", "0"));
+  const Kinematics kinematics(model);
+  const Eigen::VectorXd home = kinematics.configuration(srdf.state("home"));
+  CHECK(home[kinematics.coordinate("j")] == 0.2);
+  CHECK(home[kinematics.coordinate("k")] == 0.3);
+  CHECK_THAT(refusal([&](const std::string& name) { srdf.state(name); }, "odd"), Contains("'j'"));
+  REQUIRE(srdf.warnings.size() == 1);
+  CHECK_THAT(srdf.warnings[0], Contains("'typo'") && Contains("'jj'"));
+  CHECK(kinematics.configuration(srdf.state("still")) == kinematics.neutral());
+  const auto taken = [&](const std::string& name) { kinematics.configuration(srdf.state(name)); };
+  CHECK_THAT(refusal(taken, "follows"), Contains("'m'") && Contains("follows 'j'"));
+  Srdf::State both = srdf.state("follows");
+  both.joints["j"] = {0.2};
+  CHECK(kinematics.configuration(both)[kinematics.coordinate("j")] == 0.2);
+  put(folder / "r.urdf", robot(link("a") + link("b") + joint("j", "revolute", "a", "b")));
+  CHECK_THAT(refusal([&](const std::string& path) { loadSrdf(path, *model); }, folder / "r.urdf"),
+             Contains("is a URDF"));
+}
+
+TEST_CASE("what follows a continuous joint at another speed reaches all of its places") {
+  const auto leader = [&](const std::string& type, const std::string& ratio) {
+    const RobotModel model =
+        parse(link("a") + link("b") + link("c") + joint("j", "continuous", "a", "b") +
+              joint("m", type, "a", "c", "<mimic joint=\"j\" multiplier=\"" + ratio + "\"/>"));
+    return std::pair(model.joints[0].lower, model.joints[0].upper);
+  };
+  for (const char* whole : {"1", "-1", "3", "0"})
+    CHECK(leader("continuous", whole) == std::pair(-M_PI, M_PI));
+  CHECK(leader("continuous", "0.5") == std::pair(-2 * M_PI, 2 * M_PI));
+  CHECK(leader("revolute", "-0.333333") == std::pair(-3 * M_PI, 3 * M_PI));
+  CHECK(leader("continuous", "0.7") == std::pair(-10 * M_PI, 10 * M_PI));
+  CHECK(leader("continuous", "0.314159265") == std::pair(-1e6, 1e6));  // never comes back
+  // A rack of the limits -1 and 1 (urdf_texts.h).
+  CHECK(leader("prismatic", "0.02") == std::pair(-50.0, 50.0));
+  CHECK(leader("prismatic", "5") == std::pair(-M_PI, M_PI));
+}

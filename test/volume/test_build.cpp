@@ -280,6 +280,15 @@ TEST_CASE("A volume assembled from its own parts is the same and damaged parts a
   moved[5] *= 0.5;
   CHECK_THROWS_WITH(StpBv::assemble(moved, volume->faces(), {0.01, 10}),
                     Catch::Contains("outside the ball of face"));
+  // Vertices that coincide, or nearly, are on each other's balls.
+  const StpBv::Ptr cube = StpBv::build(box(0.1, 0.1, 0.1));
+  for (const double apart : {0.0, 1e-200, 1e-12, 1e-6})
+    for (std::size_t i = 1; i < 8; ++i) {
+      CAPTURE(apart, i);
+      moved = cube->vertices();
+      moved[i] = moved[0] + Vector3d(0, 0, apart);
+      CHECK_THROWS_AS(StpBv::assemble(moved, cube->faces(), {0.01, 10}), Error);
+    }
 }
 
 TEST_CASE("Near-duplicates however close build a volume that verifies") {

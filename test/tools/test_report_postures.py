@@ -1,0 +1,114 @@
+"""Postures and motions that urdf_collision_report is given: all of them is judged, or it says what is not.
+
+    test_report_postures.py PROGRAM
+"""
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+
+PROGRAM = sys.argv[1]
+
+BALL = '<collision><geometry><sphere radius="0.1"/></geometry></collision>'
+
+
+def slide(name, parent, child, origin):
+    return (f'<joint name="{name}" type="prismatic"><parent link="{parent}"/><child link="{child}"/><origin xyz="{origin}"/>'
+            '<axis xyz="1 0 0"/><limit lower="-1" upper="1" effort="1" velocity="1"/></joint>')
+
+
+# Two balls that slide towards each other from 1 m apart: they meet where both have gone 0.4 m or more.
+ROBOT = ('<robot name="two"><link name="base"/><link name="left">' + BALL + '</link><link name="right">' + BALL + '</link>' +
+         slide("l", "base", "left", "0 0 0") + slide("r", "base", "right", "1 0 0") + "</robot>")
+WALL = ('<robot name="scene"><link name="wall"><collision><origin xyz="5 0 0"/><geometry><box size="0.1 9 9"/></geometry></collision>'
+        "</link></robot>")
+
+
+def state(name, group, **joints):
+    values = "".join(f'<joint name="{joint}" value="{value}"/>' for joint, value in joints.items())
+    return f'<group_state name="{name}" group="{group}">{values}</group_state>'
+
+
+class Postures(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+        self.urdf = self.put("robot.urdf", ROBOT)
+
+    def put(self, name, text):
+        path = os.path.join(self.folder, name)
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(text)
+        return path
+
+    def report(self, *arguments, status):
+        done = subprocess.run([PROGRAM, self.urdf, "--no-cache", "--samples", "100", "--format", "json", *arguments],
+                              capture_output=True, text=True, timeout=60)
+        self.assertEqual(done.returncode, status, done.stderr)
+        return done.stderr if status == 2 else json.loads(done.stdout)
+
+    def colliding(self, *arguments):
+        return self.report(*arguments, status=1)
+
+    def srdf(self, body):
+        return self.put("robot.srdf", f'<robot name="two">{body}</robot>')
+
+    def test_states_of_one_name_in_two_groups_are_one_posture(self):
+        srdf = self.srdf(state("meet", "one", l=0.5) + state("meet", "other", r=-0.4))
+        self.colliding("--srdf", srdf, "--pose", "meet")
+        srdf = self.srdf(state("meet", "one", l=0.5) + state("meet", "other", l=0.4))
+        self.assertIn("'l'", self.report("--srdf", srdf, "--pose", "meet", status=2))
+
+    def test_a_joint_that_the_robot_does_not_have_is_told(self):
+        srdf = self.srdf(state("typo", "one", left=0.9))
+        warnings = self.report("--srdf", srdf, "--pose", "typo", status=0)["warnings"]
+        self.assertTrue(any("'typo'" in w and "'left'" in w for w in warnings), warnings)
+
+    def test_joints_that_a_pose_does_not_name_stay_as_in_the_neutral_posture(self):
+        neutral, pose = self.put("neutral.json", '{"r": -0.5}'), self.put("pose.json", '{"l": 0.5}')
+        self.colliding("--neutral", neutral, "--pose", pose)
+        self.report("--pose", pose, status=0)
+
+    def test_a_virtual_joint_that_moves_the_base_is_refused_beside_obstacles(self):
+        joint = '<virtual_joint name="v" type="floating" parent_frame="world" child_link="base"/>'
+        scene = self.put("scene.urdf", WALL)
+        for value, status in (("5 0 0 0 0 0 1", 2), ("0 0 0 0 0 0 1", 0)):
+            srdf = self.srdf(joint + state("away", "one", v=value, l=0.1))
+            told = self.report("--srdf", srdf, "--pose", "away", "--obstacles", scene, status=status)
+            if status == 2:
+                self.assertIn("virtual joint 'v'", told)
+            self.report("--srdf", srdf, "--pose", "away", status=0)  # where the base is changes nothing
+
+    def test_what_leaves_the_limits_is_told(self):
+        pose = self.put("pose.json", '{"l": -90, "r": -2}')
+        warnings = self.report("--pose", pose, status=0)["warnings"]
+        self.assertTrue(any("'l' is at -90 m" in w and "-1 to 1" in w and "1 other" in w for w in warnings), warnings)
+        motion = self.put("motion.csv", "l,r\n0,0\n-3,0\n")
+        warnings = self.report("--trajectory", motion, status=0)["warnings"]
+        self.assertTrue(any("way point 2" in w and "'l'" in w for w in warnings), warnings)
+        within = self.put("within.csv", "l,r\n0,0\n-1,0\n")
+        self.assertFalse(any("way point" in w for w in self.report("--trajectory", within, status=0)["warnings"]))
+
+    def test_a_byte_order_mark_is_no_letter_of_a_name(self):
+        self.colliding("--trajectory", self.put("motion.csv", "\ufeffl,r\n0,0\n0.5,-0.5\n"))
+
+    def test_a_misspelt_word_of_a_trajectory_is_refused(self):
+        motion = self.put("motion.json", '{"joints": ["l"], "points": [[0], [0.1]], "times": [0, 1]}')
+        self.assertIn('"times"', self.report("--trajectory", motion, status=2))
+
+    def test_joints_that_stand_still_are_told(self):
+        door = ('<robot name="scene"><link name="wall"><collision><origin xyz="5 0 0"/><geometry><box size="0.1 9 9"/></geometry>'
+                '</collision></link><link name="door"/>' + slide("hinge", "wall", "door", "0 0 0") + "</robot>")
+        neutral = self.put("neutral.json", "{}")
+        warnings = self.report("--obstacles", self.put("scene.urdf", door), "--pose", neutral, status=0)["warnings"]
+        self.assertTrue(any("'hinge' stands still" in w for w in warnings), warnings)
+        self.urdf = self.put("locked.urdf", ROBOT.replace('lower="-1" upper="1" ', ""))
+        warnings = self.report(status=0)["warnings"]
+        self.assertTrue(any("'l', 'r' have no range" in w for w in warnings), warnings)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
