@@ -159,6 +159,69 @@ def test_two_processes_find_what_one_does(tmp_path):
         assert (tmp_path / f"{name}1").read_bytes() == (tmp_path / f"{name}2").read_bytes()
 
 
+def gltf(uri, **more):
+    """A cube of 1 m whose corners are in a file of this name, and what that file holds."""
+    corners = np.array(list(itertools.product((0, 1), repeat=3)), np.float32)
+    document = {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+                "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+                "accessors": [{"bufferView": 0, "componentType": 5126, "count": 8, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 1]}],
+                "bufferViews": [{"buffer": 0, "byteLength": 96}], "buffers": [{"byteLength": 96, "uri": uri}], **more}
+    return json.dumps(document), corners.tobytes()
+
+
+def cube(path, uri, name=None):
+    """Writes such a mesh and its buffer, called `name` where that differs from what the mesh says."""
+    text, corners = gltf(uri)
+    path.write_text(text)
+    buffer = path.parent / (name or uri)
+    buffer.parent.mkdir(parents=True, exist_ok=True)
+    buffer.write_bytes(corners)
+    return path
+
+
+@pytest.mark.parametrize("jobs", [1, 2])
+def test_the_buffers_of_a_gltf_travel_from_below_its_folder(tmp_path, jobs):
+    places = {"a": ("a.bin",), "b": ("sub/b.bin",), "c": ("./sub/../sub/deep/c.bin", "sub/deep/c.bin"),
+              "d": ("sub%20of/d%2525.bin", "sub of/d%25.bin"), "e": ("volume/e.bin",), "f": ("sub\\f.bin", "sub/f.bin"), "g": ("as%20is.bin",)}
+    meshes = [cube(tmp_path / f"{name}.gltf", *place) for name, place in places.items()]
+    batch("convert", *meshes, "--volumes", tmp_path / "volumes", "--jobs", jobs, "-o", tmp_path / "out")
+    for name in places:
+        assert len(fcl_stpbv.StpBv.load(str(tmp_path / f"volumes/{name}.stpbv")).vertices) == 8
+    limits = '<axis xyz="0 0 1"/><limit lower="-1" upper="1" effort="1" velocity="1"/>'
+    (tmp_path / "two.urdf").write_text(f"""<robot name="two">
+        <link name="a"><collision><geometry><mesh filename="b.gltf"/></geometry></collision></link><link name="m"/><link name="b"><collision><geometry><sphere radius="0.1"/></geometry></collision></link>
+        <joint name="i" type="revolute"><parent link="a"/><child link="m"/><origin xyz="3 0 0"/>{limits}</joint>
+        <joint name="j" type="revolute"><parent link="m"/><child link="b"/><origin xyz="0.5 0 0"/>{limits}</joint></robot>""")
+    batch("sample", tmp_path / "two.urdf", "--blocks", 3, "--count", 2, "--jobs", jobs, "-o", tmp_path / "samples")
+
+
+def test_no_buffer_is_read_from_elsewhere_and_a_damaged_gltf_fails_its_own_job(tmp_path):
+    from fcl_stpbv.batch import bundle
+
+    folder, corners = tmp_path / "meshes", gltf("")[1]
+    folder.mkdir()
+    (tmp_path / "far.bin").write_bytes(corners)
+    (folder / "link.bin").symlink_to("../far.bin")
+    os.mkfifo(folder / "pipe.bin")
+    for i, uri in enumerate(["../far.bin", "%2e%2e/far.bin", "x/../../far.bin", str(tmp_path / "far.bin"), "link.bin", "pipe.bin", "..", "", "no.bin",
+                             "a\0b", "\ud800", 5, None]):
+        mesh = folder / f"{i}.gltf"
+        mesh.write_text(gltf(uri)[0])
+        assert [name for name, _ in bundle.mesh_entries(mesh)] == [mesh.name], uri
+    for name, text in [("list", "[]"), ("number", gltf("", buffers=5)[0]), ("texts", gltf("", buffers=["a"])[0]), ("deep", "[" * 200000)]:
+        (folder / f"{name}.gltf").write_text(text)
+    meshes = sorted(folder.glob("*.gltf"))
+    message = batch("convert", *meshes, folder / "pipe.bin", "--volumes", tmp_path / "volumes", "--jobs", 1, "-o", tmp_path / "out", status=1)
+    assert all(str(mesh) in message for mesh in meshes) and "pipe.bin: is a folder, a pipe or a device, expected a file" in message
+    (tmp_path / "away").mkdir()
+    cube(tmp_path / "away/real.gltf", "beside.bin")
+    (folder / "mesh.gltf").symlink_to("../away/real.gltf")  # what a link's target has beside it belongs to it
+    (folder / "beside.bin").symlink_to("../away/beside.bin")
+    assert dict(bundle.mesh_entries(folder / "mesh.gltf"))["beside.bin"] == corners
+    (tmp_path / "away/old.gltf").write_text(gltf("", buffers={"b": {"uri": "beside.bin"}})[0])  # as glTF 1.0 lists them
+    assert dict(bundle.mesh_entries(tmp_path / "away/old.gltf"))["beside.bin"] == corners
+
+
 def test_a_robot_travels_with_its_meshes(tmp_path):
     from fcl_stpbv.batch import bundle
 

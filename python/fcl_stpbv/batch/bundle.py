@@ -2,35 +2,63 @@
 import hashlib
 import html
 import json
+import os
 import pathlib
 import re
 import tempfile
+import urllib.parse
 
 import fcl_stpbv
 
 FILENAME = re.compile(rb"""(filename\s*=\s*)("[^"]*"|'[^']*')""")
 
 
-def read(path):
-    """The content of a file; raises fcl_stpbv.Error naming it."""
+def require_file(path, name=None):
+    """Refuses folders, pipes and devices under this name; what does not exist may become a file."""
+    if os.path.exists(path) and not os.path.isfile(path):
+        raise fcl_stpbv.Error(f"{name or path}: is a folder, a pipe or a device, expected a file")
+
+
+def read(path, pipe=False):
+    """The content of a file; raises fcl_stpbv.Error naming it. What is read once may come from a pipe."""
+    if not pipe:
+        require_file(path)
     try:
         return pathlib.Path(path).read_bytes()
     except OSError as error:
         raise fcl_stpbv.Error(f"{path}: cannot be read: {error.strerror}") from None
 
 
-def mesh_entries(path):
-    """(name, content) of a mesh, the mesh first, and of the buffers that a glTF file has beside it."""
+def buffer_uris(path):
+    """Where a glTF file says that its buffers are; none where it cannot be read, which the reader of meshes tells."""
+    try:
+        buffers = json.loads(path.read_bytes().decode("utf-8-sig", "surrogateescape"))["buffers"]
+        uris = [buffer.get("uri") for buffer in (buffers.values() if isinstance(buffers, dict) else buffers)]  # a dict in glTF 1.0
+    except (OSError, ValueError, LookupError, TypeError, AttributeError, RecursionError):
+        return []
+    return [uri for uri in uris if isinstance(uri, str) and not uri.startswith("data:")]
+
+
+def mesh_parts(path):
+    """{name: path} of a mesh, the mesh first, and of a glTF file's buffers, which are beside it or below. The reader of meshes takes a
+    buffer's name as it stands, so that one with a percent sign keeps it, whatever the file is called."""
     path = pathlib.Path(path)
-    content = read(path)
-    entries = [(path.name, content)]
-    if path.suffix.lower() == ".gltf":
-        try:
-            uris = [buffer.get("uri", "data:") for buffer in json.loads(content).get("buffers", [])]
-        except (ValueError, AttributeError):
-            uris = []  # the reader of meshes says what is wrong with it
-        entries += [(uri, read(path.parent / uri)) for uri in uris if not uri.startswith("data:") and "/" not in uri]
-    return entries
+    parts = {path.name: path}
+    if path.suffix.lower() != ".gltf" or not path.is_file():
+        return parts
+    folders = [os.path.realpath(path.parent), os.path.dirname(os.path.realpath(path))]  # of a link also what is beside its target
+    for uri in buffer_uris(path):
+        name = os.path.normpath(uri.replace("\\", "/"))
+        for part in (path.parent / name, path.parent / urllib.parse.unquote(name, errors="surrogateescape")):
+            inside = os.path.isfile(part) and any(pathlib.Path(os.path.realpath(part)).is_relative_to(folder) for folder in folders)
+            if inside and not name.startswith(("/", "../")):
+                parts.setdefault(name, part)
+    return parts
+
+
+def mesh_entries(path):
+    """(name, content) of a mesh and its buffers, the mesh first."""
+    return [(name, read(part)) for name, part in mesh_parts(path).items()]
 
 
 def robot_files(role, urdf, package_path):
@@ -54,7 +82,7 @@ def digest_of(files):
     """The SHA-256 of all names and contents."""
     total = hashlib.sha256()
     for name in sorted(files):
-        total.update(f"{len(name)} {name} {len(files[name])} ".encode())
+        total.update(f"{len(name)} {name} {len(files[name])} ".encode("utf-8", "surrogateescape"))
         total.update(files[name])
     return total.hexdigest()
 

@@ -126,7 +126,7 @@ class Grid(Postures):
         if len(self.tasks) != 1:
             raise fcl_stpbv.Error(f"--grid: moves one task, got {len(self.tasks)}; give one")
         self.options.update(starts=arguments.starts, neighbours=not arguments.independent)
-        self.files["task.json"], self.files["grid.json"] = next(iter(self.tasks.values())).encode(), bundle.read(arguments.grid)
+        self.files["task.json"], self.files["grid.json"] = next(iter(self.tasks.values())).encode(), bundle.read(arguments.grid, pipe=True)
         self.options["tasks"] = bundle.digest_of({name: self.files[name] for name in ("task.json", "grid.json")})
         self.places = self.placements(self.files, arguments.grid)
         self.context = self.context, self.places

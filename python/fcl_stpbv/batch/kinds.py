@@ -52,8 +52,8 @@ class Convert:
     def run(nothing, options, job, given):
         if isinstance(given, str):
             raise fcl_stpbv.Error(given)
-        with bundle.Unpacked(dict(given)) as folder:
-            path = folder / given[0][0]
+        with bundle.Unpacked({f"mesh/{name}": content for name, content in given}) as folder:
+            path = folder / "mesh" / given[0][0]
             try:
                 points = fcl_stpbv.load_points(str(path)) * options["scale"]
                 volume = fcl_stpbv.StpBv.build(points, r=options["r"], R=options["R"])

@@ -10,7 +10,7 @@ class Postures:
     def __init__(self, arguments):
         path = arguments.package_path
         self.options = {key: getattr(arguments, key) for key in ("r", "R", "seed")}
-        self.tasks = {task: bundle.read(task).decode("utf-8", "replace") for task in arguments.tasks}
+        self.tasks = {task: bundle.read(task, pipe=True).decode("utf-8", "replace") for task in arguments.tasks}
         self.options["tasks"] = bundle.digest_of({name: text.encode() for name, text in self.tasks.items()})
         self.context = fcl_stpbv.PostureSearch(arguments.robot, arguments.srdf, arguments.obstacles, r=arguments.r, R=arguments.R,
                                                package_path=path)
