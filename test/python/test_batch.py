@@ -298,6 +298,51 @@ def test_wrong_input_is_refused_in_one_line(proofs, tmp_path):
         assert f"{arguments[0]}" in batch(*PROVE, *arguments, "-o", out, status=2).splitlines()[-1]
 
 
+def test_a_damaged_result_is_named_by_its_line(proofs, tmp_path):
+    from fcl_stpbv.batch.__main__ import described, run
+
+    sample = ["sample", ARM, "--blocks", 2, "--count", 3]
+    postures = ["postures", ARM, TOOLS / "reach.json", "--starts", 1]
+    (tmp_path / "grid.json").write_text(json.dumps({"axes": [{"name": "x", "move": {"tool": [1, 0, 0]}, "from": 0, "to": 0.1, "count": 2}]}))
+    grid = [*postures, "--grid", tmp_path / "grid.json"]
+    convert = ["convert", HRP2 / "meshes/LARM_LINK0.stl", "--volumes", tmp_path / "volumes"]
+    good, bad = tmp_path / "good", tmp_path / "bad"
+    fifteen = [0] * 15
+    for command, changes in [
+            (sample, [{"job": [0]}, {"job": ["x"]}, {"job": [True]}, {"job": [[0]]}, {"job": 0}, [], 5, {"collisions": [0]}, {"least": ["x"] * 15},
+                      {"job": [0], "error": 5}, {"job": [0], "collisions": fifteen, "least": [float("nan")] * 15},
+                      {"job": [0], "collisions": fifteen, "least": [10**400] * 15}, "[" * 200000, '{"job":[0],"collisions":' + "[" * 200000, "", "{",
+                      b"\xff"]),
+            (PROVE, [{"boxes": None}, {"boxes": 1.5}, {"boxes": 10**30}, {"open": 5}, {"open": {}}, {"open": [[[0], [1]]]}, {"open": [[]]},
+                     {"collision": [0]}, {"unlimited": False}, {"job": ["base", "nothing", 0, 0]}, {"job": ["base", "upper_arm", 0, 0]}]),
+            (postures, [{"feasible": None}, {"job": [0, 0]}]),
+            (grid, [{"places": []}, {"places": [{}, {}]}, {"places": 5}]),
+            (convert, [{"volume": "../out"}, {"volume": 5}, {"sha256": None}]),
+    ]:
+        if command is PROVE:
+            shutil.copy(proofs, good)
+        else:
+            batch(*command, "--jobs", 1, "-o", good)
+        lines = good.read_bytes().splitlines(keepends=True)
+        for change in changes:
+            if isinstance(change, dict) and "job" not in change:
+                change = {**json.loads(lines[1]), **change}
+            text = change if isinstance(change, bytes) else (change if isinstance(change, str) else json.dumps(change)).encode()
+            bad.write_bytes(lines[0] + text + b"\n" + b"".join(lines[2:]))
+            with pytest.raises(fcl_stpbv.Error, match=f"^{bad}:2: is damaged[^\n]*$"):
+                run(described().parse_args([*map(str, command), "--merge", str(bad), "-o", str(tmp_path / "out")]))
+            assert not (tmp_path / "out").exists()
+        damaged = bad.read_bytes()
+        message = batch(*command, "--jobs", 1, "-o", bad, status=2)
+        assert f"{bad}:2: is damaged" in message and message.count("\n") == 1 and bad.read_bytes() == damaged
+        bad.write_bytes(b"".join(lines[:1] + lines[2:]))  # what the message says
+        batch(*command, "--jobs", 1, "-o", bad)
+        assert bad.read_bytes() == good.read_bytes()
+        good.unlink()
+    bad.write_text("[" * 200000 + "\n")
+    assert f"{bad}: does not hold results" in batch(*sample, "--merge", bad, "-o", tmp_path / "out", status=2)
+
+
 def test_without_dask_one_process_works_and_more_say_what_is_missing(tmp_path):
     (tmp_path / "dask.py").write_text("raise ImportError")
     without = {**os.environ, "PYTHONPATH": f"{tmp_path}:{os.environ['PYTHONPATH']}"}

@@ -99,10 +99,8 @@ def run(arguments):
         raise fcl_stpbv.Error("--independent: is about the places of a grid; give --grid")
     kind = KINDS["grid" if grid else arguments.kind](arguments)
     header = {"batch": kind.name, "version": fcl_stpbv.__version__, "bundle": digest_of(kind.files), **kind.options}
-    merged, jobs = results.merge(arguments.merge)
-    if merged is not None:
-        results.require_same(header, merged, arguments.merge[0])
-    file = results.ResultFile(arguments.output, header)
+    jobs = results.merge(arguments.merge, header, kind)
+    file = results.ResultFile(arguments.output, header, kind)
     for job in sorted(jobs.keys() - file.jobs.keys()):
         file.add(jobs[job])
     schedule = engine.Schedule(kind, file, arguments.shard or (0, 1))

@@ -119,7 +119,7 @@ class Place:
 class Grid(Postures):
     """A row's places from left to right: from the left neighbour's posture first, then from the task's own starts. Then back from right to
     left, for those that are still without one beside a right neighbour that has one."""
-    name = "grid"
+    name, key = "grid", [int]
 
     def __init__(self, arguments):
         super().__init__(arguments)
@@ -164,6 +164,10 @@ class Grid(Postures):
             if not row[i].feasible:
                 from_neighbour(i, i + 1)
         return {"places": [place.record() for place in row]}, None
+
+    def fits(self, job, record):
+        places = record["places"]
+        return len(places) == self.places.columns and all(type(place["feasible"]) is bool and "start" in place for place in places)
 
     def jobs(self, row, done):
         return [] if (row,) in done else [((row,), None)]

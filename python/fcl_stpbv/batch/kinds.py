@@ -1,7 +1,8 @@
 """The kinds of batches: which jobs there are, what one job does, what all of them say together.
 
 A kind is made by the process that hands out the jobs. Its class is what workers know: `open` makes what jobs need from the bundle's
-files, once a worker, and `run` is a pure function of that, the options and the job.
+files, once a worker, and `run` is a pure function of that, the options and the job. `key` has the types of what a job is known by, and
+`fits` says whether a record holds what is read of it.
 """
 import hashlib
 import pathlib
@@ -15,7 +16,7 @@ from fcl_stpbv.batch.postures import Postures
 
 class Convert:
     """Volumes of meshes. A job is one mesh, which travels with it; a bad one fails alone."""
-    name = "convert"
+    name, key = "convert", [str]
     context = None
 
     def __init__(self, arguments):
@@ -75,6 +76,9 @@ class Convert:
             beside.replace(path)
         except OSError as error:
             raise fcl_stpbv.Error(f"--volumes {path}: cannot be written: {error.strerror}") from None
+
+    def fits(self, job, record):
+        return record["volume"] == f"{pathlib.Path(job[0]).stem}.stpbv" and type(record["sha256"]) is str
 
     def jobs(self, mesh, done):
         record = done.get((mesh,))

@@ -4,6 +4,7 @@ import math
 
 import fcl_stpbv
 from fcl_stpbv.batch import bundle, results
+from fcl_stpbv.batch.results import are_numbers, is_whole
 
 
 def opened(arguments):
@@ -32,13 +33,14 @@ def counted(verdicts):
 class Prove:
     """Proofs that pairs of links never meet. A job looks at some boxes of one pair; what it leaves open is shared out anew among
     twice as many jobs in the pair's next round."""
-    name = "prove"
+    name, key = "prove", [str, str, int, int]  # the pair, the round, which job of it
 
     def __init__(self, arguments):
         self.options = {key: getattr(arguments, key) for key in ("r", "R", "margin", "budget", "descents", "seed")}
         self.context, self.files = opened(arguments)
         self.most, self.srdf = arguments.boxes, arguments.srdf or None
         self.groups = list(range(len(self.context.pairs)))
+        self.dimensions = {names: len(self.context.unproven(pair).open[0][0]) for pair, names in enumerate(self.context.pairs)}
         if self.srdf and not arguments.write_srdf:
             raise fcl_stpbv.Error("--srdf: is for --write-srdf; give that too")
         if arguments.write_srdf:
@@ -59,6 +61,13 @@ class Prove:
         proof = search.prove(pair, boxes, options["budget"])
         return {"boxes": proof.boxes, "open": [[lower.tolist(), upper.tolist()] for lower, upper in proof.open],
                 "collision": None if proof.collision is None else proof.collision.tolist()}, None
+
+    def fits(self, job, record):
+        if "unlimited" in record:
+            return record["unlimited"] is True
+        dimension, collision, boxes = self.dimensions[tuple(job[:2])], record["collision"], record["open"]
+        return (is_whole(record["boxes"]) and (collision is None or are_numbers(collision, len(self.context.names))) and type(boxes) is list
+                and all(are_numbers(lower, dimension) and are_numbers(upper, dimension) for lower, upper in boxes))
 
     def follow(self, pair, done):
         """(jobs of the pair's first round that is not done, the verdict so far)."""
@@ -113,7 +122,7 @@ class Prove:
 
 class Sample:
     """Distances of all pairs in random configurations. A job is a numbered block of them."""
-    name = "sample"
+    name, key = "sample", [int]
 
     def __init__(self, arguments):
         self.options = {key: getattr(arguments, key) for key in ("r", "R", "margin", "count", "seed")}
@@ -126,6 +135,10 @@ class Sample:
     def run(search, options, job, given):
         found = search.sample(options["seed"], job[0], options["count"])
         return {"collisions": [pair[0] for pair in found], "least": [pair[1] for pair in found]}, None
+
+    def fits(self, job, record):
+        pairs = len(self.context.pairs)
+        return are_numbers(record["collisions"], pairs) and are_numbers(record["least"], pairs)
 
     def jobs(self, block, done):
         return [] if (block,) in done else [((block,), None)]

@@ -5,7 +5,7 @@ from fcl_stpbv.batch import bundle
 
 class Postures:
     """Postures for tasks. A job is one start of one task; the next start is tried where those before led to nothing."""
-    name = "postures"
+    name, key = "postures", [str, int]
 
     def __init__(self, arguments):
         path = arguments.package_path
@@ -32,6 +32,9 @@ class Postures:
     @staticmethod
     def run(search, options, job, text):
         return search.solve(text, job[0], job[1], options["seed"]), None
+
+    def fits(self, job, record):
+        return type(record["feasible"]) is bool
 
     def jobs(self, task, done):
         for start in range(self.starts):

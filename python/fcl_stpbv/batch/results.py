@@ -6,30 +6,60 @@ later counts. At the end they are sorted, so that the same batch gives the same 
 import fcntl
 import json
 import os
+import sys
 
 import fcl_stpbv
+
+# What reading a line may raise where it holds something else than it should.
+DAMAGED = (ValueError, TypeError, LookupError, AttributeError, RecursionError)
 
 
 def line(record):
     return json.dumps(record, allow_nan=False, separators=(",", ":")) + "\n"
 
 
-def read(path):
-    """(header, {job: record}, bytes of whole lines) of a file of results; raises fcl_stpbv.Error naming it."""
+def is_whole(value):
+    return type(value) is int and 0 <= value < 2**53
+
+
+def are_numbers(values, count):
+    return type(values) is list and len(values) == count and all(
+        type(value) in (int, float) and abs(value) <= sys.float_info.max for value in values)
+
+
+def parsed(text, kind):
+    """The job and the record in a line, with all that the kind of batch reads in it; raises one of DAMAGED where it holds none."""
+    record = json.loads(text)
+    line(record)  # what is read can be written
+    job = record["job"]
+    if [type(part) for part in job] != kind.key or not (type(record["error"]) is str if "error" in record else kind.fits(job, record)):
+        raise ValueError
+    return tuple(job), record
+
+
+def read(path, header, kind):
+    """({job: record}, bytes of whole lines) of a file of results of this batch; raises fcl_stpbv.Error naming it."""
     try:
         with open(path, "rb") as file:
             text = file.read()
     except OSError as error:
         raise fcl_stpbv.Error(f"{path}: cannot be read: {error.strerror}") from None
     whole = text[:text.rfind(b"\n") + 1]
+    lines = whole.split(b"\n")[:-1]
     try:
-        records = [json.loads(part) for part in whole.splitlines()]
-        if not (isinstance(records[0], dict) and "batch" in records[0]):
-            raise ValueError
-        jobs = {tuple(record["job"]): record for record in records[1:]}
-    except (ValueError, TypeError, KeyError, IndexError):
+        found = json.loads(lines[0])
+        found["batch"]
+    except DAMAGED:
         raise fcl_stpbv.Error(f"{path}: does not hold results of a batch; give another file") from None
-    return records[0], jobs, len(whole)
+    require_same(header, found, path)
+    jobs = {}
+    for number, text in enumerate(lines[1:], 2):
+        try:
+            job, jobs[job] = parsed(text, kind)
+        except DAMAGED:
+            raise fcl_stpbv.Error(f"{path}:{number}: is damaged, expected a result of this batch; remove the line, and its job is done "
+                                  "again") from None
+    return jobs, len(whole)
 
 
 def require_same(header, other, path):
@@ -54,25 +84,22 @@ def write(path, option, lines):
         raise fcl_stpbv.Error(f"{option} {path}: cannot be written: {error.strerror}") from None
 
 
-def merge(paths):
-    """(header, jobs) of several files of one batch; the order does not matter."""
-    header, jobs = None, {}
+def merge(paths, header, kind):
+    """The jobs of several files of one batch; the order does not matter."""
+    jobs = {}
     for path in paths:
-        found, more, _ = read(path)
-        if header is not None:
-            require_same(header, found, path)
-        header = found
+        more, _ = read(path, header, kind)
         for job, record in more.items():
             if jobs.setdefault(job, record) != record:
                 raise fcl_stpbv.Error(f"{path}: job {list(job)} has another result than in the files before; the machines that ran it "
                                       "do not compute alike")
-    return header, jobs
+    return jobs
 
 
 class ResultFile:
     """Open for a run: continues from what it holds, and nobody else writes to it."""
 
-    def __init__(self, path, header):
+    def __init__(self, path, header, kind):
         self.path, self.header, self.jobs = path, header, {}
         try:
             self.file = os.open(path, os.O_RDWR | os.O_CREAT | os.O_APPEND, 0o666)
@@ -84,8 +111,7 @@ class ResultFile:
         if os.fstat(self.file).st_size == 0:
             self._append(line(header))
             return
-        found, self.jobs, whole = read(path)
-        require_same(header, found, path)
+        self.jobs, whole = read(path, header, kind)
         os.ftruncate(self.file, whole)
 
     def add(self, record):
