@@ -255,6 +255,48 @@ def test_a_bad_mesh_fails_its_own_job_and_no_other(tmp_path, jobs):
 
 
 @pytest.mark.parametrize("jobs", [1, 2])
+def test_a_volume_that_is_there_stays(tmp_path, jobs):
+    volumes, mesh = tmp_path / "volumes", tmp_path / "L.stl"
+    shutil.copy(HRP2 / "meshes/LARM_LINK0.stl", mesh)
+    volumes.mkdir()
+    for name in ("L.stpbv", "L.tmp", "other"):
+        (volumes / name).write_text("mine")
+    convert = ["convert", mesh, HRP2 / "meshes/BODY.dae", "--volumes", volumes, "-o", tmp_path / "out", "--jobs", jobs]
+    message = batch(*convert, status=2)
+    assert f"{volumes}/L.stpbv: exists already and is another volume" in message and message.count("\n") == 1
+    (volumes / "L.stpbv").unlink()
+    batch(*convert)  # goes on
+    written, files = (volumes / "L.stpbv").stat(), sorted(path.name for path in volumes.iterdir())
+    assert files == ["BODY.stpbv", "L.stpbv", "L.tmp", "other"] and (volumes / "L.tmp").read_text() == "mine"
+    (tmp_path / "out").unlink()
+    batch(*convert)  # as a run that was killed before it could note the volume
+    assert (volumes / "L.stpbv").stat() == written
+    (volumes / "L.stpbv").write_text("mine")  # and not what its result says
+    assert "L.stpbv: exists already" in batch(*convert, status=2) and (volumes / "L.stpbv").read_text() == "mine"
+
+
+def test_a_file_is_written_whole_or_not_at_all(tmp_path):
+    from fcl_stpbv.batch import results
+
+    def broken():
+        yield b"half"
+        raise KeyboardInterrupt
+
+    (tmp_path / "folder").mkdir()
+    (tmp_path / "file").write_text("before")
+    (tmp_path / "file").chmod(0o640)
+    (tmp_path / "folder/link").symlink_to("../file")
+    with pytest.raises(fcl_stpbv.Error, match="--volumes .*folder: cannot be written"):
+        results.write(tmp_path / "folder", "--volumes", [b"x"])
+    with pytest.raises(KeyboardInterrupt):
+        results.write(tmp_path / "folder/link", "-o", broken())
+    assert (tmp_path / "file").read_text() == "before"
+    results.write(tmp_path / "folder/link", "-o", [b"aft", b"er"])
+    assert (tmp_path / "file").read_text() == "after" and (tmp_path / "file").stat().st_mode & 0o777 == 0o640
+    assert (tmp_path / "folder/link").is_symlink() and len(list(tmp_path.rglob("*"))) == 3
+
+
+@pytest.mark.parametrize("jobs", [1, 2])
 def test_a_task_that_leaves_nothing_to_check_fails_its_own_job_and_no_other(tmp_path, jobs):
     task, nothing = TOOLS / "reach.json", tmp_path / "nothing.json"
     nothing.write_text(json.dumps({**json.loads(task.read_text()), "collisions": {"self": False}}))
@@ -296,6 +338,55 @@ def test_wrong_input_is_refused_in_one_line(proofs, tmp_path):
         assert not out.exists()
     for arguments in (["--shard", "2/2"], ["--budget", "0"], ["--seed", "1e99"], ["-r", "nan"], ["-R", "-1"]):
         assert f"{arguments[0]}" in batch(*PROVE, *arguments, "-o", out, status=2).splitlines()[-1]
+
+
+def test_no_output_replaces_an_input_or_another_output(tmp_path):
+    robot, mesh, task, users, scene = (tmp_path / name for name in ("r.urdf", "meshes/part.stl", "task.json", "users.srdf", "scene.urdf"))
+    mesh.parent.mkdir()
+    shutil.copy(HRP2 / "meshes/LARM_LINK0.stl", mesh)
+    robot.write_text(ARM.read_text().replace("</robot>", """<link name="part">
+        <collision><geometry><mesh filename="meshes/part.stl"/></geometry></collision></link>
+        <joint name="to_part" type="fixed"><parent link="flange"/><child link="part"/></joint></robot>"""))
+    task.write_text((TOOLS / "reach.json").read_text())
+    users.write_text('<robot name="six_joint_arm"/>')
+    shutil.copy(ARM, scene)
+    (tmp_path / "soft").symlink_to("r.urdf")
+    os.link(robot, tmp_path / "hard")
+    cube(tmp_path / "meshes/c.gltf", "sub/c.bin")
+    (tmp_path / "meshes/empty.stl").touch()
+    shutil.copy(mesh, tmp_path / "meshes/named.stpbv")
+    batch("sample", robot, "--blocks", 1, "--count", 1, "--jobs", 1, "-o", tmp_path / "part_0")
+    prove, out, convert = ["prove", robot, "--jobs", 1], tmp_path / "out", ["convert", "--volumes", tmp_path / "meshes"]
+    before = {path: path.read_bytes() for path in tmp_path.rglob("*") if path.is_file()}
+    for arguments, what in [
+            ([*prove, "-o", out, "--write-srdf", robot], "--write-srdf"),
+            ([*prove, "-o", out, "--write-srdf", tmp_path / "meshes/../soft"], "--write-srdf"),
+            ([*prove, "-o", out, "--write-srdf", tmp_path / "hard"], "--write-srdf"),
+            ([*prove, "-o", out, "--write-srdf", mesh], "--write-srdf"),
+            ([*prove, "-o", out, "--write-srdf", users, "--srdf", users], "--write-srdf"),
+            ([*prove, "-o", out, "--write-srdf", scene, "--obstacles", scene], "--write-srdf"),
+            ([*prove, "-o", out, "--merge", tmp_path / "part_0", "--write-srdf", tmp_path / "part_0"], "--write-srdf"),
+            ([*prove, "-o", tmp_path / "soft"], "-o"),
+            (["postures", robot, task, "-o", task], "-o"),
+            (["postures", robot, task, "--grid", users, "-o", users], "-o"),
+            ([*convert, tmp_path / "meshes/empty.stl", "-o", tmp_path / "meshes/empty.stl"], "-o"),
+            ([*convert, tmp_path / "meshes/c.gltf", "-o", tmp_path / "meshes/sub/c.bin"], "-o"),
+            ([*convert, tmp_path / "meshes/named.stpbv", "-o", out], "--volumes"),
+    ]:
+        message = batch(*arguments, status=2)
+        assert f"{what} {tmp_path}" in message and "is an input, and writing would replace it; give" in message and message.count("\n") == 1, message
+    for arguments, what in [([*prove, "-o", out, "--write-srdf", tmp_path / "meshes/../out"], "is the same file as -o"),
+                            ([*convert, mesh, "-o", tmp_path / "meshes/part.stpbv"], "is the same file as -o"),
+                            ([*prove, "-o", out, "--write-srdf", tmp_path / "no/a.srdf"], f"the folder {tmp_path}/no does not exist"),
+                            ([*prove, "-o", out, "--write-srdf", tmp_path], "is a folder, a pipe or a device")]:
+        message = batch(*arguments, status=2)
+        assert what in message and message.count("\n") == 1, message
+    assert before == {path: path.read_bytes() for path in tmp_path.rglob("*") if path.is_file()}
+    os.mkfifo(tmp_path / "pipe")
+    for arguments in (["-o", tmp_path / "pipe"], ["-o", out, "--write-srdf", tmp_path / "pipe"]):
+        assert "is a folder, a pipe or a device" in batch(*prove, *arguments, status=2) and (tmp_path / "pipe").is_fifo() and not out.exists()
+    batch("sample", robot, "--blocks", 1, "--count", 1, "--merge", tmp_path / "part_0", "-o", tmp_path / "part_0")  # this is meant
+    assert (tmp_path / "part_0").read_bytes() == before[tmp_path / "part_0"]
 
 
 def test_a_damaged_result_is_named_by_its_line(proofs, tmp_path):

@@ -5,7 +5,7 @@ import re
 import sys
 
 import fcl_stpbv
-from fcl_stpbv.batch import engine, results
+from fcl_stpbv.batch import engine, places, results
 from fcl_stpbv.batch.bundle import digest_of
 from fcl_stpbv.batch.kinds import KINDS
 
@@ -78,7 +78,7 @@ def described():
     postures.add_argument("--independent", action="store_true", help="each place of a grid from the task's starts alone, not from its neighbours' postures")
     convert = kinds.add_parser("convert", parents=[common], help="meshes to volumes")
     convert.add_argument("meshes", nargs="+", metavar="MESH")
-    convert.add_argument("--volumes", required=True, metavar="FOLDER", help="where MESH.stpbv goes; made if missing")
+    convert.add_argument("--volumes", required=True, metavar="FOLDER", help="where MESH.stpbv goes, replacing nothing; made if missing")
     convert.add_argument("--scale", type=SCALE, default=1.0, help="factor on the coordinates, 0.001 for millimetres [1]")
     return parser
 
@@ -97,6 +97,7 @@ def run(arguments):
     grid = arguments.kind == "postures" and arguments.grid
     if arguments.kind == "postures" and arguments.independent and not grid:
         raise fcl_stpbv.Error("--independent: is about the places of a grid; give --grid")
+    places.check(arguments)
     kind = KINDS["grid" if grid else arguments.kind](arguments)
     header = {"batch": kind.name, "version": fcl_stpbv.__version__, "bundle": digest_of(kind.files), **kind.options}
     jobs = results.merge(arguments.merge, header, kind)

@@ -8,7 +8,7 @@ import hashlib
 import pathlib
 
 import fcl_stpbv
-from fcl_stpbv.batch import bundle
+from fcl_stpbv.batch import bundle, places, results
 from fcl_stpbv.batch.grid import Grid
 from fcl_stpbv.batch.pairs import Prove, Sample
 from fcl_stpbv.batch.postures import Postures
@@ -63,27 +63,29 @@ class Convert:
                 raise fcl_stpbv.Error(message if job[0] in message else f"{job[0]}: {message}") from None
             volume.save(str(folder / "volume"))
             content = (folder / "volume").read_bytes()
-        record = {"volume": f"{path.stem}.stpbv", "sha256": hashlib.sha256(content).hexdigest(), "points": len(points),
+        record = {"volume": places.volume_name(path), "sha256": hashlib.sha256(content).hexdigest(), "points": len(points),
                   "vertices": len(volume.vertices), "over_cover": volume.over_cover()[0]}
         return record, content
 
     def keep(self, record, content):
-        """Puts a volume where it belongs, before its job counts as done."""
+        """Puts a volume where it belongs, before its job counts as done. Nothing is replaced: what is there already must be the same."""
         path = self.folder / record["volume"]
-        beside = path.with_suffix(".tmp")
-        try:
-            beside.write_bytes(content)
-            beside.replace(path)
-        except OSError as error:
-            raise fcl_stpbv.Error(f"--volumes {path}: cannot be written: {error.strerror}") from None
+        if not path.exists():
+            results.write(path, "--volumes", [content])
+        elif not self.there(record):
+            raise fcl_stpbv.Error(f"--volumes {path}: exists already and is another volume than this batch makes; move it away, or give "
+                                  "--volumes another folder")
+
+    def there(self, record):
+        path = self.folder / record["volume"]
+        return path.exists() and hashlib.sha256(bundle.read(path)).hexdigest() == record["sha256"]
 
     def fits(self, job, record):
-        return record["volume"] == f"{pathlib.Path(job[0]).stem}.stpbv" and type(record["sha256"]) is str
+        return record["volume"] == places.volume_name(job[0]) and type(record["sha256"]) is str
 
     def jobs(self, mesh, done):
         record = done.get((mesh,))
-        there = record is not None and ("error" in record or (self.folder / record["volume"]).exists())
-        return [] if there else [((mesh,), self.given(mesh))]
+        return [] if record is not None and ("error" in record or self.there(record)) else [((mesh,), self.given(mesh))]
 
     def summary(self, done):
         failed = sum("error" in record for record in done.values())

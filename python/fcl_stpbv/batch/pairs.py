@@ -117,7 +117,8 @@ class Prove:
             comments.append(f"Pairs with obstacles have no place in an SRDF. Proven, with the root link where it is: {clear or 'none'}")
         else:
             comments.append("Obstacles were not looked at")
-        results.write(path, "--write-srdf", [self.context.srdf([pair for pair in proven if pair < links], self.srdf, comments)])
+        text = self.context.srdf([pair for pair in proven if pair < links], self.srdf, comments)
+        results.write(path, "--write-srdf", [text.encode()])
 
 
 class Sample:

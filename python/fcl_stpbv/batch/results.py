@@ -6,7 +6,9 @@ later counts. At the end they are sorted, so that the same batch gives the same 
 import fcntl
 import json
 import os
+import stat
 import sys
+import uuid
 
 import fcl_stpbv
 
@@ -69,19 +71,24 @@ def require_same(header, other, path):
         raise fcl_stpbv.Error(f"{path}: holds results of another batch, with a different {', '.join(different)}; give another file")
 
 
-def write(path, option, lines):
-    """The whole file or nothing; `option` gave its path."""
-    beside = f"{path}.{os.getpid()}.tmp"
+def write(path, option, parts):
+    """The whole file or nothing; `option` gave its path. A link stays one, and a file that is replaced leaves its permissions."""
+    place = os.path.realpath(path)
+    beside = os.path.join(os.path.dirname(place), f".fcl_stpbv-{os.getpid()}-{uuid.uuid4().hex}.tmp")
     try:
-        with open(beside, "w", encoding="utf-8") as file:
-            file.writelines(lines)
+        with open(beside, "xb") as file:
+            if os.path.exists(place):
+                with open(place, "r+b") as old:
+                    os.fchmod(file.fileno(), stat.S_IMODE(os.fstat(old.fileno()).st_mode))
+            file.writelines(parts)
             file.flush()
             os.fsync(file.fileno())
-        os.replace(beside, path)
+        os.replace(beside, place)
     except OSError as error:
+        raise fcl_stpbv.Error(f"{option} {path}: cannot be written: {error.strerror}") from None
+    finally:
         if os.path.exists(beside):
             os.unlink(beside)
-        raise fcl_stpbv.Error(f"{option} {path}: cannot be written: {error.strerror}") from None
 
 
 def merge(paths, header, kind):
@@ -129,5 +136,5 @@ class ResultFile:
 
     def close(self, sort):
         if sort:
-            write(self.path, "-o", [line(self.header), *(line(self.jobs[job]) for job in sorted(self.jobs))])
+            write(self.path, "-o", (line(record).encode() for record in [self.header, *(self.jobs[job] for job in sorted(self.jobs))]))
         os.close(self.file)

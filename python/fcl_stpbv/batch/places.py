@@ -1,0 +1,51 @@
+"""Where a batch reads and writes: no output replaces an input or another output, which is told before any work."""
+import os
+import pathlib
+
+import fcl_stpbv
+from fcl_stpbv.batch import bundle
+
+
+def volume_name(mesh):
+    return pathlib.Path(mesh).stem + ".stpbv"
+
+
+def inputs(arguments):
+    """All files that a command line reads, but those of --merge."""
+    given = vars(arguments)
+    urdfs = [given[key] for key in ("robot", "obstacles") if given.get(key)]
+    others = [given[key] for key in ("srdf", "grid") if given.get(key)] + given.get("tasks", [])
+    meshes = [path for urdf in urdfs for _, path in fcl_stpbv.mesh_files(urdf, arguments.package_path)] + given.get("meshes", [])
+    return urdfs + others + [part for mesh in meshes for part in bundle.mesh_parts(mesh).values()]
+
+
+def outputs(arguments):
+    """(option, path) of all files that it writes."""
+    given = vars(arguments)
+    srdf = [("--write-srdf", given["write_srdf"])] if given.get("write_srdf") else []
+    return [("-o", arguments.output), *srdf, *(("--volumes", pathlib.Path(arguments.volumes, volume_name(mesh))) for mesh in given.get("meshes", []))]
+
+
+def identity(path):
+    """One for all names of a file, links too."""
+    try:
+        found = os.stat(path)
+        return found.st_dev, found.st_ino
+    except OSError:
+        return os.path.realpath(path)
+
+
+def check(arguments):
+    """Refuses outputs that are no files, that are inputs, or that are one file."""
+    read, merged = ({identity(path) for path in paths} for paths in (inputs(arguments), arguments.merge))
+    taken = {}
+    for option, path in dict.fromkeys(outputs(arguments)):
+        where, place, folder = f"{option} {path}", identity(path), os.path.dirname(os.path.realpath(path))
+        bundle.require_file(path, where)
+        if place in read or (place in merged and option != "-o"):  # a run may go on in a file that it merges
+            raise fcl_stpbv.Error(f"{where}: is an input, and writing would replace it; give {option} another name")
+        if place in taken:
+            raise fcl_stpbv.Error(f"{where}: is the same file as {taken[place]}; give one of them another name")
+        if option != "--volumes" and not os.path.isdir(folder):
+            raise fcl_stpbv.Error(f"{where}: the folder {folder} does not exist; make it first")
+        taken[place] = where
