@@ -434,6 +434,31 @@ def test_a_damaged_result_is_named_by_its_line(proofs, tmp_path):
     assert f"{bad}: does not hold results" in batch(*sample, "--merge", bad, "-o", tmp_path / "out", status=2)
 
 
+def test_names_and_texts_of_any_bytes_are_taken_or_refused(tmp_path):
+    task = pathlib.Path(os.fsdecode(os.fsencode(tmp_path) + b"/t\xff.json"))  # no UTF-8
+    task.write_bytes(b"\xef\xbb\xbf" + (TOOLS / "reach.json").read_bytes())  # with the mark that some editors put first
+    batch("postures", ARM, task, "--starts", 1, "--jobs", 1, "-o", tmp_path / "out")
+    grid = tmp_path / "grid.json"
+    grid.write_text(json.dumps({"axes": [{"name": "x", "move": {"tool": [1, 0, 0]}, "from": 0, "to": 0.1, "count": 2}]}))
+    batch("postures", ARM, task, "--grid", grid, "--starts", 1, "--jobs", 1, "-o", tmp_path / "places")
+    grid.write_text("[" * 200000)
+    assert "grid.json: is no JSON" in batch("postures", ARM, task, "--grid", grid, "-o", tmp_path / "no", status=2)
+    away = pathlib.Path(os.fsdecode(os.fsencode(tmp_path) + b"/\xff"))
+    shutil.copytree(HRP2, away)
+    assert "hrp2_style.urdf: the path of one of its meshes is not UTF-8" in batch("sample", away / "hrp2_style.urdf", "-o", tmp_path / "no", status=2)
+    os.mkfifo(tmp_path / "pipe")
+    prove = [*PROVE, "--srdf", tmp_path / "pipe", "--write-srdf", tmp_path / "new"]
+    assert "pipe: is a folder, a pipe" in batch(*prove, "-o", tmp_path / "no", status=2)
+
+
+def test_a_summary_that_cannot_be_printed_costs_no_result(tmp_path):
+    sample = [sys.executable, "-B", "-m", "fcl_stpbv.batch", "sample", ARM, "--blocks", "1", "--count", "1", "--jobs", "1", "-o", tmp_path / "out"]
+    with open("/dev/full", "w") as full:
+        done = subprocess.run(sample, stdout=full, stderr=subprocess.PIPE, text=True, timeout=120)
+    assert done.returncode == 2 and done.stderr.startswith("fcl_stpbv.batch: standard output: cannot be written") and done.stderr.count("\n") == 1
+    assert len((tmp_path / "out").read_text().splitlines()) == 2
+
+
 def test_without_dask_one_process_works_and_more_say_what_is_missing(tmp_path):
     (tmp_path / "dask.py").write_text("raise ImportError")
     without = {**os.environ, "PYTHONPATH": f"{tmp_path}:{os.environ['PYTHONPATH']}"}

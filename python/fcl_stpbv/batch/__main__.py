@@ -1,6 +1,7 @@
 """python -m fcl_stpbv.batch prove|sample|postures|convert: many jobs on all cores, a Dask cluster or a job array."""
 import argparse
 import math
+import os
 import re
 import sys
 
@@ -91,6 +92,14 @@ def compute(arguments, schedule, show):
             engine.run_on(client, schedule, show)
 
 
+def say(text):
+    try:
+        print(text, flush=True)
+    except OSError as error:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), 1)  # where what is left of it goes
+        raise fcl_stpbv.Error(f"standard output: cannot be written: {error.strerror}; the results are in their file, -q leaves this out") from None
+
+
 def run(arguments):
     if arguments.shard and arguments.scheduler:
         raise fcl_stpbv.Error("--shard: is done in this process; leave out --scheduler")
@@ -118,7 +127,7 @@ def run(arguments):
         if "error" in record:
             print(f"fcl_stpbv.batch: {record['error']}", file=sys.stderr)
     if not arguments.quiet:
-        print(kind.summary(file.jobs))
+        say(kind.summary(file.jobs))
     if schedule.ready:
         print(f"fcl_stpbv.batch: {len(schedule.ready)} jobs are missing; run without --merge to do them", file=sys.stderr)
     return 1 if schedule.ready or any("error" in record for record in file.jobs.values()) else 0

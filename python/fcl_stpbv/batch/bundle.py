@@ -61,10 +61,18 @@ def mesh_entries(path):
     return [(name, read(part)) for name, part in mesh_parts(path).items()]
 
 
+def robot_meshes(urdf, package_path):
+    """The meshes of a robot: as the URDF names them, and their paths."""
+    try:
+        return fcl_stpbv.mesh_files(str(urdf), [str(folder) for folder in package_path])
+    except UnicodeDecodeError:
+        raise fcl_stpbv.Error(f"{urdf}: the path of one of its meshes is not UTF-8; rename the file or its folder") from None
+
+
 def robot_files(role, urdf, package_path):
     """The files of one robot, its meshes named by their content so that they are found anywhere."""
     files, places = {}, {}
-    for uri, path in fcl_stpbv.mesh_files(str(urdf), [str(folder) for folder in package_path]):
+    for uri, path in robot_meshes(urdf, package_path):
         entries = mesh_entries(path)
         known = digest_of(dict(entries))[:32]
         places[uri] = f"{known}/{entries[0][0]}"

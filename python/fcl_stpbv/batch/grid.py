@@ -15,6 +15,13 @@ def refuse(where, got, expected):
     raise fcl_stpbv.Error(f"{where}: got {json.dumps(got)[:60]}, expected {expected}")
 
 
+def loaded(text, where):
+    try:
+        return json.loads(text)
+    except (ValueError, RecursionError) as error:
+        raise fcl_stpbv.Error(f"{where}: is no JSON: {error}") from None
+
+
 def number(where, value, kind=(int, float), least=-1e6, most=1e6):
     if isinstance(value, bool) or not isinstance(value, kind) or not least <= value <= most:
         refuse(where, value, f"a {'whole ' if kind is int else ''}number from {least:g} to {most:g}")
@@ -57,12 +64,9 @@ class Placements:
     """A task at every place of a grid. The last axis goes along a row."""
 
     def __init__(self, task, grid, path):
-        self.task = json.loads(task)
+        self.task = loaded(task, "the task")
         self.names = [placement.get("name", placement["link"]) for placement in self.task["placements"]]
-        try:
-            given = json.loads(grid)
-        except ValueError as error:
-            raise fcl_stpbv.Error(f"{path}: is no JSON: {error}") from None
+        given = loaded(grid, path)
         if not isinstance(given, dict) or list(given) != ["axes"] or not isinstance(given["axes"], list) or not given["axes"]:
             raise fcl_stpbv.Error(f"{path}: expected an object with a list of axes, such as {{\"axes\": [...]}}")
         self.axes = [Axis(axis, f"{path}: axes[{i}]", set(self.names)) for i, axis in enumerate(given["axes"])]

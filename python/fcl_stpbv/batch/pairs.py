@@ -44,6 +44,8 @@ class Prove:
         if self.srdf and not arguments.write_srdf:
             raise fcl_stpbv.Error("--srdf: is for --write-srdf; give that too")
         if arguments.write_srdf:
+            if self.srdf:
+                bundle.require_file(self.srdf)  # a pipe could not be read again at the end
             self.context.srdf([], self.srdf)  # what is wrong with it is told before anything is computed
 
     open = staticmethod(search_in)

@@ -15,7 +15,7 @@ def inputs(arguments):
     given = vars(arguments)
     urdfs = [given[key] for key in ("robot", "obstacles") if given.get(key)]
     others = [given[key] for key in ("srdf", "grid") if given.get(key)] + given.get("tasks", [])
-    meshes = [path for urdf in urdfs for _, path in fcl_stpbv.mesh_files(urdf, arguments.package_path)] + given.get("meshes", [])
+    meshes = [path for urdf in urdfs for _, path in bundle.robot_meshes(urdf, arguments.package_path)] + given.get("meshes", [])
     return urdfs + others + [part for mesh in meshes for part in bundle.mesh_parts(mesh).values()]
 
 

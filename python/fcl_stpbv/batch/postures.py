@@ -3,6 +3,11 @@ import fcl_stpbv
 from fcl_stpbv.batch import bundle
 
 
+def shown(name):
+    """A name as a text, whatever bytes it has."""
+    return name.encode(errors="backslashreplace").decode()
+
+
 class Postures:
     """Postures for tasks. A job is one start of one task; the next start is tried where those before led to nothing."""
     name, key = "postures", [str, int]
@@ -10,12 +15,12 @@ class Postures:
     def __init__(self, arguments):
         path = arguments.package_path
         self.options = {key: getattr(arguments, key) for key in ("r", "R", "seed")}
-        self.tasks = {task: bundle.read(task, pipe=True).decode("utf-8", "replace") for task in arguments.tasks}
+        self.tasks = {task: bundle.read(task, pipe=True).decode("utf-8-sig", "replace") for task in arguments.tasks}
         self.options["tasks"] = bundle.digest_of({name: text.encode() for name, text in self.tasks.items()})
         self.context = fcl_stpbv.PostureSearch(arguments.robot, arguments.srdf, arguments.obstacles, r=arguments.r, R=arguments.R,
                                                package_path=path)
         for name, text in self.tasks.items():
-            self.context.names(text, name)  # a task that does not fit is told before anything is computed
+            self.context.names(text, shown(name))  # a task that does not fit is told before anything is computed
         self.files = bundle.robot_files("robot", arguments.robot, path)
         if arguments.srdf:
             self.files["robot/robot.srdf"] = bundle.read(arguments.srdf)
@@ -31,7 +36,7 @@ class Postures:
 
     @staticmethod
     def run(search, options, job, text):
-        return search.solve(text, job[0], job[1], options["seed"]), None
+        return search.solve(text, shown(job[0]), job[1], options["seed"]), None
 
     def fits(self, job, record):
         return type(record["feasible"]) is bool
