@@ -70,7 +70,8 @@ std::shared_ptr<const RobotGeometry> PythonScene::modelFor(const std::vector<Nee
                                                            std::vector<std::size_t>& unmet) const {
   constexpr int kMostThreads = 256;
   if (threads < 1 || threads > kMostThreads)
-    throw Error("threads: got " + std::to_string(threads) + ", expected 1 to " + std::to_string(kMostThreads));
+    throw Error("threads: got " + std::to_string(threads) + ", expected 1 to " +
+                std::to_string(kMostThreads));
   std::vector<std::shared_ptr<const RobotGeometry>> levels = loadLevels(*robot, options, budgets);
   const std::vector<CheckedPair> checked = pairs(*levels.back());
   const RobotGeometry flat = around ? loadGeometry(*around, options) : RobotGeometry();

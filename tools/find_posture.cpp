@@ -89,7 +89,7 @@ std::unique_ptr<PostureParts> load(const Arguments& a, PostureReport& report) {
 }
 
 int run(Arguments& a) {
-  checkOutput(a.output);
+  checkOutput(a.output, a.robot.files, {a.task});
   PostureReport report;
   report.task = loadTask(a.task);
   if (!a.parts.empty()) std::tie(report.task.partsAuto, report.task.parts) = partsAsked(a.parts);

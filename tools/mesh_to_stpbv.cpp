@@ -103,7 +103,8 @@ void describe(Program& app, Arguments& arguments) {
              "As few such volumes as keep the parts' hulls this close to the mesh; where none are found the "
              "report says so [m]")
       .number(0, kLargest, false)
-      .type("M");
+      .type("M")
+      .excludes(advise);
   app.option("--effort", arguments.effort, "Search for the parts this many times as long as usual [1]")
       .number(0.01, 1000)
       .type("E");

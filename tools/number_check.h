@@ -1,4 +1,4 @@
-// Numbers from the command line: finite and in a range.
+// Numbers from the command line: finite and in a range, and lists of them.
 #pragma once
 
 #include <charconv>
@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <limits>
 #include <string>
+#include <vector>
 
 #include "fcl_stpbv/number_check.h"
 
@@ -27,7 +28,8 @@ inline std::string wrongNumber(const std::string& text, double least, double mos
     return "";
   char range[64];
   std::snprintf(range, sizeof range, "%g to %g", least, most);
-  return "got " + text + ", expected a number from " + range + (orEqual ? "" : ", the first excluded");
+  return "got " + (text.empty() ? "nothing" : text) + ", expected a number from " + range +
+         (orEqual ? "" : ", the first excluded");
 }
 
 /// The same for a whole number.
@@ -40,6 +42,18 @@ inline std::string wrongWholeNumber(const std::string& text, std::uint64_t least
          (most == std::numeric_limits<std::uint64_t>::max()
               ? std::to_string(least) + " or more"
               : "from " + std::to_string(least) + " to " + std::to_string(most));
+}
+
+/// At the commas: one word more than there are commas.
+inline std::vector<std::string> splitAtCommas(const std::string& text) {
+  std::vector<std::string> words{""};
+  for (const char c : text) {
+    if (c == ',')
+      words.emplace_back();
+    else
+      words.back() += c;
+  }
+  return words;
 }
 
 }  // namespace fcl_stpbv::tools

@@ -28,8 +28,11 @@ bool isRegular(const fs::path& path) {
 }
 bool sameFile(const fs::path& a, const fs::path& b) {
   std::error_code ignored;
-  return fs::equivalent(a, b, ignored) ||
-         fs::weakly_canonical(a, ignored) == fs::weakly_canonical(b, ignored);
+  if (fs::equivalent(a, b, ignored)) return true;
+  const auto place = [&](const fs::path& path) {
+    return fs::weakly_canonical(fs::absolute(path, ignored), ignored);
+  };
+  return !place(a).empty() && place(a) == place(b);  // empty where it cannot be told
 }
 
 void checkValues(const ConversionOptions& options) {
@@ -45,17 +48,18 @@ void checkPreview(const std::vector<std::string>& inputs, const std::string& pre
     throw UsageError("--preview " + preview + ": end the name in .obj, .stl, .ply or .glb");
 }
 
-void checkTarget(const std::string& target, const std::vector<std::string>& inputs, bool force) {
-  if (isFolder(target)) throw UsageError(target + ": is a folder, expected the name of a file to write");
-  for (const std::string& input : inputs) {
-    if (isRegular(target) && sameFile(target, input)) {
-      throw UsageError(target + ": is an input, and writing would replace it; give -o another name");
-    }
-  }
-  if (isRegular(target) && !force)
-    throw UsageError(target + ": exists already; give --force to replace it, or another name");
-  const fs::path parent = fs::path(target).parent_path();
-  if (isFile(parent)) throw UsageError(parent.string() + ": is a file, expected a folder to write to");
+// Written straight (atomic_write.h), so that nothing is replaced, whatever file may be behind it.
+bool isDescriptor(const fs::path& path) {
+  const fs::path folder = path.parent_path();
+  return path == kStandardOutput || path == "/dev/stderr" || folder == "/dev/fd" || folder == "/proc/self/fd";
+}
+
+// Of one that may become the volume of a part.
+void checkPartName(const std::string& name, const std::vector<std::string>& inputs,
+                   const std::string& preview) {
+  requireNoInput("-o", name, inputs);
+  if (!preview.empty() && sameFile(preview, name))
+    throw UsageError("--preview " + preview + ": is the name of a part's volume; give another name");
 }
 
 std::vector<Job> jobsInto(const std::string& folder, const std::vector<std::string>& inputs, Format format) {
@@ -76,7 +80,37 @@ std::vector<Job> jobsInto(const std::string& folder, const std::vector<std::stri
 
 }  // namespace
 
-bool isStandardOutput(const std::string& output) { return output == "-" || output == kStandardOutput; }
+void requireNoInput(const std::string& option, const std::string& target,
+                    const std::vector<std::string>& inputs) {
+  if (!isRegular(target) || isDescriptor(target)) return;
+  for (const std::string& input : inputs) {
+    if (sameFile(target, input == "-" ? "/dev/stdin" : input))
+      throw UsageError(target + ": is an input, and writing would replace it; give " + option +
+                       " another name");
+  }
+}
+
+void checkTarget(const std::string& option, const std::string& target, const std::vector<std::string>& inputs,
+                 bool force) {
+  if (isDescriptor(target)) return;
+  if (isFolder(target)) throw UsageError(target + ": is a folder, expected the name of a file to write");
+  requireNoInput(option, target, inputs);
+  if (isRegular(target) && !force)
+    throw UsageError(target + ": exists already; give --force to replace it, or another name");
+  const fs::path parent = fs::path(target).parent_path();
+  if (isFile(parent)) throw UsageError(parent.string() + ": is a file, expected a folder to write to");
+}
+
+std::string nameOfPart(const std::string& output, int part) {
+  const fs::path path(output);
+  return (path.parent_path() /
+          (path.stem().string() + "_" + std::to_string(part) + path.extension().string()))
+      .string();
+}
+
+bool isStandardOutput(const std::string& output) {
+  return output == "-" || output == kStandardOutput || output == "/dev/fd/1" || output == "/proc/self/fd/1";
+}
 
 Plan plan(const std::vector<std::string>& inputs, const std::string& output, const ConversionOptions& options,
           bool force) {
@@ -101,12 +135,16 @@ Plan plan(const std::vector<std::string>& inputs, const std::string& output, con
   } else {
     plan.jobs = {{inputs[0], output}};
   }
-  for (const Job& job : plan.jobs) checkTarget(job.output, inputs, force);
+  for (const Job& job : plan.jobs) {
+    checkTarget("-o", job.output, inputs, force);
+    for (int part = 0; options.parts && part < options.parts->most; ++part)
+      checkPartName(nameOfPart(job.output, part), inputs, options.preview);
+  }
 
   std::vector<std::string> named;
   if (plan.folder.empty()) named.push_back(plan.jobs[0].output);
   if (!options.preview.empty()) {
-    checkTarget(options.preview, inputs, force);
+    checkTarget("--preview", options.preview, inputs, force);
     if (sameFile(options.preview, plan.jobs[0].output)) {
       throw UsageError("--preview " + options.preview +
                        ": is the name of the volume itself; give another name");

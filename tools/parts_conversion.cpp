@@ -4,29 +4,37 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
-#include <filesystem>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/io/atomic_write.h"
 #include "fcl_stpbv/io/volume_files.h"
 #include "fcl_stpbv/robot/mesh_file.h"
 #include "fcl_stpbv/volume/tessellate.h"
 #include "fcl_stpbv/volume/verify.h"
+#include "tools/output_plan.h"
 
 namespace fcl_stpbv::tools {
 namespace {
-
-std::string nameOfPart(const std::string& output, std::size_t part) {
-  const std::filesystem::path path(output);
-  return (path.parent_path() /
-          (path.stem().string() + "_" + std::to_string(part) + path.extension().string()))
-      .string();
-}
 
 std::string millimetres(double metres) {
   char text[32];
   std::snprintf(text, sizeof text, "%.3f mm", 1e3 * metres);
   return text;
+}
+
+std::string fileText(const StpBv& volume, Format format, const std::string& name) {
+  std::ostringstream text;
+  try {
+    if (format == Format::sch)
+      saveSch(text, volume);
+    else
+      saveStpBv(text, volume);
+  } catch (const Error& error) {
+    throw Error(name + ": " + error.what());
+  }
+  return text.str();
 }
 
 double largest(const PartsReport& report, MeshExcess ConvexPart::*excess) {
@@ -66,24 +74,21 @@ PartsReport convertToParts(const std::string& input, const std::string& output,
   }
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   for (std::size_t k = 0; k < report.volumes.size(); ++k) {
-    report.outputs.push_back(nameOfPart(output, k));
-    std::error_code ignored;
-    if (!force && std::filesystem::exists(report.outputs.back(), ignored))
-      throw Error(report.outputs.back() + ": exists already; give --force to replace it, or another name");
+    report.outputs.push_back(nameOfPart(output, static_cast<int>(k)));
+    checkTarget("-o", report.outputs.back(), {input}, force);
   }
   return report;
 }
 
+// All texts first: a format may not hold one of the volumes.
 void write(const PartsReport& report, const ConversionOptions& options) {
+  std::vector<std::string> texts;
   std::vector<TriangleMesh> surfaces;
   for (std::size_t k = 0; k < report.volumes.size(); ++k) {
-    if (options.format == Format::sch) {
-      saveSch(report.outputs[k], *report.volumes[k]);
-    } else {
-      saveStpBv(report.outputs[k], *report.volumes[k]);
-    }
+    texts.push_back(fileText(*report.volumes[k], options.format, report.outputs[k]));
     if (!options.preview.empty()) surfaces.push_back(tessellate(*report.volumes[k]));
   }
+  for (std::size_t k = 0; k < texts.size(); ++k) detail::atomicWrite(report.outputs[k], texts[k]);
   if (!options.preview.empty()) saveColoured(options.preview, surfaces);
 }
 

@@ -28,13 +28,14 @@ struct PartsReport {
   double openExcessMax() const;
 };
 
-/// Reads a mesh and makes the volumes of its parts. `output` is the name that would be a single volume's:
-/// `link.stpbv` names link_0.stpbv, link_1.stpbv and so on. Writes nothing.
-/// @throws Error naming the input, or an output that exists unless `force` is set, and what would work.
+/// Reads a mesh and makes the volumes of its parts. `output` is the name that would be a single volume's
+/// (nameOfPart()). Writes nothing.
+/// @throws Error naming the input, UsageError naming an output (checkTarget()), and what would work.
 PartsReport convertToParts(const std::string& input, const std::string& output,
                            const ConversionOptions& options, bool force);
 
-/// Writes the volumes, and if asked for their preview, each in a colour.
+/// Writes the volumes, and if asked for their preview, each in a colour. Nothing is written where the format
+/// cannot hold one of them.
 void write(const PartsReport& report, const ConversionOptions& options);
 
 std::string toText(const PartsReport& report);

@@ -18,6 +18,9 @@ namespace {
 
 constexpr int kWrong = 2;  // a run that tested nothing must not look like one that found nothing
 
+constexpr const char* kEmpty =
+    "the value is empty, as from a shell variable that is not set; give one, or leave the option out";
+
 }  // namespace
 
 Option Option::required() {
@@ -87,7 +90,9 @@ void Program::footer(const std::string& text) { app_->footer(text); }
 
 template <class Value>
 Option Program::option(const std::string& names, Value& value, const std::string& help) {
-  return Option(app_->add_option(names, value, help));
+  CLI::Option* const option = app_->add_option(names, value, help);
+  option->check([](const std::string& text) { return std::string(text.empty() ? kEmpty : ""); }, "");
+  return Option(option);
 }
 
 template Option Program::option(const std::string&, double&, const std::string&);
@@ -108,6 +113,7 @@ Option Program::flag(const std::string& names, bool& value, const std::string& h
 int Program::run(int argc, char** argv, const std::function<int()>& work) {
   int status = kWrong;
   try {
+    refuseNoValue(argc, argv);
     app_->parse(argc, argv);
     status = work();
   } catch (const CLI::ParseError& error) {
@@ -118,6 +124,15 @@ int Program::run(int argc, char** argv, const std::function<int()>& work) {
     say(error.what());
   }
   return outputOr(status);
+}
+
+// CLI11 would take the word after "--option=" for its value.
+void Program::refuseNoValue(int argc, char** argv) const {
+  for (int i = 1; i < argc && std::string(argv[i]) != "--"; ++i) {
+    const std::string word = argv[i], name = word.substr(0, word.size() - 1);
+    if (word.size() > 3 && word == name + "=" && app_->get_option_no_throw(name) != nullptr)
+      throw CLI::ValidationError(name, kEmpty);
+  }
 }
 
 // The status, or 2 where standard output did not take all of it.

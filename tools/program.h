@@ -51,8 +51,8 @@ class Program {
   /// Below the options in the help.
   void footer(const std::string& text);
   /// `names` as in "-o,--output", or without dashes for a place on the command line. `value` is set when
-  /// run() reads the command line, and keeps what it has where the option is not given. program.cpp lists the
-  /// types that there are.
+  /// run() reads the command line, and keeps what it has where the option is not given. An empty value is
+  /// refused: it comes from a shell variable that is not set. program.cpp lists the types that there are.
   template <class Value>
   Option option(const std::string& names, Value& value, const std::string& help);
   /// An option without a value; "!--no-x" sets `value` to false.
@@ -63,6 +63,7 @@ class Program {
   int run(int argc, char** argv, const std::function<int()>& work);
 
  private:
+  void refuseNoValue(int argc, char** argv) const;
   int outputOr(int status) const;
   void say(const std::string& message) const;
 

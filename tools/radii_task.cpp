@@ -2,7 +2,7 @@
 #include "tools/radii_task.h"
 
 #include <map>
-#include <sstream>
+#include <set>
 
 #include "tools/number_check.h"
 #include "tools/output_plan.h"
@@ -15,12 +15,13 @@ RadiiTask radiiTask(const std::string& text) {
       {"clearance", &task.clearance}, {"acceleration", &task.acceleration},
       {"speed", &task.speed},         {"turning", &task.turning},
       {"period", &task.period},       {"distance", &task.distance}};
-  if (text.empty()) throw UsageError("--advise: is empty, expected as in clearance=0.005,speed=0.3");
-  std::istringstream rest(text);
-  for (std::string word; std::getline(rest, word, ',');) {
+  std::set<std::string> said;
+  for (const std::string& word : splitAtCommas(text)) {
     const std::size_t equals = word.find('=');
     const std::string key = word.substr(0, equals),
                       value = equals == std::string::npos ? "" : word.substr(equals + 1);
+    if (!said.insert(key).second)
+      throw UsageError("--advise " + text + ": " + key + " comes twice; give it once");
     const auto number = numbers.find(key);
     if (key == "others" && (value == "round" || value == "flat")) {
       task.bothRound = value == "round";

@@ -2,15 +2,18 @@
 #include "tools/robot_options.h"
 
 #include <filesystem>
-#include <sstream>
 #include <tuple>
 
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/robot/package_path.h"
 #include "tools/number_check.h"
+#include "tools/output_plan.h"
 #include "tools/radii_task.h"
 
 namespace fcl_stpbv::tools {
 namespace {
+
+namespace fs = std::filesystem;
 
 void describeFiles(Program& app, RobotArguments& a) {
   report::RobotFiles& files = a.files;
@@ -78,19 +81,12 @@ double lengthOf(const std::string& option, const std::string& text, double most,
   return std::stod(text);
 }
 
-// At the commas.
-std::vector<std::string> split(const std::string& text) {
-  std::vector<std::string> parts;
-  std::istringstream rest(text);
-  for (std::string part; std::getline(rest, part, ',');) parts.push_back(part);
-  return parts;
-}
-
 // "NAME=r,R" or "NAME=r,R,OVER_COVER". A name may hold '='; the last one counts.
 void readLink(const std::string& text, GeometryOptions& options) {
   const std::string option = "--link " + text;
   const std::size_t equals = text.rfind('=');
-  const std::vector<std::string> values = split(equals == std::string::npos ? "" : text.substr(equals + 1));
+  const std::vector<std::string> values =
+      splitAtCommas(equals == std::string::npos ? "" : text.substr(equals + 1));
   if (values.size() < 2 || values.size() > 3)
     throw Error(option + ": expected NAME=r,R or NAME=r,R,OVER_COVER with lengths in metres");
   const std::string name = text.substr(0, equals);
@@ -111,6 +107,37 @@ void setRadii(const RobotArguments& a, GeometryOptions& geometry) {
   if (!geometry.fitr && !geometry.fitR && geometry.radii.R <= geometry.radii.r)
     throw Error("-r " + a.r + (a.R.empty() ? "" : " -R " + a.R) +
                 ": R must be larger than r; it is 10 unless given");
+}
+
+void readFlat(const std::string& name, report::RobotFiles& files) {
+  if (name == "obstacles") {
+    if (files.obstacles.empty())
+      throw Error("--flat obstacles: there are no obstacles; give their URDF with --obstacles");
+    files.flatObstacles = true;
+    return;
+  }
+  if (files.geometry.links.count(name) > 0)
+    throw Error("--flat " + name + ": --link gives the same link r and R, which flat meshes do not have; " +
+                "leave one of the two out");
+  files.geometry.flatLinks.insert(name);
+}
+
+// What is wrong with the robot is told when it is loaded. A pipe can be read only once.
+std::vector<std::string> meshesOf(const std::string& urdf, const std::vector<std::string>& packagePath) {
+  std::vector<std::string> files;
+  std::error_code ignored;
+  if (!fs::is_regular_file(urdf, ignored)) return files;
+  LoadFaults faults;
+  LoadFaults::gather(faults.errors, [&] {
+    const RobotModel robot = loadUrdf(urdf, faults);
+    const detail::PackagePath paths(urdf, packagePath);
+    for (const LinkModel& link : robot.links)
+      for (const auto* shapes : {&link.collision, &link.visual})
+        for (const ShapeModel& shape : *shapes)
+          if (shape.kind == ShapeModel::Kind::mesh)
+            LoadFaults::gather(faults.shapes, [&] { files.push_back(paths.resolve(shape.mesh)); });
+  });
+  return files;
 }
 
 }  // namespace
@@ -171,25 +198,30 @@ report::RobotFiles filesOf(const RobotArguments& arguments) {
   if (!arguments.advise.empty()) files.geometry.advice = radiiTask(arguments.advise);
   files.flatPrimitives = arguments.primitives == "flat";
   for (const std::string& link : arguments.links) readLink(link, files.geometry);
-  for (const std::string& link : arguments.flat) {
-    if (link == "obstacles")
-      files.flatObstacles = true;
-    else
-      files.geometry.flatLinks.insert(link);
+  for (const std::string& name : arguments.flat) readFlat(name, files);
+  for (const std::string& folder : files.geometry.packagePath) {
+    std::error_code ignored;
+    if (!fs::is_directory(folder, ignored))
+      throw Error("--package-path " + folder + ": is no folder; give one that holds packages");
   }
   if (arguments.noCache) files.geometry.cacheFolder.clear();
   files.geometry.threads = arguments.jobs;
   return files;
 }
 
-void checkOutput(const std::string& path) {
+void checkOutput(const std::string& path, const report::RobotFiles& robot,
+                 const std::vector<std::string>& others) {
   if (path.empty() || path == "-") return;
   std::error_code ignored;
-  const std::filesystem::path parent = std::filesystem::path(path).parent_path();
-  if (std::filesystem::is_directory(path, ignored))
-    throw Error("-o " + path + ": is a folder, expected a file");
-  if (!parent.empty() && !std::filesystem::is_directory(parent, ignored))
+  const fs::path parent = fs::path(path).parent_path();
+  if (fs::is_directory(path, ignored)) throw Error("-o " + path + ": is a folder, expected a file");
+  if (!parent.empty() && !fs::is_directory(parent, ignored))
     throw Error("-o " + path + ": the folder " + parent.string() + " does not exist; make it first");
+  if (!fs::is_regular_file(path, ignored)) return;
+  requireNoInput("-o", path, others);
+  requireNoInput("-o", path, {robot.urdf, robot.srdf, robot.obstacles});
+  for (const std::string& urdf : {robot.urdf, robot.obstacles})
+    requireNoInput("-o", path, meshesOf(urdf, robot.geometry.packagePath));
 }
 
 }  // namespace fcl_stpbv::tools

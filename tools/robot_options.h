@@ -47,7 +47,9 @@ report::ReportRequest requestOf(const RobotArguments& robot, const SearchArgumen
 /// The files that the arguments ask for. @throws Error naming the option and what would work.
 report::RobotFiles filesOf(const RobotArguments& arguments);
 
-/// @throws Error where nothing can be written to `path`, the argument of -o.
-void checkOutput(const std::string& path);
+/// @throws Error where nothing can be written to `path`, the argument of -o, and UsageError where that would
+/// replace a file that is read: the robot's, a mesh among them, or one of `others`.
+void checkOutput(const std::string& path, const report::RobotFiles& robot,
+                 const std::vector<std::string>& others);
 
 }  // namespace fcl_stpbv::tools

@@ -84,7 +84,10 @@ void warn(const std::vector<std::string>& warnings, std::size_t top) {
 }
 
 int run(Arguments& a) {
-  checkOutput(a.output);
+  const ReportRequest& asked = a.search.request;
+  RobotFiles read = a.robot.files;
+  if (a.format == "srdf") read.srdf.clear();  // may be updated: all but its pairs stays as it is
+  checkOutput(a.output, read, {asked.pose, asked.neutral, asked.trajectory});
   Stages stages(!a.quiet);
   const ReportRequest request = requestOf(a.robot, a.search, std::ref(stages));
   if (!request.pose.empty() && !request.trajectory.empty())

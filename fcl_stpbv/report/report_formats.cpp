@@ -25,7 +25,8 @@ std::string toCsv(const CollisionReport& report) {
       "link1,link2,reason,srdf_reason,checked,cause,distance,mesh_distance,hull_distance,over_cover1,over_"
       "cover2,min_distance,"
       "point1_x,point1_y,point1_z,point2_x,point2_y,point2_z,normal_x,normal_y,normal_z\n";
-  for (const std::string& shape : report.skipped) text += "," + quoted("left out: " + shape) + ",0\n";
+  for (const std::string& shape : report.skipped)
+    text += ",," + quoted("left out: " + shape) + ",,0" + std::string(16, ',') + "\n";
   for (const PairReport& pair : report.pairs) {
     text += quoted(pair.link1) + "," + quoted(pair.link2) + "," + quoted(pair.reason) + "," +
             quoted(pair.srdfReason) + "," + (pair.checked ? "1" : "0") + "," + pair.cause;

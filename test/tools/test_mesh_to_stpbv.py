@@ -47,14 +47,15 @@ class MeshToStpbv(unittest.TestCase):
     def names(self, folder=""):
         return sorted(os.listdir(self.at(folder)))
 
-    def run_tool(self, *arguments, code=0):
-        done = subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, cwd=self.folder.name, timeout=60)
+    def run_tool(self, *arguments, code=0, stdin=os.devnull):
+        with open(self.at(stdin), "rb") as file:
+            done = subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, cwd=self.folder.name, timeout=60, stdin=file)
         self.assertEqual(done.returncode, code, done.stderr + done.stdout)
         return done
 
-    def refused(self, *arguments, says, code=2):
+    def refused(self, *arguments, says, code=2, **options):
         before = {name: os.path.isfile(self.at(name)) and read(self.at(name)) for name in self.names()}
-        done = self.run_tool(*arguments, code=code)
+        done = self.run_tool(*arguments, code=code, **options)
         for words in says:
             self.assertIn(words, done.stderr)
         self.assertEqual(done.stdout, "")
@@ -90,9 +91,9 @@ class MeshToStpbv(unittest.TestCase):
         self.refused("cube.txt", "-o", "new.stpbv", "--advise", "clearance=0.001", code=1, says=["cube.txt", "no r and R keep both", "acceleration="])
         self.refused("cube.txt", "-o", "new.stpbv", "--advise", "clearance=0.001,period=1", code=1, says=["cube.txt", "shorter period"])
         self.refused("cube.stpbv", "-o", "new.stpbv", "--advise", task, code=1, says=["cube.stpbv", "is an STP-BV already"])
-        for wrong in ("", "clearance", "clearance=x", "clearance=0", "clearance=nan", "speed=-1", "fast=1", "others=square", ","):
+        for wrong in ("", "clearance", "clearance=0.6,", "clearance=0.6,clearance=0.7", "others=flat,others=flat", "clearance=x", "clearance=0", "clearance=nan", "speed=-1", "fast=1", "others=square", ","):
             self.refused("cube.txt", "-o", "new.stpbv", "--advise", wrong, says=["--advise"])
-        for other in (["-r", "1"], ["-R", "10"], ["--parts", "2"]):
+        for other in (["-r", "1"], ["-R", "10"], ["--parts", "2"], ["--excess", "0.1"]):
             self.refused("cube.txt", "-o", "new.stpbv", "--advise", task, *other, says=["--advise"])
 
     def test_one_input_is_written_to_the_named_file(self):
@@ -207,6 +208,7 @@ class MeshToStpbv(unittest.TestCase):
                 (["cube.txt", "-o", "a.stpbv", "--preview", "a.doc"], ["--preview a.doc", ".glb"]),
                 (["cube.txt", "other.txt", "-o", "out", "--preview", "a.obj"], ["--preview a.obj", "one input"]),
                 (["cube.txt", "-o", "a.obj", "--preview", "a.obj"], ["--preview a.obj"]),
+                (["cube.txt", "-o", "a.obj", "--preview", "./a.obj"], ["--preview ./a.obj"]),
                 (["cube.txt", "-o", "a.stpbv", "--preview", "none/a.obj"], ["none/a.obj"]),
                 (["cube.txt", "-o", "a.stpbv", "--nonsense"], ["--nonsense"])]:
             with self.subTest(arguments=arguments):
@@ -221,6 +223,46 @@ class MeshToStpbv(unittest.TestCase):
         write(self.at("a.stpbv"), "old")
         self.run_tool("broken.txt", "-o", "a.stpbv", "--force", code=1)
         self.assertEqual(read(self.at("a.stpbv")), b"old")
+
+    def two_pieces(self, name, flat=False):
+        """A tetrahedron, and 1 m off another one or a flat triangle, whose volume is a spindle."""
+        corners = [(0, 0, 0), (0.1, 0, 0), (0, 0.1, 0), (0, 0, 0.1)]
+        faces = [(1, 3, 2), (1, 2, 4), (2, 3, 4), (1, 4, 3)]
+        text = "".join("v %g %g %g\n" % corner for corner in corners)
+        text += "v 1 0 0\nv 2 0 0\nv 1.5 0.01 0\n" if flat else "".join("v %g %g %g\n" % (x + 1, y, z) for x, y, z in corners)
+        faces += [(5, 6, 7)] if flat else [tuple(v + 4 for v in face) for face in faces]
+        write(self.at(name), text + "".join("f %d %d %d\n" % face for face in faces))
+
+    def test_parts_replace_no_input_and_no_preview_replaces_a_part(self):
+        for name in ("w_0.obj", "w_1.obj", "body.obj"):
+            self.two_pieces(name)
+        os.symlink("w_1.obj", self.at("link.obj"))
+        os.mkdir(self.at("out"))
+        os.symlink("../w_0.obj", self.at("out/body_0.stpbv"))
+        for arguments, says in [
+                (["w_0.obj", "-o", "w.obj"], "w_0.obj: is an input"),
+                (["link.obj", "-o", "w.obj"], "w_1.obj: is an input"),
+                (["body.obj", "w_0.obj", "-o", "out"], "out/body_0.stpbv: is an input"),
+                (["body.obj", "-o", "t.obj", "--preview", "t_0.obj"], "--preview t_0.obj: is the name of a part"),
+                (["body.obj", "-o", "t.obj", "--preview", "./out/../t_1.obj"], "is the name of a part")]:
+            for count in (["--parts", "2"], ["--excess", "0.01"]):
+                with self.subTest(arguments=arguments, count=count):
+                    self.refused(*arguments, "--force", *count, says=[says])
+        self.refused("body.obj", "-o", "t.stpbv", "--preview", "body.obj", "--force", says=["body.obj: is an input", "give --preview"])
+        self.refused("-", "-o", "w_0.obj", "--force", says=["w_0.obj: is an input"], stdin="w_0.obj")
+        self.run_tool("body.obj", "-o", "t.obj", "--parts", "2", "--preview", "t.ply")
+        self.assertTrue(read(self.at("t_0.obj")).startswith(b"stpbv 1"))
+
+    def test_parts_are_written_all_or_none(self):
+        self.two_pieces("two.obj", flat=True)
+        self.refused("two.obj", "-o", "two.txt", "--parts", "2", "--format", "sch", "--preview", "two.ply", code=1,
+                     says=["two_1.txt: ", "one or two vertices"])
+        write(self.at("two_1.stpbv"), "old")
+        self.refused("two.obj", "-o", "two.stpbv", "--parts", "2", code=1, says=["two_1.stpbv: exists", "--force"])
+        os.mkdir(self.at("a_1.stpbv"))
+        self.refused("two.obj", "-o", "a.stpbv", "--parts", "2", "--force", code=1, says=["a_1.stpbv: is a folder"])
+        self.run_tool("two.obj", "-o", "two.stpbv", "--parts", "2", "--force")
+        self.assertTrue(read(self.at("two_1.stpbv")).startswith(b"stpbv 1"))
 
     def test_help_has_every_option_and_examples(self):
         text = self.run_tool("--help").stdout
@@ -264,6 +306,13 @@ class MeshToStpbv(unittest.TestCase):
                 self.assertEqual(done.stdout, volume, done.stderr)
         for command in ('"$T" cube.txt -o - | "$T" - -o - --format sch | "$T" - -o -',):
             self.assertEqual(self.shell(command).stdout, volume)
+        # Behind a descriptor there may be a file: it is the shell's to replace.
+        for number, command in enumerate(('"$T" cube.txt -o - > %s', '"$T" cube.txt -o /dev/stdout > %s', '"$T" cube.txt -o /dev/fd/1 > %s',
+                                          '"$T" cube.txt -q -o /dev/fd/3 3> %s')):
+            with self.subTest(command=command):
+                name = "redirected%d" % number
+                done = self.shell(command % name)
+                self.assertEqual((done.returncode, read(self.at(name)).decode()), (0, volume), done.stderr)
 
     def test_several_volumes_do_not_go_to_standard_output(self):
         self.refused("cube.txt", "other.txt", "-o", "-", says=["-o -", "one volume"])

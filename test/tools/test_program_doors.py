@@ -17,7 +17,7 @@ PROGRAMS = [BIN / name for name in (
 PROGRAMS += [BIN / name for name in ("control_bench", "optimise_bench", "parts_benchmark") if (BIN / name).exists()]  # where Bullet, or IPOPT, is
 SOAKS = [BIN / name for name in (
     "distance_soak", "shape_soak", "deep_soak", "truth_soak", "mirrored_soak", "bound_soak", "parts_soak", "mirrored_limbs", "cloud_report", "fuzz",
-    "geodesic_queries", "answers_fcl_stpbv")]
+    "geodesic_queries", "answers_usual")]
 # Words that some scripts do take: ctest's options, names of files and folders, and what a program of ours refuses itself.
 TAKE = {"nonsense": ("check_format", "demo", "fuzz", "make_packages"), "--no-such-option": ("test",)}
 NO_NUMBERS = ["nan", "-nan", "inf", "-inf", "1e400", "1,5", "1.5x", "x", "", " "]
@@ -27,14 +27,18 @@ def run(program, *arguments, **options):
     return subprocess.run([program, *arguments], capture_output="stdout" not in options, text=True, timeout=60, **options)
 
 
-def numbers_of(program):
-    """(option or None for a place on the command line, how many places come before it), from the help."""
-    places = 0
+def entries_of(program):
+    """(names, kind of value or "" where it takes none) of all options and places on the command line, from the help."""
     for line in run(program, "--help").stdout.splitlines():
         entry = re.match(r"  (\S+)(?: (\S+))?", line)
-        if not entry or line.startswith("   "):
-            continue
-        name, kind = entry[1], entry[2] or ""
+        if entry and not line.startswith("   "):
+            yield entry[1], entry[2] or ""
+
+
+def numbers_of(program):
+    """(option or None for a place on the command line, how many places come before it)."""
+    places = 0
+    for name, kind in entries_of(program):
         if "NUMBER" in kind:
             yield (None, places) if name[0] != "-" else (name.split(",")[0], 0)
         places += name[0] != "-"
@@ -96,6 +100,21 @@ class Programs(unittest.TestCase):
                         # An empty word behind a short option's letter leaves the option without its value.
                         self.refused(run(program, *given), *([option] if option and value.strip() else []))
         self.assertGreater(tried, 100)
+
+    def test_an_empty_value_is_refused_by_every_option_that_takes_one(self):
+        tried = 0
+        for program in PROGRAMS:
+            for names, kind in entries_of(program):
+                option = names.split(",")[-1]
+                if kind in ("", "Needs:", "Excludes:") or option[0] != "-":
+                    continue
+                for given in [option, ""], [option + "=", "1"]:
+                    if given[1] and not option.startswith("--"):
+                        continue  # behind a short option's letter the sign is its value
+                    with self.subTest(program=program.name, given=given):
+                        tried += 1
+                        self.refused(run(program, *given), option + ": the value is empty")
+        self.assertGreater(tried, 150)
 
 
 if __name__ == "__main__":

@@ -3,7 +3,9 @@
     test_robot_doors.py URDF_COLLISION_REPORT FIND_POSTURE
 """
 import base64
+import csv
 import gzip
+import io
 import json
 import os
 import re
@@ -95,6 +97,76 @@ class Doors(unittest.TestCase):
             more = [self.task] if command == [POSTURE] else []
             self.refused(*command, empty, *more, names=["no link has a shape"])
             self.refused(*command, broken, *more, "--skip-invalid", names=["no link has a shape"])
+
+    def test_csv_has_all_columns_for_a_shape_left_out_too(self):
+        text = self.run_tool(REPORT, self.bad, "--skip-invalid", "--samples", "20", "--format", "csv").stdout
+        self.assertEqual({len(row) for row in csv.reader(io.StringIO(text))}, {21})
+        left_out = [row for row in csv.DictReader(io.StringIO(text)) if not row["link1"]]
+        self.assertEqual([(row["link2"], row["checked"]) for row in left_out], [("", "0")] * 2)
+        for row in left_out:
+            self.assertIn("left out: ", row["reason"])
+
+    def test_where_visual_shapes_were_asked_for_they_are_what_is_missing(self):
+        scene = self.put("scene.urdf", robot())
+        seen = self.put("seen.urdf", robot().replace("collision", "visual"))
+        self.refused(REPORT, seen, "--visual", "--obstacles", scene, names=[scene, "leave out --visual"])
+
+    def test_no_output_replaces_a_file_that_is_read(self):
+        mesh = "".join(f"v {x} {y} {z}\n" for x, y, z in ((0, 0, 0), (0.1, 0, 0), (0, 0.1, 0), (0, 0, 0.1))) + "f 1 2 3\nf 1 2 4\n"
+        meshes = [self.put(name, mesh) for name in ("body.obj", "crate.obj")]
+        urdf = self.put("arm.urdf", robot('<mesh filename="body.obj"/>'))
+        scene = self.put("scene.urdf", '<robot name="s">' + link("crate", '<mesh filename="package://pkg/crate.obj"/>') + "</robot>")
+        os.mkdir(os.path.join(self.folder.name, "pkg"))
+        os.rename(meshes[1], os.path.join(self.folder.name, "pkg/crate.obj"))
+        srdf, pose = self.put("arm.srdf", '<robot name="r"/>'), self.put("pose.json", '{"j": 0}')
+        way = self.put("way.csv", "j\n0\n0.1\n")
+        files = ["--srdf", srdf, "--obstacles", scene, "--package-path", self.folder.name]
+        os.symlink(srdf, os.path.join(self.folder.name, "link"))
+        os.link(urdf, os.path.join(self.folder.name, "hard"))
+        read = [urdf, srdf, scene, meshes[0]] + [os.path.join(self.folder.name, name) for name in ("link", "hard", "pkg/../arm.urdf", "pkg/crate.obj")]
+        for output in read + [pose]:
+            self.refused_to_write(output, REPORT, urdf, *files, "--pose", pose)
+        self.refused_to_write(pose, REPORT, urdf, "--neutral", pose)
+        self.refused_to_write(way, REPORT, urdf, "--trajectory", way)
+        for output in read + [self.task]:
+            self.refused_to_write(output, POSTURE, urdf, self.task, *files)
+        with open(urdf, encoding="utf-8") as file:
+            self.refused_to_write(urdf, REPORT, "-", stdin=file)
+        # The SRDF is updated, and only that.
+        self.refused_to_write(urdf, REPORT, urdf, *files, "--format", "srdf")
+        done = self.run_tool(REPORT, urdf, "--srdf", srdf, "--samples", "20", "--format", "srdf", "-o", srdf)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        with open(srdf, encoding="utf-8") as file:
+            self.assertIn("disable_collisions", file.read())
+        # What is no input may be replaced.
+        self.assertEqual(self.run_tool(REPORT, urdf, "--samples", "20", "-o", way).returncode, 0)
+
+    def refused_to_write(self, output, *command, **options):
+        with self.subTest(command=command, output=output):
+            with open(output, "rb") as file:
+                before = file.read()
+            done = self.run_tool(*command, "-o", output, **options)
+            self.assertEqual((done.returncode, done.stdout), (2, ""), done)
+            self.assertIn(output + ": is an input, and writing would replace it", done.stderr)
+            self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+            with open(output, "rb") as file:
+                self.assertEqual(file.read(), before)
+
+    def test_options_that_would_do_nothing_are_refused(self):
+        scene = self.put("scene.urdf", robot())
+        nowhere = os.path.join(self.folder.name, "nowhere")
+        for command in ([REPORT, self.good], [POSTURE, self.good, self.task]):
+            for arguments, says in ((["--obstacles", ""], "--obstacles: the value is empty"),
+                                    (["--obstacles=", self.good], "--obstacles: the value is empty"),
+                                    (["--flat", "obstacles"], "--flat obstacles: there are no obstacles"),
+                                    (["--flat", "a", "--link", "a=0.01,10"], "--flat a: --link gives the same link"),
+                                    (["--link", "a=0.01,10,"], "--link a=0.01,10,: got nothing"),
+                                    (["--advise", "clearance=0.01,clearance=0.02"], "clearance comes twice"),
+                                    (["--advise", "clearance=0.01,"], "got ''"),
+                                    (["--package-path", nowhere], f"--package-path {nowhere}: is no folder")):
+                self.refused(*command, *arguments, names=[says])
+            done = self.run_tool(*command, "--obstacles", scene, "--flat", "obstacles", "--package-path", self.folder.name)
+            self.assertIn(done.returncode, (0, 1), done.stderr)
 
     def test_numbers_that_are_none_or_out_of_range_are_refused(self):
         for option in ("--margin", "-r", "-R", "--prove", "--over-cover"):
