@@ -5,7 +5,9 @@
 #include "fcl_stpbv/robot/mesh_file.h"
 
 #include <assimp/DefaultIOSystem.h>
+#include <assimp/commonMetaData.h>
 #include <assimp/config.h>
+#include <assimp/importerdesc.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
@@ -172,14 +174,31 @@ class Files : public Assimp::DefaultIOSystem {
   std::set<std::string> seen_;
 };
 
+// The ending for the format that assimp has read a file as: that of the file's name, if it knows that one.
+std::string endingOf(const aiScene& scene, const Assimp::Importer& importer) {
+  aiString format;
+  if (scene.mMetaData == nullptr || !scene.mMetaData->Get(AI_METADATA_SOURCE_FORMAT, format)) return "";
+  for (std::size_t i = 0; i < importer.GetImporterCount(); ++i) {
+    const aiImporterDesc& reader = *importer.GetImporterInfo(i);
+    const std::string_view endings = reader.mFileExtensions;
+    if (std::string_view(reader.mName) == format.C_Str())
+      return "." + std::string(endings.substr(0, endings.find(' ')));
+  }
+  return "";
+}
+
 const aiScene& read(Assimp::Importer& importer, const std::string& path) {
+  const std::string text = readText(path), extension = lowerExtension(path);
   if (isPly(path))
-    checkPly(readText(path), path);
+    checkPly(text, path);
   else
-    checkTextMesh(readText(path), lowerExtension(path), path);
+    checkTextMesh(text, extension, path);
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
+  // Without a mesh there is no body: assimp would draw the nodes as one.
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
   const aiScene* scene = importer.ReadFile(path, 0);
   if (scene != nullptr) {
+    if (!importer.IsExtensionSupported(extension)) checkTextMesh(text, endingOf(*scene, importer), path);
     checkFaces(*scene, path);
     scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
   }

@@ -3,19 +3,26 @@
 
 #include <algorithm>
 #include <cctype>
+#include <charconv>
 #include <limits>
 #include <map>
 #include <vector>
 
 #include "fcl_stpbv/error.h"
-#include "fcl_stpbv/io/text_scanner.h"
+#include "fcl_stpbv/robot/mesh_lines.h"
 
 namespace fcl_stpbv::detail {
 namespace {
 
-struct Property {
-  std::size_t countBytes = 0;  // of a list's count, 0 for a single value
+struct PlyType {
   std::size_t bytes = 0;
+  bool isWhole = false;
+};
+
+struct Property {
+  std::string name;
+  PlyType count;  // of a list, without bytes for a single value
+  PlyType value;
 };
 
 struct Element {
@@ -31,60 +38,89 @@ struct Header {
   std::vector<Element> elements;
 };
 
-std::size_t sizeOf(TextScanner& in) {
+PlyType readType(std::string_view word, const MeshLines& lines) {
   static const std::map<std::string_view, std::size_t> kSizes{
       {"char", 1},  {"uchar", 1},   {"int8", 1},   {"uint8", 1},  {"short", 2}, {"ushort", 2},
       {"int16", 2}, {"uint16", 2},  {"int", 4},    {"uint", 4},   {"int32", 4}, {"uint32", 4},
       {"float", 4}, {"float32", 4}, {"double", 8}, {"float64", 8}};
-  const auto found = kSizes.find(in.token("the type of a property"));
-  if (found == kSizes.end()) in.fail("a property of unknown type, expected one of PLY's, such as float");
-  return found->second;
+  const auto found = kSizes.find(word);
+  if (found == kSizes.end()) lines.refuse("a property of unknown type, expected one of PLY's, such as float");
+  return {found->second, word[0] != 'f' && word[0] != 'd'};
 }
 
-Property readProperty(TextScanner& in) {
-  TextScanner ahead = in;
+Encoding readEncoding(std::string_view word, const MeshLines& lines) {
+  if (word == "ascii") return Encoding::text;
+  if (word == "binary_little_endian") return Encoding::littleEndian;
+  if (word == "binary_big_endian") return Encoding::bigEndian;
+  lines.refuse("an unknown encoding, expected ascii, binary_little_endian or binary_big_endian");
+}
+
+Property readProperty(const MeshWords& words, const MeshLines& lines) {
+  const bool isList = words.size() > 4 && words[1] == "list";
+  if (words.size() < 3) lines.damaged("a property must have a type and a name");
   Property property;
-  if (ahead.token("the type of a property") == "list") {
-    in.token("list");
-    property.countBytes = sizeOf(in);
-  }
-  property.bytes = sizeOf(in);
-  in.token("the name of a property");
+  if (isList) property.count = readType(words[2], lines);
+  property.value = readType(words[isList ? 3 : 1], lines);
+  property.name = words[isList ? 4 : 2];
   return property;
 }
 
-Encoding readEncoding(TextScanner& in) {
-  const std::string_view encoding = in.token("the encoding");
-  if (encoding == "ascii") return Encoding::text;
-  if (encoding == "binary_little_endian") return Encoding::littleEndian;
-  if (encoding == "binary_big_endian") return Encoding::bigEndian;
-  in.fail("an unknown encoding, expected ascii, binary_little_endian or binary_big_endian");
+Element readElement(const MeshWords& words, const MeshLines& lines) {
+  long count = 0;
+  if (words.size() < 3 || !readMeshIndex(words[2], count))
+    lines.damaged("an element must have a name and a number, from 0 to 2147483647");
+  // assimp takes an unknown element's name for its count: of digits, it is one without a bound.
+  if (std::isdigit(static_cast<unsigned char>(words[1][0])))
+    lines.refuse("the element '" + std::string(words[1]) +
+                 "', expected a name that is no number, such as vertex");
+  return {std::string(words[1]), static_cast<std::size_t>(count), {}};
 }
 
-Header readHeader(TextScanner& in) {
+// assimp takes the format from the second line, and ends an element at the first line that is none of its
+// properties.
+Header readHeader(MeshLines& lines) {
   Header header;
-  in.keyword("ply");
-  for (;;) {
-    const std::string_view word = in.token("the word 'end_header'");
-    if (word == "end_header") break;
-    if (word == "format") {
-      header.encoding = readEncoding(in);
-    } else if (word == "element") {
-      const std::string name(in.token("the name of an element"));
-      // assimp takes an unknown element's name for its count: of digits, it is one without a bound.
-      if (std::isdigit(static_cast<unsigned char>(name[0])))
-        in.fail("the element '" + name + "', expected a name that is no number, such as vertex");
-      header.elements.push_back({name, static_cast<std::size_t>(in.count("number of elements", 0, 1)), {}});
-    } else if (word == "property") {
-      if (header.elements.empty()) in.fail("a property before the first element");
-      header.elements.back().properties.push_back(readProperty(in));
-    } else if (word != "comment" && word != "obj_info") {
-      in.fail("an unknown word in the header, expected 'element', 'property' or 'end_header'");
-    }
-    in.restOfLine();
+  if (!lines.next() || wordsOf(lines.text()) != MeshWords{"ply"}) lines.refuse("expected the line 'ply'");
+  for (std::string last = "ply";;) {
+    if (!lines.next()) lines.damaged("ends within its header");
+    const MeshWords words = wordsOf(lines.text());
+    const std::string word(words.empty() ? std::string_view() : words[0]);
+    if (word == "end_header") return header;
+    if ((word == "format") != (last == "ply") || (word == "format" && words.size() < 2))
+      lines.refuse("expected the format in the line after 'ply' and nowhere else");
+    if (word == "property" && last != "element" && last != "property")
+      lines.refuse("a property is not read after '" + last +
+                   "', only after its element and the other properties of that; move the line");
+    if (word == "format")
+      header.encoding = readEncoding(words[1], lines);
+    else if (word == "element")
+      header.elements.push_back(readElement(words, lines));
+    else if (word == "property")
+      header.elements.back().properties.push_back(readProperty(words, lines));
+    else if (word != "comment" && word != "obj_info")
+      lines.refuse("got '" + word + "' in the header, expected 'element', 'property' or 'end_header'");
+    last = word;
   }
-  in.restOfLine();
-  return header;
+}
+
+// assimp puts 0 for a coordinate that it does not find, and leaves out the faces whose vertices it does not.
+void checkNames(const Header& header, const std::string& name) {
+  const auto require = [&](const Element& element, bool isList, std::initializer_list<const char*> names) {
+    const auto fits = [&](const Property& property) {
+      return (property.count.bytes != 0) == isList &&
+             std::find(names.begin(), names.end(), property.name) != names.end();
+    };
+    if (element.count > 0 && std::none_of(element.properties.begin(), element.properties.end(), fits))
+      throw Error(name + ": the element '" + element.name + "' has no " + (isList ? "list" : "property") +
+                  " '" + *names.begin() + "'; export the mesh again");
+  };
+  for (const Element& element : header.elements) {
+    if (element.count > 0 && element.properties.empty())
+      throw Error(name + ": the element '" + element.name + "' has no properties; export the mesh again");
+    if (element.name == "vertex")
+      for (const char* coordinate : {"x", "y", "z"}) require(element, false, {coordinate});
+    if (element.name == "face") require(element, true, {"vertex_indices", "vertex_index"});
+  }
 }
 
 class PlyBody {
@@ -93,10 +129,10 @@ class PlyBody {
       : bytes_(bytes), big_(encoding == Encoding::bigEndian), name_(name) {}
 
   void pass(const Element& element) {
-    for (std::size_t i = 0; i < element.count && !element.properties.empty(); ++i) {
+    for (std::size_t i = 0; i < element.count; ++i) {
       for (const Property& property : element.properties) {
-        const std::size_t values = property.countBytes == 0 ? 1 : number(property.countBytes, element);
-        skip(values * property.bytes, element);
+        const std::size_t values = property.count.bytes == 0 ? 1 : number(property.count.bytes, element);
+        skip(values * property.value.bytes, element);
       }
     }
   }
@@ -125,25 +161,81 @@ class PlyBody {
   const std::string& name_;
 };
 
-void passText(TextScanner& in, const Element& element) {
-  const std::string what = "a value of the element '" + element.name + "'";
-  for (std::size_t i = 0; i < element.count && !element.properties.empty(); ++i) {
-    for (const Property& property : element.properties) {
-      const int values = property.countBytes == 0 ? 1 : in.count("number of values in a list", 0, 1);
-      for (int k = 0; k < values; ++k) in.number(what);
+// Whether a word fits assimp's integers, with a sign or without.
+bool isWhole(std::string_view word) {
+  long value = 0;
+  const auto result = std::from_chars(word.data(), word.data() + word.size(), value);
+  return result.ec == std::errc() && result.ptr == word.data() + word.size() && value >= -2147483648L &&
+         value <= 4294967295L;
+}
+
+/// The elements of a PLY as text. assimp takes each line for one of them, whatever it holds.
+class PlyLines {
+ public:
+  explicit PlyLines(MeshLines& lines) : lines_(lines) {}
+
+  void pass(const Element& element) {
+    for (std::size_t i = 0; i < element.count; ++i) {
+      nextLine(element);
+      for (const Property& property : element.properties) {
+        long values = 1;
+        if (property.count.bytes != 0 && !readMeshIndex(word(element), values))
+          refuse(element, "the number of values in a list");
+        for (long k = 0; k < values; ++k) passValue(element, property);
+      }
+      if (at_ < words_.size())
+        lines_.damaged("the line holds more than one element '" + element.name +
+                       "', expected a line for each");
     }
   }
-}
+
+ private:
+  // assimp passes over a single empty line.
+  void nextLine(const Element& element) {
+    bool more = lines_.next();
+    if (more && lines_.text().empty() && lines_.end() == "\n") more = lines_.next();
+    if (!more)
+      lines_.damaged("ends within its elements '" + element.name + "', of which the header promises " +
+                     std::to_string(element.count));
+    words_ = wordsOf(lines_.text());
+    at_ = 0;
+  }
+
+  std::string_view word(const Element& element) {
+    if (at_ == words_.size())
+      lines_.damaged("the line holds less than one element '" + element.name + "', expected a line for each");
+    return words_[at_++];
+  }
+
+  void passValue(const Element& element, const Property& property) {
+    const std::string_view value = word(element);
+    if (property.value.isWhole ? !isWhole(value) : !isMeshNumber(value))
+      refuse(element, property.value.isWhole ? "a whole number of 32 bits, as the header says"
+                                             : std::string("a finite number, ") + kNumberForm);
+  }
+
+  [[noreturn]] void refuse(const Element& element, const std::string& expected) const {
+    lines_.damaged("got '" + std::string(words_[at_ - 1]) + "' for a value of the element '" + element.name +
+                   "', expected " + expected);
+  }
+
+  MeshLines& lines_;
+  MeshWords words_;
+  std::size_t at_ = 0;  // the next of the words
+};
 
 }  // namespace
 
 void checkPly(std::string_view text, const std::string& name) {
-  TextScanner in(text, name);
-  const Header header = readHeader(in);
+  MeshLines lines(text, name);
+  const Header header = readHeader(lines);
+  checkNames(header, name);
   if (header.encoding == Encoding::text) {
-    for (const Element& element : header.elements) passText(in, element);
+    PlyLines body(lines);
+    for (const Element& element : header.elements) body.pass(element);
   } else {
-    PlyBody body(text.substr(in.position()), header.encoding, name);
+    if (lines.end() == "\r") lines.refuse("the line must end by a line feed before values in binary");
+    PlyBody body(lines.rest(), header.encoding, name);
     for (const Element& element : header.elements) body.pass(element);
   }
 }

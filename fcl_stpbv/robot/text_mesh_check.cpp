@@ -1,200 +1,209 @@
-// Checks OBJ, STL, OFF and COLLADA text line by line for damage that assimp reads over.
+// Checks OBJ and STL text line by line for damage that assimp reads over.
 #include "fcl_stpbv/robot/text_mesh_check.h"
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
-#include <cmath>
-#include <vector>
 
-#include "fcl_stpbv/error.h"
+#include "fcl_stpbv/robot/collada_check.h"
+#include "fcl_stpbv/robot/mesh_lines.h"
+#include "fcl_stpbv/robot/off_check.h"
 
 namespace fcl_stpbv::detail {
 namespace {
 
-using Words = std::vector<std::string_view>;
-
-bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f'; }
-
-Words wordsOf(std::string_view line) {
-  Words words;
-  for (std::size_t at = 0; at < line.size();) {
-    if (isBlank(line[at])) {
-      ++at;
-      continue;
-    }
-    const std::size_t start = at;
-    while (at < line.size() && !isBlank(line[at])) ++at;
-    words.push_back(line.substr(start, at - start));
-  }
-  return words;
+std::string inSmallLetters(std::string_view word) {
+  std::string small(word);
+  std::transform(small.begin(), small.end(), small.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return small;
 }
 
-bool isNumber(std::string_view word, double& value) {
-  if (word.size() > 1 && word[0] == '+') word.remove_prefix(1);
-  const auto result = std::from_chars(word.data(), word.data() + word.size(), value);
-  return result.ec == std::errc() && result.ptr == word.data() + word.size() && std::isfinite(value);
+bool beginsWith(std::string_view text, std::string_view start) {
+  return text.substr(0, start.size()) == start;
 }
 
-class Lines {
- public:
-  Lines(std::string_view text, const std::string& name) : text_(text), name_(name) {}
+void checkCoordinates(const MeshWords& words, const MeshLines& lines) {
+  if (words.size() < 4 || !std::all_of(words.begin() + 1, words.end(), isMeshNumber))
+    lines.damaged("a vertex must be three finite numbers, " + std::string(kNumberForm));
+}
 
-  /// The words of the next line that has any, a line ended by a backslash
-  /// going on in the next; none at the end.
-  Words next() {
-    Words words;
-    for (bool goesOn = true; (goesOn || words.empty()) && !text_.empty();) {
-      const std::size_t end = std::min(text_.find('\n'), text_.size());
-      std::string_view line = text_.substr(0, end);
-      text_.remove_prefix(std::min(end + 1, text_.size()));
-      ++line_;
-      while (!line.empty() && isBlank(line.back())) line.remove_suffix(1);
-      goesOn = !line.empty() && line.back() == '\\';
-      if (goesOn) line.remove_suffix(1);
-      for (const std::string_view word : wordsOf(line)) words.push_back(word);
+/// The next line of an OBJ, with those that a backslash joins to it; `joined` holds their text.
+bool nextObjLine(MeshLines& lines, std::string& joined, std::string_view& line) {
+  if (!lines.next()) return false;
+  line = lines.text();
+  if (line.empty() || line.back() != '\\') return true;
+  joined = line;
+  while (!joined.empty() && joined.back() == '\\') {
+    joined.pop_back();
+    const int start = lines.line();
+    const bool byReturn = lines.end() == "\r";
+    if (!lines.next()) {
+      if (!beginsWith(joined, "#")) lines.damaged("ends within a line that a backslash continues");
+      break;
     }
-    return words;
+    // assimp goes on past an empty line, and past all lines that end by a carriage return alone.
+    std::string_view rest = lines.text();
+    const std::string keyword = inSmallLetters(takeWord(rest));
+    if (byReturn || lines.text().empty() || keyword == "v" || keyword == "f")
+      lines.refuse(start, "a line that ends in a backslash takes the next one with it; remove the backslash");
+    joined += lines.text();
   }
-  [[noreturn]] void fail(const std::string& message) const { refuse(line_, message); }
-  [[noreturn]] void refuse(int line, const std::string& message) const {
-    throw Error(name_ + ":" + std::to_string(line) + ": " + message +
-                "; the file is damaged, export it again");
-  }
-  int line() const { return line_; }
+  line = joined;
+  return true;
+}
 
-  /// At least three finite numbers after the first word, and nothing but numbers.
-  void checkPoint(const Words& words) const {
-    double value = 0;
-    const bool good =
-        words.size() >= 4 && std::all_of(words.begin() + 1, words.end(),
-                                         [&](std::string_view word) { return isNumber(word, value); });
-    if (!good) fail("a vertex must be three finite numbers, with a point for decimals");
-  }
+bool looksLikeNumber(std::string_view word) {
+  const std::string start = inSmallLetters(word.substr(0, 3));
+  return std::string_view("0123456789+-").find(word[0]) != std::string_view::npos || start == "nan" ||
+         start == "inf";
+}
 
- private:
-  std::string_view text_;
-  const std::string& name_;
-  int line_ = 0;
-};
+// assimp counts the numbers of a vertex to the line's end, and passes over one with another count.
+void checkObjVertex(std::string_view line, const MeshLines& lines) {
+  const std::size_t end = std::min(line.find('#'), line.size());
+  const MeshWords words = wordsOf(line.substr(0, end));
+  checkCoordinates(words, lines);
+  const std::size_t numbers = words.size() - 1;
+  if (numbers == 5 || numbers > 6)
+    lines.refuse("a vertex of " + std::to_string(numbers) +
+                 " numbers is not read, only one of 3, of 4 with a weight and of 6 with a colour");
+  if (std::any_of(words.begin() + 1, words.end(), [](std::string_view w) { return !looksLikeNumber(w); }))
+    lines.refuse("a number that begins with its point is not read; write a 0 before that");
+  const std::string_view comment = line.substr(end);
+  const MeshWords remark = wordsOf(comment.substr(std::min(comment.find_first_of(" \t"), comment.size())));
+  if (std::any_of(remark.begin(), remark.end(), looksLikeNumber))
+    lines.refuse(
+        "a number in the comment is taken for one of the vertex; give the comment a line of its own");
+}
 
 // The part of "7/1/3" that names a vertex.
-long vertexOf(std::string_view word, const Lines& lines) {
+long vertexOf(std::string_view word, const MeshLines& lines) {
   const std::string_view first = word.substr(0, word.find('/'));
   long index = 0;
   const auto result = std::from_chars(first.data(), first.data() + first.size(), index);
   if (result.ec != std::errc() || result.ptr != first.data() + first.size() || index == 0)
-    lines.fail("a face names its vertices by whole numbers other than 0");
+    lines.damaged("a face names its vertices by whole numbers other than 0");
   return index;
 }
 
 void checkObj(std::string_view text, const std::string& name) {
-  Lines lines(text, name);
+  MeshLines lines(text, name);
+  std::string joined;
+  std::string_view line;
   long vertices = 0, furthest = 0;
   int where = 0;
-  for (Words words = lines.next(); !words.empty(); words = lines.next()) {
-    if (words[0] == "v") {
-      lines.checkPoint(words);
+  while (nextObjLine(lines, joined, line)) {
+    const MeshWords words = wordsOf(line);
+    const std::string_view keyword = words.empty() ? std::string_view() : words[0];
+    const bool vertex = keyword == "v", face = keyword == "f";
+    if (keyword == "V" || keyword == "F")
+      lines.refuse("a line that begins with '" + std::string(keyword) + "' is not read; write it small");
+    if ((vertex || face) && line[0] != keyword[0])
+      lines.refuse("a line with blanks before '" + std::string(keyword) + "' is not read; remove them");
+    if ((face || keyword == "l" || keyword == "p") && line.find('#') != std::string_view::npos)
+      lines.refuse("a comment after vertices is taken for one of them; give it a line of its own");
+    if (vertex) {
+      checkObjVertex(line, lines);
       ++vertices;
-    } else if (words[0] == "f") {
-      if (words.size() < 2) lines.fail("a face without vertices");
+    } else if (face) {
+      if (words.size() < 2) lines.damaged("a face without vertices");
       for (std::size_t i = 1; i < words.size(); ++i) {
         const long index = vertexOf(words[i], lines);
-        if (index < -vertices) lines.fail("a face names a vertex that does not exist");
+        if (index < -vertices) lines.damaged("a face names a vertex that does not exist");
         if (index <= furthest) continue;
         furthest = index;
         where = lines.line();
       }
     }
   }
-  if (furthest > vertices) lines.refuse(where, "a face names a vertex that does not exist");
+  if (furthest > vertices) lines.damaged(where, "a face names a vertex that does not exist");
 }
 
 // A binary STL is as long as its count of triangles says, and may begin with "solid" all the same.
 bool isBinaryStl(std::string_view text) {
   constexpr std::size_t kHead = 84, kTriangle = 50;
+  const std::size_t start = std::min(text.find_first_not_of(" \t"), text.size());
+  if (!beginsWith(text.substr(start), "solid")) return true;
   if (text.size() < kHead) return false;
   std::size_t count = 0;
   for (std::size_t i = 0; i < 4; ++i)
     count |= static_cast<std::size_t>(static_cast<unsigned char>(text[80 + i])) << 8 * i;
-  return text.size() == kHead + kTriangle * count || text.substr(0, 5) != "solid";
+  return text.size() == kHead + kTriangle * count;
 }
 
-void checkStl(std::string_view text, const std::string& name) {
-  if (isBinaryStl(text)) return;
-  Lines lines(text, name);
-  int corners = 0;
-  bool inFacet = false;
-  for (Words words = lines.next(); !words.empty(); words = lines.next()) {
-    if (words[0] == "vertex") {
-      lines.checkPoint(words);
-      ++corners;
-    } else if (words[0] == "facet") {
-      if (inFacet) lines.fail("a facet begins within another one");
-      inFacet = true;
-      corners = 0;
-    } else if (words[0] == "endfacet") {
-      if (corners != 3) lines.fail("a facet has " + std::to_string(corners) + " vertices, expected 3");
-      inFacet = false;
+/// Follows the solids of an STL and their facets. After an "endsolid" assimp reads on only if "solid" is
+/// next.
+class StlLines {
+ public:
+  StlLines(std::string_view text, const std::string& name) : lines_(text, name) {}
+
+  void check() {
+    while (lines_.next()) {
+      const MeshWords words = wordsOf(lines_.text());
+      if (words.empty()) continue;
+      const std::string keyword = inSmallLetters(words[0]);
+      if (keyword != words[0] && (keyword == "facet" || keyword == "vertex"))
+        lines_.refuse("'" + std::string(words[0]) + "' is not read; write it in small letters");
+      if (inSolid_)
+        within(keyword, words);
+      else
+        between(keyword, words);
     }
+    if (inFacet_) lines_.damaged("ends within a facet");
   }
-  if (inFacet) lines.fail("ends within a facet");
-}
 
-void checkOff(std::string_view text, const std::string& name) {
-  Lines lines(text, name);
-  for (Words words = lines.next(); !words.empty(); words = lines.next()) {
-    for (const std::string_view word : words) {
-      if (word[0] == '#') break;
-      if (word.find(',') != std::string_view::npos)
-        lines.fail("a number with a comma, expected a decimal point");
+ private:
+  void between(const std::string& keyword, const MeshWords& words) {
+    if (beginsWith(keyword, "solid") && stray_ == 0)
+      inSolid_ = !endsWithin(words, 2);
+    else if (stray_ == 0)
+      stray_ = lines_.line();
+    if (keyword == "facet" || keyword == "vertex")
+      lines_.damaged(stray_,
+                     "a line in no solid and none that begins one, so that nothing is read from here on");
+  }
+
+  void within(const std::string& keyword, const MeshWords& words) {
+    const auto begins = [](std::string_view word) { return word == "facet" || word == "vertex"; };
+    if (!beginsWith(words[0], "endsolid") && std::any_of(words.begin() + 1, words.end(), begins))
+      lines_.damaged("a facet or a vertex must begin its line");
+    if (keyword == "vertex") {
+      if (!inFacet_) lines_.damaged("a vertex outside of a facet");
+      if (words.size() > 4) lines_.damaged("a vertex must be three numbers");
+      checkCoordinates(words, lines_);
+      ++corners_;
+    } else if (keyword == "facet") {
+      if (inFacet_) lines_.damaged("a facet begins within another one");
+      inFacet_ = true;
+      corners_ = 0;
+    } else if (keyword == "endfacet") {
+      if (corners_ != 3) lines_.damaged("a facet has " + std::to_string(corners_) + " vertices, expected 3");
+      inFacet_ = false;
     }
+    if (!endsWithin(words, 0)) return;
+    if (inFacet_) lines_.damaged("a solid ends within a facet");
+    inSolid_ = false;
   }
-}
 
-int lineOf(std::string_view text, std::size_t at) {
-  return 1 + static_cast<int>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
-}
+  // The word may also follow others, but not as the name of a solid.
+  static bool endsWithin(const MeshWords& words, std::size_t first) {
+    return words.size() > first &&
+           std::any_of(words.begin() + static_cast<std::ptrdiff_t>(first), words.end(),
+                       [](std::string_view word) { return beginsWith(word, "endsolid"); });
+  }
 
-// The value of the attribute `meter` in a tag, or 1, as COLLADA has it; "centimeter" as a name is none.
-double unitIn(std::string_view tag) {
-  const auto blank = [](char c) { return isBlank(c) || c == '\n'; };
-  std::size_t at = tag.find("meter");
-  while (at != std::string_view::npos &&
-         (!blank(tag[at - 1]) || tag.find_first_not_of(" \t\r\n", at + 5) != tag.find('=', at)))
-    at = tag.find("meter", at + 1);
-  if (at == std::string_view::npos) return 1;
-  const std::size_t open = tag.find_first_of("\"'", at);
-  const std::size_t close = open == std::string_view::npos ? open : tag.find(tag[open], open + 1);
-  double value = 0;
-  if (close == std::string_view::npos || !isNumber(tag.substr(open + 1, close - open - 1), value)) return 0;
-  return value;
-}
-
-void checkCollada(std::string_view text, const std::string& name) {
-  const Lines lines(text, name);
-  for (std::size_t at = text.find("<unit"); at != std::string_view::npos; at = text.find("<unit", at + 1)) {
-    const std::string_view tag = text.substr(at, std::min(text.find('>', at), text.size()) - at);
-    if (!(unitIn(tag) > 0)) lines.refuse(lineOf(text, at), "<unit> must have a length in metres above 0");
-  }
-  for (std::size_t at = text.find("<p>"); at != std::string_view::npos; at = text.find("<p>", at + 1)) {
-    const std::size_t minus = text.substr(0, std::min(text.find('<', at + 1), text.size())).find('-', at);
-    if (minus != std::string_view::npos) lines.refuse(lineOf(text, minus), "an index below 0");
-  }
-  for (std::size_t at = text.find("<float_array"); at != std::string_view::npos;
-       at = text.find("<float_array", at + 1)) {
-    const std::size_t start = std::min(text.find('>', at), text.size());
-    const std::string_view content = text.substr(start, std::min(text.find('<', start), text.size()) - start);
-    const std::size_t comma = content.find(',');
-    if (comma != std::string_view::npos)
-      lines.refuse(lineOf(text, start + comma), "a number with a comma, expected a decimal point");
-  }
-}
+  MeshLines lines_;
+  bool inSolid_ = false, inFacet_ = false;
+  int corners_ = 0;
+  int stray_ = 0;  // the first line that ended the reading
+};
 
 }  // namespace
 
 void checkTextMesh(std::string_view text, const std::string& extension, const std::string& name) {
   if (extension == ".obj") checkObj(text, name);
-  if (extension == ".stl") checkStl(text, name);
+  if (extension == ".stl" && !isBinaryStl(text)) StlLines(text, name).check();
   if (extension == ".off") checkOff(text, name);
   if (extension == ".dae") checkCollada(text, name);
 }

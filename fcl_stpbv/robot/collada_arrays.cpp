@@ -1,0 +1,258 @@
+// Checks the sources of COLLADA's geometries and the indices into them, in the order in which assimp reads
+// them: an id means the last one before its use.
+#include "fcl_stpbv/robot/collada_arrays.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <vector>
+
+#include "fcl_stpbv/error.h"
+#include "fcl_stpbv/robot/mesh_lines.h"
+#include "fcl_stpbv/robot/xml_text.h"
+
+namespace fcl_stpbv::detail {
+namespace {
+
+using tinyxml2::XMLElement;
+
+constexpr const char* kIndex = "a whole number from 0";
+
+// The uses of a source that assimp knows. It passes over others.
+const std::set<std::string_view> kSemantics{"POSITION", "NORMAL",     "TEXCOORD", "COLOR",
+                                            "TANGENT",  "TEXTANGENT", "BINORMAL", "TEXBINORMAL"};
+const std::set<std::string_view> kPrimitives{"triangles", "lines",   "linestrips", "polygons",
+                                             "polylist",  "trifans", "tristrips"};
+
+// The line of a place in a text, whose own line is that of its first word.
+int lineWithin(const tinyxml2::XMLText& text, std::size_t at) {
+  const std::string_view value = text.Value();
+  const std::size_t start = std::min(value.find_first_not_of(" \t\r\n"), at);
+  return text.GetLineNum() +
+         static_cast<int>(std::count(value.begin() + static_cast<std::ptrdiff_t>(start),
+                                     value.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
+}
+
+std::size_t countWords(const XMLElement& element, bool (*good)(std::string_view), const std::string& expected,
+                       const std::string& name) {
+  const tinyxml2::XMLText* text = nullptr;
+  for (const tinyxml2::XMLNode* node = element.FirstChild(); node != nullptr; node = node->NextSibling()) {
+    if (node->ToText() == nullptr) continue;
+    if (text != nullptr)
+      throw Error(xmlPlace(element, name) + "<" + element.Name() +
+                  "> is read only up to the comment or element amid its text; remove that");
+    text = node->ToText();
+  }
+  if (text == nullptr) return 0;
+  std::size_t count = 0;
+  std::string_view rest = text->Value();
+  for (std::string_view word = takeWord(rest); !word.empty(); word = takeWord(rest), ++count) {
+    if (good(word)) continue;
+    const std::size_t at = static_cast<std::size_t>(word.data() - text->Value());
+    throw Error(name + ":" + std::to_string(lineWithin(*text, at)) + ": got '" + std::string(word) +
+                "' in <" + element.Name() + ">, expected " + expected +
+                "; the file is damaged, export it again");
+  }
+  return count;
+}
+
+struct Accessor {
+  const XMLElement* element = nullptr;
+  std::string array;
+  std::size_t count = 0, offset = 0, stride = 1;
+  std::size_t width = 1;  // values that one item reaches over
+  bool hasPoint = false;  // values for x, y and z
+};
+
+std::size_t numberOf(const XMLElement& element, const char* attribute, std::size_t missing,
+                     const std::string& name) {
+  const char* text = element.Attribute(attribute);
+  if (text == nullptr) return missing;
+  long value = 0;
+  std::string_view rest(text);
+  if (!readMeshIndex(takeWord(rest), value) || !takeWord(rest).empty())
+    refuseCollada(element, std::string("has ") + attribute + "=\"" + text + "\", expected " + kIndex, name);
+  return static_cast<std::size_t>(value);
+}
+
+std::string idOf(const XMLElement& element) {
+  const char* id = element.Attribute("id");
+  return id == nullptr ? "" : id;
+}
+
+std::vector<const XMLElement*> allBelow(const XMLElement& top) {
+  std::vector<const XMLElement*> all;
+  for (const XMLElement* e = top.FirstChildElement(); e != nullptr; e = e->NextSiblingElement()) {
+    all.push_back(e);
+    const std::vector<const XMLElement*> below = allBelow(*e);
+    all.insert(all.end(), below.begin(), below.end());
+  }
+  return all;
+}
+
+class ColladaArrays {
+ public:
+  explicit ColladaArrays(const std::string& name) : name_(name) {}
+
+  void checkMesh(const XMLElement& mesh) {
+    std::vector<const XMLElement*> vertexInputs;
+    for (const XMLElement* element : allBelow(mesh)) {
+      const std::string_view kind = element->Name();
+      if (kind == "source") {
+        readSource(*element);
+      } else if (kind == "vertices") {
+        for (const XMLElement* e = element->FirstChildElement("input"); e; e = e->NextSiblingElement("input"))
+          vertexInputs.push_back(e);
+      } else if (kPrimitives.count(kind) != 0) {
+        checkPrimitives(*element, vertexInputs);
+      }
+    }
+  }
+
+ private:
+  void readSource(const XMLElement& source) {
+    for (const XMLElement* element : allBelow(source)) {
+      const std::string_view kind = element->Name();
+      if (kind == "float_array") arrays_[idOf(*element)] = element;
+      if (kind != "technique_common") continue;
+      if (const XMLElement* accessor = element->FirstChildElement("accessor"))
+        accessors_[idOf(source)] = readAccessor(*accessor);
+    }
+  }
+
+  Accessor readAccessor(const XMLElement& element) {
+    Accessor accessor;
+    accessor.element = &element;
+    accessor.array = colladaTarget(element, "source", name_);
+    accessor.count = numberOf(element, "count", 0, name_);
+    accessor.offset = numberOf(element, "offset", 0, name_);
+    accessor.stride = numberOf(element, "stride", 1, name_);
+    // assimp tells coordinates, colours and texture coordinates by these names, and takes the first value for
+    // those without one.
+    static const std::map<std::string_view, std::size_t> kParts{{"X", 0}, {"R", 0}, {"S", 0}, {"U", 0},
+                                                                {"Y", 1}, {"G", 1}, {"T", 1}, {"V", 1},
+                                                                {"Z", 2}, {"B", 2}, {"P", 2}, {"A", 3}};
+    std::size_t places[4] = {0, 0, 0, 0}, parameters = 0;
+    std::string_view names[4];
+    for (const XMLElement* param : allBelow(element)) {
+      if (std::string_view(param->Name()) != "param") continue;
+      const char* name = param->Attribute("name");
+      const auto part = name == nullptr ? kParts.end() : kParts.find(name);
+      if (part != kParts.end()) {
+        places[part->second] = parameters;
+        names[part->second] = part->first;
+      }
+      ++parameters;
+    }
+    accessor.width = 1 + *std::max_element(places, places + 4);
+    accessor.hasPoint =
+        names[0] == "X" && names[1] == "Y" && names[2] == "Z" && parameters <= accessor.stride;
+    return accessor;
+  }
+
+  void checkPrimitives(const XMLElement& primitives, const std::vector<const XMLElement*>& vertexInputs) {
+    std::vector<const XMLElement*> inputs;
+    std::size_t indices = 0, counts = 0;
+    for (const XMLElement* element : allBelow(primitives)) {
+      const std::string_view kind = element->Name();
+      if (kind == "input") inputs.push_back(element);
+      if (kind == "p") indices += countWords(*element, isMeshIndex, kIndex, name_);
+      if (kind == "vcount") counts += countWords(*element, isMeshIndex, kIndex, name_);
+    }
+    if (indices == 0) return;
+    if (numberOf(primitives, "count", 0, name_) == 0)
+      refuseCollada(primitives, "holds indices, but its count is 0", name_);
+    if (counts == 0 && std::string_view(primitives.Name()) == "polylist")
+      refuseCollada(primitives, "holds indices, but no <vcount> says of how many each polygon is made",
+                    name_);
+    const auto has = [](const char* semantic) {
+      return
+          [semantic](const XMLElement* input) { return input->Attribute("semantic", semantic) != nullptr; };
+    };
+    if (std::none_of(inputs.begin(), inputs.end(), has("VERTEX")))
+      refuseCollada(primitives, "holds indices, but no <input> with the semantic VERTEX", name_);
+    inputs.insert(inputs.end(), vertexInputs.begin(), vertexInputs.end());
+    if (std::count_if(inputs.begin(), inputs.end(), has("POSITION")) != 1)
+      refuseCollada(primitives, "must have one <input> with the semantic POSITION, by way of its <vertices>",
+                    name_);
+    for (const XMLElement* input : inputs) checkInput(*input);
+  }
+
+  void checkInput(const XMLElement& input) {
+    numberOf(input, "offset", 0, name_);
+    const char* semantic = input.Attribute("semantic");
+    if (semantic == nullptr || kSemantics.count(semantic) == 0) return;
+    const std::string source = colladaTarget(input, "source", name_);
+    const auto found = accessors_.find(source);
+    if (found == accessors_.end())
+      refuseCollada(input, "names the source '#" + source + "', which does not exist before it", name_);
+    const Accessor& accessor = found->second;
+    const bool positions = std::string_view(semantic) == "POSITION";
+    if (checked_.insert({accessor.element, positions}).second) checkAccessor(accessor, positions);
+  }
+
+  void checkAccessor(const Accessor& accessor, bool positions) {
+    const auto found = arrays_.find(accessor.array);
+    if (found == arrays_.end())
+      refuseCollada(*accessor.element,
+                    "names the <float_array> '#" + accessor.array + "', which does not exist before it",
+                    name_);
+    const XMLElement& array = *found->second;
+    const std::size_t held = numberOf(array, "count", 0, name_);
+    const std::size_t last =
+        accessor.count == 0 ? 0 : accessor.offset + (accessor.count - 1) * accessor.stride + accessor.width;
+    if (last > held)
+      refuseCollada(*accessor.element,
+                    "takes " + std::to_string(last) + " numbers from '#" + accessor.array + "', which has " +
+                        std::to_string(held),
+                    name_);
+    if (!positions) return;
+    if (!accessor.hasPoint)
+      refuseCollada(*accessor.element,
+                    "must have a stride of at least 3 and parameters named X, Y and Z, as positions have",
+                    name_);
+    const std::size_t words = countNumbers(array, name_);
+    if (words != held)
+      refuseCollada(array,
+                    "holds " + std::to_string(words) + " numbers, but its count is " + std::to_string(held),
+                    name_);
+  }
+
+  const std::string& name_;
+  std::map<std::string, const XMLElement*> arrays_;
+  std::map<std::string, Accessor> accessors_;
+  std::set<std::pair<const XMLElement*, bool>> checked_;
+};
+
+}  // namespace
+
+void refuseCollada(const XMLElement& element, const std::string& message, const std::string& name) {
+  throw Error(xmlPlace(element, name) + "<" + element.Name() + "> " + message +
+              "; the file is damaged, export it again");
+}
+
+std::string colladaTarget(const XMLElement& element, const char* attribute, const std::string& name) {
+  const char* target = element.Attribute(attribute);
+  if (target == nullptr || *target != '#') {
+    throw Error(xmlPlace(element, name) + "<" + element.Name() + "> must have " + attribute +
+                "=\"#...\", an element of this file; other files are not read");
+  }
+  return target + 1;
+}
+
+std::size_t countNumbers(const XMLElement& element, const std::string& name) {
+  return countWords(element, isMeshNumber, std::string("a finite number, ") + kNumberForm, name);
+}
+
+void checkColladaGeometries(const XMLElement& root, const std::string& name) {
+  ColladaArrays arrays(name);
+  for (const XMLElement* library = root.FirstChildElement("library_geometries"); library != nullptr;
+       library = library->NextSiblingElement("library_geometries"))
+    for (const XMLElement* geometry = library->FirstChildElement("geometry"); geometry != nullptr;
+         geometry = geometry->NextSiblingElement("geometry"))
+      for (const XMLElement* mesh = geometry->FirstChildElement("mesh"); mesh != nullptr;
+           mesh = mesh->NextSiblingElement("mesh"))
+        arrays.checkMesh(*mesh);
+}
+
+}  // namespace fcl_stpbv::detail

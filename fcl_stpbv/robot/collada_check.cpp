@@ -1,0 +1,178 @@
+// Checks a COLLADA document for what assimp passes over: another unit, shapes and nodes that do not exist,
+// transforms that it does not know.
+#include "fcl_stpbv/robot/collada_check.h"
+
+#include <tinyxml2.h>
+
+#include <map>
+#include <set>
+
+#include "fcl_stpbv/error.h"
+#include "fcl_stpbv/robot/collada_arrays.h"
+#include "fcl_stpbv/robot/mesh_lines.h"
+#include "fcl_stpbv/robot/xml_text.h"
+
+namespace fcl_stpbv::detail {
+namespace {
+
+using tinyxml2::XMLElement;
+
+double metresOf(const XMLElement& unit, const std::string& name) {
+  const char* metres = unit.Attribute("meter");
+  double value = 1;
+  if (metres != nullptr && !(readMeshNumber(metres, value) && value > 0))
+    throw Error(xmlPlace(unit, name) + "<unit> has meter=\"" + metres +
+                "\", expected a length in metres above 0, with a point for decimals");
+  return value;
+}
+
+// assimp applies the document's own unit to all of it.
+class OneUnit : public tinyxml2::XMLVisitor {
+ public:
+  OneUnit(const XMLElement& root, const std::string& name) : root_(root), name_(name) {}
+
+  bool VisitEnter(const XMLElement& element, const tinyxml2::XMLAttribute* /*first*/) override {
+    const XMLElement* asset = element.Parent()->ToElement();
+    if (std::string_view(element.Name()) != "unit" || asset == nullptr ||
+        std::string_view(asset->Name()) != "asset")
+      return true;
+    const double metres = metresOf(element, name_);
+    const bool own = asset->Parent() == &root_;
+    if (own && !isGiven_)
+      unit_ = metres;
+    else if (metres != unit_)
+      throw Error(xmlPlace(element, name_) +
+                  "<unit> differs from that of the document, which is applied to all "
+                  "of it; export with one unit");
+    isGiven_ = true;
+    return true;
+  }
+
+ private:
+  const XMLElement& root_;
+  const std::string& name_;
+  double unit_ = 1;
+  bool isGiven_ = false;
+};
+
+// The shapes that the nodes of a document place, and the transforms to there.
+class ColladaNodes {
+ public:
+  ColladaNodes(const XMLElement& root, const std::string& name) : root_(root), name_(name) {}
+
+  void check() {
+    forEach("library_geometries", "geometry", [this](const XMLElement& e) { addGeometry(e); });
+    forEach("library_controllers", "controller",
+            [this](const XMLElement& e) { shapes_.emplace(attribute(e, "id"), &e); });
+    forEach("library_nodes", "node", [this](const XMLElement& e) { nodes_.insert(attribute(e, "id")); });
+    forEach("library_visual_scenes", "visual_scene", [this](const XMLElement& e) { addScene(e); });
+    forEach("library_nodes", "node", [this](const XMLElement& e) { checkNode(e); });
+    forEach("library_visual_scenes", "visual_scene", [this](const XMLElement& e) { checkNode(e); });
+  }
+
+ private:
+  template <class Visit>
+  void forEach(const char* library, const char* item, Visit visit) const {
+    for (const XMLElement* l = root_.FirstChildElement(library); l; l = l->NextSiblingElement(library))
+      for (const XMLElement* e = l->FirstChildElement(item); e; e = e->NextSiblingElement(item)) visit(*e);
+  }
+
+  static std::string attribute(const XMLElement& element, const char* attribute) {
+    const char* value = element.Attribute(attribute);
+    return value == nullptr ? "" : value;
+  }
+
+  void addGeometry(const XMLElement& geometry) {
+    const std::string id = attribute(geometry, "id");
+    if (!id.empty() && !shapes_.emplace(id, &geometry).second)
+      refuseCollada(geometry, "has an id that another one has", name_);
+  }
+
+  // assimp finds the nodes below the scene that is shown by their names as well.
+  void addScene(const XMLElement& scene) {
+    const XMLElement* shown = root_.FirstChildElement("scene");
+    if (shown != nullptr) shown = shown->FirstChildElement("instance_visual_scene");
+    nodes_.insert(attribute(scene, "id"));
+    if (shown != nullptr && attribute(*shown, "url") == "#" + attribute(scene, "id")) addNodes(scene);
+  }
+
+  void addNodes(const XMLElement& above) {
+    for (const XMLElement* e = above.FirstChildElement("node"); e != nullptr;
+         e = e->NextSiblingElement("node")) {
+      nodes_.insert(attribute(*e, "id"));
+      nodes_.insert(attribute(*e, "name"));
+      addNodes(*e);
+    }
+  }
+
+  void checkNode(const XMLElement& node) const {
+    static const std::map<std::string_view, std::size_t> kTransforms{
+        {"lookat", 9}, {"matrix", 16}, {"rotate", 4}, {"scale", 3}, {"translate", 3}};
+    for (const XMLElement* e = node.FirstChildElement(); e != nullptr; e = e->NextSiblingElement()) {
+      const std::string_view kind = e->Name();
+      const auto transform = kTransforms.find(kind);
+      if (transform != kTransforms.end()) {
+        const std::size_t numbers = countNumbers(*e, name_);
+        if (numbers != transform->second)
+          refuseCollada(
+              *e,
+              "has " + std::to_string(numbers) + " numbers, expected " + std::to_string(transform->second),
+              name_);
+      } else if (kind == "skew") {
+        throw Error(xmlPlace(*e, name_) + "<skew> is not read; export the node with a <matrix>");
+      } else if (kind == "node") {
+        checkNode(*e);
+      } else if (kind == "instance_node") {
+        const std::string target = colladaTarget(*e, "url", name_);
+        if (nodes_.count(target) == 0)
+          refuseCollada(*e,
+                        "names the node '#" + target +
+                            "', which is neither in the scene nor at the top of a <library_nodes>",
+                        name_);
+      } else if (kind == "instance_geometry" || kind == "instance_controller") {
+        checkShape(*e);
+      }
+    }
+  }
+
+  void checkShape(const XMLElement& instance) const {
+    const std::string target = colladaTarget(instance, "url", name_);
+    const auto shape = shapes_.find(target);
+    if (shape == shapes_.end())
+      refuseCollada(instance, "names the geometry '#" + target + "', which does not exist", name_);
+    for (const char* kind : {"convex_mesh", "brep"}) {
+      if (const XMLElement* unread = shape->second->FirstChildElement(kind))
+        throw Error(xmlPlace(*unread, name_) + "<" + kind + "> is not read; export the geometry as a <mesh>");
+    }
+  }
+
+  const XMLElement& root_;
+  const std::string& name_;
+  std::map<std::string, const XMLElement*> shapes_;  // geometries and controllers
+  std::set<std::string> nodes_;                      // those that an <instance_node> may name
+};
+
+}  // namespace
+
+void checkCollada(std::string_view text, const std::string& name) {
+  tinyxml2::XMLDocument document;
+  if (document.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {
+    const bool deep = document.ErrorID() == tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED;
+    throw Error(name + ":" + std::to_string(document.ErrorLineNum()) + ": " +
+                (deep ? "elements nested more than " + std::to_string(TINYXML2_MAX_ELEMENT_DEPTH) +
+                            " deep are not read"
+                      : std::string("not XML (") + tinyxml2::XMLDocument::ErrorIDToName(document.ErrorID()) +
+                            "); give a whole file of COLLADA"));
+  }
+  const XMLElement* root = document.RootElement();
+  if (root == nullptr) return;  // assimp says so
+  if (const XMLElement* second = root->NextSiblingElement())
+    throw Error(xmlPlace(*second, name) + "not XML (a second root, <" + second->Name() +
+                ">); give a whole file of COLLADA");
+  OneUnit units(*root, name);
+  root->Accept(&units);
+  checkColladaGeometries(*root, name);
+  ColladaNodes(*root, name).check();
+}
+
+}  // namespace fcl_stpbv::detail

@@ -1,0 +1,80 @@
+// Splits a mesh as text into lines and words, and tells the numbers that assimp reads right.
+#include "fcl_stpbv/robot/mesh_lines.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "fcl_stpbv/error.h"
+
+namespace fcl_stpbv::detail {
+namespace {
+
+constexpr std::size_t kMostDigits = 18;
+constexpr long kMostIndex = 2147483647;
+
+bool isBreak(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
+
+}  // namespace
+
+std::string_view takeWord(std::string_view& text) {
+  std::size_t start = 0;
+  while (start < text.size() && isBreak(text[start])) ++start;
+  std::size_t end = start;
+  while (end < text.size() && !isBreak(text[end])) ++end;
+  const std::string_view word = text.substr(start, end - start);
+  text.remove_prefix(end);
+  return word;
+}
+
+MeshWords wordsOf(std::string_view text) {
+  MeshWords words;
+  for (std::string_view word = takeWord(text); !word.empty(); word = takeWord(text)) words.push_back(word);
+  return words;
+}
+
+bool readMeshNumber(std::string_view word, double& value) {
+  // from_chars takes no leading plus sign, other writers may print one.
+  if (word.size() > 1 && word[0] == '+') word.remove_prefix(1);
+  const auto result = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (result.ec != std::errc() || result.ptr != word.data() + word.size() || !std::isfinite(value))
+    return false;
+  word.remove_prefix(std::min(word.find_first_not_of("-0"), word.size()));
+  return std::min(word.find_first_not_of("0123456789"), word.size()) <= kMostDigits;
+}
+
+bool isMeshNumber(std::string_view word) {
+  double value = 0;
+  return readMeshNumber(word, value);
+}
+
+bool readMeshIndex(std::string_view word, long& value) {
+  const auto result = std::from_chars(word.data(), word.data() + word.size(), value);
+  return result.ec == std::errc() && result.ptr == word.data() + word.size() && value >= 0 &&
+         value <= kMostIndex;
+}
+
+bool isMeshIndex(std::string_view word) {
+  long value = 0;
+  return readMeshIndex(word, value);
+}
+
+bool MeshLines::next() {
+  if (rest_.empty()) return false;
+  const std::size_t length = std::min(rest_.find_first_of("\r\n"), rest_.size());
+  text_ = rest_.substr(0, length);
+  end_ = rest_.substr(length, rest_.substr(length, 2) == "\r\n" ? 2 : 1);
+  rest_.remove_prefix(length + end_.size());
+  ++line_;
+  return true;
+}
+
+void MeshLines::refuse(int line, const std::string& message) const {
+  throw Error(name_ + ":" + std::to_string(line) + ": " + message);
+}
+
+void MeshLines::damaged(int line, const std::string& message) const {
+  refuse(line, message + "; the file is damaged, export it again");
+}
+
+}  // namespace fcl_stpbv::detail

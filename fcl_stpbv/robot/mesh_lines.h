@@ -1,0 +1,59 @@
+// A mesh as text: its lines, and the words and numbers in them as assimp reads them.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace fcl_stpbv::detail {
+
+using MeshWords = std::vector<std::string_view>;
+
+/// Takes the next word off a text, none at its end.
+std::string_view takeWord(std::string_view& text);
+
+MeshWords wordsOf(std::string_view text);
+
+/// Whether a word is a finite decimal that assimp reads as what it says: it counts the digits before the
+/// point in an integer of 64 bits, and takes more of them for 0 or for any number.
+bool readMeshNumber(std::string_view word, double& value);
+bool isMeshNumber(std::string_view word);
+
+/// Of a finite number that isMeshNumber() refuses, what it lacks.
+constexpr const char* kNumberForm = "with a point for decimals and at most 18 digits before it";
+
+/// Whether a word is a whole number from 0 that fits assimp's integers of 32 bits.
+bool readMeshIndex(std::string_view word, long& value);
+bool isMeshIndex(std::string_view word);
+
+/// The lines of a text, each ended by a line feed, a carriage return or both.
+class MeshLines {
+ public:
+  /// `text` and `name` must outlive this.
+  MeshLines(std::string_view text, const std::string& name) : rest_(text), name_(name) {}
+
+  /// Moves on to the next line; false at the end.
+  bool next();
+
+  /// The line without its end, and that end: "\n", "\r\n", "\r" or "".
+  std::string_view text() const { return text_; }
+  std::string_view end() const { return end_; }
+  int line() const { return line_; }
+  /// What follows this line.
+  std::string_view rest() const { return rest_; }
+
+  /// Refuses the file at this line; the message says what would work.
+  [[noreturn]] void refuse(const std::string& message) const { refuse(line_, message); }
+  [[noreturn]] void refuse(int line, const std::string& message) const;
+
+  /// The same of a file that only its writer can mend.
+  [[noreturn]] void damaged(const std::string& message) const { damaged(line_, message); }
+  [[noreturn]] void damaged(int line, const std::string& message) const;
+
+ private:
+  std::string_view rest_, text_, end_;
+  const std::string& name_;
+  int line_ = 0;
+};
+
+}  // namespace fcl_stpbv::detail

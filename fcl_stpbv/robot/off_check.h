@@ -1,0 +1,12 @@
+// Whether an OFF file holds what its header says, in lines that assimp reads right.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace fcl_stpbv::detail {
+
+/// @throws Error "name:line: ..." saying what is wrong.
+void checkOff(std::string_view text, const std::string& name);
+
+}  // namespace fcl_stpbv::detail

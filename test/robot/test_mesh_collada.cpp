@@ -1,0 +1,150 @@
+// COLLADA whose parts contradict each other is refused with its line; sound COLLADA is read.
+#include <catch2/catch.hpp>
+
+#include "fcl_stpbv/error.h"
+#include "fcl_stpbv/robot/mesh_file.h"
+#include "test/reference/volume_files.h"
+
+using namespace fcl_stpbv;
+using namespace fcl_stpbv::test;
+using Catch::Matchers::Contains;
+
+namespace {
+
+// A triangle with texture coordinates, by way of a node of the library.
+const std::string kSound = R"(<?xml version="1.0"?>
+<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
+<asset><unit meter="1"/></asset>
+<library_geometries><geometry id="g"><mesh>
+<source id="p"><float_array id="pa" count="9">0 0 0 1 0 0 0 1 0</float_array><technique_common>
+<accessor source="#pa" count="3" stride="3"><param name="X"/><param name="Y"/><param name="Z"/></accessor>
+</technique_common></source>
+<source id="t"><float_array id="ta" count="6">0 0 1 0 0 1</float_array><technique_common>
+<accessor source="#ta" count="3" stride="2"><param name="S"/><param name="T"/></accessor>
+</technique_common></source>
+<vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
+<triangles count="1"><input semantic="VERTEX" source="#v" offset="0"/>
+<input semantic="TEXCOORD" source="#t" offset="1" set="0"/>
+<p>0 0 1 1 2 2</p></triangles>
+</mesh></geometry></library_geometries>
+<library_nodes><node id="m">
+<instance_geometry url="#g"/></node></library_nodes>
+<library_visual_scenes><visual_scene id="s"><node id="n">
+<translate>0 0 1</translate>
+<instance_node url="#m"/></node></visual_scene></library_visual_scenes>
+<scene><instance_visual_scene url="#s"/></scene></COLLADA>
+)";
+
+struct Change {
+  std::string from, to;
+};
+
+struct Fault {
+  std::string from, to, message;
+};
+
+std::string changed(std::string text, const Change& change) {
+  const std::size_t at = text.find(change.from);
+  REQUIRE(at != std::string::npos);
+  return text.replace(at, change.from.size(), change.to);
+}
+
+std::string loadedText(const std::string& text) {
+  const TemporaryFolder folder;
+  put(folder / "t.dae", text);
+  std::size_t count = 3;
+  const std::string message =
+      refusal([&count](const std::string& path) { count = loadPoints(path).size(); }, folder / "t.dae");
+  CHECK(count == 3);
+  return message;
+}
+
+void checkRefused(const std::vector<Fault>& faults) {
+  for (const Fault& fault : faults) {
+    CAPTURE(fault.from, fault.to);
+    CHECK_THAT(loadedText(changed(kSound, {fault.from, fault.to})), Contains(fault.message));
+  }
+}
+
+}  // namespace
+
+TEST_CASE("a COLLADA document without a mesh in its scene is no body") {
+  checkRefused({{"<instance_geometry url=\"#g\"/>", "", "t.dae: holds no vertices"},
+                {"<instance_node url=\"#m\"/>", "", "t.dae: holds no vertices"}});
+}
+
+TEST_CASE("a COLLADA reference that leads nowhere is refused") {
+  const std::string shape = "<instance_geometry url=\"#g\"/>", node = "<instance_node url=\"#m\"/>";
+  checkRefused({{"url=\"#g\"", "url=\"#h\"", "t.dae:17: <instance_geometry> names the geometry '#h'"},
+                {shape, shape + "<instance_controller url=\"#h\"/>", "t.dae:17: "},
+                {shape, shape + "<instance_geometry url=\"other.dae#g\"/>", "t.dae:17: "},
+                {node, node + "<instance_node url=\"#o\"/>", "t.dae:20: <instance_node> names the node '#o'"},
+                {node, node + "<instance_node url=\"other.dae#m\"/>", "t.dae:20: "},
+                {"source=\"#p\"", "source=\"#q\"", "t.dae:11: "},
+                {"source=\"#ta\"", "source=\"#q\"", "t.dae:9: "},
+                {"<geometry id=\"g\">", "<geometry id=\"g\"/><geometry id=\"g\">", "t.dae:4: "}});
+}
+
+TEST_CASE("a COLLADA array that is shorter than its accessor takes it to be is refused") {
+  const std::string takes = "t.dae:6: <accessor> takes ", point = "t.dae:6: <accessor> must have a stride";
+  checkRefused({{"\"#pa\" count=\"3\"", "\"#pa\" count=\"4\"", takes + "12 numbers from '#pa', which has 9"},
+                {"count=\"9\">0 0 0", "count=\"8\">0 0", takes + "9"},
+                {"stride=\"3\"", "stride=\"4\"", takes + "11"},
+                {"stride=\"3\"", "stride=\"3\" offset=\"1\"", takes + "10"},
+                {"\"#ta\" count=\"3\"", "\"#ta\" count=\"4\"", "t.dae:9: <accessor> takes 8"},
+                {"stride=\"3\"", "stride=\"2\"", point},
+                {"stride=\"3\"", "stride=\"0\"", point},
+                {"stride=\"3\"", "", point},
+                {"<param name=\"Z\"/>", "", point},
+                {"<param name=\"Z\"/>", "<param name=\"z\"/>", point},
+                {"<param name=\"Y\"/>", "<param name=\"S\"/>", point},
+                {"stride=\"3\"", "stride=\"three\"", "t.dae:6: "},
+                {"count=\"9\"", "count=\"10\"", "t.dae:5: <float_array> holds 9 numbers"},
+                {"0 0 0 1 0 0 0 1 0<", "0 0 0 1 0 0 0 1 0 7<", "t.dae:5: <float_array> holds 10 numbers"}});
+}
+
+TEST_CASE("COLLADA numbers that are none, or that assimp takes for others, are refused") {
+  const std::string index = "t.dae:14: got '-2' in <p>";
+  checkRefused(
+      {{"<p>0 0 1 1 2 2", "<p>0 0 1 1 -2 2", index},
+       {"<p>0 0 1 1 2 2", "<p >0 0 1 1 -2 2", index},
+       {"<p>0 0 1 1 2 2", "<p>0 0 1 1 4294967298 2", "t.dae:14: "},
+       {"<p>0 0 1 1 2 2", "<p>0 0 1 <!-- c --> 1 2 2", "t.dae:14: "},
+       {"<triangles count=\"1\">", "<triangles count=\"0\">", "t.dae:12: "},
+       {"source=\"#p\"/>", "source=\"#p\"/><input semantic=\"POSITION\" source=\"#p\"/>", "t.dae:12: "},
+       {"offset=\"0\"", "offset=\"none\"", "t.dae:12: "},
+       {"semantic=\"VERTEX\"", "semantic=\"NONE\"", "t.dae:12: "},
+       {">0 0 0 1 0 0", ">\n0 0 0\n1e999 0 0", "t.dae:7: got '1e999' in <float_array>"},
+       {">0 0 0 1 0 0", ">0 0 0 100000000000000000000 0 0", "t.dae:5: "},
+       {"<translate>0 0 1", "<translate>0 0 100000000000000000000", "t.dae:19: "},
+       {"<translate>0 0 1", "<translate>0 0,5 1", "t.dae:19: "},
+       {"<translate>0 0 1", "<translate>0 0 1 1", "t.dae:19: "},
+       {"<translate>0 0 1", "<skew>45 0 1 0 1 0 0</skew><translate>0 0 1", "t.dae:19: "},
+       {"<mesh>", "<asset><unit meter=\"0.001\"/></asset><mesh>", "t.dae:4: <unit>"},
+       {"</COLLADA>", "</COLLADA><COLLADA/>", "t.dae:21: not XML"},
+       {"</COLLADA>", "</collada>", "t.dae:2: not XML"}});
+}
+
+TEST_CASE("sound COLLADA is read, whatever its writer's habits") {
+  const Change wide{"stride=\"3\"", "stride=\"4\""};
+  const Change reordered{"<param name=\"X\"/><param name=\"Y\"/>", "<param name=\"Y\"/><param name=\"X\"/>"};
+  for (const std::vector<Change>& changes : std::vector<std::vector<Change>>{
+           {},
+           {reordered},
+           {wide, {"count=\"9\">0 0 0 1 0 0 0 1 0", "count=\"11\">0 0 0 7 1 0 0 7 0 1 0"}},
+           {wide,
+            {"<param", "<param/><param"},
+            {"\"9\">0 0 0 1 0 0 0 1 0", "\"12\">7 0 0 0 7 1 0 0 7 0 1 0"}},
+           {{"stride=\"3\"", "stride=\"3\" offset=\"1\""}, {"count=\"9\">", "count=\"10\">7 "}},
+           {{"<p>0 0 1 1 2 2", "<p >\n0 0\n1 1\n2 2\n"}},
+           {{"<mesh>", "<!-- <unit meter=\"0\"/> --><asset><unit meter=\"1.0\"/></asset><mesh>"}},
+           {{"<node id=\"m\">", "<node name=\"m\"><translate>1e0 +2 .5</translate>"},
+            {"<library_nodes>", "<library_visual_scenes><visual_scene id=\"other\">"},
+            {"</library_nodes>", "</visual_scene></library_visual_scenes>"},
+            {"<instance_node url=\"#m\"/>", "<instance_geometry url=\"#g\"/>"}}}) {
+    std::string text = kSound;
+    for (const Change& change : changes) text = changed(text, change);
+    CAPTURE(text);
+    CHECK(loadedText(text) == "");
+  }
+}
