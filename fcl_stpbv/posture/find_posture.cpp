@@ -3,7 +3,8 @@
 // 2. solve by SLSQP from there (slsqp.cpp);
 // 3. stop at the first feasible posture.
 // Without one, the least sum of squared violations names the constraints in
-// conflict and the limits they push against.
+// conflict and the limits they push against. Where it leaves none, it is a
+// feasible posture itself.
 #include "fcl_stpbv/posture/find_posture.h"
 
 #include <chrono>
@@ -55,7 +56,7 @@ std::vector<std::string> activeAt(PostureProblem& problem, const Eigen::VectorXd
 
 // Variables that the violated constraints push against a bound.
 std::vector<std::string> pushedLimits(const PostureProblem& problem, const NearPosture& least) {
-  const double push = 0.05 * least.slope.cwiseAbs().maxCoeff();  // less is what the descent left
+  const double push = 0.05 * least.slope.lpNorm<Eigen::Infinity>();  // less is what the descent left
   std::vector<std::string> names;
   for (int i = 0; i < problem.variables(); ++i) {
     const bool low = least.x[i] <= problem.lower()[i] && least.slope[i] > push;
@@ -65,7 +66,22 @@ std::vector<std::string> pushedLimits(const PostureProblem& problem, const NearP
   return names;
 }
 
-// From one start: near to the posture by damped steps, then to it by sequential quadratic programming.
+// SLSQP from x. Where it ends at more violations or, with none, at more cost, x stands.
+SolverOutcome improve(PostureProblem& problem, const Eigen::VectorXd& x, const SolverOptions& options) {
+  const auto rank = [&](const Eigen::VectorXd& at) {
+    const double violated = total(problem.violations(at, options.tolerance));
+    return std::make_pair(violated, problem.evaluate(at).cost);
+  };
+  const auto before = rank(x);
+  SolverOutcome outcome = solveBySlsqp(problem, x, options);
+  if (before < rank(outcome.x)) outcome.x = x;
+  return outcome;
+}
+
+// From one start:
+// 1. near to the posture by damped steps;
+// 2. to it by sequential quadratic programming;
+// 3. where that ends close by, to where the constraints hold best, and if they hold on from there.
 SolverOutcome solve(PostureProblem& problem, const Eigen::VectorXd& start, const SolverOptions& options) {
   // The cost then pulls the constraints apart by about 1e-4 times their multipliers: millimetres.
   constexpr double kCostWeight = 1e-4;
@@ -73,16 +89,31 @@ SolverOutcome solve(PostureProblem& problem, const Eigen::VectorXd& start, const
   constexpr double kSoft = 0.3, kFirm = 1;
   // Farther away than this (m, rad) where the damped steps end, the start leads into a dead end.
   constexpr double kNear = 0.1;
+  // Farther away than this where the programming ends, more steps seldom get there.
+  constexpr double kClose = 1e-3;
+  const auto worst = [&](const Eigen::VectorXd& x) {
+    const std::vector<Violation> list = problem.violations(x, options.tolerance);
+    return list.empty() ? 0.0 : list.front().amount;
+  };
   NearPosture near{start, {}, 0};
   int iterations = 0;
   for (const double weight : {kSoft, kFirm}) {
     near = approach(problem, near.x, {kCostWeight, weight});
     iterations += near.iterations;
   }
-  const std::vector<Violation> left = problem.violations(near.x, options.tolerance);
-  if (!left.empty() && left.front().amount > kNear) return {near.x, iterations, "stuck"};
-  SolverOutcome outcome = solveBySlsqp(problem, near.x, options);
-  outcome.iterations += iterations;
+  if (worst(near.x) > kNear) return {near.x, iterations, "stuck"};
+  SolverOutcome outcome = improve(problem, near.x, options);
+  iterations += outcome.iterations;
+  const double missed = worst(outcome.x);
+  if (missed > 0 && missed < kClose) {
+    near = approach(problem, outcome.x, {});
+    iterations += near.iterations;
+    if (worst(near.x) == 0) {
+      outcome = improve(problem, near.x, options);
+      iterations += outcome.iterations;
+    }
+  }
+  outcome.iterations = iterations;
   return outcome;
 }
 
@@ -98,28 +129,34 @@ Posture findPosture(PostureSetup& setup, const PostureOptions& options) {
   std::mt19937_64 random(options.seed);
   Posture best;
   Eigen::VectorXd bestX;
-  for (int i = 0; i < options.firstStart + options.starts && !best.feasible; ++i) {
-    const Eigen::VectorXd q = i == 0 ? setup.start : randomStart(problem, setup.start, random);
-    if (i < options.firstStart) continue;  // its random numbers are drawn all the same
-    const SolverOutcome outcome = solve(problem, problem.variablesAt(q), options.solver);
+  const auto consider = [&](const SolverOutcome& outcome) {
     std::vector<Violation> violations = problem.violations(outcome.x, options.solver.tolerance);
-    ++best.starts;
     best.iterations += outcome.iterations;
-    if (best.starts > 1 && total(violations) >= total(best.violations)) continue;
+    if (bestX.size() > 0 && total(violations) >= total(best.violations)) return;
     best.violations = std::move(violations);
     best.feasible = best.violations.empty();
     best.status = !best.feasible && outcome.status == "converged" ? "stuck" : outcome.status;
     bestX = outcome.x;
+  };
+  for (int i = 0; i < options.firstStart + options.starts && !best.feasible; ++i) {
+    const Eigen::VectorXd q = i == 0 ? setup.start : randomStart(problem, setup.start, random);
+    if (i < options.firstStart) continue;  // its random numbers are drawn all the same
+    ++best.starts;
+    consider(solve(problem, problem.variablesAt(q), options.solver));
+  }
+  if (!best.feasible) {
+    const NearPosture least = approach(problem, bestX, {});
+    best.conflict = problem.violations(least.x, options.solver.tolerance);
+    if (best.conflict.empty())  // then they can hold together
+      consider(improve(problem, least.x, options.solver));
+    else
+      best.conflictLimits = pushedLimits(problem, least);
   }
   best.seconds = elapsed();
   best.q = bestX.head(setup.start.size());
   best.cost = problem.evaluate(bestX).cost;
   best.active = activeAt(problem, bestX);
   best.distanceCalls = best.gradientCalls = problem.queries() - queriesBefore;
-  if (best.feasible) return best;
-  const NearPosture least = approach(problem, bestX, {});
-  best.conflict = problem.violations(least.x, options.solver.tolerance);
-  if (!best.conflict.empty()) best.conflictLimits = pushedLimits(problem, least);
   return best;
 }
 

@@ -1,7 +1,8 @@
 // NLopt's SLSQP (Kraft 1988) behind problem.h, with few rows in its model:
-// 1. begin with the rows that have little slack;
-// 2. when an iterate violates a row outside the model, begin again there with the row included;
-// 3. stop a search that gets no nearer to feasible.
+// 1. begin with the inequalities that have little slack;
+// 2. and with the equalities' independent combinations, as dependent ones make SLSQP's matrix singular;
+// 3. when an iterate violates a row outside the model, begin again there with the row included;
+// 4. stop a search that gets no nearer to feasible.
 #include <nlopt.h>
 
 #include <algorithm>
@@ -11,10 +12,12 @@
 #include <memory>
 #include <vector>
 
-#include "fcl_stpbv/posture/problem.h"
+#include "fcl_stpbv/posture/independent_rows.h"
 
 namespace fcl_stpbv {
 namespace {
+
+using namespace detail;
 
 using ConstMap = Eigen::Map<const Eigen::VectorXd>;
 using Map = Eigen::Map<Eigen::VectorXd>;
@@ -78,6 +81,16 @@ class Slsqp {
     }
   }
 
+  // Takes in the equalities that move independently around x. One that moves by less than its tolerance per
+  // unit of every variable, or with fixed variables only, cannot be steered. It is checked at the end.
+  void combine(const Eigen::VectorXd& x) {
+    if (problem_.equalities() == 0) return;
+    RowMatrix jacobian = problem_.evaluate(x).equalJacobian;
+    for (int i = 0; i < problem_.variables(); ++i)
+      if (problem_.lower()[i] == problem_.upper()[i]) jacobian.col(i).setZero();
+    combinations_ = independentCombinations(jacobian, options_.tolerance);
+  }
+
   nlopt_result optimise(Eigen::VectorXd& x, double seconds) {
     const unsigned n = static_cast<unsigned>(problem_.variables());
     const std::unique_ptr<nlopt_opt_s, Delete> opt(nlopt_create(NLOPT_LD_SLSQP, n));
@@ -85,15 +98,19 @@ class Slsqp {
     nlopt_set_lower_bounds(opt_, problem_.lower().data());
     nlopt_set_upper_bounds(opt_, problem_.upper().data());
     nlopt_set_min_objective(opt_, &Slsqp::objective, this);
-    const std::vector<double> tolerances(
-        static_cast<std::size_t>(std::max(problem_.equalities(), problem_.inequalities())),
-        options_.tolerance);
-    if (problem_.equalities() > 0)
-      nlopt_add_equality_mconstraint(opt_, static_cast<unsigned>(problem_.equalities()), &Slsqp::equalities,
+    combine(x);
+    if (combinations_.cols() > 0) {
+      // Where no combination misses more than this, no row misses more than its tolerance.
+      const double most = options_.tolerance / combinations_.cwiseAbs().rowwise().sum().maxCoeff();
+      const std::vector<double> tolerances(static_cast<std::size_t>(combinations_.cols()), most);
+      nlopt_add_equality_mconstraint(opt_, static_cast<unsigned>(combinations_.cols()), &Slsqp::equalities,
                                      this, tolerances.data());
-    if (!active_.empty())
+    }
+    if (!active_.empty()) {
+      const std::vector<double> tolerances(active_.size(), options_.tolerance);
       nlopt_add_inequality_mconstraint(opt_, static_cast<unsigned>(active_.size()), &Slsqp::inequalities,
                                        this, tolerances.data());
+    }
     nlopt_set_ftol_rel(opt_, options_.costTolerance);
     nlopt_set_xtol_rel(opt_, 1e-9);
     nlopt_set_maxtime(opt_, std::max(1e-3, seconds));
@@ -144,9 +161,10 @@ class Slsqp {
 
   static void equalities(unsigned m, double* result, unsigned n, const double* x, double* jacobian,
                          void* self) {
-    const PostureValues& values = static_cast<Slsqp*>(self)->problem_.evaluate(ConstMap(x, n));
-    Map(result, m) = values.equal;
-    if (jacobian) Eigen::Map<RowMatrix>(jacobian, m, n) = values.equalJacobian;
+    const Slsqp& s = *static_cast<Slsqp*>(self);
+    const PostureValues& values = s.problem_.evaluate(ConstMap(x, n));
+    Map(result, m) = s.combinations_.transpose() * values.equal;
+    if (jacobian) Eigen::Map<RowMatrix>(jacobian, m, n) = s.combinations_.transpose() * values.equalJacobian;
   }
 
   static void inequalities(unsigned m, double* result, unsigned n, const double* x, double* jacobian,
@@ -162,6 +180,7 @@ class Slsqp {
   PostureProblem& problem_;
   const SolverOptions& options_;
   nlopt_opt opt_ = nullptr;
+  Eigen::MatrixXd combinations_;  // of the equalities in the model, one per column
   std::vector<int> active_;
   std::vector<bool> chosen_;
   bool grown_ = false, stuck_ = false;
@@ -175,6 +194,7 @@ class Slsqp {
 
 SolverOutcome solveBySlsqp(PostureProblem& problem, const Eigen::VectorXd& start,
                            const SolverOptions& options) {
+  if (problem.variables() == 0) return {start, 0, "converged"};
   return Slsqp(problem, options).run(start);
 }
 

@@ -1,0 +1,41 @@
+// Small arms that cannot move all rows of a placement, and tasks for them.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "fcl_stpbv/posture/find_posture.h"
+#include "test/reference/shapes.h"
+
+namespace fcl_stpbv::test {
+
+/// Joints a, b, c about one axis, links of 0.6, 0.4 and 0.3 m, the last one's end in the link `tip`. In the
+/// plane of x and z; `mount` is another origin in URDF.
+PostureScene planarArm(const std::string& mount = "rpy='0 0 0'");
+
+/// Joints a, b, d about z and c along it: x and y by links of 0.4 m, z within 0.2 m of 0.1, link `tool`.
+PostureScene scara();
+
+/// The arm in the plane of x and z, with a joint that would turn it out of there but is fixed by its limits.
+PostureScene armWithFixedJoint(double angle);
+
+/// The link `base` alone.
+PostureScene block();
+
+/// Where q puts a link.
+Eigen::Isometry3d poseOf(const PostureScene& scene, const Eigen::VectorXd& q, const std::string& link);
+
+/// Within the limits.
+Eigen::VectorXd randomWithin(const PostureScene& scene, Random& random);
+
+/// A link's whole pose.
+PostureTask::Place wholePose(const std::string& link, const Eigen::Isometry3d& target);
+/// A link's position. `name` is the link's unless given.
+PostureTask::Place position(const std::string& link, const Eigen::Vector3d& target,
+                            const std::string& name = "");
+
+/// For an arm on a fixed base, without collisions.
+Posture found(const PostureScene& scene, const std::vector<PostureTask::Place>& places,
+              const PostureOptions& options = {});
+
+}  // namespace fcl_stpbv::test

@@ -1,0 +1,102 @@
+// What is told as feasible is, and what is not has constraints that cannot hold together.
+#include <catch2/catch.hpp>
+
+#include "test/posture/arms.h"
+
+using namespace fcl_stpbv;
+using namespace fcl_stpbv::test;
+
+namespace {
+
+double amountOf(const std::vector<Violation>& list, const std::string& name) {
+  for (const Violation& v : list)
+    if (v.name == name) return v.amount;
+  return 0;
+}
+
+}  // namespace
+
+TEST_CASE("a point off a planar arm's plane is told by its row across the plane") {
+  const PostureScene scene = planarArm();
+  for (const double off : {1e-5, 1e-3, 0.05}) {
+    const Posture posture = found(scene, {position("tip", {0.5, off, 0.6})});
+    INFO(off);
+    CHECK_FALSE(posture.feasible);
+    REQUIRE(posture.conflict.size() == 1);
+    CHECK(posture.conflict[0].name == "tip y");
+    CHECK(posture.conflict[0].amount == Approx(off));
+    // What can hold does.
+    REQUIRE(posture.violations.size() == 1);
+    CHECK(posture.violations[0].name == "tip y");
+  }
+}
+
+TEST_CASE("a tilt that a SCARA does not have is told, and the rest of its pose holds") {
+  Eigen::Isometry3d target = at(0.5, 0.2, 0.05);
+  target.linear() =
+      (Eigen::AngleAxisd(0.5, Eigen::Vector3d::UnitZ()) * Eigen::AngleAxisd(0.02, Eigen::Vector3d::UnitX()))
+          .toRotationMatrix();
+  const Posture posture = found(scara(), {wholePose("tool", target)});
+  CHECK_FALSE(posture.feasible);
+  CHECK(amountOf(posture.conflict, "tool rx") == Approx(0.02).epsilon(1e-3));
+  CHECK(posture.violations[0].name == "tool rx");
+  for (const char* row : {"tool x", "tool y", "tool z"}) CHECK(amountOf(posture.violations, row) < 1e-4);
+}
+
+TEST_CASE("two targets of one frame are told, each at half of what is between them") {
+  const PostureScene scene = planarArm();
+  for (const double apart : {1e-4, 0.01, 0.05}) {
+    const Posture posture =
+        found(scene, {position("tip", {0.5, 0, 0.6}), position("tip", {0.5 + apart, 0, 0.6}, "again")});
+    INFO(apart);
+    CHECK_FALSE(posture.feasible);
+    REQUIRE(posture.conflict.size() == 2);
+    CHECK(amountOf(posture.conflict, "tip x") == Approx(apart / 2).epsilon(1e-3));
+    CHECK(amountOf(posture.conflict, "again x") == Approx(apart / 2).epsilon(1e-3));
+  }
+}
+
+TEST_CASE("a point out of reach is told") {
+  const Posture posture = found(planarArm(), {position("tip", {0, 0, 1.31})});
+  CHECK_FALSE(posture.feasible);
+  CHECK(amountOf(posture.conflict, "tip z") == Approx(0.01).epsilon(1e-3));
+}
+
+TEST_CASE("where the arm is stretched its Jacobian is singular, and the point reached all the same") {
+  const PostureScene scene = planarArm();
+  for (const double height : {1.3, 1.299, 1.25, 1.0}) {
+    const Posture posture = found(scene, {position("tip", {0, 0, height})});
+    INFO(height);
+    CHECK(posture.feasible);
+    CHECK((poseOf(scene, posture.q, "tip").translation() - Eigen::Vector3d(0, 0, height)).norm() < 2e-6);
+  }
+}
+
+TEST_CASE("where nothing is violated the posture is feasible, however early the solver stops") {
+  Random random(7);
+  const PostureScene scene = planarArm("rpy='0.4 -0.8 1.9'");
+  PostureOptions options;
+  options.starts = 1;
+  int feasible = 0;
+  for (const int iterations : {1, 2, 4}) {
+    options.solver.maxIterations = iterations;
+    for (int trial = 0; trial < 40; ++trial) {
+      const Eigen::Vector3d target = poseOf(scene, randomWithin(scene, random), "tip").translation();
+      const Posture posture = found(scene, {position("tip", target)}, options);
+      CHECK(posture.feasible == posture.conflict.empty());
+      CHECK(posture.feasible == posture.violations.empty());
+      if (!posture.feasible) continue;
+      ++feasible;
+      CHECK((poseOf(scene, posture.q, "tip").translation() - target).norm() < 2e-6);
+    }
+  }
+  CHECK(feasible >= 80);
+}
+
+TEST_CASE("a robot without joints is where it is") {
+  CHECK(found(block(), {position("base", {0, 0, 0})}).feasible);
+  const Posture posture = found(block(), {position("base", {0, 0, 0.5})});
+  CHECK_FALSE(posture.feasible);
+  CHECK(amountOf(posture.conflict, "base z") == Approx(0.5));
+  CHECK(posture.q.size() == 0);
+}
