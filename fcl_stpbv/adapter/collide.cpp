@@ -80,7 +80,8 @@ class ElementContacts {
 
 std::size_t collide(const CollisionGeometryd* geometry1, const Transform3d& pose1,
                     const CollisionGeometryd* geometry2, const Transform3d& pose2,
-                    const CollisionRequestd& request, CollisionResultd& result, PairCache* cache) {
+                    const CollisionRequestd& request, CollisionResultd& result, PairCache* cache,
+                    bool finite) {
   Contacts contacts(request, result, cache);
   if (contacts.full()) return result.numContacts();
   Contactd unknown(geometry1, geometry2, Contactd::NONE, Contactd::NONE);
@@ -93,7 +94,7 @@ std::size_t collide(const CollisionGeometryd* geometry1, const Transform3d& pose
     return result.numContacts();
   }
   const PosedPair pair(*geometry1, pose1, *geometry2, pose2);
-  if (!pair.valid) {
+  if (!pair.valid || !(finite || pair.finite())) {
     result.addContact(unknown);
     return result.numContacts();
   }
@@ -104,17 +105,18 @@ std::size_t collide(const CollisionGeometryd* geometry1, const Transform3d& pose
 }
 
 std::size_t collide(const fcl::CollisionObjectd* object1, const fcl::CollisionObjectd* object2,
-                    const CollisionRequestd& request, CollisionResultd& result, PairCache* cache) {
+                    const CollisionRequestd& request, CollisionResultd& result, PairCache* cache,
+                    bool finite) {
   return collide(object1->collisionGeometry().get(), object1->getTransform(),
-                 object2->collisionGeometry().get(), object2->getTransform(), request, result, cache);
+                 object2->collisionGeometry().get(), object2->getTransform(), request, result, cache, finite);
 }
 
 bool collisionCallback(fcl::CollisionObjectd* object1, fcl::CollisionObjectd* object2, void* data) {
   CollisionData& query = *static_cast<CollisionData*>(data);
   if (query.done || (query.leaveOut && query.leaveOut(object1, object2))) return query.done;
   PairCache* cache = query.caches ? &query.caches->of(object1, object2) : nullptr;
-  query.done =
-      collide(object1, object2, query.request, query.result, cache) >= query.request.num_max_contacts;
+  query.done = collide(object1, object2, query.request, query.result, cache, query.finite) >=
+               query.request.num_max_contacts;
   return query.done;
 }
 

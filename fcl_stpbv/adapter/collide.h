@@ -19,17 +19,18 @@ namespace fcl_stpbv {
 /// `b1` and `b2` as FCL numbers them. With `enable_contact`: `penetration_depth` is the exact one, not below
 /// 0, `normal` that of the smooth surface, from geometry 1 to 2 in the order of the call, `pos` half way
 /// between the deepest points (world, m). Without, each pair of elements costs no more than `isFartherThan`.
-/// Touching is a contact. A pair without an answer (a pose that is not rigid, an invalid shape, two planes)
-/// counts as one too, of infinite depth and without a normal: nobody has found it clear. Cost sources are not
-/// made; the other fields of the request change nothing.
+/// Touching is a contact. A pair without an answer (a pose that is not rigid, an invalid shape, a corner that
+/// is no number, two planes) counts as one too, of infinite depth and without a normal: nobody has found it
+/// clear. Cost sources are not made; the other fields of the request change nothing. `finite`: as
+/// QueryContext's.
 std::size_t collide(const fcl::CollisionObjectd* object1, const fcl::CollisionObjectd* object2,
                     const fcl::CollisionRequestd& request, fcl::CollisionResultd& result,
-                    PairCache* cache = nullptr);
+                    PairCache* cache = nullptr, bool finite = false);
 /// The same for two geometries at their poses.
 std::size_t collide(const fcl::CollisionGeometryd* geometry1, const fcl::Transform3d& pose1,
                     const fcl::CollisionGeometryd* geometry2, const fcl::Transform3d& pose2,
                     const fcl::CollisionRequestd& request, fcl::CollisionResultd& result,
-                    PairCache* cache = nullptr);
+                    PairCache* cache = nullptr, bool finite = false);
 
 /// FCL's other scalar is refused here, with the reason.
 template <typename S>
@@ -50,6 +51,7 @@ struct CollisionData {
   PairCaches* caches = nullptr;    ///< optional: makes repeated queries of a slowly moving scene faster
   /// Optional: pairs that are not asked, as DistanceData's.
   std::function<bool(const fcl::CollisionObjectd*, const fcl::CollisionObjectd*)> leaveOut = nullptr;
+  bool finite = false;  ///< as QueryContext's
 };
 
 /// For `manager.collide(&data, fcl_stpbv::collisionCallback)` with `data` a CollisionData.

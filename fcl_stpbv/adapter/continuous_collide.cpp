@@ -34,32 +34,30 @@ class Moving {
     addCells(still, still.whole(), box);
     centre = box.center();
     radius = 0.5 * box.diagonal().norm();
-    const double spin = motion.angular.norm();
-    const Vector3d from = motion.begin * centre - motion.point;
-    // Around an axis of constant direction no point changes its distance from it.
-    lever_ = radius + (spin > 0 ? motion.angular.cross(from).norm() / spin : 0.0);
-    acceleration_ = spin * spin * lever_;
+    around(motion.begin * centre, radius);
+    // The points go around the axis with that speed, in circles.
+    acceleration_ = motion.angular.norm() * turning_;
   }
 
   void place(double t) {
-    pose = motion_.at(t);
+    pose = motion_.at(t, &velocity_);
     body.pose = pose;
-    axis_ = motion_.point + t * motion_.linear;
   }
   BodyVelocity velocity(const Vector3d& about) const {
-    return {motion_.linear + motion_.angular.cross(about - axis_), motion_.angular, acceleration_};
+    return {velocity_ + motion_.angular.cross(about - pose.translation()), motion_.angular, acceleration_};
   }
   /// Most that any of its points moves in a unit of time (m).
-  double speed() const { return motion_.linear.norm() + motion_.angular.norm() * lever_; }
+  double speed() const { return motion_.linear.norm() + turning_; }
   bool turns() const { return !motion_.angular.isZero(0); }
-  /// For what has no bounds: only where `other` comes does its speed matter.
+  /// For what has no bounds: only where `other` comes does its speed matter, seen from the axis, which moves.
   void reachTo(const Moving& other) {
-    const Vector3d way = other.motion_.begin * other.centre - motion_.point;
-    lever_ = way.norm() + other.radius + other.speed() + motion_.linear.norm();
+    around(other.motion_.begin * other.centre, other.radius + other.speed() + motion_.linear.norm());
   }
+  /// Bound on all lengths that a pose and a velocity are made of (m): where the body is and how it moves,
+  /// however far the axis is.
   double coordinates() const {
-    return motion_.begin.translation().lpNorm<1>() + motion_.linear.lpNorm<1>() + motion_.point.lpNorm<1>() +
-           centre.lpNorm<1>() + radius;
+    return motion_.begin.translation().lpNorm<1>() + centre.lpNorm<1>() + radius + speed() +
+           motion_.turning.norm();
   }
 
   const CollisionGeometryd& geometry;
@@ -70,6 +68,14 @@ class Moving {
   double radius = 0;
 
  private:
+  // Within `reach` of a place that turns with the body no point goes around the axis faster: an axis of
+  // constant direction, from which no point changes its distance.
+  void around(const Vector3d& place, double reach) {
+    const Vector3d &w = motion_.angular,
+                   there = motion_.turning + w.cross(place - motion_.begin.translation());
+    turning_ = there.norm() + w.norm() * reach;
+  }
+
   // A tree's own box is kilometres across: its cells tell where it is.
   void addCells(const PosedGeometry& still, const PosedGeometry::Part& part, Eigen::AlignedBox3d& box) const {
     if (part.leaf || geometry.getNodeType() != fcl::GEOM_OCTREE) {
@@ -83,8 +89,8 @@ class Moving {
   }
 
   SteadyMotion motion_;
-  Vector3d axis_{0, 0, 0};
-  double lever_ = 0, acceleration_ = 0;
+  Vector3d velocity_{0, 0, 0};  // of the origin
+  double turning_ = 0, acceleration_ = 0;
 };
 
 class MovingPair {
@@ -104,7 +110,10 @@ class MovingPair {
   }
 
   bool look(int, double most, Cover& cover) {
-    answer = distance(a_.geometry, a_.pose, b_.geometry, b_.pose, {&cache_, nullptr});
+    QueryContext context;
+    context.cache = &cache_;
+    context.finite = true;  // firstContact() has looked
+    answer = distance(a_.geometry, a_.pose, b_.geometry, b_.pose, context);
     if (!(answer.distance > margin_)) return true;
     const double gap = answer.lower - margin_;
     // What has no bounds and turns leaves every fixed plane.
@@ -138,16 +147,17 @@ class MovingPair {
 
 bool rigid(const SteadyMotion& motion) {
   Isometry3d begin = motion.begin;
-  return makeRigid(begin) && motion.linear.allFinite() && motion.angular.allFinite() &&
-         motion.point.allFinite();
+  return makeRigid(begin) && motion.linear.allFinite() && motion.turning.allFinite() &&
+         motion.angular.allFinite();
 }
 
 double inFclTerms(const MotionAnswer& found, const SteadyMotion& motion1, const SteadyMotion& motion2,
                   ContinuousCollisionResultd& result) {
   result.is_collide = found.verdict != MotionVerdict::free;
-  result.time_of_contact = found.until;
-  result.contact_tf1 = motion1.at(found.until);
-  result.contact_tf2 = motion2.at(found.until);
+  // Behind `from` an undecided motion may meet at any time.
+  result.time_of_contact = found.verdict == MotionVerdict::undecided ? found.from : found.until;
+  result.contact_tf1 = motion1.at(result.time_of_contact);
+  result.contact_tf2 = motion2.at(result.time_of_contact);
   return found.answer.status == DistanceStatus::invalid ? -1 : result.time_of_contact;
 }
 
@@ -164,7 +174,8 @@ MotionAnswer firstContact(const CollisionGeometryd& geometry1, const SteadyMotio
                           const CollisionGeometryd& geometry2, const SteadyMotion& motion2,
                           const MotionRequest& request) {
   MotionAnswer result;
-  if (!rigid(motion1) || !rigid(motion2)) return result;
+  if (!rigid(motion1) || !rigid(motion2) || !hasFiniteCorners(geometry1) || !hasFiniteCorners(geometry2))
+    return result;
   MovingPair pair(geometry1, motion1, geometry2, motion2, request.margin);
   pair.place(0);
   Cover ignored;

@@ -12,16 +12,19 @@
 
 namespace fcl_stpbv {
 
-/// Over the time from 0 to 1 the body turns evenly while the point moves evenly: FCL's
-/// translations, interpolations and screws.
+/// Over the time from 0 to 1 the body turns evenly about an axis that moves evenly: FCL's translations,
+/// interpolations and screws. The axis may be anywhere, so it is given by how fast the body's origin goes
+/// around it, which stays in the body's size where two poses differ by a turn of next to nothing.
 struct SteadyMotion {
   Eigen::Isometry3d begin = Eigen::Isometry3d::Identity();  ///< pose at the time 0
-  Eigen::Vector3d point{0, 0, 0};                           ///< of the axis, at the time 0 (world, m)
-  Eigen::Vector3d linear{0, 0, 0};                          ///< velocity of that point
-  Eigen::Vector3d angular{0, 0, 0};                         ///< rad per unit of time
+  Eigen::Vector3d linear{0, 0, 0};  ///< velocity of the axis (world, m per unit of time)
+  /// Velocity of the body's origin around the axis at the time 0, across `angular`: angular x (origin - a
+  /// point of the axis). It turns with the body.
+  Eigen::Vector3d turning{0, 0, 0};
+  Eigen::Vector3d angular{0, 0, 0};  ///< rad per unit of time
 
-  /// The pose at the time t.
-  Eigen::Isometry3d at(double t) const;
+  /// The pose at the time t. `velocity`, optional, gets that of the body's origin.
+  Eigen::Isometry3d at(double t, Eigen::Vector3d* velocity = nullptr) const;
 };
 
 /// Between two poses as FCL would move: CCDM_TRANS (the rotation stays that of the
@@ -37,8 +40,8 @@ bool steadyMotion(const fcl::MotionBased& motion, SteadyMotion& result);
 enum class MotionVerdict {
   free,       ///< proven: at no time does a pair come within the margin
   contact,    ///< one does, first between `from` and `until`
-  undecided,  ///< free until `from`; about there the distance is the margin to rounding, or it took too many
-              ///< queries
+  undecided,  ///< free until `from`; behind it the distance is the margin to rounding, or it took too many
+              ///< queries: whether and when there is a contact is not known
 };
 
 /// What is asked about a motion.
@@ -61,14 +64,15 @@ struct MotionBracket {
 struct MotionAnswer {
   MotionVerdict verdict = MotionVerdict::undecided;  ///< free, in contact or undecided
   double from = 0;                                   ///< proven free before it
-  double until = 0;       ///< in contact at it; at most the tolerance after `from`. 1 for a free motion
+  double until = 0;  ///< in contact at it; at most the tolerance after `from`. 1 for a free motion; where
+                     ///< nothing is decided the end of the time that was looked at last
   DistanceAnswer answer;  ///< at `until`, which is the end of a free motion
   long queries = 0;       ///< distances asked for
 };
 
 /// Whether two moving bodies stay apart: exact distances, and between them a bound on how far the bodies'
 /// points move along the normal (moving_bodies.h; docs/motion.md). Never throws. Undecided from 0 on for a
-/// pair that has no distance.
+/// pair that has no distance. The corners of a mesh are looked at once a motion.
 MotionAnswer firstContact(const fcl::CollisionGeometryd& geometry1, const SteadyMotion& motion1,
                           const fcl::CollisionGeometryd& geometry2, const SteadyMotion& motion2,
                           const MotionRequest& request = {});
@@ -78,8 +82,10 @@ MotionAnswer firstContact(const fcl::CollisionGeometryd& geometry1, const Steady
 ///
 /// `toc_err` is the tolerance and `ccd_motion_type` the motion; all else in the request changes nothing.
 /// `is_collide` is false only where the motion is proven free. `time_of_contact` and the poses are those
-/// of `MotionAnswer::until`, in contact. -1 with `is_collide` at time 0 for what has no answer: splines,
-/// poses that are not rigid, pairs without a distance.
+/// of `MotionAnswer::until`, in contact; of an undecided motion those of `MotionAnswer::from`, until which it
+/// is proven free, not in contact but for rounding or not at all. Either way it is at most `toc_err` after
+/// the first contact, if there is one. -1 with `is_collide` at time 0 for what has no answer: splines, poses
+/// that are not rigid, pairs without a distance.
 double continuousCollide(const fcl::CollisionGeometryd* geometry1, const fcl::MotionBased* motion1,
                          const fcl::CollisionGeometryd* geometry2, const fcl::MotionBased* motion2,
                          const fcl::ContinuousCollisionRequestd& request,

@@ -18,6 +18,7 @@ bool distanceCallback(fcl::CollisionObjectd* object1, fcl::CollisionObjectd* obj
     QueryContext context;
     context.mapping = query.mapping;
     context.start = query.start;
+    context.finite = query.finite;
     if (query.caches) context.cache = &query.caches->of(object1, object2);
     const DistanceAnswer answer = distance(*object1, *object2, context);
     if (answer.status == DistanceStatus::invalid)

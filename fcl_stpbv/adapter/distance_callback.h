@@ -54,6 +54,7 @@ struct DistanceData {
   /// Optional: pairs that are not asked, as two parts of one body, which FCL's managers offer like any others
   /// (docs/fcl.md). Takes the objects in the manager's order.
   std::function<bool(const fcl::CollisionObjectd*, const fcl::CollisionObjectd*)> leaveOut = nullptr;
+  bool finite = false;      ///< as QueryContext's
   std::size_t pairs = 0;    ///< pairs asked
   std::size_t invalid = 0;  ///< of these, pairs without an answer, left out of the result
 

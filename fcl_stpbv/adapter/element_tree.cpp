@@ -10,6 +10,11 @@
 #endif
 
 #include <algorithm>
+#include <cstring>
+#include <limits>
+
+#include "fcl_stpbv/packed.h"
+#include "fcl_stpbv/vectorized.h"
 
 namespace fcl_stpbv::detail {
 namespace {
@@ -106,6 +111,31 @@ int treeChildren(const fcl::OcTreed& tree, const Node& node, std::array<Node, 8>
 }
 #endif
 
+/// Whether all corners are numbers, and nearer than any pose may be. Brought to the end of the range, a
+/// corner farther away is infinite; nought times what is infinite or no number is no number, and so is every
+/// sum with it.
+FCL_STPBV_VECTORIZED
+bool areNumbers(const Vector3d* corner, int count) {
+  constexpr double kHuge = 1e150;  // m, makeRigid()'s
+  constexpr double kToEnd = std::numeric_limits<double>::max() / kHuge;
+  const auto load = [](const Vector3d* from, int part) {
+    Packed four;
+    std::memcpy(&four, from->data() + 4 * part, sizeof four);
+    return four;
+  };
+  Packed x{}, y{}, z{};  // four corners are three registers
+  int i = 0;
+  for (; i + 4 <= count; i += 4) {
+    x += 0.0 * (kToEnd * load(corner + i, 0));
+    y += 0.0 * (kToEnd * load(corner + i, 1));
+    z += 0.0 * (kToEnd * load(corner + i, 2));
+  }
+  Vector3d rest(0, 0, 0);
+  for (; i < count; ++i) rest += 0.0 * (kToEnd * corner[i]);
+  const Packed all = x + y + z;
+  return all[0] + all[1] + all[2] + all[3] + rest.sum() == 0.0;
+}
+
 }  // namespace
 
 ElementTree::ElementTree(const fcl::CollisionGeometryd& geometry) : geometry_(geometry) {
@@ -118,12 +148,7 @@ ElementTree::ElementTree(const fcl::CollisionGeometryd& geometry) : geometry_(ge
 
 bool ElementTree::finite() const {
   return withMesh(
-      geometry_,
-      [](const auto& mesh) {
-        return std::all_of(mesh.vertices, mesh.vertices + mesh.num_vertices,
-                           [](const Vector3d& p) { return p.allFinite(); });
-      },
-      true);
+      geometry_, [](const auto& mesh) { return areNumbers(mesh.vertices, mesh.num_vertices); }, true);
 }
 
 Node ElementTree::root() const {

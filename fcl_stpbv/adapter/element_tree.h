@@ -35,7 +35,8 @@ class ElementTree {
 
   /// Whether the geometry is a mesh or a tree with anything in it.
   bool any() const { return any_; }
-  /// Whether all its corners are numbers: FCL's boxes hide those that are not. Looks at each of them.
+  /// Whether all its corners are numbers, below 1e150 m: FCL's boxes hide those that are not. Looks at each
+  /// of them, whether a triangle has it or not.
   bool finite() const;
   Node root() const;
   /// The node's children, at most eight; how many.

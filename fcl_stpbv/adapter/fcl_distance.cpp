@@ -5,6 +5,7 @@
 
 #include <utility>
 
+#include "fcl_stpbv/adapter/element_tree.h"
 #include "fcl_stpbv/adapter/fcl_shapes.h"
 #include "fcl_stpbv/adapter/feature_map.h"
 #include "fcl_stpbv/adapter/nearest_pair.h"
@@ -64,10 +65,8 @@ bool mixedDistance(const StpBvGeometry* a, const CollisionGeometryd& geometry1, 
     cache.normal = -cache.normal;
     std::swap(cache.patch[0], cache.patch[1]);
   }
-  OtherDistance other;
-  if (!(a ? distanceToOther(a->volume(), pose1, geometry2, pose2, &cache, other)
-          : distanceToOther(b->volume(), pose2, geometry1, pose1, &cache, other)))
-    return false;
+  OtherDistance other = a ? distanceToOther(a->volume(), pose1, geometry2, pose2, &cache, context.finite)
+                          : distanceToOther(b->volume(), pose2, geometry1, pose1, &cache, context.finite);
   if (!a) {
     cache.normal = -cache.normal;
     std::swap(cache.patch[0], cache.patch[1]);
@@ -104,7 +103,7 @@ DistanceAnswer otherDistance(const StpBvGeometry* a, const CollisionGeometryd& g
   if (mixedDistance(a, geometry1, pose1, b, geometry2, pose2, context, answer) ||
       shapeDistance(geometry1, pose1, geometry2, pose2, answer))
     return answer;
-  const ElementsDistance elements = nearestElements(geometry1, pose1, geometry2, pose2);
+  const ElementsDistance elements = nearestElements(geometry1, pose1, geometry2, pose2, context.finite);
   answer = inFclTerms(elements.found, pose1, pose2);
   answer.element = elements.element;
   answer.runnerUp = elements.runnerUp;
@@ -129,6 +128,8 @@ DistanceAnswer inFclTerms(const Distance& found, const Transform3d& pose1, const
   answer.continuous = true;
   return answer;
 }
+
+bool hasFiniteCorners(const CollisionGeometryd& geometry) { return ElementTree(geometry).finite(); }
 
 DistanceAnswer distance(const CollisionGeometryd& geometry1, const Transform3d& pose1,
                         const CollisionGeometryd& geometry2, const Transform3d& pose2,

@@ -90,7 +90,15 @@ struct QueryContext {
   MappingCounts* mapping = nullptr;
   ProximityCounts* proximity = nullptr;  ///< gets what a question about a threshold took
   StartFrom start = StartFrom::centres;  ///< of queries without a last answer
+  /// The caller knows that all corners of meshes are numbers (hasFiniteCorners()). Each query looks at all of
+  /// them otherwise, which is most of its time where a large mesh is far away (docs/fcl.md). What is said of
+  /// a mesh of which it is not true is worth nothing.
+  bool finite = false;
 };
+
+/// Whether all corners of a mesh are numbers, below 1e150 m. A mesh with another one, used by a triangle or
+/// not, has no answer. True for all other types: theirs are asked in any case.
+bool hasFiniteCorners(const fcl::CollisionGeometryd& geometry);
 
 /// Distance between two geometries. Never throws or allocates; FCL is never asked for a distance.
 ///
@@ -98,7 +106,7 @@ struct QueryContext {
 /// status, bounds and derivatives. Two other shapes, one of them bounded: signed, by this library's
 /// own GJK, and at overlap by an expanding polytope (distance/shape_distance.h), `continuous` false.
 /// Meshes and trees: of their nearest elements (nearest_pair.h), `continuous` false; two of them
-/// that overlap: 0, with the elements that meet.
+/// that overlap: 0, with the elements that meet. `invalid` for a mesh with a corner that is no number.
 DistanceAnswer distance(const fcl::CollisionGeometryd& geometry1, const fcl::Transform3d& pose1,
                         const fcl::CollisionGeometryd& geometry2, const fcl::Transform3d& pose2,
                         const QueryContext& context = {});
@@ -167,8 +175,8 @@ class PairDistance {
   MappingCounts* mapping_;
 };
 
-/// Whether the geometries are certainly farther apart than `x` (m; negative:
-/// whether they are less deep in each other).
+/// Whether the geometries are certainly farther apart than `x` (m; negative: whether they are less deep in
+/// each other; two meshes or trees always are, as distance() knows no depth of surfaces).
 ///
 /// For every pair of types, with or without an STP-BV. Meshes and trees are walked down from both
 /// roots: pairs of boxes farther apart are left out, and the first pair of elements that is not ends

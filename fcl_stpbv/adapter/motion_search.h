@@ -28,7 +28,9 @@ class MotionSearch {
     hit_ = std::numeric_limits<double>::infinity();
     lists_.resize(static_cast<std::size_t>(pairs));
     for (std::size_t i = 0; i < lists_.size(); ++i) lists_[i] = static_cast<int>(i);
-    if (pairs > 0) visit(0, 1, 0, lists_.size());
+    // A contact that was seen stands, whatever the covers around it say.
+    if (pairs > 0 && !visit(0, 1, 0, lists_.size()) && hit_ <= 1)
+      finish(MotionVerdict::contact, hit_, hit_, hitPair_);
     return result_;
   }
 
@@ -40,13 +42,14 @@ class MotionSearch {
 
   // The pairs lists_[first, last) between `a` and `b`. True where the search is over.
   bool visit(double a, double b, std::size_t first, std::size_t last) {
-    if (a >= hit_) return false;
     b = std::min(b, hit_);
+    if (a >= b) return false;
     if (b == hit_ && b - a <= request_.tolerance) return finish(MotionVerdict::contact, a, hit_, hitPair_);
-    if (b - a <= std::min(kEnd, request_.tolerance) && endsInContact(b, first, last))
-      return finish(MotionVerdict::contact, a, b, hitPair_);
-    if (b - a <= kFinest || result_.queries > request_.mostQueries)
-      return finish(MotionVerdict::undecided, a, b, lists_[first]);
+    if (b - a <= std::min(kEnd, request_.tolerance)) {
+      const int pair = inContact(b, first, last);
+      if (pair >= 0) return finish(MotionVerdict::contact, a, b, pair);
+    }
+    if (result_.queries > request_.mostQueries) return finish(MotionVerdict::undecided, a, b, lists_[first]);
     const double half = 0.5 * (b - a), middle = a + half;
     Cover least{half, half};
     const std::size_t early = lists_.size();
@@ -68,21 +71,27 @@ class MotionSearch {
     }
     lists_.insert(lists_.end(), later_.begin(), later_.end());
     const std::size_t end = lists_.size();
+    // Only what was looked at is given up: two covers may leave as short a time as this between them, and it
+    // may be free.
+    if (end > early && b - a <= kFinest)
+      return hit_ == middle && half <= request_.tolerance
+                 ? finish(MotionVerdict::contact, a, hit_, hitPair_)
+                 : finish(MotionVerdict::undecided, a, b, lists_[early]);
     bool over = late > early && visit(a, middle - least.before, early, late);
     if (!over && end > late) over = visit(middle + least.after, b, late, end);
     lists_.resize(early);
     return over;
   }
 
-  bool endsInContact(double b, std::size_t first, std::size_t last) {
-    scene_.place(b);
+  // The first of the pairs that is in contact at the time, or -1.
+  int inContact(double time, std::size_t first, std::size_t last) {
+    scene_.place(time);
     for (std::size_t i = first; i < last; ++i) {
       Cover ignored;
       ++result_.queries;
-      hitPair_ = lists_[i];
-      if (scene_.look(hitPair_, 0, ignored)) return true;
+      if (scene_.look(lists_[i], 0, ignored)) return lists_[i];
     }
-    return false;
+    return -1;
   }
 
   bool finish(MotionVerdict verdict, double from, double until, int pair) {

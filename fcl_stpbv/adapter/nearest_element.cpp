@@ -35,16 +35,17 @@ double NearestElement::lowerBound(const OrientedBox& box) const {
 }
 
 double NearestElement::lowerBound(const Shape& element, const Vector3d& place) const {
-  if (!any()) return -std::numeric_limits<double>::infinity();
+  if (!any()) return -kInfinity;
   return n_.dot(place + element.support(-n_) - centre_) - element.margin - support_;
 }
 
 void NearestElement::visit(const ElementTree::Node& node, double bound) {
-  if (any() && !(bound < runnerUp_)) return;
+  // A bound that is no number is none.
+  if (broken_ || (any() && bound >= runnerUp_)) return;
   if (node.leaf) {
     Shape shape;
     Vector3d place;
-    if (elements_.element(node, shape, place) && (!any() || lowerBound(shape, place) < runnerUp_))
+    if (elements_.element(node, shape, place) && !(any() && lowerBound(shape, place) >= runnerUp_))
       offer(shape, place, node.id);
     return;
   }
@@ -65,6 +66,20 @@ void NearestElement::visit(const ElementTree::Node& node, double bound) {
   }
 }
 
+Distance NearestElement::best() const {
+  Distance result = best_;
+  result.lower = lower_;
+  result.upper = upper_;
+  if (best_.status == DistanceStatus::exact && !exact_) result.status = DistanceStatus::bounded;
+  return result;
+}
+
+void NearestElement::takeBounds(const Distance& found) {
+  if (found.lower < lower_) exact_ = found.status == DistanceStatus::exact;
+  lower_ = std::min(lower_, found.lower);
+  upper_ = std::min(upper_, found.upper);
+}
+
 void NearestElement::offer(const Shape& element, const Vector3d& place, std::intptr_t id) {
   PairCache start;
   if (any())
@@ -74,7 +89,11 @@ void NearestElement::offer(const Shape& element, const Vector3d& place, std::int
   Isometry3d at = poseElements_;
   at.translation() = poseElements_ * place;
   const Distance found = distance(volume_, poseVolume_, element, at, &start);
-  if (found.status == DistanceStatus::invalid) return;
+  if (found.status == DistanceStatus::invalid) {
+    broken_ = true;
+    return;
+  }
+  takeBounds(found);
   if (any() && found.distance >= best_.distance) {
     runnerUp_ = std::min(runnerUp_, found.distance);
     return;

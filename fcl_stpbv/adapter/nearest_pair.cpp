@@ -16,8 +16,7 @@ using Eigen::Vector3d;
 
 class NearestElements {
  public:
-  explicit NearestElements(const PosedPair& pair)
-      : pair_(pair), surfaces_(!pair.first.isBody() && !pair.second.isBody()) {}
+  explicit NearestElements(const PosedPair& pair) : pair_(pair), surfaces_(pair.areSurfaces()) {}
 
   const ElementsDistance& result() const { return result_; }
 
@@ -32,7 +31,10 @@ class NearestElements {
     if (!pair_.first.body(leafA, a) || !pair_.second.body(leafB, b)) return false;  // a free cell
     if (skip(gapAlongBest(a, b))) return false;
     const Distance found = distance(a, b);
-    if (found.status == DistanceStatus::invalid) return false;
+    if (found.status == DistanceStatus::invalid) {  // an element that is no body: nothing is known
+      result_ = {};
+      return true;
+    }
     Distance& best = result_.found;
     bounds(found);
     if (any() && found.distance >= best.distance) {
@@ -92,10 +94,11 @@ class NearestElements {
 }  // namespace
 
 ElementsDistance nearestElements(const fcl::CollisionGeometryd& geometry1, const Eigen::Isometry3d& pose1,
-                                 const fcl::CollisionGeometryd& geometry2, const Eigen::Isometry3d& pose2) {
+                                 const fcl::CollisionGeometryd& geometry2, const Eigen::Isometry3d& pose2,
+                                 bool finite) {
   const PosedPair pair(geometry1, pose1, geometry2, pose2);
   NearestElements nearest(pair);
-  if (pair.valid && pair.first.finite() && pair.second.finite())
+  if (pair.valid && (finite || pair.finite()))
     descend(pair, pair.first.whole(), pair.second.whole(), nearest);
   return nearest.result();
 }

@@ -7,22 +7,20 @@
 
 namespace fcl_stpbv::detail {
 
-bool distanceToOther(const StpBv& volume, const Eigen::Isometry3d& poseVolume,
-                     const fcl::CollisionGeometryd& other, const Eigen::Isometry3d& poseOther,
-                     PairCache* cache, OtherDistance& result) {
+OtherDistance distanceToOther(const StpBv& volume, const Eigen::Isometry3d& poseVolume,
+                              const fcl::CollisionGeometryd& other, const Eigen::Isometry3d& poseOther,
+                              PairCache* cache, bool finite) {
+  OtherDistance result;
   Shape shape;
   if (shapeOf(other, shape)) {
     result.found = distance(volume, poseVolume, shape, poseOther, cache);
-    return true;
+    return result;
   }
   const ElementTree elements(other);
+  if (!elements.any() || !(finite || elements.finite())) return result;
   const NearestElement search(volume, poseVolume, elements, poseOther, cache);
-  if (!search.any()) return false;
-  result.found = search.best();
-  result.element = search.element();
-  result.runnerUp = search.runnerUp();
-  result.continuous = false;
-  return true;
+  if (!search.any()) return result;
+  return {search.best(), search.element(), search.runnerUp(), /*continuous=*/false};
 }
 
 }  // namespace fcl_stpbv::detail

@@ -18,10 +18,10 @@ struct OtherDistance {
   bool continuous = true;  ///< the gradient too: false for meshes and trees, whose nearest element switches
 };
 
-/// Solves the pair. False where this library has no answer: a type it does not know, or
-/// nothing to measure to. Allocates nothing.
-bool distanceToOther(const StpBv& volume, const Eigen::Isometry3d& poseVolume,
-                     const fcl::CollisionGeometryd& other, const Eigen::Isometry3d& poseOther,
-                     PairCache* cache, OtherDistance& result);
+/// Solves the pair. `invalid` where this library has no answer: a type it does not know, nothing to measure
+/// to, or a corner that is no number, unless the caller knows that all are (`finite`). Allocates nothing.
+OtherDistance distanceToOther(const StpBv& volume, const Eigen::Isometry3d& poseVolume,
+                              const fcl::CollisionGeometryd& other, const Eigen::Isometry3d& poseOther,
+                              PairCache* cache, bool finite);
 
 }  // namespace fcl_stpbv::detail

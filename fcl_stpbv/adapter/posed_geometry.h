@@ -98,6 +98,11 @@ struct PosedPair {
   PosedPair(const fcl::CollisionGeometryd& geometry1, Eigen::Isometry3d pose1,
             const fcl::CollisionGeometryd& geometry2, Eigen::Isometry3d pose2);
 
+  /// Whether all corners of meshes are numbers. Without it nothing is known about the pair.
+  bool finite() const { return first.finite() && second.finite(); }
+  /// Whether neither is a body: surfaces, which have no depth, and so no distance below 0.
+  bool areSurfaces() const { return !first.isBody() && !second.isBody(); }
+
   bool valid;  ///< both poses rigid, both geometries known, one of them bounded
   PosedGeometry first, second;
   Eigen::Matrix3d toWorld;  ///< the first geometry's axes

@@ -47,6 +47,17 @@ class Within {
   ProximityCounts* counts_ = nullptr;
 };
 
+/// By the elements of a valid pair.
+bool areElementsFarther(double x, const PosedPair& pair, const QueryContext& context) {
+  if (x < 0 && pair.areSurfaces()) return true;  // they have no depth: their distance is at least 0
+  Within within(x, pair, context);
+  const PosedGeometry::Part a = pair.first.whole(), b = pair.second.whole();
+  if (within.skip(within.bound(a, b))) return true;
+  const bool farther = !descend(pair, a, b, within);
+  if (context.cache) *context.cache = within.cache();
+  return farther;
+}
+
 }  // namespace
 
 namespace detail {
@@ -82,12 +93,8 @@ bool isFartherThan(double x, const fcl::CollisionGeometryd& geometry1, const fcl
     return isFartherThan(x, bodyA, bodyB, context.cache, context.proximity);
   const PosedPair pair(geometry1, pose1, geometry2, pose2);
   if (!pair.valid) return false;
-  Within within(x, pair, context);
-  const PosedGeometry::Part a = pair.first.whole(), b = pair.second.whole();
-  if (within.skip(within.bound(a, b))) return true;
-  const bool farther = !descend(pair, a, b, within);
-  if (context.cache) *context.cache = within.cache();
-  return farther;
+  // The corners are looked at last: what is within reach is not farther, whatever they are.
+  return areElementsFarther(x, pair, context) && (context.finite || pair.finite());
 }
 
 Distance distance(const StpBvGeometry& geometry, const fcl::Transform3d& pose, const Eigen::Vector3d& point,

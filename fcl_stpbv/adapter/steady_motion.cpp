@@ -1,9 +1,12 @@
 // Motions as FCL makes them, from two poses or from FCL's own objects.
 // 1. The rotation from the first pose to the second, as axis and angle, is the angular velocity.
 // 2. CCDM_LINEAR: the body's origin moves on a straight line. CCDM_TRANS: the same without the rotation.
-// 3. CCDM_SCREW: Chasles' theorem. Some axis moves along itself only; it lies where the translation across
-//    it is the chord of the turn: point = origin + (across + axis x way / tan(angle / 2)) / 2.
-// 4. FCL's objects are read by their type, and go the same way.
+// 3. CCDM_SCREW: Chasles' theorem. Some axis moves along itself only. Across it the origin goes along an arc
+//    whose chord is the way across: at first with the velocity
+//    turning = angle / 2 (across / tan(angle / 2) - axis x across).
+// 4. The axis itself is never needed: as the angle goes to 0 it goes away to infinity, and this velocity to
+//    that on the straight line.
+// 5. FCL's objects are read by their type, and go the same way.
 #include <fcl/math/motion/interp_motion.h>
 #include <fcl/math/motion/screw_motion.h>
 #include <fcl/math/motion/translation_motion.h>
@@ -31,35 +34,40 @@ struct InterpolationEnds : fcl::InterpMotion<double> {
   using fcl::InterpMotion<double>::tf2;
 };
 
+/// A point of the body's frame moves straight.
 SteadyMotion about(const Isometry3d& begin, const Isometry3d& end, const Vector3d& point) {
   const Eigen::AngleAxisd turn(Eigen::Matrix3d(end.linear() * begin.linear().transpose()));
-  return {begin, begin * point, end * point - begin * point, turn.angle() * turn.axis()};
+  const Vector3d angular = turn.angle() * turn.axis();
+  return {begin, end * point - begin * point, (begin.linear() * point).cross(angular), angular};
 }
 
-/// The axis that stays where it is but for the way along itself (Chasles).
+/// An axis stays where it is but for the way along itself (Chasles).
 SteadyMotion screw(const Isometry3d& begin, const Isometry3d& end) {
   SteadyMotion motion = about(begin, end, Vector3d(0, 0, 0));
-  const double angle = motion.angular.norm();
-  constexpr double kStraight = 1e-10;  // FCL's own; below it the axis is nowhere
-  if (angle < kStraight) return motion;
-  const Vector3d axis = motion.angular / angle, way = motion.linear;
-  const Vector3d across = way - axis.dot(way) * axis;
-  motion.point = begin.translation() + 0.5 * (across + axis.cross(way) / std::tan(0.5 * angle));
-  motion.linear = axis.dot(way) * axis;
+  const double angle = motion.angular.norm(), half = 0.5 * angle;
+  if (!(angle > 0)) return motion;
+  const Vector3d axis = motion.angular / angle, along = axis.dot(motion.linear) * axis;
+  const Vector3d across = motion.linear - along;
+  motion.turning = half / std::tan(half) * across - 0.5 * motion.angular.cross(across);
+  motion.linear = along;
   return motion;
 }
 
 }  // namespace
 
-Isometry3d SteadyMotion::at(double t) const {
-  const double angle = angular.norm();
+// With the half angle's sine nothing cancels where the angle is small: the turning goes on for
+// sin(angle t) / angle = chord cos(half), and bends inwards by (1 - cos(angle t)) / angle^2 = chord^2 / 2.
+Isometry3d SteadyMotion::at(double t, Vector3d* velocity) const {
+  const double angle = angular.norm(), half = 0.5 * t * angle, s = std::sin(half), c = std::cos(half);
+  const double chord = half == 0 ? t : t * (s / half);
+  const Vector3d inward = angular.cross(turning);
   Isometry3d pose = begin;
   if (angle > 0) {
-    const Eigen::Matrix3d turn = Eigen::AngleAxisd(t * angle, angular / angle).toRotationMatrix();
-    pose.linear() = turn * begin.linear();
-    pose.translation() = point + turn * (begin.translation() - point);
+    const Vector3d axis = angular / angle;
+    pose.linear() = Eigen::Quaterniond(c, s * axis.x(), s * axis.y(), s * axis.z()) * begin.linear();
   }
-  pose.translation() += t * linear;
+  pose.translation() += t * linear + chord * c * turning + 0.5 * chord * chord * inward;
+  if (velocity) *velocity = linear + (1 - 2 * s * s) * turning + chord * c * inward;
   return pose;
 }
 

@@ -9,6 +9,13 @@ namespace fcl_stpbv {
 
 using Eigen::Vector3d;
 
+namespace {
+
+/// What is taken for the unit normal of a plane. FCL normalizes its planes; anything else is none.
+bool isUnitNormal(const Vector3d& normal) { return std::abs(normal.squaredNorm() - 1.0) < 1e-6; }
+
+}  // namespace
+
 Shape Shape::sphere(double radius) {
   Shape s;
   s.margin = radius;
@@ -79,9 +86,11 @@ Shape Shape::ellipsoidOf(const Vector3d& semiAxes) {
 Shape Shape::halfspaceOf(const Vector3d& normal, double offset) {
   Shape s;
   s.kind = ShapeKind::halfspace;
-  s.normal = normal;
-  s.offset = offset;
-  s.centre = offset * normal;
+  // A normal that is unit but for 1e-6 moves the plane by that part of the offset unless both are divided.
+  const double length = isUnitNormal(normal) ? normal.norm() : 1.0;
+  s.normal = normal / length;
+  s.offset = offset / length;
+  s.centre = s.offset * s.normal;
   return s;
 }
 
@@ -92,8 +101,7 @@ Shape Shape::planeOf(const Vector3d& normal, double offset) {
 }
 
 bool Shape::valid() const {
-  constexpr double kUnit = 1e-6;  // FCL normalizes its planes; anything else is no plane
-  if (unbounded()) return std::abs(normal.squaredNorm() - 1.0) < kUnit && std::isfinite(offset);
+  if (unbounded()) return isUnitNormal(normal) && std::isfinite(offset);
   if (kind == ShapeKind::polytope && vertexCount < 1) return false;
   const double all = margin + radius + half + reach + size.sum() + centre.sum();
   return std::isfinite(all) && margin >= 0.0 && radius >= 0.0 && half >= 0.0 && size.minCoeff() >= 0.0;

@@ -240,3 +240,71 @@ TEST_CASE("objects that carry their motion, and a screw without a turn, go where
   CHECK(std::abs(fcl_stpbv::collide(&a, &b, requestOf(fcl::CCDM_SCREW, 1e-6), result) - 0.9) <= 1e-6);
   CHECK(result.is_collide);
 }
+
+TEST_CASE("a motion ends at its end pose, by whatever turn the two poses differ") {
+  Random random(7);
+  for (const double angle :
+       {0.0, 1e-300, 1e-16, 1e-12, 1e-10, 1e-9, 1e-8, 1e-6, 1e-3, 1.0, 3.0, M_PI - 1e-9, M_PI})
+    for (int i = 0; i < 50; ++i)
+      for (const fcl::CCDMotionType type : {fcl::CCDM_LINEAR, fcl::CCDM_SCREW}) {
+        CAPTURE(angle, i, type);
+        const Isometry3d begin = pose(random.rotation(), random.direction());
+        const Eigen::Matrix3d turn = Eigen::AngleAxisd(angle, random.direction()).toRotationMatrix();
+        const Isometry3d end = pose(turn * begin.linear(), begin.translation() + 2 * random.direction());
+        SteadyMotion motion;
+        REQUIRE(steadyMotion(begin, end, type, motion));
+        CHECK(motion.at(0).matrix() == begin.matrix());
+        CHECK((motion.at(1).matrix() - end.matrix()).norm() <= 1e-14);
+        // The velocity is the pose's derivative, also where the axis is 1e10 m away.
+        const double t = random.uniform(0.1, 0.9), h = 1e-5;
+        Vector3d velocity;
+        motion.at(t, &velocity);
+        const Vector3d slope = (motion.at(t + h).translation() - motion.at(t - h).translation()) / (2 * h);
+        CHECK((velocity - slope).norm() <= 1e-8);
+      }
+  // By hand: three times around the z axis, 1 m away, and up.
+  const SteadyMotion spiral{at(1, 0, 0), {0, 0, 2}, {0, 6 * M_PI, 0}, {0, 0, 6 * M_PI}};
+  CHECK((spiral.at(0.25).translation() - Vector3d(0, -1, 0.5)).norm() <= 1e-15);
+  CHECK((spiral.at(1).translation() - Vector3d(1, 0, 2)).norm() <= 1e-14);
+}
+
+TEST_CASE("a screw by next to no turn is as free, and meets as soon, as the straight motion") {
+  const StpBvGeometry point(StpBv::build({{0, 0, 0}}, {0.1, 10}));
+  const fcl::Sphered ball(0.1);
+  for (const double angle : {1e-12, 9e-11, 1.1e-10, 2e-10, 1e-9, 1e-8, 1e-7}) {
+    CAPTURE(angle);
+    const Eigen::Matrix3d turn = Eigen::AngleAxisd(angle, Vector3d::UnitZ()).toRotationMatrix();
+    const auto ask = [&](double y, fcl::ContinuousCollisionResultd& result) {
+      return fcl_stpbv::continuousCollide(&point, at(-1, y, 0), pose(turn, {1, y, 0}), &ball, at(0, 0, 0),
+                                          at(0, 0, 0), requestOf(fcl::CCDM_SCREW, 1e-10), result);
+    };
+    // It bends by angle / 4 m: past the ball with 1e-6 m to spare, and head on, where it meets at 0.4.
+    fcl::ContinuousCollisionResultd past, met;
+    CHECK(ask(0.2 + 1e-6, past) == 1);
+    CHECK_FALSE(past.is_collide);
+    CHECK((past.contact_tf1.translation() - Vector3d(1, 0.2 + 1e-6, 0)).norm() <= 1e-15);
+    CHECK(std::abs(ask(0, met) - 0.4) <= 1.1e-10 + angle);
+    CHECK(met.is_collide);
+    CHECK(distance(point, met.contact_tf1, ball, met.contact_tf2).distance <= 0);
+  }
+}
+
+TEST_CASE("an undecided motion is a collision at the time until which it is proven free") {
+  // A point that goes through a plane is in it at no time that is a number.
+  const StpBvGeometry point(StpBv::build({{0, 0, 0}}, {0, 1}));
+  const fcl::Planed plane(Vector3d::UnitZ(), 0.0);
+  const Isometry3d from = at(0, 0, 0.3), to = at(0.1, 0, -std::sqrt(0.5));
+  SteadyMotion motion, still;
+  REQUIRE(steadyMotion(from, to, fcl::CCDM_LINEAR, motion));
+  REQUIRE(steadyMotion(at(0, 0, 0), at(0, 0, 0), fcl::CCDM_TRANS, still));
+  const MotionAnswer found = firstContact(point, motion, plane, still, {0, 1e-6});
+  REQUIRE(found.verdict == MotionVerdict::undecided);
+  fcl::ContinuousCollisionResultd result;
+  const double t = fcl_stpbv::continuousCollide(&point, from, to, &plane, at(0, 0, 0), at(0, 0, 0),
+                                                requestOf(fcl::CCDM_LINEAR, 1e-6), result);
+  CHECK(result.is_collide);
+  CHECK((t == found.from && result.time_of_contact == t));
+  CHECK(result.contact_tf1.matrix() == motion.at(t).matrix());
+  const double truth = 0.3 / (0.3 + std::sqrt(0.5));
+  CHECK((t <= truth && t > truth - 1e-11));
+}

@@ -18,6 +18,7 @@
 
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 
 #include "fcl_stpbv/adapter/fcl_distance.h"
 #include "fcl_stpbv/distance/shape_distance.h"
@@ -171,4 +172,33 @@ TEST_CASE("nothing to measure to has no answer") {
   const Isometry3d at = Isometry3d::Identity();
   CHECK(distance(*body, at, fcl::BVHModel<fcl::OBBRSSd>(), at).status == DistanceStatus::invalid);
   CHECK(collides(*body, at, fcl::BVHModel<fcl::OBBRSSd>(), at));
+}
+
+TEST_CASE("a plane whose normal is a little longer than 1 stands where normal.x = offset, or has no answer") {
+  // A million metres out, where a part of 4e-7 of the offset is 0.4 m. FCL makes normals unit; its fields are
+  // open.
+  const double offset = 1e6;
+  const Isometry3d here = Isometry3d::Identity();
+  for (const double length : {1 + 4e-7, 1 - 4e-7, 1 + 1e-12, 1 + 1e-3, 0.0}) {
+    CAPTURE(length);
+    fcl::Halfspaced ground;
+    fcl::Planed sheet;
+    ground.n = sheet.n = Vector3d(0, 0, length);
+    ground.d = sheet.d = offset;
+    const double height = offset / length;
+    const Isometry3d above = pose(Eigen::Matrix3d::Identity(), {0.1, 0.2, offset + 5});
+    const fcl::Boxd crate(0.2, 0.4, 1);
+    const StpBvGeometry point(StpBv::build({{0, 0, 0}}, {0.1, 10}));
+    for (const fcl::CollisionGeometryd* flat : {static_cast<const fcl::CollisionGeometryd*>(&ground),
+                                                static_cast<const fcl::CollisionGeometryd*>(&sheet)}) {
+      const DistanceAnswer d = distance(*flat, here, crate, above), e = distance(*flat, here, point, above);
+      if (std::abs(length - 1) > 1e-4) {
+        CHECK((d.status == DistanceStatus::invalid && e.status == DistanceStatus::invalid));
+        continue;
+      }
+      CHECK(std::abs(d.distance - (offset + 5 - 0.5 - height)) <= 1e-9);
+      CHECK(std::abs(e.distance - (offset + 5 - 0.1 - height)) <= 1e-9);
+      CHECK((d.lower <= offset + 4.5 - height && d.upper >= offset + 4.5 - height));
+    }
+  }
 }

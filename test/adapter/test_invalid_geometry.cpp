@@ -1,4 +1,4 @@
-// Sizes and poses that describe no body: `invalid` for every pair of types alike, and
+// Sizes, corners and poses that describe no body: `invalid` for every pair of types alike, and
 // libccd's assertions are never reached.
 #include <fcl/geometry/bvh/BVH_model.h>
 #include <fcl/geometry/geometric_shape_to_BVH_model.h>
@@ -7,13 +7,17 @@
 #include <fcl/geometry/shape/cone.h>
 #include <fcl/geometry/shape/cylinder.h>
 #include <fcl/geometry/shape/ellipsoid.h>
+#include <fcl/geometry/shape/halfspace.h>
 #include <fcl/geometry/shape/sphere.h>
 #include <fcl/geometry/shape/triangle_p.h>
 
 #include <catch2/catch.hpp>
 #include <limits>
 
+#include "fcl_stpbv/adapter/collide.h"
+#include "fcl_stpbv/adapter/continuous_collide.h"
 #include "fcl_stpbv/adapter/fcl_distance.h"
+#include "test/adapter/bodies.h"
 #include "test/reference/shapes.h"
 
 using namespace fcl_stpbv;
@@ -47,6 +51,22 @@ Geometry meshOfBox(double side) {
   return mesh;
 }
 
+/// Bumpy ground of triangles or points with one number of one corner set to `x`. Built by FCL, whose boxes
+/// then hide it or not, or changed in place, where they know nothing of it.
+template <typename BV>
+std::shared_ptr<fcl::BVHModel<BV>> groundWith(double x, int corner, bool built, bool cloud = false) {
+  const auto ground = bumpyGround<fcl::AABBd>(6, 0.1);
+  std::vector<Vector3d> points(ground->vertices, ground->vertices + ground->num_vertices);
+  const std::vector<fcl::Triangle> triangles(ground->tri_indices, ground->tri_indices + ground->num_tris);
+  if (built) points[static_cast<std::size_t>(corner)][corner % 3] = x;
+  auto mesh = std::make_shared<fcl::BVHModel<BV>>();
+  mesh->beginModel();
+  cloud ? mesh->addSubModel(points) : mesh->addSubModel(points, triangles);
+  mesh->endModel();
+  mesh->vertices[corner][corner % 3] = x;
+  return mesh;
+}
+
 std::vector<Geometry> soundGeometries() {
   return {std::make_shared<fcl::Boxd>(0.1, 0.2, 0.3),
           std::make_shared<fcl::Coned>(0.1, 0.2),
@@ -62,6 +82,26 @@ void checkInvalid(const fcl::CollisionGeometryd& a, const Isometry3d& poseA, con
   CHECK(d.status == DistanceStatus::invalid);
   CHECK(e.status == DistanceStatus::invalid);
   CHECK_FALSE(isFartherThan(0.0, a, poseA, b, poseB));
+}
+
+/// That no question about the pair is answered as if it were known to be clear, or where it meets.
+void checkUnknown(const fcl::CollisionGeometryd& a, const Isometry3d& poseA, const fcl::CollisionGeometryd& b,
+                  const Isometry3d& poseB) {
+  CHECK(distance(a, poseA, b, poseB).status == DistanceStatus::invalid);
+  fcl::DistanceResultd least;
+  CHECK(fcl_stpbv::distance(&a, poseA, &b, poseB, fcl::DistanceRequestd(), least) == -1);
+  for (const double x : {-1e3, -0.1, 0.0, 0.1}) CHECK_FALSE(isFartherThan(x, a, poseA, b, poseB));
+  for (const bool withContact : {true, false}) {
+    fcl::CollisionResultd found;
+    REQUIRE(fcl_stpbv::collide(&a, poseA, &b, poseB, fcl::CollisionRequestd(100, withContact), found) == 1);
+    if (withContact) CHECK(found.getContact(0).penetration_depth == std::numeric_limits<double>::infinity());
+  }
+  for (const auto type : {fcl::CCDM_TRANS, fcl::CCDM_LINEAR, fcl::CCDM_SCREW}) {
+    const fcl::ContinuousCollisionRequestd request(10, 1e-4, type);
+    fcl::ContinuousCollisionResultd found;
+    CHECK(fcl_stpbv::continuousCollide(&a, poseA, poseA, &b, poseB, poseB, request, found) == -1);
+    CHECK((found.is_collide && found.time_of_contact == 0));
+  }
 }
 
 }  // namespace
@@ -81,12 +121,55 @@ TEST_CASE("A shape with a size that is no number, infinite or negative has no di
     }
 }
 
-TEST_CASE("A mesh with a corner that is no number has no distance to a shape") {
-  const Isometry3d there = pose(Eigen::Matrix3d::Identity(), {1, 0.1, 0.2});
-  const Geometry bad = meshOfBox<fcl::OBBRSSd>(std::numeric_limits<double>::quiet_NaN());
-  const fcl::Boxd box(0.1, 0.2, 0.3);
-  CHECK(distance(*bad, Isometry3d::Identity(), box, there).status == DistanceStatus::invalid);
-  CHECK(distance(box, there, *bad, Isometry3d::Identity()).status == DistanceStatus::invalid);
+TEST_CASE("A mesh with a corner that is no number, wherever it is, has no answer to any question") {
+  const double infinity = std::numeric_limits<double>::infinity();
+  std::vector<Geometry> others = soundGeometries();
+  others.push_back(std::make_shared<fcl::Halfspaced>(Vector3d::UnitZ(), -0.3));
+  const Isometry3d here = Isometry3d::Identity();
+  int asked = 0;
+  for (const double x : {std::numeric_limits<double>::quiet_NaN(), infinity, -infinity, 1e200})
+    for (const int corner :
+         {0, 1, 2, 17, 24, 46, 47, 48})  // of 49: also the last ones, which fill no register
+      for (const Geometry& bad : {Geometry(groundWith<fcl::OBBRSSd>(x, corner, false)),
+                                  Geometry(groundWith<fcl::RSSd>(x, corner, false, true)),
+                                  Geometry(groundWith<fcl::AABBd>(x, corner, true)),
+                                  Geometry(groundWith<fcl::KDOP<double, 16>>(x, corner, true))}) {
+        CAPTURE(x, corner, bad->getNodeType());
+        CHECK_FALSE(hasFiniteCorners(*bad));
+        const Geometry& other = others[static_cast<std::size_t>(++asked) % others.size()];
+        // Upon it, and where the boxes alone would tell.
+        for (const Vector3d& place : {Vector3d(0.1, 0.2, 0.05), Vector3d(0.3, 0, 4)}) {
+          const Isometry3d there = pose(Eigen::Matrix3d::Identity(), place);
+          CAPTURE(other->getNodeType(), place.transpose());
+          checkUnknown(*bad, here, *other, there);
+          checkUnknown(*other, there, *bad, here);
+        }
+      }
+}
+
+TEST_CASE("A caller that has looked at the corners gets the same answers without another look") {
+  const auto ground = bumpyGround<fcl::OBBRSSd>(6, 0.1);
+  CHECK(hasFiniteCorners(*ground));
+  const Isometry3d here = Isometry3d::Identity();
+  QueryContext looked;
+  looked.finite = true;
+  for (const Geometry& other : soundGeometries()) {
+    CHECK(hasFiniteCorners(*other));
+    for (const double height : {0.05, 0.5}) {
+      CAPTURE(other->getNodeType(), height);
+      const Isometry3d there = pose(Eigen::Matrix3d::Identity(), {0.1, 0.2, height});
+      const DistanceAnswer d = distance(*ground, here, *other, there);
+      CHECK(d.status != DistanceStatus::invalid);
+      CHECK(d.distance == distance(*ground, here, *other, there, looked).distance);
+      for (const double x : {-0.1, 0.0, 0.1})
+        CHECK(isFartherThan(x, *ground, here, *other, there) ==
+              isFartherThan(x, *ground, here, *other, there, looked));
+      fcl::CollisionResultd found, again;
+      const fcl::CollisionRequestd request(100, true);
+      CHECK(fcl_stpbv::collide(ground.get(), here, other.get(), there, request, found) ==
+            fcl_stpbv::collide(ground.get(), here, other.get(), there, request, again, nullptr, true));
+    }
+  }
 }
 
 TEST_CASE("A pose that is no rigid motion has no answer, for every pair of types") {

@@ -111,7 +111,12 @@ Distance between(const Part& p, Isometry3d a, const Part& q, Isometry3d b) {
   return distance(p.shape, a, q.shape, b);
 }
 
-/// Over all pairs of bodies.
+/// Whether it is a mesh or a tree.
+bool isSurface(const Kind& kind) {
+  return kind.geometry->getObjectType() == fcl::OT_BVH || kind.geometry->getObjectType() == fcl::OT_OCTREE;
+}
+
+/// Over all pairs of bodies; two surfaces have no depth.
 Distance leastBetween(const Kind& first, const Isometry3d& a, const Kind& second, const Isometry3d& b) {
   Distance least;
   least.lower = least.upper = std::numeric_limits<double>::infinity();
@@ -122,6 +127,10 @@ Distance leastBetween(const Kind& first, const Isometry3d& a, const Kind& second
       least.lower = std::min(least.lower, d.lower);
       least.upper = std::min(least.upper, d.upper);
     }
+  if (isSurface(first) && isSurface(second)) {
+    least.lower = std::max(least.lower, 0.0);
+    least.upper = std::max(least.upper, 0.0);
+  }
   least.status = DistanceStatus::bounded;
   return least;
 }
@@ -202,6 +211,50 @@ TEST_CASE(
   CAPTURE(pairs, asked, solvedBelow, solvedAbove);
   CHECK(solvedBelow <= pairs / 40);  // 2.2 % of all pairs of bodies, a millimetre below the distance
   CHECK(solvedAbove <= 5 * asked);   // four a question on average, a millimetre above it
+}
+
+TEST_CASE("whatever distance says of two kinds that overlap, a threshold below 0 is judged by it") {
+  const auto kinds = everyKind();
+  Random random(4);
+  int surfaces = 0, bodies = 0;
+  for (const Kind& first : kinds)
+    for (const Kind& second : kinds)
+      for (int i = 0; i < 3; ++i) {
+        const Isometry3d a = pose(random.rotation(), random.direction());
+        const Isometry3d b =
+            pose(random.rotation(), a.translation() + random.uniform(0, 0.3) * random.direction());
+        const DistanceAnswer d = distance(*first.geometry, a, *second.geometry, b);
+        if (d.status == DistanceStatus::invalid || !(d.lower <= 0)) continue;
+        CAPTURE(first.name, second.name, i, d.lower, d.upper);
+        ++(isSurface(first) && isSurface(second) ? surfaces : bodies);
+        const double slack = 1e-12 - 1e-6 * d.lower;  // a depth of round bodies is good to 1e-6 of it
+        for (const double x : {-1e-9, -1e-3, -0.1, -0.4, -10.0}) {
+          if (x < d.lower - slack) CHECK(isFartherThan(x, *first.geometry, a, *second.geometry, b));
+          if (x > d.upper + slack) CHECK_FALSE(isFartherThan(x, *first.geometry, a, *second.geometry, b));
+          if (x > d.upper + slack) CHECK(collides(*first.geometry, a, *second.geometry, b, x));
+        }
+      }
+  CHECK((surfaces > 20 && bodies > 200));
+}
+
+TEST_CASE("two triangles that cross are no deeper in each other than 0, as their distance says") {
+  const auto triangle = [](const std::vector<Vector3d>& corners) {
+    auto mesh = std::make_shared<fcl::BVHModel<fcl::OBBRSSd>>();
+    mesh->beginModel();
+    mesh->addSubModel(corners, {fcl::Triangle(0, 1, 2)});
+    mesh->endModel();
+    return mesh;
+  };
+  const auto a = triangle({{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}}),
+             b = triangle({{0, -1, -1}, {0, -1, 1}, {0, 1, 0}});
+  const Isometry3d here = Isometry3d::Identity();
+  CHECK(distance(*a, here, *b, here).distance == 0);
+  for (const double x : {-1e-6, -0.1, -0.4, -0.5, -10.0}) {
+    CHECK(isFartherThan(x, *a, here, *b, here));
+    CHECK_FALSE(collides(*a, here, *b, here, x));
+  }
+  CHECK_FALSE(isFartherThan(0, *a, here, *b, here));
+  CHECK_FALSE(isFartherThan(-0.0, *a, here, *b, here));
 }
 
 TEST_CASE("the remembered normal's planes answer the next question alone") {

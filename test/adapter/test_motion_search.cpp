@@ -1,0 +1,71 @@
+// The search for a first contact on scenes whose distances are functions of time.
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <functional>
+#include <vector>
+
+#include "fcl_stpbv/adapter/motion_search.h"
+
+using namespace fcl_stpbv;
+using namespace fcl_stpbv::detail;
+
+namespace {
+
+/// Pairs whose distances change by at most 1 in a unit of time; covers are `part` of what that allows.
+struct Functions {
+  std::vector<std::function<double(double)>> distance;
+  double part = 1;
+  double t = 0;
+
+  void place(double time) { t = time; }
+  bool look(int pair, double most, Cover& cover) {
+    const double gap = distance[static_cast<std::size_t>(pair)](t);
+    if (!(gap > 0)) return true;
+    cover.before = cover.after = std::min(part * gap, most);
+    return false;
+  }
+};
+
+MotionBracket search(Functions scene, double tolerance) {
+  MotionRequest request;
+  request.tolerance = tolerance;
+  return MotionSearch<Functions>(scene, request).run(static_cast<int>(scene.distance.size()));
+}
+
+}  // namespace
+
+TEST_CASE("a time too short to be cut that two covers leave between them is looked at") {
+  // The first look, at the middle, leaves 1e-13 at both ends.
+  const MotionBracket found = search({{[](double) { return 0.5 - 1e-13; }}}, 1e-4);
+  CHECK(found.verdict == MotionVerdict::free);
+  CHECK(found.until == 1);
+}
+
+TEST_CASE("a contact is that of its pair, whatever was looked at since it was seen") {
+  // The second pair meets at 0.5, where the search looks first. Then the first pair comes within 1e-9 at
+  // 0.13, which takes looks at the ends of times.
+  const MotionBracket found =
+      search({{[](double t) { return 1e-9 + 0.9 * std::abs(t - 0.13); },
+               [](double t) { return t == 0.5 ? 0.0 : 0.5 * std::abs(t - 0.5) + 0.1; }}},
+             0.3);
+  CHECK(found.verdict == MotionVerdict::contact);
+  CHECK(found.pair == 1);
+  CHECK(found.until == 0.5);
+  CHECK((found.from >= 0.2 && found.from < 0.5));
+}
+
+TEST_CASE("a contact that was seen stands where the covers about it say that there is none") {
+  const MotionBracket found = search({{[](double t) { return t == 0.5 ? 0.0 : 1.0; }}}, 1e-4);
+  CHECK(found.verdict == MotionVerdict::contact);
+  CHECK(found.until == 0.5);
+}
+
+TEST_CASE("what grazes is undecided, and free until shortly before") {
+  // Of what the distance allows a cover gives something away, as those of bodies do for rounding.
+  const auto graze = [](double t) { return std::abs(t - 1.0 / 3); };
+  const MotionBracket found = search({{[](double) { return 0.2; }, graze}, 0.99}, 1e-4);
+  CHECK(found.verdict == MotionVerdict::undecided);
+  CHECK(found.pair == 1);
+  CHECK(std::abs(found.from - 1.0 / 3) <= 1e-12);
+  CHECK(std::abs(found.until - 1.0 / 3) <= 1e-12);
+}
