@@ -43,6 +43,8 @@ class Epa {
   Eigen::Vector3d n{0, 0, 1};                             ///< its normal, unit, from A to B
   Eigen::Vector3d onA{0, 0, 0};                           ///< A's point there; B's is `gap` along `n` from it
   double bound = 0;                                       ///< no normal has a wider gap (m)
+  std::array<Corner, 3> met;                              ///< corners of the difference that `onA` is of
+  int metCount = 0;
 
   /// The difference's corner furthest against the unit vector `m`; remembers the least overlap.
   Corner look(const Eigen::Vector3d& m) {
@@ -51,17 +53,22 @@ class Epa {
       gap = c.gap;
       n = m;
     }
-    offer(c.onA, c.w);
+    if (offer(c.onA, c.w)) met[0] = c, metCount = 1;
     return c;
   }
 
-  /// A point of A and the way from there to one of B: kept where it comes nearer
+  /// A point of A and the way from there to one of B: kept, and true, where it comes nearer
   /// to the answer's than what is known.
-  void offer(const Eigen::Vector3d& pointOfA, const Eigen::Vector3d& toB) {
-    if (!(off(toB) < off(toB_))) return;
+  bool offer(const Eigen::Vector3d& pointOfA, const Eigen::Vector3d& toB) {
+    if (!(off(toB) < off(toB_))) return false;
     onA = pointOfA;
     toB_ = toB;
+    metCount = 0;
+    return true;
   }
+
+  /// B's point there, to what EPA knows.
+  Eigen::Vector3d onB() const { return onA + toB_; }
 
   /// Whether both bounds agree, to 1e-6 of the depth or to rounding.
   bool solved() const { return bound - gap <= kRelative * -bound + rounding_; }
@@ -124,8 +131,11 @@ class Epa {
     weight = weight.cwiseMax(0.0);
     if (!(weight.sum() > 0.0) || !weight.allFinite()) return;
     weight /= weight.sum();
-    offer(weight[0] * a.onA + weight[1] * b.onA + weight[2] * c.onA,
-          weight[0] * a.w + weight[1] * b.w + weight[2] * c.w);
+    if (!offer(weight[0] * a.onA + weight[1] * b.onA + weight[2] * c.onA,
+               weight[0] * a.w + weight[1] * b.w + weight[2] * c.w))
+      return;
+    for (const int i : {0, 1, 2})
+      if (weight[i] > 0.0) met[static_cast<std::size_t>(metCount++)] = i == 0 ? a : i == 1 ? b : c;
   }
 
   /// Four points of the difference that span a volume, each furthest along some direction. False where the

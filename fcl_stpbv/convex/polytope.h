@@ -21,8 +21,9 @@ class Polytope {
       400;  ///< some 20 are usual, hundreds where all directions are nearly as good
 
   struct Face {
-    Eigen::Vector3d normal;       ///< unit, outward
-    double distance;              ///< of its plane from the origin, negative with the origin beyond it
+    Eigen::Vector3d normal;  ///< unit, outward
+    double distance;  ///< no point of it is nearer to the origin's side of it (m); negative: the origin is
+                      ///< beyond
     std::array<Index, 3> corner;  ///< counter-clockwise from outside
 
     bool has(Index point) const { return corner[0] == point || corner[1] == point || corner[2] == point; }
@@ -173,7 +174,9 @@ class Polytope {
     t.corner = {a, b, c};
     t.normal = normal * inverse;
     t.distance = dot(t.normal, point(a));
-    setRank(i, t.distance);
+    // Rounding may tilt a sliver's normal far: along whatever unit vector, the triangle is no nearer than the
+    // least of its corners.
+    setRank(i, std::min({t.distance, dot(t.normal, point(b)), dot(t.normal, point(c))}));
     // A sliver's normal is as much less certain as it is narrow.
     t.flat = kFlat * std::min(sides2 * inverse, kNarrow);
     // Else the origin is on the surface, to rounding.

@@ -85,15 +85,18 @@ NormalCone ofCone(const Shape& s, const Vector3d& m, const Vector3d& x, double r
 }
 
 bool ofEllipsoid(const Shape& s, const Vector3d& m, NormalCone& result) {
-  const Vector3d squares = s.size.cwiseProduct(s.size), e = squares.cwiseProduct(m);
-  const double h = std::sqrt(m.dot(e));
+  const Vector3d e = s.size.cwiseProduct(m);
+  const double h = e.norm();
   if (!(h > 1e-9 * s.reach)) return false;
   result = ofBall(m, 0.0);
-  const auto curved = [&](const Vector3d& t, const Vector3d& u) {
-    return (t.dot(squares.cwiseProduct(u)) - t.dot(e) * u.dot(e) / (h * h)) / h;
+  // Across the point of the unit ball that the ellipsoid's is the image of: no digits cancel.
+  const auto across = [&](const Vector3d& t) {
+    const Vector3d image = s.size.cwiseProduct(t);
+    return Vector3d(image - image.dot(e) / h * (e / h));
   };
-  result.along = {curved(result.way[0], result.way[0]), curved(result.way[1], result.way[1])};
-  result.between = curved(result.way[0], result.way[1]);
+  const Vector3d t = across(result.way[0]), u = across(result.way[1]);
+  result.along = {t.squaredNorm() / h, u.squaredNorm() / h};
+  result.between = t.dot(u) / h;
   return true;
 }
 

@@ -109,17 +109,25 @@ struct RimFeature {
   static constexpr double kFloor = 1e-6;  // a too small radius still climbs, an infinite one stands still
 };
 
-/// A whole ellipsoid in the frame of the climb.
+/// A whole ellipsoid in the frame of the climb: the image of the unit ball. Sums of squares alone, so that
+/// one as thin as a disc keeps its digits.
 struct EllipsoidFeature {
   Eigen::Vector3d centre;
-  Eigen::Matrix3d axes2;  ///< Q diag(semi-axes^2) Q^T
+  Eigen::Matrix3d axes;  ///< columns: the semi-axes (m)
   FeatureView along(const Eigen::Vector3d& n) const {
-    const Eigen::Vector3d e = axes2 * n;
-    const double h = std::sqrt(std::max(n.dot(e), 1e-300));
-    return {centre - e / h, (axes2 - e * e.transpose() / (h * h)) / h};
+    const Eigen::Vector3d e = axes.transpose() * n;
+    const double h = e.norm();
+    if (!(h > 0.0)) return {centre, Eigen::Matrix3d::Zero()};  // above a disc
+    const Eigen::Vector3d ball = e / h, point = axes * ball;
+    const Eigen::Matrix3d across = axes - point * ball.transpose();
+    return {centre - point, across * across.transpose() / h};
   }
   const Eigen::Vector3d* direction() const { return nullptr; }
-  double wobble(const Eigen::Vector3d&) const { return 1e-15 * axes2.norm() / std::sqrt(axes2.trace()); }
+  /// On a flat side an ulp of the normal moves the point by the radius of curvature there.
+  double wobble(const Eigen::Vector3d& n) const {
+    const double size = axes.norm(), h = (axes.transpose() * n).norm();
+    return size * std::min(1.0, 1e-15 * size / std::max(h, 1e-300));
+  }
 };
 
 /// One trial normal of a climb.

@@ -6,7 +6,7 @@
 // 3. Else bisect the directions left with support points of the two whole bodies
 //    (convex/direction_cone.h): slow, sure. From the normal found, a feature
 //    search again proves the last digits.
-// 4. Cores that overlap: EPA (convex/epa.h).
+// 4. Cores that overlap: EPA (shape_overlap.cpp).
 #include "fcl_stpbv/distance/shape_distance.h"
 
 #include <algorithm>
@@ -15,7 +15,6 @@
 #include <utility>
 
 #include "fcl_stpbv/convex/direction_cone.h"
-#include "fcl_stpbv/convex/epa.h"
 #include "fcl_stpbv/convex/support.h"
 #include "fcl_stpbv/distance/shape_query.h"
 
@@ -49,12 +48,6 @@ Nearest nearestOnHalfspace(ShapeQuery& q) {
   return found;
 }
 
-Nearest nearestOnEllipsoid(ShapeQuery& q, const StartNormal& start) {
-  const Vector3d squares = q.shape.size.cwiseProduct(q.shape.size);
-  const EllipsoidFeature all{q.translation, q.rotation * squares.asDiagonal() * q.rotation.transpose()};
-  return nearestOn(q, all, start);
-}
-
 Nearest nearestOnShape(ShapeQuery& q, const StartNormal& start) {
   switch (q.shape.kind) {
     case ShapeKind::point:
@@ -80,14 +73,6 @@ Nearest nearestOnShape(ShapeQuery& q, const StartNormal& start) {
   return nearestOnHalfspace(q);
 }
 
-/// What the cut search found.
-struct LeastOverlap {
-  Nearest at;    ///< the best normal seen; `gap` is the true gap along it
-  double bound;  ///< no normal has a wider one (m)
-  bool overlap;  ///< the cores have a common point, beyond rounding
-  bool solved;   ///< the remaining normals are one to rounding
-};
-
 /// The gap along one normal between the two whole cores, and the difference of the points that tell it.
 struct Trial {
   Nearest at;
@@ -105,23 +90,6 @@ Trial trialAlong(ShapeQuery& q, const Vector3d& n, int hint) {
   trial.difference = trial.at.y - view.point;
   ++q.pairs;
   return trial;
-}
-
-/// To the top of the hill that the search ended on, where rounding or the size of the polytope stopped it:
-/// tries normals around the best one, nearer and nearer.
-template <typename Search>
-void climbToLeastOverlap(Search& epa) {
-  constexpr int kTrials = 4000;
-  double step = 0.02;  // rad
-  for (int trials = 0; step > 1e-9 && trials < kTrials;) {
-    const Vector3d n = epa.n, e = n.unitOrthogonal(), f = n.cross(e);
-    const double gap = epa.gap;
-    for (int k = 0; k < 8 && epa.gap <= gap; ++k, ++trials) {
-      const double angle = 0.785398163397448 * k + 40.0 * step;  // turned a little each round
-      epa.look((n + step * (std::cos(angle) * e + std::sin(angle) * f)).normalized());
-    }
-    if (epa.gap <= gap) step *= 0.5;
-  }
 }
 
 /// Halves the convex cone of remaining normals until it is one normal to rounding, with support points of the
@@ -146,28 +114,6 @@ LeastOverlap widestGapByCuts(ShapeQuery& q, const StartNormal& start) {
   return best;
 }
 
-/// How deep overlapping cores are in each other: grows a polytope inside their difference where its surface
-/// is nearest to the origin (van den Bergen 2001). `at` is the normal with the least overlap seen, `bound`
-/// holds for every normal.
-LeastOverlap leastOverlap(ShapeQuery& q, const StartNormal& start) {
-  StpBvCore core{q.body, start.patch, q.steps};
-  using Difference = ConvexDifference<StpBvCore, const Shape>;
-  Difference difference(core, q.shape, q.pose);
-  Epa<Difference> epa(difference, q.rounding.gap);
-  epa.look(start.n);
-  if (!epa.run()) climbToLeastOverlap(epa);
-  // The strictly convex body's point is the only one; of a face the shape gave
-  // a corner, so take what is opposite.
-  LeastOverlap best{{}, std::max(epa.bound, epa.gap), true, epa.solved()};
-  const SupportPoint onBody = supportPoint(core, epa.n);
-  best.at.n = epa.n;
-  best.at.patch = onBody.patch;
-  best.at.gap = epa.gap;
-  best.at.y = onBody.point + epa.gap * epa.n;
-  best.at.corners = 1;
-  return best;
-}
-
 struct Solution {
   Nearest at;
   DistanceStatus status;
@@ -178,11 +124,12 @@ Solution solve(ShapeQuery& q, const StartNormal& start) {
   Nearest found = nearestOnShape(q, start);
   if (q.shape.unbounded()) return {found, DistanceStatus::exact, found.gap};
   if (certified(q, found)) return {found, DistanceStatus::exact, found.gap};
-  const LeastOverlap cuts = widestGapByCuts(q, found.apart ? StartNormal{found.n, found.patch} : start);
+  LeastOverlap cuts = widestGapByCuts(q, found.apart ? StartNormal{found.n, found.patch} : start);
   if (!cuts.overlap) {
     // Near the answer now; a feature search from here proves it to the last digit.
     found = nearestOnShape(q, {cuts.at.n, cuts.at.patch});
     if (certified(q, found)) return {found, DistanceStatus::exact, found.gap};
+    if (q.shape.kind == ShapeKind::ellipsoid) placeOppositeOnEllipsoid(q, cuts.at);
     // The bounds of both sides agree, or no normal is left that could do better.
     const double upper = cuts.solved ? std::min(cuts.bound, cuts.at.gap + q.rounding.gap) : cuts.bound;
     const bool proven = upper - cuts.at.gap <= q.rounding.gap;

@@ -52,12 +52,18 @@ struct StartNormal {
 bool isNearer(const ShapeQuery& q, const Nearest& x, const Nearest& than, const Eigen::Vector3d* points,
               int count);
 
-/// Any feature that has a gradient, from a start.
+/// The widest gap that a search of the two whole cores found.
+struct LeastOverlap {
+  Nearest at;    ///< the best normal seen; `gap` is the true gap along it
+  double bound;  ///< no normal has a wider one (m)
+  bool overlap;  ///< the cores have a common point, beyond rounding
+  bool solved;   ///< the remaining normals are one to rounding
+};
+
+/// What a climb ended on.
 template <typename Feature>
-Nearest nearestOn(ShapeQuery& q, const Feature& feature, const StartNormal& start) {
-  AscentPoint x = ascentPoint(q.body, feature, start.n, start.patch, q.steps);
+Nearest nearestFrom(const AscentPoint& x, const Feature& feature) {
   Nearest found;
-  found.apart = ascendFeature(q.body, feature, x, q.rounding, q.pairs, q.steps);
   found.n = x.view.n;
   found.patch = x.view.patch;
   found.y = x.feature.point;
@@ -65,6 +71,16 @@ Nearest nearestOn(ShapeQuery& q, const Feature& feature, const StartNormal& star
   found.corners = 1;
   if (const Eigen::Vector3d* t = feature.direction())
     found.y += (x.view.point - x.feature.point).dot(*t) * *t;  // straight above the body's point
+  return found;
+}
+
+/// Any feature that has a gradient, from a start.
+template <typename Feature>
+Nearest nearestOn(ShapeQuery& q, const Feature& feature, const StartNormal& start) {
+  AscentPoint x = ascentPoint(q.body, feature, start.n, start.patch, q.steps);
+  const bool apart = ascendFeature(q.body, feature, x, q.rounding, q.pairs, q.steps);
+  Nearest found = nearestFrom(x, feature);
+  found.apart = apart;
   return found;
 }
 
@@ -85,6 +101,21 @@ Nearest nearestOnPolytope(ShapeQuery& q, const StartNormal& start);
 /// Cylinder and cone: ends, rims, sides and apex in turn.
 Nearest nearestOnCylinder(ShapeQuery& q, const StartNormal& start);
 Nearest nearestOnCone(ShapeQuery& q, const StartNormal& start);
+
+/// A cone's generator whose own normal has the widest gap, whether one is there or not.
+Nearest nearestOnGenerator(ShapeQuery& q, const StartNormal& start);
+
+/// A whole ellipsoid; one without thickness is a segment, or a disc that has a face.
+Nearest nearestOnEllipsoid(ShapeQuery& q, const StartNormal& start);
+EllipsoidFeature wholeEllipsoid(const ShapeQuery& q);
+
+/// On the flat side of a thin ellipsoid an ulp of the normal moves its point a long way: takes the point
+/// opposite the body's instead, if it is the ellipsoid's.
+void placeOppositeOnEllipsoid(ShapeQuery& q, Nearest& found);
+
+/// How deep overlapping cores are in each other, next to `start` first. `at.gap` is minus the depth along the
+/// best normal seen, `bound` holds for every normal.
+LeastOverlap leastOverlap(ShapeQuery& q, const StartNormal& start);
 
 /// The plane of a flat end: its normal is fixed, only the position is to be
 /// checked. `apart` where the core is above.

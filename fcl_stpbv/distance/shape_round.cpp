@@ -1,5 +1,5 @@
-// The nearest point of a cylinder or a cone to an STP-BV's core, feature by feature; the first with a
-// certificate is the answer:
+// The nearest point of a cylinder, a cone or an ellipsoid to an STP-BV's core. Of the first two feature by
+// feature; the first with a certificate is the answer:
 // 1. beyond a flat end: its disc, inside or at the rim;
 // 2. the side: a segment with the radius around it, or the generators of a cone, by Newton's method on the
 //    angle around the axis, safeguarded by the Illinois variant of regula falsi;
@@ -11,6 +11,7 @@
 
 namespace fcl_stpbv::detail {
 
+using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 namespace {
@@ -131,8 +132,8 @@ Nearest nearestByAngle(ShapeQuery& q, const Vector3d& middle, const Vector3d& ax
     best = found;
     flattest = std::abs(slope);
     // The normal turns by the inverse of the radii of curvature and the gap.
-    Eigen::Matrix3d w = curvatureRadii(q.body, viewVolume(q.body, n, found.patch, q.steps));
-    w += found.gap * Eigen::Matrix3d::Identity();
+    Matrix3d w = curvatureRadii(q.body, viewVolume(q.body, n, found.patch, q.steps));
+    w += found.gap * Matrix3d::Identity();
     const Vector3d e1 = (t - t.dot(n) * n).normalized(), e2 = n.cross(e1);
     const double m11 = e1.dot(w * e1), m22 = e2.dot(w * e2), m12 = e1.dot(w * e2);
     const double bend = radius * t.dot(e1) * t.dot(e1) * m22 / (m11 * m22 - m12 * m12) - n.dot(e);
@@ -174,6 +175,22 @@ Nearest nearestOnDisc(ShapeQuery& q, const Nearest& plane, const Vector3d& middl
   return nearestOnRim(q, middle, plane.n, {n, plane.patch});
 }
 
+/// How far `y`, on a supporting plane of the ellipsoid, is from it to first order (m).
+double besideEllipsoid(const ShapeQuery& q, const Vector3d& y) {
+  const Vector3d at = q.rotation.transpose() * (y - q.translation), &axes = q.shape.size;
+  double flat = 0.0, level2 = 0.0, slope2 = 0.0;
+  for (int i = 0; i < 3; ++i) {
+    if (axes[i] > q.rounding.gap) {
+      level2 += at[i] / axes[i] * (at[i] / axes[i]);
+      slope2 += at[i] / axes[i] / axes[i] * (at[i] / axes[i] / axes[i]);
+    } else {
+      flat = std::max(flat, std::abs(at[i]) - axes[i]);
+    }
+  }
+  const double level = std::sqrt(level2);
+  return std::max(flat, level > 1.0 ? (level - 1.0) * level / std::sqrt(slope2) : 0.0);
+}
+
 }  // namespace
 
 Nearest nearestOnCylinder(ShapeQuery& q, const StartNormal& start) {
@@ -209,16 +226,51 @@ Nearest nearestOnCone(ShapeQuery& q, const StartNormal& start) {
   const Nearest top = nearestOn(q, PointFeature{apex}, start);
   if (certified(q, top)) return top;
   const StartNormal next = top.apart ? StartNormal{top.n, top.patch} : start;
-  const ConeSide side(apex, axis, q.shape.radius, 2.0 * q.shape.half);
-  Nearest found = side.nearest(q, next);
+  Nearest found = nearestOnGenerator(q, next);
   if (certified(q, found)) return found;
   const Nearest rim = nearestOnRim(q, base, axis, next);
   if (certified(q, rim)) return rim;
   if (rim.apart) {
-    found = side.nearest(q, {rim.n, rim.patch});
+    found = nearestOnGenerator(q, {rim.n, rim.patch});
     if (certified(q, found)) return found;
   }
   return rim;
+}
+
+Nearest nearestOnGenerator(ShapeQuery& q, const StartNormal& start) {
+  const Vector3d axis = q.rotation.col(2);
+  return ConeSide(q.translation + q.shape.half * axis, axis, q.shape.radius, 2.0 * q.shape.half)
+      .nearest(q, start);
+}
+
+EllipsoidFeature wholeEllipsoid(const ShapeQuery& q) {
+  return {q.translation, q.rotation * q.shape.size.asDiagonal()};
+}
+
+void placeOppositeOnEllipsoid(ShapeQuery& q, Nearest& found) {
+  const Vector3d point = viewVolume(q.body, found.n, found.patch, q.steps).point;
+  const Vector3d opposite = point + found.n.dot(found.y - point) * found.n;
+  if (besideEllipsoid(q, opposite) <= q.rounding.gap) found.y = opposite;
+}
+
+Nearest nearestOnEllipsoid(ShapeQuery& q, const StartNormal& start) {
+  const EllipsoidFeature all = wholeEllipsoid(q);
+  const Matrix3d& axes = all.axes;
+  int flat = 0, longest = 0;
+  q.shape.size.minCoeff(&flat);
+  const double reach = q.shape.size.maxCoeff(&longest);
+  if (q.shape.size.sum() - reach <= q.rounding.gap)
+    return nearestOnSegment(q, q.translation - axes.col(longest), q.translation + axes.col(longest), start);
+  if (q.shape.size[flat] <= q.rounding.gap) {
+    const Vector3d normal = q.rotation.col(flat);
+    for (const Vector3d& n : {normal, Vector3d(-normal)}) {
+      const Nearest plane = nearestOnPlane(q, q.translation, n, -1);
+      if (plane.apart && besideEllipsoid(q, plane.y) <= q.rounding.gap) return plane;
+    }
+  }
+  Nearest found = nearestOn(q, all, start);
+  if (all.wobble(found.n) > q.rounding.across) placeOppositeOnEllipsoid(q, found);
+  return found;
 }
 
 }  // namespace fcl_stpbv::detail

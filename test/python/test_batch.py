@@ -1,10 +1,12 @@
 """Batches: pure pieces, results that do not depend on who did which job, what goes wrong with one job or its input."""
+import contextlib
 import itertools
 import json
 import os
 import pathlib
 import random
 import shutil
+import socket
 import subprocess
 import sys
 
@@ -252,6 +254,17 @@ def test_a_bad_mesh_fails_its_own_job_and_no_other(tmp_path, jobs):
     (tmp_path / "volumes/BODY.stpbv").unlink()
     batch(*arguments, "--jobs", 1, status=1)
     assert (tmp_path / "volumes/BODY.stpbv").exists() and (tmp_path / "all").read_bytes() == results
+
+
+def test_another_cluster_on_this_machine_goes_unnoticed(tmp_path):
+    with socket.socket() as taken:
+        taken.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        with contextlib.suppress(OSError):  # it may be taken already
+            taken.bind(("", 8787))  # where a Dask scheduler serves its pages unless told otherwise
+            taken.listen()
+        done = subprocess.run([sys.executable, "-B", "-m", "fcl_stpbv.batch", *map(str, PROVE), "--jobs", "2", "-o", tmp_path / "proofs.jsonl"],
+                              capture_output=True, text=True, timeout=120)
+    assert done.returncode == 0 and "8787" not in done.stderr and "Warning" not in done.stderr, done.stderr
 
 
 @pytest.mark.parametrize("jobs", [1, 2])

@@ -98,8 +98,10 @@ def connected(scheduler, workers):
     with dask.config.set(quiet), contextlib.ExitStack() as stack:
         try:
             if not scheduler:
+                # Without a dashboard the scheduler would still listen on Dask's usual port, and warn where that is taken.
+                local = {"dashboard": False, "dashboard_address": "127.0.0.1:0"}
                 scheduler = stack.enter_context(distributed.LocalCluster(workers, threads_per_worker=1, dashboard_address=None,
-                                                                         silence_logs="CRITICAL"))
+                                                                         scheduler_kwargs=local, silence_logs="CRITICAL"))
             client = stack.enter_context(distributed.Client(scheduler, timeout="15s", set_as_default=False))
         except (OSError, ValueError, TimeoutError) as error:
             raise fcl_stpbv.Error(f"--scheduler {scheduler}: no Dask scheduler answers there ({error}); "

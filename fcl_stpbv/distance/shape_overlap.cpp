@@ -1,0 +1,236 @@
+// An STP-BV and a simple shape whose cores overlap: how deep they are in each other.
+//
+// 1. EPA (convex/epa.h) on the difference of the two cores bounds the depth, and finds its normal to some
+// digits.
+// 2. The features that met there are tried, the flatter ones first: Newton's method on one of them gives
+//    the normal and both witness points to rounding.
+// 3. What it gives is taken if it is the whole shape's answer: on the shape, with nothing of the shape
+// nearer,
+//    and no deeper than what EPA found.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "fcl_stpbv/convex/epa.h"
+#include "fcl_stpbv/convex/support.h"
+#include "fcl_stpbv/distance/shape_distance.h"
+#include "fcl_stpbv/distance/shape_query.h"
+
+namespace fcl_stpbv::detail {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+namespace {
+
+/// The difference of the volume's core and the shape's; its corners remember the shape's own.
+class ShapeDifference {
+ public:
+  struct Corner {
+    Vector3d w{0, 0, 0};      ///< the point of the difference (m)
+    Vector3d onA{0, 0, 0};    ///< the volume's part of it
+    double gap = 0;           ///< between the supporting planes that it was found with (m)
+    Vector3d shape{0, 0, 0};  ///< the shape's part, in the volume's frame
+  };
+
+  ShapeDifference(ShapeQuery& q, int patch) : q_(q), core_{q.body, patch, q.steps} {}
+
+  Corner support(const Vector3d& n) {
+    const SupportPoint p = supportPoint(core_, n);
+    const Vector3d y = q_.facing(n);
+    ++q_.pairs;
+    return {y - p.point, p.point, p.gap(y), y};
+  }
+  int patch() const { return core_.patch; }
+
+ private:
+  ShapeQuery& q_;
+  StpBvCore core_;
+};
+
+/// To the top of the hill that the search ended on, where rounding or the size of the polytope stopped it:
+/// tries normals around the best one, nearer and nearer.
+template <typename Search>
+void climbToLeastOverlap(Search& epa) {
+  constexpr int kTrials = 4000;
+  double step = 0.02;  // rad
+  for (int trials = 0; step > 1e-9 && trials < kTrials;) {
+    const Vector3d n = epa.n, e = n.unitOrthogonal(), f = n.cross(e);
+    const double gap = epa.gap;
+    for (int k = 0; k < 8 && epa.gap <= gap; ++k, ++trials) {
+      const double angle = 0.785398163397448 * k + 40.0 * step;  // turned a little each round
+      epa.look((n + step * (std::cos(angle) * e + std::sin(angle) * f)).normalized());
+    }
+    if (epa.gap <= gap) step *= 0.5;
+  }
+}
+
+/// Newton's method from a normal next to the least overlap along one feature; nothing where it does not
+/// converge.
+template <typename Feature>
+std::optional<Nearest> deepestOn(ShapeQuery& q, const Feature& feature, const StartNormal& start) {
+  constexpr int kSteps = 20, kHalvings = 12;  // the start is good to some digits
+  Vector3d n = start.n;
+  if (const Vector3d* t = feature.direction()) n = (n - n.dot(*t) * *t).normalized();
+  AscentPoint x = ascentPoint(q.body, feature, n, start.patch, q.steps);
+  const auto rounded = [&] { return q.rounding.across + feature.wobble(x.view.n); };
+  for (int i = 0; i < kSteps && x.across.norm() > 0.25 * rounded(); ++i) {
+    Vector3d to = newtonTarget(q.body, x, feature.direction());
+    bool flatter = false;  // a step over a region boundary may be too long
+    for (int k = 0; k < kHalvings && !flatter; ++k, to = (to + x.view.n).normalized()) {
+      ++q.pairs;
+      const AscentPoint y = ascentPoint(q.body, feature, to, x.view.patch, q.steps);
+      flatter = y.across.norm() < x.across.norm();
+      if (flatter) x = y;
+    }
+    if (!flatter) break;
+  }
+  if (!(x.across.norm() <= rounded())) return {};
+  return nearestFrom(x, feature);
+}
+
+/// A flat face: its normal is given.
+Nearest deepestOnPlane(ShapeQuery& q, const Vector3d& onPlane, Vector3d n, const StartNormal& start) {
+  if (n.dot(start.n) < 0.0) n = -n;
+  return nearestOnPlane(q, onPlane, n, start.patch);
+}
+
+/// Whether `found` is the whole shape's answer.
+bool isDeepest(const ShapeQuery& q, const Nearest& found, double leastOverlap) {
+  if (!(found.gap >= leastOverlap - q.rounding.gap)) return false;
+  if (found.n.dot(found.y - q.facing(found.n)) > q.rounding.gap) return false;
+  if (q.shape.kind == ShapeKind::ellipsoid) return true;
+  Shape core = q.shape;
+  core.margin = 0.0;
+  Isometry3d at = Isometry3d::Identity();
+  at.translation() = q.rotation.transpose() * (found.y - q.translation);
+  return distance(Shape::sphere(0.0), at, core, Isometry3d::Identity()).distance <= 2.0 * q.rounding.gap;
+}
+
+/// The features that the least overlap may be on.
+class DeepFeatures {
+ public:
+  DeepFeatures(ShapeQuery& q, const StartNormal& start, double leastOverlap)
+      : q_(q), start_(start), least_(leastOverlap) {}
+
+  /// The first that holds the answer. `met` are corners of the shape that EPA's answer is of.
+  std::optional<Nearest> search(const std::array<Vector3d, 3>& met, int count) {
+    const Vector3d axis = q_.rotation.col(2), top = q_.translation + q_.shape.half * axis,
+                   bottom = q_.translation - q_.shape.half * axis;
+    const bool up = start_.n.dot(axis) < 0.0;  // the end that faces the volume
+    switch (q_.shape.kind) {
+      case ShapeKind::point:
+        point(q_.translation);
+        break;
+      case ShapeKind::segment:
+        line(q_.translation, axis);
+        point(up ? top : bottom);
+        break;
+      case ShapeKind::box:
+      case ShapeKind::triangle:
+      case ShapeKind::polytope:
+        corners(met, count);
+        break;
+      case ShapeKind::cylinder:
+        plane(up ? top : bottom, axis);
+        side(axis);
+        rim(up ? top : bottom, axis);
+        break;
+      case ShapeKind::cone:
+        plane(bottom, axis);
+        take([&] { return std::optional(nearestOnGenerator(q_, start_)); });
+        point(top);
+        rim(bottom, axis);
+        break;
+      case ShapeKind::ellipsoid:
+        ellipsoid();
+        break;
+      case ShapeKind::halfspace:
+      case ShapeKind::plane:
+        break;
+    }
+    return found_;
+  }
+
+ private:
+  template <typename Search>
+  void take(const Search& search) {
+    if (found_) return;
+    const std::optional<Nearest> next = search();
+    if (next && isDeepest(q_, *next, least_)) found_ = next;
+  }
+  void point(const Vector3d& p) {
+    take([&] { return deepestOn(q_, PointFeature{p}, start_); });
+  }
+  void line(const Vector3d& p, const Vector3d& t) {
+    take([&] { return deepestOn(q_, LineFeature{p, t}, start_); });
+  }
+  void rim(const Vector3d& middle, const Vector3d& axis) {
+    take([&] { return deepestOn(q_, RimFeature{middle, axis, q_.shape.radius}, start_); });
+  }
+  void plane(const Vector3d& p, const Vector3d& n) {
+    take([&] { return std::optional(deepestOnPlane(q_, p, n, start_)); });
+  }
+  /// A cylinder's: its axis with the radius around it.
+  void side(const Vector3d& axis) {
+    take([&] {
+      std::optional<Nearest> found = deepestOn(q_, LineFeature{q_.translation, axis}, start_);
+      if (!found) return found;
+      found->gap -= q_.shape.radius;
+      found->y -= q_.shape.radius * found->n;
+      return found;
+    });
+  }
+  void ellipsoid() {
+    const EllipsoidFeature all = wholeEllipsoid(q_);
+    take([&] { return deepestOn(q_, all, start_); });
+    if (found_ && all.wobble(found_->n) > q_.rounding.across) placeOppositeOnEllipsoid(q_, *found_);
+  }
+  /// Of up to three corners: the face, the edges, the corners alone.
+  void corners(const std::array<Vector3d, 3>& p, int count) {
+    if (count == 3) {
+      const Vector3d n = (p[1] - p[0]).cross(p[2] - p[0]);
+      if (n.norm() > 0.0) plane(p[0], n.normalized());
+    }
+    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i)
+      for (std::size_t k = 0; k < i; ++k) line(p[i], (p[k] - p[i]).normalized());
+    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) point(p[i]);
+  }
+
+  ShapeQuery& q_;
+  StartNormal start_;
+  double least_;
+  std::optional<Nearest> found_;
+};
+
+}  // namespace
+
+LeastOverlap leastOverlap(ShapeQuery& q, const StartNormal& start) {
+  ShapeDifference difference(q, start.patch);
+  Epa<ShapeDifference> epa(difference, q.rounding.gap);
+  epa.look(start.n);
+  if (!epa.run()) climbToLeastOverlap(epa);
+  std::array<Vector3d, 3> met;
+  int count = 0;
+  for (int i = 0; i < epa.metCount; ++i) {
+    const Vector3d& p = epa.met[static_cast<std::size_t>(i)].shape;
+    if (std::find(met.begin(), met.begin() + count, p) == met.begin() + count)
+      met[static_cast<std::size_t>(count++)] = p;
+  }
+  // The polytope's points are the volume's to the rounding of its own.
+  LeastOverlap best{{}, std::max(epa.bound, epa.gap) + q.rounding.across, true, epa.solved()};
+  const StartNormal near{epa.n, difference.patch()};
+  if (const auto polished = DeepFeatures(q, near, epa.gap).search(met, count)) {
+    best.at = *polished;
+    return best;
+  }
+  best.at.n = near.n;
+  best.at.patch = near.patch;
+  best.at.gap = epa.gap;
+  best.at.y = epa.onB();
+  best.at.corners = 1;
+  return best;
+}
+
+}  // namespace fcl_stpbv::detail

@@ -1,0 +1,183 @@
+// A simple shape deep in an STP-BV or in another shape, and ellipsoids as thin as discs: bounds and witness
+// points against supports in long double.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "fcl_stpbv/distance/shape_distance.h"
+#include "test/reference/shape_reference.h"
+
+using namespace fcl_stpbv;
+using namespace fcl_stpbv::test;
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+namespace {
+
+struct OverlapBody {
+  Cloud cloud;
+  StpBv::Ptr volume;
+};
+
+std::vector<OverlapBody> overlapBodies(double largest) {
+  std::vector<OverlapBody> all;
+  const auto add = [&](const Cloud& cloud, double r, double R) {
+    if (R <= largest) all.push_back({cloud, StpBv::build(cloud, {r, R})});
+  };
+  add(box(0.3, 0.2, 0.1), 0.01, 10);
+  add(plate(0.3, 0.2), 0.005, 10);
+  add(needle(0.5), 0.01, 1);
+  add(cylinder(0.1, 0.4, 16), 0.02, 100);
+  add(geodesicSphere(0.2, 1), 0.01, 1);
+  add(box(0.2, 0.2, 0.2), 0, 10);
+  add(box(0.3, 0.2, 0.1), 0.01, 1e4);
+  add(box(0.3, 0.2, 0.1), 0.01, 1e6);
+  return all;
+}
+
+/// The top of the hill of gaps that `n` is on, by a shrinking compass.
+template <typename Gap>
+double hilltop(const Gap& gap, const Vector3d& from) {
+  Vector3L n = from.cast<long double>().normalized();
+  long double best = gap(n), step = 1e-2L;
+  while (step > 1e-14L) {
+    const Vector3L e = n.unitOrthogonal(), f = n.cross(e);
+    bool grew = false;
+    for (int k = 0; k < 8; ++k) {
+      const long double angle = 0.785398163397448L * k + 7 * step;  // turned a little each round
+      const Vector3L m = (n + step * (std::cos(angle) * e + std::sin(angle) * f)).normalized();
+      const long double g = gap(m);
+      if (g > best) best = g, n = m, grew = true;
+    }
+    if (!grew) step *= 0.5L;
+  }
+  return static_cast<double>(best);
+}
+
+/// A quarter aligned, a quarter nearly so; within 0.2 m of each other's centre.
+Isometry3d inside(Random& random) {
+  Eigen::Matrix3d turn = random.rotation();
+  const int kind = random.below(4);
+  if (kind == 0) turn = Eigen::Matrix3d::Identity();
+  if (kind == 1) turn = random.rotation(random.below(2) ? 1e-6 : 1e-3);
+  return pose(turn, random.uniform(0, 0.2) * random.direction());
+}
+
+std::string anyBounded(Random& random) {
+  return boundedShapes()[static_cast<std::size_t>(random.below(static_cast<int>(boundedShapes().size())))];
+}
+
+}  // namespace
+
+TEST_CASE("two shapes deep in each other: no gap on the answer's hill is above the upper bound") {
+  Random random(5);
+  int deep = 0, exact = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const TestShape a = randomShape(anyBounded(random), random), b = randomShape(anyBounded(random), random);
+    const Isometry3d base = pose(random.rotation(), random.direction()), at = base * inside(random);
+    const Distance d = distance(a.shape, base, b.shape, at);
+    if (!(d.distance < -(a.shape.margin + b.shape.margin))) continue;
+    ++deep;
+    exact += d.status == DistanceStatus::exact;
+    const ReferenceShape ra = a.posed(base), rb = b.posed(at);
+    const double top = hilltop([&](const Vector3L& n) { return referenceGap(ra, rb, n); }, d.normal);
+    CAPTURE(i, a.name, b.name, d.distance, d.upper - d.distance, top - d.upper);
+    REQUIRE(d.upper >= top);
+    REQUIRE(d.lower <= top);
+  }
+  REQUIRE(deep > 1500);
+  REQUIRE(exact > deep / 2);
+}
+
+TEST_CASE("an STP-BV and a shape deep in it: no gap on the answer's hill is above the upper bound") {
+  // The reference's long double is good to 1e-13 m at R = 1e6 m: less than the bound allows there.
+  const std::vector<OverlapBody> bodies = overlapBodies(1e6);
+  Random random(6);
+  int deep = 0;
+  for (int i = 0; i < 1200; ++i) {
+    const OverlapBody& body = bodies[static_cast<std::size_t>(i) % bodies.size()];
+    const double r = body.volume->radii().r, R = body.volume->radii().R;
+    const TestShape b = randomShape(anyBounded(random), random);
+    const Isometry3d base = pose(random.rotation(), random.direction()), at = base * inside(random);
+    const Distance d = distance(*body.volume, base, b.shape, at);
+    if (!(d.distance < -(r + b.shape.margin))) continue;
+    ++deep;
+    const ReferenceBody ra = referenceBody(body.cloud, r, R, base);
+    const ReferenceShape rb = b.posed(at);
+    const auto gap = [&](const Vector3L& n) -> long double {
+      return n.dot(rb.support(-n)) - rb.margin - referenceSupport(ra, n);
+    };
+    const double top = hilltop(gap, d.normal);
+    CAPTURE(i, b.name, R, d.distance, d.upper - d.distance, top - d.upper);
+    REQUIRE(d.upper >= top);
+    REQUIRE(d.lower <= top);
+  }
+  REQUIRE(deep > 500);
+}
+
+TEST_CASE("deep in an STP-BV both witness points are on their bodies and opposite each other") {
+  const std::vector<OverlapBody> bodies = overlapBodies(100);
+  Random random(7);
+  int deep = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const OverlapBody& body = bodies[static_cast<std::size_t>(i) % bodies.size()];
+    const TestShape b = randomShape(anyBounded(random), random);
+    const Isometry3d base = pose(random.rotation(), random.direction()), at = base * inside(random);
+    const Distance d = distance(*body.volume, base, b.shape, at);
+    if (!(d.distance < -(body.volume->radii().r + b.shape.margin))) continue;
+    ++deep;
+    CAPTURE(i, b.name, body.volume->radii().R, d.distance);
+    // Coordinates of some 3 m; an ulp of the normal moves the volume's point by R.
+    const double rounding = 1e-14 * (3 + body.volume->radii().R);
+    REQUIRE((d.point[1] - d.point[0] - d.distance * d.normal).norm() < rounding);
+    // The shape's point is the end of the margin from a point of its core that lies in the supporting plane.
+    Shape core = b.shape;
+    core.margin = 0;
+    const Vector3d y = d.point[1] + b.shape.margin * d.normal;
+    Isometry3d there = at;
+    there.translation() = y;
+    REQUIRE(distance(Shape::sphere(0), there, core, at).distance < 1e-14);
+    const Vector3d facing = at * core.support(-(at.linear().transpose() * d.normal));
+    REQUIRE(std::abs(d.normal.dot(y - facing)) < 1e-14);
+  }
+  REQUIRE(deep > 1000);
+}
+
+TEST_CASE(
+    "an ellipsoid as thin as a disc or a needle: distance, witness points and gradient keep their digits") {
+  const std::vector<OverlapBody> bodies = overlapBodies(100);
+  Random random(8);
+  for (const double thickness : {1e-2, 1e-4, 1e-6, 1e-9, 0.0}) {
+    int apart = 0;
+    for (int i = 0; i < 200; ++i) {
+      const OverlapBody& body = bodies[static_cast<std::size_t>(i) % bodies.size()];
+      const double r = body.volume->radii().r, R = body.volume->radii().R, length = random.uniform(0.05, 0.4);
+      Vector3d axes(length, i % 3 == 0 ? thickness * length : random.uniform(0.05, 0.4), thickness * length);
+      std::rotate(axes.data(), axes.data() + random.below(3), axes.data() + 3);
+      const TestShape thin{"ellipsoid", Shape::ellipsoidOf(axes), nullptr};
+      Isometry3d rel = inside(random);
+      rel.translation() = random.uniform(0.2, 1.5) * random.direction();
+      const Isometry3d base = pose(random.rotation(), random.direction()), at = base * rel;
+      const Vector3L towards = (at.translation() - base.translation()).cast<long double>();
+      const ReferenceAnswer truth =
+          referenceDistance(referenceBody(body.cloud, r, R, base), thin.posed(at), towards);
+      if (truth.overlap || truth.distance < 1e-3L) continue;
+      ++apart;
+      const Distance d = distance(*body.volume, base, thin.shape, at);
+      CAPTURE(thickness, i, R, d.distance, axes.transpose());
+      REQUIRE(d.status == DistanceStatus::exact);
+      REQUIRE(std::abs(d.distance - static_cast<double>(truth.distance)) < 1e-14);
+      // Opposite each other, and so the gradient is that of the distance: its moments are those of the
+      // points.
+      const double rounding = 1e-14 * (3 + R);
+      REQUIRE((d.point[1] - d.point[0] - d.distance * d.normal).norm() < rounding);
+      const Vector3d p = at.linear().transpose() * (d.point[1] - at.translation());
+      for (int k = 0; k < 3; ++k) REQUIRE(std::abs(p[k]) <= axes[k] + 1e-15);
+      double level = 0;
+      for (int k = 0; k < 3; ++k)
+        if (axes[k] > 1e-3) level += p[k] / axes[k] * (p[k] / axes[k]);
+      REQUIRE(level < 1 + 1e-11);  // the points are good to 1e-15 m, the axes taken at least 1e-3 m
+    }
+    REQUIRE(apart > 100);
+  }
+}
