@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fcl_stpbv/adapter/fcl_distance.h"
 #include "fcl_stpbv/convex/relative_pose.h"
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/numbers.h"
@@ -38,7 +39,7 @@ CollisionChecker::Impl::Impl(std::shared_ptr<const Kinematics> kinematics,
 
 void CollisionChecker::Impl::addBody(std::size_t frame, const fcl::CollisionGeometryd& geometry,
                                      const Isometry3d& pose, const Vector3d& centre, double radius) {
-  PlacedBody placed{frame, &geometry, pose, centre, radius, 0, false, {}};
+  PlacedBody placed{frame, &geometry, pose, centre, radius, 0, hasFiniteCorners(geometry), false, {}};
   placed.convex = isConvex(geometry, placed.body);
   if (const StpBv* volume = placed.body.volume) {
     placed.centre = pose * volume->centre();

@@ -90,7 +90,8 @@ void CollisionConstraints::addPair(const CheckedPair& pair) {
           options_.exactUpTo,
           options_.influence,
           groupOf_[rows_.size()],
-          false};
+          false,
+          hasFiniteCorners(*body.geometry) && hasFiniteCorners(second(pair))};
   if (row.group >= 0) {
     row.whole = wholeRow_[at(row.group)] == rows_.size();
     row.start = std::min(options_.handOver / 2, options_.exactUpTo);
@@ -192,7 +193,7 @@ CollisionConstraints::Witness CollisionConstraints::query(std::size_t row) {
     answer.status = DistanceStatus::invalid;
     if (!far)
       answer = distance(*geometry_->bodies[at(r.a)].geometry, pose_[at(r.a)], second(pairs_[row]),
-                        pose_[at(r.b)], {&caches_[row], nullptr});
+                        pose_[at(r.b)], {&caches_[row], nullptr, nullptr, StartFrom::centres, r.finite});
     if (answer.status != DistanceStatus::invalid)
       return {answer.status, answer.distance, answer.normal, answer.points};
   }

@@ -165,6 +165,7 @@ class CollisionConstraints {
     double start, end;  // where the row leaves the distance, and where it is constant
     int group;          // of the whole bodies that hand over to it, -1 for none
     bool whole;         // hands over to the parts
+    bool finite;        // the corners of both are numbers, if they are meshes
   };
   struct Witness {
     DistanceStatus status;

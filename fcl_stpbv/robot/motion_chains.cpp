@@ -11,6 +11,7 @@
 #include <limits>
 #include <optional>
 
+#include "fcl_stpbv/adapter/fcl_distance.h"
 #include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/robot/joint_path.h"
 
@@ -50,7 +51,7 @@ MotionChains::MotionChains(const Kinematics& kinematics, const RobotGeometry& ge
 void MotionChains::addBodies(const RobotGeometry& geometry, const std::vector<Obstacle>& obstacles) {
   const auto add = [&](int link, const fcl::CollisionGeometryd& shape, const Eigen::Isometry3d& pose,
                        const Vector3d& centre, double radius) {
-    Placed placed{link, &shape, pose, centre, radius, false, {}};
+    Placed placed{link, &shape, pose, centre, radius, hasFiniteCorners(shape), false, {}};
     placed.convex = isConvex(shape, placed.body);
     placed.body.pose = pose;
     placed.where = centre;

@@ -25,6 +25,7 @@ class MotionChains {
     Eigen::Isometry3d local;
     Eigen::Vector3d centre;  ///< of its ball, in the link's frame (m)
     double radius;           ///< of that ball (m)
+    bool finite;             ///< its corners are numbers, if it is a mesh
     bool convex;
     ConvexBody body;
     Eigen::Vector3d where{0, 0, 0};  ///< the ball's centre, now (m, world)

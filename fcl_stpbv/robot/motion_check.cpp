@@ -59,6 +59,7 @@ class MotionCheck::Impl {
 
   const Placed& body(int pair, int side) const { return chains_.body(chains_.pair(pair).side[side]); }
   Distance ask(int pair);
+  DistanceAnswer askFcl(int pair);
   Cover ballCover(int pair, double margin, double most) const;
   Cover cover(int pair, const Distance& found, double margin, double most) const;
 
@@ -121,11 +122,16 @@ class MotionCheck::Impl::ApproachScene {
   std::vector<Approach>& best_;
 };
 
+DistanceAnswer MotionCheck::Impl::askFcl(int pair) {
+  const Placed &a = body(pair, 0), &b = body(pair, 1);
+  return distance(*a.geometry, a.body.pose, *b.geometry, b.body.pose,
+                  {&caches_[at(pair)], nullptr, nullptr, StartFrom::centres, a.finite && b.finite});
+}
+
 Distance MotionCheck::Impl::ask(int pair) {
   const Placed &a = body(pair, 0), &b = body(pair, 1);
   if (a.convex && b.convex) return distance(a.body, b.body, &caches_[at(pair)]);
-  const DistanceAnswer answer =
-      distance(*a.geometry, a.body.pose, *b.geometry, b.body.pose, {&caches_[at(pair)], nullptr});
+  const DistanceAnswer answer = askFcl(pair);
   Distance found;
   found.status = answer.status;
   found.distance = answer.distance;
@@ -201,8 +207,7 @@ bool MotionCheck::Impl::closest(const ConstVector& q0, const ConstVector& q1, do
 DistanceAnswer MotionCheck::Impl::answer(int pair, const ConstVector& q) {
   if (!chains_.set(q, q)) return {};
   chains_.place(0);
-  const Placed &a = body(pair, 0), &b = body(pair, 1);
-  return distance(*a.geometry, a.body.pose, *b.geometry, b.body.pose, {&caches_[at(pair)], nullptr});
+  return askFcl(pair);
 }
 
 MotionCheck::MotionCheck(std::shared_ptr<const Kinematics> kinematics,

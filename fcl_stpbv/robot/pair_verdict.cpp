@@ -105,7 +105,8 @@ double CollisionChecker::Impl::measured(KeptPair& pair) {
     found = distance(one, other, &pair.cache);
   } else {
     const DistanceAnswer answer =
-        distance(*a.geometry, one.pose, *b.geometry, other.pose, {&pair.cache, nullptr});
+        distance(*a.geometry, one.pose, *b.geometry, other.pose,
+                 {&pair.cache, nullptr, nullptr, StartFrom::centres, a.finite && b.finite});
     found.status = answer.status;
     found.distance = answer.distance;
   }
