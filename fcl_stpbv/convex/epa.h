@@ -42,8 +42,9 @@ class Epa {
   double gap = -std::numeric_limits<double>::infinity();  ///< the widest seen: minus the least overlap (m)
   Eigen::Vector3d n{0, 0, 1};                             ///< its normal, unit, from A to B
   Eigen::Vector3d onA{0, 0, 0};                           ///< A's point there; B's is `gap` along `n` from it
-  double bound = 0;                                       ///< no normal has a wider gap (m)
-  std::array<Corner, 3> met;                              ///< corners of the difference that `onA` is of
+  /// No normal has a wider gap (m). To begin with as the caller knows it: cores that overlap have no gap.
+  double bound = 0;
+  std::array<Corner, 3> met;  ///< corners of the difference that `onA` is of
   int metCount = 0;
 
   /// The difference's corner furthest against the unit vector `m`; remembers the least overlap.
@@ -71,7 +72,7 @@ class Epa {
   Eigen::Vector3d onB() const { return onA + toB_; }
 
   /// Whether both bounds agree, to 1e-6 of the depth or to rounding.
-  bool solved() const { return bound - gap <= kRelative * -bound + rounding_; }
+  bool solved() const { return bound - gap <= kRelative * std::max(-bound, 0.0) + rounding_; }
 
   /// Searches until the bounds agree. False where rounding or the polytope's
   /// size stopped it; both bounds hold.
@@ -97,7 +98,7 @@ class Epa {
     int more = 0;
     Polytope polytope({point[0].w, point[1].w, point[2].w, point[3].w}, Polytope::Origin::anywhere);
     expandAtNearest(polytope, [&](const Polytope::Face& face) {
-      bound = std::min(bound, -face.distance);
+      if (face.distance > 0.0) bound = std::min(bound, -face.distance);
       const Corner next = look(-face.normal);
       const double open = -gap - face.distance;
       offerFace(point[face.corner[0]], point[face.corner[1]], point[face.corner[2]],

@@ -38,6 +38,8 @@ bool commonMeridian(const Shape& a, const Shape& b, const RelativePose& pose, Me
   plane.across =
       aside.cross(plane.along).cross(plane.along).normalized();  // nothing along the axis, not even rounding
   if (!(plane.across.norm() > 0.5)) plane.across = plane.along.unitOrthogonal();
+  plane.outB = plane.along.cross(plane.across);
+  plane.outA = a.kind == ShapeKind::point ? plane.outB : axisA->cross(plane.across).normalized();
   // Two bodies of revolution with parallel axes have a difference of revolution, and out of it the shortest
   // way lies in the plane through its axis and the origin. A is turned to make them parallel.
   const double turn = a.kind == ShapeKind::point ? 0.0 : axisA->cross(plane.along).norm();

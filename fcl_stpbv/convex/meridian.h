@@ -14,6 +14,7 @@ namespace fcl_stpbv::detail {
 /// A plane through the origin in which the difference B - A of two cores has its boundary's nearest point.
 struct Meridian {
   Eigen::Vector3d along, across;  ///< unit and orthogonal, in A's frame
+  Eigen::Vector3d outA, outB;     ///< unit normals of the planes through each body's own axis
   double slack;                   ///< the cores are within this of two that have it exactly (m)
 };
 
@@ -25,6 +26,7 @@ bool commonMeridian(const Shape& a, const Shape& b, const RelativePose& pose, Me
 struct MeridianDepth {
   double depth = 0;              ///< at least this deep is the origin inside the difference (m)
   Eigen::Vector3d onA{0, 0, 0};  ///< A's part of that point
+  Eigen::Vector3d toB{0, 0, 0};  ///< from there to B's part (m)
 };
 
 /// Grows a polygon in the meridian plane where it is nearest to the origin, until it reaches the boundary
@@ -34,12 +36,16 @@ MeridianDepth meridianDepth(const Meridian& plane, double rounding, Furthest&& f
   constexpr std::size_t kPoints = 200;  // each halves the arc it comes to lie on: enough for rounding
   struct Point {
     Eigen::Vector2d w;
-    Eigen::Vector3d onA;
+    Eigen::Vector3d onA, toB;
   };
   std::array<Point, kPoints> point;  // counter-clockwise
   const auto along = [&](const Eigen::Vector2d& m) {
     const auto p = furthest(m.x() * plane.along + m.y() * plane.across);
-    return Point{{plane.along.dot(p.w), plane.across.dot(p.w)}, p.onA};
+    // A body of revolution holds the projection of each of its points into a plane through its axis. Of a
+    // disc any point of the rim may have come.
+    const Eigen::Vector3d onB = p.onA + p.w, onA = p.onA - plane.outA.dot(p.onA) * plane.outA;
+    return Point{
+        {plane.along.dot(p.w), plane.across.dot(p.w)}, onA, onB - plane.outB.dot(onB) * plane.outB - onA};
   };
   std::size_t points = 0;
   for (const Eigen::Vector2d& m :
@@ -65,6 +71,7 @@ MeridianDepth meridianDepth(const Meridian& plane, double rounding, Furthest&& f
     const Eigen::Vector2d side = q.w - p.w;
     const double part = std::min(1.0, std::max(0.0, -p.w.dot(side) / side.squaredNorm()));
     result.onA = p.onA + part * (q.onA - p.onA);
+    result.toB = p.toB + part * (q.toB - p.toB);
     if (points == kPoints) break;
     const Point next = along(normal);
     if (!(normal.dot(next.w) - depth > 0.25 * rounding)) break;

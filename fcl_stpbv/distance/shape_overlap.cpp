@@ -100,7 +100,7 @@ Nearest deepestOnPlane(ShapeQuery& q, const Vector3d& onPlane, Vector3d n, const
 bool isDeepest(const ShapeQuery& q, const Nearest& found, double leastOverlap) {
   if (!(found.gap >= leastOverlap - q.rounding.gap)) return false;
   if (found.n.dot(found.y - q.facing(found.n)) > q.rounding.gap) return false;
-  if (q.shape.kind == ShapeKind::ellipsoid) return true;
+  if (q.shape.kind == ShapeKind::ellipsoid) return besideEllipsoid(q, found.y) <= 2.0 * q.rounding.gap;
   Shape core = q.shape;
   core.margin = 0.0;
   Isometry3d at = Isometry3d::Identity();
@@ -182,10 +182,28 @@ class DeepFeatures {
       return found;
     });
   }
+  /// One without thickness is a segment, or a disc that has a face.
   void ellipsoid() {
     const EllipsoidFeature all = wholeEllipsoid(q_);
-    take([&] { return deepestOn(q_, all, start_); });
-    if (found_ && all.wobble(found_->n) > q_.rounding.across) placeOppositeOnEllipsoid(q_, *found_);
+    int flat = 0, longest = 0;
+    q_.shape.size.minCoeff(&flat);
+    const double reach = q_.shape.size.maxCoeff(&longest);
+    if (q_.shape.size.sum() - reach <= q_.rounding.gap) {
+      const Vector3d axis = all.axes.col(longest);
+      line(q_.translation, q_.rotation.col(longest));
+      point(q_.translation + (start_.n.dot(axis) < 0.0 ? axis : Vector3d(-axis)));
+      return;
+    }
+    if (q_.shape.size[flat] <= q_.rounding.gap) plane(q_.translation, q_.rotation.col(flat));
+    take([&]() -> std::optional<Nearest> {
+      std::optional<Nearest> found = deepestOn(q_, all, start_);
+      if (!found || !(all.wobble(found->n) > q_.rounding.across)) return found;
+      placeOppositeOnEllipsoid(q_, *found);
+      const Vector3d opposite =
+          viewVolume(q_.body, found->n, found->patch, q_.steps).point + found->gap * found->n;
+      if ((found->y - opposite).norm() > 4.0 * q_.rounding.across) return {};
+      return found;
+    });
   }
   /// Of up to three corners: the face, the edges, the corners alone.
   void corners(const std::array<Vector3d, 3>& p, int count) {

@@ -89,9 +89,12 @@ Distance inWorld(const Pair& p, const Vector3d& n, const Vector3d& onA, const Ve
   return result;
 }
 
+Gjk searchToTheEnd(const Pair& p) {
+  return p.search([](double, double) { return false; });
+}
+
 /// Cores apart. `invalid` where they overlap, or no gap between them was found.
-Distance separated(const Pair& p) {
-  const Gjk found = p.search([](double, double) { return false; });
+Distance separated(const Pair& p, const Gjk& found) {
   if (found.verdict == Gjk::Verdict::overlap) return {};
   // Rounding can make the last normal worse than an earlier one: the answer's is the one with the widest gap.
   const double last = Difference(p.a, p.b, p.pose).support(found.n).gap;
@@ -107,18 +110,25 @@ Distance separated(const Pair& p) {
   return result;
 }
 
-/// Cores with a common point: the shortest translation that separates them.
-Distance overlapping(const Pair& p) {
+/// Cores with a common point, as far as GJK could tell: the shortest translation that separates them.
+Distance overlapping(const Pair& p, const Gjk& found) {
   Difference difference(p.a, p.b, p.pose);
   Epa<Difference> epa(difference, p.rounding);
+  // Two points that GJK found, nearly in one place: no gap is wider than they are apart, even if rounding hid
+  // it.
+  Simplex<Corner> common;
+  reduceToNearest(found.simplex, common);
+  const Vector3d onA = common.weighted(&Corner::onA), toB = common.weighted(&Corner::w);
+  epa.bound = std::min(found.upper, toB.norm());
   Meridian plane;
   if (commonMeridian(p.a, p.b, p.pose, plane)) {
     const MeridianDepth inner =
         meridianDepth(plane, p.rounding, [&](const Vector3d& m) { return epa.look(-m.normalized()); });
-    epa.bound = std::min(epa.bound, -inner.depth);
-    epa.offer(inner.onA, epa.gap * epa.n);
+    if (inner.depth > 0.0) epa.bound = std::min(epa.bound, -inner.depth);
+    epa.offer(inner.onA, inner.toB);
   }
   epa.run();
+  epa.offer(onA, toB);  // the answer's where cores cross without a volume in common, as two segments do
   Distance result = inWorld(p, epa.n, epa.onA, epa.gap * epa.n);
   const double upper = std::max(epa.bound, epa.gap);
   result.status = upper - epa.gap <= p.rounding ? DistanceStatus::exact : DistanceStatus::bounded;
@@ -150,8 +160,9 @@ Distance besidePlane(const Pair& p) {
 Distance solve(const Pair& p) {
   if (!p.valid) return {};
   if (p.a.unbounded()) return besidePlane(p);
-  const Distance found = separated(p);
-  return found.status == DistanceStatus::invalid ? overlapping(p) : found;
+  const Gjk found = searchToTheEnd(p);
+  const Distance apart = separated(p, found);
+  return apart.status == DistanceStatus::invalid ? overlapping(p, found) : apart;
 }
 
 bool isFarther(double x, const Pair& p) {
@@ -160,9 +171,11 @@ bool isFarther(double x, const Pair& p) {
   const double core = x + p.margins();
   const Gjk found =
       p.search([&](double lower, double upper) { return lower > core + p.certificate || upper <= core; });
-  if (found.lower > core + p.certificate) return true;  // along whatever normal, apart or not
+  // Along whatever normal, apart or not.
+  const double lower = std::max(found.lower, Difference(p.a, p.b, p.pose).support(found.n).gap);
+  if (lower > core + p.certificate) return true;
   if (found.verdict != Gjk::Verdict::overlap && found.upper <= core) return false;
-  return core < 0.0 && overlapping(p).lower > x;
+  return core < 0.0 && overlapping(p, found).lower > x;
 }
 
 }  // namespace
@@ -186,8 +199,7 @@ bool isFartherThan(double x, const Shape& a, const Isometry3d& poseA, const Shap
 Vector3d commonPoint(const Shape& a, const Isometry3d& poseA, const Shape& b, const Isometry3d& poseB) {
   const Pair p(a, poseA, b, poseB);
   Simplex<Corner> around;
-  const NearestPoint nearest =
-      reduceToNearest(p.search([](double, double) { return false; }).simplex, around);
+  const NearestPoint nearest = reduceToNearest(searchToTheEnd(p).simplex, around);
   const double share = p.margins() > 0.0 ? a.margin / p.margins() : 0.5;
   return p.pose.inWorld(around.weighted(&Corner::onA) + share * nearest.point);
 }

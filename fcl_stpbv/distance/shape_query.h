@@ -109,6 +109,9 @@ Nearest nearestOnGenerator(ShapeQuery& q, const StartNormal& start);
 Nearest nearestOnEllipsoid(ShapeQuery& q, const StartNormal& start);
 EllipsoidFeature wholeEllipsoid(const ShapeQuery& q);
 
+/// How far `y`, on a supporting plane of the ellipsoid, is from it to first order (m).
+double besideEllipsoid(const ShapeQuery& q, const Eigen::Vector3d& y);
+
 /// On the flat side of a thin ellipsoid an ulp of the normal moves its point a long way: takes the point
 /// opposite the body's instead, if it is the ellipsoid's.
 void placeOppositeOnEllipsoid(ShapeQuery& q, Nearest& found);

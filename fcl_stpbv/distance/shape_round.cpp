@@ -175,22 +175,6 @@ Nearest nearestOnDisc(ShapeQuery& q, const Nearest& plane, const Vector3d& middl
   return nearestOnRim(q, middle, plane.n, {n, plane.patch});
 }
 
-/// How far `y`, on a supporting plane of the ellipsoid, is from it to first order (m).
-double besideEllipsoid(const ShapeQuery& q, const Vector3d& y) {
-  const Vector3d at = q.rotation.transpose() * (y - q.translation), &axes = q.shape.size;
-  double flat = 0.0, level2 = 0.0, slope2 = 0.0;
-  for (int i = 0; i < 3; ++i) {
-    if (axes[i] > q.rounding.gap) {
-      level2 += at[i] / axes[i] * (at[i] / axes[i]);
-      slope2 += at[i] / axes[i] / axes[i] * (at[i] / axes[i] / axes[i]);
-    } else {
-      flat = std::max(flat, std::abs(at[i]) - axes[i]);
-    }
-  }
-  const double level = std::sqrt(level2);
-  return std::max(flat, level > 1.0 ? (level - 1.0) * level / std::sqrt(slope2) : 0.0);
-}
-
 }  // namespace
 
 Nearest nearestOnCylinder(ShapeQuery& q, const StartNormal& start) {
@@ -245,6 +229,21 @@ Nearest nearestOnGenerator(ShapeQuery& q, const StartNormal& start) {
 
 EllipsoidFeature wholeEllipsoid(const ShapeQuery& q) {
   return {q.translation, q.rotation * q.shape.size.asDiagonal()};
+}
+
+double besideEllipsoid(const ShapeQuery& q, const Vector3d& y) {
+  const Vector3d at = q.rotation.transpose() * (y - q.translation), &axes = q.shape.size;
+  double flat = 0.0, level2 = 0.0, slope2 = 0.0;
+  for (int i = 0; i < 3; ++i) {
+    if (axes[i] > q.rounding.gap) {
+      level2 += at[i] / axes[i] * (at[i] / axes[i]);
+      slope2 += at[i] / axes[i] / axes[i] * (at[i] / axes[i] / axes[i]);
+    } else {
+      flat = std::max(flat, std::abs(at[i]) - axes[i]);
+    }
+  }
+  const double level = std::sqrt(level2);
+  return std::max(flat, level > 1.0 ? (level - 1.0) * level / std::sqrt(slope2) : 0.0);
 }
 
 void placeOppositeOnEllipsoid(ShapeQuery& q, Nearest& found) {

@@ -91,7 +91,9 @@ void CollisionConstraints::addPair(const CheckedPair& pair) {
           options_.influence,
           groupOf_[rows_.size()],
           false,
-          hasFiniteCorners(*body.geometry) && hasFiniteCorners(second(pair))};
+          hasFiniteCorners(*body.geometry) && hasFiniteCorners(second(pair)),
+          static_cast<int>(common_.size()),
+          0};
   if (row.group >= 0) {
     row.whole = wholeRow_[at(row.group)] == rows_.size();
     row.start = std::min(options_.handOver / 2, options_.exactUpTo);
@@ -124,7 +126,18 @@ void CollisionConstraints::addPair(const CheckedPair& pair) {
     const auto slot = std::lower_bound(columns.begin(), columns.end(), coordinate) - columns.begin();
     terms_.push_back({d.motion, d.sign < 0 ? 0 : 1, rowStart_.back() + static_cast<int>(slot)});
   }
+  std::stable_sort(terms_.begin() + row.firstTerm, terms_.end(),
+                   [](const Term& a, const Term& b) { return a.slot < b.slot; });
   row.lastTerm = static_cast<int>(terms_.size());
+  for (const Kinematics::Dependence& d : kinematics_->dependence(body.link)) {
+    const int coordinate = kinematics_->motions()[at(d.motion)].coordinate;
+    const bool own =
+        std::any_of(list.begin(), list.end(), [&](const auto& l) { return l.motion == d.motion; });
+    const auto slot = std::lower_bound(columns.begin(), columns.end(), coordinate);
+    if (!own && slot != columns.end() && *slot == coordinate)
+      common_.push_back({d.motion, rowStart_.back() + static_cast<int>(slot - columns.begin())});
+  }
+  row.lastCommon = static_cast<int>(common_.size());
   rows_.push_back(row);
   column_.insert(column_.end(), columns.begin(), columns.end());
   rowStart_.push_back(nonZeros());

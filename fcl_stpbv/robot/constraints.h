@@ -157,6 +157,11 @@ class CollisionConstraints {
     int side;  // 0: it carries the first body, 1: the second
     int slot;  // among the non-zeros
   };
+  struct CommonMotion {  // carries both bodies, and moves with a coordinate of the row: a joint that others
+                         // mimic
+    int motion;
+    int slot;
+  };
   struct Row {
     const StpBv *first, *second;  // null where one of the two is no STP-BV
     int a, b;                     // places among pose_ and centre_
@@ -166,6 +171,7 @@ class CollisionConstraints {
     int group;          // of the whole bodies that hand over to it, -1 for none
     bool whole;         // hands over to the parts
     bool finite;        // the corners of both are numbers, if they are meshes
+    int firstCommon, lastCommon;
   };
   struct Witness {
     DistanceStatus status;
@@ -211,6 +217,7 @@ class CollisionConstraints {
   std::vector<int> groupOf_;           // of each pair, -1 for none
   std::vector<std::size_t> wholeRow_;  // of each group
   std::vector<Witness> whole_;         // what its bodies are at, once placed
+  std::vector<CommonMotion> common_;
   std::vector<Term> terms_;
   Kinematics::State state_;
   Kinematics::Rate rate_;

@@ -68,7 +68,7 @@ double CollisionConstraints::gradientRateBound(int row) const {
   double slope, curvature;
   bend(at(row), w.distance, slope, curvature);
   const double speed = n.dot(velocityOf(w.point[1], other) - velocityOf(w.point[0], first));
-  double sum = 0;
+  double sum = 0, shared = 0;  // joints may share a coordinate: those stand side by side
   for (int t = r.firstTerm; t < r.lastTerm; ++t) {
     const Term& term = terms_[at(t)];
     const Vector3d& x = w.point[at(term.side)];
@@ -79,7 +79,10 @@ double CollisionConstraints::gradientRateBound(int row) const {
     const double own = std::abs(n.dot(velocityOf(x, change) + motion.angular.cross(velocityOf(x, body))));
     const double entry = slope * (turn * lever.norm() + motion.angular.norm() * slide[term.side] + own) +
                          std::abs(curvature * speed) * lever.norm();
-    sum += entry * entry;
+    shared += entry;
+    if (t + 1 < r.lastTerm && terms_[at(t + 1)].slot == term.slot) continue;
+    sum += shared * shared;
+    shared = 0;
   }
   return std::sqrt(sum);
 }

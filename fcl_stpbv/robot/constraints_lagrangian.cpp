@@ -63,18 +63,30 @@ bool CollisionConstraints::rowHessian(std::size_t row, Eigen::MatrixXd& h) {
         motion.linear + motion.angular.cross(origin[term.side]);
     twists.col(term.slot - start).segment<3>(6 * term.side + 3) += motion.angular;
   }
+  // Both bodies and the joints between them as seen from the link that carries them: what moves that one is
+  // taken out of the change of their twists.
+  std::vector<Twist> carried(at(count));
+  for (int c = r.firstCommon; c < r.lastCommon; ++c) {
+    const Twist& motion = state_.motion[at(common_[at(c)].motion)];
+    carried[at(common_[at(c)].slot - start)].linear += motion.linear;
+    carried[at(common_[at(c)].slot - start)].angular += motion.angular;
+  }
   h.noalias() = twists.transpose() * (pair.matrix * twists);
   for (int t = r.firstTerm; t < r.lastTerm; ++t) {
     const Term& term = terms_[at(t)];
     const int i = term.slot - start;
     const Vector3d along = (term.side == 0 ? -1 : 1) * witness.normal;
     const Vector3d moment = witness.point[at(term.side)].cross(along);
-    const Vector3d turned = along.cross(state_.motion[at(term.motion)].angular);  // along.(w x v) = turned.v
+    const Twist& motion = state_.motion[at(term.motion)];
+    const Vector3d turned = along.cross(motion.angular);  // along.(w x v) = turned.v
     for (int j = 0; j < count; ++j) {
-      const Twist& change = alongEach_[at(column_[at(start + j)])].motion[at(term.motion)];
-      const double half = (along.dot(change.linear) + moment.dot(change.angular) +
-                           turned.dot(twists.col(j).segment<3>(6 * term.side))) /
-                          2;
+      const Twist &change = alongEach_[at(column_[at(start + j)])].motion[at(term.motion)],
+                  &by = carried[at(j)];
+      const Vector3d linear =
+                         change.linear - by.angular.cross(motion.linear) - by.linear.cross(motion.angular),
+                     angular = change.angular - by.angular.cross(motion.angular);
+      const double half =
+          (along.dot(linear) + moment.dot(angular) + turned.dot(twists.col(j).segment<3>(6 * term.side))) / 2;
       h(i, j) += half;
       h(j, i) += half;
     }

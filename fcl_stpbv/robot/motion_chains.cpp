@@ -170,7 +170,9 @@ void MotionChains::place(double t) {
       body.where = link * body.centre;
       spin = std::max(spin, twist_[at(body.link)].angular.norm());
     }
-    length = std::max(length, body.where.lpNorm<1>() + body.radius);
+    // A half space has no ball; what is asked of it is at the other body.
+    const double reach = body.where.lpNorm<1>() + body.radius;
+    length = std::max(length, std::isfinite(reach) ? reach : body.body.pose.translation().lpNorm<1>());
   }
   // Each of the products and sums from the root out to a bound is off by a few units
   // in the last place of the longest length.

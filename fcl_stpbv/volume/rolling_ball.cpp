@@ -143,8 +143,35 @@ RolledHull hullOf(const std::vector<Vector3d>& points, std::vector<Ring> faces, 
 
 }  // namespace
 
+namespace {
+
+/// The ends of points that are on one line to rounding: no direction across it tells them apart, and a face
+/// that rounding made there would leave out an end. Nothing if some point is off the line.
+std::vector<int> needleEnds(const std::vector<Vector3d>& points) {
+  constexpr double kRounding = 3e-14;  // of the length
+  const auto farthestFrom = [&](int from) {
+    int best = from;
+    double most = 0;
+    for (int i = 0; i < static_cast<int>(points.size()); ++i) {
+      const double away = (points[at(i)] - points[at(from)]).squaredNorm();
+      if (away > most) best = i, most = away;
+    }
+    return best;
+  };
+  const int a = farthestFrom(0), b = farthestFrom(a);
+  const Vector3d axis = points[at(b)] - points[at(a)];
+  const double length = axis.norm();
+  if (!(length > 0)) return {};
+  for (const Vector3d& p : points)
+    if ((p - points[at(a)]).cross(axis).norm() > kRounding * length * length) return {};
+  return {std::min(a, b), std::max(a, b)};
+}
+
+}  // namespace
+
 RolledHull rollBall(const std::vector<Vector3d>& points, double radius) {
   if (std::isinf(radius)) {
+    if (std::vector<int> ends = needleEnds(points); !ends.empty()) return {std::move(ends), {}};
     radius = flatRadius(points);
     // So large a ball leaves no point on its way from one face to the next that both of them hold: what
     // quickhull finds is the hull without a further check.

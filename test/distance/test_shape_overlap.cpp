@@ -121,7 +121,10 @@ TEST_CASE("deep in an STP-BV both witness points are on their bodies and opposit
   int deep = 0;
   for (int i = 0; i < 3000; ++i) {
     const OverlapBody& body = bodies[static_cast<std::size_t>(i) % bodies.size()];
-    const TestShape b = randomShape(anyBounded(random), random);
+    TestShape b = randomShape(anyBounded(random), random);
+    if (i % 10 == 0) b = {"needle", Shape::ellipsoidOf({random.uniform(0.1, 0.5), 0, 0}), nullptr};
+    if (i % 10 == 5)
+      b = {"disc", Shape::ellipsoidOf({random.uniform(0.1, 0.5), 0, random.uniform(0.1, 0.5)}), nullptr};
     const Isometry3d base = pose(random.rotation(), random.direction()), at = base * inside(random);
     const Distance d = distance(*body.volume, base, b.shape, at);
     if (!(d.distance < -(body.volume->radii().r + b.shape.margin))) continue;
@@ -141,6 +144,47 @@ TEST_CASE("deep in an STP-BV both witness points are on their bodies and opposit
     REQUIRE(std::abs(d.normal.dot(y - facing)) < 1e-14);
   }
   REQUIRE(deep > 1000);
+}
+
+TEST_CASE("nearly parallel segments that almost touch: no gap along their common normal is above the bound") {
+  Random random(9);
+  int near = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const double h = random.uniform(0.05, 1), k = random.uniform(0.05, 1);
+    const double angle = std::pow(10.0, random.uniform(-12, -4));
+    const Isometry3d a = pose(random.rotation(), Vector3d::Zero());
+    Isometry3d b = pose(random.rotation(angle) * a.linear(), Vector3d::Zero());
+    b.translation() = random.uniform(0, 0.5) * angle * h * random.direction();
+    const Distance d = distance(Shape::capsule(0, 2 * h), a, Shape::capsule(0, 2 * k), b);
+    const Vector3L u = a.linear().col(2).cast<long double>(), v = b.linear().col(2).cast<long double>();
+    const Vector3L r = b.translation().cast<long double>(), n = u.cross(v).normalized();
+    const long double gap = std::abs(n.dot(r)) - std::abs(n.dot(u)) * h - std::abs(n.dot(v)) * k;
+    CAPTURE(i, h, k, angle, d.distance, d.upper - d.distance, static_cast<double>(gap) - d.upper);
+    REQUIRE(d.upper >= static_cast<double>(gap));
+    REQUIRE(d.lower <= d.upper);
+    near += gap > 1e-14L;
+  }
+  REQUIRE(near > 5000);
+}
+
+TEST_CASE("crossing capsules: both witness points are on their bodies") {
+  Random random(10);
+  for (int i = 0; i < 1000; ++i) {
+    const double r = random.uniform(0.01, 0.2), s = random.uniform(0.01, 0.2), h = random.uniform(0.1, 1),
+                 k = random.uniform(0.1, 1);
+    const Isometry3d a = pose(random.rotation(), random.direction());
+    Isometry3d b = pose(random.rotation(), a.translation());
+    if (i % 2) b.translation() += random.uniform(-h, h) * a.linear().col(2);  // the axes still meet
+    const Distance d = distance(Shape::capsule(r, 2 * h), a, Shape::capsule(s, 2 * k), b);
+    CAPTURE(i, r, s, h, k, d.distance);
+    const auto off = [](const Isometry3d& at, double half, double radius, const Vector3d& point) {
+      const Vector3d p = at.inverse() * point;
+      return std::abs((p - Vector3d(0, 0, std::clamp(p.z(), -half, half))).norm() - radius);
+    };
+    REQUIRE(std::abs(d.distance + r + s) < 1e-14);
+    REQUIRE(off(a, h, r, d.point[0]) < 1e-14);
+    REQUIRE(off(b, k, s, d.point[1]) < 1e-14);
+  }
 }
 
 TEST_CASE(

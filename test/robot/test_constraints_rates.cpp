@@ -192,6 +192,48 @@ TEST_CASE("a row's Hessian has the products with vectors as columns, and qd' H q
   CHECK(std::abs(h(2, 2)) < 1e-8);
 }
 
+TEST_CASE("Hessians and gradient bounds hold where the joints of one coordinate carry and part two bodies") {
+  // As in a finger: J carries both bodies, K between them and L after it follow it.
+  const char* const finger = R"(<robot name="finger"><link name="palm"/>
+    <link name="a"><collision><geometry><box size="0.2 0.1 0.1"/></geometry></collision></link><link name="b"/>
+    <link name="c"><collision><origin xyz="0.1 0.02 0.3"/><geometry><box size="0.1 0.2 0.1"/></geometry></collision></link>
+    <joint name="j" type="revolute"><parent link="palm"/><child link="a"/><axis xyz="0 1 0.2"/>
+      <limit lower="-1" upper="1" effort="1" velocity="1"/></joint>
+    <joint name="k" type="revolute"><parent link="a"/><child link="b"/><origin xyz="0.2 0 0.1"/><axis xyz="0.1 1 0"/>
+      <limit lower="-1" upper="1" effort="1" velocity="1"/><mimic joint="j" multiplier="0.8"/></joint>
+    <joint name="l" type="revolute"><parent link="b"/><child link="c"/><origin xyz="0.05 0 0.01"/><axis xyz="0 1 0"/>
+      <limit lower="-1" upper="1" effort="1" velocity="1"/><mimic joint="j" multiplier="1.1"/></joint></robot>)";
+  const auto model = std::make_shared<const RobotModel>(parseUrdf(finger, "finger.urdf"));
+  GeometryOptions options;
+  options.radii = {0.01, 10};
+  auto geometry = std::make_shared<RobotGeometry>(loadGeometry(*model, options));
+  std::vector<CheckedPair> pairs = selfPairs(*model, *geometry, nullptr);
+  coverPrimitives(pairs, *geometry);
+  CollisionConstraints constraints(std::make_shared<const Kinematics>(model), geometry, pairs, {});
+  REQUIRE(constraints.rows() == 1);
+  RowRates rates = constraints.makeRates();
+  MatrixXd jacobian(1, 1), h(1, 1), before(1, 1), after(1, 1);
+  VectorXd product(1), d(1);
+  double nearest = 0;
+  for (int i = -100; i <= 100; ++i) {
+    const VectorXd q = VectorXd::Constant(1, 0.01 * i), one = VectorXd::Ones(1);
+    constraints.evaluate(q, one, rates, jacobian);
+    const double bound = constraints.gradientRateBound(0);
+    constraints.hessian(q, 0, h);
+    constraints.hessianVector(q, one, one, product);
+    CAPTURE(q, rates.d, bound);
+    CHECK(std::abs(h(0, 0) - product[0]) < 1e-12 * (1 + h.norm()));
+    CHECK(std::abs(h(0, 0) - rates.drift[0]) < 1e-12 * (1 + h.norm()));
+    if (!(rates.d[0] > 0.01)) continue;
+    constraints.evaluate(q + kStep * one, d, after);
+    constraints.evaluate(q - kStep * one, d, before);
+    const double change = std::abs(after(0, 0) - before(0, 0)) / (2 * kStep);
+    CHECK(change <= bound * (1 + 1e-6) + 1e-9);  // the gradient's rounding over the step
+    nearest = std::max(nearest, change / bound);
+  }
+  CHECK(nearest > 0.7);  // else the bound would be too wide to fail
+}
+
 TEST_CASE("the Lagrangian's Hessian is the weighted sum of the rows', in a structure that stays") {
   const Problem p = problem(robots()[0], BaseMotion::floating);
   CollisionConstraints constraints = crowded(p);

@@ -2,6 +2,7 @@
 #include <fcl/geometry/bvh/BVH_model.h>
 #include <fcl/geometry/geometric_shape_to_BVH_model.h>
 #include <fcl/geometry/shape/box.h>
+#include <fcl/geometry/shape/halfspace.h>
 #include <fcl/geometry/shape/sphere.h>
 
 #include <catch2/catch.hpp>
@@ -67,6 +68,11 @@ Scene everyJoint(BaseMotion base) {
   scene.obstacles.push_back(obstacleOf(fcl::CollisionObjectd(mesh, place(0.6, 0.6, 0.4)), "mesh"));
   scene.obstacles.push_back(obstacleOf(
       fcl::CollisionObjectd(std::make_shared<fcl::Boxd>(0.2, 0.2, 0.2), place(-0.5, 0.4, 0.3)), "box"));
+  scene.obstacles.push_back(
+      obstacleOf(fcl::CollisionObjectd(
+                     std::make_shared<fcl::Halfspaced>(Eigen::Vector3d(0, 0, 1), -0.9),
+                     pose(Eigen::AngleAxisd(0.1, Eigen::Vector3d::UnitX()).toRotationMatrix(), {0, 0, 0})),
+                 "floor"));
   scene.pairs = selfPairs(*scene.model, *scene.geometry, nullptr);
   const auto around =
       obstaclePairs(*scene.model, *scene.geometry, scene.obstacles.size(), base != BaseMotion::fixed);
@@ -102,7 +108,8 @@ void compare(MotionCheck& check, CollisionConstraints& rows, const VectorXd& q0,
 }  // namespace
 
 TEST_CASE(
-    "motions through joints of every type, among a mesh and a box, are judged as dense samples see them") {
+    "motions through joints of every type, among a mesh, a box and a floor, are judged as dense samples see "
+    "them") {
   Random random(1);
   for (const BaseMotion base : {BaseMotion::fixed, BaseMotion::planar, BaseMotion::floating}) {
     const Scene scene = everyJoint(base);

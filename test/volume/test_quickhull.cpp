@@ -205,3 +205,26 @@ TEST_CASE("Quickhull asks the sides of a few points a vertex, however many") {
     CHECK(static_cast<double>(quick.asked) < 12 * count * std::log2(count));
   }
 }
+
+TEST_CASE("Points on a line but for rounding have its ends as their convex hull") {
+  Random random(22);
+  for (int trial = 0; trial < 4000; ++trial) {
+    const double width = std::pow(10, random.uniform(-18, -12));
+    const Vector3d middle = random.direction(), axis = random.direction();
+    Cloud points;
+    for (int i = 0; i < 3 + trial % 8; ++i)
+      points.push_back(middle + random.uniform(-1, 1) * axis + width * random.direction());
+    double lowest = 1e300, highest = -1e300;
+    const auto along = [&](const Vector3d& p) { return axis.dot(p - middle); };
+    for (const int i : rollBall(points).vertices) {
+      lowest = std::min(lowest, along(points[static_cast<std::size_t>(i)]));
+      highest = std::max(highest, along(points[static_cast<std::size_t>(i)]));
+    }
+    INFO("trial " << trial << ", width " << width);
+    for (const Vector3d& p : points) {
+      // Coordinates of 2 m, and what lies across may stand for what lies along.
+      REQUIRE(along(p) > lowest - 1e-15 - width);
+      REQUIRE(along(p) < highest + 1e-15 + width);
+    }
+  }
+}
