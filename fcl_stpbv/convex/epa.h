@@ -68,6 +68,8 @@ class Epa {
     return true;
   }
 
+  /// How far a way from A to B is from the answer's (m).
+  double off(const Eigen::Vector3d& toB) const { return (toB - gap * n).norm(); }
   /// B's point there, to what EPA knows.
   Eigen::Vector3d onB() const { return onA + toB_; }
 
@@ -119,9 +121,6 @@ class Epa {
       polytope.putAside();
     }
   }
-
-  /// How far a way from A to B is from the answer's (m).
-  double off(const Eigen::Vector3d& toB) const { return (toB - gap * n).norm(); }
 
   /// The face's point nearest to the origin.
   void offerFace(const Corner& a, const Corner& b, const Corner& c, const Eigen::Vector3d& nearest) {

@@ -8,6 +8,7 @@
 // 4. Overlap: bodies of revolution on parallel axes are as deep towards all generators as towards one, more
 //    than EPA has room for; a polygon in the plane of their axes tells their depth. Then EPA.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -110,6 +111,41 @@ Distance separated(const Pair& p, const Gjk& found) {
   return result;
 }
 
+/// Corners of the difference along normals next to the answer's, less the answer: where the supporting faces
+/// are generators or discs, their ends, on all sides.
+struct CornersAround {
+  std::array<Corner, 24> corner;
+
+  CornersAround(Epa<Difference>& epa) {
+    const Vector3d n = epa.n, e = n.unitOrthogonal(), f = n.cross(e);
+    std::size_t i = 0;
+    for (const double tilt : {1e-3, 1e-5, 1e-7})  // rad; the narrower ones for curved sides
+      for (int k = 0; k < 8; ++k) {
+        const double angle = 0.785398163397448 * k;
+        corner[i++] = epa.look((n + tilt * (std::cos(angle) * e + std::sin(angle) * f)).normalized());
+      }
+    for (Corner& c : corner) c.w -= epa.gap * epa.n;
+  }
+  Corner support(const Vector3d& m) {
+    Corner best;
+    best.gap = std::numeric_limits<double>::infinity();
+    for (const Corner& c : corner)
+      if (m.dot(c.w) < best.gap) best = c, best.gap = m.dot(c.w);
+    return best;
+  }
+};
+
+/// Points of both bodies that are opposite each other, out of those corners.
+void offerAround(const Pair& p, Epa<Difference>& epa) {
+  CornersAround around(epa);
+  const Vector3d answer = epa.gap * epa.n;
+  const Gjk found =
+      gjk<Corner>(around, {}, epa.n, 0.1 * p.rounding, 60, [](double, double) { return false; });
+  Simplex<Corner> nearest;
+  reduceToNearest(found.simplex, nearest);
+  epa.offer(nearest.weighted(&Corner::onA), nearest.weighted(&Corner::w) + answer);
+}
+
 /// Cores with a common point, as far as GJK could tell: the shortest translation that separates them.
 Distance overlapping(const Pair& p, const Gjk& found) {
   Difference difference(p.a, p.b, p.pose);
@@ -129,6 +165,7 @@ Distance overlapping(const Pair& p, const Gjk& found) {
   }
   epa.run();
   epa.offer(onA, toB);  // the answer's where cores cross without a volume in common, as two segments do
+  if (epa.off(epa.onB() - epa.onA) > p.rounding) offerAround(p, epa);
   Distance result = inWorld(p, epa.n, epa.onA, epa.gap * epa.n);
   const double upper = std::max(epa.bound, epa.gap);
   result.status = upper - epa.gap <= p.rounding ? DistanceStatus::exact : DistanceStatus::bounded;

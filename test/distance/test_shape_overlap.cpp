@@ -146,6 +146,37 @@ TEST_CASE("deep in an STP-BV both witness points are on their bodies and opposit
   REQUIRE(deep > 1000);
 }
 
+TEST_CASE("bodies of revolution on nearly parallel axes: both witness points are on their bodies") {
+  // The supporting faces are generators and discs: of their many points EPA sees a few.
+  const std::vector<std::string> names{"cylinder", "cone", "capsule", "ellipsoid"};
+  Random random(11);
+  int overlaps = 0, off = 0;
+  for (int i = 0; i < 2000; ++i) {
+    TestShape a = randomShape(names[static_cast<std::size_t>(random.below(2))], random);
+    TestShape b = randomShape(names[static_cast<std::size_t>(random.below(4))], random);
+    if (b.name == "ellipsoid") b.shape = Shape::ellipsoidOf({0.2, 0.2, random.uniform(0.1, 0.5)});
+    const double tilt = i % 4 == 0 ? 0.0 : std::pow(10.0, random.uniform(-9, -3));
+    const Isometry3d base = pose(random.rotation(), random.direction());
+    const Isometry3d at =
+        base * pose(random.rotation(tilt), i % 2 ? Vector3d(0, 0, 0) : Vector3d(0.05 * random.direction()));
+    const Distance d = distance(a.shape, base, b.shape, at);
+    if (!(d.distance < -(a.shape.margin + b.shape.margin))) continue;
+    ++overlaps;
+    CAPTURE(i, a.name, b.name, tilt, d.distance);
+    double away = 0;
+    for (const int side : {0, 1}) {
+      const Shape& shape = side == 0 ? a.shape : b.shape;
+      Isometry3d there = Isometry3d::Identity();
+      there.translation() = d.point[static_cast<std::size_t>(side)];
+      away = std::max(away, distance(Shape::sphere(0), there, shape, side == 0 ? base : at).distance);
+    }
+    REQUIRE(away < 1e-4);
+    off += away > 1e-6;
+  }
+  REQUIRE(overlaps > 1000);
+  REQUIRE(off < overlaps / 50);
+}
+
 TEST_CASE("nearly parallel segments that almost touch: no gap along their common normal is above the bound") {
   Random random(9);
   int near = 0;
