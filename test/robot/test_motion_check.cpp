@@ -186,5 +186,5 @@ TEST_CASE("what is not finite is not free, and pairs that do not exist are refus
   CHECK(check.firstContact(bad, q).verdict == MotionVerdict::undecided);
   CHECK_FALSE(check.isMotionFree(q, VectorXd::Zero(1)));
   CHECK_THROWS_AS(MotionCheck(scene.kinematics, scene.geometry, {{0, 99, false}}), Error);
-  CHECK_THROWS_AS(MotionCheck(scene.kinematics, scene.geometry, {{0, 2, true}}, scene.obstacles), Error);
+  CHECK_THROWS_AS(MotionCheck(scene.kinematics, scene.geometry, {{0, 3, true}}, scene.obstacles), Error);
 }
