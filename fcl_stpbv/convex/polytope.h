@@ -21,9 +21,8 @@ class Polytope {
       400;  ///< some 20 are usual, hundreds where all directions are nearly as good
 
   struct Face {
-    Eigen::Vector3d normal;  ///< unit, outward
-    double distance;  ///< no point of it is nearer to the origin's side of it (m); negative: the origin is
-                      ///< beyond
+    Eigen::Vector3d normal;       ///< unit, outward
+    double distance;              ///< its corners are at least this far along `normal` (m)
     std::array<Index, 3> corner;  ///< counter-clockwise from outside
 
     bool has(Index point) const { return corner[0] == point || corner[1] == point || corner[2] == point; }

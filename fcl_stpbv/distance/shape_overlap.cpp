@@ -1,12 +1,11 @@
 // An STP-BV and a simple shape whose cores overlap: how deep they are in each other.
 //
 // 1. EPA (convex/epa.h) on the difference of the two cores bounds the depth, and finds its normal to some
-// digits.
+//    digits.
 // 2. The features that met there are tried, the flatter ones first: Newton's method on one of them gives
 //    the normal and both witness points to rounding.
 // 3. What it gives is taken if it is the whole shape's answer: on the shape, with nothing of the shape
-// nearer,
-//    and no deeper than what EPA found.
+//    nearer, and no deeper than what EPA found.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -66,8 +65,7 @@ void climbToLeastOverlap(Search& epa) {
   }
 }
 
-/// Newton's method from a normal next to the least overlap along one feature; nothing where it does not
-/// converge.
+/// Newton's method along one feature, from next to the least overlap. Nothing if it does not converge.
 template <typename Feature>
 std::optional<Nearest> deepestOn(ShapeQuery& q, const Feature& feature, const StartNormal& start) {
   constexpr int kSteps = 20, kHalvings = 12;  // the start is good to some digits

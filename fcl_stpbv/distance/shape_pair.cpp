@@ -150,8 +150,7 @@ void offerAround(const Pair& p, Epa<Difference>& epa) {
 Distance overlapping(const Pair& p, const Gjk& found) {
   Difference difference(p.a, p.b, p.pose);
   Epa<Difference> epa(difference, p.rounding);
-  // Two points that GJK found, nearly in one place: no gap is wider than they are apart, even if rounding hid
-  // it.
+  // No gap is wider than the two points that GJK found are apart, even where rounding hid it.
   Simplex<Corner> common;
   reduceToNearest(found.simplex, common);
   const Vector3d onA = common.weighted(&Corner::onA), toB = common.weighted(&Corner::w);

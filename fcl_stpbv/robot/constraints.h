@@ -157,8 +157,8 @@ class CollisionConstraints {
     int side;  // 0: it carries the first body, 1: the second
     int slot;  // among the non-zeros
   };
-  struct CommonMotion {  // carries both bodies, and moves with a coordinate of the row: a joint that others
-                         // mimic
+  // Of a joint that carries both bodies, and that one between them mimics.
+  struct CommonMotion {
     int motion;
     int slot;
   };
