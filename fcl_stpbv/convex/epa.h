@@ -61,17 +61,17 @@ class Epa {
   /// A point of A and the way from there to one of B: kept, and true, where it comes nearer
   /// to the answer's than what is known.
   bool offer(const Eigen::Vector3d& pointOfA, const Eigen::Vector3d& toB) {
-    if (!(off(toB) < off(toB_))) return false;
+    if (!(off(toB) < off())) return false;
     onA = pointOfA;
     toB_ = toB;
     metCount = 0;
     return true;
   }
 
-  /// How far a way from A to B is from the answer's (m).
-  double off(const Eigen::Vector3d& toB) const { return (toB - gap * n).norm(); }
   /// B's point there, to what EPA knows.
   Eigen::Vector3d onB() const { return onA + toB_; }
+  /// How far that one is from where the answer has it, opposite `onA` (m).
+  double off() const { return off(toB_); }
 
   /// Whether both bounds agree, to 1e-6 of the depth or to rounding.
   bool solved() const { return bound - gap <= kRelative * std::max(-bound, 0.0) + rounding_; }
@@ -113,7 +113,7 @@ class Epa {
       return polytope.expand(next.w);
     });
     // Faces in one plane are equally near: the origin is above one of them.
-    while (polytope.sound() && off(toB_) > rounding_) {
+    while (polytope.sound() && off() > rounding_) {
       const Polytope::Face face = polytope.nearest();
       if (!(face.distance <= -gap + rounding_)) break;
       offerFace(point[face.corner[0]], point[face.corner[1]], point[face.corner[2]],
@@ -121,6 +121,9 @@ class Epa {
       polytope.putAside();
     }
   }
+
+  /// How far a way from A to B is from the answer's (m).
+  double off(const Eigen::Vector3d& toB) const { return (toB - gap * n).norm(); }
 
   /// The face's point nearest to the origin.
   void offerFace(const Corner& a, const Corner& b, const Corner& c, const Eigen::Vector3d& nearest) {

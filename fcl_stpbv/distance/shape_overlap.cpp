@@ -88,12 +88,6 @@ std::optional<Nearest> deepestOn(ShapeQuery& q, const Feature& feature, const St
   return nearestFrom(x, feature);
 }
 
-/// A flat face: its normal is given.
-Nearest deepestOnPlane(ShapeQuery& q, const Vector3d& onPlane, Vector3d n, const StartNormal& start) {
-  if (n.dot(start.n) < 0.0) n = -n;
-  return nearestOnPlane(q, onPlane, n, start.patch);
-}
-
 /// Whether `found` is the whole shape's answer.
 bool isDeepest(const ShapeQuery& q, const Nearest& found, double leastOverlap) {
   if (!(found.gap >= leastOverlap - q.rounding.gap)) return false;
@@ -167,8 +161,10 @@ class DeepFeatures {
   void rim(const Vector3d& middle, const Vector3d& axis) {
     take([&] { return deepestOn(q_, RimFeature{middle, axis, q_.shape.radius}, start_); });
   }
+  /// A flat face: its normal is given, either way.
   void plane(const Vector3d& p, const Vector3d& n) {
-    take([&] { return std::optional(deepestOnPlane(q_, p, n, start_)); });
+    const Vector3d along = n.dot(start_.n) < 0.0 ? Vector3d(-n) : n;
+    take([&] { return std::optional(nearestOnPlane(q_, p, along, start_.patch)); });
   }
   /// A cylinder's: its axis with the radius around it.
   void side(const Vector3d& axis) {
@@ -180,22 +176,18 @@ class DeepFeatures {
       return found;
     });
   }
-  /// One without thickness is a segment, or a disc that has a face.
   void ellipsoid() {
-    const EllipsoidFeature all = wholeEllipsoid(q_);
-    int flat = 0, longest = 0;
-    q_.shape.size.minCoeff(&flat);
-    const double reach = q_.shape.size.maxCoeff(&longest);
-    if (q_.shape.size.sum() - reach <= q_.rounding.gap) {
-      const Vector3d axis = all.axes.col(longest);
-      line(q_.translation, q_.rotation.col(longest));
+    const PosedEllipsoid e(q_);
+    if (e.isSegment) {
+      const Vector3d axis = e.whole.axes.col(e.longest);
+      line(q_.translation, q_.rotation.col(e.longest));
       point(q_.translation + (start_.n.dot(axis) < 0.0 ? axis : Vector3d(-axis)));
       return;
     }
-    if (q_.shape.size[flat] <= q_.rounding.gap) plane(q_.translation, q_.rotation.col(flat));
+    if (e.isDisc) plane(q_.translation, q_.rotation.col(e.shortest));
     take([&]() -> std::optional<Nearest> {
-      std::optional<Nearest> found = deepestOn(q_, all, start_);
-      if (!found || !(all.wobble(found->n) > q_.rounding.across)) return found;
+      std::optional<Nearest> found = deepestOn(q_, e.whole, start_);
+      if (!found || !(e.whole.wobble(found->n) > q_.rounding.across)) return found;
       placeOppositeOnEllipsoid(q_, *found);
       const Vector3d opposite =
           viewVolume(q_.body, found->n, found->patch, q_.steps).point + found->gap * found->n;

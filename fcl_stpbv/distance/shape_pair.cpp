@@ -94,11 +94,14 @@ Gjk searchToTheEnd(const Pair& p) {
   return p.search([](double, double) { return false; });
 }
 
+/// The gap along the last normal, which the search did not look at.
+double lastGap(const Pair& p, const Gjk& found) { return Difference(p.a, p.b, p.pose).support(found.n).gap; }
+
 /// Cores apart. `invalid` where they overlap, or no gap between them was found.
 Distance separated(const Pair& p, const Gjk& found) {
   if (found.verdict == Gjk::Verdict::overlap) return {};
   // Rounding can make the last normal worse than an earlier one: the answer's is the one with the widest gap.
-  const double last = Difference(p.a, p.b, p.pose).support(found.n).gap;
+  const double last = lastGap(p, found);
   const double lower = std::max(last, found.lower);
   if (!(lower > 0.0)) return {};
   Distance result =
@@ -164,7 +167,7 @@ Distance overlapping(const Pair& p, const Gjk& found) {
   }
   epa.run();
   epa.offer(onA, toB);  // the answer's where cores cross without a volume in common, as two segments do
-  if (epa.off(epa.onB() - epa.onA) > p.rounding) offerAround(p, epa);
+  if (epa.off() > p.rounding) offerAround(p, epa);
   Distance result = inWorld(p, epa.n, epa.onA, epa.gap * epa.n);
   const double upper = std::max(epa.bound, epa.gap);
   result.status = upper - epa.gap <= p.rounding ? DistanceStatus::exact : DistanceStatus::bounded;
@@ -207,10 +210,9 @@ bool isFarther(double x, const Pair& p) {
   const double core = x + p.margins();
   const Gjk found =
       p.search([&](double lower, double upper) { return lower > core + p.certificate || upper <= core; });
-  // Along whatever normal, apart or not.
-  const double lower = std::max(found.lower, Difference(p.a, p.b, p.pose).support(found.n).gap);
-  if (lower > core + p.certificate) return true;
+  if (found.lower > core + p.certificate) return true;  // along whatever normal, apart or not
   if (found.verdict != Gjk::Verdict::overlap && found.upper <= core) return false;
+  if (lastGap(p, found) > core + p.certificate) return true;
   return core < 0.0 && overlapping(p, found).lower > x;
 }
 

@@ -105,9 +105,16 @@ Nearest nearestOnCone(ShapeQuery& q, const StartNormal& start);
 /// A cone's generator whose own normal has the widest gap, whether one is there or not.
 Nearest nearestOnGenerator(ShapeQuery& q, const StartNormal& start);
 
-/// A whole ellipsoid; one without thickness is a segment, or a disc that has a face.
+/// An ellipsoid in the body's frame; one without thickness to rounding is a segment, or a disc that has a
+/// face.
+struct PosedEllipsoid {
+  EllipsoidFeature whole;
+  int shortest = 0, longest = 0;  ///< of its axes
+  bool isSegment, isDisc;
+
+  explicit PosedEllipsoid(const ShapeQuery& q);
+};
 Nearest nearestOnEllipsoid(ShapeQuery& q, const StartNormal& start);
-EllipsoidFeature wholeEllipsoid(const ShapeQuery& q);
 
 /// How far `y`, on a supporting plane of the ellipsoid, is from it to first order (m).
 double besideEllipsoid(const ShapeQuery& q, const Eigen::Vector3d& y);

@@ -227,8 +227,11 @@ Nearest nearestOnGenerator(ShapeQuery& q, const StartNormal& start) {
       .nearest(q, start);
 }
 
-EllipsoidFeature wholeEllipsoid(const ShapeQuery& q) {
-  return {q.translation, q.rotation * q.shape.size.asDiagonal()};
+PosedEllipsoid::PosedEllipsoid(const ShapeQuery& q)
+    : whole{q.translation, q.rotation * q.shape.size.asDiagonal()} {
+  const double least = q.shape.size.minCoeff(&shortest), most = q.shape.size.maxCoeff(&longest);
+  isSegment = q.shape.size.sum() - most <= q.rounding.gap;
+  isDisc = !isSegment && least <= q.rounding.gap;
 }
 
 double besideEllipsoid(const ShapeQuery& q, const Vector3d& y) {
@@ -253,22 +256,20 @@ void placeOppositeOnEllipsoid(ShapeQuery& q, Nearest& found) {
 }
 
 Nearest nearestOnEllipsoid(ShapeQuery& q, const StartNormal& start) {
-  const EllipsoidFeature all = wholeEllipsoid(q);
-  const Matrix3d& axes = all.axes;
-  int flat = 0, longest = 0;
-  q.shape.size.minCoeff(&flat);
-  const double reach = q.shape.size.maxCoeff(&longest);
-  if (q.shape.size.sum() - reach <= q.rounding.gap)
-    return nearestOnSegment(q, q.translation - axes.col(longest), q.translation + axes.col(longest), start);
-  if (q.shape.size[flat] <= q.rounding.gap) {
-    const Vector3d normal = q.rotation.col(flat);
+  const PosedEllipsoid e(q);
+  if (e.isSegment) {
+    const Vector3d axis = e.whole.axes.col(e.longest);
+    return nearestOnSegment(q, q.translation - axis, q.translation + axis, start);
+  }
+  if (e.isDisc) {
+    const Vector3d normal = q.rotation.col(e.shortest);
     for (const Vector3d& n : {normal, Vector3d(-normal)}) {
       const Nearest plane = nearestOnPlane(q, q.translation, n, -1);
       if (plane.apart && besideEllipsoid(q, plane.y) <= q.rounding.gap) return plane;
     }
   }
-  Nearest found = nearestOn(q, all, start);
-  if (all.wobble(found.n) > q.rounding.across) placeOppositeOnEllipsoid(q, found);
+  Nearest found = nearestOn(q, e.whole, start);
+  if (e.whole.wobble(found.n) > q.rounding.across) placeOppositeOnEllipsoid(q, found);
   return found;
 }
 

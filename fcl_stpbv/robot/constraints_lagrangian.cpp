@@ -63,14 +63,6 @@ bool CollisionConstraints::rowHessian(std::size_t row, Eigen::MatrixXd& h) {
         motion.linear + motion.angular.cross(origin[term.side]);
     twists.col(term.slot - start).segment<3>(6 * term.side + 3) += motion.angular;
   }
-  // Both bodies and the joints between them as seen from the link that carries them: what moves that one is
-  // taken out of the change of their twists.
-  std::vector<Twist> carried(at(count));
-  for (int c = r.firstCommon; c < r.lastCommon; ++c) {
-    const Twist& motion = state_.motion[at(common_[at(c)].motion)];
-    carried[at(common_[at(c)].slot - start)].linear += motion.linear;
-    carried[at(common_[at(c)].slot - start)].angular += motion.angular;
-  }
   h.noalias() = twists.transpose() * (pair.matrix * twists);
   for (int t = r.firstTerm; t < r.lastTerm; ++t) {
     const Term& term = terms_[at(t)];
@@ -79,16 +71,20 @@ bool CollisionConstraints::rowHessian(std::size_t row, Eigen::MatrixXd& h) {
     const Vector3d moment = witness.point[at(term.side)].cross(along);
     const Twist& motion = state_.motion[at(term.motion)];
     const Vector3d turned = along.cross(motion.angular);  // along.(w x v) = turned.v
+    const auto add = [&](int j, double entry) {
+      h(i, j) += entry / 2;
+      h(j, i) += entry / 2;
+    };
     for (int j = 0; j < count; ++j) {
-      const Twist &change = alongEach_[at(column_[at(start + j)])].motion[at(term.motion)],
-                  &by = carried[at(j)];
-      const Vector3d linear =
-                         change.linear - by.angular.cross(motion.linear) - by.linear.cross(motion.angular),
-                     angular = change.angular - by.angular.cross(motion.angular);
-      const double half =
-          (along.dot(linear) + moment.dot(angular) + turned.dot(twists.col(j).segment<3>(6 * term.side))) / 2;
-      h(i, j) += half;
-      h(j, i) += half;
+      const Twist& change = alongEach_[at(column_[at(start + j)])].motion[at(term.motion)];
+      add(j, along.dot(change.linear) + moment.dot(change.angular) +
+                 turned.dot(twists.col(j).segment<3>(6 * term.side)));
+    }
+    // Seen from the link that carries both bodies: what moves that one is no change of the twists.
+    for (int c = r.firstCommon; c < r.lastCommon; ++c) {
+      const Twist& by = state_.motion[at(common_[at(c)].motion)];
+      const Vector3d linear = by.angular.cross(motion.linear) + by.linear.cross(motion.angular);
+      add(common_[at(c)].slot - start, -along.dot(linear) - moment.dot(by.angular.cross(motion.angular)));
     }
   }
   double slope, curvature;

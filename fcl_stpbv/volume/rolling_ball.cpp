@@ -141,10 +141,6 @@ RolledHull hullOf(const std::vector<Vector3d>& points, std::vector<Ring> faces, 
   return hull;
 }
 
-}  // namespace
-
-namespace {
-
 /// The ends of points that are on one line to rounding: no direction across it tells them apart, and a face
 /// that rounding made there would leave out an end. Nothing if some point is off the line.
 std::vector<int> needleEnds(const std::vector<Vector3d>& points) {
