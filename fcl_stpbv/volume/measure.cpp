@@ -32,17 +32,6 @@ constexpr std::array<std::array<double, 2>, 10> kGauss{{{0.013046735741414, 0.03
                                                         {0.932531683344492, 0.074725674575290},
                                                         {0.986953264258586, 0.033335672154344}}};
 
-// Integral of n over a region of the unit sphere, half the integral of n x dn along its boundary.
-Vector3d vectorArea(const Region& region) {
-  Vector3d sum = Vector3d::Zero();
-  for (const Arc& arc : region.boundary) {
-    const double along = arc.axis.dot(arc.start), across2 = 1 - along * along;
-    const Vector3d chord = arc.at(1) - arc.start;
-    sum += across2 * arc.turn * arc.axis + along * arc.axis.cross(chord);
-  }
-  return 0.5 * sum;
-}
-
 double faceVolume(const StpBv& volume, const Region& region) {
   double sum = 0;
   const Patch patch = volume.patch(region.patch);
@@ -95,7 +84,7 @@ Vector3d acrossEdge(const StpBv& volume, int patch) {
     if (boundary.limit == 0) sum -= boundary.normal, last = boundary.normal;
   const Vector3d& u = volume.patch(patch).axis;
   if (sum.norm() > 1e-6) return sum.normalized();
-  return last.norm() > 0 ? Vector3d(u.cross(last)) : Vector3d(u.unitOrthogonal());
+  return last.norm() > 0 ? Vector3d(last.cross(u)) : Vector3d(u.unitOrthogonal());
 }
 
 // The normal at the patch's point farthest along n.p - h(n): towards p from the farthest centre. Where all

@@ -12,11 +12,18 @@ namespace {
 
 using Eigen::Vector3d;
 
+// The mean of the boundary, but of a region like half the sphere, whose boundary has none, the mean of the
+// region: it is convex.
 void setCentre(Region* region) {
+  constexpr double kTellsNothing = 0.1;
   Vector3d sum = Vector3d::Zero();
-  for (const Arc& arc : region->boundary)
-    for (int k = 0; k < 8; ++k) sum += std::max(arc.turn, 1e-12) * arc.at((k + 0.5) / 8);
-  region->centre = sum.normalized();
+  double length = 0;
+  for (const Arc& arc : region->boundary) {
+    const double weight = std::max(arc.turn, 1e-12);
+    for (int k = 0; k < 8; ++k) sum += weight * arc.at((k + 0.5) / 8);
+    length += 8 * weight;
+  }
+  region->centre = (sum.norm() > kTellsNothing * length ? sum : vectorArea(*region)).normalized();
 }
 
 }  // namespace
@@ -29,6 +36,16 @@ Vector3d Arc::at(double part) const {
 
 Vector3d Region::normal(std::size_t arc, double part, double out) const {
   return (centre + out * (boundary[arc].at(part) - centre)).normalized();
+}
+
+Vector3d vectorArea(const Region& region) {
+  Vector3d sum = Vector3d::Zero();
+  for (const Arc& arc : region.boundary) {
+    const double along = arc.axis.dot(arc.start), across2 = 1 - along * along;
+    const Vector3d chord = arc.at(1) - arc.start;
+    sum += across2 * arc.turn * arc.axis + along * arc.axis.cross(chord);
+  }
+  return 0.5 * sum;
 }
 
 Arc edgeArc(const StpBv& volume, int edge) {

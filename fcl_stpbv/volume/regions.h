@@ -30,6 +30,9 @@ struct Region {
   Eigen::Vector3d normal(std::size_t arc, double part, double out) const;
 };
 
+/// Integral of the normals over a region: half the integral of n x dn along its boundary.
+Eigen::Vector3d vectorArea(const Region& region);
+
 /// Regions of all vertices, then of all faces (paper III.D). A single point's sphere comes as two halves.
 std::vector<Region> regions(const StpBv& volume);
 

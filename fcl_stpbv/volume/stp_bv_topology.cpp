@@ -155,17 +155,22 @@ void StpBv::makePatches(QueryTables& tables) {
     for (std::size_t k = 0; k < parts.size(); ++k) recordOf(k) = whole;
     if (edge.face[0] < 0) continue;
 
+    // Between faces in one plane an edge hardly turns: its two planes would hold the opposite normals too.
+    // Each leans outwards by the rounding of a few dot products, which tells the two sides apart.
+    constexpr double kThinnest = 16 * std::numeric_limits<double>::epsilon();  // rad
+    const double lean = edge.turn < kThinnest ? kThinnest : 0.0;
     const auto setWall = [&](std::size_t part, std::size_t k, const Vector3d& normal, std::int32_t past) {
       EdgeRecord& record = recordOf(part);
       record.wall[k].normal = {normal.x(), normal.y(), normal.z()};
       record.wall[1].past[k] = past;
     };
     // Planes through the edge and the two faces' ball centres, their normals pointing out of the faces.
+    const Vector3d u = along.normalized();
     const Vector3d leave = along.cross(corner(edge.face[0], edge.vertex[0])).normalized();
     const Vector3d arrive = -along.cross(corner(edge.face[1], edge.vertex[0])).normalized();
-    setWall(0, 0, -leave, firstFace + edge.face[0]);
-    setWall(parts.size() - 1, 1, -arrive, firstFace + edge.face[1]);
-    const Vector3d start = leave.cross(along.normalized());
+    const Vector3d start = leave.cross(u), end = u.cross(arrive);
+    setWall(0, 0, -leave - lean * start, firstFace + edge.face[0]);
+    setWall(parts.size() - 1, 1, -arrive - lean * end, firstFace + edge.face[1]);
     for (std::size_t k = 1; k < parts.size(); ++k) {
       const double angle = edge.turn * static_cast<double>(k) / static_cast<double>(parts.size());
       const Vector3d forward = std::cos(angle) * leave - std::sin(angle) * start;

@@ -20,7 +20,21 @@ using Eigen::Vector3d;
 
 class Tessellator {
  public:
-  Tessellator(const StpBv& volume, double angle) : volume_(volume), angle_(std::clamp(angle, 0.02, 1.0)) {}
+  Tessellator(const StpBv& volume, double angle) : volume_(volume), angle_(std::clamp(angle, 0.02, 1.0)) {
+    // What rounding can part at a boundary: a few units of the coordinates and of rho times the normal. Near
+    // the smallest R an edge's normals lie close to its line and are off by one over their cosine as much.
+    double cosine = 1;
+    for (int e = 0; e < volume.edgeCount(); ++e)
+      cosine = std::min(cosine, volume.patch(volume.edgePatch(e)).kappa / volume.radii().rho);
+    constexpr double kRounding = 2e-14, kWidest = 1e-6;
+    const double size = volume.enclosingRadius() + volume.radii().rho + volume.centre().norm();
+    grid_ = std::min(kRounding / cosine, kWidest) * size;
+    // A region between two arcs of one step each would be two triangles back to back.
+    std::vector<int> arcs(static_cast<std::size_t>(volume.vertexCount()), 0);
+    for (const StpBv::Edge& edge : volume.edges())
+      for (const int v : edge.vertex) arcs[static_cast<std::size_t>(v)] += steps(edge.turn) > 1 ? 3 : 1;
+    leastRound_ = std::count(arcs.begin(), arcs.end(), 2) > 0 ? 2 : 1;
+  }
 
   TriangleMesh run() {
     for (int e = 0; e < volume_.edgeCount(); ++e) addEdge(e);
@@ -30,13 +44,13 @@ class Tessellator {
 
  private:
   int steps(double turn) const { return std::max(1, static_cast<int>(std::ceil(turn / angle_))); }
+  /// Around an edge, and along the arcs of vertex regions on both of its ends.
+  int stepsRound(double turn) const { return std::max(leastRound_, steps(turn)); }
 
   // Points are shared by place: patches meet at equal points but for rounding (docs/theory.md, 3).
   int point(int patch, const Vector3d& n) {
     const Vector3d x = corePoint(volume_, patch, n) + volume_.radii().r * n;
-    // What rounding can part at a boundary: a few units of the coordinates and of rho times the normal.
-    const double grid = 2e-14 * (volume_.enclosingRadius() + volume_.radii().rho + volume_.centre().norm());
-    const auto key = [&](double c) { return static_cast<long long>(std::llround(c / grid)); };
+    const auto key = [&](double c) { return static_cast<long long>(std::llround(c / grid_)); };
     const Vector3d local = x - volume_.centre();
     // A point near a cell's border may have been filed in the next cell.
     for (int dx = -1; dx <= 1; ++dx)
@@ -59,7 +73,7 @@ class Tessellator {
     const Arc arc = edgeArc(volume_, e);
     const int patch = volume_.edgePatch(e);
     const double half = std::asin(std::min(1.0, volume_.patch(patch).sine));
-    const int round = steps(arc.turn), along = steps(2 * half);
+    const int round = stepsRound(arc.turn), along = steps(2 * half);
     const auto at = [&](int i, int j) {
       const double tilt = half * (2.0 * j / along - 1);
       return point(patch,
@@ -80,7 +94,8 @@ class Tessellator {
     for (std::size_t a = 0; a < region.boundary.size(); ++a) {
       const Arc& arc = region.boundary[a];
       // The same steps as the neighbouring edge's, so that the boundary has the same points on both sides.
-      const int round = steps(arc.turn);
+      const int round =
+          volume_.kind(region.patch) == PatchKind::vertex ? stepsRound(arc.turn) : steps(arc.turn);
       const auto at = [&](int k, int i) {
         return k == 0 ? centre
                       : point(region.patch, region.normal(a, static_cast<double>(i) / round,
@@ -95,7 +110,8 @@ class Tessellator {
   }
 
   const StpBv& volume_;
-  double angle_;
+  double angle_, grid_;
+  int leastRound_ = 1;
   TriangleMesh mesh_;
   std::map<std::tuple<long long, long long, long long>, int> filed_;
 };

@@ -253,6 +253,48 @@ TEST_CASE("The tessellation is closed, lies on the surface and closes in on the 
     }
 }
 
+TEST_CASE("Near the smallest R the tessellation is closed and agrees with the enclosed volume") {
+  for (const Cloud& cloud : clouds()) {
+    if (cloud.size() == 1) continue;
+    for (const double beyond : {1e-6, 1e-9}) {
+      const StpBv::Ptr volume = StpBv::build(cloud, {0.01, StpBv::smallestR(cloud, 0.01) * (1 + beyond)});
+      const TriangleMesh mesh = tessellate(*volume, 0.1);
+      INFO(cloud.size() << " points, R " << beyond << " beyond the smallest");
+      CHECK(isClosed(mesh));
+      // Triangles of 0.1 rad both ways lie 0.1^2 / 6 of the radius inside a sphere on average, thrice that of
+      // its volume.
+      CHECK(meshVolume(mesh, volume->centre()) == Approx(enclosedVolume(*volume)).epsilon(0.005));
+    }
+  }
+}
+
+TEST_CASE("Points nearly twice there move the signed distance and the support as little as they differ") {
+  // Rims whose edges lie between faces in one plane and do not turn.
+  for (const double apart : {3e-9, 1e-8, 3e-8})
+    for (const int corners : {4, 8, 12}) {
+      Cloud once, twice;
+      for (int k = 0; k < corners; ++k) {
+        const double angle = 2 * kPi * k / corners;
+        once.push_back({std::cos(angle), std::sin(angle), 0});
+        twice.push_back(once.back());
+        twice.push_back(once.back() + Vector3d(0, 0, apart));
+      }
+      const StpBvOptions options{0, 1.4};
+      const StpBv::Ptr disc = StpBv::build(once, options), doubled = StpBv::build(twice, options);
+      INFO(corners << " corners, " << apart << " m apart");
+      const double most = 3 * apart;  // the points move by `apart`, the faces between them by some more
+      Random random(3);
+      for (int k = 0; k < 100; ++k) {
+        const Vector3d p = k < corners ? once[static_cast<std::size_t>(k)]
+                                       : Vector3d(2 * random.uniform(0, 1) * random.direction());
+        CHECK(std::abs(signedDistance(*doubled, p) - signedDistance(*disc, p)) <= most);
+        const Vector3d n = k < 4 ? Vector3d(k % 2 ? 1 : -1, 0, 0) : random.direction();
+        for (int hint = 0; hint < doubled->patchCount(); ++hint)
+          CHECK(std::abs(doubled->support(n, hint) - disc->support(n)) <= most);
+      }
+    }
+}
+
 TEST_CASE("The signed distance of a point agrees with steps along normals and with dense directions") {
   for (const Cloud& cloud : clouds())
     for (const double R : {StpBv::smallestR(cloud, 0.01) * 1.05, 10.0}) {
