@@ -54,6 +54,11 @@ struct type_caster<fcl_stpbv::Floats<Matrix>> {
     if (!fits && !listed)
       throw type_error("got an array of " + std::string(str(numbers.dtype())) +
                        ", expected floats; convert it with astype(float) if that is what is meant");
+    if constexpr (Matrix::RowsAtCompileTime == Eigen::Dynamic && Matrix::ColsAtCompileTime > 1)
+      if (!given && numbers.size() == 0) {  // a list without rows: no array knows how long they would be
+        value.value.resize(0, Matrix::ColsAtCompileTime);
+        return true;
+      }
     make_caster<Matrix> inner;
     if (!inner.load(numbers, true)) return false;
     value.value = cast_op<Matrix>(std::move(inner));

@@ -83,6 +83,8 @@ def test_errors_name_what_would_work(tmp_path):
         fcl_stpbv.StpBv.load(str(tmp_path / "missing.stpbv"))
     with pytest.raises(TypeError):
         fcl_stpbv.StpBv.build(np.zeros((4, 2)))
+    with pytest.raises(fcl_stpbv.Error, match="no points"):
+        fcl_stpbv.StpBv.build([])
     with pytest.raises(ValueError, match="first_pose.*last row"):
         fcl_stpbv.distance(box(), np.zeros((4, 4)), box(), pose())
 

@@ -199,6 +199,7 @@ TEST_CASE("The builder says what is wrong with its input and what would work") {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   CHECK_THROWS_WITH(StpBv::build({}), Catch::Contains("no points"));
   CHECK_THROWS_WITH(StpBv::build({{0, 0, 0}, {nan, 0, 0}}), Catch::Contains("point 1 is not finite"));
+  CHECK_THROWS_WITH(StpBv::build({{0, 0, 0}, {0, -1e300, 0}}), Catch::Contains("point 1 is too far away"));
   CHECK_THROWS_WITH(StpBv::build(good, {-0.01, 10}), Catch::Contains("r = -0.01"));
   CHECK_THROWS_WITH(StpBv::build(good, {nan, 10}), Catch::Contains("small radius"));
   CHECK_THROWS_WITH(StpBv::build(good, {0.5, 0.5}), Catch::Contains("larger than r"));
