@@ -1,6 +1,6 @@
 #include "tools/bench/reference_answer.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -26,17 +26,22 @@ Vector3L vertex(const HullGraph& hull, const Isometry3d& pose, int v) {
 
 /// The difference b - a of the nearest points of two affine spans.
 Vector3L spanDifference(const std::vector<Vector3L>& a, const std::vector<Vector3L>& b) {
-  const auto columns = static_cast<Eigen::Index>(a.size() + b.size() - 2);
-  const Vector3L first = b[0] - a[0];
-  if (columns == 0) return first;
-  Eigen::Matrix<long double, 3, Eigen::Dynamic> axes(3, columns);
-  Eigen::Index column = 0;
-  for (std::size_t i = 1; i < a.size(); ++i) axes.col(column++) = (a[i] - a[0]).normalized();
-  for (std::size_t i = 1; i < b.size(); ++i) axes.col(column++) = (b[i] - b[0]).normalized();
-  Eigen::CompleteOrthogonalDecomposition<Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>> solver;
-  solver.setThreshold(1e-12L);  // parallel edges span one direction less
-  solver.compute(axes);
-  return first - axes * solver.solve(first);
+  std::vector<Vector3L> axes;
+  for (const std::vector<Vector3L>* points : {&a, &b})
+    for (std::size_t i = 1; i < points->size(); ++i)
+      axes.push_back(((*points)[i] - points->front()).normalized());
+  // Gram and Schmidt, the longest remainder first.
+  constexpr long double kSpan = 1e-12L;  // parallel edges span one direction less
+  Vector3L rest = b[0] - a[0];
+  const auto longer = [](const Vector3L& p, const Vector3L& q) { return p.squaredNorm() < q.squaredNorm(); };
+  for (int i = 0; i < 3 && !axes.empty(); ++i) {
+    const Vector3L longest = *std::max_element(axes.begin(), axes.end(), longer);
+    if (longest.norm() <= kSpan) break;
+    const Vector3L u = longest.normalized();
+    for (Vector3L& axis : axes) axis -= u.dot(axis) * u;
+    rest -= u.dot(rest) * u;
+  }
+  return rest;
 }
 
 std::vector<Vector3L> corners(const HullGraph& hull, const Isometry3d& pose,
