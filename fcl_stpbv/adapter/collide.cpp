@@ -34,7 +34,7 @@ class Contacts {
 
  private:
   bool meet(const ConvexBody& a, const ConvexBody& b, Contactd& contact) {
-    if (isFartherByBounds(0.0, a, b, cache_)) return false;
+    if (isFartherByBounds(a.rounding + b.rounding, a, b, cache_)) return false;
     const Distance found = distance(a, b, &cache_);
     if (found.status == DistanceStatus::invalid) return true;  // as it is: without an answer
     contact.normal = found.normal;
@@ -93,7 +93,7 @@ std::size_t collide(const CollisionGeometryd* geometry1, const Transform3d& pose
     contacts.add(bodyA, bodyB, unknown);
     return result.numContacts();
   }
-  const PosedPair pair(*geometry1, pose1, *geometry2, pose2);
+  const PosedPair pair(*geometry1, pose1, *geometry2, pose2, finite);
   if (!pair.valid || !(finite || pair.finite())) {
     result.addContact(unknown);
     return result.numContacts();

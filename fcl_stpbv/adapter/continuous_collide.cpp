@@ -25,7 +25,8 @@ class Moving {
  public:
   Moving(const CollisionGeometryd& given, const SteadyMotion& motion) : geometry(given), motion_(motion) {
     const PosedGeometry still(given, Isometry3d::Identity(), Isometry3d::Identity());
-    known = still.known();
+    known = still.known() && still.finite();
+    sound = known && hasFiniteCorners(given);
     unbounded = still.unbounded();
     convex = still.isBody();
     if (convex) body = still.body();
@@ -61,7 +62,7 @@ class Moving {
   }
 
   const CollisionGeometryd& geometry;
-  bool known, unbounded, convex;
+  bool known, sound, unbounded, convex;
   ConvexBody body;
   Isometry3d pose;
   Vector3d centre{0, 0, 0};  // of the ball, in the geometry's frame
@@ -76,9 +77,9 @@ class Moving {
     turning_ = there.norm() + w.norm() * reach;
   }
 
-  // A tree's own box is kilometres across: its cells tell where it is.
+  // Where a tree is its cells tell, and of a mesh with loose boxes its triangles.
   void addCells(const PosedGeometry& still, const PosedGeometry::Part& part, Eigen::AlignedBox3d& box) const {
-    if (part.leaf || geometry.getNodeType() != fcl::GEOM_OCTREE) {
+    if (part.leaf || !still.loose()) {
       const Vector3d half = part.box.axes.cwiseAbs() * part.box.half + Vector3d::Constant(part.margin);
       box.extend(part.box.centre - half).extend(part.box.centre + half);
       return;
@@ -112,7 +113,7 @@ class MovingPair {
   bool look(int, double most, Cover& cover) {
     QueryContext context;
     context.cache = &cache_;
-    context.finite = true;  // firstContact() has looked
+    context.finite = a_.sound && b_.sound;
     answer = distance(a_.geometry, a_.pose, b_.geometry, b_.pose, context);
     if (!(answer.distance > margin_)) return true;
     const double gap = answer.lower - margin_;
@@ -174,8 +175,7 @@ MotionAnswer firstContact(const CollisionGeometryd& geometry1, const SteadyMotio
                           const CollisionGeometryd& geometry2, const SteadyMotion& motion2,
                           const MotionRequest& request) {
   MotionAnswer result;
-  if (!rigid(motion1) || !rigid(motion2) || !hasFiniteCorners(geometry1) || !hasFiniteCorners(geometry2))
-    return result;
+  if (!rigid(motion1) || !rigid(motion2)) return result;
   MovingPair pair(geometry1, motion1, geometry2, motion2, request.margin);
   pair.place(0);
   Cover ignored;

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 
 #include "fcl_stpbv/convex/shape.h"
 
@@ -20,6 +21,13 @@ struct OrientedBox {
   double reach(const Eigen::Vector3d& n) const { return half.dot((axes.transpose() * n).cwiseAbs()); }
 };
 
+/// What a place's coordinates may be off after a pose (m): three products of a row and their sum with the
+/// translation, and as much again for a pose that was made rigid. Nought for the origin, which nothing moves.
+inline double placeRounding(const Eigen::Isometry3d& pose, const Eigen::Vector3d& place) {
+  constexpr double kRounding = 8 * std::numeric_limits<double>::epsilon();
+  return place.isZero(0) ? 0.0 : kRounding * (place.lpNorm<1>() + pose.translation().lpNorm<1>());
+}
+
 /// A view of a BVHModel of any bounding volume or of an OcTree; the geometry
 /// must outlive it. Allocates nothing.
 class ElementTree {
@@ -31,13 +39,19 @@ class ElementTree {
     OrientedBox box;     ///< holds all that is below, in the geometry's frame
   };
 
-  explicit ElementTree(const fcl::CollisionGeometryd& geometry);
+  /// `known`: the caller knows that it is sound().
+  explicit ElementTree(const fcl::CollisionGeometryd& geometry, bool known = false);
 
   /// Whether the geometry is a mesh or a tree with anything in it.
   bool any() const { return any_; }
   /// Whether all its corners are numbers, below 1e150 m: FCL's boxes hide those that are not. Looks at each
   /// of them, whether a triangle has it or not.
   bool finite() const;
+  /// Whether that is so and the boxes hold what is below: nothing has to be looked at again.
+  bool sound() const { return finite() && !merged_; }
+  /// Whether inner boxes tell little of where the elements are: an octree's own is kilometres across, and
+  /// those of a mesh that FCL has merged when its vertices moved hold everything here.
+  bool loose() const { return merged_ || geometry_.getNodeType() == fcl::GEOM_OCTREE; }
   Node root() const;
   /// The node's children, at most eight; how many.
   int children(const Node& node, std::array<Node, 8>& child) const;
@@ -48,7 +62,7 @@ class ElementTree {
 
  private:
   const fcl::CollisionGeometryd& geometry_;
-  bool any_ = false;
+  bool any_ = false, merged_ = false;
 };
 
 }  // namespace fcl_stpbv::detail

@@ -129,7 +129,7 @@ DistanceAnswer inFclTerms(const Distance& found, const Transform3d& pose1, const
   return answer;
 }
 
-bool hasFiniteCorners(const CollisionGeometryd& geometry) { return ElementTree(geometry).finite(); }
+bool hasFiniteCorners(const CollisionGeometryd& geometry) { return ElementTree(geometry).sound(); }
 
 DistanceAnswer distance(const CollisionGeometryd& geometry1, const Transform3d& pose1,
                         const CollisionGeometryd& geometry2, const Transform3d& pose2,

@@ -90,14 +90,16 @@ struct QueryContext {
   MappingCounts* mapping = nullptr;
   ProximityCounts* proximity = nullptr;  ///< gets what a question about a threshold took
   StartFrom start = StartFrom::centres;  ///< of queries without a last answer
-  /// The caller knows that all corners of meshes are numbers (hasFiniteCorners()). Each query looks at all of
-  /// them otherwise, which is most of its time where a large mesh is far away (docs/fcl.md). What is said of
+  /// The caller knows that meshes are sound (hasFiniteCorners()). Each query looks at all of their corners
+  /// otherwise, which is most of its time where a large mesh is far away (docs/fcl.md). What is said of
   /// a mesh of which it is not true is worth nothing.
   bool finite = false;
 };
 
-/// Whether all corners of a mesh are numbers, below 1e150 m. A mesh with another one, used by a triangle or
-/// not, has no answer. True for all other types: theirs are asked in any case.
+/// Whether all corners of a mesh are numbers, below 1e150 m, and its boxes hold its triangles. A mesh with
+/// another corner, used by a triangle or not, has no answer. Boxes that FCL has merged since the vertices
+/// moved (docs/fcl.md) are not used, but each query has to see that they were. True for all other types:
+/// theirs are asked in any case.
 bool hasFiniteCorners(const fcl::CollisionGeometryd& geometry);
 
 /// Distance between two geometries. Never throws or allocates; FCL is never asked for a distance.

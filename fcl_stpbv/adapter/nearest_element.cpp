@@ -74,10 +74,11 @@ Distance NearestElement::best() const {
   return result;
 }
 
-void NearestElement::takeBounds(const Distance& found) {
-  if (found.lower < lower_) exact_ = found.status == DistanceStatus::exact;
-  lower_ = std::min(lower_, found.lower);
-  upper_ = std::min(upper_, found.upper);
+void NearestElement::takeBounds(const Distance& found, double rounding) {
+  const double lower = found.lower - rounding;
+  if (lower < lower_) exact_ = found.status == DistanceStatus::exact;
+  lower_ = std::min(lower_, lower);
+  upper_ = std::min(upper_, found.upper + rounding);
 }
 
 void NearestElement::offer(const Shape& element, const Vector3d& place, std::intptr_t id) {
@@ -93,7 +94,7 @@ void NearestElement::offer(const Shape& element, const Vector3d& place, std::int
     broken_ = true;
     return;
   }
-  takeBounds(found);
+  takeBounds(found, placeRounding(poseElements_, place));
   if (any() && found.distance >= best_.distance) {
     runnerUp_ = std::min(runnerUp_, found.distance);
     return;
@@ -106,7 +107,7 @@ void NearestElement::offer(const Shape& element, const Vector3d& place, std::int
   n_ = rotation_.transpose() * n;
   // Anything this much below what it is stays a bound: rounding of the coordinates.
   support_ = volume_.support(n, found.patch[0]) - n.dot(volume_.centre()) +
-             1e-14 * (volume_.enclosingRadius() + translation_.lpNorm<1>());
+             1e-14 * (volume_.enclosingRadius() + translation_.lpNorm<1>() + centre_.lpNorm<1>());
   if (cache_) *cache_ = start;
 }
 

@@ -26,7 +26,7 @@ class NearestElement {
  private:
   void visit(const ElementTree::Node& node, double bound);
   void offer(const Shape& element, const Eigen::Vector3d& place, std::intptr_t id);
-  void takeBounds(const Distance& found);
+  void takeBounds(const Distance& found, double rounding);
   /// A lower bound of the distance to anything in `box` (m): by the volume's enclosing ball, and by the gap
   /// along the best normal so far (docs/theory.md, 5: any normal gives one).
   double lowerBound(const OrientedBox& box) const;

@@ -66,7 +66,8 @@ class NearestElements {
   double gapAlongBest(const ConvexBody& a, const ConvexBody& b) const {
     if (!any() || a.unbounded() || b.unbounded()) return -kInfinity;
     const Vector3d &n = result_.found.normal, d = b.pose.translation() - a.pose.translation();
-    return n.dot(d) - a.support(n) - b.support(-n) - kGapRounding * (d.lpNorm<1>() + a.extent() + b.extent());
+    return n.dot(d) - a.support(n) - b.support(-n) - a.rounding - b.rounding -
+           kGapRounding * (d.lpNorm<1>() + a.extent() + b.extent());
   }
 
   // Surfaces overlap by nothing: 0, at a point of both elements.
@@ -96,7 +97,7 @@ class NearestElements {
 ElementsDistance nearestElements(const fcl::CollisionGeometryd& geometry1, const Eigen::Isometry3d& pose1,
                                  const fcl::CollisionGeometryd& geometry2, const Eigen::Isometry3d& pose2,
                                  bool finite) {
-  const PosedPair pair(geometry1, pose1, geometry2, pose2);
+  const PosedPair pair(geometry1, pose1, geometry2, pose2, finite);
   NearestElements nearest(pair);
   if (pair.valid && (finite || pair.finite()))
     descend(pair, pair.first.whole(), pair.second.whole(), nearest);

@@ -16,7 +16,7 @@ OtherDistance distanceToOther(const StpBv& volume, const Eigen::Isometry3d& pose
     result.found = distance(volume, poseVolume, shape, poseOther, cache);
     return result;
   }
-  const ElementTree elements(other);
+  const ElementTree elements(other, finite);
   if (!elements.any() || !(finite || elements.finite())) return result;
   const NearestElement search(volume, poseVolume, elements, poseOther, cache);
   if (!search.any()) return result;

@@ -38,10 +38,13 @@ bool isConvex(const fcl::CollisionGeometryd& geometry, ConvexBody& body) {
 }
 
 Distance distance(const ConvexBody& a, const ConvexBody& b, PairCache* cache) {
-  if (a.volume && b.volume) return distance(*a.volume, a.pose, *b.volume, b.pose, cache);
-  if (a.volume) return distance(*a.volume, a.pose, b.shape, b.pose, cache);
-  if (b.volume) return distance(a.shape, a.pose, *b.volume, b.pose, cache);
-  return distance(a.shape, a.pose, b.shape, b.pose);
+  Distance found = a.volume && b.volume ? distance(*a.volume, a.pose, *b.volume, b.pose, cache)
+                   : a.volume           ? distance(*a.volume, a.pose, b.shape, b.pose, cache)
+                   : b.volume           ? distance(a.shape, a.pose, *b.volume, b.pose, cache)
+                                        : distance(a.shape, a.pose, b.shape, b.pose);
+  found.lower -= a.rounding + b.rounding;
+  found.upper += a.rounding + b.rounding;
+  return found;
 }
 
 bool areVolumes(const fcl::CollisionGeometryd& geometry1, const Isometry3d& pose1,
@@ -57,8 +60,8 @@ bool areVolumes(const fcl::CollisionGeometryd& geometry1, const Isometry3d& pose
 }
 
 PosedGeometry::PosedGeometry(const fcl::CollisionGeometryd& geometry, const Isometry3d& pose,
-                             const Isometry3d& inFrame)
-    : tree_(geometry), inFrame_(inFrame) {
+                             const Isometry3d& inFrame, bool known)
+    : tree_(geometry, known), inFrame_(inFrame) {
   body_.pose = pose;
   if (const StpBvGeometry* g = asStpBv(&geometry))
     body_.volume = &g->volume();
@@ -89,6 +92,7 @@ bool PosedGeometry::body(const Part& leaf, ConvexBody& body) const {
   Vector3d place;
   if (!tree_.element(leaf.node, body.shape, place)) return false;
   body.pose.translation() = body_.pose * place;
+  body.rounding = placeRounding(body_.pose, place);
   return true;
 }
 
@@ -99,10 +103,10 @@ PosedGeometry::Part PosedGeometry::part(const ElementTree::Node& node) const {
 
 // A pose that is not rigid goes on as it is, and what it gives is never looked at.
 PosedPair::PosedPair(const fcl::CollisionGeometryd& geometry1, Isometry3d pose1,
-                     const fcl::CollisionGeometryd& geometry2, Isometry3d pose2)
+                     const fcl::CollisionGeometryd& geometry2, Isometry3d pose2, bool known)
     : valid(makeRigid(pose1) && makeRigid(pose2)),
-      first(geometry1, pose1, Isometry3d::Identity()),
-      second(geometry2, pose2, between(pose1, pose2)),
+      first(geometry1, pose1, Isometry3d::Identity(), known),
+      second(geometry2, pose2, between(pose1, pose2), known),
       toWorld(pose1.linear()) {
   valid = valid && first.known() && second.known() && !(first.unbounded() && second.unbounded());
 }
@@ -124,7 +128,9 @@ double gapOf(const PosedPair& pair, const PosedGeometry::Part& a, const PosedGeo
   }
   if (!n.isZero(0)) along(n);
   constexpr double kRounding = 1e-14;
-  return most - a.margin - b.margin - kRounding * (length + a.box.half.sum() + b.box.half.sum());
+  const double size = length + a.box.half.sum() + b.box.half.sum() + a.box.centre.lpNorm<1>() +
+                      b.box.centre.lpNorm<1>() + b.node.box.centre.lpNorm<1>();
+  return most - a.margin - b.margin - kRounding * size;
 }
 
 }  // namespace fcl_stpbv::detail

@@ -20,6 +20,7 @@ struct ConvexBody {
   const StpBv* volume = nullptr;
   Shape shape;
   Eigen::Isometry3d pose;
+  double rounding = 0;  ///< of its place (m): a cell's, which a pose has moved with its tree
 
   bool unbounded() const { return !volume && shape.unbounded(); }
   /// Height of the supporting plane with the world's unit normal `n` above the body's origin (m). An STP-BV
@@ -65,14 +66,17 @@ class PosedGeometry {
     ElementTree::Node node;  ///< its id is -1 for a body
   };
 
-  /// `inFrame`: the pose seen from the pair's first geometry. Poses are rigid.
+  /// `inFrame`: the pose seen from the pair's first geometry. Poses are rigid. `known`: to be sound
+  /// (ElementTree::sound()).
   PosedGeometry(const fcl::CollisionGeometryd& geometry, const Eigen::Isometry3d& pose,
-                const Eigen::Isometry3d& inFrame);
+                const Eigen::Isometry3d& inFrame, bool known = false);
 
   /// Whether it is a valid body, or a mesh or a tree with anything in it.
   bool known() const { return isBody() || tree_.any(); }
   /// Whether all corners of a mesh are numbers. Looks at each of them.
   bool finite() const { return isBody() || tree_.finite(); }
+  /// Whether only leaves tell where the elements are (ElementTree::loose()).
+  bool loose() const { return tree_.loose(); }
   bool isBody() const { return body_.volume || isShape_; }
   bool unbounded() const { return isShape_ && body_.shape.unbounded(); }
   /// The body. Only where it is one.
@@ -95,8 +99,9 @@ class PosedGeometry {
 
 /// Two geometries whose poses were made rigid.
 struct PosedPair {
+  /// `known`: both geometries to be sound.
   PosedPair(const fcl::CollisionGeometryd& geometry1, Eigen::Isometry3d pose1,
-            const fcl::CollisionGeometryd& geometry2, Eigen::Isometry3d pose2);
+            const fcl::CollisionGeometryd& geometry2, Eigen::Isometry3d pose2, bool known);
 
   /// Whether all corners of meshes are numbers. Without it nothing is known about the pair.
   bool finite() const { return first.finite() && second.finite(); }

@@ -73,6 +73,7 @@ bool isFartherByBounds(double x, const ConvexBody& a, const ConvexBody& b, const
 
 bool isFartherThan(double x, const ConvexBody& a, const ConvexBody& b, PairCache* cache,
                    ProximityCounts* counts) {
+  x += a.rounding + b.rounding;
   if (counts) ++counts->bounds;
   if (isFartherByBounds(x, a, b, cache ? *cache : PairCache())) return true;
   if (counts) ++counts->solved;
@@ -91,7 +92,7 @@ bool isFartherThan(double x, const fcl::CollisionGeometryd& geometry1, const fcl
   ConvexBody bodyA, bodyB;
   if (areVolumes(geometry1, pose1, geometry2, pose2, bodyA, bodyB))
     return isFartherThan(x, bodyA, bodyB, context.cache, context.proximity);
-  const PosedPair pair(geometry1, pose1, geometry2, pose2);
+  const PosedPair pair(geometry1, pose1, geometry2, pose2, context.finite);
   if (!pair.valid) return false;
   // The corners are looked at last: what is within reach is not farther, whatever they are.
   return areElementsFarther(x, pair, context) && (context.finite || pair.finite());

@@ -104,10 +104,14 @@ bool steadyMotion(const fcl::MotionBased& motion, SteadyMotion& result) {
   if (const auto* m = dynamic_cast<const fcl::InterpMotion<double>*>(&motion)) {
     Isometry3d begin = m->*&InterpolationEnds::tf1, end = m->*&InterpolationEnds::tf2;
     if (!makeRigid(begin) || !makeRigid(end)) return false;
-    // Unset by FCL's constructors without one: any point does, but for numbers that are none.
-    constexpr double kFar = 1e6;
+    // FCL's constructors without a point leave it to what the memory held, and its object then moves about
+    // that. It does not matter where nothing turns; where it is no place for a body, nothing is known.
+    constexpr double kFar = 1e6;  // m
     const Vector3d& given = m->getReferencePoint();
-    result = about(begin, end, given.lpNorm<1>() < kFar ? given : Vector3d(0, 0, 0));
+    result = about(begin, end, Vector3d(0, 0, 0));
+    if (result.angular.isZero(0)) return true;
+    if (!(given.lpNorm<1>() < kFar)) return false;
+    result = about(begin, end, given);
     return true;
   }
   return false;

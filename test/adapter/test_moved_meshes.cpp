@@ -1,0 +1,219 @@
+// What FCL leaves behind that its types do not show: boxes merged after a mesh's vertices have moved, meshes
+// half built, cells that lie far from their tree's origin, motions about a point that nobody has set.
+#include <fcl/config.h>
+#include <fcl/geometry/bvh/BVH_model.h>
+#include <fcl/geometry/geometric_shape_to_BVH_model.h>
+#include <fcl/geometry/shape/box.h>
+#include <fcl/geometry/shape/ellipsoid.h>
+#include <fcl/geometry/shape/sphere.h>
+#include <fcl/math/motion/interp_motion.h>
+#include <fcl/math/motion/translation_motion.h>
+#if FCL_HAVE_OCTOMAP
+#include <fcl/geometry/octree/octree.h>
+#endif
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
+#include <new>
+
+#include "fcl_stpbv/adapter/collide.h"
+#include "fcl_stpbv/adapter/continuous_collide.h"
+#include "fcl_stpbv/adapter/element_tree.h"
+#include "fcl_stpbv/adapter/fcl_distance.h"
+#include "test/adapter/bodies.h"
+
+using namespace fcl_stpbv;
+using namespace fcl_stpbv::test;
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+namespace {
+
+using LongVector3 = Eigen::Matrix<long double, 3, 1>;
+using LongMatrix3 = Eigen::Matrix<long double, 3, 3>;
+
+struct Soup {
+  std::vector<Vector3d> points;
+  std::vector<fcl::Triangle> triangles;
+};
+
+Soup soupOf(std::size_t count, Random& random) {
+  Soup soup;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Vector3d middle = random.uniform(0, 1) * random.direction();
+    for (int j = 0; j < 3; ++j) soup.points.push_back(middle + random.uniform(0, 0.3) * random.direction());
+    soup.triangles.emplace_back(3 * i, 3 * i + 1, 3 * i + 2);
+  }
+  return soup;
+}
+
+template <typename BV>
+std::shared_ptr<fcl::BVHModel<BV>> meshOf(const std::vector<Vector3d>& points,
+                                          const std::vector<fcl::Triangle>& triangles) {
+  auto mesh = std::make_shared<fcl::BVHModel<BV>>();
+  mesh->beginModel();
+  mesh->addSubModel(points, triangles);
+  mesh->endModel();
+  return mesh;
+}
+
+template <typename BV>
+void checkFresh(const fcl::BVHModel<BV>& mesh) {
+  CAPTURE(mesh.num_tris);
+  CHECK_FALSE(detail::ElementTree(mesh).loose());
+}
+
+bool touch(const fcl::CollisionGeometryd& a, const fcl::CollisionGeometryd& b, const Isometry3d& poseB) {
+  fcl::CollisionResultd result;
+  return collide(&a, Isometry3d::Identity(), &b, poseB, fcl::CollisionRequestd(1), result) > 0;
+}
+
+/// The nearest rotation to a matrix next to one, which a pose stands for (Higham 1986).
+LongMatrix3 rotationOf(const Eigen::Matrix3d& m) {
+  LongMatrix3 q = m.cast<long double>();
+  for (int i = 0; i < 4; ++i) q = LongMatrix3(q - q * (q.transpose() * q - LongMatrix3::Identity()) / 2);
+  return q;
+}
+
+}  // namespace
+
+TEMPLATE_TEST_CASE("a mesh whose vertices FCL has moved is met wherever it is", "", fcl::AABBd, fcl::OBBd,
+                   fcl::RSSd, fcl::kIOSd, fcl::OBBRSSd, (fcl::KDOP<double, 16>), (fcl::KDOP<double, 24>)) {
+  Random random(11);
+  const fcl::Sphered ball(0.01);
+  const auto body = link();
+  for (std::size_t count = 1; count <= 12; ++count)
+    for (const bool replaced : {true, false})
+      for (int i = 0; i < 10; ++i) {
+        const Soup soup = soupOf(count, random);
+        const Isometry3d by = pose(random.rotation(), 0.5 * random.direction());
+        std::vector<Vector3d> moved;
+        for (const Vector3d& p : soup.points) moved.push_back(by * p);
+        const auto mesh = meshOf<TestType>(soup.points, soup.triangles);
+        if (replaced) {
+          mesh->beginReplaceModel();
+          mesh->replaceSubModel(moved);
+          CHECK(distance(*mesh, by, ball, by).status == DistanceStatus::invalid);  // half built
+          mesh->endReplaceModel();
+        } else {
+          mesh->beginUpdateModel();
+          mesh->updateSubModel(moved);
+          mesh->endUpdateModel();
+        }
+        CAPTURE(count, replaced, i);
+        for (const Vector3d& corner : moved) {
+          const Isometry3d there = pose(Eigen::Matrix3d::Identity(), corner);
+          const DistanceAnswer d = distance(*mesh, Isometry3d::Identity(), ball, there);
+          CHECK(d.distance <= -0.01 + 1e-15);  // as deep as the ball is, or deeper in another triangle
+          CHECK(d.lower <= -0.01);
+          CHECK(touch(*mesh, ball, there));
+          CHECK_FALSE(isFartherThan(0, *mesh, Isometry3d::Identity(), ball, there));
+          SteadyMotion still, past;
+          past.linear = {1e-3, 0, 0};
+          past.begin.translation() = corner - 0.5 * past.linear;
+          CHECK(firstContact(*mesh, still, ball, past).verdict == MotionVerdict::contact);
+        }
+        const Isometry3d at = pose(random.rotation(), 2 * random.direction());
+        const auto fresh = meshOf<TestType>(moved, soup.triangles);
+        CHECK(std::abs(distance(*body, at, *mesh, Isometry3d::Identity()).distance -
+                       distance(*body, at, *fresh, Isometry3d::Identity()).distance) <= 1e-14);
+        CHECK(touch(*mesh, *fresh, Isometry3d::Identity()));
+      }
+}
+
+TEMPLATE_TEST_CASE("the boxes of a mesh that was built are used, however regular it is", "", fcl::OBBd,
+                   fcl::RSSd, fcl::kIOSd, fcl::OBBRSSd) {
+  checkFresh(*bumpyGround<TestType>(24, 0.0));
+  checkFresh(*bumpyGround<TestType>(24, 0.05));
+  for (const double length : {0.1, 1.0, 10.0}) {
+    fcl::BVHModel<TestType> box, ball;
+    fcl::generateBVHModel(box, fcl::Boxd(length, 0.3, 0.2), fcl::Transform3d::Identity());
+    fcl::generateBVHModel(ball, fcl::Ellipsoidd(length, 0.3, 0.2), fcl::Transform3d::Identity(), 16, 16);
+    checkFresh(box);
+    checkFresh(ball);
+  }
+  for (const std::size_t squares : {2u, 5u, 64u, 200u}) {  // a strip along x
+    Soup strip;
+    for (std::size_t i = 0; i <= squares; ++i)
+      for (const double y : {0.0, 1.0}) strip.points.emplace_back(static_cast<double>(i), y, 0);
+    for (std::size_t i = 0; i < squares; ++i) {
+      strip.triangles.emplace_back(2 * i, 2 * i + 2, 2 * i + 1);
+      strip.triangles.emplace_back(2 * i + 2, 2 * i + 3, 2 * i + 1);
+    }
+    checkFresh(*meshOf<TestType>(strip.points, strip.triangles));
+  }
+}
+
+#if FCL_HAVE_OCTOMAP
+TEST_CASE("a cell far from its tree's origin is never called clear by its rounding") {
+  Random random(5);
+  const fcl::Sphered ball(0.5);
+  const StpBvGeometry smooth(StpBv::build({{0, 0, 0}}, {0.5, 1}));
+  for (const double far : {4.0, 400.0, 3000.0})
+    for (int i = 0; i < 500; ++i) {
+      const auto tree = std::make_shared<octomap::OcTree>(0.25);
+      const Vector3d near = far * random.direction();
+      const octomap::point3d cell = tree->keyToCoord(tree->coordToKey(octomap::point3d(
+          static_cast<float>(near.x()), static_cast<float>(near.y()), static_cast<float>(near.z()))));
+      tree->updateNode(cell, true);
+      const fcl::OcTreed cells(tree);
+      const Isometry3d at = pose(random.rotation(), random.direction());
+      const LongMatrix3 rotation = rotationOf(at.linear());
+      const LongVector3 centre =
+          rotation * LongVector3(cell.x(), cell.y(), cell.z()) + at.translation().cast<long double>();
+      const LongVector3 x = rotation.col(0);
+      const double depth = std::pow(10.0, random.uniform(-15, -11));
+      const Isometry3d there =
+          pose(Eigen::Matrix3d::Identity(), (centre + (0.625L - depth) * x).cast<double>());
+      const long double gap = x.dot(LongVector3(there.translation().cast<long double>() - centre)) - 0.625L;
+      if (!(gap < 0)) continue;  // rounded out of the cell
+      CAPTURE(far, i);
+      for (const fcl::CollisionGeometryd* other : {static_cast<const fcl::CollisionGeometryd*>(&ball),
+                                                   static_cast<const fcl::CollisionGeometryd*>(&smooth)}) {
+        CHECK_FALSE(isFartherThan(0, *other, there, cells, at));
+        fcl::CollisionResultd result;
+        CHECK(collide(other, there, &cells, at, fcl::CollisionRequestd(1), result) == 1);
+        const DistanceAnswer d = distance(*other, there, cells, at);
+        CHECK(d.lower <= gap);
+        CHECK(d.upper >= gap);
+      }
+    }
+}
+#endif
+
+TEST_CASE("an interpolated motion without a reference point goes as FCL's object does, or has no answer") {
+  const fcl::Boxd box(0.4, 0.4, 0.4), wall(0.1, 20, 20);
+  const Isometry3d begin = Isometry3d::Identity(), still = Isometry3d::Identity();
+  const Eigen::Matrix3d half = Eigen::AngleAxisd(2, Vector3d::UnitZ()).toRotationMatrix();
+  for (const bool turns : {true, false}) {
+    const Isometry3d end = pose(turns ? half : Eigen::Matrix3d(Eigen::Matrix3d::Identity()), {4, 0, 0});
+    for (const double held : {0.0, 1.0, 5.0, 1e7, std::numeric_limits<double>::quiet_NaN()}) {
+      CAPTURE(turns, held);
+      alignas(fcl::InterpMotion<double>) unsigned char memory[sizeof(fcl::InterpMotion<double>)];
+      for (std::size_t k = 0; k + sizeof held <= sizeof memory; k += sizeof held)
+        std::copy_n(reinterpret_cast<const unsigned char*>(&held), sizeof held, memory + k);
+      auto* motion = new (memory) fcl::InterpMotion<double>(begin, end);
+      const Vector3d point = motion->getReferencePoint();
+      SteadyMotion steady;
+      const bool known = steadyMotion(*motion, steady);
+      // What an optimiser makes of memory that nobody has set is its own: the object tells what it holds.
+      CHECK(known == (!turns || point.lpNorm<1>() < 1e6));
+      if (known && point.lpNorm<1>() < 1e6)
+        for (const double t : {0.0, 0.3, 0.5, 1.0}) {
+          Isometry3d there;
+          motion->integrate(t);
+          motion->getCurrentTransform(there);
+          CHECK((steady.at(t).matrix() - there.matrix()).lpNorm<Eigen::Infinity>() <= 1e-13);
+        }
+      if (!known) {
+        const fcl::TranslationMotion<double> stays(still, still);
+        fcl::ContinuousCollisionResultd result;
+        CHECK(continuousCollide(&box, motion, &wall, &stays, {}, result) == -1);
+        CHECK(result.is_collide);
+      }
+      motion->~InterpMotion();
+    }
+  }
+}
