@@ -127,7 +127,10 @@ void secondOrder(const Touch& touch, const Isometry3d& poseA, const Isometry3d& 
   const Eigen::Matrix<double, 3, 12> turn = touch.inverse.matrix() * mixed;
 
   // s_qq: of n.(o_B - o_A), whose normal turns with body 2, and of -h_A, whose normal turns against body 1.
-  Eigen::Matrix<double, 12, 12> h = mixed.transpose() * turn - carried.transpose() * curvatureA * carried;
+  // Term by term: Eigen would call its product of large matrices, for sums of three.
+  const Eigen::Matrix<double, 3, 12> bent = curvatureA * carried;
+  Eigen::Matrix<double, 12, 12> h =
+      mixed.transpose().lazyProduct(turn) - carried.transpose().lazyProduct(bent);
   const auto add = [&](int row, int column, const Matrix3d& m) {
     h.block<3, 3>(row, column) += m;
     h.block<3, 3>(column, row) += m.transpose();
