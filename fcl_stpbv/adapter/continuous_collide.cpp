@@ -26,7 +26,7 @@ class Moving {
   Moving(const CollisionGeometryd& given, const SteadyMotion& motion) : geometry(given), motion_(motion) {
     const PosedGeometry still(given, Isometry3d::Identity(), Isometry3d::Identity());
     known = still.known() && still.finite();
-    sound = known && hasFiniteCorners(given);
+    sound = known && !still.merged();
     unbounded = still.unbounded();
     convex = still.isBody();
     if (convex) body = still.body();

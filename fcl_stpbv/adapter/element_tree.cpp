@@ -44,6 +44,8 @@ OrientedBox boxAround(const fcl::KDOP<double, N>& bv) {  // its first three slab
 /// corner outside by this part of its size.
 constexpr double kFit = 1e-9;
 
+constexpr double kHuge = 1e150;  // m, makeRigid()'s bound on a pose
+
 /// Whether there is anything in it, and its boxes belong to its vertices: not between FCL's begin and end.
 template <typename BV>
 bool isBuilt(const fcl::BVHModel<BV>& mesh) {
@@ -104,10 +106,9 @@ bool hasMergedBoxes(const fcl::BVHModel<BV>& mesh) {
 
 template <typename BV>
 Node meshNode(const fcl::BVHModel<BV>& mesh, int index, bool merged) {
-  constexpr double kEverything = 1e150;  // m, makeRigid()'s bound on a pose
   const fcl::BVNode<BV>& node = mesh.getBV(index);
   if (merged && !node.isLeaf())
-    return {index, false, nullptr, {Vector3d::Zero(), Matrix3d::Identity(), Vector3d::Constant(kEverything)}};
+    return {index, false, nullptr, {Vector3d::Zero(), Matrix3d::Identity(), Vector3d::Constant(kHuge)}};
   OrientedBox box = boxAround(node.bv);
   box.half.array() += kFit * (box.half.sum() + box.centre.lpNorm<1>());
   return {node.isLeaf() ? node.primitiveId() : index, node.isLeaf(), nullptr, box};
@@ -178,7 +179,6 @@ int treeChildren(const fcl::OcTreed& tree, const Node& node, std::array<Node, 8>
 /// sum with it.
 FCL_STPBV_VECTORIZED
 bool areNumbers(const Vector3d* corner, int count) {
-  constexpr double kHuge = 1e150;  // m, makeRigid()'s
   constexpr double kToEnd = std::numeric_limits<double>::max() / kHuge;
   const auto load = [](const Vector3d* from, int part) {
     Packed four;

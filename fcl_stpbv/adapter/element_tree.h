@@ -47,10 +47,12 @@ class ElementTree {
   /// Whether all its corners are numbers, below 1e150 m: FCL's boxes hide those that are not. Looks at each
   /// of them, whether a triangle has it or not.
   bool finite() const;
-  /// Whether that is so and the boxes hold what is below: nothing has to be looked at again.
+  /// Whether FCL has merged its inner boxes, which then hold everything here.
+  bool merged() const { return merged_; }
+  /// Whether nothing has to be looked at again.
   bool sound() const { return finite() && !merged_; }
-  /// Whether inner boxes tell little of where the elements are: an octree's own is kilometres across, and
-  /// those of a mesh that FCL has merged when its vertices moved hold everything here.
+  /// Whether inner boxes tell little of where the elements are: merged ones, and an octree's own, which is
+  /// kilometres across.
   bool loose() const { return merged_ || geometry_.getNodeType() == fcl::GEOM_OCTREE; }
   Node root() const;
   /// The node's children, at most eight; how many.

@@ -75,6 +75,8 @@ class PosedGeometry {
   bool known() const { return isBody() || tree_.any(); }
   /// Whether all corners of a mesh are numbers. Looks at each of them.
   bool finite() const { return isBody() || tree_.finite(); }
+  /// Whether FCL has merged its inner boxes (ElementTree::merged()).
+  bool merged() const { return tree_.merged(); }
   /// Whether only leaves tell where the elements are (ElementTree::loose()).
   bool loose() const { return tree_.loose(); }
   bool isBody() const { return body_.volume || isShape_; }

@@ -3,6 +3,7 @@
 #include "fcl_stpbv/volume/regions.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 
 #include "fcl_stpbv/numbers.h"
@@ -46,6 +47,13 @@ Vector3d vectorArea(const Region& region) {
     sum += across2 * arc.turn * arc.axis + along * arc.axis.cross(chord);
   }
   return 0.5 * sum;
+}
+
+double leastCosine(const StpBv& volume) {
+  double cosine = 1;
+  for (int e = 0; e < volume.edgeCount(); ++e)
+    cosine = std::min(cosine, volume.patch(volume.edgePatch(e)).kappa / volume.radii().rho);
+  return cosine;
 }
 
 Arc edgeArc(const StpBv& volume, int edge) {

@@ -36,6 +36,10 @@ Eigen::Vector3d vectorArea(const Region& region);
 /// Regions of all vertices, then of all faces (paper III.D). A single point's sphere comes as two halves.
 std::vector<Region> regions(const StpBv& volume);
 
+/// The least of all edges' kappa / rho: near the smallest R an edge's normals lie close to its line, and
+/// rounding moves them by one over this cosine as much. 1 without edges.
+double leastCosine(const StpBv& volume);
+
 /// The arc of an edge's normals halfway between its ends, from its first face to
 /// its second; a spindle's is a circle.
 Arc edgeArc(const StpBv& volume, int edge);

@@ -36,14 +36,14 @@ std::string number(double value) {
 
 void checkInput(const std::vector<Vector3d>& points, const StpBvOptions& options) {
   if (points.empty()) throw Error("cannot build an STP-BV from no points: give at least one");
-  for (std::size_t i = 0; i < points.size(); ++i)
+  constexpr double kMost = 1e75;  // m: squares of its square are finite
+  for (std::size_t i = 0; i < points.size(); ++i) {
     if (!points[i].allFinite())
       throw Error("point " + std::to_string(i) + " is not finite: every coordinate must be a number");
-  constexpr double kMost = 1e75;  // m: squares of its square are finite
-  for (std::size_t i = 0; i < points.size(); ++i)
     if (points[i].cwiseAbs().maxCoeff() > kMost)
       throw Error("point " + std::to_string(i) + " is too far away: every coordinate must be below " +
                   number(kMost) + " m");
+  }
   if (!std::isfinite(options.r) || options.r < 0)
     throw Error("r = " + number(options.r) +
                 " is not usable: the small radius must be a finite number of metres, 0 or more");

@@ -21,14 +21,10 @@ using Eigen::Vector3d;
 class Tessellator {
  public:
   Tessellator(const StpBv& volume, double angle) : volume_(volume), angle_(std::clamp(angle, 0.02, 1.0)) {
-    // What rounding can part at a boundary: a few units of the coordinates and of rho times the normal. Near
-    // the smallest R an edge's normals lie close to its line and are off by one over their cosine as much.
-    double cosine = 1;
-    for (int e = 0; e < volume.edgeCount(); ++e)
-      cosine = std::min(cosine, volume.patch(volume.edgePatch(e)).kappa / volume.radii().rho);
+    // What rounding can part at a boundary: a few units of the coordinates and of rho times the normal.
     constexpr double kRounding = 2e-14, kWidest = 1e-6;
     const double size = volume.enclosingRadius() + volume.radii().rho + volume.centre().norm();
-    grid_ = std::min(kRounding / cosine, kWidest) * size;
+    grid_ = std::min(kRounding / leastCosine(volume), kWidest) * size;
     // A region between two arcs of one step each would be two triangles back to back.
     std::vector<int> arcs(static_cast<std::size_t>(volume.vertexCount()), 0);
     for (const StpBv::Edge& edge : volume.edges())

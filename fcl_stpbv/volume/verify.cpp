@@ -17,6 +17,7 @@
 #include "fcl_stpbv/volume/join_faces.h"
 #include "fcl_stpbv/volume/measure.h"
 #include "fcl_stpbv/volume/point_tree.h"
+#include "fcl_stpbv/volume/regions.h"
 #include "fcl_stpbv/volume/rolling_ball.h"
 #include "fcl_stpbv/volume/surface_check.h"
 
@@ -89,10 +90,7 @@ Verification verify(const StpBv& volume, const std::vector<Vector3d>& points, do
   for (const double angle : solidAngles(volume)) sum += angle, least = std::min(least, angle);
   result.solidAngleError = sum - 4 * kPi;
 
-  // Near the smallest R an edge's normals lie close to its line, by the cosine kappa/rho.
-  double cosine = 1;
-  for (int e = 0; e < volume.edgeCount(); ++e)
-    cosine = std::min(cosine, volume.patch(volume.edgePatch(e)).kappa / volume.radii().rho);
+  const double cosine = leastCosine(volume);
   // Heights and boundaries: a few roundings of lengths up to the body's size and, for normals, of rho times
   // their rounding. The circle around an edge, kappa = sqrt(rho^2 - half^2), is off by the three roundings
   // under its root, of rho^2 each, by 2 kappa.

@@ -19,11 +19,20 @@ inline std::shared_ptr<StpBvGeometry> link(double r = 0.01, double R = 10) {
   return geometryOf(randomHull(20, {0.2, 0.15, 0.1}, 3), r, R);
 }
 
+template <typename BV>
+std::shared_ptr<fcl::BVHModel<BV>> meshOf(const std::vector<Eigen::Vector3d>& points,
+                                          const std::vector<fcl::Triangle>& triangles) {
+  auto mesh = std::make_shared<fcl::BVHModel<BV>>();
+  mesh->beginModel();
+  mesh->addSubModel(points, triangles);
+  mesh->endModel();
+  return mesh;
+}
+
 /// Ground of `squares` by `squares` squares, 2.4 m wide, whose corners are up to `height` high or deep:
 /// faces, edges and tops all get to be nearest.
 template <typename BV>
 std::shared_ptr<fcl::BVHModel<BV>> bumpyGround(std::size_t squares, double height) {
-  auto mesh = std::make_shared<fcl::BVHModel<BV>>();
   std::vector<Eigen::Vector3d> points;
   std::vector<fcl::Triangle> triangles;
   const double side = 2.4 / static_cast<double>(squares);
@@ -38,10 +47,7 @@ std::shared_ptr<fcl::BVHModel<BV>> bumpyGround(std::size_t squares, double heigh
       triangles.emplace_back(p, q, p + 1);
       triangles.emplace_back(q, q + 1, p + 1);
     }
-  mesh->beginModel();
-  mesh->addSubModel(points, triangles);
-  mesh->endModel();
-  return mesh;
+  return meshOf<BV>(points, triangles);
 }
 
 }  // namespace fcl_stpbv::test

@@ -12,7 +12,7 @@
 #include <fcl/geometry/octree/octree.h>
 #endif
 
-#include <algorithm>
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
@@ -23,6 +23,7 @@
 #include "fcl_stpbv/adapter/element_tree.h"
 #include "fcl_stpbv/adapter/fcl_distance.h"
 #include "test/adapter/bodies.h"
+#include "test/reference/reference.h"
 
 using namespace fcl_stpbv;
 using namespace fcl_stpbv::test;
@@ -30,9 +31,6 @@ using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
 namespace {
-
-using LongVector3 = Eigen::Matrix<long double, 3, 1>;
-using LongMatrix3 = Eigen::Matrix<long double, 3, 3>;
 
 struct Soup {
   std::vector<Vector3d> points;
@@ -50,16 +48,6 @@ Soup soupOf(std::size_t count, Random& random) {
 }
 
 template <typename BV>
-std::shared_ptr<fcl::BVHModel<BV>> meshOf(const std::vector<Vector3d>& points,
-                                          const std::vector<fcl::Triangle>& triangles) {
-  auto mesh = std::make_shared<fcl::BVHModel<BV>>();
-  mesh->beginModel();
-  mesh->addSubModel(points, triangles);
-  mesh->endModel();
-  return mesh;
-}
-
-template <typename BV>
 void checkFresh(const fcl::BVHModel<BV>& mesh) {
   CAPTURE(mesh.num_tris);
   CHECK_FALSE(detail::ElementTree(mesh).loose());
@@ -68,13 +56,6 @@ void checkFresh(const fcl::BVHModel<BV>& mesh) {
 bool touch(const fcl::CollisionGeometryd& a, const fcl::CollisionGeometryd& b, const Isometry3d& poseB) {
   fcl::CollisionResultd result;
   return collide(&a, Isometry3d::Identity(), &b, poseB, fcl::CollisionRequestd(1), result) > 0;
-}
-
-/// The nearest rotation to a matrix next to one, which a pose stands for (Higham 1986).
-LongMatrix3 rotationOf(const Eigen::Matrix3d& m) {
-  LongMatrix3 q = m.cast<long double>();
-  for (int i = 0; i < 4; ++i) q = LongMatrix3(q - q * (q.transpose() * q - LongMatrix3::Identity()) / 2);
-  return q;
 }
 
 }  // namespace
@@ -160,14 +141,14 @@ TEST_CASE("a cell far from its tree's origin is never called clear by its roundi
       tree->updateNode(cell, true);
       const fcl::OcTreed cells(tree);
       const Isometry3d at = pose(random.rotation(), random.direction());
-      const LongMatrix3 rotation = rotationOf(at.linear());
-      const LongVector3 centre =
-          rotation * LongVector3(cell.x(), cell.y(), cell.z()) + at.translation().cast<long double>();
-      const LongVector3 x = rotation.col(0);
+      const Matrix3L rotation = nearestRotation(at.linear());  // which the pose stands for
+      const Vector3L centre =
+          rotation * Vector3L(cell.x(), cell.y(), cell.z()) + at.translation().cast<long double>();
+      const Vector3L x = rotation.col(0);
       const double depth = std::pow(10.0, random.uniform(-15, -11));
       const Isometry3d there =
           pose(Eigen::Matrix3d::Identity(), (centre + (0.625L - depth) * x).cast<double>());
-      const long double gap = x.dot(LongVector3(there.translation().cast<long double>() - centre)) - 0.625L;
+      const long double gap = x.dot(Vector3L(there.translation().cast<long double>() - centre)) - 0.625L;
       if (!(gap < 0)) continue;  // rounded out of the cell
       CAPTURE(far, i);
       for (const fcl::CollisionGeometryd* other : {static_cast<const fcl::CollisionGeometryd*>(&ball),
@@ -191,10 +172,11 @@ TEST_CASE("an interpolated motion without a reference point goes as FCL's object
     const Isometry3d end = pose(turns ? half : Eigen::Matrix3d(Eigen::Matrix3d::Identity()), {4, 0, 0});
     for (const double held : {0.0, 1.0, 5.0, 1e7, std::numeric_limits<double>::quiet_NaN()}) {
       CAPTURE(turns, held);
-      alignas(fcl::InterpMotion<double>) unsigned char memory[sizeof(fcl::InterpMotion<double>)];
-      for (std::size_t k = 0; k + sizeof held <= sizeof memory; k += sizeof held)
-        std::copy_n(reinterpret_cast<const unsigned char*>(&held), sizeof held, memory + k);
-      auto* motion = new (memory) fcl::InterpMotion<double>(begin, end);
+      alignas(fcl::InterpMotion<double>)
+          std::array<double, sizeof(fcl::InterpMotion<double>) / sizeof(double)>
+              memory;
+      memory.fill(held);
+      auto* motion = new (memory.data()) fcl::InterpMotion<double>(begin, end);
       const Vector3d point = motion->getReferencePoint();
       SteadyMotion steady;
       const bool known = steadyMotion(*motion, steady);

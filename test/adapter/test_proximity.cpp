@@ -23,6 +23,7 @@
 #include "fcl_stpbv/adapter/hull_geometry.h"
 #include "fcl_stpbv/distance/shape_distance.h"
 #include "fcl_stpbv/distance/threshold.h"
+#include "test/adapter/bodies.h"
 #include "test/reference/shapes.h"
 
 using namespace fcl_stpbv;
@@ -239,11 +240,7 @@ TEST_CASE("whatever distance says of two kinds that overlap, a threshold below 0
 
 TEST_CASE("two triangles that cross are no deeper in each other than 0, as their distance says") {
   const auto triangle = [](const std::vector<Vector3d>& corners) {
-    auto mesh = std::make_shared<fcl::BVHModel<fcl::OBBRSSd>>();
-    mesh->beginModel();
-    mesh->addSubModel(corners, {fcl::Triangle(0, 1, 2)});
-    mesh->endModel();
-    return mesh;
+    return meshOf<fcl::OBBRSSd>(corners, {fcl::Triangle(0, 1, 2)});
   };
   const auto a = triangle({{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}}),
              b = triangle({{0, -1, -1}, {0, -1, 1}, {0, 1, 0}});

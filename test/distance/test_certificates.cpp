@@ -1,5 +1,4 @@
 // The bounds of an answer contain the truth as they stand, and poses are judged one by one.
-#include <Eigen/LU>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
@@ -30,13 +29,6 @@ Isometry3d seenFrom(const Isometry3d& a, Isometry3d b) {
 }
 
 Isometry3d turnOnly(const Isometry3d& a) { return pose(a.linear(), Vector3d::Zero()); }
-
-/// The nearest rotation to a matrix next to one: its polar factor, by Newton's iteration (Higham 1986), whose
-/// error is squared each time.
-Matrix3d nearestRotation(Matrix3d m) {
-  for (int i = 0; i < 5; ++i) m = Matrix3d((m + m.inverse().transpose()) / 2);
-  return m;
-}
 
 /// Both bounds against the truth, which is known to `slack`.
 void checkHolds(const Distance& d, long double truth, long double alongNormal, long double slack) {
@@ -146,8 +138,8 @@ TEST_CASE("Each pose within 1e-6 of a rotation is taken for the nearest rotation
       pa.linear()(k / 3, k % 3) += random.uniform(-1e-6, 1e-6);
       pb.linear()(k / 3, k % 3) += random.uniform(-1e-6, 1e-6);
     }
-    const Isometry3d qa = pose(nearestRotation(pa.linear()), pa.translation()),
-                     qb = pose(nearestRotation(pb.linear()), pb.translation());
+    const Isometry3d qa = pose(nearestRotation(pa.linear()).cast<double>(), pa.translation()),
+                     qb = pose(nearestRotation(pb.linear()).cast<double>(), pb.translation());
     const auto check = [](const Distance& d, const Distance& e) {
       CHECK(d.status == e.status);
       CHECK(std::abs(d.distance - e.distance) <= 1e-14);

@@ -1,11 +1,18 @@
 #include "test/reference/reference.h"
 
+#include <Eigen/LU>
 #include <cmath>
 #include <limits>
 
 #include "test/reference/reference_of.h"
 
 namespace fcl_stpbv::test {
+
+Matrix3L nearestRotation(const Eigen::Matrix3d& m) {
+  Matrix3L rotation = m.cast<long double>();
+  for (int i = 0; i < 5; ++i) rotation = Matrix3L((rotation + rotation.inverse().transpose()) / 2);
+  return rotation;
+}
 
 ReferenceBody referenceBody(const Cloud& points, double r, double R, const Eigen::Isometry3d& pose) {
   return bodyOf<long double>(points, r, R, pose);

@@ -17,6 +17,11 @@ namespace fcl_stpbv::test {
 template <class Real>
 using Vector3Of = Eigen::Matrix<Real, 3, 1>;
 using Vector3L = Vector3Of<long double>;
+using Matrix3L = Eigen::Matrix<long double, 3, 3>;
+
+/// The nearest rotation to a matrix next to one: its polar factor, by Newton's iteration (Higham 1986), whose
+/// error is squared each time.
+Matrix3L nearestRotation(const Eigen::Matrix3d& m);
 
 /// A volume's points in world coordinates and its radii (m). Numbers of other precision
 /// than long double are for reference_of.h.
