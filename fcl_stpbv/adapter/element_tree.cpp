@@ -256,7 +256,7 @@ bool ElementTree::element(const Node& leaf, Shape& shape, Vector3d& place) const
   return true;
 }
 
-bool ElementTree::find(std::intptr_t id, const Vector3d& x, Shape& shape, Vector3d& place) const {
+bool ElementTree::find(std::intptr_t id, const Vector3d& x, double off, Shape& shape, Vector3d& place) const {
   if (!any()) return false;
   Node node = root();
   if (!node.handle) {  // a mesh: any id within bounds
@@ -275,7 +275,7 @@ bool ElementTree::find(std::intptr_t id, const Vector3d& x, Shape& shape, Vector
   pending[static_cast<std::size_t>(count++)] = node;
   while (count > 0) {
     node = pending[static_cast<std::size_t>(--count)];
-    const double slack = 1e-9 * (node.box.half.norm() + node.box.centre.norm());
+    const double slack = off + 1e-9 * (node.box.half.norm() + node.box.centre.norm());
     if (((x - node.box.centre).cwiseAbs() - node.box.half).maxCoeff() > slack) continue;
     if (node.leaf) {
       if (node.id == id) return element(node, shape, place);

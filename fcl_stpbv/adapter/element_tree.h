@@ -59,8 +59,9 @@ class ElementTree {
   int children(const Node& node, std::array<Node, 8>& child) const;
   /// A leaf as a shape, placed in the geometry's frame. False for a cell that is free.
   bool element(const Node& leaf, Shape& shape, Eigen::Vector3d& place) const;
-  /// The element with this id, at or next to `x` (geometry's frame).
-  bool find(std::intptr_t id, const Eigen::Vector3d& x, Shape& shape, Eigen::Vector3d& place) const;
+  /// The element with this id, at or within `off` (m) of `x` (geometry's frame).
+  bool find(std::intptr_t id, const Eigen::Vector3d& x, double off, Shape& shape,
+            Eigen::Vector3d& place) const;
 
  private:
   const fcl::CollisionGeometryd& geometry_;

@@ -3,6 +3,7 @@
 #include "fcl_stpbv/adapter/fcl_hessian.h"
 
 #include <array>
+#include <optional>
 
 #include "fcl_stpbv/adapter/element_tree.h"
 #include "fcl_stpbv/adapter/fcl_shapes.h"
@@ -17,10 +18,16 @@ using Eigen::Vector3d;
 /// shape, or an element of a mesh or a tree.
 class OtherBody {
  public:
-  OtherBody(const fcl::CollisionGeometryd& geometry, std::intptr_t element, const Vector3d& point) {
+  /// `point`: of the answer, in the world.
+  OtherBody(const fcl::CollisionGeometryd& geometry, const fcl::Transform3d& pose, std::intptr_t element,
+            const Vector3d& point) {
     Vector3d place;
     known_ = shapeOf(geometry, shape_);
-    if (known_ || !ElementTree(geometry).find(element, point, shape_, place)) return;
+    if (known_) return;
+    const Vector3d x = pose.linear().transpose() * (point - pose.translation());
+    // A whole part in 1e12 more than rounding: a cell in the way of a point beside it is none by its id.
+    const double off = placeRounding(pose, x) + 1e-12 * point.lpNorm<1>();
+    if (!ElementTree(geometry).find(element, x, off, shape_, place)) return;
     known_ = true;
     if (shape_.kind != ShapeKind::box) return;
     // A cell away from its tree's origin: its corners, so that both turn about the same point.
@@ -47,9 +54,9 @@ template <class Ask>
 bool askBoth(const fcl::CollisionGeometryd& geometry1, const fcl::Transform3d& pose1,
              const fcl::CollisionGeometryd& geometry2, const fcl::Transform3d& pose2, const DistanceAnswer& d,
              const Ask& ask) {
+  if (d.status == DistanceStatus::invalid) return false;
   const StpBvGeometry* a = asStpBv(&geometry1);
   const StpBvGeometry* b = asStpBv(&geometry2);
-  if (d.status == DistanceStatus::invalid || (!a && !b)) return false;
   Distance found;
   found.status = d.status;
   found.distance = d.distance;
@@ -57,12 +64,12 @@ bool askBoth(const fcl::CollisionGeometryd& geometry1, const fcl::Transform3d& p
   found.point = d.points;
   found.patch = d.patch;
   if (a && b) return ask(a->volume(), b->volume(), found);
-  const std::size_t which = a ? 1 : 0;
-  const fcl::Transform3d& pose = a ? pose2 : pose1;
-  const OtherBody other(a ? geometry2 : geometry1, d.element[which],
-                        pose.linear().transpose() * (d.points[which] - pose.translation()));
-  if (!other.known()) return false;
-  return a ? ask(a->volume(), other.shape(), found) : ask(other.shape(), b->volume(), found);
+  std::optional<OtherBody> first, second;
+  if (!a) first.emplace(geometry1, pose1, d.element[0], d.points[0]);
+  if (!b) second.emplace(geometry2, pose2, d.element[1], d.points[1]);
+  if ((first && !first->known()) || (second && !second->known())) return false;
+  if (a) return ask(a->volume(), second->shape(), found);
+  return b ? ask(first->shape(), b->volume(), found) : ask(first->shape(), second->shape(), found);
 }
 
 }  // namespace

@@ -16,14 +16,17 @@ const Vector3d kNone(0, 0, 0);
 
 /// Normals across the line along `t`, of a surface that curves by `radius` around it.
 NormalCone aroundLine(const Vector3d& m, const Vector3d& t, double radius) {
-  return {1, {t.cross(m).normalized(), kNone}, {radius, 0.0}, 0.0};
+  return {1, (m - m.dot(t) * t).normalized(), {t.cross(m).normalized(), kNone}, {radius, 0.0}, 0.0};
 }
 
-NormalCone noWay() { return {0, {kNone, kNone}, {0.0, 0.0}, 0.0}; }
+/// A flat face's, on the side that `m` looks to.
+NormalCone noWay(const Vector3d& m, const Vector3d& face) {
+  return {0, m.dot(face) < 0.0 ? Vector3d(-face) : face, {kNone, kNone}, {0.0, 0.0}, 0.0};
+}
 
 NormalCone ofBall(const Vector3d& m, double radius) {
   const Vector3d e = m.unitOrthogonal();
-  return {2, {e, m.cross(e)}, {radius, radius}, 0.0};
+  return {2, m, {e, m.cross(e)}, {radius, radius}, 0.0};
 }
 
 NormalCone ofSegment(const Vector3d& m, double half, double margin, double rounding) {
@@ -52,7 +55,7 @@ NormalCone ofVertices(int count, const Vertex& vertex, const Vector3d& m, double
   const Vector3d t = (b - a).normalized();
   Vector3d c = a;
   if (!furthest([&](const Vector3d& p) { return t.cross(p - a).norm(); }, c)) return aroundLine(m, t, 0.0);
-  return noWay();
+  return noWay(m, t.cross(c - a).normalized());
 }
 
 /// A disc's rim: a circle of this radius around z. Near the axis the normal says little about the place on
@@ -61,13 +64,13 @@ NormalCone ofRim(const Vector3d& m, const Vector3d& x, double radius, double acr
   const Vector3d out(x.x(), x.y(), 0.0);
   Vector3d around = Vector3d::UnitZ().cross(out.norm() > 0.0 ? out : m);
   around = (around - around.dot(m) * m).normalized();
-  return {2, {around, m.cross(around)}, {radius / across, 0.0}, 0.0};
+  return {2, m, {around, m.cross(around)}, {radius / across, 0.0}, 0.0};
 }
 
 NormalCone ofCylinder(const Shape& s, const Vector3d& m, const Vector3d& x, double rounding) {
   if (!(s.radius > 0.0)) return ofSegment(m, s.half, 0.0, rounding);
   const double across = std::hypot(m.x(), m.y());
-  if (s.radius * across <= rounding) return noWay();
+  if (s.radius * across <= rounding) return noWay(m, Vector3d::UnitZ());
   if (s.half > 0.0 && s.half * std::abs(m.z()) <= rounding) return aroundLine(m, Vector3d::UnitZ(), s.radius);
   return ofRim(m, x, s.radius, across);
 }
@@ -75,13 +78,18 @@ NormalCone ofCylinder(const Shape& s, const Vector3d& m, const Vector3d& x, doub
 NormalCone ofCone(const Shape& s, const Vector3d& m, const Vector3d& x, double rounding) {
   if (!(s.radius > 0.0)) return ofSegment(m, s.half, 0.0, rounding);
   const double across = std::hypot(m.x(), m.y()), height = 2.0 * s.half;
-  if (s.radius * across <= rounding && (m.z() < 0.0 || !(height > 0.0))) return noWay();
+  if (s.radius * across <= rounding && (m.z() < 0.0 || !(height > 0.0))) return noWay(m, Vector3d::UnitZ());
   const double towardsApex = m.z() * height - across * s.radius;
   if (towardsApex > rounding) return ofBall(m, 0.0);
   if (!(height > 0.0) || towardsApex < -rounding) return ofRim(m, x, s.radius, across);
   const double down =
       (x - Vector3d(0, 0, s.half)).norm();  // the generator, which curves by more the further down
-  return {1, {Vector3d::UnitZ().cross(m) / across, kNone}, {down * s.radius / height, 0.0}, 0.0};
+  const Vector3d out = Vector3d(m.x(), m.y(), 0.0) / across;
+  return {1,
+          (height * out + s.radius * Vector3d::UnitZ()).normalized(),
+          {Vector3d::UnitZ().cross(out), kNone},
+          {down * s.radius / height, 0.0},
+          0.0};
 }
 
 bool ofEllipsoid(const Shape& s, const Vector3d& m, NormalCone& result) {
@@ -103,7 +111,6 @@ bool ofEllipsoid(const Shape& s, const Vector3d& m, NormalCone& result) {
 }  // namespace
 
 bool normalCone(const Shape& s, const Vector3d& m, const Vector3d& x, double rounding, NormalCone& result) {
-  result = noWay();
   switch (s.kind) {
     case ShapeKind::point:
       result = ofBall(m, s.margin);
@@ -140,6 +147,7 @@ bool normalCone(const Shape& s, const Vector3d& m, const Vector3d& x, double rou
     case ShapeKind::plane:
       break;
   }
+  result = noWay(m, s.normal);
   return true;
 }
 

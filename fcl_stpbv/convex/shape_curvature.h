@@ -12,6 +12,7 @@ namespace fcl_stpbv::detail {
 /// near) can have, next to one of them. Frame and units of the shape.
 struct NormalCone {
   int count = 0;                       ///< ways to turn: 0, 1 or 2
+  Eigen::Vector3d normal;              ///< unit, the one of them next to what was asked about
   std::array<Eigen::Vector3d, 2> way;  ///< unit, across the normal and each other
   /// Radii of curvature, the derivative of the surface point with the normal, along and between the ways (m).
   std::array<double, 2> along;

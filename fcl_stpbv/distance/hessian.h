@@ -38,6 +38,11 @@ bool hessian(const StpBv& volume, const Eigen::Isometry3d& poseVolume, const Sha
 bool hessian(const Shape& shape, const Eigen::Isometry3d& poseShape, const StpBv& volume,
              const Eigen::Isometry3d& poseVolume, const Distance& d, DistanceHessian& result);
 
+/// The same for two simple shapes. Two of their features have derivatives where one of them is a corner, a
+/// rim or round, and where they are edges or generators that cross.
+bool hessian(const Shape& a, const Eigen::Isometry3d& poseA, const Shape& b, const Eigen::Isometry3d& poseB,
+             const Distance& d, DistanceHessian& result);
+
 /// How an answer moves while both bodies do: what a controller asks for at every tick, at a fraction of the
 /// time of the matrices above.
 struct DistanceRate {
@@ -62,5 +67,9 @@ bool rate(const StpBv& volume, const Eigen::Isometry3d& poseVolume, const Shape&
 bool rate(const Shape& shape, const Eigen::Isometry3d& poseShape, const StpBv& volume,
           const Eigen::Isometry3d& poseVolume, const Distance& d, const BodyTwists& twists,
           DistanceRate& result);
+
+/// The same of two shapes.
+bool rate(const Shape& a, const Eigen::Isometry3d& poseA, const Shape& b, const Eigen::Isometry3d& poseB,
+          const Distance& d, const BodyTwists& twists, DistanceRate& result);
 
 }  // namespace fcl_stpbv

@@ -25,7 +25,8 @@ Distance distance(const StpBv& volume, const Eigen::Isometry3d& pose, const Eige
 
 /// Signed distance of two shapes, one of them bounded. Never throws or allocates.
 ///
-/// A half space or a plane: closed form. Cores apart: GJK. Cores that overlap: EPA. Status `exact`
+/// A half space or a plane: closed form. Cores apart: GJK. Cores that overlap: EPA. Normal and points to
+/// rounding by Newton's method on the features that face each other. Status `exact`
 /// where both bounds agree to rounding, `bounded` where they do not; at overlap of round bodies within
 /// 1e-6 of the cores' depth, unless rounding or the size of the polytope stopped it sooner. `invalid`
 /// for a shape that is not `valid()`, a pose that is not rigid, and two unbounded shapes. Both orders

@@ -18,6 +18,7 @@
 #include "fcl_stpbv/convex/meridian.h"
 #include "fcl_stpbv/convex/support.h"
 #include "fcl_stpbv/distance/shape_distance.h"
+#include "fcl_stpbv/distance/shape_newton.h"
 
 namespace fcl_stpbv {
 
@@ -69,15 +70,23 @@ struct Pair {
 
   double margins() const { return a.margin + b.margin; }
 
-  /// GJK until both bounds agree or `told(lower, upper)` says that it has heard enough.
+  /// Whether GJK only comes near the answer, by chords of a round surface.
+  bool curved() const { return curved(a) || curved(b); }
+  static bool curved(const Shape& s) {
+    return s.kind == ShapeKind::cylinder || s.kind == ShapeKind::cone || s.kind == ShapeKind::ellipsoid;
+  }
+
+  /// GJK from what an earlier search ended with, until both bounds agree or `told(lower, upper)` says that it
+  /// has heard enough.
   template <typename Told>
-  Gjk search(const Told& told) const {
+  Gjk search(const Told& told, const Simplex<Corner>& start = {}) const {
     constexpr int kSteps = 120;  // polytopes take a dozen, round bodies some thirty
     const Vector3d d = pose.placed(b.centre) - a.centre;
     Difference difference(a, b, pose);
-    return gjk<Corner>(
-        difference, {}, d.norm() > rounding ? Vector3d(d.normalized()) : Vector3d::UnitX(), rounding, kSteps,
-        [&](double lower, double upper) { return upper - lower <= 0.5 * rounding || told(lower, upper); });
+    return gjk<Corner>(difference, start, d.norm() > rounding ? Vector3d(d.normalized()) : Vector3d::UnitX(),
+                       rounding, kSteps, [&](double lower, double upper) {
+                         return upper - lower <= 0.5 * rounding || told(lower, upper);
+                       });
   }
 };
 
@@ -90,27 +99,65 @@ Distance inWorld(const Pair& p, const Vector3d& n, const Vector3d& onA, const Ve
   return result;
 }
 
-Gjk searchToTheEnd(const Pair& p) {
-  return p.search([](double, double) { return false; });
+Gjk searchToTheEnd(const Pair& p, const Simplex<Corner>& start = {}) {
+  return p.search([](double, double) { return false; }, start);
 }
 
-/// The gap along the last normal, which the search did not look at.
-double lastGap(const Pair& p, const Gjk& found) { return Difference(p.a, p.b, p.pose).support(found.n).gap; }
+/// Whether the bounds are near enough for Newton's method on the features there: those of round bodies are
+/// few, a polytope's are told apart by the last digits.
+bool isNear(const Pair& p, double lower, double upper) {
+  const double part = p.curved(p.a) && p.curved(p.b) ? 1e-2 : 1e-5;
+  return upper - lower <= part * upper;
+}
 
-/// Cores apart. `invalid` where they overlap, or no gap between them was found.
+/// The widest gap that a search has seen, and its normal.
+struct WidestGap {
+  double gap;
+  Vector3d n;
+
+  /// The last normal, which the search did not look at. Rounding can make it worse than an earlier one.
+  WidestGap(const Pair& p, const Gjk& found)
+      : gap(Difference(p.a, p.b, p.pose).support(found.n).gap), n(found.n) {
+    if (found.lower > gap) gap = found.lower, n = found.widest;
+  }
+};
+
+constexpr double kWidest = 0.1;  // most that a normal may be off by before Newton's method (rad)
+
+/// Cores apart, as a search knows them: `exact` where its bounds agree. `invalid` where no gap between them
+/// was found.
+Distance asFound(const Pair& p, const Gjk& found, const WidestGap& widest) {
+  if (!(widest.gap > 0.0)) return {};
+  Distance result = inWorld(p, widest.n, found.simplex.weighted(&Corner::onA), found.v);
+  const double upper = std::max(found.upper, widest.gap);
+  result.status = upper - widest.gap <= p.rounding ? DistanceStatus::exact : DistanceStatus::bounded;
+  result.distance = upper - p.margins();
+  result.lower = widest.gap - p.margins() - p.certificate;
+  result.upper = result.distance + p.certificate;
+  return result;
+}
+
+/// Cores apart: as found, or with the last digits of normal and points by Newton's method, where chords of a
+/// round surface or the rounding of points that all but touch left them open. `invalid` where the cores
+/// overlap, or no gap between them was found.
 Distance separated(const Pair& p, const Gjk& found) {
   if (found.verdict == Gjk::Verdict::overlap) return {};
-  // Rounding can make the last normal worse than an earlier one: the answer's is the one with the widest gap.
-  const double last = lastGap(p, found);
-  const double lower = std::max(last, found.lower);
-  if (!(lower > 0.0)) return {};
-  Distance result =
-      inWorld(p, last < lower ? found.widest : found.n, found.simplex.weighted(&Corner::onA), found.v);
-  const double upper = std::max(found.upper, lower);
-  result.status = upper - lower <= p.rounding ? DistanceStatus::exact : DistanceStatus::bounded;
-  result.distance = upper - p.margins();
-  result.lower = lower - p.margins() - p.certificate;
-  result.upper = result.distance + p.certificate;
+  const WidestGap widest(p, found);
+  Distance result = asFound(p, found, widest);
+  const bool opposite = (found.v - widest.gap * widest.n).norm() <= 2.0 * p.rounding;
+  if (result.status == DistanceStatus::exact && opposite) return result;
+  // Seen from its point nearest to the origin, the difference lies beyond the plane of the widest gap.
+  const double open = std::max(found.upper - widest.gap, p.rounding);
+  const double angle = std::min(std::sqrt(2.0 * open / found.upper), kWidest);
+  const Vector3d& n = widest.gap > 0.0 ? widest.n : found.n;
+  const auto nearest = nearestOnFeatures(p.a, p.b, p.pose, n, widest.gap,
+                                         found.simplex.weighted(&Corner::onA), angle, p.rounding);
+  if (!nearest || !(nearest->gap > 0.0)) return result;
+  result = inWorld(p, nearest->n, nearest->onA, nearest->toB);
+  result.status = DistanceStatus::exact;
+  result.distance = nearest->gap - p.margins();
+  result.lower = result.distance - p.certificate;
+  result.upper = std::max(nearest->toB.norm(), nearest->gap) - p.margins() + p.certificate;
   return result;
 }
 
@@ -168,6 +215,14 @@ Distance overlapping(const Pair& p, const Gjk& found) {
   epa.run();
   epa.offer(onA, toB);  // the answer's where cores cross without a volume in common, as two segments do
   if (epa.off() > p.rounding) offerAround(p, epa);
+  if (p.curved() || epa.off() > p.rounding || !(epa.bound - epa.gap <= p.rounding)) {
+    const auto deepest = nearestOnFeatures(p.a, p.b, p.pose, epa.n, epa.gap, epa.onA, kWidest, p.rounding);
+    if (deepest) {
+      epa.n = deepest->n;
+      epa.gap = deepest->gap;
+      epa.onA = deepest->onA;
+    }
+  }
   Distance result = inWorld(p, epa.n, epa.onA, epa.gap * epa.n);
   const double upper = std::max(epa.bound, epa.gap);
   result.status = upper - epa.gap <= p.rounding ? DistanceStatus::exact : DistanceStatus::bounded;
@@ -199,9 +254,14 @@ Distance besidePlane(const Pair& p) {
 Distance solve(const Pair& p) {
   if (!p.valid) return {};
   if (p.a.unbounded()) return besidePlane(p);
-  const Gjk found = searchToTheEnd(p);
-  const Distance apart = separated(p, found);
-  return apart.status == DistanceStatus::invalid ? overlapping(p, found) : apart;
+  Gjk found = p.search([&](double lower, double upper) { return p.curved() && isNear(p, lower, upper); });
+  Distance result = separated(p, found);
+  if (result.status == DistanceStatus::bounded && p.curved()) {
+    for (Corner& corner : found.simplex.corner) corner.gap = -std::numeric_limits<double>::infinity();
+    found = searchToTheEnd(p, found.simplex);  // seen along new normals
+    result = separated(p, found);
+  }
+  return result.status == DistanceStatus::invalid ? overlapping(p, found) : result;
 }
 
 bool isFarther(double x, const Pair& p) {
@@ -212,7 +272,8 @@ bool isFarther(double x, const Pair& p) {
       p.search([&](double lower, double upper) { return lower > core + p.certificate || upper <= core; });
   if (found.lower > core + p.certificate) return true;  // along whatever normal, apart or not
   if (found.verdict != Gjk::Verdict::overlap && found.upper <= core) return false;
-  if (lastGap(p, found) > core + p.certificate) return true;
+  const Distance answer = separated(p, found);
+  if (answer.status != DistanceStatus::invalid) return answer.lower > x;
   return core < 0.0 && overlapping(p, found).lower > x;
 }
 

@@ -120,12 +120,36 @@ TEST_CASE("the Hessian through the drop-in is the change of its gradient, for sh
   }
 }
 
-TEST_CASE("there is no Hessian of two plain shapes, of no answer, and of an element that is not there") {
+TEST_CASE("without an STP-BV the Hessian is the change of the gradient, too: shapes, triangles, cells") {
+  std::vector<Geometry> bodies{std::make_shared<fcl::Boxd>(0.3, 0.2, 0.4),
+                               std::make_shared<fcl::Ellipsoidd>(0.1, 0.2, 0.3),
+                               std::make_shared<fcl::Coned>(0.1, 0.3), bumpyGround<fcl::OBBRSSd>(4, 0.1)};
+#if FCL_HAVE_OCTOMAP
+  bodies.push_back(cells());
+#endif
+  Random random(8);
+  Compared all;
+  for (const Geometry& first : bodies)
+    for (const Geometry& second : bodies)
+      for (int i = 0; i < 12; ++i) {
+        const Isometry3d poseA = pose(random.rotation(), 0.5 * random.direction()),
+                         poseB = pose(random.rotation(), poseA.translation() + 1.5 * random.direction());
+        if (distance(*first, poseA, *second, poseB).distance > 0.05)
+          compare(*first, poseA, *second, poseB, all);
+      }
+  CHECK(all.worst < 1e-7);
+  CHECK(all.poses >= 200);
+  CHECK(all.none == 0);
+}
+
+TEST_CASE("there is no Hessian of parallel faces, of meshes that overlap, of no answer, and of no element") {
   const Geometry body = link(0.02, 2), ground = bumpyGround<fcl::OBBRSSd>(8, 0.1),
-                 ball = std::make_shared<fcl::Sphered>(0.1);
+                 ball = std::make_shared<fcl::Sphered>(0.1),
+                 crate = std::make_shared<fcl::Boxd>(0.1, 0.1, 0.1);
   const Isometry3d at = Isometry3d::Identity(), above = pose(Eigen::Matrix3d::Identity(), {0, 0, 1});
   DistanceHessian h;
-  CHECK_FALSE(hessian(*ball, at, *ball, above, distance(*ball, at, *ball, above), h));
+  CHECK_FALSE(hessian(*crate, at, *crate, above, distance(*crate, at, *crate, above), h));
+  CHECK_FALSE(hessian(*ground, at, *ground, at, distance(*ground, at, *ground, at), h));
   CHECK_FALSE(hessian(*body, at, *ball, above, DistanceAnswer{}, h));
   DistanceAnswer d = distance(*body, above, *ground, at);
   CHECK(hessian(*body, above, *ground, at, d, h));

@@ -139,7 +139,6 @@ TEST_CASE("two shapes without an STP-BV are measured exactly while they are apar
       std::make_shared<fcl::Boxd>(0.3, 0.2, 0.1), std::make_shared<fcl::Cylinderd>(0.2, 0.3),
       std::make_shared<fcl::Coned>(0.2, 0.3),     std::make_shared<fcl::Ellipsoidd>(0.1, 0.2, 0.3)};
   Random random(9);
-  int exact = 0, bounded = 0;
   for (const auto& shape : shapes)
     for (int i = 0; i < 300; ++i) {
       CAPTURE(static_cast<int>(shape->getNodeType()), i);
@@ -150,11 +149,11 @@ TEST_CASE("two shapes without an STP-BV are measured exactly while they are apar
       CHECK(std::abs(d.distance - truth.distance) <= 1e-12);
       CHECK(d.lower <= truth.distance + 1e-14);
       CHECK(d.upper >= truth.distance - 1e-14);
-      CHECK((d.normal - truth.normal).norm() <= 1e-6);
+      // The ball's path has a margin of 0.1 m; without one the normal is rounding over the distance.
+      CHECK((d.normal - truth.normal).norm() <= 1e-13);
       CHECK_FALSE(d.continuous);
-      ++(d.status == DistanceStatus::exact ? exact : bounded);
+      CHECK(d.status == DistanceStatus::exact);
     }
-  CHECK(bounded <= exact / 100);
   const fcl::Boxd first(0.2, 0.3, 0.4), second(0.4, 0.1, 0.2);
   for (int i = 0; i < 300; ++i) {
     const Isometry3d a = pose(random.rotation(), random.direction());

@@ -146,6 +146,41 @@ TEST_CASE("deep in an STP-BV both witness points are on their bodies and opposit
   REQUIRE(deep > 1000);
 }
 
+TEST_CASE(
+    "two shapes deep in each other: the normal is the top of its hill, the points are on their bodies") {
+  Random random(12);
+  int deep = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const TestShape a = randomShape(anyBounded(random), random), b = randomShape(anyBounded(random), random);
+    const Isometry3d base = pose(random.rotation(), random.direction()),
+                     at = base * pose(random.rotation(), random.uniform(0, 0.2) * random.direction());
+    const Distance d = distance(a.shape, base, b.shape, at);
+    if (!(d.distance < -(a.shape.margin + b.shape.margin))) continue;
+    ++deep;
+    CAPTURE(i, a.name, b.name, d.distance);
+    const ReferenceShape ra = a.posed(base), rb = b.posed(at);
+    const double top = hilltop([&](const Vector3L& n) { return referenceGap(ra, rb, n); }, d.normal);
+    CHECK(top - d.distance <= 2e-14);
+    for (const int side : {0, 1}) {
+      const ReferenceShape& body = side == 0 ? ra : rb;
+      const Vector3L n = (side == 0 ? 1 : -1) * d.normal.cast<long double>(),
+                     x = d.point[static_cast<std::size_t>(side)].cast<long double>();
+      const auto beyond = [&](const Vector3L& m) -> long double {
+        return m.dot(x - body.support(m)) - body.margin;
+      };
+      CHECK(std::abs(static_cast<double>(beyond(n))) <= 1e-14);  // in the supporting plane
+      const Vector3L e = n.unitOrthogonal(), f = n.cross(e);
+      for (const long double tilt : {1.0L, 1e-1L, 1e-2L, 1e-4L, 1e-6L})  // and not outside
+        for (int k = 0; k < 8; ++k) {
+          const long double angle = 0.785398163397448L * k;
+          const Vector3L m = (n + tilt * (std::cos(angle) * e + std::sin(angle) * f)).normalized();
+          CHECK(beyond(m) <= 1e-14L);
+        }
+    }
+  }
+  CHECK(deep > 1000);
+}
+
 TEST_CASE("bodies of revolution on nearly parallel axes: both witness points are on their bodies") {
   // The supporting faces are generators and discs: of their many points EPA sees a few.
   const std::vector<std::string> names{"cylinder", "cone", "capsule", "ellipsoid"};
