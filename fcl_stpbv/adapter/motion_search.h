@@ -21,7 +21,9 @@ namespace fcl_stpbv::detail {
 template <class Scene>
 class MotionSearch {
  public:
-  MotionSearch(Scene& scene, const MotionRequest& request) : scene_(scene), request_(request) {}
+  MotionSearch(Scene& scene, const MotionRequest& request) : scene_(scene), request_(request) {
+    if (!(request_.tolerance >= kFinest)) request_.tolerance = kFinest;
+  }
 
   MotionBracket run(int pairs) {
     result_ = {};
@@ -103,7 +105,7 @@ class MotionSearch {
   }
 
   Scene& scene_;
-  const MotionRequest request_;
+  MotionRequest request_;
   MotionBracket result_;
   double hit_ = 0;  // a contact, the earliest known
   int hitPair_ = -1;

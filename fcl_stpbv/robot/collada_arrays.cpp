@@ -244,6 +244,15 @@ std::size_t countNumbers(const XMLElement& element, const std::string& name) {
   return countWords(element, isMeshNumber, std::string("a finite number, ") + kNumberForm, name);
 }
 
+std::vector<double> numbersOf(const XMLElement& element, const std::string& name) {
+  std::vector<double> numbers(countNumbers(element, name));
+  std::string_view rest;
+  for (const tinyxml2::XMLNode* node = element.FirstChild(); node != nullptr; node = node->NextSibling())
+    if (const tinyxml2::XMLText* text = node->ToText()) rest = text->Value();
+  for (double& number : numbers) readMeshNumber(takeWord(rest), number);
+  return numbers;
+}
+
 void checkColladaGeometries(const XMLElement& root, const std::string& name) {
   ColladaArrays arrays(name);
   for (const XMLElement* library = root.FirstChildElement("library_geometries"); library != nullptr;

@@ -5,6 +5,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace fcl_stpbv::detail {
 
@@ -19,6 +20,9 @@ std::string colladaTarget(const tinyxml2::XMLElement& element, const char* attri
 /// How many numbers the element's text has. @throws Error where one is no finite number, or where a comment
 /// or another element divides the text: assimp reads its first part only.
 std::size_t countNumbers(const tinyxml2::XMLElement& element, const std::string& name);
+
+/// These numbers themselves.
+std::vector<double> numbersOf(const tinyxml2::XMLElement& element, const std::string& name);
 
 /// Checks the geometries of a document: each array holds what its readers take from it, positions have x, y
 /// and z, no index is below 0.

@@ -9,6 +9,7 @@
 
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/robot/collada_arrays.h"
+#include "fcl_stpbv/robot/collada_transforms.h"
 #include "fcl_stpbv/robot/mesh_lines.h"
 #include "fcl_stpbv/robot/xml_text.h"
 
@@ -106,21 +107,10 @@ class ColladaNodes {
   }
 
   void checkNode(const XMLElement& node) const {
-    static const std::map<std::string_view, std::size_t> kTransforms{
-        {"lookat", 9}, {"matrix", 16}, {"rotate", 4}, {"scale", 3}, {"translate", 3}};
     for (const XMLElement* e = node.FirstChildElement(); e != nullptr; e = e->NextSiblingElement()) {
       const std::string_view kind = e->Name();
-      const auto transform = kTransforms.find(kind);
-      if (transform != kTransforms.end()) {
-        const std::size_t numbers = countNumbers(*e, name_);
-        if (numbers != transform->second)
-          refuseCollada(
-              *e,
-              "has " + std::to_string(numbers) + " numbers, expected " + std::to_string(transform->second),
-              name_);
-      } else if (kind == "skew") {
-        throw Error(xmlPlace(*e, name_) + "<skew> is not read; export the node with a <matrix>");
-      } else if (kind == "node") {
+      checkColladaTransform(*e, name_);
+      if (kind == "node") {
         checkNode(*e);
       } else if (kind == "instance_node") {
         const std::string target = colladaTarget(*e, "url", name_);

@@ -42,6 +42,8 @@ CollisionConstraints::CollisionConstraints(std::shared_ptr<const Kinematics> kin
     pose_.push_back(obstacle.pose);
     centre_.push_back(obstacle.centre);
   }
+  for (const CheckedPair& pair : pairs_)
+    requireBodies(pair, *geometry_, options_.obstacles.size(), "CollisionConstraints");
   leaveOutReplaced();
   addWholePairs();
   for (const CheckedPair& pair : pairs_) addPair(pair);
@@ -76,7 +78,6 @@ void CollisionConstraints::leaveOutReplaced() {
 }
 
 void CollisionConstraints::addPair(const CheckedPair& pair) {
-  requireBodies(pair, *geometry_, options_.obstacles.size(), "CollisionConstraints");
   const Body& body = geometry_->bodies[at(pair.body)];
   const StpBvGeometry* first = asStpBv(body.geometry.get());
   const StpBvGeometry* other = asStpBv(&second(pair));
@@ -160,6 +161,7 @@ const fcl::CollisionGeometryd& CollisionConstraints::second(const CheckedPair& p
 }
 
 std::string CollisionConstraints::name(int row) const {
+  requireRow(row);
   if (at(row) >= pairs_.size()) return options_.smooth[at(row) - pairs_.size()].name;
   return nameOf(pairs_[at(row)], *geometry_, options_.obstacles);
 }
@@ -173,6 +175,8 @@ CollisionConstraints::SparseJacobian CollisionConstraints::makeJacobian() const 
 void CollisionConstraints::forget() { std::fill(caches_.begin(), caches_.end(), PairCache{}); }
 
 RowAnswer CollisionConstraints::answer(int row) const {
+  requireRow(row);
+  if (at(row) >= pairs_.size()) return {};
   const Row& r = rows_[at(row)];
   RowAnswer answer;
   DistanceAnswer& found = answer;
@@ -255,60 +259,6 @@ void CollisionConstraints::place(const ConstVector& q) {
     centre_[i] = state_.link[at(body.link)] * body.centre;
   }
   askWhole();
-}
-
-void CollisionConstraints::nothingKnown(double* d, double* values) {
-  std::fill(d, d + rows(), std::numeric_limits<double>::lowest());
-  if (values) std::fill(values, values + nonZeros(), 0.0);
-  for (Distance& found : found_) found = Distance{};
-  for (DistanceAnswer& answer : answers_) answer = DistanceAnswer{};
-}
-
-bool CollisionConstraints::compute(const ConstVector& q, double* d, double* values) {
-  const bool known = computePairs(q, d, values);
-  if (known) computeSmooth(q, d, values);
-  return known;
-}
-
-bool CollisionConstraints::computePairs(const ConstVector& q, double* d, double* values) {
-  if (!q.allFinite()) {
-    nothingKnown(d, values);
-    return false;
-  }
-  place(q);
-  moving_ = false;
-  for (std::size_t row = 0; row < pairs_.size(); ++row) d[row] = pairRow(row, values);
-  return true;
-}
-
-void CollisionConstraints::computeSmooth(const ConstVector& q, double* d, double* values) const {
-  for (std::size_t i = 0; i < options_.smooth.size(); ++i) {
-    const std::size_t row = pairs_.size() + i;
-    d[row] = options_.smooth[i].value(q, values ? values + rowStart_[row] : nullptr);
-  }
-}
-
-void CollisionConstraints::spread(Eigen::Ref<Eigen::MatrixXd> jacobian) const {
-  jacobian.setZero();
-  for (int row = 0; row < rows(); ++row)
-    for (int k = rowStart_[at(row)]; k < rowStart_[at(row) + 1]; ++k)
-      jacobian(row, column_[at(k)]) = values_[k];
-}
-
-bool CollisionConstraints::evaluate(const ConstVector& q, Vector d) { return compute(q, d.data(), nullptr); }
-
-bool CollisionConstraints::evaluateValues(const ConstVector& q, Vector d, Vector values) {
-  return compute(q, d.data(), values.data());
-}
-
-bool CollisionConstraints::evaluate(const ConstVector& q, Vector d, SparseJacobian& jacobian) {
-  return compute(q, d.data(), jacobian.valuePtr());
-}
-
-bool CollisionConstraints::evaluate(const ConstVector& q, Vector d, Eigen::Ref<Eigen::MatrixXd> jacobian) {
-  const bool known = compute(q, d.data(), values_.data());
-  spread(jacobian);
-  return known;
 }
 
 }  // namespace fcl_stpbv

@@ -85,8 +85,11 @@ class CollisionConstraints {
   /// The pairs of the first rows: without those that smooth constraints replace, with those of whole bodies
   /// that hand over to their parts.
   const std::vector<CheckedPair>& pairs() const { return pairs_; }
-  /// The two bodies of a row, or the smooth constraint's name.
+  /// The two bodies of a row, or the smooth constraint's name. @throws Error for a row that does not exist,
+  /// as all do that are asked for one, and as all below do for a q or a result of another size than theirs.
   std::string name(int row) const;
+  /// The most that a row's value can be: what it bends over to for `influence` or `handOver`, else infinite.
+  double largestValue(int row) const;
 
   /// The entries of J that may differ from 0, row by row, columns ascending.
   int nonZeros() const { return static_cast<int>(column_.size()); }
@@ -112,11 +115,11 @@ class CollisionConstraints {
 
   /// Room for one row's numbers each.
   RowRates makeRates() const;
-  /// d and J at q and how they change as q moves with the velocity qd. Closed form where one body is an
-  /// STP-BV (docs/robot.md), on a region boundary that of one side, for a mesh or a tree that of its nearest
-  /// triangle or cell; central differences for the drift of other pairs, smooth constraints and the few
-  /// answers that have no second derivative. A q or qd that is not finite, or a qd above 1e100, whose square
-  /// may overflow, gives what it gives above, and rates of 0.
+  /// d and J at q and how they change as q moves with the velocity qd. Closed form (docs/robot.md), on a
+  /// region boundary that of one side, for a mesh or a tree that of its nearest triangle or cell; central
+  /// differences for the drift of smooth constraints and of the few answers that have no second derivative. A
+  /// q or qd that is not finite, or a qd above 1e100, whose square may overflow, gives what it gives above,
+  /// and rates of 0.
   bool evaluateValues(const ConstVector& q, const ConstVector& qd, RowRates& rates, Vector values);
   /// The same with J in the structure of makeJacobian().
   bool evaluate(const ConstVector& q, const ConstVector& qd, RowRates& rates, SparseJacobian& jacobian);
@@ -126,7 +129,8 @@ class CollisionConstraints {
 
   /// Most that |dJ/dt| of a row may be at the last evaluate(q, qd), in the 2-norm, whatever the patches: from
   /// both bodies' r and R, their distance and their velocities (docs/control.md). Infinite without a
-  /// velocity, for bodies that are neither STP-BVs nor polyhedra, and where nothing bounds it.
+  /// velocity, for bodies that are neither STP-BVs nor polyhedra, for smooth constraints, and where nothing
+  /// bounds it.
   double gradientRateBound(int row) const;
 
   /// Sum over the rows of weight times (Hessian of d) times v: the change of J as q moves along v. Closed
@@ -143,7 +147,8 @@ class CollisionConstraints {
   /// The Hessian of one row, columns() x columns(), symmetric. Numbers that are not finite as above.
   bool hessian(const ConstVector& q, int row, Eigen::Ref<Eigen::MatrixXd> full);
 
-  /// What the last evaluation found for a pair; status `invalid` where its spheres were enough.
+  /// What the last evaluation found for a pair; status `invalid` where its spheres were enough, and for the
+  /// row of a smooth constraint, which has no points.
   RowAnswer answer(int row) const;
   /// Where the links were at the last evaluation.
   const Kinematics::State& state() const { return state_; }
@@ -185,6 +190,10 @@ class CollisionConstraints {
   void addPair(const CheckedPair& pair);
   void addSmooth(const SmoothConstraint& constraint);
   const fcl::CollisionGeometryd& second(const CheckedPair& pair) const;
+  void requireRow(int row) const;
+  void requireSizes(const ConstVector& q, Eigen::Index d, Eigen::Index values) const;
+  void requireSizes(const ConstVector& q, const ConstVector& qd, const RowRates& rates,
+                    Eigen::Index values) const;
   void place(const ConstVector& q);
   void askWhole();
   bool compute(const ConstVector& q, double* d, double* values);

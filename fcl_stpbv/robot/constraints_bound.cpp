@@ -38,6 +38,8 @@ bool roundnessOf(const fcl::CollisionGeometryd& geometry, Roundness& result) {
 }  // namespace
 
 double CollisionConstraints::gradientRateBound(int row) const {
+  requireRow(row);
+  if (at(row) >= pairs_.size()) return kInfinity;
   const Row& r = rows_[at(row)];
   const Witness w = known(at(row));
   if (w.status == DistanceStatus::invalid) return 0;

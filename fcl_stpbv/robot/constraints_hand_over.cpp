@@ -55,6 +55,13 @@ double CollisionConstraints::bend(std::size_t row, double d, double& slope, doub
   return bent.value;
 }
 
+double CollisionConstraints::largestValue(int row) const {
+  requireRow(row);
+  if (at(row) >= pairs_.size()) return std::numeric_limits<double>::infinity();
+  const Row& r = rows_[at(row)];
+  return r.group >= 0 && !r.whole ? (r.start + r.end) / 2 : (options_.exactUpTo + options_.influence) / 2;
+}
+
 // Puts a pair of whole bodies before the first of two or more pairs of their parts.
 void CollisionConstraints::addWholePairs() {
   groupOf_.assign(pairs_.size(), -1);

@@ -3,6 +3,7 @@
 // (docs/robot.md, Second derivatives). Rows without a closed form use central differences.
 #include <algorithm>
 
+#include "fcl_stpbv/error.h"
 #include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/robot/constraints.h"
 #include "fcl_stpbv/robot/twist.h"
@@ -72,6 +73,7 @@ bool CollisionConstraints::rateRow(std::size_t row, RowRates& rates, double* val
 
 bool CollisionConstraints::evaluateValues(const ConstVector& q, const ConstVector& qd, RowRates& rates,
                                           Vector values) {
+  requireSizes(q, qd, rates, values.size());
   if (!q.allFinite() || !isUsableVelocity(qd)) {
     nothingKnown(rates.d.data(), values.data());
     rates.speed.setZero();
@@ -190,6 +192,9 @@ void CollisionConstraints::differences(const ConstVector& q, const ConstVector& 
 
 bool CollisionConstraints::hessianVector(const ConstVector& q, const ConstVector& weights,
                                          const ConstVector& v, Vector out) {
+  requireSizes(q, weights.size(), nonZeros());
+  if (v.size() != columns() || out.size() != columns())
+    throw Error("CollisionConstraints: v and the result have one number for each coordinate");
   out.setZero();
   if (!q.allFinite() || !weights.allFinite() || !isUsableVelocity(v)) return false;
   place(q);

@@ -117,6 +117,7 @@ void CollisionConstraints::openHessians(const ConstVector& q, const Add& add) {
 }
 
 bool CollisionConstraints::hessian(const ConstVector& q, const ConstVector& weights, SparseHessian& lower) {
+  requireSizes(q, weights.size(), nonZeros());
   Eigen::Map<Eigen::VectorXd>(lower.valuePtr(), lower.nonZeros()).setZero();
   if (!q.allFinite() || !weights.allFinite()) return false;
   prepareHessian(q);
@@ -142,6 +143,8 @@ bool CollisionConstraints::hessian(const ConstVector& q, const ConstVector& weig
 }
 
 bool CollisionConstraints::hessian(const ConstVector& q, int row, Eigen::Ref<Eigen::MatrixXd> full) {
+  requireRow(row);
+  requireSizes(q, rows(), nonZeros());
   full.setZero();
   if (!q.allFinite()) return false;
   prepareHessian(q);

@@ -1,25 +1,20 @@
 // Reading of meshes by assimp, in a child process with limits (child_process.h):
-// 1. check the file's size and, for PLY and text formats, its contents;
+// 1. check the file's size and its contents, by its format (mesh_format.h);
 // 2. read all meshes with the transforms of their nodes;
 // 3. send vertices and triangles back to the parent as bytes.
 #include "fcl_stpbv/robot/mesh_file.h"
 
 #include <assimp/DefaultIOSystem.h>
-#include <assimp/commonMetaData.h>
 #include <assimp/config.h>
-#include <assimp/importerdesc.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
 #include <algorithm>
 #include <assimp/Importer.hpp>
-#include <cctype>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <optional>
 #include <set>
-#include <string_view>
 #include <unordered_map>
 #include <utility>
 
@@ -27,8 +22,7 @@
 #include "fcl_stpbv/io/text_scanner.h"
 #include "fcl_stpbv/io/volume_files.h"
 #include "fcl_stpbv/robot/child_process.h"
-#include "fcl_stpbv/robot/ply_check.h"
-#include "fcl_stpbv/robot/text_mesh_check.h"
+#include "fcl_stpbv/robot/mesh_format.h"
 
 namespace fcl_stpbv {
 namespace {
@@ -46,6 +40,19 @@ struct HashVector {
     return seed;
   }
 };
+
+// A body that has collapsed would count as a point and be told to be clear.
+void requireSize(const std::vector<Vector3d>& points, bool several, const std::string& path) {
+  constexpr double kLeast = 1e-9;  // an atom is a tenth of it (m)
+  if (!several) return;
+  Vector3d low = points[0], high = points[0];
+  for (const Vector3d& p : points) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  if ((high - low).maxCoeff() < kLeast)
+    throw Error(path + ": is smaller than 1e-9 m along each axis; give it the right unit or scale");
+}
 
 // Gathers triangles, each distinct point once.
 class Gatherer {
@@ -73,13 +80,18 @@ class Gatherer {
     }
   }
 
-  TriangleMesh take() { return std::move(mesh_); }
+  TriangleMesh take() {
+    requireSize(mesh_.vertices, several_, path_);
+    return std::move(mesh_);
+  }
 
  private:
   int add(Vector3d point) {
     if (!point.allFinite()) {
       throw Error(path_ + ": a vertex has a coordinate that is not a finite number; export the mesh again");
     }
+    if (!first_) first_ = point;
+    several_ = several_ || point != *first_;
     // Adding zero makes -0 a 0, so that both have one hash.
     point = point.cwiseProduct(scale_) + Vector3d::Zero();
     const auto [place, isNew] = index_.try_emplace(point, static_cast<int>(mesh_.vertices.size()));
@@ -90,6 +102,8 @@ class Gatherer {
   const std::string& path_;
   Vector3d scale_;
   TriangleMesh mesh_;
+  std::optional<Vector3d> first_;
+  bool several_ = false;  // distinct points before they are scaled
   std::unordered_map<Vector3d, int, HashVector> index_;
 };
 
@@ -103,21 +117,6 @@ void checkReadable(const std::string& path, const Vector3d& scale) {
   if (path != "-" && !std::filesystem::exists(path, ignored)) throw Error(path + ": no such file");
   if (!std::filesystem::is_regular_file(path, ignored))
     throw Error(path + ": is a pipe or a device, expected a file");
-}
-
-std::string lowerExtension(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
-}
-
-// By its name or its content, as assimp decides.
-bool isPly(const std::string& path) {
-  if (lowerExtension(path) == ".ply") return true;
-  char magic[3] = {};
-  std::ifstream in(path, std::ios::binary);
-  return in.read(magic, sizeof magic) && std::string_view(magic, sizeof magic) == "ply";
 }
 
 // assimp's readers let faces without vertices and with wrong ones through, and its triangulation ends the
@@ -148,13 +147,25 @@ class Files : public Assimp::DefaultIOSystem {
     return std::filesystem::is_regular_file(path, ignored) && (path == mesh_ || isPart(path));
   }
   Assimp::IOStream* Open(const char* path, const char* mode) override {
-    std::error_code ignored;
     if (!Exists(path)) return nullptr;
-    if (seen_.insert(path).second) limits_.allow(std::filesystem::file_size(path, ignored));
+    allow(path);
     return DefaultIOSystem::Open(path, mode);
   }
 
+  /// A file that the mesh names, where assimp looks for it.
+  std::optional<std::string> part(const std::string& name) {
+    const std::string folder = mesh_.substr(0, mesh_.rfind('/') + 1);
+    if (!Exists((folder + name).c_str())) return std::nullopt;
+    allow(folder + name);
+    return readText(folder + name);
+  }
+
  private:
+  void allow(const std::string& path) {
+    std::error_code ignored;
+    if (seen_.insert(path).second) limits_.allow(std::filesystem::file_size(path, ignored));
+  }
+
   bool isPart(const std::string& path) const {
     namespace fs = std::filesystem;
     if (lowerExtension(mesh_) != ".gltf") return false;
@@ -174,31 +185,18 @@ class Files : public Assimp::DefaultIOSystem {
   std::set<std::string> seen_;
 };
 
-// The ending for the format that assimp has read a file as: that of the file's name, if it knows that one.
-std::string endingOf(const aiScene& scene, const Assimp::Importer& importer) {
-  aiString format;
-  if (scene.mMetaData == nullptr || !scene.mMetaData->Get(AI_METADATA_SOURCE_FORMAT, format)) return "";
-  for (std::size_t i = 0; i < importer.GetImporterCount(); ++i) {
-    const aiImporterDesc& reader = *importer.GetImporterInfo(i);
-    const std::string_view endings = reader.mFileExtensions;
-    if (std::string_view(reader.mName) == format.C_Str())
-      return "." + std::string(endings.substr(0, endings.find(' ')));
-  }
-  return "";
-}
-
-const aiScene& read(Assimp::Importer& importer, const std::string& path) {
-  const std::string text = readText(path), extension = lowerExtension(path);
-  if (isPly(path))
-    checkPly(text, path);
-  else
-    checkTextMesh(text, extension, path);
+const aiScene& read(Assimp::Importer& importer, Files& files, const std::string& path) {
+  const std::string text = readText(path), expected = expectedFormat(text, path);
+  const auto check = [&](const std::string& format) {
+    checkMeshFormat(text, format, path, [&files](const std::string& part) { return files.part(part); });
+  };
+  check(expected);
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
   // Without a mesh there is no body: assimp would draw the nodes as one.
   importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
   const aiScene* scene = importer.ReadFile(path, 0);
   if (scene != nullptr) {
-    if (!importer.IsExtensionSupported(extension)) checkTextMesh(text, endingOf(*scene, importer), path);
+    if (const std::string format = formatOf(*scene, importer); format != expected) check(format);
     checkFaces(*scene, path);
     scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
   }
@@ -227,8 +225,9 @@ namespace {
 /// assimp trusts what it reads: counts that fill the memory, loops, depths that overflow the stack.
 TriangleMesh readMesh(const std::string& path, const Vector3d& scale, ChildLimits& limits) {
   Assimp::Importer importer;
-  importer.SetIOHandler(new Files(path, limits));  // which deletes it
-  const aiScene& scene = read(importer, path);
+  auto* const files = new Files(path, limits);
+  importer.SetIOHandler(files);  // which deletes it
+  const aiScene& scene = read(importer, *files, path);
   Gatherer gatherer(path, scale);
   std::vector<std::pair<const aiNode*, aiMatrix4x4>> open{{scene.mRootNode, aiMatrix4x4()}};
   while (!open.empty()) {
@@ -267,7 +266,10 @@ TriangleMesh loadMesh(const std::string& path, const Vector3d& scale) {
   TriangleMesh mesh;
   if (const std::optional<std::string> text = qhullText(path)) {
     mesh.vertices = parseQhullPoints(*text, path);
+    const bool several = std::any_of(mesh.vertices.begin(), mesh.vertices.end(),
+                                     [&](const Vector3d& p) { return p != mesh.vertices[0]; });
     for (Vector3d& point : mesh.vertices) point = point.cwiseProduct(scale);
+    requireSize(mesh.vertices, several, path);
     return mesh;
   }
   const std::string bytes = inChildProcess(path, [&](ChildLimits& limits) {

@@ -59,6 +59,15 @@ bool isMeshIndex(std::string_view word) {
   return readMeshIndex(word, value);
 }
 
+void refuseNul(std::string_view text, const std::string& name) {
+  const std::size_t at = text.find('\0');
+  if (at == std::string_view::npos) return;
+  MeshLines lines(text, name);
+  while (lines.next() && text.size() - lines.rest().size() <= at) {
+  }
+  lines.damaged("a NUL byte in a text");
+}
+
 bool MeshLines::next() {
   if (rest_.empty()) return false;
   const std::size_t length = std::min(rest_.find_first_of("\r\n"), rest_.size());

@@ -26,6 +26,9 @@ constexpr const char* kNumberForm = "with a point for decimals and at most 18 di
 bool readMeshIndex(std::string_view word, long& value);
 bool isMeshIndex(std::string_view word);
 
+/// Refuses a text with a NUL byte, which readers take for its end. @throws Error "name:line: ..."
+void refuseNul(std::string_view text, const std::string& name);
+
 /// The lines of a text, each ended by a line feed, a carriage return or both.
 class MeshLines {
  public:

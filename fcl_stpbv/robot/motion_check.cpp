@@ -11,9 +11,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "fcl_stpbv/adapter/motion_search.h"
+#include "fcl_stpbv/error.h"
 #include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/robot/collision_checker.h"
 #include "fcl_stpbv/robot/motion_chains.h"
@@ -40,9 +40,8 @@ class MotionCheck::Impl {
         obstacles_(std::move(obstacles)),
         pairs_(std::move(pairs)),
         chains_(*kinematics_, *geometry_, obstacles_, pairs_),
-        caches_(pairs_.size()) {
-    if (!pairs_.empty()) checker_.emplace(kinematics_, geometry_, pairs_, obstacles_);
-  }
+        caches_(pairs_.size()),
+        checker_(kinematics_, geometry_, pairs_, obstacles_) {}
 
   const std::vector<CheckedPair>& pairs() const { return pairs_; }
   const Kinematics& kinematics() const { return *kinematics_; }
@@ -68,8 +67,8 @@ class MotionCheck::Impl {
   std::vector<Obstacle> obstacles_;
   std::vector<CheckedPair> pairs_;
   MotionChains chains_;
-  std::vector<PairCache> caches_;            // of each pair
-  std::optional<CollisionChecker> checker_;  // of single configurations; none where there are no pairs
+  std::vector<PairCache> caches_;  // of each pair
+  CollisionChecker checker_;       // of single configurations
 };
 
 /// For the first contact: farther than a margin that does not change.
@@ -181,9 +180,8 @@ Cover MotionCheck::Impl::cover(int pair, const Distance& found, double margin, d
 
 bool MotionCheck::Impl::isFree(const ConstVector& q, double margin) {
   if (!chains_.set(q, q) || std::isnan(margin)) return false;
-  if (!checker_) return true;
-  if (margin != checker_->margin()) checker_->setMargin(margin);
-  return !checker_->collides(q);
+  if (margin != checker_.margin()) checker_.setMargin(margin);
+  return !checker_.collides(q);
 }
 
 MotionBracket MotionCheck::Impl::firstContact(const ConstVector& q0, const ConstVector& q1,
@@ -205,6 +203,8 @@ bool MotionCheck::Impl::closest(const ConstVector& q0, const ConstVector& q1, do
 }
 
 DistanceAnswer MotionCheck::Impl::answer(int pair, const ConstVector& q) {
+  if (pair < 0 || at(pair) >= pairs_.size())
+    throw Error("MotionCheck: there is no pair " + std::to_string(pair));
   if (!chains_.set(q, q)) return {};
   chains_.place(0);
   return askFcl(pair);

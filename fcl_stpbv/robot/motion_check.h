@@ -30,7 +30,8 @@ class MotionCheck {
  public:
   using ConstVector = Eigen::Ref<const Eigen::VectorXd>;  ///< a configuration
 
-  /// @throws Error for a pair that names a body or an obstacle that does not exist.
+  /// @throws Error for no pairs, since nothing checked is not free, and for a pair that names a body or an
+  /// obstacle that does not exist.
   MotionCheck(std::shared_ptr<const Kinematics> kinematics, std::shared_ptr<const RobotGeometry> geometry,
               std::vector<CheckedPair> pairs, std::vector<Obstacle> obstacles = {});
   /// Takes over all that the other one has; the other one may only be destroyed.
@@ -60,7 +61,7 @@ class MotionCheck {
   bool closest(const ConstVector& q0, const ConstVector& q1, double precision, double offset,
                std::vector<Approach>& best);
 
-  /// Distance of a pair at q, with points and normal (world).
+  /// Distance of a pair at q, with points and normal (world). @throws Error for a pair that does not exist.
   DistanceAnswer answer(int pair, const ConstVector& q);
 
  private:

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 
+#include "fcl_stpbv/error.h"
 #include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/robot/body_points.h"
 #include "fcl_stpbv/robot/joint_path.h"
@@ -36,10 +37,27 @@ using Eigen::Vector3d;
 
 constexpr double kEps = std::numeric_limits<double>::epsilon();
 
+void requirePair(const ProofScene& scene, const LinkPair& pair) {
+  const auto hasBody = [&](int link) {
+    return std::any_of(scene.geometry->bodies.begin(), scene.geometry->bodies.end(),
+                       [&](const Body& body) { return body.link == link; });
+  };
+  const bool obstacle = pair.link2 >= 0 && static_cast<std::size_t>(pair.link2) < scene.obstacles.size();
+  if (!hasBody(pair.link1) || !(pair.obstacle ? obstacle : hasBody(pair.link2)))
+    throw Error("a proof needs two links that have bodies, or a link and an obstacle");
+}
+
 PairSearch searchOf(const ProofScene& scene, const LinkPair& pair) {
+  requirePair(scene, pair);
   if (pair.obstacle)
     return PairSearch(scene.kinematics, scene.geometry, pair.link1, scene.obstacles[at(pair.link2)]);
   return PairSearch(scene.kinematics, scene.geometry, pair.link1, pair.link2);
+}
+
+void requireSize(const JointBox& box, Index coordinates) {
+  if (box.lower.size() != coordinates || box.upper.size() != coordinates)
+    throw Error("a proof's boxes need a lower and an upper limit of each of the pair's " +
+                std::to_string(coordinates) + " coordinates");
 }
 
 bool bounded(const JointBox& box) { return box.lower.allFinite() && box.upper.allFinite(); }
@@ -71,6 +89,7 @@ class Prover {
                                                    static_cast<Index>(search_.lipschitz().size()));
   }
 
+  Index coordinates() const { return static_cast<Index>(search_.coordinates().size()); }
   const Eigen::VectorXd& middle() const { return q_; }
   int widest() const { return widest_; }
 
@@ -231,6 +250,7 @@ PairProof provePair(const ProofScene& scene, const LinkPair& pair, std::vector<J
   proof.open = std::move(boxes);
   if (!std::all_of(proof.open.begin(), proof.open.end(), bounded)) return proof;
   Prover prover(scene, pair);
+  for (const JointBox& box : proof.open) requireSize(box, prover.coordinates());
   while (!proof.open.empty() && proof.boxes < maxBoxes) {
     JointBox box = std::move(proof.open.back());
     proof.open.pop_back();
@@ -256,7 +276,9 @@ PairProof provePair(const ProofScene& scene, const LinkPair& pair, std::vector<J
 }
 
 double distanceBound(const ProofScene& scene, const LinkPair& pair, const JointBox& box) {
-  return bounded(box) ? Prover(scene, pair).lowerBound(box) : -kInfinity;
+  Prover prover(scene, pair);
+  requireSize(box, prover.coordinates());
+  return bounded(box) ? prover.lowerBound(box) : -kInfinity;
 }
 
 PairProof merge(PairProof one, PairProof other) {

@@ -49,7 +49,9 @@ struct PairProof {
   bool proven() const { return open.empty() && !collision; }
 };
 
-/// The coordinates that a pair's distance depends on, as indices into q, ascending.
+/// The coordinates that a pair's distance depends on, as indices into q, ascending. @throws Error, as all
+/// below do, for a link without bodies or a link or an obstacle that does not exist, and for a box of other
+/// coordinates.
 std::vector<int> proofCoordinates(const ProofScene& scene, const LinkPair& pair);
 
 /// The proof before its first step: one box of all the coordinates' limits.

@@ -231,6 +231,7 @@ void checkPly(std::string_view text, const std::string& name) {
   const Header header = readHeader(lines);
   checkNames(header, name);
   if (header.encoding == Encoding::text) {
+    refuseNul(text, name);
     PlyLines body(lines);
     for (const Element& element : header.elements) body.pass(element);
   } else {

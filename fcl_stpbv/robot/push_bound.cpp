@@ -192,7 +192,8 @@ double PushBound::mostAtCorners(std::size_t i, std::size_t m, int tries) {
 }
 
 // What is saved where one coordinate moves several joints: their linear parts then add up with their signs,
-// once sin(t) is taken as t with an error of at most half - sin(half).
+// once sin(t) is taken as t with an error of at most half - sin(half), which grows with half: past a quarter
+// turn, too, where the most that sin(t) itself can be is 1.
 double PushBound::together(const Vector3d& n, const BodySide& side, const Vector3d& x) const {
   const std::size_t m = side.joints.size();
   double saved = 0;
@@ -209,7 +210,7 @@ double PushBound::together(const Vector3d& n, const BodySide& side, const Vector
       const double along = o.joint.slides ? n.dot(o.joint.axis) : turned_[l].dot(x - o.joint.origin);
       slope += o.outwardRate * along;
       apart += (o.joint.slides ? o.joint.half : o.sine) * std::abs(along);
-      if (!o.joint.slides) bend += (o.joint.half - o.sine) * std::abs(along);
+      if (!o.joint.slides) bend += (o.joint.half - std::sin(o.joint.half)) * std::abs(along);
     }
     const OutwardJoint& o = side.joints[i];
     const double half = o.joint.rate == 0 ? 0 : o.joint.half / std::abs(o.joint.rate);

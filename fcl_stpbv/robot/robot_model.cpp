@@ -199,8 +199,10 @@ void setMimic(const Mimic& end, int joint, RobotModel& robot) {
 int turnsOf(double ratio) {
   constexpr int kMostTurns = 64;
   constexpr double kOff = 1e-5;  // what decimals such as 0.333333 are off by
-  for (int turns = 1; turns <= kMostTurns; ++turns)
-    if (std::abs(turns * ratio - std::round(turns * ratio)) <= kOff) return turns;
+  for (int turns = 1; turns <= kMostTurns; ++turns) {
+    const double whole = std::round(turns * ratio);
+    if (whole != 0 && std::abs(turns * ratio - whole) <= kOff) return turns;
+  }
   return 0;
 }
 

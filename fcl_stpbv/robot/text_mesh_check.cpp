@@ -59,10 +59,16 @@ bool looksLikeNumber(std::string_view word) {
          start == "inf";
 }
 
+// assimp's buffer for a number holds this many characters, and the rest becomes the next number.
+constexpr std::size_t kLongestNumber = 4095;
+
 // assimp counts the numbers of a vertex to the line's end, and passes over one with another count.
 void checkObjVertex(std::string_view line, const MeshLines& lines) {
   const std::size_t end = std::min(line.find('#'), line.size());
   const MeshWords words = wordsOf(line.substr(0, end));
+  if (std::any_of(words.begin(), words.end(), [](std::string_view w) { return w.size() >= kLongestNumber; }))
+    lines.refuse("a number of " + std::to_string(kLongestNumber) +
+                 " characters or more is not read; write it with fewer digits");
   checkCoordinates(words, lines);
   const std::size_t numbers = words.size() - 1;
   if (numbers == 5 || numbers > 6)
@@ -87,10 +93,38 @@ long vertexOf(std::string_view word, const MeshLines& lines) {
   return index;
 }
 
+/// Which lines for textures and normals assimp has met so far. While it knows normals only, it takes the
+/// second number of "7/1/3" for a normal, and drops the rest of the face over the third.
+class ObjReferences {
+ public:
+  void note(std::string_view line) {
+    textures_ = textures_ || beginsWith(line, "vt");
+    normals_ = normals_ || beginsWith(line, "vn");
+  }
+
+  void check(std::string_view word, const MeshLines& lines) const {
+    const std::size_t first = word.find('/');
+    if (first == std::string_view::npos) return;
+    const std::size_t second = word.find('/', first + 1);
+    if (second == std::string_view::npos) return;
+    if (word.find('/', second + 1) != std::string_view::npos)
+      lines.damaged("a vertex of a face has more than two slashes, expected such as 7/1/3");
+    if (second > first + 1 && second + 1 < word.size() && normals_ && !textures_)
+      lines.refuse("'" + std::string(word.substr(0, kLongestQuoted)) +
+                   "' names a texture coordinate, but no line before it begins with 'vt'; write it with two "
+                   "slashes in a row, or move the lines 'vt' to the file's start");
+  }
+
+ private:
+  static constexpr std::size_t kLongestQuoted = 40;
+  bool textures_ = false, normals_ = false;
+};
+
 void checkObj(std::string_view text, const std::string& name) {
   MeshLines lines(text, name);
   std::string joined;
   std::string_view line;
+  ObjReferences references;
   long vertices = 0, furthest = 0;
   int where = 0;
   while (nextObjLine(lines, joined, line)) {
@@ -103,6 +137,9 @@ void checkObj(std::string_view text, const std::string& name) {
       lines.refuse("a line with blanks before '" + std::string(keyword) + "' is not read; remove them");
     if ((face || keyword == "l" || keyword == "p") && line.find('#') != std::string_view::npos)
       lines.refuse("a comment after vertices is taken for one of them; give it a line of its own");
+    references.note(line);
+    if (face || keyword == "l" || keyword == "p")
+      for (std::size_t i = 1; i < words.size(); ++i) references.check(words[i], lines);
     if (vertex) {
       checkObjVertex(line, lines);
       ++vertices;
@@ -202,10 +239,13 @@ class StlLines {
 }  // namespace
 
 void checkTextMesh(std::string_view text, const std::string& extension, const std::string& name) {
-  if (extension == ".obj") checkObj(text, name);
-  if (extension == ".stl" && !isBinaryStl(text)) StlLines(text, name).check();
-  if (extension == ".off") checkOff(text, name);
-  if (extension == ".dae") checkCollada(text, name);
+  const bool obj = extension == ".obj", off = extension == ".off", dae = extension == ".dae";
+  const bool stl = extension == ".stl" && !isBinaryStl(text);
+  if (obj || off || dae || stl) refuseNul(text, name);
+  if (obj) checkObj(text, name);
+  if (stl) StlLines(text, name).check();
+  if (off) checkOff(text, name);
+  if (dae) checkCollada(text, name);
 }
 
 }  // namespace fcl_stpbv::detail

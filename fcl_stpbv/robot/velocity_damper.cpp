@@ -47,6 +47,12 @@ VelocityDamper::VelocityDamper(CollisionConstraints& constraints, DamperOptions 
     check(damper);
     dampers_[at(row)] = damper;
   }
+  for (int row = 0; row < constraints.rows(); ++row)
+    if (dampers_[at(row)].influence > constraints.largestValue(row))
+      throw Error("VelocityDamper: influence " + std::to_string(dampers_[at(row)].influence) + " m of row " +
+                  std::to_string(row) + " is beyond the most that its value can be, " +
+                  std::to_string(constraints.largestValue(row)) +
+                  " m; give the constraints a larger influence or hand-over");
   near_.reserve(at(constraints.rows()));
 }
 
@@ -74,13 +80,19 @@ double VelocityDamper::bound(int row) const {
 
 void VelocityDamper::update(const Eigen::Ref<const Eigen::VectorXd>& q,
                             const Eigen::Ref<const Eigen::VectorXd>& qd) {
+  bool known;
   if (options_.level == DamperLevel::velocity) {
-    constraints_.evaluate(q, rates_.d, jacobian_);
+    known = constraints_.evaluate(q, rates_.d, jacobian_);
     rates_.speed.noalias() = jacobian_ * qd;
   } else {
-    constraints_.evaluate(q, qd, rates_, jacobian_);
+    known = constraints_.evaluate(q, qd, rates_, jacobian_);
   }
   near_.clear();
+  if (!known) {  // no row can be met, and none has entered
+    b_.setConstant(std::numeric_limits<double>::infinity());
+    for (int row = 0; row < constraints_.rows(); ++row) near_.push_back(row);
+    return;
+  }
   for (int row = 0; row < constraints_.rows(); ++row) {
     const bool inside = rates_.d[row] < dampers_[at(row)].influence;
     if (inside && !inside_[at(row)]) enter(row);

@@ -41,10 +41,12 @@ struct DamperOptions {
 /// beyond their influence have b = -infinity. No allocation in update().
 class VelocityDamper {
  public:
-  /// Keeps a reference to the constraints. @throws Error for lengths, speeds or rows that make no sense.
+  /// Keeps a reference to the constraints. @throws Error for lengths, speeds or rows that make no sense, and
+  /// for an influence beyond the largest value of its row, at which that row would act at any distance.
   VelocityDamper(CollisionConstraints& constraints, DamperOptions options);
 
-  /// Rows at q, while q moves with velocity qd.
+  /// Rows at q, while q moves with velocity qd. Of a q that is not finite nothing is known: all rows are
+  /// near, with A = 0 and b = infinity, which no x meets.
   void update(const Eigen::Ref<const Eigen::VectorXd>& q, const Eigen::Ref<const Eigen::VectorXd>& qd);
 
   /// The rows' left side, rows() x columns() of the constraints.

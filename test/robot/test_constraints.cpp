@@ -3,7 +3,9 @@
 #include <fcl/geometry/shape/sphere.h>
 
 #include <catch2/catch.hpp>
+#include <limits>
 
+#include "fcl_stpbv/error.h"
 #include "fcl_stpbv/robot/constraints.h"
 #include "test/reference/robots.h"
 #include "test/reference/shapes.h"
@@ -128,5 +130,43 @@ TEST_CASE("a smooth constraint takes the place of the pairs it replaces") {
   CollisionConstraints constraints(p.kinematics, p.geometry, p.pairs, options);
   CHECK(constraints.rows() == static_cast<int>(p.pairs.size()));  // one left, one came
   CHECK(constraints.name(constraints.rows() - 1) == "left shoulder");
+  CHECK(constraints.answer(constraints.rows() - 1).status == DistanceStatus::invalid);
+  CHECK(constraints.gradientRateBound(constraints.rows() - 1) == std::numeric_limits<double>::infinity());
   CHECK(worstError(constraints, *p.kinematics, 20) < kDifference);
+}
+
+TEST_CASE("rows that do not exist and numbers of another size are refused") {
+  const Problem p = problem(robots()[0]);
+  CollisionConstraints c(p.kinematics, p.geometry, p.pairs);
+  Eigen::VectorXd q = p.kinematics->neutral(), d(c.rows()), values(c.nonZeros()), v(q.size()), out(q.size());
+  const Eigen::VectorXd more = Eigen::VectorXd::Zero(q.size() + 1), less = more.head(q.size() - 1);
+  Eigen::VectorXd few(c.rows() - 1), fewValues(c.nonZeros() - 1);
+  Eigen::MatrixXd wide(c.rows(), c.columns() + 1), full(c.columns(), c.columns());
+  RowRates rates = c.makeRates(), short1 = rates;
+  short1.drift = few;
+  v.setOnes();
+  for (const Eigen::VectorXd& wrong : {more, less}) {
+    CHECK_THROWS_AS(c.evaluate(wrong, d), Error);
+    CHECK_THROWS_AS(c.evaluateValues(q, wrong, rates, values), Error);
+    CHECK_THROWS_AS(c.hessianVector(q, d, wrong, out), Error);
+  }
+  CHECK_THROWS_AS(c.evaluate(q, few), Error);
+  CHECK_THROWS_AS(c.evaluate(q, d, wide), Error);
+  CHECK_THROWS_AS(c.evaluateValues(q, d, fewValues), Error);
+  CHECK_THROWS_AS(c.evaluateValues(q, v, short1, values), Error);
+  CHECK_THROWS_AS(c.hessianVector(q, few, v, out), Error);
+  auto lower = c.makeHessian();
+  CHECK_THROWS_AS(c.hessian(q, few, lower), Error);
+  for (const int row : {-1, c.rows()}) {
+    CHECK_THROWS_AS(c.name(row), Error);
+    CHECK_THROWS_AS(c.answer(row), Error);
+    CHECK_THROWS_AS(c.gradientRateBound(row), Error);
+    CHECK_THROWS_AS(c.hessian(q, row, full), Error);
+  }
+  ConstraintOptions replacing;
+  replacing.smooth.push_back({"left shoulder",
+                              {2},
+                              [](const Eigen::Ref<const Eigen::VectorXd>&, double*) { return 1.0; },
+                              {{"LARM_LINK2", "CHEST_LINK1"}}});
+  CHECK_THROWS_AS(CollisionConstraints(p.kinematics, p.geometry, {{0, 999, false}}, replacing), Error);
 }

@@ -125,6 +125,20 @@ TEST_CASE("COLLADA numbers that are none, or that assimp takes for others, are r
        {"</COLLADA>", "</collada>", "t.dae:2: not XML"}});
 }
 
+TEST_CASE("a COLLADA transform that would distort the body is refused") {
+  const std::string from = "<translate>0 0 1</translate>", axis = "t.dae:19: <rotate> has an axis of length ";
+  const auto rotate = [&](const std::string& numbers, const std::string& length) {
+    return Fault{from, "<rotate>" + numbers + "</rotate>", axis + length};
+  };
+  const auto view = [&](const std::string& numbers) {
+    return Fault{from, "<lookat>" + numbers + "</lookat>", "t.dae:19: <lookat> must have a point to look at"};
+  };
+  checkRefused({rotate("1 1 0 60", "1.414214"), rotate("0.577 0.577 0.577 60", "0.999393"),
+                rotate("0.7071 0.7071 0 60", "0.999990"), rotate("0 0 0 90", "0.000000"),
+                rotate("0 0 -2 180", "2.000000"), view("0 0 0 0 0 -1 0 0 1"), view("0 0 0 0 0 0 0 1 0"),
+                view("1 2 3 1 2 3 0 1 0"), view("0 0 0 0 0 -1 0 0 0"), view("0 0 0 0 0 -1 0 1 0.1")});
+}
+
 TEST_CASE("sound COLLADA is read, whatever its writer's habits") {
   const Change wide{"stride=\"3\"", "stride=\"4\""};
   const Change reordered{"<param name=\"X\"/><param name=\"Y\"/>", "<param name=\"Y\"/><param name=\"X\"/>"};
@@ -137,6 +151,9 @@ TEST_CASE("sound COLLADA is read, whatever its writer's habits") {
             {"\"9\">0 0 0 1 0 0 0 1 0", "\"12\">7 0 0 0 7 1 0 0 7 0 1 0"}},
            {{"stride=\"3\"", "stride=\"3\" offset=\"1\""}, {"count=\"9\">", "count=\"10\">7 "}},
            {{"<p>0 0 1 1 2 2", "<p >\n0 0\n1 1\n2 2\n"}},
+           {{"<translate>0 0 1</translate>",
+             "<rotate>.577350 .577350 .577350 60</rotate><rotate>0 0 0 0</rotate>"}},
+           {{"<translate>0 0 1</translate>", "<lookat>1 2 3 1 2 -2 0 3 0</lookat>"}},
            {{"<mesh>", "<!-- <unit meter=\"0\"/> --><asset><unit meter=\"1.0\"/></asset><mesh>"}},
            {{"<node id=\"m\">", "<node name=\"m\"><translate>1e0 +2 .5</translate>"},
             {"<library_nodes>", "<library_visual_scenes><visual_scene id=\"other\">"},

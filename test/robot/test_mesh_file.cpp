@@ -128,6 +128,24 @@ TEST_CASE("scale acts along each axis") {
   CHECK(refusal(load, folder / "t.obj").find(folder / "t.obj: a scale of 0") == 0);
 }
 
+TEST_CASE("a mesh that its unit or scale makes smaller than an atom is refused") {
+  const TemporaryFolder folder;
+  put(folder / "t.obj", obj());
+  put(folder / "t-ch.txt", "3\n4\n0 0 0\n1 0 0\n0 2 0\n0 0 4\n");
+  put(folder / "point.obj", "v 1 2 3\nv 1 2 3\nv 1 2 3\nf 1 2 3\n");
+  put(folder / "nano.dae", collada("<unit meter=\"1e-12\"/>"));
+  for (const double scale : {1e-10, 1e-30, -1e-30, 1e-320}) {
+    const auto load = [&](const std::string& path) { loadPoints(path, {scale, scale, scale}); };
+    for (const char* name : {"t.obj", "t-ch.txt"})
+      CHECK(refusal(load, folder / name).find(folder / name + ": is smaller than 1e-9 m along each axis") ==
+            0);
+    CHECK(refusal(load, folder / "point.obj") == "");
+  }
+  const auto load = [](const std::string& path) { loadPoints(path); };
+  CHECK(refusal(load, folder / "nano.dae").find("is smaller than 1e-9 m") != std::string::npos);
+  CHECK(loadPoints(folder / "t.obj", {1e-9, 1e-30, 1e-30}).size() == 4);  // just long enough
+}
+
 TEST_CASE("COLLADA: nodes and unit are applied, up_axis is not") {
   const TemporaryFolder folder;
   for (const std::string up :
@@ -181,6 +199,8 @@ TEST_CASE("files that hold no mesh are refused by name") {
   refused("empty.stl", "", "give a whole file");
   refused("noise.obj", std::string(100, '\1'), "");
   refused("t.unknown", "hello\n", "give a whole file");
+  refused("t.amf", "<?xml version=\"1.0\"?><amf unit=\"inch\"/>", "convert it to STL or OBJ in metres");
+  refused("t.3mf", "PK", "convert it to STL or OBJ in metres");
   refused("t.txt", obj(), "t.txt:1:");
   refused("cut.off", "OFF\n4 4 6\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1", "damaged");
   refused("nan.off", "OFF\n3 1 3\n0 0 0\n1 0 nan\n0 1 0\n3 0 1 2\n", "");

@@ -67,6 +67,46 @@ TEST_CASE("OBJ: comments, joined lines and numbers that assimp takes for others"
              "v 0 0 0 2\nv 1 0 0 1 1 1\nv 0 1e0 0\n" + face, "v 0 0 0\rv 1 0 0\rv 0 1 0\rf 1 2 3\r"});
 }
 
+TEST_CASE("OBJ: faces that assimp would drop over their texture coordinates") {
+  const std::string obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\n", face = "f 1/1/1 2/1/1 3/1/1\n";
+  const std::string vt = "vt 0 0\n", vn = "vn 0 0 1\n", unknown = "'1/1/1' names a texture coordinate";
+  checkRefused("t.obj",
+               {{obj + vn + face, ":5: " + unknown},
+                {obj + vn + face + vt, ":5: " + unknown},
+                {obj + " " + vt + vn + face, ":6: " + unknown},
+                {obj + vn + "f -3/-1/-1 -2/-1/-1 -1/-1/-1\n", ":5: '-3/-1/-1' names"},
+                {obj + vn + "l 1/1/1 2/1/1\n", ":5: " + unknown},
+                {obj + "f 1/1/1/1 2/1/1/1 3/1/1/1\n", ":4: a vertex of a face has more than two slashes"},
+                {obj + vt + vn + "f 1/1/1/1 2/1/1/1 3/1/1/1\n", ":6: "}});
+  checkRead("t.obj", {obj + face, obj + vt + face, obj + vt + vn + face, vn + vt + obj + face,
+                      obj + vn + "f 1//1 2//1 3//1\n", obj + vn + "f 1/1 2/1 3/1\n", obj + vn + "f 1 2 3\n",
+                      obj + vt + vn + "f 1/9/9 2/9/9 3/9/9\n", obj + "f 1/1/1 2/1/1 3/1/1\n" + vn + vt});
+}
+
+TEST_CASE("OBJ: a number longer than assimp's buffer") {
+  const std::string rest = " 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+  checkRefused("t.obj", {{"v 0." + std::string(4093, '0') + rest, ":1: a number of 4095 characters"},
+                         {"v 0 0." + std::string(5000, '0') + " 0\n", ":1: a number of 4095 characters"}});
+  checkRead("t.obj", {"# " + std::string(5000, 'c') + "\nv 0." + std::string(4092, '0') + rest});
+}
+
+TEST_CASE("a NUL byte in a text is refused, wherever it stands") {
+  const std::string nul(1, '\0'), obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+  const std::string facet =
+      "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n";
+  checkRefused("t.stl", {{"solid a\n" + facet + nul + facet + "endsolid a\n", ":9: a NUL byte"},
+                         {"solid a" + nul + "\n" + facet + "endsolid a\n", ":1: a NUL byte"}});
+  checkRefused("t.obj", {{obj + "#" + nul + "\n", ":5: a NUL byte"}, {obj + nul, ":5: a NUL byte"}});
+  checkRefused("t.off", {{"OFF\n3 1 3\n0 0 0\n1 0 0\n0 1 0 #" + nul + "\n3 0 1 2\n", ":5: a NUL byte"}});
+  checkRefused("t.gltf", {{"{\"asset\":{\"version\":\"2.0\"}}\n" + nul, ":2: a NUL byte"}});
+  checkRefused("t.ply",
+               {{"ply\nformat ascii 1.0\ncomment " + nul +
+                     "\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement "
+                     "face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 "
+                     "0 1 2\n",
+                 ":3: a NUL byte"}});
+}
+
 TEST_CASE("STL: each facet is in a solid and each vertex in a facet") {
   const std::string facet =
       "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n";
@@ -140,6 +180,17 @@ TEST_CASE("PLY as text: an element a line, and the properties that make a mesh")
         ": the element 'face' has no list 'vertex_indices'"}});
   checkRead("t.ply", {ply(xyz, vertices + face), ply(xyz + "comment a\n", "0 0 0\n\n1 0 0\n0 1 0\n\n" + face),
                       ply("property uchar red\n" + xyz, "1 0 0 0\n255 1 0 0\n0 0 1 0\n" + face)});
+}
+
+TEST_CASE("a mesh is checked as what assimp reads it as, whatever its ending says") {
+  const std::string stl =
+      "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n";
+  for (const char* file : {"t.glb", "t.gltf", "t.xml"}) {
+    checkRefused(file, {{stl + "vertex 0 0 1\nendloop\nendfacet\nendsolid a\n", ":9: a facet has 4 vertices"},
+                        {"# a mesh\nv 0 0 0\nv 1 0 0 7 7\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", ":3: "},
+                        {"OFF\n3 1 3\n0 0 0\n1,5 0 0\n0 1 0\n3 0 1 2\n", ":4: "}});
+    checkRead(file, {stl + "endloop\nendfacet\nendsolid a\n"});
+  }
 }
 
 TEST_CASE("a mesh without a known ending is checked as what assimp reads it as") {

@@ -185,6 +185,9 @@ TEST_CASE("what is not finite is not free, and pairs that do not exist are refus
   CHECK_FALSE(check.isMotionFree(q, bad));
   CHECK(check.firstContact(bad, q).verdict == MotionVerdict::undecided);
   CHECK_FALSE(check.isMotionFree(q, VectorXd::Zero(1)));
+  CHECK_THROWS_AS(check.answer(-1, q), Error);
+  CHECK_THROWS_AS(check.answer(static_cast<int>(scene.pairs.size()), q), Error);
+  CHECK_THROWS_AS(MotionCheck(scene.kinematics, scene.geometry, {}), Error);  // nothing checked is not free
   CHECK_THROWS_AS(MotionCheck(scene.kinematics, scene.geometry, {{0, 99, false}}), Error);
   CHECK_THROWS_AS(MotionCheck(scene.kinematics, scene.geometry, {{0, 3, true}}, scene.obstacles), Error);
 }

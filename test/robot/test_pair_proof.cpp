@@ -1,8 +1,10 @@
 // Proofs over joint boxes: no bound above a sample's distance, pieces that make the same whole in any order.
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <random>
 
+#include "fcl_stpbv/error.h"
 #include "fcl_stpbv/robot/pair_proof.h"
 #include "fcl_stpbv/robot/pair_search.h"
 #include "test/reference/robots.h"
@@ -105,6 +107,65 @@ TEST_CASE("an arm's proof against the other arm takes few boxes: products of tur
   const LinkPair pair = pairNamed(scene, "RARM_LINK2", "LARM_LINK4");
   const PairProof proof = provePair(scene, pair, unproven(scene, pair).open, 2500);
   CHECK(proof.proven());  // in 1,707 boxes; bounded one by one, the products take 3,749
+}
+
+TEST_CASE(
+    "one coordinate that turns and slides a body: no bound is above a distance, beyond half a turn either "
+    "way") {
+  // A rack carries the pinion that drives it, with a ball at its rim, towards a wall: the ball's centre is at
+  // x = c t - l sin(t), which grows by more past a quarter turn than the sine says.
+  Random random(6);
+  double highest = -1;
+  for (int i = 0; i < 300; ++i) {
+    const double c = random.uniform(0.05, 0.4), l = random.uniform(0.05, 0.4),
+                 half = random.uniform(1.6, 3.1);
+    const auto number = [](double x) { return std::to_string(x); };
+    const std::string limits = "<limit lower=\"-9\" upper=\"9\" effort=\"1\" velocity=\"1\"/>";
+    const auto joined = [&](const char* name, const char* type, const char* parent, const char* child,
+                            const std::string& more) {
+      return "<joint name=\"" + std::string(name) + "\" type=\"" + type + "\"><parent link=\"" + parent +
+             "\"/><child link=\"" + child + "\"/>" + limits + more + "</joint>";
+    };
+    const auto model = std::make_shared<const RobotModel>(parseUrdf(
+        robot("<link name=\"wall\"><collision><origin xyz=\"2 0 0\"/><geometry><box size=\"0.2 4 "
+              "4\"/></geometry>"
+              "</collision></link>" +
+              link("rack") + "<link name=\"ball\"><collision><origin xyz=\"0 " + number(l) +
+              " 0\"/><geometry><sphere radius=\"0.05\"/></geometry></collision></link>" +
+              joined("slide", "prismatic", "wall", "rack",
+                     "<axis xyz=\"1 0 0\"/><mimic joint=\"turn\" multiplier=\"" + number(c) + "\"/>") +
+              joined("turn", "revolute", "rack", "ball", "<axis xyz=\"0 0 1\"/>")),
+        "rack.urdf"));
+    GeometryOptions options;
+    options.cacheFolder.clear();
+    const ProofScene scene =
+        proofScene(std::make_shared<const Kinematics>(model),
+                   std::make_shared<const RobotGeometry>(loadGeometry(*model, options)), {}, 0);
+    JointBox box{Eigen::VectorXd::Constant(1, -half), Eigen::VectorXd::Constant(1, half)};
+    const double bound = distanceBound(scene, {model->link("wall"), model->link("ball")}, box);
+    double least = 1e9;
+    for (int k = 0; k <= 1000; ++k) {
+      const double t = half * (k / 500.0 - 1);
+      least = std::min(least, 1.9 - 0.05 - (std::stod(number(c)) * t - std::stod(number(l)) * std::sin(t)));
+    }
+    CAPTURE(c, l, half);
+    CHECK(bound <= least + 1e-12);
+    highest = std::max(highest, bound - least);
+  }
+  CHECK(highest > -0.01);  // the bound is near what it bounds
+}
+
+TEST_CASE("a proof of links without bodies, of what does not exist and of other boxes is refused") {
+  const ProofScene scene = primitiveScene();
+  const LinkPair pair = movingPairs(scene).front();
+  for (const LinkPair& wrong :
+       {LinkPair{-1, 1}, LinkPair{0, 99}, LinkPair{1, 99, true}, LinkPair{1, -1, true}}) {
+    CHECK_THROWS_AS(unproven(scene, wrong), Error);
+    CHECK_THROWS_AS(provePair(scene, wrong, unproven(scene, pair).open, 1), Error);
+  }
+  const JointBox wide{Eigen::VectorXd::Zero(9), Eigen::VectorXd::Ones(9)};
+  CHECK_THROWS_AS(distanceBound(scene, pair, wide), Error);
+  CHECK_THROWS_AS(provePair(scene, pair, {wide}, 1), Error);
 }
 
 TEST_CASE("joints without limits leave a pair unproven, a rigid pair needs one box") {

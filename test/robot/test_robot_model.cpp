@@ -280,6 +280,7 @@ TEST_CASE("what follows a continuous joint at another speed reaches all of its p
   CHECK(leader("revolute", "-0.333333") == std::pair(-3 * M_PI, 3 * M_PI));
   CHECK(leader("continuous", "0.7") == std::pair(-10 * M_PI, 10 * M_PI));
   CHECK(leader("continuous", "0.314159265") == std::pair(-1e6, 1e6));  // never comes back
+  CHECK(leader("continuous", "9e-6") == std::pair(-1e6, 1e6));         // not in 64 turns
   // A rack of the limits -1 and 1 (urdf_texts.h).
   CHECK(leader("prismatic", "0.02") == std::pair(-50.0, 50.0));
   CHECK(leader("prismatic", "5") == std::pair(-M_PI, M_PI));

@@ -26,7 +26,7 @@ struct Held {
   VectorXd q;
   std::unique_ptr<CollisionConstraints> constraints;
 
-  Held(double r, double R, double gap) {
+  Held(double r, double R, double gap, double influence = std::numeric_limits<double>::infinity()) {
     q = problem.kinematics->neutral();
     const auto set = [&](const char* joint, double value) {
       q[problem.kinematics->coordinate(joint)] = value;
@@ -51,6 +51,7 @@ struct Held {
     auto geometry = std::make_shared<RobotGeometry>();
     geometry->bodies = {box};
     ConstraintOptions options;
+    options.influence = influence;
     const auto table = std::make_shared<fcl::Boxd>(0.6, 0.8, 0.3);
     const fcl::CollisionObjectd object(table, Eigen::Matrix3d::Identity(),
                                        level.translation() - Vector3d(0, 0, 0.03 + r + gap + 0.15));
@@ -223,4 +224,33 @@ TEST_CASE("a damper that makes no sense is refused with what would work") {
   options = {};
   options.rows[7] = {};
   CHECK_THROWS_WITH(VelocityDamper(*held.constraints, options), Catch::Contains("no row 7"));
+  // Its rows would be 3.75 cm at any distance, and act there.
+  Held small(0.01, 10, 0.2, 0.05);
+  CHECK(small.constraints->largestValue(0) == Approx(0.0375).epsilon(1e-15));
+  options = {};
+  CHECK_THROWS_WITH(VelocityDamper(*small.constraints, options), Catch::Contains("0.0375"));
+  options.all.influence = small.constraints->largestValue(0);
+  VelocityDamper damper(*small.constraints, options);
+  damper.update(small.q, 0 * small.q);
+  CHECK(damper.near().empty());
+}
+
+TEST_CASE("a configuration that is not a number meets no row, and leaves what has entered as it was") {
+  Held held(0.01, 10, 0.08);
+  const VectorXd still = 0 * held.q, none = VectorXd::Constant(held.q.size(), std::nan(""));
+  VelocityDamper damper(*held.constraints, {});
+  damper.update(held.q, still);
+  REQUIRE(damper.near().empty());
+  damper.update(none, still);
+  REQUIRE(damper.near().size() == 1);
+  CHECK(damper.b()[0] == std::numeric_limits<double>::infinity());
+  CHECK(MatrixXd(damper.A()).norm() == 0);
+  damper.update(held.q, still);
+  // Down to the influence at 4 m/s: the row enters with headroom.
+  const VectorXd gradient = MatrixXd(damper.A()).row(0);
+  const VectorXd qd = -4 * gradient / gradient.squaredNorm();
+  damper.update(none, qd);
+  damper.update(held.q + 0.035 / 4 * qd, qd);
+  REQUIRE(damper.near().size() == 1);
+  CHECK((damper.A() * qd)[0] >= damper.b()[0]);
 }

@@ -1,0 +1,66 @@
+// Checks transforms of COLLADA's nodes. assimp normalises no axis of a <rotate>, and makes the matrix of a
+// <lookat> from its directions as they are: the body would be stretched, sheared or flat.
+#include "fcl_stpbv/robot/collada_transforms.h"
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <map>
+#include <string_view>
+#include <vector>
+
+#include "fcl_stpbv/error.h"
+#include "fcl_stpbv/robot/collada_arrays.h"
+#include "fcl_stpbv/robot/xml_text.h"
+
+namespace fcl_stpbv::detail {
+namespace {
+
+using Eigen::Vector3d;
+using tinyxml2::XMLElement;
+
+// What an axis or a right angle may be off by: it stretches the body by 0.0004 % at most, and numbers with
+// six digits keep it.
+constexpr double kSlack = 1e-6;
+
+Vector3d vectorAt(const std::vector<double>& numbers, std::size_t first) {
+  return {numbers[first], numbers[first + 1], numbers[first + 2]};
+}
+
+void checkRotation(const XMLElement& element, const std::vector<double>& numbers, const std::string& name) {
+  const double length = vectorAt(numbers, 0).norm();
+  if (numbers[3] == 0 || std::abs(length - 1) <= kSlack) return;
+  throw Error(
+      xmlPlace(element, name) + "<rotate> has an axis of length " + std::to_string(length) +
+      ", expected a unit vector; write it with at least six digits, or export the node with a <matrix>");
+}
+
+void checkView(const XMLElement& element, const std::vector<double>& numbers, const std::string& name) {
+  const Vector3d view = vectorAt(numbers, 3) - vectorAt(numbers, 0), up = vectorAt(numbers, 6);
+  if (view.norm() > 0 && up.norm() > 0 && std::abs(view.normalized().dot(up.normalized())) <= kSlack) return;
+  throw Error(
+      xmlPlace(element, name) +
+      "<lookat> must have a point to look at that differs from its own, and an up direction at right angles "
+      "to that view; export the node with a <matrix>");
+}
+
+}  // namespace
+
+void checkColladaTransform(const XMLElement& element, const std::string& name) {
+  static const std::map<std::string_view, std::size_t> kTransforms{
+      {"lookat", 9}, {"matrix", 16}, {"rotate", 4}, {"scale", 3}, {"translate", 3}};
+  const std::string_view kind = element.Name();
+  if (kind == "skew")
+    throw Error(xmlPlace(element, name) + "<skew> is not read; export the node with a <matrix>");
+  const auto transform = kTransforms.find(kind);
+  if (transform == kTransforms.end()) return;
+  const std::vector<double> numbers = numbersOf(element, name);
+  if (numbers.size() != transform->second)
+    refuseCollada(
+        element,
+        "has " + std::to_string(numbers.size()) + " numbers, expected " + std::to_string(transform->second),
+        name);
+  if (kind == "rotate") checkRotation(element, numbers, name);
+  if (kind == "lookat") checkView(element, numbers, name);
+}
+
+}  // namespace fcl_stpbv::detail

@@ -1,0 +1,101 @@
+// Distances and Jacobian of all rows at q: sizes checked, links placed, each row asked and written.
+#include <algorithm>
+#include <limits>
+
+#include "fcl_stpbv/error.h"
+#include "fcl_stpbv/numbers.h"
+#include "fcl_stpbv/robot/constraints.h"
+
+namespace fcl_stpbv {
+
+using detail::at;
+
+void CollisionConstraints::requireRow(int row) const {
+  if (row < 0 || row >= rows())
+    throw Error("CollisionConstraints: there is no row " + std::to_string(row) + " of " +
+                std::to_string(rows()));
+}
+
+void CollisionConstraints::requireSizes(const ConstVector& q, Eigen::Index d, Eigen::Index values) const {
+  const auto require = [](const char* what, Eigen::Index size, Eigen::Index expected) {
+    if (size != expected)
+      throw Error("CollisionConstraints: " + std::string(what) + " has the size " + std::to_string(size) +
+                  ", expected " + std::to_string(expected));
+  };
+  require("q", q.size(), columns());
+  require("d", d, rows());
+  require("the Jacobian", values, nonZeros());
+}
+
+void CollisionConstraints::requireSizes(const ConstVector& q, const ConstVector& qd, const RowRates& rates,
+                                        Eigen::Index values) const {
+  requireSizes(q, rates.d.size(), values);
+  if (qd.size() != columns() || rates.speed.size() != rows() || rates.drift.size() != rows())
+    throw Error(
+        "CollisionConstraints: qd has one number for each coordinate, each of the rates one for a row");
+}
+
+void CollisionConstraints::nothingKnown(double* d, double* values) {
+  std::fill(d, d + rows(), std::numeric_limits<double>::lowest());
+  if (values) std::fill(values, values + nonZeros(), 0.0);
+  for (Distance& found : found_) found = Distance{};
+  for (DistanceAnswer& answer : answers_) answer = DistanceAnswer{};
+}
+
+bool CollisionConstraints::compute(const ConstVector& q, double* d, double* values) {
+  const bool known = computePairs(q, d, values);
+  if (known) computeSmooth(q, d, values);
+  return known;
+}
+
+bool CollisionConstraints::computePairs(const ConstVector& q, double* d, double* values) {
+  if (!q.allFinite()) {
+    nothingKnown(d, values);
+    return false;
+  }
+  place(q);
+  moving_ = false;
+  for (std::size_t row = 0; row < pairs_.size(); ++row) d[row] = pairRow(row, values);
+  return true;
+}
+
+void CollisionConstraints::computeSmooth(const ConstVector& q, double* d, double* values) const {
+  for (std::size_t i = 0; i < options_.smooth.size(); ++i) {
+    const std::size_t row = pairs_.size() + i;
+    d[row] = options_.smooth[i].value(q, values ? values + rowStart_[row] : nullptr);
+  }
+}
+
+void CollisionConstraints::spread(Eigen::Ref<Eigen::MatrixXd> jacobian) const {
+  if (jacobian.rows() != rows() || jacobian.cols() != columns())
+    throw Error(
+        "CollisionConstraints: the Jacobian needs a row for each row and a column for each coordinate");
+  jacobian.setZero();
+  for (int row = 0; row < rows(); ++row)
+    for (int k = rowStart_[at(row)]; k < rowStart_[at(row) + 1]; ++k)
+      jacobian(row, column_[at(k)]) = values_[k];
+}
+
+bool CollisionConstraints::evaluate(const ConstVector& q, Vector d) {
+  requireSizes(q, d.size(), nonZeros());
+  return compute(q, d.data(), nullptr);
+}
+
+bool CollisionConstraints::evaluateValues(const ConstVector& q, Vector d, Vector values) {
+  requireSizes(q, d.size(), values.size());
+  return compute(q, d.data(), values.data());
+}
+
+bool CollisionConstraints::evaluate(const ConstVector& q, Vector d, SparseJacobian& jacobian) {
+  requireSizes(q, d.size(), jacobian.nonZeros());
+  return compute(q, d.data(), jacobian.valuePtr());
+}
+
+bool CollisionConstraints::evaluate(const ConstVector& q, Vector d, Eigen::Ref<Eigen::MatrixXd> jacobian) {
+  requireSizes(q, d.size(), nonZeros());
+  const bool known = compute(q, d.data(), values_.data());
+  spread(jacobian);
+  return known;
+}
+
+}  // namespace fcl_stpbv

@@ -1,0 +1,70 @@
+// Values of a glTF document as assimp takes them, and the bytes that its accessors reach.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "fcl_stpbv/robot/gltf_file.h"
+
+namespace fcl_stpbv::detail {
+
+/// A value of the document and where it stands, such as "accessors[3]".
+struct GltfItem {
+  const nlohmann::json* value;
+  std::string place;
+};
+
+/// The elements of an accessor: `count` times `size` bytes, the next one `stride` bytes on.
+struct GltfElements {
+  std::string_view bytes;
+  std::size_t count = 0, size = 0, stride = 0;
+
+  /// An element as an unsigned number of `size` bytes.
+  std::uint32_t number(std::size_t i) const;
+};
+
+class GltfValues {
+ public:
+  /// All must outlive this.
+  GltfValues(const nlohmann::json& root, GltfBuffers& buffers, const std::string& name)
+      : root_(root), buffers_(buffers), name_(name) {}
+
+  [[noreturn]] void refuse(const GltfItem& item, const std::string& message) const;
+
+  /// The same of a file that only its writer can mend.
+  [[noreturn]] void damaged(const GltfItem& item, const std::string& message) const;
+
+  /// A list of the document, none where it is missing, and one of its items.
+  std::vector<GltfItem> list(const char* key) const;
+  GltfItem at(const char* key, std::size_t index) const;
+
+  /// The items of a list within an item.
+  std::vector<GltfItem> list(const GltfItem& item, const char* key) const;
+
+  /// A member, or nothing.
+  std::optional<GltfItem> find(const GltfItem& item, const char* key) const;
+
+  /// A whole number from 0: assimp takes any other value for a missing one.
+  std::size_t whole(const GltfItem& item) const;
+  std::size_t whole(const GltfItem& item, const char* key) const;
+  std::size_t whole(const GltfItem& item, const char* key, std::size_t missing) const;
+
+  /// The numbers of a list, as many as it must have.
+  std::vector<double> numbers(const GltfItem& item, std::size_t count) const;
+
+  /// The elements of an accessor with elements of `size` bytes, those of its buffer view if it is sparse.
+  GltfElements elements(const GltfItem& accessor, std::size_t size);
+
+ private:
+  void checkSparse(const GltfItem& sparse, std::size_t size);
+  GltfElements elements(const GltfItem& item, std::size_t view, std::size_t size, std::size_t count);
+
+  const nlohmann::json& root_;
+  GltfBuffers& buffers_;
+  const std::string& name_;
+};
+
+}  // namespace fcl_stpbv::detail

@@ -1,0 +1,77 @@
+// Tells a mesh file's format by assimp's own rules: the name's ending where one reader knows it, else the
+// content.
+#include "fcl_stpbv/robot/mesh_format.h"
+
+#include <assimp/commonMetaData.h>
+#include <assimp/importerdesc.h>
+#include <assimp/scene.h>
+
+#include <algorithm>
+#include <assimp/Importer.hpp>
+#include <cctype>
+#include <filesystem>
+#include <set>
+
+#include "fcl_stpbv/error.h"
+#include "fcl_stpbv/robot/gltf_check.h"
+#include "fcl_stpbv/robot/ply_check.h"
+#include "fcl_stpbv/robot/text_mesh_check.h"
+
+namespace fcl_stpbv::detail {
+namespace {
+
+// Those of a single reader. The readers of .gltf and .glb, of .xml and of unknown endings look at the
+// content.
+const std::set<std::string_view> kByName{".3mf", ".amf", ".dae", ".obj", ".off", ".ply", ".stl"};
+
+bool looksLikeGltf(std::string_view text) {
+  const std::size_t start = std::min(text.find_first_not_of(" \t\r\n"), text.size());
+  return text.substr(0, 4) == "glTF" || text.substr(start, 1) == "{";
+}
+
+}  // namespace
+
+std::string lowerExtension(const std::string& path) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
+}
+
+std::string expectedFormat(std::string_view text, const std::string& path) {
+  const std::string extension = lowerExtension(path);
+  if (kByName.count(extension) != 0) return extension;
+  if (text.substr(0, 3) == "ply") return ".ply";
+  if ((extension == ".gltf" || extension == ".glb") && looksLikeGltf(text)) return ".gltf";
+  return "";
+}
+
+std::string formatOf(const aiScene& scene, const Assimp::Importer& importer) {
+  aiString format;
+  if (scene.mMetaData == nullptr || !scene.mMetaData->Get(AI_METADATA_SOURCE_FORMAT, format)) return "";
+  for (std::size_t i = 0; i < importer.GetImporterCount(); ++i) {
+    const aiImporterDesc& reader = *importer.GetImporterInfo(i);
+    const std::string_view endings = reader.mFileExtensions;
+    if (std::string_view(reader.mName) == format.C_Str())
+      return "." + std::string(endings.substr(0, endings.find(' ')));
+  }
+  return "";
+}
+
+void checkMeshFormat(std::string_view text, const std::string& format, const std::string& path,
+                     const ReadPart& readPart) {
+  if (format == ".3mf" || format == ".amf")
+    throw Error(path +
+                ": states a unit of its own, millimetres if it names none, which is not read; convert it to "
+                "STL or OBJ in metres");
+  if (format == ".dae" && text.substr(0, 2) == "PK")
+    throw Error(path + ": is a packed COLLADA, which is not read; unpack it and give the .dae in it");
+  if (format == ".ply")
+    checkPly(text, path);
+  else if (format == ".gltf")
+    checkGltf(text, path, readPart);
+  else
+    checkTextMesh(text, format, path);
+}
+
+}  // namespace fcl_stpbv::detail
