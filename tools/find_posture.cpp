@@ -7,6 +7,7 @@
 #include "fcl_stpbv/io/atomic_write.h"
 #include "fcl_stpbv/report/posture_formats.h"
 #include "fcl_stpbv/report/posture_parts.h"
+#include "tools/output_plan.h"
 #include "tools/program.h"
 #include "tools/robot_options.h"
 
@@ -74,6 +75,7 @@ std::unique_ptr<PostureParts> load(const Arguments& a, PostureReport& report) {
   RobotLoader loader(files);
   loader.read();
   loader.build();
+  requireNoInput("-o", a.output, loader.meshFiles());  // of a robot from a pipe, too
   PostureScene& scene = report.scene;
   scene.robot = loader.robot();
   scene.srdf = loader.srdf();

@@ -50,7 +50,7 @@ Examples:
 - as INPUT or OUT is standard input or output; where the volume goes to standard output the report goes to standard error.
 
 Exit status: 0 all done; 1 some input failed, the others are written; 2 the command line is wrong and nothing is written,
-or standard output cannot be written.)";
+or the report cannot be written.)";
 
 struct Arguments {
   std::vector<std::string> inputs;
@@ -139,7 +139,11 @@ Outcome runParts(const Job& job, const Arguments& arguments) {
     throw fcl_stpbv::Error(job.input +
                            ": not written, a volume fails its own verification: " + report.verification);
   write(report, arguments.conversion);
-  return {true, lineOf(report, arguments), ""};
+  const std::string next = nameOfPart(job.output, static_cast<int>(report.volumes.size()));
+  std::error_code ignored;
+  const bool stale = std::filesystem::exists(next, ignored);
+  return {true, lineOf(report, arguments),
+          stale ? next + ": is from an earlier run and not of this mesh's parts; remove it" : ""};
 }
 
 Outcome runOne(const Job& job, const Arguments& arguments) {

@@ -23,8 +23,9 @@ constexpr double kLargest = 1e6;
 inline std::string wrongNumber(const std::string& text, double least, double most, bool orEqual = true) {
   char* end = nullptr;
   const double value = std::strtod(text.c_str(), &end);
-  if (!text.empty() && end == text.c_str() + text.size() && std::isfinite(value) && value <= most &&
-      (orEqual ? value >= least : value > least))
+  const bool decimal = text.find_first_of("xX") == std::string::npos;  // strtod reads hexadecimals, too
+  if (!text.empty() && decimal && end == text.c_str() + text.size() && std::isfinite(value) &&
+      value <= most && (orEqual ? value >= least : value > least))
     return "";
   char range[64];
   std::snprintf(range, sizeof range, "%g to %g", least, most);

@@ -1,8 +1,12 @@
 // See output_plan.h.
 #include "tools/output_plan.h"
 
+#include <algorithm>
+#include <cctype>
 #include <filesystem>
+#include <fstream>
 #include <map>
+#include <nlohmann/json.hpp>
 
 #include "fcl_stpbv/robot/mesh_file.h"
 
@@ -33,6 +37,22 @@ bool sameFile(const fs::path& a, const fs::path& b) {
     return fs::weakly_canonical(fs::absolute(path, ignored), ignored);
   };
   return !place(a).empty() && place(a) == place(b);  // empty where it cannot be told
+}
+
+// Those of a glTF that are files of their own. What is wrong with it is told when it is loaded.
+std::vector<std::string> buffersOf(const std::string& mesh) {
+  std::vector<std::string> files;
+  std::string ending = fs::path(mesh).extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (ending != ".gltf" || !isRegular(mesh)) return files;
+  std::ifstream stream(mesh);
+  const auto json = nlohmann::json::parse(stream, nullptr, false);
+  if (!json.is_object() || !json.contains("buffers") || !json["buffers"].is_array()) return files;
+  for (const auto& buffer : json["buffers"])
+    if (buffer.is_object() && buffer.contains("uri") && buffer["uri"].is_string())
+      files.push_back((fs::path(mesh).parent_path() / buffer["uri"].get<std::string>()).string());
+  return files;
 }
 
 void checkValues(const ConversionOptions& options) {
@@ -84,9 +104,12 @@ void requireNoInput(const std::string& option, const std::string& target,
                     const std::vector<std::string>& inputs) {
   if (!isRegular(target) || isDescriptor(target)) return;
   for (const std::string& input : inputs) {
-    if (sameFile(target, input == "-" ? "/dev/stdin" : input))
-      throw UsageError(target + ": is an input, and writing would replace it; give " + option +
-                       " another name");
+    std::vector<std::string> read = buffersOf(input);
+    read.push_back(input == "-" ? "/dev/stdin" : input);
+    for (const std::string& file : read)
+      if (sameFile(target, file))
+        throw UsageError(target + ": is an input, and writing would replace it; give " + option +
+                         " another name");
   }
 }
 

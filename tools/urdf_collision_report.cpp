@@ -1,5 +1,6 @@
 // urdf_collision_report: which links of a robot come how close, and which pairs need no check.
 #include <algorithm>
+#include <filesystem>
 #include <functional>
 #include <iostream>
 #include <memory>
@@ -7,6 +8,7 @@
 #include "fcl_stpbv/io/atomic_write.h"
 #include "fcl_stpbv/report/report_formats.h"
 #include "tools/number_check.h"
+#include "tools/output_plan.h"
 #include "tools/program.h"
 #include "tools/robot_options.h"
 #include "tools/stages.h"
@@ -87,7 +89,11 @@ int run(Arguments& a) {
   const ReportRequest& asked = a.search.request;
   RobotFiles read = a.robot.files;
   if (a.format == "srdf") read.srdf.clear();  // may be updated: all but its pairs stays as it is
-  checkOutput(a.output, read, {asked.pose, asked.neutral, asked.trajectory});
+  std::vector<std::string> others{asked.pose, asked.neutral, asked.trajectory};
+  std::error_code ignored;
+  for (const auto& entry : std::filesystem::directory_iterator(asked.polyhedra, ignored))
+    others.push_back(entry.path().string());
+  checkOutput(a.output, read, others);
   Stages stages(!a.quiet);
   const ReportRequest request = requestOf(a.robot, a.search, std::ref(stages));
   if (!request.pose.empty() && !request.trajectory.empty())
@@ -101,6 +107,7 @@ int run(Arguments& a) {
     warn(report.warnings, a.top);
   }
   const std::string text = written(report, a);
+  requireNoInput("-o", a.output, report.meshFiles);  // of a robot from a pipe, too
   writeOutput(a.output, text);
   const bool undecided = report.trajectory && report.trajectory->verdict != MotionVerdict::free;
   if (report.colliding > 0 || undecided) return kCollision;

@@ -74,6 +74,7 @@ Postures load(const ReportRequest& request, RobotLoader& loader, CollisionReport
   report.kinematics = loader.kinematics();
   report.geometry = loader.geometry();
   report.obstacles = loader.obstacles();
+  report.meshFiles = loader.meshFiles();
   report.skipped = loader.skipped();
   report.warnings = loader.warnings();
   report.warnings.insert(report.warnings.end(), postures.warnings.begin(), postures.warnings.end());

@@ -83,6 +83,7 @@ struct CollisionReport {
   std::shared_ptr<const RobotGeometry> geometry;
   std::shared_ptr<const Kinematics> kinematics;
   std::vector<Obstacle> obstacles;
+  std::vector<std::string> meshFiles;  ///< that were read
   std::vector<std::string> warnings;
   std::vector<MeshFit> fits;                ///< one a body
   std::vector<std::string> skipped;         ///< shapes left out as wrong, which nothing was checked against

@@ -60,7 +60,8 @@ bool moves(const std::vector<double>& values) {
 Eigen::VectorXd namedPosture(const std::string& option, const std::string& name, const Kinematics& kinematics,
                              const Srdf* srdf, const Eigen::VectorXd& rest, bool obstacles) {
   std::error_code ignored;
-  if (std::filesystem::is_regular_file(name, ignored)) return poseFromJson(name, kinematics, rest);
+  const bool isFile = std::filesystem::exists(name, ignored) && !std::filesystem::is_directory(name, ignored);
+  if (isFile) return poseFromJson(name, kinematics, rest);  // a pipe, too
   if (!srdf)
     throw Error(option + " " + name +
                 ": no such file, and no SRDF with postures; give --srdf or a JSON file");

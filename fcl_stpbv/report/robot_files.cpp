@@ -99,6 +99,14 @@ std::vector<Obstacle> RobotLoader::obstacles() const {
   return scene_ ? obstaclesOf(scene_, *sceneGeometry_) : std::vector<Obstacle>{};
 }
 
+std::vector<std::string> RobotLoader::meshFiles() const {
+  std::vector<std::string> files;
+  for (const auto& geometry : {geometry_, sceneGeometry_})
+    for (const Body& body : geometry->bodies)
+      if (!body.file.empty()) files.push_back(body.file);
+  return files;
+}
+
 std::vector<std::string> RobotLoader::warnings() const {
   std::vector<std::string> all = faults_.warnings;
   if (srdf_) append(all, srdf_->warnings);

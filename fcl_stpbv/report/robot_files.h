@@ -46,6 +46,8 @@ class RobotLoader {
   /// What read() found, of the robot and of the scene.
   const detail::ShapeSources& shapes() const { return shapes_; }
   const detail::ShapeSources& sceneShapes() const { return sceneShapes_; }
+  /// The files of the meshes of both.
+  std::vector<std::string> meshFiles() const;
   /// Whole sentences, to be told to the user.
   std::vector<std::string> warnings() const;
   /// One entry for each shape that was left out, and that nothing is checked against.

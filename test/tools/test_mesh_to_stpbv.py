@@ -263,6 +263,9 @@ class MeshToStpbv(unittest.TestCase):
         self.refused("two.obj", "-o", "a.stpbv", "--parts", "2", "--force", code=1, says=["a_1.stpbv: is a folder"])
         self.run_tool("two.obj", "-o", "two.stpbv", "--parts", "2", "--force")
         self.assertTrue(read(self.at("two_1.stpbv")).startswith(b"stpbv 1"))
+        write(self.at("two_2.stpbv"), "old")
+        done = self.run_tool("two.obj", "-o", "two.stpbv", "--parts", "2", "--force")
+        self.assertIn("two_2.stpbv: is from an earlier run", done.stderr)
 
     def test_help_has_every_option_and_examples(self):
         text = self.run_tool("--help").stdout

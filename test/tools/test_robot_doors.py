@@ -10,6 +10,7 @@ import json
 import os
 import re
 import signal
+import struct
 import subprocess
 import sys
 import tempfile
@@ -132,6 +133,29 @@ class Doors(unittest.TestCase):
             self.refused_to_write(output, POSTURE, urdf, self.task, *files)
         with open(urdf, encoding="utf-8") as file:
             self.refused_to_write(urdf, REPORT, "-", stdin=file)
+        # A robot or a scene from a pipe names its meshes only when it has been read.
+        absolute = self.put("absolute.urdf", robot(f'<mesh filename="{meshes[0]}"/>'))
+        for command in (f"cat {absolute} | {REPORT} - --samples 20 -q", f"{POSTURE} <(cat {absolute}) {self.task} -q",
+                        f"{REPORT} {self.good} --obstacles <(cat {absolute}) --samples 20 -q"):
+            self.refused_to_write(meshes[0], "bash", "-c", command + ' "$@"', "bash")
+        published = os.path.join(self.folder.name, "published")
+        os.mkdir(published)
+        polyhedron = self.put("published/body-ch.txt", "3\n4\n0 0 0\n0.1 0 0\n0 0.1 0\n0 0 0.1\n")
+        self.refused_to_write(polyhedron, REPORT, urdf, "--polyhedra", published)
+        points = struct.pack("<12f", 0, 0, 0, 0.1, 0, 0, 0, 0.1, 0, 0, 0, 0.1) + struct.pack("<6H", 0, 1, 2, 0, 1, 3)
+        buffer = os.path.join(self.folder.name, "body.bin")
+        with open(buffer, "wb") as file:
+            file.write(points)
+        self.put("body.gltf", json.dumps({
+            "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+            "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
+            "buffers": [{"uri": "body.bin", "byteLength": 60}],
+            "bufferViews": [{"buffer": 0, "byteLength": 48}, {"buffer": 0, "byteOffset": 48, "byteLength": 12}],
+            "accessors": [{"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3", "min": [0, 0, 0], "max": [0.1, 0.1, 0.1]},
+                          {"bufferView": 1, "componentType": 5123, "count": 6, "type": "SCALAR"}]}))
+        binary = self.put("binary.urdf", robot('<mesh filename="body.gltf"/>'))
+        self.assertEqual(self.run_tool(REPORT, binary, "--samples", "20").returncode, 0)
+        self.refused_to_write(buffer, REPORT, binary)
         # The SRDF is updated, and only that.
         self.refused_to_write(urdf, REPORT, urdf, *files, "--format", "srdf")
         done = self.run_tool(REPORT, urdf, "--srdf", srdf, "--samples", "20", "--format", "srdf", "-o", srdf)
@@ -173,6 +197,7 @@ class Doors(unittest.TestCase):
             for value in ("nan", "inf", "-inf", "1e300", "1,5"):
                 self.refused(REPORT, self.good, option + "=" + value if option[1] == "-" else option + value,
                              names=[option])
+        self.refused(REPORT, self.good, "-r", "0x1p-7", names=["-r", "expected a number"])  # hexadecimal
         for value in ("-1", "1e9", "nan"):
             self.refused(REPORT, self.good, "--seed", value, names=["--seed"])
             self.refused(POSTURE, self.good, self.task, "--seed", value, names=["--seed"])
@@ -246,6 +271,9 @@ class Doors(unittest.TestCase):
                         f"{REPORT} - < {self.good}", f"{REPORT} <(cat {self.good})"):
             done = self.shell(command + " --samples 20")
             self.assertEqual(done.returncode, 0, done.stderr)
+        pose = self.put("pose.json", '{"j": 0.5}')
+        done = self.shell(f"{REPORT} {self.good} --pose <(cat {pose})")
+        self.assertEqual(done.returncode, 0, done.stderr)
 
     def test_a_pipe_that_nobody_reads_or_writes_is_left_by_a_signal(self):
         fifo = os.path.join(self.folder.name, "fifo")
