@@ -120,6 +120,23 @@ TEST_CASE("the Hessian through the drop-in is the change of its gradient, for sh
   }
 }
 
+#if FCL_HAVE_OCTOMAP
+TEST_CASE("a tree's cell has its Hessian however far from the world's origin the pair is") {
+  const Geometry body = link(0.02, 2), tree = cells();
+  Random random(9);
+  for (const double far : {0.0, 1e5, 1e6, 1e7})
+    for (int i = 0; i < 100; ++i) {
+      const Isometry3d poseB = pose(random.rotation(), far * random.direction());
+      Isometry3d poseA = poseB * pose(random.rotation(), 1.2 * random.direction());
+      const DistanceAnswer d = distance(*body, poseA, *tree, poseB);
+      DistanceHessian h;
+      CAPTURE(far, i);
+      REQUIRE(d.status == DistanceStatus::exact);
+      CHECK(hessian(*body, poseA, *tree, poseB, d, h));
+    }
+}
+#endif
+
 TEST_CASE("without an STP-BV the Hessian is the change of the gradient, too: shapes, triangles, cells") {
   std::vector<Geometry> bodies{std::make_shared<fcl::Boxd>(0.3, 0.2, 0.4),
                                std::make_shared<fcl::Ellipsoidd>(0.1, 0.2, 0.3),

@@ -69,3 +69,13 @@ TEST_CASE("what grazes is undecided, and free until shortly before") {
   CHECK(std::abs(found.from - 1.0 / 3) <= 1e-12);
   CHECK(std::abs(found.until - 1.0 / 3) <= 1e-12);
 }
+
+TEST_CASE("a contact is bracketed to 1e-12 whatever smaller tolerance is asked for") {
+  for (const double tolerance : {1e-12, 1e-15, 0.0, -1.0, std::nan("")}) {
+    CAPTURE(tolerance);
+    const MotionBracket found = search({{[](double t) { return 0.7 - t; }}, 0.99}, tolerance);
+    CHECK(found.verdict == MotionVerdict::contact);
+    CHECK(found.until - found.from <= 1e-12);
+    CHECK(std::abs(found.until - 0.7) <= 1e-12);
+  }
+}
