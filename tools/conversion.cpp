@@ -2,7 +2,6 @@
 #include "tools/conversion.h"
 
 #include <algorithm>
-#include <cctype>
 #include <chrono>
 #include <cmath>
 #include <filesystem>
@@ -14,6 +13,7 @@
 #include "fcl_stpbv/io/text_scanner.h"
 #include "fcl_stpbv/io/volume_files.h"
 #include "fcl_stpbv/parts/mesh_solid.h"
+#include "fcl_stpbv/robot/file_ending.h"
 #include "fcl_stpbv/robot/mesh_file.h"
 #include "fcl_stpbv/volume/tessellate.h"
 #include "fcl_stpbv/volume/verify.h"
@@ -23,13 +23,6 @@ namespace {
 
 using namespace detail;
 using Points = std::vector<Eigen::Vector3d>;
-
-std::string lowerExtension(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
-}
 
 // What an input holds: a volume, or else points, of a mesh with its triangles.
 struct Content {

@@ -1,13 +1,12 @@
 // See output_plan.h.
 #include "tools/output_plan.h"
 
-#include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "fcl_stpbv/robot/file_ending.h"
 #include "fcl_stpbv/robot/mesh_file.h"
 
 namespace fcl_stpbv::tools {
@@ -42,10 +41,7 @@ bool sameFile(const fs::path& a, const fs::path& b) {
 // Those of a glTF that are files of their own. What is wrong with it is told when it is loaded.
 std::vector<std::string> buffersOf(const std::string& mesh) {
   std::vector<std::string> files;
-  std::string ending = fs::path(mesh).extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (ending != ".gltf" || !isRegular(mesh)) return files;
+  if (detail::lowerExtension(mesh) != ".gltf" || !isRegular(mesh)) return files;
   std::ifstream stream(mesh);
   const auto json = nlohmann::json::parse(stream, nullptr, false);
   if (!json.is_object() || !json.contains("buffers") || !json["buffers"].is_array()) return files;

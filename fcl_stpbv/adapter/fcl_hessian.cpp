@@ -25,7 +25,7 @@ class OtherBody {
     known_ = shapeOf(geometry, shape_);
     if (known_) return;
     const Vector3d x = pose.linear().transpose() * (point - pose.translation());
-    // A whole part in 1e12 more than rounding: a cell in the way of a point beside it is none by its id.
+    // More than rounding: each cell has its own id, so that too much finds no other one.
     const double off = placeRounding(pose, x) + 1e-12 * point.lpNorm<1>();
     if (!ElementTree(geometry).find(element, x, off, shape_, place)) return;
     known_ = true;

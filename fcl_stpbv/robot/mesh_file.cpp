@@ -22,6 +22,7 @@
 #include "fcl_stpbv/io/text_scanner.h"
 #include "fcl_stpbv/io/volume_files.h"
 #include "fcl_stpbv/robot/child_process.h"
+#include "fcl_stpbv/robot/file_ending.h"
 #include "fcl_stpbv/robot/mesh_format.h"
 
 namespace fcl_stpbv {

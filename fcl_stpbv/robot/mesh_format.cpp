@@ -8,11 +8,10 @@
 
 #include <algorithm>
 #include <assimp/Importer.hpp>
-#include <cctype>
-#include <filesystem>
 #include <set>
 
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/robot/file_ending.h"
 #include "fcl_stpbv/robot/gltf_check.h"
 #include "fcl_stpbv/robot/ply_check.h"
 #include "fcl_stpbv/robot/text_mesh_check.h"
@@ -30,13 +29,6 @@ bool looksLikeGltf(std::string_view text) {
 }
 
 }  // namespace
-
-std::string lowerExtension(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
-}
 
 std::string expectedFormat(std::string_view text, const std::string& path) {
   const std::string extension = lowerExtension(path);

@@ -13,8 +13,6 @@ class Importer;
 
 namespace fcl_stpbv::detail {
 
-std::string lowerExtension(const std::string& path);
-
 /// The ending, such as ".obj", of the format that assimp will read a file as, where the file's name or its
 /// first bytes settle that; "" otherwise. Checked before, a fault is told better than by assimp.
 std::string expectedFormat(std::string_view text, const std::string& path);

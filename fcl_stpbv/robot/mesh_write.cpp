@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <assimp/Exporter.hpp>
-#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <memory>
@@ -13,6 +12,7 @@
 
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/io/atomic_write.h"
+#include "fcl_stpbv/robot/file_ending.h"
 #include "fcl_stpbv/robot/mesh_file.h"
 
 namespace fcl_stpbv {
@@ -30,9 +30,7 @@ constexpr std::array<Format, 4> kFormats{
     {{".obj", "objnomtl"}, {".stl", "stlb"}, {".ply", "plyb"}, {".glb", "glb2"}}};
 
 const Format* formatOf(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string extension = detail::lowerExtension(path);
   const auto found = std::find_if(kFormats.begin(), kFormats.end(),
                                   [&](const Format& f) { return extension == f.extension; });
   return found == kFormats.end() ? nullptr : found;

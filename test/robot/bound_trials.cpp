@@ -5,6 +5,7 @@
 #include <fcl/geometry/shape/sphere.h>
 
 #include <cmath>
+#include <utility>
 
 #include "fcl_stpbv/robot/adjacency.h"
 #include "fcl_stpbv/robot/pair_search.h"
@@ -24,6 +25,15 @@ std::string moving(const std::string& name, const std::string& type, const std::
 
 }  // namespace
 
+ProofScene proofSceneOf(const std::string& urdf, std::vector<Obstacle> obstacles) {
+  const auto model = std::make_shared<const RobotModel>(parseUrdf(urdf, "small.urdf"));
+  GeometryOptions options;
+  options.cacheFolder.clear();
+  return proofScene(std::make_shared<const Kinematics>(model),
+                    std::make_shared<const RobotGeometry>(loadGeometry(*model, options)),
+                    std::move(obstacles), 0);
+}
+
 ProofScene primitiveScene() {
   const std::string text = robot(
       link("base", "<box size=\"0.3 0.2 0.1\"/>") +
@@ -38,21 +48,15 @@ ProofScene primitiveScene() {
              "<mimic joint=\"elbow\" multiplier=\"-0.8\" offset=\"0.1\"/>") +
       moving("grip1", "prismatic", "palm", "left", "0 0.1 0.1", "0 1 0") +
       moving("grip2", "prismatic", "palm", "right", "0 -0.1 0.1", "0 -1 0", "<mimic joint=\"grip1\"/>"));
-  const auto model = std::make_shared<const RobotModel>(parseUrdf(text, "primitives.urdf"));
-  GeometryOptions options;
-  options.cacheFolder.clear();
   const auto obstacle = [](auto geometry, double x, double y, double z) {
     fcl::CollisionObjectd object(geometry);
     object.setTranslation(Eigen::Vector3d(x, y, z));
     return obstacleOf(object, "obstacle");
   };
-  return proofScene(
-      std::make_shared<const Kinematics>(model),
-      std::make_shared<const RobotGeometry>(loadGeometry(*model, options)),
-      {obstacle(std::make_shared<fcl::Sphered>(0.2), 1, 0.5, 0.5),
-       obstacle(std::make_shared<fcl::Boxd>(0.3, 0.4, 0.5), -0.5, 0.8, 0.2),
-       obstacle(std::make_shared<StpBvGeometry>(StpBv::build(geodesicSphere(0.2, 2))), 0.2, -1, 0.9)},
-      0);
+  return proofSceneOf(
+      text, {obstacle(std::make_shared<fcl::Sphered>(0.2), 1, 0.5, 0.5),
+             obstacle(std::make_shared<fcl::Boxd>(0.3, 0.4, 0.5), -0.5, 0.8, 0.2),
+             obstacle(std::make_shared<StpBvGeometry>(StpBv::build(geodesicSphere(0.2, 2))), 0.2, -1, 0.9)});
 }
 
 std::vector<LinkPair> movingPairs(const ProofScene& scene) {

@@ -15,6 +15,9 @@ struct BoundTrials {
   double useful = 0;        ///< part of the boxes whose bound is above half the distance in their middle
 };
 
+/// The scene of a robot given as a URDF's text.
+ProofScene proofSceneOf(const std::string& urdf, std::vector<Obstacle> obstacles = {});
+
 /// A robot of primitives with turning, sliding and mimic joints, among obstacles of its own.
 ProofScene primitiveScene();
 

@@ -120,29 +120,16 @@ TEST_CASE(
     const double c = random.uniform(0.05, 0.4), l = random.uniform(0.05, 0.4),
                  half = random.uniform(1.6, 3.1);
     const auto number = [](double x) { return std::to_string(x); };
-    const std::string limits = "<limit lower=\"-9\" upper=\"9\" effort=\"1\" velocity=\"1\"/>";
-    const auto joined = [&](const char* name, const char* type, const char* parent, const char* child,
-                            const std::string& more) {
-      return "<joint name=\"" + std::string(name) + "\" type=\"" + type + "\"><parent link=\"" + parent +
-             "\"/><child link=\"" + child + "\"/>" + limits + more + "</joint>";
-    };
-    const auto model = std::make_shared<const RobotModel>(parseUrdf(
-        robot("<link name=\"wall\"><collision><origin xyz=\"2 0 0\"/><geometry><box size=\"0.2 4 "
-              "4\"/></geometry>"
-              "</collision></link>" +
-              link("rack") + "<link name=\"ball\"><collision><origin xyz=\"0 " + number(l) +
-              " 0\"/><geometry><sphere radius=\"0.05\"/></geometry></collision></link>" +
-              joined("slide", "prismatic", "wall", "rack",
-                     "<axis xyz=\"1 0 0\"/><mimic joint=\"turn\" multiplier=\"" + number(c) + "\"/>") +
-              joined("turn", "revolute", "rack", "ball", "<axis xyz=\"0 0 1\"/>")),
-        "rack.urdf"));
-    GeometryOptions options;
-    options.cacheFolder.clear();
-    const ProofScene scene =
-        proofScene(std::make_shared<const Kinematics>(model),
-                   std::make_shared<const RobotGeometry>(loadGeometry(*model, options)), {}, 0);
+    const ProofScene scene = proofSceneOf(robot(
+        "<link name=\"wall\"><collision><origin xyz=\"2 0 0\"/><geometry><box size=\"0.2 4 4\"/></geometry>"
+        "</collision></link>" +
+        link("rack") + "<link name=\"ball\"><collision><origin xyz=\"0 " + number(l) +
+        " 0\"/><geometry><sphere radius=\"0.05\"/></geometry></collision></link>" +
+        joint("slide", "prismatic", "wall", "rack",
+              "<axis xyz=\"1 0 0\"/><mimic joint=\"turn\" multiplier=\"" + number(c) + "\"/>", 9) +
+        joint("turn", "revolute", "rack", "ball", "<axis xyz=\"0 0 1\"/>", 9)));
     JointBox box{Eigen::VectorXd::Constant(1, -half), Eigen::VectorXd::Constant(1, half)};
-    const double bound = distanceBound(scene, {model->link("wall"), model->link("ball")}, box);
+    const double bound = distanceBound(scene, pairNamed(scene, "wall", "ball"), box);
     double least = 1e9;
     for (int k = 0; k <= 1000; ++k) {
       const double t = half * (k / 500.0 - 1);
@@ -170,15 +157,9 @@ TEST_CASE("a proof of links without bodies, of what does not exist and of other 
 
 TEST_CASE("joints without limits leave a pair unproven, a rigid pair needs one box") {
   const std::string ball = "<sphere radius=\"0.1\"/>";
-  const auto model = std::make_shared<const RobotModel>(
-      parseUrdf(robot(link("a", ball) + link("b", ball) + link("c", ball) + joint("f", "floating", "a", "b") +
-                      joint("g", "fixed", "a", "c", "<origin xyz=\"1 0 0\"/>")),
-                "small.urdf"));
-  GeometryOptions options;
-  options.cacheFolder.clear();
-  const ProofScene scene =
-      proofScene(std::make_shared<const Kinematics>(model),
-                 std::make_shared<const RobotGeometry>(loadGeometry(*model, options)), {}, 0);
+  const ProofScene scene = proofSceneOf(robot(link("a", ball) + link("b", ball) + link("c", ball) +
+                                              joint("f", "floating", "a", "b") +
+                                              joint("g", "fixed", "a", "c", "<origin xyz=\"1 0 0\"/>")));
   const PairProof floating = provePair(scene, {0, 1}, unproven(scene, {0, 1}).open, 100);
   CHECK(floating.boxes == 0);
   CHECK(floating.open.size() == 1);

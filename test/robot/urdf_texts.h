@@ -16,10 +16,11 @@ inline std::string link(const std::string& name, const std::string& geometry = "
          (geometry.empty() ? "" : "<collision><geometry>" + geometry + "</geometry></collision>") + "</link>";
 }
 inline std::string joint(const std::string& name, const std::string& type, const std::string& parent,
-                         const std::string& child, const std::string& more = "") {
+                         const std::string& child, const std::string& more = "", int limit = 1) {
+  const std::string most = std::to_string(limit);
   return "<joint name=\"" + name + "\" type=\"" + type + "\"><parent link=\"" + parent +
-         "\"/><child link=\"" + child + "\"/><limit lower=\"-1\" upper=\"1\" effort=\"1\" velocity=\"1\"/>" +
-         more + "</joint>";
+         "\"/><child link=\"" + child + "\"/><limit lower=\"-" + most + "\" upper=\"" + most +
+         "\" effort=\"1\" velocity=\"1\"/>" + more + "</joint>";
 }
 
 /// What is said where a robot's text is refused.
