@@ -1,5 +1,6 @@
-// Checks transforms of COLLADA's nodes. assimp normalises no axis of a <rotate>, and makes the matrix of a
-// <lookat> from its directions as they are: the body would be stretched, sheared or flat.
+// Checks transforms of COLLADA's nodes. assimp normalises no axis of a <rotate>, makes the matrix of a
+// <lookat> from its directions as they are, and leaves out the last row of a <matrix>: the body would be
+// stretched, sheared, flat or of another size.
 #include "fcl_stpbv/robot/collada_transforms.h"
 
 #include <Eigen/Geometry>
@@ -43,6 +44,14 @@ void checkView(const XMLElement& element, const std::vector<double>& numbers, co
       "to that view; export the node with a <matrix>");
 }
 
+// Written column by column, the translation would be in the last row.
+void checkMatrix(const XMLElement& element, const std::vector<double>& numbers, const std::string& name) {
+  if (numbers[12] == 0 && numbers[13] == 0 && numbers[14] == 0 && numbers[15] == 1) return;
+  throw Error(xmlPlace(element, name) +
+              "<matrix> must have 0 0 0 1 as its last row; write it row by row, the translation at the ends "
+              "of the first three");
+}
+
 }  // namespace
 
 void checkColladaTransform(const XMLElement& element, const std::string& name) {
@@ -60,6 +69,7 @@ void checkColladaTransform(const XMLElement& element, const std::string& name) {
         "has " + std::to_string(numbers.size()) + " numbers, expected " + std::to_string(transform->second),
         name);
   if (kind == "rotate") checkRotation(element, numbers, name);
+  if (kind == "matrix") checkMatrix(element, numbers, name);
   if (kind == "lookat") checkView(element, numbers, name);
 }
 

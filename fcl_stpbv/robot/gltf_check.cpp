@@ -140,7 +140,7 @@ class GltfCheck {
     for (const auto& [key, count] :
          {std::pair("matrix", 16u), std::pair("translation", 3u), std::pair("scale", 3u)})
       if (const std::optional<GltfItem> transform = values_.find(node, key))
-        values_.numbers(*transform, count);
+        checkTransform(*transform, values_.numbers(*transform, count));
     if (const std::optional<GltfItem> rotation = values_.find(node, "rotation")) {
       const std::vector<double> q = values_.numbers(*rotation, 4);
       const double length = std::sqrt(std::inner_product(q.begin(), q.end(), q.begin(), 0.0));
@@ -148,6 +148,12 @@ class GltfCheck {
         values_.refuse(*rotation, "is a quaternion of length " + std::to_string(length) +
                                       ", expected 1; export the mesh again, with at least six digits");
     }
+  }
+
+  // assimp leaves out the last row of a matrix; written row by row, that would be its translation.
+  void checkTransform(const GltfItem& item, const std::vector<double>& numbers) const {
+    if (numbers.size() == 16 && !(numbers[3] == 0 && numbers[7] == 0 && numbers[11] == 0 && numbers[15] == 1))
+      values_.damaged(item, "must be written column by column, each ending in 0 but the last in 1");
   }
 
   void refuseExtension(const GltfItem& item, const char* extension, const std::string& instead) const {

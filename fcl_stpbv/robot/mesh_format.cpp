@@ -21,7 +21,7 @@ namespace {
 
 // Those of a single reader. The readers of .gltf and .glb, of .xml and of unknown endings look at the
 // content.
-const std::set<std::string_view> kByName{".3mf", ".amf", ".dae", ".obj", ".off", ".ply", ".stl"};
+const std::set<std::string_view> kByName{".3mf", ".amf", ".dae", ".fbx", ".obj", ".off", ".ply", ".stl"};
 
 bool looksLikeGltf(std::string_view text) {
   const std::size_t start = std::min(text.find_first_not_of(" \t\r\n"), text.size());
@@ -52,10 +52,10 @@ std::string formatOf(const aiScene& scene, const Assimp::Importer& importer) {
 
 void checkMeshFormat(std::string_view text, const std::string& format, const std::string& path,
                      const ReadPart& readPart) {
-  if (format == ".3mf" || format == ".amf")
+  if (format == ".3mf" || format == ".amf" || format == ".fbx")
     throw Error(path +
-                ": states a unit of its own, millimetres if it names none, which is not read; convert it to "
-                "STL or OBJ in metres");
+                ": states a unit of its own, millimetres or centimetres if it names none, which is not read; "
+                "convert it to STL or OBJ in metres");
   if (format == ".dae" && text.substr(0, 2) == "PK")
     throw Error(path + ": is a packed COLLADA, which is not read; unpack it and give the .dae in it");
   if (format == ".ply")

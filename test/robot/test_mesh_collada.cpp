@@ -133,6 +133,10 @@ TEST_CASE("a COLLADA transform that would distort the body is refused") {
   const auto view = [&](const std::string& numbers) {
     return Fault{from, "<lookat>" + numbers + "</lookat>", "t.dae:19: <lookat> must have a point to look at"};
   };
+  const auto matrix = [&](const std::string& numbers) {
+    return Fault{from, "<matrix>" + numbers + "</matrix>", "t.dae:19: <matrix> must have 0 0 0 1"};
+  };
+  checkRefused({matrix("1 0 0 0 0 1 0 0 0 0 1 0 0 0 1 1"), matrix("1 0 0 0 0 1 0 0 0 0 1 1 0 0 0 2")});
   checkRefused({rotate("1 1 0 60", "1.414214"), rotate("0.577 0.577 0.577 60", "0.999393"),
                 rotate("0.7071 0.7071 0 60", "0.999990"), rotate("0 0 0 90", "0.000000"),
                 rotate("0 0 -2 180", "2.000000"), view("0 0 0 0 0 -1 0 0 1"), view("0 0 0 0 0 0 0 1 0"),
@@ -153,6 +157,7 @@ TEST_CASE("sound COLLADA is read, whatever its writer's habits") {
            {{"<p>0 0 1 1 2 2", "<p >\n0 0\n1 1\n2 2\n"}},
            {{"<translate>0 0 1</translate>",
              "<rotate>.577350 .577350 .577350 60</rotate><rotate>0 0 0 0</rotate>"}},
+           {{"<translate>0 0 1</translate>", "<matrix>1 0 0 0 0 1 0 0 0 0 1 1 0 0 0 1</matrix>"}},
            {{"<translate>0 0 1</translate>", "<lookat>1 2 3 1 2 -2 0 3 0</lookat>"}},
            {{"<mesh>", "<!-- <unit meter=\"0\"/> --><asset><unit meter=\"1.0\"/></asset><mesh>"}},
            {{"<node id=\"m\">", "<node name=\"m\"><translate>1e0 +2 .5</translate>"},

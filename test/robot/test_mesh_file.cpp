@@ -200,6 +200,7 @@ TEST_CASE("files that hold no mesh are refused by name") {
   refused("noise.obj", std::string(100, '\1'), "");
   refused("t.unknown", "hello\n", "give a whole file");
   refused("t.amf", "<?xml version=\"1.0\"?><amf unit=\"inch\"/>", "convert it to STL or OBJ in metres");
+  refused("t.fbx", "; FBX 7.4.0 project file\n", "convert it to STL or OBJ in metres");
   refused("t.3mf", "PK", "convert it to STL or OBJ in metres");
   refused("t.txt", obj(), "t.txt:1:");
   refused("cut.off", "OFF\n4 4 6\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1", "damaged");

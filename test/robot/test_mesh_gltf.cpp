@@ -159,6 +159,8 @@ TEST_CASE("glTF: nodes whose transform or children would be taken for others are
        {node, "{\"mesh\":0,\"translation\":[1,2]}", "nodes[0].translation must be a list of 3"},
        {node, "{\"mesh\":0,\"translation\":[1,2,\"3\"]}", "nodes[0].translation must be a list of 3"},
        {node, "{\"mesh\":0,\"matrix\":[1]}", "nodes[0].matrix must be a list of 16"},
+       {node, "{\"mesh\":0,\"matrix\":[1,0,0,0,0,1,0,0,0,0,1,5,0,0,0,1]}", "nodes[0].matrix must be written"},
+       {node, "{\"mesh\":0,\"matrix\":[1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,2]}", "nodes[0].matrix must be written"},
        {node, "{\"mesh\":0,\"children\":[1.0]},{\"mesh\":0}", "nodes[0].children[0] must be a whole"},
        {"\"nodes\":[0]", "\"nodes\":[0,0.0]", "scenes[0].nodes[1] must be a whole"}});
 }
@@ -178,6 +180,7 @@ TEST_CASE("sound glTF is read, whatever its exporter adds") {
             ""},
            {primitive + "}]", primitive + ",\"targets\":[{\"POSITION\":0}]}],\"weights\":[0]", ""},
            {primitive, primitive + ",\"mode\":5", ""},
+           {"{\"mesh\":0}", "{\"mesh\":0,\"matrix\":[1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1]}", ""},
            {"{\"mesh\":0}", "{\"mesh\":0,\"rotation\":[0,0,0.707107,0.707107],\"scale\":[2,2,2]}", ""},
            {"5126,\"count\":3",
             "5126,\"count\":3,\"sparse\":{\"count\":1,\"indices\":{\"bufferView\":1,"
