@@ -1,28 +1,23 @@
 // Connected pieces of a mesh, and which of them enclose a space:
 // 1. weld vertices with equal coordinates;
-// 2. walk over shared edges from triangle to triangle, turning each to agree with its neighbour;
-// 3. a piece is closed if every edge is run through equally often both ways.
+// 2. take triangles with the same corners for one, or for a sheet without an inside;
+// 3. turn triangles to agree with their neighbours, over edges that just two share;
+// 4. a piece is closed if every edge is run through equally often both ways, and not all of it is sheets.
 #include <algorithm>
-#include <map>
 #include <numeric>
 #include <tuple>
 #include <utility>
 
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/numbers.h"
+#include "fcl_stpbv/parts/mesh_copies.h"
+#include "fcl_stpbv/parts/mesh_edges.h"
 #include "fcl_stpbv/parts/mesh_solid.h"
 
 namespace fcl_stpbv {
 namespace {
 
-using detail::at;
-
-struct Edge {
-  int low, high;
-  int triangle;
-  bool forward;  // runs from low to high
-  bool sameAs(const Edge& other) const { return low == other.low && high == other.high; }
-};
+using namespace detail;
 
 // Numbers for the points, equal ones sharing one.
 std::vector<int> weld(const std::vector<Eigen::Vector3d>& points, std::vector<Eigen::Vector3d>& distinct) {
@@ -57,8 +52,11 @@ class Taker {
   }
 
   MeshPieces take() {
-    sortEdges();
-    spread();
+    sheet_ = joinCopies(out_.triangles);
+    edges_ = MeshEdges(out_.triangles);
+    findPartners();
+    orient();
+    connect();
     decideClosed();
     addLines();
     return std::move(out_);
@@ -67,66 +65,78 @@ class Taker {
  private:
   static bool isLine(const std::array<int, 3>& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }
 
-  void sortEdges() {
-    for (std::size_t t = 0; t < out_.triangles.size(); ++t) {
-      for (std::size_t k = 0; k < 3; ++k) {
-        const int a = out_.triangles[t][k], b = out_.triangles[t][(k + 1) % 3];
-        edges_.push_back({std::min(a, b), std::max(a, b), static_cast<int>(t), a < b});
+  // The other one of just two triangles that share an edge; sheets do not count.
+  void findPartners() {
+    partner_.assign(edges_.size(), -1);
+    for (std::size_t first = 0; first < edges_.size();) {
+      const std::size_t last = edges_.endOfRun(first);
+      std::vector<std::size_t> users;
+      for (; first < last; ++first)
+        if (!sheet_[at(edges_[first].triangle)]) users.push_back(first);
+      if (users.size() != 2) continue;
+      partner_[users[0]] = static_cast<int>(users[1]);
+      partner_[users[1]] = static_cast<int>(users[0]);
+    }
+  }
+
+  void orient() {
+    turned_.assign(out_.triangles.size(), 0);
+    std::vector<char> seen(out_.triangles.size(), 0);
+    for (std::size_t start = 0; start < seen.size(); ++start) {
+      if (seen[start]) continue;
+      std::vector<std::size_t> open{start};
+      seen[start] = 1;
+      while (!open.empty()) {
+        const std::size_t from = open.back();
+        open.pop_back();
+        for (const std::size_t e : edges_.of(from)) {
+          if (partner_[e] < 0) continue;
+          const MeshEdge& other = edges_[at(partner_[e])];
+          const std::size_t to = at(other.triangle);
+          if (seen[to]) continue;
+          seen[to] = 1;
+          turned_[to] = turned_[from] ^ static_cast<char>(other.forward == edges_[e].forward);
+          open.push_back(to);
+        }
       }
     }
-    std::sort(edges_.begin(), edges_.end(), [](const Edge& a, const Edge& b) {
-      return std::tie(a.low, a.high, a.triangle) < std::tie(b.low, b.high, b.triangle);
-    });
-    edgesOf_.resize(out_.triangles.size());
-    for (std::size_t e = 0; e < edges_.size(); ++e)
-      edgesOf_[at(edges_[e].triangle)].push_back(static_cast<int>(e));
+    for (std::size_t t = 0; t < out_.triangles.size(); ++t)
+      if (turned_[t]) std::swap(out_.triangles[t][1], out_.triangles[t][2]);
   }
 
-  // Edges equal to one: first and one past the last.
-  std::pair<std::size_t, std::size_t> run(std::size_t e) const {
-    std::size_t first = e, last = e;
-    while (first > 0 && edges_[first - 1].sameAs(edges_[e])) --first;
-    while (last < edges_.size() && edges_[last].sameAs(edges_[e])) ++last;
-    return {first, last};
-  }
-
-  // Walks over edges from triangle to triangle, turning each to agree with the one it was reached from where
-  // just two share the edge.
-  void spread() {
+  void connect() {
     out_.piece.assign(out_.triangles.size(), -1);
-    turned_.assign(out_.triangles.size(), 0);
     std::vector<char> passed(edges_.size(), 0);
     int pieces = 0;
-    for (std::size_t start = 0; start < out_.triangles.size(); ++start) {
+    for (std::size_t start = 0; start < out_.piece.size(); ++start) {
       if (out_.piece[start] >= 0) continue;
-      std::vector<int> open{static_cast<int>(start)};
+      std::vector<std::size_t> open{start};
       out_.piece[start] = pieces;
       while (!open.empty()) {
-        const int from = open.back();
+        const std::size_t from = open.back();
         open.pop_back();
-        for (const int e : edgesOf_[at(from)]) {
-          const auto [first, last] = passed[at(e)] ? std::pair{at(e), at(e)} : run(at(e));
-          for (std::size_t other = first; other < last; ++other) {
+        for (const std::size_t e : edges_.of(from)) {
+          if (passed[e]) continue;
+          const std::size_t last = edges_.endOfRun(e);
+          for (std::size_t other = edges_.startOfRun(e); other < last; ++other) {
             passed[other] = 1;
-            const int to = edges_[other].triangle;
-            if (out_.piece[at(to)] >= 0) continue;
-            out_.piece[at(to)] = pieces;
-            const bool agrees = edges_[other].forward != edges_[at(e)].forward;
-            turned_[at(to)] = turned_[at(from)] ^ static_cast<char>(last - first == 2 && !agrees);
+            const std::size_t to = at(edges_[other].triangle);
+            if (out_.piece[to] >= 0) continue;
+            out_.piece[to] = pieces;
             open.push_back(to);
           }
         }
       }
       ++pieces;
     }
-    out_.closed.assign(at(pieces), 1);
-    for (std::size_t t = 0; t < out_.triangles.size(); ++t)
-      if (turned_[t]) std::swap(out_.triangles[t][1], out_.triangles[t][2]);
+    out_.closed.assign(at(pieces), 0);
   }
 
   void decideClosed() {
+    for (std::size_t t = 0; t < out_.piece.size(); ++t)
+      if (!sheet_[t]) out_.closed[at(out_.piece[t])] = 1;
     for (std::size_t e = 0; e < edges_.size();) {
-      const std::size_t last = run(e).second;
+      const std::size_t last = edges_.endOfRun(e);
       int balance = 0;
       const int piece = out_.piece[at(edges_[e].triangle)];
       for (; e < last; ++e)
@@ -137,12 +147,9 @@ class Taker {
 
   // A triangle with two equal corners is the edge of another, or a piece of its own.
   void addLines() {
-    const auto less = [](const Edge& a, const Edge& b) {
-      return std::tie(a.low, a.high) < std::tie(b.low, b.high);
-    };
     for (const std::array<int, 3>& line : lines_) {
       const auto [low, high] = std::minmax_element(line.begin(), line.end());
-      if (std::binary_search(edges_.begin(), edges_.end(), Edge{*low, *high, 0, true}, less)) continue;
+      if (edges_.has(*low, *high)) continue;
       out_.triangles.push_back(line);
       out_.piece.push_back(out_.pieces());
       out_.closed.push_back(0);
@@ -151,9 +158,10 @@ class Taker {
 
   MeshPieces out_;
   std::vector<std::array<int, 3>> lines_;
-  std::vector<Edge> edges_;
-  std::vector<std::vector<int>> edgesOf_;
-  std::vector<char> turned_;
+  std::vector<char> sheet_;  // of each triangle
+  MeshEdges edges_;
+  std::vector<int> partner_;  // of each edge, or -1
+  std::vector<char> turned_;  // of each triangle
 };
 
 }  // namespace

@@ -15,10 +15,13 @@ namespace fcl_stpbv {
 /// A mesh taken apart into pieces whose triangles share edges. A piece is closed where each of its edges is
 /// run through as often one way as the other, after triangles were turned to agree with their neighbours: its
 /// winding number about a point then is a whole number, and where that is not 0 the piece encloses the point.
-/// Flipped faces, nested shells and holes are the rule in robots' meshes, so none of them is an error.
+/// Copies of a triangle, in either direction, count once, and not at all in a wall between two bodies or in a
+/// sheet with two sides, which has no inside. Flipped faces, nested shells and holes are the rule in robots'
+/// meshes, so none of them is an error.
 struct MeshPieces {
   std::vector<Eigen::Vector3d> vertices;      ///< each point once (m)
-  std::vector<std::array<int, 3>> triangles;  ///< turned; lines that are an edge of another are left out
+  /// Turned; without copies and without lines that are an edge of another. Sheets have both sides.
+  std::vector<std::array<int, 3>> triangles;
   std::vector<int> piece;                     ///< of each triangle
   std::vector<char> closed;                   ///< of each piece
   /// Number of pieces.

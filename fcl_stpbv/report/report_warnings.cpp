@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <set>
 
 namespace fcl_stpbv::report {
 
@@ -50,10 +51,21 @@ std::string kinks(const CollisionReport& report) {
 
 }  // namespace
 
+std::string openParts(const RobotGeometry& geometry) {
+  std::set<std::string> names;
+  for (const Body& body : geometry.bodies)
+    if (body.openPieces > 0) names.insert(geometry.bodies[static_cast<std::size_t>(body.partOf)].name);
+  if (names.empty()) return "";
+  const std::string others =
+      names.size() > 1 ? " and of " + std::to_string(names.size() - 1) + " more meshes" : "";
+  return "the convex parts of '" + *names.begin() + "'" + others +
+         " cover faces, but not the space inside: the mesh is not closed. Close it, or take the link whole.";
+}
+
 std::vector<std::string> reportWarnings(const CollisionReport& report, const std::string& neutral) {
   std::vector<std::string> warnings;
-  for (const std::string& text :
-       {openMeshes(report), neutralCollisions(report.neutral, neutral), kinks(report)})
+  for (const std::string& text : {openMeshes(report), openParts(*report.geometry),
+                                  neutralCollisions(report.neutral, neutral), kinks(report)})
     if (!text.empty()) warnings.push_back(report.robot->path + ": " + text);
   return warnings;
 }

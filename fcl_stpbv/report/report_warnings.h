@@ -7,6 +7,9 @@
 
 namespace fcl_stpbv::report {
 
+/// A sentence on meshes that are split and not closed, whose parts cover their faces alone; "" without one.
+std::string openParts(const RobotGeometry& geometry);
+
 /// Whole sentences for meshes that are not closed, for bodies that meet in the neutral
 /// posture (`neutral` is its name, "" for the usual one) and for pairs whose gradient may
 /// jump. The report's pairs and fits are there.

@@ -88,7 +88,7 @@ bool DetailChoice::meets(const SceneNeed& need, Details details) {
   };
   const auto apart = [&](const Body& a, const fcl::CollisionGeometryd& geometry,
                          const Eigen::Isometry3d& pose) {
-    return distance(*a.geometry, poseOf(a), geometry, pose).distance > need.clearance;
+    return fcl_stpbv::distance(*a.geometry, poseOf(a), geometry, pose).distance > need.clearance;
   };
   for (const Body* a : bodiesOf(need.pair.link1, details.first)) {
     if (need.pair.obstacle) {

@@ -71,6 +71,7 @@ struct Body {
   int parts = 0;          ///< of a whole body: how many parts stand for it in pairs taken by parts
   double excess = 0;      ///< of a part: most that its hull exceeds the mesh's solid by (m)
   double openExcess = 0;  ///< the same over the mesh's triangles alone (m)
+  int openPieces = 0;     ///< of a part: pieces of the mesh that are not closed, whose inside no part covers
   std::vector<Eigen::Vector3d> hull;  ///< of a part: the corners of its hull, in the body's frame (m)
 
   /// Whether `volume` has fewer vertices than its r and R leave, and a larger r instead.

@@ -17,7 +17,7 @@ namespace {
 
 using namespace detail;
 
-Body partOf(const Body& whole, int index, int number, const ConvexPart& part) {
+Body partOf(const Body& whole, int index, int number, const ConvexPart& part, int openPieces) {
   Body body;
   body.link = whole.link;
   body.name = whole.name + ":" + std::to_string(number);
@@ -29,6 +29,7 @@ Body partOf(const Body& whole, int index, int number, const ConvexPart& part) {
   body.partOf = index;
   body.excess = part.excess.upper;
   body.openExcess = part.openExcess.upper;
+  body.openPieces = openPieces;
   body.hull = part.points;
   if (whole.volume) {
     body.volume = StpBv::build(part.points, {whole.volume->radii().r, whole.volume->radii().R});
@@ -88,7 +89,8 @@ class LinkParts::Store {
         return known.mesh.triangles.empty() ? ConvexParts() : convexParts(known.mesh, options);
       });
       int number = 0;
-      for (const ConvexPart& part : parts.parts) bodies.push_back(partOf(whole, index, ++number, part));
+      for (const ConvexPart& part : parts.parts)
+        bodies.push_back(partOf(whole, index, ++number, part, parts.pieces - parts.closedPieces));
     } catch (const Error& error) {
       const std::string message = error.what();
       const bool named = message.find(whole.file) != std::string::npos;
