@@ -112,6 +112,7 @@ LinkModel readLink(const XMLElement& element, const std::string& path, RobotMode
     try {
       readInertial(*inertial, link);
     } catch (const Error& error) {
+      link.massFault = xmlPlace(*inertial, path) + "link '" + link.name + "': " + error.what();
       faults.warnings.push_back(xmlPlace(*inertial, path) + "link '" + link.name +
                                 "' counts as without mass: " + error.what());
     }

@@ -69,11 +69,12 @@ struct ShapeModel {
 
 /// A link and what hangs on it.
 struct LinkModel {
-  std::string name;                       ///< as the URDF names it
-  std::vector<ShapeModel> collision;      ///< in the order of the file
-  std::vector<ShapeModel> visual;         ///< likewise
-  int parentJoint = -1;                   ///< -1 for the root
-  double mass = 0;                        ///< kg; 0 without an inertial element
+  std::string name;                   ///< as the URDF names it
+  std::vector<ShapeModel> collision;  ///< in the order of the file
+  std::vector<ShapeModel> visual;     ///< likewise
+  int parentJoint = -1;               ///< -1 for the root
+  double mass = 0;                    ///< kg; 0 without an inertial element, or with a wrong one
+  std::string massFault;  ///< what is wrong with the inertial element, and where; "" where it is sound
   Eigen::Vector3d centreOfMass{0, 0, 0};  ///< in the link's frame (m)
 };
 

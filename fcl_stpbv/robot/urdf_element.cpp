@@ -106,11 +106,15 @@ urdf::CollisionSharedPtr readShapeElement(const XMLElement& shape) {
 
 urdf::InertialSharedPtr readInertialElement(const XMLElement& inertial) {
   SmallRobot robot;
-  robot.copy(*robot.add("link", "l"), &inertial);
+  XMLElement* copy = robot.add(*robot.add("link", "l"), "inertial");
+  for (const char* part : {"origin", "mass"}) robot.copy(*copy, inertial.FirstChildElement(part));
+  XMLElement* inertia = robot.add(*copy, "inertia");  // urdfdom wants one, which nothing here needs
+  for (const char* entry : {"ixx", "ixy", "ixz", "iyy", "iyz", "izz"}) inertia->SetAttribute(entry, "0");
   std::string reason;
   const urdf::ModelInterfaceSharedPtr model = robot.parse(reason);
   const auto read = model ? model->getLink("l") : nullptr;
-  if (!read || !read->inertial) refuse(reason);
+  // With a wrong mass urdfdom leaves one of 0.
+  if (!reason.empty() || !read || !read->inertial) refuse(reason);
   return read->inertial;
 }
 

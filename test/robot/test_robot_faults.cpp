@@ -40,6 +40,32 @@ TEST_CASE("what is not a collision shape costs no collision shape") {
   }
 }
 
+TEST_CASE("an inertial that cannot be read is a warning and known to the link") {
+  const std::string inertia = "<inertia ixx=\"1\" ixy=\"0\" ixz=\"0\" iyy=\"1\" iyz=\"0\" izz=\"1\"/>";
+  const auto link = [&](const std::string& inertial, LoadFaults& faults) {
+    return parseUrdf(robot("<link name=\"a\"><inertial>" + inertial + inertia + "</inertial></link>"),
+                     "small.urdf", faults)
+        .links[0];
+  };
+  for (const char* wrong :
+       {"", "<mass/>", "<mas value=\"1\"/>", "<mass value=\"5kg\"/>", "<mass value=\"5,0\"/>",
+        "<mass value=\"nan\"/>", "<mass value=\"inf\"/>", "<mass value=\"-1\"/>", "<mass value=\"\"/>",
+        "<mass value=\"1\"/><origin xyz=\"1 2\"/>", "<mass value=\"1\"/><origin xyz=\"0 nan 0\"/>"}) {
+    CAPTURE(wrong);
+    LoadFaults faults;
+    const LinkModel read = link(wrong, faults);
+    CHECK(read.mass == 0);
+    CHECK_THAT(read.massFault, Contains("small.urdf:") && Contains("link 'a'"));
+    REQUIRE(faults.warnings.size() == 1);
+    CHECK_THAT(faults.warnings[0], Contains("link 'a' counts as without mass"));
+  }
+  LoadFaults faults;
+  const LinkModel sound = link("<mass value=\"5\"/><origin xyz=\"0 1 0\"/>", faults);
+  CHECK(sound.mass == 5);
+  CHECK(sound.centreOfMass == Eigen::Vector3d(0, 1, 0));
+  CHECK((sound.massFault.empty() && faults.warnings.empty()));
+}
+
 TEST_CASE("each collision element that is lost is named, with its line") {
   const std::string text =
       robot("\n<link name=\"a\">\n" + kBox +
