@@ -23,10 +23,14 @@ class Writer {
   explicit Writer(const PartUrdf& parts) : parts_(parts) { loadXml(parts.robot->path, document_); }
 
   std::string write() {
+    redirectTextures(*document_.RootElement());
     for (XMLElement* link = document_.RootElement()->FirstChildElement("link"); link;
          link = link->NextSiblingElement("link")) {
       for (const char* use : {"collision", "visual"})
-        for (XMLElement* e = link->FirstChildElement(use); e; e = e->NextSiblingElement(use)) redirect(*e);
+        for (XMLElement* e = link->FirstChildElement(use); e; e = e->NextSiblingElement(use)) {
+          redirect(meshOf(*e));
+          redirectTextures(*e);
+        }
       replace(*link);
     }
     tinyxml2::XMLPrinter printer;
@@ -36,12 +40,16 @@ class Writer {
 
  private:
   // A name relative to the old URDF becomes relative to the new one.
-  void redirect(XMLElement& shape) const {
-    XMLElement* mesh = meshOf(shape);
-    const char* name = mesh ? mesh->Attribute("filename") : nullptr;
+  void redirect(XMLElement* file) const {
+    const char* name = file ? file->Attribute("filename") : nullptr;
     if (!name || std::string(name).find("://") != std::string::npos || fs::path(name).is_absolute()) return;
     const fs::path old = fs::absolute(parts_.robot->path).parent_path() / name;
-    mesh->SetAttribute("filename", fs::relative(old, parts_.folder).c_str());
+    file->SetAttribute("filename", fs::relative(old, fs::absolute(parts_.folder)).c_str());
+  }
+
+  void redirectTextures(XMLElement& parent) const {
+    for (XMLElement* m = parent.FirstChildElement("material"); m; m = m->NextSiblingElement("material"))
+      redirect(m->FirstChildElement("texture"));
   }
 
   void replace(XMLElement& link) {

@@ -1,7 +1,9 @@
 // A collision report as CSV and SRDF.
 #include "fcl_stpbv/report/report_formats.h"
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "fcl_stpbv/io/text_scanner.h"
 
@@ -44,7 +46,18 @@ std::string toSrdfText(const CollisionReport& report, const std::string& path, b
   std::vector<std::string> comments;
   comments.reserve(report.skipped.size());
   for (const std::string& skipped : report.skipped) comments.push_back("Left out, not checked: " + skipped);
-  return withPairs(path, report.robot->name, toSrdf(*report.robot, report.list, defaultToo), comments);
+  std::vector<PairEntry> list = report.list;
+  if (std::any_of(report.skipped.begin(), report.skipped.end(),
+                  [&](const std::string& shape) { return shape.find(report.robot->path) == 0; })) {
+    comments.emplace_back("So pairs that did not collide without these shapes are left to be checked.");
+    list.erase(std::remove_if(list.begin(), list.end(),
+                              [](const PairEntry& entry) {
+                                return entry.reason == PairReason::neverSampled ||
+                                       entry.reason == PairReason::neverProven;
+                              }),
+               list.end());
+  }
+  return withPairs(path, report.robot->name, toSrdf(*report.robot, list, defaultToo), comments);
 }
 
 }  // namespace fcl_stpbv::report

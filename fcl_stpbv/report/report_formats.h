@@ -11,7 +11,8 @@ namespace fcl_stpbv::report {
 std::string toText(const CollisionReport& report, std::size_t top);
 std::string toJson(const CollisionReport& report);
 std::string toCsv(const CollisionReport& report);
-/// The SRDF (at `path`, "" for none) with the pairs that need no check.
+/// The SRDF (at `path`, "" for none) with the pairs that need no check. Where shapes of the robot were left
+/// out, pairs that do not collide without them are not among these.
 std::string toSrdfText(const CollisionReport& report, const std::string& path, bool defaultToo = false);
 /// One page with all it needs inside: table, heat map, and the robot in 3-D.
 /// The title follows the robot's name.

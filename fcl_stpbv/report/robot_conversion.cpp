@@ -71,6 +71,7 @@ ordered_json inputsOf(const RobotConversion& conversion, std::vector<std::string
     inputs[what] = {{"file", path}, {"sha256", sha256(readText(path))}};
   };
   inputs["version"] = FCL_STPBV_VERSION;
+  inputs["writer"] = 2;  // changes when the same inputs give other files
   add("urdf", files.urdf);
   add("srdf", files.srdf);
   add("obstacles", files.obstacles);
@@ -111,7 +112,7 @@ ConversionResult convertRobot(const RobotConversion& conversion) {
   result.warnings = report.warnings;
   result.skipped = report.skipped;
   result.summary = formatted(
-      "%s: %d convex parts, their volumes within %.3f mm of the meshes; %d of %zu pairs to check -> %s",
+      "%s: %d convex parts, their volumes within %.3f mm of the meshes; %d of %zu pairs checked -> %s",
       report.robot->name.c_str(), output.parts(), output.excess() * 1e3, report.checked, report.pairs.size(),
       conversion.folder.c_str());
   return result;

@@ -85,11 +85,15 @@ class Doors(unittest.TestCase):
             self.assertEqual(done.returncode, 3, done.stderr)
             for number in (2, 3):
                 self.assertIn(f"link 'a', collision {number}", readable(done.stdout, form), form)
+            if form == "srdf":
+                self.assertIn('link1="a" link2="b"', done.stdout)
+                self.assertNotIn('reason="Never"', done.stdout)
         for form in ("text", "json", "html"):
             done = self.run_tool(POSTURE, self.bad, self.task, "--skip-invalid", "--format", form)
             self.assertEqual(done.returncode, 3, done.stderr)
             self.assertIn("link 'a', collision 2", readable(done.stdout, form), form)
         self.assertEqual(self.run_tool(REPORT, self.good, "--skip-invalid", "--samples", "20").returncode, 0)
+        self.assertIn('reason="Never"', self.run_tool(REPORT, self.good, "--samples", "20", "--format", "srdf").stdout)
 
     def test_a_robot_without_bodies_is_not_clear(self):
         empty = self.put("empty.urdf", '<robot name="r"><link name="a"/></robot>')

@@ -7,6 +7,7 @@ import json
 import os
 import pathlib
 import random
+import re
 import signal
 import subprocess
 import sys
@@ -287,6 +288,21 @@ class Conversion(unittest.TestCase):
         np.testing.assert_allclose(sizes["gate"], [0.2, 0.2])
         np.testing.assert_allclose(sizes["gate_0"], [0.1])
 
+    def test_files_keep_their_names_whatever_way_the_folder_is_given(self):
+        urdf = self.gate()
+        (self.place / "red.png").write_bytes(b"")
+        urdf.write_text(urdf.read_text().replace('<material name="red"/>',
+                                                 '<material name="red"><texture filename="red.png"/></material>'))
+        (self.folder / "a").mkdir()
+        for out in ("new", "new2/", "./new3", "a/new4", str(self.folder / "new5")):
+            done = self.run_tool("robots/gate/gate.urdf", "-o", out, "--samples", "5", cwd=self.folder)
+            self.assertEqual(done.returncode, 0, done)
+            written = self.folder / out
+            names = re.findall(r'filename="([^"]*)"', (written / "gate.urdf").read_text())
+            self.assertIn("red.png", [pathlib.Path(name).name for name in names])
+            for name in names:
+                self.assertTrue((written / name).is_file(), (out, name))
+
     def test_visual_shapes_become_collision_shapes(self):
         (self.place / "gate.obj").write_text(box_obj(0.1, (-0.3, 0, 0), (0.3, 0, 0)))
         (self.place / "gate.urdf").write_text(
@@ -296,7 +312,7 @@ class Conversion(unittest.TestCase):
             '<axis xyz="0 1 0"/><limit lower="-2" upper="0" effort="1" velocity="1"/></joint></robot>')
         done = self.convert("--parts", "2", "-r", "0.01", "--neutral", str(self.pose({"slide": -1.2})))
         self.assertEqual(done.returncode, 0, done)
-        self.assertIn("0 of 1 pairs to check", done.stdout)  # the two are adjacent
+        self.assertIn("0 of 1 pairs checked", done.stdout)  # the two are adjacent
         self.assertEqual(self.manifest()["pairs"]["checked"], 0)
         text = (self.place / "gate.urdf").read_text().replace(
             "</robot>", '<link name="far"><visual><geometry><box size="1 1 1"/></geometry></visual></link><joint name="j" '
