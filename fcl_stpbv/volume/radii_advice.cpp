@@ -68,7 +68,9 @@ class Adviser {
     asked.leastClearance = asked.overCover + reserve_;
     asked.meetsBoth = asked.leastClearance <= task_.clearance;
     if (asked.meetsBoth) return rounder(asked);
-    RadiiAdvice best = rounder(with(kSpare * leastKept()));
+    const double least = leastKept();
+    RadiiAdvice best = with(kSpare * least);
+    best = rounder(keeps(best) ? best : with(least));
     best.leastClearance = asked.leastClearance;
     return best;
   }
@@ -96,7 +98,10 @@ class Adviser {
     return high;
   }
 
-  bool keeps(const RadiiAdvice& advice) const { return advice.overCover + reserve_ <= task_.clearance; }
+  /// With more acceleration than was stated a period's rows miss more.
+  bool keeps(const RadiiAdvice& advice) const {
+    return advice.overCover + std::max(reserve_, advice.perPeriod) <= task_.clearance;
+  }
 
   /// Spends what is left of the clearance on a smaller R: the witness points then slide less.
   RadiiAdvice rounder(const RadiiAdvice& asked) const {
@@ -132,7 +137,7 @@ class Adviser {
   [[noreturn]] void refuse() const {
     char text[256];
     std::snprintf(text, sizeof text,
-                  "adviseRadii: no r and R keep a clearance of %.9g m, of which %.9g m go into the period of "
+                  "adviseRadii: found no r and R that keep a clearance of %.9g m, of which %.9g m or more go into the period of "
                   "%.9g s; state a larger clearance, a shorter period or a slower motion",
                   task_.clearance, reserve_, task_.period);
     throw Error(text);
