@@ -250,6 +250,7 @@ void addShards(py::module_& module) {
       .def(
           "sample",
           [](const PythonPairSearch& search, std::uint64_t seed, std::uint64_t block, int count) {
+            if (count < 1) throw Error("count is " + std::to_string(count) + ", expected at least 1");
             std::vector<PairSamples> found;
             {
               const py::gil_scoped_release others;

@@ -178,9 +178,10 @@ def test_paths_are_text_bytes_or_path_objects(tmp_path):
                 load(missing)
 
 
-def test_a_pickled_volume_is_the_same_bit_by_bit():
+@pytest.mark.parametrize("protocol", range(pickle.HIGHEST_PROTOCOL + 1))
+def test_a_pickled_volume_is_the_same_bit_by_bit(protocol):
     for volume in (box(), fcl_stpbv.StpBv.build(np.random.default_rng(1).normal(size=(300, 3)), r=0.03 / 7, R=100 / 3)):
-        again = pickle.loads(pickle.dumps(volume))
+        again = pickle.loads(pickle.dumps(volume, protocol))
         assert (again.r, again.R, again.faces) == (volume.r, volume.R, volume.faces)
         assert np.array_equal(again.vertices, volume.vertices)
         assert copy.deepcopy(again).verify() == "ok"
