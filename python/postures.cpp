@@ -49,7 +49,9 @@ class PythonPostureSearch {
     options.starts = 1;
     options.seed = seed;
     options.solver.maxSeconds = std::numeric_limits<double>::infinity();  // the clock must not decide
-    return findPosture(setup, options);
+    Posture posture = findPosture(setup, options);
+    requireFinite(posture, path + ": start " + std::to_string(start));
+    return posture;
   }
 
   std::vector<std::string> names(const std::string& task, const std::string& path) const {
@@ -62,6 +64,16 @@ class PythonPostureSearch {
     if (task.partsAuto || task.parts > 1)
       throw Error(path + ": collisions.parts: only the program find_posture splits links; leave it out here");
     return task;
+  }
+
+  // What is no number is no answer, and JSON has no word for it.
+  static void requireFinite(const Posture& posture, const std::string& where) {
+    double sum = posture.cost;
+    for (const auto* list : {&posture.violations, &posture.conflict})
+      for (const Violation& violation : *list)
+        sum += violation.amount / 1e3;  // a few may be the largest number
+    if (!posture.q.allFinite() || !std::isfinite(sum))
+      throw Error(where + ": leads to numbers that are not finite; start nearer to the origin");
   }
 
   PostureScene scene_;

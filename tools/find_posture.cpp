@@ -5,8 +5,11 @@
 #include <tuple>
 
 #include "fcl_stpbv/io/atomic_write.h"
+#include "fcl_stpbv/report/formatted.h"
 #include "fcl_stpbv/report/posture_formats.h"
 #include "fcl_stpbv/report/posture_parts.h"
+#include "fcl_stpbv/report/report_warnings.h"
+#include "fcl_stpbv/robot/constraints.h"
 #include "tools/output_plan.h"
 #include "tools/program.h"
 #include "tools/robot_options.h"
@@ -58,7 +61,8 @@ void describe(Program& app, Arguments& a) {
       "--parts", a.parts,
       "Convex parts of concave links: none; auto, where no posture is found and parts move a pair out of the "
       "way; or a number, at most so many of every link; instead of the task's");
-  app.flag("--ignore-collisions", a.careless, "Solve without the pairs, which are reported all the same");
+  app.flag("--ignore-collisions", a.careless,
+           "Solve without the pairs; those in collision are reported all the same");
   app.flag("-q,--quiet", a.quiet, "No warnings");
 }
 
@@ -66,6 +70,22 @@ void tell(const PostureReport& report) {
   for (const std::string& shape : report.skipped)
     std::cerr << "find_posture: left out and not checked: " << shape << "\n";
   for (const std::string& warning : report.warnings) std::cerr << "find_posture: " << warning << "\n";
+}
+
+// The pairs that a posture found without them brings nearer than the margin, as warnings.
+std::vector<std::string> collisionsOf(const PostureReport& report) {
+  std::vector<std::string> list;
+  if (report.pairs.empty()) return list;
+  ConstraintOptions options;
+  options.obstacles = report.scene.obstacles;
+  CollisionConstraints pairs(report.kinematics, report.scene.geometry, report.pairs, std::move(options));
+  Eigen::VectorXd d(pairs.rows());
+  pairs.evaluate(report.posture.q, d);
+  for (int row = 0; row < d.size(); ++row)
+    if (!(d[row] >= report.task.collisionMargin))
+      list.push_back("in collision, as --ignore-collisions lets it be: " + pairs.name(row) +
+                     formatted(", %.4g m", d[row]));
+  return list;
 }
 
 // @return the links' parts, where any are asked for.
@@ -82,6 +102,8 @@ std::unique_ptr<PostureParts> load(const Arguments& a, PostureReport& report) {
   scene.geometry = loader.geometry();
   scene.obstacles = loader.obstacles();
   if (!scene.srdf) scene.selfPairs = searchedPairs(scene.robot, scene.geometry);
+  std::tie(report.task, scene) =
+      withBaseAtOrigin(report.task, scene);  // all that follows takes it from there
   report.warnings = loader.warnings();
   report.skipped = loader.skipped();
   const bool split = report.task.partsAuto || report.task.parts > 1;
@@ -104,6 +126,13 @@ int run(Arguments& a) {
   report.kinematics = std::make_shared<const Kinematics>(setup.problem->kinematics());
   report.posture = parts && !a.careless ? parts->find(setup, a.options) : findPosture(setup, a.options);
   report.pairs = setup.pairs;
+  std::vector<std::string> more;
+  if (a.careless) more = collisionsOf(report);
+  if (const std::string open = openParts(*report.scene.geometry); !open.empty())
+    more.push_back(report.scene.robot->path + ": " + open);
+  report.warnings.insert(report.warnings.end(), more.begin(), more.end());
+  for (const std::string& warning : more)
+    if (!a.quiet) std::cerr << "find_posture: " << warning << "\n";
   if (!setup.pairs.empty() && !a.careless) {
     PostureSetup free = setUpWithoutCollisions(report.task, report.scene);
     report.withoutCollisions = findPosture(free, a.options);

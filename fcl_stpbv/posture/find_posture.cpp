@@ -7,7 +7,10 @@
 // feasible posture itself.
 #include "fcl_stpbv/posture/find_posture.h"
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <limits>
 #include <random>
 
 #include "fcl_stpbv/posture/approach.h"
@@ -18,14 +21,16 @@ namespace {
 using namespace detail;
 
 // A random posture around the start: joints up to half way to anywhere within their limits, a moving base
-// up to 10 cm and 0.2 rad away.
+// up to 10 cm and 0.2 rad away, and what has no limits likewise 0.1 m or rad.
 Eigen::VectorXd randomStart(const PostureProblem& problem, const Eigen::VectorXd& start,
                             std::mt19937_64& random) {
   const Kinematics& kinematics = problem.kinematics();
   const auto uniform = [&] { return static_cast<double>(random() >> 11) * 0x1p-53; };
   Eigen::VectorXd q = start;
-  for (int i = 0; i < kinematics.size(); ++i)
-    q[i] += 0.5 * (problem.lower()[i] + uniform() * (problem.upper()[i] - problem.lower()[i]) - start[i]);
+  for (int i = 0; i < kinematics.size(); ++i) {
+    const double low = problem.lower()[i], range = problem.upper()[i] - low, share = uniform();
+    q[i] += std::isfinite(range) ? 0.5 * (low + share * range - start[i]) : 0.1 * (2 * share - 1);
+  }
   for (const Kinematics::Motion& motion : kinematics.motions()) {
     if (motion.joint >= 0) continue;
     const bool turns = std::isfinite(kinematics.lower()[motion.coordinate]);
@@ -34,10 +39,25 @@ Eigen::VectorXd randomStart(const PostureProblem& problem, const Eigen::VectorXd
   return q;
 }
 
+// The random numbers of a start follow those of the starts before it. At each hundred thousandth they begin
+// anew, so that none is a long way off.
+constexpr long long kAnew = 100000;
+std::mt19937_64 randomBefore(const PostureProblem& problem, const Eigen::VectorXd& start, std::uint64_t seed,
+                             long long number) {
+  std::mt19937_64 random(seed);
+  if (number >= kAnew) {
+    std::seed_seq words{seed, seed >> 32, static_cast<std::uint64_t>(number / kAnew)};
+    random.seed(words);
+  }
+  for (long long i = number < kAnew ? 1 : 0; i < number % kAnew; ++i) randomStart(problem, start, random);
+  return random;
+}
+
+// Infinite where one is no number, so that nothing is worse.
 double total(const std::vector<Violation>& violations) {
   double sum = 0;
   for (const Violation& v : violations) sum += v.amount;
-  return sum;
+  return std::isfinite(sum) ? sum : std::numeric_limits<double>::infinity();
 }
 
 // What has next to no slack.
@@ -48,8 +68,8 @@ std::vector<std::string> activeAt(PostureProblem& problem, const Eigen::VectorXd
   for (int i = 0; i < problem.inequalities(); ++i)
     if (values.atLeast[i] < kSlack) names.push_back(problem.inequalityName(i));
   for (int i = 0; i < problem.kinematics().size(); ++i) {
-    if (x[i] < problem.lower()[i] + kSlack) names.push_back(problem.variableName(i) + " (lower limit)");
-    if (x[i] > problem.upper()[i] - kSlack) names.push_back(problem.variableName(i) + " (upper limit)");
+    if (x[i] < problem.lower()[i] + kSlack) names.push_back(problem.limitName(i, false));
+    if (x[i] > problem.upper()[i] - kSlack) names.push_back(problem.limitName(i, true));
   }
   return names;
 }
@@ -61,7 +81,7 @@ std::vector<std::string> pushedLimits(const PostureProblem& problem, const NearP
   for (int i = 0; i < problem.variables(); ++i) {
     const bool low = least.x[i] <= problem.lower()[i] && least.slope[i] > push;
     const bool high = least.x[i] >= problem.upper()[i] && least.slope[i] < -push;
-    if (low || high) names.push_back(problem.variableName(i) + (low ? " (lower limit)" : " (upper limit)"));
+    if (low || high) names.push_back(problem.limitName(i, high));
   }
   return names;
 }
@@ -69,12 +89,13 @@ std::vector<std::string> pushedLimits(const PostureProblem& problem, const NearP
 // SLSQP from x. Where it ends at more violations or, with none, at more cost, x stands.
 SolverOutcome improve(PostureProblem& problem, const Eigen::VectorXd& x, const SolverOptions& options) {
   const auto rank = [&](const Eigen::VectorXd& at) {
-    const double violated = total(problem.violations(at, options.tolerance));
+    const double violated = total(problem.missed(at, options.tolerance));
     return std::make_pair(violated, problem.evaluate(at).cost);
   };
   const auto before = rank(x);
   SolverOutcome outcome = solveBySlsqp(problem, x, options);
-  if (before < rank(outcome.x)) outcome.x = x;
+  const auto after = rank(outcome.x);
+  if (before < after || std::isnan(after.second)) outcome.x = x;
   return outcome;
 }
 
@@ -92,7 +113,7 @@ SolverOutcome solve(PostureProblem& problem, const Eigen::VectorXd& start, const
   // Farther away than this where the programming ends, more steps seldom get there.
   constexpr double kClose = 1e-3;
   const auto worst = [&](const Eigen::VectorXd& x) {
-    const std::vector<Violation> list = problem.violations(x, options.tolerance);
+    const std::vector<Violation> list = problem.missed(x, options.tolerance);
     return list.empty() ? 0.0 : list.front().amount;
   };
   NearPosture near{start, {}, 0};
@@ -126,31 +147,38 @@ Posture findPosture(PostureSetup& setup, const PostureOptions& options) {
   };
   PostureProblem& problem = *setup.problem;
   const long queriesBefore = problem.queries();
-  std::mt19937_64 random(options.seed);
   Posture best;
   Eigen::VectorXd bestX;
   const auto consider = [&](const SolverOutcome& outcome) {
-    std::vector<Violation> violations = problem.violations(outcome.x, options.solver.tolerance);
+    std::vector<Violation> violations = problem.missed(outcome.x, options.solver.tolerance);
     best.iterations += outcome.iterations;
-    if (bestX.size() > 0 && total(violations) >= total(best.violations)) return;
+    if (bestX.size() > 0 && !(total(violations) < total(best.violations))) return;
     best.violations = std::move(violations);
     best.feasible = best.violations.empty();
     best.status = !best.feasible && outcome.status == "converged" ? "stuck" : outcome.status;
     bestX = outcome.x;
   };
-  for (int i = 0; i < options.firstStart + options.starts && !best.feasible; ++i) {
+  const long long first = std::max(0, options.firstStart), last = first + std::max(1, options.starts);
+  std::mt19937_64 random = randomBefore(problem, setup.start, options.seed, first);
+  for (long long i = first; i < last && !best.feasible; ++i) {
+    if (i > first && i % kAnew == 0) random = randomBefore(problem, setup.start, options.seed, i);
     const Eigen::VectorXd q = i == 0 ? setup.start : randomStart(problem, setup.start, random);
-    if (i < options.firstStart) continue;  // its random numbers are drawn all the same
     ++best.starts;
     consider(solve(problem, problem.variablesAt(q), options.solver));
   }
   if (!best.feasible) {
     const NearPosture least = approach(problem, bestX, {});
-    best.conflict = problem.violations(least.x, options.solver.tolerance);
+    best.conflict = problem.missed(least.x, options.solver.tolerance);
     if (best.conflict.empty())  // then they can hold together
       consider(improve(problem, least.x, options.solver));
     else
       best.conflictLimits = pushedLimits(problem, least);
+  }
+  if (!problem.still().empty()) {  // whatever else holds
+    best.feasible = false;
+    best.status = "in collision where nothing moves";
+    best.violations = problem.violations(bestX, options.solver.tolerance);
+    best.conflict.insert(best.conflict.begin(), problem.still().begin(), problem.still().end());
   }
   best.seconds = elapsed();
   best.q = bestX.head(setup.start.size());

@@ -12,9 +12,9 @@ namespace fcl_stpbv {
 
 /// How long to search.
 struct PostureOptions {
-  SolverOptions solver;    ///< for each start
-  int starts = 5;          ///< at most; number 0 is the task's own, the others random ones near it
-  int firstStart = 0;      ///< number of the first one to try
+  SolverOptions solver;  ///< for each start
+  int starts = 5;        ///< at most; number 0 is the task's own, the others random ones near it; 1 at least
+  int firstStart = 0;    ///< number of the first one to try; below 0 counts as 0
   std::uint64_t seed = 1;  ///< of the random ones
 };
 

@@ -5,7 +5,17 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fcl_stpbv/posture/mimic_limits.h"
+
 namespace fcl_stpbv {
+namespace {
+
+void sortWorstFirst(std::vector<Violation>& list) {
+  std::stable_sort(list.begin(), list.end(),
+                   [](const Violation& a, const Violation& b) { return a.amount > b.amount; });
+}
+
+}  // namespace
 
 PostureCost quarterCost(const Kinematics& kinematics) {
   PostureCost cost{Eigen::VectorXd::Ones(kinematics.size()), Eigen::VectorXd::Zero(kinematics.size())};
@@ -23,7 +33,10 @@ PostureProblem::PostureProblem(std::shared_ptr<const Kinematics> kinematics, Pos
       cost_(std::move(cost)),
       lower_(kinematics_->lower()),
       upper_(kinematics_->upper()),
+      lowerOf_(static_cast<std::size_t>(kinematics_->size())),
+      upperOf_(static_cast<std::size_t>(kinematics_->size())),
       state_(kinematics_->makeState()) {
+  detail::keepMimicLimits(*kinematics_, {lower_, lowerOf_}, {upper_, upperOf_});
   for (const Kinematics::Motion& motion : kinematics_->motions()) {
     const int i = motion.coordinate;
     if (motion.joint >= 0 || !std::isfinite(lower_[i])) continue;
@@ -60,6 +73,13 @@ std::string PostureProblem::name(PostureRows::Kind kind, int row) const {
 
 std::string PostureProblem::variableName(int i) const {
   return i < kinematics_->size() ? kinematics_->names()[static_cast<std::size_t>(i)] : "contact weight";
+}
+
+std::string PostureProblem::limitName(int i, bool upper) const {
+  const std::vector<std::string>& of = upper ? upperOf_ : lowerOf_;
+  const std::size_t k = static_cast<std::size_t>(i);
+  return variableName(i) + (upper ? " (upper limit" : " (lower limit") +
+         (k < of.size() && !of[k].empty() ? " by " + of[k] : "") + ")";
 }
 
 Eigen::VectorXd PostureProblem::variablesAt(const Eigen::VectorXd& q) const {
@@ -108,8 +128,7 @@ long PostureProblem::queries() const {
   return sum;
 }
 
-std::vector<Violation> PostureProblem::violations(const Eigen::Ref<const Eigen::VectorXd>& x,
-                                                  double tolerance) {
+std::vector<Violation> PostureProblem::missed(const Eigen::Ref<const Eigen::VectorXd>& x, double tolerance) {
   const PostureValues& at = evaluate(x);
   std::vector<Violation> list;
   const auto note = [&](const std::string& what, double amount) {
@@ -118,8 +137,15 @@ std::vector<Violation> PostureProblem::violations(const Eigen::Ref<const Eigen::
   for (int i = 0; i < equalities_; ++i) note(equalityName(i), std::abs(at.equal[i]));
   for (int i = 0; i < inequalities_; ++i) note(inequalityName(i), -at.atLeast[i]);
   for (int i = 0; i < variables(); ++i) note(variableName(i), std::max(lower_[i] - x[i], x[i] - upper_[i]));
-  std::stable_sort(list.begin(), list.end(),
-                   [](const Violation& a, const Violation& b) { return a.amount > b.amount; });
+  sortWorstFirst(list);
+  return list;
+}
+
+std::vector<Violation> PostureProblem::violations(const Eigen::Ref<const Eigen::VectorXd>& x,
+                                                  double tolerance) {
+  std::vector<Violation> list = missed(x, tolerance);
+  list.insert(list.end(), still_.begin(), still_.end());
+  sortWorstFirst(list);
   return list;
 }
 

@@ -70,9 +70,10 @@ struct Violation {
 /// A cost and constraints over the robot's coordinates and the constraints' own variables.
 class PostureProblem {
  public:
-  /// The joints keep to their limits. A moving base's rotation vector keeps within a
-  /// quarter turn, axis by axis, of that at `start`: then it stays away from the full turn,
-  /// where it is singular, wherever the start faces.
+  /// The joints keep to their limits, and to those of the joints that mimic them. A moving base's rotation
+  /// vector keeps within a quarter turn, axis by axis, of that at `start`: then it stays away from the full
+  /// turn, where it is singular, wherever the start faces. @throws Error naming the joints where mimic ones
+  /// leave a joint no value.
   PostureProblem(std::shared_ptr<const Kinematics> kinematics, PostureCost cost,
                  const Eigen::VectorXd& start);
 
@@ -99,6 +100,15 @@ class PostureProblem {
   std::string inequalityName(int row) const { return name(PostureRows::Kind::atLeast, row); }
   /// A joint's name, or whose weight the variable is.
   std::string variableName(int i) const;
+  /// A variable's name and which of its limits it is; of a joint that mimics it, that one's name too.
+  std::string limitName(int i, bool upper) const;
+
+  /// What does not hold and what no variable changes: it is among the violations everywhere.
+  void addStill(const std::vector<Violation>& violations) {
+    still_.insert(still_.end(), violations.begin(), violations.end());
+  }
+  /// All that was added so.
+  const std::vector<Violation>& still() const { return still_; }
 
   /// q within the bounds, and own variables that share out evenly.
   Eigen::VectorXd variablesAt(const Eigen::VectorXd& q) const;
@@ -110,6 +120,8 @@ class PostureProblem {
   long queries() const;
   /// What is farther than `tolerance` from holding, worst first; bounds included.
   std::vector<Violation> violations(const Eigen::Ref<const Eigen::VectorXd>& x, double tolerance);
+  /// The same without still().
+  std::vector<Violation> missed(const Eigen::Ref<const Eigen::VectorXd>& x, double tolerance);
 
  private:
   std::string name(PostureRows::Kind kind, int row) const;
@@ -117,6 +129,8 @@ class PostureProblem {
   std::shared_ptr<const Kinematics> kinematics_;
   PostureCost cost_;
   Eigen::VectorXd lower_, upper_;
+  std::vector<std::string> lowerOf_, upperOf_;  // the joint that mimics the coordinate and sets its limit
+  std::vector<Violation> still_;
   std::vector<std::pair<int, int>> shares_;  // first own variable and count of each addVariables()
   std::vector<std::shared_ptr<PostureRows>> rows_;
   int equalities_ = 0, inequalities_ = 0;

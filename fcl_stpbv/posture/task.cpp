@@ -6,6 +6,7 @@
 
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/posture/collision_rows.h"
+#include "fcl_stpbv/posture/task_start.h"
 #include "fcl_stpbv/robot/pair_list.h"
 
 namespace fcl_stpbv {
@@ -17,16 +18,6 @@ int linkNamed(const std::string& name, const PostureScene& scene, const std::str
   const int link = scene.robot->link(name);
   if (link < 0) throw Error(where + ": the robot has no link '" + name + "'");
   return link;
-}
-
-// What `make` returns; its errors get the place in the task before them.
-template <class Make>
-auto within(const std::string& where, Make make) {
-  try {
-    return make();
-  } catch (const Error& error) {
-    throw Error(where + ": " + error.what());
-  }
 }
 
 // An obstacle of this link of the scene: the link's first shape has its name, others #2, #3 after it.
@@ -95,17 +86,6 @@ std::vector<bool> named(const std::vector<LinkObstacles>& lists, const std::vect
   return found;
 }
 
-PostureCost costOf(const PostureTask& task, const Kinematics& kinematics, const Eigen::VectorXd& start) {
-  PostureCost cost = quarterCost(kinematics);
-  if (task.towardsStart) cost.reference = start;
-  for (const auto& [joint, weight] : task.weights) {
-    const int i = kinematics.coordinate(joint);
-    if (i < 0) throw Error(task.path + ": cost.weights: the robot has no joint '" + joint + "' of its own");
-    cost.weights[i] = weight;
-  }
-  return cost;
-}
-
 }  // namespace
 
 std::vector<CheckedPair> searchedPairs(std::shared_ptr<const RobotModel> robot,
@@ -117,34 +97,12 @@ std::vector<CheckedPair> searchedPairs(std::shared_ptr<const RobotModel> robot,
   return checkedPairs(*geometry, pairList(kinematics, geometry, nullptr, options));
 }
 
-Eigen::VectorXd startOf(const PostureTask& task, const PostureScene& scene, const Kinematics& kinematics) {
-  if (!task.state.empty() && !scene.srdf)
-    throw Error(task.path + ": start.state: '" + task.state + "' needs an SRDF; give --srdf");
-  Eigen::VectorXd q = kinematics.neutral();
-  if (!task.state.empty())
-    q = within(task.path + ": start.state",
-               [&] { return kinematics.configuration(scene.srdf->state(task.state)); });
-  for (const auto& [joint, value] : task.joints) {
-    const int i = kinematics.coordinate(joint);
-    if (i < 0) throw Error(task.path + ": start.joints: the robot has no joint '" + joint + "' of its own");
-    q[i] = value;
-  }
-  const Eigen::AngleAxisd turn(task.basePose.linear());
-  if (task.base == BaseMotion::planar) {
-    q.head<2>() = task.basePose.translation().head<2>();
-    q[2] = turn.angle() * turn.axis().z();
-  } else if (task.base == BaseMotion::floating) {
-    q.head<3>() = task.basePose.translation();
-    q.segment<3>(3) = turn.angle() * turn.axis();
-  }
-  return q;
-}
-
 std::vector<CheckedPair> pairsOf(const PostureTask& task, const PostureScene& scene) {
   std::vector<CheckedPair> pairs;
   if (task.selfCollisions) pairs = ownPairs(task, scene);
+  // Those of links that nothing moves, too: they are checked once.
   const std::vector<CheckedPair> all =
-      obstaclePairs(*scene.robot, *scene.geometry, scene.obstacles.size(), task.base != BaseMotion::fixed);
+      obstaclePairs(*scene.robot, *scene.geometry, scene.obstacles.size(), true);
   const std::vector<bool> wanted = named(task.pairs, all, scene, task.path + ": collisions.pairs");
   const std::vector<bool> ignored = named(task.ignore, all, scene, task.path + ": collisions.ignore");
   for (std::size_t i = 0; i < all.size(); ++i)
@@ -152,7 +110,10 @@ std::vector<CheckedPair> pairsOf(const PostureTask& task, const PostureScene& sc
   return pairs;
 }
 
-PostureSetup setUpWithoutCollisions(const PostureTask& task, const PostureScene& scene) {
+namespace {
+
+// Of a task whose base stands at the origin, all but the collisions.
+PostureSetup placed(const PostureTask& task, const PostureScene& scene) {
   const auto kinematics = std::make_shared<const Kinematics>(scene.robot, task.base);
   PostureSetup setup;
   setup.start = startOf(task, scene, *kinematics);
@@ -174,23 +135,63 @@ PostureSetup setUpWithoutCollisions(const PostureTask& task, const PostureScene&
          task.contacts[i].points});
   const auto stability = within(where, [&] {
     return std::make_shared<StaticStability>(*kinematics, contacts, task.stabilityMargin,
-                                             setup.problem->variables());
+                                             setup.problem->variables(), task.toWorld);
   });
   setup.problem->addVariables(stability->weights());
   setup.problem->add(stability);
+  if (const auto room = stability->room()) setup.problem->add(room);
   return setup;
 }
 
-PostureSetup setUp(const PostureTask& task, const PostureScene& scene, double influence) {
-  PostureSetup setup = setUpWithoutCollisions(task, scene);
-  setup.pairs = pairsOf(task, scene);
-  if (setup.pairs.empty()) return setup;
+// Adds the pairs that nothing moves against each other and that are nearer than the margin.
+void checkStill(const std::vector<CheckedPair>& pairs, const PostureTask& task, const PostureScene& scene,
+                PostureSetup& setup) {
+  if (pairs.empty()) return;
   ConstraintOptions options;
-  options.influence = influence + task.collisionMargin;
   options.obstacles = scene.obstacles;
-  const auto kinematics = std::make_shared<const Kinematics>(scene.robot, task.base);
+  const auto kinematics = std::make_shared<const Kinematics>(setup.problem->kinematics());
+  CollisionConstraints distances(kinematics, scene.geometry, pairs, std::move(options));
+  Eigen::VectorXd d(distances.rows());
+  distances.evaluate(setup.start, d);
+  std::vector<Violation> still;
+  for (int row = 0; row < d.size(); ++row)
+    if (!(d[row] >= task.collisionMargin))
+      still.push_back({distances.name(row), task.collisionMargin - d[row]});
+  setup.problem->addStill(still);
+}
+
+}  // namespace
+
+PostureSetup setUpWithoutCollisions(const PostureTask& task, const PostureScene& scene) {
+  const auto [moved, around] = withBaseAtOrigin(task, scene);
+  return placed(moved, around);
+}
+
+PostureSetup setUp(const PostureTask& asked, const PostureScene& given, double influence) {
+  const std::pair<PostureTask, PostureScene> moved = withBaseAtOrigin(asked, given);
+  const PostureTask& task = moved.first;
+  const PostureScene& scene = moved.second;
+  PostureSetup setup = placed(task, scene);
+  setup.pairs = pairsOf(task, scene);
+  const auto kinematics = std::make_shared<const Kinematics>(setup.problem->kinematics());
+  std::vector<CheckedPair> moving, still;
+  for (const CheckedPair& pair : setup.pairs) {
+    const auto linkOf = [&](int body) { return scene.geometry->bodies[static_cast<std::size_t>(body)].link; };
+    const bool moves = !(pair.obstacle ? kinematics->dependence(linkOf(pair.body))
+                                       : kinematics->dependence(linkOf(pair.body), linkOf(pair.other)))
+                            .empty();
+    (moves ? moving : still).push_back(pair);
+  }
+  checkStill(still, task, scene, setup);
+  if (moving.empty()) return setup;
+  // Rows are distances from the margin on, or from 0, as far beyond as they would be without one.
+  const double from = std::max(0.0, task.collisionMargin);
+  ConstraintOptions options;
+  options.influence = from + influence;
+  options.exactUpTo = from + influence / 2;
+  options.obstacles = scene.obstacles;
   setup.problem->add(std::make_shared<CollisionRows>(
-      CollisionConstraints(kinematics, scene.geometry, setup.pairs, std::move(options)),
+      CollisionConstraints(kinematics, scene.geometry, moving, std::move(options)),
       task.collisionMargin + kBeyondMargin));
   return setup;
 }

@@ -55,14 +55,19 @@ std::vector<Eigen::Vector3d> shrunk(const std::vector<Eigen::Vector3d>& points, 
 
 /// Rows: the centre of mass, seen along z, is the sum of w_k times contact point k, with w_k >= 0 of sum 1.
 /// The weights are variables of their own, from x[firstWeight] on, so that contacts may move with the posture
-/// and nothing switches as they do. Each contact is shrunk by the margin, so the centre of mass keeps at
-/// least that far from the support polygon's edges.
+/// and nothing switches as they do. Each contact, as it is seen along z, is shrunk by the margin, so the
+/// centre of mass keeps at least that far from the support polygon's edges however the contacts are tilted.
 class StaticStability : public PostureRows {
  public:
-  /// Keeps a reference to `kinematics`. `margin` in m. @throws Error where a contact has nothing left.
-  StaticStability(const Kinematics& kinematics, std::vector<Contact> contacts, double margin,
-                  int firstWeight);
+  /// Keeps a reference to `kinematics`. `margin` in m; with one, room() belongs to the problem as well.
+  /// `world` turns the axes that `kinematics` has for the world's into those with z upwards.
+  /// @throws Error where a contact has nothing left.
+  StaticStability(const Kinematics& kinematics, const std::vector<Contact>& contacts, double margin,
+                  int firstWeight, const Eigen::Matrix3d& world = Eigen::Matrix3d::Identity());
 
+  /// Rows, not to be negative, that keep each contact wide enough for the margin as it is seen along z, and 3
+  /// degrees from upright. Null without a margin. They refer to `kinematics` too.
+  std::shared_ptr<PostureRows> room() const;
   /// Number of weights, one per contact point.
   int weights() const { return weights_; }
   Kind kind() const override { return Kind::equal; }
@@ -71,10 +76,13 @@ class StaticStability : public PostureRows {
   void evaluate(const Point& at, Eigen::Ref<Eigen::VectorXd> values, Eigen::Ref<RowMatrix> jacobian) override;
 
  private:
+  struct Patches;  // of the contacts
+
   const Kinematics& kinematics_;
   CentreOfMass centre_;
-  std::vector<Contact> contacts_;
+  std::shared_ptr<Patches> patches_;
   std::vector<std::vector<Kinematics::Dependence>> carriers_;  // of each contact
+  Eigen::Matrix3d world_;
   int firstWeight_, weights_ = 0;
   Eigen::Matrix3Xd centreJacobian_;
 };
@@ -149,10 +157,16 @@ struct PostureTask {
   std::string path;                        ///< for messages
   BaseMotion base = BaseMotion::floating;  ///< how the base moves
   std::string state;                       ///< SRDF state to start from; "" for the neutral configuration
-  Eigen::Isometry3d basePose = Eigen::Isometry3d::Identity();  ///< at the start
-  std::map<std::string, double> joints;                        ///< at the start, over those of the state
+  /// Of the root link, at the start; for good where the base is fixed. A planar one keeps its height, and
+  /// has no roll or pitch.
+  Eigen::Isometry3d basePose = Eigen::Isometry3d::Identity();
+  /// At the start, over those of the state and of the base's pose. Names of coordinates
+  /// (Kinematics::names()).
+  std::map<std::string, double> joints;
   bool towardsStart = false;              ///< the cost's reference is the start instead of eq. 3's
-  std::map<std::string, double> weights;  ///< of joints in the cost, over those of eq. 3
+  std::map<std::string, double> weights;  ///< of joints or coordinates in the cost, over those of eq. 3
+  /// Turns the axes in which all is given into those with z upwards: withBaseAtOrigin().
+  Eigen::Matrix3d toWorld = Eigen::Matrix3d::Identity();
   /// A link and where it is to be.
   struct Place {
     std::string link;     ///< by name
@@ -168,7 +182,7 @@ struct PostureTask {
   double stabilityMargin = 0;         ///< m
   double collisionMargin = 0;         ///< m
   bool selfCollisions = true;         ///< whether the robot is kept from itself
-  std::vector<LinkObstacles> pairs;   ///< checked; none: every moving body against every obstacle
+  std::vector<LinkObstacles> pairs;   ///< checked; none: every body against every obstacle
   std::vector<LinkObstacles> ignore;  ///< left out all the same
   /// Concave links are split for the pairs that are in the way although their meshes are farther apart. For
   /// the program find_posture, or whoever makes the scene's bodies: setUp() takes these as they are.
@@ -185,13 +199,19 @@ PostureTask parseTask(const std::string& text, const std::string& path);
 struct PostureSetup {
   std::shared_ptr<PostureProblem> problem;  ///< never null
   Eigen::VectorXd start;                    ///< q
-  std::vector<CheckedPair> pairs;           ///< kept apart
+  /// Kept apart, or where nothing moves one body against the other, checked: PostureProblem::still().
+  std::vector<CheckedPair> pairs;
 };
 
 /// The coordinates of the task's start. @throws Error naming the task's key.
 Eigen::VectorXd startOf(const PostureTask& task, const PostureScene& scene, const Kinematics& kinematics);
 /// The pairs that the task asks to keep apart. @throws Error naming the task's key.
 std::vector<CheckedPair> pairsOf(const PostureTask& task, const PostureScene& scene);
+/// The same task as seen from a fixed base, whose root link then stands at the origin, and from the height of
+/// a planar one: Kinematics has them there. Obstacles and targets are moved the other way. setUp() does so by
+/// itself; this is for whoever shows a posture among obstacles. @throws Error for a planar base that is
+/// tilted.
+std::pair<PostureTask, PostureScene> withBaseAtOrigin(PostureTask task, PostureScene scene);
 /// All but the collisions. @throws Error naming the task's key.
 PostureSetup setUpWithoutCollisions(const PostureTask& task, const PostureScene& scene);
 /// Asked for beyond a collision margin (m): more than a solver's tolerance, so that what it calls feasible

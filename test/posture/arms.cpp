@@ -59,6 +59,34 @@ PostureScene armWithFixedJoint(double angle) {
 
 PostureScene block() { return sceneOf(""); }
 
+PostureScene bodiesOf(const std::string& robot, const std::string& obstacles) {
+  GeometryOptions options;
+  options.cacheFolder.clear();
+  const auto model = [](const std::string& text, const std::string& path) {
+    return std::make_shared<const RobotModel>(parseUrdf("<robot name='r'>" + text + "</robot>", path));
+  };
+  PostureScene scene;
+  scene.robot = model(robot, "r.urdf");
+  scene.geometry = std::make_shared<const RobotGeometry>(loadGeometry(*scene.robot, options));
+  if (obstacles.empty()) return scene;
+  const auto around = model(obstacles, "around.urdf");
+  scene.obstacles = obstaclesOf(around, loadGeometry(*around, options));
+  return scene;
+}
+
+std::string ball(const std::string& name, double x) {
+  const std::string origin = "<origin xyz='" + std::to_string(x) + " 0 0'/>";
+  return "<link name='" + name + "'><inertial>" + origin +
+         "<mass value='1'/><inertia ixx='1' iyy='1' izz='1' ixy='0' ixz='0' iyz='0'/></inertial><collision>" +
+         origin + "<geometry><sphere radius='0.05'/></geometry></collision></link>";
+}
+
+std::string joint(const std::string& name, const std::string& type, const std::string& parent,
+                  const std::string& child, const std::string& more) {
+  return "<joint name='" + name + "' type='" + type + "'><parent link='" + parent + "'/><child link='" +
+         child + "'/>" + more + "</joint>";
+}
+
 Eigen::Isometry3d poseOf(const PostureScene& scene, const Eigen::VectorXd& q, const std::string& link) {
   const Kinematics kinematics(scene.robot, BaseMotion::fixed);
   Kinematics::State state = kinematics.makeState();

@@ -22,6 +22,14 @@ PostureScene armWithFixedJoint(double angle);
 /// The link `base` alone.
 PostureScene block();
 
+/// A robot with bodies, and what stands around it, as URDFs; no obstacles without a text.
+PostureScene bodiesOf(const std::string& robot, const std::string& obstacles = "");
+/// A link that is a ball of 5 cm and 1 kg, this far along x.
+std::string ball(const std::string& name, double x = 0);
+/// A joint of a URDF; `more` holds origin, axis, limits and what it mimics.
+std::string joint(const std::string& name, const std::string& type, const std::string& parent,
+                  const std::string& child, const std::string& more);
+
 /// Where q puts a link.
 Eigen::Isometry3d poseOf(const PostureScene& scene, const Eigen::VectorXd& q, const std::string& link);
 

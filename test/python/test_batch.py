@@ -319,6 +319,47 @@ def test_a_task_that_leaves_nothing_to_check_fails_its_own_job_and_no_other(tmp_
     assert records[str(task)]["feasible"] and "error" in records[str(nothing)] and len(records) == 2
 
 
+def slide(kind, axis="1 0 0"):
+    """A ball on a joint, 1 m above its base."""
+    ball = '<collision><geometry><sphere radius="0.05"/></geometry></collision>'
+    return (f'<robot name="r"><link name="base">{ball}</link><link name="slider">{ball}</link><joint name="s" type="{kind}"><parent link="base"/>'
+            f'<child link="slider"/><origin xyz="0 0 1"/><axis xyz="{axis}"/><limit lower="-1" upper="1" effort="1" velocity="1"/></joint></robot>')
+
+
+def test_starts_of_a_joint_without_limits_are_numbers(tmp_path):
+    robot, scene, task = (tmp_path / name for name in ("robot.urdf", "scene.urdf", "task.json"))
+    robot.write_text(slide("planar", "0 0 1"))
+    scene.write_text(slide("fixed").replace("0 0 1", "0 0 9"))
+    two = [{"name": str(y), "link": "slider", "target": {"position": [0, y, 1]}, "free": ["rx", "ry", "rz"]} for y in (2, 2.5)]
+    task.write_text(json.dumps({"base": "fixed", "placements": two, "collisions": {"pairs": [{"links": ["slider"]}]}}))
+    batch("postures", robot, task, "--obstacles", scene, "--starts", 4, "--jobs", 1, "-o", tmp_path / "out")
+    records = [json.loads(line) for line in (tmp_path / "out").read_text().splitlines()[1:]]
+    assert len(records) == 4 and not any("error" in record for record in records)
+    assert all(sum(amount for _, amount in record["violations"]) < 0.51 for record in records)
+    search = fcl_stpbv.PostureSearch(str(robot), obstacles=str(scene))
+    for start in (99999, 100000, 2**31 - 1):
+        assert np.isfinite(search.solve(task.read_text(), start=start)["q"]).all()
+    with pytest.raises(fcl_stpbv.Error, match="^task: start 0: leads to numbers that are not finite"):
+        search.solve(task.read_text(), start_from=np.full(3, 1e300))
+
+
+def test_a_grid_moves_a_base_that_is_fixed(tmp_path):
+    robot, scene, task, grid = (tmp_path / name for name in ("robot.urdf", "scene.urdf", "task.json", "grid.json"))
+    robot.write_text(slide("prismatic"))
+    scene.write_text(slide("fixed"))  # balls at 0 and 1 m
+    placement = {"name": "hand", "link": "slider", "target": {"position": [0.25, 0, 1.5]}, "free": ["rx", "ry", "rz"]}
+    task.write_text(json.dumps({"base": "fixed", "placements": [placement]}))
+    grid.write_text(json.dumps({"axes": [{"name": "up", "move": {"hand": [0, 0, 0]}, "base": [0, 0, 1], "from": 0, "to": 1, "count": 5}]}))
+    batch("postures", robot, task, "--obstacles", scene, "--grid", grid, "--jobs", 1, "-o", tmp_path / "out")
+    places = json.loads((tmp_path / "out").read_text().splitlines()[1])["places"]
+    assert [place["feasible"] for place in places] == [False, False, True, False, False]  # 1.5 m is reached from 0.5 m alone
+    assert abs(places[2]["q"][0] - 0.25) < 1e-5
+    assert [any(name == "base - base" for name, _ in place["conflict"]) for place in places] == [True, False, False, False, False]
+    task.write_text(json.dumps({"base": "floating", "start": {"joints": {"base/z": 1}}, "placements": [placement]}))
+    assert "start.joints holds at its base/z" in batch("postures", robot, task, "--obstacles", scene, "--grid", grid, "-o", tmp_path / "no",
+                                                       status=2)
+
+
 def test_a_robot_with_a_bad_mesh_is_refused_before_any_job(tmp_path):
     (tmp_path / "bad.stl").write_bytes(b"solid nothing")
     ball = '<collision><geometry><sphere radius="0.1"/></geometry></collision>'

@@ -169,6 +169,48 @@ class FindPosture(unittest.TestCase):
         careless = self.run_task(self.pick_can(), "--format", "html", "--ignore-collisions", "-r", "0.01")
         self.assertEqual(page_data(careless.stdout)["summary"]["colliding"], 7)
 
+    def test_collisions_that_are_ignored_are_reported(self):
+        careless = self.run_task(self.pick_can(), "--format", "json", "--ignore-collisions", "-r", "0.01")
+        self.assertEqual(careless.returncode, 0, careless.stderr)
+        told = [line.split(": ", 1)[1] for line in careless.stderr.splitlines() if "in collision" in line]
+        self.assertEqual(len(told), 7)
+        self.assertEqual([warning for warning in json.loads(careless.stdout)["warnings"] if "in collision" in warning], told)
+        self.assertTrue(any("upper_door" in line and re.search(r", -0\.\d+ m$", line) for line in told), told)
+
+    def stands_at(self, position, obstacle, *arguments, base="fixed"):
+        """A ball on a slide along x, 1 m above its base, among a ball of the same 5 cm."""
+        def robot(name, *links, joint=""):
+            ball = '<collision><geometry><sphere radius="0.05"/></geometry></collision>'
+            path = os.path.join(self.folder.name, name)
+            with open(path, "w", encoding="utf-8") as file:
+                file.write('<robot name="r">' + "".join(f'<link name="{link}">{ball if link != "world" else ""}</link>' for link in links)
+                           + joint + "</robot>")
+            return path
+        slide = robot("slide.urdf", "base", "slider", joint='<joint name="s" type="prismatic"><parent link="base"/><child link="slider"/>'
+                      '<origin xyz="0 0 1"/><axis xyz="1 0 0"/><limit lower="-1" upper="1" effort="1" velocity="1"/></joint>')
+        post = robot("post.urdf", "world", "post", joint='<joint name="p" type="fixed"><parent link="world"/><child link="post"/>'
+                     f'<origin xyz="{obstacle}"/></joint>')
+        task = os.path.join(self.folder.name, "stands.json")
+        with open(task, "w", encoding="utf-8") as file:
+            json.dump({"base": base, "start": {"base": {"position": position}}, "cost": {"towards": "start"}, "placements": []}, file)
+        return self.run_tool(slide, task, "--obstacles", post, "--primitives", "flat", *arguments)
+
+    def test_a_fixed_base_stands_where_the_task_puts_it_in_every_format(self):
+        run = self.stands_at([5, 0, 2], "5 0.5 3", "--format", "html")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        distances = {pair["link1"]: pair["distance"] for pair in page_data(run.stdout)["pairs"] if pair["obstacle"]}
+        self.assertAlmostEqual(distances["slider"], 0.4, delta=1e-6)
+        self.assertAlmostEqual(distances["base"], (1 + 0.25) ** 0.5 - 0.1, delta=1e-6)
+        at_origin = self.stands_at([0, 0, 0], "0 0 0", "--format", "json")
+        self.assertEqual(at_origin.returncode, 1, at_origin.stderr)
+        answer = json.loads(at_origin.stdout)
+        self.assertEqual([v["constraint"] for v in answer["conflict"]], ["base - post"])
+        self.assertAlmostEqual(answer["conflict"][0]["amount"], 0.1, delta=1e-6)
+        self.assertEqual(self.stands_at([0, 0, 1], "0 0 0").returncode, 0)
+        planar = self.stands_at([0, 0, 1], "0 0 2", "--format", "html", base="planar")
+        self.assertEqual(planar.returncode, 0, planar.stderr)
+        self.assertGreaterEqual(min(pair["distance"] for pair in page_data(planar.stdout)["pairs"]), 0)
+
     def test_what_cannot_be_done_ends_with_1_and_names_why(self):
         task = self.pick_can()
         task["placements"][2]["target"]["position"] = [1.6, 0, 1]

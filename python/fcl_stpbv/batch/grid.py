@@ -70,6 +70,10 @@ class Placements:
         if not isinstance(given, dict) or list(given) != ["axes"] or not isinstance(given["axes"], list) or not given["axes"]:
             raise fcl_stpbv.Error(f"{path}: expected an object with a list of axes, such as {{\"axes\": [...]}}")
         self.axes = [Axis(axis, f"{path}: axes[{i}]", set(self.names)) for i, axis in enumerate(given["axes"])]
+        fixed = [name for name in self.task.get("start", {}).get("joints", {}) if name in ("base/x", "base/y", "base/z")]
+        if fixed and any(any(axis.base) for axis in self.axes):
+            raise fcl_stpbv.Error(f"{path}: an axis moves the start's base, which the task's start.joints holds at its {fixed[0]}; "
+                                  "give start.base instead")
         self.columns = len(self.axes[-1].values)
         self.rows = math.prod(len(axis.values) for axis in self.axes[:-1])
         if self.rows * self.columns > MOST_CELLS:

@@ -1,0 +1,104 @@
+// The start and the cost of a task: finds the coordinates that it names, and puts a base that does not move
+// where the task says by moving all else the other way.
+#include "fcl_stpbv/posture/task_start.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fcl_stpbv {
+namespace {
+
+// One coordinate by its own name, or all of a joint's.
+std::vector<int> coordinatesNamed(const std::string& name, const Kinematics& kinematics) {
+  const std::vector<std::string>& names = kinematics.names();
+  std::vector<int> found;
+  for (int i = 0; i < kinematics.size(); ++i)
+    if (names[static_cast<std::size_t>(i)] == name) found.push_back(i);
+  if (!found.empty()) return {found.front()};
+  const int first = kinematics.coordinate(name);
+  for (int i = std::max(0, first); first >= 0 && i < kinematics.size(); ++i)
+    if (names[static_cast<std::size_t>(i)].compare(0, name.size() + 1, name + "/") == 0) found.push_back(i);
+  return found;
+}
+
+[[noreturn]] void refuseJoint(const std::string& where, const std::string& joint) {
+  throw Error(where + ": the robot has no joint '" + joint + "' of its own");
+}
+
+}  // namespace
+
+PostureCost detail::costOf(const PostureTask& task, const Kinematics& kinematics,
+                           const Eigen::VectorXd& start) {
+  PostureCost cost = quarterCost(kinematics);
+  if (task.towardsStart) cost.reference = start;
+  for (const auto& [joint, weight] : task.weights) {
+    const std::vector<int> named = coordinatesNamed(joint, kinematics);
+    if (named.empty()) refuseJoint(task.path + ": cost.weights", joint);
+    if (named.size() == 1) continue;
+    for (const int i : named) cost.weights[i] = weight;
+  }
+  for (const auto& [joint, weight] : task.weights) {  // those of single coordinates count over their joint's
+    const std::vector<int> named = coordinatesNamed(joint, kinematics);
+    if (named.size() == 1) cost.weights[named.front()] = weight;
+  }
+  return cost;
+}
+
+Eigen::VectorXd startOf(const PostureTask& task, const PostureScene& scene, const Kinematics& kinematics) {
+  if (!task.state.empty() && !scene.srdf)
+    throw Error(task.path + ": start.state: '" + task.state + "' needs an SRDF; give --srdf");
+  Eigen::VectorXd q = kinematics.neutral();
+  if (!task.state.empty())
+    q = detail::within(task.path + ": start.state",
+                       [&] { return kinematics.configuration(scene.srdf->state(task.state)); });
+  const Eigen::Matrix3d& turned = task.basePose.linear();
+  if (task.base == BaseMotion::planar) {
+    q.head<2>() = task.basePose.translation().head<2>();
+    q[2] = std::atan2(turned(1, 0), turned(0, 0));
+  } else if (task.base == BaseMotion::floating) {
+    const Eigen::AngleAxisd turn(turned);
+    q.head<3>() = task.basePose.translation();
+    q.segment<3>(3) = turn.angle() * turn.axis();
+  }
+  const std::string where = task.path + ": start.joints";
+  for (const auto& [joint, value] : task.joints) {
+    const std::vector<int> named = coordinatesNamed(joint, kinematics);
+    if (named.empty()) refuseJoint(where, joint);
+    if (named.size() > 1) {
+      std::string names;
+      for (const int i : named)
+        names += (names.empty() ? "" : ", ") + kinematics.names()[static_cast<std::size_t>(i)];
+      throw Error(where + ": '" + joint + "' has several coordinates; give " + names);
+    }
+    q[named.front()] = value;
+  }
+  return q;
+}
+
+std::pair<PostureTask, PostureScene> withBaseAtOrigin(PostureTask task, PostureScene scene) {
+  Eigen::Isometry3d stands = Eigen::Isometry3d::Identity();
+  if (task.base == BaseMotion::fixed) {
+    stands = task.basePose;
+  } else if (task.base == BaseMotion::planar) {
+    constexpr double kUpright = 1e-6;  // rad: what is written with few digits
+    const Eigen::Vector3d up = task.basePose.linear().col(2);
+    if (!(up.z() > 0 && up.head<2>().norm() <= kUpright))
+      throw Error(task.path +
+                  ": start.base.rpy: a planar base turns about z only; leave out roll and pitch, or take the "
+                  "base floating and place its root link with x, y and rz free");
+    stands.translation().z() = task.basePose.translation().z();
+  }
+  if (stands.matrix() == Eigen::Matrix4d::Identity()) return {std::move(task), std::move(scene)};
+  const Eigen::Isometry3d back = stands.inverse();
+  task.basePose = back * task.basePose;
+  task.toWorld = task.toWorld * stands.linear();
+  for (PostureTask::Place& place : task.placements) place.placement.target = back * place.placement.target;
+  for (Obstacle& obstacle : scene.obstacles) {
+    obstacle.pose = back * obstacle.pose;
+    obstacle.centre = back * obstacle.centre;
+  }
+  if (task.base == BaseMotion::fixed) task.basePose.setIdentity();  // without rounding
+  return {std::move(task), std::move(scene)};
+}
+
+}  // namespace fcl_stpbv

@@ -1,0 +1,165 @@
+// Where a task puts the base and the joints: a fixed base stands there, a planar one keeps its height, every
+// coordinate has its name; starts that lead nowhere.
+#include <catch2/catch.hpp>
+
+#include "fcl_stpbv/error.h"
+#include "test/posture/arms.h"
+
+using namespace fcl_stpbv;
+using namespace fcl_stpbv::test;
+
+namespace {
+
+const std::string kHinge =
+    "<origin xyz='0 0 0.2'/><axis xyz='0 0 1'/><limit lower='-2' upper='2' effort='1' velocity='1'/>";
+
+// A ball at the end of an arm of 50 cm, 20 cm above its base, and a ball around which it may not go.
+PostureScene armAmong(const std::string& obstacle) {
+  return bodiesOf(ball("base") + ball("arm", 0.5) + joint("j", "revolute", "base", "arm", kHinge),
+                  "<link name='world'/>" + ball("post") +
+                      joint("at", "fixed", "world", "post", "<origin xyz='" + obstacle + "'/>"));
+}
+
+PostureTask taskOf(const std::string& text) { return parseTask(text, "task.json"); }
+
+Posture solved(const std::string& task, const PostureScene& scene) {
+  PostureSetup setup = setUp(taskOf(task), scene);
+  return findPosture(setup);
+}
+
+std::string refusalOf(const std::string& task, const PostureScene& scene) {
+  try {
+    setUp(taskOf(task), scene);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+// The arm's end, from the base at (5, 0, 1) turned by a quarter about z: at (5, 0.5, 1.2) with j = 0.
+std::string standing(const std::string& base, const std::string& target) {
+  return R"({"base": ")" + base +
+         R"(", "start": {"base": {"position": [5, 0, 1], "rpy": [0, 0, 1.5707963267948966]}},
+             "cost": {"towards": "start"}, "placements": [{"link": "arm", "frame": {"position": [0.5, 0, 0]},
+             "target": {"position": )" +
+         target + R"(}, "free": ["rx", "ry", "rz"]}]})";
+}
+
+const std::string kCart = ball("base") + ball("cart") + ball("hand", 0.3) +
+                          joint("p", "planar", "base", "cart", "<origin xyz='0 0 0.3'/><axis xyz='0 0 1'/>") +
+                          joint("j", "revolute", "cart", "hand", kHinge);
+
+}  // namespace
+
+TEST_CASE("a fixed base stands where the task puts it") {
+  const PostureScene scene = armAmong("0 9 0");
+  const Posture posture = solved(standing("fixed", "[5, 0.5, 1.2]"), scene);
+  REQUIRE(posture.feasible);
+  CHECK(std::abs(posture.q[0]) < 1e-5);
+  CHECK_FALSE(solved(standing("fixed", "[0, 0.5, 1.2]"), scene).feasible);
+  CHECK_FALSE(solved(standing("fixed", "[0.5, 0, 0.2]"), scene).feasible);
+  // The obstacle is in the world, and in the way there.
+  const Posture blocked = solved(standing("fixed", "[5, 0.5, 1.2]"), armAmong("5 0.55 1.2"));
+  CHECK_FALSE(blocked.feasible);
+  REQUIRE_FALSE(blocked.conflict.empty());
+  CHECK(blocked.conflict.front().name == "arm - post");
+}
+
+TEST_CASE("a fixed base that is tilted tilts the ground that the robot stands on") {
+  const PostureScene scene = armAmong("0 9 0");
+  const auto task = [](const std::string& rpy) {
+    return R"({"base": "fixed", "start": {"base": {"position": [0, 0, 3], "rpy": )" + rpy +
+           R"(}}, "placements": [], "stability": {"contacts": [{"link": "base", "points":
+               [[0.3, 0.3, 0], [0.3, -0.3, 0], [-0.3, -0.3, 0], [-0.3, 0.3, 0]]}]}})";
+  };
+  CHECK(solved(task("[0, 0, 0]"), scene).feasible);
+  CHECK(solved(task("[0, 0, 2]"), scene).feasible);
+  CHECK_FALSE(solved(task("[0, 1.5707963267948966, 0]"), scene).feasible);  // an edge on the ground
+}
+
+TEST_CASE("a planar base keeps the height that the task gives it, and cannot be tilted") {
+  const PostureScene scene = armAmong("0 9 0");
+  const Posture posture = solved(standing("planar", "[5.2, 0.6, 1.2]"), scene);
+  REQUIRE(posture.feasible);
+  const Kinematics kinematics(scene.robot, BaseMotion::planar);
+  Kinematics::State state = kinematics.makeState();
+  kinematics.forward(posture.q, state);
+  const Eigen::Vector3d end = state.link[1] * Eigen::Vector3d(0.5, 0, 0);
+  CHECK((end - Eigen::Vector3d(5.2, 0.6, 0.2)).norm() < 1e-5);  // x and y are the world's
+  CHECK_FALSE(solved(standing("planar", "[5.2, 0.6, 0.2]"), scene).feasible);
+  const std::string tilted =
+      refusalOf(R"({"base": "planar", "start": {"base": {"rpy": [0.1, 0, 0]}}, "placements": []})", scene);
+  CHECK(tilted.find("task.json: start.base.rpy: a planar base turns about z only") == 0);
+}
+
+TEST_CASE("every coordinate has the name that answers have") {
+  const PostureScene scene = bodiesOf(kCart);
+  const PostureTask task = taskOf(R"({"base": "floating", "start": {"base": {"position": [1, 2, 3]},
+      "joints": {"p/x": 0.1, "p/y": 0.2, "p/angle": 0.3, "j": 0.4, "base/y": 7}},
+      "cost": {"weights": {"p": 4, "p/y": 5, "base/z": 6}}, "placements": []})");
+  const Kinematics kinematics(scene.robot, task.base);
+  const Eigen::VectorXd q = startOf(task, scene, kinematics);
+  CHECK(q.head<3>() == Eigen::Vector3d(1, 7, 3));
+  CHECK(q.tail<4>() == Eigen::Vector4d(0.1, 0.2, 0.3, 0.4));
+  PostureSetup setup = setUpWithoutCollisions(task, scene);
+  const Eigen::VectorXd weights = setup.problem->costCurvature() / 2;
+  CHECK(weights.tail<5>() == (Eigen::VectorXd(5) << 0, 4, 5, 4, 1).finished());
+  CHECK(weights[2] == 6);
+  const auto refused = [&](const std::string& joints) {
+    return refusalOf(R"({"base": "fixed", "placements": [], "start": {"joints": )" + joints + "}}", scene);
+  };
+  CHECK(refused(R"({"p": 1})").find("start.joints: 'p' has several coordinates; give p/x, p/y, p/angle") !=
+        std::string::npos);
+  CHECK(refused(R"({"base/x": 1})").find("no joint 'base/x'") != std::string::npos);
+}
+
+TEST_CASE("random starts of a joint without limits are numbers, and no worse than none") {
+  for (const std::string type : {"planar", "floating"}) {
+    const PostureScene scene =
+        bodiesOf(ball("base") + ball("cart") + ball("hand", 0.3) +
+                 joint("p", type, "base", "cart", "<origin xyz='0 0 0.3'/><axis xyz='0 0 1'/>") +
+                 joint("j", "revolute", "cart", "hand", kHinge));
+    PostureSetup setup = setUp(taskOf(R"({"base": "fixed", "placements": [
+        {"link": "hand", "target": {"position": [0, 2, 0.5]}, "free": ["rx", "ry", "rz"]},
+        {"link": "hand", "target": {"position": [0, 2.5, 0.5]}, "free": ["rx", "ry", "rz"]}]})"),
+                               scene);
+    PostureOptions options;
+    for (options.firstStart = 0; options.firstStart < 4; ++options.firstStart) {
+      const Posture posture = findPosture(setup, options);
+      INFO(type << " " << options.firstStart);
+      CHECK_FALSE(posture.feasible);
+      CHECK(posture.q.allFinite());
+      CHECK(std::isfinite(posture.cost));
+      REQUIRE(posture.violations.size() >= 2);
+      CHECK(posture.violations.front().amount == Approx(0.25).margin(1e-3));
+    }
+  }
+}
+
+TEST_CASE("any number of starts is taken, from any one on") {
+  const PostureScene scene = planarArm();
+  const std::vector<PostureTask::Place> far{position("tip", {0, 0, 1.31})};
+  PostureOptions options;
+  for (const int starts : {0, -3, 1}) {
+    options.starts = starts;
+    for (const int first :
+         {0, -5, 1, 100000, std::numeric_limits<int>::max() - 1, std::numeric_limits<int>::max()}) {
+      options.firstStart = first;
+      const Posture posture = found(scene, far, options);
+      INFO(starts << " from " << first);
+      CHECK(posture.starts == 1);
+      CHECK(posture.q.allFinite());
+      CHECK_FALSE(posture.conflict.empty());
+    }
+  }
+  // Starts are the same one by one as in a row, also where their numbers begin anew.
+  const auto violated = [&](int first, int starts) {
+    options.firstStart = first;
+    options.starts = starts;
+    options.solver.maxIterations = 1;
+    return found(scene, {position("tip", {0.5, 0.3, 0.6})}, options).violations.front().amount;
+  };
+  for (const int first : {0, 99998})
+    CHECK(violated(first, 4) == std::min({violated(first, 1), violated(first + 1, 1), violated(first + 2, 1),
+                                          violated(first + 3, 1)}));
+}
