@@ -1,6 +1,7 @@
 // How fast a row's gradient may change, from r, R and the distance alone: the bound of docs/control.md,
 // evaluated with each body's least and largest radius of curvature.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -43,14 +44,21 @@ double CollisionConstraints::gradientRateBound(int row) const {
   const Row& r = rows_[at(row)];
   const Witness w = known(at(row));
   if (w.status == DistanceStatus::invalid) return 0;
-  Roundness a, b;
-  if (!moving_ || !roundnessOf(*geometry_->bodies[at(r.a)].geometry, a) ||
-      !roundnessOf(second(pairs_[at(row)]), b))
+  if (!moving_) return kInfinity;
+  double slope, curvature;
+  bend(at(row), w.distance, slope, curvature);
+  if (slope == 0 && curvature == 0) return 0;
+  std::array<Roundness, 2> round;
+  if (!roundnessOf(*geometry_->bodies[at(r.a)].geometry, round[0]) ||
+      !roundnessOf(second(pairs_[at(row)]), round[1]))
     return kInfinity;
-  const double least = w.distance + a.least + b.least;
-  if (!(least > 0)) return kInfinity;
+  const double least = w.distance + round[0].least + round[1].least, deep = std::max(0.0, -w.distance);
+  if (!(least > 0) || deep > std::max(round[0].least, round[1].least)) return kInfinity;
+  // Two edges that cross slide the faster the smaller their angle is.
+  if (std::isinf(round[0].most) && std::isinf(round[1].most)) return kInfinity;
   // W_A + W_B + d has eigenvalues between `least` and `most`; of a polyhedron only open ways count.
-  const double most = w.distance + (std::isinf(a.most) ? 0 : a.most) + (std::isinf(b.most) ? 0 : b.most);
+  double most = w.distance;
+  for (const Roundness& one : round) most += std::isinf(one.most) ? 0 : one.most;
   const double ratio = std::sqrt(most / least), skew = (ratio + 1 / ratio) / 2;
 
   Twist first, other;
@@ -61,14 +69,19 @@ double CollisionConstraints::gradientRateBound(int row) const {
   for (std::size_t side = 0; side < 2; ++side) {
     const Vector3d& x = w.point[side];
     const double apart = across(velocityOf(x, other) - velocityOf(x, first), n);
+    const Roundness &own = round[side], &others = round[1 - side];
+    // Of this body's W: |S^-1 W|, and W S^-1 (S - W), the parallel sum. Where the other body's W + d may be
+    // negative this body's W + d is not, and each is what it is on the other side and a part of d.
+    double share = skew, sum = std::min(own.most, others.most + w.distance);
+    if (deep > others.least) {
+      share += deep / least;
+      sum = std::min(others.most, own.most + w.distance) + deep * (skew + share);
+    }
     // The normal as body 1, then body 2, carries it, and what it turns against that.
     const Vector3d carried = (side == 0 ? other : first).angular.cross(n);
-    turn = std::min(turn, carried.norm() + apart / least + skew * spin);
-    const double own = side == 0 ? a.most : b.most, others = w.distance + (side == 0 ? b.most : a.most);
-    slide[side] = skew * apart + std::min(own, others) * spin;
+    turn = std::min(turn, carried.norm() + apart / least + share * spin);
+    slide[side] = share * apart + sum * spin;
   }
-  double slope, curvature;
-  bend(at(row), w.distance, slope, curvature);
   const double speed = n.dot(velocityOf(w.point[1], other) - velocityOf(w.point[0], first));
   double sum = 0, shared = 0;  // joints may share a coordinate: those stand side by side
   for (int t = r.firstTerm; t < r.lastTerm; ++t) {

@@ -18,6 +18,12 @@ using namespace detail;
 // Beyond these in m, m/s, s and 1/s is a mistake; a gain or a period is never 0.
 constexpr double kLeast = 1e-9, kLargest = 1e9;
 
+// The most that a gain gets on entering, times the period. Of sampled velocities a gain of 1 ends at the
+// security distance in one tick. Sampled accelerations, integrated as v += p u, d += p v or exactly, come
+// there without passing it if all roots of the closed loop are real and not negative: for one gain up to
+// 0.34, for two whose sum is at most 1.
+constexpr double kMostGain = 1, kMostGainOfAccelerations = 1.0 / 3;
+
 void check(const Damper& damper) {
   requireNumber("VelocityDamper: security", damper.security, -kLargest, kLargest);
   requireNumber("VelocityDamper: influence", damper.influence, damper.security, kLargest);
@@ -36,6 +42,7 @@ VelocityDamper::VelocityDamper(CollisionConstraints& constraints, DamperOptions 
       rates_(constraints.makeRates()),
       b_(Eigen::VectorXd::Zero(constraints.rows())),
       damping_(at(constraints.rows())),
+      gain_(at(constraints.rows()), options_.barrierGain),
       inside_(at(constraints.rows()), 0) {
   check(options_.all);
   requireNumber("VelocityDamper: headroom", options_.headroom, -kLargest, kLargest);
@@ -56,26 +63,66 @@ VelocityDamper::VelocityDamper(CollisionConstraints& constraints, DamperOptions 
   near_.reserve(at(constraints.rows()));
 }
 
-// At the damper's own edge the row then says dd/dt >= -xi, below what the pair does.
 void VelocityDamper::enter(int row) {
-  const Damper& damper = dampers_[at(row)];
-  double& damping = damping_[at(row)];
-  damping = damper.damping;
-  const double room = rates_.d[row] - damper.security;
+  damping_[at(row)] = dampers_[at(row)].damping;
+  gain_[at(row)] = options_.barrierGain;
+  const double room = rates_.d[row] - dampers_[at(row)].security;
   if (options_.headroom < 0 || !(room > 0)) return;
-  damping = std::max(damping,
-                     (options_.headroom - rates_.speed[row]) * (damper.influence - damper.security) / room);
+  if (options_.level == DamperLevel::barrier)
+    raiseBoth(row, room);
+  else
+    raise(row, room);
+}
+
+// The row asks for a * room >= speed, the speed towards the other body that the pair has if nothing is done.
+void VelocityDamper::raise(int row, double room) {
+  const Damper& damper = dampers_[at(row)];
+  const double reach = damper.influence - damper.security, own = damper.damping / reach;
+  double speed = -rates_.speed[row], most = kMostGain / options_.period;
+  if (options_.level == DamperLevel::acceleration) {
+    speed -= options_.period * rates_.drift[row];
+    most = kMostGainOfAccelerations / options_.period;
+  }
+  const double excess = speed - own * room;
+  if (!(excess > 0) || own > most) return;
+  damping_[at(row)] = std::min(most, (speed + std::min(options_.headroom, excess)) / room) * reach;
+}
+
+// The row asks for a g room >= (a + g) speed + fall: first the smaller gain rises up to the larger one, then
+// both. A drift that brakes is left out: then the row holds only where h' + a h >= 0, from where no pair
+// comes to h = 0.
+void VelocityDamper::raiseBoth(int row, double room) {
+  const Damper& damper = dampers_[at(row)];
+  const double reach = damper.influence - damper.security;
+  double &g = gain_[at(row)], a = damper.damping / reach;
+  double speed = -rates_.speed[row];
+  const double fall = std::max(0.0, -rates_.drift[row]);
+  const double excess = speed + (fall - a * g * room) / (a + g);
+  if (!(excess > 0)) return;
+  speed += std::min(options_.headroom, excess);
+  double &smaller = a < g ? a : g, &larger = a < g ? g : a;
+  const double most = kMostGainOfAccelerations / options_.period;
+  const double needed = (larger * speed + fall) / (larger * room - speed);
+  if (larger * room > speed && needed <= larger) {
+    smaller = std::max(smaller, std::min(most, needed));
+  } else {
+    const double both = std::min(most, (speed + std::sqrt(speed * speed + room * fall)) / room);
+    smaller = std::max(smaller, both);
+    larger = std::max(larger, both);
+  }
+  damping_[at(row)] = a * reach;
 }
 
 double VelocityDamper::bound(int row) const {
   const Damper& damper = dampers_[at(row)];
   const double room = rates_.d[row] - damper.security, speed = rates_.speed[row];
   const double rate = damping_[at(row)] / (damper.influence - damper.security);
+  const double gain = gain_[at(row)];
   const double allowed = -rate * room;
   if (options_.level == DamperLevel::velocity) return allowed;
   const double drift = rates_.drift[row];
   if (options_.level == DamperLevel::acceleration) return (allowed - speed) / options_.period - drift;
-  return -drift - (rate + options_.barrierGain) * speed - rate * options_.barrierGain * room;
+  return -drift - (rate + gain) * speed - rate * gain * room;
 }
 
 void VelocityDamper::update(const Eigen::Ref<const Eigen::VectorXd>& q,

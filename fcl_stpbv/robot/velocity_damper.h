@@ -30,10 +30,16 @@ struct DamperOptions {
   DamperLevel level = DamperLevel::velocity;  ///< what the program's variable is
   Damper all;                                 ///< of all rows but those in `rows`
   std::map<int, Damper> rows;                 ///< of single rows
-  /// A pair that enters faster than its damper allows gets a larger xi until it leaves: one that allows what
-  /// it does and this much more (m/s), so that no row acts on the tick on which it enters. Negative: never.
+  /// A pair that enters faster than its row allows gets a larger xi until it leaves, at `barrier` a larger g
+  /// too where xi is not enough. They allow what it does and as much again as it was too fast, at most this
+  /// much (m/s). So no row acts on the tick on which it enters, but for a pair that enters at `security` or
+  /// beyond, or so fast that it would be there within a few periods: that one brakes at once. Negative:
+  /// never.
   double headroom = 0.05;
-  double period = 1e-3;     ///< of the controller (s), for `acceleration`
+  /// Of the controller (s), at every level: with gains above 1 / period, with accelerations above 1 / (3
+  /// period), a pair could pass `security` between two ticks. Up to there a and g rise on entering. So a row
+  /// acts at once where `security` is 1 period away, with accelerations 3, at `barrier` 6.
+  double period = 1e-3;
   double barrierGain = 50;  ///< g (1/s), for `barrier`
 };
 
@@ -63,9 +69,13 @@ class VelocityDamper {
 
   /// xi of a row: its own, or what it got on entering (m/s).
   double damping(int row) const { return damping_[static_cast<std::size_t>(row)]; }
+  /// g of a row: that of the options, or what it got on entering (1/s).
+  double barrierGain(int row) const { return gain_[static_cast<std::size_t>(row)]; }
 
  private:
   void enter(int row);
+  void raise(int row, double room);
+  void raiseBoth(int row, double room);
   double bound(int row) const;
 
   CollisionConstraints& constraints_;
@@ -74,7 +84,7 @@ class VelocityDamper {
   CollisionConstraints::SparseJacobian jacobian_;
   RowRates rates_;
   Eigen::VectorXd b_;
-  std::vector<double> damping_;
+  std::vector<double> damping_, gain_;
   std::vector<char> inside_;
   std::vector<int> near_;
 };

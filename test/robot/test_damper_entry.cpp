@@ -1,0 +1,159 @@
+// How rows enter at every level of the velocity damper, and that no sampled pair passes its security
+// distance.
+#include <fcl/geometry/shape/box.h>
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "fcl_stpbv/robot/velocity_damper.h"
+#include "test/reference/shapes.h"
+
+using namespace fcl_stpbv;
+using namespace fcl_stpbv::test;
+using Eigen::MatrixXd;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+namespace {
+
+constexpr double kTick = 1e-3, kSecurity = 0.01, kReach = 0.04;
+
+/// A box on a rail comes to a wall: the distance is what the coordinate still is from it.
+struct Rail {
+  std::unique_ptr<CollisionConstraints> constraints;
+  double touch = 0;
+
+  Rail() {
+    const char* const text = R"(<robot name="rail"><link name="base"/><link name="slide"/>
+      <joint name="x" type="prismatic"><parent link="base"/><child link="slide"/><axis xyz="1 0 0"/>
+        <limit lower="-9" upper="9" effort="1" velocity="1"/></joint></robot>)";
+    const auto model = std::make_shared<const RobotModel>(parseUrdf(text, "rail.urdf"));
+    Body box;
+    box.link = model->link("slide");
+    box.name = "box";
+    box.pose.setIdentity();
+    box.volume = StpBv::build(test::box(0.2, 0.2, 0.2), {0.01, 10});
+    box.geometry = std::make_shared<StpBvGeometry>(box.volume);
+    box.centre = box.volume->centre();
+    box.radius = box.volume->enclosingRadius();
+    auto geometry = std::make_shared<RobotGeometry>();
+    geometry->bodies = {box};
+    ConstraintOptions options;
+    const fcl::CollisionObjectd wall(std::make_shared<fcl::Boxd>(0.5, 0.4, 0.4), Eigen::Matrix3d::Identity(),
+                                     Vector3d(1, 0, 0));
+    options.obstacles = {obstacleOf(wall, "wall")};
+    constraints = std::make_unique<CollisionConstraints>(std::make_shared<const Kinematics>(model), geometry,
+                                                         std::vector<CheckedPair>{{0, 0, true}}, options);
+    VectorXd d(1);
+    constraints->evaluate(VectorXd::Zero(1), d);
+    touch = d[0];
+  }
+
+  /// Updates where the pair is `room` above its security distance and comes at `speed`.
+  void update(VelocityDamper& damper, double room, double speed) const {
+    damper.update(VectorXd::Constant(1, touch - kSecurity - room), VectorXd::Constant(1, speed));
+  }
+};
+
+/// What a row leaves of what is wanted: J = -1.
+double allowed(const VelocityDamper& damper, double wanted) {
+  return damper.near().empty() ? wanted : std::min(wanted, -damper.b()[0]);
+}
+
+DamperOptions at(DamperLevel level) {
+  DamperOptions options;
+  options.level = level;
+  return options;
+}
+
+}  // namespace
+
+TEST_CASE("a pair that is no faster than its damper allows keeps its xi, however near it is when it enters") {
+  const Rail rail;
+  for (const double room : {1e-2, 1e-3, 1e-5, 1e-6, 1e-8}) {
+    VelocityDamper damper(*rail.constraints, {});
+    double before = 0, d = 0;
+    for (int tick = 0; tick < 2000; ++tick) {
+      const VectorXd q = VectorXd::Constant(1, tick == 0 ? rail.touch - kSecurity - room : d);
+      damper.update(q, VectorXd::Constant(1, before));
+      const double now = allowed(damper, 0.2);
+      CHECK(damper.d()[0] >= kSecurity - 1e-12);  // rounding
+      // Never back, and after the first tick only braked: with 0.5 / 0.04 a second.
+      CHECK(now >= 0);
+      if (tick > 0) CHECK(std::abs(now - before) <= 12.5 * 0.2 * kTick * (1 + 1e-6));
+      before = now;
+      d = q[0] + kTick * now;
+    }
+    CHECK(damper.damping(0) == 0.5);
+  }
+}
+
+TEST_CASE("a row asks for what its damper allowed when the damper is made anew at any place of its way") {
+  const Rail rail;
+  for (const double room : {0.03, 1e-3, 1e-5, 1e-9})
+    for (const double part : {0.5, 0.99, 1.0, 1.001}) {
+      VelocityDamper damper(*rail.constraints, {});
+      const double own = 0.5 / kReach * room;
+      rail.update(damper, room, part * own);
+      // Twice the excess, and the rounding of the distance.
+      CHECK(allowed(damper, 9) <= own * std::max(1.0, 2 * part - 1) + 1e-13);
+      CHECK(allowed(damper, 9) >= own - 1e-13);
+    }
+}
+
+TEST_CASE("no row acts on the tick on which it enters where its pair is some periods away, at any level") {
+  const Rail rail;
+  for (const DamperLevel level : {DamperLevel::velocity, DamperLevel::acceleration, DamperLevel::barrier})
+    for (const double g : {5.0, 50.0})
+      for (const double room : {0.0399, 0.02, 1e-3, 1e-5})
+        for (const double speed : {0.0, 1e-4, 0.3, 0.42, 0.46, 0.5, 1.0, 2.0, 5.0, 20.0, 300.0}) {
+          DamperOptions options = at(level);
+          options.barrierGain = g;
+          VelocityDamper damper(*rail.constraints, options);
+          rail.update(damper, room, speed);
+          REQUIRE(damper.near().size() == 1);
+          const bool velocity = level == DamperLevel::velocity, both = level == DamperLevel::barrier;
+          const double periods = velocity ? 1 : both ? 6 : 3;
+          const double slack = allowed(damper, 1e9) - (velocity ? speed : 0);
+          CAPTURE(static_cast<int>(level), g, room, speed, slack, damper.damping(0), damper.barrierGain(0));
+          const double away = room / (periods * kTick * speed);
+          if (away > 1.001) CHECK(slack >= 0);
+          if (away < 0.999) CHECK(slack < 0);
+          const double a = damper.damping(0) / kReach, gain = damper.barrierGain(0);
+          CHECK(a >= 12.5);
+          CHECK(gain >= g);
+          CHECK(std::max(a, both ? gain : 0) <= (velocity ? 1 : 1.0 / 3) / kTick * (1 + 1e-12));
+          // Of a barrier: inside its set, so that the row keeps the pair from its security distance.
+          if (both && away > 1.001) CHECK(a * room >= speed);
+          if (speed == 0) CHECK(a == Approx(12.5).epsilon(1e-15));
+          if (!both || speed == 0) CHECK(gain == g);
+          damper.update(VectorXd::Constant(1, rail.touch - 1), VectorXd::Zero(1));
+          rail.update(damper, room, 0);
+          CHECK(damper.damping(0) == 0.5);  // it has left
+          CHECK(damper.barrierGain(0) == g);
+        }
+}
+
+TEST_CASE("a pair that enters at any speed that leaves it time does not pass its security distance") {
+  const Rail rail;
+  for (const DamperLevel level : {DamperLevel::velocity, DamperLevel::acceleration, DamperLevel::barrier})
+    for (const bool exact : {false, true})
+      for (const double room : {0.0399, 1e-3, 1e-5})
+        for (const double periods : {1.05, 3.05, 6.05, 7.0, 12.0, 100.0, 1000.0}) {
+          const bool velocity = level == DamperLevel::velocity;
+          if (periods < (velocity ? 1 : level == DamperLevel::acceleration ? 3 : 6)) continue;
+          VelocityDamper damper(*rail.constraints, at(level));
+          double left = room, speed = room / (periods * kTick), least = room;
+          for (int tick = 0; tick < 300; ++tick) {
+            rail.update(damper, left, speed);
+            // As fast towards the wall as the row lets it.
+            const double x = allowed(damper, velocity ? 1 + speed : 1e4);
+            const double next = velocity ? x : speed + kTick * x;
+            left -= kTick * (exact && !velocity ? (speed + next) / 2 : next);
+            speed = next;
+            least = std::min(least, left);
+          }
+          CAPTURE(static_cast<int>(level), exact, room, periods);
+          CHECK(least >= -1e-12);  // rounding
+        }
+}

@@ -1,0 +1,116 @@
+// What gradientRateBound() says of bodies that overlap and of polyhedra.
+#include <fcl/geometry/shape/box.h>
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "fcl_stpbv/adapter/stp_bv_geometry.h"
+#include "test/reference/robots.h"
+
+using namespace fcl_stpbv;
+using namespace fcl_stpbv::test;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace {
+
+constexpr double kDifferenceStep = 1e-6;
+
+// A ball of radius `r` on an arm of 1 m sinks into `other`: the rail moves it sideways, the arm turns it.
+struct Sunk {
+  std::unique_ptr<CollisionConstraints> constraints;
+
+  Sunk(const std::shared_ptr<fcl::CollisionGeometryd>& other, double r, double apart) {
+    const char* const arm = R"(<robot name="arm"><link name="base"/><link name="m"/><link name="b"/>
+      <joint name="turn" type="continuous"><parent link="base"/><child link="m"/><origin xyz="1 0 0"/><axis xyz="0 0 1"/></joint>
+      <joint name="rail" type="prismatic"><parent link="m"/><child link="b"/><origin xyz="-1 0 0"/><axis xyz="0 1 0"/>
+        <limit lower="-9" upper="9" effort="1" velocity="1"/></joint></robot>)";
+    const auto model = std::make_shared<const RobotModel>(parseUrdf(arm, "arm.urdf"));
+    Body ball;
+    ball.link = model->link("b");
+    ball.name = "ball";
+    ball.pose.setIdentity();
+    ball.volume = StpBv::build({{0, 0, 0}}, {r, 2 * r});
+    ball.geometry = std::make_shared<StpBvGeometry>(ball.volume);
+    ball.centre.setZero();
+    ball.radius = ball.volume->enclosingRadius();
+    auto geometry = std::make_shared<RobotGeometry>();
+    geometry->bodies = {ball};
+    ConstraintOptions options;
+    const fcl::CollisionObjectd object(other, Eigen::Matrix3d::Identity(), {apart, 0, 0});
+    options.obstacles = {obstacleOf(object, "other")};
+    constraints = std::make_unique<CollisionConstraints>(std::make_shared<const Kinematics>(model), geometry,
+                                                         std::vector<CheckedPair>{{0, 0, true}}, options);
+  }
+};
+
+}  // namespace
+
+TEST_CASE("a gradient's bound holds in any depth that it is given for") {
+  const auto ballOf = [](double r) {
+    return std::make_shared<StpBvGeometry>(StpBv::build({{0, 0, 0}}, {r, r + 1}));
+  };
+  Random random(3);
+  double nearest = 0;
+  const auto compare = [&](const std::shared_ptr<fcl::CollisionGeometryd>& other, double r, double d,
+                           double apart) {
+    const Sunk sunk(other, r, apart);
+    CollisionConstraints& constraints = *sunk.constraints;
+    RowRates rates = constraints.makeRates();
+    MatrixXd jacobian(1, 2), before(1, 2), after(1, 2);
+    VectorXd row(1);
+    double most = 0;
+    for (int trial = 0; trial < 20; ++trial) {
+      const VectorXd qd = trial == 0 ? VectorXd::Unit(2, 1) : randomDirection(2, random);
+      const VectorXd q = VectorXd::Zero(2);
+      constraints.evaluate(q, qd, rates, jacobian);
+      CHECK(std::abs(rates.d[0] - d) < 1e-12);
+      const double bound = constraints.gradientRateBound(0);
+      constraints.evaluate(q + kDifferenceStep * qd, row, after);
+      constraints.evaluate(q - kDifferenceStep * qd, row, before);
+      const double change = (after - before).norm() / (2 * kDifferenceStep);
+      CAPTURE(r, d, qd, change, bound);
+      // The gradient's rounding over the step, and of the step itself the square over that of the radius.
+      CHECK(change <= bound * (1 + 1e-6) + 1e-9);
+      nearest = std::max(nearest, change / bound);
+      most = std::max(most, bound);
+    }
+    return most;
+  };
+  // Two balls: from -0.1 on the small radius is used up, from -1 the large one too.
+  for (const double d : {0.1, 0.0, -0.05, -0.1, -0.3, -0.9, -0.99})
+    CHECK(std::isfinite(compare(ballOf(0.1), 1, d, 1.1 + d)));
+  for (const double d : {-0.05, -0.9}) CHECK(std::isfinite(compare(ballOf(1), 0.1, d, 1.1 + d)));
+  CHECK(std::isinf(compare(ballOf(0.1), 1, -1.05, 0.05)));
+  CHECK(std::isinf(compare(ballOf(0.5), 0.5, -0.6, 0.4)));
+  for (const double d : {0.1, 0.0, -0.2, -0.4})
+    CHECK(std::isfinite(compare(std::make_shared<fcl::Boxd>(2, 2, 2), 0.5, d, 1.5 + d)));
+  CHECK(nearest > 0.5);  // else the bound would be too wide to fail
+}
+
+TEST_CASE("the gradient of two polyhedra has no bound, and none is not a number") {
+  const char* const rail = R"(<robot name="rail"><link name="base"/><link name="b"><collision><geometry>
+      <box size="0.2 0.2 0.2"/></geometry></collision></link>
+    <joint name="x" type="prismatic"><parent link="base"/><child link="b"/><axis xyz="1 0 0"/>
+      <limit lower="-9" upper="9" effort="1" velocity="1"/></joint></robot>)";
+  const auto model = std::make_shared<const RobotModel>(parseUrdf(rail, "rail.urdf"));
+  GeometryOptions flat;
+  flat.flat = true;
+  const auto geometry = std::make_shared<RobotGeometry>(loadGeometry(*model, flat));
+  ConstraintOptions options;
+  options.influence = 2;
+  const fcl::CollisionObjectd wall(std::make_shared<fcl::Boxd>(0.5, 0.4, 0.1), Random(7).rotation(),
+                                   {3, 0, 0});
+  options.obstacles = {obstacleOf(wall, "wall")};
+  CollisionConstraints constraints(std::make_shared<const Kinematics>(model), geometry, {{0, 0, true}},
+                                   options);
+  RowRates rates = constraints.makeRates();
+  MatrixXd jacobian(1, 1);
+  for (double x = -1; x < 2.5; x += 0.01)
+    for (const double speed : {0.0, 1.0}) {
+      constraints.evaluate(VectorXd::Constant(1, x), VectorXd::Constant(1, speed), rates, jacobian);
+      const double bound = constraints.gradientRateBound(0);
+      CAPTURE(x, speed, rates.d, bound);
+      CHECK(bound == (rates.d[0] == constraints.largestValue(0) ? 0 : HUGE_VAL));
+    }
+}
