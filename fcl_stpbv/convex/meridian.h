@@ -24,6 +24,7 @@ bool commonMeridian(const Shape& a, const Shape& b, const RelativePose& pose, Me
 
 /// Where a polygon inside the difference comes nearest to the origin.
 struct MeridianDepth {
+  bool found = false;            ///< the difference has a polygon there, not only a line
   double depth = 0;              ///< at least this deep is the origin inside the difference (m)
   Eigen::Vector3d onA{0, 0, 0};  ///< A's part of that point
   Eigen::Vector3d toB{0, 0, 0};  ///< from there to B's part (m)
@@ -67,6 +68,7 @@ MeridianDepth meridianDepth(const Meridian& plane, double rounding, Furthest&& f
       nearest = i, depth = height, normal = n.normalized();
     }
     const Point &p = point[nearest], &q = point[(nearest + 1) % points];
+    result.found = true;
     result.depth = depth - 2 * plane.slack;
     const Eigen::Vector2d side = q.w - p.w;
     const double part = std::min(1.0, std::max(0.0, -p.w.dot(side) / side.squaredNorm()));

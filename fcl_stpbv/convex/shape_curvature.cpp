@@ -14,9 +14,13 @@ namespace {
 
 const Vector3d kNone(0, 0, 0);
 
-/// Normals across the line along `t`, of a surface that curves by `radius` around it.
+/// Normals across the line along `t`, of a surface that curves by `radius` around it. None, zero, where the
+/// line runs along `m`.
 NormalCone aroundLine(const Vector3d& m, const Vector3d& t, double radius) {
-  return {1, (m - m.dot(t) * t).normalized(), {t.cross(m).normalized(), kNone}, {radius, 0.0}, 0.0};
+  constexpr double kAlong = 1e-3;
+  const Vector3d across = m - m.dot(t) * t;
+  if (!(across.norm() > kAlong)) return {1, kNone, {kNone, kNone}, {radius, 0.0}, 0.0};
+  return {1, across.normalized(), {t.cross(m).normalized(), kNone}, {radius, 0.0}, 0.0};
 }
 
 /// A flat face's, on the side that `m` looks to.
@@ -114,10 +118,10 @@ bool normalCone(const Shape& s, const Vector3d& m, const Vector3d& x, double rou
   switch (s.kind) {
     case ShapeKind::point:
       result = ofBall(m, s.margin);
-      return true;
+      break;
     case ShapeKind::segment:
       result = ofSegment(m, s.half, s.margin, rounding);
-      return true;
+      break;
     case ShapeKind::box:
       result = ofVertices(
           8,
@@ -126,29 +130,29 @@ bool normalCone(const Shape& s, const Vector3d& m, const Vector3d& x, double rou
                             i & 4 ? s.size.z() : -s.size.z());
           },
           m, rounding);
-      return true;
+      break;
     case ShapeKind::triangle:
       result = ofVertices(
           3, [&](int i) { return s.corner[static_cast<std::size_t>(i)]; }, m, rounding);
-      return true;
+      break;
     case ShapeKind::polytope:
       result = ofVertices(
           s.vertexCount, [&](int i) { return s.vertices[i]; }, m, rounding);
-      return true;
+      break;
     case ShapeKind::cylinder:
       result = ofCylinder(s, m, x, rounding);
-      return true;
+      break;
     case ShapeKind::cone:
       result = ofCone(s, m, x, rounding);
-      return true;
+      break;
     case ShapeKind::ellipsoid:
       return ofEllipsoid(s, m, result);
     case ShapeKind::halfspace:
     case ShapeKind::plane:
+      result = noWay(m, s.normal);
       break;
   }
-  result = noWay(m, s.normal);
-  return true;
+  return result.normal.squaredNorm() > 0.5;  // not a line along `m`
 }
 
 }  // namespace fcl_stpbv::detail

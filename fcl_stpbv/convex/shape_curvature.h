@@ -21,7 +21,7 @@ struct NormalCone {
 
 /// What the shape shows along its outward unit normal `m`, at the point `x` of its surface. Two features that
 /// both have the normal, to `rounding` (m), are taken for the flatter one. False where the curvature is not
-/// finite, as at the rim of an ellipsoid without thickness.
+/// finite, as at the rim of an ellipsoid without thickness, and where no normal of that feature is near `m`.
 bool normalCone(const Shape& shape, const Eigen::Vector3d& m, const Eigen::Vector3d& x, double rounding,
                 NormalCone& result);
 

@@ -91,13 +91,7 @@ void firstOrder(const Touch& touch, const Distance& d, const BodyTwists& twists,
   result.point[1] = result.point[0] + d.normal.dot(apart) * d.normal + d.distance * result.normal;
 }
 
-/// An answer and its derivatives with the bodies' names exchanged.
-Distance exchanged(Distance d) {
-  d.normal = -d.normal;
-  std::swap(d.point[0], d.point[1]);
-  std::swap(d.patch[0], d.patch[1]);
-  return d;
-}
+/// Motions and derivatives with the bodies' names exchanged.
 BodyTwists exchanged(const BodyTwists& twists) {
   BodyTwists other;
   other << twists.tail<6>(), twists.head<6>();
@@ -152,16 +146,14 @@ bool hessian(const Shape& shape, const Isometry3d& poseShape, const StpBv& volum
 bool hessian(const Shape& a, const Isometry3d& poseA, const Shape& b, const Isometry3d& poseB,
              const Distance& d, DistanceHessian& result) {
   Touch touch;
-  bool flatter = false;
-  if (!touchOf(a, poseA, b, poseB, d, touch, flatter)) return false;
-  if (!flatter) {
+  bool swapped = false;
+  if (!touchOf(a, poseA, b, poseB, d, touch, swapped)) return false;
+  if (!swapped) {
     secondOrder(touch, poseA, poseB, d, result);
-    return true;
+  } else {
+    secondOrder(touch, poseB, poseA, exchanged(d), result);
+    exchange(result);
   }
-  const Distance other = exchanged(d);
-  if (!touchOf(b, poseB, a, poseA, other, touch, flatter) || flatter) return false;
-  secondOrder(touch, poseB, poseA, other, result);
-  exchange(result);
   return true;
 }
 
@@ -191,16 +183,14 @@ bool rate(const Shape& shape, const Isometry3d& poseShape, const StpBv& volume, 
 bool rate(const Shape& a, const Isometry3d& poseA, const Shape& b, const Isometry3d& poseB, const Distance& d,
           const BodyTwists& twists, DistanceRate& result) {
   Touch touch;
-  bool flatter = false;
-  if (!touchOf(a, poseA, b, poseB, d, touch, flatter)) return false;
-  if (!flatter) {
+  bool swapped = false;
+  if (!touchOf(a, poseA, b, poseB, d, touch, swapped)) return false;
+  if (!swapped) {
     firstOrder(touch, d, twists, result);
-    return true;
+  } else {
+    firstOrder(touch, exchanged(d), exchanged(twists), result);
+    exchange(result);
   }
-  const Distance other = exchanged(d);
-  if (!touchOf(b, poseB, a, poseA, other, touch, flatter) || flatter) return false;
-  firstOrder(touch, other, exchanged(twists), result);
-  exchange(result);
   return true;
 }
 

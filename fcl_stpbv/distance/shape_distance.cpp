@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "fcl_stpbv/convex/direction_cone.h"
+#include "fcl_stpbv/convex/onto_core.h"
 #include "fcl_stpbv/convex/support.h"
 #include "fcl_stpbv/distance/shape_query.h"
 
@@ -117,26 +118,42 @@ LeastOverlap widestGapByCuts(ShapeQuery& q, const StartNormal& start) {
 struct Solution {
   Nearest at;
   DistanceStatus status;
-  double upper;  ///< of the cores' gap (m)
+  double upper;  ///< of the cores' gap (m), besides that which two points tell
 };
 
 Solution solve(ShapeQuery& q, const StartNormal& start) {
+  constexpr double kNone = std::numeric_limits<double>::infinity();
   Nearest found = nearestOnShape(q, start);
   if (q.shape.unbounded()) return {found, DistanceStatus::exact, found.gap};
-  if (certified(q, found)) return {found, DistanceStatus::exact, found.gap};
-  LeastOverlap cuts = widestGapByCuts(q, found.apart ? StartNormal{found.n, found.patch} : start);
+  if (certified(q, found)) return {found, DistanceStatus::exact, kNone};
+  const LeastOverlap cuts = widestGapByCuts(q, found.apart ? StartNormal{found.n, found.patch} : start);
   if (!cuts.overlap) {
     // Near the answer now; a feature search from here proves it to the last digit.
     found = nearestOnShape(q, {cuts.at.n, cuts.at.patch});
-    if (certified(q, found)) return {found, DistanceStatus::exact, found.gap};
-    if (q.shape.kind == ShapeKind::ellipsoid) placeOppositeOnEllipsoid(q, cuts.at);
+    if (certified(q, found)) return {found, DistanceStatus::exact, kNone};
     // The bounds of both sides agree, or no normal is left that could do better.
     const double upper = cuts.solved ? std::min(cuts.bound, cuts.at.gap + q.rounding.gap) : cuts.bound;
     const bool proven = upper - cuts.at.gap <= q.rounding.gap;
-    return {cuts.at, proven ? DistanceStatus::exact : DistanceStatus::bounded, upper};
+    // Where the cores touch, the gap says less about the normal than its gradient does.
+    found = touchingFeature(q, cuts.at).value_or(cuts.at);
+    return {found, proven ? DistanceStatus::exact : DistanceStatus::bounded, upper + q.rounding.across};
   }
   const LeastOverlap deep = leastOverlap(q, {cuts.at.n, cuts.at.patch});
   return {deep.at, DistanceStatus::local, std::max(deep.bound, deep.at.gap)};
+}
+
+/// How far the shape's point is beside the one opposite the volume's (m). Of a face, a generator or an axis,
+/// or where an ulp of the normal moves the point a long way, a search may know another point than that one:
+/// then it takes the shape's nearest.
+double placeOpposite(const ShapeQuery& q, const Vector3d& point, Nearest& found) {
+  const Vector3d opposite = point + found.gap * found.n;
+  double beside = (found.y - opposite).norm();
+  if (beside <= 2.0 * q.rounding.across || q.shape.unbounded()) return beside;
+  const Vector3d own = q.pose.rotation.inverse(Vector3d(opposite - q.translation));
+  const Vector3d nearest = q.posed(ontoCore(q.shape, own));
+  if (!((nearest - opposite).norm() < beside)) return beside;
+  found.y = nearest;
+  return (nearest - opposite).norm();
 }
 
 }  // namespace
@@ -149,11 +166,16 @@ Distance distance(const StpBv& volume, const Isometry3d& poseVolume, const Shape
 
   ShapeQuery q(volume, shape, pose);
   const Vector3d remembered = cache ? pose.toWorld.inverse(cache->normal) : Vector3d(0, 0, 0);
-  const Solution found = solve(q, startOf(q, remembered, cache ? cache->patch[0] : -1));
+  Solution found = solve(q, startOf(q, remembered, cache ? cache->patch[0] : -1));
 
-  const Nearest& x = found.at;
+  Nearest& x = found.at;
   const double margins = volume.radii().r + shape.margin;
   const SupportPoint view = viewVolume(volume, x.n, x.patch, q.steps);
+  // Two points of the cores; a normal is good to an ulp, so they may lie beside their bodies.
+  if (found.status != DistanceStatus::local) {
+    const double beside = placeOpposite(q, view.point, x);
+    found.upper = std::min(found.upper, std::hypot(x.gap, beside + q.rounding.across));
+  }
   result.status = found.status;
   result.distance = x.gap - margins;
   result.lower = result.distance - q.rounding.certificate;

@@ -14,75 +14,20 @@
 #include <cmath>
 #include <utility>
 
-#include "fcl_stpbv/convex/gjk.h"
-#include "fcl_stpbv/convex/support.h"
+#include "fcl_stpbv/convex/onto_core.h"
 #include "fcl_stpbv/distance/turning.h"
 
 namespace fcl_stpbv::detail {
 
-using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
 namespace {
-
-/// The polytope's point nearest to `y`, by GJK.
-Vector3d nearestOfCorners(const Shape& polytope, const Vector3d& y) {
-  using Difference = ConvexDifference<const Shape, const Shape>;
-  constexpr int kSteps = 60;
-  const Shape origin;
-  Isometry3d at = Isometry3d::Identity();
-  at.translation() = y;
-  const RelativePose pose(at, Isometry3d::Identity());
-  Difference difference(origin, polytope, pose);
-  const auto found = gjk<Difference::Corner>(difference, {}, (polytope.centre - y).normalized(), 0.0, kSteps,
-                                             [](double, double) { return false; });
-  Simplex<Difference::Corner> nearest;
-  return y + reduceToNearest(found.simplex, nearest).point;
-}
-
-/// A point of the core next to `y`, the nearest one to first order.
-Vector3d ontoCore(const Shape& core, const Vector3d& y) {
-  const double half = core.half, z = std::clamp(y.z(), -half, half);
-  const auto within = [&](double radius) -> Vector3d {
-    const double across = std::hypot(y.x(), y.y()), scale = across > radius ? radius / across : 1.0;
-    return {scale * y.x(), scale * y.y(), z};
-  };
-  switch (core.kind) {
-    case ShapeKind::point:
-      return {0, 0, 0};
-    case ShapeKind::segment:
-      return {0, 0, z};
-    case ShapeKind::box:
-      return y.cwiseMax(-core.size).cwiseMin(core.size);
-    case ShapeKind::cylinder:
-      return within(core.radius);
-    case ShapeKind::cone:
-      return within(half > 0.0 ? core.radius * (half - z) / (2.0 * half) : core.radius);
-    case ShapeKind::ellipsoid: {
-      Vector3d p = y;
-      for (int i = 0; i < 3; ++i)
-        if (!(core.size[i] > 0.0)) p[i] = 0.0;
-      const auto scaled = [&] { return Vector3d(p.array() / core.size.array().max(1e-300)); };
-      const Vector3d gradient = scaled().array() / core.size.array().max(1e-300);
-      const double beyond = scaled().squaredNorm() - 1.0;
-      if (beyond > 0.0) p -= (0.5 * beyond / gradient.squaredNorm()) * gradient;
-      return p / std::max(1.0, scaled().norm());
-    }
-    case ShapeKind::triangle:
-    case ShapeKind::polytope:
-      return nearestOfCorners(core, y);
-    case ShapeKind::halfspace:
-    case ShapeKind::plane:
-      break;
-  }
-  return y;
-}
 
 /// The two shapes along one normal.
 struct Facing {
   const Shape &a, &b;
   const RelativePose& pose;
-  double level;  ///< heights that differ by less are the same (m)
+  double levelA, levelB;  ///< heights of either that differ by less are the same (m)
   Vector3d n;
   NormalCone coneA, coneB;  // both in the first frame; B's normal runs from A to B
   Vector3d pointA, pointB;  // support points
@@ -91,7 +36,7 @@ struct Facing {
   bool look(const Vector3d& onA, const Vector3d& onB) {
     const Vector3d m = pose.opposite(n);
     const Vector3d inB = pose.rotation.inverse(Vector3d(onB - unpack(pose.translation)));
-    if (!normalCone(a, n, onA, level, coneA) || !normalCone(b, m, inB, level, coneB)) return false;
+    if (!normalCone(a, n, onA, levelA, coneA) || !normalCone(b, m, inB, levelB, coneB)) return false;
     coneB.normal = pose.rotation * Vector3d(-coneB.normal);
     for (int i = 0; i < coneB.count; ++i) {
       Vector3d& way = coneB.way[static_cast<std::size_t>(i)];
@@ -110,7 +55,6 @@ struct Facing {
     constexpr double kParallel = 1e-9;
     return coneA.count == 1 && coneB.count == 1 && line(coneA).cross(line(coneB)).norm() > kParallel;
   }
-
   /// One step. False where there is none.
   bool turn() {
     const NormalCone &flat = aIsFlatter() ? coneA : coneB, &curved = aIsFlatter() ? coneB : coneA;
@@ -124,7 +68,8 @@ struct Facing {
       return true;
     }
     Turning turning;  // the radii of curvature are those of the surfaces, around the margins
-    if (!invert(curvatureOf(curved), gap - a.margin - b.margin, flat, turning)) return false;
+    if (!invert(curvatureOf(curved), gap - a.margin - b.margin, 0.0, flat, turning))
+      return true;  // as on a common axis, where each normal is as good: the points tell
     n = (n + turning * Vector3d(pointB - pointA)).normalized();
     return true;
   }
@@ -142,10 +87,12 @@ struct Facing {
   }
 };
 
-std::optional<OppositePoints> onFeaturesWithin(double level, Facing facing, Vector3d onA, double rounding) {
+/// With the features that a turn by `angle` (rad) can bring to face each other.
+std::optional<OppositePoints> onFeaturesWithin(double angle, Facing facing, Vector3d onA, double rounding) {
   constexpr int kSteps = 8;
   constexpr double kLast = 1e-9;  // rad; after a step as small as this, the next is rounding
-  facing.level = level;
+  facing.levelA = 2.0 * facing.a.reach * angle + rounding;
+  facing.levelB = 2.0 * facing.b.reach * angle + rounding;
   facing.support();
   for (int i = 0; i < kSteps; ++i) {
     const Vector3d before = facing.n;
@@ -155,11 +102,12 @@ std::optional<OppositePoints> onFeaturesWithin(double level, Facing facing, Vect
     if ((facing.n - before).norm() <= kLast) break;
   }
   const RelativePose& pose = facing.pose;
-  const Vector3d inB =
-      pose.rotation.inverse(Vector3d(onA + facing.gap * facing.n - unpack(pose.translation)));
-  OppositePoints found{facing.n, facing.gap, ontoCore(facing.a, onA), {}};
+  const Vector3d across = facing.gap * facing.n;
+  OppositePoints found{facing.n, facing.gap, {}, {}};
+  found.onA = ontoCore(facing.a, onA);
+  const Vector3d inB = pose.rotation.inverse(Vector3d(found.onA + across - unpack(pose.translation)));
   found.toB = pose.placed(ontoCore(facing.b, inB)) - found.onA;
-  if (!((found.toB - found.gap * found.n).norm() <= 2.0 * rounding)) return {};
+  if (!((found.toB - across).norm() <= 2.0 * rounding)) return {};
   return found;
 }
 
@@ -169,12 +117,13 @@ std::optional<OppositePoints> nearestOnFeatures(const Shape& a, const Shape& b, 
                                                 const Vector3d& n, double gap, const Vector3d& onA,
                                                 double angle, double rounding) {
   constexpr double kFiner = 1e-3;
-  const Facing facing{a, b, pose, 0.0, n, {}, {}, {}, {}, 0.0};
-  double level = 2.0 * std::max(a.reach, b.reach) * angle + rounding;
-  for (;; level = std::max(kFiner * level, rounding)) {
-    const std::optional<OppositePoints> found = onFeaturesWithin(level, facing, onA, rounding);
+  const Facing facing{a, b, pose, 0.0, 0.0, n, {}, {}, {}, {}, 0.0};
+  const double most = 2.0 * std::max(a.reach, b.reach);
+  for (double within = angle;; within *= kFiner) {
+    if (!(most * within > rounding)) within = 0.0;
+    const std::optional<OppositePoints> found = onFeaturesWithin(within, facing, onA, rounding);
     if (found && found->gap >= gap - rounding) return found;
-    if (!(level > rounding)) return {};
+    if (!(within > 0.0)) return {};
   }
 }
 

@@ -12,6 +12,7 @@
 #include <optional>
 
 #include "fcl_stpbv/convex/epa.h"
+#include "fcl_stpbv/convex/shape_curvature.h"
 #include "fcl_stpbv/convex/support.h"
 #include "fcl_stpbv/distance/shape_distance.h"
 #include "fcl_stpbv/distance/shape_query.h"
@@ -145,6 +146,20 @@ class DeepFeatures {
     return found_;
   }
 
+  /// The same of a polytope whose cores only touch: its face, edge or corner along the start's normal.
+  std::optional<Nearest> searchAlongNormal() {
+    for (const double angle : {1e-6, 1e-9}) {  // rad, by which the gap's rounding may turn the normal
+      NormalCone cone;
+      const Vector3d p = q_.facing(start_.n);
+      if (!normalCone(q_.shape, q_.pose.opposite(start_.n), p, 2.0 * angle * q_.shape.reach, cone)) continue;
+      const auto turned = [&](const Vector3d& v) { return Vector3d(q_.rotation * v); };
+      if (cone.count == 0) plane(p, turned(cone.normal));
+      if (cone.count == 1) line(p, turned(cone.normal.cross(cone.way[0])));
+      if (cone.count == 2) point(p);
+    }
+    return found_;
+  }
+
  private:
   template <typename Search>
   void take(const Search& search) {
@@ -213,6 +228,14 @@ class DeepFeatures {
 };
 
 }  // namespace
+
+std::optional<Nearest> touchingFeature(ShapeQuery& q, const Nearest& near) {
+  DeepFeatures features(q, {near.n, near.patch}, near.gap);
+  const ShapeKind kind = q.shape.kind;
+  if (kind == ShapeKind::box || kind == ShapeKind::triangle || kind == ShapeKind::polytope)
+    return features.searchAlongNormal();
+  return features.search({}, 0);
+}
 
 LeastOverlap leastOverlap(ShapeQuery& q, const StartNormal& start) {
   ShapeDifference difference(q, start.patch);

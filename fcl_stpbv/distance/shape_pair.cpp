@@ -16,6 +16,7 @@
 #include "fcl_stpbv/convex/epa.h"
 #include "fcl_stpbv/convex/gjk.h"
 #include "fcl_stpbv/convex/meridian.h"
+#include "fcl_stpbv/convex/onto_core.h"
 #include "fcl_stpbv/convex/support.h"
 #include "fcl_stpbv/distance/shape_distance.h"
 #include "fcl_stpbv/distance/shape_newton.h"
@@ -145,14 +146,19 @@ Distance separated(const Pair& p, const Gjk& found) {
   const WidestGap widest(p, found);
   Distance result = asFound(p, found, widest);
   const bool opposite = (found.v - widest.gap * widest.n).norm() <= 2.0 * p.rounding;
-  if (result.status == DistanceStatus::exact && opposite) return result;
+  // A chord of a rim is as good as its arc for the gap, but its normal is off by the root of rounding.
+  if (result.status == DistanceStatus::exact && opposite && !p.curved()) return result;
   // Seen from its point nearest to the origin, the difference lies beyond the plane of the widest gap.
   const double open = std::max(found.upper - widest.gap, p.rounding);
   const double angle = std::min(std::sqrt(2.0 * open / found.upper), kWidest);
   const Vector3d& n = widest.gap > 0.0 ? widest.n : found.n;
   const auto nearest = nearestOnFeatures(p.a, p.b, p.pose, n, widest.gap,
                                          found.simplex.weighted(&Corner::onA), angle, p.rounding);
-  if (!nearest || !(nearest->gap > 0.0)) return result;
+  if (!nearest || !(nearest->gap > 0.0)) {
+    if (p.curved() && !opposite && result.status == DistanceStatus::exact)
+      result.status = DistanceStatus::bounded;
+    return result;
+  }
   result = inWorld(p, nearest->n, nearest->onA, nearest->toB);
   result.status = DistanceStatus::exact;
   result.distance = nearest->gap - p.margins();
@@ -196,6 +202,18 @@ void offerAround(const Pair& p, Epa<Difference>& epa) {
   epa.offer(nearest.weighted(&Corner::onA), nearest.weighted(&Corner::w) + answer);
 }
 
+/// The same of faces or generators side by side, where a point may be opposite one past the other's end.
+void offerToAndFro(const Pair& p, Epa<Difference>& epa) {
+  const Vector3d answer = epa.gap * epa.n;
+  Vector3d onA = epa.onA;
+  for (int i = 0; i < 4 && epa.off() > p.rounding; ++i) {
+    const Vector3d inB = p.pose.rotation.inverse(Vector3d(onA + answer - unpack(p.pose.translation)));
+    const Vector3d onB = p.pose.placed(ontoCore(p.b, inB));
+    epa.offer(onA, onB - onA);
+    onA = ontoCore(p.a, onB - answer);
+  }
+}
+
 /// Cores with a common point, as far as GJK could tell: the shortest translation that separates them.
 Distance overlapping(const Pair& p, const Gjk& found) {
   Difference difference(p.a, p.b, p.pose);
@@ -210,11 +228,12 @@ Distance overlapping(const Pair& p, const Gjk& found) {
     const MeridianDepth inner =
         meridianDepth(plane, p.rounding, [&](const Vector3d& m) { return epa.look(-m.normalized()); });
     if (inner.depth > 0.0) epa.bound = std::min(epa.bound, -inner.depth);
-    epa.offer(inner.onA, inner.toB);
+    if (inner.found) epa.offer(inner.onA, inner.toB);
   }
   epa.run();
   epa.offer(onA, toB);  // the answer's where cores cross without a volume in common, as two segments do
   if (epa.off() > p.rounding) offerAround(p, epa);
+  if (epa.off() > p.rounding) offerToAndFro(p, epa);
   if (p.curved() || epa.off() > p.rounding || !(epa.bound - epa.gap <= p.rounding)) {
     const auto deepest = nearestOnFeatures(p.a, p.b, p.pose, epa.n, epa.gap, epa.onA, kWidest, p.rounding);
     if (deepest) {
@@ -251,16 +270,19 @@ Distance besidePlane(const Pair& p) {
   return other.distance > one.distance ? other : one;
 }
 
+/// The same after a search that goes on to the end, where Newton's method had no success from `found`.
+Distance separatedAtTheEnd(const Pair& p, Gjk& found) {
+  for (Corner& corner : found.simplex.corner) corner.gap = -std::numeric_limits<double>::infinity();
+  found = searchToTheEnd(p, found.simplex);  // seen along new normals
+  return separated(p, found);
+}
+
 Distance solve(const Pair& p) {
   if (!p.valid) return {};
   if (p.a.unbounded()) return besidePlane(p);
   Gjk found = p.search([&](double lower, double upper) { return p.curved() && isNear(p, lower, upper); });
   Distance result = separated(p, found);
-  if (result.status == DistanceStatus::bounded && p.curved()) {
-    for (Corner& corner : found.simplex.corner) corner.gap = -std::numeric_limits<double>::infinity();
-    found = searchToTheEnd(p, found.simplex);  // seen along new normals
-    result = separated(p, found);
-  }
+  if (result.status == DistanceStatus::bounded && p.curved()) result = separatedAtTheEnd(p, found);
   return result.status == DistanceStatus::invalid ? overlapping(p, found) : result;
 }
 
@@ -268,11 +290,13 @@ bool isFarther(double x, const Pair& p) {
   if (!p.valid) return false;
   if (p.a.unbounded()) return besidePlane(p).lower > x;
   const double core = x + p.margins();
-  const Gjk found =
+  Gjk found =
       p.search([&](double lower, double upper) { return lower > core + p.certificate || upper <= core; });
   if (found.lower > core + p.certificate) return true;  // along whatever normal, apart or not
   if (found.verdict != Gjk::Verdict::overlap && found.upper <= core) return false;
-  const Distance answer = separated(p, found);
+  Distance answer = separated(p, found);
+  if (answer.status == DistanceStatus::bounded && p.curved() && answer.lower <= x && x < answer.upper)
+    answer = separatedAtTheEnd(p, found);
   if (answer.status != DistanceStatus::invalid) return answer.lower > x;
   return core < 0.0 && overlapping(p, found).lower > x;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include "fcl_stpbv/convex/relative_pose.h"
 #include "fcl_stpbv/convex/shape.h"
@@ -126,6 +127,10 @@ void placeOppositeOnEllipsoid(ShapeQuery& q, Nearest& found);
 /// How deep overlapping cores are in each other, next to `start` first. `at.gap` is minus the depth along the
 /// best normal seen, `bound` holds for every normal.
 LeastOverlap leastOverlap(ShapeQuery& q, const StartNormal& start);
+
+/// From next to the answer of cores that touch, or all but: the answer of the feature there, as deep as
+/// `near` to rounding. Nothing where none holds one.
+std::optional<Nearest> touchingFeature(ShapeQuery& q, const Nearest& near);
 
 /// The plane of a flat end: its normal is fixed, only the position is to be
 /// checked. `apart` where the core is above.

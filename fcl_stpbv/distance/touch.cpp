@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "fcl_stpbv/distance/patch_pair.h"
 
@@ -41,14 +42,24 @@ bool featureOf(const Shape& shape, const Isometry3d& pose, const Vector3d& m, co
   return true;
 }
 
+/// The touch of two features, the second no more curved than the first.
+bool touchOfFeatures(const NormalCone& first, const Isometry3d& poseFirst, const NormalCone& second,
+                     const Isometry3d& poseSecond, const Distance& d, double rounding, Touch& touch) {
+  if (first.count == 1 && second.count == 1) return touch.cross(first, second, poseFirst, poseSecond, d);
+  touch.a = curvatureOf(first);
+  return first.count == 2 && touch.set(second, poseFirst, poseSecond, d, rounding);
+}
+
 double placeRounding(double size) { return 32.0 * std::numeric_limits<double>::epsilon() * size; }
 
 }  // namespace
 
-bool Touch::set(const NormalCone& b, const Isometry3d& poseA, const Isometry3d& poseB, const Distance& d) {
+bool Touch::set(const NormalCone& b, const Isometry3d& poseA, const Isometry3d& poseB, const Distance& d,
+                double rounding) {
+  constexpr double kTold = 4.0;  // radii of curvature that sum up to less of the rounding are none
   armA = d.point[0] - poseA.translation();
   fromB = d.point[0] - poseB.translation();
-  return invert(a, d.distance, b, inverse);
+  return invert(a, d.distance, kTold * rounding, b, inverse);
 }
 
 bool Touch::cross(const NormalCone& first, const NormalCone& second, const Isometry3d& poseA,
@@ -76,7 +87,9 @@ bool touchOf(const StpBv& a, const Isometry3d& poseA, const StpBv& b, const Isom
   const Vector3d w1 = w * t1;
   const NormalCone every{2, -n, {t1, t2}, {t1.dot(w1), t2.dot(w * t2)}, t2.dot(w1)};
   touch.a = surfaceCurvature(a, poseA, d.patch[0], n);
-  return touch.set(every, poseA, poseB, d);
+  const double size = (poseB.translation() - poseA.translation()).norm() + a.centre().norm() +
+                      a.enclosingRadius() + b.centre().norm() + b.enclosingRadius();
+  return touch.set(every, poseA, poseB, d, placeRounding(size));
 }
 
 bool touchOf(const StpBv& volume, const Isometry3d& poseVolume, const Shape& shape,
@@ -84,14 +97,15 @@ bool touchOf(const StpBv& volume, const Isometry3d& poseVolume, const Shape& sha
   if (d.status != DistanceStatus::exact || !owns(volume, d.patch[0])) return false;
   const double size = (poseShape.translation() - poseVolume.translation()).norm() + volume.centre().norm() +
                       volume.enclosingRadius() + shape.centre.norm() + shape.reach;
+  const double placed = placeRounding(size);
   NormalCone feature;
-  if (!featureOf(shape, poseShape, -d.normal, d.point[1], placeRounding(size), 0.0, feature)) return false;
+  if (!featureOf(shape, poseShape, -d.normal, d.point[1], placed, 0.0, feature)) return false;
   touch.a = surfaceCurvature(volume, poseVolume, d.patch[0], d.normal);
-  return touch.set(feature, poseVolume, poseShape, d);
+  return touch.set(feature, poseVolume, poseShape, d, placed + placeRounding(shape.margin));
 }
 
 bool touchOf(const Shape& a, const Isometry3d& poseA, const Shape& b, const Isometry3d& poseB,
-             const Distance& d, Touch& touch, bool& flatter) {
+             const Distance& d, Touch& touch, bool& swapped) {
   constexpr double kMost = 1e-3;  // rad
   if (d.status != DistanceStatus::exact || d.normal.isZero(0)) return false;
   const double placed = placeRounding((poseB.translation() - poseA.translation()).norm() + a.centre.norm() +
@@ -103,11 +117,17 @@ bool touchOf(const Shape& a, const Isometry3d& poseA, const Shape& b, const Isom
   if (!featureOf(a, poseA, d.normal, d.point[0], placed, angle, first) ||
       !featureOf(b, poseB, -d.normal, d.point[1], placed, angle, second))
     return false;
-  flatter = first.count < second.count;
-  if (flatter) return true;
-  if (first.count == 1 && second.count == 1) return touch.cross(first, second, poseA, poseB, d);
-  touch.a = curvatureOf(first);
-  return first.count == 2 && touch.set(second, poseA, poseB, d);
+  const double rounding = placed + placeRounding(a.margin + b.margin);
+  swapped = first.count < second.count;
+  if (swapped) return touchOfFeatures(second, poseB, first, poseA, exchanged(d), rounding, touch);
+  return touchOfFeatures(first, poseA, second, poseB, d, rounding, touch);
+}
+
+Distance exchanged(Distance d) {
+  d.normal = -d.normal;
+  std::swap(d.point[0], d.point[1]);
+  std::swap(d.patch[0], d.patch[1]);
+  return d;
 }
 
 }  // namespace fcl_stpbv::detail

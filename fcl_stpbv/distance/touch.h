@@ -26,9 +26,10 @@ struct Touch {
   Eigen::Vector3d way{0, 0, 0};   // of the normal, around body 2's edge
   double stiffness = 0;           // W_B + delta along that way
 
-  /// Where body 2's feature is not the more curved one. False where nothing has derivatives.
+  /// Where body 2's feature is not the more curved one. False where nothing has derivatives: `rounding` (m)
+  /// of the distance is all that is left of the radii of curvature.
   bool set(const NormalCone& b, const Eigen::Isometry3d& poseA, const Eigen::Isometry3d& poseB,
-           const Distance& d);
+           const Distance& d, double rounding);
   /// Two edges. False where they are parallel.
   bool cross(const NormalCone& first, const NormalCone& second, const Eigen::Isometry3d& poseA,
              const Eigen::Isometry3d& poseB, const Distance& d);
@@ -45,9 +46,12 @@ bool touchOf(const StpBv& a, const Eigen::Isometry3d& poseA, const StpBv& b, con
              const Distance& d, Touch& touch);
 bool touchOf(const StpBv& volume, const Eigen::Isometry3d& poseVolume, const Shape& shape,
              const Eigen::Isometry3d& poseShape, const Distance& d, Touch& touch);
-/// Two shapes. `flatter`: the first one's feature is flatter than the second's, so that the touch is to be
-/// asked for the other way round.
+/// Two shapes. `swapped`: the first one's feature is flatter than the second's, so that the touch is that of
+/// the second with the first, at the answer `exchanged(d)`.
 bool touchOf(const Shape& a, const Eigen::Isometry3d& poseA, const Shape& b, const Eigen::Isometry3d& poseB,
-             const Distance& d, Touch& touch, bool& flatter);
+             const Distance& d, Touch& touch, bool& swapped);
+
+/// An answer with the bodies' names exchanged.
+Distance exchanged(Distance d);
 
 }  // namespace fcl_stpbv::detail

@@ -52,20 +52,21 @@ struct Turning {
   }
 };
 
-/// False unless positive definite, as at a maximum of s.
-inline bool invert(const Curvature& a, double distance, const NormalCone& b, Turning& inverse) {
+/// False unless positive definite, as at a maximum of s, beyond the rounding of the distance (m).
+inline bool invert(const Curvature& a, double distance, double rounding, const NormalCone& b,
+                   Turning& inverse) {
   inverse = {};
   if (b.count == 0) return true;
   const Eigen::Vector3d &t1 = b.way[0], &t2 = b.way[1];
   const Eigen::Vector3d w1 = a * t1;
   const double m11 = t1.dot(w1) + b.along[0] + distance;
-  if (!(m11 > 0.0)) return false;
+  if (!(m11 > rounding)) return false;
   inverse.way1 = t1;
   inverse.i11 = 1.0 / m11;
   if (b.count == 1) return true;
   const double m22 = t2.dot(a * t2) + b.along[1] + distance, m12 = t2.dot(w1) + b.between;
   const double det = m11 * m22 - m12 * m12;
-  if (!(det > 1e-14 * m11 * m22)) return false;
+  if (!(det > 1e-14 * m11 * m22) || !(det > rounding * (m11 + m22))) return false;
   inverse = {t1, t2, m22 / det, -m12 / det, m11 / det};
   return true;
 }

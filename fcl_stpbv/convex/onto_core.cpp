@@ -1,0 +1,72 @@
+// The nearest point of a simple shape's core, in closed form; a polytope's by GJK.
+#include "fcl_stpbv/convex/onto_core.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fcl_stpbv/convex/gjk.h"
+#include "fcl_stpbv/convex/relative_pose.h"
+#include "fcl_stpbv/convex/support.h"
+
+namespace fcl_stpbv::detail {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+namespace {
+
+/// The polytope's point nearest to `y`, by GJK.
+Vector3d nearestOfCorners(const Shape& polytope, const Vector3d& y) {
+  using Difference = ConvexDifference<const Shape, const Shape>;
+  constexpr int kSteps = 60;
+  const Shape origin;
+  Isometry3d at = Isometry3d::Identity();
+  at.translation() = y;
+  const RelativePose pose(at, Isometry3d::Identity());
+  Difference difference(origin, polytope, pose);
+  const auto found = gjk<Difference::Corner>(difference, {}, (polytope.centre - y).normalized(), 0.0, kSteps,
+                                             [](double, double) { return false; });
+  Simplex<Difference::Corner> nearest;
+  return y + reduceToNearest(found.simplex, nearest).point;
+}
+
+}  // namespace
+
+Vector3d ontoCore(const Shape& core, const Vector3d& y) {
+  const double half = core.half, z = std::clamp(y.z(), -half, half);
+  const auto within = [&](double radius) -> Vector3d {
+    const double across = std::hypot(y.x(), y.y()), scale = across > radius ? radius / across : 1.0;
+    return {scale * y.x(), scale * y.y(), z};
+  };
+  switch (core.kind) {
+    case ShapeKind::point:
+      return {0, 0, 0};
+    case ShapeKind::segment:
+      return {0, 0, z};
+    case ShapeKind::box:
+      return y.cwiseMax(-core.size).cwiseMin(core.size);
+    case ShapeKind::cylinder:
+      return within(core.radius);
+    case ShapeKind::cone:
+      return within(half > 0.0 ? core.radius * (half - z) / (2.0 * half) : core.radius);
+    case ShapeKind::ellipsoid: {
+      Vector3d p = y;
+      for (int i = 0; i < 3; ++i)
+        if (!(core.size[i] > 0.0)) p[i] = 0.0;
+      const auto scaled = [&] { return Vector3d(p.array() / core.size.array().max(1e-300)); };
+      const Vector3d gradient = scaled().array() / core.size.array().max(1e-300);
+      const double beyond = scaled().squaredNorm() - 1.0;
+      if (beyond > 0.0) p -= (0.5 * beyond / gradient.squaredNorm()) * gradient;
+      return p / std::max(1.0, scaled().norm());
+    }
+    case ShapeKind::triangle:
+    case ShapeKind::polytope:
+      return nearestOfCorners(core, y);
+    case ShapeKind::halfspace:
+    case ShapeKind::plane:
+      break;
+  }
+  return y;
+}
+
+}  // namespace fcl_stpbv::detail

@@ -1,0 +1,221 @@
+// Normals and witness points of shapes that touch, lie on one axis or have no thickness, in closed form.
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "fcl_stpbv/distance/hessian.h"
+#include "fcl_stpbv/distance/shape_distance.h"
+#include "test/reference/shape_reference.h"
+
+using namespace fcl_stpbv;
+using namespace fcl_stpbv::test;
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+namespace {
+
+double besideEachOther(const Distance& d) { return (d.point[1] - d.point[0] - d.distance * d.normal).norm(); }
+
+}  // namespace
+
+TEST_CASE("a pin without thickness 2 mm deep in a needle leaves it across the needle") {
+  const Vector3d sides(1, 0.01, 0.01);
+  const Cloud corners = box(1, 0.01, 0.01);
+  for (const Shape& needle : {Shape::boxOf(sides), Shape::polytopeOf(corners.data(), 8)})
+    for (const Shape& pin : {Shape::cylinderOf(0, 0.06), Shape::coneOf(0, 0.06), Shape::capsule(0, 0.06),
+                             Shape::cylinderOf(1e-12, 0.06), Shape::coneOf(1e-12, 0.06)}) {
+      const Distance d = distance(needle, at(0, 0, 0), pin, at(0.1, 0, 0.005 + 0.03 - 0.002));
+      CAPTURE(static_cast<int>(needle.kind), static_cast<int>(pin.kind), pin.radius);
+      CHECK(std::abs(d.distance + 0.002) <= 1e-15);
+      CHECK((d.normal - Vector3d(0, 0, 1)).norm() <= 1e-15);
+      CHECK((d.lower <= -0.002 && d.upper >= -0.002));
+      CHECK((d.point[0] - Vector3d(0.1, 0, 0.005)).norm() <= 1e-12);
+      CHECK((d.point[1] - Vector3d(0.1, 0, 0.003)).norm() <= 1e-12);
+    }
+}
+
+TEST_CASE("capsules on one line overlap where both have their axes, in either order") {
+  const Isometry3d origin = at(0, 0, 0);
+  for (const double shift : {-0.25, -0.1, 0.1, 0.25, 0.299}) {
+    const Shape capsule = Shape::capsule(0.05, 0.3);
+    const Distance d = distance(capsule, origin, capsule, at(0, 0, shift));
+    CAPTURE(shift);
+    CHECK(std::abs(d.distance + 0.1) <= 1e-15);
+    CHECK(std::abs(d.point[0].z() - shift / 2) <= (0.3 - std::abs(shift)) / 2 + 1e-15);
+    CHECK(besideEachOther(d) <= 1e-15);
+  }
+  const Shape wide = Shape::capsule(0.08, 0.05), slim = Shape::capsule(0.003, 0.68);
+  for (const double overlap : {1e-6, 1e-3, 0.0182, 0.05}) {
+    const Isometry3d below = at(0, 0, -(0.025 + 0.34 - overlap));
+    for (const bool first : {true, false}) {
+      const Distance d = first ? distance(wide, origin, slim, below) : distance(slim, below, wide, origin);
+      CAPTURE(overlap, first);
+      CHECK(std::abs(d.distance + 0.083) <= 1e-15);
+      CHECK(std::abs(d.point[0].z() + 0.025 - overlap / 2) <= overlap / 2 + 1e-15);
+      CHECK(besideEachOther(d) <= 1e-15);
+    }
+  }
+}
+
+TEST_CASE("bodies of revolution on one axis overlap where both have their sides") {
+  Random random(5);
+  for (int i = 0; i < 100; ++i) {
+    const Isometry3d one = pose(random.rotation(), random.direction());
+    const double r = random.uniform(0.1, 0.3), shift = random.uniform(-0.5, 0.5) * r;
+    const Isometry3d other = one * at(0, 0, shift);
+    const Shape cylinder = Shape::cylinderOf(r, 2.0 * r), capsule = Shape::capsule(r, 4.0 * r),
+                cone = Shape::coneOf(r, 0.1 * r);
+    CAPTURE(i, shift, r);
+    for (const Shape& shape : {cylinder, cone}) {
+      const Distance d = distance(shape, one, capsule, other);
+      const Vector3d p = one.inverse() * d.point[0];
+      CHECK(d.status == DistanceStatus::exact);
+      CHECK(std::abs(d.distance + 2.0 * r) <= 2e-15);
+      CHECK(besideEachOther(d) <= 4e-15);
+      CHECK(std::abs(p.head<2>().norm() - r) <= 4e-15);
+      CHECK(std::abs(p.z()) <= shape.half + 4e-15);
+    }
+  }
+}
+
+TEST_CASE("the normal from a box's corner to a rim is that of the two points") {
+  Random random(3);
+  const Shape crate = Shape::boxOf({0.2, 0.12, 0.3});
+  int corners = 0;
+  for (int i = 0; i < 40000; ++i) {
+    const double radius = random.uniform(0.05, 0.5), length = random.uniform(0.1, 1);
+    const Shape round = i % 2 ? Shape::cylinderOf(radius, length) : Shape::coneOf(radius, length);
+    const Isometry3d placed =
+        pose(random.rotation(), {random.uniform(-2, 2), random.uniform(-2, 2), random.uniform(-2, 2)});
+    const Distance d = distance(crate, at(0, 0, 0), round, placed);
+    if (d.status != DistanceStatus::exact || !(d.distance > 0.01)) continue;
+    if ((d.point[0].cwiseAbs() - crate.size).norm() > 1e-9) continue;
+    const Vector3d corner = d.point[0].array().sign() * crate.size.array(), x = placed.inverse() * corner;
+    const double across = x.head<2>().norm(), end = std::copysign(round.half, x.z());
+    // Beyond the rim's torus of normals a side, a disc or an apex is nearest.
+    const Vector3d rim(radius * x.x() / across, radius * x.y() / across,
+                       round.kind == ShapeKind::cone ? -round.half : end);
+    if ((placed * rim - d.point[1]).norm() > 1e-6) continue;
+    ++corners;
+    CAPTURE(i);
+    CHECK(((placed * rim - corner).normalized() - d.normal).norm() <= 1e-12);
+  }
+  CHECK(corners > 5000);
+}
+
+TEST_CASE("all but touching an STP-BV of a huge R, a point's true gap is below the upper bound") {
+  const Cloud cloud{{-0.142, -0.211, 0.286},
+                    {-0.045, -0.203, -0.392},
+                    {0.162, -0.229, 0.084},
+                    {-0.229, -0.113, 0.490},
+                    {0.089, -0.058, -0.651}};
+  for (const double R : {10.0, 1e3, 1e4, 1e6}) {
+    const double r = 0.05;
+    const StpBv::Ptr volume = StpBv::build(cloud, {r, R});
+    Random random(5);
+    for (int i = 0; i < 2000; ++i) {
+      const Vector3d m = random.direction(), on = volume->surfacePoint(m) - r * m;
+      const Vector3d centre = on + std::pow(10.0, random.uniform(-13, -6)) * m;
+      const Distance d =
+          distance(*volume, at(0, 0, 0), Shape::sphere(0.1), at(centre[0], centre[1], centre[2]));
+      const Vector3L n = m.cast<long double>().normalized();
+      const ReferenceBody body = referenceBody(cloud, r, R);
+      const long double gap = n.dot(centre.cast<long double>()) - referenceSupport(body, n) - 0.1L;
+      CAPTURE(R, i, d.upper - d.lower);
+      CHECK(gap - static_cast<long double>(d.upper) <= 0);
+    }
+  }
+}
+
+TEST_CASE("where an STP-BV touches a flat or long shape both witness points are opposite each other") {
+  const Cloud corners{{0.1, 0, 0}, {-0.1, 0, 0}, {0, 0.1, 0}, {0, -0.1, 0}, {0, 0, 0.1}, {0, 0, -0.1}};
+  const Vector3d triangle[] = {{0, -1, -1}, {0, 2, -1}, {0, 0, 3}};
+  const Cloud crate = box(1, 1, 1);
+  struct Side {
+    Shape shape;
+    double half;  // from its origin to the side at -x
+    double wide;  // how far the side reaches along y
+  };
+  const Side sides[] = {{Shape::boxOf({1, 1, 1}), 0.5, 0.4},
+                        {Shape::polytopeOf(crate.data(), 8), 0.5, 0.4},
+                        {Shape::triangleOf(triangle[0], triangle[1], triangle[2]), 0.0, 0.1},
+                        {Shape::capsule(0.05, 1), 0.0, 0.0},
+                        {Shape::cylinderOf(0.2, 1), 0.2, 0.0},
+                        {Shape::ellipsoidOf({0, 1, 1}), 0.0, 0.1}};
+  for (const double r : {0.0, 0.01}) {
+    const StpBv::Ptr volume = StpBv::build(corners, {r, 10});
+    const Distance d = distance(*volume, at(0, 0, 0), Shape::capsule(0.05, 1), at(0.1, 0, 0.3));
+    CHECK((d.point[1] - Vector3d(0.05, 0, 0)).norm() <= 1e-15);
+    for (const Side& side : sides) {
+      Random random(3);
+      int exact = 0;
+      for (int i = 0; i < 1000; ++i) {
+        Isometry3d placed = pose(random.rotation(), {0, 0, 0});
+        const Vector3d m = placed.linear().col(0), core = volume->surfacePoint(m) - r * m;
+        placed.translation() =
+            core + placed.linear() *
+                       Vector3d(side.half, random.uniform(-side.wide, side.wide), random.uniform(-0.1, 0.4));
+        const Distance touch = distance(*volume, at(0, 0, 0), side.shape, placed);
+        if (touch.status != DistanceStatus::exact) continue;  // deep by rounding
+        ++exact;
+        CAPTURE(r, static_cast<int>(side.shape.kind), i);
+        CHECK(besideEachOther(touch) <= 2e-14);  // an ulp of the normal moves a face's point by 10 m of it
+      }
+      CHECK(exact > 100);
+    }
+  }
+}
+
+TEST_CASE("no second derivative where all radii of curvature and the distance cancel") {
+  Random random(1);
+  DistanceHessian h;
+  DistanceRate rate_;
+  const BodyTwists twists = BodyTwists::Ones();
+  for (int i = 0; i < 300; ++i) {
+    const Isometry3d one = pose(random.rotation(), random.direction());
+    const Isometry3d other = one * at(0, 0, random.uniform(-0.05, 0.05));
+    const Shape cylinder = Shape::cylinderOf(random.uniform(0.02, 0.06), 0.4),
+                ball = Shape::sphere(random.uniform(0.05, 0.2));
+    const Distance d = distance(cylinder, one, ball, other);
+    CAPTURE(i);
+    CHECK_FALSE(hessian(cylinder, one, ball, other, d, h));
+    CHECK_FALSE(rate(cylinder, one, ball, other, d, twists, rate_));
+
+    const Shape a = Shape::boxOf({0.2, 0.3, 0.4}), b = Shape::boxOf({0.3, 0.2, 0.1});
+    Isometry3d touching = pose(random.rotation(), {0, 0, 0});
+    const Vector3d n = one.linear() * Vector3d(1, 1, 1).normalized();
+    touching.translation() = one * a.support(one.linear().transpose() * n) -
+                             touching.linear() * b.support(touching.linear().transpose() * -n);
+    if (hessian(a, one, b, touching, distance(a, one, b, touching), h))
+      CHECK(h.matrix.cwiseAbs().maxCoeff() < 1e4);  // of two edges that cross there
+  }
+  // A volume's centre on another's, deep: the normal may be any.
+  const StpBv::Ptr ball = StpBv::build({{0, 0, 0}}, {0.1, 1});
+  const Distance d = distance(*ball, at(0, 0, 0), *ball, at(0, 0, 0));
+  CHECK_FALSE(hessian(*ball, at(0, 0, 0), *ball, at(0, 0, 0), d, h));
+  // All but touching is no reason to refuse.
+  const Shape point = Shape::sphere(0);
+  for (const double gap : {1e-3, 1e-6, 1e-9}) {
+    const Distance near = distance(*ball, at(0, 0, 0), point, at(0.1 + gap, 0, 0));
+    CHECK(hessian(*ball, at(0, 0, 0), point, at(0.1 + gap, 0, 0), near, h));
+    const Distance points = distance(point, at(0, 0, 0), point, at(gap, 0, 0));
+    REQUIRE(hessian(point, at(0, 0, 0), point, at(gap, 0, 0), points, h));
+    CHECK(std::abs(h.matrix(1, 1) * gap - 1) <= 1e-5);
+  }
+}
+
+TEST_CASE("farther than a threshold just below the distance, for round shapes as for the others") {
+  Random random(4);
+  for (int i = 0; i < 3000; ++i) {
+    const double r = random.uniform(0.05, 0.5);
+    const Shape shapes[] = {Shape::cylinderOf(r, 0.4), Shape::coneOf(r, 0.4),
+                            Shape::ellipsoidOf({r, 0.2, 0.7}), Shape::boxOf({r, 0.2, 0.7})};
+    const Shape &a = shapes[random.below(4)], &b = shapes[random.below(4)];
+    const Isometry3d one = pose(random.rotation(), {0, 0, 0}),
+                     other = pose(random.rotation(), random.uniform(0.6, 1.5) * random.direction());
+    const Distance d = distance(a, one, b, other);
+    if (d.status != DistanceStatus::exact || !(d.distance > 0)) continue;
+    CAPTURE(i, static_cast<int>(a.kind), static_cast<int>(b.kind));
+    CHECK(isFartherThan(d.distance - 1e-12, a, one, b, other));
+    CHECK_FALSE(isFartherThan(d.upper, a, one, b, other));
+  }
+}
