@@ -101,22 +101,27 @@ void addStpBv(py::module_& module) {
           "Largest and mean excess over the convex hull (m).")
       .def(
           "verify", [](const StpBv& volume) { return verify(volume).message; }, "\"ok\", or what is wrong.")
-      // py::pickle ends the interpreter where a protocol below 2 is asked for.
-      .def("__reduce__",
-           [](const StpBv& volume) {
-             std::ostringstream out;
-             saveStpBv(out, volume);
-             return py::make_tuple(py::module_::import("fcl_stpbv").attr("_load_volume"),
-                                   py::make_tuple(py::bytes(out.str())));
+      .def(py::pickle(
+          [](const StpBv& volume) {
+            std::ostringstream out;
+            saveStpBv(out, volume);
+            return py::bytes(out.str());
+          },
+          [](const py::bytes& state) {
+            std::istringstream in(state);
+            return held(loadStpBv(in, "pickled StpBv"));
+          }))
+      // Below protocol 2 Python would make the object without pybind11, which ends the interpreter.
+      .def("__reduce_ex__",
+           [](const py::object& self, int protocol) {
+             return py::module_::import("builtins")
+                 .attr("object")
+                 .attr("__reduce_ex__")(self, std::max(protocol, 2));
            })
       .def("__repr__", [](const StpBv& volume) {
         return "<StpBv: " + std::to_string(volume.vertexCount()) + " vertices, " +
                std::to_string(volume.faceCount()) + " faces>";
       });
-  module.def("_load_volume", [](const py::bytes& state) {
-    std::istringstream in(state);
-    return held(loadStpBv(in, "pickled StpBv"));
-  });
 }
 
 void addDistance(py::module_& module) {
