@@ -19,11 +19,11 @@ namespace fcl_stpbv {
 /// sheet with two sides, which has no inside. Flipped faces, nested shells and holes are the rule in robots'
 /// meshes, so none of them is an error.
 struct MeshPieces {
-  std::vector<Eigen::Vector3d> vertices;      ///< each point once (m)
+  std::vector<Eigen::Vector3d> vertices;  ///< each point once (m)
   /// Turned; without copies and without lines that are an edge of another. Sheets have both sides.
   std::vector<std::array<int, 3>> triangles;
-  std::vector<int> piece;                     ///< of each triangle
-  std::vector<char> closed;                   ///< of each piece
+  std::vector<int> piece;    ///< of each triangle
+  std::vector<char> closed;  ///< of each piece
   /// Number of pieces.
   int pieces() const { return static_cast<int>(closed.size()); }
   /// Number of closed pieces.

@@ -137,7 +137,8 @@ class Adviser {
   [[noreturn]] void refuse() const {
     char text[256];
     std::snprintf(text, sizeof text,
-                  "adviseRadii: found no r and R that keep a clearance of %.9g m, of which %.9g m or more go into the period of "
+                  "adviseRadii: found no r and R that keep a clearance of %.9g m, of which %.9g m or more go "
+                  "into the period of "
                   "%.9g s; state a larger clearance, a shorter period or a slower motion",
                   task_.clearance, reserve_, task_.period);
     throw Error(text);
