@@ -5,11 +5,11 @@
 #include <tuple>
 
 #include "fcl_stpbv/io/atomic_write.h"
+#include "fcl_stpbv/posture/collision_rows.h"
 #include "fcl_stpbv/report/formatted.h"
 #include "fcl_stpbv/report/posture_formats.h"
 #include "fcl_stpbv/report/posture_parts.h"
 #include "fcl_stpbv/report/report_warnings.h"
-#include "fcl_stpbv/robot/constraints.h"
 #include "tools/output_plan.h"
 #include "tools/program.h"
 #include "tools/robot_options.h"
@@ -75,16 +75,11 @@ void tell(const PostureReport& report) {
 // The pairs that a posture found without them brings nearer than the margin, as warnings.
 std::vector<std::string> collisionsOf(const PostureReport& report) {
   std::vector<std::string> list;
-  if (report.pairs.empty()) return list;
-  ConstraintOptions options;
-  options.obstacles = report.scene.obstacles;
-  CollisionConstraints pairs(report.kinematics, report.scene.geometry, report.pairs, std::move(options));
-  Eigen::VectorXd d(pairs.rows());
-  pairs.evaluate(report.posture.q, d);
-  for (int row = 0; row < d.size(); ++row)
-    if (!(d[row] >= report.task.collisionMargin))
-      list.push_back("in collision, as --ignore-collisions lets it be: " + pairs.name(row) +
-                     formatted(", %.4g m", d[row]));
+  const double margin = report.task.collisionMargin;
+  for (const Violation& pair :
+       nearerThan(margin, report.pairs, report.scene, report.kinematics, report.posture.q))
+    list.push_back("in collision, as --ignore-collisions lets it be: " + pair.name +
+                   formatted(", %.4g m", margin - pair.amount));
   return list;
 }
 
@@ -123,7 +118,7 @@ int run(Arguments& a) {
     requirePairs(setup.pairs.size(), *report.scene.robot,
                  "the task and the robot's joints leave none; --ignore-collisions solves without");
   if (a.careless) setup.problem = setUpWithoutCollisions(report.task, report.scene).problem;
-  report.kinematics = std::make_shared<const Kinematics>(setup.problem->kinematics());
+  report.kinematics = setup.problem->sharedKinematics();
   report.posture = parts && !a.careless ? parts->find(setup, a.options) : findPosture(setup, a.options);
   report.pairs = setup.pairs;
   std::vector<std::string> more;

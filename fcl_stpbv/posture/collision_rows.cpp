@@ -20,6 +20,21 @@ void CollisionRows::evaluate(const Point& at, Eigen::Ref<Eigen::VectorXd> values
   }
 }
 
+std::vector<Violation> nearerThan(double margin, const std::vector<CheckedPair>& pairs,
+                                  const PostureScene& scene, std::shared_ptr<const Kinematics> kinematics,
+                                  const Eigen::VectorXd& q) {
+  std::vector<Violation> found;
+  if (pairs.empty()) return found;
+  ConstraintOptions options;
+  options.obstacles = scene.obstacles;
+  CollisionConstraints distances(std::move(kinematics), scene.geometry, pairs, std::move(options));
+  Eigen::VectorXd d(distances.rows());
+  distances.evaluate(q, d);
+  for (int row = 0; row < d.size(); ++row)
+    if (!(d[row] >= margin)) found.push_back({distances.name(row), margin - d[row]});
+  return found;
+}
+
 void SmoothRow::evaluate(const Point& at, Eigen::Ref<Eigen::VectorXd> values,
                          Eigen::Ref<RowMatrix> jacobian) {
   values[0] = constraint_.value(at.x, gradient_.data());

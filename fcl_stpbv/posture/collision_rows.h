@@ -1,7 +1,11 @@
 // The distances of a robot as rows: d(q) - margin, not to be negative.
 #pragma once
 
+#include <memory>
+#include <vector>
+
 #include "fcl_stpbv/posture/problem.h"
+#include "fcl_stpbv/posture/task.h"
 #include "fcl_stpbv/robot/constraints.h"
 
 namespace fcl_stpbv::detail {
@@ -25,6 +29,11 @@ class CollisionRows : public PostureRows {
   Eigen::VectorXd entries_;
   long queries_ = 0;
 };
+
+/// The pairs of bodies that are nearer than the margin (m), in their order, and by how much.
+std::vector<Violation> nearerThan(double margin, const std::vector<CheckedPair>& pairs,
+                                  const PostureScene& scene, std::shared_ptr<const Kinematics> kinematics,
+                                  const Eigen::VectorXd& q);
 
 /// A smooth function of the coordinates, not to be negative.
 class SmoothRow : public PostureRows {

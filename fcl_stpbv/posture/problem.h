@@ -84,6 +84,8 @@ class PostureProblem {
 
   /// The robot.
   const Kinematics& kinematics() const { return *kinematics_; }
+  /// The robot, for whoever keeps it longer.
+  const std::shared_ptr<const Kinematics>& sharedKinematics() const { return kinematics_; }
   /// Number of variables: the coordinates, then the constraints' own.
   int variables() const { return static_cast<int>(lower_.size()); }
   /// Number of rows to be 0.

@@ -143,23 +143,6 @@ PostureSetup placed(const PostureTask& task, const PostureScene& scene) {
   return setup;
 }
 
-// Adds the pairs that nothing moves against each other and that are nearer than the margin.
-void checkStill(const std::vector<CheckedPair>& pairs, const PostureTask& task, const PostureScene& scene,
-                PostureSetup& setup) {
-  if (pairs.empty()) return;
-  ConstraintOptions options;
-  options.obstacles = scene.obstacles;
-  const auto kinematics = std::make_shared<const Kinematics>(setup.problem->kinematics());
-  CollisionConstraints distances(kinematics, scene.geometry, pairs, std::move(options));
-  Eigen::VectorXd d(distances.rows());
-  distances.evaluate(setup.start, d);
-  std::vector<Violation> still;
-  for (int row = 0; row < d.size(); ++row)
-    if (!(d[row] >= task.collisionMargin))
-      still.push_back({distances.name(row), task.collisionMargin - d[row]});
-  setup.problem->addStill(still);
-}
-
 }  // namespace
 
 PostureSetup setUpWithoutCollisions(const PostureTask& task, const PostureScene& scene) {
@@ -173,7 +156,7 @@ PostureSetup setUp(const PostureTask& asked, const PostureScene& given, double i
   const PostureScene& scene = moved.second;
   PostureSetup setup = placed(task, scene);
   setup.pairs = pairsOf(task, scene);
-  const auto kinematics = std::make_shared<const Kinematics>(setup.problem->kinematics());
+  const std::shared_ptr<const Kinematics> kinematics = setup.problem->sharedKinematics();
   std::vector<CheckedPair> moving, still;
   for (const CheckedPair& pair : setup.pairs) {
     const auto linkOf = [&](int body) { return scene.geometry->bodies[static_cast<std::size_t>(body)].link; };
@@ -182,7 +165,7 @@ PostureSetup setUp(const PostureTask& asked, const PostureScene& given, double i
                             .empty();
     (moves ? moving : still).push_back(pair);
   }
-  checkStill(still, task, scene, setup);
+  setup.problem->addStill(nearerThan(task.collisionMargin, still, scene, kinematics, setup.start));
   if (moving.empty()) return setup;
   // Rows are distances from the margin on, or from 0, as far beyond as they would be without one.
   const double from = std::max(0.0, task.collisionMargin);

@@ -11,10 +11,9 @@ namespace {
 // One coordinate by its own name, or all of a joint's.
 std::vector<int> coordinatesNamed(const std::string& name, const Kinematics& kinematics) {
   const std::vector<std::string>& names = kinematics.names();
+  const auto own = std::find(names.begin(), names.end(), name);
+  if (own != names.end()) return {static_cast<int>(own - names.begin())};
   std::vector<int> found;
-  for (int i = 0; i < kinematics.size(); ++i)
-    if (names[static_cast<std::size_t>(i)] == name) found.push_back(i);
-  if (!found.empty()) return {found.front()};
   const int first = kinematics.coordinate(name);
   for (int i = std::max(0, first); first >= 0 && i < kinematics.size(); ++i)
     if (names[static_cast<std::size_t>(i)].compare(0, name.size() + 1, name + "/") == 0) found.push_back(i);
@@ -31,15 +30,11 @@ PostureCost detail::costOf(const PostureTask& task, const Kinematics& kinematics
                            const Eigen::VectorXd& start) {
   PostureCost cost = quarterCost(kinematics);
   if (task.towardsStart) cost.reference = start;
+  // In the order of the names: a coordinate comes after its joint, "p/y" after "p", and counts over it.
   for (const auto& [joint, weight] : task.weights) {
     const std::vector<int> named = coordinatesNamed(joint, kinematics);
     if (named.empty()) refuseJoint(task.path + ": cost.weights", joint);
-    if (named.size() == 1) continue;
     for (const int i : named) cost.weights[i] = weight;
-  }
-  for (const auto& [joint, weight] : task.weights) {  // those of single coordinates count over their joint's
-    const std::vector<int> named = coordinatesNamed(joint, kinematics);
-    if (named.size() == 1) cost.weights[named.front()] = weight;
   }
   return cost;
 }
