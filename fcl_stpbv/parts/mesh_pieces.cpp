@@ -68,9 +68,10 @@ class Taker {
   // The other one of just two triangles that share an edge; sheets do not count.
   void findPartners() {
     partner_.assign(edges_.size(), -1);
+    std::vector<std::size_t> users;
     for (std::size_t first = 0; first < edges_.size();) {
       const std::size_t last = edges_.endOfRun(first);
-      std::vector<std::size_t> users;
+      users.clear();
       for (; first < last; ++first)
         if (!sheet_[at(edges_[first].triangle)]) users.push_back(first);
       if (users.size() != 2) continue;

@@ -137,10 +137,9 @@ class GltfCheck {
                      "has a skin, which moves vertices and is not read; export the mesh with it applied");
     checkWeights(node);
     for (const GltfItem& child : values_.list(node, "children")) values_.whole(child);
-    for (const auto& [key, count] :
-         {std::pair("matrix", 16u), std::pair("translation", 3u), std::pair("scale", 3u)})
-      if (const std::optional<GltfItem> transform = values_.find(node, key))
-        checkTransform(*transform, values_.numbers(*transform, count));
+    if (const std::optional<GltfItem> matrix = values_.find(node, "matrix")) checkMatrix(*matrix);
+    for (const char* key : {"translation", "scale"})
+      if (const std::optional<GltfItem> vector = values_.find(node, key)) values_.numbers(*vector, 3);
     if (const std::optional<GltfItem> rotation = values_.find(node, "rotation")) {
       const std::vector<double> q = values_.numbers(*rotation, 4);
       const double length = std::sqrt(std::inner_product(q.begin(), q.end(), q.begin(), 0.0));
@@ -151,9 +150,10 @@ class GltfCheck {
   }
 
   // assimp leaves out the last row of a matrix; written row by row, that would be its translation.
-  void checkTransform(const GltfItem& item, const std::vector<double>& numbers) const {
-    if (numbers.size() == 16 && !(numbers[3] == 0 && numbers[7] == 0 && numbers[11] == 0 && numbers[15] == 1))
-      values_.damaged(item, "must be written column by column, each ending in 0 but the last in 1");
+  void checkMatrix(const GltfItem& matrix) const {
+    const std::vector<double> m = values_.numbers(matrix, 16);
+    if (!(m[3] == 0 && m[7] == 0 && m[11] == 0 && m[15] == 1))
+      values_.damaged(matrix, "must be written column by column, each ending in 0 but the last in 1");
   }
 
   void refuseExtension(const GltfItem& item, const char* extension, const std::string& instead) const {

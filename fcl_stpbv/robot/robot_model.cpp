@@ -112,9 +112,9 @@ LinkModel readLink(const XMLElement& element, const std::string& path, RobotMode
     try {
       readInertial(*inertial, link);
     } catch (const Error& error) {
-      link.massFault = xmlPlace(*inertial, path) + "link '" + link.name + "': " + error.what();
-      faults.warnings.push_back(xmlPlace(*inertial, path) + "link '" + link.name +
-                                "' counts as without mass: " + error.what());
+      const std::string named = xmlPlace(*inertial, path) + "link '" + link.name + "'";
+      link.massFault = named + ": " + error.what();
+      faults.warnings.push_back(named + " counts as without mass: " + error.what());
     }
   }
   return link;

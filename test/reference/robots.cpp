@@ -48,6 +48,28 @@ Problem problem(const TestRobot& robot, BaseMotion base) {
   return p;
 }
 
+Body smoothBody(int link, const std::string& name, const StpBv::Ptr& volume, const Eigen::Isometry3d& pose) {
+  Body body;
+  body.link = link;
+  body.name = name;
+  body.pose = pose;
+  body.volume = volume;
+  body.geometry = std::make_shared<StpBvGeometry>(volume);
+  body.centre = pose * volume->centre();
+  body.radius = volume->enclosingRadius();
+  return body;
+}
+
+std::unique_ptr<CollisionConstraints> singleRow(std::shared_ptr<const Kinematics> kinematics,
+                                                const Body& body, const fcl::CollisionObjectd& obstacle,
+                                                ConstraintOptions options) {
+  auto geometry = std::make_shared<RobotGeometry>();
+  geometry->bodies = {body};
+  options.obstacles = {obstacleOf(obstacle, "obstacle")};
+  return std::make_unique<CollisionConstraints>(std::move(kinematics), geometry,
+                                                std::vector<CheckedPair>{{0, 0, true}}, std::move(options));
+}
+
 Eigen::VectorXd randomConfiguration(const Kinematics& kinematics, Random& random) {
   Eigen::VectorXd q(kinematics.size());
   for (int i = 0; i < kinematics.size(); ++i)

@@ -37,6 +37,15 @@ struct Problem {
 };
 Problem problem(const TestRobot& robot, BaseMotion base = BaseMotion::fixed);
 
+/// A body of one volume in its link's frame.
+Body smoothBody(int link, const std::string& name, const StpBv::Ptr& volume,
+                const Eigen::Isometry3d& pose = Eigen::Isometry3d::Identity());
+
+/// One body of a robot and one obstacle, a single row.
+std::unique_ptr<CollisionConstraints> singleRow(std::shared_ptr<const Kinematics> kinematics,
+                                                const Body& body, const fcl::CollisionObjectd& obstacle,
+                                                ConstraintOptions options = {});
+
 /// Within the limits and 1 rad or m around zero.
 Eigen::VectorXd randomConfiguration(const Kinematics& kinematics, Random& random);
 Eigen::VectorXd randomDirection(Eigen::Index size, Random& random);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "fcl_stpbv/robot/velocity_damper.h"
+#include "test/reference/robots.h"
 #include "test/reference/shapes.h"
 
 using namespace fcl_stpbv;
@@ -28,22 +29,11 @@ struct Rail {
       <joint name="x" type="prismatic"><parent link="base"/><child link="slide"/><axis xyz="1 0 0"/>
         <limit lower="-9" upper="9" effort="1" velocity="1"/></joint></robot>)";
     const auto model = std::make_shared<const RobotModel>(parseUrdf(text, "rail.urdf"));
-    Body box;
-    box.link = model->link("slide");
-    box.name = "box";
-    box.pose.setIdentity();
-    box.volume = StpBv::build(test::box(0.2, 0.2, 0.2), {0.01, 10});
-    box.geometry = std::make_shared<StpBvGeometry>(box.volume);
-    box.centre = box.volume->centre();
-    box.radius = box.volume->enclosingRadius();
-    auto geometry = std::make_shared<RobotGeometry>();
-    geometry->bodies = {box};
-    ConstraintOptions options;
+    const Body box =
+        smoothBody(model->link("slide"), "box", StpBv::build(test::box(0.2, 0.2, 0.2), {0.01, 10}));
     const fcl::CollisionObjectd wall(std::make_shared<fcl::Boxd>(0.5, 0.4, 0.4), Eigen::Matrix3d::Identity(),
                                      Vector3d(1, 0, 0));
-    options.obstacles = {obstacleOf(wall, "wall")};
-    constraints = std::make_unique<CollisionConstraints>(std::make_shared<const Kinematics>(model), geometry,
-                                                         std::vector<CheckedPair>{{0, 0, true}}, options);
+    constraints = singleRow(std::make_shared<const Kinematics>(model), box, wall);
     VectorXd d(1);
     constraints->evaluate(VectorXd::Zero(1), d);
     touch = d[0];

@@ -26,21 +26,9 @@ struct Sunk {
       <joint name="rail" type="prismatic"><parent link="m"/><child link="b"/><origin xyz="-1 0 0"/><axis xyz="0 1 0"/>
         <limit lower="-9" upper="9" effort="1" velocity="1"/></joint></robot>)";
     const auto model = std::make_shared<const RobotModel>(parseUrdf(arm, "arm.urdf"));
-    Body ball;
-    ball.link = model->link("b");
-    ball.name = "ball";
-    ball.pose.setIdentity();
-    ball.volume = StpBv::build({{0, 0, 0}}, {r, 2 * r});
-    ball.geometry = std::make_shared<StpBvGeometry>(ball.volume);
-    ball.centre.setZero();
-    ball.radius = ball.volume->enclosingRadius();
-    auto geometry = std::make_shared<RobotGeometry>();
-    geometry->bodies = {ball};
-    ConstraintOptions options;
-    const fcl::CollisionObjectd object(other, Eigen::Matrix3d::Identity(), {apart, 0, 0});
-    options.obstacles = {obstacleOf(object, "other")};
-    constraints = std::make_unique<CollisionConstraints>(std::make_shared<const Kinematics>(model), geometry,
-                                                         std::vector<CheckedPair>{{0, 0, true}}, options);
+    const Body ball = smoothBody(model->link("b"), "ball", StpBv::build({{0, 0, 0}}, {r, 2 * r}));
+    constraints = singleRow(std::make_shared<const Kinematics>(model), ball,
+                            fcl::CollisionObjectd(other, Eigen::Matrix3d::Identity(), {apart, 0, 0}));
   }
 };
 

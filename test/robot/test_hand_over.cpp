@@ -20,14 +20,7 @@ namespace {
 constexpr double kHandOver = 0.12;
 
 Body bodyAt(int link, const std::string& name, const Cloud& cloud, int partOf) {
-  Body body;
-  body.link = link;
-  body.name = name;
-  body.pose.setIdentity();
-  body.volume = StpBv::build(cloud, {0.005, 3});
-  body.geometry = std::make_shared<StpBvGeometry>(body.volume);
-  body.centre = body.volume->centre();
-  body.radius = body.volume->enclosingRadius();
+  Body body = smoothBody(link, name, StpBv::build(cloud, {0.005, 3}));
   body.partOf = partOf;
   return body;
 }

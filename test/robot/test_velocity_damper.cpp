@@ -40,24 +40,14 @@ struct Held {
     const Eigen::Isometry3d& at = state.link[static_cast<std::size_t>(hand)];
     Eigen::Isometry3d level = Eigen::Isometry3d::Identity();
     level.translation() = at * Vector3d(0, 0, -0.16);
-    Body box;
-    box.link = hand;
-    box.name = "held";
-    box.pose = at.inverse() * level;
-    box.volume = StpBv::build(test::box(0.14, 0.10, 0.06), {r, R});
-    box.geometry = std::make_shared<StpBvGeometry>(box.volume);
-    box.centre = box.pose * box.volume->centre();
-    box.radius = box.volume->enclosingRadius();
-    auto geometry = std::make_shared<RobotGeometry>();
-    geometry->bodies = {box};
+    const Body box =
+        smoothBody(hand, "held", StpBv::build(test::box(0.14, 0.10, 0.06), {r, R}), at.inverse() * level);
     ConstraintOptions options;
     options.influence = influence;
     const auto table = std::make_shared<fcl::Boxd>(0.6, 0.8, 0.3);
     const fcl::CollisionObjectd object(table, Eigen::Matrix3d::Identity(),
                                        level.translation() - Vector3d(0, 0, 0.03 + r + gap + 0.15));
-    options.obstacles = {obstacleOf(object, "table")};
-    constraints = std::make_unique<CollisionConstraints>(problem.kinematics, geometry,
-                                                         std::vector<CheckedPair>{{0, 0, true}}, options);
+    constraints = singleRow(problem.kinematics, box, object, options);
   }
 };
 
