@@ -114,10 +114,14 @@ struct RelativePose {
     valid = dot(translation, translation) < kHuge && dot(origin, origin) < kHuge;
   }
 
-  /// A point of the second body in the first one's frame, and the second body's
-  /// direction where the first's is `n`.
+  /// A point of the second body in the first one's frame.
   Packed placed(const Packed& p) const { return rotation * p + translation; }
   Eigen::Vector3d placed(const Eigen::Vector3d& p) const { return unpack(rotation * pack(p) + translation); }
+  /// A point of the first body's frame in the second one's.
+  Eigen::Vector3d inSecond(const Eigen::Vector3d& p) const {
+    return rotation.inverse(Eigen::Vector3d(p - unpack(translation)));
+  }
+  /// The second body's direction where the first's is `n`.
   Packed opposite(const Packed& n) const { return rotation.inverse(-n); }
   Eigen::Vector3d opposite(const Eigen::Vector3d& n) const { return rotation.inverse(Eigen::Vector3d(-n)); }
 

@@ -147,10 +147,9 @@ Solution solve(ShapeQuery& q, const StartNormal& start) {
 /// then it takes the shape's nearest.
 double placeOpposite(const ShapeQuery& q, const Vector3d& point, Nearest& found) {
   const Vector3d opposite = point + found.gap * found.n;
-  double beside = (found.y - opposite).norm();
+  const double beside = (found.y - opposite).norm();
   if (beside <= 2.0 * q.rounding.across || q.shape.unbounded()) return beside;
-  const Vector3d own = q.pose.rotation.inverse(Vector3d(opposite - q.translation));
-  const Vector3d nearest = q.posed(ontoCore(q.shape, own));
+  const Vector3d nearest = q.posed(ontoCore(q.shape, q.pose.inSecond(opposite)));
   if (!((nearest - opposite).norm() < beside)) return beside;
   found.y = nearest;
   return (nearest - opposite).norm();

@@ -35,8 +35,8 @@ struct Facing {
 
   bool look(const Vector3d& onA, const Vector3d& onB) {
     const Vector3d m = pose.opposite(n);
-    const Vector3d inB = pose.rotation.inverse(Vector3d(onB - unpack(pose.translation)));
-    if (!normalCone(a, n, onA, levelA, coneA) || !normalCone(b, m, inB, levelB, coneB)) return false;
+    if (!normalCone(a, n, onA, levelA, coneA) || !normalCone(b, m, pose.inSecond(onB), levelB, coneB))
+      return false;
     coneB.normal = pose.rotation * Vector3d(-coneB.normal);
     for (int i = 0; i < coneB.count; ++i) {
       Vector3d& way = coneB.way[static_cast<std::size_t>(i)];
@@ -55,6 +55,7 @@ struct Facing {
     constexpr double kParallel = 1e-9;
     return coneA.count == 1 && coneB.count == 1 && line(coneA).cross(line(coneB)).norm() > kParallel;
   }
+
   /// One step. False where there is none.
   bool turn() {
     const NormalCone &flat = aIsFlatter() ? coneA : coneB, &curved = aIsFlatter() ? coneB : coneA;
@@ -67,10 +68,11 @@ struct Facing {
       n = (n + across.dot(curved.normal - n) / across.dot(flat.way[0]) * flat.way[0]).normalized();
       return true;
     }
-    Turning turning;  // the radii of curvature are those of the surfaces, around the margins
-    if (!invert(curvatureOf(curved), gap - a.margin - b.margin, 0.0, flat, turning))
+    Turning meeting;  // the radii of curvature are those of the surfaces, around the margins
+    if (!meeting.set(coneA, coneB, gap - a.margin - b.margin, 0.0))
       return true;  // as on a common axis, where each normal is as good: the points tell
-    n = (n + turning * Vector3d(pointB - pointA)).normalized();
+    n = (n + meeting.frame * (meeting.turning * (meeting.frame.transpose() * (pointB - pointA))))
+            .normalized();
     return true;
   }
 
@@ -87,12 +89,9 @@ struct Facing {
   }
 };
 
-/// With the features that a turn by `angle` (rad) can bring to face each other.
-std::optional<OppositePoints> onFeaturesWithin(double angle, Facing facing, Vector3d onA, double rounding) {
+std::optional<OppositePoints> onFeaturesOf(Facing facing, Vector3d onA, double rounding) {
   constexpr int kSteps = 8;
   constexpr double kLast = 1e-9;  // rad; after a step as small as this, the next is rounding
-  facing.levelA = 2.0 * facing.a.reach * angle + rounding;
-  facing.levelB = 2.0 * facing.b.reach * angle + rounding;
   facing.support();
   for (int i = 0; i < kSteps; ++i) {
     const Vector3d before = facing.n;
@@ -105,8 +104,7 @@ std::optional<OppositePoints> onFeaturesWithin(double angle, Facing facing, Vect
   const Vector3d across = facing.gap * facing.n;
   OppositePoints found{facing.n, facing.gap, {}, {}};
   found.onA = ontoCore(facing.a, onA);
-  const Vector3d inB = pose.rotation.inverse(Vector3d(found.onA + across - unpack(pose.translation)));
-  found.toB = pose.placed(ontoCore(facing.b, inB)) - found.onA;
+  found.toB = pose.placed(ontoCore(facing.b, pose.inSecond(found.onA + across))) - found.onA;
   if (!((found.toB - across).norm() <= 2.0 * rounding)) return {};
   return found;
 }
@@ -117,11 +115,13 @@ std::optional<OppositePoints> nearestOnFeatures(const Shape& a, const Shape& b, 
                                                 const Vector3d& n, double gap, const Vector3d& onA,
                                                 double angle, double rounding) {
   constexpr double kFiner = 1e-3;
-  const Facing facing{a, b, pose, 0.0, 0.0, n, {}, {}, {}, {}, 0.0};
   const double most = 2.0 * std::max(a.reach, b.reach);
   for (double within = angle;; within *= kFiner) {
     if (!(most * within > rounding)) within = 0.0;
-    const std::optional<OppositePoints> found = onFeaturesWithin(within, facing, onA, rounding);
+    // The features that a turn by `within` can bring to face each other.
+    const double levelA = 2.0 * a.reach * within + rounding, levelB = 2.0 * b.reach * within + rounding;
+    const std::optional<OppositePoints> found =
+        onFeaturesOf({a, b, pose, levelA, levelB, n, {}, {}, {}, {}, 0.0}, onA, rounding);
     if (found && found->gap >= gap - rounding) return found;
     if (!(within > 0.0)) return {};
   }

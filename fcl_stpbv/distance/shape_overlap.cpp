@@ -234,7 +234,8 @@ std::optional<Nearest> touchingFeature(ShapeQuery& q, const Nearest& near) {
   const ShapeKind kind = q.shape.kind;
   if (kind == ShapeKind::box || kind == ShapeKind::triangle || kind == ShapeKind::polytope)
     return features.searchAlongNormal();
-  return features.search({}, 0);
+  const Vector3d none = Vector3d::Zero();
+  return features.search({none, none, none}, 0);
 }
 
 LeastOverlap leastOverlap(ShapeQuery& q, const StartNormal& start) {

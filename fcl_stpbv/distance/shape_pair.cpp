@@ -207,8 +207,7 @@ void offerToAndFro(const Pair& p, Epa<Difference>& epa) {
   const Vector3d answer = epa.gap * epa.n;
   Vector3d onA = epa.onA;
   for (int i = 0; i < 4 && epa.off() > p.rounding; ++i) {
-    const Vector3d inB = p.pose.rotation.inverse(Vector3d(onA + answer - unpack(p.pose.translation)));
-    const Vector3d onB = p.pose.placed(ontoCore(p.b, inB));
+    const Vector3d onB = p.pose.placed(ontoCore(p.b, p.pose.inSecond(onA + answer)));
     epa.offer(onA, onB - onA);
     onA = ontoCore(p.a, onB - answer);
   }

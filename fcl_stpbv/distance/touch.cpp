@@ -3,7 +3,7 @@
 
 #include <cmath>
 #include <limits>
-#include <utility>
+#include <type_traits>
 
 #include "fcl_stpbv/distance/patch_pair.h"
 
@@ -15,119 +15,90 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// An STP-BV's radii of curvature at its outward normal `n`, world axes.
-Curvature surfaceCurvature(const StpBv& body, const Isometry3d& pose, int patch, const Vector3d& n) {
+double placeRounding(double size) { return 32.0 * std::numeric_limits<double>::epsilon() * size; }
+
+// What is asked of either kind of body. A shape's margin rounds the distance; a volume's patch is known.
+double sizeOf(const StpBv& body) { return body.centre().norm() + body.enclosingRadius(); }
+double sizeOf(const Shape& shape) { return shape.centre.norm() + shape.reach; }
+double marginOf(const StpBv&) { return 0.0; }
+double marginOf(const Shape& shape) { return shape.margin; }
+
+/// Body 1 or 2 at an answer: its outward normal, its witness point and its patch.
+struct Side {
+  Vector3d normal, point;
+  int patch;
+};
+
+/// The feature that faces the other body, world axes; `placed` is the rounding of coordinates beside the
+/// other body (m), `angle` that of the normal (rad).
+bool featureOf(const StpBv& body, const Isometry3d& pose, const Side& at, double, double,
+               NormalCone& feature) {
+  if (at.patch < 0 || at.patch >= body.patchCount()) return false;
   const Radii& radii = body.radii();
-  const PatchKind kind = body.kind(patch);
-  if (kind != PatchKind::edge) return {n, kind == PatchKind::face ? radii.R : radii.r};
-  PosedPatch posed = posedPatch(body, patch);
+  const PatchKind kind = body.kind(at.patch);
+  const Vector3d& n = at.normal;
+  if (kind != PatchKind::edge) {
+    const double radius = kind == PatchKind::face ? radii.R : radii.r;
+    const Vector3d e = n.unitOrthogonal();
+    feature = {2, n, {e, n.cross(e)}, {radius, radius}, 0.0};
+    return true;
+  }
+  PosedPatch posed = posedPatch(body, at.patch);
   const Vector3d axis = pose.linear() * unpack(posed.axis);
   posed.axis = pack(axis);
   const EdgeView e = viewEdge(posed, pack(n));
-  const Vector3d v = axis.cross(n) / e.c;
-  return {n, radii.r, v, n.cross(v), e.around, radii.rho};
+  const Vector3d around = axis.cross(n) / e.c;
+  feature = {2, n, {around, n.cross(around)}, {radii.r + e.around, radii.R}, 0.0};
+  return true;
 }
 
-bool owns(const StpBv& body, int patch) { return patch >= 0 && patch < body.patchCount(); }
-
-/// The feature that faces the other body along the world's outward normal `m` at the point `x` of the shape,
-/// world axes; `placed` is the rounding of coordinates beside the other body, `angle` that of the normal.
-bool featureOf(const Shape& shape, const Isometry3d& pose, const Vector3d& m, const Vector3d& x,
-               double placed, double angle, NormalCone& feature) {
+bool featureOf(const Shape& shape, const Isometry3d& pose, const Side& at, double placed, double angle,
+               NormalCone& feature) {
   const Matrix3d& q = pose.linear();
   const double rounding = 1e-13 * shape.reach + placed + 2.0 * shape.reach * angle;
-  if (!normalCone(shape, q.transpose() * m, q.transpose() * (x - pose.translation()), rounding, feature))
+  if (!normalCone(shape, q.transpose() * at.normal, q.transpose() * (at.point - pose.translation()), rounding,
+                  feature))
     return false;
+  feature.normal = at.normal;
   for (Vector3d& way : feature.way) way = q * way;
   return true;
 }
 
-/// The touch of two features, the second no more curved than the first.
-bool touchOfFeatures(const NormalCone& first, const Isometry3d& poseFirst, const NormalCone& second,
-                     const Isometry3d& poseSecond, const Distance& d, double rounding, Touch& touch) {
-  if (first.count == 1 && second.count == 1) return touch.cross(first, second, poseFirst, poseSecond, d);
-  touch.a = curvatureOf(first);
-  return first.count == 2 && touch.set(second, poseFirst, poseSecond, d, rounding);
-}
-
-double placeRounding(double size) { return 32.0 * std::numeric_limits<double>::epsilon() * size; }
-
 }  // namespace
 
-bool Touch::set(const NormalCone& b, const Isometry3d& poseA, const Isometry3d& poseB, const Distance& d,
-                double rounding) {
-  constexpr double kTold = 4.0;  // radii of curvature that sum up to less of the rounding are none
-  armA = d.point[0] - poseA.translation();
-  fromB = d.point[0] - poseB.translation();
-  return invert(a, d.distance, kTold * rounding, b, inverse);
-}
-
-bool Touch::cross(const NormalCone& first, const NormalCone& second, const Isometry3d& poseA,
-                  const Isometry3d& poseB, const Distance& d) {
-  constexpr double kParallel = 1e-7;
-  armA = d.point[0] - poseA.translation();
-  fromB = d.point[0] - poseB.translation();
-  a = curvatureOf(first);
-  way = second.way[0];
-  edge = d.normal.cross(first.way[0]);
-  const double sine = edge.dot(way);
-  edge /= sine;
-  stiffness = second.along[0] + d.distance;
-  crossing = true;
-  return std::abs(sine) > kParallel;
-}
-
-bool touchOf(const StpBv& a, const Isometry3d& poseA, const StpBv& b, const Isometry3d& poseB,
-             const Distance& d, Touch& touch) {
-  if (d.status != DistanceStatus::exact && d.status != DistanceStatus::local) return false;
-  if (!owns(a, d.patch[0]) || !owns(b, d.patch[1])) return false;
-  const Vector3d& n = d.normal;
-  const Vector3d t1 = n.unitOrthogonal(), t2 = n.cross(t1);
-  const Curvature w = surfaceCurvature(b, poseB, d.patch[1], -n);
-  const Vector3d w1 = w * t1;
-  const NormalCone every{2, -n, {t1, t2}, {t1.dot(w1), t2.dot(w * t2)}, t2.dot(w1)};
-  touch.a = surfaceCurvature(a, poseA, d.patch[0], n);
-  const double size = (poseB.translation() - poseA.translation()).norm() + a.centre().norm() +
-                      a.enclosingRadius() + b.centre().norm() + b.enclosingRadius();
-  return touch.set(every, poseA, poseB, d, placeRounding(size));
-}
-
-bool touchOf(const StpBv& volume, const Isometry3d& poseVolume, const Shape& shape,
-             const Isometry3d& poseShape, const Distance& d, Touch& touch) {
-  if (d.status != DistanceStatus::exact || !owns(volume, d.patch[0])) return false;
-  const double size = (poseShape.translation() - poseVolume.translation()).norm() + volume.centre().norm() +
-                      volume.enclosingRadius() + shape.centre.norm() + shape.reach;
-  const double placed = placeRounding(size);
-  NormalCone feature;
-  if (!featureOf(shape, poseShape, -d.normal, d.point[1], placed, 0.0, feature)) return false;
-  touch.a = surfaceCurvature(volume, poseVolume, d.patch[0], d.normal);
-  return touch.set(feature, poseVolume, poseShape, d, placed + placeRounding(shape.margin));
-}
-
-bool touchOf(const Shape& a, const Isometry3d& poseA, const Shape& b, const Isometry3d& poseB,
-             const Distance& d, Touch& touch, bool& swapped) {
-  constexpr double kMost = 1e-3;  // rad
-  if (d.status != DistanceStatus::exact || d.normal.isZero(0)) return false;
-  const double placed = placeRounding((poseB.translation() - poseA.translation()).norm() + a.centre.norm() +
-                                      a.reach + b.centre.norm() + b.reach);
-  // The normal of cores that all but touch is known to rounding over their distance.
-  const double core = std::abs(d.distance + a.margin + b.margin);
-  const double angle = placed < kMost * core ? placed / core : kMost;
+template <typename A, typename B>
+bool touchOf(const A& a, const Isometry3d& poseA, const B& b, const Isometry3d& poseB, const Distance& d,
+             Touch& touch) {
+  constexpr bool kVolumes = std::is_same_v<A, StpBv> && std::is_same_v<B, StpBv>,
+                 kShapes = std::is_same_v<A, Shape> && std::is_same_v<B, Shape>;
+  if (d.status != DistanceStatus::exact && !(kVolumes && d.status == DistanceStatus::local)) return false;
+  if (d.normal.isZero(0)) return false;
+  const double placed =
+      placeRounding((poseB.translation() - poseA.translation()).norm() + sizeOf(a) + sizeOf(b));
+  const double margins = marginOf(a) + marginOf(b);
+  double angle = 0.0;
+  if (kShapes) {  // the normal of cores that all but touch is known to rounding over their distance
+    constexpr double kMost = 1e-3;  // rad
+    const double core = std::abs(d.distance + margins);
+    angle = placed < kMost * core ? placed / core : kMost;
+  }
   NormalCone first, second;
-  if (!featureOf(a, poseA, d.normal, d.point[0], placed, angle, first) ||
-      !featureOf(b, poseB, -d.normal, d.point[1], placed, angle, second))
+  if (!featureOf(a, poseA, {d.normal, d.point[0], d.patch[0]}, placed, angle, first) ||
+      !featureOf(b, poseB, {-d.normal, d.point[1], d.patch[1]}, placed, angle, second))
     return false;
-  const double rounding = placed + placeRounding(a.margin + b.margin);
-  swapped = first.count < second.count;
-  if (swapped) return touchOfFeatures(second, poseB, first, poseA, exchanged(d), rounding, touch);
-  return touchOfFeatures(first, poseA, second, poseB, d, rounding, touch);
+  touch.armA = d.point[0] - poseA.translation();
+  touch.fromB = d.point[0] - poseB.translation();
+  constexpr double kTold = 4.0;  // radii of curvature that sum up to less of the rounding are none
+  return touch.meeting.set(first, second, d.distance, kTold * (placed + placeRounding(margins)));
 }
 
-Distance exchanged(Distance d) {
-  d.normal = -d.normal;
-  std::swap(d.point[0], d.point[1]);
-  std::swap(d.patch[0], d.patch[1]);
-  return d;
-}
+template bool touchOf(const StpBv&, const Isometry3d&, const StpBv&, const Isometry3d&, const Distance&,
+                      Touch&);
+template bool touchOf(const StpBv&, const Isometry3d&, const Shape&, const Isometry3d&, const Distance&,
+                      Touch&);
+template bool touchOf(const Shape&, const Isometry3d&, const StpBv&, const Isometry3d&, const Distance&,
+                      Touch&);
+template bool touchOf(const Shape&, const Isometry3d&, const Shape&, const Isometry3d&, const Distance&,
+                      Touch&);
 
 }  // namespace fcl_stpbv::detail

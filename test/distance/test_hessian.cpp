@@ -170,6 +170,103 @@ TEST_CASE("Two simple shapes: Hessian, normal and witness points move as central
   CHECK(boundaries < compared / 10);
 }
 
+TEST_CASE("The derivatives on a large sphere are those of two balls") {
+  // A witness point is good to the rounding of its normal times R.
+  const double R = GENERATE(1.0, 1e3, 1e6), rounding = 1e-13 + 16 * 2.2e-16 * R;
+  constexpr double kSmall = 0.03, kSide = 0.4, kHeight = 0.1, kRounding = 0.01;
+  const StpBv::Ptr ball = StpBv::build({Vector3d(0.1, 0, 0.02)}, {kSmall, 1});
+  const StpBv::Ptr plate = StpBv::build(box(kSide, kSide, kHeight), {kRounding, R});
+  using Real = long double;
+  using Vector = Eigen::Matrix<Real, 3, 1>;
+  Random random(29);
+  for (int i = 0; i < 100; ++i) {
+    // The plate's axes are the world's in another order, so that its pose is exact.
+    Isometry3d posePlate = pose(Eigen::Matrix3d::Zero(), random.direction());
+    for (int k = 0; k < 3; ++k) posePlate.linear()((k + i) % 3, k) = 1;
+    const Vector3d above(random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1), random.uniform(0.1, 0.5));
+    const Isometry3d poseBall = pose(random.rotation(), posePlate * above - random.direction() * 0.01);
+    const Distance d = distance(*ball, poseBall, *plate, posePlate);
+    REQUIRE(plate->kind(d.patch[1]) == PatchKind::face);
+    const bool swapped = i % 2 == 1;
+    BodyTwists twists;
+    for (Eigen::Index k = 0; k < 12; ++k) twists[k] = random.uniform(-1, 1);
+    DistanceHessian h;
+    DistanceRate moves;
+    Vector3d normal, onBall, onPlate;
+    if (swapped) {
+      const Distance other = distance(*plate, posePlate, *ball, poseBall);
+      BodyTwists there;
+      there << twists.tail<6>(), twists.head<6>();
+      REQUIRE(hessian(*plate, posePlate, *ball, poseBall, other, h));
+      REQUIRE(rate(*plate, posePlate, *ball, poseBall, other, there, moves));
+      normal = -moves.normal, onBall = moves.point[1], onPlate = moves.point[0];
+      twists = there;
+    } else {
+      REQUIRE(hessian(*ball, poseBall, *plate, posePlate, d, h));
+      REQUIRE(rate(*ball, poseBall, *plate, posePlate, d, twists, moves));
+      normal = moves.normal, onBall = moves.point[0], onPlate = moves.point[1];
+    }
+
+    // The balls' centres, their velocities and accelerations.
+    const Real rho = R - kRounding;
+    const Vector low(0, 0, Real(kHeight) / 2 - std::sqrt(rho * rho - Real(kSide) * kSide / 2));
+    const auto moving = [&](const Isometry3d& at, const Vector& centre, int body, Vector velocity[3]) {
+      const Vector v = twists.segment<3>(6 * body).cast<Real>(),
+                   w = twists.segment<3>(6 * body + 3).cast<Real>();
+      const Vector lever = at.linear().cast<Real>() * centre;
+      velocity[0] = at.translation().cast<Real>() + lever;
+      velocity[1] = v + w.cross(lever);
+      velocity[2] = w.cross(w.cross(lever));
+    };
+    Vector small[3], large[3];
+    moving(poseBall, Vector(Real(0.1), 0, Real(0.02)), swapped ? 1 : 0, small);
+    moving(posePlate, low, swapped ? 0 : 1, large);
+    const Vector way = large[0] - small[0], speed = large[1] - small[1], n = way.normalized();
+    const Vector turn = (speed - n.dot(speed) * n) / way.norm();
+    const Real second = speed.dot(turn) + n.dot(large[2] - small[2]);
+    CAPTURE(R, i);
+    CHECK((normal - turn.cast<double>()).norm() < rounding);
+    CHECK((onBall - (small[1] + Real(kSmall) * turn).cast<double>()).norm() < rounding);
+    CHECK((onPlate - (large[1] - Real(R) * turn).cast<double>()).norm() < rounding);
+    CHECK(std::abs(twists.dot(h.matrix * twists) - static_cast<double>(second)) < 10 * rounding);
+  }
+}
+
+TEST_CASE("The derivatives do not depend on the order of the bodies, whatever their radii") {
+  const double R = GENERATE(1.0, 1e3, 1e6);
+  Random random(31);
+  for (int i = 0; i < 200; ++i) {
+    const auto body = [&](double radius) {
+      return StpBv::build(randomHull(2 + random.below(8), {0.2, 0.3, 0.1}, static_cast<std::uint64_t>(i)),
+                          {0.01, radius});
+    };
+    const StpBv::Ptr a = body(R), b = body(i % 2 ? R : 1.0);
+    const Isometry3d poseA = pose(random.rotation(), random.direction());
+    Isometry3d poseB = pose(random.rotation(), 2 * random.direction());
+    poseB.translation() +=
+        (0.02 - distance(*a, poseA, *b, poseB).distance) * distance(*a, poseA, *b, poseB).normal;
+    const Distance d = distance(*a, poseA, *b, poseB);
+    Distance other = d;
+    other.normal = -d.normal;
+    std::swap(other.point[0], other.point[1]);
+    std::swap(other.patch[0], other.patch[1]);
+    DistanceHessian h, g;
+    REQUIRE(hessian(*a, poseA, *b, poseB, d, h));
+    REQUIRE(hessian(*b, poseB, *a, poseA, other, g));
+    Eigen::Matrix<double, 12, 12> matrix;
+    matrix << g.matrix.bottomRightCorner<6, 6>(), g.matrix.bottomLeftCorner<6, 6>(),
+        g.matrix.topRightCorner<6, 6>(), g.matrix.topLeftCorner<6, 6>();
+    // Witness points lie opposite each other to the rounding of their normal times R.
+    const double rounding = 1e-13 + 16 * 2.2e-16 * R;
+    CHECK((matrix - h.matrix).cwiseAbs().maxCoeff() < rounding * h.matrix.cwiseAbs().maxCoeff());
+    for (std::size_t p = 0; p < 2; ++p) {
+      Eigen::Matrix<double, 3, 12> point;
+      point << g.point[1 - p].rightCols<6>(), g.point[1 - p].leftCols<6>();
+      CHECK((point - h.point[p]).cwiseAbs().maxCoeff() < rounding * h.point[p].cwiseAbs().maxCoeff());
+    }
+  }
+}
+
 TEST_CASE("There is no Hessian without an answer, and none where cores touch without curvature") {
   const StpBv::Ptr a = StpBv::build({Vector3d(0, 0, 0)}, {0.1, 1});
   DistanceHessian h;

@@ -1,0 +1,79 @@
+// Let W be a surface's radii of curvature in a plane across its normal: turn the normal, and its point moves
+// by W times the turn. With A = W of body 1 and D = W of body 2 plus the distance,
+//
+//     turning = (A + D)^-1,   sliding = A (A + D)^-1,   rolling = A (A + D)^-1 D.
+//
+// 1. W is infinite along an edge and on a face, so it is kept as a fraction, radii / unit.
+// 2. For two by two matrices adj(A + D) = adj A + adj D: the inverse is a fraction of such terms, in which no
+//    large radius is subtracted from another. Faces and edges are no special cases.
+// 3. The plane's frame is along the first body's own radii where it has two. There its largest one does not
+//    hide the smallest.
+#include "fcl_stpbv/distance/turning.h"
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+namespace fcl_stpbv::detail {
+
+using Eigen::Matrix2d;
+using Eigen::Vector2d;
+
+namespace {
+
+struct Curvature {
+  Matrix2d radii;  // unit * W; along an edge the projection onto it, on a face zero
+  double det;      // unit * det W; on a face 1
+  double unit;     // 1, or 0 where W is infinite in some direction
+};
+
+Matrix2d adjugate(const Matrix2d& symmetric) {
+  Matrix2d adj;
+  adj << symmetric(1, 1), -symmetric(0, 1), -symmetric(0, 1), symmetric(0, 0);
+  return adj;
+}
+
+/// The curvature of a feature whose ways have these parts in the frame.
+Curvature curvatureOf(const NormalCone& cone, const Vector2d& x, const Vector2d& y) {
+  if (cone.count == 0) return {Matrix2d::Zero(), 1.0, 0.0};
+  const Vector2d edge(-x.y(), x.x());
+  if (cone.count == 1) return {edge * edge.transpose(), cone.along[0], 0.0};
+  const Matrix2d mixed = x * y.transpose();
+  return {cone.along[0] * x * x.transpose() + cone.along[1] * y * y.transpose() +
+              cone.between * (mixed + mixed.transpose()),
+          cone.along[0] * cone.along[1] - cone.between * cone.between, 1.0};
+}
+
+bool isRound(const NormalCone& cone) {
+  return cone.count == 2 && cone.along[0] == cone.along[1] && cone.between == 0.0;
+}
+
+}  // namespace
+
+bool Turning::set(const NormalCone& first, const NormalCone& second, double distance, double rounding) {
+  if (first.count == 0 && second.count == 0) return false;
+  const bool ofFirst = first.count > 0 && !(isRound(first) && second.count > 0);
+  const NormalCone &own = ofFirst ? first : second, &other = ofFirst ? second : first;
+  frame.col(0) = own.way[0];
+  frame.col(1) = own.count == 2 ? own.way[1] : own.normal.cross(own.way[0]);
+  const Curvature inOwn = curvatureOf(own, {1, 0}, {0, 1}),
+                  seen =
+                      curvatureOf(other, frame.transpose() * other.way[0], frame.transpose() * other.way[1]);
+  const Curvature& a = ofFirst ? inOwn : seen;
+  Curvature d = ofFirst ? seen : inOwn;
+  d.det += distance * (d.radii.trace() + distance * d.unit);
+  d.radii += distance * d.unit * Matrix2d::Identity();
+
+  // Less of these terms is their rounding; of two edges, it is the squared sine of the angle between them.
+  constexpr double kTold = 1e-14;
+  const Matrix2d adjA = adjugate(a.radii), adjD = adjugate(d.radii);
+  const double det = d.unit * a.det + a.unit * d.det + adjA.cwiseProduct(d.radii).sum(),
+               trace = d.unit * a.radii.trace() + a.unit * d.radii.trace(),
+               terms = d.unit * a.det + a.unit * std::abs(d.det) + a.radii.norm() * d.radii.norm();
+  if (!(det > kTold * terms) || !(trace >= 0.0) || !(det > rounding * trace)) return false;
+  turning = (d.unit * adjA + a.unit * adjD) / det;
+  sliding = (d.unit * a.det * Matrix2d::Identity() + a.radii * adjD) / det;
+  rolling = (a.det * d.radii + d.det * a.radii) / det;
+  return true;
+}
+
+}  // namespace fcl_stpbv::detail
