@@ -77,7 +77,7 @@ class Moving {
     turning_ = there.norm() + w.norm() * reach;
   }
 
-  // Where a tree is its cells tell, and of a mesh with loose boxes its triangles.
+  // Where a tree is its cells tell.
   void addCells(const PosedGeometry& still, const PosedGeometry::Part& part, Eigen::AlignedBox3d& box) const {
     if (part.leaf || !still.loose()) {
       const Vector3d half = part.box.axes.cwiseAbs() * part.box.half + Vector3d::Constant(part.margin);

@@ -1,11 +1,11 @@
 // One view of FCL's hierarchies: bounding volume trees of meshes, whatever their boxes, and octrees.
 // 1. A node's box becomes an oriented box that also covers the rounding of FCL's fitting.
-// 2. Inner boxes that FCL has merged from those below may leave elements out: they hold everything instead.
-// 3. Children and elements (triangle, point, cell) are read from FCL's own nodes; nothing is built.
+// 2. Inner boxes that FCL has merged from those below may leave elements out: boxes along the axes take their
+//    place, fitted from the leaves up.
+// 3. Children and elements (triangle, point, cell) are read from FCL's own nodes.
 #include "fcl_stpbv/adapter/element_tree.h"
 
 #include <fcl/config.h>
-#include <fcl/geometry/bvh/BVH_model.h>
 #if FCL_HAVE_OCTOMAP
 #include <fcl/geometry/octree/octree.h>
 #endif
@@ -14,6 +14,7 @@
 #include <cstring>
 #include <limits>
 
+#include "fcl_stpbv/adapter/mesh_boxes.h"
 #include "fcl_stpbv/packed.h"
 #include "fcl_stpbv/vectorized.h"
 
@@ -23,22 +24,6 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using Node = ElementTree::Node;
-
-OrientedBox boxAround(const fcl::AABBd& bv) {
-  return {0.5 * (bv.min_ + bv.max_), Matrix3d::Identity(), 0.5 * (bv.max_ - bv.min_)};
-}
-OrientedBox boxAround(const fcl::OBBd& bv) { return {bv.To, bv.axis, bv.extent}; }
-OrientedBox boxAround(const fcl::RSSd& bv) {
-  return {bv.center(), bv.axis, Vector3d(0.5 * bv.l[0] + bv.r, 0.5 * bv.l[1] + bv.r, bv.r)};
-}
-OrientedBox boxAround(const fcl::OBBRSSd& bv) { return boxAround(bv.obb); }
-OrientedBox boxAround(const fcl::kIOSd& bv) { return boxAround(bv.obb); }
-template <std::size_t N>
-OrientedBox boxAround(const fcl::KDOP<double, N>& bv) {  // its first three slabs are the axes'
-  const Vector3d low(bv.dist(0), bv.dist(1), bv.dist(2));
-  const Vector3d high(bv.dist(N / 2), bv.dist(N / 2 + 1), bv.dist(N / 2 + 2));
-  return {0.5 * (low + high), Matrix3d::Identity(), 0.5 * (high - low)};
-}
 
 /// Rounding in FCL's fitting of a bounding volume may leave a triangle's
 /// corner outside by this part of its size.
@@ -54,62 +39,16 @@ bool isBuilt(const fcl::BVHModel<BV>& mesh) {
          (state == fcl::BVH_BUILD_STATE_PROCESSED || state == fcl::BVH_BUILD_STATE_UPDATED);
 }
 
-/// The bounding volume that boxAround() takes the box from.
 template <typename BV>
-const BV& boxed(const BV& bv) {
-  return bv;
-}
-const fcl::OBBd& boxed(const fcl::OBBRSSd& bv) { return bv.obb; }
-const fcl::OBBd& boxed(const fcl::kIOSd& bv) { return bv.obb; }
-
-constexpr double kSame = 1e-9;  // of the size
-
-/// Whether FCL may have merged a bounding volume from two, in a way that may leave parts of them out (FCL
-/// 0.7, RSS-inl.h, OBB-inl.h): something that all of these have and few others. OBB: the upper end of its
-/// first side is that of the two, the lower one may be lost. RSS: the third axis is across two of the first
-/// part's.
-bool mayBeMerged(const fcl::OBBd& both, const fcl::OBBd& first, const fcl::OBBd& second) {
-  const Vector3d n = both.axis.col(0);
-  const auto top = [&](const fcl::OBBd& bv) {
-    return n.dot(bv.To - both.To) + bv.extent.dot((bv.axis.transpose() * n).cwiseAbs());
-  };
-  return std::abs(std::max(top(first), top(second)) - both.extent[0]) <=
-         kSame * (both.extent.sum() + both.To.lpNorm<1>());
-}
-bool mayBeMerged(const fcl::RSSd& both, const fcl::RSSd& first, const fcl::RSSd&) {
-  return (both.axis.col(2) - first.axis.col(0).cross(first.axis.col(1))).lpNorm<1>() <= kSame;
-}
-template <typename BV>
-bool mayBeMerged(const BV&, const BV&, const BV&) {
-  return false;  // AABB and KDOP merge well
-}
-
-/// Whether the inner boxes were merged from their children's, as `endReplaceModel()` and `endUpdateModel()`
-/// do unless told otherwise, and not fitted to what is below. All down one way, for some fitted box may be
-/// the same by chance.
-template <typename BV>
-bool hasMergedBoxes(const fcl::BVHModel<BV>& mesh) {
-  for (int index = 0; !mesh.getBV(index).isLeaf(); index = mesh.getBV(index).leftChild()) {
-    const fcl::BVNode<BV>& node = mesh.getBV(index);
-    const auto &first = boxed(mesh.getBV(node.leftChild()).bv),
-               &second = boxed(mesh.getBV(node.rightChild()).bv);
-    if (!mayBeMerged(boxed(node.bv), first, second)) return false;
-    const OrientedBox own = boxAround(node.bv), both = boxAround(first + second);
-    const double size = kSame * (own.half.sum() + own.centre.lpNorm<1>());
-    const bool same = (own.centre - both.centre).lpNorm<1>() <= size &&
-                      (own.half - both.half).lpNorm<1>() <= size &&
-                      (own.axes - both.axes).lpNorm<1>() <= kSame;
-    if (!same) return false;
-  }
-  return !mesh.getBV(0).isLeaf();
-}
-
-template <typename BV>
-Node meshNode(const fcl::BVHModel<BV>& mesh, int index, bool merged) {
+Node meshNode(const fcl::BVHModel<BV>& mesh, int index, const std::vector<Eigen::AlignedBox3d>& fitted) {
   const fcl::BVNode<BV>& node = mesh.getBV(index);
-  if (merged && !node.isLeaf())
-    return {index, false, nullptr, {Vector3d::Zero(), Matrix3d::Identity(), Vector3d::Constant(kHuge)}};
-  OrientedBox box = boxAround(node.bv);
+  OrientedBox box;
+  if (fitted.empty()) {
+    box = boxAround(node.bv);
+  } else {
+    const Eigen::AlignedBox3d& own = fitted[static_cast<std::size_t>(index)];
+    box = {own.center(), Matrix3d::Identity(), 0.5 * own.sizes()};
+  }
   box.half.array() += kFit * (box.half.sum() + box.centre.lpNorm<1>());
   return {node.isLeaf() ? node.primitiveId() : index, node.isLeaf(), nullptr, box};
 }
@@ -203,9 +142,13 @@ bool areNumbers(const Vector3d* corner, int count) {
 ElementTree::ElementTree(const fcl::CollisionGeometryd& geometry, bool known) : geometry_(geometry) {
   any_ = withMesh(
       geometry, [](const auto& mesh) { return isBuilt(mesh); }, false);
-  merged_ = any_ && !known &&
-            withMesh(
-                geometry, [](const auto& mesh) { return hasMergedBoxes(mesh); }, false);
+  if (any_ && !known)
+    fitted_ = withMesh(
+        geometry,
+        [](const auto& mesh) {
+          return hasMergedBoxes(mesh) ? fittedBoxes(mesh) : std::vector<Eigen::AlignedBox3d>();
+        },
+        std::vector<Eigen::AlignedBox3d>());
 #if FCL_HAVE_OCTOMAP
   if (const fcl::OcTreed* tree = asOcTree(geometry)) any_ = tree->getRoot() != nullptr;
 #endif
@@ -223,7 +166,7 @@ Node ElementTree::root() const {
 #endif
   const Node none{-1, true, nullptr, {Vector3d::Zero(), Matrix3d::Zero(), Vector3d::Zero()}};
   return withMesh(
-      geometry_, [this](const auto& mesh) { return meshNode(mesh, 0, merged_); }, none);
+      geometry_, [this](const auto& mesh) { return meshNode(mesh, 0, fitted_); }, none);
 }
 
 int ElementTree::children(const Node& node, std::array<Node, 8>& child) const {
@@ -234,8 +177,8 @@ int ElementTree::children(const Node& node, std::array<Node, 8>& child) const {
       geometry_,
       [&](const auto& mesh) {
         const auto& inner = mesh.getBV(static_cast<int>(node.id));
-        child[0] = meshNode(mesh, inner.leftChild(), merged_);
-        child[1] = meshNode(mesh, inner.rightChild(), merged_);
+        child[0] = meshNode(mesh, inner.leftChild(), fitted_);
+        child[1] = meshNode(mesh, inner.rightChild(), fitted_);
         return 2;
       },
       0);

@@ -3,9 +3,11 @@
 
 #include <fcl/geometry/collision_geometry.h>
 
+#include <Eigen/Geometry>
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <vector>
 
 #include "fcl_stpbv/convex/shape.h"
 
@@ -29,7 +31,7 @@ inline double placeRounding(const Eigen::Isometry3d& pose, const Eigen::Vector3d
 }
 
 /// A view of a BVHModel of any bounding volume or of an OcTree; the geometry
-/// must outlive it. Allocates nothing.
+/// must outlive it. Allocates nothing but boxes in place of merged ones.
 class ElementTree {
  public:
   struct Node {
@@ -47,13 +49,12 @@ class ElementTree {
   /// Whether all its corners are numbers, below 1e150 m: FCL's boxes hide those that are not. Looks at each
   /// of them, whether a triangle has it or not.
   bool finite() const;
-  /// Whether FCL has merged its inner boxes, which then hold everything here.
-  bool merged() const { return merged_; }
+  /// Whether FCL has merged its inner boxes. All boxes were then fitted anew, to the corners as they are now.
+  bool merged() const { return !fitted_.empty(); }
   /// Whether nothing has to be looked at again.
-  bool sound() const { return finite() && !merged_; }
-  /// Whether inner boxes tell little of where the elements are: merged ones, and an octree's own, which is
-  /// kilometres across.
-  bool loose() const { return merged_ || geometry_.getNodeType() == fcl::GEOM_OCTREE; }
+  bool sound() const { return finite() && !merged(); }
+  /// Whether inner boxes tell little of where the elements are, as an octree's, which is kilometres across.
+  bool loose() const { return geometry_.getNodeType() == fcl::GEOM_OCTREE; }
   Node root() const;
   /// The node's children, at most eight; how many.
   int children(const Node& node, std::array<Node, 8>& child) const;
@@ -65,7 +66,8 @@ class ElementTree {
 
  private:
   const fcl::CollisionGeometryd& geometry_;
-  bool any_ = false, merged_ = false;
+  bool any_ = false;
+  std::vector<Eigen::AlignedBox3d> fitted_;  ///< instead of a mesh's own boxes, by FCL's index
 };
 
 }  // namespace fcl_stpbv::detail

@@ -27,7 +27,7 @@ class OtherBody {
     const Vector3d x = pose.linear().transpose() * (point - pose.translation());
     // More than rounding: each cell has its own id, so that too much finds no other one.
     const double off = placeRounding(pose, x) + 1e-12 * point.lpNorm<1>();
-    if (!ElementTree(geometry).find(element, x, off, shape_, place)) return;
+    if (!ElementTree(geometry, /*known=*/true).find(element, x, off, shape_, place)) return;
     known_ = true;
     if (shape_.kind != ShapeKind::box) return;
     // A cell away from its tree's origin: its corners, so that both turn about the same point.

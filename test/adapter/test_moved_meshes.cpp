@@ -12,6 +12,7 @@
 #include <fcl/geometry/octree/octree.h>
 #endif
 
+#include <algorithm>
 #include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -50,7 +51,7 @@ Soup soupOf(std::size_t count, Random& random) {
 template <typename BV>
 void checkFresh(const fcl::BVHModel<BV>& mesh) {
   CAPTURE(mesh.num_tris);
-  CHECK_FALSE(detail::ElementTree(mesh).loose());
+  CHECK_FALSE(detail::ElementTree(mesh).merged());
 }
 
 bool touch(const fcl::CollisionGeometryd& a, const fcl::CollisionGeometryd& b, const Isometry3d& poseB) {
@@ -125,6 +126,42 @@ TEMPLATE_TEST_CASE("the boxes of a mesh that was built are used, however regular
     }
     checkFresh(*meshOf<TestType>(strip.points, strip.triangles));
   }
+}
+
+TEMPLATE_TEST_CASE("boxes fitted to a moved mesh lead to the few triangles near a place", "", fcl::OBBd,
+                   fcl::RSSd, fcl::kIOSd, fcl::OBBRSSd) {
+  using detail::ElementTree;
+  const auto mesh = bumpyGround<TestType>(48, 0.05);
+  const Isometry3d by = pose(Random(3).rotation(), {0.3, 0.2, 0.1});
+  std::vector<Vector3d> moved;
+  for (int i = 0; i < mesh->num_vertices; ++i) moved.push_back(by * mesh->vertices[i]);
+  mesh->beginReplaceModel();
+  mesh->replaceSubModel(moved);
+  mesh->endReplaceModel();
+  const ElementTree tree(*mesh);
+  REQUIRE(tree.merged());
+  const Vector3d place = moved[moved.size() / 2];
+  std::vector<ElementTree::Node> open{tree.root()};
+  int looked = 0;
+  std::vector<std::intptr_t> found;
+  while (!open.empty()) {
+    const ElementTree::Node node = open.back();
+    open.pop_back();
+    ++looked;
+    if (((place - node.box.centre).cwiseAbs() - node.box.half).maxCoeff() > 0) continue;
+    if (node.leaf) {
+      found.push_back(node.id);
+      continue;
+    }
+    std::array<ElementTree::Node, 8> child;
+    const int children = tree.children(node, child);
+    open.insert(open.end(), child.begin(), child.begin() + children);
+  }
+  CHECK(looked < mesh->num_tris / 10);
+  for (int i = 0; i < mesh->num_tris; ++i)  // the six around the corner among them
+    for (int k = 0; k < 3; ++k)
+      if (mesh->tri_indices[i][k] == moved.size() / 2)
+        CHECK(std::find(found.begin(), found.end(), i) != found.end());
 }
 
 #if FCL_HAVE_OCTOMAP

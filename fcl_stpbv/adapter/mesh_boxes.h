@@ -1,0 +1,100 @@
+// The boxes of FCL's meshes: one kind for all bounding volumes, which of them may leave triangles out, and
+// boxes fitted in their place.
+#pragma once
+
+#include <fcl/geometry/bvh/BVH_model.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "fcl_stpbv/adapter/element_tree.h"
+
+namespace fcl_stpbv::detail {
+
+inline OrientedBox boxAround(const fcl::AABBd& bv) {
+  return {0.5 * (bv.min_ + bv.max_), Eigen::Matrix3d::Identity(), 0.5 * (bv.max_ - bv.min_)};
+}
+inline OrientedBox boxAround(const fcl::OBBd& bv) { return {bv.To, bv.axis, bv.extent}; }
+inline OrientedBox boxAround(const fcl::RSSd& bv) {
+  return {bv.center(), bv.axis, Eigen::Vector3d(0.5 * bv.l[0] + bv.r, 0.5 * bv.l[1] + bv.r, bv.r)};
+}
+inline OrientedBox boxAround(const fcl::OBBRSSd& bv) { return boxAround(bv.obb); }
+inline OrientedBox boxAround(const fcl::kIOSd& bv) { return boxAround(bv.obb); }
+template <std::size_t N>
+OrientedBox boxAround(const fcl::KDOP<double, N>& bv) {  // its first three slabs are the axes'
+  const Eigen::Vector3d low(bv.dist(0), bv.dist(1), bv.dist(2));
+  const Eigen::Vector3d high(bv.dist(N / 2), bv.dist(N / 2 + 1), bv.dist(N / 2 + 2));
+  return {0.5 * (low + high), Eigen::Matrix3d::Identity(), 0.5 * (high - low)};
+}
+
+/// The bounding volume that boxAround() takes the box from.
+template <typename BV>
+const BV& boxed(const BV& bv) {
+  return bv;
+}
+inline const fcl::OBBd& boxed(const fcl::OBBRSSd& bv) { return bv.obb; }
+inline const fcl::OBBd& boxed(const fcl::kIOSd& bv) { return bv.obb; }
+
+constexpr double kSameBox = 1e-9;  // of the size
+
+/// Whether FCL may have merged a bounding volume from two, in a way that may leave parts of them out (FCL
+/// 0.7, RSS-inl.h, OBB-inl.h): something that all of these have and few others. OBB: the upper end of its
+/// first side is that of the two, the lower one may be lost. RSS: the third axis is across two of the first
+/// part's.
+inline bool mayBeMerged(const fcl::OBBd& both, const fcl::OBBd& first, const fcl::OBBd& second) {
+  const Eigen::Vector3d n = both.axis.col(0);
+  const auto top = [&](const fcl::OBBd& bv) {
+    return n.dot(bv.To - both.To) + bv.extent.dot((bv.axis.transpose() * n).cwiseAbs());
+  };
+  return std::abs(std::max(top(first), top(second)) - both.extent[0]) <=
+         kSameBox * (both.extent.sum() + both.To.lpNorm<1>());
+}
+inline bool mayBeMerged(const fcl::RSSd& both, const fcl::RSSd& first, const fcl::RSSd&) {
+  return (both.axis.col(2) - first.axis.col(0).cross(first.axis.col(1))).lpNorm<1>() <= kSameBox;
+}
+template <typename BV>
+bool mayBeMerged(const BV&, const BV&, const BV&) {
+  return false;  // AABB and KDOP merge well
+}
+
+/// Whether the inner boxes were merged from their children's, as `endReplaceModel()` and `endUpdateModel()`
+/// do unless told otherwise, and not fitted to what is below. All down one way, for some fitted box may be
+/// the same by chance.
+template <typename BV>
+bool hasMergedBoxes(const fcl::BVHModel<BV>& mesh) {
+  for (int index = 0; !mesh.getBV(index).isLeaf(); index = mesh.getBV(index).leftChild()) {
+    const fcl::BVNode<BV>& node = mesh.getBV(index);
+    const auto &first = boxed(mesh.getBV(node.leftChild()).bv),
+               &second = boxed(mesh.getBV(node.rightChild()).bv);
+    if (!mayBeMerged(boxed(node.bv), first, second)) return false;
+    const OrientedBox own = boxAround(node.bv), both = boxAround(first + second);
+    const double size = kSameBox * (own.half.sum() + own.centre.lpNorm<1>());
+    const bool same = (own.centre - both.centre).lpNorm<1>() <= size &&
+                      (own.half - both.half).lpNorm<1>() <= size &&
+                      (own.axes - both.axes).lpNorm<1>() <= kSameBox;
+    if (!same) return false;
+  }
+  return !mesh.getBV(0).isLeaf();
+}
+
+/// Boxes around what is below each node. FCL numbers nodes after their parents.
+template <typename BV>
+std::vector<Eigen::AlignedBox3d> fittedBoxes(const fcl::BVHModel<BV>& mesh) {
+  std::vector<Eigen::AlignedBox3d> box(static_cast<std::size_t>(mesh.getNumBVs()));
+  const auto at = [&](int index) -> Eigen::AlignedBox3d& { return box[static_cast<std::size_t>(index)]; };
+  for (int index = mesh.getNumBVs(); index-- > 0;) {
+    const fcl::BVNode<BV>& node = mesh.getBV(index);
+    if (!node.isLeaf()) {
+      at(index) = at(node.leftChild()).merged(at(node.rightChild()));
+    } else if (mesh.tri_indices) {
+      const fcl::Triangle& t = mesh.tri_indices[node.primitiveId()];
+      for (const std::size_t i : {t[0], t[1], t[2]}) at(index).extend(mesh.vertices[i]);
+    } else {
+      at(index).extend(mesh.vertices[node.primitiveId()]);
+    }
+  }
+  return box;
+}
+
+}  // namespace fcl_stpbv::detail

@@ -1,0 +1,116 @@
+// How deep two simple shapes are in each other.
+//
+// 1. Bodies of revolution on parallel axes are as deep towards all generators as towards one, more than EPA
+// has
+//    room for; a polygon in the plane of their axes tells their depth.
+// 2. EPA (convex/epa.h) on the difference of the cores.
+// 3. Points of both bodies opposite each other: the answer's, those where cores cross without a volume in
+//    common, those of the features around, and of faces side by side.
+// 4. Newton's method on the features there gives the last digits of normal and points (shape_newton.h).
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "fcl_stpbv/convex/epa.h"
+#include "fcl_stpbv/convex/meridian.h"
+#include "fcl_stpbv/convex/onto_core.h"
+#include "fcl_stpbv/distance/shape_newton.h"
+#include "fcl_stpbv/distance/shape_pair.h"
+
+namespace fcl_stpbv::detail {
+
+using Eigen::Vector3d;
+
+namespace {
+
+using Pair = ShapePair;
+using Corner = Pair::Corner;
+using DepthSearch = Epa<Pair::Difference>;
+
+/// Corners of the difference along normals next to the answer's, less the answer: where the supporting faces
+/// are generators or discs, their ends, on all sides.
+struct CornersAround {
+  std::array<Corner, 24> corner;
+
+  CornersAround(DepthSearch& epa) {
+    const Vector3d n = epa.n, e = n.unitOrthogonal(), f = n.cross(e);
+    std::size_t i = 0;
+    for (const double tilt : {1e-3, 1e-5, 1e-7})  // rad; the narrower ones for curved sides
+      for (int k = 0; k < 8; ++k) {
+        const double angle = 0.785398163397448 * k;
+        corner[i++] = epa.look((n + tilt * (std::cos(angle) * e + std::sin(angle) * f)).normalized());
+      }
+    for (Corner& c : corner) c.w -= epa.gap * epa.n;
+  }
+  Corner support(const Vector3d& m) {
+    Corner best;
+    best.gap = std::numeric_limits<double>::infinity();
+    for (const Corner& c : corner)
+      if (m.dot(c.w) < best.gap) best = c, best.gap = m.dot(c.w);
+    return best;
+  }
+};
+
+/// Points of both bodies that are opposite each other, out of those corners.
+void offerAround(const Pair& p, DepthSearch& epa) {
+  CornersAround around(epa);
+  const Vector3d answer = epa.gap * epa.n;
+  const Pair::Gjk found =
+      gjk<Corner>(around, {}, epa.n, 0.1 * p.rounding, 60, [](double, double) { return false; });
+  Simplex<Corner> nearest;
+  reduceToNearest(found.simplex, nearest);
+  epa.offer(nearest.weighted(&Corner::onA), nearest.weighted(&Corner::w) + answer);
+}
+
+/// The same of faces or generators side by side, where a point may be opposite one past the other's end.
+void offerToAndFro(const Pair& p, DepthSearch& epa) {
+  const Vector3d answer = epa.gap * epa.n;
+  Vector3d onA = epa.onA;
+  for (int i = 0; i < 4 && epa.off() > p.rounding; ++i) {
+    const Vector3d onB = p.pose.placed(ontoCore(p.b, p.pose.inSecond(onA + answer)));
+    epa.offer(onA, onB - onA);
+    onA = ontoCore(p.a, onB - answer);
+  }
+}
+
+}  // namespace
+
+Distance overlapping(const Pair& p, const Pair::Gjk& found) {
+  Pair::Difference difference(p.a, p.b, p.pose);
+  DepthSearch epa(difference, p.rounding);
+  // No gap is wider than the two points that GJK found are apart, even where rounding hid it.
+  Simplex<Corner> common;
+  reduceToNearest(found.simplex, common);
+  const Vector3d onA = common.weighted(&Corner::onA), toB = common.weighted(&Corner::w);
+  epa.bound = std::min(found.upper, toB.norm());
+  Meridian plane;
+  if (commonMeridian(p.a, p.b, p.pose, plane)) {
+    const MeridianDepth inner =
+        meridianDepth(plane, p.rounding, [&](const Vector3d& m) { return epa.look(-m.normalized()); });
+    if (inner.depth > 0.0) epa.bound = std::min(epa.bound, -inner.depth);
+    if (inner.found) epa.offer(inner.onA, inner.toB);
+  }
+  epa.run();
+  epa.offer(onA, toB);  // the answer's where cores cross without a volume in common, as two segments do
+  if (epa.off() > p.rounding) offerAround(p, epa);
+  if (epa.off() > p.rounding) offerToAndFro(p, epa);
+  if (p.curved() || epa.off() > p.rounding || !(epa.bound - epa.gap <= p.rounding)) {
+    const auto deepest =
+        nearestOnFeatures(p.a, p.b, p.pose, epa.n, epa.gap, epa.onA, Pair::kWidest, p.rounding);
+    if (deepest) {
+      epa.n = deepest->n;
+      epa.gap = deepest->gap;
+      epa.onA = deepest->onA;
+    }
+  }
+  Distance result = p.inWorld(epa.n, epa.onA, epa.gap * epa.n);
+  const double upper = std::max(epa.bound, epa.gap);
+  result.status = upper - epa.gap <= p.rounding ? DistanceStatus::exact : DistanceStatus::bounded;
+  result.distance = epa.gap - p.margins();
+  result.lower = result.distance - p.certificate;
+  result.upper = upper - p.margins() + p.certificate;
+  return result;
+}
+
+}  // namespace fcl_stpbv::detail

@@ -1,0 +1,72 @@
+// Two simple shapes as their searches share them (shape_pair.cpp, shape_depth.cpp).
+#pragma once
+
+#include <Eigen/Geometry>
+#include <limits>
+
+#include "fcl_stpbv/convex/gjk.h"
+#include "fcl_stpbv/convex/support.h"
+#include "fcl_stpbv/distance/distance.h"
+
+namespace fcl_stpbv::detail {
+
+/// A pair in its one order, the first one's frame.
+struct ShapePair {
+  using Difference = ConvexDifference<const Shape, const Shape>;
+  using Corner = Difference::Corner;
+  using Gjk = GjkResult<Corner>;
+  /// Most that a normal may be off by before Newton's method (rad).
+  static constexpr double kWidest = 0.1;
+
+  const Shape &a, &b;
+  RelativePose pose;
+  double rounding = 0.0;     ///< of a gap (m)
+  double certificate = 0.0;  ///< bound on it, of the poses that lead to it too (m)
+  bool valid = false;
+
+  ShapePair(const Shape& first, const Eigen::Isometry3d& poseA, const Shape& second,
+            const Eigen::Isometry3d& poseB)
+      : a(first), b(second), pose(poseA, poseB) {
+    if (!pose.valid || !a.valid() || !b.valid() || (a.unbounded() && b.unbounded())) return;
+    const double size = unpack(pose.translation).lpNorm<1>() + a.centre.lpNorm<1>() + a.reach +
+                        b.centre.lpNorm<1>() + b.reach;
+    rounding = 8.0 * std::numeric_limits<double>::epsilon() * size;
+    certificate = kGapRounding * (size + a.margin + b.margin);
+    valid = rounding < 1e100;  // squares of squares must not overflow
+  }
+
+  double margins() const { return a.margin + b.margin; }
+
+  /// Whether GJK only comes near the answer, by chords of a round surface.
+  bool curved() const { return curved(a) || curved(b); }
+  static bool curved(const Shape& s) {
+    return s.kind == ShapeKind::cylinder || s.kind == ShapeKind::cone || s.kind == ShapeKind::ellipsoid;
+  }
+
+  /// GJK from what an earlier search ended with, until both bounds agree or `told(lower, upper)` says that it
+  /// has heard enough.
+  template <typename Told>
+  Gjk search(const Told& told, const Simplex<Corner>& start = {}) const {
+    constexpr int kSteps = 120;  // polytopes take a dozen, round bodies some thirty
+    const Eigen::Vector3d d = pose.placed(b.centre) - a.centre;
+    Difference difference(a, b, pose);
+    return gjk<Corner>(
+        difference, start, d.norm() > rounding ? Eigen::Vector3d(d.normalized()) : Eigen::Vector3d::UnitX(),
+        rounding, kSteps,
+        [&](double lower, double upper) { return upper - lower <= 0.5 * rounding || told(lower, upper); });
+  }
+
+  /// What a search found, in the world: `n` from A to B, `onA` a point of A's
+  /// core, `toB` from there to B's core.
+  Distance inWorld(const Eigen::Vector3d& n, const Eigen::Vector3d& onA, const Eigen::Vector3d& toB) const {
+    Distance result;
+    result.normal = pose.normalInWorld(n);
+    result.point = {pose.inWorld(onA + a.margin * n), pose.inWorld(onA + toB - b.margin * n)};
+    return result;
+  }
+};
+
+/// Cores with a common point, as far as GJK could tell: the shortest translation that separates them.
+Distance overlapping(const ShapePair& p, const ShapePair::Gjk& found);
+
+}  // namespace fcl_stpbv::detail
