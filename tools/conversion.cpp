@@ -24,33 +24,6 @@ namespace {
 using namespace detail;
 using Points = std::vector<Eigen::Vector3d>;
 
-// What an input holds: a volume, or else points, of a mesh with its triangles.
-struct Content {
-  StpBv::Ptr volume;
-  TriangleMesh mesh;
-};
-
-// Decided by the content, read once: a pipe cannot be read twice. Volumes and polyhedra are texts; a mesh is
-// left to the reader of meshes, which needs a file.
-Content readInput(const std::string& path, const Eigen::Vector3d& scale) {
-  const std::string extension = lowerExtension(path);
-  if (extension == ".stpbv") return {loadStpBv(path), {}};
-  std::error_code ignored;
-  const bool isFile = std::filesystem::is_regular_file(path, ignored);
-  if (isFile && extension != ".txt" && extension != ".otp" && !extension.empty())
-    return {nullptr, loadMesh(path, scale)};
-  std::istringstream stream(readText(path));
-  const std::string text = stream.str();
-  if (looksLikeStpBv(text)) return {loadStpBv(stream, path), {}};
-  const bool points = looksLikeQhull(text);
-  if (!points && looksLikeSch(text)) return {loadSch(stream, path), {}};
-  if (isFile) return {nullptr, loadMesh(path, scale)};
-  if (!points) throw Error(path + ": holds neither a volume nor points; a mesh must be a file");
-  Content content{nullptr, {parseQhullPoints(text, path), {}}};
-  for (Eigen::Vector3d& point : content.mesh.vertices) point = point.cwiseProduct(scale);
-  return content;
-}
-
 // A volume has lost the points that its own radii left inside, so it cannot become that of other radii.
 void checkSameRadii(const std::string& input, const Radii& radii, const ConversionOptions& options) {
   if (options.advise)
@@ -121,10 +94,32 @@ void measureExcess(Report& report, const TriangleMesh& mesh) {
 
 }  // namespace
 
+// Read once: a pipe cannot be read twice. Volumes and polyhedra are texts; a mesh is
+// left to the reader of meshes, which needs a file.
+Content readInput(const std::string& path, double factor) {
+  const Eigen::Vector3d scale = Eigen::Vector3d::Constant(factor);
+  const std::string extension = lowerExtension(path);
+  if (extension == ".stpbv") return {loadStpBv(path), {}};
+  std::error_code ignored;
+  const bool isFile = std::filesystem::is_regular_file(path, ignored);
+  if (isFile && extension != ".txt" && extension != ".otp" && !extension.empty())
+    return {nullptr, loadMesh(path, scale)};
+  std::istringstream stream(readText(path));
+  const std::string text = stream.str();
+  if (looksLikeStpBv(text)) return {loadStpBv(stream, path), {}};
+  const bool points = looksLikeQhull(text);
+  if (!points && looksLikeSch(text)) return {loadSch(stream, path), {}};
+  if (isFile) return {nullptr, loadMesh(path, scale)};
+  if (!points) throw Error(path + ": holds neither a volume nor points; a mesh must be a file");
+  Content content{nullptr, {parseQhullPoints(text, path), {}}};
+  for (Eigen::Vector3d& point : content.mesh.vertices) point = point.cwiseProduct(scale);
+  return content;
+}
+
 Report convert(const std::string& input, const ConversionOptions& options) {
   Report report;
   report.input = input;
-  Content content = readInput(input, Eigen::Vector3d::Constant(options.scale));
+  Content content = readInput(input, options.scale);
   report.volume = content.volume;
   Points& points = content.mesh.vertices;
   if (report.volume) {
@@ -152,12 +147,16 @@ Report convert(const std::string& input, const ConversionOptions& options) {
 }
 
 void write(const Report& report, const ConversionOptions& options) {
+  TriangleMesh surface;
+  if (!options.preview.empty()) surface = tessellate(*report.volume);
+  if (!options.preview.empty() && surface.triangles.empty())
+    throw Error(report.input + ": one point with r = 0 has no surface; give -r, or leave out --preview");
   if (options.format == Format::sch) {
     saveSch(report.output, *report.volume);
   } else {
     saveStpBv(report.output, *report.volume);
   }
-  if (!options.preview.empty()) saveMesh(options.preview, tessellate(*report.volume));
+  if (!options.preview.empty()) saveMesh(options.preview, surface);
 }
 
 std::string toText(const Report& report) {

@@ -40,7 +40,17 @@ struct Report {
   std::string verification;      ///< what is wrong with a volume that is not verified
 };
 
-/// Reads a mesh, a cloud of points or a volume and makes the STP-BV of it. Writes nothing.
+/// What an input holds: a volume, or else points, of a mesh with its triangles.
+struct Content {
+  StpBv::Ptr volume;
+  TriangleMesh mesh;
+};
+
+/// Reads a mesh, a cloud of points or a volume, told by its content; `scale` does not count for a volume.
+/// @throws Error naming the input and what would work.
+Content readInput(const std::string& path, double scale);
+
+/// The same, made into an STP-BV. Writes nothing.
 /// @throws Error naming the input and what would work.
 Report convert(const std::string& input, const ConversionOptions& options);
 

@@ -54,13 +54,18 @@ PartsReport convertToParts(const std::string& input, const std::string& output,
   PartsReport report;
   report.input = input;
   report.asked = options.parts->excess;
-  const TriangleMesh mesh = loadMesh(input, Eigen::Vector3d::Constant(options.scale));
+  const Content content = readInput(input, options.scale);
+  if (content.volume)
+    throw Error(input + ": is an STP-BV already, and convex; give the mesh it was made from, or leave out " +
+                "--parts and --excess");
+  if (content.mesh.triangles.empty())
+    throw Error(input + ": has no triangles, which parts are made of; give a mesh, which must be a file");
   const auto start = std::chrono::steady_clock::now();
   StpBvOptions radii;
   radii.r = options.r.value_or(radii.r);
   radii.R = options.R.value_or(radii.R);
   try {
-    report.parts = convexParts(mesh, *options.parts);
+    report.parts = convexParts(content.mesh, *options.parts);
     for (const ConvexPart& part : report.parts.parts) {
       report.volumes.push_back(StpBv::build(part.points, radii));
       report.overCovers.push_back(overCover(*report.volumes.back(), part.points));

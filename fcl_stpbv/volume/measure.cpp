@@ -94,11 +94,13 @@ Vector3d stationaryNormal(const StpBv& volume, int index, const Vector3d& p) {
   const PatchKind kind = volume.kind(index);
   Vector3d g = p - unpack(posedPatch(volume, index).centre());
   if (kind == PatchKind::edge) {
-    const double along = g.dot(patch.axis);
-    const Vector3d side = g - along * patch.axis;
+    // On the edge's line what is left across it is rounding, and leans along it by as much.
+    const double along = g.dot(patch.axis), rounding = 1e-15 * (p.norm() + std::abs(along));
+    Vector3d side = g - along * patch.axis;
+    side -= side.dot(patch.axis) * patch.axis;
     const double length = side.norm();
     g = along * patch.axis +
-        (length + patch.kappa) * (length > 0 ? Vector3d(side / length) : acrossEdge(volume, index));
+        (length + patch.kappa) * (length > rounding ? Vector3d(side / length) : acrossEdge(volume, index));
   }
   const double length = g.norm();
   // A point that is a vertex but for rounding has no direction from it.

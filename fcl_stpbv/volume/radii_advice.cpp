@@ -1,6 +1,7 @@
 // An allowed acceleration gives the least r and the largest R, and these the smallest volume that keeps it.
 // Its over-cover falls as the acceleration grows, so the least acceleration for a clearance is a bisection.
-// What is left of the clearance, or what a fifth more of that least acceleration saves, makes R smaller.
+// What is left of the clearance, or what a fifth more of that least acceleration saves, makes R smaller. So
+// does a long period, whose rows miss in proportion to R.
 #include "fcl_stpbv/volume/radii_advice.h"
 
 #include <cmath>
@@ -58,15 +59,14 @@ class Adviser {
   Adviser(const Points& points, const RadiiTask& task)
       : points_(points),
         task_(task),
-        reserve_(0.5 * task.acceleration * task.period * task.period),
-        hull_(points) {
-    if (reserve_ >= task.clearance) refuse();
-  }
+        missed_(0.5 * std::pow(task.turning * task.period, 2)),
+        smallestR_(StpBv::smallestR(points, 0)),
+        hull_(points) {}
 
   RadiiAdvice advise() const {
     RadiiAdvice asked = with(task_.acceleration);
-    asked.leastClearance = asked.overCover + reserve_;
-    asked.meetsBoth = asked.leastClearance <= task_.clearance;
+    asked.leastClearance = lost(asked);
+    asked.meetsBoth = keeps(asked);
     if (asked.meetsBoth) return rounder(asked);
     const double least = leastKept();
     RadiiAdvice best = with(kSpare * least);
@@ -83,6 +83,7 @@ class Adviser {
   static constexpr double kStep = 2;
   static constexpr int kRounds = 10;
   static constexpr double kWithin = 1e-3;
+  static constexpr double kOfAPoint = 1e-9;  // of the largest R: a single point has no smallest one
 
   /// The least acceleration of all radii that keep the clearance, where the task's own is below that.
   double leastKept() const {
@@ -98,17 +99,16 @@ class Adviser {
     return high;
   }
 
-  /// With more acceleration than was stated a period's rows miss more.
-  bool keeps(const RadiiAdvice& advice) const {
-    return advice.overCover + std::max(reserve_, advice.perPeriod) <= task_.clearance;
-  }
+  /// Of the clearance, with what a period's rows miss (m).
+  static double lost(const RadiiAdvice& advice) { return advice.overCover + advice.perPeriod; }
+  bool keeps(const RadiiAdvice& advice) const { return lost(advice) <= task_.clearance; }
 
   /// Spends what is left of the clearance on a smaller R: the witness points then slide less.
   RadiiAdvice rounder(const RadiiAdvice& asked) const {
     const double r = asked.radii.r;
-    double low = StpBv::smallestR(points_, 0) + r, high = asked.radii.R;
+    double low = smallestR_ + r, high = asked.radii.R;
     RadiiAdvice best = asked;
-    low = std::max(low, 1e-9 * high);  // of a single point
+    low = std::max(low, kOfAPoint * high);
     while (high > (1 + kWithin) * low) {
       const double middle = std::sqrt(low * high);
       const RadiiAdvice tried = withRadii({r, middle});
@@ -121,32 +121,49 @@ class Adviser {
     return best;
   }
 
-  RadiiAdvice with(double acceleration) const { return withRadii(radiiFor(task_, acceleration)); }
+  /// The radii with at most this acceleration that lose the least. Over r the body bulges by about
+  /// b^2 / (2 R), b read off the volume, and the rows miss `missed_` times R: least together where both are
+  /// equal.
+  RadiiAdvice with(double acceleration) const {
+    RadiiAdvice best = withRadii(radiiFor(task_, acceleration));
+    const double r = best.radii.r, widest = best.radii.R;
+    const double least = std::max((1 + kWithin) * (smallestR_ + r), kOfAPoint * widest);
+    for (int round = 0; round < 3 && std::isfinite(best.overCover); ++round) {
+      const double bulge = 2 * best.radii.R * (best.overCover - r);  // b^2
+      const double R = std::max(least, std::sqrt(std::max(0.0, bulge) / (2 * missed_)));
+      if (!(R < widest)) break;
+      const RadiiAdvice tried = withRadii({r, R});
+      if (!(lost(tried) < lost(best))) break;
+      best = tried;
+    }
+    return best;
+  }
 
   RadiiAdvice withRadii(const StpBvOptions& radii) const {
     RadiiAdvice advice{radii, false, 0, kInfinity, 0, kInfinity};
     const double r = advice.radii.r, R = advice.radii.R;
-    if (!(R > StpBv::smallestR(points_, 0) + r)) return advice;
+    if (!(R > smallestR_ + r)) return advice;
     const ContactAcceleration reached = accelerationOf(task_, r, R);
     advice.acceleration = reached.size();
     advice.overCover = hull_.max(*StpBv::build(points_, {r, R}));
-    advice.perPeriod = -0.5 * reached.least * task_.period * task_.period;
+    advice.perPeriod = missed_ * R;
     return advice;
   }
 
   [[noreturn]] void refuse() const {
     char text[256];
-    std::snprintf(text, sizeof text,
-                  "adviseRadii: found no r and R that keep a clearance of %.9g m, of which %.9g m or more go "
-                  "into the period of "
-                  "%.9g s; state a larger clearance, a shorter period or a slower motion",
-                  task_.clearance, reserve_, task_.period);
+    std::snprintf(
+        text, sizeof text,
+        "adviseRadii: found no r and R that keep a clearance of %.9g m with a period of %.9g s; state "
+        "a larger clearance, a shorter period or a slower motion",
+        task_.clearance, task_.period);
     throw Error(text);
   }
 
   const Points& points_;
   const RadiiTask& task_;
-  double reserve_;  // of the clearance, for what a period's linear rows may miss
+  double missed_;     // of R, how far d may fall below a row that is linear for a period
+  double smallestR_;  // without a margin (m)
   HullExcess hull_;
 };
 

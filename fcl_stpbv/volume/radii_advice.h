@@ -62,8 +62,8 @@ struct RadiiAdvice {
 };
 
 /// For a body given by its points, from docs/choosing_r_and_R.md. Builds some thirty
-/// volumes. @throws Error for points without a volume, for numbers that make no sense, and
-/// for a clearance that no radii keep.
+/// volumes, up to a hundred for long periods. @throws Error for points without a volume, for
+/// numbers that make no sense, and for a clearance that no radii keep.
 RadiiAdvice adviseRadii(const std::vector<Eigen::Vector3d>& points, const RadiiTask& task);
 
 }  // namespace fcl_stpbv

@@ -5,6 +5,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 
 #include "fcl_stpbv/numbers.h"
 
@@ -74,6 +76,7 @@ std::vector<Region> regions(const StpBv& volume) {
     const Vector3d z = Vector3d::UnitZ();
     return {{0, z, {{Vector3d::UnitX(), z, kTwoPi}}}, {0, -z, {{Vector3d::UnitX(), -z, kTwoPi}}}};
   }
+  std::map<std::pair<int, int>, int> edgeFrom;  // of a face and a vertex
   for (int e = 0; e < volume.edgeCount(); ++e) {
     const StpBv::Edge& edge = volume.edges()[static_cast<std::size_t>(e)];
     const Arc middle = edgeArc(volume, e);
@@ -83,9 +86,11 @@ std::vector<Region> regions(const StpBv& volume) {
     // The second vertex lies ahead of the edge's turn on its left, the first one on its right.
     const Vector3d u = middle.axis;
     all[static_cast<std::size_t>(edge.vertex[1])].boundary.push_back(
-        {cosine * middle.start + sine * u, u, edge.turn});
+        {cosine * middle.start + sine * u, u, edge.turn, e});
     all[static_cast<std::size_t>(edge.vertex[0])].boundary.push_back(
-        {cosine * middle.at(1) - sine * u, -u, edge.turn});
+        {cosine * middle.at(1) - sine * u, -u, edge.turn, e});
+    // Round face[0] the edge runs from its first vertex, round face[1] from its second.
+    for (const std::size_t side : {0u, 1u}) edgeFrom[{edge.face[side], edge.vertex[side]}] = e;
   }
   for (int f = 0; f < volume.faceCount(); ++f) {
     const StpBv::Ring& ring = volume.faces()[static_cast<std::size_t>(f)];
@@ -95,7 +100,8 @@ std::vector<Region> regions(const StpBv& volume) {
       const Vector3d from = volume.corner(f, i), to = volume.corner(f, j);
       // Both normals are offsets of the two points from the ball's centre, so their plane holds the edge.
       const Vector3d axis = from.cross(at(volume, j) - at(volume, i)).normalized();
-      region.boundary.push_back({from, axis, std::atan2(axis.dot(from.cross(to)), from.dot(to))});
+      region.boundary.push_back(
+          {from, axis, std::atan2(axis.dot(from.cross(to)), from.dot(to)), edgeFrom.at({f, i})});
     }
     all.push_back(std::move(region));
   }

@@ -16,6 +16,7 @@ inline const Eigen::Vector3d& at(const StpBv& volume, int vertex) {
 struct Arc {
   Eigen::Vector3d start, axis;
   double turn;
+  int edge = -1;  ///< whose region of normals it bounds; -1 for half a sphere, which has no edge
   Eigen::Vector3d at(double part) const;  ///< part in [0, 1]
 };
 

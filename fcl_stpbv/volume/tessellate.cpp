@@ -1,12 +1,12 @@
 // Triangles of the surface for viewing: a grid over each patch's region of normals. Neighbours share the
-// steps along their boundary, so the mesh is closed.
+// points along their boundary by what these belong to, however close they lie, so the mesh is closed.
 #include "fcl_stpbv/volume/tessellate.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
-#include <tuple>
 
 #include "fcl_stpbv/number_check.h"
 #include "fcl_stpbv/volume/patch_view.h"
@@ -20,11 +20,7 @@ using Eigen::Vector3d;
 
 class Tessellator {
  public:
-  Tessellator(const StpBv& volume, double angle) : volume_(volume), angle_(std::clamp(angle, 0.02, 1.0)) {
-    // What rounding can part at a boundary: a few units of the coordinates and of rho times the normal.
-    constexpr double kRounding = 2e-14, kWidest = 1e-6;
-    const double size = volume.enclosingRadius() + volume.radii().rho + volume.centre().norm();
-    grid_ = std::min(kRounding / leastCosine(volume), kWidest) * size;
+  Tessellator(const StpBv& volume, double angle) : volume_(volume), angle_(angle) {
     // A region between two arcs of one step each would be two triangles back to back.
     std::vector<int> arcs(static_cast<std::size_t>(volume.vertexCount()), 0);
     for (const StpBv::Edge& edge : volume.edges())
@@ -34,31 +30,50 @@ class Tessellator {
 
   TriangleMesh run() {
     for (int e = 0; e < volume_.edgeCount(); ++e) addEdge(e);
-    for (const Region& region : regions(volume_)) addRegion(region);
+    const std::vector<Region> all = regions(volume_);
+    for (std::size_t k = 0; k < all.size(); ++k) addRegion(all[k], static_cast<int>(k));
     return std::move(mesh_);
   }
 
  private:
+  // What a point belongs to: a kind, and what tells it among those of its kind.
+  enum Kind { atVertex, atCorner, besideVertex, besideFace, within, onRing };
+  using Place = std::array<int, 4>;
+
   int steps(double turn) const { return std::max(1, static_cast<int>(std::ceil(turn / angle_))); }
   /// Around an edge, and along the arcs of vertex regions on both of its ends.
   int stepsRound(double turn) const { return std::max(leastRound_, steps(turn)); }
+  /// Along an edge, and along the side of each of its faces: the surface bulges most over the middle.
+  int stepsAlong(int e) const {
+    return std::max(2, steps(2 * std::asin(std::min(1.0, volume_.patch(volume_.edgePatch(e)).sine))));
+  }
 
-  // Points are shared by place: patches meet at equal points but for rounding (docs/theory.md, 3).
-  int point(int patch, const Vector3d& n) {
-    const Vector3d x = corePoint(volume_, patch, n) + volume_.radii().r * n;
-    const auto key = [&](double c) { return static_cast<long long>(std::llround(c / grid_)); };
-    const Vector3d local = x - volume_.centre();
-    // A point near a cell's border may have been filed in the next cell.
-    for (int dx = -1; dx <= 1; ++dx)
-      for (int dy = -1; dy <= 1; ++dy)
-        for (int dz = -1; dz <= 1; ++dz) {
-          const auto found = filed_.find({key(local.x()) + dx, key(local.y()) + dy, key(local.z()) + dz});
-          if (found != filed_.end()) return found->second;
-        }
-    const int index = static_cast<int>(mesh_.vertices.size());
-    filed_[{key(local.x()), key(local.y()), key(local.z())}] = index;
-    mesh_.vertices.push_back(x);
-    return index;
+  int point(const Place& place, int patch, const Vector3d& n) {
+    const auto [found, isNew] = known_.try_emplace(place, static_cast<int>(mesh_.vertices.size()));
+    if (isNew) mesh_.vertices.push_back(corePoint(volume_, patch, n) + volume_.radii().r * n);
+    return found->second;
+  }
+
+  // Where four patches meet. Without a margin all that a vertex has is its point.
+  Place corner(int face, int vertex) const {
+    return volume_.radii().r > 0 ? Place{atCorner, face, vertex, 0} : Place{atVertex, vertex, 0, 0};
+  }
+
+  // On the boundary of an edge's region and one end's: step i of `round`, from the edge's first face to its
+  // second; all the way round a spindle the last step is the first.
+  Place besideEnd(int e, std::size_t end, int i, int round) const {
+    const StpBv::Edge& edge = volume_.edges()[static_cast<std::size_t>(e)];
+    if (volume_.radii().r == 0) return {atVertex, edge.vertex[end], 0, 0};
+    if (edge.face[0] < 0) return {besideVertex, e, static_cast<int>(end), i % round};
+    if (i == 0 || i == round) return corner(edge.face[i == 0 ? 0 : 1], edge.vertex[end]);
+    return {besideVertex, e, static_cast<int>(end), i};
+  }
+
+  // On the boundary of an edge's region and one face's: step j of `along`, from the edge's first vertex.
+  Place besideSide(int e, std::size_t side, int j, int along) const {
+    const StpBv::Edge& edge = volume_.edges()[static_cast<std::size_t>(e)];
+    if (j == 0 || j == along) return corner(edge.face[side], edge.vertex[j == 0 ? 0 : 1]);
+    return {besideFace, e, static_cast<int>(side), j};
   }
 
   void triangle(int a, int b, int c) {
@@ -67,12 +82,16 @@ class Tessellator {
 
   void addEdge(int e) {
     const Arc arc = edgeArc(volume_, e);
-    const int patch = volume_.edgePatch(e);
+    const int patch = volume_.edgePatch(e), round = stepsRound(arc.turn), along = stepsAlong(e);
     const double half = std::asin(std::min(1.0, volume_.patch(patch).sine));
-    const int round = stepsRound(arc.turn), along = steps(2 * half);
+    const bool hasFaces = volume_.edges()[static_cast<std::size_t>(e)].face[0] >= 0;
     const auto at = [&](int i, int j) {
       const double tilt = half * (2.0 * j / along - 1);
-      return point(patch,
+      const Place place = j == 0 || j == along     ? besideEnd(e, j == 0 ? 0 : 1, i, round)
+                          : hasFaces && i == 0     ? besideSide(e, 0, j, along)
+                          : hasFaces && i == round ? besideSide(e, 1, j, along)
+                                                   : Place{within, e, hasFaces ? i : i % round, j};
+      return point(place, patch,
                    std::cos(tilt) * arc.at(static_cast<double>(i) / round) + std::sin(tilt) * arc.axis);
     };
     for (int i = 0; i < round; ++i)
@@ -82,23 +101,47 @@ class Tessellator {
       }
   }
 
-  void addRegion(const Region& region) {
+  // The steps along an arc of a region's boundary, as the edge beside it has them, and the place of each.
+  int stepsOf(const Region& region, const Arc& arc) const {
+    return arc.edge >= 0 && volume_.kind(region.patch) == PatchKind::face ? stepsAlong(arc.edge)
+                                                                          : stepsRound(arc.turn);
+  }
+  Place placeOn(const Region& region, const Arc& arc, int i, int count) const {
+    if (arc.edge < 0) {  // the rim that both halves of a sphere share, from either side
+      const int k = arc.axis.z() > 0 ? i : count - i;
+      return volume_.radii().r > 0 ? Place{besideVertex, 0, 0, k % count} : Place{atVertex, 0, 0, 0};
+    }
+    const StpBv::Edge& edge = volume_.edges()[static_cast<std::size_t>(arc.edge)];
+    if (volume_.kind(region.patch) == PatchKind::face) {
+      const std::size_t side = volume_.facePatch(edge.face[0]) == region.patch ? 0 : 1;
+      return besideSide(arc.edge, side, side == 0 ? i : count - i, count);
+    }
+    const std::size_t end = edge.vertex[0] == region.patch ? 0 : 1;
+    return besideEnd(arc.edge, end, end == 1 ? i : count - i, count);
+  }
+
+  // Rings about the region's centre; points on a ring are told by those on the boundary that they lie before.
+  void addRegion(const Region& region, int number) {
     double widest = 0;
     for (const Arc& arc : region.boundary)
       widest = std::max(widest, std::acos(std::clamp(region.centre.dot(arc.start), -1.0, 1.0)));
-    const int rings = steps(widest), centre = point(region.patch, region.centre);
+    const bool isPoint = volume_.radii().r == 0 && volume_.kind(region.patch) == PatchKind::vertex;
+    const int rings = isPoint ? 1 : steps(widest);
+    const int centre = point(isPoint ? Place{atVertex, region.patch, 0, 0} : Place{within, -1, number, 0},
+                             region.patch, region.centre);
     for (std::size_t a = 0; a < region.boundary.size(); ++a) {
       const Arc& arc = region.boundary[a];
-      // The same steps as the neighbouring edge's, so that the boundary has the same points on both sides.
-      const int round =
-          volume_.kind(region.patch) == PatchKind::vertex ? stepsRound(arc.turn) : steps(arc.turn);
+      const int count = stepsOf(region, arc);
       const auto at = [&](int k, int i) {
-        return k == 0 ? centre
-                      : point(region.patch, region.normal(a, static_cast<double>(i) / round,
-                                                          static_cast<double>(k) / rings));
+        if (k == 0) return centre;
+        const double part = static_cast<double>(i) / count;
+        const int rim = point(placeOn(region, arc, i, count), region.patch, region.normal(a, part, 1));
+        if (k == rings) return rim;
+        return point({onRing, number, k, rim}, region.patch,
+                     region.normal(a, part, static_cast<double>(k) / rings));
       };
       for (int k = 0; k < rings; ++k)
-        for (int i = 0; i < round; ++i) {
+        for (int i = 0; i < count; ++i) {
           triangle(at(k, i), at(k + 1, i), at(k + 1, i + 1));
           triangle(at(k, i), at(k + 1, i + 1), at(k, i + 1));
         }
@@ -106,10 +149,10 @@ class Tessellator {
   }
 
   const StpBv& volume_;
-  double angle_, grid_;
+  double angle_;
   int leastRound_ = 1;
   TriangleMesh mesh_;
-  std::map<std::tuple<long long, long long, long long>, int> filed_;
+  std::map<Place, int> known_;
 };
 
 }  // namespace

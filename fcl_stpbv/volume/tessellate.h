@@ -17,7 +17,7 @@ struct TriangleMesh {
 
 /// Closed mesh of points on the surface, each patch cut so that normals turn by at most about
 /// `angle` (rad, 0.02 to 1) from one point to the next. Corners shared by patches are shared
-/// vertices. @throws Error for another angle.
+/// vertices. One point without a margin has no triangles. @throws Error for another angle.
 TriangleMesh tessellate(const StpBv& volume, double angle = 0.2);
 
 }  // namespace fcl_stpbv

@@ -267,6 +267,21 @@ class MeshToStpbv(unittest.TestCase):
         done = self.run_tool("two.obj", "-o", "two.stpbv", "--parts", "2", "--force")
         self.assertIn("two_2.stpbv: is from an earlier run", done.stderr)
 
+    def test_parts_of_a_volume_or_of_points_are_refused_as_such(self):
+        self.run_tool("cube.txt", "-o", "a.stpbv", "-q")
+        self.run_tool("a.stpbv", "-o", "a_sch.txt", "--format", "sch", "-q")
+        for name, says in (("a.stpbv", "is an STP-BV already"), ("a_sch.txt", "is an STP-BV already"), ("cube.txt", "has no triangles")):
+            for count in (["--parts", "2"], ["--excess", "0.01"]):
+                self.refused(name, "-o", "b.stpbv", *count, says=[name + ": " + says, "give"], code=1)
+
+    def test_a_segment_without_margin_has_a_preview_and_a_point_is_refused_before_anything_is_written(self):
+        write(self.at("two.txt"), points_file(CUBE[:2]))
+        self.run_tool("two.txt", "-o", "two.stpbv", "-r", "0", "--preview", "two.obj")
+        self.assertGreater(read(self.at("two.obj")).count(b"\nf "), 10)
+        write(self.at("one.txt"), points_file(CUBE[:1]))
+        self.refused("one.txt", "-o", "one.stpbv", "-r", "0", "--preview", "one.obj", says=["one.txt: ", "give -r"], code=1)
+        self.assertFalse(os.path.exists(self.at("one.stpbv")))
+
     def test_help_has_every_option_and_examples(self):
         text = self.run_tool("--help").stdout
         for words in ("-o", "-r", "-R", "--scale", "--format", "--preview", "--verify", "--json", "--force", "-q",

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "fcl_stpbv/volume/measure.h"
+#include "fcl_stpbv/volume/regions.h"
 #include "fcl_stpbv/volume/stp_bv.h"
 #include "fcl_stpbv/volume/surface_height.h"
 #include "fcl_stpbv/volume/tessellate.h"
@@ -253,6 +254,33 @@ TEST_CASE("The tessellation is closed, lies on the surface and closes in on the 
     }
 }
 
+TEST_CASE("The tessellation is closed and shows where edges bulge, with slivers, flat clouds and any radii") {
+  std::vector<Cloud> all = clouds();
+  Random random(4);
+  for (const double thin : {1e-10, 1e-7, 1e-4}) {
+    Cloud leaf, clusters;
+    for (int k = 0; k < 12; ++k) {
+      leaf.push_back({random.uniform(-1, 1), random.uniform(-1, 1), thin * random.uniform(-1, 1)});
+      const double angle = 2 * kPi / 3 * (k % 3);
+      clusters.push_back(Vector3d(std::cos(angle), std::sin(angle), 0.5) + thin * random.direction());
+    }
+    all.push_back(leaf);
+    all.push_back(clusters);
+  }
+  for (const Cloud& cloud : all)
+    for (const double r : {0.0, 1e-6, 0.01})
+      for (const double R : {StpBv::smallestR(cloud, r) * (1 + 2e-9), 10.0, 1e5}) {
+        if (cloud.size() == 1 && r == 0) continue;  // no surface
+        const StpBv::Ptr volume = StpBv::build(cloud, {r, std::max(R, 2 * r)});
+        const TriangleMesh mesh = tessellate(*volume, 0.3);
+        INFO(cloud.size() << " points, r = " << r << ", R = " << R);
+        CHECK_FALSE(mesh.triangles.empty());
+        CHECK(isClosed(mesh));
+        // The least is a spindle's with r = 0: two cones.
+        CHECK(meshVolume(mesh, volume->centre()) > 0.6 * enclosedVolume(*volume));
+      }
+}
+
 TEST_CASE("Near the smallest R the tessellation is closed and agrees with the enclosed volume") {
   for (const Cloud& cloud : clouds()) {
     if (cloud.size() == 1) continue;
@@ -292,6 +320,32 @@ TEST_CASE("Points nearly twice there move the signed distance and the support as
         for (int hint = 0; hint < doubled->patchCount(); ++hint)
           CHECK(std::abs(doubled->support(n, hint) - disc->support(n)) <= most);
       }
+    }
+}
+
+TEST_CASE("The signed distance of points on an edge's line, and next to its ends, has all its digits") {
+  Random random(12);
+  for (const double R : {1.5, 10.0, 1e3})
+    for (int k = 0; k < 200; ++k) {
+      // Along a spindle's axis the surface is a circle of radius R about a point beside it.
+      const Vector3d a = random.direction(), b = random.direction();
+      const double r = 0.01, rho = R - r, half = 0.5 * (b - a).norm(),
+                   kappa = std::sqrt(rho * rho - half * half);
+      const double along = random.uniform(-1, 1) * half;
+      const double rest = r * (R + rho) + (half - along) * (half + along);  // R^2 - kappa^2 - along^2
+      const StpBv::Ptr spindle = StpBv::build({a, b}, {r, R});
+      const Vector3d p = 0.5 * (a + b) + along / half * 0.5 * (b - a);
+      INFO("R = " << R << ", point " << k);
+      CHECK(std::abs(signedDistance(*spindle, p) + rest / (R + std::hypot(kappa, along))) <= 2e-15);
+
+      // The core's arc over an edge, next to the edge's end: r below the surface.
+      const Cloud cloud = randomHull(6, {0.3, 0.3, 0.3}, static_cast<std::uint64_t>(k));
+      const StpBv::Ptr volume = StpBv::build(cloud, {r, R});
+      const int edge = random.below(volume->edgeCount());
+      const Arc arc = edgeArc(*volume, edge);
+      const double sine = (1 - 1e-9) * volume->patch(volume->edgePatch(edge)).sine;
+      const Vector3d n = std::sqrt(1 - sine * sine) * arc.at(0.5) + sine * arc.axis;
+      CHECK(std::abs(signedDistance(*volume, volume->surfacePoint(n) - r * n) + r) <= 1e-15);
     }
 }
 

@@ -6,6 +6,7 @@
 
 #include "fcl_stpbv/distance/shape_distance.h"
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/volume/hull_excess.h"
 #include "fcl_stpbv/volume/measure.h"
 #include "fcl_stpbv/volume/radii_advice.h"
 #include "test/reference/shapes.h"
@@ -211,6 +212,41 @@ TEST_CASE("the clearance holds what a long period's rows miss, also with more ac
   CHECK(more > 5);
 }
 
+TEST_CASE("a long period makes R smaller, and refuses nothing that some radii keep") {
+  Random random(9);
+  int advised = 0;
+  for (int trial = 0; trial < 30; ++trial) {
+    const Cloud cloud =
+        trial % 6 == 0 ? Cloud{{1, 2, 3}} : box(random.uniform(0.02, 0.4), random.uniform(0.02, 0.4), 0.02);
+    RadiiTask task;
+    task.clearance = std::pow(10, random.uniform(-3, -1.5));
+    task.acceleration = std::pow(10, random.uniform(-2, 1));
+    task.period = std::pow(10, random.uniform(-2.5, -0.5));
+    task.speed = random.uniform(0, 5);
+    task.turning = trial % 4 == 0 ? 0 : std::pow(10, random.uniform(-2.5, 0.5));
+    // The least acceleration of radii that keep the clearance, on a grid.
+    double least = std::numeric_limits<double>::infinity();
+    const double smallest = StpBv::smallestR(cloud, 0);
+    const detail::HullExcess hull(cloud);
+    for (double r = 1e-3 * task.clearance; r < task.clearance; r *= 1.4)
+      for (double R = 1.01 * (smallest + r); R < 1e6; R *= 1.7) {
+        const double over = hull.max(*StpBv::build(cloud, {r, R}));
+        const ContactAcceleration c =
+            contactAcceleration(kFlatRadii, {r, R, R - r}, 0, task.speed, task.turning);
+        if (over - 0.5 * c.least * task.period * task.period <= task.clearance)
+          least = std::min(least, c.size());
+      }
+    INFO("trial " << trial << ", least " << least);
+    if (std::isinf(least)) continue;
+    const RadiiAdvice advice = adviseRadii(cloud, task);
+    ++advised;
+    CHECK(advice.overCover + advice.perPeriod <= task.clearance);
+    CHECK(advice.acceleration <= std::max(task.acceleration, 1.2 * 1.01 * least));
+    CHECK(advice.meetsBoth == (advice.acceleration <= task.acceleration));
+  }
+  CHECK(advised > 15);
+}
+
 TEST_CASE(
     "where no radii keep both promises the advice is within a fifth of the least acceleration, at the "
     "smallest R") {
@@ -237,7 +273,7 @@ TEST_CASE(
     other.clearance = advice.leastClearance * (1 - 1e-12);
     CHECK_FALSE(adviseRadii(cloud, other).meetsBoth);
   }
-  task.period = 1;  // half of 0.2 m/s^2 over a second is more than all the clearance
+  task.period = 1;  // half of R is missed within it
   CHECK_THROWS_WITH(adviseRadii(box(0.1, 0.1, 0.1), task), Catch::Contains("shorter period"));
   task.period = std::numeric_limits<double>::quiet_NaN();
   CHECK_THROWS_WITH(adviseRadii(box(0.1, 0.1, 0.1), task), Catch::Contains("period"));
