@@ -148,7 +148,8 @@ class CollisionConstraints {
   bool hessian(const ConstVector& q, int row, Eigen::Ref<Eigen::MatrixXd> full);
 
   /// What the last evaluation found for a pair; status `invalid` where its spheres were enough, and for the
-  /// row of a smooth constraint, which has no points.
+  /// row of a smooth constraint, which has no points. hessian() asks only the rows that it is given weights
+  /// for: after it evaluate anew.
   RowAnswer answer(int row) const;
   /// Where the links were at the last evaluation.
   const Kinematics::State& state() const { return state_; }
@@ -213,7 +214,7 @@ class CollisionConstraints {
   bool rowChange(std::size_t row, double* change);
   void differences(const ConstVector& q, const ConstVector& v);
   void prepareHessian(const ConstVector& q);
-  bool rowHessian(std::size_t row, Eigen::MatrixXd& h);
+  bool rowHessian(std::size_t row);
   template <class Add>
   void openHessians(const ConstVector& q, const Add& add);
 
@@ -239,7 +240,11 @@ class CollisionConstraints {
   bool moving_ = false;                  // whether the last evaluation had one
   Eigen::VectorXd values_, change_, otherChange_, moved_;
   std::vector<Kinematics::Rate> alongEach_;  // at a unit velocity of each coordinate, for hessian()
-  std::vector<char> open_;                   // rows whose change is left to differences
+  // Of one row's coordinates: what each does to both bodies, as DistanceHessian takes it; that matrix times
+  // it; the row's Hessian.
+  Eigen::Matrix<double, 12, Eigen::Dynamic> twists_, pushes_;
+  Eigen::MatrixXd square_;
+  std::vector<char> open_;  // rows whose change is left to differences
 };
 
 }  // namespace fcl_stpbv

@@ -40,11 +40,10 @@ bool roundnessOf(const fcl::CollisionGeometryd& geometry, Roundness& result) {
 
 double CollisionConstraints::gradientRateBound(int row) const {
   requireRow(row);
-  if (at(row) >= pairs_.size()) return kInfinity;
+  if (at(row) >= pairs_.size() || !moving_) return kInfinity;
   const Row& r = rows_[at(row)];
   const Witness w = known(at(row));
   if (w.status == DistanceStatus::invalid) return 0;
-  if (!moving_) return kInfinity;
   double slope, curvature;
   bend(at(row), w.distance, slope, curvature);
   if (slope == 0 && curvature == 0) return 0;

@@ -40,6 +40,7 @@ void CollisionConstraints::nothingKnown(double* d, double* values) {
   if (values) std::fill(values, values + nonZeros(), 0.0);
   for (Distance& found : found_) found = Distance{};
   for (DistanceAnswer& answer : answers_) answer = DistanceAnswer{};
+  moving_ = false;
 }
 
 bool CollisionConstraints::compute(const ConstVector& q, double* d, double* values) {

@@ -199,7 +199,7 @@ bool CollisionConstraints::hessianVector(const ConstVector& q, const ConstVector
   if (!q.allFinite() || !weights.allFinite() || !isUsableVelocity(v)) return false;
   place(q);
   kinematics_->differentiate(q, v, state_, rate_);
-  moving_ = true;
+  moving_ = false;  // v is a direction, and what rate_ holds is of it
   std::fill(open_.begin(), open_.end(), 1);
   for (std::size_t row = 0; row < pairs_.size(); ++row) open_[row] = !rowChange(row, change_.data());
   if (std::find(open_.begin(), open_.end(), 1) != open_.end()) differences(q, v);

@@ -12,9 +12,6 @@ using Eigen::Vector3d;
 
 using detail::at;
 
-// A column for each coordinate of the row: what it does to both bodies, as DistanceHessian takes it.
-using Side = Eigen::Matrix<double, 12, Eigen::Dynamic>;
-
 }  // namespace
 
 CollisionConstraints::SparseHessian CollisionConstraints::makeHessian() const {
@@ -29,7 +26,15 @@ CollisionConstraints::SparseHessian CollisionConstraints::makeHessian() const {
 
 // Poses, and how every motion changes as each coordinate moves.
 void CollisionConstraints::prepareHessian(const ConstVector& q) {
-  if (alongEach_.empty()) alongEach_.assign(at(columns()), kinematics_->makeRate());
+  if (alongEach_.empty()) {
+    int most = 0;
+    for (std::size_t row = 0; row < rows_.size(); ++row)
+      most = std::max(most, rowStart_[row + 1] - rowStart_[row]);
+    alongEach_.assign(at(columns()), kinematics_->makeRate());
+    twists_.resize(12, most);
+    pushes_.resize(12, most);
+    square_.resize(most, most);
+  }
   place(q);
   moved_.setZero();
   for (int k = 0; k < columns(); ++k) {
@@ -42,10 +47,11 @@ void CollisionConstraints::prepareHessian(const ConstVector& q) {
 
 // Along a line of q the poses' second derivatives are the pair's own at the bodies' twists and, by the
 // gradient, the change of those twists. Entries in the order of the row's columns.
-bool CollisionConstraints::rowHessian(std::size_t row, Eigen::MatrixXd& h) {
+bool CollisionConstraints::rowHessian(std::size_t row) {
   const Row& r = rows_[row];
   const int start = rowStart_[row], count = rowStart_[row + 1] - start;
-  h.setZero(count, count);
+  auto h = square_.topLeftCorner(count, count);
+  h.setZero();
   const Witness witness = ask(row);
   if (witness.status == DistanceStatus::invalid) return true;
   DistanceHessian pair;
@@ -55,7 +61,8 @@ bool CollisionConstraints::rowHessian(std::size_t row, Eigen::MatrixXd& h) {
                                                   second(pairs_[row]), pose2, answers_[row], pair);
   if (!known) return false;
   const Vector3d origin[2] = {pose1.translation(), pose2.translation()};
-  Side twists = Side::Zero(12, count);
+  auto twists = twists_.leftCols(count), pushes = pushes_.leftCols(count);
+  twists.setZero();
   for (int t = r.firstTerm; t < r.lastTerm; ++t) {
     const Term& term = terms_[at(t)];
     const Twist& motion = state_.motion[at(term.motion)];
@@ -63,7 +70,8 @@ bool CollisionConstraints::rowHessian(std::size_t row, Eigen::MatrixXd& h) {
         motion.linear + motion.angular.cross(origin[term.side]);
     twists.col(term.slot - start).segment<3>(6 * term.side + 3) += motion.angular;
   }
-  h.noalias() = twists.transpose() * (pair.matrix * twists);
+  pushes.noalias() = pair.matrix * twists;
+  h.noalias() = twists.transpose() * pushes;
   for (int t = r.firstTerm; t < r.lastTerm; ++t) {
     const Term& term = terms_[at(t)];
     const int i = term.slot - start;
@@ -96,7 +104,8 @@ bool CollisionConstraints::rowHessian(std::size_t row, Eigen::MatrixXd& h) {
     h *= slope;
     h.noalias() += curvature * g * g.transpose();
   }
-  h = ((h + h.transpose()) / 2).eval();  // symmetric to the last bit
+  for (int j = 0; j < count; ++j)  // symmetric to the last bit
+    for (int i = 0; i < j; ++i) h(i, j) = h(j, i) = (h(i, j) + h(j, i)) / 2;
   return true;
 }
 
@@ -121,10 +130,9 @@ bool CollisionConstraints::hessian(const ConstVector& q, const ConstVector& weig
   Eigen::Map<Eigen::VectorXd>(lower.valuePtr(), lower.nonZeros()).setZero();
   if (!q.allFinite() || !weights.allFinite()) return false;
   prepareHessian(q);
-  Eigen::MatrixXd h;
   for (std::size_t row = 0; row < open_.size(); ++row) {
     const double weight = weights[static_cast<Eigen::Index>(row)];
-    open_[row] = weight != 0 && (row >= pairs_.size() || !rowHessian(row, h));
+    open_[row] = weight != 0 && (row >= pairs_.size() || !rowHessian(row));
     if (weight == 0 || open_[row]) continue;
     const int start = rowStart_[row], count = rowStart_[row + 1] - start;
     for (int j = 0; j < count; ++j) {
@@ -132,7 +140,7 @@ bool CollisionConstraints::hessian(const ConstVector& q, const ConstVector& weig
       int place = lower.outerIndexPtr()[column_[at(start + j)]];
       for (int i = j; i < count; ++i) {
         while (lower.innerIndexPtr()[place] != column_[at(start + i)]) ++place;
-        lower.valuePtr()[place] += weight * h(i, j);
+        lower.valuePtr()[place] += weight * square_(i, j);
       }
     }
   }
@@ -149,11 +157,10 @@ bool CollisionConstraints::hessian(const ConstVector& q, int row, Eigen::Ref<Eig
   if (!q.allFinite()) return false;
   prepareHessian(q);
   std::fill(open_.begin(), open_.end(), 0);
-  Eigen::MatrixXd h;
-  if (at(row) < pairs_.size() && rowHessian(at(row), h)) {
-    const int start = rowStart_[at(row)];
-    for (int i = 0; i < h.rows(); ++i)
-      for (int j = 0; j < h.rows(); ++j) full(column_[at(start + i)], column_[at(start + j)]) = h(i, j);
+  if (at(row) < pairs_.size() && rowHessian(at(row))) {
+    const int start = rowStart_[at(row)], count = rowStart_[at(row) + 1] - start;
+    for (int i = 0; i < count; ++i)
+      for (int j = 0; j < count; ++j) full(column_[at(start + i)], column_[at(start + j)]) = square_(i, j);
     return true;
   }
   open_[at(row)] = 1;

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/number_check.h"
@@ -42,7 +41,7 @@ VelocityDamper::VelocityDamper(CollisionConstraints& constraints, DamperOptions 
       rates_(constraints.makeRates()),
       b_(Eigen::VectorXd::Zero(constraints.rows())),
       damping_(at(constraints.rows())),
-      gain_(at(constraints.rows()), options_.barrierGain),
+      gain_(at(constraints.rows())),
       inside_(at(constraints.rows()), 0) {
   check(options_.all);
   requireNumber("VelocityDamper: headroom", options_.headroom, -kLargest, kLargest);
@@ -60,12 +59,32 @@ VelocityDamper::VelocityDamper(CollisionConstraints& constraints, DamperOptions 
                   std::to_string(row) + " is beyond the most that its value can be, " +
                   std::to_string(constraints.largestValue(row)) +
                   " m; give the constraints a larger influence or hand-over");
+  for (int row = 0; row < constraints.rows(); ++row) rest(row);
   near_.reserve(at(constraints.rows()));
 }
 
-void VelocityDamper::enter(int row) {
+void VelocityDamper::requireRow(int row) const {
+  if (row < 0 || row >= constraints_.rows())
+    throw Error("VelocityDamper: there is no row " + std::to_string(row) + " of " +
+                std::to_string(constraints_.rows()));
+}
+
+double VelocityDamper::damping(int row) const {
+  requireRow(row);
+  return damping_[at(row)];
+}
+
+double VelocityDamper::barrierGain(int row) const {
+  requireRow(row);
+  return gain_[at(row)];
+}
+
+void VelocityDamper::rest(int row) {
   damping_[at(row)] = dampers_[at(row)].damping;
   gain_[at(row)] = options_.barrierGain;
+}
+
+void VelocityDamper::enter(int row) {
   const double room = rates_.d[row] - dampers_[at(row)].security;
   if (options_.headroom < 0 || !(room > 0)) return;
   if (options_.level == DamperLevel::barrier)
@@ -127,6 +146,9 @@ double VelocityDamper::bound(int row) const {
 
 void VelocityDamper::update(const Eigen::Ref<const Eigen::VectorXd>& q,
                             const Eigen::Ref<const Eigen::VectorXd>& qd) {
+  if (qd.size() != constraints_.columns())
+    throw Error("VelocityDamper: qd has the size " + std::to_string(qd.size()) + ", expected " +
+                std::to_string(constraints_.columns()));
   bool known;
   if (options_.level == DamperLevel::velocity) {
     known = constraints_.evaluate(q, rates_.d, jacobian_);
@@ -136,20 +158,26 @@ void VelocityDamper::update(const Eigen::Ref<const Eigen::VectorXd>& q,
   }
   near_.clear();
   if (!known) {  // no row can be met, and none has entered
-    b_.setConstant(std::numeric_limits<double>::infinity());
+    b_.setConstant(kInfinity);
     for (int row = 0; row < constraints_.rows(); ++row) near_.push_back(row);
     return;
   }
   for (int row = 0; row < constraints_.rows(); ++row) {
     const bool inside = rates_.d[row] < dampers_[at(row)].influence;
     if (inside && !inside_[at(row)]) enter(row);
+    if (!inside && inside_[at(row)]) rest(row);
     inside_[at(row)] = inside;
-    b_[row] = inside ? bound(row) : -std::numeric_limits<double>::infinity();
+    b_[row] = inside ? bound(row) : -kInfinity;
     if (inside) near_.push_back(row);
   }
 }
 
 int VelocityDamper::dense(Eigen::Ref<Eigen::MatrixXd> A, Eigen::Ref<Eigen::VectorXd> b) const {
+  const auto most = std::min(A.rows(), b.size());
+  if (static_cast<std::size_t>(most) < near_.size() || A.cols() != jacobian_.cols())
+    throw Error("VelocityDamper: dense() needs room for " + std::to_string(near_.size()) + " rows of " +
+                std::to_string(jacobian_.cols()) + " columns, got " + std::to_string(most) + " of " +
+                std::to_string(A.cols()));
   int count = 0;
   for (int row : near_) {
     A.row(count).setZero();
@@ -163,8 +191,14 @@ int VelocityDamper::dense(Eigen::Ref<Eigen::MatrixXd> A, Eigen::Ref<Eigen::Vecto
 // Of x = x0 + H^-1 A' l, A x = b while the rows stay the same: their part of dx/dt is the projection of H^-1
 // (dA/dt)' l and H^-1 A' G^-1 (db/dt - dA/dt x), G = A H^-1 A'.
 double collisionAccelerationBound(const ProgramChange& change, double smallestH, double smallestG) {
-  return change.gradient * change.multiplier / std::sqrt(smallestH) +
-         (change.bound + change.gradient * change.solution) / std::sqrt(smallestG);
+  // What is 0 stays 0, also where the other factor has no bound.
+  const auto times = [](double a, double b) { return a == 0 || b == 0 ? 0.0 : a * b; };
+  const auto over = [](double sum, double eigenvalue) {
+    if (sum == 0) return 0.0;
+    return eigenvalue > 0 ? sum / std::sqrt(eigenvalue) : kInfinity;
+  };
+  return over(times(change.gradient, change.multiplier), smallestH) +
+         over(change.bound + times(change.gradient, change.solution), smallestG);
 }
 
 }  // namespace fcl_stpbv

@@ -52,7 +52,7 @@ class VelocityDamper {
   VelocityDamper(CollisionConstraints& constraints, DamperOptions options);
 
   /// Rows at q, while q moves with velocity qd. Of a q that is not finite nothing is known: all rows are
-  /// near, with A = 0 and b = infinity, which no x meets.
+  /// near, with A = 0 and b = infinity, which no x meets. @throws Error for a q or qd of another size.
   void update(const Eigen::Ref<const Eigen::VectorXd>& q, const Eigen::Ref<const Eigen::VectorXd>& qd);
 
   /// The rows' left side, rows() x columns() of the constraints.
@@ -63,16 +63,19 @@ class VelocityDamper {
   const Eigen::VectorXd& d() const { return rates_.d; }
   /// Rows within their influence, ascending.
   const std::vector<int>& near() const { return near_; }
-  /// Writes those rows one below the other and returns how many: for solvers of dense programs. `A` and `b`
-  /// have room for near().size() rows.
+  /// Writes those rows one below the other and returns how many: for solvers of dense programs. @throws
+  /// Error unless `A` has columns() columns, and both have room for near().size() rows.
   int dense(Eigen::Ref<Eigen::MatrixXd> A, Eigen::Ref<Eigen::VectorXd> b) const;
 
-  /// xi of a row: its own, or what it got on entering (m/s).
-  double damping(int row) const { return damping_[static_cast<std::size_t>(row)]; }
-  /// g of a row: that of the options, or what it got on entering (1/s).
-  double barrierGain(int row) const { return gain_[static_cast<std::size_t>(row)]; }
+  /// xi of a row: its own, or what it got on entering, until it leaves (m/s). @throws Error for a row that
+  /// does not exist.
+  double damping(int row) const;
+  /// g of a row: that of the options, or what it got on entering (1/s). @throws Error likewise.
+  double barrierGain(int row) const;
 
  private:
+  void requireRow(int row) const;
+  void rest(int row);
   void enter(int row);
   void raise(int row, double room);
   void raiseBoth(int row, double room);
@@ -98,7 +101,8 @@ struct ProgramChange {
 };
 /// Most of |dx/dt| that collision rows add to what the task alone asks for, in the norm x'Hx,
 /// while the same rows act: `smallestH` is the smallest eigenvalue of H, `smallestG` that of A
-/// H^-1 A' of the acting rows (docs/control.md).
+/// H^-1 A' of the acting rows (docs/control.md). 0 where nothing changes, as without acting rows; infinite
+/// where an eigenvalue is not above 0.
 double collisionAccelerationBound(const ProgramChange& change, double smallestH, double smallestG);
 
 }  // namespace fcl_stpbv

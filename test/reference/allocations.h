@@ -5,7 +5,7 @@
 
 namespace fcl_stpbv::test {
 
-/// Calls of operator new since the program started, in all threads.
+/// Calls of malloc and its like since the program started, in all threads; with sanitizers of operator new.
 extern std::atomic<long> allocations;
 
 }  // namespace fcl_stpbv::test

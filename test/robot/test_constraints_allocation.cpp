@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include "fcl_stpbv/robot/batch.h"
+#include "fcl_stpbv/robot/velocity_damper.h"
 #include "test/reference/allocations.h"
 #include "test/reference/robots.h"
 #include "test/reference/shapes.h"
@@ -9,7 +10,8 @@
 using namespace fcl_stpbv;
 using namespace fcl_stpbv::test;
 
-TEST_CASE("distances, Jacobians, rates, Hessian products and verdicts of a humanoid allocate nothing") {
+TEST_CASE(
+    "distances, Jacobians, rates, Hessians, damper's rows and verdicts of a humanoid allocate nothing") {
   const TestRobot robot = robots()[0];
   LoadedRobot loaded = load(robot);
   const auto kinematics = std::make_shared<const Kinematics>(loaded.model);
@@ -25,6 +27,14 @@ TEST_CASE("distances, Jacobians, rates, Hessian products and verdicts of a human
   v.setOnes();
   Random random(1);
   RowRates rates = constraints.makeRates();
+  CollisionConstraints::SparseHessian lower = constraints.makeHessian();
+  Eigen::MatrixXd full(constraints.columns(), constraints.columns());
+  constraints.hessian(kinematics->neutral(), d.setOnes(), lower);  // makes room for those that follow
+  DamperOptions options;
+  options.all.influence = 0.3;
+  VelocityDamper slow(constraints, options);
+  options.level = DamperLevel::barrier;
+  VelocityDamper barrier(constraints, options);
   const long before = allocations;
   for (int i = 0; i < 50; ++i) {
     for (Eigen::Index k = 0; k < q.size(); ++k)
@@ -34,6 +44,10 @@ TEST_CASE("distances, Jacobians, rates, Hessian products and verdicts of a human
     constraints.evaluate(q, d, sparse);
     constraints.evaluate(q, d, dense);
     constraints.hessianVector(q, d, v, out);
+    constraints.hessian(q, d, lower);
+    constraints.hessian(q, i, full);
+    slow.update(q, v);
+    barrier.update(q, v);
     constraints.evaluateValues(q, v, rates, values);
     constraints.evaluate(q, v, rates, sparse);
     constraints.evaluate(q, v, rates, dense);

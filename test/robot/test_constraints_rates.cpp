@@ -154,6 +154,27 @@ TEST_CASE("without a velocity an answer does not move") {
   CHECK(constraints.answer(0).normalVelocity.norm() + constraints.answer(0).pointVelocity[0].norm() > 0);
   constraints.evaluate(q, d);
   CHECK(constraints.answer(0).normalVelocity.isZero(0));
+  // Nor after a product with a direction, or where nothing is known; then nothing bounds its gradient.
+  const VectorXd none = VectorXd::Constant(q.size(), std::nan(""));
+  VectorXd product(q.size());
+  const auto isStill = [&] {
+    const RowAnswer a = constraints.answer(0);
+    CHECK(a.normalVelocity.isZero(0));
+    CHECK(a.pointVelocity[0].isZero(0));
+    CHECK(std::isinf(constraints.gradientRateBound(0)));
+    constraints.evaluate(q, qd, rates, jacobian);
+    CHECK(constraints.gradientRateBound(0) > 0);
+    CHECK(std::isfinite(constraints.gradientRateBound(0)));
+  };
+  isStill();
+  constraints.hessianVector(q, d, VectorXd::Zero(q.size()), product);
+  isStill();
+  constraints.evaluate(none, d);
+  isStill();
+  constraints.evaluate(none, qd, rates, jacobian);
+  isStill();
+  constraints.evaluate(q, none, rates, jacobian);
+  isStill();
   constraints.evaluate(q, VectorXd::Zero(q.size()), rates, jacobian);
   CHECK(rates.speed.isZero(0));
   CHECK(rates.drift.isZero(0));

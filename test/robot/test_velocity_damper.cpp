@@ -225,6 +225,48 @@ TEST_CASE("a damper that makes no sense is refused with what would work") {
   CHECK(damper.near().empty());
 }
 
+TEST_CASE("numbers of another size, too little room and rows that do not exist are refused at every level") {
+  Held held(0.01, 10, 0.02);
+  const Eigen::Index n = held.q.size();
+  for (const DamperLevel level : {DamperLevel::velocity, DamperLevel::acceleration, DamperLevel::barrier}) {
+    DamperOptions options;
+    options.level = level;
+    VelocityDamper damper(*held.constraints, options);
+    for (const Eigen::Index size : {Eigen::Index{0}, n - 1, n + 1}) {
+      CHECK_THROWS_WITH(damper.update(held.q, VectorXd::Ones(size)), Catch::Contains("qd"));
+      CHECK_THROWS_WITH(damper.update(VectorXd::Ones(size), 0 * held.q), Catch::Contains("q has the size"));
+    }
+    CHECK(damper.near().empty());
+    CHECK(damper.damping(0) == 0.5);
+    CHECK(damper.barrierGain(0) == 50);
+    for (const int row : {-1, 1}) {
+      CHECK_THROWS_WITH(damper.damping(row), Catch::Contains("no row"));
+      CHECK_THROWS_WITH(damper.barrierGain(row), Catch::Contains("no row"));
+    }
+    damper.update(held.q, 0 * held.q);
+    REQUIRE(damper.near().size() == 1);
+    MatrixXd none(0, n), narrow(1, n - 1), room(2, n);
+    VectorXd b(2), noB(0);
+    CHECK_THROWS_WITH(damper.dense(none, b), Catch::Contains("1 rows of " + std::to_string(n)));
+    CHECK_THROWS_WITH(damper.dense(narrow, b), Catch::Contains("1 rows of " + std::to_string(n)));
+    CHECK_THROWS_WITH(damper.dense(room, noB), Catch::Contains("1 rows of " + std::to_string(n)));
+    CHECK(damper.dense(room, b) == 1);
+  }
+}
+
+TEST_CASE("the acceleration's bound is a number: 0 where nothing changes, infinite where nothing bounds it") {
+  const double none = std::numeric_limits<double>::infinity();
+  CHECK(collisionAccelerationBound({}, 1, 0) == 0);  // no acting row, and so no eigenvalue
+  CHECK(collisionAccelerationBound({none, 0, 0, 0}, 1, 1) == 0);
+  CHECK(collisionAccelerationBound({none, 2, 0, 0}, 1, 4) == 1);
+  CHECK(collisionAccelerationBound({3, 2, 4, 1}, 4, 25) == 6 + 1);
+  for (const double eigenvalue : {0.0, -1.0}) {
+    CHECK(collisionAccelerationBound({1, 1, 1, 1}, eigenvalue, 1) == none);
+    CHECK(collisionAccelerationBound({1, 1, 1, 1}, 1, eigenvalue) == none);
+  }
+  CHECK(collisionAccelerationBound({none, 1, 1, 1}, 1, 1) == none);
+}
+
 TEST_CASE("a configuration that is not a number meets no row, and leaves what has entered as it was") {
   Held held(0.01, 10, 0.08);
   const VectorXd still = 0 * held.q, none = VectorXd::Constant(held.q.size(), std::nan(""));
