@@ -1,12 +1,38 @@
 // The Python module: volumes, distance, robots and what is shared out of them, with NumPy arrays in and out.
+#include <cstring>
+#include <exception>
+
 #include "fcl_stpbv/error.h"
 #include "parts.h"
+
+namespace {
+
+namespace py = pybind11;
+
+// Messages name files as the bytes that they are, which need not be UTF-8: decoded as Python decodes names of
+// files. pybind11's own translation would leave the message out.
+void addError(py::module_& module) {
+  static const py::handle error =
+      py::exception<fcl_stpbv::Error>(module, "Error", PyExc_RuntimeError).release();
+  py::register_exception_translator([](std::exception_ptr thrown) {
+    try {
+      if (thrown) std::rethrow_exception(thrown);
+    } catch (const fcl_stpbv::Error& e) {
+      const auto size = static_cast<Py_ssize_t>(std::strlen(e.what()));
+      const auto text =
+          py::reinterpret_steal<py::object>(PyUnicode_DecodeUTF8(e.what(), size, "surrogateescape"));
+      if (text) PyErr_SetObject(error.ptr(), text.ptr());
+    }
+  });
+}
+
+}  // namespace
 
 PYBIND11_MODULE(fcl_stpbv, module) {
   module.doc() =
       "Distances with continuous gradients between sphere-torus-patch bounding volumes. Metres, radians.";
   module.attr("__version__") = FCL_STPBV_VERSION;
-  pybind11::register_exception<fcl_stpbv::Error>(module, "Error", PyExc_RuntimeError);
+  addError(module);
   fcl_stpbv::addVolume(module);
   fcl_stpbv::addRobot(module);
   fcl_stpbv::addShards(module);

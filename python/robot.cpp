@@ -67,7 +67,8 @@ class PythonRobot {
     return names;
   }
   Eigen::VectorXd configuration(const std::string& state) const {
-    return kinematics_->configuration((scene_->srdf ? *scene_->srdf : Srdf()).state(state));
+    if (!scene_->srdf) throw Error("configuration: group states stand in an SRDF; give the robot one");
+    return kinematics_->configuration(scene_->srdf->state(state));
   }
 
   Eigen::VectorXd distances(const Given& given) {
@@ -99,7 +100,7 @@ class PythonRobot {
     return checker(0).minDistance(q);
   }
 
-  Verdicts collidesMany(const GivenRows& given, double margin, bool path, int threads) {
+  Verdicts collidesMany(GivenRows given, double margin, bool path, int threads) {
     const Rows& q = checkedRows(given);
     Verdicts hit(q.rows());
     CheckerBatch batch(checker(margin), threads);
@@ -107,7 +108,7 @@ class PythonRobot {
     batch.collides(q.transpose(), sequenceOf(path), hit);
     return hit;
   }
-  std::pair<Rows, py::array_t<double>> evaluateMany(const GivenRows& given, bool path, int threads) {
+  std::pair<Rows, py::array_t<double>> evaluateMany(GivenRows given, bool path, int threads) {
     const Rows& q = checkedRows(given);
     Rows d(q.rows(), rows());
     Rows values(q.rows(), constraints_->nonZeros());
@@ -119,7 +120,7 @@ class PythonRobot {
     spread(values, q.cols(), dense);
     return {std::move(d), std::move(jacobian)};
   }
-  Rows distancesMany(const GivenRows& given, bool path, int threads) {
+  Rows distancesMany(GivenRows given, bool path, int threads) {
     const Rows& q = checkedRows(given);
     Rows d(q.rows(), rows());
     ConstraintsBatch batch(*constraints_, threads);
@@ -174,8 +175,9 @@ class PythonRobot {
     return given.value;
   }
 
-  const Rows& checkedRows(const GivenRows& given) const {
-    const Rows& q = given.value;
+  const Rows& checkedRows(GivenRows& given) const {
+    Rows& q = given.value;
+    if (q.rows() == 0) q.resize(0, kinematics_->size());  // an empty list does not say how long its rows are
     if (q.cols() != kinematics_->size())
       throw Error("q: got rows of " + std::to_string(q.cols()) + " numbers, expected (N, " +
                   std::to_string(kinematics_->size()) + "), one row a configuration");

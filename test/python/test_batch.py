@@ -394,6 +394,20 @@ def test_wrong_input_is_refused_in_one_line(proofs, tmp_path):
         assert f"{arguments[0]}" in batch(*PROVE, *arguments, "-o", out, status=2).splitlines()[-1]
 
 
+def test_an_empty_value_is_refused_and_not_taken_for_none(tmp_path):
+    more = ["-o", tmp_path / "out", "--jobs", 1]
+    for arguments in (["prove", ARM, "--obstacles", ""], ["prove", ARM, "--srdf", ""], ["prove", ARM, "--write-srdf", ""],
+                      ["prove", ARM, "--package-path", ""], ["sample", ARM, "--obstacles", ""], ["sample", ARM, "--scheduler", ""],
+                      ["sample", ARM, "--merge", ""], ["postures", ARM, TOOLS / "reach.json", "--grid", ""],
+                      ["postures", ARM, TOOLS / "reach.json", "--srdf", ""], ["postures", ARM, TOOLS / "reach.json", "--obstacles", ""],
+                      ["convert", ARM, "--volumes", ""]):
+        assert f"argument {arguments[-2]}: the value is empty" in batch(*arguments, *more, status=2)
+    for place in (["sample", ""], ["postures", str(ARM), ""], ["convert", "", "--volumes", str(tmp_path / "v")]):
+        assert "the value is empty" in batch(*place, *more, status=2)
+    assert "-o/--output: the value is empty" in batch("sample", ARM, "-o", "", status=2)
+    assert not list(tmp_path.iterdir())
+
+
 def test_no_output_replaces_an_input_or_another_output(tmp_path):
     robot, mesh, task, users, scene = (tmp_path / name for name in ("r.urdf", "meshes/part.stl", "task.json", "users.srdf", "scene.urdf"))
     mesh.parent.mkdir()
@@ -497,6 +511,7 @@ def test_names_and_texts_of_any_bytes_are_taken_or_refused(tmp_path):
     batch("postures", ARM, task, "--grid", grid, "--starts", 1, "--jobs", 1, "-o", tmp_path / "places")
     grid.write_text("[" * 200000)
     assert "grid.json: is no JSON" in batch("postures", ARM, task, "--grid", grid, "-o", tmp_path / "no", status=2)
+    assert r"no\udcff.urdf: no such file" in batch("sample", os.fsdecode(b"no\xff.urdf"), "-o", tmp_path / "no", status=2)
     away = pathlib.Path(os.fsdecode(os.fsencode(tmp_path) + b"/\xff"))
     shutil.copytree(HRP2, away)
     assert "hrp2_style.urdf: the path of one of its meshes is not UTF-8" in batch("sample", away / "hrp2_style.urdf", "-o", tmp_path / "no", status=2)

@@ -180,6 +180,15 @@ def test_a_run_that_is_interrupted_keeps_what_is_done(expected, tmp_path):
     assert out.read_bytes() == expected
 
 
+@pytest.mark.parametrize("address", ["nonsense", "http://127.0.0.1:1", "tls://127.0.0.1:1"])
+def test_an_address_that_cannot_be_a_schedulers_is_refused_at_once(address, tmp_path):
+    before = time.monotonic()
+    run = start("fcl_stpbv.batch", *SAMPLE, "--scheduler", address, "-o", tmp_path / "out")
+    _, message = run.communicate(timeout=60)
+    assert run.returncode == 2 and f"--scheduler {address}: " in message and message.count("\n") == 1, message
+    assert time.monotonic() - before < 15  # Dask alone took 30 s to give up
+
+
 def test_a_scheduler_that_is_not_there_is_named(tmp_path):
     run = start("fcl_stpbv.batch", *SAMPLE, "--scheduler", "tcp://127.0.0.1:1", "-o", tmp_path / "out")
     _, message = run.communicate(timeout=60)

@@ -153,6 +153,9 @@ def test_a_batch_is_what_its_rows_are_one_by_one(path):
         assert (pair is not None) == hit[k] and (pair is None or alone[pair] <= 0.01)
     assert robot.min_distance(robot.configuration("half_sitting")) == pytest.approx(
         robot.distances(robot.configuration("half_sitting")).min(), abs=1e-14)
+    for d, jacobian in (robot.evaluate_many([], path=path, threads=2), robot.evaluate_many(np.zeros((0, len(robot.names))), path=path)):
+        assert d.shape == (0, len(robot.rows)) and jacobian.shape == (0, len(robot.rows), len(robot.names))
+    assert robot.distances_many([]).shape == (0, len(robot.rows)) and robot.collides_many([]).shape == (0,)
     with pytest.raises(fcl_stpbv.Error, match="rows of 3"):
         robot.collides_many(q[:, :3])
     with pytest.raises(fcl_stpbv.Error, match="threads"):
@@ -176,6 +179,20 @@ def test_paths_are_text_bytes_or_path_objects(tmp_path):
         for load in loaders:
             with pytest.raises(fcl_stpbv.Error, match=re.escape(str(missing))):
                 load(missing)
+
+
+def test_an_error_names_a_file_whatever_bytes_its_name_has():
+    name = os.fsdecode(b"no\xff.file")  # no UTF-8
+    loaders: list[Callable] = [fcl_stpbv.Robot, fcl_stpbv.PairSearch, fcl_stpbv.PostureSearch, fcl_stpbv.mesh_files, fcl_stpbv.load_points,
+                               fcl_stpbv.StpBv.load]
+    for load in loaders:
+        with pytest.raises(fcl_stpbv.Error, match=f"^{name}: .*no such file"):
+            load(name)
+
+
+def test_a_state_of_a_robot_without_an_srdf_says_what_is_missing():
+    with pytest.raises(fcl_stpbv.Error, match="^configuration: .*SRDF"):
+        fcl_stpbv.Robot(DATA / "hrp2_style/hrp2_style.urdf").configuration("half_sitting")
 
 
 @pytest.mark.parametrize("protocol", range(pickle.HIGHEST_PROTOCOL + 1))

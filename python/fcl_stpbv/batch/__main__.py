@@ -28,6 +28,13 @@ def number(kind, least, most, unit=""):
     return read
 
 
+def given(text):
+    """A name of a file, a folder or an address."""
+    if not text:
+        raise argparse.ArgumentTypeError("the value is empty, as from a shell variable that is not set; give one, or leave the option out")
+    return text
+
+
 def share(text):
     found = re.fullmatch(r"(\d+)/(\d+)", text)
     if not found or int(found[1]) >= int(found[2]):
@@ -41,21 +48,21 @@ COUNT, WHOLE = number(int, 1, 2**31 - 1), number(int, 0, 2**31 - 1)  # what an i
 
 def described():
     common = argparse.ArgumentParser(add_help=False)
-    common.add_argument("-o", "--output", required=True, metavar="FILE", help="results as JSON lines; a run goes on from those it holds")
-    common.add_argument("--scheduler", metavar="ADDRESS", help="of a Dask cluster, such as tcp://host:8786, instead of this machine")
+    common.add_argument("-o", "--output", type=given, required=True, metavar="FILE", help="results as JSON lines; a run goes on from those it holds")
+    common.add_argument("--scheduler", type=given, metavar="ADDRESS", help="of a Dask cluster, such as tcp://host:8786, instead of this machine")
     common.add_argument("--jobs", type=COUNT, default=engine.cores(), help="processes on this machine [all cores]")
     common.add_argument("--shard", type=share, metavar="I/N", help="do only part I of N, in this process")
-    common.add_argument("--merge", nargs="+", metavar="FILE", default=[],
+    common.add_argument("--merge", type=given, nargs="+", metavar="FILE", default=[],
                         help="begin with the results in these files; without --shard nothing is computed")
     common.add_argument("-r", type=LENGTH, default=0.01, help="radius of the small spheres, the margin (m) [0.01]")
     common.add_argument("-R", type=LENGTH, default=10.0, help="radius of the big spheres (m) [10]")
     common.add_argument("-q", "--quiet", action="store_true", help="no progress and no summary")
     robot = argparse.ArgumentParser(add_help=False)
-    robot.add_argument("robot", metavar="ROBOT", help="its URDF")
-    robot.add_argument("--package-path", action="append", default=[], metavar="FOLDER", help="holds packages; may be given again")
+    robot.add_argument("robot", type=given, metavar="ROBOT", help="its URDF")
+    robot.add_argument("--package-path", type=given, action="append", default=[], metavar="FOLDER", help="holds packages; may be given again")
     robot.add_argument("--seed", type=WHOLE, default=1, help="of the random numbers [1]")
     pairs = argparse.ArgumentParser(add_help=False)
-    pairs.add_argument("--obstacles", default="", metavar="FILE", help="URDF of a scene: each moving link and obstacle is a pair too")
+    pairs.add_argument("--obstacles", type=given, metavar="FILE", help="URDF of a scene: each moving link and obstacle is a pair too")
     pairs.add_argument("--margin", type=MARGIN, default=0.0, help="a distance not above it is a collision (m) [0]")
 
     parser = argparse.ArgumentParser(prog="python -m fcl_stpbv.batch", description=__doc__, epilog=FOOTER)
@@ -65,21 +72,21 @@ def described():
     prove.add_argument("--boxes", type=COUNT, default=100000, help="for a pair, about; more continues a run [100000]")
     prove.add_argument("--budget", type=COUNT, default=10000, help="boxes a job [10000]")
     prove.add_argument("--descents", type=WHOLE, default=500, help="for a pair, before its proof [500]")
-    prove.add_argument("--write-srdf", default="", metavar="FILE", help="an SRDF whose every Never is proven")
-    prove.add_argument("--srdf", default="", metavar="FILE", help="that it begins with: all is kept but pairs of other reasons than User")
+    prove.add_argument("--write-srdf", type=given, metavar="FILE", help="an SRDF whose every Never is proven")
+    prove.add_argument("--srdf", type=given, metavar="FILE", help="that it begins with: all is kept but pairs of other reasons than User")
     sample = kinds.add_parser("sample", parents=[robot, pairs, common], help="distances of all pairs in random configurations")
     sample.add_argument("--blocks", type=COUNT, default=100, help="of configurations; more continues a run [100]")
     sample.add_argument("--count", type=COUNT, default=1000, help="configurations a block [1000]")
     postures = kinds.add_parser("postures", parents=[robot, common], help="for tasks, as find_posture does")
-    postures.add_argument("tasks", nargs="+", metavar="TASK", help="its JSON file (docs/posture.md)")
-    postures.add_argument("--srdf", default="", metavar="FILE", help="pairs to leave out and postures")
-    postures.add_argument("--obstacles", default="", metavar="FILE", help="URDF of a scene to keep clear of")
+    postures.add_argument("tasks", type=given, nargs="+", metavar="TASK", help="its JSON file (docs/posture.md)")
+    postures.add_argument("--srdf", type=given, metavar="FILE", help="pairs to leave out and postures")
+    postures.add_argument("--obstacles", type=given, metavar="FILE", help="URDF of a scene to keep clear of")
     postures.add_argument("--starts", type=COUNT, default=5, help="at most, for a task; more continues a run, but for a grid's [5]")
-    postures.add_argument("--grid", default="", metavar="FILE", help="moves the task's targets; a job is then a row of this grid")
+    postures.add_argument("--grid", type=given, metavar="FILE", help="moves the task's targets; a job is then a row of this grid")
     postures.add_argument("--independent", action="store_true", help="each place of a grid from the task's starts alone, not from its neighbours' postures")
     convert = kinds.add_parser("convert", parents=[common], help="meshes to volumes")
-    convert.add_argument("meshes", nargs="+", metavar="MESH")
-    convert.add_argument("--volumes", required=True, metavar="FOLDER", help="where MESH.stpbv goes, replacing nothing; made if missing")
+    convert.add_argument("meshes", type=given, nargs="+", metavar="MESH")
+    convert.add_argument("--volumes", type=given, required=True, metavar="FOLDER", help="where MESH.stpbv goes, replacing nothing; made if missing")
     convert.add_argument("--scale", type=SCALE, default=1.0, help="factor on the coordinates, 0.001 for millimetres [1]")
     return parser
 

@@ -82,6 +82,14 @@ def same(files):
     return files
 
 
+async def greet(address):
+    """Connects once: a Client that is refused would go on waiting, for half a minute."""
+    import distributed
+
+    line = await distributed.comm.connect(address, timeout=15, **distributed.Security().get_connection_args("client"))
+    await line.close()
+
+
 @contextlib.contextmanager
 def connected(scheduler, workers):
     """A Dask client: of the cluster at this address, or of one on this machine."""
@@ -102,8 +110,10 @@ def connected(scheduler, workers):
                 local = {"dashboard": False, "dashboard_address": "127.0.0.1:0"}
                 scheduler = stack.enter_context(distributed.LocalCluster(workers, threads_per_worker=1, dashboard_address=None,
                                                                          scheduler_kwargs=local, silence_logs="CRITICAL"))
+            else:
+                asyncio.run(greet(scheduler))
             client = stack.enter_context(distributed.Client(scheduler, timeout="15s", set_as_default=False))
-        except (OSError, ValueError, TimeoutError) as error:
+        except (OSError, ValueError, TypeError, TimeoutError) as error:  # a type: tls:// without certificates
             raise fcl_stpbv.Error(f"--scheduler {scheduler}: no Dask scheduler answers there ({error}); "
                                   "start one with dask-scheduler") from None
         try:

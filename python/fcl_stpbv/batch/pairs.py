@@ -38,7 +38,7 @@ class Prove:
     def __init__(self, arguments):
         self.options = {key: getattr(arguments, key) for key in ("r", "R", "margin", "budget", "descents", "seed")}
         self.context, self.files = opened(arguments)
-        self.most, self.srdf = arguments.boxes, arguments.srdf or None
+        self.most, self.srdf = arguments.boxes, arguments.srdf
         self.groups = list(range(len(self.context.pairs)))
         self.dimensions = {names: len(self.context.unproven(pair).open[0][0]) for pair, names in enumerate(self.context.pairs)}
         if self.srdf and not arguments.write_srdf:
