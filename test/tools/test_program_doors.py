@@ -116,6 +116,17 @@ class Programs(unittest.TestCase):
                         self.refused(run(program, *given), option + ": the value is empty")
         self.assertGreater(tried, 150)
 
+    def test_a_word_that_an_option_does_not_know_is_refused(self):
+        tried = set()
+        for program in PROGRAMS:
+            for names, kind in entries_of(program):
+                option = names.split(",")[-1]
+                if ":{" in kind and option[0] == "-":
+                    with self.subTest(program=program.name, option=option):
+                        tried.add((program.name, option))
+                        self.refused(run(program, option, "nonsense"), option, "nonsense")
+        self.assertLessEqual({("stability", "--method"), ("stability", "--list"), ("speed_accuracy", "--only")}, tried)
+
 
 if __name__ == "__main__":
     unittest.main(argv=sys.argv[:1])

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "test/reference/source_folder.h"
+#include "test/reference/stability/contestant.h"
 #include "test/reference/stability/suite.h"
 #include "tools/bench/measurement.h"
 #include "tools/program.h"
@@ -39,12 +40,13 @@ int main(int argc, char** argv) {
   bool json = false;
   std::uint64_t seed = 1;
   std::string folder = "docs/measured", list;
-  std::vector<std::string> only;
+  std::vector<std::string> only, methods;
+  for (const Method& method : allMethods()) methods.push_back(method.id);
   app.flag("--json", json, "only print the number of cases and each method's failures, within a minute");
   app.option("--seed", seed, "of whatever is random in the cases").whole().shown();
   app.option("-o,--output", folder, "folder for stability.json").shown();
-  app.option("--method", only, "only these methods");
-  app.option("--list", list, "print this method's failures, case by case");
+  app.option("--method", only, "only these methods").oneOf(methods);
+  app.option("--list", list, "print this method's failures, case by case").oneOf(methods);
   return app.run(argc, argv, [&] {
     const Results results = runSuite(allSituations(seed, hardCases(), !json), only);
     listFailures(results, list);
