@@ -123,7 +123,7 @@ class Polytope {
 
   static constexpr double kNowhere = std::numeric_limits<double>::infinity();
   static_assert(kMaxFaces % 4 == 0);
-  void setRank(int i, double distance) { rank_[i / 4][i % 4] = distance; }
+  void setRank(int i, double distance) { rank_[at(i) / 4][at(i) % 4] = distance; }
   /// A place for one more face, those beside it in its four without one.
   int newFace() {
     if (faces_ % 4 == 0) rank_[faces_ / 4] = Packed{} + kNowhere;
