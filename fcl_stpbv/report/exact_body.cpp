@@ -2,14 +2,13 @@
 // or the primitive. A mesh's volume is a sum of tetrahedra.
 #include "fcl_stpbv/report/exact_body.h"
 
-#include <fcl/geometry/bvh/BVH_model.h>
-
 #include <cmath>
 #include <limits>
 
 #include "fcl_stpbv/adapter/hull_geometry.h"
 #include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/robot/mesh_file.h"
+#include "fcl_stpbv/robot/triangle_tree.h"
 
 namespace fcl_stpbv::report {
 
@@ -18,17 +17,6 @@ using namespace detail;
 namespace {
 
 using Eigen::Vector3d;
-
-std::shared_ptr<const fcl::CollisionGeometryd> bvhOf(const MeshPieces& mesh) {
-  auto model = std::make_shared<fcl::BVHModel<fcl::OBBRSSd>>();
-  std::vector<fcl::Triangle> triangles;
-  for (const auto& t : mesh.triangles) triangles.emplace_back(at(t[0]), at(t[1]), at(t[2]));
-  model->beginModel(static_cast<int>(mesh.triangles.size()), static_cast<int>(mesh.vertices.size()));
-  model->addSubModel(mesh.vertices, triangles);
-  model->endModel();
-  model->computeLocalAABB();
-  return model;
-}
 
 // A corner of each piece.
 std::vector<Vector3d> cornersOf(const MeshPieces& mesh) {
@@ -58,7 +46,7 @@ ExactBody::ExactBody(const Body& body) {
     return;
   }
   solid_ = std::make_unique<const MeshSolid>(mesh);
-  shape_ = bvhOf(solid_->pieces());
+  shape_ = triangleTree(solid_->pieces().vertices, solid_->pieces().triangles);
   partPoints_ = cornersOf(solid_->pieces());
 }
 

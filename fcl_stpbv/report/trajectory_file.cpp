@@ -111,6 +111,8 @@ std::vector<int> coordinatesOf(const Columns& columns, const std::string& path,
   for (const std::string& name : columns.names) {
     const auto& names = kinematics.names();
     const auto found = std::find(names.begin(), names.end(), name);
+    if (name == "time" && found != names.end())
+      throw Error(path + ": 'time' is a joint of the robot, and the time of way points; rename the joint");
     if (name != "time" && found == names.end())
       throw Error(path + ": the robot has no moving joint '" + name + "'" +
                   (names.empty() ? "" : "; its joints are " + names.front() + " ... " + names.back()));

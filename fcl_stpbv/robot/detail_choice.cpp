@@ -10,9 +10,12 @@
 #include <limits>
 
 #include "fcl_stpbv/adapter/fcl_distance.h"
+#include "fcl_stpbv/adapter/hull_geometry.h"
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/numbers.h"
+#include "fcl_stpbv/robot/mesh_file.h"
 #include "fcl_stpbv/robot/share_out.h"
+#include "fcl_stpbv/robot/triangle_tree.h"
 
 namespace fcl_stpbv::detail {
 namespace {
@@ -130,6 +133,45 @@ void DetailChoice::take(const LinkPair& pair, Details details) {
   if (!pair.obstacle) raise(pair.link2, details.second);
 }
 
+// What a body stands for: the mesh's triangles, or the primitive.
+const fcl::CollisionGeometryd& DetailChoice::exact(int body) {
+  std::shared_ptr<const fcl::CollisionGeometryd>& shape = exact_[body];
+  if (shape) return *shape;
+  const Body& whole = levels_.back()->bodies[at(body)];
+  shape = whole.primitive ? whole.primitive : whole.geometry;
+  if (whole.file.empty()) return *shape;
+  const TriangleMesh mesh = loadMesh(whole.file, whole.scale);
+  shape = mesh.triangles.empty() ? hullGeometry(mesh.vertices) : triangleTree(mesh.vertices, mesh.triangles);
+  return *shape;
+}
+
+// Whether the links are no farther apart than the need asks for: bodies, which contain them, are not either.
+bool DetailChoice::nearerThemselves(const SceneNeed& need) {
+  Kinematics::State state = kinematics_->makeState();
+  kinematics_->forward(need.q, state);
+  const RobotGeometry& level = *levels_.back();
+  const auto near = [&](int body, const fcl::CollisionGeometryd& other, const Eigen::Isometry3d& pose) {
+    const Body& a = level.bodies[at(body)];
+    const DistanceAnswer found =
+        fcl_stpbv::distance(exact(body), state.link[at(a.link)] * a.pose, other, pose);
+    return found.status != DistanceStatus::invalid && found.upper <= need.clearance;
+  };
+  const auto [first, last] = level.of(need.pair.link1);
+  for (int i = first; i < last; ++i) {
+    if (need.pair.obstacle) {
+      const Obstacle& obstacle = obstacles_[at(need.pair.link2)];
+      if (near(i, *obstacle.geometry, obstacle.pose)) return true;
+      continue;
+    }
+    const auto [begin, end] = level.of(need.pair.link2);
+    for (int j = begin; j < end; ++j) {
+      const Body& b = level.bodies[at(j)];
+      if (near(i, exact(j), state.link[at(b.link)] * b.pose)) return true;
+    }
+  }
+  return false;
+}
+
 // Makes the one link as fine as `detail` that meets the most needs so; false where none meets any.
 bool DetailChoice::refineOneLink(std::vector<OpenNeed>& open, Detail detail) {
   std::vector<std::pair<bool, bool>> met(open.size());
@@ -188,8 +230,13 @@ std::set<LinkPair> DetailChoice::refine(const std::vector<SceneNeed>& needs) {
     std::vector<char> settled(needs.size());
     shareOut(needs.size(), options_.threads,
              [&](std::size_t i) { settled[i] = hopeless[i] || meets(needs[i]); });
-    for (std::size_t i = 0; i < needs.size(); ++i)
-      if (!settled[i]) open.push_back({needs[i], i, {}});
+    for (std::size_t i = 0; i < needs.size(); ++i) {
+      if (settled[i]) continue;
+      if (nearerThemselves(needs[i]))
+        hopeless[i] = 1;
+      else
+        open.push_back({needs[i], i, {}});
+    }
     return !open.empty();
   };
   while (gather()) {

@@ -55,6 +55,8 @@ class DetailChoice {
   std::vector<const Body*> bodiesOf(int link, Detail detail);
   bool meets(const SceneNeed& need, Details details);
   bool meets(OpenNeed& open, Details details);
+  const fcl::CollisionGeometryd& exact(int body);
+  bool nearerThemselves(const SceneNeed& need);
   bool refineOneLink(std::vector<OpenNeed>& open, Detail detail);
   bool refineBothLinks(OpenNeed& open);
   void raise(int link, Detail detail);
@@ -65,10 +67,11 @@ class DetailChoice {
   std::vector<Obstacle> obstacles_;
   LinkParts parts_;
   SceneModelOptions options_;
-  std::map<int, Detail> detail_;  // by link, where above 0
-  std::set<LinkPair> byParts_;    // as RobotGeometry's
-  std::set<LinkPair> changed_;    // since refine() began
-  std::vector<Detail> ladder_;    // that refine() tries
+  std::map<int, std::shared_ptr<const fcl::CollisionGeometryd>> exact_;  // by body of each level
+  std::map<int, Detail> detail_;                                         // by link, where above 0
+  std::set<LinkPair> byParts_;                                           // as RobotGeometry's
+  std::set<LinkPair> changed_;                                           // since refine() began
+  std::vector<Detail> ladder_;                                           // that refine() tries
 };
 
 }  // namespace fcl_stpbv::detail

@@ -94,6 +94,7 @@ std::vector<ShapeModel> readShapes(const XMLElement& link, const char* use, cons
 }
 
 void readInertial(const XMLElement& element, LinkModel& link) {
+  checkInertialWords(element);
   const urdf::InertialSharedPtr inertial = readInertialElement(element);
   const Eigen::Vector3d centre = toEigen(inertial->origin.position);
   if (!std::isfinite(inertial->mass) || inertial->mass < 0 || !centre.allFinite())
@@ -108,7 +109,7 @@ LinkModel readLink(const XMLElement& element, const std::string& path, RobotMode
   link.name = element.Attribute("name");
   link.collision = readShapes(element, "collision", path, faults.shapes);
   link.visual = readShapes(element, "visual", path, robot.visualFaults);
-  if (const XMLElement* inertial = element.FirstChildElement("inertial")) {
+  if (const XMLElement* inertial = inertialOf(element)) {
     try {
       readInertial(*inertial, link);
     } catch (const Error& error) {

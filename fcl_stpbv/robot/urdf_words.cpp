@@ -27,6 +27,8 @@ const std::vector<Known> kInJoint = {
     {"axis", {"xyz"}},
     {"limit", {"lower", "upper", "effort", "velocity"}, {"acceleration", "deceleration", "jerk"}},
     {"mimic", {"joint", "multiplier", "offset"}}};
+const std::vector<Known> kInInertial = {
+    {"origin", {"xyz", "rpy"}}, {"mass", {"value"}}, {"inertia", {}}};  // what inertia says is not used
 const std::vector<Known> kInShape = {{"origin", {"xyz", "rpy"}}, {"geometry", {"name"}}};
 const std::vector<Known> kInGeometry = {{"box", {"size"}},
                                         {"sphere", {"radius"}},
@@ -112,6 +114,23 @@ void checkShapeWords(const XMLElement& shape) {
 }
 
 void checkJointWords(const XMLElement& joint) { checkChildren(joint, kInJoint); }
+
+const XMLElement* inertialOf(const XMLElement& link) {
+  if (const XMLElement* inertial = link.FirstChildElement("inertial")) return inertial;
+  for (const XMLElement* e = link.FirstChildElement(); e; e = e->NextSiblingElement()) {
+    const std::string_view name = e->Name();
+    if (name == "gazebo" || ofOtherTools(name)) continue;
+    if (e->FirstChildElement("mass") || e->FirstChildElement("inertia")) return e;
+  }
+  return nullptr;
+}
+
+void checkInertialWords(const XMLElement& inertial) {
+  if (!named(&inertial, "inertial"))
+    throw Error("<" + std::string(inertial.Name()) +
+                "> is no element of URDF, yet holds a mass; is it a misspelt <inertial>?");
+  checkChildren(inertial, kInInertial);
+}
 
 int checkPlaces(const XMLElement& robot, const std::string& path, LoadFaults& faults) {
   int collisions = 0;

@@ -18,6 +18,12 @@ void checkShapeWords(const tinyxml2::XMLElement& shape);
 /// Checks a `<joint>` in the same way.
 void checkJointWords(const tinyxml2::XMLElement& joint);
 
+/// A link's `<inertial>`, or an element of an unknown name that holds what one does; null without.
+const tinyxml2::XMLElement* inertialOf(const tinyxml2::XMLElement& link);
+
+/// Checks what inertialOf() found in the same way as a joint.
+void checkInertialWords(const tinyxml2::XMLElement& inertial);
+
 /// Finds `<collision>` and `<geometry>` where no robot has them, outside `<gazebo>`, whose content is the
 /// simulator's, and `<self_filter>`. A geometry in an unknown element of a link is an entry of
 /// `faults.shapes`, all else of `faults.errors`.

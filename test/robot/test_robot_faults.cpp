@@ -50,7 +50,8 @@ TEST_CASE("an inertial that cannot be read is a warning and known to the link") 
   for (const char* wrong :
        {"", "<mass/>", "<mas value=\"1\"/>", "<mass value=\"5kg\"/>", "<mass value=\"5,0\"/>",
         "<mass value=\"nan\"/>", "<mass value=\"inf\"/>", "<mass value=\"-1\"/>", "<mass value=\"\"/>",
-        "<mass value=\"1\"/><origin xyz=\"1 2\"/>", "<mass value=\"1\"/><origin xyz=\"0 nan 0\"/>"}) {
+        "<mass value=\"1\"/><origin xyz=\"1 2\"/>", "<mass value=\"1\"/><origin xyz=\"0 nan 0\"/>",
+        "<mass value=\"1\"/><origin xzy=\"0 1 0\"/>", "<mass value=\"1\"/><orign xyz=\"0 1 0\"/>"}) {
     CAPTURE(wrong);
     LoadFaults faults;
     const LinkModel read = link(wrong, faults);
@@ -64,6 +65,17 @@ TEST_CASE("an inertial that cannot be read is a warning and known to the link") 
   CHECK(sound.mass == 5);
   CHECK(sound.centreOfMass == Eigen::Vector3d(0, 1, 0));
   CHECK((sound.massFault.empty() && faults.warnings.empty()));
+}
+
+TEST_CASE("a misspelt <inertial> is a warning and no link without mass") {
+  const std::string mass = "<mass value=\"5\"/>";
+  LoadFaults faults;
+  const RobotModel model = parseUrdf(robot("<link name=\"a\"><gazebo>" + mass + "</gazebo><x:y>" + mass +
+                                           "</x:y><inertal>" + mass + "</inertal></link>"),
+                                     "small.urdf", faults);
+  CHECK_THAT(model.links[0].massFault, Contains("<inertal>"));
+  REQUIRE(faults.warnings.size() == 1);
+  CHECK_THAT(faults.warnings[0], Contains("small.urdf:") && Contains("misspelt <inertial>"));
 }
 
 TEST_CASE("each collision element that is lost is named, with its line") {

@@ -2,6 +2,7 @@
 #include <fcl/geometry/shape/sphere.h>
 
 #include <catch2/catch.hpp>
+#include <filesystem>
 #include <limits>
 
 #include "fcl_stpbv/error.h"
@@ -169,6 +170,17 @@ TEST_CASE("a need that the finest bodies do not show changes nothing and is name
   CHECK(model.unmet[0].q == inside.q);
   CHECK(model.unmet[1].clearance == 0.05);
   checkSame(*model.geometry, *workshop.levels[0]);
+}
+
+TEST_CASE("a clearance that the meshes themselves do not have is told before parts are searched") {
+  const Workshop& workshop = workshopOfAll();
+  SceneModelOptions options = workshop.options;
+  options.cacheFolder = workshop.folder / "of the parts";
+  const std::vector<SceneNeed> needs{{workshop.cupAndL, workshop.at(0.11, 0.11), 0.05},
+                                     {workshop.hooks, workshop.at(-0.5, -0.5, 0), 1}};
+  const SceneModel model = modelForScene(workshop.kinematics, workshop.levels, {}, needs, options);
+  CHECK(model.unmet.size() == 2);
+  CHECK_FALSE(std::filesystem::exists(options.cacheFolder));
 }
 
 TEST_CASE("obstacles make needs too; the order of needs and the number of threads change nothing") {

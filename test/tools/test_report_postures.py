@@ -99,6 +99,11 @@ class Postures(unittest.TestCase):
         motion = self.put("motion.json", '{"joints": ["l"], "points": [[0], [0.1]], "times": [0, 1]}')
         self.assertIn('"times"', self.report("--trajectory", motion, status=2))
 
+    def test_a_joint_named_time_is_not_taken_for_the_time(self):
+        self.urdf = self.put("timed.urdf", ROBOT.replace('"r"', '"time"'))
+        said = self.report("--trajectory", self.put("motion.csv", "time,l\n0,0\n0.5,0\n"), status=2)
+        self.assertIn("'time' is a joint", said)
+
     def test_joints_that_stand_still_are_told(self):
         door = ('<robot name="scene"><link name="wall"><collision><origin xyz="5 0 0"/><geometry><box size="0.1 9 9"/></geometry>'
                 '</collision></link><link name="door"/>' + slide("hinge", "wall", "door", "0 0 0") + "</robot>")
