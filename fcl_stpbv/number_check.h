@@ -20,4 +20,11 @@ inline void requireNumber(const std::string& name, double value, double least, d
   throw Error(name + text);
 }
 
+/// @throws Error naming `owner` and both numbers unless it has a row of this number.
+inline void requireRow(const char* owner, int row, int rows) {
+  if (row < 0 || row >= rows)
+    throw Error(std::string(owner) + ": there is no row " + std::to_string(row) + " of " +
+                std::to_string(rows));
+}
+
 }  // namespace fcl_stpbv::detail

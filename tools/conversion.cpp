@@ -147,16 +147,16 @@ Report convert(const std::string& input, const ConversionOptions& options) {
 }
 
 void write(const Report& report, const ConversionOptions& options) {
-  TriangleMesh surface;
-  if (!options.preview.empty()) surface = tessellate(*report.volume);
-  if (!options.preview.empty() && surface.triangles.empty())
+  const bool isShown = !options.preview.empty();
+  const TriangleMesh surface = isShown ? tessellate(*report.volume) : TriangleMesh();
+  if (isShown && surface.triangles.empty())
     throw Error(report.input + ": one point with r = 0 has no surface; give -r, or leave out --preview");
   if (options.format == Format::sch) {
     saveSch(report.output, *report.volume);
   } else {
     saveStpBv(report.output, *report.volume);
   }
-  if (!options.preview.empty()) saveMesh(options.preview, surface);
+  if (isShown) saveMesh(options.preview, surface);
 }
 
 std::string toText(const Report& report) {

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/number_check.h"
 #include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/robot/constraints.h"
 
@@ -11,9 +12,7 @@ namespace fcl_stpbv {
 using detail::at;
 
 void CollisionConstraints::requireRow(int row) const {
-  if (row < 0 || row >= rows())
-    throw Error("CollisionConstraints: there is no row " + std::to_string(row) + " of " +
-                std::to_string(rows()));
+  detail::requireRow("CollisionConstraints", row, rows());
 }
 
 void CollisionConstraints::requireSizes(const ConstVector& q, Eigen::Index d, Eigen::Index values) const {

@@ -48,8 +48,7 @@ VelocityDamper::VelocityDamper(CollisionConstraints& constraints, DamperOptions 
   requireNumber("VelocityDamper: period", options_.period, kLeast, kLargest);
   requireNumber("VelocityDamper: barrierGain", options_.barrierGain, kLeast, kLargest);
   for (const auto& [row, damper] : options_.rows) {
-    if (row < 0 || row >= constraints.rows())
-      throw Error("VelocityDamper: there is no row " + std::to_string(row));
+    requireRow(row);
     check(damper);
     dampers_[at(row)] = damper;
   }
@@ -64,9 +63,7 @@ VelocityDamper::VelocityDamper(CollisionConstraints& constraints, DamperOptions 
 }
 
 void VelocityDamper::requireRow(int row) const {
-  if (row < 0 || row >= constraints_.rows())
-    throw Error("VelocityDamper: there is no row " + std::to_string(row) + " of " +
-                std::to_string(constraints_.rows()));
+  detail::requireRow("VelocityDamper", row, constraints_.rows());
 }
 
 double VelocityDamper::damping(int row) const {

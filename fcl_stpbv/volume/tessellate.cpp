@@ -40,13 +40,15 @@ class Tessellator {
   enum Kind { atVertex, atCorner, besideVertex, besideFace, within, onRing };
   using Place = std::array<int, 4>;
 
+  const StpBv::Edge& edge(int e) const { return volume_.edges()[static_cast<std::size_t>(e)]; }
+  /// Half the turn of the normals along an edge (rad).
+  double halfTurn(int e) const { return std::asin(std::min(1.0, volume_.patch(volume_.edgePatch(e)).sine)); }
+
   int steps(double turn) const { return std::max(1, static_cast<int>(std::ceil(turn / angle_))); }
   /// Around an edge, and along the arcs of vertex regions on both of its ends.
   int stepsRound(double turn) const { return std::max(leastRound_, steps(turn)); }
   /// Along an edge, and along the side of each of its faces: the surface bulges most over the middle.
-  int stepsAlong(int e) const {
-    return std::max(2, steps(2 * std::asin(std::min(1.0, volume_.patch(volume_.edgePatch(e)).sine))));
-  }
+  int stepsAlong(int e) const { return std::max(2, steps(2 * halfTurn(e))); }
 
   int point(const Place& place, int patch, const Vector3d& n) {
     const auto [found, isNew] = known_.try_emplace(place, static_cast<int>(mesh_.vertices.size()));
@@ -62,17 +64,16 @@ class Tessellator {
   // On the boundary of an edge's region and one end's: step i of `round`, from the edge's first face to its
   // second; all the way round a spindle the last step is the first.
   Place besideEnd(int e, std::size_t end, int i, int round) const {
-    const StpBv::Edge& edge = volume_.edges()[static_cast<std::size_t>(e)];
-    if (volume_.radii().r == 0) return {atVertex, edge.vertex[end], 0, 0};
-    if (edge.face[0] < 0) return {besideVertex, e, static_cast<int>(end), i % round};
-    if (i == 0 || i == round) return corner(edge.face[i == 0 ? 0 : 1], edge.vertex[end]);
+    const StpBv::Edge& of = edge(e);
+    if (volume_.radii().r == 0) return {atVertex, of.vertex[end], 0, 0};
+    if (of.face[0] < 0) return {besideVertex, e, static_cast<int>(end), i % round};
+    if (i == 0 || i == round) return corner(of.face[i == 0 ? 0 : 1], of.vertex[end]);
     return {besideVertex, e, static_cast<int>(end), i};
   }
 
   // On the boundary of an edge's region and one face's: step j of `along`, from the edge's first vertex.
   Place besideSide(int e, std::size_t side, int j, int along) const {
-    const StpBv::Edge& edge = volume_.edges()[static_cast<std::size_t>(e)];
-    if (j == 0 || j == along) return corner(edge.face[side], edge.vertex[j == 0 ? 0 : 1]);
+    if (j == 0 || j == along) return corner(edge(e).face[side], edge(e).vertex[j == 0 ? 0 : 1]);
     return {besideFace, e, static_cast<int>(side), j};
   }
 
@@ -83,8 +84,8 @@ class Tessellator {
   void addEdge(int e) {
     const Arc arc = edgeArc(volume_, e);
     const int patch = volume_.edgePatch(e), round = stepsRound(arc.turn), along = stepsAlong(e);
-    const double half = std::asin(std::min(1.0, volume_.patch(patch).sine));
-    const bool hasFaces = volume_.edges()[static_cast<std::size_t>(e)].face[0] >= 0;
+    const double half = halfTurn(e);
+    const bool hasFaces = edge(e).face[0] >= 0;
     const auto at = [&](int i, int j) {
       const double tilt = half * (2.0 * j / along - 1);
       const Place place = j == 0 || j == along     ? besideEnd(e, j == 0 ? 0 : 1, i, round)
@@ -111,12 +112,12 @@ class Tessellator {
       const int k = arc.axis.z() > 0 ? i : count - i;
       return volume_.radii().r > 0 ? Place{besideVertex, 0, 0, k % count} : Place{atVertex, 0, 0, 0};
     }
-    const StpBv::Edge& edge = volume_.edges()[static_cast<std::size_t>(arc.edge)];
+    const StpBv::Edge& beside = edge(arc.edge);
     if (volume_.kind(region.patch) == PatchKind::face) {
-      const std::size_t side = volume_.facePatch(edge.face[0]) == region.patch ? 0 : 1;
+      const std::size_t side = volume_.facePatch(beside.face[0]) == region.patch ? 0 : 1;
       return besideSide(arc.edge, side, side == 0 ? i : count - i, count);
     }
-    const std::size_t end = edge.vertex[0] == region.patch ? 0 : 1;
+    const std::size_t end = beside.vertex[0] == region.patch ? 0 : 1;
     return besideEnd(arc.edge, end, end == 1 ? i : count - i, count);
   }
 

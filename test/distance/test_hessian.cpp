@@ -243,8 +243,8 @@ TEST_CASE("The derivatives do not depend on the order of the bodies, whatever th
     const StpBv::Ptr a = body(R), b = body(i % 2 ? R : 1.0);
     const Isometry3d poseA = pose(random.rotation(), random.direction());
     Isometry3d poseB = pose(random.rotation(), 2 * random.direction());
-    poseB.translation() +=
-        (0.02 - distance(*a, poseA, *b, poseB).distance) * distance(*a, poseA, *b, poseB).normal;
+    const Distance far = distance(*a, poseA, *b, poseB);
+    poseB.translation() += (0.02 - far.distance) * far.normal;
     const Distance d = distance(*a, poseA, *b, poseB);
     Distance other = d;
     other.normal = -d.normal;
