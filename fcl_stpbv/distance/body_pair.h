@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <limits>
 
@@ -79,10 +80,13 @@ class BodyPair {
     return {tablesA_.vertexNear[n], tablesB_.vertexNear[opposite(n)]};
   }
 
+  /// A vertex of either body.
+  Packed vertexA(int vertex) const { return pack(tablesA_.patches.vertex(vertex).point); }
+  Packed vertexB(int vertex) const { return pose_.placed(pack(tablesB_.patches.vertex(vertex).point)); }
+
   /// Second body's vertex less the first one's: a point of the difference of the cores.
   Packed vertexDifference(const std::array<int, 2>& vertex) const {
-    return pose_.placed(pack(tablesB_.patches.vertex(vertex[1]).point)) -
-           pack(tablesA_.patches.vertex(vertex[0]).point);
+    return vertexB(vertex[1]) - vertexA(vertex[0]);
   }
 
   /// One about as far against `n`, of any length, as any: from the tables of directions alone.
@@ -112,6 +116,12 @@ class BodyPair {
   /// `rho` times that in metres, which is a part of the gap and turns the normal by as much. What starts from
   /// the vertices, which do not reach past theirs, is safe from it (m).
   double touching() const { return kTouching * acrossRounding_; }
+
+  /// How far the sample's normal is inside the regions of its patches, as a sine; negative outside.
+  double insideRegions(const Sample& s) const {
+    return -std::max(tablesA_.patches.crossing(s.patch[0], pack(s.n)).past,
+                     tablesB_.patches.crossing(s.patch[1], pack(opposite(s.n))).past);
+  }
 
   /// Whether the gap is as wide as it gets near the sample's normal: its gradient is rounding.
   bool isStationary(const Sample& s) const {

@@ -16,6 +16,7 @@
 
 #include "fcl_stpbv/distance/box_axes.h"
 #include "fcl_stpbv/distance/vertex_gjk.h"
+#include "fcl_stpbv/four_vectors.h"
 #include "fcl_stpbv/vectorized.h"
 
 namespace fcl_stpbv::detail {
@@ -35,12 +36,28 @@ struct Triangle {
     return height > 0.0 && height * height >= distance * distance * dot(m, m);
   }
 
-  /// Square of its plane's distance from the origin.
-  double distance2() const {
+  /// Its plane's distance from the origin.
+  double distance() const {
     const Packed m = normal();
-    const double height = dot(m, p);
-    return height * height / dot(m, m);
+    return std::abs(dot(m, p)) / std::sqrt(dot(m, m));
   }
+};
+
+/// The sides of a feature, from corner to corner, all at once; of three the first comes again as fourth.
+struct FeatureSides {
+  explicit FeatureSides(const FeatureCorners& c)
+      : three(c.count == 3),
+        from(four(c.point[0], c.point[1], c.point[2], c.point[three ? 0 : 3])),
+        to(next(from)) {}
+
+  /// Of each side's number that of the next side.
+  Packed next(const Packed& v) const {
+    return three ? __builtin_shufflevector(v, v, 1, 2, 0, 1) : __builtin_shufflevector(v, v, 1, 2, 3, 0);
+  }
+  FourVectors next(const FourVectors& v) const { return {next(v.x), next(v.y), next(v.z)}; }
+
+  bool three;
+  FourVectors from, to;
 };
 
 /// A patch's vertices, up to four of a face's.
@@ -122,15 +139,32 @@ bool closesOverBoxes(const BodyPair& pair, const Sample& top, const FeatureCorne
   if (axis.kind == BoxAxes::Axis::kinds || !axes.othersBeyond(axis, beyond) || axes.opposite(axis) < beyond)
     return false;
   const Triangle half{corners.point[0], corners.point[1], corners.point[2]};
-  return std::abs(std::sqrt(half.distance2()) - axes.overlap(axis)) <= kSame * size;
+  return std::abs(half.distance() - axes.overlap(axis)) <= kSame * size;
+}
+
+bool closesOver(const Packed& centre, double radius, const FeatureSides& sides, const Packed& n,
+                double depth) {
+  const FourVectors &p = sides.from, &q = sides.to, side = q - p, c = four(centre), toCentre = c - p;
+  const Packed side2 = dot(side, side);
+  const FourVectors in = toCentre - dot(toCentre, side) / side2 * side;
+  const Packed in2 = dot(in, in), tangent2 = in2 - radius * radius;
+  // Unit outward normals of the planes over the sides that touch the ball.
+  const FourVectors wall = 1.0 / in2 * (roots(tangent2 / side2) * cross(in, side) - (Packed{} + radius) * in);
+  if (!all((tangent2 > 0.0) & (dot(wall, p) >= depth))) return false;
+  // From wall to wall the cone's normals go along a circle, on which the planes' distance from the origin is
+  // a sine: the least is at an end unless the sine's own least is between them.
+  const FourVectors next = sides.next(wall), turn = cross(wall, next), across = cross(q, c);
+  const PackedBits rises = dot(wall, across) <= 0.0, falls = dot(next, across) >= 0.0,
+                   shortTurn = dot(turn, q - c) > 0.0;
+  return all((dot(turn, four(n)) < 0.0) & ((rises & falls) | (shortTurn & (rises | falls))));
 }
 
 }  // namespace
 
 FeatureCorners cornersAround(const BodyPair& pair, const Sample& top) {
   const Vertices a = verticesOf(pair.a(), top.patch[0]), b = verticesOf(pair.b(), top.patch[1]);
-  const auto onA = [&](std::size_t i) { return pair.patchA(a.index[i]).anchor; };
-  const auto onB = [&](std::size_t i) { return pair.patchB(b.index[i]).anchor; };
+  const auto onA = [&](std::size_t i) { return pair.vertexA(a.index[i]); };
+  const auto onB = [&](std::size_t i) { return pair.vertexB(b.index[i]); };
   FeatureCorners c;
   if (a.count == 2 && b.count == 2) {
     for (const std::size_t i : {0u, 1u, 3u, 2u}) c.point[c.count++] = onB(i / 2) - onA(i % 2);
@@ -147,7 +181,7 @@ FeatureCorners cornersAround(const BodyPair& pair, const Sample& top) {
   return c;
 }
 
-double onlyMaximumFrom(const BodyPair& pair, const Sample& top) {
+double onlyMaximumFrom(const BodyPair& pair, const Sample& top, double inside) {
   constexpr double kSafe = 1.1;    // second order
   constexpr double kLevel = 1e-7;  // rounding of a sine from its cosine
   const double depth = -top.core;
@@ -161,8 +195,6 @@ double onlyMaximumFrom(const BodyPair& pair, const Sample& top) {
                  rhoA = pair.a().radii().rho, rhoB = pair.b().radii().rho;
     radius = rhoA * rhoB * (1.0 - along * along) / (rhoA + rhoB);
   }
-  const double inside =
-      -std::max(pair.a().outside(top.patch[0], top.n), pair.b().outside(top.patch[1], pair.opposite(top.n)));
   const double sine = inside * radius / (kSafe * 2.0 * depth);
   if (!(sine > kLevel)) return std::numeric_limits<double>::infinity();
   return depth * std::sqrt(std::max(0.0, 1.0 - sine * sine));
@@ -171,49 +203,30 @@ double onlyMaximumFrom(const BodyPair& pair, const Sample& top) {
 FCL_STPBV_VECTORIZED
 bool closesOverBall(const Packed& centre, double radius, const FeatureCorners& corners, const Packed& n,
                     double depth) {
-  Packed wall[FeatureCorners::kMost];  // unit outward normal of the plane over a side that touches the ball
-  for (std::size_t i = 0; i < corners.count; ++i) {
-    const Packed &p = corners.point[i], side = corners.point[(i + 1) % corners.count] - p;
-    const double side2 = dot(side, side);
-    const Packed in = centre - p - dot(centre - p, side) / side2 * side;
-    const double in2 = dot(in, in), tangent2 = in2 - radius * radius;
-    if (!(tangent2 > 0.0)) return false;
-    wall[i] = (std::sqrt(tangent2 / side2) * cross(in, side) - radius * in) / in2;
-    if (!(dot(wall[i], p) >= depth)) return false;
-  }
-  for (std::size_t i = 0; i < corners.count; ++i) {
-    const std::size_t j = (i + 1) % corners.count;
-    const Packed &p = corners.point[j], turn = cross(wall[i], wall[j]);
-    if (!(dot(turn, n) < 0.0)) return false;
-    // From wall to wall the cone's normals go along a circle, on which the planes' distance from the origin
-    // is a sine: the least is at an end unless the sine's own least is between them.
-    const bool rises = dot(centre, cross(wall[i], p)) <= 0.0, falls = dot(centre, cross(wall[j], p)) >= 0.0,
-               halfTurn = !(dot(turn, p - centre) > 0.0);
-    if (!(halfTurn ? rises && falls : rises || falls)) return false;
-  }
-  return true;
+  return closesOver(centre, radius, FeatureSides(corners), n, depth);
 }
 
 FCL_STPBV_VECTORIZED
-bool provesWidest(const BodyPair& pair, const Sample& top, const FeatureCorners& corners, double from,
-                  double& bound) {
+WidestProof proveWidest(const BodyPair& pair, const Sample& top, double inside) {
+  WidestProof proof{cornersAround(pair, top), onlyMaximumFrom(pair, top, inside)};
   const double depth = -top.core - pair.gapRounding();
-  const auto& [corner, count] = corners;
-  if (count == 0 || !(depth > 0.0)) return false;
+  if (proof.corners.count == 0 || !(depth > 0.0)) return proof;
   const Packed n = pack(top.n), summit = top.core * n + pack(top.across);
-  double least2 = depth * depth;
-  for (std::size_t i = 0; i < count; ++i) {
-    const Triangle side{corner[i], corner[(i + 1) % count], summit};
-    if (!side.beyond((1.0 - kClose) * depth)) return false;
-    least2 = std::min(least2, side.distance2());
-  }
-  if (!(least2 > from * from)) return false;
+  const FeatureSides sides(proof.corners);
+  const FourVectors normal = cross(sides.to - sides.from, four(summit) - sides.from);
+  const Packed height = dot(normal, sides.from), far2 = height * height / dot(normal, normal);
+  const double close = (1.0 - kClose) * depth;
+  if (!all((height > 0.0) & (far2 >= close * close))) return proof;
+  const double least = std::min(depth, std::sqrt(-largest(-far2)));
+  if (!(least > proof.onlyFrom)) return proof;
   const double innerRadius = pair.a().innerRadius() + pair.b().innerRadius();
-  if (!closesOverBall(pair.centreDifference(), innerRadius, corners, n, depth) &&
-      !closesOverBoxes(pair, top, corners, depth) && !closesWithTriangles(pair, corners, n, depth))
-    return false;
-  bound = -std::sqrt(least2);
-  return true;
+  if (!closesOver(pair.centreDifference(), innerRadius, sides, n, depth) &&
+      !closesOverBoxes(pair, top, proof.corners, depth) &&
+      !closesWithTriangles(pair, proof.corners, n, depth))
+    return proof;
+  proof.proven = true;
+  proof.bound = -least;
+  return proof;
 }
 
 }  // namespace fcl_stpbv::detail

@@ -25,21 +25,27 @@ FeatureCorners cornersAround(const BodyPair& pair, const Sample& top);
 /// Least distance from the origin of a triangle with the point of `top` for a corner, outside whose plane no
 /// other maximum, less deep, has room; infinite where there is none (m). Its own point would be as near to
 /// the origin, so within `2 depth sin(a)` of the top's, `cos(a) = distance / depth`; all that is so near must
-/// belong to the top's own patches, which have one maximum.
-double onlyMaximumFrom(const BodyPair& pair, const Sample& top);
+/// belong to the top's own patches, which have one maximum. `inside`: of their regions (insideRegions).
+double onlyMaximumFrom(const BodyPair& pair, const Sample& top, double inside);
+
+/// Whether a maximum is the widest gap, and what a search needs that goes on from it.
+struct WidestProof {
+  FeatureCorners corners;  ///< cornersAround
+  double onlyFrom = 0;     ///< onlyMaximumFrom
+  bool proven = false;     ///< along no normal is the gap of the cores more than `bound` (m, negative)
+  double bound = 0;
+};
 
 /// Closes a surface around the origin: from the maximum to the corners of its feature, and from
 /// there over a ball inside, over the other sides of two boxes' difference, or in a dozen triangles
 /// to points beyond the corners and one behind.
 /// All of it lies in the difference of the cores, which is convex, so no direction leads out of it sooner
-/// than through the nearest plane. True where that is one at the top and leaves no room for another
-/// maximum, which `from` tells (onlyMaximumFrom); along no normal is the gap of the cores then more than
-/// `bound` (m, negative). `corners` are those around the top.
+/// than through the nearest plane. Proven where that is one at the top and leaves no room for another
+/// maximum.
 ///
 /// The points only have to put the origin on the inner side of every triangle: then
 /// each ray from the origin meets the surface.
-bool provesWidest(const BodyPair& pair, const Sample& top, const FeatureCorners& corners, double from,
-                  double& bound);
+WidestProof proveWidest(const BodyPair& pair, const Sample& top, double inside);
 
 /// Closes a surface around the origin from the corners of a maximum's feature over a ball that the difference
 /// holds: from each side of the feature along the plane that touches the ball, from each corner along the

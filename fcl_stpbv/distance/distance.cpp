@@ -133,7 +133,7 @@ struct SearchState {
 /// Settles on a patch pair near the given one: over the region boundary that the widest normal passes
 /// furthest, on either body, to the next pair, without evaluating the gap. Between cores apart, a maximum
 /// that it finds is the only one. If it finds none, that proves nothing.
-bool walkFeatures(const BodyPair& pair, const SearchStart& start, Sample& x, SearchWork& work) {
+bool walkFeatures(const BodyPair& pair, const SearchStart& start, WidestGap& found, SearchWork& work) {
   constexpr int kTries = 12;    // one to three are usual
   constexpr double kFar = 0.3;  // cosine of the turn after which the boundary passed furthest says little
   SearchState at{start.patch, pair.patchA(start.patch[0]), pair.patchB(start.patch[1]), pack(start.n),
@@ -148,10 +148,14 @@ bool walkFeatures(const BodyPair& pair, const SearchStart& start, Sample& x, Sea
     const Crossing overA = pair.tablesA().patches.crossing(at.patch[0], to.d, to.length),
                    overB = pair.tablesB().patches.crossing(at.patch[1], pair.opposite(to.d), to.length);
     const bool straysFar = !(dot(to.d, at.n) > kFar * to.length);
-    if (std::max(overA.past, overB.past) <= kOnBoundary * to.length) {
+    const double past = std::max(overA.past, overB.past);
+    if (past <= kOnBoundary * to.length) {
       at.n = to.unit();
-      x = BodyPair::sample(at.n, at.patch, at.a, at.b);
-      if (pair.isStationary(x)) return true;
+      found.at = BodyPair::sample(at.n, at.patch, at.a, at.b);
+      if (pair.isStationary(found.at)) {
+        if (found.at.core < 0.0) found.inside = -past / to.length;
+        return true;
+      }
       continue;  // two tori may need a second go for the last digits
     }
     ++work.steps;
@@ -189,7 +193,7 @@ Distance distance(const StpBv& a, const Isometry3d& poseA, const StpBv& b, const
   const SearchStart start = startOf(pair, pose.toWorld, cache);
   WidestGap found;
   SearchWork work;
-  const bool settled = walkFeatures(pair, start, found.at, work);
+  const bool settled = walkFeatures(pair, start, found, work);
   if (settled && start.near) {  // what is around a patch that stays has been fetched
     if (found.at.patch[0] != cache->patch[0]) a.tables().patches.prefetchAround(found.at.patch[0]);
     if (found.at.patch[1] != cache->patch[1]) b.tables().patches.prefetchAround(found.at.patch[1]);

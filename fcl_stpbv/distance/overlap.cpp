@@ -104,7 +104,8 @@ class CoreEpa {
     const bool better = trial.core > x_.core;
     if (better) x_ = trial;
     if (open <= pair_.gapRounding() || (top && open <= kClose * nearest.distance) ||
-        !((another && better && addTop(onlyMaximumFrom(pair_, x_))) || polytope_.expand(point)))
+        !((another && better && addTop(onlyMaximumFrom(pair_, x_, pair_.insideRegions(x_)))) ||
+          polytope_.expand(point)))
       putAside(nearest);
     return true;
   }
@@ -164,11 +165,14 @@ bool expandPolytope(const BodyPair& pair, const std::array<Vector3d, 4>& corner,
 }
 
 FCL_STPBV_VECTORIZED
-bool expandPolytope(const BodyPair& pair, Sample& x, double& bound, SearchWork& work) {
+bool expandPolytope(const BodyPair& pair, double inside, Sample& x, double& bound, SearchWork& work) {
   const bool top = pair.isStationary(x);
-  const FeatureCorners known = cornersAround(pair, x);
-  const double from = top ? onlyMaximumFrom(pair, x) : 0.0;
-  if (top && provesWidest(pair, x, known, from, bound)) return true;
+  const WidestProof proof = top ? proveWidest(pair, x, inside) : WidestProof{cornersAround(pair, x)};
+  if (proof.proven) {
+    bound = proof.bound;
+    return true;
+  }
+  const FeatureCorners& known = proof.corners;
   const std::array<Vector3d, 3> m = around(x.n);
   std::array<Vector3d, 4> corner;
   for (std::size_t i = 0; i < 3; ++i) corner[i] = unpack(pair.differenceAgainst(x.n - kRing * m[i]));
@@ -176,7 +180,7 @@ bool expandPolytope(const BodyPair& pair, Sample& x, double& bound, SearchWork& 
   CoreEpa search(pair, corner, Polytope::Origin::anywhere, x, work);
   for (std::size_t i = 0; i < known.count; ++i) search.add(unpack(known.point[i]));
   if (top)
-    search.addTop(from);
+    search.addTop(proof.onlyFrom);
   else if (known.count == 0)
     search.add(vertexDifference(pair, x.n));
   if (search.run(bound)) return true;

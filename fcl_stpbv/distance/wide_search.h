@@ -1,5 +1,4 @@
-// The whole search for the widest gap, for pairs where hopping from patch
-// pair to patch pair does not get there.
+// The whole search for the widest gap, for pairs where the feature walk does not get there.
 #pragma once
 
 #include "fcl_stpbv/distance/ascent.h"
@@ -11,7 +10,8 @@ namespace fcl_stpbv::detail {
 struct WidestGap {
   Sample at;
   DistanceStatus status = DistanceStatus::exact;
-  double bound = 0.0;  ///< for cores that overlap: along no normal is their gap wider (m)
+  double bound = 0.0;   ///< for cores that overlap: along no normal is their gap wider (m)
+  double inside = 0.0;  ///< of a maximum: how far its normal is inside the regions of its patches (a sine)
 };
 
 /// Where a search starts.
