@@ -1,7 +1,7 @@
 // The optimality certificate of a maximum between overlapping cores (docs/theory.md, 5, "Deeper").
 //
 // 1. A side: triangles from the maximum's own point to the corners of the feature that it is on. They are as
-//    far from the origin as the maximum is deep, but for a part that leaves no room for another maximum.
+//    far from the origin as the maximum is deep, but for a part that leaves no room for a wider gap.
 // 2. From the sides of that feature a closed surface over a ball inside both cores, or where the
 //    ball is too small over the other sides of the difference of two boxes, or a dozen triangles
 //    to points beyond the corners and one behind.
@@ -159,6 +159,20 @@ bool closesOver(const Packed& centre, double radius, const FeatureSides& sides, 
   return all((dot(turn, four(n)) < 0.0) & ((rises & falls) | (shortTurn & (rises | falls))));
 }
 
+/// Least radius of curvature of the difference's surface where two patches own its normals, at least (m).
+double leastRadius(const BodyPair& pair, const std::array<int, 2>& patch) {
+  const PatchKind a = pair.tablesA().patches.kind(patch[0]), b = pair.tablesB().patches.kind(patch[1]);
+  const double rhoA = pair.a().radii().rho, rhoB = pair.b().radii().rho;
+  if (a != PatchKind::edge || b != PatchKind::edge)
+    return (a == PatchKind::face ? rhoA : 0.0) + (b == PatchKind::face ? rhoB : 0.0);
+  // Each edge bends with rho along itself. A normal leans along an edge by at most its sine, which brings the
+  // two directions across the normal that much nearer to each other than the edges are.
+  const PosedPatch edgeA = pair.patchA(patch[0]), edgeB = pair.patchB(patch[1]);
+  const double along = std::abs(dot(edgeA.axis, edgeB.axis)) + edgeA.sine * edgeB.sine,
+               across2 = (1.0 - edgeA.sine * edgeA.sine) * (1.0 - edgeB.sine * edgeB.sine);
+  return std::max(0.0, rhoA * rhoB * (across2 - along * along) / ((rhoA + rhoB) * across2));
+}
+
 }  // namespace
 
 FeatureCorners cornersAround(const BodyPair& pair, const Sample& top) {
@@ -182,22 +196,14 @@ FeatureCorners cornersAround(const BodyPair& pair, const Sample& top) {
 }
 
 double onlyMaximumFrom(const BodyPair& pair, const Sample& top, double inside) {
-  constexpr double kSafe = 1.1;    // second order
+  constexpr double kInside = 0.7;  // rad; `inside` is an angle or its sine,
+  constexpr double kSafe = 1.1;    // which differ by less up to there, rounding included
   constexpr double kLevel = 1e-7;  // rounding of a sine from its cosine
-  const double depth = -top.core;
-  // Least radius of curvature of the difference there, at least.
-  const auto onFace = [&](const StpBv& body, int patch) {
-    return body.kind(patch) == PatchKind::face ? body.radii().rho : 0.0;
-  };
-  double radius = onFace(pair.a(), top.patch[0]) + onFace(pair.b(), top.patch[1]);
-  if (pair.a().kind(top.patch[0]) == PatchKind::edge && pair.b().kind(top.patch[1]) == PatchKind::edge) {
-    const double along = dot(pair.patchA(top.patch[0]).axis, pair.patchB(top.patch[1]).axis),
-                 rhoA = pair.a().radii().rho, rhoB = pair.b().radii().rho;
-    radius = rhoA * rhoB * (1.0 - along * along) / (rhoA + rhoB);
-  }
-  const double sine = inside * radius / (kSafe * 2.0 * depth);
-  if (!(sine > kLevel)) return std::numeric_limits<double>::infinity();
-  return depth * std::sqrt(std::max(0.0, 1.0 - sine * sine));
+  constexpr double kMost = 0.6;    // below the sine of an eighth of a turn, to which the proof holds
+  const double depth = -top.core, radius = leastRadius(pair, top.patch);
+  const double sine = std::min(std::min(inside, kInside) * radius / (kSafe * 2.0 * depth), kMost);
+  if (!(sine > kLevel && radius >= depth)) return std::numeric_limits<double>::infinity();
+  return depth * std::sqrt(1.0 - sine * sine);
 }
 
 FCL_STPBV_VECTORIZED
@@ -215,17 +221,14 @@ WidestProof proveWidest(const BodyPair& pair, const Sample& top, double inside) 
   const FeatureSides sides(proof.corners);
   const FourVectors normal = cross(sides.to - sides.from, four(summit) - sides.from);
   const Packed height = dot(normal, sides.from), far2 = height * height / dot(normal, normal);
-  const double close = (1.0 - kClose) * depth;
-  if (!all((height > 0.0) & (far2 >= close * close))) return proof;
-  const double least = std::min(depth, std::sqrt(-largest(-far2)));
-  if (!(least > proof.onlyFrom)) return proof;
+  if (!all((height > 0.0) & (far2 > proof.onlyFrom * proof.onlyFrom))) return proof;
   const double innerRadius = pair.a().innerRadius() + pair.b().innerRadius();
   if (!closesOver(pair.centreDifference(), innerRadius, sides, n, depth) &&
       !closesOverBoxes(pair, top, proof.corners, depth) &&
       !closesWithTriangles(pair, proof.corners, n, depth))
     return proof;
   proof.proven = true;
-  proof.bound = -least;
+  proof.bound = -depth;
   return proof;
 }
 

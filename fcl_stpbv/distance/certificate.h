@@ -7,9 +7,6 @@
 
 namespace fcl_stpbv::detail {
 
-/// Fraction of the depth by which a bound may fall short of it.
-constexpr double kClose = 1e-3;
-
 /// Up to four points of the difference of the two cores, second less first.
 struct FeatureCorners {
   static constexpr std::size_t kMost = 4;
@@ -22,10 +19,9 @@ struct FeatureCorners {
 /// vertex nearest to the maximum. None of other features, which are rarely one.
 FeatureCorners cornersAround(const BodyPair& pair, const Sample& top);
 
-/// Least distance from the origin of a triangle with the point of `top` for a corner, outside whose plane no
-/// other maximum, less deep, has room; infinite where there is none (m). Its own point would be as near to
-/// the origin, so within `2 depth sin(a)` of the top's, `cos(a) = distance / depth`; all that is so near must
-/// belong to the top's own patches, which have one maximum. `inside`: of their regions (insideRegions).
+/// A triangle with the point of the maximum `top` for a corner hides no wider gap where its plane is further
+/// from the origin than this (m); infinite where nothing is known. `inside`: of the regions of its patches
+/// (insideRegions). The proof is in docs/theory.md, 5, "Deeper".
 double onlyMaximumFrom(const BodyPair& pair, const Sample& top, double inside);
 
 /// Whether a maximum is the widest gap, and what a search needs that goes on from it.
@@ -40,8 +36,7 @@ struct WidestProof {
 /// there over a ball inside, over the other sides of two boxes' difference, or in a dozen triangles
 /// to points beyond the corners and one behind.
 /// All of it lies in the difference of the cores, which is convex, so no direction leads out of it sooner
-/// than through the nearest plane. Proven where that is one at the top and leaves no room for another
-/// maximum.
+/// than through the nearest plane. Proven where that is one at the top and hides no wider gap.
 ///
 /// The points only have to put the origin on the inner side of every triangle: then
 /// each ray from the origin meets the surface.

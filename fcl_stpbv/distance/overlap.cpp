@@ -4,8 +4,7 @@
 // 1. A maximum that carries its own certificate needs no more (certificate.h).
 // 2. Else a polytope grows from points around it. Far from the surface, vertices that the tables of
 //    directions name will do; near it, the smooth surface's own point, and the maximum of the patches there.
-// 3. A face that the maximum found leaves no room beyond is put aside. The
-//    rest of the polytope bounds the depth.
+// 3. A face at the maximum that hides no wider gap is put aside. The rest of the polytope bounds the depth.
 // 4. Where rounding stops that, the best of the maxima from a fixed set of normals stands, without a bound.
 #include "fcl_stpbv/distance/overlap.h"
 
@@ -27,6 +26,9 @@ namespace {
 
 /// Where the polytope is this much of the depth from the surface, a maximum is likely to be next to it.
 constexpr double kNear = 0.03;
+
+/// Fraction of the depth by which the bound may fall short of it.
+constexpr double kClose = 1e-3;
 
 /// Tilt from the start's normal of those whose points the polytope begins with (rad).
 constexpr double kRing = 0.8;
@@ -50,7 +52,7 @@ class CoreEpa {
           SearchWork& work)
       : pair_(pair), polytope_(corner, origin), x_(x), work_(work) {}
 
-  /// Takes in the point of the maximum in `x`, where a face further than `from` leaves no room for another.
+  /// Takes in the point of the maximum in `x`, where a face further than `from` hides no wider gap.
   bool addTop(double from) {
     if (!add(furthest(x_))) return false;
     top_ = polytope_.lastPoint();
@@ -65,12 +67,11 @@ class CoreEpa {
     bool proven = false;
     expandAtNearest(polytope_, [&](const Polytope::Face& nearest) {
       // The polytope lies inside the difference, so with the origin inside it no direction leads out sooner.
-      bound = -std::max(0.0, std::min(least_, nearest.distance));
+      bound = -std::max(0.0, std::min({least_, nearest.distance, -x_.core - pair_.gapRounding()}));
       proven = -x_.core - nearest.distance <= pair_.gapRounding();
       if (proven) return false;
-      if (nearest.has(top_) && -x_.core - nearest.distance <= kClose * nearest.distance &&
-          nearest.distance > topFrom_) {
-        putAside(nearest);
+      if (nearest.has(top_) && nearest.distance > topFrom_) {
+        polytope_.putAside();
         return true;
       }
       return expandToVertex(nearest) || expandToSurface(nearest);
@@ -120,7 +121,7 @@ class CoreEpa {
   Sample& x_;
   SearchWork& work_;
   Polytope::Index top_ = Polytope::kNone;                     // point of a maximum
-  double topFrom_ = std::numeric_limits<double>::infinity();  // of a face there that leaves no room beyond
+  double topFrom_ = std::numeric_limits<double>::infinity();  // of a face there that hides no wider gap
   double least_ = std::numeric_limits<double>::infinity();    // distance of the faces done with
 };
 

@@ -29,7 +29,7 @@ struct Body {
   std::map<double, StpBv::Ptr> volume;  // by R
 };
 
-const std::array<double, 3> kBigRadii{1, 10, 100};
+const std::array<double, 4> kBigRadii{0.32, 1, 10, 100};  // the first barely enough
 
 std::vector<Body> bodies() {
   std::vector<Body> all;
@@ -218,7 +218,7 @@ int main(int argc, char** argv) {
   for (int i = 0; i < count;) {
     const Body& a = all[static_cast<std::size_t>(random.below(static_cast<int>(all.size())))];
     const Body& b = all[static_cast<std::size_t>(random.below(static_cast<int>(all.size())))];
-    const double R = kBigRadii[static_cast<std::size_t>(random.below(3))];
+    const double R = kBigRadii[static_cast<std::size_t>(random.below(static_cast<int>(kBigRadii.size())))];
     const StpBv &va = *a.volume.at(R), &vb = *b.volume.at(R);
     // A quarter aligned, a quarter nearly so; from contact's depth to one centre on the other.
     Eigen::Matrix3d turn = random.rotation();

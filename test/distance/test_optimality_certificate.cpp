@@ -204,3 +204,21 @@ TEST_CASE("What an answer for two boxes proves holds for the maximum on the othe
     CHECK(other.upper >= d.distance);
   }
 }
+
+TEST_CASE("A depth that the certificate proves is known to rounding") {
+  Random some(10);
+  const StpBv::Ptr a = StpBv::build(geodesicSphere(0.2, 2), {0.01, 10.0}),
+                   b = StpBv::build(box(0.3, 0.2, 0.1), {0.01, 10.0});
+  int overlaps = 0, tight = 0;
+  for (int i = 0; i < 1000; ++i) {
+    const Eigen::Isometry3d still = fcl_stpbv::test::pose(some.rotation(), some.direction()),
+                            at = still * fcl_stpbv::test::pose(some.rotation(), 0.22 * some.direction());
+    const Distance d = distance(*a, still, *b, at);
+    if (d.status != DistanceStatus::local) continue;
+    ++overlaps;
+    tight += d.upper - d.lower < 1e-12;  // a hundred roundings of a metre, and of R across
+    CHECK(d.upper - d.lower < 1e-3 * -d.distance);
+  }
+  CHECK(overlaps > 500);
+  CHECK(2 * tight > overlaps);
+}
