@@ -5,9 +5,12 @@
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <utility>
 
 #include "fcl_stpbv/robot/file_ending.h"
 #include "fcl_stpbv/robot/mesh_file.h"
+#include "fcl_stpbv/robot/uri_text.h"
 
 namespace fcl_stpbv::tools {
 namespace {
@@ -38,6 +41,12 @@ bool sameFile(const fs::path& a, const fs::path& b) {
   return !place(a).empty() && place(a) == place(b);  // empty where it cannot be told
 }
 
+// Written straight (atomic_write.h), so that nothing is replaced, whatever file may be behind it.
+bool isDescriptor(const fs::path& path) {
+  const fs::path folder = path.parent_path();
+  return path == kStandardOutput || path == "/dev/stderr" || folder == "/dev/fd" || folder == "/proc/self/fd";
+}
+
 // Those of a glTF that are files of their own. What is wrong with it is told when it is loaded.
 std::vector<std::string> buffersOf(const std::string& mesh) {
   std::vector<std::string> files;
@@ -47,8 +56,48 @@ std::vector<std::string> buffersOf(const std::string& mesh) {
   if (!json.is_object() || !json.contains("buffers") || !json["buffers"].is_array()) return files;
   for (const auto& buffer : json["buffers"])
     if (buffer.is_object() && buffer.contains("uri") && buffer["uri"].is_string())
-      files.push_back((fs::path(mesh).parent_path() / buffer["uri"].get<std::string>()).string());
+      for (const std::string& name : detail::namesOf(buffer["uri"].get<std::string>()))
+        files.push_back((fs::path(mesh).parent_path() / name).string());
   return files;
+}
+
+// What reading the inputs opens. Found out once, when it is asked for: glTFs are parsed for it.
+class InputFiles {
+ public:
+  explicit InputFiles(const std::vector<std::string>& inputs) : inputs_(inputs) {}
+
+  // That writing `target` would replace none of them.
+  void spare(const std::string& option, const std::string& target) {
+    if (!isRegular(target) || isDescriptor(target)) return;
+    if (!files_) files_ = found();
+    for (const std::string& file : *files_)
+      if (sameFile(target, file))
+        throw UsageError(target + ": is an input, and writing would replace it; give " + option +
+                         " another name");
+  }
+
+ private:
+  std::vector<std::string> found() const {
+    std::vector<std::string> files;
+    for (const std::string& input : inputs_) {
+      files.push_back(input == "-" ? "/dev/stdin" : input);
+      for (std::string& buffer : buffersOf(input)) files.push_back(std::move(buffer));
+    }
+    return files;
+  }
+
+  const std::vector<std::string>& inputs_;
+  std::optional<std::vector<std::string>> files_;
+};
+
+void checkTarget(const std::string& option, const std::string& target, InputFiles& inputs, bool force) {
+  if (isDescriptor(target)) return;
+  if (isFolder(target)) throw UsageError(target + ": is a folder, expected the name of a file to write");
+  inputs.spare(option, target);
+  if (isRegular(target) && !force)
+    throw UsageError(target + ": exists already; give --force to replace it, or another name");
+  const fs::path parent = fs::path(target).parent_path();
+  if (isFile(parent)) throw UsageError(parent.string() + ": is a file, expected a folder to write to");
 }
 
 void checkValues(const ConversionOptions& options) {
@@ -64,16 +113,9 @@ void checkPreview(const std::vector<std::string>& inputs, const std::string& pre
     throw UsageError("--preview " + preview + ": end the name in .obj, .stl, .ply or .glb");
 }
 
-// Written straight (atomic_write.h), so that nothing is replaced, whatever file may be behind it.
-bool isDescriptor(const fs::path& path) {
-  const fs::path folder = path.parent_path();
-  return path == kStandardOutput || path == "/dev/stderr" || folder == "/dev/fd" || folder == "/proc/self/fd";
-}
-
 // Of one that may become the volume of a part.
-void checkPartName(const std::string& name, const std::vector<std::string>& inputs,
-                   const std::string& preview) {
-  requireNoInput("-o", name, inputs);
+void checkPartName(const std::string& name, InputFiles& inputs, const std::string& preview) {
+  inputs.spare("-o", name);
   if (!preview.empty() && sameFile(preview, name))
     throw UsageError("--preview " + preview + ": is the name of a part's volume; give another name");
 }
@@ -98,26 +140,13 @@ std::vector<Job> jobsInto(const std::string& folder, const std::vector<std::stri
 
 void requireNoInput(const std::string& option, const std::string& target,
                     const std::vector<std::string>& inputs) {
-  if (!isRegular(target) || isDescriptor(target)) return;
-  for (const std::string& input : inputs) {
-    std::vector<std::string> read = buffersOf(input);
-    read.push_back(input == "-" ? "/dev/stdin" : input);
-    for (const std::string& file : read)
-      if (sameFile(target, file))
-        throw UsageError(target + ": is an input, and writing would replace it; give " + option +
-                         " another name");
-  }
+  InputFiles(inputs).spare(option, target);
 }
 
 void checkTarget(const std::string& option, const std::string& target, const std::vector<std::string>& inputs,
                  bool force) {
-  if (isDescriptor(target)) return;
-  if (isFolder(target)) throw UsageError(target + ": is a folder, expected the name of a file to write");
-  requireNoInput(option, target, inputs);
-  if (isRegular(target) && !force)
-    throw UsageError(target + ": exists already; give --force to replace it, or another name");
-  const fs::path parent = fs::path(target).parent_path();
-  if (isFile(parent)) throw UsageError(parent.string() + ": is a file, expected a folder to write to");
+  InputFiles files(inputs);
+  checkTarget(option, target, files, force);
 }
 
 std::string nameOfPart(const std::string& output, int part) {
@@ -154,16 +183,17 @@ Plan plan(const std::vector<std::string>& inputs, const std::string& output, con
   } else {
     plan.jobs = {{inputs[0], output}};
   }
+  InputFiles files(inputs);
   for (const Job& job : plan.jobs) {
-    checkTarget("-o", job.output, inputs, force);
+    checkTarget("-o", job.output, files, force);
     for (int part = 0; options.parts && part < options.parts->most; ++part)
-      checkPartName(nameOfPart(job.output, part), inputs, options.preview);
+      checkPartName(nameOfPart(job.output, part), files, options.preview);
   }
 
   std::vector<std::string> named;
   if (plan.folder.empty()) named.push_back(plan.jobs[0].output);
   if (!options.preview.empty()) {
-    checkTarget("--preview", options.preview, inputs, force);
+    checkTarget("--preview", options.preview, files, force);
     if (sameFile(options.preview, plan.jobs[0].output)) {
       throw UsageError("--preview " + options.preview +
                        ": is the name of the volume itself; give another name");

@@ -80,7 +80,7 @@ PartsReport convertToParts(const std::string& input, const std::string& output,
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   for (std::size_t k = 0; k < report.volumes.size(); ++k) {
     report.outputs.push_back(nameOfPart(output, static_cast<int>(k)));
-    checkTarget("-o", report.outputs.back(), {input}, force);
+    checkTarget("-o", report.outputs.back(), {}, force);  // it is no input: plan()
   }
   return report;
 }

@@ -72,7 +72,7 @@ void describe(Program& app, Arguments& a) {
 std::string written(const CollisionReport& report, const Arguments& a) {
   if (a.format == "json") return toJson(report);
   if (a.format == "csv") return toCsv(report);
-  if (a.format == "srdf") return toSrdfText(report, a.robot.files.srdf, a.search.disableDefault);
+  if (a.format == "srdf") return toSrdfText(report, a.search.disableDefault);
   if (a.format == "html") return toHtml(report);
   return toText(report, a.top);
 }

@@ -4,10 +4,12 @@
 #include <fcl/geometry/shape/box.h>
 
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <string>
 #include <vector>
 
+#include "docs/examples/named.h"
 #include "docs/examples/reported.h"
 #include "fcl_stpbv/robot/srdf.h"
 #include "fcl_stpbv/robot/velocity_damper.h"
@@ -30,7 +32,7 @@ struct Robot {
   std::shared_ptr<const RobotModel> model;
   std::shared_ptr<const Kinematics> kinematics;
   VectorXd start;
-  int coordinate(const std::string& joint) const { return kinematics->coordinate(joint); }
+  int coordinate(const std::string& joint) const { return coordinateOf(*kinematics, joint); }
 };
 
 Robot load() {
@@ -52,7 +54,7 @@ Body held(const Robot& robot, const std::string& link, bool smooth) {
   Kinematics::State state = robot.kinematics->makeState();
   robot.kinematics->forward(robot.start, state);
   Body box;
-  box.link = robot.model->link(link);
+  box.link = linkOf(*robot.model, link);
   const Eigen::Isometry3d& hand = state.link[static_cast<std::size_t>(box.link)];
   box.name = link + "'s box";
   box.pose = hand.inverse() * Eigen::Translation3d(hand * Vector3d(0, 0, -0.12));
@@ -123,8 +125,15 @@ std::string curve(const std::vector<Tick>& ticks, double Tick::*value, double mo
   return std::string("<polyline fill='none' stroke='") + colour + "' points='" + points + "'/>";
 }
 
-int show(const std::vector<Tick>& smooth, const std::vector<Tick>& flat, const std::string& folder) {
-  std::ofstream csv(folder + "/controller.csv"), page(folder + "/controller.html");
+/// Before the work, so that a folder that is not there is told at once.
+std::ofstream opened(const std::filesystem::path& path) {
+  std::ofstream file(path);
+  if (!file) throw Error(path.string() + ": cannot be written; name a folder that is there");
+  return file;
+}
+
+bool show(const std::vector<Tick>& smooth, const std::vector<Tick>& flat, std::ostream& csv,
+          std::ostream& page) {
   csv << "seconds,distance,distance_boxes,acceleration,acceleration_boxes\n";
   double peak = 0, peakFlat = 0, least = 1;
   for (std::size_t i = 0; i < smooth.size(); ++i) {
@@ -146,15 +155,17 @@ int show(const std::vector<Tick>& smooth, const std::vector<Tick>& flat, const s
   picture("Largest joint acceleration (rad/s²)", &Tick::fastest, 20);
   std::printf("peak acceleration %.3g rad/s^2 on STP-BVs, %.3g on boxes; %.4f m kept\n", peak, peakFlat,
               least);
-  const bool good = peakFlat > 10 * peak && least > 0.0099;
-  return csv.flush() && page.flush() && good ? 0 : 1;
+  if (!csv.flush() || !page.flush()) throw Error("controller.csv or controller.html could not be written");
+  return peakFlat > 10 * peak && least > 0.0099;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   return reported([&] {
+    const std::filesystem::path folder = argc > 1 ? argv[1] : ".";
+    std::ofstream csv = opened(folder / "controller.csv"), page = opened(folder / "controller.html");
     const Robot robot = load();
-    return show(run(robot, true), run(robot, false), argc > 1 ? argv[1] : ".");
+    return show(run(robot, true), run(robot, false), csv, page) ? 0 : 1;
   });
 }

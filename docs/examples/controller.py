@@ -81,12 +81,14 @@ def run(urdf, r, R, margin):
 
 
 def main(project, folder):
+    path = pathlib.Path(folder) / "controller_py.csv"
+    path.touch()  # a folder that is not there is told at once
     with tempfile.TemporaryDirectory() as place:
         urdf = pathlib.Path(place) / "boxes.urdf"
         urdf.write_text(with_boxes(f"{project}/data/hrp2_style/hrp2_style.urdf"))
         smooth, sharp = run(str(urdf), 0.01, 10, 0), run(str(urdf), 1e-6, 1000, 0.01)
     times = np.arange(len(smooth)) * PERIOD
-    np.savetxt(f"{folder}/controller_py.csv", np.column_stack([times, smooth, sharp]), delimiter=",", comments="",
+    np.savetxt(path, np.column_stack([times, smooth, sharp]), delimiter=",", comments="",
                header="seconds,distance,acceleration,distance_sharp,acceleration_sharp")
     peak, peak_sharp = smooth[500:, 1].max(), sharp[500:, 1].max()  # without the start from rest
     print(f"peak acceleration {peak:.3g} rad/s^2 on smooth bodies, {peak_sharp:.3g} on sharp ones; {smooth[:, 0].min():.4f} m kept")
@@ -94,4 +96,4 @@ def main(project, folder):
 
 
 if __name__ == "__main__":
-    sys.exit(main(*sys.argv[1:3]))
+    sys.exit(main(*sys.argv[1:]) if len(sys.argv) == 3 else __doc__)

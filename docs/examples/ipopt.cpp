@@ -7,6 +7,7 @@
 #include <IpTNLP.hpp>
 #include <cstdio>
 
+#include "docs/examples/named.h"
 #include "docs/examples/reported.h"
 #include "fcl_stpbv/robot/constraints.h"
 #include "fcl_stpbv/robot/srdf.h"
@@ -119,13 +120,13 @@ int run() {
   const auto kinematics = std::make_shared<const Kinematics>(robot);
   VectorXd q = kinematics->configuration(loadSrdf("hrp2_style.srdf", *robot).state("half_sitting"));
   const auto set = [&](VectorXd& to, const char* joint, double angle) {
-    to[kinematics->coordinate(joint)] = angle;
+    to[coordinateOf(*kinematics, joint)] = angle;
   };
   set(q, "LARM_JOINT0", -0.6);
   set(q, "LARM_JOINT3", -1.2);
   Kinematics::State state = kinematics->makeState();
   kinematics->forward(q, state);
-  const int hand = robot->link("LARM_LINK5");
+  const int hand = linkOf(*robot, "LARM_LINK5");
   const Eigen::Isometry3d& at = state.link[static_cast<std::size_t>(hand)];
   const Eigen::Vector3d centre = at * Eigen::Vector3d(0, 0, -0.16);
   const Eigen::Isometry3d pose = at.inverse() * Eigen::Isometry3d(Eigen::Translation3d(centre));

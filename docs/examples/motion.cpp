@@ -1,6 +1,7 @@
 // What docs/motion.md shows, for the robot in data/hrp2_style: run in that folder.
 #include <cstdio>
 
+#include "docs/examples/named.h"
 #include "docs/examples/reported.h"
 #include "fcl_stpbv/robot/motion_check.h"
 
@@ -15,7 +16,7 @@ int run() {
   const auto kinematics = std::make_shared<const Kinematics>(robot);
   const Eigen::VectorXd q0 = kinematics->neutral();
   Eigen::VectorXd q1 = q0;
-  q1[kinematics->coordinate("RARM_JOINT1")] -= 0.3;
+  q1[coordinateOf(*kinematics, "RARM_JOINT1")] -= 0.3;
   // clang-format off
 MotionCheck check(kinematics, geometry, selfPairs(*robot, *geometry, nullptr));
 const bool free = check.isMotionFree(q0, q1, 0.01);             // nowhere a pair within 1 cm

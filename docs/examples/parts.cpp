@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "docs/examples/named.h"
 #include "docs/examples/reported.h"
 #include "fcl_stpbv/adapter/distance_callback.h"
 #include "fcl_stpbv/parts/convex_parts.h"
@@ -50,7 +51,7 @@ data.leaveOut = [](const auto* a, const auto* b) { return a->getUserData() == b-
     const std::vector<Obstacle> obstacles;
     std::vector<LinkPair> pairs;
     for (const char* name : {"HEAD_LINK1", "RARM_LINK5", "RLEG_LINK5"})
-      pairs.push_back({robot->link("BODY"), robot->link(name)});
+      pairs.push_back({linkOf(*robot, "BODY"), linkOf(*robot, name)});
     // clang-format off
 GeometryOptions options;
 options.radii = {0.01, 10.0};

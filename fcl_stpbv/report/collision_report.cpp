@@ -14,13 +14,12 @@
 
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/numbers.h"
+#include "fcl_stpbv/report/asked_postures.h"
 #include "fcl_stpbv/report/kept_list.h"
-#include "fcl_stpbv/report/named_posture.h"
 #include "fcl_stpbv/report/pair_cause.h"
 #include "fcl_stpbv/report/pair_measure.h"
 #include "fcl_stpbv/report/report_warnings.h"
 #include "fcl_stpbv/report/tick_time.h"
-#include "fcl_stpbv/report/trajectory_file.h"
 #include "fcl_stpbv/robot/detail_choice.h"
 #include "fcl_stpbv/robot/pair_list_again.h"
 
@@ -30,40 +29,8 @@ using namespace detail;
 
 namespace {
 
-struct Postures {
-  Eigen::VectorXd neutral;
-  std::optional<Eigen::VectorXd> asked;  // none: each pair is reported in its closest configuration
-  Trajectory trajectory;                 // no points: none was asked for
-  std::vector<std::string> warnings;
-};
-
-// Both are read before a volume is built, so that a mistake in them is told at once.
-Postures readPostures(const ReportRequest& request, const Kinematics& kinematics, const Srdf* srdf) {
-  Postures postures{kinematics.neutral(), std::nullopt, {}, {}};
-  const auto posture = [&](const char* option, const std::string& name) {
-    return namedPosture(option, name, kinematics, srdf, postures.neutral, !request.files.obstacles.empty());
-  };
-  const auto checkLimits = [&](const std::string& name, const std::vector<Eigen::VectorXd>& points) {
-    const std::string warning = limitWarning(name, points, kinematics);
-    if (!warning.empty()) postures.warnings.push_back(warning);
-  };
-  if (!request.neutral.empty()) {
-    postures.neutral = posture("--neutral", request.neutral);
-    checkLimits("--neutral " + request.neutral, {postures.neutral});
-  }
-  if (!request.pose.empty()) {
-    postures.asked = posture("--pose", request.pose);
-    checkLimits("--pose " + request.pose, {*postures.asked});
-  }
-  if (!request.trajectory.empty()) {
-    postures.trajectory = readTrajectory(request.trajectory, kinematics, postures.neutral);
-    checkLimits("--trajectory " + request.trajectory, postures.trajectory.points);
-  }
-  return postures;
-}
-
-Postures load(const ReportRequest& request, RobotLoader& loader, CollisionReport& report) {
-  Postures postures;
+AskedPostures load(const ReportRequest& request, RobotLoader& loader, CollisionReport& report) {
+  AskedPostures postures;
   loader.read();
   std::vector<std::string>& errors = loader.faults().errors;
   if (errors.empty())
@@ -72,6 +39,7 @@ Postures load(const ReportRequest& request, RobotLoader& loader, CollisionReport
   loader.build();
   report.robot = loader.robot();
   report.kinematics = loader.kinematics();
+  report.srdf = loader.srdf();
   report.geometry = loader.geometry();
   report.obstacles = loader.obstacles();
   report.meshFiles = loader.meshFiles();
@@ -175,7 +143,7 @@ void summarise(CollisionReport& report) {
 
 // The pair list, and every pair in its configuration, with the bodies that report.geometry holds. Where the
 // report holds all that already, only what the bodies of `changed` pairs change is found anew.
-void examine(const ReportRequest& request, const PairListOptions& search, const Postures& postures,
+void examine(const ReportRequest& request, const PairListOptions& search, const AskedPostures& postures,
              const Srdf* srdf, PairCauses& causes, const std::set<LinkPair>& changed, VolumeCache& cache,
              CollisionReport& report) {
   std::map<LinkPair, PairReport> kept;
@@ -266,7 +234,7 @@ std::vector<CheckedPair> rowsOf(const CollisionReport& report, const RobotGeomet
 CollisionReport makeReport(const ReportRequest& request) {
   CollisionReport report;
   RobotLoader loader(request.files);
-  const Postures postures = load(request, loader, report);
+  const AskedPostures postures = load(request, loader, report);
   const Srdf* srdf = loader.srdf().get();
   PairListOptions search = request.search;
   search.obstacles = report.obstacles;

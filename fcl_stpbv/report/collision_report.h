@@ -82,6 +82,7 @@ struct CollisionReport {
   std::shared_ptr<const RobotModel> robot;
   std::shared_ptr<const RobotGeometry> geometry;
   std::shared_ptr<const Kinematics> kinematics;
+  std::shared_ptr<const Srdf> srdf;  ///< null without one
   std::vector<Obstacle> obstacles;
   std::vector<std::string> meshFiles;  ///< that were read
   std::vector<std::string> warnings;

@@ -79,7 +79,7 @@ FolderFiles PartFiles::make(const ordered_json& inputs, const std::string& key) 
   }
   const std::string stem = fs::path(robot.path).stem().string();
   files_[stem + ".urdf"] = urdfWithParts(urdf);
-  files_[stem + ".srdf"] = toSrdfText(report_, conversion_.report.files.srdf, conversion_.disableDefault);
+  files_[stem + ".srdf"] = toSrdfText(report_, conversion_.disableDefault);
   files_[kManifest] = manifest(inputs, key, stem);
   return std::move(files_);
 }

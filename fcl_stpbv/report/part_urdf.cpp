@@ -41,8 +41,13 @@ class Writer {
  private:
   // A name relative to the old URDF becomes relative to the new one.
   void redirect(XMLElement* file) const {
-    const char* name = file ? file->Attribute("filename") : nullptr;
-    if (!name || std::string(name).find("://") != std::string::npos || fs::path(name).is_absolute()) return;
+    const char* attribute = file ? file->Attribute("filename") : nullptr;
+    if (!attribute) return;
+    std::string name = attribute;
+    for (const char* start : {"file://localhost/", "file:///"})
+      if (name.rfind(start, 0) == 0) return;
+    if (name.rfind("file://", 0) == 0) name.erase(0, 7);
+    if (name.find("://") != std::string::npos || fs::path(name).is_absolute()) return;
     const fs::path old = fs::absolute(parts_.robot->path).parent_path() / name;
     file->SetAttribute("filename", fs::relative(old, fs::absolute(parts_.folder)).c_str());
   }

@@ -42,7 +42,7 @@ std::string toCsv(const CollisionReport& report) {
   return text;
 }
 
-std::string toSrdfText(const CollisionReport& report, const std::string& path, bool defaultToo) {
+std::string toSrdfText(const CollisionReport& report, bool defaultToo) {
   std::vector<std::string> comments;
   comments.reserve(report.skipped.size());
   for (const std::string& skipped : report.skipped) comments.push_back("Left out, not checked: " + skipped);
@@ -57,7 +57,7 @@ std::string toSrdfText(const CollisionReport& report, const std::string& path, b
                               }),
                list.end());
   }
-  return withPairs(path, report.robot->name, toSrdf(*report.robot, list, defaultToo), comments);
+  return withPairs(report.srdf.get(), report.robot->name, toSrdf(*report.robot, list, defaultToo), comments);
 }
 
 }  // namespace fcl_stpbv::report

@@ -11,9 +11,9 @@ namespace fcl_stpbv::report {
 std::string toText(const CollisionReport& report, std::size_t top);
 std::string toJson(const CollisionReport& report);
 std::string toCsv(const CollisionReport& report);
-/// The SRDF (at `path`, "" for none) with the pairs that need no check. Where shapes of the robot were left
-/// out, pairs that do not collide without them are not among these.
-std::string toSrdfText(const CollisionReport& report, const std::string& path, bool defaultToo = false);
+/// The robot's SRDF with the pairs that need no check. Where shapes of the robot were left out, pairs that do
+/// not collide without them are not among these.
+std::string toSrdfText(const CollisionReport& report, bool defaultToo = false);
 /// One page with all it needs inside: table, heat map, and the robot in 3-D.
 /// The title follows the robot's name.
 std::string toHtml(const CollisionReport& report, const std::string& title = "self-collision report");

@@ -71,7 +71,7 @@ ordered_json inputsOf(const RobotConversion& conversion, std::vector<std::string
     inputs[what] = {{"file", path}, {"sha256", sha256(readText(path))}};
   };
   inputs["version"] = FCL_STPBV_VERSION;
-  inputs["writer"] = 2;  // changes when the same inputs give other files
+  inputs["writer"] = 3;  // changes when the same inputs give other files
   add("urdf", files.urdf);
   add("srdf", files.srdf);
   add("obstacles", files.obstacles);

@@ -64,7 +64,33 @@ std::vector<Vector3d> cornersOf(const Shape& shape) {
   return points;
 }
 
+double widthAlong(const Vector3d& n, const std::vector<Vector3d>& points) {
+  double low = INFINITY, high = -INFINITY;
+  for (const Vector3d& point : points) {
+    low = std::min(low, n.dot(point));
+    high = std::max(high, n.dot(point));
+  }
+  return high - low;
+}
+
+// Along the axes of a cube and its diagonals, of faces and of the whole.
+double narrowestOf(const std::vector<Vector3d>& points) {
+  double least = INFINITY;
+  for (int k = 14; k < 27; ++k) {
+    const Vector3d n(k / 9 - 1, k / 3 % 3 - 1, k % 3 - 1);
+    least = std::min(least, widthAlong(n.normalized(), points));
+  }
+  return least;
+}
+
+double widestOf(const BodyPoints& body) { return 2 * (body.reach + body.radius); }
+
 }  // namespace
+
+double mostDepth(const BodyPoints& a, const BodyPoints& b) {
+  constexpr double kRounding = 1 + 1e-12;  // of some products and sums, each to 1e-16
+  return 0.5 * kRounding * std::min(a.narrowest + widestOf(b), widestOf(a) + b.narrowest);
+}
 
 std::optional<BodyPoints> bodyPoints(const fcl::CollisionGeometryd& geometry, const Eigen::Isometry3d& pose) {
   BodyPoints body;
@@ -77,6 +103,7 @@ std::optional<BodyPoints> bodyPoints(const fcl::CollisionGeometryd& geometry, co
     body.radius = shape.margin;
   }
   if (body.points.empty()) return std::nullopt;
+  body.narrowest = narrowestOf(body.points) + 2 * body.radius;
   Vector3d low = Vector3d::Constant(INFINITY), high = -low;
   for (Vector3d& point : body.points) {
     point = pose * point;

@@ -15,11 +15,16 @@ struct BodyPoints {
   double radius = 0;                    ///< of the ball around each (m)
   Eigen::Vector3d centre{0, 0, 0};      ///< of a sphere that holds the points
   double reach = 0;                     ///< its radius (m)
+  double narrowest = 0;                 ///< width along the narrowest of some directions, balls included (m)
 };
 
 /// An STP-BV by its vertices and its largest over-cover, a polyhedron by its vertices, a sphere and a capsule
 /// exactly, a cylinder and a cone by polygons around their rims, an ellipsoid by its box. Nothing for meshes,
 /// trees and what is unbounded. In the frame that `pose` leads to.
 std::optional<BodyPoints> bodyPoints(const fcl::CollisionGeometryd& geometry, const Eigen::Isometry3d& pose);
+
+/// Most that two such bodies can be in each other, wherever they are (m): along a unit n the gap one way and
+/// the gap the other way add up to both widths, so one of them is at least minus half of that sum.
+double mostDepth(const BodyPoints& a, const BodyPoints& b);
 
 }  // namespace fcl_stpbv::detail

@@ -30,6 +30,7 @@ Obstacle obstacleOf(const fcl::CollisionObjectd& object, const std::string& name
 
 std::string nameOf(const CheckedPair& pair, const RobotGeometry& geometry,
                    const std::vector<Obstacle>& obstacles) {
+  requireBodies(pair, geometry, obstacles.size(), "nameOf");
   const auto other = static_cast<std::size_t>(pair.other);
   return geometry.bodies[static_cast<std::size_t>(pair.body)].name + " - " +
          (pair.obstacle ? obstacles[other].name : geometry.bodies[other].name);

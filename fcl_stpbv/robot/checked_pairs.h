@@ -33,7 +33,7 @@ struct Obstacle {
 /// An FCL object as an obstacle, where it stands now.
 Obstacle obstacleOf(const fcl::CollisionObjectd& object, const std::string& name);
 
-/// The names of a pair's bodies.
+/// The names of a pair's bodies. @throws Error as requireBodies() does.
 std::string nameOf(const CheckedPair& pair, const RobotGeometry& geometry,
                    const std::vector<Obstacle>& obstacles);
 

@@ -9,10 +9,9 @@
 #include <limits>
 
 #include "fcl_stpbv/cross_matrix.h"
-#include "fcl_stpbv/error.h"
-#include "fcl_stpbv/io/text_scanner.h"
 #include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/packed.h"
+#include "fcl_stpbv/robot/joint_freedoms.h"
 #include "fcl_stpbv/vectorized.h"
 
 namespace fcl_stpbv {
@@ -24,19 +23,7 @@ using Eigen::Vector3d;
 
 using detail::at;
 using detail::crossMatrix;
-
-int freedoms(JointType type) {
-  switch (type) {
-    case JointType::fixed:
-      return 0;
-    case JointType::planar:
-      return 3;
-    case JointType::floating:
-      return 6;
-    default:
-      return 1;
-  }
-}
+using detail::freedoms;
 
 // Rotation by a rotation vector, and the matrix that turns its rate into the angular velocity.
 void exponential(const Vector3d& w, Matrix3d& rotation, Matrix3d& rate) {
@@ -162,42 +149,6 @@ void Kinematics::addStep(int joint, const JointModel& model, int coordinate, dou
   for (int k = 0; k < freedoms(model.type); ++k) motions_.push_back({joint, coordinate + k, multiplier});
   stepOf_[at(model.child)] = static_cast<int>(steps_.size());
   steps_.push_back(step);
-}
-
-Eigen::VectorXd Kinematics::configuration(const Srdf::State& state, Eigen::VectorXd rest) const {
-  Eigen::VectorXd& q = rest;
-  const auto known = [&](const auto& use) {
-    for (const auto& [name, values] : state.joints) {
-      const int joint = robot_->joint(name);
-      if (joint < 0) continue;  // a virtual joint, or one of another robot's variant
-      const std::string where = "posture '" + state.name + "': joint '" + name + "' ";
-      const JointModel& model = robot_->joints[at(joint)];
-      const int count = std::max(1, freedoms(model.type));
-      if (static_cast<int>(values.size()) != count)
-        throw Error(where + "has " + std::to_string(values.size()) + " values, expected " +
-                    std::to_string(count));
-      use(where, model, coordinateOf_[at(joint)], values);
-    }
-  };
-  known([&](const std::string&, const JointModel&, int first, const std::vector<double>& values) {
-    for (std::size_t k = 0; first >= 0 && k < values.size(); ++k) q[first + static_cast<int>(k)] = values[k];
-  });
-  // The others follow: a posture that says something else would be another one than it seems.
-  known([&](const std::string& where, const JointModel& model, int first, const std::vector<double>& values) {
-    constexpr double kOff = 1e-3;  // what is written with few digits (rad or m)
-    if (first >= 0) return;
-    const double own =
-        model.mimic ? model.mimic->multiplier * q[coordinateOf_[at(model.mimic->joint)]] + model.mimic->offset
-                    : 0.0;
-    const bool turns = model.type == JointType::revolute || model.type == JointType::continuous;
-    const double off = turns ? std::remainder(values[0] - own, 2 * M_PI) : values[0] - own;
-    if (std::abs(off) <= kOff) return;
-    throw Error(where + "cannot be " + detail::toDecimal(values[0]) + ": it " +
-                (model.mimic ? "follows '" + robot_->joints[at(model.mimic->joint)].name + "' and is " +
-                                   detail::toDecimal(own) + " then; give that joint's value"
-                             : "is fixed; leave it out"));
-  });
-  return rest;
 }
 
 int Kinematics::coordinate(const std::string& joint) const {

@@ -79,7 +79,7 @@ class Kinematics {
   /// @throws Error naming state and joint: where the number of values is wrong, or a joint that is fixed or
   /// mimics another one would have another value than it takes.
   Eigen::VectorXd configuration(const Srdf::State& state) const { return configuration(state, neutral_); }
-  /// The same with `rest` in place of the neutral configuration.
+  /// The same with `rest`, of size() entries, in place of the neutral configuration.
   Eigen::VectorXd configuration(const Srdf::State& state, Eigen::VectorXd rest) const;
   /// First coordinate of a joint by name, -1 for fixed, mimic and unknown ones.
   int coordinate(const std::string& joint) const;

@@ -12,6 +12,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <set>
 #include <tuple>
 
 #include "fcl_stpbv/adapter/hull_geometry.h"
@@ -84,6 +85,7 @@ class Builder {
         faults_.shapes.push_back(std::move(wrong[i]));
     }
     warnOfAdvice();
+    warnWithoutMesh();
     geometry_.fromCache = cache_.hits();
     return std::move(geometry_);
   }
@@ -91,6 +93,23 @@ class Builder {
  private:
   const std::string& nameOf(const ShapeSource& source) const {
     return robot_.links[static_cast<std::size_t>(source.link)].name;
+  }
+
+  // Flat bodies and budgets are of meshes: where a link has none they would say nothing without a word.
+  void warnWithoutMesh() {
+    std::set<std::string> asked = options_.flatLinks;
+    for (const auto& [name, budget] : options_.budgets) asked.insert(name);
+    bool any = false;
+    for (const Body& body : geometry_.bodies) {
+      if (body.file.empty()) continue;
+      any = true;
+      asked.erase(robot_.links[static_cast<std::size_t>(body.link)].name);
+    }
+    for (const std::string& name : asked)
+      geometry_.warnings.push_back(robot_.path + ": the link '" + name +
+                                   "' has no mesh that could be flat or have an over-cover budget");
+    if (!any && options_.overCoverBudget > 0)
+      geometry_.warnings.push_back(robot_.path + ": there is no mesh that could have an over-cover budget");
   }
 
   // What the advice does not say: how many primitives there are, which it is not for, how many meshes cannot

@@ -119,7 +119,7 @@ class LinkParts {
   /// The bodies that stand for one whole body when it is split into `most` parts: with its radii, or flat as
   /// it is; `partOf` is `body`. One alone is the mesh's hull: of a convex mesh, or where `most` is 1. None
   /// for a primitive and for points without triangles.
-  /// @throws Error naming the mesh.
+  /// @throws Error naming the mesh, and for a body that does not exist.
   const std::vector<Body>& of(int body, int most);
 
   /// Makes by several threads what geometry(most, ...) would have to make; `progress` as GeometryOptions'.

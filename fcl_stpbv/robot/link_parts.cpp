@@ -111,7 +111,11 @@ LinkParts::LinkParts(std::shared_ptr<const RobotGeometry> whole, const std::stri
 
 LinkParts::~LinkParts() = default;
 
-const std::vector<Body>& LinkParts::of(int body, int most) { return store_->of(body, most); }
+const std::vector<Body>& LinkParts::of(int body, int most) {
+  if (body < 0 || at(body) >= whole_->bodies.size())
+    throw Error("LinkParts: there is no body " + std::to_string(body));
+  return store_->of(body, most);
+}
 
 void LinkParts::prepare(const std::map<int, int>& most, int threads,
                         const std::function<void(std::size_t, std::size_t, const std::string&)>& progress) {

@@ -4,7 +4,6 @@
 // 3. send vertices and triangles back to the parent as bytes.
 #include "fcl_stpbv/robot/mesh_file.h"
 
-#include <assimp/DefaultIOSystem.h>
 #include <assimp/config.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
@@ -14,7 +13,6 @@
 #include <cstring>
 #include <filesystem>
 #include <optional>
-#include <set>
 #include <unordered_map>
 #include <utility>
 
@@ -24,6 +22,7 @@
 #include "fcl_stpbv/robot/child_process.h"
 #include "fcl_stpbv/robot/file_ending.h"
 #include "fcl_stpbv/robot/mesh_format.h"
+#include "fcl_stpbv/robot/readable_files.h"
 
 namespace fcl_stpbv {
 namespace {
@@ -42,17 +41,38 @@ struct HashVector {
   }
 };
 
+// The corners of the box around points.
+std::pair<Vector3d, Vector3d> boxAround(const std::vector<Vector3d>& points) {
+  std::pair<Vector3d, Vector3d> box{points[0], points[0]};
+  for (const Vector3d& p : points) {
+    box.first = box.first.cwiseMin(p);
+    box.second = box.second.cwiseMax(p);
+  }
+  return box;
+}
+
 // A body that has collapsed would count as a point and be told to be clear.
 void requireSize(const std::vector<Vector3d>& points, bool several, const std::string& path) {
   constexpr double kLeast = 1e-9;  // an atom is a tenth of it (m)
   if (!several) return;
-  Vector3d low = points[0], high = points[0];
-  for (const Vector3d& p : points) {
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
-  }
+  const auto [low, high] = boxAround(points);
   if ((high - low).maxCoeff() < kLeast)
     throw Error(path + ": is smaller than 1e-9 m along each axis; give it the right unit or scale");
+}
+
+// assimp holds coordinates in single precision: far from the origin they would be rounded to steps that are
+// seen in the body's shape. One point may have been a small body.
+void requireNear(const std::vector<Vector3d>& points, bool several, const std::string& path) {
+  constexpr double kStep = 1.0 / (1 << 23);  // of a coordinate
+  constexpr double kSeen = 1e-3;             // of the body's size
+  constexpr double kSmall = 0.1;             // m
+  const auto [low, high] = boxAround(points);
+  const double far = std::max(low.cwiseAbs().maxCoeff(), high.cwiseAbs().maxCoeff());
+  if (kStep * far > kSeen * (several ? (high - low).maxCoeff() : kSmall))
+    throw Error(path +
+                ": lies thousands of its sizes away from its origin, where coordinates are read in steps of "
+                "over a thousandth of its "
+                "size; move the mesh to its origin and give the way in the robot's file");
 }
 
 // Gathers triangles, each distinct point once.
@@ -83,6 +103,7 @@ class Gatherer {
 
   TriangleMesh take() {
     requireSize(mesh_.vertices, several_, path_);
+    if (!mesh_.vertices.empty()) requireNear(mesh_.vertices, several_, path_);
     return std::move(mesh_);
   }
 
@@ -137,56 +158,7 @@ void checkFaces(const aiScene& scene, const std::string& path) {
   }
 }
 
-/// Opens the mesh and, for glTF, the whole files beside or below it that hold its vertices: nothing elsewhere
-/// that a mesh may name, no materials, no pipes or devices. Lets reading take in proportion to their sizes.
-class Files : public Assimp::DefaultIOSystem {
- public:
-  Files(const std::string& mesh, ChildLimits& limits) : mesh_(mesh), limits_(limits) {}
-
-  bool Exists(const char* path) const override {
-    std::error_code ignored;
-    return std::filesystem::is_regular_file(path, ignored) && (path == mesh_ || isPart(path));
-  }
-  Assimp::IOStream* Open(const char* path, const char* mode) override {
-    if (!Exists(path)) return nullptr;
-    allow(path);
-    return DefaultIOSystem::Open(path, mode);
-  }
-
-  /// A file that the mesh names, where assimp looks for it.
-  std::optional<std::string> part(const std::string& name) {
-    const std::string folder = mesh_.substr(0, mesh_.rfind('/') + 1);
-    if (!Exists((folder + name).c_str())) return std::nullopt;
-    allow(folder + name);
-    return readText(folder + name);
-  }
-
- private:
-  void allow(const std::string& path) {
-    std::error_code ignored;
-    if (seen_.insert(path).second) limits_.allow(std::filesystem::file_size(path, ignored));
-  }
-
-  bool isPart(const std::string& path) const {
-    namespace fs = std::filesystem;
-    if (lowerExtension(mesh_) != ".gltf") return false;
-    std::error_code ignored;
-    const fs::path part = fs::canonical(path, ignored);
-    // Of a mesh that is a link also what is beside its target.
-    for (const fs::path& folder : {fs::canonical(fs::absolute(mesh_, ignored).parent_path(), ignored),
-                                   fs::canonical(mesh_, ignored).parent_path()}) {
-      const fs::path inside = part.lexically_relative(folder);
-      if (!part.empty() && !folder.empty() && !inside.empty() && *inside.begin() != "..") return true;
-    }
-    return false;
-  }
-
-  const std::string mesh_;
-  ChildLimits& limits_;
-  std::set<std::string> seen_;
-};
-
-const aiScene& read(Assimp::Importer& importer, Files& files, const std::string& path) {
+const aiScene& read(Assimp::Importer& importer, ReadableFiles& files, const std::string& path) {
   const std::string text = readText(path), expected = expectedFormat(text, path);
   const auto check = [&](const std::string& format) {
     checkMeshFormat(text, format, path, [&files](const std::string& part) { return files.part(part); });
@@ -226,7 +198,7 @@ namespace {
 /// assimp trusts what it reads: counts that fill the memory, loops, depths that overflow the stack.
 TriangleMesh readMesh(const std::string& path, const Vector3d& scale, ChildLimits& limits) {
   Assimp::Importer importer;
-  auto* const files = new Files(path, limits);
+  auto* const files = new ReadableFiles(path, limits);
   importer.SetIOHandler(files);  // which deletes it
   const aiScene& scene = read(importer, *files, path);
   Gatherer gatherer(path, scale);

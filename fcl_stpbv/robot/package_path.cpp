@@ -1,12 +1,15 @@
 // Where package://, file:// and relative names lead: the given folders, ROS_PACKAGE_PATH, AMENT_PREFIX_PATH,
-// the package around the URDF and those beside it, in this order.
+// the package around the URDF and those beside it, in this order; at last the given ones by the end of a
+// name.
 #include "fcl_stpbv/robot/package_path.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cstdlib>
 #include <filesystem>
 
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/robot/uri_text.h"
 #include "fcl_stpbv/robot/xml_text.h"
 
 namespace fcl_stpbv::detail {
@@ -46,6 +49,17 @@ std::string packageIn(const fs::path& folder) {
   }
 }
 
+// What a name's kind is where it is one of another, such as "http:/"; else "".
+std::string otherKind(const std::string& uri) {
+  const std::size_t colon = uri.find(":/");
+  if (colon == std::string::npos || colon < 2 || startsWith(uri, kPackage) || startsWith(uri, kFile))
+    return "";
+  const bool word =
+      std::all_of(uri.begin(), uri.begin() + static_cast<std::ptrdiff_t>(colon),
+                  [](unsigned char c) { return std::isalnum(c) || c == '+' || c == '-' || c == '.'; });
+  return word ? uri.substr(0, colon + 2) : "";
+}
+
 bool isPackage(const fs::path& folder, const std::string& name) {
   const fs::path plain = folder.has_filename() ? folder : folder.parent_path();
   return plain.filename() == name || packageIn(folder) == name;
@@ -75,36 +89,44 @@ std::vector<std::string> PackagePath::candidates(const std::string& uri) const {
     if (std::find(paths.begin(), paths.end(), text) == paths.end()) paths.push_back(text);
   };
   if (startsWith(uri, kFile)) {
-    add(uri.substr(kFile.size()));
+    const std::string path = uri.substr(kFile.size());
+    add(fs::path(urdfFolder_) / (startsWith(path, "localhost/") ? path.substr(path.find('/')) : path));
   } else if (!startsWith(uri, kPackage)) {
     add(fs::path(urdfFolder_) / uri);  // an absolute path stays as it is
   } else {
     const std::string inside = uri.substr(kPackage.size());
     const std::size_t slash = inside.find('/');
     const std::string package = inside.substr(0, slash);
-    const std::string rest = slash == std::string::npos ? "" : inside.substr(slash + 1);
+    // Below the package, however many slashes lead there.
+    const std::size_t start = std::min(inside.find_first_not_of('/', slash), inside.size());
+    const std::string rest = fs::path(inside.substr(start)).lexically_normal().string();
     for (const std::string& folder : folders_) {
       if (isPackage(folder, package)) add(fs::path(folder) / rest);
       add(fs::path(folder) / package / rest);
-      // A package inside another one, as in a checkout of a part of it: its
-      // own folder is the last that counts.
-      for (std::size_t next = rest.find('/');
-           next != std::string::npos && rest.find('/', next + 1) != std::string::npos;
-           next = rest.find('/', next + 1))
-        add(fs::path(folder) / rest.substr(next + 1));
     }
     for (const std::string& prefix : prefixes_) add(fs::path(prefix) / "share" / package / rest);
     for (const std::string& folder : above_) {
       if (isPackage(folder, package)) add(fs::path(folder) / rest);
       if (!packageIn(folder).empty()) add(fs::path(folder).parent_path() / package / rest);
     }
+    // A package inside another one, as in a checkout of a part of it: its own folder is the last that counts.
+    for (const std::string& folder : folders_)
+      for (std::size_t next = rest.find('/');
+           next != std::string::npos && rest.find('/', next + 1) != std::string::npos;
+           next = rest.find('/', next + 1))
+        add(fs::path(folder) / rest.substr(next + 1));
     if (paths.empty()) add(fs::path(urdfFolder_) / package / rest);
   }
   return paths;
 }
 
 std::string PackagePath::resolve(const std::string& uri) const {
-  const std::vector<std::string> paths = candidates(uri);
+  if (const std::string kind = otherKind(uri); !kind.empty())
+    throw Error(uri + ": names that begin with '" + kind +
+                "' are not read; give one with package:// or file://, or a path");
+  std::vector<std::string> paths = candidates(uri);
+  if (const std::string decoded = percentDecoded(uri); decoded != uri && uri.find("://") != std::string::npos)
+    for (const std::string& path : candidates(decoded)) paths.push_back(path);
   std::error_code ignored;
   for (const std::string& path : paths)
     if (fs::is_regular_file(path, ignored)) return path;

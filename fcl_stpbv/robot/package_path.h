@@ -9,9 +9,10 @@ namespace fcl_stpbv::detail {
 /// Turns the file names of one URDF into paths.
 ///
 /// `package://name/rest` is looked for in each given folder (as `folder/name/rest`, or
-/// `folder/rest` where the folder is that package itself, or by the last folders of `rest`, for a
-/// package inside another), then in ROS_PACKAGE_PATH, in `share` of AMENT_PREFIX_PATH, in the
-/// package that encloses the URDF, and beside that package.
+/// `folder/rest` where the folder is that package itself), then in ROS_PACKAGE_PATH, in `share` of
+/// AMENT_PREFIX_PATH, in the package that encloses the URDF, and beside that package; at last in the
+/// first two by the last folders of `rest`, for a package inside another. Paths that are not absolute are
+/// the URDF's folder's, after file:// too. After :// a %20 stands for a space where no file is named so.
 class PackagePath {
  public:
   /// `urdf` is the file that names will come from; `folders` go before everything else.

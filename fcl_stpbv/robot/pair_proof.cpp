@@ -58,6 +58,8 @@ void requireSize(const JointBox& box, Index coordinates) {
   if (box.lower.size() != coordinates || box.upper.size() != coordinates)
     throw Error("a proof's boxes need a lower and an upper limit of each of the pair's " +
                 std::to_string(coordinates) + " coordinates");
+  if ((box.lower.array() > box.upper.array()).any())
+    throw Error("a proof's box has a lower limit above the upper one, so that it holds no configuration");
 }
 
 bool bounded(const JointBox& box) { return box.lower.allFinite() && box.upper.allFinite(); }
@@ -173,7 +175,9 @@ class Prover {
     const std::optional<BodyPoints>& first = scene_.bodies->robot[at(pair.body)];
     const std::optional<BodyPoints>& second =
         pair.obstacle ? scene_.bodies->obstacles[at(pair_.link2)] : scene_.bodies->robot[at(pair.other)];
-    if (!first || !second || answer.normal.isZero()) return -kInfinity;
+    if (!first || !second) return -kInfinity;
+    const double least = -mostDepth(*first, *second);
+    if (least > enough || answer.normal.isZero()) return least;
     const Kinematics::State& state = search_.constraints().state();
     move(*first, state.link[at(pair_.link1)], first_);
     move(*second, pair.obstacle ? Eigen::Isometry3d::Identity() : state.link[at(pair_.link2)], second_);
@@ -182,7 +186,7 @@ class Prover {
     taken_.setZero();
     const double found = bound_.gap(answer.normal, answer.points, enough, taken_);
     if (taken_.size() > 0 && taken_.maxCoeff() > 0) share_ = taken_;
-    return found;
+    return std::max(found, least);
   }
 
   static void move(const BodyPoints& body, const Eigen::Isometry3d& pose, BodyPoints& moved) {

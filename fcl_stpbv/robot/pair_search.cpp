@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "fcl_stpbv/numbers.h"
+#include "fcl_stpbv/robot/joint_freedoms.h"
 #include "fcl_stpbv/robot/joint_path.h"
 
 namespace fcl_stpbv::detail {
@@ -103,8 +104,8 @@ void PairSearch::boundSlopes(int link1, double reach1, int link2, double reach2)
       coordinate = kinematics_->coordinate(robot.joints[at(joint.mimic->joint)].name);
     }
     for (std::size_t k = 0; k < coordinates_.size(); ++k) {
-      const int freedoms = joint.type == JointType::floating ? 6 : joint.type == JointType::planar ? 3 : 1;
-      if (coordinates_[k] >= coordinate && coordinates_[k] < coordinate + freedoms) lipschitz_[k] += slope;
+      if (coordinates_[k] >= coordinate && coordinates_[k] < coordinate + freedoms(joint.type))
+        lipschitz_[k] += slope;
     }
   }
 }

@@ -4,12 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <numeric>
 #include <utility>
 
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/robot/capsule_fit.h"
+#include "fcl_stpbv/robot/followed_range.h"
 #include "fcl_stpbv/robot/mimic_chain.h"
 #include "fcl_stpbv/robot/urdf_check.h"
 #include "fcl_stpbv/robot/urdf_element.h"
@@ -22,11 +21,9 @@ namespace {
 using namespace detail;
 using tinyxml2::XMLElement;
 
-// Larger than any robot (m, rad): beyond it are slips of units and exponents, which would put links where no
-// distance can be computed.
-constexpr double kMost = 1e6;
-
-bool isUsable(const Eigen::Vector3d& v) { return v.allFinite() && v.lpNorm<Eigen::Infinity>() <= kMost; }
+bool isUsable(const Eigen::Vector3d& v) {
+  return v.allFinite() && v.lpNorm<Eigen::Infinity>() <= kLargestValue;
+}
 
 Eigen::Vector3d toEigen(const urdf::Vector3& v) { return {v.x, v.y, v.z}; }
 
@@ -150,10 +147,10 @@ void readLimits(const urdf::Joint& joint, JointModel& model) {
   }
   if (!std::isfinite(model.lower) || !std::isfinite(model.upper) || model.lower > model.upper)
     throw Error("its limits must be finite, and the lower one not above the upper one");
-  if (model.lower > kMost || model.upper < -kMost)
+  if (model.lower > kLargestValue || model.upper < -kLargestValue)
     throw Error("its limits leave nothing between -1e6 and 1e6");
-  model.lower = std::max(model.lower, -kMost);  // 1e16 and the like stand for no limit
-  model.upper = std::min(model.upper, kMost);
+  model.lower = std::max(model.lower, -kLargestValue);  // 1e16 and the like stand for no limit
+  model.upper = std::min(model.upper, kLargestValue);
 }
 
 struct ReadJoint {
@@ -192,47 +189,9 @@ void setMimic(const Mimic& end, int joint, RobotModel& robot) {
     return m.type >= JointType::revolute && m.type <= JointType::prismatic;
   };
   if (!single(model) || !single(robot.joints[static_cast<std::size_t>(end.joint)]) ||
-      !(std::abs(end.multiplier) <= kMost) || !(std::abs(end.offset) <= kMost))
+      !(std::abs(end.multiplier) <= kLargestValue) || !(std::abs(end.offset) <= kLargestValue))
     throw Error("only a joint with one axis can mimic another one, by numbers from -1e6 to 1e6");
   model.mimic = end;
-}
-
-// Of how many turns of the leader a joint that follows it at `ratio` comes back; 0 for too many.
-int turnsOf(double ratio) {
-  constexpr int kMostTurns = 64;
-  constexpr double kOff = 1e-5;  // what decimals such as 0.333333 are off by
-  for (int turns = 1; turns <= kMostTurns; ++turns) {
-    const double whole = std::round(turns * ratio);
-    if (whole != 0 && std::abs(turns * ratio - whole) <= kOff) return turns;
-  }
-  return 0;
-}
-
-// Half a turn either way is all of a continuous joint, but not of what follows it at another speed: a wheel
-// at half of it takes two turns, a rack as many as its limits leave room for.
-void widenFollowed(RobotModel& robot) {
-  std::map<int, long> turns;  // by leader; 0 for any number
-  for (const JointModel& follower : robot.joints) {
-    if (!follower.mimic || follower.mimic->multiplier == 0) continue;
-    JointModel& leader = robot.joints[static_cast<std::size_t>(follower.mimic->joint)];
-    if (leader.type != JointType::continuous) continue;
-    const auto [ratio, offset] = std::pair(follower.mimic->multiplier, follower.mimic->offset);
-    if (follower.type == JointType::prismatic) {
-      const auto [low, high] =
-          std::minmax({(follower.lower - offset) / ratio, (follower.upper - offset) / ratio});
-      leader.lower = std::max(std::min(leader.lower, low), -kMost);
-      leader.upper = std::min(std::max(leader.upper, high), kMost);
-    } else {
-      long& all = turns.emplace(follower.mimic->joint, 1).first->second;
-      all = std::lcm(all, static_cast<long>(turnsOf(ratio)));  // 0 stays 0
-    }
-  }
-  for (const auto& [joint, all] : turns) {
-    JointModel& leader = robot.joints[static_cast<std::size_t>(joint)];
-    const double reach = all > 0 ? std::min(M_PI * static_cast<double>(all), kMost) : kMost;
-    leader.lower = std::min(leader.lower, -reach);
-    leader.upper = std::max(leader.upper, reach);
-  }
 }
 
 void readJoints(const UrdfTree& tree, RobotModel& robot, LoadFaults& faults) {
@@ -263,7 +222,7 @@ void readJoints(const UrdfTree& tree, RobotModel& robot, LoadFaults& faults) {
     if (!followers[j].mimics.empty())
       gather(places[j], [&] { setMimic(chains.end(j), static_cast<int>(j), robot); });
   }
-  widenFollowed(robot);
+  widenFollowed(robot.joints);
 }
 
 // The text counted on its own: no element may have gone missing on the way into the model.

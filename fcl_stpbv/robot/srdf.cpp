@@ -39,8 +39,9 @@ class SrdfReader {
 
   Srdf read() {
     tinyxml2::XMLDocument document;
-    loadXml(path_, document);
     srdf_.path = path_;
+    srdf_.text = readXml(path_);
+    parseXml(srdf_.text, path_, document);
     const XMLElement& root = *document.RootElement();
     if (std::string_view(root.Name()) != "robot")
       throw Error(xmlPlace(root, path_) + "its root element is <" + root.Name() + ">, expected <robot>");
@@ -182,14 +183,22 @@ Srdf loadSrdf(const std::string& path, const RobotModel& robot) {
 
 std::string withPairs(const std::string& path, const std::string& robotName,
                       const std::vector<Srdf::Pair>& pairs, const std::vector<std::string>& comments) {
+  Srdf srdf;
+  srdf.path = path;
+  if (!path.empty()) srdf.text = readXml(path);
+  return withPairs(path.empty() ? nullptr : &srdf, robotName, pairs, comments);
+}
+
+std::string withPairs(const Srdf* srdf, const std::string& robotName, const std::vector<Srdf::Pair>& pairs,
+                      const std::vector<std::string>& comments) {
   tinyxml2::XMLDocument document;
-  if (path.empty()) {
+  if (srdf) {
+    parseXml(srdf->text, srdf->path, document);
+  } else {
     document.InsertEndChild(document.NewDeclaration());
     XMLElement* root = document.NewElement("robot");
     root->SetAttribute("name", robotName.c_str());
     document.InsertEndChild(root);
-  } else {
-    loadXml(path, document);
   }
   XMLElement* root = document.RootElement();
   for (XMLElement* e = root->FirstChildElement("disable_collisions"); e;) {

@@ -26,6 +26,7 @@ struct Srdf {
     std::map<std::string, std::vector<double>> joints;  ///< values by joint (rad or m)
   };
   std::string path;                      ///< of the file
+  std::string text;                      ///< all of it as it was read; a pipe can be read only once
   std::vector<Pair> disabled;            ///< disable_collisions
   std::vector<Pair> enabled;             ///< enable_collisions; these win
   std::vector<std::string> defaultsOff;  ///< disable_default_collisions: links checked only where enabled
@@ -65,5 +66,8 @@ Srdf loadSrdf(const std::string& path, const RobotModel& robot, LoadFaults& faul
 /// by name are left out of `pairs`. Each of `comments` goes before them.
 std::string withPairs(const std::string& path, const std::string& robotName,
                       const std::vector<Srdf::Pair>& pairs, const std::vector<std::string>& comments = {});
+/// The same of an SRDF as it was read, a bare one for null.
+std::string withPairs(const Srdf* srdf, const std::string& robotName, const std::vector<Srdf::Pair>& pairs,
+                      const std::vector<std::string>& comments = {});
 
 }  // namespace fcl_stpbv

@@ -5,6 +5,7 @@
 #include <cctype>
 #include <charconv>
 
+#include "fcl_stpbv/error.h"
 #include "fcl_stpbv/robot/collada_check.h"
 #include "fcl_stpbv/robot/mesh_lines.h"
 #include "fcl_stpbv/robot/off_check.h"
@@ -236,12 +237,24 @@ class StlLines {
   int stray_ = 0;  // the first line that ended the reading
 };
 
+/// A mark before the first word hides it from assimp, and with it a vertex.
+void refuseByteOrderMark(std::string_view text, const std::string& name) {
+  constexpr std::string_view kMark = "\xEF\xBB\xBF";
+  if (!beginsWith(text, kMark)) return;
+  text.remove_prefix(kMark.size());
+  if (!beginsWith(takeWord(text), "#"))
+    throw Error(
+        name +
+        ":1: begins with a byte-order mark, which hides this line; save the file as UTF-8 without one");
+}
+
 }  // namespace
 
 void checkTextMesh(std::string_view text, const std::string& extension, const std::string& name) {
   const bool obj = extension == ".obj", off = extension == ".off", dae = extension == ".dae";
   const bool stl = extension == ".stl" && !isBinaryStl(text);
   if (obj || off || dae || stl) refuseNul(text, name);
+  if (obj || off || stl) refuseByteOrderMark(text, name);
   if (obj) checkObj(text, name);
   if (stl) StlLines(text, name).check();
   if (off) checkOff(text, name);

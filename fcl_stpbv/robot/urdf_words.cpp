@@ -102,6 +102,20 @@ bool named(const tinyxml2::XMLNode* node, std::string_view name) {
   return node && node->ToElement() && node->Value() == name;
 }
 
+bool isShape(const tinyxml2::XMLNode* node) { return named(node, "collision") || named(node, "visual"); }
+
+// A box or the like that no <geometry> holds and no shape misses: of a link's shape, both misspelt.
+bool isLost(const XMLElement& element) {
+  const auto known = std::find_if(kInGeometry.begin(), kInGeometry.end(),
+                                  [&](const Known& one) { return named(&element, one.element); });
+  const tinyxml2::XMLNode *holder = element.Parent(), *above = holder->Parent();
+  if (known == kInGeometry.end() || named(holder, "geometry") || isShape(holder) || isShape(above))
+    return false;
+  return (named(above, "link") || named(above->Parent(), "link")) &&
+         std::any_of(known->attributes.begin(), known->attributes.end(),
+                     [&](std::string_view name) { return element.Attribute(std::string(name).c_str()); });
+}
+
 }  // namespace
 
 void checkShapeWords(const XMLElement& shape) {
@@ -139,13 +153,13 @@ int checkPlaces(const XMLElement& robot, const std::string& path, LoadFaults& fa
     const XMLElement& at = *open.back();
     open.pop_back();
     const bool link = named(&at, "link") && at.Parent() == &robot;
-    const bool shape = (named(&at, "collision") || named(&at, "visual")) && named(at.Parent(), "link") &&
-                       at.Parent()->Parent() == &robot;
+    const bool shape = isShape(&at) && named(at.Parent(), "link") && at.Parent()->Parent() == &robot;
     for (const XMLElement* e = at.FirstChildElement(); e; e = e->NextSiblingElement()) {
       const std::string_view name = e->Name();
       if (name == "gazebo" || ofSelfFilter(name) || ofOtherTools(name)) continue;
-      if ((name == "collision" && !link) || (name == "geometry" && !shape)) {
-        const bool inLink = name == "geometry" && named(at.Parent(), "link");  // costs no more than a shape
+      if ((name == "collision" && !link) || (name == "geometry" && !shape) || isLost(*e)) {
+        const bool inLink =
+            name != "collision" && (isLost(*e) || named(at.Parent(), "link"));  // costs a shape
         (inLink ? faults.shapes : faults.errors)
             .push_back(xmlPlace(*e, path) + "<" + std::string(name) + "> within <" + at.Name() +
                        ">, where no robot has one; is <" + at.Name() +

@@ -4,11 +4,15 @@
 #include <fcl/geometry/shape/box.h>
 #include <fcl/geometry/shape/cone.h>
 #include <fcl/geometry/shape/cylinder.h>
+#include <fcl/math/bv/utility.h>
 
 #include <catch2/catch.hpp>
 #include <limits>
+#include <vector>
 
+#include "fcl_stpbv/adapter/continuous_collide.h"
 #include "fcl_stpbv/adapter/distance_callback.h"
+#include "fcl_stpbv/adapter/element_tree.h"
 #include "fcl_stpbv/adapter/fcl_distance.h"
 #include "fcl_stpbv/adapter/polyhedral_witness.h"
 #include "test/reference/allocations.h"
@@ -70,4 +74,35 @@ TEST_CASE("no query of an STP-BV against another geometry allocates") {
     }
   CHECK(allocations == before);
   CHECK(seen == 5000);
+}
+
+TEST_CASE("a motion fits boxes in place of merged ones once, and asking whether there are any fits none") {
+  fcl::BVHModel<fcl::OBBRSSd> mesh;
+  fcl::generateBVHModel(mesh, fcl::Cylinderd(0.1, 0.4), Eigen::Isometry3d::Identity(), 12, 12);
+  const std::vector<Eigen::Vector3d> corners(mesh.vertices, mesh.vertices + mesh.num_vertices);
+  mesh.beginReplaceModel();
+  mesh.replaceSubModel(corners);
+  mesh.endReplaceModel();
+  REQUIRE(ElementTree(mesh).merged());
+  const long before = allocations;
+  CHECK_FALSE(hasFiniteCorners(mesh));
+  CHECK(allocations == before);
+
+  const StpBvGeometry ball(StpBv::build(geodesicSphere(0.2, 2)));
+  SteadyMotion still, past;
+  past.begin.translation() = Eigen::Vector3d(1, 0.1, 0.05);
+  past.linear = {-2, 0, 0};
+  past.angular = {0, 0, 2};
+  const auto taken = [&](const fcl::CollisionGeometryd& other, double tolerance, long* queries) {
+    const long start = allocations;
+    *queries = firstContact(mesh, still, other, past, {0, tolerance}).queries;
+    return allocations - start;
+  };
+  for (const fcl::CollisionGeometryd* other : {static_cast<const fcl::CollisionGeometryd*>(&ball),
+                                               static_cast<const fcl::CollisionGeometryd*>(&mesh)}) {
+    long few = 0, many = 0;
+    const long coarse = taken(*other, 0.1, &few), fine = taken(*other, 1e-10, &many);
+    CHECK(many > few + 10);
+    CHECK(fine <= coarse + 6);  // of the search's own lists
+  }
 }

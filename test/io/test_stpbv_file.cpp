@@ -140,6 +140,13 @@ TEST_CASE("a damaged field is refused with its line and what was expected") {
   check(text + "more", "file:21:", "end of the file");
 }
 
+TEST_CASE("an empty name is refused as that, not as a file without a name") {
+  const auto load = [](const std::string& path) { loadStpBv(path); };
+  const auto save = [](const std::string& path) { saveStpBv(path, *StpBv::build({{0, 0, 0}})); };
+  CHECK(refusal(load, "").find("name of a file to read is empty") != std::string::npos);
+  CHECK(refusal(save, "").find("name of a file to write is empty") != std::string::npos);
+}
+
 TEST_CASE("a missing file and a folder are refused by name") {
   const TemporaryFolder folder;
   const auto load = [](const std::string& path) { loadStpBv(path); };

@@ -75,6 +75,12 @@ def test_a_piece_is_the_same_whatever_was_asked_before(arm):
     assert ask(arm, 4) == ask(fresh, 4) != ask(fresh, 5)
 
 
+@pytest.mark.parametrize("margin", [float("nan"), float("inf"), -1e7])
+def test_a_margin_that_is_no_length_is_refused(margin):
+    with pytest.raises(fcl_stpbv.Error, match="margin: got"):  # nothing collides within what is not a number
+        fcl_stpbv.PairSearch(str(ARM), margin=margin)
+
+
 def test_a_posture_is_the_same_whatever_was_asked_before():
     task = (TOOLS / "reach.json").read_text()
     search, fresh = (fcl_stpbv.PostureSearch(str(ARM)) for _ in range(2))

@@ -128,4 +128,5 @@ TEST_CASE("a mesh that is gone is named") {
   fs::remove(folder / "l.obj");
   CHECK_THROWS_WITH(parts.prepare(kThree, 2), Contains("l.obj"));
   CHECK_NOTHROW(parts.of(1, 3));
+  for (const int body : {-1, 99}) CHECK_THROWS_WITH(parts.of(body, 3), Contains("there is no body"));
 }

@@ -146,6 +146,23 @@ TEST_CASE("a mesh that its unit or scale makes smaller than an atom is refused")
   CHECK(loadPoints(folder / "t.obj", {1e-9, 1e-30, 1e-30}).size() == 4);  // just long enough
 }
 
+TEST_CASE("a mesh so far from its origin that its shape would be rounded is refused") {
+  const TemporaryFolder folder;
+  const auto at = [&](double far) {
+    std::string text;
+    for (const Vector3d& p :
+         {Vector3d(0, 0, 0), Vector3d(0.1, 0, 0), Vector3d(0, 0.1, 0), Vector3d(0, 0, 0.1)})
+      text += "v " + std::to_string(p.x() + far) + " " + std::to_string(p.y()) + " " + std::to_string(p.z()) +
+              "\n";
+    put(folder / "t.obj", text + "f 1 2 3\nf 1 2 4\nf 1 3 4\nf 2 3 4\n");
+    return refusal([](const std::string& path) { loadPoints(path); }, folder / "t.obj");
+  };
+  CHECK(at(0) == "");
+  CHECK(at(-500) == "");
+  for (const double far : {1e3, -1e4, 1e6, 1e9})
+    CHECK(at(far).find(folder / "t.obj: lies thousands of its sizes away from its origin") == 0);
+}
+
 TEST_CASE("COLLADA: nodes and unit are applied, up_axis is not") {
   const TemporaryFolder folder;
   for (const std::string up :

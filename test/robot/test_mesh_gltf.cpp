@@ -190,16 +190,21 @@ TEST_CASE("sound glTF is read, whatever its exporter adds") {
     checkGltfRead("t.gltf", withChange(kTriangleGltf, change));
 }
 
-TEST_CASE("a glTF's buffer is found by its name, also with the backslashes of Windows") {
+TEST_CASE("a glTF's buffer is found by its name, also with the backslashes of Windows and with %20") {
   const TemporaryFolder folder;
   std::filesystem::create_directory(folder / "sub of");
   put(folder / "sub of/d.bin", triangleBytes());
   put(folder / "as%20is.bin", triangleBytes());
-  for (const char* uri : {"sub of/d.bin", "sub of\\\\d.bin", "as%20is.bin", "./sub of/../as%20is.bin"}) {
+  put(folder / "\u00fc 100%.bin", triangleBytes());
+  for (const char* uri : {"sub of/d.bin", "sub of\\\\d.bin", "as%20is.bin", "./sub of/../as%20is.bin",
+                          "sub%20of/d.bin", "sub%20of%2Fd.bin", "sub%20of\\\\d.bin", "%C3%bc%20100%25.bin"}) {
     CAPTURE(uri);
     put(folder / "t.gltf", withChange(kTriangleGltf, {"t.bin", uri, ""}));
     CHECK(loadPoints(folder / "t.gltf").size() == 3);
   }
+  std::filesystem::create_directory(folder / "in");
+  put(folder / "in/t.gltf", withChange(kTriangleGltf, {"t.bin", "%2e%2e/as%20is.bin", ""}));
+  CHECK_THROWS_WITH(loadPoints(folder / "in/t.gltf"), Contains("cannot be read"));
 }
 
 TEST_CASE("a GLB that is cut off or has another version is refused") {

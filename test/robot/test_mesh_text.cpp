@@ -107,6 +107,16 @@ TEST_CASE("a NUL byte in a text is refused, wherever it stands") {
                  ":3: a NUL byte"}});
 }
 
+TEST_CASE("a byte-order mark that hides a line is refused, one before a comment is not") {
+  const std::string mark = "\xEF\xBB\xBF", obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+  checkRefused("t.obj", {{mark + obj, ":1: begins with a byte-order mark"}});
+  checkRefused("t.off",
+               {{mark + "OFF\n3 1 3\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", ":1: begins with a byte-order mark"}});
+  const TemporaryFolder folder;
+  put(folder / "t.obj", mark + "# by hand\n" + obj);
+  CHECK(loadPoints(folder / "t.obj").size() == 3);
+}
+
 TEST_CASE("STL: each facet is in a solid and each vertex in a facet") {
   const std::string facet =
       "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n";

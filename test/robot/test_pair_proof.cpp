@@ -5,6 +5,7 @@
 #include <random>
 
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/robot/body_points.h"
 #include "fcl_stpbv/robot/pair_proof.h"
 #include "fcl_stpbv/robot/pair_search.h"
 #include "test/reference/robots.h"
@@ -153,6 +154,42 @@ TEST_CASE("a proof of links without bodies, of what does not exist and of other 
   const JointBox wide{Eigen::VectorXd::Zero(9), Eigen::VectorXd::Ones(9)};
   CHECK_THROWS_AS(distanceBound(scene, pair, wide), Error);
   CHECK_THROWS_AS(provePair(scene, pair, {wide}, 1), Error);
+  JointBox turned = unproven(scene, pair).open[0];  // holds nothing, which would be proven at once
+  turned.lower.swap(turned.upper);
+  CHECK_THROWS_WITH(provePair(scene, pair, {turned}, 1), Catch::Matchers::Contains("lower limit above"));
+  CHECK_THROWS_AS(distanceBound(scene, pair, turned), Error);
+}
+
+TEST_CASE("what bodies are too thin for is proven in one box, what they are not is found") {
+  // Two plates that slide and turn through each other: at most 0.35 m deep, where they cross.
+  const std::string plate = "<box size=\"0.1 0.6 0.4\"/>";
+  const std::string text =
+      robot(link("a", plate) + link("m") + link("b", plate) + joint("x", "prismatic", "a", "m") +
+            joint("t", "continuous", "m", "b", "<axis xyz=\"0 0 1\"/>"));
+  const auto proofAt = [&](double margin) {
+    ProofScene scene = proofSceneOf(text);
+    scene.margin = margin;
+    return provePair(scene, {0, 2}, unproven(scene, {0, 2}).open, 100);
+  };
+  const PairProof deep = proofAt(-0.6);
+  CHECK(deep.proven());
+  CHECK(deep.boxes == 1);
+  CHECK(proofAt(-0.099).collision);
+  // No depth that a search finds is beyond the bound.
+  const ProofScene primitives = primitiveScene();
+  Random random(11);
+  for (const LinkPair& pair : movingPairs(primitives)) {
+    const Body
+        &a = primitives.geometry->bodies[static_cast<std::size_t>(primitives.geometry->of(pair.link1).first)],
+        &b = primitives.geometry->bodies[static_cast<std::size_t>(primitives.geometry->of(pair.link2).first)];
+    const auto first = bodyPoints(*a.geometry, a.pose), second = bodyPoints(*b.geometry, b.pose);
+    REQUIRE((first && second));
+    for (int i = 0; i < 50; ++i) {
+      const Eigen::Isometry3d pose(Eigen::Quaterniond(random.rotation()));
+      const DistanceAnswer answer = distance(*a.geometry, Eigen::Isometry3d::Identity(), *b.geometry, pose);
+      CHECK(-answer.upper <= mostDepth(*first, *second));
+    }
+  }
 }
 
 TEST_CASE("joints without limits leave a pair unproven, a rigid pair needs one box") {

@@ -140,6 +140,22 @@ TEST_CASE("a geometry in an element of unknown name costs a shape, which may be 
   CHECK(model.links[0].collision.size() == 1);
 }
 
+TEST_CASE("a shape whose collision and geometry are both misspelt is not lost without a word") {
+  for (const char* shape : {"<colision><geometri><box size=\"1 1 1\"/></geometri></colision>",
+                            "<Collision><Geometry><mesh filename=\"m.stl\"/></Geometry></Collision>",
+                            "<colision><sphere radius=\"1\"/></colision>"}) {
+    CAPTURE(shape);
+    LoadFaults faults;
+    const RobotModel model =
+        parseUrdf(robot("<link name=\"a\">" + kBox + shape + "</link>"), "small.urdf", faults);
+    CHECK(faults.errors.empty());
+    REQUIRE(faults.shapes.size() == 1);
+    CHECK_THAT(faults.shapes[0], Contains("small.urdf:") && Contains("misspelt"));
+    CHECK(model.links[0].collision.size() == 1);
+  }
+  CHECK(shapesIn(kBox + "<box/><sensor><mesh/></sensor><x:c><box size=\"1 1 1\"/></x:c>") == 1);
+}
+
 TEST_CASE("xacro is told by its elements and attributes, not by comments, texts or a bare declaration") {
   const auto accepted = [](const std::string& body) {
     parseUrdf(body, "small.urdf");

@@ -160,6 +160,37 @@ TEST_CASE("package names are found in given folders, in the environment and arou
   CHECK(given.resolve("package://pkg/mesh.stl") == folder / "mesh.stl");
 }
 
+TEST_CASE("names lead where their writer meant, whatever the working folder is") {
+  const TemporaryFolder folder;
+  std::filesystem::create_directories(folder / "pkg/meshes");
+  std::filesystem::create_directories(folder / "other/meshes");
+  put(folder / "pkg/package.xml", "<package><name>pkg</name></package>");
+  put(folder / "pkg/meshes/a b.stl", "x");
+  put(folder / "pkg/meshes/c%20d.stl", "x");
+  put(folder / "pkg/meshes/e.stl", "x");
+  put(folder / "other/meshes/e.stl", "another one's");
+  const PackagePath paths(folder / "pkg/robot.urdf", {folder / "other"});
+  const std::string meshes = folder / "pkg/meshes/";
+  CHECK(paths.resolve("file://meshes/e.stl") == meshes + "e.stl");
+  CHECK(paths.resolve("file://localhost" + meshes + "e.stl") == meshes + "e.stl");
+  CHECK(paths.resolve("file://" + meshes + "a%20b.stl") == meshes + "a b.stl");
+  CHECK(paths.resolve("package://pkg/meshes/a%20b.stl") == meshes + "a b.stl");
+  CHECK(paths.resolve("package://pkg/meshes/c%20d.stl") == meshes + "c%20d.stl");
+  CHECK(paths.resolve("package://pkg//meshes/e.stl") == meshes + "e.stl");
+  // The other folder has the last folders of the name; the package itself has all of it.
+  put(folder / "other/e.stl", "x");
+  std::filesystem::create_directories(folder / "pkg/models/meshes");
+  put(folder / "pkg/models/meshes/e.stl", "x");
+  CHECK(paths.resolve("package://pkg/models/meshes/e.stl") == folder / "pkg/models/meshes/e.stl");
+}
+
+TEST_CASE("names of another kind are refused as such") {
+  const PackagePath paths("/home/robot.urdf");
+  for (const char* uri : {"http://a.org/a.stl", "model://a/a.stl", "Package://a/a.stl", "package:/a/a.stl"})
+    CHECK_THAT(refusal([&](const std::string& name) { paths.resolve(name); }, uri),
+               Contains("not read; give one with package://"));
+}
+
 TEST_CASE("a missing file names every path that was tried") {
   ::setenv("ROS_PACKAGE_PATH", "/ros/one:/ros/two", 1);
   ::setenv("AMENT_PREFIX_PATH", "/ament", 1);
@@ -257,6 +288,10 @@ TEST_CASE("a posture of several groups is taken whole, and nothing of it is left
   REQUIRE(srdf.warnings.size() == 1);
   CHECK_THAT(srdf.warnings[0], Contains("'typo'") && Contains("'jj'"));
   CHECK(kinematics.configuration(srdf.state("still")) == kinematics.neutral());
+  CHECK_THAT(
+      refusal([&](const std::string& name) { kinematics.configuration(srdf.state(name), Eigen::VectorXd()); },
+              "still"),
+      Contains("the rest has 0 values"));
   const auto taken = [&](const std::string& name) { kinematics.configuration(srdf.state(name)); };
   CHECK_THAT(refusal(taken, "follows"), Contains("'m'") && Contains("follows 'j'"));
   Srdf::State both = srdf.state("follows");

@@ -6,6 +6,7 @@ usage: test_mesh_to_stpbv.py PROGRAM SOURCE_FOLDER
 import json
 import os
 import pty
+import resource
 import signal
 import subprocess
 import sys
@@ -252,6 +253,19 @@ class MeshToStpbv(unittest.TestCase):
         self.refused("-", "-o", "w_0.obj", "--force", says=["w_0.obj: is an input"], stdin="w_0.obj")
         self.run_tool("body.obj", "-o", "t.obj", "--parts", "2", "--preview", "t.ply")
         self.assertTrue(read(self.at("t_0.obj")).startswith(b"stpbv 1"))
+
+    def test_a_gltf_is_looked_into_once_for_all_names_of_parts(self):
+        write(self.at("large.gltf"), json.dumps({"asset": {"version": "2.0"}, "extras": list(range(300000))}))
+
+        def seconds():  # of processor time, whatever else the machine does
+            before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
+            self.run_tool("large.gltf", "-o", "part.stpbv", "--excess", "0.01", "--force", code=1)
+            return resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
+
+        alone = seconds()
+        for part in range(64):
+            write(self.at("part_%d.stpbv" % part), "old")
+        self.assertLess(seconds(), 5 * alone)
 
     def test_parts_are_written_all_or_none(self):
         self.two_pieces("two.obj", flat=True)

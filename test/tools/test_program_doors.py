@@ -127,6 +127,16 @@ class Programs(unittest.TestCase):
                         self.refused(run(program, option, "nonsense"), option, "nonsense")
         self.assertLessEqual({("stability", "--method"), ("stability", "--list"), ("speed_accuracy", "--only")}, tried)
 
+    def test_a_name_that_no_file_can_have_is_refused_before_the_work(self):
+        tried = 0
+        for name, robot in (("control_bench", False), ("parts_benchmark", False), ("proof_boxes", True), ("constraints_benchmark", True),
+                            ("robot_bench", True), ("scene_models", True)):
+            if (BIN / name).exists():
+                with self.subTest(program=name):
+                    tried += 1
+                    self.refused(run(BIN / name, *["robot.urdf"] * robot, "--name", "a/b"), "--name a/b: ")
+        self.assertGreaterEqual(tried, 2)
+
 
 if __name__ == "__main__":
     unittest.main(argv=sys.argv[:1])

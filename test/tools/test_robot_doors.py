@@ -279,6 +279,26 @@ class Doors(unittest.TestCase):
         done = self.shell(f"{REPORT} {self.good} --pose <(cat {pose})")
         self.assertEqual(done.returncode, 0, done.stderr)
 
+    def test_an_srdf_from_a_pipe_is_written_with_the_new_pairs(self):
+        srdf = self.put("good.srdf", '<robot name="r"><group_state name="home" group="all"><joint name="j" value="0"/></group_state></robot>')
+        from_file = self.shell(f"{REPORT} {self.good} --samples 20 --format srdf --srdf {srdf} -q")
+        for command in (f"--srdf <(cat {srdf})", f"--srdf - < {srdf}"):
+            done = self.shell(f"{REPORT} {self.good} --samples 20 --format srdf -q " + command)
+            self.assertEqual((done.returncode, done.stdout), (from_file.returncode, from_file.stdout), done.stderr)
+        self.assertIn('<group_state name="home"', from_file.stdout)
+        self.assertIn("<disable_collisions", from_file.stdout)
+
+    def test_an_option_for_meshes_says_so_where_there_are_none(self):
+        for option in ("--flat a", "--link a=0.01,1,0.1", "--over-cover 0.1"):
+            done = self.shell(f"{REPORT} {self.good} --samples 20 {option}")
+            self.assertIn("no mesh that could", done.stderr, option)
+
+    def test_a_percent_encoded_buffer_of_a_mesh_is_not_replaced(self):
+        buffer = self.put("a b.bin", "x")
+        self.put("body.gltf", json.dumps({"asset": {"version": "2.0"}, "buffers": [{"uri": "a%20b.bin", "byteLength": 1}]}))
+        done = self.run_tool(REPORT, self.put("encoded.urdf", robot('<mesh filename="body.gltf"/>')), "-o", buffer)
+        self.assertIn("a b.bin: is an input", done.stderr)
+
     def test_a_pipe_that_nobody_reads_or_writes_is_left_by_a_signal(self):
         fifo = os.path.join(self.folder.name, "fifo")
         os.mkfifo(fifo)

@@ -277,6 +277,15 @@ class Conversion(unittest.TestCase):
         self.convert("--parts", "2", "--mesh-prefix", "package://gate/")
         self.assertIn('filename="package://gate/meshes/gate_1.obj"', (self.out / "gate.urdf").read_text())
 
+    def test_a_visual_mesh_named_by_file_is_still_found(self):
+        for name in ("file://gate.obj", f"file://{self.place}/gate.obj"):
+            urdf = self.gate()
+            visual = '<visual><geometry><mesh filename="{}"/>'
+            urdf.write_text(urdf.read_text().replace(visual.format("gate.obj"), visual.format(name)))
+            self.convert("--parts", "2", "--force")
+            found = self.run_tool(self.out / "gate.urdf", "--visual", "--samples", "5", tool=REPORT)
+            self.assertIn("no pair of bodies is checked", found.stderr, name)
+
     def test_links_whose_names_look_like_files_of_others_keep_their_own(self):
         urdf = self.gate()
         urdf.write_text(urdf.read_text().replace('"box"', '"gate_0"'))

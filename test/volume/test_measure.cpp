@@ -323,6 +323,36 @@ TEST_CASE("Points nearly twice there move the signed distance and the support as
     }
 }
 
+TEST_CASE(
+    "The over-cover of a drum with thousands of sides is that of a cylinder, and takes no exact numbers") {
+  // Half a minute where a ball was rolled over the drum in place of quickhull.
+  constexpr int kSides = 3000;
+  Cloud cloud;
+  for (int k = 0; k < kSides; ++k)
+    for (const double z : {-0.5, 0.5})
+      cloud.push_back({std::cos(2 * M_PI * k / kSides), std::sin(2 * M_PI * k / kSides), z});
+  const StpBv::Ptr volume = StpBv::build(cloud);
+  const double R = volume->radii().R, rho = volume->radii().rho;
+  const OverCover cover = overCover(*volume, cloud);
+  CHECK(cover.max == Approx(R - std::sqrt(rho * rho - 1)).epsilon(1e-9));
+  // Over a lid a ball, over the wall a torus, each on half of the area.
+  const double lid = (R * R * R - std::pow(R * R - 1, 1.5)) / 1.5 - std::sqrt(rho * rho - 1),
+               wall =
+                   0.5 * std::sqrt(R * R - 0.25) + R * R * std::asin(0.5 / R) - std::sqrt(rho * rho - 0.25);
+  CHECK(cover.mean == Approx((lid + wall) / 2).epsilon(1e-5));
+}
+
+TEST_CASE("Points at any distance are outside by it") {
+  for (const Cloud& cloud : {Cloud{{0, 0, 0}}, Cloud{{0, 0, 0}, {1, 0, 0}}, randomHull(9, {1, 1, 1}, 3)}) {
+    const StpBv::Ptr volume = StpBv::build(cloud);
+    for (const double far : {1e50, 1e99, 1e101, 1e154, 1e200, 1e307}) {
+      CHECK(signedDistance(*volume, {0, far, 0}) == Approx(far).epsilon(1e-14));
+      CHECK(signedDistance(*volume, {far, -far, far}) == Approx(std::sqrt(3.0) * far).epsilon(1e-14));
+      CHECK_FALSE(contains(*volume, {far, 0, 0}));
+    }
+  }
+}
+
 TEST_CASE("The signed distance of points on an edge's line, and next to its ends, has all its digits") {
   Random random(12);
   for (const double R : {1.5, 10.0, 1e3})

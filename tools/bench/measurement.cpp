@@ -7,6 +7,7 @@
 #include <ctime>
 #include <fstream>
 
+#include "fcl_stpbv/error.h"
 #include "fcl_stpbv/io/atomic_write.h"
 
 namespace fcl_stpbv::benchmark {
@@ -70,6 +71,11 @@ std::string shown(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%g", value);
   return text;
+}
+
+void requireName(const std::string& name) {
+  if (name.empty() || name.find('/') != std::string::npos)
+    throw Error("--name " + name + ": expected the name of a file without its folder, which -o names");
 }
 
 void write(const Measurement& measurement, const std::string& command, const std::filesystem::path& folder) {

@@ -32,6 +32,10 @@ double significant(double value, int digits);
 /// Few digits, as in "10" or "0.5".
 std::string shown(double value);
 
+/// Before the work: whether write() can write a file of this name. @throws Error where it is none, or names a
+/// folder too.
+void requireName(const std::string& name);
+
 /// Writes `folder`/NAME.json whole or not at all, with the command, compiler, flags and processor.
 /// @throws Error where the file cannot be written.
 void write(const Measurement& measurement, const std::string& command, const std::filesystem::path& folder);

@@ -182,5 +182,8 @@ int main(int argc, char** argv) {
   app.option("-o,--output", a.folder, "Folder for the JSON file");
   app.option("--name", a.name, "Its name").shown();
   a.command = benchmark::commandLine(argc, argv);
-  return app.run(argc, argv, [&] { return run(a); });
+  return app.run(argc, argv, [&] {
+    benchmark::requireName(a.name);
+    return run(a);
+  });
 }

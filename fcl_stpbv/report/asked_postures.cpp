@@ -1,0 +1,33 @@
+// See asked_postures.h.
+#include "fcl_stpbv/report/asked_postures.h"
+
+#include "fcl_stpbv/report/named_posture.h"
+#include "fcl_stpbv/report/trajectory_file.h"
+
+namespace fcl_stpbv::report {
+
+AskedPostures readPostures(const ReportRequest& request, const Kinematics& kinematics, const Srdf* srdf) {
+  AskedPostures postures{kinematics.neutral(), std::nullopt, {}, {}};
+  const auto posture = [&](const char* option, const std::string& name) {
+    return namedPosture(option, name, kinematics, srdf, postures.neutral, !request.files.obstacles.empty());
+  };
+  const auto checkLimits = [&](const std::string& name, const std::vector<Eigen::VectorXd>& points) {
+    const std::string warning = limitWarning(name, points, kinematics);
+    if (!warning.empty()) postures.warnings.push_back(warning);
+  };
+  if (!request.neutral.empty()) {
+    postures.neutral = posture("--neutral", request.neutral);
+    checkLimits("--neutral " + request.neutral, {postures.neutral});
+  }
+  if (!request.pose.empty()) {
+    postures.asked = posture("--pose", request.pose);
+    checkLimits("--pose " + request.pose, {*postures.asked});
+  }
+  if (!request.trajectory.empty()) {
+    postures.trajectory = readTrajectory(request.trajectory, kinematics, postures.neutral);
+    checkLimits("--trajectory " + request.trajectory, postures.trajectory.points);
+  }
+  return postures;
+}
+
+}  // namespace fcl_stpbv::report

@@ -1,0 +1,81 @@
+// What the reading of a mesh may open.
+#pragma once
+
+#include <assimp/DefaultIOSystem.h>
+
+#include <filesystem>
+#include <optional>
+#include <set>
+#include <string>
+
+#include "fcl_stpbv/io/text_scanner.h"
+#include "fcl_stpbv/robot/child_process.h"
+#include "fcl_stpbv/robot/file_ending.h"
+#include "fcl_stpbv/robot/uri_text.h"
+
+namespace fcl_stpbv::detail {
+
+/// Opens the mesh and, for glTF, the whole files beside or below it that hold its vertices: nothing elsewhere
+/// that a mesh may name, no materials, no pipes or devices. Lets reading take in proportion to their sizes.
+class ReadableFiles : public Assimp::DefaultIOSystem {
+ public:
+  ReadableFiles(const std::string& mesh, ChildLimits& limits) : mesh_(mesh), limits_(limits) {}
+
+  bool Exists(const char* path) const override { return !found(path).empty(); }
+  Assimp::IOStream* Open(const char* path, const char* mode) override {
+    const std::string file = found(path);
+    if (file.empty()) return nullptr;
+    allow(file);
+    return DefaultIOSystem::Open(file.c_str(), mode);
+  }
+
+  /// A file that the mesh names, where assimp looks for it.
+  std::optional<std::string> part(const std::string& name) {
+    const std::string file = found(folder() + name);
+    if (file.empty()) return std::nullopt;
+    allow(file);
+    return readText(file);
+  }
+
+ private:
+  std::string folder() const { return mesh_.substr(0, mesh_.rfind('/') + 1); }
+
+  // The file that a path means: as it is written, else with %20 and the like as characters. "" where there is
+  // none that may be read.
+  std::string found(const std::string& path) const {
+    if (mayRead(path)) return path;
+    const std::size_t start = path.compare(0, folder().size(), folder()) == 0 ? folder().size() : 0;
+    const std::string decoded = path.substr(0, start) + percentDecoded(path.substr(start));
+    return mayRead(decoded) ? decoded : "";
+  }
+
+  bool mayRead(const std::string& path) const {
+    std::error_code ignored;
+    return std::filesystem::is_regular_file(path, ignored) && (path == mesh_ || isPart(path));
+  }
+
+  void allow(const std::string& path) {
+    std::error_code ignored;
+    if (seen_.insert(path).second) limits_.allow(std::filesystem::file_size(path, ignored));
+  }
+
+  bool isPart(const std::string& path) const {
+    namespace fs = std::filesystem;
+    if (lowerExtension(mesh_) != ".gltf") return false;
+    std::error_code ignored;
+    const fs::path part = fs::canonical(path, ignored);
+    // Of a mesh that is a link also what is beside its target.
+    for (const fs::path& folder : {fs::canonical(fs::absolute(mesh_, ignored).parent_path(), ignored),
+                                   fs::canonical(mesh_, ignored).parent_path()}) {
+      const fs::path inside = part.lexically_relative(folder);
+      if (!part.empty() && !folder.empty() && !inside.empty() && *inside.begin() != "..") return true;
+    }
+    return false;
+  }
+
+  const std::string mesh_;
+  ChildLimits& limits_;
+  std::set<std::string> seen_;
+};
+
+}  // namespace fcl_stpbv::detail

@@ -1,0 +1,37 @@
+// What the names of files that others wrote may mean: %20 and the like, and the backslashes of Windows.
+#pragma once
+
+#include <algorithm>
+#include <cctype>
+#include <string>
+#include <vector>
+
+namespace fcl_stpbv::detail {
+
+/// The text with each %XX as the byte that it stands for; as it is where one stands for none that a name may
+/// hold.
+inline std::string percentDecoded(const std::string& text) {
+  std::string decoded;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] != '%') {
+      decoded += text[i];
+      continue;
+    }
+    const std::string digits = text.substr(i + 1, 2);
+    const bool hex = digits.size() == 2 && std::all_of(digits.begin(), digits.end(),
+                                                       [](unsigned char c) { return std::isxdigit(c); });
+    if (!hex || digits == "00") return text;
+    decoded += static_cast<char>(std::stoi(digits, nullptr, 16));
+    i += 2;
+  }
+  return decoded;
+}
+
+/// The names that a glTF's uri may mean, in the order in which they are tried.
+inline std::vector<std::string> namesOf(const std::string& uri) {
+  std::string slashes = uri;
+  std::replace(slashes.begin(), slashes.end(), '\\', '/');
+  return {uri, percentDecoded(uri), slashes, percentDecoded(slashes)};
+}
+
+}  // namespace fcl_stpbv::detail
