@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/number_check.h"
 #include "fcl_stpbv/robot/adjacency.h"
 #include "fcl_stpbv/robot/package_path.h"
 #include "fcl_stpbv/robot/pair_list.h"
@@ -31,6 +32,7 @@ class PythonPairSearch {
  public:
   PythonPairSearch(const Path& urdf, const std::optional<Path>& obstacles, double r, double R,
                    const std::vector<Path>& packagePath, double margin) {
+    requireNumber("margin", margin, -1e6, 1e6);
     const auto model = std::make_shared<const RobotModel>(loadUrdf(urdf.string()));
     GeometryOptions options;
     options.radii = {r, R};

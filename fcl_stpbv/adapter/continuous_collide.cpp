@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
+#include "fcl_stpbv/adapter/known_trees.h"
 #include "fcl_stpbv/adapter/motion_search.h"
 #include "fcl_stpbv/adapter/posed_geometry.h"
 #include "fcl_stpbv/convex/relative_pose.h"
@@ -26,7 +28,7 @@ class Moving {
   Moving(const CollisionGeometryd& given, const SteadyMotion& motion) : geometry(given), motion_(motion) {
     const PosedGeometry still(given, Isometry3d::Identity(), Isometry3d::Identity());
     known = still.known() && still.finite();
-    sound = known && !still.merged();
+    if (known && still.merged()) refitted_.emplace(still.tree());
     unbounded = still.unbounded();
     convex = still.isBody();
     if (convex) body = still.body();
@@ -61,8 +63,11 @@ class Moving {
            motion_.turning.norm();
   }
 
+  /// With boxes in place of those that FCL has merged; null where it has not.
+  const ElementTree* refitted() const { return refitted_ ? &*refitted_ : nullptr; }
+
   const CollisionGeometryd& geometry;
-  bool known, sound, unbounded, convex;
+  bool known, unbounded, convex;
   ConvexBody body;
   Isometry3d pose;
   Vector3d centre{0, 0, 0};  // of the ball, in the geometry's frame
@@ -90,6 +95,7 @@ class Moving {
   }
 
   SteadyMotion motion_;
+  std::optional<ElementTree> refitted_;
   Vector3d velocity_{0, 0, 0};  // of the origin
   double turning_ = 0, acceleration_ = 0;
 };
@@ -113,8 +119,9 @@ class MovingPair {
   bool look(int, double most, Cover& cover) {
     QueryContext context;
     context.cache = &cache_;
-    context.finite = a_.sound && b_.sound;
-    answer = distance(a_.geometry, a_.pose, b_.geometry, b_.pose, context);
+    context.finite = a_.known && b_.known;
+    answer =
+        detail::distance(a_.geometry, a_.pose, b_.geometry, b_.pose, context, {a_.refitted(), b_.refitted()});
     if (!(answer.distance > margin_)) return true;
     const double gap = answer.lower - margin_;
     // What has no bounds and turns leaves every fixed plane.

@@ -40,13 +40,13 @@ bool isBuilt(const fcl::BVHModel<BV>& mesh) {
 }
 
 template <typename BV>
-Node meshNode(const fcl::BVHModel<BV>& mesh, int index, const std::vector<Eigen::AlignedBox3d>& fitted) {
+Node meshNode(const fcl::BVHModel<BV>& mesh, int index, const std::vector<Eigen::AlignedBox3d>* fitted) {
   const fcl::BVNode<BV>& node = mesh.getBV(index);
   OrientedBox box;
-  if (fitted.empty()) {
+  if (!fitted) {
     box = boxAround(node.bv);
   } else {
-    const Eigen::AlignedBox3d& own = fitted[static_cast<std::size_t>(index)];
+    const Eigen::AlignedBox3d& own = (*fitted)[static_cast<std::size_t>(index)];
     box = {own.center(), Matrix3d::Identity(), 0.5 * own.sizes()};
   }
   box.half.array() += kFit * (box.half.sum() + box.centre.lpNorm<1>());
@@ -139,16 +139,23 @@ bool areNumbers(const Vector3d* corner, int count) {
 
 }  // namespace
 
+bool isSound(const fcl::CollisionGeometryd& geometry) {
+  const bool merged = withMesh(
+      geometry, [](const auto& mesh) { return isBuilt(mesh) && hasMergedBoxes(mesh); }, false);
+  return !merged && ElementTree(geometry, /*known=*/true).finite();
+}
+
 ElementTree::ElementTree(const fcl::CollisionGeometryd& geometry, bool known) : geometry_(geometry) {
+  using Boxes = std::vector<Eigen::AlignedBox3d>;
   any_ = withMesh(
       geometry, [](const auto& mesh) { return isBuilt(mesh); }, false);
   if (any_ && !known)
     fitted_ = withMesh(
         geometry,
         [](const auto& mesh) {
-          return hasMergedBoxes(mesh) ? fittedBoxes(mesh) : std::vector<Eigen::AlignedBox3d>();
+          return hasMergedBoxes(mesh) ? std::make_shared<const Boxes>(fittedBoxes(mesh)) : nullptr;
         },
-        std::vector<Eigen::AlignedBox3d>());
+        std::shared_ptr<const Boxes>());
 #if FCL_HAVE_OCTOMAP
   if (const fcl::OcTreed* tree = asOcTree(geometry)) any_ = tree->getRoot() != nullptr;
 #endif
@@ -166,7 +173,7 @@ Node ElementTree::root() const {
 #endif
   const Node none{-1, true, nullptr, {Vector3d::Zero(), Matrix3d::Zero(), Vector3d::Zero()}};
   return withMesh(
-      geometry_, [this](const auto& mesh) { return meshNode(mesh, 0, fitted_); }, none);
+      geometry_, [this](const auto& mesh) { return meshNode(mesh, 0, fitted_.get()); }, none);
 }
 
 int ElementTree::children(const Node& node, std::array<Node, 8>& child) const {
@@ -177,8 +184,8 @@ int ElementTree::children(const Node& node, std::array<Node, 8>& child) const {
       geometry_,
       [&](const auto& mesh) {
         const auto& inner = mesh.getBV(static_cast<int>(node.id));
-        child[0] = meshNode(mesh, inner.leftChild(), fitted_);
-        child[1] = meshNode(mesh, inner.rightChild(), fitted_);
+        child[0] = meshNode(mesh, inner.leftChild(), fitted_.get());
+        child[1] = meshNode(mesh, inner.rightChild(), fitted_.get());
         return 2;
       },
       0);

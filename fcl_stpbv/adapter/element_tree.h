@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <vector>
 
 #include "fcl_stpbv/convex/shape.h"
@@ -30,8 +31,11 @@ inline double placeRounding(const Eigen::Isometry3d& pose, const Eigen::Vector3d
   return place.isZero(0) ? 0.0 : kRounding * (place.lpNorm<1>() + pose.translation().lpNorm<1>());
 }
 
+/// Whether nothing has to be looked at in a mesh again: ElementTree's finite(), and not merged().
+bool isSound(const fcl::CollisionGeometryd& geometry);
+
 /// A view of a BVHModel of any bounding volume or of an OcTree; the geometry
-/// must outlive it. Allocates nothing but boxes in place of merged ones.
+/// must outlive it. Allocates nothing but boxes in place of merged ones, which copies share.
 class ElementTree {
  public:
   struct Node {
@@ -41,7 +45,7 @@ class ElementTree {
     OrientedBox box;     ///< holds all that is below, in the geometry's frame
   };
 
-  /// `known`: the caller knows that it is sound().
+  /// `known`: the caller knows that it is sound (isSound()).
   explicit ElementTree(const fcl::CollisionGeometryd& geometry, bool known = false);
 
   /// Whether the geometry is a mesh or a tree with anything in it.
@@ -50,9 +54,7 @@ class ElementTree {
   /// of them, whether a triangle has it or not.
   bool finite() const;
   /// Whether FCL has merged its inner boxes. All boxes were then fitted anew, to the corners as they are now.
-  bool merged() const { return !fitted_.empty(); }
-  /// Whether nothing has to be looked at again.
-  bool sound() const { return finite() && !merged(); }
+  bool merged() const { return fitted_ != nullptr; }
   /// Whether inner boxes tell little of where the elements are, as an octree's, which is kilometres across.
   bool loose() const { return geometry_.getNodeType() == fcl::GEOM_OCTREE; }
   Node root() const;
@@ -67,7 +69,10 @@ class ElementTree {
  private:
   const fcl::CollisionGeometryd& geometry_;
   bool any_ = false;
-  std::vector<Eigen::AlignedBox3d> fitted_;  ///< instead of a mesh's own boxes, by FCL's index
+  std::shared_ptr<const std::vector<Eigen::AlignedBox3d>> fitted_;  ///< for merged boxes, by FCL's index
 };
+
+/// Trees of a pair's two geometries that the caller has made before; null: a query makes its own.
+using KnownTrees = std::array<const ElementTree*, 2>;
 
 }  // namespace fcl_stpbv::detail

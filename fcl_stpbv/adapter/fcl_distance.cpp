@@ -8,6 +8,7 @@
 #include "fcl_stpbv/adapter/element_tree.h"
 #include "fcl_stpbv/adapter/fcl_shapes.h"
 #include "fcl_stpbv/adapter/feature_map.h"
+#include "fcl_stpbv/adapter/known_trees.h"
 #include "fcl_stpbv/adapter/nearest_pair.h"
 #include "fcl_stpbv/adapter/other_geometry.h"
 #include "fcl_stpbv/adapter/polyhedral_witness.h"
@@ -57,7 +58,7 @@ Distance smoothDistance(const StpBvGeometry& a, const Transform3d& poseA, const 
 /// An STP-BV and anything else, in either order: the same query, so the same answer from the other side.
 bool mixedDistance(const StpBvGeometry* a, const CollisionGeometryd& geometry1, const Transform3d& pose1,
                    const StpBvGeometry* b, const CollisionGeometryd& geometry2, const Transform3d& pose2,
-                   const QueryContext& context, DistanceAnswer& answer) {
+                   const QueryContext& context, const KnownTrees& trees, DistanceAnswer& answer) {
   if (!a && !b) return false;
   PairCache cache;  // of the STP-BV first
   if (context.cache) cache = *context.cache;
@@ -65,8 +66,9 @@ bool mixedDistance(const StpBvGeometry* a, const CollisionGeometryd& geometry1, 
     cache.normal = -cache.normal;
     std::swap(cache.patch[0], cache.patch[1]);
   }
-  OtherDistance other = a ? distanceToOther(a->volume(), pose1, geometry2, pose2, &cache, context.finite)
-                          : distanceToOther(b->volume(), pose2, geometry1, pose1, &cache, context.finite);
+  OtherDistance other =
+      a ? distanceToOther(a->volume(), pose1, geometry2, pose2, &cache, context.finite, trees[1])
+        : distanceToOther(b->volume(), pose2, geometry1, pose1, &cache, context.finite, trees[0]);
   if (!a) {
     cache.normal = -cache.normal;
     std::swap(cache.patch[0], cache.patch[1]);
@@ -97,13 +99,14 @@ bool shapeDistance(const CollisionGeometryd& geometry1, const Transform3d& pose1
 /// other has no answer, whatever the geometries.
 DistanceAnswer otherDistance(const StpBvGeometry* a, const CollisionGeometryd& geometry1, Transform3d pose1,
                              const StpBvGeometry* b, const CollisionGeometryd& geometry2, Transform3d pose2,
-                             const QueryContext& context) {
+                             const QueryContext& context, const KnownTrees& trees) {
   DistanceAnswer answer;
   if (!makeRigid(pose1) || !makeRigid(pose2)) return answer;
-  if (mixedDistance(a, geometry1, pose1, b, geometry2, pose2, context, answer) ||
+  if (mixedDistance(a, geometry1, pose1, b, geometry2, pose2, context, trees, answer) ||
       shapeDistance(geometry1, pose1, geometry2, pose2, answer))
     return answer;
-  const ElementsDistance elements = nearestElements(geometry1, pose1, geometry2, pose2, context.finite);
+  const ElementsDistance elements =
+      nearestElements(geometry1, pose1, geometry2, pose2, context.finite, trees);
   answer = inFclTerms(elements.found, pose1, pose2);
   answer.element = elements.element;
   answer.runnerUp = elements.runnerUp;
@@ -129,15 +132,21 @@ DistanceAnswer inFclTerms(const Distance& found, const Transform3d& pose1, const
   return answer;
 }
 
-bool hasFiniteCorners(const CollisionGeometryd& geometry) { return ElementTree(geometry).sound(); }
+bool hasFiniteCorners(const CollisionGeometryd& geometry) { return isSound(geometry); }
 
 DistanceAnswer distance(const CollisionGeometryd& geometry1, const Transform3d& pose1,
                         const CollisionGeometryd& geometry2, const Transform3d& pose2,
                         const QueryContext& context) {
+  return detail::distance(geometry1, pose1, geometry2, pose2, context, {});
+}
+
+DistanceAnswer detail::distance(const CollisionGeometryd& geometry1, const Transform3d& pose1,
+                                const CollisionGeometryd& geometry2, const Transform3d& pose2,
+                                const QueryContext& context, const KnownTrees& trees) {
   const StpBvGeometry* a = asStpBv(&geometry1);
   const StpBvGeometry* b = asStpBv(&geometry2);
   DistanceAnswer answer = a && b ? inFclTerms(smoothDistance(*a, pose1, *b, pose2, context), pose1, pose2)
-                                 : otherDistance(a, geometry1, pose1, b, geometry2, pose2, context);
+                                 : otherDistance(a, geometry1, pose1, b, geometry2, pose2, context, trees);
   answer.geometry = {&geometry1, &geometry2};
   return answer;
 }

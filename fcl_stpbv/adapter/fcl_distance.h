@@ -102,7 +102,8 @@ struct QueryContext {
 /// theirs are asked in any case.
 bool hasFiniteCorners(const fcl::CollisionGeometryd& geometry);
 
-/// Distance between two geometries. Never throws or allocates; FCL is never asked for a distance.
+/// Distance between two geometries. Never throws or allocates, but for boxes in place of those that FCL has
+/// merged (hasFiniteCorners()); FCL is never asked for a distance.
 ///
 /// An STP-BV against one, or against any other FCL geometry in either order: exact and signed, with
 /// status, bounds and derivatives. Two other shapes, one of them bounded: signed, by this library's

@@ -96,8 +96,8 @@ class NearestElements {
 
 ElementsDistance nearestElements(const fcl::CollisionGeometryd& geometry1, const Eigen::Isometry3d& pose1,
                                  const fcl::CollisionGeometryd& geometry2, const Eigen::Isometry3d& pose2,
-                                 bool finite) {
-  const PosedPair pair(geometry1, pose1, geometry2, pose2, finite);
+                                 bool finite, const KnownTrees& trees) {
+  const PosedPair pair(geometry1, pose1, geometry2, pose2, finite, trees);
   NearestElements nearest(pair);
   if (pair.valid && (finite || pair.finite()))
     descend(pair, pair.first.whole(), pair.second.whole(), nearest);

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "fcl_stpbv/adapter/element_tree.h"
 #include "fcl_stpbv/distance/distance.h"
 
 namespace fcl_stpbv::detail {
@@ -21,9 +22,10 @@ struct ElementsDistance {
 /// A mesh or a tree against a shape: signed, the least over its elements. Two of them: 0 where they overlap,
 /// for surfaces have no depth, with the first two elements found to meet and a point of both. `invalid` where
 /// either has nothing in it or a corner that is no number, unless the caller knows that all are (`finite`),
-/// or a pose is not rigid. Allocates nothing.
+/// or a pose is not rigid. Allocates nothing but boxes in place of those that FCL has merged, unless `trees`
+/// has them.
 ElementsDistance nearestElements(const fcl::CollisionGeometryd& geometry1, const Eigen::Isometry3d& pose1,
                                  const fcl::CollisionGeometryd& geometry2, const Eigen::Isometry3d& pose2,
-                                 bool finite);
+                                 bool finite, const KnownTrees& trees = {});
 
 }  // namespace fcl_stpbv::detail

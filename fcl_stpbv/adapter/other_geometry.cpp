@@ -9,14 +9,14 @@ namespace fcl_stpbv::detail {
 
 OtherDistance distanceToOther(const StpBv& volume, const Eigen::Isometry3d& poseVolume,
                               const fcl::CollisionGeometryd& other, const Eigen::Isometry3d& poseOther,
-                              PairCache* cache, bool finite) {
+                              PairCache* cache, bool finite, const ElementTree* tree) {
   OtherDistance result;
   Shape shape;
   if (shapeOf(other, shape)) {
     result.found = distance(volume, poseVolume, shape, poseOther, cache);
     return result;
   }
-  const ElementTree elements(other, finite);
+  const ElementTree elements = tree ? *tree : ElementTree(other, finite);
   if (!elements.any() || !(finite || elements.finite())) return result;
   const NearestElement search(volume, poseVolume, elements, poseOther, cache);
   if (!search.any()) return result;

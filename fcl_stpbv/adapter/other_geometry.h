@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "fcl_stpbv/adapter/element_tree.h"
 #include "fcl_stpbv/distance/distance.h"
 
 namespace fcl_stpbv::detail {
@@ -19,9 +20,10 @@ struct OtherDistance {
 };
 
 /// Solves the pair. `invalid` where this library has no answer: a type it does not know, nothing to measure
-/// to, or a corner that is no number, unless the caller knows that all are (`finite`). Allocates nothing.
+/// to, or a corner that is no number, unless the caller knows that all are (`finite`). Allocates nothing but
+/// boxes in place of those that FCL has merged, unless the `tree` has them.
 OtherDistance distanceToOther(const StpBv& volume, const Eigen::Isometry3d& poseVolume,
                               const fcl::CollisionGeometryd& other, const Eigen::Isometry3d& poseOther,
-                              PairCache* cache, bool finite);
+                              PairCache* cache, bool finite, const ElementTree* tree = nullptr);
 
 }  // namespace fcl_stpbv::detail

@@ -60,8 +60,8 @@ bool areVolumes(const fcl::CollisionGeometryd& geometry1, const Isometry3d& pose
 }
 
 PosedGeometry::PosedGeometry(const fcl::CollisionGeometryd& geometry, const Isometry3d& pose,
-                             const Isometry3d& inFrame, bool known)
-    : tree_(geometry, known), inFrame_(inFrame) {
+                             const Isometry3d& inFrame, bool known, const ElementTree* tree)
+    : tree_(tree ? *tree : ElementTree(geometry, known)), inFrame_(inFrame) {
   body_.pose = pose;
   if (const StpBvGeometry* g = asStpBv(&geometry))
     body_.volume = &g->volume();
@@ -103,10 +103,11 @@ PosedGeometry::Part PosedGeometry::part(const ElementTree::Node& node) const {
 
 // A pose that is not rigid goes on as it is, and what it gives is never looked at.
 PosedPair::PosedPair(const fcl::CollisionGeometryd& geometry1, Isometry3d pose1,
-                     const fcl::CollisionGeometryd& geometry2, Isometry3d pose2, bool known)
+                     const fcl::CollisionGeometryd& geometry2, Isometry3d pose2, bool known,
+                     const KnownTrees& trees)
     : valid(makeRigid(pose1) && makeRigid(pose2)),
-      first(geometry1, pose1, Isometry3d::Identity(), known),
-      second(geometry2, pose2, between(pose1, pose2), known),
+      first(geometry1, pose1, Isometry3d::Identity(), known, trees[0]),
+      second(geometry2, pose2, between(pose1, pose2), known, trees[1]),
       toWorld(pose1.linear()) {
   valid = valid && first.known() && second.known() && !(first.unbounded() && second.unbounded());
 }

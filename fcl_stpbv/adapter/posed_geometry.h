@@ -67,9 +67,9 @@ class PosedGeometry {
   };
 
   /// `inFrame`: the pose seen from the pair's first geometry. Poses are rigid. `known`: to be sound
-  /// (ElementTree::sound()).
+  /// (isSound()), but for what the `tree` has found, where there is one.
   PosedGeometry(const fcl::CollisionGeometryd& geometry, const Eigen::Isometry3d& pose,
-                const Eigen::Isometry3d& inFrame, bool known = false);
+                const Eigen::Isometry3d& inFrame, bool known = false, const ElementTree* tree = nullptr);
 
   /// Whether it is a valid body, or a mesh or a tree with anything in it.
   bool known() const { return isBody() || tree_.any(); }
@@ -79,6 +79,8 @@ class PosedGeometry {
   bool merged() const { return tree_.merged(); }
   /// Whether only leaves tell where the elements are (ElementTree::loose()).
   bool loose() const { return tree_.loose(); }
+  /// Its elements, of which there may be none.
+  const ElementTree& tree() const { return tree_; }
   bool isBody() const { return body_.volume || isShape_; }
   bool unbounded() const { return isShape_ && body_.shape.unbounded(); }
   /// The body. Only where it is one.
@@ -101,9 +103,10 @@ class PosedGeometry {
 
 /// Two geometries whose poses were made rigid.
 struct PosedPair {
-  /// `known`: both geometries to be sound.
+  /// `known` and `trees`: as PosedGeometry's, of both geometries.
   PosedPair(const fcl::CollisionGeometryd& geometry1, Eigen::Isometry3d pose1,
-            const fcl::CollisionGeometryd& geometry2, Eigen::Isometry3d pose2, bool known);
+            const fcl::CollisionGeometryd& geometry2, Eigen::Isometry3d pose2, bool known,
+            const KnownTrees& trees = {});
 
   /// Whether all corners of meshes are numbers. Without it nothing is known about the pair.
   bool finite() const { return first.finite() && second.finite(); }

@@ -122,6 +122,7 @@ void replace(const std::string& file, std::string_view content, mode_t mode, con
 }  // namespace
 
 void atomicWrite(const std::string& path, std::string_view content) {
+  if (path.empty()) throw Error("the name of a file to write is empty; give one");
   const int descriptor = descriptorOf(path);
   if (descriptor >= 0) {
     const WriteSignalsHeld held;

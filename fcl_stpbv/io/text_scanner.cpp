@@ -42,6 +42,7 @@ int significantDigits(std::string_view token) {
 
 std::string readText(const std::string& path, std::size_t mostBytes) {
   std::error_code ignored;
+  if (path.empty()) throw Error("the name of a file to read is empty; give one");
   const std::string file = path == "-" ? "/dev/stdin" : path;
   if (std::filesystem::is_directory(file, ignored)) throw Error(path + ": is a folder, expected a file");
   if (!std::filesystem::exists(file, ignored)) throw Error(path + ": no such file");

@@ -210,42 +210,71 @@ PartSearch::Parts uncut(const std::vector<TriangleSoup>& soups, const PartSpace&
   return parts;
 }
 
+// Searches for parts of one mesh, within one bound after the other: what was measured for one is known to the
+// next.
+class Searches {
+ public:
+  Searches(const PartSpace& space, const std::vector<TriangleSoup>& soups, int most)
+      : space_(space), soups_(soups), most_(most), plain_(space, most), withCorners_(space, most) {}
+
+  // At most so many hulls are spent on each way to search.
+  ConvexParts within(double excess, long work);
+
+ private:
+  ConvexParts byCutsWithCorners(double excess, long work) {
+    withCorners_.aim(excess);
+    if (startWithCorners_.empty()) startWithCorners_ = uncut(soups_, space_, true);
+    return certified(withCorners_.byCuts(startWithCorners_, work), soups_, space_).parts;
+  }
+
+  const PartSpace& space_;
+  const std::vector<TriangleSoup>& soups_;
+  int most_;
+  PartSearch plain_, withCorners_;
+  PartSearch::Parts start_, startWithCorners_;
+  bool needsCorners_ = false;  // the inside does, and parts that have them from the start are nearer
+};
+
 // 1. Facets, joined, where these are enough.
 // 2. Parts by cuts. Where these are not enough, facets again, joined and cut on.
 // 3. Where the inside needs corners that raise the excess: by cuts again, with corners from the start.
-ConvexParts searched(const PartSpace& space, const std::vector<TriangleSoup>& soups,
-                     const PartsOptions& options) {
-  // Beyond kSearched triangles the search sees a coarser mesh, of which it need not get the last bit. And two
-  // or three parts are found sooner.
+ConvexParts Searches::within(double excess, long work) {
+  if (needsCorners_) return byCutsWithCorners(excess, work);
+  plain_.aim(excess);
+  const std::vector<PartSearch::Parts> facets = facetParts(soups_, space_, most_, excess);
+  if (!facets.empty()) {
+    const PartSearch::Parts few = plain_.improved(facets.front(), work / 10);
+    if (plain_.isEnough(few))
+      if (Certified done = certified(few, soups_, space_); done.covers) return std::move(done.parts);
+  }
+  if (start_.empty()) start_ = uncut(soups_, space_, false);
+  const PartSearch::Parts cuts = plain_.byCuts(start_, work);
+  if (!facets.empty() && !plain_.isEnough(cuts)) {
+    PartSearch::Parts best;  // of the facets' sets, joined
+    for (const PartSearch::Parts& one : facets) {
+      PartSearch::Parts few = plain_.improved(one, 0L);
+      if (best.empty() || PartSearch::isBetter(few, best)) best = std::move(few);
+    }
+    const PartSearch::Parts other = plain_.improved(best, work / 4);
+    if (PartSearch::isBetter(other, cuts))
+      if (Certified done = certified(other, soups_, space_); done.covers) return std::move(done.parts);
+  }
+  Certified found = certified(cuts, soups_, space_);
+  if (!found.asFound) {
+    ConvexParts other = byCutsWithCorners(excess, work);
+    needsCorners_ = other.excess < found.parts.excess;
+    if (needsCorners_) return other;
+  }
+  return std::move(found.parts);
+}
+
+// Hulls to spend on a search. Beyond kSearched triangles it sees a coarser mesh, of which it need not get the
+// last bit. And two or three parts are found sooner.
+long workFor(const PartSpace& space, const PartsOptions& options) {
   const double triangles = static_cast<double>(space.mesh.triangles().size());
   const double share =
       std::clamp(std::pow(kSearched / triangles, 1.5), 0.1, 1.0) * std::min(1.0, options.most / 4.0);
-  const long work = static_cast<long>(kHulls * options.effort * share / space.costly);
-  PartSearch search(space, options.most, options.excess);
-  const std::vector<PartSearch::Parts> facets = facetParts(soups, space, options.most, options.excess);
-  if (!facets.empty()) {
-    const PartSearch::Parts few = search.improved(facets.front(), work / 10);
-    if (search.isEnough(few))
-      if (Certified done = certified(few, soups, space); done.covers) return std::move(done.parts);
-  }
-  const PartSearch::Parts cuts = search.byCuts(uncut(soups, space, false), work);
-  if (!facets.empty() && !search.isEnough(cuts)) {
-    PartSearch::Parts best;  // of the facets' sets, joined
-    for (const PartSearch::Parts& one : facets) {
-      PartSearch::Parts few = search.improved(one, 0L);
-      if (best.empty() || PartSearch::isBetter(few, best)) best = std::move(few);
-    }
-    const PartSearch::Parts other = search.improved(best, work / 4);
-    if (PartSearch::isBetter(other, cuts))
-      if (Certified done = certified(other, soups, space); done.covers) return std::move(done.parts);
-  }
-  Certified found = certified(cuts, soups, space);
-  if (!found.asFound) {
-    PartSearch withCorners(space, options.most, options.excess);
-    Certified other = certified(withCorners.byCuts(uncut(soups, space, true), work), soups, space);
-    if (other.parts.excess < found.parts.excess) return std::move(other.parts);
-  }
-  return std::move(found.parts);
+  return static_cast<long>(kHulls * options.effort * share / space.costly);
 }
 
 }  // namespace
@@ -261,13 +290,16 @@ ConvexParts convexParts(const TriangleMesh& input, const PartsOptions& options) 
   space.facets = flatParts(mesh, space.slack, facetOf);
   const bool each = mesh.pieces().pieces() <= kStartPieces;
   const std::vector<TriangleSoup> soups = groups(mesh, facetOf, each);
-  ConvexParts out = searched(space, soups, options);
-  // The search knows the excess to a tenth: a near miss is searched for again, a little closer.
+  Searches searches(space, soups, options.most);
+  const long work = workFor(space, options);
+  ConvexParts out = searches.within(options.excess, work);
+  // The search sees a coarser mesh, and parts get corners behind it: a near miss is searched for again, a
+  // little closer.
   const auto isNearMiss = [&] { return out.excess > options.excess && out.excess < 1.15 * options.excess; };
-  PartsOptions closer = options;
+  double closer = options.excess;
   for (int again = 0; again < 2 && isNearMiss(); ++again) {
-    closer.excess *= 0.98 * options.excess / out.excess;
-    ConvexParts other = searched(space, soups, closer);
+    closer *= 0.98 * options.excess / out.excess;
+    ConvexParts other = searches.within(closer, work / 4);
     if (other.excess < out.excess) out = std::move(other);
   }
   out.pieces = mesh.pieces().pieces();

@@ -38,7 +38,7 @@ PartSpace::PartSpace(const MeshSolid& solid)
 void measureAgain(Part& part, const PartSpace& space, const Measure& measure) {
   ExcessOptions options;
   options.absolute = std::max(measure.resolution, 0.1 * space.fine);
-  options.relative = 0.1;
+  options.relative = measure.relative;
   options.queries = measure.queries + 2 * static_cast<long>(part.hull.surface.size());
   options.enough = measure.enough;
   const MeshExcess before = part.excess;

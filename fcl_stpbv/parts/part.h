@@ -45,6 +45,7 @@ struct Part {
   MeshExcess excess;
   double resolution = 0;  ///< that the excess is known to (m), if `queries` were enough
   long queries = 0;       ///< of distances that its last measure could spend
+  double judged = -1;     ///< bound (m) of which it was last measured whether it is within
 };
 
 using PartPtr = std::shared_ptr<Part>;
@@ -55,6 +56,7 @@ struct Measure {
   double resolution;
   double enough = std::numeric_limits<double>::infinity();
   long queries = 1000;
+  double relative = 0.1;  ///< part of the excess that the resolution grows by
 };
 
 /// Measures a part's excess anew.

@@ -23,6 +23,7 @@ namespace {
 constexpr double kResolution = 0.15;  // of the excess to be lowered: what is below does not matter yet
 constexpr long kStep = 20;            // hulls that a step counts for at least, so that each search ends
 constexpr long kConfirm = 10000;      // distances to know what the search goes on with
+constexpr long kJudge = 100000;       // distances to know whether a part is within the bound
 
 double excessOf(const PartPtr& part) { return part->excess.lower; }
 
@@ -40,11 +41,8 @@ std::size_t manyParts(int most) {
 
 }  // namespace
 
-PartSearch::PartSearch(const PartSpace& space, int most, double bound)
-    : space_(space), most_(most), bound_(std::max(bound, space.fine)) {}
-
 bool PartSearch::isEnough(const Parts& parts) const {
-  return parts.size() <= static_cast<std::size_t>(most_) && worstExcess(parts) <= bound_;
+  return parts.size() <= static_cast<std::size_t>(most_) && isWithin(parts);
 }
 
 bool PartSearch::isBetter(const Parts& a, const Parts& b) {
@@ -82,6 +80,23 @@ void PartSearch::confirm(const Parts& parts) const {
   for (const PartPtr& part : parts)
     if (part->excess.upper > 1.2 * worst + space_.fine && part->queries < kConfirm)
       measureAgain(*part, space_, {std::max(0.05 * worst, 0.5 * space_.fine), kInfinity, kConfirm});
+}
+
+// A part that may be within or not is measured until that is known: an answer that turns out a little too far
+// from the mesh would have to be searched for again.
+bool PartSearch::isWithin(Part& part, double bound) const {
+  const bool open = part.excess.lower <= bound && part.excess.upper > bound;
+  if (open && bound > space_.fine && part.judged != bound) {
+    measureAgain(part, space_, {std::max(0.002 * bound, 0.1 * space_.fine), bound, kJudge, 0});
+    part.judged = bound;
+  }
+  return part.excess.lower <= bound;
+}
+
+bool PartSearch::isWithin(const Parts& parts) const {
+  if (worstExcess(parts) > bound_) return false;
+  return std::all_of(parts.begin(), parts.end(),
+                     [&](const PartPtr& part) { return isWithin(*part, bound_); });
 }
 
 // The best four ways: two by a score of excess and volume, and among the others two by volume alone, which
@@ -171,6 +186,7 @@ PartSearch::Parts PartSearch::joined(Parts parts, int most, double bound) {
       measureAgain(*both, space_, {0.5 * space_.fine, kInfinity, kConfirm});
       continue;  // it may not be within the bound
     }
+    if (few && !isWithin(*both, bound)) continue;
     parts[first] = both;
     parts.erase(parts.begin() + static_cast<std::ptrdiff_t>(second));
   }
@@ -204,7 +220,7 @@ std::vector<PartSearch::Line> PartSearch::cutOn(const std::vector<Line>& beam) {
 
 PartSearch::Parts PartSearch::improved(Parts parts, int most) {
   confirm(parts);
-  while (!exhausted() && worstExcess(parts) > bound_) {
+  while (!exhausted() && !isWithin(parts)) {
     spent_ += kStep;
     Parts best = parts;
     std::vector<Line> beam{line(parts)};
@@ -232,7 +248,7 @@ PartSearch::Parts PartSearch::byBeam(const Parts& start) {
   const auto most = static_cast<std::size_t>(most_);
   Parts best = joined(start, most_, 0);
   std::vector<Line> beam{line(start)};
-  while (!beam.empty() && worstExcess(best) > bound_ && beam.front().parts.size() < manyParts(most_)) {
+  while (!beam.empty() && !isWithin(best) && beam.front().parts.size() < manyParts(most_)) {
     if (exhausted() || beam.front().parts.size() >= most) beam.resize(1);  // then on to what is joined again
     beam = cutOn(beam);
     for (const Line& tried : beam) {
@@ -246,7 +262,7 @@ PartSearch::Parts PartSearch::byBeam(const Parts& start) {
 }
 
 PartSearch::Parts PartSearch::byBestCuts(Parts parts) {
-  while (!exhausted() && worstExcess(parts) > bound_ && parts.size() < manyParts(most_)) {
+  while (!exhausted() && !isWithin(parts) && parts.size() < manyParts(most_)) {
     const std::size_t w = worstOf(parts);
     const std::vector<Split>& ways = splits(parts[w]);
     if (ways.empty()) break;
@@ -263,7 +279,7 @@ PartSearch::Parts PartSearch::byCuts(const Parts& start, long work) {
     Parts found = improved(std::move(from), most_);
     if (isBetter(found, best)) best = std::move(found);
   };
-  const auto goesOn = [&] { return !exhausted() && worstExcess(best) > bound_; };
+  const auto goesOn = [&] { return !exhausted() && !isWithin(best); };
   if (goesOn()) another(byBestCuts(start));
   if (goesOn()) {
     const int half = most_ < 4 ? most_ : most_ / 2;

@@ -1,6 +1,7 @@
 // The search for few parts that keep close to the mesh.
 #pragma once
 
+#include <algorithm>
 #include <map>
 #include <memory>
 #include <utility>
@@ -18,8 +19,12 @@ class PartSearch {
  public:
   using Parts = std::vector<PartPtr>;
 
-  /// For at most `most` parts, as few as found once they are within `bound` (m) of the mesh.
-  PartSearch(const PartSpace& space, int most, double bound);
+  /// For at most `most` parts.
+  PartSearch(const PartSpace& space, int most) : space_(space), most_(most) {}
+
+  /// As few as found once they are within `bound` (m) of the mesh, from now on. What was measured stays
+  /// known.
+  void aim(double bound) { bound_ = std::max(bound, space_.fine); }
 
   /// From parts that cover all, found by cutting them; `work` is the number of hulls to spend.
   Parts byCuts(const Parts& start, long work);
@@ -45,6 +50,8 @@ class PartSearch {
   };
   Line line(Parts parts) const;
   void confirm(const Parts& parts) const;
+  bool isWithin(Part& part, double bound) const;
+  bool isWithin(const Parts& parts) const;
   const std::vector<Split>& splits(const PartPtr& part);
   std::vector<Line> cutOn(const std::vector<Line>& beam);
   PartPtr join(const PartPtr& a, const PartPtr& b, const Measure& measure);
@@ -57,7 +64,7 @@ class PartSearch {
 
   const PartSpace& space_;
   int most_;
-  double bound_;
+  double bound_ = 0;
   long work_ = 0, spent_ = 0;
   std::map<const Part*, std::vector<Split>> splits_;
   std::map<std::pair<const Part*, const Part*>, PartPtr> joins_;

@@ -138,6 +138,9 @@ double enclosedVolume(const StpBv& volume) {
 
 double signedDistance(const StpBv& volume, const Vector3d& point) {
   if (!point.allFinite()) return -std::numeric_limits<double>::infinity();
+  // From so far away every volume is a point at the origin; farther on squares of lengths are infinite.
+  constexpr double kFar = 1e100;  // m; points of volumes are within 1e75
+  if (point.cwiseAbs().maxCoeff() > kFar) return point.stableNorm();
   // The largest value lies on the patch that owns its normal. Any normal gives a lower
   // bound with the support of its true owner, so one that rounding has put past a boundary,
   // as close to a vertex it may, does no harm.

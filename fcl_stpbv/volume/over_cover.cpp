@@ -91,7 +91,7 @@ double meanOverSegment(const StpBv& volume) {
 
 HullExcess::HullExcess(const std::vector<Vector3d>& points) : points_(points) {
   const double flat = flatRadius(points);
-  RolledHull hull = rollBall(points, flat);
+  RolledHull hull = flatHull(points);
   faces_ = std::move(hull.faces);
   ends_ = std::move(hull.vertices);
   for (const std::vector<int>& ring : faces_) {

@@ -163,20 +163,7 @@ std::vector<int> needleEnds(const std::vector<Vector3d>& points) {
   return {std::min(a, b), std::max(a, b)};
 }
 
-}  // namespace
-
-RolledHull rollBall(const std::vector<Vector3d>& points, double radius) {
-  if (std::isinf(radius)) {
-    if (std::vector<int> ends = needleEnds(points); !ends.empty()) return {std::move(ends), {}};
-    radius = flatRadius(points);
-    // So large a ball leaves no point on its way from one face to the next that both of them hold: what
-    // quickhull finds is the hull without a further check.
-    try {
-      RolledHull quick = quickBallHull(points, radius);
-      if (!quick.faces.empty()) return quick;
-    } catch (const Error&) {  // its faces do not close
-    }
-  }
+RolledHull rolled(const std::vector<Vector3d>& points, double radius) {
   Roller roller(points, radius);
   try {
     roller.roll();
@@ -187,6 +174,26 @@ RolledHull rollBall(const std::vector<Vector3d>& points, double radius) {
     return hull;
   }
   return hullOf(points, std::move(roller.faces), std::move(roller.loneVertices), radius);
+}
+
+}  // namespace
+
+RolledHull rollBall(const std::vector<Vector3d>& points, double radius) {
+  if (!std::isinf(radius)) return rolled(points, radius);
+  if (std::vector<int> ends = needleEnds(points); !ends.empty()) return {std::move(ends), {}};
+  return flatHull(points);
+}
+
+RolledHull flatHull(const std::vector<Vector3d>& points) {
+  const double radius = flatRadius(points);
+  // So large a ball leaves no point on its way from one face to the next that both of them hold: what
+  // quickhull finds is the hull without a further check.
+  try {
+    RolledHull quick = quickBallHull(points, radius);
+    if (!quick.faces.empty()) return quick;
+  } catch (const Error&) {  // its faces do not close
+  }
+  return rolled(points, radius);
 }
 
 RolledHull quickBallHull(const std::vector<Vector3d>& points, double radius) {

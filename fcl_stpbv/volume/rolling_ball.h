@@ -24,6 +24,11 @@ struct RolledHull {
 RolledHull rollBall(const std::vector<Eigen::Vector3d>& points,
                     double radius = std::numeric_limits<double>::infinity());
 
+/// The convex hull, as rollBall() finds it, but with faces also where rounding alone keeps the points off one
+/// line.
+/// @throws Error likewise.
+RolledHull flatHull(const std::vector<Eigen::Vector3d>& points);
+
 /// The same hull by the definition of its faces, slow and sure: for at most kMostByDefinition points
 /// (ball_faces.h) and a finite radius. Empty for a sphere or a spindle, which
 /// have no face.
@@ -33,7 +38,7 @@ RolledHull hullByDefinition(const std::vector<Eigen::Vector3d>& points, double r
 /// cloud. The caller has to check what comes back (surface_check.h).
 RolledHull quickBallHull(const std::vector<Eigen::Vector3d>& points, double radius);
 
-/// Radius of a ball that bulges over the cloud by less than its coordinates' rounding: what rollBall() rolls
+/// Radius of a ball that bulges over the cloud by less than its coordinates' rounding: what flatHull() takes
 /// in place of a plane. Unlike a plane it has no point on a side of one of its triangles but the two ends, so
 /// no vertex of the convex hull lies inside a side or a flat face.
 double flatRadius(const std::vector<Eigen::Vector3d>& points);
