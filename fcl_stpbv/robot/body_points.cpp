@@ -77,8 +77,8 @@ double widthAlong(const Vector3d& n, const std::vector<Vector3d>& points) {
 double narrowestOf(const std::vector<Vector3d>& points) {
   double least = INFINITY;
   for (int k = 14; k < 27; ++k) {
-    const Vector3d n(k / 9 - 1, k / 3 % 3 - 1, k % 3 - 1);
-    least = std::min(least, widthAlong(n.normalized(), points));
+    const Eigen::Vector3i n(k / 9 - 1, k / 3 % 3 - 1, k % 3 - 1);
+    least = std::min(least, widthAlong(n.cast<double>().normalized(), points));
   }
   return least;
 }
