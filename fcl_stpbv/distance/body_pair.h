@@ -119,8 +119,7 @@ class BodyPair {
 
   /// How far the sample's normal is inside the regions of its patches, as a sine; negative outside.
   double insideRegions(const Sample& s) const {
-    return -std::max(tablesA_.patches.crossing(s.patch[0], pack(s.n)).past,
-                     tablesB_.patches.crossing(s.patch[1], pack(opposite(s.n))).past);
+    return -std::max(a_.outside(s.patch[0], s.n), b_.outside(s.patch[1], opposite(s.n)));
   }
 
   /// Whether the gap is as wide as it gets near the sample's normal: its gradient is rounding.

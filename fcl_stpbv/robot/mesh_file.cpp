@@ -8,6 +8,7 @@
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <assimp/Importer.hpp>
 #include <cstring>
@@ -41,38 +42,31 @@ struct HashVector {
   }
 };
 
-// The corners of the box around points.
-std::pair<Vector3d, Vector3d> boxAround(const std::vector<Vector3d>& points) {
-  std::pair<Vector3d, Vector3d> box{points[0], points[0]};
-  for (const Vector3d& p : points) {
-    box.first = box.first.cwiseMin(p);
-    box.second = box.second.cwiseMax(p);
-  }
+Eigen::AlignedBox3d boxAround(const std::vector<Vector3d>& points) {
+  Eigen::AlignedBox3d box;
+  for (const Vector3d& p : points) box.extend(p);
   return box;
 }
 
 // A body that has collapsed would count as a point and be told to be clear.
-void requireSize(const std::vector<Vector3d>& points, bool several, const std::string& path) {
+void requireSize(const Eigen::AlignedBox3d& box, bool several, const std::string& path) {
   constexpr double kLeast = 1e-9;  // an atom is a tenth of it (m)
-  if (!several) return;
-  const auto [low, high] = boxAround(points);
-  if ((high - low).maxCoeff() < kLeast)
+  if (several && box.sizes().maxCoeff() < kLeast)
     throw Error(path + ": is smaller than 1e-9 m along each axis; give it the right unit or scale");
 }
 
 // assimp holds coordinates in single precision: far from the origin they would be rounded to steps that are
 // seen in the body's shape. One point may have been a small body.
-void requireNear(const std::vector<Vector3d>& points, bool several, const std::string& path) {
+void requireNear(const Eigen::AlignedBox3d& box, bool several, const std::string& path) {
   constexpr double kStep = 1.0 / (1 << 23);  // of a coordinate
   constexpr double kSeen = 1e-3;             // of the body's size
   constexpr double kSmall = 0.1;             // m
-  const auto [low, high] = boxAround(points);
-  const double far = std::max(low.cwiseAbs().maxCoeff(), high.cwiseAbs().maxCoeff());
-  if (kStep * far > kSeen * (several ? (high - low).maxCoeff() : kSmall))
+  const double far = box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs()).maxCoeff();
+  if (kStep * far > kSeen * (several ? box.sizes().maxCoeff() : kSmall))
     throw Error(path +
                 ": lies thousands of its sizes away from its origin, where coordinates are read in steps of "
-                "over a thousandth of its "
-                "size; move the mesh to its origin and give the way in the robot's file");
+                "over a thousandth of its size; move the mesh to its origin and give the way in the robot's "
+                "file");
 }
 
 // Gathers triangles, each distinct point once.
@@ -102,8 +96,10 @@ class Gatherer {
   }
 
   TriangleMesh take() {
-    requireSize(mesh_.vertices, several_, path_);
-    if (!mesh_.vertices.empty()) requireNear(mesh_.vertices, several_, path_);
+    if (mesh_.vertices.empty()) return {};
+    const Eigen::AlignedBox3d box = boxAround(mesh_.vertices);
+    requireSize(box, several_, path_);
+    requireNear(box, several_, path_);
     return std::move(mesh_);
   }
 
@@ -242,7 +238,7 @@ TriangleMesh loadMesh(const std::string& path, const Vector3d& scale) {
     const bool several = std::any_of(mesh.vertices.begin(), mesh.vertices.end(),
                                      [&](const Vector3d& p) { return p != mesh.vertices[0]; });
     for (Vector3d& point : mesh.vertices) point = point.cwiseProduct(scale);
-    requireSize(mesh.vertices, several, path);
+    requireSize(boxAround(mesh.vertices), several, path);
     return mesh;
   }
   const std::string bytes = inChildProcess(path, [&](ChildLimits& limits) {
