@@ -7,9 +7,11 @@
 
 #include <Eigen/Core>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "fcl_stpbv/error.h"
 #include "floats.h"
 
 namespace fcl_stpbv {
@@ -21,6 +23,14 @@ void addVolume(pybind11::module_& module);
 void addRobot(pybind11::module_& module);
 void addShards(pybind11::module_& module);
 void addPostures(pybind11::module_& module);
+
+/// A file that may be left out. @throws Error naming the argument where its name is empty: it was not left
+/// out.
+inline const std::optional<Path>& named(const std::optional<Path>& file, const char* argument) {
+  if (file && file->empty())
+    throw Error(std::string(argument) + ": the file's name is empty; None leaves it out");
+  return file;
+}
 
 inline std::vector<std::string> toText(const std::vector<Path>& paths) {
   return {paths.begin(), paths.end()};

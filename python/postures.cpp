@@ -9,6 +9,7 @@
 
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/posture/find_posture.h"
+#include "made.h"
 #include "parts.h"
 
 namespace py = pybind11;
@@ -21,14 +22,14 @@ class PythonPostureSearch {
  public:
   PythonPostureSearch(const Path& urdf, const std::optional<Path>& srdf, const std::optional<Path>& obstacles,
                       double r, double R, const std::vector<Path>& packagePath) {
+    named(srdf, "srdf"), named(obstacles, "obstacles");
     GeometryOptions options;
     options.radii = {r, R};
     options.packagePath = toText(packagePath);
     scene_.robot = std::make_shared<const RobotModel>(loadUrdf(urdf.string()));
-    if (srdf && !srdf->empty())
-      scene_.srdf = std::make_shared<const Srdf>(loadSrdf(srdf->string(), *scene_.robot));
+    if (srdf) scene_.srdf = std::make_shared<const Srdf>(loadSrdf(srdf->string(), *scene_.robot));
     scene_.geometry = std::make_shared<const RobotGeometry>(loadGeometry(*scene_.robot, options));
-    if (obstacles && !obstacles->empty()) {
+    if (obstacles) {
       const auto around = std::make_shared<const RobotModel>(loadUrdf(obstacles->string()));
       scene_.obstacles = obstaclesOf(around, loadGeometry(*around, options));
     }
@@ -98,6 +99,13 @@ py::dict asDict(const Posture& posture) {
 }
 
 }  // namespace
+}  // namespace fcl_stpbv
+
+template <>
+struct pybind11::detail::type_caster<fcl_stpbv::PythonPostureSearch>
+    : fcl_stpbv::MadeCaster<fcl_stpbv::PythonPostureSearch> {};
+
+namespace fcl_stpbv {
 
 void addPostures(py::module_& module) {
   py::class_<PythonPostureSearch>(module, "PostureSearch",

@@ -1,5 +1,6 @@
 // A robot's collision constraints in Python.
 #include <algorithm>
+#include <chrono>
 #include <memory>
 #include <optional>
 #include <set>
@@ -9,6 +10,7 @@
 
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/robot/batch.h"
+#include "made.h"
 #include "scene.h"
 
 namespace py = pybind11;
@@ -28,8 +30,9 @@ class PythonRobot {
               double r, double R, const std::string& base, const std::vector<Path>& packagePath,
               double influence, double handOver) {
     const auto scene = std::make_shared<PythonScene>();
+    named(srdf, "srdf"), named(obstacles, "obstacles");
     scene->robot = std::make_shared<const RobotModel>(loadUrdf(urdf.string()));
-    if (srdf && !srdf->empty()) scene->srdf = loadSrdf(srdf->string(), *scene->robot);
+    if (srdf) scene->srdf = loadSrdf(srdf->string(), *scene->robot);
     scene->options.radii = {r, R};
     scene->options.packagePath = toText(packagePath);
     const auto geometry = scene->load(base, obstacles);
@@ -104,28 +107,34 @@ class PythonRobot {
     const Rows& q = checkedRows(given);
     Verdicts hit(q.rows());
     CheckerBatch batch(checker(margin), threads);
-    const py::gil_scoped_release others;
-    batch.collides(q.transpose(), sequenceOf(path), hit);
+    inSlices(q.rows(), threads, [&](Eigen::Index start, Eigen::Index count) {
+      batch.collides(q.middleRows(start, count).transpose(), sequenceOf(path), hit.segment(start, count));
+    });
     return hit;
   }
   std::pair<Rows, py::array_t<double>> evaluateMany(GivenRows given, bool path, int threads) {
     const Rows& q = checkedRows(given);
     Rows d(q.rows(), rows());
-    Rows values(q.rows(), constraints_->nonZeros());
     py::array_t<double> jacobian({q.rows(), static_cast<Eigen::Index>(rows()), q.cols()});
-    double* const dense = jacobian.mutable_data();
+    double* dense = jacobian.mutable_data();
     ConstraintsBatch batch(*constraints_, threads);
-    const py::gil_scoped_release others;
-    batch.evaluateValues(q.transpose(), sequenceOf(path), d.transpose(), values.transpose());
-    spread(values, q.cols(), dense);
+    Rows values;
+    inSlices(q.rows(), threads, [&](Eigen::Index start, Eigen::Index count) {
+      values.resize(count, constraints_->nonZeros());
+      batch.evaluateValues(q.middleRows(start, count).transpose(), sequenceOf(path),
+                           d.middleRows(start, count).transpose(), values.transpose());
+      dense = spread(values, q.cols(), dense);
+    });
     return {std::move(d), std::move(jacobian)};
   }
   Rows distancesMany(GivenRows given, bool path, int threads) {
     const Rows& q = checkedRows(given);
     Rows d(q.rows(), rows());
     ConstraintsBatch batch(*constraints_, threads);
-    const py::gil_scoped_release others;
-    batch.evaluate(q.transpose(), sequenceOf(path), d.transpose());
+    inSlices(q.rows(), threads, [&](Eigen::Index start, Eigen::Index count) {
+      batch.evaluate(q.middleRows(start, count).transpose(), sequenceOf(path),
+                     d.middleRows(start, count).transpose());
+    });
     return d;
   }
 
@@ -190,8 +199,26 @@ class PythonRobot {
     checker_->setMargin(margin);
     return *checker_;
   }
-  /// The entries of each J in their places among zeros.
-  void spread(const Rows& values, Eigen::Index columns, double* dense) const {
+  /// `work(start, count)` on all rows without Python's lock, a slice at a time: between two of them Ctrl-C
+  /// ends it. @throws py::error_already_set then.
+  template <class Work>
+  static void inSlices(Eigen::Index rows, int threads, const Work& work) {
+    // A batch begins without a memory every 64 rows, so that slices of so many leave each answer as it is.
+    // They grow as long as they take no time.
+    using Clock = std::chrono::steady_clock;
+    Eigen::Index slice = 64 * static_cast<Eigen::Index>(threads);
+    for (Eigen::Index start = 0; start < rows;) {
+      if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+      const py::gil_scoped_release others;
+      const Clock::time_point begin = Clock::now();
+      const Eigen::Index count = std::min(slice, rows - start);
+      work(start, count);
+      start += count;
+      if (Clock::now() - begin < std::chrono::milliseconds(100)) slice *= 2;
+    }
+  }
+  /// The entries of each J in their places among zeros. @return the end of what is written
+  double* spread(const Rows& values, Eigen::Index columns, double* dense) const {
     const Eigen::Index size = rows() * columns;
     std::fill(dense, dense + values.rows() * size, 0.0);
     const std::vector<int>&start = constraints_->rowStart(), &column = constraints_->columnIndices();
@@ -199,6 +226,7 @@ class PythonRobot {
       for (int row = 0; row < rows(); ++row)
         for (int k = start[static_cast<std::size_t>(row)]; k < start[static_cast<std::size_t>(row) + 1]; ++k)
           dense[row * columns + column[static_cast<std::size_t>(k)]] = values(i, k);
+    return dense;
   }
 
   std::shared_ptr<const PythonScene> scene_;
@@ -210,6 +238,13 @@ class PythonRobot {
 };
 
 }  // namespace
+}  // namespace fcl_stpbv
+
+template <>
+struct pybind11::detail::type_caster<fcl_stpbv::PythonRobot> : fcl_stpbv::MadeCaster<fcl_stpbv::PythonRobot> {
+};
+
+namespace fcl_stpbv {
 
 void addRobot(py::module_& module) {
   py::class_<PythonRobot>(module, "Robot", "Distances d(q) and Jacobian J(q) of a robot's pairs of bodies.")

@@ -24,7 +24,7 @@ std::shared_ptr<const RobotGeometry> PythonScene::load(const std::string& base,
   kinematics = std::make_shared<const Kinematics>(robot, motion);
   baseMoves = motion != BaseMotion::fixed;
   RobotGeometry bodies = loadGeometry(*robot, options), things;
-  if (obstaclesUrdf && !obstaclesUrdf->empty()) {
+  if (obstaclesUrdf) {
     around = std::make_shared<const RobotModel>(loadUrdf(obstaclesUrdf->string()));
     things = loadGeometry(*around, options);
     obstacles = obstaclesOf(around, things);

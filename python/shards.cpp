@@ -15,6 +15,7 @@
 #include "fcl_stpbv/robot/pair_proof.h"
 #include "fcl_stpbv/robot/pair_samples.h"
 #include "fcl_stpbv/robot/pair_search.h"
+#include "made.h"
 #include "parts.h"
 
 namespace py = pybind11;
@@ -33,6 +34,7 @@ class PythonPairSearch {
   PythonPairSearch(const Path& urdf, const std::optional<Path>& obstacles, double r, double R,
                    const std::vector<Path>& packagePath, double margin) {
     requireNumber("margin", margin, -1e6, 1e6);
+    named(obstacles, "obstacles");
     const auto model = std::make_shared<const RobotModel>(loadUrdf(urdf.string()));
     GeometryOptions options;
     options.radii = {r, R};
@@ -47,7 +49,7 @@ class PythonPairSearch {
       if (!known) pairs_.push_back(links);
     }
     std::vector<Obstacle> around;
-    if (obstacles && !obstacles->empty()) {
+    if (obstacles) {
       const auto scene = std::make_shared<const RobotModel>(loadUrdf(obstacles->string()));
       around = obstaclesOf(scene, loadGeometry(*scene, options));
       for (std::size_t link = 0; link < model->links.size(); ++link)
@@ -111,7 +113,7 @@ class PythonPairSearch {
   std::string srdf(const std::vector<std::size_t>& never, const std::optional<Path>& path,
                    const std::vector<std::string>& comments) const {
     const RobotModel& robot = scene_.kinematics->robot();
-    const std::string base = path ? path->string() : "";
+    const std::string base = named(path, "srdf") ? path->string() : "";
     const Srdf known = base.empty() ? Srdf() : loadSrdf(base, robot);
     std::vector<PairEntry> list = joined();
     for (const std::size_t pair : never) {
@@ -194,6 +196,18 @@ std::vector<std::pair<std::string, std::string>> meshFiles(const Path& urdf,
   found.erase(std::unique(found.begin(), found.end()), found.end());
   return found;
 }
+
+}  // namespace
+}  // namespace fcl_stpbv
+
+template <>
+struct pybind11::detail::type_caster<fcl_stpbv::PairProof> : fcl_stpbv::MadeCaster<fcl_stpbv::PairProof> {};
+template <>
+struct pybind11::detail::type_caster<fcl_stpbv::PythonPairSearch>
+    : fcl_stpbv::MadeCaster<fcl_stpbv::PythonPairSearch> {};
+
+namespace fcl_stpbv {
+namespace {
 
 void addProof(py::module_& module) {
   py::class_<PairProof>(module, "PairProof", "How far the proof has come that a pair of links never meets.")

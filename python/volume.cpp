@@ -11,9 +11,38 @@
 #include "fcl_stpbv/volume/stp_bv.h"
 #include "fcl_stpbv/volume/tessellate.h"
 #include "fcl_stpbv/volume/verify.h"
+#include "made.h"
 #include "parts.h"
 
 namespace py = pybind11;
+
+namespace fcl_stpbv {
+namespace {
+
+/// The answer and where the bodies' frames were, which the gradients are about.
+struct PlacedDistance : Distance {
+  PlacedDistance(const Distance& found, const Eigen::Vector3d& origin1, const Eigen::Vector3d& origin2)
+      : Distance(found), origins{origin1, origin2} {}
+  std::array<Eigen::Vector3d, 2> origins;
+};
+
+}  // namespace
+}  // namespace fcl_stpbv
+
+template <>
+struct pybind11::detail::type_caster<fcl_stpbv::StpBv> : fcl_stpbv::MadeCaster<fcl_stpbv::StpBv> {};
+template <>
+struct pybind11::detail::type_caster<fcl_stpbv::DistanceStatus>
+    : fcl_stpbv::MadeCaster<fcl_stpbv::DistanceStatus> {};
+template <>
+struct pybind11::detail::type_caster<fcl_stpbv::PairCache>
+    : fcl_stpbv::MadeCaster<fcl_stpbv::PairCache, true> {};
+template <>
+struct pybind11::detail::type_caster<fcl_stpbv::PlacedDistance>
+    : fcl_stpbv::MadeCaster<fcl_stpbv::PlacedDistance> {};
+template <>
+struct pybind11::detail::type_caster<fcl_stpbv::RadiiAdvice> : fcl_stpbv::MadeCaster<fcl_stpbv::RadiiAdvice> {
+};
 
 namespace fcl_stpbv {
 namespace {
@@ -31,13 +60,6 @@ Eigen::Isometry3d toPose(const Floats<Eigen::Matrix4d>& given, const char* name)
   if (!matrix.allFinite()) pose.matrix().setConstant(std::numeric_limits<double>::quiet_NaN());
   return pose;
 }
-
-/// The answer and where the bodies' frames were, which the gradients are about.
-struct PlacedDistance : Distance {
-  PlacedDistance(const Distance& found, const Eigen::Vector3d& origin1, const Eigen::Vector3d& origin2)
-      : Distance(found), origins{origin1, origin2} {}
-  std::array<Eigen::Vector3d, 2> origins;
-};
 
 PlacedDistance ask(const StpBv& a, const Floats<Eigen::Matrix4d>& poseA, const StpBv& b,
                    const Floats<Eigen::Matrix4d>& poseB, PairCache* cache) {

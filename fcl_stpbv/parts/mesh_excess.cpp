@@ -182,16 +182,17 @@ class Bound {
     const auto isFar = [&](const std::pair<double, double>& heights) {
       return heights.first > 4 * slack_ || heights.second < -4 * slack_;
     };
+    Triangle inwards;
+    for (std::size_t k = 0; k < 3; ++k) inwards[k] = normal.cross(t[(k + 1) % 3] - t[k]).normalized();
     mesh_.within(low, high, [&](int m) {
       const Triangle& x = mesh_.triangles()[at(m)];
       if (!mesh_.pieces().closed[at(mesh_.pieces().piece[at(m)])] || isFar(reach(x))) return true;
       CutTriangle in(x);
-      for (std::size_t k = 0; k < 3; ++k) {
-        const Vector3d inwards = normal.cross(t[(k + 1) % 3] - t[k]).normalized();
-        in = in.cut(inwards, inwards.dot(t[k]) + smaller, 0).first;
-      }
+      for (std::size_t k = 0; k < 3 && !in.empty(); ++k)
+        in = in.cut(inwards[k], inwards[k].dot(t[k]) + smaller, 0).first;
+      if (in.empty()) return true;
       const auto [least, most] = reach(in);
-      if (in.empty() || isFar({least, most})) return true;
+      if (isFar({least, most})) return true;
       const bool above = most > slack_, below = least < -slack_;
       if (above && below) {
         if (found.crossings++ == 0 || in.area() > largest) found.crossing = m, largest = in.area();

@@ -8,6 +8,7 @@
 
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/io/text_scanner.h"
+#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/robot/json_text.h"
 
 namespace fcl_stpbv::report {
@@ -16,9 +17,8 @@ using namespace detail;
 
 namespace {
 
-// A configuration from a JSON object of joints' values, or a list of all coordinates.
-Eigen::VectorXd poseFromJson(const std::string& path, const Kinematics& kinematics,
-                             const Eigen::VectorXd& rest) {
+// A configuration from a JSON object of joints' or coordinates' values, or a list of all coordinates.
+Eigen::VectorXd poseFromJson(const std::string& path, const Kinematics& kinematics, Eigen::VectorXd rest) {
   // A joint value larger than any robot's is a mistake, and past 1e9 its sine has no exact digit left.
   constexpr double kMost = 1e6;
   const auto values = [&](const nlohmann::json& json) {
@@ -38,9 +38,19 @@ Eigen::VectorXd poseFromJson(const std::string& path, const Kinematics& kinemati
     }
     Srdf::State state;
     state.name = path;
-    for (const auto& [joint, value] : json.items()) {
-      if (kinematics.robot().joint(joint) < 0) throw Error(path + ": the robot has no joint '" + joint + "'");
-      state.joints[joint] = values(value);
+    const std::vector<std::string>& coordinates = kinematics.names();
+    for (const auto& [name, value] : json.items()) {
+      if (kinematics.robot().joint(name) >= 0) {
+        state.joints[name] = values(value);
+        continue;
+      }
+      const auto own = std::find(coordinates.begin(), coordinates.end(), name);
+      if (own == coordinates.end()) throw Error(path + ": the robot has no joint '" + name + "'");
+      const std::string joint = name.substr(0, name.rfind('/'));
+      if (json.contains(joint)) throw Error(path + ": names '" + joint + "' and '" + name + "'; give one");
+      const std::vector<double> single = values(value);
+      if (single.size() != 1) throw Error(path + ": '" + name + "' is one number");
+      rest[own - coordinates.begin()] = single.front();
     }
     return kinematics.configuration(state, rest);
   } catch (const nlohmann::json::exception& error) {
@@ -80,19 +90,22 @@ std::string limitWarning(const std::string& name, const std::vector<Eigen::Vecto
   std::string first;
   int more = -1;
   for (const JointModel& joint : kinematics.robot().joints) {
-    if (joint.mimic || (joint.type != JointType::revolute && joint.type != JointType::prismatic)) continue;
-    const int k = kinematics.coordinate(joint.name);
+    if (joint.type != JointType::revolute && joint.type != JointType::prismatic) continue;
+    const auto valueIn = [&](const Eigen::VectorXd& q) {
+      if (!joint.mimic) return q[kinematics.coordinate(joint.name)];
+      const std::string& leader = kinematics.robot().joints[at(joint.mimic->joint)].name;
+      return joint.mimic->multiplier * q[kinematics.coordinate(leader)] + joint.mimic->offset;
+    };
     const auto outside = std::find_if(postures.begin(), postures.end(), [&](const Eigen::VectorXd& q) {
-      return !(q[k] >= kinematics.lower()[k] - kOff && q[k] <= kinematics.upper()[k] + kOff);
+      return !(valueIn(q) >= joint.lower - kOff && valueIn(q) <= joint.upper + kOff);
     });
     if (outside == postures.end() || ++more > 0) continue;
     const char* unit = joint.type == JointType::revolute ? " rad" : " m";
     first =
         name + ": " +
         (postures.size() > 1 ? "way point " + std::to_string(outside - postures.begin() + 1) + ": " : "") +
-        "the joint '" + joint.name + "' is at " + toDecimal((*outside)[k]) + unit +
-        ", outside of its limits " + toDecimal(kinematics.lower()[k]) + " to " +
-        toDecimal(kinematics.upper()[k]) + unit;
+        "the joint '" + joint.name + "' is at " + toDecimal(valueIn(*outside)) + unit +
+        ", outside of its limits " + toDecimal(joint.lower) + " to " + toDecimal(joint.upper) + unit;
   }
   if (more > 0)
     first += ", and " + std::to_string(more) +

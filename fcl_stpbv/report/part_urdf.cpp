@@ -2,8 +2,10 @@
 #include "fcl_stpbv/report/part_urdf.h"
 
 #include <filesystem>
+#include <optional>
 
 #include "fcl_stpbv/robot/urdf_element.h"
+#include "fcl_stpbv/robot/uri_text.h"
 #include "fcl_stpbv/robot/xml_text.h"
 
 namespace fcl_stpbv::report {
@@ -43,13 +45,14 @@ class Writer {
   void redirect(XMLElement* file) const {
     const char* attribute = file ? file->Attribute("filename") : nullptr;
     if (!attribute) return;
-    std::string name = attribute;
-    for (const char* start : {"file://localhost/", "file:///"})
-      if (name.rfind(start, 0) == 0) return;
-    if (name.rfind("file://", 0) == 0) name.erase(0, 7);
+    const std::optional<std::string> path = filePathIn(attribute);
+    const std::string name = path.value_or(attribute);
     if (name.find("://") != std::string::npos || fs::path(name).is_absolute()) return;
     const fs::path old = fs::absolute(parts_.robot->path).parent_path() / name;
-    file->SetAttribute("filename", fs::relative(old, fs::absolute(parts_.folder)).c_str());
+    // With its file://, after which a %20 stands for a space.
+    const std::string moved =
+        (path ? "file://" : "") + fs::relative(old, fs::absolute(parts_.folder)).string();
+    file->SetAttribute("filename", moved.c_str());
   }
 
   void redirectTextures(XMLElement& parent) const {

@@ -3,6 +3,7 @@
 #include "fcl_stpbv/report/robot_files.h"
 
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/report/formatted.h"
 #include "fcl_stpbv/robot/checked_pairs.h"
 #include "fcl_stpbv/robot/pair_list.h"
 
@@ -49,6 +50,24 @@ std::vector<std::string> stillJoints(const RobotModel& robot, const Still& still
   if (count > kNamed) list += " and " + std::to_string(count - kNamed) + " more";
   return {robot.path + ": " + (count == 1 ? "the joint " : "the joints ") + list + " " +
           (count == 1 ? one : several) + "."};
+}
+
+// A warning where smooth covers of primitives have a larger R than the one that was given; none without.
+std::vector<std::string> raisedR(const RobotModel& robot, const RobotGeometry& geometry,
+                                 const GeometryOptions& options) {
+  const Body* most = nullptr;
+  for (const Body& body : geometry.bodies) {
+    const bool given =
+        !options.fitR || options.links.count(robot.links[static_cast<std::size_t>(body.link)].name) > 0;
+    if (!body.primitive || body.volume->vertexCount() < 2 || !given) continue;  // a ball is one for any R
+    if (body.volume->radii().R <= body.radii.R) continue;
+    if (!most || body.volume->radii().R > most->volume->radii().R) most = &body;
+  }
+  if (!most) return {};
+  return {
+      formatted("%s: R = %.4g m is too small for the smooth cover of '%s', which has R = %.4g m instead; "
+                "give a larger --R, or take the primitives as they are (--primitives flat).",
+                robot.path.c_str(), most->radii.R, most->name.c_str(), most->volume->radii().R)};
 }
 
 }  // namespace
@@ -124,6 +143,8 @@ std::vector<std::string> RobotLoader::warnings() const {
                     *scene_, [](const JointModel& joint) { return joint.type != JointType::fixed; },
                     "stands still in the neutral posture, as all obstacles do",
                     "stand still in the neutral posture, as all obstacles do"));
+  append(all, raisedR(*robot_, *geometry_, files_.geometry));
+  if (scene_) append(all, raisedR(*scene_, *sceneGeometry_, sceneOptions_));
   append(all, geometry_->warnings);
   append(all, sceneGeometry_->warnings);
   return all;

@@ -12,6 +12,7 @@
 
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/numbers.h"
+#include "fcl_stpbv/robot/twist.h"
 
 namespace fcl_stpbv {
 namespace {
@@ -242,12 +243,11 @@ void CollisionConstraints::writeRow(std::size_t row, const Witness& witness, dou
   if (witness.status == DistanceStatus::invalid) return;
   // The velocity of x along n is n.v + (x cross n).w for a motion (v, w).
   const Eigen::Vector3d n = slope * witness.normal;
-  const Eigen::Vector3d along[2] = {-n, n};
-  const Eigen::Vector3d moment[2] = {n.cross(witness.point[0]), witness.point[1].cross(n)};
+  Eigen::Matrix<double, 6, 2> along;
+  along << -n, n, n.cross(witness.point[0]), witness.point[1].cross(n);
   for (int t = rows_[row].firstTerm; t < rows_[row].lastTerm; ++t) {
     const Term& term = terms_[at(t)];
-    const Twist& motion = state_.motion[at(term.motion)];
-    values[term.slot] += along[term.side].dot(motion.linear) + moment[term.side].dot(motion.angular);
+    values[term.slot] += along.col(term.side).dot(detail::stacked(state_.motion[at(term.motion)]));
   }
 }
 

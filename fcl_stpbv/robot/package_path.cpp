@@ -18,7 +18,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view kPackage = "package://";
-constexpr std::string_view kFile = "file://";
 
 bool startsWith(const std::string& text, std::string_view start) {
   return text.compare(0, start.size(), start) == 0;
@@ -52,8 +51,7 @@ std::string packageIn(const fs::path& folder) {
 // What a name's kind is where it is one of another, such as "http:/"; else "".
 std::string otherKind(const std::string& uri) {
   const std::size_t colon = uri.find(":/");
-  if (colon == std::string::npos || colon < 2 || startsWith(uri, kPackage) || startsWith(uri, kFile))
-    return "";
+  if (colon == std::string::npos || colon < 2 || startsWith(uri, kPackage) || filePathIn(uri)) return "";
   const bool word =
       std::all_of(uri.begin(), uri.begin() + static_cast<std::ptrdiff_t>(colon),
                   [](unsigned char c) { return std::isalnum(c) || c == '+' || c == '-' || c == '.'; });
@@ -88,11 +86,8 @@ std::vector<std::string> PackagePath::candidates(const std::string& uri) const {
     const std::string text = path.lexically_normal().string();
     if (std::find(paths.begin(), paths.end(), text) == paths.end()) paths.push_back(text);
   };
-  if (startsWith(uri, kFile)) {
-    const std::string path = uri.substr(kFile.size());
-    add(fs::path(urdfFolder_) / (startsWith(path, "localhost/") ? path.substr(path.find('/')) : path));
-  } else if (!startsWith(uri, kPackage)) {
-    add(fs::path(urdfFolder_) / uri);  // an absolute path stays as it is
+  if (!startsWith(uri, kPackage)) {
+    add(fs::path(urdfFolder_) / filePathIn(uri).value_or(uri));  // an absolute path stays as it is
   } else {
     const std::string inside = uri.substr(kPackage.size());
     const std::size_t slash = inside.find('/');

@@ -172,6 +172,14 @@ class Search {
     return true;
   }
 
+  // Ways of more joints than usual get fewer boxes and random descents: a box takes the square of the joints,
+  // a descent their number, and a robot of long ways has many pairs.
+  static double shareOf(const JointBox& box, int power) {
+    constexpr double kUsual = 24;  // joints
+    return std::pow(std::min(1.0, kUsual / static_cast<double>(std::max<Eigen::Index>(1, box.lower.size()))),
+                    power);
+  }
+
   // Descents from the closest samples, a short proof, descents from random configurations, until one of them
   // decides. @return the proof that is left open, none where the pair is decided.
   std::optional<Open> settle(PairEntry& entry, const PairSamples& found) const {
@@ -185,12 +193,18 @@ class Search {
     for (int i = 0; i < options_.descents && at(i) < found.closest.size(); ++i)
       if (descend(found.closest[at(i)].second)) return std::nullopt;
     Open open{&entry, {}};
-    if (scene_.kinematics) open.proof = unproven(scene_, entry);
-    if (scene_.kinematics && advance(open, options_.proofBoxes)) return std::nullopt;
+    double descents = options_.randomDescents;
+    if (scene_.kinematics) {
+      open.proof = unproven(scene_, entry);
+      const JointBox all = open.proof.open.front();
+      descents *= shareOf(all, 2);
+      if (advance(open, std::lround(static_cast<double>(options_.proofBoxes) * shareOf(all, 3))))
+        return std::nullopt;
+    }
     // Each pair has its own random numbers, whatever became of those before it.
     std::mt19937_64 random(options_.seed +
                            0x9e3779b97f4a7c15u * (1 + static_cast<std::size_t>(&entry - list_.data())));
-    for (int i = 0; i < options_.randomDescents; ++i)
+    for (int i = 0; i < descents; ++i)
       if (descend(randomConfiguration(*kinematics_, random))) return std::nullopt;
     return open;
   }

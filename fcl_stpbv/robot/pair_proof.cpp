@@ -1,5 +1,4 @@
-// Proofs that two links never meet, by branch and bound over the box of
-// their joints' values (docs/proofs.md):
+// Proofs that two links never meet, by branch and bound over their joints' values (docs/proofs.md):
 // 1. the distance in the box's middle less what the joints' levers can change it;
 // 2. else the gap along a plane fixed to a link between the two, less how far the joints push each body;
 // 3. else cut the box where that gains most. Each box's result depends on the box alone.
@@ -201,8 +200,7 @@ class Prover {
   LinkPair pair_;
   PairSearch search_;
   Eigen::VectorXd q_, lipschitz_;
-  Eigen::VectorXd half_, share_,
-      taken_;  // of the box at hand: half widths, what each coordinate takes from the gap
+  Eigen::VectorXd half_, share_, taken_;  // of the box: half widths, what each coordinate takes from the gap
   std::vector<BoxJoint> joints_;
   std::vector<const JointModel*> models_;
   PlaneBound bound_;

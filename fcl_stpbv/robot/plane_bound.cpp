@@ -19,11 +19,16 @@ using Eigen::Vector3d;
 constexpr std::size_t kReferences = 2;
 constexpr int kPlaneSteps = 4;
 
+// Of a longer way, links whose loss is bounded: those that lose least in first order.
+constexpr std::size_t kRanked = 25;
+
+// How a joint moves the point x per unit of its value.
+Vector3d motion(const BoxJoint& joint, const Vector3d& x) {
+  return joint.slides ? joint.axis : Vector3d(joint.axis.cross(x - joint.origin));
+}
+
 // The point farthest along n that the joints bring the body to, in first order.
 Vector3d farthest(const Vector3d& n, const BodySide& side) {
-  const auto motion = [](const BoxJoint& joint, const Vector3d& x) -> Vector3d {
-    return joint.slides ? joint.axis : Vector3d(joint.axis.cross(x - joint.origin));
-  };
   double best = -kInfinity;
   Vector3d point = Vector3d::Zero();
   for (const Vector3d& x : side.body->points) {
@@ -73,17 +78,29 @@ double PlaneBound::gapAlong(const Vector3d& n, std::size_t reference, Eigen::Vec
 
 // The links that the plane is best fixed to, as the nearest points alone tell.
 void PlaneBound::rank(const Vector3d& n, const std::array<Vector3d, 2>& nearest) {
-  order_.clear();
-  for (std::size_t reference = 0; reference <= joints_.size(); ++reference) {
+  const auto firstOrder = [&](const OutwardJoint& o, const Vector3d& x) {
+    return (o.joint.slides ? o.joint.half : o.sine) * std::abs(n.dot(motion(o.joint, x)));
+  };
+  const auto keepLeast = [&](std::size_t most) {
+    std::sort(order_.begin(), order_.end());
+    order_.resize(std::min(order_.size(), most));
+  };
+  double loss = 0;
+  for (const OutwardJoint& o : joints_) loss += firstOrder(o, nearest[1]);
+  order_.assign(1, {loss, 0});
+  for (const OutwardJoint& o : joints_) {
+    loss += firstOrder(o, nearest[0]) - firstOrder(o, nearest[1]);
+    order_.emplace_back(loss, order_.size());
+  }
+  if (order_.size() > kRanked) keepLeast(kRanked);
+  for (auto& [known, reference] : order_) {
     fixTo(reference);
     push_.prepare(n, first_);
-    double loss = push_.push(n, first_, nearest[0]);
+    known = push_.push(n, first_, nearest[0]);
     push_.prepare(-n, second_);
-    loss += push_.push(-n, second_, nearest[1]);
-    order_.emplace_back(loss, reference);
+    known += push_.push(-n, second_, nearest[1]);
   }
-  std::sort(order_.begin(), order_.end());
-  order_.resize(std::min(order_.size(), kReferences));
+  keepLeast(kReferences);
 }
 
 double PlaneBound::gap(const Vector3d& normal, const std::array<Vector3d, 2>& nearest, double enough,

@@ -23,7 +23,12 @@ using Eigen::Vector3d;
 constexpr double kLinearShare = 0.5;
 
 // Joints whose direction is tried both ways where it is not plain which pushes most: 2^8 corners at most.
-constexpr int kCorners = 8;
+constexpr int kCorners = 8, kCornersOfMany = 4;
+
+// Joints up to which the third order is weighed joint by joint, which takes the cube of their number.
+constexpr std::size_t kThirdOrder = 24;
+
+bool hasThirdOrder(std::size_t joints) { return joints <= kThirdOrder; }
 
 }  // namespace
 
@@ -37,8 +42,10 @@ void PushBound::prepare(const Vector3d& n, const BodySide& side) {
   coupling_.resize(m * m);
   bulged_.resize(m * m);
   bulging_.resize(m * m);
-  tripled_.resize(m * m * m);
-  tripling_.resize(m * m * m);
+  if (hasThirdOrder(m)) {
+    tripled_.resize(m * m * m);
+    tripling_.resize(m * m * m);
+  }
   lever_.resize(m);
   reach_.resize(m);
   moved_.resize(m + 1);
@@ -70,7 +77,7 @@ void PushBound::prepare(const Vector3d& n, const BodySide& side) {
       const std::size_t at = i * m + l;
       cross(turned_[i], l, coupled_[at], coupling_[at]);
       cross(flat_[i], l, bulged_[at], bulging_[at]);
-      for (std::size_t k = l + 1; k < m; ++k)
+      for (std::size_t k = l + 1; k < m && hasThirdOrder(m); ++k)
         cross(coupled_[at], k, tripled_[at * m + k], tripling_[at * m + k]);
     }
   }
@@ -128,7 +135,7 @@ double PushBound::push(const Vector3d& n, const BodySide& side, const Vector3d& 
     slope_[i] = 0;
     std::fill_n(product_.begin() + static_cast<std::ptrdiff_t>(i * m), m, 0.0);
   }
-  const double sum = rest + mostAtCorners(0, m, kCorners);
+  const double sum = rest + mostAtCorners(0, m, hasThirdOrder(m) ? kCorners : kCornersOfMany);
   return shared_ ? std::min(sum, uncapped - together(n, side, x)) : sum;
 }
 
@@ -155,10 +162,10 @@ double PushBound::couple(const BodySide& side, std::size_t i, std::size_t l, con
   const Vector3d r = x - outer.joint.origin;
   const Vector3d& axis = outer.joint.axis;
   product_[at] = o.sine * outer.sine * coupled_[at].dot(r);
-  double further = 0;
-  for (std::size_t k = l + 1; k < m; ++k)
-    further += along(side, k, tripled_[at * m + k], tripling_[at * m + k], x);
   const double moved = coupling_[at] * moved_[l + 1];
+  double further = hasThirdOrder(m) ? 0 : moved;
+  for (std::size_t k = l + 1; k < m && hasThirdOrder(m); ++k)
+    further += along(side, k, tripled_[at * m + k], tripling_[at * m + k], x);
   const double inwards = std::abs(turned_[i].dot(r) - turned_[i].dot(axis) * axis.dot(r)) + moved;
   const double more = o.sine * (outer.bulge * inwards + outer.sine * std::min(further, moved));
   const double most = o.sine * coupling_[at] * outer.chord * reach_[l];

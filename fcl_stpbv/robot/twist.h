@@ -13,4 +13,10 @@ inline Eigen::Vector3d velocityOf(const Eigen::Vector3d& x, const Twist& body) {
   return body.linear + body.angular.cross(x);
 }
 
+/// [linear; angular] as one vector, which is how the two lie in memory.
+inline Eigen::Map<const Eigen::Matrix<double, 6, 1>> stacked(const Twist& body) {
+  static_assert(sizeof(Twist) == 6 * sizeof(double));
+  return Eigen::Map<const Eigen::Matrix<double, 6, 1>>(body.linear.data());
+}
+
 }  // namespace fcl_stpbv::detail

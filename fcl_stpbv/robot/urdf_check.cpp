@@ -84,12 +84,25 @@ std::string loopAbove(const Tree& tree, std::string link) {
   }
 }
 
+// "; is ... a misspelt <joint>?" of the first element that leads to the link, yet is no joint; else "".
+std::string likeJoint(const Tree& tree, const std::string& link) {
+  const tinyxml2::XMLNode* robot = tree.known.at(link)->Parent();
+  for (const XMLElement* e = robot->FirstChildElement(); e; e = e->NextSiblingElement()) {
+    const XMLElement* child = e->FirstChildElement("child");
+    if (child && child->Attribute("link", link.c_str()))
+      return "; is <" + std::string(e->Name()) + "> in line " + std::to_string(e->GetLineNum()) +
+             " a misspelt <joint>?";
+  }
+  return "";
+}
+
 std::vector<std::string> inTreeOrder(const Tree& tree, const std::string& path) {
   std::string root;
   for (const std::string& link : tree.links) {
     if (tree.parentOf.count(link)) continue;
     if (!root.empty())
-      throw Error(path + ": both '" + root + "' and '" + link + "' have no parent; join them by a joint");
+      throw Error(path + ": both '" + root + "' and '" + link + "' have no parent; join them by a joint" +
+                  likeJoint(tree, link));
     root = link;
   }
   if (root.empty()) throw Error(path + ": its links form a loop, " + loopAbove(tree, tree.links[0]));

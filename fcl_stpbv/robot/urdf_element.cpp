@@ -39,6 +39,18 @@ class Listener : public console_bridge::OutputHandler {
   std::string heard_;  // the first thing said: what follows are its consequences
 };
 
+// In attributes XML takes tabs and line ends for spaces, which are all that urdfdom knows between numbers.
+void spaceOut(XMLElement& element) {
+  for (const char* vector : {"xyz", "rpy", "size", "scale"}) {
+    const char* numbers = element.Attribute(vector);
+    if (!numbers) continue;
+    std::string spaced = numbers;
+    for (const char blank : {'\t', '\n', '\r'}) std::replace(spaced.begin(), spaced.end(), blank, ' ');
+    element.SetAttribute(vector, spaced.c_str());
+  }
+  for (XMLElement* e = element.FirstChildElement(); e; e = e->NextSiblingElement()) spaceOut(*e);
+}
+
 // A robot of nothing but the element in question.
 class SmallRobot {
  public:
@@ -53,7 +65,10 @@ class SmallRobot {
     return parent.InsertEndChild(document_.NewElement(element))->ToElement();
   }
   XMLElement* copy(XMLElement& parent, const XMLElement* element) {
-    return element ? parent.InsertEndChild(element->DeepClone(&document_))->ToElement() : nullptr;
+    if (!element) return nullptr;
+    XMLElement* made = parent.InsertEndChild(element->DeepClone(&document_))->ToElement();
+    spaceOut(*made);
+    return made;
   }
 
   // Null where urdfdom refuses the whole; why is left in `reason`.

@@ -104,16 +104,28 @@ bool named(const tinyxml2::XMLNode* node, std::string_view name) {
 
 bool isShape(const tinyxml2::XMLNode* node) { return named(node, "collision") || named(node, "visual"); }
 
-// A box or the like that no <geometry> holds and no shape misses: of a link's shape, both misspelt.
+// A box or the like that says something, and that no <geometry> holds and no shape misses: of a link's shape
+// whose own words are misspelt.
 bool isLost(const XMLElement& element) {
-  const auto known = std::find_if(kInGeometry.begin(), kInGeometry.end(),
-                                  [&](const Known& one) { return named(&element, one.element); });
-  const tinyxml2::XMLNode *holder = element.Parent(), *above = holder->Parent();
-  if (known == kInGeometry.end() || named(holder, "geometry") || isShape(holder) || isShape(above))
-    return false;
-  return (named(above, "link") || named(above->Parent(), "link")) &&
-         std::any_of(known->attributes.begin(), known->attributes.end(),
-                     [&](std::string_view name) { return element.Attribute(std::string(name).c_str()); });
+  const bool known = std::any_of(kInGeometry.begin(), kInGeometry.end(),
+                                 [&](const Known& one) { return named(&element, one.element); });
+  const tinyxml2::XMLNode* holder = element.Parent();
+  return known && element.FirstAttribute() && !named(holder, "geometry") && !isShape(holder) &&
+         !isShape(holder->Parent());
+}
+
+std::string misplaced(const XMLElement& element, const XMLElement& holder, bool known) {
+  const std::string name = element.Name(), around = holder.Name();
+  const std::string within = "<" + name + "> within <" + around + ">, where no robot has one; ";
+  if (known) return within + "a shape stands in the <geometry> of a link's <collision> or <visual>";
+  return within + "is <" + around +
+         "> misspelt? Where it is another tool's, put a prefix before its name, as in <tool:" + around + ">";
+}
+
+bool isInLink(const XMLElement& element, const XMLElement& robot) {
+  const tinyxml2::XMLNode* above = element.Parent();
+  while (above != &robot && above->Parent() != &robot) above = above->Parent();
+  return named(above, "link");
 }
 
 }  // namespace
@@ -158,13 +170,9 @@ int checkPlaces(const XMLElement& robot, const std::string& path, LoadFaults& fa
       const std::string_view name = e->Name();
       if (name == "gazebo" || ofSelfFilter(name) || ofOtherTools(name)) continue;
       if ((name == "collision" && !link) || (name == "geometry" && !shape) || isLost(*e)) {
-        const bool inLink =
-            name != "collision" && (isLost(*e) || named(at.Parent(), "link"));  // costs a shape
+        const bool inLink = name != "collision" && isInLink(*e, robot);  // costs a shape
         (inLink ? faults.shapes : faults.errors)
-            .push_back(xmlPlace(*e, path) + "<" + std::string(name) + "> within <" + at.Name() +
-                       ">, where no robot has one; is <" + at.Name() +
-                       "> misspelt? Where it is another tool's, put a prefix before its name, as in <tool:" +
-                       at.Name() + ">");
+            .push_back(xmlPlace(*e, path) + misplaced(*e, at, link || &at == &robot));
       }
       collisions += name == "collision" && link;
       open.push_back(e);

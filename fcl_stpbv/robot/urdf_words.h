@@ -24,9 +24,9 @@ const tinyxml2::XMLElement* inertialOf(const tinyxml2::XMLElement& link);
 /// Checks what inertialOf() found in the same way as a joint.
 void checkInertialWords(const tinyxml2::XMLElement& inertial);
 
-/// Finds `<collision>` and `<geometry>` where no robot has them, and a link's boxes and the like in elements
-/// of unknown names, outside `<gazebo>`, whose content is the simulator's, and `<self_filter>`. A geometry,
-/// or a box, in an unknown element of a link is an entry of `faults.shapes`, all else of `faults.errors`.
+/// Finds `<collision>` and `<geometry>` where no robot has them, and boxes and the like outside of any
+/// geometry, but for those in `<gazebo>`, whose content is the simulator's, and `<self_filter>`. A geometry,
+/// or a box, in a link is an entry of `faults.shapes`, all else of `faults.errors`.
 /// @returns the number of `<collision>` elements of links.
 int checkPlaces(const tinyxml2::XMLElement& robot, const std::string& path, LoadFaults& faults);
 

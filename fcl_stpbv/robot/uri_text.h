@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,14 @@ inline std::string percentDecoded(const std::string& text) {
     i += 2;
   }
   return decoded;
+}
+
+/// The path in a name with file://, absolute also after a host's name "localhost"; nothing in other names.
+inline std::optional<std::string> filePathIn(const std::string& uri) {
+  const std::string start = "file://", host = "localhost/";
+  if (uri.compare(0, start.size(), start) != 0) return std::nullopt;
+  const bool hasHost = uri.compare(start.size(), host.size(), host) == 0;
+  return uri.substr(start.size() + (hasHost ? host.size() - 1 : 0));
 }
 
 /// The names that a glTF's uri may mean, in the order in which they are tried.

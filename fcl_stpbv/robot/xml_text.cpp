@@ -63,7 +63,7 @@ void refuseXacro(const tinyxml2::XMLElement& root, const std::string& name) {
 void parseXml(std::string_view text, const std::string& name, tinyxml2::XMLDocument& document) {
   if (text.size() > kMaxBytes) throw Error(name + ": larger than 64 MB, which no robot description needs");
   if (text.find('\0') != std::string_view::npos)
-    throw Error(name + ": holds NUL bytes; expected a text in XML");
+    throw Error(name + ": holds NUL bytes; expected a text in XML, in UTF-8 and not in UTF-16");
   if (document.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {
     const bool deep = document.ErrorID() == tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED;
     throw Error(at(name, document.ErrorLineNum()) +

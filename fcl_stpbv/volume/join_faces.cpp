@@ -1,6 +1,6 @@
 // Joins triangles on one ball to rounding into k-gons:
 // 1. grow groups of neighbours from the largest face, while all corners are within 32 units in the last place
-//    of its ball and normals agree to 1e-12 rad;
+//    of its ball and normals agree to 1e-12 rad, and to less where R is 1e8 times their extent and more;
 // 2. replace a group by its boundary, if that is a single loop and sound; else keep its faces.
 #include "fcl_stpbv/volume/join_faces.h"
 
@@ -13,6 +13,7 @@
 
 #include "fcl_stpbv/volume/ball_faces.h"
 #include "fcl_stpbv/volume/half_edges.h"
+#include "fcl_stpbv/volume/rolling_ball.h"
 
 namespace fcl_stpbv::detail {
 namespace {
@@ -53,9 +54,17 @@ Ring boundary(const std::vector<Ring>& faces, const std::vector<HalfEdge>& halfE
   return ring;
 }
 
-// Whether one ball will do for all corners of a joined face: each within `tolerance` of it, and its normals
-// along each side as they must be.
-bool isSound(const std::vector<Vector3d>& points, const Ring& ring, double radius, long double tolerance) {
+// Whether the way from `a` over `b` to `c` turns left, or straight on to rounding, seen along the normal `n`.
+bool turnsLeft(const Vector3d& n, const Vector3d& a, const Vector3d& b, const Vector3d& c) {
+  constexpr double kStraight = 1e-7;  // rad
+  const Vector3d arrive = b - a, leave = c - b;
+  return n.dot(arrive.cross(leave)) >= -kStraight * arrive.norm() * leave.norm();
+}
+
+// Whether one ball will do for all corners of a joined face: each within `tolerance` of it, its normals along
+// each side as they must be, and the face convex: where neighbours stay apart its boundary may turn in.
+bool isSound(const std::vector<Vector3d>& points, const Ring& ring, double radius, long double tolerance,
+             double tilt) {
   const auto at = [&](std::size_t k) -> const Vector3d& {
     return points[static_cast<std::size_t>(ring[k % ring.size()])];
   };
@@ -65,10 +74,19 @@ bool isSound(const std::vector<Vector3d>& points, const Ring& ring, double radiu
   if (!ball.valid()) return false;
   for (std::size_t k = 0; k < ring.size(); ++k) {
     const long double here = ball.height(at(k)), next = ball.height(at(k + 1));
-    if (std::abs(here) > tolerance || std::abs(next - here) > kJoinTilt * (at(k + 1) - at(k)).norm())
+    if (std::abs(here) > tolerance || std::abs(next - here) > tilt * (at(k + 1) - at(k)).norm() ||
+        !turnsLeft(ball.normalAt(at(k + 1)), at(k), at(k + 1), at(k + 2)))
       return false;
   }
   return true;
+}
+
+// The tilt times the radius is what a joined face's patches may part by: that must be little of the cloud's
+// size. A ball that stands for a plane has no patches.
+double mostTilt(const std::vector<Vector3d>& points, double radius) {
+  constexpr double kSeam = 1e-19;  // of a radius that makes a plane: 1e-4 of the cloud's extent
+  const double plane = flatRadius(points);
+  return radius < plane ? std::min(kJoinTilt, kSeam * plane / radius) : kJoinTilt;
 }
 
 }  // namespace
@@ -77,6 +95,7 @@ std::vector<Ring> joinFaces(const std::vector<Vector3d>& points, std::vector<Rin
   if (faces.size() < 3) return faces;
   const auto at = [&](int i) -> const Vector3d& { return points[static_cast<std::size_t>(i)]; };
   const long double tolerance = touchTolerance(points);
+  const double most = mostTilt(points, radius);
   const std::size_t count = faces.size();
 
   std::vector<TouchingBall> balls;
@@ -97,7 +116,7 @@ std::vector<Ring> joinFaces(const std::vector<Vector3d>& points, std::vector<Rin
   // Height alone does not tell: near the smallest radius the balls of opposite faces nearly coincide.
   const auto onOneBall = [&](std::size_t seed, std::size_t f) {
     const Vector3d tilt = balls[seed].normalAt(at(faces[f][0])) - normals[f];
-    return tilt.norm() <= kJoinTilt && std::all_of(faces[f].begin(), faces[f].end(), [&](int i) {
+    return tilt.norm() <= most && std::all_of(faces[f].begin(), faces[f].end(), [&](int i) {
              return std::abs(balls[seed].height(at(i))) <= tolerance;
            });
   };
@@ -126,7 +145,7 @@ std::vector<Ring> joinFaces(const std::vector<Vector3d>& points, std::vector<Rin
   std::vector<Ring> joined;
   for (const std::vector<std::size_t>& members : groups) {
     Ring ring = members.size() > 1 ? boundary(faces, halfEdges, first, group, members) : Ring();
-    if (!ring.empty() && isSound(points, ring, radius, tolerance))
+    if (!ring.empty() && isSound(points, ring, radius, tolerance, most))
       joined.push_back(std::move(ring));
     else
       for (const std::size_t f : members) joined.push_back(faces[f]);

@@ -8,7 +8,7 @@ namespace fcl_stpbv::detail {
 
 /// Angle by which the normals of a face of more than three corners may be off (rad), a few thousand
 /// roundings: where more is needed the face stays in triangles, which are exact. Its boundaries then part by
-/// at most this times the ball's radius.
+/// at most this times the ball's radius, and by a ten thousandth of the cloud's extent.
 constexpr double kJoinTilt = 1e-12;
 
 /// Faces of a rolled hull with those on one ball joined. Points on one ball (each face of every

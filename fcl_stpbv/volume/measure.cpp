@@ -32,22 +32,31 @@ constexpr std::array<std::array<double, 2>, 10> kGauss{{{0.013046735741414, 0.03
                                                         {0.932531683344492, 0.074725674575290},
                                                         {0.986953264258586, 0.033335672154344}}};
 
+// The normals of a face differ by as little as its size over R: all are written as offsets from the patch's
+// axis, which the vertices give without cancellation.
 double faceVolume(const StpBv& volume, const Region& region) {
   double sum = 0;
   const Patch patch = volume.patch(region.patch);
-  const Vector3d anchor = patch.anchor - volume.centre();
-  for (const Arc& arc : region.boundary) {
+  const Vector3d anchor = patch.anchor - volume.centre(), middle = region.centre - patch.axis;
+  const StpBv::Ring& ring = volume.faces()[static_cast<std::size_t>(region.patch - volume.facePatch(0))];
+  for (std::size_t k = 0; k < ring.size(); ++k) {  // where arc k starts
+    const Arc& arc = region.boundary[k];
+    const Vector3d first = (at(volume, ring[k]) - patch.anchor) / volume.radii().rho - middle;
+    const Vector3d along = arc.axis.cross(arc.start);
     const int pieces = std::max(1, static_cast<int>(std::ceil(arc.turn / 0.5)));
     for (int piece = 0; piece < pieces; ++piece)
       for (const auto& [t, wt] : kGauss) {
-        const Vector3d b = arc.at((piece + t) / pieces), rate = arc.turn / pieces * arc.axis.cross(b);
-        const double det = region.centre.cross(b - region.centre).dot(rate);
-        for (const auto& [out, wo] : kGauss) {
-          const Vector3d g = region.centre + out * (b - region.centre);
+        const double angle = arc.turn * (piece + t) / pieces, sine = std::sin(angle);
+        const double half = std::sin(0.5 * angle);
+        const Vector3d out = first + sine * along - 2 * half * half * arc.start;
+        const Vector3d rate = arc.turn / pieces * (std::cos(angle) * along - sine * arc.start);
+        const double det = region.centre.cross(out).dot(rate);
+        for (const auto& [share, wo] : kGauss) {
+          const Vector3d g = region.centre + share * out;
           const double length = g.norm();
           const Vector3d n = g / length;
           const double height = n.dot(anchor) + supportAboveAnchor(volume, region.patch, n);
-          sum += wt * wo * out * det / (length * length * length) * height;
+          sum += wt * wo * share * det / (length * length * length) * height;
         }
       }
   }

@@ -98,10 +98,11 @@ std::vector<Region> regions(const StpBv& volume) {
     for (std::size_t k = 0; k < ring.size(); ++k) {
       const int i = ring[k], j = ring[(k + 1) % ring.size()];
       const Vector3d from = volume.corner(f, i), to = volume.corner(f, j);
-      // Both normals are offsets of the two points from the ball's centre, so their plane holds the edge.
-      const Vector3d axis = from.cross(at(volume, j) - at(volume, i)).normalized();
-      region.boundary.push_back(
-          {from, axis, std::atan2(axis.dot(from.cross(to)), from.dot(to)), edgeFrom.at({f, i})});
+      // Both normals are offsets of the two points from the ball's centre, so their plane holds the edge. The
+      // points' difference keeps the digits that the normals' difference has lost where R is large.
+      const Vector3d across = from.cross(at(volume, j) - at(volume, i));
+      const double turn = std::atan2(across.norm() / volume.radii().rho, from.dot(to));
+      region.boundary.push_back({from, across.normalized(), turn, edgeFrom.at({f, i})});
     }
     all.push_back(std::move(region));
   }

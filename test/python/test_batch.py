@@ -452,7 +452,8 @@ def test_no_output_replaces_an_input_or_another_output(tmp_path):
     for arguments, what in [([*prove, "-o", out, "--write-srdf", tmp_path / "meshes/../out"], "is the same file as -o"),
                             ([*convert, mesh, "-o", tmp_path / "meshes/part.stpbv"], "is the same file as -o"),
                             ([*prove, "-o", out, "--write-srdf", tmp_path / "no/a.srdf"], f"the folder {tmp_path}/no does not exist"),
-                            ([*prove, "-o", out, "--write-srdf", tmp_path], "is a folder, a pipe or a device")]:
+                            ([*prove, "-o", out, "--write-srdf", tmp_path], "is a folder, a pipe or a device"),
+                            ([*prove, "-o", "-"], "-o -: a run goes on from its files"), ([*prove, "-o", out, "--write-srdf", "-"], "--write-srdf -: a run goes on from its files")]:
         message = batch(*arguments, status=2)
         assert what in message and message.count("\n") == 1, message
     assert before == {path: path.read_bytes() for path in tmp_path.rglob("*") if path.is_file()}

@@ -6,7 +6,10 @@ import os
 import pathlib
 import pickle
 import re
-from typing import Callable
+import signal
+import threading
+import time
+from typing import Any, Callable
 
 import numpy as np
 import pytest
@@ -188,6 +191,65 @@ def test_an_error_names_a_file_whatever_bytes_its_name_has():
     for load in loaders:
         with pytest.raises(fcl_stpbv.Error, match=f"^{name}: .*no such file"):
             load(name)
+
+
+@pytest.mark.parametrize("empty", ["", b""])
+def test_a_file_with_an_empty_name_is_not_left_out(empty):
+    urdf = DATA / "hrp2_style/hrp2_style.urdf"
+    search = fcl_stpbv.PairSearch(urdf)
+    for name, load in (("srdf", lambda: fcl_stpbv.Robot(urdf, empty)), ("obstacles", lambda: fcl_stpbv.Robot(urdf, None, empty)),
+                       ("obstacles", lambda: fcl_stpbv.PairSearch(urdf, empty)), ("srdf", lambda: search.srdf([], empty)),
+                       ("srdf", lambda: fcl_stpbv.PostureSearch(urdf, empty)), ("obstacles", lambda: fcl_stpbv.PostureSearch(urdf, None, empty))):
+        with pytest.raises(fcl_stpbv.Error, match=f"^{name}: .*empty.*None"):
+            load()
+
+
+def test_an_object_whose_constructor_has_not_run_is_no_argument():
+    kinds: list[Any] = [fcl_stpbv.StpBv, fcl_stpbv.PairCache, fcl_stpbv.Distance, fcl_stpbv.RadiiAdvice, fcl_stpbv.Robot, fcl_stpbv.PairProof,
+                        fcl_stpbv.PairSearch, fcl_stpbv.PostureSearch]
+    for kind in kinds:
+        unmade = kind.__new__(kind)
+        for name, member in vars(kind).items():
+            if isinstance(member, property):
+                of_none: Any = member.fget
+                for ask in (lambda: getattr(unmade, name), lambda: of_none(None)):
+                    with pytest.raises(TypeError):
+                        ask()
+    robot, proof, volume = (kind.__new__(kind) for kind in (kinds[4], kinds[5], kinds[0]))
+    for ask in (lambda: robot.distances([0.0]), lambda: robot.collides_many([]), lambda: fcl_stpbv.PairProof([]).merge(proof), volume.verify,
+                lambda: fcl_stpbv.distance(box(), pose(), volume, pose()), lambda: pickle.dumps(volume), lambda: repr(volume),
+                lambda: fcl_stpbv.distance(box(), pose(), box(), pose(), fcl_stpbv.PairCache.__new__(fcl_stpbv.PairCache))):
+        with pytest.raises(TypeError):
+            ask()
+
+
+@pytest.mark.parametrize("ask", ["collides_many", "distances_many", "evaluate_many"])
+def test_a_batch_ends_with_ctrl_c_and_the_robot_answers_on(ask):
+    robot = fcl_stpbv.Robot(DATA / "hrp2_style/hrp2_style.urdf", DATA / "hrp2_style/hrp2_style.srdf")
+    q = np.random.default_rng(1).uniform(robot.lower, robot.upper, size=(2000, len(robot.names)))
+    before = robot.distances_many(q[:3])
+    start = time.monotonic()
+    getattr(robot, ask)(q)
+    once = time.monotonic() - start
+    many = np.broadcast_to(q, (int(20 / once) + 2, *q.shape)).reshape(-1, q.shape[1])  # 20 s and more
+    timer = threading.Timer(0.5, signal.raise_signal, [signal.SIGINT])
+    timer.start()
+    start = time.monotonic()
+    with pytest.raises(KeyboardInterrupt):
+        getattr(robot, ask)(many)
+    assert time.monotonic() - start < 10
+    assert np.array_equal(robot.distances_many(q[:3]), before)
+
+
+def test_slices_of_a_batch_change_no_bit():
+    robot = fcl_stpbv.Robot(DATA / "hrp2_style/hrp2_style.urdf", DATA / "hrp2_style/hrp2_style.srdf")
+    path = np.linspace(robot.lower, robot.configuration("half_sitting"), 400)
+    whole = robot.evaluate_many(path, path=True)
+    for threads in (1, 3):
+        d, jacobian = robot.evaluate_many(path, path=True, threads=threads)
+        assert np.array_equal(d, whole[0]) and np.array_equal(jacobian, whole[1])
+        pieces = [robot.distances_many(path[k:k + 64], path=True) for k in range(0, len(path), 64)]
+        assert np.array_equal(robot.distances_many(path, path=True, threads=threads), np.concatenate(pieces))
 
 
 def test_a_state_of_a_robot_without_an_srdf_says_what_is_missing():

@@ -6,6 +6,7 @@
 
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/robot/body_points.h"
+#include "fcl_stpbv/robot/pair_list.h"
 #include "fcl_stpbv/robot/pair_proof.h"
 #include "fcl_stpbv/robot/pair_search.h"
 #include "test/reference/robots.h"
@@ -33,6 +34,19 @@ ProofScene humanoid() {
                     std::make_shared<const RobotGeometry>(std::move(loaded.geometry)), {}, 0);
 }
 
+// A chain of links with a turning or sliding joint between each two.
+ProofScene snake(int links, const std::string& shape) {
+  std::string text = link("l0", shape);
+  for (int i = 1; i < links; ++i) {
+    const std::string before = "l" + std::to_string(i - 1), name = "l" + std::to_string(i);
+    text += link(name, shape) +
+            joint("j" + std::to_string(i), i % 5 == 0 ? "prismatic" : "revolute", before, name,
+                  std::string("<origin xyz=\"0 0.01 0.2\" rpy=\"0.1 0.05 0\"/><axis xyz=\"") +
+                      (i % 2 == 0 ? "1 0 0" : "0 1 0.3") + "\"/>");
+  }
+  return proofSceneOf(robot(text));
+}
+
 LinkPair pairNamed(const ProofScene& scene, const std::string& one, const std::string& other) {
   const RobotModel& robot = scene.kinematics->robot();
   return {robot.link(one), robot.link(other)};
@@ -51,6 +65,30 @@ TEST_CASE("no distance in a box is below the box's bound") {
   const BoundTrials meshes = tryBounds(robot, movingPairs(robot), 2000, random);
   CHECK(meshes.violations == 0);
   CHECK(meshes.useful > 0.2);
+}
+
+TEST_CASE("bounds hold across more joints than third-order terms are weighed for") {
+  const ProofScene scene = snake(40, "<box size=\"0.06 0.05 0.1\"/>");
+  Random random(7);
+  const BoundTrials trials = tryBounds(scene, {{0, 39}, {3, 36}, {0, 27}, {10, 39}}, 1500, random);
+  CHECK(trials.samples == 12000);
+  CHECK(trials.violations == 0);
+  CHECK(trials.useful > 0.1);  // or it would say nothing
+}
+
+TEST_CASE("pairs far along a robot are settled with fewer boxes, as each takes longer, and stay checked") {
+  const ProofScene scene = snake(49, "<sphere radius=\"0.05\"/>");
+  PairListOptions options;
+  options.samples = 1;
+  options.descents = options.randomDescents = 0;
+  for (const PairEntry& entry : pairList(scene.kinematics, scene.geometry, nullptr, options)) {
+    CAPTURE(entry.link1, entry.link2);
+    const int joints = entry.link2 - entry.link1;
+    if (joints < 48) continue;
+    CHECK(entry.boxes == 25);  // 200 / 2^3
+    CHECK(entry.reason == PairReason::neverSampled);
+    CHECK(checkedWithoutSrdf(entry.reason));
+  }
 }
 
 TEST_CASE("a proof in pieces is the proof in one, and its pieces are put together in any order") {

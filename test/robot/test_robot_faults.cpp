@@ -143,17 +143,42 @@ TEST_CASE("a geometry in an element of unknown name costs a shape, which may be 
 TEST_CASE("a shape whose collision and geometry are both misspelt is not lost without a word") {
   for (const char* shape : {"<colision><geometri><box size=\"1 1 1\"/></geometri></colision>",
                             "<Collision><Geometry><mesh filename=\"m.stl\"/></Geometry></Collision>",
-                            "<colision><sphere radius=\"1\"/></colision>"}) {
+                            "<colision><sphere radius=\"1\"/></colision>", "<sphere radius=\"1\"/>",
+                            "<colision><geometri><mesh file=\"m.stl\"/></geometri></colision>",
+                            "<set><colision><geometri><box size=\"1 1 1\"/></geometri></colision></set>"}) {
     CAPTURE(shape);
     LoadFaults faults;
     const RobotModel model =
         parseUrdf(robot("<link name=\"a\">" + kBox + shape + "</link>"), "small.urdf", faults);
     CHECK(faults.errors.empty());
     REQUIRE(faults.shapes.size() == 1);
-    CHECK_THAT(faults.shapes[0], Contains("small.urdf:") && Contains("misspelt"));
+    CHECK_THAT(faults.shapes[0], Contains("small.urdf:") && Contains("where no robot has one"));
     CHECK(model.links[0].collision.size() == 1);
   }
+  CHECK_THAT(refused(robot(link("a") + "<lnk name=\"b\"><colision><geometri><box size=\"1 1 1\"/></geometri>"
+                                       "</colision></lnk>")),
+             Contains("<geometri> misspelt"));
   CHECK(shapesIn(kBox + "<box/><sensor><mesh/></sensor><x:c><box size=\"1 1 1\"/></x:c>") == 1);
+}
+
+TEST_CASE("a misspelt <joint> is named where a link is left without a parent") {
+  CHECK_THAT(
+      refused(robot(link("a") + link("b") +
+                    "\n<jiont name=\"j\" type=\"fixed\"><parent link=\"a\"/><child link=\"b\"/></jiont>")),
+      Contains("'a' and 'b'") && Contains("<jiont> in line 3"));
+}
+
+TEST_CASE("tabs and line ends between the numbers of a vector count as spaces, as XML has it") {
+  const RobotModel model = parseUrdf(
+      robot("<link name=\"a\"><collision><origin xyz=\"1\t2\n3\" rpy=\"0\t0 0\"/><geometry>"
+            "<box size=\"1\r\n2\t3\"/></geometry></collision></link>" +
+            link("b") + joint("j", "revolute", "a", "b", "<origin xyz=\"0\t0 1\"/><axis xyz=\"0\n1\t0\"/>")),
+      "small.urdf");
+  CHECK(model.links[0].collision.at(0).size == Eigen::Vector3d(1, 2, 3));
+  CHECK(model.links[0].collision.at(0).pose.translation() == Eigen::Vector3d(1, 2, 3));
+  CHECK(model.joints.at(0).origin.translation() == Eigen::Vector3d(0, 0, 1));
+  CHECK(model.joints.at(0).axis == Eigen::Vector3d(0, 1, 0));
+  CHECK_THAT(refused(robot(link("a", "<box size=\"1\t2\"/>"))), Contains("3 expected"));
 }
 
 TEST_CASE("xacro is told by its elements and attributes, not by comments, texts or a bare declaration") {

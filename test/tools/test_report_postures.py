@@ -92,6 +92,23 @@ class Postures(unittest.TestCase):
         within = self.put("within.csv", "l,r\n0,0\n-1,0\n")
         self.assertFalse(any("way point" in w for w in self.report("--trajectory", within, status=0)["warnings"]))
 
+    def test_what_follows_another_joint_beyond_its_limits_is_told(self):
+        self.urdf = self.put("follows.urdf", ROBOT.replace(
+            'name="r" type="prismatic">', 'name="r" type="prismatic"><mimic joint="l" multiplier="-3"/>'))
+        warnings = self.report("--pose", self.put("pose.json", '{"l": -0.9}'), status=0)["warnings"]
+        self.assertTrue(any("'r' is at 2.7 m" in w and "-1 to 1" in w for w in warnings), warnings)
+        warnings = self.report("--pose", self.put("pose.json", '{"l": -0.3}'), status=0)["warnings"]
+        self.assertFalse(any("limits" in w for w in warnings), warnings)
+
+    def test_a_posture_takes_the_names_of_coordinates(self):
+        self.urdf = self.put("planar.urdf", ROBOT.replace('name="l" type="prismatic"', 'name="l" type="planar"'))
+        with_names = self.report("--pose", self.put("pose.json", '{"l/x": 0.1, "l/y": 0.2, "r": 0.1}'), status=0)
+        with_list = self.report("--pose", self.put("pose.json", '{"l": [0.1, 0.2, 0], "r": 0.1}'), status=0)
+        self.assertEqual(with_names["pairs"], with_list["pairs"])
+        for text, told in (('{"l/x": 0.1, "l": [0, 0, 0]}', "give one"), ('{"l/x": [1, 2]}', "is one number"),
+                           ('{"l/w": 1}', "no joint 'l/w'"), ('{"r/x": 1}', "no joint 'r/x'")):
+            self.assertIn(told, self.report("--pose", self.put("pose.json", text), status=2))
+
     def test_a_byte_order_mark_is_no_letter_of_a_name(self):
         self.colliding("--trajectory", self.put("motion.csv", "\ufeffl,r\n0,0\n0.5,-0.5\n"))
 

@@ -538,6 +538,15 @@ class Report(unittest.TestCase):
         self.assertFalse(any(pair["continuous"] for pair in flat["pairs"]))
         self.assertEqual(self.run_tool(urdf, "--primitives", "round").returncode, 2)
 
+    def test_an_R_too_small_for_a_smooth_cover_is_told(self):
+        box = '<box size="1 1 1"/>'
+        urdf = self.robot(link("a", box) + link("b") + link("c", box) + joint("j", "a", "b", origin="3 0 0")
+                          + joint("k", "b", "c", origin="3 0 0"))
+        told = "R = 0.2 m is too small for the smooth cover of"
+        self.assertIn(told, self.run_tool(urdf, "-R", "0.2", "--samples", "5").stderr)
+        for fitting in (("-R", "2"), ("-R", "auto"), (), ("-R", "0.2", "--primitives", "flat")):
+            self.assertNotIn("too small", self.run_tool(urdf, *fitting, "--samples", "5").stderr, fitting)
+
     def test_r_fits_the_link_unless_it_is_given(self):
         thin, thick = self.boxes("thin.obj", 0.005, (0, 0, 0)), self.boxes("thick.obj", 0.5, (0, 0, 0))
         urdf = self.robot(link("thin", thin) + link("thick", thick) + joint("j", "thin", "thick"))

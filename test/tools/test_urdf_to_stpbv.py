@@ -278,8 +278,9 @@ class Conversion(unittest.TestCase):
         self.assertIn('filename="package://gate/meshes/gate_1.obj"', (self.out / "gate.urdf").read_text())
 
     def test_a_visual_mesh_named_by_file_is_still_found(self):
-        for name in ("file://gate.obj", f"file://{self.place}/gate.obj"):
+        for name in ("file://gate.obj", f"file://{self.place}/gate.obj", f"file://localhost{self.place}/gate.obj", "file://a%20gate.obj"):
             urdf = self.gate()
+            (self.place / "a gate.obj").write_bytes((self.place / "gate.obj").read_bytes())
             visual = '<visual><geometry><mesh filename="{}"/>'
             urdf.write_text(urdf.read_text().replace(visual.format("gate.obj"), visual.format(name)))
             self.convert("--parts", "2", "--force")

@@ -319,6 +319,26 @@ TEST_CASE("A near-duplicate on the ball that the smallest R leaves does not join
   }
 }
 
+TEST_CASE("Points that rounding has moved off a box's sides build a volume that verifies, for any R") {
+  for (const int cells : {2, 3, 4})
+    for (int k = 0; k < 60; ++k) {
+      Random random(7 * k + cells);
+      const auto one = [&] { return random.uniform(0.1, 1); };
+      const Vector3d size = 15e-6 * Vector3d(one(), one(), one()),
+                     away = random.uniform(-1, 1) * Vector3d::Ones();
+      const Eigen::Matrix3d turned = k % 2 ? random.rotation() : Eigen::Matrix3d(Eigen::Matrix3d::Identity());
+      Cloud cloud;
+      for (int x = 0; x <= cells; ++x)
+        for (int y = 0; y <= cells; ++y)
+          for (int z = 0; z <= cells; ++z)
+            if (x % cells == 0 || y % cells == 0 || z % cells == 0)
+              cloud.push_back(turned * (size.cwiseProduct(Vector3d(x, y, z)) / cells + away));
+      INFO(cells << " cells, " << k);
+      for (const double R : {1e3, 1e6, 9e7})
+        CHECK(verify(*StpBv::build(cloud, {0.01, R}), cloud).message == "ok");
+    }
+}
+
 TEST_CASE("A ball that rolls over an edge between near-duplicates does not roll past the other points") {
   // The fourth and fifth point are 4.6e-15 m apart, a few units in their last place: the ball that rests on
   // both and on the third rolls by 4.1 rad over their edge, and on the way it meets the first point.

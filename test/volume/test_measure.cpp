@@ -235,6 +235,22 @@ TEST_CASE("The enclosed volume agrees with closed forms") {
         Approx(sum * 2 * (half + r) / slices).epsilon(1e-9));  // the midpoint rule's own error
 }
 
+TEST_CASE("The enclosed volume of a huge R is the hull's") {
+  for (const Cloud& cloud : {box(0.2, 0.4, 0.6), geodesicSphere(0.2, 1), randomHull(60, {0.3, 0.2, 0.1}, 2)})
+    for (const double R : {1e8, 1e10, 1e11}) {
+      const StpBv::Ptr volume = StpBv::build(cloud, {0, R});
+      double hull = 0;
+      for (const StpBv::Ring& ring : volume->faces())
+        for (std::size_t k = 2; k < ring.size(); ++k) {
+          const auto corner = [&](int i) { return Vector3d(at(*volume, i) - volume->centre()); };
+          hull += corner(ring[0]).dot(corner(ring[k - 1]).cross(corner(ring[k]))) / 6;
+        }
+      INFO(cloud.size() << " points, R = " << R);
+      // R adds its over-cover, size^2 / R, times the area: 1e-8 of the volume at 1e8, and rounding.
+      CHECK(enclosedVolume(*volume) == Approx(hull).epsilon(1 / R + 1e-14));
+    }
+}
+
 TEST_CASE("The tessellation is closed, lies on the surface and closes in on the volume") {
   for (const Cloud& cloud : clouds())
     for (const double R : {StpBv::smallestR(cloud, 0.01) * 1.05, 1.0, 1e4}) {

@@ -41,6 +41,8 @@ def check(arguments):
     taken = {}
     for option, path in dict.fromkeys(outputs(arguments)):
         where, place, folder = f"{option} {path}", identity(path), os.path.dirname(os.path.realpath(path))
+        if str(path) == "-":
+            raise fcl_stpbv.Error(f"{where}: a run goes on from its files, and standard output is none; name a file")
         bundle.require_file(path, where)
         if place in read or (place in merged and option != "-o"):  # a run may go on in a file that it merges
             raise fcl_stpbv.Error(f"{where}: is an input, and writing would replace it; give {option} another name")

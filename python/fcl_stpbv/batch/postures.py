@@ -31,7 +31,7 @@ class Postures:
 
     @staticmethod
     def open(folder, options):
-        given = [str(folder / name) if (folder / name).exists() else "" for name in ("robot/robot.srdf", "scene/robot.urdf")]
+        given = [str(folder / name) if (folder / name).exists() else None for name in ("robot/robot.srdf", "scene/robot.urdf")]
         return fcl_stpbv.PostureSearch(str(folder / "robot/robot.urdf"), *given, r=options["r"], R=options["R"])
 
     @staticmethod

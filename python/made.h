@@ -1,0 +1,22 @@
+// Only objects whose constructor has run are arguments. Python makes one without by `Robot.__new__(Robot)`,
+// and pybind11 would hand out memory that nothing has filled.
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+namespace fcl_stpbv {
+
+/// What a class of the module specialises pybind11's caster with, before its first use.
+template <class Type, bool mayBeNone = false>
+struct MadeCaster : pybind11::detail::type_caster_base<Type> {
+  bool load(pybind11::handle source, bool convert) {
+    using namespace pybind11::detail;
+    if (source.is_none() && !mayBeNone) return false;
+    if (pybind11::isinstance<Type>(source))
+      for (const value_and_holder& part : values_and_holders(reinterpret_cast<instance*>(source.ptr())))
+        if (!part.value_ptr()) return false;
+    return type_caster_base<Type>::load(source, convert);
+  }
+};
+
+}  // namespace fcl_stpbv
