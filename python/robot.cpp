@@ -203,10 +203,10 @@ class PythonRobot {
   /// ends it. @throws py::error_already_set then.
   template <class Work>
   static void inSlices(Eigen::Index rows, int threads, const Work& work) {
-    // A batch begins without a memory every 64 rows, so that slices of so many leave each answer as it is.
-    // They grow as long as they take no time.
+    // Slices are whole pieces of a batch, which leaves each answer as it is. They grow as long as they take
+    // no time.
     using Clock = std::chrono::steady_clock;
-    Eigen::Index slice = 64 * static_cast<Eigen::Index>(threads);
+    Eigen::Index slice = kBatchPiece * static_cast<Eigen::Index>(threads);
     for (Eigen::Index start = 0; start < rows;) {
       if (PyErr_CheckSignals() != 0) throw py::error_already_set();
       const py::gil_scoped_release others;

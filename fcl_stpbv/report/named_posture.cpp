@@ -91,10 +91,10 @@ std::string limitWarning(const std::string& name, const std::vector<Eigen::Vecto
   int more = -1;
   for (const JointModel& joint : kinematics.robot().joints) {
     if (joint.type != JointType::revolute && joint.type != JointType::prismatic) continue;
+    const JointModel& leader = joint.mimic ? kinematics.robot().joints[at(joint.mimic->joint)] : joint;
+    const int k = kinematics.coordinate(leader.name);
     const auto valueIn = [&](const Eigen::VectorXd& q) {
-      if (!joint.mimic) return q[kinematics.coordinate(joint.name)];
-      const std::string& leader = kinematics.robot().joints[at(joint.mimic->joint)].name;
-      return joint.mimic->multiplier * q[kinematics.coordinate(leader)] + joint.mimic->offset;
+      return joint.mimic ? joint.mimic->multiplier * q[k] + joint.mimic->offset : q[k];
     };
     const auto outside = std::find_if(postures.begin(), postures.end(), [&](const Eigen::VectorXd& q) {
       return !(valueIn(q) >= joint.lower - kOff && valueIn(q) <= joint.upper + kOff);

@@ -42,12 +42,12 @@ class Crew {
   /// and that on a path alone.
   template <class Work>
   void each(Index columns, Sequence sequence, const Work& work) {
-    constexpr Index kPiece = 64;  // few enough to share out evenly; a path's first one costs some more
+    // Pieces are small enough to share out evenly; a path's first column costs some more.
     std::atomic<Index> next{0};
     auto share = [&](int k) {
       Worker& worker = workers_[static_cast<std::size_t>(k)];
-      for (Index start; (start = next.fetch_add(kPiece)) < columns;)
-        for (Index column = start; column < std::min(start + kPiece, columns); ++column) {
+      for (Index start; (start = next.fetch_add(kBatchPiece)) < columns;)
+        for (Index column = start; column < std::min(start + kBatchPiece, columns); ++column) {
           if (column == start || sequence == Sequence::independent) worker.forget();
           work(worker, column);
         }

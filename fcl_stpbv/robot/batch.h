@@ -16,6 +16,10 @@ enum class Sequence {
   path,         ///< small steps along one path: each starts from the one before
 };
 
+/// Columns of one piece of a batch. Each piece begins without a memory, so a batch that is cut between pieces
+/// gives the same answers.
+constexpr Eigen::Index kBatchPiece = 64;
+
 /// d(q) and J(q) of many configurations. Each thread has its own copy of the constraints. The answers are the
 /// same for any number of threads. One thread at a time may use one.
 class ConstraintsBatch {

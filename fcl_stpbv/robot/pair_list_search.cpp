@@ -172,14 +172,6 @@ class Search {
     return true;
   }
 
-  // Ways of more joints than usual get fewer boxes and random descents: a box takes the square of the joints,
-  // a descent their number, and a robot of long ways has many pairs.
-  static double shareOf(const JointBox& box, int power) {
-    constexpr double kUsual = 24;  // joints
-    return std::pow(std::min(1.0, kUsual / static_cast<double>(std::max<Eigen::Index>(1, box.lower.size()))),
-                    power);
-  }
-
   // Descents from the closest samples, a short proof, descents from random configurations, until one of them
   // decides. @return the proof that is left open, none where the pair is decided.
   std::optional<Open> settle(PairEntry& entry, const PairSamples& found) const {
@@ -196,9 +188,13 @@ class Search {
     double descents = options_.randomDescents;
     if (scene_.kinematics) {
       open.proof = unproven(scene_, entry);
-      const JointBox all = open.proof.open.front();
-      descents *= shareOf(all, 2);
-      if (advance(open, std::lround(static_cast<double>(options_.proofBoxes) * shareOf(all, 3))))
+      // Ways of more joints than usual get fewer boxes and random descents: a box takes the square of the
+      // joints, a descent their number, and a robot of long ways has many pairs.
+      constexpr double kUsual = 24;  // joints
+      const double joints = static_cast<double>(open.proof.open.front().lower.size());
+      const double share = std::min(1.0, kUsual / joints);
+      descents *= std::pow(share, 2);
+      if (advance(open, std::lround(static_cast<double>(options_.proofBoxes) * std::pow(share, 3))))
         return std::nullopt;
     }
     // Each pair has its own random numbers, whatever became of those before it.
