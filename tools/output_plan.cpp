@@ -113,13 +113,6 @@ void checkPreview(const std::vector<std::string>& inputs, const std::string& pre
     throw UsageError("--preview " + preview + ": end the name in .obj, .stl, .ply or .glb");
 }
 
-// Of one that may become the volume of a part.
-void checkPartName(const std::string& name, InputFiles& inputs, const std::string& preview) {
-  inputs.spare("-o", name);
-  if (!preview.empty() && sameFile(preview, name))
-    throw UsageError("--preview " + preview + ": is the name of a part's volume; give another name");
-}
-
 std::vector<Job> jobsInto(const std::string& folder, const std::vector<std::string>& inputs, Format format) {
   std::vector<Job> jobs;
   std::map<std::string, std::string> taken;  // output, its input
@@ -181,23 +174,23 @@ Plan plan(const std::vector<std::string>& inputs, const std::string& output, con
     plan.folder = output;
     plan.jobs = jobsInto(output, inputs, options.format);
   } else {
+    if (canSaveMesh(output))
+      throw UsageError("-o " + output +
+                       ": a volume is no mesh; end the name in .stpbv, and for its surface give --preview " +
+                       output);
     plan.jobs = {{inputs[0], output}};
   }
   InputFiles files(inputs);
   for (const Job& job : plan.jobs) {
     checkTarget("-o", job.output, files, force);
     for (int part = 0; options.parts && part < options.parts->most; ++part)
-      checkPartName(nameOfPart(job.output, part), files, options.preview);
+      files.spare("-o", nameOfPart(job.output, part));
   }
 
   std::vector<std::string> named;
   if (plan.folder.empty()) named.push_back(plan.jobs[0].output);
   if (!options.preview.empty()) {
     checkTarget("--preview", options.preview, files, force);
-    if (sameFile(options.preview, plan.jobs[0].output)) {
-      throw UsageError("--preview " + options.preview +
-                       ": is the name of the volume itself; give another name");
-    }
     named.push_back(options.preview);
   }
   for (const std::string& name : named) {

@@ -116,6 +116,8 @@ int Program::run(int argc, char** argv, const std::function<int()>& work) {
     refuseNoValue(argc, argv);
     app_->parse(argc, argv);
     status = work();
+  } catch (const CLI::ExcludesError& error) {
+    say(std::string(error.what()) + "; give only one of them");
   } catch (const CLI::ParseError& error) {
     status = app_->exit(error) == 0 ? 0 : kWrong;
   } catch (const std::bad_alloc&) {

@@ -221,7 +221,8 @@ bool DetailChoice::refineBothLinks(OpenNeed& open) {
   return true;
 }
 
-// A finer body need not lie within the coarse one, so all needs are asked again at the end.
+// A finer body need not lie within the coarse one, so all needs are asked again at the end. The links' own
+// shapes are asked only where whole bodies meet: bodies take a tenth of the time.
 std::set<LinkPair> DetailChoice::refine(const std::vector<SceneNeed>& needs) {
   changed_.clear();
   std::vector<char> hopeless(needs.size());
@@ -232,10 +233,12 @@ std::set<LinkPair> DetailChoice::refine(const std::vector<SceneNeed>& needs) {
              [&](std::size_t i) { settled[i] = hopeless[i] || meets(needs[i]); });
     for (std::size_t i = 0; i < needs.size(); ++i) {
       if (settled[i]) continue;
-      if (nearerThemselves(needs[i]))
+      OpenNeed need{needs[i], i, {}};
+      const Details finestWhole{levels() - 1, needs[i].pair.obstacle ? 0 : levels() - 1};
+      if (!meets(need, finestWhole) && nearerThemselves(needs[i]))
         hopeless[i] = 1;
       else
-        open.push_back({needs[i], i, {}});
+        open.push_back(std::move(need));
     }
     return !open.empty();
   };

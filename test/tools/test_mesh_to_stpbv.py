@@ -208,8 +208,9 @@ class MeshToStpbv(unittest.TestCase):
                 (["cube.txt", "-o", "a.stpbv", "--format", "step"], ["--format", "stpbv", "sch"]),
                 (["cube.txt", "-o", "a.stpbv", "--preview", "a.doc"], ["--preview a.doc", ".glb"]),
                 (["cube.txt", "other.txt", "-o", "out", "--preview", "a.obj"], ["--preview a.obj", "one input"]),
-                (["cube.txt", "-o", "a.obj", "--preview", "a.obj"], ["--preview a.obj"]),
-                (["cube.txt", "-o", "a.obj", "--preview", "./a.obj"], ["--preview ./a.obj"]),
+                (["cube.txt", "-o", "a.obj"], ["-o a.obj: a volume is no mesh", ".stpbv", "--preview a.obj"]),
+                (["cube.txt", "-o", "a.stl", "--parts", "2"], ["-o a.stl: a volume is no mesh"]),
+                (["cube.txt", "-o", "a.stpbv", "-r", "0.01", "--advise", "clearance=0.01"], ["--advise", "give only one of them"]),
                 (["cube.txt", "-o", "a.stpbv", "--preview", "none/a.obj"], ["none/a.obj"]),
                 (["cube.txt", "-o", "a.stpbv", "--nonsense"], ["--nonsense"])]:
             with self.subTest(arguments=arguments):
@@ -234,25 +235,24 @@ class MeshToStpbv(unittest.TestCase):
         faces += [(5, 6, 7)] if flat else [tuple(v + 4 for v in face) for face in faces]
         write(self.at(name), text + "".join("f %d %d %d\n" % face for face in faces))
 
-    def test_parts_replace_no_input_and_no_preview_replaces_a_part(self):
+    def test_parts_replace_no_input(self):
         for name in ("w_0.obj", "w_1.obj", "body.obj"):
             self.two_pieces(name)
+            os.symlink(name, self.at(name.replace(".obj", ".stpbv")))
         os.symlink("w_1.obj", self.at("link.obj"))
         os.mkdir(self.at("out"))
         os.symlink("../w_0.obj", self.at("out/body_0.stpbv"))
         for arguments, says in [
-                (["w_0.obj", "-o", "w.obj"], "w_0.obj: is an input"),
-                (["link.obj", "-o", "w.obj"], "w_1.obj: is an input"),
-                (["body.obj", "w_0.obj", "-o", "out"], "out/body_0.stpbv: is an input"),
-                (["body.obj", "-o", "t.obj", "--preview", "t_0.obj"], "--preview t_0.obj: is the name of a part"),
-                (["body.obj", "-o", "t.obj", "--preview", "./out/../t_1.obj"], "is the name of a part")]:
+                (["w_0.obj", "-o", "w.stpbv"], "w_0.stpbv: is an input"),
+                (["link.obj", "-o", "w.stpbv"], "w_1.stpbv: is an input"),
+                (["body.obj", "w_0.obj", "-o", "out"], "out/body_0.stpbv: is an input")]:
             for count in (["--parts", "2"], ["--excess", "0.01"]):
                 with self.subTest(arguments=arguments, count=count):
                     self.refused(*arguments, "--force", *count, says=[says])
         self.refused("body.obj", "-o", "t.stpbv", "--preview", "body.obj", "--force", says=["body.obj: is an input", "give --preview"])
-        self.refused("-", "-o", "w_0.obj", "--force", says=["w_0.obj: is an input"], stdin="w_0.obj")
-        self.run_tool("body.obj", "-o", "t.obj", "--parts", "2", "--preview", "t.ply")
-        self.assertTrue(read(self.at("t_0.obj")).startswith(b"stpbv 1"))
+        self.refused("-", "-o", "w_0.stpbv", "--force", says=["w_0.stpbv: is an input"], stdin="w_0.obj")
+        self.run_tool("body.obj", "-o", "t.stpbv", "--parts", "2", "--preview", "t.ply")
+        self.assertTrue(read(self.at("t_0.stpbv")).startswith(b"stpbv 1"))
 
     def test_a_gltf_is_looked_into_once_for_all_names_of_parts(self):
         write(self.at("large.gltf"), json.dumps({"asset": {"version": "2.0"}, "extras": list(range(300000))}))
