@@ -134,12 +134,24 @@ void checkShapeWords(const XMLElement& shape) {
   checkChildren(shape, kInShape);
   const XMLElement* geometry = shape.FirstChildElement("geometry");
   if (!geometry) throw Error("has no <geometry>; give it one, or remove the element");
-  if (checkChildren(*geometry, kInGeometry) > 1)
+  const int shapes = checkChildren(*geometry, kInGeometry);
+  if (shapes == 0) {
+    const XMLElement* other = geometry->FirstChildElement();
+    throw Error("its <geometry> holds " + (other ? "<" + std::string(other->Name()) + ">" : "nothing") +
+                "; give it a <box>, <sphere>, <cylinder>, <capsule> or <mesh>");
+  }
+  if (shapes > 1)
     throw Error("its <geometry> holds several shapes; give each a <" + std::string(shape.Name()) +
                 "> of its own");
 }
 
-void checkJointWords(const XMLElement& joint) { checkChildren(joint, kInJoint); }
+void checkJointWords(const XMLElement& joint) {
+  const Words types{"fixed", "revolute", "continuous", "prismatic", "planar", "floating"};
+  const char* type = joint.Attribute("type");
+  if (!type) throw Error("has no type; URDF knows " + listed(types));
+  if (!holds(types, type)) throw Error("is of type '" + std::string(type) + "'; URDF knows " + listed(types));
+  checkChildren(joint, kInJoint);
+}
 
 const XMLElement* inertialOf(const XMLElement& link) {
   if (const XMLElement* inertial = link.FirstChildElement("inertial")) return inertial;

@@ -92,10 +92,15 @@ TEST_CASE("what cannot be a robot is refused with a reason") {
              Contains("child of two joints"));
   CHECK_THAT(refused(robot(ab + joint("j", "revolute", "a", "z"))), Contains("no link 'z'"));
   CHECK_THAT(refused(robot(ab + link("a"))), Contains("two links are named"));
-  CHECK_THAT(refused(robot(ab + joint("j", "bendy", "a", "b"))), Contains("bendy"));
+  CHECK_THAT(refused(robot(ab + joint("j", "bendy", "a", "b"))), Contains("'bendy'; URDF knows fixed"));
+  CHECK_THAT(refused(robot(link("a", "<plane normal=\"0 0 1\"/>"))),
+             Contains("holds <plane>; give it a <box>"));
+  CHECK_THAT(refused(robot(link("a", " "))), Contains("holds nothing; give it a <box>"));
   CHECK_THAT(refused(robot(ab + joint("j", "revolute", "a", "b", "<axis xyz=\"0 0 0\"/>"))),
              Contains("axis"));
   CHECK_THAT(refused(robot(ab + joint("j", "revolute", "a", "b", "<mimic joint=\"q\"/>"))), Contains("'q'"));
+  CHECK_THAT(refused(robot(ab + joint("j", "revolute", "a", "b", "<mimic joint=\"\"/>"))),
+             Contains("names no joint"));
   CHECK_THAT(refused(robot(ab + link("c") + joint("j", "revolute", "a", "b", "<mimic joint=\"k\"/>") +
                            joint("k", "revolute", "b", "c", "<mimic joint=\"j\"/>"))),
              Contains("mimics itself"));
@@ -236,6 +241,31 @@ TEST_CASE("an SRDF gives pairs, states and the way the base moves") {
   CHECK(srdf.baseType == "floating");
   CHECK(srdf.state("up").joints.at("j")[0] == 0.5);
   CHECK_THAT(refusal([&](const std::string& name) { srdf.state(name); }, "down"), Contains("up"));
+}
+
+TEST_CASE("the virtual joint of the root link moves the base, others are told to count for nothing") {
+  TemporaryFolder folder;
+  const RobotModel model = parse(link("a") + link("b") + joint("j", "revolute", "a", "b"));
+  const auto virtualJoint = [](const std::string& name, const std::string& child) {
+    return "<virtual_joint name=\"" + name + "\" type=\"floating\" parent_frame=\"w\" child_link=\"" + child +
+           "\"/>";
+  };
+  const auto state = [](const std::string& name, const std::string& joint, const std::string& value) {
+    return "<group_state name=\"" + name + "\" group=\"g\"><joint name=\"" + joint + "\" value=\"" + value +
+           "\"/></group_state>";
+  };
+  put(folder / "s.srdf", "<robot name=\"small\">" + virtualJoint("of_b", "b") + virtualJoint("of_a", "a") +
+                             virtualJoint("too", "a") + state("away", "of_a", "5 0 1 0 0 0 1") +
+                             state("turned", "of_a", "0 0 0 0 0 1 0") +
+                             state("home", "of_a", "0 0 0 0 0 0 1") +
+                             state("other", "of_b", "5 0 1 0 0 0 1") + "</robot>");
+  const Srdf srdf = loadSrdf(folder / "s.srdf", model);
+  CHECK(srdf.baseJoint == "of_a");
+  REQUIRE(srdf.warnings.size() == 2);
+  CHECK_THAT(srdf.warnings[0], Contains("'of_b'") && Contains("root link 'a'"));
+  CHECK_THAT(srdf.warnings[1], Contains("'too'") && Contains("'of_a' carries the root link"));
+  for (const char* moved : {"away", "turned"}) CHECK(srdf.movesBase(srdf.state(moved)));
+  for (const char* still : {"home", "other"}) CHECK_FALSE(srdf.movesBase(srdf.state(still)));
 }
 
 TEST_CASE("new pairs replace old ones in an SRDF and leave the user's own alone") {
