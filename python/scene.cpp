@@ -53,6 +53,8 @@ SceneNeed PythonScene::toNeed(const Need& given, const std::string& name,
   if (link1 < 0) throw Error(name + ": the robot has no link \"" + first + "\"");
   if (link2 < 0 && obstacle == obstacles.end())
     throw Error(name + ": there is no link or obstacle \"" + second + "\"");
+  if (link2 >= 0 && obstacle != obstacles.end())
+    throw Error(name + ": \"" + second + "\" is a link and an obstacle; give one of them another name");
   need.pair = link2 >= 0 ? LinkPair{link1, link2}
                          : LinkPair{link1, static_cast<int>(obstacle - obstacles.begin()), true};
   const auto linkOf = [&](int body) { return geometry.bodies[static_cast<std::size_t>(body)].link; };

@@ -15,6 +15,7 @@
 #include "fcl_stpbv/robot/pair_proof.h"
 #include "fcl_stpbv/robot/pair_samples.h"
 #include "fcl_stpbv/robot/pair_search.h"
+#include "fcl_stpbv/robot/search_room.h"
 #include "made.h"
 #include "parts.h"
 
@@ -97,8 +98,9 @@ class PythonPairSearch {
     const LinkPair links = linksOf(pair);
     PairSearch search = searchOf(links);
     std::mt19937_64 random = numbered(seed, pair);
+    const double room = searchRoom(scene_.kinematics->robot(), *scene_.geometry, scene_.obstacles);
     for (int i = 0; i < starts; ++i) {
-      Eigen::VectorXd q = randomConfiguration(*scene_.kinematics, random);
+      Eigen::VectorXd q = randomConfiguration(*scene_.kinematics, random, room);
       search.forget();
       if (search.descend(q, scene_.margin) <= scene_.margin) return q;
     }

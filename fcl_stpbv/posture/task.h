@@ -210,7 +210,7 @@ std::vector<CheckedPair> pairsOf(const PostureTask& task, const PostureScene& sc
 /// The same task as seen from a fixed base, whose root link then stands at the origin, and from the height of
 /// a planar one: Kinematics has them there. Obstacles and targets are moved the other way. setUp() does so by
 /// itself; this is for whoever shows a posture among obstacles. @throws Error for a planar base that is
-/// tilted.
+/// tilted, and for a state that moves the base where basePose does not.
 std::pair<PostureTask, PostureScene> withBaseAtOrigin(PostureTask task, PostureScene scene);
 /// All but the collisions. @throws Error naming the task's key.
 PostureSetup setUpWithoutCollisions(const PostureTask& task, const PostureScene& scene);

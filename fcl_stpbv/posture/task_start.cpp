@@ -20,6 +20,19 @@ std::vector<int> coordinatesNamed(const std::string& name, const Kinematics& kin
   return found;
 }
 
+// A state that puts the base elsewhere does so in the axes of its parent_frame, which no task knows.
+void requireBasePose(const PostureTask& task, const PostureScene& scene) {
+  const bool given = task.basePose.matrix() != Eigen::Matrix4d::Identity();
+  if (given || task.state.empty() || !scene.srdf) return;
+  const std::string where = task.path + ": start.state";
+  const Srdf::State state = detail::within(where, [&] { return scene.srdf->state(task.state); });
+  if (scene.srdf->movesBase(state))
+    throw Error(where + ": '" + task.state + "' places the base by the virtual joint '" +
+                scene.srdf->baseJoint +
+                "', and start.base leaves it at the origin; say in start.base where it stands, or name a "
+                "state without that joint");
+}
+
 [[noreturn]] void refuseJoint(const std::string& where, const std::string& joint) {
   throw Error(where + ": the robot has no joint '" + joint + "' of its own");
 }
@@ -71,6 +84,7 @@ Eigen::VectorXd startOf(const PostureTask& task, const PostureScene& scene, cons
 }
 
 std::pair<PostureTask, PostureScene> withBaseAtOrigin(PostureTask task, PostureScene scene) {
+  requireBasePose(task, scene);
   Eigen::Isometry3d stands = Eigen::Isometry3d::Identity();
   if (task.base == BaseMotion::fixed) {
     stands = task.basePose;

@@ -58,13 +58,6 @@ Eigen::VectorXd poseFromJson(const std::string& path, const Kinematics& kinemati
   }
 }
 
-// Whether a virtual joint's values, x, y and angle or x, y, z and a quaternion, are not those of no motion.
-bool moves(const std::vector<double>& values) {
-  const std::size_t counts = values.size() == 7 ? 6 : values.size();  // the quaternion's w tells nothing more
-  return std::any_of(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(counts),
-                     [](double value) { return std::abs(value) > 1e-9; });
-}
-
 }  // namespace
 
 Eigen::VectorXd namedPosture(const std::string& option, const std::string& name, const Kinematics& kinematics,
@@ -76,9 +69,8 @@ Eigen::VectorXd namedPosture(const std::string& option, const std::string& name,
     throw Error(option + " " + name +
                 ": no such file, and no SRDF with postures; give --srdf or a JSON file");
   const Srdf::State state = srdf->state(name);
-  const auto base = state.joints.find(srdf->baseJoint);
-  if (obstacles && base != state.joints.end() && moves(base->second))
-    throw Error(option + " " + name + ": places the base by the virtual joint '" + base->first +
+  if (obstacles && srdf->movesBase(state))
+    throw Error(option + " " + name + ": places the base by the virtual joint '" + srdf->baseJoint +
                 "', but the obstacles are seen from the robot's root link; give obstacles placed so that the "
                 "base stays at the origin, and a posture without that joint");
   return kinematics.configuration(state, rest);

@@ -1,6 +1,6 @@
 // Adjacency of links. Links joined by fixed joints are one part. Along the joints between two links at most
 // one moves, or several that turn about coinciding origins with no body between them (a compound joint); any
-// other body on the way makes the two links separate.
+// other body on the way makes the two links separate, and so does a planar or floating joint.
 #include "fcl_stpbv/robot/adjacency.h"
 
 #include "fcl_stpbv/numbers.h"
@@ -16,6 +16,11 @@ constexpr double kSameOrigin = 1e-5;
 
 bool turns(const JointModel& joint) {
   return joint.type == JointType::revolute || joint.type == JointType::continuous;
+}
+
+// Such a joint holds its links nowhere near each other.
+bool leavesFree(const JointModel& joint) {
+  return joint.type == JointType::planar || joint.type == JointType::floating;
 }
 
 }  // namespace
@@ -50,6 +55,7 @@ Joining Adjacency::of(int link1, int link2) const {
   for (std::size_t i = 0; i < path.joints.size(); ++i) {
     const JointModel& joint = robot_.joints[at(path.joints[i])];
     const bool up = i < path.up;
+    if (leavesFree(joint)) return Joining::separate;
     if (joint.type != JointType::fixed) {
       if (last && !(turns(*last) && turns(joint) && !partBody_[at(part_[at(link)])] &&
                     (originOn(joint, !up) - origin).norm() <= kSameOrigin))

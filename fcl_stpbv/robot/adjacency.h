@@ -1,5 +1,5 @@
 // Which links are so near each other in the kinematic tree that their distance says nothing: rigidly joined
-// ones, and those on either side of one joint.
+// ones, and those on either side of one joint that holds them.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -18,9 +18,10 @@ enum class Joining {
 
 /// How pairs of links are joined (docs/robot.md, "Adjacent links").
 ///
-/// Two links are rigid where only fixed joints lie between them. They are adjacent where one joint that moves
-/// lies between them, or several turning joints whose origins coincide (a compound joint, such as the three
-/// axes of a ball joint), and no link on the way, nor any fixed to it, has a body.
+/// Two links are rigid where only fixed joints lie between them. They are adjacent where one joint that turns
+/// or slides lies between them, neither planar nor floating, or several turning joints whose origins coincide
+/// (a compound joint, such as the three axes of a ball joint), and no link on the way, nor any fixed to it,
+/// has a body.
 class Adjacency {
  public:
   Adjacency(const RobotModel& robot, const RobotGeometry& geometry);

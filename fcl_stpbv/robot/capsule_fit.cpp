@@ -1,6 +1,7 @@
 // Joins a cylinder and two spheres of its radius at its ends to a capsule, as URDF has none of its own.
 #include "fcl_stpbv/robot/capsule_fit.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace fcl_stpbv::detail {
@@ -28,7 +29,14 @@ void joinCapsules(std::vector<ShapeModel>& shapes) {
     const int bottom = sphereAt(shapes, shapes[i].pose * -half, shapes[i].size.x());
     if (top < 0 || bottom < 0 || top == bottom) continue;
     shapes[i].kind = ShapeModel::Kind::capsule;
-    for (const int end : {top, bottom}) shapes[i].elements += shapes[static_cast<std::size_t>(end)].elements;
+    // Wide enough for ends that are off by their last digit.
+    const Eigen::Vector3d tip[2] = {shapes[i].pose * half, shapes[i].pose * -half};
+    for (const int end : {top, bottom}) {
+      const ShapeModel& sphere = shapes[static_cast<std::size_t>(end)];
+      const double off = (sphere.pose.translation() - tip[end == bottom]).norm();
+      shapes[i].size.x() = std::max(shapes[i].size.x(), sphere.size.x() + off);
+      shapes[i].elements += sphere.elements;
+    }
     shapes.erase(shapes.begin() + std::max(top, bottom));
     shapes.erase(shapes.begin() + std::min(top, bottom));
     i = static_cast<std::size_t>(-1);  // indices moved: look again from the start

@@ -7,8 +7,8 @@
 
 namespace fcl_stpbv::detail {
 
-/// Replaces each cylinder that has a sphere of its radius centred on both
-/// ends by one capsule; the spheres go.
+/// Replaces each cylinder that has a sphere of its radius centred on both ends, to a micrometre, by one
+/// capsule that holds all three; the spheres go.
 void joinCapsules(std::vector<ShapeModel>& shapes);
 
 }  // namespace fcl_stpbv::detail

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "fcl_stpbv/robot/search_room.h"
+
 namespace fcl_stpbv::detail {
 namespace {
 
@@ -34,11 +36,11 @@ void note(double distance, const Eigen::VectorXd& q, std::size_t keep, PairSampl
 
 }  // namespace
 
-Eigen::VectorXd randomConfiguration(const Kinematics& kinematics, std::mt19937_64& random) {
+Eigen::VectorXd randomConfiguration(const Kinematics& kinematics, std::mt19937_64& random, double room) {
   Eigen::VectorXd q(kinematics.size());
   for (Index i = 0; i < q.size(); ++i) {
-    const double low = std::isfinite(kinematics.lower()[i]) ? kinematics.lower()[i] : -1;
-    const double high = std::isfinite(kinematics.upper()[i]) ? kinematics.upper()[i] : 1;
+    const double low = std::isfinite(kinematics.lower()[i]) ? kinematics.lower()[i] : -room;
+    const double high = std::isfinite(kinematics.upper()[i]) ? kinematics.upper()[i] : room;
     // Without the standard library's distributions, which differ from one to another.
     q[i] = low + static_cast<double>(random() >> 11) * 0x1p-53 * (high - low);
   }
@@ -49,6 +51,7 @@ PairSampler::PairSampler(std::shared_ptr<const Kinematics> kinematics,
                          std::shared_ptr<const RobotGeometry> geometry, const std::vector<LinkPair>& pairs,
                          const std::vector<Obstacle>& obstacles, int threads)
     : kinematics_(kinematics),
+      room_(searchRoom(kinematics->robot(), *geometry, obstacles)),
       constraints_(kinematics, geometry, allBodies(*geometry, pairs), optionsOf(obstacles)),
       batch_(constraints_, std::max(1, threads)),
       rows_(constraints_.rows()),
@@ -80,7 +83,7 @@ std::vector<PairSamples> PairSampler::sample(int count, std::uint64_t seed, doub
   for (int done = 0; done < count && !found.empty(); done += kBlock) {
     progress(done);
     const Index block = std::min(kBlock, count - done);
-    for (Index s = 0; s < block; ++s) q.col(s) = randomConfiguration(*kinematics_, random);
+    for (Index s = 0; s < block; ++s) q.col(s) = randomConfiguration(*kinematics_, random, room_);
     batch_.evaluate(q.leftCols(block), Sequence::path, rows.leftCols(block));
     for (Index s = 0; s < block; ++s) {
       leastOf(rows.col(s));

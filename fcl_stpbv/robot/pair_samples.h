@@ -12,9 +12,9 @@
 
 namespace fcl_stpbv::detail {
 
-/// Uniform within the limits; coordinates without limits within 1 rad or m
-/// around zero. The same with every compiler.
-Eigen::VectorXd randomConfiguration(const Kinematics& kinematics, std::mt19937_64& random);
+/// Uniform within the limits; coordinates without limits up to `room` (m) either way. The same with every
+/// compiler.
+Eigen::VectorXd randomConfiguration(const Kinematics& kinematics, std::mt19937_64& random, double room = 1);
 
 /// What the samples said about one pair.
 struct PairSamples {
@@ -43,6 +43,7 @@ class PairSampler {
   const Eigen::VectorXd& leastOf(const Eigen::Ref<const Eigen::VectorXd>& rows);
 
   std::shared_ptr<const Kinematics> kinematics_;
+  double room_;                       // searchRoom()
   std::vector<Eigen::Index> pairOf_;  // of each row
   CollisionConstraints constraints_;
   ConstraintsBatch batch_;

@@ -10,18 +10,10 @@
 #include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/robot/joint_freedoms.h"
 #include "fcl_stpbv/robot/joint_path.h"
+#include "fcl_stpbv/robot/search_room.h"
 
 namespace fcl_stpbv::detail {
 namespace {
-
-// How far a link's bodies reach from its origin.
-double reachOf(const RobotGeometry& geometry, int link) {
-  double reach = 0;
-  const auto [first, last] = geometry.of(link);
-  for (int i = first; i < last; ++i)
-    reach = std::max(reach, geometry.bodies[at(i)].centre.norm() + geometry.bodies[at(i)].radius);
-  return reach;
-}
 
 ConstraintOptions withObstacle(const Obstacle& obstacle) {
   ConstraintOptions options;
@@ -45,13 +37,17 @@ PairSearch::PairSearch(std::shared_ptr<const Kinematics> kinematics,
 
 PairSearch::PairSearch(std::shared_ptr<const Kinematics> kinematics,
                        std::shared_ptr<const RobotGeometry> geometry, std::vector<CheckedPair> pairs,
-                       ConstraintOptions options)
+                       const ConstraintOptions& options)
     : kinematics_(std::move(kinematics)),
       geometry_(std::move(geometry)),
-      constraints_(kinematics_, geometry_, std::move(pairs), std::move(options)),
+      constraints_(kinematics_, geometry_, std::move(pairs), options),
       d_(constraints_.rows()),
       values_(constraints_.nonZeros()),
-      gradient_(kinematics_->size()) {
+      gradient_(kinematics_->size()),
+      unit_(Eigen::VectorXd::Ones(kinematics_->size())) {
+  const double room = searchRoom(kinematics_->robot(), *geometry_, options.obstacles);
+  for (Eigen::Index i = 0; i < unit_.size(); ++i)
+    if (!std::isfinite(kinematics_->upper()[i])) unit_[i] = room;
   const std::vector<int>& rows = constraints_.rowStart();  // all rows have the same columns
   coordinates_.assign(constraints_.columnIndices().begin(), constraints_.columnIndices().begin() + rows[1]);
 }
@@ -67,18 +63,7 @@ void PairSearch::boundSlopes(int link1, double reach1, int link2, double reach2)
     double length;
   };
   std::vector<Span> path;  // from link1 up, then down to link2
-  const auto lengthOf = [&](int j) {
-    const JointModel& joint = robot.joints[at(j)];
-    double slide =
-        joint.type == JointType::prismatic ? std::max(std::abs(joint.lower), std::abs(joint.upper)) : 0;
-    if (joint.mimic && joint.type == JointType::prismatic) {
-      const JointModel& master = robot.joints[at(joint.mimic->joint)];
-      slide = std::abs(joint.mimic->offset) +
-              std::abs(joint.mimic->multiplier) * std::max(std::abs(master.lower), std::abs(master.upper));
-    }
-    return joint.origin.translation().norm() + slide;
-  };
-  for (int j : joints.joints) path.push_back({j, lengthOf(j)});
+  for (int j : joints.joints) path.push_back({j, lengthOf(robot, j)});
   double total = 0;
   for (const Span& part : path) total += part.length;
 
@@ -126,21 +111,24 @@ double PairSearch::distanceAndGradient(const Eigen::VectorXd& q) {
   return least;
 }
 
-// Projected steps along the gradient, `sign` -1 downhill and 1 uphill.
+// Projected steps along the gradient, `sign` -1 downhill and 1 uphill. A step counts in units of each
+// coordinate: where nothing limits it, the room that is searched, so that it gets as far as the robot is
+// large.
 template <class Arrived>
 double PairSearch::follow(Eigen::VectorXd& q, double sign, Arrived arrived) {
   constexpr int kSteps = 200;
   constexpr double kEnough = 1e-6;  // m; steps that gain less than this have arrived
   double step = 0.1, d = distanceAndGradient(q);
   for (int i = 0; i < kSteps && !arrived(d); ++i) {
-    const Eigen::VectorXd slope = sign * gradient_;
+    const Eigen::VectorXd slope = sign * gradient_.cwiseProduct(unit_);
     if (!(slope.norm() > 1e-12)) break;
     bool better = false;
     for (int half = 0; half < 30 && !better; ++half) {
-      const Eigen::VectorXd next =
-          (q + step / slope.norm() * slope).cwiseMax(kinematics_->lower()).cwiseMin(kinematics_->upper());
+      const Eigen::VectorXd next = (q + step / slope.norm() * slope.cwiseProduct(unit_))
+                                       .cwiseMax(kinematics_->lower())
+                                       .cwiseMin(kinematics_->upper());
       const double there = distanceAndGradient(next);
-      const double promised = slope.dot(next - q);
+      const double promised = slope.dot((next - q).cwiseQuotient(unit_));
       if (promised <= 0) return d;  // held by the limits
       const double gain = sign * (there - d);
       if (gain > 1e-4 * promised) {

@@ -41,7 +41,7 @@ class PairSearch {
 
  private:
   PairSearch(std::shared_ptr<const Kinematics> kinematics, std::shared_ptr<const RobotGeometry> geometry,
-             std::vector<CheckedPair> pairs, ConstraintOptions options);
+             std::vector<CheckedPair> pairs, const ConstraintOptions& options);
   double distanceAndGradient(const Eigen::VectorXd& q);
   template <class Arrived>
   double follow(Eigen::VectorXd& q, double sign, Arrived arrived);
@@ -53,6 +53,7 @@ class PairSearch {
   std::vector<int> coordinates_;
   std::vector<double> lipschitz_;
   Eigen::VectorXd d_, values_, gradient_;
+  Eigen::VectorXd unit_;  // of a step: 1 (rad or m), or the room where a coordinate has no limits (m)
 };
 
 }  // namespace fcl_stpbv::detail

@@ -176,6 +176,8 @@ ReadJoint readJoint(const XMLElement& element, const UrdfTree& tree) {
     readLimits(*read, model);
   }
   joint.follower.joint = model.name;
+  if (read->mimic && read->mimic->joint_name.empty())
+    throw Error("its <mimic> names no joint; give one, or remove it");
   if (read->mimic)
     joint.follower = {model.name, read->mimic->joint_name, read->mimic->multiplier, read->mimic->offset};
   return joint;

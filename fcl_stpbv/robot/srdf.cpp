@@ -9,6 +9,7 @@
 #include <unordered_set>
 
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/robot/xml_text.h"
 
 namespace fcl_stpbv {
@@ -64,11 +65,7 @@ class SrdfReader {
     if (name == "disable_default_collisions" && known(e, "link"))
       srdf_.defaultsOff.push_back(e.Attribute("link"));
     if (name == "group_state") srdf_.states.push_back(state(e));
-    if (name == "virtual_joint") {
-      srdf_.baseJoint = requiredAttribute(e, "name", path_);
-      virtual_.insert(srdf_.baseJoint);
-      srdf_.baseType = requiredAttribute(e, "type", path_);
-    }
+    if (name == "virtual_joint") addVirtualJoint(e);
     if (kOthers.count(name) == 0 && name.find(':') == std::string_view::npos) {
       const bool pair = e.Attribute("link1") || e.Attribute("link2");
       warn(e, "<" + std::string(name) + "> is no element of SRDF and counts for nothing" +
@@ -103,6 +100,34 @@ class SrdfReader {
     const char* reason = e.Attribute("reason");
     if (first && second)
       pairs.push_back({e.Attribute("link1"), e.Attribute("link2"), reason && *reason ? reason : "User"});
+  }
+
+  // Whether the link is the root, or rigidly joined to it.
+  bool ofRoot(const std::string& name) const {
+    int link = robot_.link(name);
+    while (link > 0) {
+      const JointModel& joint = robot_.joints[at(robot_.links[at(link)].parentJoint)];
+      if (joint.type != JointType::fixed) return false;
+      link = joint.parent;
+    }
+    return link == 0;
+  }
+
+  // The first that carries the root link moves the base, as in MoveIt.
+  void addVirtualJoint(const XMLElement& e) {
+    const std::string name = requiredAttribute(e, "name", path_), type = requiredAttribute(e, "type", path_);
+    const char* child = e.Attribute("child_link");
+    virtual_.insert(name);
+    if (child && !ofRoot(child)) {
+      warn(e, "the virtual_joint '" + name + "' counts for nothing, as its child_link '" + child +
+                  "' is not the root link '" + robot_.links.front().name + "' nor fixed to it");
+    } else if (!srdf_.baseJoint.empty()) {
+      warn(e, "the virtual_joint '" + name + "' counts for nothing, as '" + srdf_.baseJoint +
+                  "' carries the root link");
+    } else {
+      srdf_.baseJoint = name;
+      srdf_.baseType = type;
+    }
   }
 
   Srdf::State state(const XMLElement& e) {
@@ -168,6 +193,16 @@ Srdf::State Srdf::state(const std::string& name) const {
   if (found) return *found;
   throw Error(path + ": no group_state is named '" + name + "'; " +
               (known.empty() ? "it has none" : "there are: " + known));
+}
+
+bool Srdf::movesBase(const State& state) const {
+  const auto base = state.joints.find(baseJoint);
+  if (base == state.joints.end()) return false;
+  // x, y and angle, or x, y, z and a quaternion, whose w tells nothing more.
+  const std::vector<double>& values = base->second;
+  const auto counts = static_cast<std::ptrdiff_t>(values.size() == 7 ? 6 : values.size());
+  return std::any_of(values.begin(), values.begin() + counts,
+                     [](double value) { return std::abs(value) > 1e-9; });
 }
 
 Srdf loadSrdf(const std::string& path, const RobotModel& robot, LoadFaults& faults) {

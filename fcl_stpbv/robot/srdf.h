@@ -31,7 +31,7 @@ struct Srdf {
   std::vector<Pair> enabled;             ///< enable_collisions; these win
   std::vector<std::string> defaultsOff;  ///< disable_default_collisions: links checked only where enabled
   std::vector<State> states;             ///< group_state
-  std::string baseJoint;                 ///< name of the virtual_joint, "" without one
+  std::string baseJoint;                 ///< the virtual_joint that carries the root link, "" without one
   std::string baseType;                  ///< its type
   /// Whole sentences, to be told to the user: entries for links that the robot does not have, which count for
   /// nothing as in MoveIt; elements that SRDF does not know; the name of another robot.
@@ -40,6 +40,9 @@ struct Srdf {
   /// The posture of this name; of several groups together, where each has a state of the name.
   /// @throws Error naming the states there are, or a joint in which states of the name differ.
   State state(const std::string& name) const;
+  /// Whether the state puts the root link elsewhere, by other values of the virtual joint than those of no
+  /// motion.
+  bool movesBase(const State& state) const;
 };
 
 /// What an SRDF says of any two links, as it was when this was made. Finds one pair among many at once.

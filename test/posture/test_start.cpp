@@ -163,3 +163,26 @@ TEST_CASE("any number of starts is taken, from any one on") {
     CHECK(violated(first, 4) == std::min({violated(first, 1), violated(first + 1, 1), violated(first + 2, 1),
                                           violated(first + 3, 1)}));
 }
+
+TEST_CASE(
+    "a state that moves the base by a virtual joint is refused where the task does not say where it is") {
+  PostureScene scene = armAmong("0 9 0");
+  Srdf srdf;
+  srdf.baseJoint = "world";
+  srdf.states = {{"away", "all", {{"world", {5, 0, 1, 0, 0, 0, 1}}, {"j", {0.3}}}},
+                 {"home", "all", {{"world", {0, 0, 0, 0, 0, 0, 1}}, {"j", {0.3}}}}};
+  scene.srdf = std::make_shared<const Srdf>(srdf);
+  const auto task = [](const std::string& base, const std::string& start) {
+    return R"({"base": ")" + base + R"(", "start": {)" + start + R"(}, "placements": []})";
+  };
+  for (const char* base : {"fixed", "planar", "floating"}) {
+    CAPTURE(base);
+    CHECK_THAT(refusalOf(task(base, R"("state": "away")"), scene),
+               Catch::Matchers::Contains("start.state: 'away'") && Catch::Matchers::Contains("'world'") &&
+                   Catch::Matchers::Contains("start.base"));
+    CHECK(refusalOf(task(base, R"("state": "home")"), scene).empty());
+    const PostureSetup setup =
+        setUp(taskOf(task(base, R"("state": "away", "base": {"position": [5, 0, 1]})")), scene);
+    CHECK(setup.start[setup.start.size() - 1] == 0.3);
+  }
+}

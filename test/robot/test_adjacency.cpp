@@ -97,6 +97,17 @@ TEST_CASE(
             .of("a", "b") == Joining::adjacent);
 }
 
+TEST_CASE("a planar or floating joint holds its links nowhere near each other") {
+  for (const char* type : {"planar", "floating"}) {
+    const Scene scene = sceneOf(robot(link("a", kBall) + link("x") + link("b", kBall) + link("c", kBall) +
+                                      joint("f", "fixed", "a", "x") + joint("j", type, "x", "b") +
+                                      joint("k", "revolute", "b", "c", at("0.5 0 0"))));
+    CHECK(scene.of("a", "b") == Joining::separate);
+    CHECK(scene.of("b", "a") == Joining::separate);
+    CHECK(scene.of("b", "c") == Joining::adjacent);
+  }
+}
+
 TEST_CASE("a skeleton of few bodies has pairs to check, and its rigid ones are said to be") {
   const Scene scene = sceneOf(skeleton());
   PairListOptions options;

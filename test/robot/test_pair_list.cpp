@@ -340,6 +340,37 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("what has no limits is searched as far as the robot reaches") {
+  const auto reasonFor = [](const std::string& still, const std::string& moves, const std::string& type) {
+    const auto model = std::make_shared<const RobotModel>(parseUrdf(
+        robot("<link name=\"still\">" + still + "</link>" + link("between") + link("moves", moves) +
+              joint("free", type, "still", "between", type == "planar" ? "<axis xyz=\"0 0 1\"/>" : "") +
+              joint("turn", "revolute", "between", "moves")),
+        "small.urdf"));
+    GeometryOptions options;
+    options.cacheFolder.clear();
+    options.radii = {0.01, 1000};
+    const Arm arm = armFrom(model, loadGeometry(*model, options));
+    PairListOptions list;
+    list.samples = 200;
+    return entryOf(arm, pairList(arm.kinematics, arm.geometry, nullptr, list), "still", "moves").reason;
+  };
+  const auto block = [](const std::string& at, const std::string& size) {
+    return "<collision><origin xyz=\"" + at + "\"/><geometry><box size=\"" + size +
+           "\"/></geometry></collision>";
+  };
+  for (const char* type : {"planar", "floating"}) {
+    CAPTURE(type);
+    // A shelf in the far corner of a hall, and the same a hundred times as large.
+    CHECK(reasonFor(block("200 100 0", "1 1 1"), "<box size=\"1 1 1\"/>", type) == PairReason::sometimes);
+    CHECK(reasonFor(block("20000 10000 0", "100 100 100"), "<box size=\"100 100 100\"/>", type) ==
+          PairReason::sometimes);
+    // A slot that is nowhere as wide as 1 m away from where the robot stands, and open 4.5 m away.
+    CHECK(reasonFor(block("0 2.65 0", "9 5 9") + block("0 -2.65 0", "9 5 9"), "<box size=\"0.2 0.2 0.2\"/>",
+                    type) == PairReason::sometimes);
+  }
+}
+
 TEST_CASE("another neutral posture is another default, and a better one is suggested") {
   const Arm arm = folded();
   PairListOptions options;

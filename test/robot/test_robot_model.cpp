@@ -64,6 +64,24 @@ TEST_CASE("a cylinder with a sphere of its radius at either end is a capsule") {
   CHECK(model.links[0].collision[0].size.y() == 1);
 }
 
+TEST_CASE("a capsule holds the spheres at its ends where their last digits differ") {
+  const auto sphere = [](const std::string& xyz, const std::string& radius) {
+    return "<collision><origin xyz=\"" + xyz + "\"/><geometry><sphere radius=\"" + radius +
+           "\"/></geometry></collision>";
+  };
+  const std::string cylinder =
+      "<collision><geometry><cylinder radius=\"0.1\" length=\"1\"/></geometry></collision>";
+  const auto radiusWith = [&](const std::string& ends) {
+    const RobotModel model = parse("<link name=\"a\">" + ends + cylinder + "</link>");
+    REQUIRE(model.links[0].collision.size() == 1);
+    return model.links[0].collision[0].size.x();
+  };
+  CHECK(radiusWith(sphere("0 0 0.5", "0.1000009") + sphere("0 0 -0.5", "0.1")) == 0.1000009);
+  CHECK(radiusWith(sphere("0 0 -0.5", "0.1") + sphere("0 0 0.5000008", "0.1")) >= 0.1000008 - 1e-15);
+  CHECK(radiusWith(sphere("0.0000005 0 0.5", "0.1") + sphere("0 0 -0.5", "0.0999995")) >= 0.1000005 - 1e-15);
+  CHECK(radiusWith(sphere("0 0 0.5", "0.0999995") + sphere("0 0 -0.5", "0.0999995")) == 0.1);
+}
+
 TEST_CASE("a mimic joint is tied to the end of its chain") {
   const RobotModel model =
       parse(link("a") + link("b") + link("c") + link("d") + joint("j1", "revolute", "a", "b") +
@@ -245,7 +263,8 @@ TEST_CASE("an SRDF gives pairs, states and the way the base moves") {
 
 TEST_CASE("the virtual joint of the root link moves the base, others are told to count for nothing") {
   TemporaryFolder folder;
-  const RobotModel model = parse(link("a") + link("b") + joint("j", "revolute", "a", "b"));
+  const RobotModel model = parse(link("root") + link("a") + link("b") + joint("f", "fixed", "root", "a") +
+                                 joint("j", "revolute", "a", "b"));
   const auto virtualJoint = [](const std::string& name, const std::string& child) {
     return "<virtual_joint name=\"" + name + "\" type=\"floating\" parent_frame=\"w\" child_link=\"" + child +
            "\"/>";
@@ -255,14 +274,14 @@ TEST_CASE("the virtual joint of the root link moves the base, others are told to
            "\"/></group_state>";
   };
   put(folder / "s.srdf", "<robot name=\"small\">" + virtualJoint("of_b", "b") + virtualJoint("of_a", "a") +
-                             virtualJoint("too", "a") + state("away", "of_a", "5 0 1 0 0 0 1") +
+                             virtualJoint("too", "root") + state("away", "of_a", "5 0 1 0 0 0 1") +
                              state("turned", "of_a", "0 0 0 0 0 1 0") +
                              state("home", "of_a", "0 0 0 0 0 0 1") +
                              state("other", "of_b", "5 0 1 0 0 0 1") + "</robot>");
   const Srdf srdf = loadSrdf(folder / "s.srdf", model);
   CHECK(srdf.baseJoint == "of_a");
   REQUIRE(srdf.warnings.size() == 2);
-  CHECK_THAT(srdf.warnings[0], Contains("'of_b'") && Contains("root link 'a'"));
+  CHECK_THAT(srdf.warnings[0], Contains("'of_b'") && Contains("root link 'root'"));
   CHECK_THAT(srdf.warnings[1], Contains("'too'") && Contains("'of_a' carries the root link"));
   for (const char* moved : {"away", "turned"}) CHECK(srdf.movesBase(srdf.state(moved)));
   for (const char* still : {"home", "other"}) CHECK_FALSE(srdf.movesBase(srdf.state(still)));

@@ -1,0 +1,23 @@
+// How far a robot and what is around it reach, and so how far coordinates without limits are searched.
+#pragma once
+
+#include <vector>
+
+#include "fcl_stpbv/robot/checked_pairs.h"
+
+namespace fcl_stpbv::detail {
+
+/// How far a link's bodies reach from its origin (m).
+double reachOf(const RobotGeometry& geometry, int link);
+
+/// The longest way from the parent's origin to the child's, within the limits (m). Of a planar or floating
+/// joint, which has none, where it stands at zero.
+double lengthOf(const RobotModel& robot, int joint);
+
+/// Slides without limits, those of planar and floating joints and of a moving base, are searched so far
+/// either way (m): where two bodies can meet at all they do within it, with all other joints where they are.
+/// At least 1 m.
+double searchRoom(const RobotModel& robot, const RobotGeometry& geometry,
+                  const std::vector<Obstacle>& obstacles);
+
+}  // namespace fcl_stpbv::detail
