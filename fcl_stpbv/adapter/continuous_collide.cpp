@@ -126,8 +126,12 @@ class MovingPair {
     const double gap = answer.lower - margin_;
     // What has no bounds and turns leaves every fixed plane.
     const bool turning = (a_.unbounded && a_.turns()) || (b_.unbounded && b_.turns());
-    cover = a_.convex && b_.convex && !turning ? byPlane(gap, most)
-                                               : speedCover(gap, a_.speed() + b_.speed(), 0.0, most, slack_);
+    if (margin_ < 0 && !a_.convex && !b_.convex)
+      cover = {most, most};  // surfaces have no depth
+    else
+      cover = a_.convex && b_.convex && !turning
+                  ? byPlane(gap, most)
+                  : speedCover(gap, a_.speed() + b_.speed(), 0.0, most, slack_);
     return false;
   }
 

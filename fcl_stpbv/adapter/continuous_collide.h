@@ -48,7 +48,7 @@ enum class MotionVerdict {
 
 /// What is asked about a motion.
 struct MotionRequest {
-  double margin = 0;  ///< a distance not above it is a contact (m)
+  double margin = 0;  ///< a distance not above it is a contact (m); two meshes or trees have none below 0
   double tolerance =
       1e-4;  ///< of the time of contact, 1e-12 at least; 1 for any contact instead of the first
   long mostQueries = 200000;  ///< then undecided

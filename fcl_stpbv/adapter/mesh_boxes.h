@@ -58,24 +58,53 @@ bool mayBeMerged(const BV&, const BV&, const BV&) {
   return false;  // AABB and KDOP merge well
 }
 
+/// Whether its axes are those of a box. FCL's fit to a triangle whose corners lie on a line, which it makes
+/// where vertices have moved, leaves axes out or leans them, and puts its box somewhere else.
+inline bool hasAxes(const OrientedBox& box) {
+  return (box.axes.transpose() * box.axes - Eigen::Matrix3d::Identity()).lpNorm<1>() <= kSameBox;
+}
+
+/// Calls `action` with each corner of a triangle, or with the point of a cloud.
+template <typename BV, typename Action>
+void forCorners(const fcl::BVHModel<BV>& mesh, int element, Action&& action) {
+  if (!mesh.tri_indices) return action(mesh.vertices[element]);
+  const fcl::Triangle& t = mesh.tri_indices[element];
+  for (const std::size_t i : {t[0], t[1], t[2]}) action(mesh.vertices[i]);
+}
+
+/// Whether an element is in a box, to the rounding of its fit.
+template <typename BV>
+bool holdsElement(const fcl::BVHModel<BV>& mesh, int element, const OrientedBox& box) {
+  const double rounding = kSameBox * (box.half.sum() + box.centre.lpNorm<1>());
+  bool holds = true;
+  forCorners(mesh, element, [&](const Eigen::Vector3d& p) {
+    const Eigen::Vector3d local = box.axes.transpose() * (p - box.centre);
+    holds = holds && (local.cwiseAbs() - box.half).maxCoeff() <= rounding;
+  });
+  return holds;
+}
+
 /// Whether the inner boxes were merged from their children's, as `endReplaceModel()` and `endUpdateModel()`
 /// do unless told otherwise, and not fitted to what is below. All down one way, for some fitted box may be
-/// the same by chance.
+/// the same by chance; but one without axes tells at once. Of a single element its own box, which FCL merges
+/// from those before and after an update.
 template <typename BV>
 bool hasMergedBoxes(const fcl::BVHModel<BV>& mesh) {
-  for (int index = 0; !mesh.getBV(index).isLeaf(); index = mesh.getBV(index).leftChild()) {
+  for (int index = 0;; index = mesh.getBV(index).leftChild()) {
     const fcl::BVNode<BV>& node = mesh.getBV(index);
+    const OrientedBox own = boxAround(node.bv);
+    if (!hasAxes(own)) return true;
+    if (node.isLeaf()) return index > 0 || !holdsElement(mesh, node.primitiveId(), own);
     const auto &first = boxed(mesh.getBV(node.leftChild()).bv),
                &second = boxed(mesh.getBV(node.rightChild()).bv);
     if (!mayBeMerged(boxed(node.bv), first, second)) return false;
-    const OrientedBox own = boxAround(node.bv), both = boxAround(first + second);
+    const OrientedBox both = boxAround(first + second);
     const double size = kSameBox * (own.half.sum() + own.centre.lpNorm<1>());
     const bool same = (own.centre - both.centre).lpNorm<1>() <= size &&
                       (own.half - both.half).lpNorm<1>() <= size &&
                       (own.axes - both.axes).lpNorm<1>() <= kSameBox;
     if (!same) return false;
   }
-  return !mesh.getBV(0).isLeaf();
 }
 
 /// Boxes around what is below each node. FCL numbers nodes after their parents.
@@ -87,11 +116,8 @@ std::vector<Eigen::AlignedBox3d> fittedBoxes(const fcl::BVHModel<BV>& mesh) {
     const fcl::BVNode<BV>& node = mesh.getBV(index);
     if (!node.isLeaf()) {
       at(index) = at(node.leftChild()).merged(at(node.rightChild()));
-    } else if (mesh.tri_indices) {
-      const fcl::Triangle& t = mesh.tri_indices[node.primitiveId()];
-      for (const std::size_t i : {t[0], t[1], t[2]}) at(index).extend(mesh.vertices[i]);
     } else {
-      at(index).extend(mesh.vertices[node.primitiveId()]);
+      forCorners(mesh, node.primitiveId(), [&](const Eigen::Vector3d& p) { at(index).extend(p); });
     }
   }
   return box;

@@ -1,41 +1,52 @@
 // A convex cone of directions as a polygon on the unit sphere.
-// 1. Start: the hemisphere around a pole, four corners just above its rim.
-// 2. A cut clips the polygon by a plane through the origin (Sutherland and Hodgman 1974).
-// 3. The middle is the centroid of the triangles between the corners.
+// 1. Start: the hemisphere around a pole, all of it; the first cut leaves a lune.
+// 2. A further cut clips the polygon by a plane through the origin (Sutherland and Hodgman 1974).
+//    No side becomes longer than a third of a circle.
+// 3. The middle is the centroid of the triangles between the corners, or of the corners of a sliver.
 #include "fcl_stpbv/convex/direction_cone.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 
 namespace fcl_stpbv::detail {
 
 using Eigen::Vector3d;
 
-DirectionCone::DirectionCone(const Vector3d& pole) {
-  constexpr double kRim =
-      1e-8;  // rays on the equator itself would leave opposite corners with no arc between them
-  const Vector3d z = pole.normalized();
-  int smallest = 0;
-  z.cwiseAbs().minCoeff(&smallest);
-  const Vector3d x = z.cross(Vector3d::Unit(smallest)).normalized();
-  const Vector3d y = z.cross(x);
-  corner_[0] = x + kRim * z;
-  corner_[1] = y + kRim * z;
-  corner_[2] = -x + kRim * z;
-  corner_[3] = -y + kRim * z;
+namespace {
+constexpr double kLongestSide = -0.5;  // cosine of the longest side
+}
+
+DirectionCone::DirectionCone(const Vector3d& pole) : pole_(pole.normalized()) {}
+
+// Two hemispheres have a lune in common: both of its ends, and the middle of each side.
+bool DirectionCone::cutHemisphere(const Vector3d& g) {
+  constexpr double kParallel = 1e-15;
+  Vector3d end = g.cross(pole_);
+  if (!(end.norm() > kParallel * g.norm())) return g.dot(pole_) > 0.0;
+  end.normalize();
+  end = (end - end.dot(pole_) * pole_).normalized();
+  corner_[0] = end;
+  corner_[1] = pole_.cross(end);
+  corner_[2] = -end;
+  corner_[3] = end.cross(g).normalized();
+  count_ = 4;
+  return true;
 }
 
 bool DirectionCone::cut(const Vector3d& g) {
+  if (count_ == 0) return cutHemisphere(g);
   // One pass round the polygon (Sutherland and Hodgman, 1974). A convex polygon gains at most one corner.
-  std::array<Vector3d, kMaxCuts + 4> kept;
-  int keptCount = 0;
+  std::array<Vector3d, kMost> kept;
+  std::size_t keptCount = 0;
+  double deepest = 0.0;
   const auto keep = [&](const Vector3d& ray) {
-    if (keptCount < static_cast<int>(kept.size())) kept[static_cast<std::size_t>(keptCount++)] = ray;
+    if (keptCount < kept.size()) kept[keptCount++] = ray;
   };
-  for (int i = 0; i < count_; ++i) {
-    const Vector3d& from = corner_[static_cast<std::size_t>(i)];
-    const Vector3d& to = corner_[static_cast<std::size_t>(i + 1 < count_ ? i + 1 : 0)];
+  for (std::size_t i = 0; i < count_; ++i) {
+    const Vector3d &from = corner_[i], &to = corner_[i + 1 < count_ ? i + 1 : 0];
     const double f = from.dot(g), t = to.dot(g);
+    deepest = std::max(deepest, f);
     if (f >= 0.0) keep(from);
     if ((f < 0.0 && t > 0.0) || (f > 0.0 && t < 0.0)) {
       const Vector3d ray = (from * std::abs(t) + to * std::abs(f));
@@ -43,24 +54,35 @@ bool DirectionCone::cut(const Vector3d& g) {
       if (length > 0.0) keep(ray / length);
     }
   }
-  if (keptCount < 3) return false;
-  corner_ = kept;
-  count_ = keptCount;
+  if (keptCount < 3 || !(deepest > 0.0)) return false;
+  // The new side may be nearly half a circle, whose ends do not tell where it runs: it gets its middle.
+  count_ = 0;
+  for (std::size_t i = 0; i < keptCount; ++i) {
+    const Vector3d &from = kept[i], &to = kept[i + 1 < keptCount ? i + 1 : 0];
+    corner_[count_++] = from;
+    if (from.dot(to) < kLongestSide && count_ < kMost) corner_[count_++] = g.cross(from - to).normalized();
+    if (count_ == kMost) break;
+  }
   return true;
 }
 
 Vector3d DirectionCone::middle() const {
-  // Centroid of the polygon through the corners, fanned out from the first one.
+  if (count_ == 0) return pole_;
+  // Centroid of the triangles between the corners, fanned out from the first one, each by the volume that it
+  // spans with the origin: of three corners on one great circle that is nothing, however far apart they are.
+  constexpr double kSliver = 1e-15;  // of the largest that such sides may span
   Vector3d sum(0, 0, 0);
-  for (int i = 1; i + 1 < count_; ++i) {
-    const Vector3d& a = corner_[0];
-    const Vector3d& b = corner_[static_cast<std::size_t>(i)];
-    const Vector3d& c = corner_[static_cast<std::size_t>(i + 1)];
-    sum += (b - a).cross(c - a).norm() * (a + b + c);
+  double whole = 0, most = 0;
+  for (std::size_t i = 1; i + 1 < count_; ++i) {
+    const Vector3d &a = corner_[0], b = corner_[i] - a, c = corner_[i + 1] - a;
+    const double volume = std::max(0.0, a.dot(b.cross(c)));
+    sum += volume * (corner_[i] + corner_[i + 1] + a);
+    whole += volume;
+    most += b.norm() * c.norm();
   }
-  const double length = sum.norm();
-  if (length > 0.0) return sum / length;
-  for (int i = 0; i < count_; ++i) sum += corner_[static_cast<std::size_t>(i)];  // a sliver without area
+  if (whole > kSliver * most && sum.norm() > 0.0) return sum.normalized();
+  sum.setZero();
+  for (std::size_t i = 0; i < count_; ++i) sum += corner_[i];
   return sum.normalized();
 }
 

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cstddef>
 
 namespace fcl_stpbv::detail {
 
@@ -12,7 +13,7 @@ class DirectionCone {
  public:
   static constexpr int kMaxCuts = 200;  ///< halving a hemisphere down to rounding takes about 110
 
-  /// All directions `m` with `m.pole > 0`, but for a rim of 1e-8 rad.
+  /// All directions `m` with `m.pole >= 0`.
   explicit DirectionCone(const Eigen::Vector3d& pole);
 
   /// Keeps the directions with `m.g >= 0`. False when none is left.
@@ -22,8 +23,13 @@ class DirectionCone {
   Eigen::Vector3d middle() const;
 
  private:
-  std::array<Eigen::Vector3d, kMaxCuts + 4> corner_;
-  int count_ = 4;
+  static constexpr std::size_t kMost = kMaxCuts + 8;  // few sides but the first need their middle
+
+  bool cutHemisphere(const Eigen::Vector3d& g);
+
+  Eigen::Vector3d pole_;
+  std::array<Eigen::Vector3d, kMost> corner_;
+  std::size_t count_ = 0;  // none: still the hemisphere
 };
 
 /// One direction tried: the gap of the cores along it, and the difference of the two points that tell it,

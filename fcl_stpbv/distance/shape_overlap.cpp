@@ -70,8 +70,8 @@ void climbToLeastOverlap(Search& epa) {
 template <typename Feature>
 std::optional<Nearest> deepestOn(ShapeQuery& q, const Feature& feature, const StartNormal& start) {
   constexpr int kSteps = 20, kHalvings = 12;  // the start is good to some digits
-  Vector3d n = start.n;
-  if (const Vector3d* t = feature.direction()) n = (n - n.dot(*t) * *t).normalized();
+  const Vector3d* t = feature.direction();
+  const Vector3d n = t ? acrossLine(start.n, *t) : start.n;
   AscentPoint x = ascentPoint(q.body, feature, n, start.patch, q.steps);
   const auto rounded = [&] { return q.rounding.across + feature.wobble(x.view.n); };
   for (int i = 0; i < kSteps && x.across.norm() > 0.25 * rounded(); ++i) {

@@ -58,12 +58,7 @@ Nearest nearestOnSegment(ShapeQuery& q, const Vector3d& a, const Vector3d& b, co
   };
   if (!(length > 0.0)) return end(0);
   const Vector3d t = e / length;
-  Vector3d n = start.n - start.n.dot(t) * t;
-  const double across = n.norm();
-  // Across the line, through the start's side of it; where the start runs along the line any side will do.
-  n = across > 1e-6 ? Vector3d(n / across) : t.unitOrthogonal();
-  n = (n - n.dot(t) * t).normalized();
-  Nearest found = nearestOn(q, LineFeature{a, t}, {n, start.patch});
+  Nearest found = nearestOn(q, LineFeature{a, t}, {acrossLine(start.n, t), start.patch});
   if (found.apart) {
     const double at = (found.y - a).dot(t);
     if (at < 0.0) return end(0);

@@ -61,6 +61,15 @@ struct LeastOverlap {
   bool solved;   ///< the remaining normals are one to rounding
 };
 
+/// The unit vector across the unit vector `t` on the side that `n` is on; any where `n` runs along it, where
+/// rounding would lean along `t`.
+inline Eigen::Vector3d acrossLine(const Eigen::Vector3d& n, const Eigen::Vector3d& t) {
+  const Eigen::Vector3d side = n - n.dot(t) * t;
+  const double across = side.norm();
+  const Eigen::Vector3d unit = across > 1e-6 ? Eigen::Vector3d(side / across) : t.unitOrthogonal();
+  return (unit - unit.dot(t) * t).normalized();
+}
+
 /// What a climb ended on.
 template <typename Feature>
 Nearest nearestFrom(const AscentPoint& x, const Feature& feature) {

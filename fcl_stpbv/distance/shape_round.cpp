@@ -30,9 +30,7 @@ class ConeSide {
   /// Newton on the angle around the axis, from the side that faces `n`.
   Nearest nearest(ShapeQuery& q, const StartNormal& start) const {
     constexpr int kSteps = 40;
-    Vector3d e = -(start.n - start.n.dot(axis_) * axis_);
-    e = e.squaredNorm() > 1e-20 ? Vector3d(e.normalized()) : axis_.unitOrthogonal();
-    State x = at(q, e, start.patch);
+    State x = at(q, acrossLine(-start.n, axis_), start.patch);
     Nearest found;
     for (int i = 0; i < kSteps; ++i) {
       ++q.pairs;

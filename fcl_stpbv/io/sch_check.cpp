@@ -147,9 +147,11 @@ class Checker {
     const Vector3d& a = face.corner[k];
     const Vector3d& b = face.corner[(k + 1) % 3];
     checkUnit(face.line, face.side[k].axis);
-    const Vector3d normal = (a - face.centre).cross(b - face.centre).normalized();
-    require((face.side[k].axis - normal).norm() <=
-                turnError(a.norm() + b.norm() + face.centre.norm(), (b - a).norm()),
+    const Vector3d normal = (a - face.centre).cross(b - face.centre);
+    // Near the smallest R a side may pass the centre, and then hardly tells the plane through both.
+    const double length = (b - a).norm(), beside = normal.norm() / length;
+    require((face.side[k].axis - normal.normalized()).norm() <=
+                turnError((a.norm() + b.norm() + face.centre.norm()) * std::max(1.0, rho_ / beside), length),
             face.line,
             "the normal of side " + std::to_string(k + 1) +
                 " of the face is not that of the plane through the side and the centre");

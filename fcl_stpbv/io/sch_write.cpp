@@ -200,7 +200,7 @@ void saveSch(const std::string& path, const StpBv& volume) {
 
 void saveSch(std::ostream& out, const StpBv& volume) {
   const std::string text = schText(volume);
-  if (!out.write(text.data(), static_cast<std::streamsize>(text.size()))) {
+  if (!out.write(text.data(), static_cast<std::streamsize>(text.size())).flush()) {
     throw Error("the stream for an STP-BV in sch-core's format cannot be written");
   }
 }

@@ -87,7 +87,7 @@ void saveStpBv(const std::string& path, const StpBv& volume) { atomicWrite(path,
 
 void saveStpBv(std::ostream& out, const StpBv& volume) {
   const std::string text = stpbvText(volume);
-  if (!out.write(text.data(), static_cast<std::streamsize>(text.size()))) {
+  if (!out.write(text.data(), static_cast<std::streamsize>(text.size())).flush()) {
     throw Error("the stream for an .stpbv volume cannot be written");
   }
 }

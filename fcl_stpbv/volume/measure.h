@@ -20,7 +20,7 @@ struct OverCover {
 /// Excess over the convex hull of the volume's vertices, or, given it, of the cloud that the volume was built
 /// from: with a small R points of the hull lie inside and drop out.
 OverCover overCover(const StpBv& volume);
-/// Over the hull of the cloud.
+/// Over the hull of the cloud. @throws Error for an empty cloud or a coordinate that is not finite.
 OverCover overCover(const StpBv& volume, const std::vector<Eigen::Vector3d>& cloud);
 
 /// Bound on the over-cover for a body whose faces are acute and whose longest edge is `a` (m): R - sqrt(rho^2

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <string>
 
 #include "fcl_stpbv/volume/ball_faces.h"
 #include "fcl_stpbv/volume/ball_side.h"
@@ -151,6 +152,10 @@ double HullExcess::mean(const StpBv& volume) const {
 OverCover overCover(const StpBv& volume) { return overCover(volume, volume.vertices()); }
 
 OverCover overCover(const StpBv& volume, const std::vector<Vector3d>& cloud) {
+  if (cloud.empty()) throw Error("cannot measure the over-cover of no points: give at least one");
+  for (std::size_t i = 0; i < cloud.size(); ++i)
+    if (!cloud[i].allFinite())
+      throw Error("point " + std::to_string(i) + " is not finite: every coordinate must be a number");
   const HullExcess excess(cloud);
   return {excess.max(volume), excess.mean(volume)};
 }

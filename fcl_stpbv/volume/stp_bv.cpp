@@ -149,6 +149,9 @@ StpBv::Ptr StpBv::assemble(std::vector<Vector3d> vertices, std::vector<Ring> fac
     throw Error("vertex " + std::to_string(std::find(used.begin(), used.end(), 0) - used.begin()) +
                 " belongs to no face");
 
+  if (faces.empty() && vertices.size() == 2 && !((vertices[1] - vertices[0]).norm() > 0))
+    throw Error("vertices 0 and 1 coincide: give one of them");
+
   const Ptr volume = make(std::move(vertices), std::move(faces), options);
   const PointTree tree(volume->vertices_);
   std::vector<int> near;

@@ -71,8 +71,8 @@ class StpBv {
   static Ptr build(const std::vector<Eigen::Vector3d>& points, const StpBvOptions& options = {});
 
   /// Puts a volume together from its own vertices and faces, as a file holds them.
-  /// @throws Error where they are not an STP-BV's for these radii: an index out of range, faces that do not
-  /// close, or a vertex outside a face's ball.
+  /// @throws Error where they are not an STP-BV's for these radii: an index out of range, vertices that
+  /// coincide, faces that do not close, or a vertex outside a face's ball.
   static Ptr assemble(std::vector<Eigen::Vector3d> vertices, std::vector<Ring> faces,
                       const StpBvOptions& options);
 

@@ -83,6 +83,12 @@ Verification verify(const StpBv& volume, const std::vector<Vector3d>& points) {
 
 Verification verify(const StpBv& volume, const std::vector<Vector3d>& points, double margin) {
   Verification result;
+  const auto isFinite = [](const Vector3d& p) { return p.allFinite(); };
+  if (!std::isfinite(margin) || !std::all_of(points.begin(), points.end(), isFinite)) {
+    result.containment = kInfinity;
+    result.message = "the margin or a point is not finite";
+    return result;
+  }
   std::vector<Vector3d> all = volume.vertices();
   all.insert(all.end(), points.begin(), points.end());
   result.containment = containmentOf(volume, points, margin);

@@ -1,5 +1,7 @@
 // Motions proven free, and first contacts at their time: closed forms, and samples of FCL's own motions.
 #include <fcl/geometry/bvh/BVH_model.h>
+#include <fcl/geometry/geometric_shape_to_BVH_model.h>
+#include <fcl/geometry/shape/box.h>
 #include <fcl/geometry/shape/halfspace.h>
 #include <fcl/geometry/shape/plane.h>
 #include <fcl/geometry/shape/sphere.h>
@@ -307,4 +309,16 @@ TEST_CASE("an undecided motion is a collision at the time until which it is prov
   CHECK(result.contact_tf1.matrix() == motion.at(t).matrix());
   const double truth = 0.3 / (0.3 + std::sqrt(0.5));
   CHECK((t <= truth && t > truth - 1e-11));
+}
+
+TEST_CASE("two meshes never come within a margin below 0") {
+  fcl::BVHModel<fcl::OBBRSSd> mesh;
+  fcl::generateBVHModel(mesh, fcl::Boxd(1, 1, 1), Isometry3d::Identity());
+  SteadyMotion still, through;
+  through.begin.translation() = Vector3d(-2, 0.1, 0.2);
+  through.linear = {4, 0, 0};
+  const MotionAnswer answer = firstContact(mesh, still, mesh, through, {-1e-7});
+  CHECK(answer.verdict == MotionVerdict::free);
+  CHECK(answer.queries < 10);
+  CHECK(firstContact(mesh, still, mesh, through, {0}).verdict == MotionVerdict::contact);
 }

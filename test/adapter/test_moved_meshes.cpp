@@ -105,6 +105,42 @@ TEMPLATE_TEST_CASE("a mesh whose vertices FCL has moved is met wherever it is", 
       }
 }
 
+TEMPLATE_TEST_CASE("moved triangles whose corners lie on a line are met wherever they are", "", fcl::OBBd,
+                   fcl::RSSd, fcl::kIOSd, fcl::OBBRSSd) {
+  Random random(12);
+  const fcl::Sphered ball(0.01);
+  for (std::size_t count = 1; count <= 8; ++count)
+    for (int i = 0; i < 40; ++i) {
+      Soup soup = soupOf(count, random);
+      for (std::size_t t = 0; t < count; ++t) {
+        const auto corner = [&](std::size_t k) -> Vector3d& { return soup.points[3 * t + k]; };
+        if (random.uniform(0, 1) < 0.3) continue;
+        corner(2) = corner(0) + random.uniform(0, 1) * (corner(1) - corner(0));
+        if (random.uniform(0, 1) < 0.3) corner(1) = corner(0);
+      }
+      const auto mesh = meshOf<TestType>(soup.points, soup.triangles);
+      checkFresh(*mesh);
+      const Vector3d by = random.direction();
+      for (Vector3d& p : soup.points) p += by;
+      if (i % 2 == 0) {
+        mesh->beginReplaceModel();
+        mesh->replaceSubModel(soup.points);
+        mesh->endReplaceModel();
+      } else {
+        mesh->beginUpdateModel();
+        mesh->updateSubModel(soup.points);
+        mesh->endUpdateModel();
+      }
+      CAPTURE(count, i);
+      for (const Vector3d& corner : soup.points) {
+        const Isometry3d there = pose(Eigen::Matrix3d::Identity(), corner);
+        CHECK(distance(*mesh, Isometry3d::Identity(), ball, there).lower <= -0.01);
+        CHECK(touch(*mesh, ball, there));
+        CHECK_FALSE(isFartherThan(0, *mesh, Isometry3d::Identity(), ball, there));
+      }
+    }
+}
+
 TEMPLATE_TEST_CASE("the boxes of a mesh that was built are used, however regular it is", "", fcl::OBBd,
                    fcl::RSSd, fcl::kIOSd, fcl::OBBRSSd) {
   checkFresh(*bumpyGround<TestType>(24, 0.0));

@@ -1,7 +1,10 @@
 // An STP-BV against each simple shape: derivatives, continuity, planes, penetration, robustness. The parity
 // with the reference on random poses is shape_soak.
+#include <algorithm>
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <limits>
 
 #include "fcl_stpbv/distance/shape_distance.h"
 #include "test/reference/shape_reference.h"
@@ -195,4 +198,41 @@ TEST_CASE("shapes without extent are points, segments and discs like any other")
     CHECK(std::abs(d.distance - truth) <= 1e-14);
     CHECK(std::isfinite(d.normal.norm()));
   }
+}
+
+TEST_CASE("a needle is as far, and its normal unit, whichever shape it is written as") {
+  Random random(41);
+  int asked = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const double length = random.uniform(1, 20);
+    const std::array<Vector3d, 2> end{Vector3d(0, 0, -length / 2), Vector3d(0, 0, length / 2)};
+    // A corner of the volume next to the needle, or right at its end.
+    const double gap = i % 4 == 0 ? 0.0 : length * std::pow(10.0, random.uniform(-13, -7));
+    Vector3d beside = gap * random.direction();
+    if (i % 2 == 0) beside.z() = 0;
+    const double along = i % 6 == 0 ? 0.5 : random.uniform(-0.55, 0.55);
+    std::vector<Vector3d> points{beside + along * length * Vector3d::UnitZ()};
+    for (int k = 0; k < i % 3; ++k) {
+      Vector3d away = random.direction();
+      away.x() = std::abs(away.x());
+      points.push_back(points[0] + random.uniform(0.1, 3) * away);
+    }
+    const auto volume = StpBv::build(points, {i % 5 < 2 ? 0.0 : 0.1, random.uniform(4, 50)});
+    const Isometry3d at = pose(random.rotation(), random.direction());
+    double lower = -std::numeric_limits<double>::infinity(), upper = -lower;
+    for (const Shape& needle :
+         {Shape::polytopeOf(end.data(), 2), Shape::boxOf({0, 0, length}), Shape::capsule(0, length),
+          Shape::cylinderOf(0, length), Shape::coneOf(0, length), Shape::triangleOf(end[0], end[1], end[1]),
+          Shape::ellipsoidOf({0, 0, length / 2})}) {
+      const Distance d = distance(*volume, at, needle, at);
+      lower = std::max(lower, d.lower);
+      upper = std::min(upper, d.upper);
+      CAPTURE(i, static_cast<int>(needle.kind));
+      CHECK(std::abs(d.normal.norm() - 1) <= 1e-14);
+      ++asked;
+    }
+    CAPTURE(i, upper - lower);
+    CHECK(lower <= upper);
+  }
+  CHECK(asked == 21000);
 }

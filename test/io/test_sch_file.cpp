@@ -233,3 +233,14 @@ TEST_CASE("damaged fields of sch-core's format are refused with their line") {
   check(8, "7", "file:3:", "no torus");
   check(10, "0.5", "file:3:", "unit vector");
 }
+
+TEST_CASE("sides that pass their ball's centre, near the smallest R, are read back") {
+  const std::vector<Eigen::Vector3d> square{
+      {0.1, 0.2, 0.3}, {0.7, 0.2, 0.3}, {0.7, 0.8, 0.3}, {0.1, 0.8, 0.3}};
+  for (const double beyond : {1e-12, 1e-10, 1e-8, 1e-6, 1e-3}) {
+    std::stringstream file;
+    saveSch(file, *StpBv::build(square, {0.01, StpBv::smallestR(square, 0.01) * (1 + beyond)}));
+    CAPTURE(beyond);
+    CHECK_NOTHROW(loadSch(file));
+  }
+}

@@ -1,5 +1,7 @@
 // The library's own format: exact, deterministic, and damaged files are refused.
 #include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
 #include <locale>
 #include <sstream>
 
@@ -152,4 +154,11 @@ TEST_CASE("a missing file and a folder are refused by name") {
   const auto load = [](const std::string& path) { loadStpBv(path); };
   CHECK(refusal(load, folder / "none.stpbv") == folder / "none.stpbv: no such file");
   CHECK(refusal(load, folder / "").find("is a folder") != std::string::npos);
+}
+
+TEST_CASE("a stream that holds back what it cannot write is told") {
+  if (!std::filesystem::exists("/dev/full")) return;
+  const auto volume = StpBv::build({{0, 0, 0}}, {0.1, 1});
+  std::ofstream full("/dev/full");
+  CHECK_THROWS_WITH(saveStpBv(full, *volume), Catch::Contains("cannot be written"));
 }

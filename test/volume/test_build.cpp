@@ -384,3 +384,8 @@ TEST_CASE("Two pairs of near-duplicates as far apart as the ball allows build a 
     CHECK(check.message == "ok");
   }
 }
+
+TEST_CASE("two vertices that coincide are no spindle") {
+  CHECK_THROWS_WITH(StpBv::assemble({{1, 2, 3}, {1, 2, 3}}, {}, {0.1, 1}), Catch::Contains("coincide"));
+  CHECK(StpBv::assemble({{1, 2, 3}, {1, 2, 3.001}}, {}, {0.1, 1})->edgeCount() == 1);
+}

@@ -2,6 +2,7 @@
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "fcl_stpbv/volume/measure.h"
@@ -9,6 +10,7 @@
 #include "fcl_stpbv/volume/stp_bv.h"
 #include "fcl_stpbv/volume/surface_height.h"
 #include "fcl_stpbv/volume/tessellate.h"
+#include "fcl_stpbv/volume/verify.h"
 #include "test/reference/shapes.h"
 
 using namespace fcl_stpbv;
@@ -420,4 +422,18 @@ TEST_CASE("The signed distance of a point agrees with steps along normals and wi
         CHECK(exact - sampled <= 0.05 * (std::abs(exact) + volume->enclosingRadius()));
       }
     }
+}
+
+TEST_CASE("points that are no numbers, or none, are told and not taken for covered") {
+  const auto volume = StpBv::build({{0, 0, 0}, {1, 0, 0}}, {0.1, 10});
+  const double nan = std::numeric_limits<double>::quiet_NaN(),
+               infinite = std::numeric_limits<double>::infinity();
+  for (const double wrong : {nan, infinite}) {
+    const std::vector<Vector3d> cloud{{0, 0, 0}, {wrong, 0, 0}};
+    CHECK_FALSE(verify(*volume, cloud).ok);
+    CHECK_FALSE(verify(*volume, {}, wrong).ok);
+    CHECK(verify(*volume, cloud).message == "the margin or a point is not finite");
+    CHECK_THROWS_WITH(overCover(*volume, cloud), Catch::Contains("point 1 is not finite"));
+  }
+  CHECK_THROWS_WITH(overCover(*volume, {}), Catch::Contains("give at least one"));
 }
