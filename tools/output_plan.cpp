@@ -113,6 +113,12 @@ void checkPreview(const std::vector<std::string>& inputs, const std::string& pre
     throw UsageError("--preview " + preview + ": end the name in .obj, .stl, .ply or .glb");
 }
 
+// A volume is written through a symbolic link that has its name, which may lead to the preview.
+void checkVolumeName(const std::string& name, const std::string& preview) {
+  if (!preview.empty() && sameFile(preview, name))
+    throw UsageError("--preview " + preview + ": is the volume " + name + " itself; give another name");
+}
+
 std::vector<Job> jobsInto(const std::string& folder, const std::vector<std::string>& inputs, Format format) {
   std::vector<Job> jobs;
   std::map<std::string, std::string> taken;  // output, its input
@@ -183,8 +189,11 @@ Plan plan(const std::vector<std::string>& inputs, const std::string& output, con
   InputFiles files(inputs);
   for (const Job& job : plan.jobs) {
     checkTarget("-o", job.output, files, force);
-    for (int part = 0; options.parts && part < options.parts->most; ++part)
+    checkVolumeName(job.output, options.preview);
+    for (int part = 0; options.parts && part < options.parts->most; ++part) {
       files.spare("-o", nameOfPart(job.output, part));
+      checkVolumeName(nameOfPart(job.output, part), options.preview);
+    }
   }
 
   std::vector<std::string> named;

@@ -15,6 +15,7 @@
 #include <chrono>
 #include <cstring>
 #include <filesystem>
+#include <ostream>
 
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/io/signals_held.h"
@@ -162,6 +163,11 @@ void sweepTemporaries(const std::string& folder) {
 
 void writeOutput(const std::string& path, std::string_view content) {
   atomicWrite(path.empty() || path == "-" ? "/dev/stdout" : path, content);
+}
+
+void writeStream(std::ostream& out, std::string_view content, const std::string& what) {
+  if (!out.write(content.data(), static_cast<std::streamsize>(content.size())).flush())
+    throw Error("the stream for " + what + " cannot be written");
 }
 
 }  // namespace fcl_stpbv::detail

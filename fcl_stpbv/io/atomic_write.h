@@ -1,6 +1,7 @@
 // Writes a file whole or not at all: a failed or interrupted run leaves the old file as it was.
 #pragma once
 
+#include <iosfwd>
 #include <string>
 #include <string_view>
 
@@ -25,5 +26,9 @@ void sweepTemporaries(const std::string& folder);
 /// Where a tool's result goes: to standard output for "" and "-", else to the file.
 /// @throws Error also where standard output cannot be written.
 void writeOutput(const std::string& path, std::string_view content);
+
+/// Puts `content` into a caller's stream, all of it at once, so that one which is full tells.
+/// @throws Error naming what the stream is for.
+void writeStream(std::ostream& out, std::string_view content, const std::string& what);
 
 }  // namespace fcl_stpbv::detail

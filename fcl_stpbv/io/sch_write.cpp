@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <ostream>
 #include <string>
 #include <utility>
 
@@ -199,10 +198,7 @@ void saveSch(const std::string& path, const StpBv& volume) {
 }
 
 void saveSch(std::ostream& out, const StpBv& volume) {
-  const std::string text = schText(volume);
-  if (!out.write(text.data(), static_cast<std::streamsize>(text.size())).flush()) {
-    throw Error("the stream for an STP-BV in sch-core's format cannot be written");
-  }
+  writeStream(out, schText(volume), "an STP-BV in sch-core's format");
 }
 
 }  // namespace fcl_stpbv

@@ -1,6 +1,5 @@
 // The `.stpbv` format: a header, vertices, faces, `end`. Numbers are the shortest decimals that read back
 // exactly; on reading, edges and patches are rebuilt and the faces checked against their balls.
-#include <ostream>
 
 #include "fcl_stpbv/io/atomic_write.h"
 #include "fcl_stpbv/io/text_scanner.h"
@@ -86,10 +85,7 @@ StpBv::Ptr volumeOfStpbv(const std::string& text, const std::string& name) {
 void saveStpBv(const std::string& path, const StpBv& volume) { atomicWrite(path, stpbvText(volume)); }
 
 void saveStpBv(std::ostream& out, const StpBv& volume) {
-  const std::string text = stpbvText(volume);
-  if (!out.write(text.data(), static_cast<std::streamsize>(text.size())).flush()) {
-    throw Error("the stream for an .stpbv volume cannot be written");
-  }
+  writeStream(out, stpbvText(volume), "an .stpbv volume");
 }
 
 StpBv::Ptr loadStpBv(const std::string& path) { return volumeOfStpbv(readText(path), path); }

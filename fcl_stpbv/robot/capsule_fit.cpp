@@ -25,18 +25,19 @@ void joinCapsules(std::vector<ShapeModel>& shapes) {
   for (std::size_t i = 0; i < shapes.size(); ++i) {
     if (shapes[i].kind != ShapeModel::Kind::cylinder) continue;
     const Eigen::Vector3d half(0, 0, shapes[i].size.y() / 2);
-    const int top = sphereAt(shapes, shapes[i].pose * half, shapes[i].size.x());
-    const int bottom = sphereAt(shapes, shapes[i].pose * -half, shapes[i].size.x());
+    const Eigen::Vector3d topAt = shapes[i].pose * half, bottomAt = shapes[i].pose * -half;
+    const int top = sphereAt(shapes, topAt, shapes[i].size.x());
+    const int bottom = sphereAt(shapes, bottomAt, shapes[i].size.x());
     if (top < 0 || bottom < 0 || top == bottom) continue;
     shapes[i].kind = ShapeModel::Kind::capsule;
     // Wide enough for ends that are off by their last digit.
-    const Eigen::Vector3d tip[2] = {shapes[i].pose * half, shapes[i].pose * -half};
-    for (const int end : {top, bottom}) {
-      const ShapeModel& sphere = shapes[static_cast<std::size_t>(end)];
-      const double off = (sphere.pose.translation() - tip[end == bottom]).norm();
+    const auto take = [&](const ShapeModel& sphere, const Eigen::Vector3d& centre) {
+      const double off = (sphere.pose.translation() - centre).norm();
       shapes[i].size.x() = std::max(shapes[i].size.x(), sphere.size.x() + off);
       shapes[i].elements += sphere.elements;
-    }
+    };
+    take(shapes[static_cast<std::size_t>(top)], topAt);
+    take(shapes[static_cast<std::size_t>(bottom)], bottomAt);
     shapes.erase(shapes.begin() + std::max(top, bottom));
     shapes.erase(shapes.begin() + std::min(top, bottom));
     i = static_cast<std::size_t>(-1);  // indices moved: look again from the start

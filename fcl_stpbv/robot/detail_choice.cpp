@@ -233,7 +233,7 @@ std::set<LinkPair> DetailChoice::refine(const std::vector<SceneNeed>& needs) {
              [&](std::size_t i) { settled[i] = hopeless[i] || meets(needs[i]); });
     for (std::size_t i = 0; i < needs.size(); ++i) {
       if (settled[i]) continue;
-      OpenNeed need{needs[i], i, {}};
+      OpenNeed need{needs[i], i, {{detailsOf(needs[i].pair), false}}};
       const Details finestWhole{levels() - 1, needs[i].pair.obstacle ? 0 : levels() - 1};
       if (!meets(need, finestWhole) && nearerThemselves(needs[i]))
         hopeless[i] = 1;

@@ -7,13 +7,13 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <string>
 
 #include "fcl_stpbv/volume/ball_faces.h"
 #include "fcl_stpbv/volume/ball_side.h"
 #include "fcl_stpbv/volume/hull_excess.h"
 #include "fcl_stpbv/volume/measure.h"
 #include "fcl_stpbv/volume/patch_view.h"
+#include "fcl_stpbv/volume/point_check.h"
 #include "fcl_stpbv/volume/rolling_ball.h"
 #include "fcl_stpbv/volume/surface_height.h"
 
@@ -153,9 +153,7 @@ OverCover overCover(const StpBv& volume) { return overCover(volume, volume.verti
 
 OverCover overCover(const StpBv& volume, const std::vector<Vector3d>& cloud) {
   if (cloud.empty()) throw Error("cannot measure the over-cover of no points: give at least one");
-  for (std::size_t i = 0; i < cloud.size(); ++i)
-    if (!cloud[i].allFinite())
-      throw Error("point " + std::to_string(i) + " is not finite: every coordinate must be a number");
+  for (std::size_t i = 0; i < cloud.size(); ++i) requireFinite(i, cloud[i]);
   const HullExcess excess(cloud);
   return {excess.max(volume), excess.mean(volume)};
 }

@@ -14,6 +14,7 @@
 #include "fcl_stpbv/volume/minimum_ball.h"
 #include "fcl_stpbv/volume/outer_points.h"
 #include "fcl_stpbv/volume/patch_view.h"
+#include "fcl_stpbv/volume/point_check.h"
 #include "fcl_stpbv/volume/point_tree.h"
 #include "fcl_stpbv/volume/rolling_ball.h"
 #include "fcl_stpbv/volume/surface_check.h"
@@ -38,8 +39,7 @@ void checkInput(const std::vector<Vector3d>& points, const StpBvOptions& options
   if (points.empty()) throw Error("cannot build an STP-BV from no points: give at least one");
   constexpr double kMost = 1e75;  // m: squares of its square are finite
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (!points[i].allFinite())
-      throw Error("point " + std::to_string(i) + " is not finite: every coordinate must be a number");
+    requireFinite(i, points[i]);
     if (points[i].cwiseAbs().maxCoeff() > kMost)
       throw Error("point " + std::to_string(i) + " is too far away: every coordinate must be below " +
                   number(kMost) + " m");

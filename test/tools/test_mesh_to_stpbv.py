@@ -235,7 +235,7 @@ class MeshToStpbv(unittest.TestCase):
         faces += [(5, 6, 7)] if flat else [tuple(v + 4 for v in face) for face in faces]
         write(self.at(name), text + "".join("f %d %d %d\n" % face for face in faces))
 
-    def test_parts_replace_no_input(self):
+    def test_volumes_replace_no_input_and_no_preview_replaces_a_volume(self):
         for name in ("w_0.obj", "w_1.obj", "body.obj"):
             self.two_pieces(name)
             os.symlink(name, self.at(name.replace(".obj", ".stpbv")))
@@ -251,6 +251,14 @@ class MeshToStpbv(unittest.TestCase):
                     self.refused(*arguments, "--force", *count, says=[says])
         self.refused("body.obj", "-o", "t.stpbv", "--preview", "body.obj", "--force", says=["body.obj: is an input", "give --preview"])
         self.refused("-", "-o", "w_0.stpbv", "--force", says=["w_0.stpbv: is an input"], stdin="w_0.obj")
+        write(self.at("v.ply"), "old")
+        for name in ("v.stpbv", "v_1.stpbv"):  # a volume is written through a link
+            os.symlink("v.ply", self.at(name))
+        self.refused("body.obj", "-o", "v.stpbv", "--preview", "v.ply", "--force", says=["v.ply: is the volume v.stpbv itself"])
+        os.unlink(self.at("v.stpbv"))
+        self.refused("body.obj", "-o", "v.stpbv", "--preview", "v.ply", "--parts", "2", "--force",
+                     says=["v.ply: is the volume v_1.stpbv itself"])
+        self.assertEqual(read(self.at("v.ply")), b"old")
         self.run_tool("body.obj", "-o", "t.stpbv", "--parts", "2", "--preview", "t.ply")
         self.assertTrue(read(self.at("t_0.stpbv")).startswith(b"stpbv 1"))
 

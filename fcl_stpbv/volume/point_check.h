@@ -1,0 +1,18 @@
+// The door for points that callers give to what builds and measures.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <string>
+
+#include "fcl_stpbv/error.h"
+
+namespace fcl_stpbv::detail {
+
+/// @throws Error naming the point by its number unless all its coordinates are finite.
+inline void requireFinite(std::size_t number, const Eigen::Vector3d& point) {
+  if (!point.allFinite())
+    throw Error("point " + std::to_string(number) + " is not finite: every coordinate must be a number");
+}
+
+}  // namespace fcl_stpbv::detail
