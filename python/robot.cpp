@@ -96,7 +96,7 @@ class PythonRobot {
     const std::optional<Hit> hit = checker(margin).firstHit(q);
     if (!hit) return py::none();
     if (hit->pair < 0) throw Error("q: its links are too far away to be placed");
-    return py::int_(hit->pair);
+    return py::int_(rowOf_[static_cast<std::size_t>(hit->pair)]);
   }
   double minDistance(const Given& given) {
     const Eigen::VectorXd& q = checked(given, "q", kinematics_->size());
@@ -143,7 +143,7 @@ class PythonRobot {
                           &qd = checked(givenQd, "qd", kinematics_->size());
     RowRates rates = constraints_->makeRates();
     Eigen::MatrixXd jacobian(rows(), constraints_->columns());
-    constraints_->evaluate(q, qd, rates, jacobian);
+    if (!constraints_->evaluate(q, qd, rates, jacobian)) throw Error("qd: holds a number above 1e100");
     return py::make_tuple(std::move(rates.d), std::move(jacobian), std::move(rates.speed),
                           std::move(rates.drift));
   }
@@ -152,7 +152,7 @@ class PythonRobot {
                           &weights = checked(givenWeights, "weights", rows()),
                           &v = checked(givenV, "v", kinematics_->size());
     Eigen::VectorXd product(q.size());
-    constraints_->hessianVector(q, weights, v, product);
+    if (!constraints_->hessianVector(q, weights, v, product)) throw Error("v: holds a number above 1e100");
     return product;
   }
   Eigen::MatrixXd hessian(const Given& givenQ, const Given& givenWeights) {
@@ -176,6 +176,15 @@ class PythonRobot {
     constraints_ = std::make_unique<CollisionConstraints>(kinematics_, geometry, pairs, options_);
     if (!pairs.empty())
       checker_ = std::make_unique<CollisionChecker>(kinematics_, geometry, pairs, scene_->obstacles);
+    // Whole bodies that hand over to their parts have rows between those of the pairs.
+    const auto same = [](const CheckedPair& a, const CheckedPair& b) {
+      return a.body == b.body && a.other == b.other && a.obstacle == b.obstacle;
+    };
+    auto row = constraints_->pairs().begin();
+    for (const CheckedPair& pair : pairs) {
+      while (!same(*row, pair)) ++row;
+      rowOf_.push_back(row++ - constraints_->pairs().begin());
+    }
   }
 
   /// @throws Error naming the argument.
@@ -235,6 +244,7 @@ class PythonRobot {
   std::shared_ptr<const Kinematics> kinematics_;
   std::unique_ptr<CollisionConstraints> constraints_;
   std::unique_ptr<CollisionChecker> checker_;  // null where no pair is checked
+  std::vector<std::ptrdiff_t> rowOf_;          // of each of the checker's pairs
 };
 
 }  // namespace

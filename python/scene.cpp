@@ -5,6 +5,7 @@
 
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/robot/checked_pairs.h"
+#include "interrupt.h"
 
 namespace fcl_stpbv {
 namespace {
@@ -87,6 +88,8 @@ std::shared_ptr<const RobotGeometry> PythonScene::modelFor(const std::vector<Nee
     needs.push_back(toNeed(given[i], "needs[" + std::to_string(i) + "]", checked, *levels.back()));
   SceneModelOptions how;
   how.threads = threads;
+  Interrupt interrupt;
+  how.progress = [&](std::size_t, std::size_t, const std::string&) { interrupt(); };
   const SceneModel model = modelForScene(kinematics, levels, obstacles, needs, how);
   unmet.clear();
   for (std::size_t i = 0; i < needs.size() && unmet.size() < model.unmet.size(); ++i) {

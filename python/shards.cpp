@@ -16,6 +16,7 @@
 #include "fcl_stpbv/robot/pair_samples.h"
 #include "fcl_stpbv/robot/pair_search.h"
 #include "fcl_stpbv/robot/search_room.h"
+#include "interrupt.h"
 #include "made.h"
 #include "parts.h"
 
@@ -91,7 +92,16 @@ class PythonPairSearch {
         throw Error("boxes: a lower limit is above its upper limit or not a number");
       open.push_back({lower, upper});
     }
-    return provePair(scene_, links, std::move(open), most);
+    constexpr long kAtOnce = 500;  // boxes, some 10 ms; a box's result depends on that box alone
+    Interrupt interrupt;
+    for (PairProof proof{std::move(open), std::nullopt, 0};; interrupt()) {
+      const long before = proof.boxes, asked = std::min(kAtOnce, most - before);
+      proof = provePair(scene_, links, std::move(proof.open), asked);
+      // None is left, the limit is reached, or none could be cut.
+      const bool ended = proof.open.empty() || before + asked >= most || proof.boxes < asked;
+      proof.boxes += before;
+      if (ended) return proof;
+    }
   }
 
   std::optional<Eigen::VectorXd> descend(std::size_t pair, std::uint64_t seed, int starts) const {
@@ -99,7 +109,8 @@ class PythonPairSearch {
     PairSearch search = searchOf(links);
     std::mt19937_64 random = numbered(seed, pair);
     const double room = searchRoom(scene_.kinematics->robot(), *scene_.geometry, scene_.obstacles);
-    for (int i = 0; i < starts; ++i) {
+    Interrupt interrupt;
+    for (int i = 0; i < starts; ++i, interrupt()) {
       Eigen::VectorXd q = randomConfiguration(*scene_.kinematics, random, room);
       search.forget();
       if (search.descend(q, scene_.margin) <= scene_.margin) return q;
@@ -109,7 +120,8 @@ class PythonPairSearch {
 
   std::vector<PairSamples> sample(std::uint64_t seed, std::uint64_t block, int count) const {
     PairSampler sampler(scene_.kinematics, scene_.geometry, pairs_, scene_.obstacles, 1);
-    return sampler.sample(count, numbered(seed, block)(), scene_.margin, 1, [](int) {});
+    Interrupt interrupt;
+    return sampler.sample(count, numbered(seed, block)(), scene_.margin, 1, [&](int) { interrupt(); });
   }
 
   std::string srdf(const std::vector<std::size_t>& never, const std::optional<Path>& path,

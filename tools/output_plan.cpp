@@ -35,7 +35,10 @@ bool isRegular(const fs::path& path) {
 bool sameFile(const fs::path& a, const fs::path& b) {
   std::error_code ignored;
   if (fs::equivalent(a, b, ignored)) return true;
-  const auto place = [&](const fs::path& path) {
+  const auto place = [&](fs::path path) {
+    constexpr int kMostLinks = 40;  // of a chain, which may end at nothing or go round
+    for (int links = 0; links < kMostLinks && fs::is_symlink(path, ignored); ++links)
+      path = path.parent_path() / fs::read_symlink(path, ignored);
     return fs::weakly_canonical(fs::absolute(path, ignored), ignored);
   };
   return !place(a).empty() && place(a) == place(b);  // empty where it cannot be told

@@ -157,9 +157,9 @@ class MovingPair {
   PairCache cache_;
 };
 
-bool rigid(const SteadyMotion& motion) {
-  Isometry3d begin = motion.begin;
-  return makeRigid(begin) && motion.linear.allFinite() && motion.turning.allFinite() &&
+/// The bounds between two looks take its rotation as it is: to rounding.
+bool makeSteady(SteadyMotion& motion) {
+  return makeRigid(motion.begin) && motion.linear.allFinite() && motion.turning.allFinite() &&
          motion.angular.allFinite();
 }
 
@@ -182,11 +182,12 @@ double unknown(ContinuousCollisionResultd& result) {
 
 }  // namespace
 
-MotionAnswer firstContact(const CollisionGeometryd& geometry1, const SteadyMotion& motion1,
-                          const CollisionGeometryd& geometry2, const SteadyMotion& motion2,
+MotionAnswer firstContact(const CollisionGeometryd& geometry1, const SteadyMotion& givenMotion1,
+                          const CollisionGeometryd& geometry2, const SteadyMotion& givenMotion2,
                           const MotionRequest& request) {
   MotionAnswer result;
-  if (!rigid(motion1) || !rigid(motion2)) return result;
+  SteadyMotion motion1 = givenMotion1, motion2 = givenMotion2;
+  if (!makeSteady(motion1) || !makeSteady(motion2)) return result;
   MovingPair pair(geometry1, motion1, geometry2, motion2, request.margin);
   pair.place(0);
   Cover ignored;

@@ -7,6 +7,7 @@
 
 #include "fcl_stpbv/adapter/element_tree.h"
 #include "fcl_stpbv/adapter/fcl_shapes.h"
+#include "fcl_stpbv/convex/relative_pose.h"
 
 namespace fcl_stpbv {
 namespace {
@@ -19,11 +20,11 @@ using Eigen::Vector3d;
 class OtherBody {
  public:
   /// `point`: of the answer, in the world.
-  OtherBody(const fcl::CollisionGeometryd& geometry, const fcl::Transform3d& pose, std::intptr_t element,
+  OtherBody(const fcl::CollisionGeometryd& geometry, fcl::Transform3d pose, std::intptr_t element,
             const Vector3d& point) {
     Vector3d place;
     known_ = shapeOf(geometry, shape_);
-    if (known_) return;
+    if (known_ || !makeRigid(pose)) return;
     const Vector3d x = pose.linear().transpose() * (point - pose.translation());
     // More than rounding: each cell has its own id, so that too much finds no other one.
     const double off = placeRounding(pose, x) + 1e-12 * point.lpNorm<1>();

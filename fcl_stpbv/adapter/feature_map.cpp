@@ -23,7 +23,7 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 // A normal this far past a region boundary is on it: both patches agree there, and neither mapping is wrong.
-constexpr double kOnBoundary = 1e-12;
+constexpr double kBothAgree = 1e-12;
 
 /// Normal at the patch's point nearest to `x`: the widest one of the patch and a point (docs/theory.md, 5).
 UnnormalizedNormal towards(const StpBv& volume, int index, const Vector3d& x) {
@@ -36,7 +36,7 @@ UnnormalizedNormal towards(const StpBv& volume, int index, const Vector3d& x) {
 int chooseNeighbour(const StpBv& volume, int patch, const Vector3d& x) {
   const UnnormalizedNormal to = towards(volume, patch, x);
   const Crossing over = volume.tables().patches.crossing(patch, to.d, to.length);
-  return over.past > kOnBoundary * to.length ? over.neighbour : patch;
+  return over.past > kBothAgree * to.length ? over.neighbour : patch;
 }
 
 /// The core's point nearest to `x` as far as this patch knows.
@@ -59,7 +59,7 @@ bool areNeighbours(const StpBv& volume, int p, int q) {
 
 /// 0: the mapped patch owns the normal; 1: a neighbour does; 2: a farther one.
 int stepsAway(const StpBv& volume, int mapped, int answer, const Vector3d& normal) {
-  if (mapped == answer || volume.outside(mapped, normal) <= kOnBoundary) return 0;
+  if (mapped == answer || volume.outside(mapped, normal) <= kBothAgree) return 0;
   return areNeighbours(volume, mapped, answer) ? 1 : 2;
 }
 

@@ -4,7 +4,7 @@
 // 2. Two parts are at least as far apart as their projections on any axis (separating axis test:
 //    Gottschalk, Lin, Manocha 1996). Seven axes are tried, or eight: the line of the centres, each box's
 //    own three, and a normal that the caller knows. Axes that are cross products of edges are left out: a
-//    looser bound, never a wrong one.
+//    looser bound, never a wrong one. A half space or a plane has one axis, its normal.
 #include "fcl_stpbv/adapter/posed_geometry.h"
 
 #include <cmath>
@@ -27,6 +27,18 @@ Isometry3d between(const Isometry3d& pose1, const Isometry3d& pose2) {
   result.linear() = pose1.linear().transpose() * pose2.linear();
   result.translation() = pose1.linear().transpose() * (pose2.translation() - pose1.translation());
   return result;
+}
+
+constexpr double kBoxRounding = 1e-14;  // of the size: of a gap between two parts
+
+/// No box holds a half space or a plane, but its normal gives the gap: `place` has its place and its axes.
+double gapOfFlat(const Shape& flat, const OrientedBox& place, const PosedGeometry::Part& part) {
+  const Vector3d n = place.axes * flat.normal;
+  const double height = n.dot(part.box.centre - place.centre);
+  const double size = place.centre.lpNorm<1>() + part.box.centre.lpNorm<1>() + part.box.half.sum() +
+                      part.node.box.centre.lpNorm<1>();
+  return (flat.kind == ShapeKind::plane ? std::abs(height) : height) - part.box.reach(n) - part.margin -
+         kBoxRounding * size;
 }
 
 }  // namespace
@@ -114,8 +126,9 @@ PosedPair::PosedPair(const fcl::CollisionGeometryd& geometry1, Isometry3d pose1,
 
 double gapOf(const PosedPair& pair, const PosedGeometry::Part& a, const PosedGeometry::Part& b,
              const Vector3d& n) {
+  if (pair.first.unbounded()) return gapOfFlat(pair.first.body().shape, a.box, b);
+  if (pair.second.unbounded()) return gapOfFlat(pair.second.body().shape, b.box, a);
   double most = -std::numeric_limits<double>::infinity();
-  if (pair.first.unbounded() || pair.second.unbounded()) return most;
   const Vector3d d = b.box.centre - a.box.centre;
   const double length = d.norm();
   if (!(length > 0.0)) return most;
@@ -128,10 +141,9 @@ double gapOf(const PosedPair& pair, const PosedGeometry::Part& a, const PosedGeo
     along(b.box.axes.col(i));
   }
   if (!n.isZero(0)) along(n);
-  constexpr double kRounding = 1e-14;
   const double size = length + a.box.half.sum() + b.box.half.sum() + a.box.centre.lpNorm<1>() +
                       b.box.centre.lpNorm<1>() + b.node.box.centre.lpNorm<1>();
-  return most - a.margin - b.margin - kRounding * size;
+  return most - a.margin - b.margin - kBoxRounding * size;
 }
 
 }  // namespace fcl_stpbv::detail

@@ -119,8 +119,8 @@ struct PosedPair {
 };
 
 /// No more than the distance of two parts (m): the widest gap along the line of their
-/// centres, their axes and `n` (unit or zero, frame of the first geometry). Minus infinity
-/// for a half space or a plane, which no box holds.
+/// centres, their axes and `n` (unit or zero, frame of the first geometry); of a half space or a plane
+/// along its normal.
 double gapOf(const PosedPair& pair, const PosedGeometry::Part& a, const PosedGeometry::Part& b,
              const Eigen::Vector3d& n = {0, 0, 0});
 

@@ -41,8 +41,12 @@ NormalCone ofSegment(const Vector3d& m, double half, double margin, double round
 /// A face, an edge or a corner: whatever vertices lie furthest along `m`.
 template <typename Vertex>
 NormalCone ofVertices(int count, const Vertex& vertex, const Vector3d& m, double rounding) {
-  double most = m.dot(vertex(0));
-  for (int i = 1; i < count; ++i) most = std::max(most, m.dot(vertex(i)));
+  Vector3d a = vertex(0);
+  double most = m.dot(a);
+  for (int i = 1; i < count; ++i) {
+    const Vector3d p = vertex(i);
+    if (m.dot(p) > most) most = m.dot(p), a = p;
+  }
   const auto furthest = [&](const auto& measure, Vector3d& best) {
     double length = rounding;
     for (int i = 0; i < count; ++i) {
@@ -53,8 +57,7 @@ NormalCone ofVertices(int count, const Vertex& vertex, const Vector3d& m, double
     }
     return length > rounding;
   };
-  Vector3d a = vertex(0), b = a;
-  furthest([&](const Vector3d& p) { return 1.0 + rounding + m.dot(p) - most; }, a);
+  Vector3d b = a;
   if (!furthest([&](const Vector3d& p) { return (p - a).norm(); }, b)) return ofBall(m, 0.0);
   const Vector3d t = (b - a).normalized();
   Vector3d c = a;

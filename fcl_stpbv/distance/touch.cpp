@@ -5,6 +5,7 @@
 #include <limits>
 #include <type_traits>
 
+#include "fcl_stpbv/convex/relative_pose.h"
 #include "fcl_stpbv/distance/patch_pair.h"
 
 namespace fcl_stpbv::detail {
@@ -67,12 +68,11 @@ bool featureOf(const Shape& shape, const Isometry3d& pose, const Side& at, doubl
 }  // namespace
 
 template <typename A, typename B>
-bool touchOf(const A& a, const Isometry3d& poseA, const B& b, const Isometry3d& poseB, const Distance& d,
-             Touch& touch) {
+bool touchOf(const A& a, Isometry3d poseA, const B& b, Isometry3d poseB, const Distance& d, Touch& touch) {
   constexpr bool kVolumes = std::is_same_v<A, StpBv> && std::is_same_v<B, StpBv>,
                  kShapes = std::is_same_v<A, Shape> && std::is_same_v<B, Shape>;
   if (d.status != DistanceStatus::exact && !(kVolumes && d.status == DistanceStatus::local)) return false;
-  if (d.normal.isZero(0)) return false;
+  if (d.normal.isZero(0) || !makeRigid(poseA) || !makeRigid(poseB)) return false;
   const double placed =
       placeRounding((poseB.translation() - poseA.translation()).norm() + sizeOf(a) + sizeOf(b));
   const double margins = marginOf(a) + marginOf(b);
@@ -92,13 +92,9 @@ bool touchOf(const A& a, const Isometry3d& poseA, const B& b, const Isometry3d& 
   return touch.meeting.set(first, second, d.distance, kTold * (placed + placeRounding(margins)));
 }
 
-template bool touchOf(const StpBv&, const Isometry3d&, const StpBv&, const Isometry3d&, const Distance&,
-                      Touch&);
-template bool touchOf(const StpBv&, const Isometry3d&, const Shape&, const Isometry3d&, const Distance&,
-                      Touch&);
-template bool touchOf(const Shape&, const Isometry3d&, const StpBv&, const Isometry3d&, const Distance&,
-                      Touch&);
-template bool touchOf(const Shape&, const Isometry3d&, const Shape&, const Isometry3d&, const Distance&,
-                      Touch&);
+template bool touchOf(const StpBv&, Isometry3d, const StpBv&, Isometry3d, const Distance&, Touch&);
+template bool touchOf(const StpBv&, Isometry3d, const Shape&, Isometry3d, const Distance&, Touch&);
+template bool touchOf(const Shape&, Isometry3d, const StpBv&, Isometry3d, const Distance&, Touch&);
+template bool touchOf(const Shape&, Isometry3d, const Shape&, Isometry3d, const Distance&, Touch&);
 
 }  // namespace fcl_stpbv::detail

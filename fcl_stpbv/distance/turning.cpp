@@ -8,6 +8,8 @@
 //    large radius is subtracted from another. Faces and edges are no special cases.
 // 3. The plane's frame is along the first body's own radii where it has two. There its largest one does not
 //    hide the smallest.
+// 4. Of two features that curve both ways, one of them round, A + D is all but diagonal in that frame. An
+//    overlap may leave little of that sum, which squares of radii would hide.
 #include "fcl_stpbv/distance/turning.h"
 
 #include <Eigen/Geometry>
@@ -32,15 +34,15 @@ Matrix2d adjugate(const Matrix2d& symmetric) {
   return adj;
 }
 
-/// The curvature of a feature whose ways have these parts in the frame.
-Curvature curvatureOf(const NormalCone& cone, const Vector2d& x, const Vector2d& y) {
+/// The curvature of a feature whose ways have these parts in the frame, offset by a distance (m).
+Curvature curvatureOf(const NormalCone& cone, double offset, const Vector2d& x, const Vector2d& y) {
   if (cone.count == 0) return {Matrix2d::Zero(), 1.0, 0.0};
   const Vector2d edge(-x.y(), x.x());
-  if (cone.count == 1) return {edge * edge.transpose(), cone.along[0], 0.0};
+  const double first = cone.along[0] + offset, second = cone.along[1] + offset;
+  if (cone.count == 1) return {edge * edge.transpose(), first, 0.0};
   const Matrix2d mixed = x * y.transpose();
-  return {cone.along[0] * x * x.transpose() + cone.along[1] * y * y.transpose() +
-              cone.between * (mixed + mixed.transpose()),
-          cone.along[0] * cone.along[1] - cone.between * cone.between, 1.0};
+  return {first * x * x.transpose() + second * y * y.transpose() + cone.between * (mixed + mixed.transpose()),
+          first * second - cone.between * cone.between, 1.0};
 }
 
 bool isRound(const NormalCone& cone) {
@@ -55,21 +57,30 @@ bool Turning::set(const NormalCone& first, const NormalCone& second, double dist
   const NormalCone &own = ofFirst ? first : second, &other = ofFirst ? second : first;
   frame.col(0) = own.way[0];
   frame.col(1) = own.count == 2 ? own.way[1] : own.normal.cross(own.way[0]);
-  const Curvature inOwn = curvatureOf(own, {1, 0}, {0, 1}),
-                  seen =
-                      curvatureOf(other, frame.transpose() * other.way[0], frame.transpose() * other.way[1]);
-  const Curvature& a = ofFirst ? inOwn : seen;
-  Curvature d = ofFirst ? seen : inOwn;
-  d.det += distance * (d.radii.trace() + distance * d.unit);
-  d.radii += distance * d.unit * Matrix2d::Identity();
+  const Curvature inOwn = curvatureOf(own, ofFirst ? 0.0 : distance, {1, 0}, {0, 1}),
+                  seen = curvatureOf(other, ofFirst ? distance : 0.0, frame.transpose() * other.way[0],
+                                     frame.transpose() * other.way[1]);
+  const Curvature &a = ofFirst ? inOwn : seen, &d = ofFirst ? seen : inOwn;
 
   // Less of these terms is their rounding; of two edges, it is the squared sine of the angle between them.
   constexpr double kTold = 1e-14;
+  const auto isTold = [rounding](double det, double terms, double trace) {
+    return det > kTold * terms && trace >= 0.0 && det > rounding * trace;
+  };
+  if (own.count == 2 && isRound(other)) {
+    const Matrix2d sum = a.radii + d.radii;
+    const double det = sum.determinant();
+    if (!isTold(det, std::abs(sum(0, 0) * sum(1, 1)) + sum(0, 1) * sum(0, 1), sum.trace())) return false;
+    turning = adjugate(sum) / det;
+    sliding = a.radii * turning;
+    rolling = sliding * d.radii;
+    return true;
+  }
   const Matrix2d adjA = adjugate(a.radii), adjD = adjugate(d.radii);
   const double det = d.unit * a.det + a.unit * d.det + adjA.cwiseProduct(d.radii).sum(),
                trace = d.unit * a.radii.trace() + a.unit * d.radii.trace(),
                terms = d.unit * a.det + a.unit * std::abs(d.det) + a.radii.norm() * d.radii.norm();
-  if (!(det > kTold * terms) || !(trace >= 0.0) || !(det > rounding * trace)) return false;
+  if (!isTold(det, terms, trace)) return false;
   turning = (d.unit * adjA + a.unit * adjD) / det;
   sliding = (d.unit * a.det * Matrix2d::Identity() + a.radii * adjD) / det;
   rolling = (a.det * d.radii + d.det * a.radii) / det;

@@ -1,6 +1,7 @@
 // See asked_postures.h.
 #include "fcl_stpbv/report/asked_postures.h"
 
+#include "fcl_stpbv/io/text_scanner.h"
 #include "fcl_stpbv/report/named_posture.h"
 #include "fcl_stpbv/report/trajectory_file.h"
 
@@ -26,6 +27,12 @@ AskedPostures readPostures(const ReportRequest& request, const Kinematics& kinem
   if (!request.trajectory.empty()) {
     postures.trajectory = readTrajectory(request.trajectory, kinematics, postures.neutral);
     checkLimits("--trajectory " + request.trajectory, postures.trajectory.points);
+    if (postures.trajectory.start != 0) {
+      std::string start;
+      detail::appendNumber(start, postures.trajectory.start);
+      postures.warnings.push_back("--trajectory " + request.trajectory +
+                                  ": times count from its first one, " + start + " s");
+    }
   }
   return postures;
 }

@@ -45,11 +45,15 @@ std::string keyOfFolder(const std::string& path, const std::vector<std::string>&
   const fs::path parent = name.parent_path().empty() ? "." : name.parent_path();
   if (!fs::is_directory(parent, ignored))
     throw Error("-o " + path + ": the folder " + parent.string() + " does not exist; make it first");
+  const bool isNew = !fs::exists(fs::symlink_status(name, ignored));
+  if (!isNew && !fs::is_directory(name, ignored))
+    throw Error("-o " + path +
+                (fs::exists(name, ignored) ? ": is a file, expected a folder"
+                                           : ": is a link that leads nowhere; remove it or name a folder"));
   for (const std::string& input : inputs)
     if (isIn(name, input))
       throw Error("-o " + path + ": " + input + " lies in it and is read; name another folder");
-  if (!fs::exists(fs::symlink_status(name, ignored))) return "";
-  if (!fs::is_directory(name, ignored)) throw Error("-o " + path + ": is a file, expected a folder");
+  if (isNew) return "";
   if (fs::is_empty(name, ignored)) return "";
   const nlohmann::json manifest = manifestOf(name);
   std::size_t found = 0;

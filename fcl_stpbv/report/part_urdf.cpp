@@ -48,7 +48,11 @@ class Writer {
     const std::optional<std::string> path = filePathIn(attribute);
     const std::string name = path.value_or(attribute);
     if (name.find("://") != std::string::npos || fs::path(name).is_absolute()) return;
-    const fs::path old = fs::absolute(parts_.robot->path).parent_path() / name;
+    fs::path old = fs::absolute(parts_.robot->path).parent_path() / name;
+    std::error_code ignored;  // of a URDF that is a link, else beside the file behind it
+    if (const fs::path real = fs::canonical(parts_.robot->path, ignored).parent_path() / name;
+        !fs::exists(old, ignored) && fs::exists(real, ignored))
+      old = real;
     // With its file://, after which a %20 stands for a space.
     const std::string moved =
         (path ? "file://" : "") + fs::relative(old, fs::absolute(parts_.folder)).string();

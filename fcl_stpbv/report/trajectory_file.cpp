@@ -8,6 +8,7 @@
 
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/io/text_scanner.h"
+#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/robot/json_text.h"
 
 namespace fcl_stpbv::report {
@@ -64,7 +65,8 @@ Columns fromCsv(const std::string& text, const std::string& path) {
       double value = 0;
       const auto read = std::from_chars(cell.data(), cell.data() + cell.size(), value);
       if (read.ec != std::errc() || read.ptr != cell.data() + cell.size())
-        throw Error(place + ": got '" + cell + "', expected a number");
+        throw Error(place + ": got '" + cell + "', expected a number" +
+                    (cell.find_first_of("; \t") == std::string::npos ? "" : "; commas stand between values"));
       row.push_back(value);
     }
     columns.rows.push_back(std::move(row));
@@ -103,6 +105,21 @@ Columns fromJson(const std::string& text, const std::string& path) {
   return columns;
 }
 
+// Why a name is that of no coordinate.
+std::string whyNone(const std::string& name, const Kinematics& kinematics) {
+  const std::vector<JointModel>& joints = kinematics.robot().joints;
+  const auto joint =
+      std::find_if(joints.begin(), joints.end(), [&](const JointModel& j) { return j.name == name; });
+  const std::vector<std::string>& names = kinematics.names();
+  if (joint == joints.end() || joint->type == JointType::fixed)
+    return "the robot has no moving joint '" + name + "'" +
+           (names.empty() ? "" : "; its joints are " + names.front() + " ... " + names.back());
+  if (joint->mimic)
+    return "'" + name + "' follows '" + joints[at(joint->mimic->joint)].name + "'; leave its column out";
+  return "'" + name + "' has several coordinates; name " + names[at(kinematics.coordinate(name))] +
+         " and the others";
+}
+
 // The coordinate of each column, -1 for the time.
 std::vector<int> coordinatesOf(const Columns& columns, const std::string& path,
                                const Kinematics& kinematics) {
@@ -113,9 +130,7 @@ std::vector<int> coordinatesOf(const Columns& columns, const std::string& path,
     const auto found = std::find(names.begin(), names.end(), name);
     if (name == "time" && found != names.end())
       throw Error(path + ": 'time' is a joint of the robot, and the time of way points; rename the joint");
-    if (name != "time" && found == names.end())
-      throw Error(path + ": the robot has no moving joint '" + name + "'" +
-                  (names.empty() ? "" : "; its joints are " + names.front() + " ... " + names.back()));
+    if (name != "time" && found == names.end()) throw Error(path + ": " + whyNone(name, kinematics));
     if (!seen.insert(name).second) throw Error(path + ": names '" + name + "' twice");
     coordinates.push_back(name == "time" ? -1 : static_cast<int>(found - names.begin()));
   }
@@ -137,16 +152,21 @@ Trajectory readTrajectory(const std::string& path, const Kinematics& kinematics,
   if (columns.rows.size() < 2)
     throw Error(path + ": has " + std::to_string(columns.rows.size()) + " way points, a motion needs two");
   Trajectory trajectory;
+  trajectory.timed = std::count(coordinates.begin(), coordinates.end(), -1) > 0;
   for (std::size_t i = 0; i < columns.rows.size(); ++i) {
     Eigen::VectorXd q = rest;
     double time = static_cast<double>(i);
     for (std::size_t k = 0; k < coordinates.size(); ++k) {
       const double value = columns.rows[i][k];
-      if (!(std::abs(value) <= kMost))
+      const bool isTime = coordinates[k] < 0;
+      if (!isTime && !(std::abs(value) <= kMost))
         throw Error(columns.places[i] + ": " + columns.names[k] + " must be from -1e6 to 1e6");
-      (coordinates[k] < 0 ? time : q[coordinates[k]]) = value;
+      (isTime ? time : q[coordinates[k]]) = value;
     }
-    trajectory.timed = std::count(coordinates.begin(), coordinates.end(), -1) > 0;
+    if (i == 0 && std::abs(time) > kMost) trajectory.start = time;
+    time -= trajectory.start;
+    if (trajectory.timed && !(std::abs(time - (i == 0 ? time : trajectory.time.front())) <= kMost))
+      throw Error(columns.places[i] + ": the time must be a number within 1e6 s of the first way point's");
     constexpr double kLeastStep = 1e-9;  // s; in less no robot gets anywhere
     if (i > 0 && !(time - trajectory.time.back() >= kLeastStep))
       throw Error(columns.places[i] +

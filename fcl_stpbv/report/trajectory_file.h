@@ -13,6 +13,8 @@ struct Trajectory {
   std::vector<Eigen::VectorXd> points;  ///< at least two, all coordinates each; straight lines between them
   std::vector<double> time;             ///< of each, growing (s); 0, 1, 2 ... where the file has none
   bool timed = false;                   ///< whether the file has times
+  double start = 0;  ///< subtracted from the file's times (s): the first one, where it is beyond 1e6 as the
+                     ///< stamps of a clock are
 };
 
 /// CSV: a line with the names of coordinates (as `Kinematics::names()`), `time` among them or not, then one

@@ -2,6 +2,7 @@
 // ones; and bodies against obstacles, but for links that do not move.
 #include "fcl_stpbv/robot/checked_pairs.h"
 
+#include "fcl_stpbv/convex/relative_pose.h"
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/robot/adjacency.h"
 #include "fcl_stpbv/robot/kinematics.h"
@@ -20,12 +21,9 @@ int parentOf(const RobotModel& robot, int link) {
 
 Obstacle obstacleOf(const fcl::CollisionObjectd& object, const std::string& name) {
   const auto& geometry = object.collisionGeometry();
-  return {name,
-          geometry,
-          object.getTransform(),
-          object.getTransform() * geometry->aabb_center,
-          geometry->aabb_radius,
-          nullptr};
+  Eigen::Isometry3d pose = object.getTransform();
+  makeRigid(pose);  // as distance() does: bounds take it as it is
+  return {name, geometry, pose, pose * geometry->aabb_center, geometry->aabb_radius, nullptr};
 }
 
 std::string nameOf(const CheckedPair& pair, const RobotGeometry& geometry,

@@ -23,14 +23,15 @@ struct CheckedPair {
 struct Obstacle {
   std::string name;                                         ///< for messages and reports
   std::shared_ptr<const fcl::CollisionGeometryd> geometry;  ///< what queries get
-  Eigen::Isometry3d pose;                                   ///< in the world
+  Eigen::Isometry3d pose;                                   ///< in the world; a rotation to rounding
   Eigen::Vector3d centre;                                   ///< of a sphere that holds it, in the world (m)
   double radius = 0;                                        ///< of that sphere (m)
   std::shared_ptr<const fcl::CollisionGeometryd>
       primitive;  ///< the primitive under its smooth cover, else null
 };
 
-/// An FCL object as an obstacle, where it stands now.
+/// An FCL object as an obstacle, where it stands now; a rotation that is off by up to 1e-6 becomes the
+/// nearest one.
 Obstacle obstacleOf(const fcl::CollisionObjectd& object, const std::string& name);
 
 /// The names of a pair's bodies. @throws Error as requireBodies() does.

@@ -52,7 +52,7 @@ struct GeometryOptions {
 struct Body {
   int link = -1;                                      ///< index into RobotModel::links
   std::string name;                                   ///< the link's, with #2, #3 ... for its further shapes
-  Eigen::Isometry3d pose;                             ///< in the link's frame
+  Eigen::Isometry3d pose;                             ///< in the link's frame; a rotation to rounding
   std::shared_ptr<fcl::CollisionGeometryd> geometry;  ///< what queries get
   StpBvOptions radii;  ///< those asked for, or fitted; where a primitive is flat, those of its cover to be
   StpBv::Ptr volume;   ///< null for a flat primitive and for a flat mesh

@@ -72,11 +72,16 @@ PackagePath::PackagePath(const std::string& urdf, std::vector<std::string> folde
   std::error_code error;
   // What comes through a pipe has no folder of its own; its relative names are of the working folder.
   const bool pipe = fs::exists(urdf, error) && !fs::is_regular_file(urdf, error);
-  fs::path folder = fs::absolute(pipe ? "-" : urdf, error).lexically_normal().parent_path();
-  urdfFolder_ = folder.string();
-  for (; !folder.empty(); folder = folder.parent_path()) {
-    above_.push_back(folder.string());
-    if (folder == folder.root_path()) break;
+  const fs::path named = fs::absolute(pipe ? "-" : urdf, error).lexically_normal();
+  std::vector<fs::path> places = {named};
+  if (const fs::path real = fs::canonical(named, error); !error) places.push_back(real);  // behind a link
+  for (const fs::path& place : places) {
+    fs::path folder = place.parent_path();
+    urdfFolders_.push_back(folder.string());
+    for (; !folder.empty(); folder = folder.parent_path()) {
+      above_.push_back(folder.string());
+      if (folder == folder.root_path()) break;
+    }
   }
 }
 
@@ -87,7 +92,8 @@ std::vector<std::string> PackagePath::candidates(const std::string& uri) const {
     if (std::find(paths.begin(), paths.end(), text) == paths.end()) paths.push_back(text);
   };
   if (!startsWith(uri, kPackage)) {
-    add(fs::path(urdfFolder_) / filePathIn(uri).value_or(uri));  // an absolute path stays as it is
+    for (const std::string& folder : urdfFolders_)
+      add(fs::path(folder) / filePathIn(uri).value_or(uri));  // an absolute path stays as it is
   } else {
     const std::string inside = uri.substr(kPackage.size());
     const std::size_t slash = inside.find('/');
@@ -110,7 +116,7 @@ std::vector<std::string> PackagePath::candidates(const std::string& uri) const {
            next != std::string::npos && rest.find('/', next + 1) != std::string::npos;
            next = rest.find('/', next + 1))
         add(fs::path(folder) / rest.substr(next + 1));
-    if (paths.empty()) add(fs::path(urdfFolder_) / package / rest);
+    if (paths.empty()) add(fs::path(urdfFolders_.front()) / package / rest);
   }
   return paths;
 }

@@ -12,7 +12,8 @@ namespace fcl_stpbv::detail {
 /// `folder/rest` where the folder is that package itself), then in ROS_PACKAGE_PATH, in `share` of
 /// AMENT_PREFIX_PATH, in the package that encloses the URDF, and beside that package; at last in the
 /// first two by the last folders of `rest`, for a package inside another. Paths that are not absolute are
-/// the URDF's folder's, after file:// too. After :// a %20 stands for a space where no file is named so.
+/// the URDF's folder's, after file:// too. Where the URDF is a link, the folders around the file behind it
+/// come after those around the link. After :// a %20 stands for a space where no file is named so.
 class PackagePath {
  public:
   /// `urdf` is the file that names will come from; `folders` go before everything else.
@@ -24,10 +25,10 @@ class PackagePath {
  private:
   std::vector<std::string> candidates(const std::string& uri) const;
 
-  std::string urdfFolder_;
-  std::vector<std::string> folders_;   // may hold packages, or be one
-  std::vector<std::string> prefixes_;  // hold share/<package>
-  std::vector<std::string> above_;     // folders around the URDF, innermost first
+  std::vector<std::string> urdfFolders_;  // of the name, then of the file behind it
+  std::vector<std::string> folders_;      // may hold packages, or be one
+  std::vector<std::string> prefixes_;     // hold share/<package>
+  std::vector<std::string> above_;        // folders around the URDF, innermost first
 };
 
 }  // namespace fcl_stpbv::detail

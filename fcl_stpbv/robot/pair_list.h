@@ -40,7 +40,8 @@ struct PairListOptions {
   std::uint64_t seed = 1;    ///< of the random configurations
   int descents = 3;          ///< from this many of a pair's closest samples
   int randomDescents = 500;  ///< from this many random configurations, for a pair found clear so far and not
-                             ///< proven; with n > 24 coordinates between the two, (24/n)^2 of them
+                             ///< proven; with n > 24 coordinates between the two, (24/n)^2 of them, and in
+                             ///< a list of P pairs of a robot of N coordinates, P N > 100,000, 100,000/(P N)
   long proofBoxes = 200;     ///< looked at for each pair found clear so far; likewise, (24/n)^3 of them
   double proofSeconds = 0;  ///< time for further proofs in all; a pair that is not decided then stays sampled
   double margin = 0;  ///< a distance not above it is a collision (m); FCL's own answers are 0 at overlap

@@ -15,6 +15,8 @@
 
 #include "fcl_stpbv/adapter/fcl_hessian.h"
 #include "test/adapter/bodies.h"
+#include "test/adapter/element_kinds.h"
+#include "test/reference/reference.h"
 
 using namespace fcl_stpbv;
 using namespace fcl_stpbv::test;
@@ -186,4 +188,38 @@ TEST_CASE("the Hessian of two objects is that of their geometries at their poses
   REQUIRE(hessian(*one.collisionGeometry(), one.getTransform(), *two.collisionGeometry(), two.getTransform(),
                   d, same));
   CHECK(h.matrix == same.matrix);
+}
+
+TEST_CASE(
+    "at a pose whose rotation went through single precision the Hessian is that at the nearest rotation") {
+  std::vector<ElementKind> kinds = elementKinds();
+  kinds.push_back({"cylinder", std::make_shared<fcl::Cylinderd>(0.1, 0.4), {}, false});
+  kinds.push_back({"volume", geometryOf(box(0.3, 0.2, 0.1), 0.01, 10), {}, false});
+  Random random(7);
+  int known = 0;
+  for (const ElementKind& first : kinds)
+    for (const ElementKind& second : kinds)
+      for (int i = 0; i < 4; ++i) {
+        CAPTURE(first.name, second.name, i);
+        const auto coarse = [&](const Vector3d& place) {
+          return pose(random.rotation().cast<float>().cast<double>(), place);
+        };
+        const auto nearest = [](const Isometry3d& p) {
+          return pose(nearestRotation(p.linear()).cast<double>(), p.translation());
+        };
+        const Isometry3d a = coarse({0, 0, 0}), b = coarse(random.direction()), c = nearest(a),
+                         e = nearest(b);
+        const DistanceAnswer d = distance(*first.geometry, a, *second.geometry, b),
+                             there = distance(*first.geometry, c, *second.geometry, e);
+        DistanceHessian h, truth;
+        const bool exists = hessian(*first.geometry, c, *second.geometry, e, there, truth);
+        CHECK(hessian(*first.geometry, a, *second.geometry, b, d, h) == exists);
+        if (!exists) continue;
+        ++known;
+        CHECK((h.matrix - truth.matrix).norm() <= 1e-9 * (1 + truth.matrix.norm()));
+        CHECK((h.normal - truth.normal).norm() <= 1e-9 * (1 + truth.normal.norm()));
+        for (std::size_t k = 0; k < 2; ++k)
+          CHECK((h.point[k] - truth.point[k]).norm() <= 1e-9 * (1 + truth.point[k].norm()));
+      }
+  CHECK(known > 300);
 }

@@ -184,3 +184,25 @@ TEST_CASE("A pose that is no rigid motion has no answer, for every pair of types
         checkInvalid(*a, Isometry3d::Identity(), *b, bad);
       }
 }
+
+TEST_CASE(
+    "A motion whose first pose is rigid to 1e-6 only is that of the nearest rotation: free where it stays "
+    "apart") {
+  const fcl::Boxd bar(1, 0.1, 0.2), wall(1, 1, 1);
+  Random random(5);
+  int met = 0;
+  for (int i = 0; i < 300; ++i) {
+    SteadyMotion motion;
+    motion.begin = pose(random.rotation(), 1.5 * random.direction());
+    for (int k = 0; k < 9; ++k) motion.begin.linear()(k % 3, k / 3) += random.uniform(-5e-7, 5e-7);
+    motion.linear = -random.uniform(0, 0.3) * motion.begin.translation();
+    motion.angular = random.uniform(0, 1) * random.direction();
+    const auto gap = [&](double t) { return distance(bar, motion.at(t), wall, at(0, 0, 0)); };
+    // A margin that it comes within at its very end.
+    const double margin = gap(1).upper + 1e-9;
+    if (!(gap(0.99).distance > margin && gap(0).distance > margin)) continue;
+    ++met;
+    CHECK(firstContact(bar, motion, wall, {}, {margin, 1e-6}).verdict != MotionVerdict::free);
+  }
+  CHECK(met > 200);
+}

@@ -1,4 +1,6 @@
 // Meshes and trees against each other and against shapes: the nearest elements of all.
+#include <fcl/geometry/shape/halfspace.h>
+#include <fcl/geometry/shape/plane.h>
 #include <fcl/geometry/shape/sphere.h>
 #include <fcl/narrowphase/distance.h>
 
@@ -7,6 +9,7 @@
 
 #include "fcl_stpbv/adapter/fcl_distance.h"
 #include "fcl_stpbv/convex/relative_pose.h"
+#include "test/adapter/bodies.h"
 #include "test/adapter/element_kinds.h"
 
 using namespace fcl_stpbv;
@@ -160,5 +163,43 @@ TEST_CASE("where FCL measures two meshes it names triangles that are as near as 
     const Truth truth = truthOf(mesh, a, mesh, b);
     CHECK(std::abs(static_cast<double>(truth.all.at({ours.b1, ours.b2}) -
                                        truth.all.at({theirs.b1, theirs.b2}))) <= kRounding);
+  }
+}
+
+TEST_CASE("next to a half space or a plane few of a mesh's triangles are looked at, the nearest among them") {
+  const auto mesh = bumpyGround<fcl::OBBRSSd>(40, 0.1);
+  Random random(8);
+  for (int i = 0; i < 100; ++i) {
+    const Vector3d n = random.direction();
+    const double offset = random.uniform(-1, 1);
+    const fcl::Halfspaced below(n, offset);
+    const fcl::Planed sheet(n, offset);
+    const Isometry3d here = pose(random.rotation(), random.direction()),
+                     there = pose(random.rotation(), random.uniform(0, 3) * random.direction());
+    double half = 1e9, plane = 1e9;
+    for (int t = 0; t < mesh->num_tris; ++t) {
+      double low = 1e9, high = -1e9;
+      for (int k = 0; k < 3; ++k) {
+        const Vector3d x = here.inverse() * (there * mesh->vertices[mesh->tri_indices[t][k]]);
+        low = std::min(low, n.dot(x) - offset);
+        high = std::max(high, n.dot(x) - offset);
+      }
+      half = std::min(half, low);
+      plane = std::min(plane, std::max(low, -high));
+    }
+    const auto compare = [&](const fcl::CollisionGeometryd& flat, double truth) {
+      CAPTURE(i, truth);
+      const DistanceAnswer d = distance(flat, here, *mesh, there), back = distance(*mesh, there, flat, here);
+      CHECK(std::abs(d.distance - truth) <= kRounding * 8);
+      CHECK(back.distance == d.distance);
+      ProximityCounts counts;
+      QueryContext context;
+      context.proximity = &counts;
+      CHECK(isFartherThan(truth - 1e-3, flat, here, *mesh, there, context));
+      CHECK_FALSE(isFartherThan(truth + 1e-3, *mesh, there, flat, here, context));
+      CHECK(counts.solved < mesh->num_tris / 20);
+    };
+    compare(below, half);
+    compare(sheet, plane);
   }
 }

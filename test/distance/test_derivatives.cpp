@@ -233,3 +233,33 @@ TEST_CASE(
     CHECK(kinks >= 20);  // real boundaries: the second derivative does jump
   }
 }
+
+TEST_CASE(
+    "balls in each other up to next to their centres: normal and points move as the line of centres does") {
+  const Vector3d v(0.3, 1, -0.5);  // m/s, of the second ball's centre
+  for (const double radius : {0.0, 0.03, 0.5})
+    for (const double apart : {1e-3, 1e-6, 1e-9, 1e-11}) {
+      CAPTURE(radius, apart);
+      const Isometry3d here = at(0, 0, 0), there = at(apart, 0, 0);
+      const Vector3d turn = Vector3d(0, v.y(), v.z()) / apart;
+      const auto compare = [&](const auto& a, const auto& b) {
+        const Distance d = distance(a, here, b, there);
+        BodyTwists twists = BodyTwists::Zero();
+        twists.segment<3>(6) = v;
+        DistanceHessian h;
+        DistanceRate moves;
+        REQUIRE(hessian(a, here, b, there, d, h));
+        REQUIRE(rate(a, here, b, there, d, twists, moves));
+        const double rounding =
+            4 * kEpsilon * (0.25 + radius) / apart;  // of the distance, against what is left
+        CHECK((moves.normal - turn).norm() <= rounding * turn.norm());
+        CHECK((h.normal * twists - turn).norm() <= rounding * turn.norm());
+        CHECK(std::abs(twists.dot(h.matrix * twists) - turn.dot(v)) <= rounding * turn.dot(v));
+        CHECK((moves.point[0] - 0.25 * turn).norm() <= rounding * (1 + 0.25 * turn.norm()));
+        CHECK((moves.point[1] - v + radius * turn).norm() <= rounding * (1 + radius * turn.norm()));
+      };
+      const StpBv::Ptr a = StpBv::build({{0, 0, 0}}, {0.25, 10}), b = StpBv::build({{0, 0, 0}}, {radius, 10});
+      compare(*a, *b);
+      if (radius > 0) compare(Shape::sphere(0.25), Shape::sphere(radius));
+    }
+}

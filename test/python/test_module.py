@@ -241,6 +241,35 @@ def test_a_batch_ends_with_ctrl_c_and_the_robot_answers_on(ask):
     assert np.array_equal(robot.distances_many(q[:3]), before)
 
 
+def pair_of(search, *links):
+    return next(i for i, pair in enumerate(search.pairs) if set(pair) == set(links))
+
+
+@pytest.mark.parametrize("ask", [
+    lambda search, pair: search.prove(pair, search.unproven(pair).open, 10**9),
+    lambda search, pair: search.descend(pair, 1, 10**9),
+    lambda search, pair: search.sample(1, 0, 10**9)])
+def test_pieces_of_proofs_end_with_ctrl_c(ask):
+    search = fcl_stpbv.PairSearch(DATA / "hrp2_style/hrp2_style.urdf")
+    pair = pair_of(search, "LARM_LINK1", "RARM_LINK6")  # 617,001 boxes, a minute and more
+    timer = threading.Timer(0.5, signal.raise_signal, [signal.SIGINT])
+    timer.start()
+    start = time.monotonic()
+    with pytest.raises(KeyboardInterrupt):
+        ask(search, pair)
+    assert time.monotonic() - start < 10
+
+
+def test_a_proof_in_pieces_is_the_whole_one():
+    search = fcl_stpbv.PairSearch(DATA / "hrp2_style/hrp2_style.urdf")
+    pair = pair_of(search, "LARM_LINK0", "RARM_LINK5")
+    whole = search.prove(pair, search.unproven(pair).open, 1700)
+    assert whole.boxes == 1700 and not whole.proven
+    first = search.prove(pair, search.unproven(pair).open, 333)
+    rest = search.prove(pair, first.open, 1367)
+    assert [box[0].tolist() for box in rest.open] == [box[0].tolist() for box in whole.open]
+
+
 def test_slices_of_a_batch_change_no_bit():
     robot = fcl_stpbv.Robot(DATA / "hrp2_style/hrp2_style.urdf", DATA / "hrp2_style/hrp2_style.srdf")
     path = np.linspace(robot.lower, robot.configuration("half_sitting"), 400)
@@ -354,8 +383,19 @@ def test_a_robot_is_as_fine_as_its_needs_ask_for(hook):
     path = np.linspace(-0.05, 1, 2000)[:, None]
     d, jacobian = handing.evaluate_many(path, path=True)
     assert abs(np.diff(d, axis=0)).max() < 2 * 1.05 / 2000  # slopes are at most 2
+    hit = handing.first_hit(q, margin=0.06)  # an index into rows, among which the hulls' is
+    assert hit is not None and 0.04 < handing.distances(q)[hit] <= 0.06
     with pytest.raises(fcl_stpbv.Error, match="hand"):
         fcl_stpbv.Robot(*files, hand_over=-1)
+
+
+def test_velocities_whose_squares_overflow_raise():
+    robot = fcl_stpbv.Robot(DATA / "hrp2_style/hrp2_style.urdf", DATA / "hrp2_style/hrp2_style.srdf")
+    q, weights = robot.neutral, np.ones(len(robot.rows))
+    with pytest.raises(fcl_stpbv.Error, match="qd: .*1e100"):
+        robot.rates(q, 1e200 + 0 * q)
+    with pytest.raises(fcl_stpbv.Error, match="v: .*1e100"):
+        robot.hessian_vector(q, weights, 1e200 + 0 * q)
 
 
 @pytest.mark.parametrize("bad", [math.nan, math.inf, -math.inf])

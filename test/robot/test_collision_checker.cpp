@@ -33,8 +33,10 @@ struct Scene {
 Scene sceneOf(const TestRobot& robot, BaseMotion base, bool obstacles) {
   Scene scene{problem(robot, base), {}};
   if (!obstacles) return scene;
+  // Rotations went through single precision.
+  const Eigen::Matrix3d turn = Random(3).rotation().cast<float>().cast<double>();
   const auto add = [&](std::shared_ptr<fcl::CollisionGeometryd> geometry, const Eigen::Vector3d& where) {
-    const fcl::CollisionObjectd object(geometry, pose(Eigen::Matrix3d::Identity(), where));
+    const fcl::CollisionObjectd object(geometry, pose(turn, where));
     scene.obstacles.push_back(obstacleOf(object, "obstacle"));
   };
   auto mesh = std::make_shared<fcl::BVHModel<fcl::OBBRSSd>>();
@@ -42,7 +44,7 @@ Scene sceneOf(const TestRobot& robot, BaseMotion base, bool obstacles) {
   add(mesh, {0.7, 0.3, 0.3});
   add(std::make_shared<fcl::Boxd>(0.2, 0.3, 0.4), {0.5, -0.4, 0.2});
   add(std::make_shared<StpBvGeometry>(StpBv::build(box(0.3, 0.2, 0.1))), {-0.5, 0.1, 0.1});
-  add(std::make_shared<fcl::Halfspaced>(Eigen::Vector3d(0, 0, 1), -1.2), {0, 0, 0});
+  add(std::make_shared<fcl::Halfspaced>(turn.transpose() * Eigen::Vector3d(0, 0, 1), -1.2), {0, 0, 0});
   const Problem& p = scene.robot;
   const std::vector<CheckedPair> around =
       obstaclePairs(*p.model, *p.geometry, scene.obstacles.size(), base != BaseMotion::fixed);

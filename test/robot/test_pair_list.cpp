@@ -150,6 +150,33 @@ TEST_CASE("what is proven never stays apart in samples and descents of another s
   }
 }
 
+TEST_CASE("robots of many pairs and coordinates get fewer random descents for each pair") {
+  const auto closestOf = [](int links, int randomDescents) {
+    std::string parts = link("base");  // discs one above the other, which never meet
+    for (int i = 0; i < links; ++i) {
+      const std::string number = std::to_string(i), height = std::to_string(0.3 * i);
+      parts += link("l" + number, "<box size=\"0.3 0.2 0.1\"/>") +
+               joint("j" + number, "planar", "base", "l" + number,
+                     "<origin xyz=\"0 0 " + height + "\"/><axis xyz=\"0 0 1\"/>");
+    }
+    const auto model = std::make_shared<const RobotModel>(parseUrdf(robot(parts), "discs.urdf"));
+    const Arm arm = armFrom(model, loadGeometry(*model));
+    PairListOptions options;
+    options.samples = 5;
+    options.descents = 0;
+    options.randomDescents = randomDescents;
+    Eigen::VectorXd distances(0);
+    for (const PairEntry& entry : pairList(arm.kinematics, arm.geometry, nullptr, options)) {
+      CHECK(entry.reason == PairReason::neverSampled);
+      distances.conservativeResize(distances.size() + 1);
+      distances[distances.size() - 1] = entry.minDistance;
+    }
+    return distances;
+  };
+  CHECK(closestOf(60, 3) == closestOf(60, 1));  // 1770 pairs of 180 coordinates: a third, that is one of them
+  CHECK(closestOf(10, 3) != closestOf(10, 1));
+}
+
 TEST_CASE("pairs that are searched again come out as in a search of all, the others are kept as they were") {
   LoadedRobot loaded = load(robots()[0]);
   const Arm arm = armFrom(loaded.model, std::move(loaded.geometry));

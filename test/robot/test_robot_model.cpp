@@ -183,6 +183,22 @@ TEST_CASE("package names are found in given folders, in the environment and arou
   CHECK(given.resolve("package://pkg/mesh.stl") == folder / "mesh.stl");
 }
 
+TEST_CASE("names of a URDF that is a link lead beside the link, then beside the file behind it") {
+  const TemporaryFolder folder;
+  std::filesystem::create_directories(folder / "pkg/urdf");
+  std::filesystem::create_directories(folder / "mine");
+  put(folder / "pkg/package.xml", "<package><name>pkg</name></package>");
+  put(folder / "pkg/urdf/robot.urdf", robot(link("a")));
+  put(folder / "pkg/urdf/a.stl", "x");
+  put(folder / "pkg/urdf/b.stl", "x");
+  put(folder / "mine/b.stl", "another one's");
+  std::filesystem::create_symlink("../pkg/urdf/robot.urdf", folder / "mine/robot.urdf");
+  const PackagePath paths(folder / "mine/robot.urdf");
+  CHECK(paths.resolve("a.stl") == folder / "pkg/urdf/a.stl");
+  CHECK(paths.resolve("b.stl") == folder / "mine/b.stl");
+  CHECK(paths.resolve("package://pkg/urdf/b.stl") == folder / "pkg/urdf/b.stl");
+}
+
 TEST_CASE("names lead where their writer meant, whatever the working folder is") {
   const TemporaryFolder folder;
   std::filesystem::create_directories(folder / "pkg/meshes");

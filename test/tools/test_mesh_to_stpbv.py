@@ -259,6 +259,8 @@ class MeshToStpbv(unittest.TestCase):
         self.refused("body.obj", "-o", "v.stpbv", "--preview", "v.ply", "--parts", "2", "--force",
                      says=["v.ply: is the volume v_1.stpbv itself"])
         self.assertEqual(read(self.at("v.ply")), b"old")
+        os.symlink("n.ply", self.at("n.stpbv"))  # which is not there yet
+        self.refused("body.obj", "-o", "n.stpbv", "--preview", "n.ply", says=["n.ply: is the volume n.stpbv itself"])
         self.run_tool("body.obj", "-o", "t.stpbv", "--parts", "2", "--preview", "t.ply")
         self.assertTrue(read(self.at("t_0.stpbv")).startswith(b"stpbv 1"))
 

@@ -137,6 +137,16 @@ class Programs(unittest.TestCase):
                     self.refused(run(BIN / name, *["robot.urdf"] * robot, "--name", "a/b"), "--name a/b: ")
         self.assertGreaterEqual(tried, 2)
 
+    def test_a_folder_that_cannot_be_written_is_refused_before_the_work(self):
+        folder, tried = __file__ + "/folder", 0  # within a file
+        for program in {*PROGRAMS, BIN / "collide_figures", BIN / "robot_bench", BIN / "scene_models"}:
+            entries = dict(entries_of(program)) if program.exists() else {}
+            if "-o,--output" in entries and program.name not in ("mesh_to_stpbv", "urdf_to_stpbv", "urdf_collision_report", "find_posture"):
+                with self.subTest(program=program.name):
+                    tried += 1
+                    self.refused(run(program, *["robot.urdf"] * ("ROBOT" in entries), "-o", folder), f"-o {folder}: cannot be written")
+        self.assertGreaterEqual(tried, 9)
+
 
 if __name__ == "__main__":
     unittest.main(argv=sys.argv[:1])

@@ -116,10 +116,28 @@ class Postures(unittest.TestCase):
         motion = self.put("motion.json", '{"joints": ["l"], "points": [[0], [0.1]], "times": [0, 1]}')
         self.assertIn('"times"', self.report("--trajectory", motion, status=2))
 
+    def test_a_column_of_a_joint_without_a_coordinate_is_refused_as_that(self):
+        self.urdf = self.put("mimic.urdf", ROBOT.replace('name="l" type="prismatic">', 'name="l" type="prismatic"><mimic joint="r"/>'))
+        self.assertIn("'l' follows 'r'", self.report("--trajectory", self.put("motion.csv", "l,r\n0,0\n0.1,0.1\n"), status=2))
+        self.urdf = self.put("planar.urdf", ROBOT.replace('name="l" type="prismatic"', 'name="l" type="planar"'))
+        self.assertIn("name l/x and", self.report("--trajectory", self.put("motion.csv", "l,r\n0,0\n0.1,0.1\n"), status=2))
+        self.assertIn("commas stand", self.report("--trajectory", self.put("motion.csv", "l;r\n0;0\n0.1;0.1\n"), status=2))
+
     def test_a_joint_named_time_is_not_taken_for_the_time(self):
         self.urdf = self.put("timed.urdf", ROBOT.replace('"r"', '"time"'))
         said = self.report("--trajectory", self.put("motion.csv", "time,l\n0,0\n0.5,0\n"), status=2)
         self.assertIn("'time' is a joint", said)
+
+    def test_stamps_of_a_clock_count_from_the_first(self):
+        rows = [(0, 0, 0), (0.5, 0.2, -0.1), (2, 0.6, -0.4)]
+        plain = self.put("plain.csv", "time,l,r\n" + "".join(f"{t},{l},{r}\n" for t, l, r in rows))
+        stamped = self.put("stamped.csv", "time,l,r\n" + "".join(f"{t + 1700000003},{l},{r}\n" for t, l, r in rows))
+        expected, found = self.colliding("--trajectory", plain), self.colliding("--trajectory", stamped)
+        self.assertEqual(found["trajectory"]["contact"], expected["trajectory"]["contact"])
+        self.assertTrue(any("count from its first one, 1700000003 s" in w for w in found["warnings"]), found["warnings"])
+        for time in ("1e13", "nan"):
+            far = self.put("far.csv", f"time,l,r\n0,0,0\n{time},0.1,0\n")
+            self.assertIn("within 1e6 s of the first", self.report("--trajectory", far, status=2))
 
     def test_joints_that_stand_still_are_told(self):
         door = ('<robot name="scene"><link name="wall"><collision><origin xyz="5 0 0"/><geometry><box size="0.1 9 9"/></geometry>'

@@ -166,6 +166,7 @@ int main(int argc, char** argv) {
   return app.run(argc, argv, [&] {
     benchmark::Measurement result;
     result.name = "adapter";
+    benchmark::requirePlace(folder, result.name);
     const auto add = [&](Json row) {
       std::printf("%s\n", row.dump().c_str());
       result.rows.push_back(std::move(row));

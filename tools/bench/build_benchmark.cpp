@@ -58,6 +58,7 @@ int main(int argc, char** argv) {
   return app.run(argc, argv, [&] {
     benchmark::Measurement result;
     result.name = "build";
+    benchmark::requirePlace(folder, result.name);
     const auto add = [&](const char* name, const Cloud& points, double R = 10) {
       result.rows.push_back(row(name, points, R));
     };

@@ -105,6 +105,7 @@ int main(int argc, char** argv) {
   return app.run(argc, argv, [&] {
     benchmark::Measurement result;
     result.name = "collide";
+    benchmark::requirePlace(folder, result.name);
     for (const bool contact : {true, false})
       for (const double nearest : {0.05, 0.15, 0.38})
         for (const auto& [name, cloud] : bodies) {

@@ -138,7 +138,7 @@ int main(int argc, char** argv) {
   app.option("-o,--output", arguments.folder, "folder for the JSON file");
   app.option("--name", arguments.name, "its name").shown();
   return app.run(argc, argv, [&] {
-    benchmark::requireName(arguments.name);
+    benchmark::requirePlace(arguments.folder, arguments.name);
     const benchmark::Measurement result = measure(arguments);
     for (const auto& row : result.rows) std::printf("%s\n", row.dump().c_str());
     if (!arguments.folder.empty())

@@ -110,7 +110,7 @@ int main(int argc, char** argv) {
   app.option("-o,--output", output, "folder for NAME.json");
   app.option("--name", a.name, "of the file").shown();
   return app.run(argc, argv, [&] {
-    requireName(a.name);
+    requirePlace(output, a.name);
     Measurement result = a.advise ? measureAdvice(a.scenarios, a.runs) : measure(a);
     result.name = a.name;
     if (!output.empty()) write(result, commandLine(argc, argv), output);

@@ -2,6 +2,8 @@
 // change of a figure is a line of a diff.
 #include "tools/bench/measurement.h"
 
+#include <unistd.h>
+
 #include <cmath>
 #include <cstdio>
 #include <ctime>
@@ -37,11 +39,10 @@ std::string commandLine(int argc, char** argv) {
   std::string line = std::filesystem::path(argv[0]).filename().string();
   for (int i = 1; i < argc; ++i) {
     const std::string word = argv[i];
-    if (word == "-o" || word == "--output") {
+    if (word == "-o" || word == "--output")
       ++i;
-      continue;
-    }
-    line += " " + word;
+    else if (word.rfind("-o", 0) != 0 && word.rfind("--output=", 0) != 0)
+      line += " " + word;
   }
   return line;
 }
@@ -73,9 +74,14 @@ std::string shown(double value) {
   return text;
 }
 
-void requireName(const std::string& name) {
+void requirePlace(const std::filesystem::path& folder, const std::string& name) {
   if (name.empty() || name.find('/') != std::string::npos)
     throw Error("--name " + name + ": expected the name of a file without its folder, which -o names");
+  if (folder.empty()) return;
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error || ::access(folder.c_str(), W_OK | X_OK) != 0)
+    throw Error("-o " + folder.string() + ": cannot be written to; name another folder");
 }
 
 void write(const Measurement& measurement, const std::string& command, const std::filesystem::path& folder) {

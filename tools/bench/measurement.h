@@ -32,9 +32,9 @@ double significant(double value, int digits);
 /// Few digits, as in "10" or "0.5".
 std::string shown(double value);
 
-/// Before the work: whether write() can write a file of this name. @throws Error where it is none, or names a
-/// folder too.
-void requireName(const std::string& name);
+/// Before the work: whether write() can write a file of this name into the folder, which is made if missing;
+/// "" for none. @throws Error where it cannot, and where the name is none or names a folder too.
+void requirePlace(const std::filesystem::path& folder, const std::string& name);
 
 /// Writes `folder`/NAME.json whole or not at all, with the command, compiler, flags and processor.
 /// @throws Error where the file cannot be written.

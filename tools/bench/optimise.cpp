@@ -165,6 +165,7 @@ int main(int argc, char** argv) {
   app.option("--r", r, "of the rounded hulls and the volumes (m)").number(1e-4, 0.03).shown();
   app.option("-o,--output", output, "folder for optimise_TASK.json");
   return app.run(argc, argv, [&] {
+    requirePlace(output, "optimise_" + chosen.front());
     std::printf("%-7s %-24s %-32s %7s %7s %7s %7s %8s %9s\n", "", "", "medians", "conv %", "solved%",
                 "points", "hessian", "ms", "violation");
     for (const std::string& name : chosen) {

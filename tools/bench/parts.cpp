@@ -197,7 +197,7 @@ int main(int argc, char** argv) {
   app.option("-o,--output", a.folder, "folder for the JSON file");
   app.option("--name", a.name, "its name").shown();
   return app.run(argc, argv, [&] {
-    benchmark::requireName(a.name);
+    benchmark::requirePlace(a.folder, a.name);
     if (a.robot.empty() && a.meshes.empty()) throw Error("nothing to split: give mesh files, or --robot");
     benchmark::Measurement result = a.robot.empty() ? ofMeshes(a) : ofRobot(a);
     result.name = a.name;

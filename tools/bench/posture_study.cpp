@@ -196,6 +196,7 @@ int main(int argc, char** argv) {
   app.option("--tolerance", tolerance, "Relative change of the cost to stop at").number(0, 1).shown();
   app.option("-o,--output", folder, "Folder for posture_study.json");
   return app.run(argc, argv, [&] {
+    benchmark::requirePlace(folder, "posture_study");
     Study study(starts, searchStarts, tolerance);
     std::vector<Row> rows;
     for (int seed = 0; seed < tasks; ++seed) rows.push_back(study.run(static_cast<std::uint64_t>(seed)));

@@ -183,7 +183,7 @@ int main(int argc, char** argv) {
   app.option("--name", a.name, "Its name").shown();
   a.command = benchmark::commandLine(argc, argv);
   return app.run(argc, argv, [&] {
-    benchmark::requireName(a.name);
+    benchmark::requirePlace(a.folder, a.name);
     return run(a);
   });
 }

@@ -195,7 +195,7 @@ int main(int argc, char** argv) {
   app.option("-o,--output", arguments.folder, "folder for the JSON file");
   app.option("--name", arguments.name, "its name").shown();
   return app.run(argc, argv, [&] {
-    requireName(arguments.name);
+    requirePlace(arguments.folder, arguments.name);
     const Measurement result = Bench(arguments).measure();
     if (arguments.json) {
       nlohmann::ordered_json all = result.about;

@@ -57,13 +57,14 @@ int main(int argc, char** argv) {
       .whole(1);
   return app.run(argc, argv, [&] {
     const std::string command = commandLine(argc, argv);
+    if (folder.empty() && !summary) folder = "docs/measured";
+    requirePlace(folder, "summary");
     if (summary) {
       Measurement result;
       const int status = printSummary(options.seed, turns, result);
       if (!folder.empty()) write(result, command, folder);
       return status;
     }
-    if (folder.empty()) folder = "docs/measured";
     if (!bulletGjk(geodesicSpheres(0)))
       std::fprintf(stderr, "built without Bullet (Debian package libbullet-dev): the files leave it out\n");
     struct Entry {

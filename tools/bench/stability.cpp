@@ -48,6 +48,7 @@ int main(int argc, char** argv) {
   app.option("--method", only, "only these methods").oneOf(methods);
   app.option("--list", list, "print this method's failures, case by case").oneOf(methods);
   return app.run(argc, argv, [&] {
+    if (!json) fcl_stpbv::benchmark::requirePlace(folder, "stability");
     const Results results = runSuite(allSituations(seed, hardCases(), !json), only);
     listFailures(results, list);
     std::printf("%s\n", summary(results).dump().c_str());
