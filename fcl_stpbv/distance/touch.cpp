@@ -30,6 +30,22 @@ struct Side {
   int patch;
 };
 
+/// The rotation of a pose, mended as it was for the answer where it is off by more than the rounding that
+/// features are told with. False for none.
+bool rotationOf(const Isometry3d& pose, Matrix3d& rotation) {
+  constexpr double kMost = 1e-14;
+  rotation = pose.linear();
+  const auto x = rotation.col(0), y = rotation.col(1), z = rotation.col(2);
+  if (std::abs(x.dot(x) - 1.0) <= kMost && std::abs(y.dot(y) - 1.0) <= kMost &&
+      std::abs(z.dot(z) - 1.0) <= kMost && std::abs(x.dot(y)) <= kMost && std::abs(y.dot(z)) <= kMost &&
+      std::abs(z.dot(x)) <= kMost)
+    return true;
+  Isometry3d rigid = pose;
+  if (!makeRigid(rigid)) return false;
+  rotation = rigid.linear();
+  return true;
+}
+
 /// The feature that faces the other body, world axes; `placed` is the rounding of coordinates beside the
 /// other body (m), `angle` that of the normal (rad).
 bool featureOf(const StpBv& body, const Isometry3d& pose, const Side& at, double, double,
@@ -44,8 +60,10 @@ bool featureOf(const StpBv& body, const Isometry3d& pose, const Side& at, double
     feature = {2, n, {e, n.cross(e)}, {radius, radius}, 0.0};
     return true;
   }
+  Matrix3d rotation;
+  if (!rotationOf(pose, rotation)) return false;
   PosedPatch posed = posedPatch(body, at.patch);
-  const Vector3d axis = pose.linear() * unpack(posed.axis);
+  const Vector3d axis = rotation * unpack(posed.axis);
   posed.axis = pack(axis);
   const EdgeView e = viewEdge(posed, pack(n));
   const Vector3d around = axis.cross(n) / e.c;
@@ -55,7 +73,8 @@ bool featureOf(const StpBv& body, const Isometry3d& pose, const Side& at, double
 
 bool featureOf(const Shape& shape, const Isometry3d& pose, const Side& at, double placed, double angle,
                NormalCone& feature) {
-  const Matrix3d& q = pose.linear();
+  Matrix3d q;
+  if (!rotationOf(pose, q)) return false;
   const double rounding = 1e-13 * shape.reach + placed + 2.0 * shape.reach * angle;
   if (!normalCone(shape, q.transpose() * at.normal, q.transpose() * (at.point - pose.translation()), rounding,
                   feature))
@@ -68,11 +87,12 @@ bool featureOf(const Shape& shape, const Isometry3d& pose, const Side& at, doubl
 }  // namespace
 
 template <typename A, typename B>
-bool touchOf(const A& a, Isometry3d poseA, const B& b, Isometry3d poseB, const Distance& d, Touch& touch) {
+bool touchOf(const A& a, const Isometry3d& poseA, const B& b, const Isometry3d& poseB, const Distance& d,
+             Touch& touch) {
   constexpr bool kVolumes = std::is_same_v<A, StpBv> && std::is_same_v<B, StpBv>,
                  kShapes = std::is_same_v<A, Shape> && std::is_same_v<B, Shape>;
   if (d.status != DistanceStatus::exact && !(kVolumes && d.status == DistanceStatus::local)) return false;
-  if (d.normal.isZero(0) || !makeRigid(poseA) || !makeRigid(poseB)) return false;
+  if (d.normal.isZero(0)) return false;
   const double placed =
       placeRounding((poseB.translation() - poseA.translation()).norm() + sizeOf(a) + sizeOf(b));
   const double margins = marginOf(a) + marginOf(b);
@@ -92,9 +112,13 @@ bool touchOf(const A& a, Isometry3d poseA, const B& b, Isometry3d poseB, const D
   return touch.meeting.set(first, second, d.distance, kTold * (placed + placeRounding(margins)));
 }
 
-template bool touchOf(const StpBv&, Isometry3d, const StpBv&, Isometry3d, const Distance&, Touch&);
-template bool touchOf(const StpBv&, Isometry3d, const Shape&, Isometry3d, const Distance&, Touch&);
-template bool touchOf(const Shape&, Isometry3d, const StpBv&, Isometry3d, const Distance&, Touch&);
-template bool touchOf(const Shape&, Isometry3d, const Shape&, Isometry3d, const Distance&, Touch&);
+template bool touchOf(const StpBv&, const Isometry3d&, const StpBv&, const Isometry3d&, const Distance&,
+                      Touch&);
+template bool touchOf(const StpBv&, const Isometry3d&, const Shape&, const Isometry3d&, const Distance&,
+                      Touch&);
+template bool touchOf(const Shape&, const Isometry3d&, const StpBv&, const Isometry3d&, const Distance&,
+                      Touch&);
+template bool touchOf(const Shape&, const Isometry3d&, const Shape&, const Isometry3d&, const Distance&,
+                      Touch&);
 
 }  // namespace fcl_stpbv::detail

@@ -17,10 +17,10 @@ struct Touch {
   Eigen::Vector3d armA, fromB;  // body 1's witness point from both origins
 };
 
-/// The touch of two bodies, each an STP-BV or a shape, at the answer `d`, whose rotations were mended as
-/// here. False where second derivatives do not exist.
+/// The touch of two bodies, each an STP-BV or a shape, at the answer `d`; rotations are mended as they were
+/// for it. False where second derivatives do not exist.
 template <typename A, typename B>
-bool touchOf(const A& a, Eigen::Isometry3d poseA, const B& b, Eigen::Isometry3d poseB, const Distance& d,
-             Touch& touch);
+bool touchOf(const A& a, const Eigen::Isometry3d& poseA, const B& b, const Eigen::Isometry3d& poseB,
+             const Distance& d, Touch& touch);
 
 }  // namespace fcl_stpbv::detail
