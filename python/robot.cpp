@@ -10,6 +10,7 @@
 
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/robot/batch.h"
+#include "interrupt.h"
 #include "made.h"
 #include "scene.h"
 
@@ -96,7 +97,13 @@ class PythonRobot {
     const std::optional<Hit> hit = checker(margin).firstHit(q);
     if (!hit) return py::none();
     if (hit->pair < 0) throw Error("q: its links are too far away to be placed");
-    return py::int_(rowOf_[static_cast<std::size_t>(hit->pair)]);
+    // Whole bodies that hand over to their parts have rows beside those of the pairs.
+    const auto isHit = [&](const CheckedPair& pair) {
+      return pair.body == hit->bodies.body && pair.other == hit->bodies.other &&
+             pair.obstacle == hit->bodies.obstacle;
+    };
+    const std::vector<CheckedPair>& pairs = constraints_->pairs();
+    return py::int_(std::find_if(pairs.begin(), pairs.end(), isHit) - pairs.begin());
   }
   double minDistance(const Given& given) {
     const Eigen::VectorXd& q = checked(given, "q", kinematics_->size());
@@ -176,15 +183,6 @@ class PythonRobot {
     constraints_ = std::make_unique<CollisionConstraints>(kinematics_, geometry, pairs, options_);
     if (!pairs.empty())
       checker_ = std::make_unique<CollisionChecker>(kinematics_, geometry, pairs, scene_->obstacles);
-    // Whole bodies that hand over to their parts have rows between those of the pairs.
-    const auto same = [](const CheckedPair& a, const CheckedPair& b) {
-      return a.body == b.body && a.other == b.other && a.obstacle == b.obstacle;
-    };
-    auto row = constraints_->pairs().begin();
-    for (const CheckedPair& pair : pairs) {
-      while (!same(*row, pair)) ++row;
-      rowOf_.push_back(row++ - constraints_->pairs().begin());
-    }
   }
 
   /// @throws Error naming the argument.
@@ -216,9 +214,9 @@ class PythonRobot {
     // no time.
     using Clock = std::chrono::steady_clock;
     Eigen::Index slice = kBatchPiece * static_cast<Eigen::Index>(threads);
-    for (Eigen::Index start = 0; start < rows;) {
-      if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-      const py::gil_scoped_release others;
+    const py::gil_scoped_release others;
+    Interrupt interrupt;
+    for (Eigen::Index start = 0; start < rows; interrupt()) {
       const Clock::time_point begin = Clock::now();
       const Eigen::Index count = std::min(slice, rows - start);
       work(start, count);
@@ -244,7 +242,6 @@ class PythonRobot {
   std::shared_ptr<const Kinematics> kinematics_;
   std::unique_ptr<CollisionConstraints> constraints_;
   std::unique_ptr<CollisionChecker> checker_;  // null where no pair is checked
-  std::vector<std::ptrdiff_t> rowOf_;          // of each of the checker's pairs
 };
 
 }  // namespace

@@ -27,12 +27,10 @@ AskedPostures readPostures(const ReportRequest& request, const Kinematics& kinem
   if (!request.trajectory.empty()) {
     postures.trajectory = readTrajectory(request.trajectory, kinematics, postures.neutral);
     checkLimits("--trajectory " + request.trajectory, postures.trajectory.points);
-    if (postures.trajectory.start != 0) {
-      std::string start;
-      detail::appendNumber(start, postures.trajectory.start);
+    if (postures.trajectory.start != 0)
       postures.warnings.push_back("--trajectory " + request.trajectory +
-                                  ": times count from its first one, " + start + " s");
-    }
+                                  ": times count from its first one, " +
+                                  detail::toDecimal(postures.trajectory.start) + " s");
   }
   return postures;
 }

@@ -53,8 +53,7 @@ std::string keyOfFolder(const std::string& path, const std::vector<std::string>&
   for (const std::string& input : inputs)
     if (isIn(name, input))
       throw Error("-o " + path + ": " + input + " lies in it and is read; name another folder");
-  if (isNew) return "";
-  if (fs::is_empty(name, ignored)) return "";
+  if (isNew || fs::is_empty(name, ignored)) return "";
   const nlohmann::json manifest = manifestOf(name);
   std::size_t found = 0;
   bool same = true;

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "fcl_stpbv/robot/package_path.h"
 #include "fcl_stpbv/robot/urdf_element.h"
 #include "fcl_stpbv/robot/uri_text.h"
 #include "fcl_stpbv/robot/xml_text.h"
@@ -22,7 +23,9 @@ XMLElement* meshOf(XMLElement& shape) {
 
 class Writer {
  public:
-  explicit Writer(const PartUrdf& parts) : parts_(parts) { loadXml(parts.robot->path, document_); }
+  explicit Writer(const PartUrdf& parts) : parts_(parts), names_(parts.robot->path) {
+    loadXml(parts.robot->path, document_);
+  }
 
   std::string write() {
     redirectTextures(*document_.RootElement());
@@ -48,11 +51,7 @@ class Writer {
     const std::optional<std::string> path = filePathIn(attribute);
     const std::string name = path.value_or(attribute);
     if (name.find("://") != std::string::npos || fs::path(name).is_absolute()) return;
-    fs::path old = fs::absolute(parts_.robot->path).parent_path() / name;
-    std::error_code ignored;  // of a URDF that is a link, else beside the file behind it
-    if (const fs::path real = fs::canonical(parts_.robot->path, ignored).parent_path() / name;
-        !fs::exists(old, ignored) && fs::exists(real, ignored))
-      old = real;
+    const fs::path old = fs::path(names_.folderOf(attribute)) / name;
     // With its file://, after which a %20 stands for a space.
     const std::string moved =
         (path ? "file://" : "") + fs::relative(old, fs::absolute(parts_.folder)).string();
@@ -103,6 +102,7 @@ class Writer {
   }
 
   const PartUrdf& parts_;
+  PackagePath names_;
   tinyxml2::XMLDocument document_;
 };
 

@@ -165,7 +165,8 @@ Trajectory readTrajectory(const std::string& path, const Kinematics& kinematics,
     }
     if (i == 0 && std::abs(time) > kMost) trajectory.start = time;
     time -= trajectory.start;
-    if (trajectory.timed && !(std::abs(time - (i == 0 ? time : trajectory.time.front())) <= kMost))
+    const double begin = i == 0 ? time : trajectory.time.front();
+    if (trajectory.timed && !(std::abs(time - begin) <= kMost))
       throw Error(columns.places[i] + ": the time must be a number within 1e6 s of the first way point's");
     constexpr double kLeastStep = 1e-9;  // s; in less no robot gets anywhere
     if (i > 0 && !(time - trajectory.time.back() >= kLeastStep))

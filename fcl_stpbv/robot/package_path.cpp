@@ -7,6 +7,7 @@
 #include <cctype>
 #include <cstdlib>
 #include <filesystem>
+#include <optional>
 
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/robot/uri_text.h"
@@ -74,7 +75,7 @@ PackagePath::PackagePath(const std::string& urdf, std::vector<std::string> folde
   const bool pipe = fs::exists(urdf, error) && !fs::is_regular_file(urdf, error);
   const fs::path named = fs::absolute(pipe ? "-" : urdf, error).lexically_normal();
   std::vector<fs::path> places = {named};
-  if (const fs::path real = fs::canonical(named, error); !error) places.push_back(real);  // behind a link
+  if (const fs::path real = fs::canonical(named, error); !error && real != named) places.push_back(real);
   for (const fs::path& place : places) {
     fs::path folder = place.parent_path();
     urdfFolders_.push_back(folder.string());
@@ -139,6 +140,15 @@ std::string PackagePath::resolve(const std::string& uri) const {
                "' as a package path (--package-path), or set ROS_PACKAGE_PATH or AMENT_PREFIX_PATH";
   }
   throw Error(message);
+}
+
+std::string PackagePath::folderOf(const std::string& name) const {
+  const std::optional<std::string> path = filePathIn(name);
+  std::error_code ignored;
+  for (const std::string& text : {path.value_or(name), path ? percentDecoded(*path) : name})
+    for (const std::string& folder : urdfFolders_)
+      if (fs::exists(fs::path(folder) / text, ignored)) return folder;
+  return urdfFolders_.front();
 }
 
 }  // namespace fcl_stpbv::detail

@@ -22,6 +22,9 @@ class PackagePath {
   /// The path of an existing file. @throws Error naming every path that was tried.
   std::string resolve(const std::string& uri) const;
 
+  /// The folder that a relative name is of: where resolve() finds it, else the URDF's own.
+  std::string folderOf(const std::string& name) const;
+
  private:
   std::vector<std::string> candidates(const std::string& uri) const;
 

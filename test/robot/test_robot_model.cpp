@@ -197,6 +197,12 @@ TEST_CASE("names of a URDF that is a link lead beside the link, then beside the 
   CHECK(paths.resolve("a.stl") == folder / "pkg/urdf/a.stl");
   CHECK(paths.resolve("b.stl") == folder / "mine/b.stl");
   CHECK(paths.resolve("package://pkg/urdf/b.stl") == folder / "pkg/urdf/b.stl");
+  put(folder / "pkg/urdf/c d.stl", "x");
+  CHECK(paths.resolve("file://c%20d.stl") == folder / "pkg/urdf/c d.stl");
+  CHECK(paths.folderOf("a.stl") == folder / "pkg/urdf");
+  CHECK(paths.folderOf("b.stl") == folder / "mine");
+  CHECK(paths.folderOf("file://c%20d.stl") == folder / "pkg/urdf");
+  CHECK(paths.folderOf("none.stl") == folder / "mine");
 }
 
 TEST_CASE("names lead where their writer meant, whatever the working folder is") {
