@@ -56,7 +56,7 @@ class ElementContacts {
       : pair_(pair), blank_(blank), found_(found) {}
 
   double bound(const PosedGeometry::Part& a, const PosedGeometry::Part& b) const {
-    return gapOf(pair_, a, b);
+    return gapOf(pair_, a, b, 0.0);
   }
   bool skip(double bound) const { return bound > 0; }
 

@@ -85,7 +85,7 @@ class Moving {
   // Where a tree is its cells tell.
   void addCells(const PosedGeometry& still, const PosedGeometry::Part& part, Eigen::AlignedBox3d& box) const {
     if (part.leaf || !still.loose()) {
-      const Vector3d half = part.box.axes.cwiseAbs() * part.box.half + Vector3d::Constant(part.margin);
+      const Vector3d half = part.box.axes.cwiseAbs() * part.box.half;
       box.extend(part.box.centre - half).extend(part.box.centre + half);
       return;
     }

@@ -1,6 +1,5 @@
-// The drop-in distance: two STP-BVs by the core's query, an STP-BV and any other
-// geometry by other_geometry.h, two simple shapes by distance/shape_distance.h, and meshes
-// and trees without one by nearest_pair.h.
+// The drop-in distance: two STP-BVs by the core's query, a simple shape beside another or an STP-BV by
+// distance/shape_distance.h, meshes and trees by nearest_pair.h.
 #include "fcl_stpbv/adapter/fcl_distance.h"
 
 #include <utility>
@@ -10,7 +9,6 @@
 #include "fcl_stpbv/adapter/feature_map.h"
 #include "fcl_stpbv/adapter/known_trees.h"
 #include "fcl_stpbv/adapter/nearest_pair.h"
-#include "fcl_stpbv/adapter/other_geometry.h"
 #include "fcl_stpbv/adapter/polyhedral_witness.h"
 #include "fcl_stpbv/convex/relative_pose.h"
 #include "fcl_stpbv/distance/shape_distance.h"
@@ -66,9 +64,16 @@ bool mixedDistance(const StpBvGeometry* a, const CollisionGeometryd& geometry1, 
     cache.normal = -cache.normal;
     std::swap(cache.patch[0], cache.patch[1]);
   }
-  OtherDistance other =
-      a ? distanceToOther(a->volume(), pose1, geometry2, pose2, &cache, context.finite, trees[1])
-        : distanceToOther(b->volume(), pose2, geometry1, pose1, &cache, context.finite, trees[0]);
+  Shape shape;
+  const bool isShape = shapeOf(a ? geometry2 : geometry1, shape);
+  ElementsDistance other;
+  if (isShape)
+    other.found = a ? distance(a->volume(), pose1, shape, pose2, &cache)
+                    : distance(b->volume(), pose2, shape, pose1, &cache);
+  else
+    other =
+        a ? nearestElements(geometry1, pose1, geometry2, pose2, context.finite, trees, &cache)
+          : nearestElements(geometry2, pose2, geometry1, pose1, context.finite, {trees[1], trees[0]}, &cache);
   if (!a) {
     cache.normal = -cache.normal;
     std::swap(cache.patch[0], cache.patch[1]);
@@ -79,9 +84,9 @@ bool mixedDistance(const StpBvGeometry* a, const CollisionGeometryd& geometry1, 
   if (context.cache) *context.cache = cache;
   answer = inFclTerms(other.found, pose1, pose2);
   if (answer.status == DistanceStatus::invalid) return true;
-  answer.element[a ? 1 : 0] = other.element;
+  answer.element[a ? 1 : 0] = other.element[1];
   answer.runnerUp = other.runnerUp;
-  answer.continuous = other.continuous;
+  answer.continuous = isShape;  // of meshes and trees the nearest element switches
   return true;
 }
 

@@ -1,8 +1,14 @@
-// Branch and bound down both hierarchies. Boxes are bounded along the best normal so far too, which all but
-// ends the search once the nearest elements are known.
+// The nearest two elements and the runner-up, by branch and bound down both hierarchies, near parts first
+// (Larsen, Gottschalk, Lin, Manocha 1999):
+// 1. bound two parts from below by their gap along the normals of elements solved before, then by their boxes
+//    and the body's support points (posed_geometry.h);
+// 2. skip what cannot hold one of the nearest two;
+// 3. solve two elements exactly, keep the two least.
+// Apart, one normal tells most. In an overlap each side of a body has its own.
 #include "fcl_stpbv/adapter/nearest_pair.h"
 
 #include <algorithm>
+#include <array>
 
 #include "fcl_stpbv/adapter/posed_geometry.h"
 #include "fcl_stpbv/convex/relative_pose.h"
@@ -16,12 +22,22 @@ using Eigen::Vector3d;
 
 class NearestElements {
  public:
-  explicit NearestElements(const PosedPair& pair) : pair_(pair), surfaces_(pair.areSurfaces()) {}
+  NearestElements(const PosedPair& pair, PairCache* cache)
+      : pair_(pair), surfaces_(pair.areSurfaces()), cache_(cache) {}
 
   const ElementsDistance& result() const { return result_; }
 
   double bound(const PosedGeometry::Part& a, const PosedGeometry::Part& b) const {
-    return gapOf(pair_, a, b, n_);
+    const Vector3d d = b.box.centre - a.box.centre;
+    const double rounding = boxRounding(a, b);
+    double most = -kInfinity;
+    for (std::size_t i = 0; i < planes_ && !skip(most); ++i) {
+      const Plane& plane = plane_[i];
+      const double reachA = a.body ? plane.reach : a.box.reach(plane.n),
+                   reachB = b.body ? plane.reach : b.box.reach(plane.n);
+      most = std::max(most, plane.n.dot(d) - reachA - reachB - rounding);
+    }
+    return skip(most) ? most : std::max(most, gapOf(pair_, a, b, any() ? result_.runnerUp : kInfinity));
   }
   // The second nearest pair is wanted too, but where two surfaces meet.
   bool skip(double bound) const { return any() && bound >= result_.runnerUp; }
@@ -29,23 +45,34 @@ class NearestElements {
   bool leaves(const PosedGeometry::Part& leafA, const PosedGeometry::Part& leafB) {
     ConvexBody a, b;
     if (!pair_.first.body(leafA, a) || !pair_.second.body(leafB, b)) return false;  // a free cell
-    if (skip(gapAlongBest(a, b))) return false;
-    const Distance found = distance(a, b);
+    if (skip(gapAlongPlanes(leafA, a, leafB, b))) return false;
+    PairCache start;
+    if (any())
+      start = {result_.found.normal, result_.found.patch};
+    else if (cache_)
+      start = *cache_;
+    const Distance found = distance(a, b, &start);
+    ++result_.solved;
     if (found.status == DistanceStatus::invalid) {  // an element that is no body: nothing is known
       result_ = {};
       return true;
     }
     Distance& best = result_.found;
     bounds(found);
-    if (any() && found.distance >= best.distance) {
+    const bool least = !(any() && found.distance >= best.distance);
+    keepPlane(leafA, leafB, found.normal, least);
+    if (!least) {
       result_.runnerUp = std::min(result_.runnerUp, found.distance);
     } else {
-      result_.runnerUp = best.status == DistanceStatus::invalid ? kInfinity : best.distance;
+      result_.runnerUp = any() ? best.distance : kInfinity;
       best = found;
       result_.element = {leafA.node.id, leafB.node.id};
-      n_ = pair_.toWorld.transpose() * found.normal;
+      if (cache_) *cache_ = start;
     }
-    best.status = exact_ ? DistanceStatus::exact : DistanceStatus::bounded;
+    if (exact_)
+      best.status = DistanceStatus::exact;
+    else if (best.status == DistanceStatus::exact)
+      best.status = DistanceStatus::bounded;
     best.lower = lower_;
     best.upper = upper_;
     if (!surfaces_ || best.distance > 0) return false;
@@ -54,6 +81,13 @@ class NearestElements {
   }
 
  private:
+  // Two parallel planes that touch the elements of an answer, for all others.
+  struct Plane {
+    Vector3d n{0, 0, 0};            // from the first geometry to the second, in the first one's frame
+    Vector3d world{0, 0, 0};        // the same in the world
+    double reach = 0, support = 0;  // of the one that is a body, if one is: from its box's centre, its origin
+  };
+
   bool any() const { return result_.found.status != DistanceStatus::invalid; }
 
   // Bounds of the least of all: an answer that is not exact may be the lowest, whatever it says itself.
@@ -63,11 +97,40 @@ class NearestElements {
     upper_ = std::min(upper_, found.upper);
   }
 
-  double gapAlongBest(const ConvexBody& a, const ConvexBody& b) const {
-    if (!any() || a.unbounded() || b.unbounded()) return -kInfinity;
-    const Vector3d &n = result_.found.normal, d = b.pose.translation() - a.pose.translation();
-    return n.dot(d) - a.support(n) - b.support(-n) - a.rounding - b.rounding -
-           kGapRounding * (d.lpNorm<1>() + a.extent() + b.extent());
+  double gapAlongPlanes(const PosedGeometry::Part& leafA, const ConvexBody& a,
+                        const PosedGeometry::Part& leafB, const ConvexBody& b) const {
+    if (a.unbounded() || b.unbounded()) return -kInfinity;
+    const Vector3d d = b.pose.translation() - a.pose.translation();
+    const double rounding =
+        a.rounding + b.rounding + kGapRounding * (d.lpNorm<1>() + a.extent() + b.extent());
+    double most = -kInfinity;
+    for (std::size_t i = 0; i < planes_ && !skip(most); ++i) {
+      const Vector3d& n = plane_[i].world;
+      const double supportA = leafA.body ? plane_[i].support : a.support(n),
+                   supportB = leafB.body ? plane_[i].support : b.support(-n);
+      most = std::max(most, n.dot(d) - supportA - supportB - rounding);
+    }
+    return most;
+  }
+
+  // One plane of each direction is kept; that of the best answer is the first.
+  void keepPlane(const PosedGeometry::Part& a, const PosedGeometry::Part& b, const Vector3d& world,
+                 bool best) {
+    constexpr double kAlike = 0.999;  // cosine of 2.6 degrees
+    if (world.isZero(0) || pair_.first.unbounded() || pair_.second.unbounded()) return;
+    const Vector3d n = pair_.toWorld.transpose() * world;
+    std::size_t place = 0;
+    if (!best) {
+      if (surfaces_) return;  // apart, where one normal tells most
+      for (std::size_t i = 0; i < planes_; ++i)
+        if (plane_[i].n.dot(n) > kAlike) return;
+      place = planes_ < plane_.size() ? planes_ : oldest_;
+      if (planes_ == plane_.size()) oldest_ = oldest_ % (plane_.size() - 1) + 1;
+    }
+    planes_ = std::max(planes_, place + 1);
+    Plane& plane = plane_[place] = {n, world};
+    if (a.body) plane.reach = a.reach(n), plane.support = a.body->support(world);
+    if (b.body) plane.reach = b.reach(-n), plane.support = b.body->support(-world);
   }
 
   // Surfaces overlap by nothing: 0, at a point of both elements.
@@ -88,17 +151,19 @@ class NearestElements {
   const bool surfaces_;
   ElementsDistance result_;
   double lower_ = kInfinity, upper_ = kInfinity;
-  bool exact_ = false;   // whether the pair that the lower bound comes from is
-  Vector3d n_{0, 0, 0};  // best normal, in the first geometry's frame
+  bool exact_ = false;  // whether the pair that the lower bound comes from is
+  std::array<Plane, 16> plane_;
+  std::size_t planes_ = 0, oldest_ = 1;
+  PairCache* cache_;
 };
 
 }  // namespace
 
 ElementsDistance nearestElements(const fcl::CollisionGeometryd& geometry1, const Eigen::Isometry3d& pose1,
                                  const fcl::CollisionGeometryd& geometry2, const Eigen::Isometry3d& pose2,
-                                 bool finite, const KnownTrees& trees) {
+                                 bool finite, const KnownTrees& trees, PairCache* cache) {
   const PosedPair pair(geometry1, pose1, geometry2, pose2, finite, trees);
-  NearestElements nearest(pair);
+  NearestElements nearest(pair, cache);
   if (pair.valid && (finite || pair.finite()))
     descend(pair, pair.first.whole(), pair.second.whole(), nearest);
   return nearest.result();

@@ -1,4 +1,4 @@
-// Two geometries without an STP-BV, one of them at least a mesh or a tree: their nearest two elements.
+// Two geometries, one of them at least a mesh or a tree: their nearest two elements.
 #pragma once
 
 #include <fcl/geometry/collision_geometry.h>
@@ -17,15 +17,16 @@ struct ElementsDistance {
   Distance found;
   std::array<std::intptr_t, 2> element{-1, -1};  ///< triangles or cells, as FCL numbers them; -1 for a shape
   double runnerUp = std::numeric_limits<double>::infinity();  ///< distance of the next two elements (m)
+  int solved = 0;  ///< pairs of elements whose distance was asked: the work
 };
 
-/// A mesh or a tree against a shape: signed, the least over its elements. Two of them: 0 where they overlap,
-/// for surfaces have no depth, with the first two elements found to meet and a point of both. `invalid` where
-/// either has nothing in it or a corner that is no number, unless the caller knows that all are (`finite`),
-/// or a pose is not rigid. Allocates nothing but boxes in place of those that FCL has merged, unless `trees`
-/// has them.
+/// A mesh or a tree against an STP-BV or a shape: signed, the least over its elements. Two of them: 0 where
+/// they overlap, for surfaces have no depth, with the first two elements found to meet and a point of both.
+/// `invalid` where either has nothing in it or a corner that is no number, unless the caller knows that all
+/// are (`finite`), or a pose is not rigid. Allocates nothing but boxes in place of those that FCL has merged,
+/// unless `trees` has them. The cache serves pairs with an STP-BV.
 ElementsDistance nearestElements(const fcl::CollisionGeometryd& geometry1, const Eigen::Isometry3d& pose1,
                                  const fcl::CollisionGeometryd& geometry2, const Eigen::Isometry3d& pose2,
-                                 bool finite, const KnownTrees& trees = {});
+                                 bool finite, const KnownTrees& trees = {}, PairCache* cache = nullptr);
 
 }  // namespace fcl_stpbv::detail

@@ -1,10 +1,10 @@
 // Geometries as hierarchies of boxes, for the walk in posed_geometry.h.
-// 1. An STP-BV or a shape is one part: its bounding ball, for a shape that is a box its own box. Meshes and
-//    trees give the boxes of FCL's hierarchies (element_tree.h).
+// 1. An STP-BV or a shape is one part, with the box of its own axes and its support points. Meshes and trees
+//    give the boxes of FCL's hierarchies (element_tree.h).
 // 2. Two parts are at least as far apart as their projections on any axis (separating axis test:
-//    Gottschalk, Lin, Manocha 1996). Seven axes are tried, or eight: the line of the centres, each box's
-//    own three, and a normal that the caller knows. Axes that are cross products of edges are left out: a
-//    looser bound, never a wrong one. A half space or a plane has one axis, its normal.
+//    Gottschalk, Lin, Manocha 1996). Seven axes are tried: the line of the centres and each box's own three.
+//    Axes that are cross products of edges are left out: a looser bound, never a wrong one. A half space or
+//    a plane has one axis, its normal.
 #include "fcl_stpbv/adapter/posed_geometry.h"
 
 #include <cmath>
@@ -18,6 +18,7 @@
 namespace fcl_stpbv::detail {
 
 using Eigen::Isometry3d;
+using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 namespace {
@@ -37,7 +38,7 @@ double gapOfFlat(const Shape& flat, const OrientedBox& place, const PosedGeometr
   const double height = n.dot(part.box.centre - place.centre);
   const double size = place.centre.lpNorm<1>() + part.box.centre.lpNorm<1>() + part.box.half.sum() +
                       part.node.box.centre.lpNorm<1>();
-  return (flat.kind == ShapeKind::plane ? std::abs(height) : height) - part.box.reach(n) - part.margin -
+  return (flat.kind == ShapeKind::plane ? std::abs(height) : height) - part.box.reach(n) -
          kBoxRounding * size;
 }
 
@@ -83,12 +84,13 @@ PosedGeometry::PosedGeometry(const fcl::CollisionGeometryd& geometry, const Isom
 
 PosedGeometry::Part PosedGeometry::whole() const {
   if (!isBody()) return part(tree_.root());
-  const Shape& s = body_.shape;
-  const bool isBox = !body_.volume && s.kind == ShapeKind::box;
-  const OrientedBox box{inFrame_ * (body_.volume ? body_.volume->centre() : s.centre), inFrame_.linear(),
-                        isBox ? s.size : Vector3d(0, 0, 0)};
-  const double margin = body_.volume ? body_.volume->enclosingRadius() : s.margin + (isBox ? 0.0 : s.reach);
-  return {box, margin, true, {-1, true, nullptr, box}};
+  OrientedBox own{body_.shape.centre, Matrix3d::Identity(), {0, 0, 0}};
+  for (int i = 0; i < 3 && !unbounded(); ++i) {
+    const double high = body_.localSupport(own.axes.col(i)), low = -body_.localSupport(-own.axes.col(i));
+    own.centre(i) = 0.5 * (high + low);
+    own.half(i) = 0.5 * (high - low);
+  }
+  return {{inFrame_ * own.centre, inFrame_.linear(), own.half}, true, {-1, true, nullptr, own}, &body_};
 }
 
 std::size_t PosedGeometry::children(const Part& of, std::array<Part, 8>& child) const {
@@ -109,8 +111,7 @@ bool PosedGeometry::body(const Part& leaf, ConvexBody& body) const {
 }
 
 PosedGeometry::Part PosedGeometry::part(const ElementTree::Node& node) const {
-  return {
-      {inFrame_ * node.box.centre, inFrame_.linear() * node.box.axes, node.box.half}, 0.0, node.leaf, node};
+  return {{inFrame_ * node.box.centre, inFrame_.linear() * node.box.axes, node.box.half}, node.leaf, node};
 }
 
 // A pose that is not rigid goes on as it is, and what it gives is never looked at.
@@ -124,26 +125,31 @@ PosedPair::PosedPair(const fcl::CollisionGeometryd& geometry1, Isometry3d pose1,
   valid = valid && first.known() && second.known() && !(first.unbounded() && second.unbounded());
 }
 
+double boxRounding(const PosedGeometry::Part& a, const PosedGeometry::Part& b) {
+  return kBoxRounding *
+         (a.box.half.sum() + b.box.half.sum() + a.box.centre.lpNorm<1>() + b.box.centre.lpNorm<1>() +
+          a.node.box.centre.lpNorm<1>() + b.node.box.centre.lpNorm<1>());
+}
+
 double gapOf(const PosedPair& pair, const PosedGeometry::Part& a, const PosedGeometry::Part& b,
-             const Vector3d& n) {
+             double enough) {
   if (pair.first.unbounded()) return gapOfFlat(pair.first.body().shape, a.box, b);
   if (pair.second.unbounded()) return gapOfFlat(pair.second.body().shape, b.box, a);
-  double most = -std::numeric_limits<double>::infinity();
+  const double rounding = boxRounding(a, b);
   const Vector3d d = b.box.centre - a.box.centre;
   const double length = d.norm();
-  if (!(length > 0.0)) return most;
-  const auto along = [&](const Vector3d& axis) {
-    most = std::max(most, std::abs(axis.dot(d)) - a.box.reach(axis) - b.box.reach(axis));
-  };
-  along(d / length);
-  for (int i = 0; i < 3; ++i) {
-    along(a.box.axes.col(i));
-    along(b.box.axes.col(i));
+  if (!(length > 0.0)) return -std::numeric_limits<double>::infinity();
+  const Vector3d line = d / length;
+  double most = length - a.reach(line) - b.reach(-line) - rounding;
+  // Along its own axis a box reaches as far as its half side.
+  for (int i = 0; i < 3 && !(most > enough); ++i) {
+    const double along = a.box.axes.col(i).dot(d), back = b.box.axes.col(i).dot(d);
+    const Vector3d fromA = std::copysign(1.0, along) * a.box.axes.col(i),
+                   toA = -std::copysign(1.0, back) * b.box.axes.col(i);
+    most = std::max(most, std::abs(along) - a.box.half(i) - b.reach(-fromA) - rounding);
+    most = std::max(most, std::abs(back) - b.box.half(i) - a.reach(-toA) - rounding);
   }
-  if (!n.isZero(0)) along(n);
-  const double size = length + a.box.half.sum() + b.box.half.sum() + a.box.centre.lpNorm<1>() +
-                      b.box.centre.lpNorm<1>() + b.node.box.centre.lpNorm<1>();
-  return most - a.margin - b.margin - kBoxRounding * size;
+  return most;
 }
 
 }  // namespace fcl_stpbv::detail

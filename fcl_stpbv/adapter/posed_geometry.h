@@ -26,7 +26,10 @@ struct ConvexBody {
   /// Height of the supporting plane with the world's unit normal `n` above the body's origin (m). An STP-BV
   /// looks for its patch from `hint` on.
   double support(const Eigen::Vector3d& n, int hint = -1) const {
-    const Eigen::Vector3d m = pose.linear().transpose() * n;
+    return localSupport(pose.linear().transpose() * n, hint);
+  }
+  /// The same along a unit vector `m` of the body's own frame.
+  double localSupport(const Eigen::Vector3d& m, int hint = -1) const {
     return volume ? volume->support(m, hint) : m.dot(shape.support(m)) + shape.margin;
   }
   /// Bound on its coordinates, for rounding (m).
@@ -58,12 +61,19 @@ bool areVolumes(const fcl::CollisionGeometryd& geometry1, const Eigen::Isometry3
 /// geometry must outlive it.
 class PosedGeometry {
  public:
-  /// A box with a ball swept over it, in the frame of the pair's first geometry, and what is in it.
+  /// A box in the frame of the pair's first geometry, and what is in it.
   struct Part {
     OrientedBox box;
-    double margin;
     bool leaf;
-    ElementTree::Node node;  ///< its id is -1 for a body
+    ElementTree::Node node;            ///< for a body: its id is -1, its box in the body's own frame
+    const ConvexBody* body = nullptr;  ///< null where only the box is known
+
+    /// How far it reaches along a unit vector of the box's frame, from the box's centre (m).
+    double reach(const Eigen::Vector3d& n) const {
+      if (!body) return box.reach(n);
+      const Eigen::Vector3d m = box.axes.transpose() * n;
+      return body->localSupport(m) - m.dot(node.box.centre);
+    }
   };
 
   /// `inFrame`: the pose seen from the pair's first geometry. Poses are rigid. `known`: to be sound
@@ -118,11 +128,13 @@ struct PosedPair {
   Eigen::Matrix3d toWorld;  ///< the first geometry's axes
 };
 
-/// No more than the distance of two parts (m): the widest gap along the line of their
-/// centres, their axes and `n` (unit or zero, frame of the first geometry); of a half space or a plane
-/// along its normal.
+/// No more than the distance of two parts (m): the widest gap along the line of their centres and their
+/// axes, or the first that is above `enough`; of a half space or a plane along its normal.
 double gapOf(const PosedPair& pair, const PosedGeometry::Part& a, const PosedGeometry::Part& b,
-             const Eigen::Vector3d& n = {0, 0, 0});
+             double enough);
+
+/// What a gap between two boxes may be off by rounding (m).
+double boxRounding(const PosedGeometry::Part& a, const PosedGeometry::Part& b);
 
 /// Goes down both hierarchies, the bigger part first and near children first. `visitor.bound(a, b)` is a
 /// lower bound of two parts' distance, `visitor.skip(bound)` tells whether nothing below matters, asked again

@@ -30,7 +30,7 @@ class Within {
 
   double bound(const PosedGeometry::Part& a, const PosedGeometry::Part& b) {
     if (counts_) ++counts_->bounds;
-    return gapOf(pair_, a, b);
+    return gapOf(pair_, a, b, x_);
   }
   bool skip(double bound) const { return bound > x_; }
 

@@ -1,4 +1,9 @@
 // Meshes and trees against each other and against shapes: the nearest elements of all.
+#include <fcl/geometry/shape/box.h>
+#include <fcl/geometry/shape/capsule.h>
+#include <fcl/geometry/shape/cone.h>
+#include <fcl/geometry/shape/cylinder.h>
+#include <fcl/geometry/shape/ellipsoid.h>
 #include <fcl/geometry/shape/halfspace.h>
 #include <fcl/geometry/shape/plane.h>
 #include <fcl/geometry/shape/sphere.h>
@@ -8,6 +13,8 @@
 #include <cmath>
 
 #include "fcl_stpbv/adapter/fcl_distance.h"
+#include "fcl_stpbv/adapter/nearest_pair.h"
+#include "fcl_stpbv/adapter/posed_geometry.h"
 #include "fcl_stpbv/convex/relative_pose.h"
 #include "test/adapter/bodies.h"
 #include "test/adapter/element_kinds.h"
@@ -202,4 +209,44 @@ TEST_CASE("next to a half space or a plane few of a mesh's triangles are looked 
     compare(below, half);
     compare(sheet, plane);
   }
+}
+
+TEST_CASE("a body deep in a mesh is measured to few of its triangles, the two nearest among them") {
+  const auto mesh = bumpyGround<fcl::OBBRSSd>(40, 0.1);
+  const std::vector<std::shared_ptr<fcl::CollisionGeometryd>> bodies = {
+      geometryOf(randomHull(60, {0.5, 0.5, 0.5}, 20)),  // every normal leads out of it
+      geometryOf(randomHull(60, {0.5, 0.5, 0.05}, 21)), std::make_shared<fcl::Ellipsoidd>(0.5, 0.3, 0.4),
+      std::make_shared<fcl::Cylinderd>(0.4, 0.8),       std::make_shared<fcl::Cylinderd>(0.6, 0.05),
+      std::make_shared<fcl::Coned>(0.4, 0.8),           std::make_shared<fcl::Capsuled>(0.2, 0.8),
+      std::make_shared<fcl::Boxd>(0.8, 0.5, 0.6)};
+  Random random(9);
+  int deep = 0;
+  for (std::size_t k = 0; k < bodies.size(); ++k) {
+    ConvexBody body, triangle;
+    REQUIRE(isConvex(*bodies[k], body));
+    int solved = 0;
+    constexpr int kPoses = 6;
+    for (int i = 0; i < kPoses; ++i) {
+      body.pose = pose(random.rotation(), random.direction());
+      triangle.pose =
+          pose(random.rotation(), body.pose.translation() + random.uniform(0, 0.6) * random.direction());
+      const ElementsDistance found = nearestElements(*bodies[k], body.pose, *mesh, triangle.pose, true);
+      double least = 1e9, second = 1e9;
+      for (int t = 0; t < mesh->num_tris; ++t) {
+        const auto corner = [&](int c) { return mesh->vertices[mesh->tri_indices[t][c]]; };
+        triangle.shape = Shape::triangleOf(corner(0), corner(1), corner(2));
+        const double d = distance(body, triangle).distance;
+        second = std::min(second, std::max(d, least));
+        least = std::min(least, d);
+      }
+      CAPTURE(k, i, least, second, found.solved);
+      CHECK(std::abs(found.found.distance - least) <= kRounding);
+      CHECK(std::abs(found.runnerUp - second) <= kRounding);
+      deep += least < -0.02;
+      solved += found.solved;
+    }
+    CAPTURE(k, solved);
+    CHECK(solved < kPoses * mesh->num_tris / 50);
+  }
+  CHECK(deep > 24);
 }
