@@ -55,6 +55,16 @@ class Reducer {
     return heights;
   }
 
+  // The volume on some of the points; null where it cannot be built, as next to the smallest R. The volume of
+  // all points, which could be, serves then.
+  static StpBv::Ptr tried(const Cloud& vertices, const StpBvOptions& options) {
+    try {
+      return StpBv::build(vertices, options);
+    } catch (const Error&) {
+      return nullptr;
+    }
+  }
+
   // The volume on these vertices with r grown until it covers all points with the margin; null where it
   // cannot or exceeds the budget.
   StpBv::Ptr cover(const Cloud& vertices) const {
@@ -62,7 +72,8 @@ class Reducer {
     // A larger r makes rho smaller and the core rounder, so the first growth is at most a little too much.
     for (int round = 0; round < 20; ++round) {
       if (grown.R <= StpBv::smallestR(vertices, grown.r)) return nullptr;
-      const StpBv::Ptr volume = StpBv::build(vertices, grown);
+      const StpBv::Ptr volume = tried(vertices, grown);
+      if (!volume) return nullptr;
       const std::vector<double> heights = sticksOut(*volume);
       const double height = *std::max_element(heights.begin(), heights.end());
       if (height <= 0) return excess_.max(*volume) <= budget_ ? volume : nullptr;
@@ -97,18 +108,20 @@ class Reducer {
   }
 
   // Adds the points that stick out most, a sixteenth more at a time, until the budget is kept; null where
-  // that takes as many as the full volume has.
+  // that takes as many as the full volume has, or where their volume cannot be built.
   StpBv::Ptr grow() const {
     Cloud chosen = {hull_[0]};
     while (static_cast<int>(chosen.size()) < full_->vertexCount()) {
-      const std::vector<double> heights = sticksOut(*StpBv::build(chosen, options_));
+      const StpBv::Ptr volume = tried(chosen, options_);
+      if (!volume) return nullptr;
+      const std::vector<double> heights = sticksOut(*volume);
       std::vector<std::size_t> order(hull_.size());
       std::iota(order.begin(), order.end(), std::size_t{0});
       std::sort(order.begin(), order.end(),
                 [&](std::size_t i, std::size_t j) { return heights[i] > heights[j]; });
       // What sticks out is added to r; where that alone is over the budget there is no need to try.
       if (heights[order[0]] <= budget_ - options_.r)
-        if (const StpBv::Ptr volume = cover(chosen)) return volume;
+        if (const StpBv::Ptr covering = cover(chosen)) return covering;
       const std::size_t more = 1 + chosen.size() / 16;
       for (std::size_t k = 0; k < std::min(more, order.size()) && heights[order[k]] > 0; ++k)
         chosen.push_back(hull_[order[k]]);

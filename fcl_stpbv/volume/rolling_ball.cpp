@@ -3,7 +3,8 @@
 // 2. over each open edge pivot the ball to the point it meets next (pivot.h);
 // 3. stop when no edge is open; join faces on one ball (join_faces.h).
 // Sides are decided by one exact predicate (ball_side.h), so that faces found from different edges agree.
-// Where rounded angles defeat the roll a small cloud's faces are listed by their definition (ball_faces.h).
+// Where rounded angles defeat the roll a small cloud's faces are listed by their definition (ball_faces.h);
+// the convex hull of a cloud in one plane is its outline (flat_outline.h).
 #include "fcl_stpbv/volume/rolling_ball.h"
 
 #include <Eigen/Geometry>
@@ -18,6 +19,7 @@
 #include "fcl_stpbv/volume/ball_quickhull.h"
 #include "fcl_stpbv/volume/ball_side.h"
 #include "fcl_stpbv/volume/first_face.h"
+#include "fcl_stpbv/volume/flat_outline.h"
 #include "fcl_stpbv/volume/join_faces.h"
 #include "fcl_stpbv/volume/open_edges.h"
 #include "fcl_stpbv/volume/pivot.h"
@@ -193,7 +195,13 @@ RolledHull flatHull(const std::vector<Vector3d>& points) {
     if (!quick.faces.empty()) return quick;
   } catch (const Error&) {  // its faces do not close
   }
-  return rolled(points, radius);
+  try {
+    return rolled(points, radius);
+  } catch (const Error&) {  // nor do those of the roll: many points on the sides of one polygon
+    const Ring front = flatOutline(points);
+    if (front.empty()) throw;
+    return hullOf(points, {front, Ring(front.rbegin(), front.rend())}, {}, radius);
+  }
 }
 
 RolledHull quickBallHull(const std::vector<Vector3d>& points, double radius) {

@@ -1,8 +1,10 @@
 // Quickhull with balls, and the local tests of what it makes.
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/volume/ball_quickhull.h"
 #include "fcl_stpbv/volume/minimum_ball.h"
 #include "fcl_stpbv/volume/outer_points.h"
@@ -225,6 +227,40 @@ TEST_CASE("Points on a line but for rounding have its ends as their convex hull"
       // Coordinates of 2 m, and what lies across may stand for what lies along.
       REQUIRE(along(p) > lowest - 1e-15 - width);
       REQUIRE(along(p) < highest + 1e-15 + width);
+    }
+  }
+}
+
+TEST_CASE("Many points on the sides of one polygon have its corners as their convex hull") {
+  // Of 500 such clouds these are the ones whose faces neither quickhull nor the roll can close.
+  for (const std::uint64_t seed : {107, 130, 154, 228, 353, 406, 412, 481}) {
+    Random random(seed);
+    const int corners = 5 + random.below(2);
+    const double radius = random.uniform(0.1, 5);
+    Cloud cloud;
+    for (int i = 0; i < corners; ++i) {
+      const double angle = kTwoPi * (i + random.uniform(0, 0.8)) / corners;
+      cloud.emplace_back(7.4505394563727787, radius * std::cos(angle) + 8, radius * std::sin(angle) + 5);
+    }
+    for (int i = 0; i < 150; ++i) {
+      const int side = random.below(corners);
+      const double share = random.uniform(0, 1) * (random.below(3) == 0 ? 1e-3 : 1.0);
+      const Vector3d from = cloud[at(side)], to = cloud[at((side + 1) % corners)];
+      cloud.push_back((1 - share) * from + share * to);
+    }
+    CAPTURE(seed);
+    const RolledHull hull = rollBall(cloud);
+    REQUIRE(hull.faces.size() == 2);
+    CHECK(hull.faces[0].size() == hull.vertices.size());
+    for (int i = 0; i < corners; ++i) CHECK(std::count(hull.vertices.begin(), hull.vertices.end(), i) == 1);
+    // Every point is below the plane of each side, to the rounding of coordinates of 13 m.
+    const auto ring = hull.faces[0];
+    const double turn =
+        (cloud[at(ring[1])] - cloud[at(ring[0])]).cross(cloud[at(ring[2])] - cloud[at(ring[0])]).x();
+    for (std::size_t k = 0; k < ring.size(); ++k) {
+      const Vector3d start = cloud[at(ring[k])],
+                     along = (cloud[at(ring[(k + 1) % ring.size()])] - start).normalized();
+      for (const Vector3d& p : cloud) CHECK(std::copysign(1, turn) * along.cross(p - start).x() > -2e-14);
     }
   }
 }

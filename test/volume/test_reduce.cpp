@@ -2,6 +2,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 
 #include "fcl_stpbv/volume/measure.h"
 #include "fcl_stpbv/volume/reduce.h"
@@ -35,6 +36,18 @@ TEST_CASE("A reduced volume keeps the margin over all points and the over-cover 
 TEST_CASE("A point or a segment takes the place of a hull where it fits") {
   CHECK(reduce(geodesicSphere(0.2, 3), {0.01, 10}, 0.013)->vertexCount() == 1);
   CHECK(reduce(cylinder(0.02, 0.4), {0.01, 10}, 0.03)->vertexCount() == 2);
+}
+
+TEST_CASE("Next to the smallest R the volume of all points serves where those of fewer cannot be built") {
+  for (const Cloud& cloud : {box(0.2, 0.2, 0.2), box(0.2, 0.4, 1.0), box(0.6, 0.8, 1.0)}) {
+    const double r = 0.01, R = std::nextafter(StpBv::smallestR(cloud, r), 10.0);
+    const double own = overCover(*StpBv::build(cloud, {r, R})).max;
+    for (const double budget : {own, 1.5 * own}) {
+      StpBv::Ptr volume;
+      REQUIRE_NOTHROW(volume = reduce(cloud, {r, R}, budget));
+      CHECK(verify(*volume, cloud, r).ok);
+    }
+  }
 }
 
 TEST_CASE("A budget that no volume of these radii can keep is refused with what they give") {
