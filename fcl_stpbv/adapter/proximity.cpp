@@ -79,8 +79,12 @@ bool isFartherThan(double x, const ConvexBody& a, const ConvexBody& b, PairCache
   if (counts) ++counts->solved;
   if (!a.volume && !b.volume) return isFartherThan(x, a.shape, a.pose, b.shape, b.pose);
   if (a.volume && b.volume) return isFartherThan(x, *a.volume, a.pose, *b.volume, b.pose, cache);
-  const Distance d = distance(a, b, cache);
-  return d.status != DistanceStatus::invalid && d.lower > x;
+  if (a.volume) return isFartherThan(x, *a.volume, a.pose, b.shape, b.pose, cache);
+  PairCache mirrored;
+  if (cache) mirrored = {-cache->normal, {cache->patch[1], cache->patch[0]}};
+  const bool farther = isFartherThan(x, *b.volume, b.pose, a.shape, a.pose, cache ? &mirrored : nullptr);
+  if (cache) *cache = {-mirrored.normal, {mirrored.patch[1], mirrored.patch[0]}};
+  return farther;
 }
 
 }  // namespace detail

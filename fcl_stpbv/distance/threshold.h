@@ -1,6 +1,8 @@
-// Are two STP-BVs farther apart than a threshold? For less than a distance takes.
+// Is an STP-BV farther from another, or from a simple shape, than a threshold? For less than a distance
+// takes.
 #pragma once
 
+#include "fcl_stpbv/convex/shape.h"
 #include "fcl_stpbv/distance/distance.h"
 
 namespace fcl_stpbv::detail {
@@ -11,7 +13,12 @@ namespace fcl_stpbv::detail {
 bool isFartherThan(double x, const StpBv& a, const Eigen::Isometry3d& poseA, const StpBv& b,
                    const Eigen::Isometry3d& poseB, PairCache* cache = nullptr);
 
-/// The same by its cheap part: the balls around both, and the plane of the cache's normal if it has one.
+/// The same of a volume and a simple shape: a plane, GJK on the cores, and only then the distance.
+bool isFartherThan(double x, const StpBv& volume, const Eigen::Isometry3d& poseVolume, const Shape& shape,
+                   const Eigen::Isometry3d& poseShape, PairCache* cache = nullptr);
+
+/// Of two volumes by the cheap part: the balls around both, and the plane of the cache's normal if it has
+/// one.
 bool isFartherByBounds(double x, const StpBv& a, const Eigen::Isometry3d& poseA, const StpBv& b,
                        const Eigen::Isometry3d& poseB, const PairCache& cache);
 
