@@ -1,4 +1,5 @@
 // The Python module: volumes, distance, robots and what is shared out of them, with NumPy arrays in and out.
+#include <algorithm>
 #include <cstring>
 #include <exception>
 
@@ -26,6 +27,17 @@ void addError(py::module_& module) {
   });
 }
 
+// Below protocol 2 Python's pickle makes an object without pybind11, which ends the interpreter.
+void addPickling(py::module_& module) {
+  const py::object reduce = py::module_::import("builtins").attr("object").attr("__reduce_ex__");
+  const py::type ours = py::type::of(module.attr("StpBv"));
+  for (const auto& [name, member] : py::dict(module.attr("__dict__")))
+    if (py::type::handle_of(member).is(ours))
+      member.attr("__reduce_ex__") = py::cpp_function(
+          [reduce](const py::object& self, int protocol) { return reduce(self, std::max(protocol, 2)); },
+          py::name("__reduce_ex__"), py::is_method(member));
+}
+
 }  // namespace
 
 PYBIND11_MODULE(fcl_stpbv, module) {
@@ -37,4 +49,5 @@ PYBIND11_MODULE(fcl_stpbv, module) {
   fcl_stpbv::addRobot(module);
   fcl_stpbv::addShards(module);
   fcl_stpbv::addPostures(module);
+  addPickling(module);
 }

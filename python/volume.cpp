@@ -133,13 +133,6 @@ void addStpBv(py::module_& module) {
             std::istringstream in(state);
             return held(loadStpBv(in, "pickled StpBv"));
           }))
-      // Below protocol 2 Python would make the object without pybind11, which ends the interpreter.
-      .def("__reduce_ex__",
-           [](const py::object& self, int protocol) {
-             return py::module_::import("builtins")
-                 .attr("object")
-                 .attr("__reduce_ex__")(self, std::max(protocol, 2));
-           })
       .def("__repr__", [](const StpBv& volume) {
         return "<StpBv: " + std::to_string(volume.vertexCount()) + " vertices, " +
                std::to_string(volume.faceCount()) + " faces>";

@@ -103,7 +103,8 @@ std::string toText(const PartsReport& report) {
                      millimetres(parts.excess) + " of the mesh's solid, " + millimetres(parts.openExcess) +
                      " of its triangles; volumes within " + millimetres(report.excessMax()) + "; " +
                      std::to_string(parts.closedPieces) + " of " + std::to_string(parts.pieces) +
-                     " pieces closed, their inside is covered";
+                     " pieces closed, " +
+                     (parts.closedPieces > 0 ? "their inside is covered" : "the triangles alone are covered");
   if (!report.isReached())
     text += "; NOT within the " + millimetres(report.asked) + " asked for: more --parts or --effort may be";
   char seconds[32];

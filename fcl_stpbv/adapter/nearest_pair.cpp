@@ -133,17 +133,18 @@ class NearestElements {
     if (b.body) plane.reach = b.reach(-n), plane.support = b.body->support(-world);
   }
 
-  // Surfaces overlap by nothing: 0, at a point of both elements.
+  // Surfaces overlap by nothing: 0, at a point of both elements. Elements whose depth is not known to be one
+  // may be apart by what is left open.
   void meet(const ConvexBody& a, const ConvexBody& b) {
     Distance& found = result_.found;
     const double rounding =
         kGapRounding * (a.extent() + b.extent() + (b.pose.translation() - a.pose.translation()).lpNorm<1>());
     found.point[0] = found.point[1] = commonPoint(a.shape, a.pose, b.shape, b.pose);
     found.normal.setZero();
-    found.status = DistanceStatus::exact;
+    found.status = upper_ <= rounding ? DistanceStatus::exact : DistanceStatus::bounded;
     found.distance = 0;
     found.lower = -rounding;
-    found.upper = rounding;
+    found.upper = std::max(rounding, upper_);
     result_.runnerUp = kInfinity;
   }
 

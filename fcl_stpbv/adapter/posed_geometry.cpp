@@ -2,9 +2,9 @@
 // 1. An STP-BV or a shape is one part, with the box of its own axes and its support points. Meshes and trees
 //    give the boxes of FCL's hierarchies (element_tree.h).
 // 2. Two parts are at least as far apart as their projections on any axis (separating axis test:
-//    Gottschalk, Lin, Manocha 1996). Seven axes are tried: the line of the centres and each box's own three.
-//    Axes that are cross products of edges are left out: a looser bound, never a wrong one. A half space or
-//    a plane has one axis, its normal.
+//    Gottschalk, Lin, Manocha 1996), and as one box and the other's extents along its three axes, at right
+//    angles, are. Tried are the line of the centres and both boxes' axes. Axes that are cross products of
+//    edges are left out: a looser bound, never a wrong one. A half space or a plane has one axis, its normal.
 #include "fcl_stpbv/adapter/posed_geometry.h"
 
 #include <cmath>
@@ -40,6 +40,18 @@ double gapOfFlat(const Shape& flat, const OrientedBox& place, const PosedGeometr
                       part.node.box.centre.lpNorm<1>();
   return (flat.kind == ShapeKind::plane ? std::abs(height) : height) - part.box.reach(n) -
          kBoxRounding * size;
+}
+
+/// The gap between `a` and a box of the same axes around `b`, whose centre is at `d` from a's.
+double gapAlongAxes(const PosedGeometry::Part& a, const PosedGeometry::Part& b, const Vector3d& d) {
+  Vector3d gap;
+  for (int i = 0; i < 3; ++i) {
+    const Vector3d axis = a.box.axes.col(i);
+    const double along = axis.dot(d);
+    gap(i) = std::abs(along) - a.box.half(i) - b.reach(std::copysign(1.0, -along) * axis);
+  }
+  const double most = gap.maxCoeff();
+  return most > 0.0 ? gap.cwiseMax(0.0).norm() : most;
 }
 
 }  // namespace
@@ -141,14 +153,8 @@ double gapOf(const PosedPair& pair, const PosedGeometry::Part& a, const PosedGeo
   if (!(length > 0.0)) return -std::numeric_limits<double>::infinity();
   const Vector3d line = d / length;
   double most = length - a.reach(line) - b.reach(-line) - rounding;
-  // Along its own axis a box reaches as far as its half side.
-  for (int i = 0; i < 3 && !(most > enough); ++i) {
-    const double along = a.box.axes.col(i).dot(d), back = b.box.axes.col(i).dot(d);
-    const Vector3d fromA = std::copysign(1.0, along) * a.box.axes.col(i),
-                   toA = -std::copysign(1.0, back) * b.box.axes.col(i);
-    most = std::max(most, std::abs(along) - a.box.half(i) - b.reach(-fromA) - rounding);
-    most = std::max(most, std::abs(back) - b.box.half(i) - a.reach(-toA) - rounding);
-  }
+  if (!(most > enough)) most = std::max(most, gapAlongAxes(a, b, d) - rounding);
+  if (!(most > enough)) most = std::max(most, gapAlongAxes(b, a, -d) - rounding);
   return most;
 }
 

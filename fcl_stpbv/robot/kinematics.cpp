@@ -7,8 +7,10 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <set>
 
 #include "fcl_stpbv/cross_matrix.h"
+#include "fcl_stpbv/error.h"
 #include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/packed.h"
 #include "fcl_stpbv/robot/joint_freedoms.h"
@@ -84,6 +86,16 @@ Matrix3d planeAcross(const Vector3d& axis) {
   return Eigen::AngleAxisd(std::atan2(across.norm(), axis.z()), turn).toRotationMatrix();
 }
 
+// Files and answers tell coordinates by their names.
+void requireDistinct(const std::vector<std::string>& names, const std::string& path) {
+  std::set<std::string> known;
+  for (const std::string& name : names)
+    if (!known.insert(name).second)
+      throw Error(path + ": two coordinates are named '" + name +
+                  "'; rename the joint (those of planar and floating joints and of a moving base have names "
+                  "such as joint/x and base/x)");
+}
+
 }  // namespace
 
 Kinematics::Kinematics(std::shared_ptr<const RobotModel> robot, BaseMotion base)
@@ -103,6 +115,7 @@ Kinematics::Kinematics(std::shared_ptr<const RobotModel> robot, BaseMotion base)
     coordinateOf_[j] = size();
     addCoordinates(joint.name, joint.type, joint.lower, joint.upper);
   }
+  requireDistinct(names_, robot_->path);
   for (const LinkModel& link : robot_->links) {  // parents first
     if (link.parentJoint < 0) continue;
     const JointModel& joint = robot_->joints[at(link.parentJoint)];

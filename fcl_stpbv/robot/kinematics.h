@@ -54,7 +54,8 @@ class Kinematics {
     std::vector<Twist> drift;   ///< change of each link's velocity while that of q stays what it is
   };
 
-  /// Coordinates for a robot whose base moves like that.
+  /// Coordinates for a robot whose base moves like that. @throws Error naming the robot's file where two
+  /// coordinates have one name, as those of a planar joint `p` and of a joint `p/x`.
   explicit Kinematics(std::shared_ptr<const RobotModel> robot, BaseMotion base = BaseMotion::fixed);
 
   /// The model given.

@@ -96,6 +96,15 @@ Vector3d acrossEdge(const StpBv& volume, int patch) {
   return last.norm() > 0 ? Vector3d(last.cross(u)) : Vector3d(u.unitOrthogonal());
 }
 
+// Whether a patch has normals of its own. An edge between two faces on one ball has none, and its boundaries
+// do not tell its side from the opposite one.
+bool hasNormals(const StpBv& volume, int patch) {
+  constexpr double kTurn = 1e-12;  // rad
+  const int edge = patch - volume.vertexCount();
+  return edge < 0 || edge >= volume.edgeCount() ||
+         volume.edges()[static_cast<std::size_t>(edge)].turn > kTurn;
+}
+
 // The normal at the patch's point farthest along n.p - h(n): towards p from the farthest centre. Where all
 // normals of a point, or all directions across an edge, serve alike, one that the patch owns.
 Vector3d stationaryNormal(const StpBv& volume, int index, const Vector3d& p) {
@@ -156,6 +165,7 @@ double signedDistance(const StpBv& volume, const Vector3d& point) {
   constexpr double kNear = 1e-3;
   double best = -2 * volume.radii().R;
   for (int index = 0; index < volume.patchCount(); ++index) {
+    if (!hasNormals(volume, index)) continue;
     const Vector3d n = stationaryNormal(volume, index, point);
     const double past = volume.outside(index, n);
     if (past > kNear) continue;

@@ -128,6 +128,48 @@ TEST_CASE("two meshes or trees that overlap are 0 apart, with two elements that 
   CHECK(met > 60);
 }
 
+TEST_CASE("needles that all but meet as meshes are no farther apart than their upper bound") {
+  using Needle = std::array<Vector3d, 3>;
+  // Across a needle of kilometres, beside one of a metre, a search for the depth ends in rounding.
+  const std::array<std::array<Needle, 2>, 3> pairs{
+      {{{{{{-0.1640813593259168, 0.10695430533756101, 0.045549859581039701},
+           {0.62741927718483226, -0.1317575115888982, -0.25287344929125483},
+           {0.39904123211764653, -0.026397592135991427, -0.10319878193671816}}},
+         {{{643.53091605074337, 180.6250954413994, 437.78085237537067},
+           {16760.38525327354, 4700.2566234388441, 11397.208555866655},
+           {-28711.638869151531, -8051.4739537147798, -19523.871764907006}}}}},
+       {{{{{0.58661198462909858, 0.24059713669278138, -0.22107041233478661},
+           {0.079225136329307305, 0.032406337303198099, -0.031942519808048145},
+           {0.18405519867520614, 0.074295193160780953, -0.06932318886220086}}},
+         {{{6044.5255249899183, 3520.4024109557622, -5226.8448309454152},
+           {113136.76090669315, 65897.542944219153, -97826.217706998141},
+           {-135474.70065563329, -78908.456174546853, 117142.59401346257}}}}},
+       {{{{{0.44721951695032536, 1.2343997416991088, 0.49919305213736187},
+           {-0.44067145739196262, -1.2163259839319858, -0.49188399671783134},
+           {0.31149446827435617, 0.85977616851312, 0.34769473100722131}}},
+         {{{-26.78073565788516, -22.718811072405408, -8.8760930834230223},
+           {199.62347576923472, 176.43826664767229, 69.121141650215804},
+           {-241.08480239300232, -211.22704979993307, -82.716339627924896}}}}}}};
+  const Isometry3d still = Isometry3d::Identity();
+  for (const auto& pair : pairs) {
+    std::array<fcl::BVHModel<fcl::OBBRSSd>, 2> mesh;
+    std::array<TriangleL, 2> needle;
+    for (std::size_t i = 0; i < 2; ++i) {
+      const auto& [p, q, r] = pair[i];
+      mesh[i].beginModel();
+      mesh[i].addTriangle(p, q, r);
+      mesh[i].endModel();
+      needle[i] = placed(still, p, q, r);
+    }
+    const long double truth = referenceDistance(needle[0], needle[1]);
+    REQUIRE(truth > 1e-10L);
+    const DistanceAnswer d = distance(mesh[0], still, mesh[1], still);
+    CHECK(d.lower <= truth);
+    CHECK(d.upper >= truth);
+    CHECK(d.status == DistanceStatus::bounded);
+  }
+}
+
 TEST_CASE("a ball against a mesh is signed, whichever triangle it is deepest in") {
   const ElementKind mesh = meshKind<fcl::OBBRSSd>("OBBRSS", 8);
   const fcl::Sphered ball(0.1);

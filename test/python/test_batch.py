@@ -535,6 +535,15 @@ def test_a_summary_that_cannot_be_printed_costs_no_result(tmp_path):
     assert len((tmp_path / "out").read_text().splitlines()) == 2
 
 
+@pytest.mark.parametrize("unbuffered", [[], ["-u"]])
+@pytest.mark.parametrize("option", ["--help", "--version"])
+def test_help_that_cannot_be_printed_is_told_in_one_line(option, unbuffered):
+    with open("/dev/full", "w") as full:
+        done = subprocess.run([sys.executable, "-B", *unbuffered, "-m", "fcl_stpbv.batch", option], stdout=full, stderr=subprocess.PIPE, text=True,
+                              timeout=120)
+    assert done.returncode == 2 and done.stderr == "fcl_stpbv.batch: standard output: cannot be written: No space left on device\n"
+
+
 def test_without_dask_one_process_works_and_more_say_what_is_missing(tmp_path):
     (tmp_path / "dask.py").write_text("raise ImportError")
     without = {**os.environ, "PYTHONPATH": f"{tmp_path}:{os.environ['PYTHONPATH']}"}

@@ -300,6 +300,15 @@ def test_a_pickled_volume_is_the_same_bit_by_bit(protocol):
         pickle.loads(damaged)
 
 
+@pytest.mark.parametrize("protocol", range(pickle.HIGHEST_PROTOCOL + 1))
+def test_what_cannot_be_pickled_says_so_with_every_protocol(protocol):
+    assert pickle.loads(pickle.dumps(fcl_stpbv.Status.local, protocol)) == fcl_stpbv.Status.local
+    for thing in (fcl_stpbv.PairCache(), fcl_stpbv.distance(box(), pose(), box(), pose()), fcl_stpbv.PairProof([]),
+                  fcl_stpbv.Robot(DATA / "hrp2_style/hrp2_style.urdf")):
+        with pytest.raises(TypeError, match=f"cannot pickle '.*{type(thing).__name__}'"):
+            pickle.dumps(thing, protocol)
+
+
 @pytest.mark.parametrize("kind", ["int64", "int32", "bool", "complex128", "str", "object", "longdouble"])
 def test_arrays_that_are_not_of_floats_are_refused_by_their_type(kind):
     volume, flat = box(), np.eye(4).astype(kind)

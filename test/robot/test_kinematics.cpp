@@ -137,3 +137,25 @@ TEST_CASE("a pair depends on the joints between its links only") {
   CHECK(list[1].sign == 1);
   CHECK(kinematics.dependence(model.link("c"), model.link("c")).empty());
 }
+
+TEST_CASE("two coordinates of one name are refused, with the name and the file") {
+  const std::string links = link("a") + link("b") + link("c");
+  const auto said = [&](const std::string& joints, BaseMotion base) {
+    const auto make = [base](const std::string& text) {
+      Kinematics(std::make_shared<const RobotModel>(parseUrdf(text, "small.urdf")), base);
+    };
+    return refusal(make, robot(links + joints));
+  };
+  const std::string planar = joint("p", "planar", "a", "b") + joint("p/x", "prismatic", "b", "c"),
+                    base = joint("j", "revolute", "a", "b") + joint("base/x", "prismatic", "b", "c");
+  const auto names = [](const char* which) {
+    return Catch::Matchers::StartsWith(std::string("small.urdf: two coordinates are named '") + which + "'");
+  };
+  CHECK_THAT(said(planar, BaseMotion::fixed), names("p/x"));
+  CHECK_THAT(said(base, BaseMotion::planar), names("base/x"));
+  CHECK_THAT(
+      said(joint("base", "floating", "a", "b") + joint("j", "revolute", "b", "c"), BaseMotion::floating),
+      names("base/x"));
+  const auto alone = std::make_shared<const RobotModel>(parseUrdf(robot(links + base), "small.urdf"));
+  CHECK(Kinematics(alone).names() == std::vector<std::string>{"j", "base/x"});
+}

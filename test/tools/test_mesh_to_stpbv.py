@@ -291,6 +291,12 @@ class MeshToStpbv(unittest.TestCase):
         done = self.run_tool("two.obj", "-o", "two.stpbv", "--parts", "2", "--force")
         self.assertIn("two_2.stpbv: is from an earlier run", done.stderr)
 
+    def test_parts_of_an_open_mesh_claim_no_inside(self):
+        triangles = "".join("v %d %d 0\nv %d %d 0\nv %d %d 1\n" % (x, 0, x + 1, 0, x, 1) for x in (0, 5))
+        write(self.at("open.obj"), triangles + "f 1 2 3\nf 4 5 6\n")
+        said = self.run_tool("open.obj", "-o", "open.stpbv", "--parts", "2").stdout
+        self.assertIn("0 of 2 pieces closed, the triangles alone are covered", said)
+
     def test_parts_of_a_volume_or_of_points_are_refused_as_such(self):
         self.run_tool("cube.txt", "-o", "a.stpbv", "-q")
         self.run_tool("a.stpbv", "-o", "a_sch.txt", "--format", "sch", "-q")

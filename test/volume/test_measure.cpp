@@ -360,6 +360,19 @@ TEST_CASE(
   CHECK(cover.mean == Approx((lid + wall) / 2).epsilon(1e-5));
 }
 
+TEST_CASE("Edges without normals of their own move no vertex off the surface") {
+  // Some ulps beyond the smallest R a side of a box is two triangles on one ball.
+  const Cloud cloud = box(0.1, 0.9, 0.9);
+  for (const double r : {0.0, 0.02}) {
+    double R = StpBv::smallestR(cloud, r);
+    for (int ulps = 1; ulps <= 6; ++ulps) {
+      R = std::nextafter(R, 10.0);
+      const StpBv::Ptr volume = StpBv::build(cloud, {r, R});
+      for (const Vector3d& p : cloud) CHECK(std::abs(signedDistance(*volume, p) + r) < 1e-14);
+    }
+  }
+}
+
 TEST_CASE("Points at any distance are outside by it") {
   for (const Cloud& cloud : {Cloud{{0, 0, 0}}, Cloud{{0, 0, 0}, {1, 0, 0}}, randomHull(9, {1, 1, 1}, 3)}) {
     const StpBv::Ptr volume = StpBv::build(cloud);

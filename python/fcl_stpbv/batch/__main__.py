@@ -99,12 +99,26 @@ def compute(arguments, schedule, show):
             engine.run_on(client, schedule, show)
 
 
+def unwritten(error, more=""):
+    os.dup2(os.open(os.devnull, os.O_WRONLY), 1)  # where what is left of it goes
+    return fcl_stpbv.Error(f"standard output: cannot be written: {error.strerror}{more}")
+
+
 def say(text):
     try:
         print(text, flush=True)
     except OSError as error:
-        os.dup2(os.open(os.devnull, os.O_WRONLY), 1)  # where what is left of it goes
-        raise fcl_stpbv.Error(f"standard output: cannot be written: {error.strerror}; the results are in their file, -q leaves this out") from None
+        raise unwritten(error, "; the results are in their file, -q leaves this out") from None
+
+
+def asked():
+    try:
+        try:
+            return described().parse_args()
+        finally:
+            sys.stdout.flush()  # of --help and --version
+    except OSError as error:
+        raise unwritten(error) from None
 
 
 def run(arguments):
@@ -141,9 +155,8 @@ def run(arguments):
 
 
 def main():
-    arguments = described().parse_args()
     try:
-        return run(arguments)
+        return run(asked())
     except fcl_stpbv.Error as error:
         print(f"fcl_stpbv.batch: {error}", file=sys.stderr)
         return 2
