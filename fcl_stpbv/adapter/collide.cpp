@@ -24,6 +24,7 @@ class Contacts {
   Contacts(const CollisionRequestd& request, CollisionResultd& result, PairCache* cache)
       : request_(request), result_(result), cache_(cache ? *cache : own_) {}
 
+  const PairCache& cache() const { return cache_; }
   bool full() const { return result_.numContacts() >= request_.num_max_contacts; }
 
   /// Adds the contact of two bodies, which knows who they are, unless they are certainly apart.
@@ -56,7 +57,7 @@ class ElementContacts {
       : pair_(pair), blank_(blank), found_(found) {}
 
   double bound(const PosedGeometry::Part& a, const PosedGeometry::Part& b) const {
-    return gapOf(pair_, a, b, 0.0);
+    return gapOf(pair_, a, b, 0.0, pair_.known(found_.cache()));
   }
   bool skip(double bound) const { return bound > 0; }
 

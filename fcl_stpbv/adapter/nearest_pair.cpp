@@ -37,7 +37,7 @@ class NearestElements {
                    reachB = b.body ? plane.reach : b.box.reach(plane.n);
       most = std::max(most, plane.n.dot(d) - reachA - reachB - rounding);
     }
-    return skip(most) ? most : std::max(most, gapOf(pair_, a, b, any() ? result_.runnerUp : kInfinity));
+    return skip(most) ? most : std::max(most, gapOf(pair_, a, b, result_.runnerUp));
   }
   // The second nearest pair is wanted too, but where two surfaces meet.
   bool skip(double bound) const { return any() && bound >= result_.runnerUp; }

@@ -3,8 +3,9 @@
 //    give the boxes of FCL's hierarchies (element_tree.h).
 // 2. Two parts are at least as far apart as their projections on any axis (separating axis test:
 //    Gottschalk, Lin, Manocha 1996), and as one box and the other's extents along its three axes, at right
-//    angles, are. Tried are the line of the centres and both boxes' axes. Axes that are cross products of
-//    edges are left out: a looser bound, never a wrong one. A half space or a plane has one axis, its normal.
+//    angles, are. Tried are a normal that the caller knows, the line of the centres and both boxes' axes.
+//    Axes that are cross products of edges are left out: a looser bound, never a wrong one. A half space or a
+//    plane has one axis, its normal.
 #include "fcl_stpbv/adapter/posed_geometry.h"
 
 #include <cmath>
@@ -67,6 +68,7 @@ Distance distance(const ConvexBody& a, const ConvexBody& b, PairCache* cache) {
                    : a.volume           ? distance(*a.volume, a.pose, b.shape, b.pose, cache)
                    : b.volume           ? distance(a.shape, a.pose, *b.volume, b.pose, cache)
                                         : distance(a.shape, a.pose, b.shape, b.pose);
+  if (cache && !a.volume && !b.volume) *cache = {found.normal};
   found.lower -= a.rounding + b.rounding;
   found.upper += a.rounding + b.rounding;
   return found;
@@ -137,22 +139,31 @@ PosedPair::PosedPair(const fcl::CollisionGeometryd& geometry1, Isometry3d pose1,
   valid = valid && first.known() && second.known() && !(first.unbounded() && second.unbounded());
 }
 
+Vector3d PosedPair::known(const PairCache& cache) const {
+  const double length = cache.normal.norm();
+  return length > 0.5 && length < 2.0 ? Vector3d(toWorld.transpose() * (cache.normal / length))
+                                      : Vector3d(0, 0, 0);
+}
+
 double boxRounding(const PosedGeometry::Part& a, const PosedGeometry::Part& b) {
   return kBoxRounding *
          (a.box.half.sum() + b.box.half.sum() + a.box.centre.lpNorm<1>() + b.box.centre.lpNorm<1>() +
           a.node.box.centre.lpNorm<1>() + b.node.box.centre.lpNorm<1>());
 }
 
-double gapOf(const PosedPair& pair, const PosedGeometry::Part& a, const PosedGeometry::Part& b,
-             double enough) {
+double gapOf(const PosedPair& pair, const PosedGeometry::Part& a, const PosedGeometry::Part& b, double enough,
+             const Vector3d& n) {
   if (pair.first.unbounded()) return gapOfFlat(pair.first.body().shape, a.box, b);
   if (pair.second.unbounded()) return gapOfFlat(pair.second.body().shape, b.box, a);
   const double rounding = boxRounding(a, b);
   const Vector3d d = b.box.centre - a.box.centre;
   const double length = d.norm();
   if (!(length > 0.0)) return -std::numeric_limits<double>::infinity();
-  const Vector3d line = d / length;
-  double most = length - a.reach(line) - b.reach(-line) - rounding;
+  const auto along = [&](const Vector3d& axis) {
+    return axis.dot(d) - a.reach(axis) - b.reach(-axis) - rounding;
+  };
+  double most = n.isZero(0) ? -std::numeric_limits<double>::infinity() : along(n);
+  if (!(most > enough)) most = std::max(most, along(d / length));
   if (!(most > enough)) most = std::max(most, gapAlongAxes(a, b, d) - rounding);
   if (!(most > enough)) most = std::max(most, gapAlongAxes(b, a, -d) - rounding);
   return most;

@@ -41,7 +41,7 @@ struct ConvexBody {
 /// Whether the geometry is one valid convex body, and if so that body, without a pose.
 bool isConvex(const fcl::CollisionGeometryd& geometry, ConvexBody& body);
 
-/// Signed distance of two bodies; the cache serves pairs with an STP-BV.
+/// Signed distance of two bodies; the cache serves pairs with an STP-BV, and keeps the normal of any.
 Distance distance(const ConvexBody& a, const ConvexBody& b, PairCache* cache = nullptr);
 
 /// Whether two bodies are certainly farther apart than `x` (m): first by what isFartherByBounds() looks at,
@@ -122,16 +122,19 @@ struct PosedPair {
   bool finite() const { return first.finite() && second.finite(); }
   /// Whether neither is a body: surfaces, which have no depth, and so no distance below 0.
   bool areSurfaces() const { return !first.isBody() && !second.isBody(); }
+  /// The cache's normal, unit, in the frame of the first geometry; zero where it has none.
+  Eigen::Vector3d known(const PairCache& cache) const;
 
   bool valid;  ///< both poses rigid, both geometries known, one of them bounded
   PosedGeometry first, second;
   Eigen::Matrix3d toWorld;  ///< the first geometry's axes
 };
 
-/// No more than the distance of two parts (m): the widest gap along the line of their centres and their
-/// axes, or the first that is above `enough`; of a half space or a plane along its normal.
-double gapOf(const PosedPair& pair, const PosedGeometry::Part& a, const PosedGeometry::Part& b,
-             double enough);
+/// No more than the distance of two parts (m): the widest gap along `n` (unit or zero, frame of the first
+/// geometry), the line of their centres and their axes, or the first that is above `enough`; of a half space
+/// or a plane along its normal.
+double gapOf(const PosedPair& pair, const PosedGeometry::Part& a, const PosedGeometry::Part& b, double enough,
+             const Eigen::Vector3d& n = {0, 0, 0});
 
 /// What a gap between two boxes may be off by rounding (m).
 double boxRounding(const PosedGeometry::Part& a, const PosedGeometry::Part& b);

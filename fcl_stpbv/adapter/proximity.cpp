@@ -30,7 +30,7 @@ class Within {
 
   double bound(const PosedGeometry::Part& a, const PosedGeometry::Part& b) {
     if (counts_) ++counts_->bounds;
-    return gapOf(pair_, a, b, x_);
+    return gapOf(pair_, a, b, x_, pair_.known(cache_));
   }
   bool skip(double bound) const { return bound > x_; }
 
@@ -77,7 +77,7 @@ bool isFartherThan(double x, const ConvexBody& a, const ConvexBody& b, PairCache
   if (counts) ++counts->bounds;
   if (isFartherByBounds(x, a, b, cache ? *cache : PairCache())) return true;
   if (counts) ++counts->solved;
-  if (!a.volume && !b.volume) return isFartherThan(x, a.shape, a.pose, b.shape, b.pose);
+  if (!a.volume && !b.volume) return isFartherThan(x, a.shape, a.pose, b.shape, b.pose, cache);
   if (a.volume && b.volume) return isFartherThan(x, *a.volume, a.pose, *b.volume, b.pose, cache);
   if (a.volume) return isFartherThan(x, *a.volume, a.pose, b.shape, b.pose, cache);
   PairCache mirrored;

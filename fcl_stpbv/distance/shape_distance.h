@@ -39,9 +39,9 @@ Distance distance(const Shape& a, const Eigen::Isometry3d& poseA, const Shape& b
 
 /// Whether the two shapes are certainly farther apart than `x` (m): the same searches,
 /// ended as soon as a bound tells. Overlapping shapes are asked for their depth where `x`
-/// is negative. False for an invalid pair.
+/// is negative. False for an invalid pair. Where a plane between them tells, the cache keeps its normal.
 bool isFartherThan(double x, const Shape& a, const Eigen::Isometry3d& poseA, const Shape& b,
-                   const Eigen::Isometry3d& poseB);
+                   const Eigen::Isometry3d& poseB, PairCache* cache = nullptr);
 
 /// A point of both of two bounded shapes that overlap, to rounding (world, m); of two that do not, one
 /// between them. The pair must be valid.

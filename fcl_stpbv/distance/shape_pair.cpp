@@ -146,18 +146,25 @@ Distance solve(const Pair& p) {
   return result.status == DistanceStatus::invalid ? overlapping(p, found) : result;
 }
 
-bool isFarther(double x, const Pair& p) {
+/// `normal` is that of a plane which tells so, if one does (world).
+bool isFarther(double x, const Pair& p, Vector3d& normal) {
   if (!p.valid) return false;
   if (p.a.unbounded()) return besidePlane(p).lower > x;
   const double core = x + p.margins();
   Gjk found =
       p.search([&](double lower, double upper) { return lower > core + p.certificate || upper <= core; });
-  if (found.lower > core + p.certificate) return true;  // along whatever normal, apart or not
+  if (found.lower > core + p.certificate) {  // along whatever normal, apart or not
+    normal = p.pose.normalInWorld(found.widest);
+    return true;
+  }
   if (found.verdict != Gjk::Verdict::overlap && found.upper <= core) return false;
   Distance answer = separated(p, found);
   if (answer.status == DistanceStatus::bounded && p.curved() && answer.lower <= x && x < answer.upper)
     answer = separatedAtTheEnd(p, found);
-  if (answer.status != DistanceStatus::invalid) return answer.lower > x;
+  if (answer.status != DistanceStatus::invalid) {
+    if (answer.lower > x) normal = answer.normal;
+    return answer.lower > x;
+  }
   return core < 0.0 && overlapping(p, found).lower > x;
 }
 
@@ -171,10 +178,14 @@ Distance distance(const Shape& a, const Isometry3d& poseA, const Shape& b, const
   return result;
 }
 
-bool isFartherThan(double x, const Shape& a, const Isometry3d& poseA, const Shape& b,
-                   const Isometry3d& poseB) {
-  return comesFirst(a, poseA, b, poseB) ? isFarther(x, {a, poseA, b, poseB})
-                                        : isFarther(x, {b, poseB, a, poseA});
+bool isFartherThan(double x, const Shape& a, const Isometry3d& poseA, const Shape& b, const Isometry3d& poseB,
+                   PairCache* cache) {
+  Vector3d normal = Vector3d::Zero();
+  const bool asGiven = comesFirst(a, poseA, b, poseB);
+  const bool farther =
+      asGiven ? isFarther(x, {a, poseA, b, poseB}, normal) : isFarther(x, {b, poseB, a, poseA}, normal);
+  if (cache && !normal.isZero(0)) *cache = {asGiven ? normal : Vector3d(-normal)};
+  return farther;
 }
 
 // The corners around the origin of the difference weigh points of the bodies that coincide; cores that are
