@@ -45,7 +45,8 @@ void addHalf(const std::vector<Vector2d>& flat, const Order& order, double toler
   const std::size_t start = ring.size();
   for (const int r : order) {
     while (ring.size() > start + 1) {
-      const Vector2d p = flat[at(ring[ring.size() - 2])], chord = flat[at(r)] - p;
+      const Vector2d& p = flat[at(ring[ring.size() - 2])];
+      const Vector2d chord = flat[at(r)] - p;
       if (cross(flat[at(ring.back())] - p, chord) > tolerance * chord.norm()) break;
       ring.pop_back();
     }
@@ -73,7 +74,8 @@ Ring flatOutline(const std::vector<Vector3d>& points) {
   addHalf(flat, order, 0.5 * tolerance, ring);
   if (ring.size() < 3) return {};
   for (std::size_t k = 0; k < ring.size(); ++k) {
-    const Vector2d p = flat[at(ring[k])], side = flat[at(ring[(k + 1) % ring.size()])] - p;
+    const Vector2d& p = flat[at(ring[k])];
+    const Vector2d side = flat[at(ring[(k + 1) % ring.size()])] - p;
     for (const Vector2d& q : flat)
       if (!(cross(side, q - p) >= -tolerance * side.norm())) return {};
   }
