@@ -60,10 +60,7 @@ bool mixedDistance(const StpBvGeometry* a, const CollisionGeometryd& geometry1, 
   if (!a && !b) return false;
   PairCache cache;  // of the STP-BV first
   if (context.cache) cache = *context.cache;
-  if (!a) {
-    cache.normal = -cache.normal;
-    std::swap(cache.patch[0], cache.patch[1]);
-  }
+  if (!a) cache = cache.mirrored();
   Shape shape;
   const bool isShape = shapeOf(a ? geometry2 : geometry1, shape);
   ElementsDistance other;
@@ -75,8 +72,7 @@ bool mixedDistance(const StpBvGeometry* a, const CollisionGeometryd& geometry1, 
         a ? nearestElements(geometry1, pose1, geometry2, pose2, context.finite, trees, &cache)
           : nearestElements(geometry2, pose2, geometry1, pose1, context.finite, {trees[1], trees[0]}, &cache);
   if (!a) {
-    cache.normal = -cache.normal;
-    std::swap(cache.patch[0], cache.patch[1]);
+    cache = cache.mirrored();
     other.found.normal = -other.found.normal;
     std::swap(other.found.point[0], other.found.point[1]);
     std::swap(other.found.patch[0], other.found.patch[1]);

@@ -139,12 +139,6 @@ PosedPair::PosedPair(const fcl::CollisionGeometryd& geometry1, Isometry3d pose1,
   valid = valid && first.known() && second.known() && !(first.unbounded() && second.unbounded());
 }
 
-Vector3d PosedPair::known(const PairCache& cache) const {
-  const double length = cache.normal.norm();
-  return length > 0.5 && length < 2.0 ? Vector3d(toWorld.transpose() * (cache.normal / length))
-                                      : Vector3d(0, 0, 0);
-}
-
 double boxRounding(const PosedGeometry::Part& a, const PosedGeometry::Part& b) {
   return kBoxRounding *
          (a.box.half.sum() + b.box.half.sum() + a.box.centre.lpNorm<1>() + b.box.centre.lpNorm<1>() +

@@ -123,7 +123,7 @@ struct PosedPair {
   /// Whether neither is a body: surfaces, which have no depth, and so no distance below 0.
   bool areSurfaces() const { return !first.isBody() && !second.isBody(); }
   /// The cache's normal, unit, in the frame of the first geometry; zero where it has none.
-  Eigen::Vector3d known(const PairCache& cache) const;
+  Eigen::Vector3d known(const PairCache& cache) const { return toWorld.transpose() * cache.direction(); }
 
   bool valid;  ///< both poses rigid, both geometries known, one of them bounded
   PosedGeometry first, second;

@@ -64,9 +64,9 @@ namespace detail {
 
 bool isFartherByBounds(double x, const ConvexBody& a, const ConvexBody& b, const PairCache& cache) {
   if (a.volume && b.volume) return isFartherByBounds(x, *a.volume, a.pose, *b.volume, b.pose, cache);
-  const double length = cache.normal.norm();
-  if (a.unbounded() || b.unbounded() || !(length > 0.5 && length < 2.0)) return false;
-  const Vector3d n = cache.normal / length, d = b.pose.translation() - a.pose.translation();
+  const Vector3d n = cache.direction();
+  if (a.unbounded() || b.unbounded() || n.isZero(0)) return false;
+  const Vector3d d = b.pose.translation() - a.pose.translation();
   const double rounding = kGapRounding * (d.lpNorm<1>() + a.extent() + b.extent());
   return n.dot(d) - a.support(n) - b.support(-n) > x + rounding;
 }
@@ -81,9 +81,9 @@ bool isFartherThan(double x, const ConvexBody& a, const ConvexBody& b, PairCache
   if (a.volume && b.volume) return isFartherThan(x, *a.volume, a.pose, *b.volume, b.pose, cache);
   if (a.volume) return isFartherThan(x, *a.volume, a.pose, b.shape, b.pose, cache);
   PairCache mirrored;
-  if (cache) mirrored = {-cache->normal, {cache->patch[1], cache->patch[0]}};
+  if (cache) mirrored = cache->mirrored();
   const bool farther = isFartherThan(x, *b.volume, b.pose, a.shape, a.pose, cache ? &mirrored : nullptr);
-  if (cache) *cache = {-mirrored.normal, {mirrored.patch[1], mirrored.patch[0]}};
+  if (cache) *cache = mirrored.mirrored();
   return farther;
 }
 

@@ -59,6 +59,15 @@ struct PairCache {
   std::array<int, 2> patch{-1, -1};  ///< last patches; -1: none
   /// The last normal seen by each body, its own frame, outward; zero: not known.
   std::array<Eigen::Vector3f, 2> seen{Eigen::Vector3f(0, 0, 0), Eigen::Vector3f(0, 0, 0)};
+
+  /// The same for the pair in its other order.
+  PairCache mirrored() const { return {-normal, {patch[1], patch[0]}, {seen[1], seen[0]}}; }
+  /// The last normal, unit; zero where there is none, or what the caller has put there is not near unit
+  /// length.
+  Eigen::Vector3d direction() const {
+    const double length = normal.norm();
+    return length > 0.5 && length < 2.0 ? Eigen::Vector3d(normal / length) : Eigen::Vector3d(0, 0, 0);
+  }
 };
 
 /// Signed distance between `a` placed at `poseA` and `b` placed at `poseB`.

@@ -196,7 +196,7 @@ Distance distance(const Shape& shape, const Isometry3d& poseShape, const StpBv& 
                   const Isometry3d& poseVolume, PairCache* cache) {
   // The same query, and so the same answer, seen from the other side.
   PairCache mirrored;
-  if (cache) mirrored = {-cache->normal, {cache->patch[1], cache->patch[0]}};
+  if (cache) mirrored = cache->mirrored();
   Distance result = distance(volume, poseVolume, shape, poseShape, cache ? &mirrored : nullptr);
   result.normal = -result.normal;
   std::swap(result.point[0], result.point[1]);

@@ -31,8 +31,9 @@ bool isFartherThan(double x, const StpBv& volume, const Isometry3d& poseVolume, 
   const double level = x + volume.radii().r + shape.margin, unsure = q.rounding.gap + q.rounding.across;
   if (shape.unbounded() || !(level > unsure)) return isDistanceFarther();
 
-  const Vector3d last = pose.toWorld.inverse(start.normal), centres = q.posed(shape.centre) - volume.centre();
-  const bool isKnown = last.squaredNorm() > 0.25 && last.squaredNorm() < 4.0;
+  const Vector3d last = pose.toWorld.inverse(start.direction()),
+                 centres = q.posed(shape.centre) - volume.centre();
+  const bool isKnown = !last.isZero(0);
   const Vector3d n = isKnown             ? last.normalized()
                      : centres.isZero(0) ? Vector3d(1, 0, 0)
                                          : centres.normalized();

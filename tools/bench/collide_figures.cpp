@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <cstdio>
-#include <functional>
 #include <utility>
 #include <vector>
 
@@ -16,28 +15,9 @@
 
 using namespace fcl_stpbv;
 using namespace fcl_stpbv::test;
-using Eigen::Isometry3d;
 using Json = nlohmann::ordered_json;
 
 namespace {
-
-using Query = std::function<std::size_t(const Isometry3d&, const Isometry3d&)>;
-
-/// The median of nine passes each, and how many of the poses collide.
-std::vector<double> nanoseconds(const benchmark::Poses& poses, const std::vector<Query>& ways,
-                                std::size_t& hits) {
-  std::vector<std::vector<double>> passes(ways.size());
-  for (int pass = 0; pass < 9; ++pass)
-    for (std::size_t k = 0; k < ways.size(); ++k) {
-      hits = 0;
-      const double start = benchmark::threadTime();
-      for (std::size_t i = 0; i < poses.a.size(); ++i) hits += ways[k](poses.a[i], poses.b[i]);
-      passes[k].push_back((benchmark::threadTime() - start) / static_cast<double>(poses.a.size()));
-    }
-  std::vector<double> middle;
-  for (const std::vector<double>& times : passes) middle.push_back(benchmark::median(times));
-  return middle;
-}
 
 /// The share of FCL's contacts (%) that are deeper than the shortest way out by more than 1 %. That of the
 /// cores is taken, which hold the hulls.
@@ -64,17 +44,19 @@ Json figures(const char* name, const Cloud& cloud, int queries, double nearest, 
   const fcl::CollisionRequestd request(1, contact);
   PairCache cache;
   const auto ours = [&](PairCache* known) {
-    return [&, known](const Isometry3d& a, const Isometry3d& b) {
+    return [&, known](std::size_t i) {
       fcl::CollisionResultd result;
-      return fcl_stpbv::collide(&g, a, &g, b, request, result, known);
+      return fcl_stpbv::collide(&g, poses.a[i], &g, poses.b[i], request, result, known);
     };
   };
-  const auto fcls = [&](const Isometry3d& a, const Isometry3d& b) {
+  const auto fcls = [&](std::size_t i) {
     fcl::CollisionResultd result;
-    return fcl::collide(&g, a, &g, b, request, result);
+    return fcl::collide(&g, poses.a[i], &g, poses.b[i], request, result);
   };
+  const std::vector<double> ns =
+      benchmark::mediansInTurns(9, poses.a.size(), {fcls, ours(nullptr), ours(&cache)});
   std::size_t hits = 0;
-  const std::vector<double> ns = nanoseconds(poses, {fcls, ours(nullptr), ours(&cache)}, hits);
+  for (std::size_t i = 0; i < poses.a.size(); ++i) hits += ours(&cache)(i);
   Json row{{"body", name},
            {"nearest", nearest},
            {"hits", benchmark::significant(100.0 * static_cast<double>(hits) / queries, 3)},

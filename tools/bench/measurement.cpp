@@ -53,6 +53,20 @@ double threadTime() {
   return 1e9 * static_cast<double>(t.tv_sec) + static_cast<double>(t.tv_nsec);
 }
 
+std::vector<double> mediansInTurns(int passes, std::size_t count,
+                                   const std::vector<std::function<void(std::size_t)>>& ways) {
+  std::vector<std::vector<double>> times(ways.size());
+  for (int pass = 0; pass < passes; ++pass)
+    for (std::size_t k = 0; k < ways.size(); ++k) {
+      const double start = threadTime();
+      for (std::size_t i = 0; i < count; ++i) ways[k](i);
+      times[k].push_back((threadTime() - start) / static_cast<double>(count));
+    }
+  std::vector<double> middle;
+  for (const std::vector<double>& each : times) middle.push_back(median(each));
+  return middle;
+}
+
 double percentile(std::vector<double>& values, double p) {
   if (values.empty()) return std::nan("");
   const auto k = static_cast<std::ptrdiff_t>(p * static_cast<double>(values.size() - 1) + 0.5);

@@ -2,7 +2,9 @@
 // these files, so measuring and drawing are apart.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -21,6 +23,11 @@ std::string commandLine(int argc, char** argv);
 
 /// Time this thread has run (ns): without the time that others had the core.
 double threadTime();
+
+/// Medians of `passes` passes over `count` queries of each way, the ways taking turns, so that what slows the
+/// machine for a while slows all of them (ns a query, the thread's own time).
+std::vector<double> mediansInTurns(int passes, std::size_t count,
+                                   const std::vector<std::function<void(std::size_t)>>& ways);
 
 /// The value below which a share `p` of the values lies; reorders them. NaN for none.
 double percentile(std::vector<double>& values, double p);

@@ -7,7 +7,6 @@
 #include <fcl/narrowphase/collision.h>
 #include <fcl/narrowphase/distance.h>
 
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <memory>
@@ -67,26 +66,14 @@ benchmark::Poses posesAt(double away, int count) {
   return poses;
 }
 
-/// Medians of five passes, FCL's and ours in turns (us a query).
-template <class Fcls, class Ours>
-std::array<double, 2> microseconds(const benchmark::Poses& poses, const Fcls& fcls, const Ours& ours) {
-  std::array<std::vector<double>, 2> passes;
-  const auto time = [&](std::size_t way, const auto& query) {
-    const double start = benchmark::threadTime();
-    for (std::size_t i = 0; i < poses.a.size(); ++i) query(poses.a[i], poses.b[i]);
-    passes[way].push_back((benchmark::threadTime() - start) / (1e3 * static_cast<double>(poses.a.size())));
-  };
-  for (int pass = 0; pass < 5; ++pass) time(0, fcls), time(1, ours);
-  return {benchmark::median(passes[0]), benchmark::median(passes[1])};
-}
-
 /// `distance`, else a contact or a yes or no. FCL sees an STP-BV's hull.
 Json figures(const Geometry& body, const Geometry& mesh, const benchmark::Poses& poses, const char* asked) {
   const bool isDistance = std::string(asked) == "distance";
   const fcl::CollisionRequestd contacts(1, std::string(asked) == "contact");
   const fcl::DistanceRequestd points(true);
   const auto ask = [&](const auto& distances, const auto& collides) {
-    return [&, distances, collides](const Isometry3d& a, const Isometry3d& b) {
+    return [&, distances, collides](std::size_t i) {
+      const Isometry3d &a = poses.a[i], &b = poses.b[i];
       fcl::DistanceResultd distance;
       fcl::CollisionResultd collision;
       if (isDistance)
@@ -99,8 +86,9 @@ Json figures(const Geometry& body, const Geometry& mesh, const benchmark::Poses&
       ask([](auto&&... all) { fcl::distance(all...); }, [](auto&&... all) { fcl::collide(all...); });
   const auto ours = ask([](auto&&... all) { fcl_stpbv::distance(all...); },
                         [](auto&&... all) { fcl_stpbv::collide(all...); });
-  const std::array<double, 2> us = microseconds(poses, fcls, ours);
-  return {{"us_fcl", benchmark::significant(us[0], 3)}, {"us", benchmark::significant(us[1], 3)}};
+  const std::vector<double> ns = benchmark::mediansInTurns(5, poses.a.size(), {fcls, ours});
+  return {{"us_fcl", benchmark::significant(1e-3 * ns[0], 3)},
+          {"us", benchmark::significant(1e-3 * ns[1], 3)}};
 }
 
 }  // namespace
