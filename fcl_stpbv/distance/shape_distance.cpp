@@ -6,7 +6,7 @@
 // 3. Else bisect the directions left with support points of the two whole bodies
 //    (convex/direction_cone.h): slow, sure. From the normal found, a feature
 //    search again proves the last digits.
-// 4. Cores that overlap: EPA (shape_overlap.cpp).
+// 4. Cores that overlap: a point's way out through a face, else EPA (shape_overlap.cpp).
 #include "fcl_stpbv/distance/shape_distance.h"
 
 #include <algorithm>
@@ -126,6 +126,8 @@ Solution solve(ShapeQuery& q, const StartNormal& start) {
   Nearest found = nearestOnShape(q, start);
   if (q.shape.unbounded()) return {found, DistanceStatus::exact, found.gap};
   if (certified(q, found)) return {found, DistanceStatus::exact, kNone};
+  if (const auto deep = overlapOfPoint(q, start))
+    return {deep->at, DistanceStatus::local, std::max(deep->bound, deep->at.gap)};
   const LeastOverlap cuts = widestGapByCuts(q, found.apart ? StartNormal{found.n, found.patch} : start);
   if (!cuts.overlap) {
     // Near the answer now; a feature search from here proves it to the last digit.

@@ -1,4 +1,5 @@
-// An STP-BV and a simple shape whose cores overlap: how deep they are in each other.
+// An STP-BV and a simple shape whose cores overlap: how deep they are in each other, where no point of the
+// shape alone tells it (point_overlap.cpp).
 //
 // 1. EPA (convex/epa.h) on the difference of the two cores bounds the depth, and finds its normal to some
 //    digits.

@@ -133,6 +133,11 @@ double besideEllipsoid(const ShapeQuery& q, const Eigen::Vector3d& y);
 /// opposite the body's instead, if it is the ellipsoid's.
 void placeOppositeOnEllipsoid(ShapeQuery& q, Nearest& found);
 
+/// The answer of overlapping cores where a point of the shape proves it: the one that leaves last through the
+/// volume's face through which that point alone would leave soonest. Nothing where the shape has no such
+/// point.
+std::optional<LeastOverlap> overlapOfPoint(ShapeQuery& q, const StartNormal& start);
+
 /// How deep overlapping cores are in each other, next to `start` first. `at.gap` is minus the depth along the
 /// best normal seen, `bound` holds for every normal.
 LeastOverlap leastOverlap(ShapeQuery& q, const StartNormal& start);

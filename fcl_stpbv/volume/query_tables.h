@@ -1,6 +1,7 @@
 // What a query reads of a volume: made once, when the volume is built.
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "fcl_stpbv/volume/body_box.h"
@@ -15,6 +16,7 @@ struct QueryTables {
   /// Faces near the centre, nearest first, each the nearest of those about its direction: along their normals
   /// the body is likely to be left soonest.
   std::vector<int> shallowFaces;
+  double capHeight = std::numeric_limits<double>::infinity();  ///< point_depth.h (m)
   BodyBox box;
   VertexGraph graph;          ///< the way from vertex to vertex
   DirectionTable patchNear;   ///< the patch that owns the middle of each cell of directions

@@ -12,6 +12,7 @@
 #include "fcl_stpbv/volume/ball_side.h"
 #include "fcl_stpbv/volume/half_edges.h"
 #include "fcl_stpbv/volume/minimum_ball.h"
+#include "fcl_stpbv/volume/point_depth.h"
 #include "fcl_stpbv/volume/query_tables.h"
 #include "fcl_stpbv/volume/stp_bv.h"
 
@@ -181,6 +182,7 @@ void StpBv::makePatches(QueryTables& tables) {
   tables.patches = PatchTable(vertices_, std::move(records), faces_, faceNormals_);
   firstFace_ = tables.patches.firstFace();
   tables.shallowFaces = shallowFaces(tables.patches, centre_);
+  tables.capHeight = capHeight(*this, tables.patches);
 }
 
 void StpBv::makeDirectionTables(QueryTables& tables) const {

@@ -291,3 +291,24 @@ TEST_CASE(
     REQUIRE(apart > 100);
   }
 }
+
+TEST_CASE("a small shape deep in a large STP-BV takes a few steps, not a polytope") {
+  // EPA takes some sixty; a corner that is the last to leave is seen with the first or second normal.
+  const StpBv::Ptr body = StpBv::build(randomHull(60, {0.4, 0.4, 0.4}, 4), {0.01, 10});
+  const Shape triangle = Shape::triangleOf({0, 0, 0}, {0.01, 0, 0}, {0.003, 0.01, 0});
+  Random random(9);
+  for (const Shape& shape : {triangle, Shape::boxOf({0.01, 0.01, 0.01}), Shape::sphere(0.02)}) {
+    int deep = 0;
+    double steps = 0;
+    for (int i = 0; i < 300; ++i) {
+      const Isometry3d at = pose(random.rotation(), random.uniform(0, 0.35) * random.direction());
+      const Distance d = distance(*body, Isometry3d::Identity(), shape, at);
+      if (!(d.distance < -0.05)) continue;
+      ++deep;
+      steps += d.patchPairs;
+      REQUIRE(d.upper - d.lower <= 1e-9);
+    }
+    REQUIRE(deep > 200);
+    REQUIRE(steps <= 12.0 * deep);
+  }
+}

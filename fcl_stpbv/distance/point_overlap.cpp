@@ -1,0 +1,47 @@
+// An STP-BV and a simple shape whose cores overlap: as deep as a point of the shape alone.
+// The proof is in docs/theory.md, 5.
+//
+// 1. Take the shape's point that faces the volume along the start's normal.
+// 2. Its way out of the volume is in closed form (volume/point_depth.h).
+// 3. No point of the shape leaves later that way: the shape is as deep as the point. Else go on with the
+//    one that does, until it goes to and fro.
+#include <limits>
+
+#include "fcl_stpbv/distance/shape_query.h"
+#include "fcl_stpbv/volume/point_depth.h"
+
+namespace fcl_stpbv::detail {
+
+using Eigen::Vector3d;
+
+std::optional<LeastOverlap> overlapOfPoint(ShapeQuery& q, const StartNormal& start) {
+  constexpr int kRounds = 8;      // one or two for corners, a few for round shapes
+  constexpr int kFree = 2;        // from then on
+  constexpr double kSlow = 0.25;  // of the last round's step is too much: it goes to and fro
+  Vector3d y = q.facing(start.n);
+  double step = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < kRounds; ++i) {
+    const std::optional<PointDepth> way = pointDepth(q.body, y);
+    ++q.pairs;
+    if (!way) break;
+    const Vector3d last = q.facing(way->normal);
+    const double next = (last - y).norm();
+    if (next <= q.rounding.gap) {
+      const SupportPoint view = viewVolume(q.body, way->normal, way->patch, q.steps);
+      LeastOverlap found{{}, -way->depth + q.rounding.across, true, true};
+      found.at.n = way->normal;
+      found.at.patch = view.patch;
+      found.at.y = y;
+      found.at.gap = view.gap(y);
+      found.at.corners = 1;
+      if (!(found.at.gap >= -way->depth - q.rounding.gap)) break;
+      return found;
+    }
+    if (i >= kFree && next > kSlow * step) break;
+    step = next;
+    y = last;
+  }
+  return {};
+}
+
+}  // namespace fcl_stpbv::detail

@@ -1,0 +1,106 @@
+// How deep a point is inside an STP-BV's core (docs/theory.md, 5, "A point").
+//
+// The core lies in the ball of each face, so no way out is longer than out of one of these balls. And a point
+// deep enough leaves the core through a face: along an edge or a vertex the surface bends too much to be a
+// shortest way. So the depth is the least of the depths in the balls.
+// 1. Of each ball the power of the point, |p - c|^2 - rho^2, which has no cancellation where the ball's
+// centre c
+//    is far away: with an anchor a on the ball and the normal u there it is (p - a) . (p - a + 2 rho u).
+// 2. The largest power is that of the ball which the point leaves soonest.
+#include "fcl_stpbv/volume/point_depth.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "fcl_stpbv/four_vectors.h"
+#include "fcl_stpbv/vectorized.h"
+#include "fcl_stpbv/volume/patch_view.h"
+
+namespace fcl_stpbv::detail {
+
+using Eigen::Vector3d;
+
+namespace {
+
+struct Power {
+  double value;  ///< of the point to the face's ball (m^2); negative inside
+  int face;      ///< its place among the faces
+};
+
+/// The least negative power. `p` is inside or outside.
+inline Power largestPower(const FaceRecord* faces, int count, double rho, const Packed& p) {
+  const auto read = [](const Vector3d& v) {  // the fourth number is the record's next
+    Packed four;
+    std::memcpy(&four, v.data(), sizeof four);
+    return four;
+  };
+  const FourVectors point = four(p);
+  Packed most = Packed{} - std::numeric_limits<double>::infinity();
+  PackedBits first{};  // the first face of the four that each is of
+  for (int f = 0; f < count; f += 4) {
+    const FaceRecord& s = faces[f];
+    const FaceRecord& t = faces[std::min(f + 1, count - 1)];
+    const FaceRecord& u = faces[std::min(f + 2, count - 1)];
+    const FaceRecord& v = faces[std::min(f + 3, count - 1)];
+    const FourVectors from = point - four(read(s.anchor), read(t.anchor), read(u.anchor), read(v.anchor)),
+                      normal = four(read(s.normal), read(t.normal), read(u.normal), read(v.normal));
+    const Packed power = dot(from, from) + 2.0 * rho * dot(from, normal);
+    const PackedBits more = power > most;
+    most = more ? power : most;
+    first = more ? PackedBits{} + f : first;
+  }
+  int lane = 0;
+  for (int i = 1; i < 4; ++i)
+    if (most[i] > most[lane]) lane = i;
+  return {most[lane], std::min(static_cast<int>(first[lane]) + lane, count - 1)};
+}
+
+/// The least depth in a face's ball.
+FCL_STPBV_VECTORIZED
+PointDepth depthInBalls(const PatchTable& patches, double rho, const Vector3d& p) {
+  const Power power =
+      largestPower(&patches.face(patches.firstFace()), patches.count() - patches.firstFace(), rho, pack(p));
+  const FaceRecord& face = patches.face(patches.firstFace() + power.face);
+  const Vector3d way = p - face.anchor + rho * face.normal;  // from the ball's centre
+  const double length = way.norm();
+  return {-power.value / (rho + length), way / length, patches.firstFace() + power.face};
+}
+
+}  // namespace
+
+std::optional<PointDepth> pointDepth(const StpBv& body, const Vector3d& p) {
+  constexpr int kMost = 4000;  // faces: beyond, growing a polytope takes less time
+  const QueryTables& tables = body.tables();
+  if (!(tables.capHeight < std::numeric_limits<double>::infinity()) || body.faceCount() > kMost) return {};
+  constexpr double kCentred = 0.999;  // of the ball's radius: no way out of a ball from its centre
+  const PointDepth found = depthInBalls(tables.patches, body.radii().rho, p);
+  if (!(found.depth > tables.capHeight && found.depth < kCentred * body.radii().rho)) return {};
+  return found;
+}
+
+double capHeight(const StpBv& body, const PatchTable& patches) {
+  constexpr double kNone = std::numeric_limits<double>::infinity(), kSafe = 1.0 + 1e-9;  // beyond rounding
+  const double rho = body.radii().rho;
+  if (!(body.innerRadius() > 0.0)) return kNone;
+  double edge = 0.0, face = 0.0;
+  for (int e = 0; e < body.edgeCount(); ++e)
+    edge = std::max(edge, sag(body.patch(body.edgePatch(e)), body.radii()));
+  for (int f = 0; f < body.faceCount(); ++f) {
+    // Every point of the polygon is at least as far from the ball's centre as its lowest corner is high along
+    // any unit vector, here the mean of the corners' normals: rho times the cosine of the angle between.
+    const StpBv::Ring& ring = body.faces()[static_cast<std::size_t>(f)];
+    Vector3d mean(0, 0, 0);
+    for (const int vertex : ring) mean += body.corner(f, vertex);
+    const double length = mean.norm();
+    if (!(length > 0.0)) return kNone;
+    mean /= length;
+    for (const int vertex : ring)
+      face = std::max(face, 0.5 * rho * (body.corner(f, vertex) - mean).squaredNorm());
+  }
+  const double height = kSafe * (edge + face) + 1e-12 * body.extent();
+  return depthInBalls(patches, rho, body.centre()).depth > height ? height : kNone;
+}
+
+}  // namespace fcl_stpbv::detail
