@@ -35,19 +35,18 @@ class ShapeDifference {
     Vector3d shape{0, 0, 0};  ///< the shape's part, in the volume's frame
   };
 
-  ShapeDifference(ShapeQuery& q, int patch) : q_(q), core_{q.body, patch, q.steps} {}
+  explicit ShapeDifference(ShapeQuery& q) : q_(q) {}
 
+  /// EPA's normals go to and fro: the patch is sought from a table, not from the last one.
   Corner support(const Vector3d& n) {
-    const SupportPoint p = supportPoint(core_, n);
+    const SupportPoint p = viewVolume(q_.body, n, -1, q_.steps);
     const Vector3d y = q_.facing(n);
     ++q_.pairs;
     return {y - p.point, p.point, p.gap(y), y};
   }
-  int patch() const { return core_.patch; }
 
  private:
   ShapeQuery& q_;
-  StpBvCore core_;
 };
 
 /// To the top of the hill that the search ended on, where rounding or the size of the polytope stopped it:
@@ -240,7 +239,7 @@ std::optional<Nearest> touchingFeature(ShapeQuery& q, const Nearest& near) {
 }
 
 LeastOverlap leastOverlap(ShapeQuery& q, const StartNormal& start) {
-  ShapeDifference difference(q, start.patch);
+  ShapeDifference difference(q);
   Epa<ShapeDifference> epa(difference, q.rounding.gap);
   epa.look(start.n);
   if (!epa.run()) climbToLeastOverlap(epa);
@@ -253,7 +252,7 @@ LeastOverlap leastOverlap(ShapeQuery& q, const StartNormal& start) {
   }
   // The polytope's points are the volume's to the rounding of its own.
   LeastOverlap best{{}, std::max(epa.bound, epa.gap) + q.rounding.across, true, epa.solved()};
-  const StartNormal near{epa.n, difference.patch()};
+  const StartNormal near{epa.n, -1};
   if (const auto polished = DeepFeatures(q, near, epa.gap).search(met, count)) {
     best.at = *polished;
     return best;
