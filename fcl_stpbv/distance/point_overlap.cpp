@@ -5,6 +5,7 @@
 // 2. Its way out of the volume is in closed form (volume/point_depth.h).
 // 3. No point of the shape leaves later that way: the shape is as deep as the point. Else go on with the
 //    one that does, until it goes to and fro.
+#include <algorithm>
 #include <limits>
 
 #include "fcl_stpbv/distance/shape_query.h"
@@ -28,12 +29,13 @@ std::optional<LeastOverlap> overlapOfPoint(ShapeQuery& q, const StartNormal& sta
     const double next = (last - y).norm();
     if (next <= q.rounding.gap) {
       const SupportPoint view = viewVolume(q.body, way->normal, way->patch, q.steps);
-      LeastOverlap found{{}, -way->depth + q.rounding.across, true, true};
+      LeastOverlap found{{}, 0.0, true, true};
       found.at.n = way->normal;
       found.at.patch = view.patch;
       found.at.y = y;
       found.at.gap = view.gap(y);
       found.at.corners = 1;
+      found.bound = std::max(-way->depth, found.at.gap) + q.rounding.across;
       if (!(found.at.gap >= -way->depth - q.rounding.gap)) break;
       return found;
     }

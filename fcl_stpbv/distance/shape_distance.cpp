@@ -6,7 +6,8 @@
 // 3. Else bisect the directions left with support points of the two whole bodies
 //    (convex/direction_cone.h): slow, sure. From the normal found, a feature
 //    search again proves the last digits.
-// 4. Cores that overlap: a point's way out through a face, else EPA (shape_overlap.cpp).
+// 4. Cores that overlap, as a ball in the volume may tell at once: a point's way out through a face
+//    (point_overlap.cpp), else EPA (shape_overlap.cpp).
 #include "fcl_stpbv/distance/shape_distance.h"
 
 #include <algorithm>
@@ -121,27 +122,40 @@ struct Solution {
   double upper;  ///< of the cores' gap (m), besides that which two points tell
 };
 
+/// A point of the shape in a ball that the volume's core holds.
+bool surelyOverlap(const ShapeQuery& q) {
+  return !q.shape.unbounded() &&
+         (q.posed(q.shape.centre) - q.body.centre()).norm() < q.body.innerRadius() - q.rounding.across;
+}
+
+/// Of cores that overlap.
+Solution solveDeep(ShapeQuery& q, const StartNormal& start) {
+  const LeastOverlap deep = leastOverlap(q, start);
+  return {deep.at, DistanceStatus::local, std::max(deep.bound, deep.at.gap)};
+}
+
 Solution solve(ShapeQuery& q, const StartNormal& start) {
   constexpr double kNone = std::numeric_limits<double>::infinity();
-  Nearest found = nearestOnShape(q, start);
-  if (q.shape.unbounded()) return {found, DistanceStatus::exact, found.gap};
-  if (certified(q, found)) return {found, DistanceStatus::exact, kNone};
-  if (const auto deep = overlapOfPoint(q, start))
-    return {deep->at, DistanceStatus::local, std::max(deep->bound, deep->at.gap)};
-  const LeastOverlap cuts = widestGapByCuts(q, found.apart ? StartNormal{found.n, found.patch} : start);
-  if (!cuts.overlap) {
-    // Near the answer now; a feature search from here proves it to the last digit.
-    found = nearestOnShape(q, {cuts.at.n, cuts.at.patch});
+  const bool overlap = surelyOverlap(q);
+  Nearest found;
+  if (!overlap) {
+    found = nearestOnShape(q, start);
+    if (q.shape.unbounded()) return {found, DistanceStatus::exact, found.gap};
     if (certified(q, found)) return {found, DistanceStatus::exact, kNone};
-    // The bounds of both sides agree, or no normal is left that could do better.
-    const double upper = cuts.solved ? std::min(cuts.bound, cuts.at.gap + q.rounding.gap) : cuts.bound;
-    const bool proven = upper - cuts.at.gap <= q.rounding.gap;
-    // Where the cores touch, the gap says less about the normal than its gradient does.
-    found = touchingFeature(q, cuts.at).value_or(cuts.at);
-    return {found, proven ? DistanceStatus::exact : DistanceStatus::bounded, upper + q.rounding.across};
   }
-  const LeastOverlap deep = leastOverlap(q, {cuts.at.n, cuts.at.patch});
-  return {deep.at, DistanceStatus::local, std::max(deep.bound, deep.at.gap)};
+  if (const auto deep = overlapOfPoint(q, start)) return {deep->at, DistanceStatus::local, deep->bound};
+  if (overlap) return solveDeep(q, start);
+  const LeastOverlap cuts = widestGapByCuts(q, found.apart ? StartNormal{found.n, found.patch} : start);
+  if (cuts.overlap) return solveDeep(q, {cuts.at.n, cuts.at.patch});
+  // Near the answer now; a feature search from here proves it to the last digit.
+  found = nearestOnShape(q, {cuts.at.n, cuts.at.patch});
+  if (certified(q, found)) return {found, DistanceStatus::exact, kNone};
+  // The bounds of both sides agree, or no normal is left that could do better.
+  const double upper = cuts.solved ? std::min(cuts.bound, cuts.at.gap + q.rounding.gap) : cuts.bound;
+  const bool proven = upper - cuts.at.gap <= q.rounding.gap;
+  // Where the cores touch, the gap says less about the normal than its gradient does.
+  found = touchingFeature(q, cuts.at).value_or(cuts.at);
+  return {found, proven ? DistanceStatus::exact : DistanceStatus::bounded, upper + q.rounding.across};
 }
 
 /// How far the shape's point is beside the one opposite the volume's (m). Of a face, a generator or an axis,

@@ -309,6 +309,7 @@ TEST_CASE("a small shape deep in a large STP-BV takes a few steps, not a polytop
       REQUIRE(d.upper - d.lower <= 1e-9);
     }
     REQUIRE(deep > 200);
+    CAPTURE(steps / deep);
     REQUIRE(steps <= 12.0 * deep);
   }
 }
