@@ -38,6 +38,25 @@ void addPickling(py::module_& module) {
           py::name("__reduce_ex__"), py::is_method(member));
 }
 
+ternaryfunc callOfClass;  // pybind11's own, shared by all modules that are made with it
+
+// The base of all classes cannot be made: pybind11 would throw through Python's C code, which ends the
+// interpreter. object.__reduce__() calls it, too.
+PyObject* callOfMade(PyObject* type, PyObject* arguments, PyObject* names) {
+  if (!py::detail::all_type_info(reinterpret_cast<PyTypeObject*>(type)).empty())
+    return callOfClass(type, arguments, names);
+  PyErr_Format(PyExc_TypeError, "%s: No constructor defined!",
+               reinterpret_cast<PyTypeObject*>(type)->tp_name);
+  return nullptr;
+}
+
+void guardBase(py::module_& module) {
+  PyTypeObject* classes = Py_TYPE(module.attr("StpBv").ptr());
+  if (classes->tp_call == callOfMade) return;
+  callOfClass = classes->tp_call;
+  classes->tp_call = callOfMade;
+}
+
 }  // namespace
 
 PYBIND11_MODULE(fcl_stpbv, module) {
@@ -50,4 +69,5 @@ PYBIND11_MODULE(fcl_stpbv, module) {
   fcl_stpbv::addShards(module);
   fcl_stpbv::addPostures(module);
   addPickling(module);
+  guardBase(module);
 }

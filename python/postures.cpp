@@ -1,5 +1,6 @@
 // Postures from tasks, a start at a time, so that they can be shared out.
 #include <cmath>
+#include <exception>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -9,6 +10,7 @@
 
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/posture/find_posture.h"
+#include "interrupt.h"
 #include "made.h"
 #include "parts.h"
 
@@ -50,7 +52,18 @@ class PythonPostureSearch {
     options.starts = 1;
     options.seed = seed;
     options.solver.maxSeconds = std::numeric_limits<double>::infinity();  // the clock must not decide
+    Interrupt interrupt;
+    std::exception_ptr pressed;  // no exception passes through the solver, which is written in C
+    options.solver.stop = [&] {
+      try {
+        if (!pressed) interrupt();
+      } catch (...) {
+        pressed = std::current_exception();
+      }
+      return pressed != nullptr;
+    };
     Posture posture = findPosture(setup, options);
+    if (pressed) std::rethrow_exception(pressed);
     requireFinite(posture, path + ": start " + std::to_string(start));
     return posture;
   }

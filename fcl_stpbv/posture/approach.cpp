@@ -48,6 +48,7 @@ NearPosture approach(PostureProblem& problem, const Eigen::VectorXd& start, cons
   double damping = kDamping, growth = 2;
   Model model = modelAt(problem.evaluate(result.x), problem.costCurvature(), options);
   while (result.iterations < options.maxIterations && damping < kMostDamping) {
+    if (options.stop && options.stop()) break;
     ++result.iterations;
     Eigen::MatrixXd hessian = model.hessian;
     Eigen::VectorXd slope = model.slope;

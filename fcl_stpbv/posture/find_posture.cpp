@@ -86,6 +86,12 @@ std::vector<std::string> pushedLimits(const PostureProblem& problem, const NearP
   return names;
 }
 
+NearPosture approached(PostureProblem& problem, const Eigen::VectorXd& from, ApproachOptions how,
+                       const SolverOptions& options) {
+  how.stop = options.stop;
+  return approach(problem, from, how);
+}
+
 // SLSQP from x. Where it ends at more violations or, with none, at more cost, x stands.
 SolverOutcome improve(PostureProblem& problem, const Eigen::VectorXd& x, const SolverOptions& options) {
   const auto rank = [&](const Eigen::VectorXd& at) {
@@ -119,7 +125,7 @@ SolverOutcome solve(PostureProblem& problem, const Eigen::VectorXd& start, const
   NearPosture near{start, {}, 0};
   int iterations = 0;
   for (const double weight : {kSoft, kFirm}) {
-    near = approach(problem, near.x, {kCostWeight, weight});
+    near = approached(problem, near.x, {kCostWeight, weight}, options);
     iterations += near.iterations;
   }
   if (worst(near.x) > kNear) return {near.x, iterations, "stuck"};
@@ -127,7 +133,7 @@ SolverOutcome solve(PostureProblem& problem, const Eigen::VectorXd& start, const
   iterations += outcome.iterations;
   const double missed = worst(outcome.x);
   if (missed > 0 && missed < kClose) {
-    near = approach(problem, outcome.x, {});
+    near = approached(problem, outcome.x, {}, options);
     iterations += near.iterations;
     if (worst(near.x) == 0) {
       outcome = improve(problem, near.x, options);
@@ -159,20 +165,27 @@ Posture findPosture(PostureSetup& setup, const PostureOptions& options) {
     bestX = outcome.x;
   };
   const long long first = std::max(0, options.firstStart), last = first + std::max(1, options.starts);
+  const auto stopped = [&] { return options.solver.stop && options.solver.stop(); };
   std::mt19937_64 random = randomBefore(problem, setup.start, options.seed, first);
   for (long long i = first; i < last && !best.feasible; ++i) {
     if (i > first && i % kAnew == 0) random = randomBefore(problem, setup.start, options.seed, i);
     const Eigen::VectorXd q = i == 0 ? setup.start : randomStart(problem, setup.start, random);
     ++best.starts;
     consider(solve(problem, problem.variablesAt(q), options.solver));
+    if (stopped()) break;
   }
-  if (!best.feasible) {
-    const NearPosture least = approach(problem, bestX, {});
+  if (!best.feasible && !stopped()) {
+    const NearPosture least = approached(problem, bestX, {}, options.solver);
     best.conflict = problem.missed(least.x, options.solver.tolerance);
     if (best.conflict.empty())  // then they can hold together
       consider(improve(problem, least.x, options.solver));
     else
       best.conflictLimits = pushedLimits(problem, least);
+  }
+  if (!best.feasible && stopped()) {
+    best.status = "stopped";
+    best.conflict.clear();
+    best.conflictLimits.clear();
   }
   if (!problem.still().empty()) {  // whatever else holds
     best.feasible = false;

@@ -33,7 +33,7 @@ struct Posture {
   std::vector<std::string> active;    ///< collision rows and joint limits that hold q where it is
   /// Where nothing was feasible: the constraints that pull against each other where their violations are
   /// least in sum of squares, each with what it misses there, and the joint limits that they push against.
-  /// Empty where, and only where, `feasible`.
+  /// Empty where, and only where, `feasible`, or where the search was stopped.
   std::vector<Violation> conflict;
   std::vector<std::string> conflictLimits;  ///< names of the joint limits in the way of `conflict`
 };

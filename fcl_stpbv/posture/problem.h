@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -149,6 +150,8 @@ struct SolverOptions {
   double costTolerance = 1e-8;  ///< relative change of the cost in one iteration at which it ends
   /// Inequalities with more slack than this are left out of an iteration's model until they have less.
   double activation = 0.1;
+  /// Asked at every model: true, which it stays, ends the search. Null: nothing does.
+  std::function<bool()> stop;
 };
 
 /// Where a solver ended.

@@ -36,9 +36,9 @@ class Slsqp {
       const double left = options_.maxSeconds -
                           std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
       const nlopt_result result = optimise(x, left);
-      if (!grown_) {
+      if (!grown_ || stopped_) {
         best_.x = x;
-        best_.status = stuck_ ? "stuck" : nameOf(result);
+        best_.status = stopped_ ? "stopped" : stuck_ ? "stuck" : nameOf(result);
         return best_;
       }
       select(grownAt_);
@@ -143,7 +143,8 @@ class Slsqp {
       leastAt_ = best_.iterations;
     }
     stuck_ = leastMiss_ > kFar && best_.iterations > leastAt_ + kPatience;
-    if (stuck_ || best_.iterations >= options_.maxIterations) nlopt_force_stop(opt_);
+    stopped_ = options_.stop && options_.stop();
+    if (stopped_ || stuck_ || best_.iterations >= options_.maxIterations) nlopt_force_stop(opt_);
   }
 
   // Stops, to begin again with a larger model, where a row is violated that it lacks.
@@ -183,7 +184,7 @@ class Slsqp {
   Eigen::MatrixXd combinations_;  // of the equalities in the model, one per column
   std::vector<int> active_;
   std::vector<bool> chosen_;
-  bool grown_ = false, stuck_ = false;
+  bool grown_ = false, stuck_ = false, stopped_ = false;
   double leastMiss_ = std::numeric_limits<double>::infinity();  // of any iteration so far
   int leastAt_ = 0;
   Eigen::VectorXd iterate_, grownAt_;

@@ -161,6 +161,7 @@ void readStability(const Field& field, PostureTask& task) {
     contact.object({"link", "points"});
     PostureTask::Touch touch{contact["link"].text(), {}};
     for (const Field& point : contact["points"].list("points")) touch.points.push_back(point.vector());
+    if (touch.points.empty()) contact["points"].refuse("at least one point");
     task.contacts.push_back(touch);
   }
   if (task.contacts.empty()) field["contacts"].refuse("at least one contact");

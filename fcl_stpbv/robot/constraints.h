@@ -143,6 +143,7 @@ class CollisionConstraints {
   SparseHessian makeHessian() const;
   /// Sum over the rows of weight times Hessian of d: the constraints' part of a Lagrangian's Hessian, as
   /// IPOPT asks for it. The first call makes room for what it needs. Numbers that are not finite as above.
+  /// @throws Error for a matrix of another structure than makeHessian()'s.
   bool hessian(const ConstVector& q, const ConstVector& weights, SparseHessian& lower);
   /// The Hessian of one row, columns() x columns(), symmetric. Numbers that are not finite as above.
   bool hessian(const ConstVector& q, int row, Eigen::Ref<Eigen::MatrixXd> full);
@@ -195,6 +196,8 @@ class CollisionConstraints {
   void requireSizes(const ConstVector& q, Eigen::Index d, Eigen::Index values) const;
   void requireSizes(const ConstVector& q, const ConstVector& qd, const RowRates& rates,
                     Eigen::Index values) const;
+  void requireStructure(const SparseJacobian& jacobian) const;
+  void requireStructure(const SparseHessian& lower) const;
   void place(const ConstVector& q);
   void askWhole();
   bool compute(const ConstVector& q, double* d, double* values);
@@ -213,6 +216,7 @@ class CollisionConstraints {
   bool rateRow(std::size_t row, RowRates& rates, double* values);
   bool rowChange(std::size_t row, double* change);
   void differences(const ConstVector& q, const ConstVector& v);
+  void makeRoomForHessian();
   void prepareHessian(const ConstVector& q);
   bool rowHessian(std::size_t row);
   template <class Add>
@@ -240,6 +244,7 @@ class CollisionConstraints {
   bool moving_ = false;                  // whether the last evaluation had one
   Eigen::VectorXd values_, change_, otherChange_, moved_;
   std::vector<Kinematics::Rate> alongEach_;  // at a unit velocity of each coordinate, for hessian()
+  SparseHessian structure_;                  // that hessian() fills, without values
   // Of one row's coordinates: what each does to both bodies, as DistanceHessian takes it; that matrix times
   // it; the row's Hessian.
   Eigen::Matrix<double, 12, Eigen::Dynamic> twists_, pushes_;

@@ -34,6 +34,13 @@ void CollisionConstraints::requireSizes(const ConstVector& q, const ConstVector&
         "CollisionConstraints: qd has one number for each coordinate, each of the rates one for a row");
 }
 
+// Which entries it has takes too long to compare at every configuration.
+void CollisionConstraints::requireStructure(const SparseJacobian& jacobian) const {
+  if (jacobian.rows() != rows() || jacobian.cols() != columns() || jacobian.nonZeros() != nonZeros() ||
+      !jacobian.isCompressed())
+    throw Error("CollisionConstraints: the Jacobian needs the structure that makeJacobian() gives it");
+}
+
 void CollisionConstraints::nothingKnown(double* d, double* values) {
   std::fill(d, d + rows(), std::numeric_limits<double>::lowest());
   if (values) std::fill(values, values + nonZeros(), 0.0);
@@ -88,6 +95,7 @@ bool CollisionConstraints::evaluateValues(const ConstVector& q, Vector d, Vector
 
 bool CollisionConstraints::evaluate(const ConstVector& q, Vector d, SparseJacobian& jacobian) {
   requireSizes(q, d.size(), jacobian.nonZeros());
+  requireStructure(jacobian);
   return compute(q, d.data(), jacobian.valuePtr());
 }
 

@@ -106,6 +106,7 @@ bool CollisionConstraints::evaluateValues(const ConstVector& q, const ConstVecto
 
 bool CollisionConstraints::evaluate(const ConstVector& q, const ConstVector& qd, RowRates& rates,
                                     SparseJacobian& jacobian) {
+  requireStructure(jacobian);
   return evaluateValues(q, qd, rates, Eigen::Map<Eigen::VectorXd>(jacobian.valuePtr(), nonZeros()));
 }
 

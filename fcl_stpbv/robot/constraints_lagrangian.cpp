@@ -2,6 +2,7 @@
 // Hessian between the twists of the joints, plus the change of the twists with each joint above.
 #include <algorithm>
 
+#include "fcl_stpbv/error.h"
 #include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/robot/constraints.h"
 
@@ -24,17 +25,30 @@ CollisionConstraints::SparseHessian CollisionConstraints::makeHessian() const {
   return lower;
 }
 
+void CollisionConstraints::requireStructure(const SparseHessian& lower) const {
+  const Eigen::Index columns = structure_.cols(), entries = structure_.nonZeros();
+  if (lower.rows() != columns || lower.cols() != columns || !lower.isCompressed() ||
+      lower.nonZeros() != entries ||
+      !std::equal(structure_.outerIndexPtr(), structure_.outerIndexPtr() + columns, lower.outerIndexPtr()) ||
+      !std::equal(structure_.innerIndexPtr(), structure_.innerIndexPtr() + entries, lower.innerIndexPtr()))
+    throw Error("CollisionConstraints: the Hessian needs the structure that makeHessian() gives it");
+}
+
+void CollisionConstraints::makeRoomForHessian() {
+  if (!alongEach_.empty()) return;
+  int most = 0;
+  for (std::size_t row = 0; row < rows_.size(); ++row)
+    most = std::max(most, rowStart_[row + 1] - rowStart_[row]);
+  alongEach_.assign(at(columns()), kinematics_->makeRate());
+  twists_.resize(12, most);
+  pushes_.resize(12, most);
+  square_.resize(most, most);
+  structure_ = makeHessian();
+}
+
 // Poses, and how every motion changes as each coordinate moves.
 void CollisionConstraints::prepareHessian(const ConstVector& q) {
-  if (alongEach_.empty()) {
-    int most = 0;
-    for (std::size_t row = 0; row < rows_.size(); ++row)
-      most = std::max(most, rowStart_[row + 1] - rowStart_[row]);
-    alongEach_.assign(at(columns()), kinematics_->makeRate());
-    twists_.resize(12, most);
-    pushes_.resize(12, most);
-    square_.resize(most, most);
-  }
+  makeRoomForHessian();
   place(q);
   moved_.setZero();
   for (int k = 0; k < columns(); ++k) {
@@ -127,6 +141,8 @@ void CollisionConstraints::openHessians(const ConstVector& q, const Add& add) {
 
 bool CollisionConstraints::hessian(const ConstVector& q, const ConstVector& weights, SparseHessian& lower) {
   requireSizes(q, weights.size(), nonZeros());
+  makeRoomForHessian();
+  requireStructure(lower);
   Eigen::Map<Eigen::VectorXd>(lower.valuePtr(), lower.nonZeros()).setZero();
   if (!q.allFinite() || !weights.allFinite()) return false;
   prepareHessian(q);

@@ -37,8 +37,12 @@ void requireNeeds(const std::vector<SceneNeed>& needs, const Kinematics& kinemat
 std::vector<std::shared_ptr<const RobotGeometry>> loadLevels(const RobotModel& robot,
                                                              const GeometryOptions& options,
                                                              const std::vector<double>& budgets) {
-  for (std::size_t i = 1; i < budgets.size(); ++i)
-    if (!(budgets[i] < budgets[i - 1])) throw Error("loadLevels: each budget must be below the one before");
+  for (std::size_t i = 0; i < budgets.size(); ++i) {
+    // 0 would stand for any over-cover: GeometryOptions::overCoverBudget.
+    if (budgets[i] == 0) throw Error("loadLevels: got a budget of 0; each must be above r");
+    if (i > 0 && !(budgets[i] < budgets[i - 1]))
+      throw Error("loadLevels: each budget must be below the one before");
+  }
   std::vector<std::shared_ptr<const RobotGeometry>> levels;
   for (const double budget : budgets) {
     GeometryOptions coarse = options;

@@ -160,11 +160,13 @@ void VelocityDamper::update(const Eigen::Ref<const Eigen::VectorXd>& q,
     return;
   }
   for (int row = 0; row < constraints_.rows(); ++row) {
-    const bool inside = rates_.d[row] < dampers_[at(row)].influence;
+    // A value that is no number is not far.
+    const bool inside = !(rates_.d[row] >= dampers_[at(row)].influence);
     if (inside && !inside_[at(row)]) enter(row);
     if (!inside && inside_[at(row)]) rest(row);
     inside_[at(row)] = inside;
-    b_[row] = inside ? bound(row) : -kInfinity;
+    const double b = inside ? bound(row) : -kInfinity;
+    b_[row] = std::isnan(b) ? kInfinity : b;
     if (inside) near_.push_back(row);
   }
 }

@@ -52,7 +52,8 @@ class VelocityDamper {
   VelocityDamper(CollisionConstraints& constraints, DamperOptions options);
 
   /// Rows at q, while q moves with velocity qd. Of a q that is not finite nothing is known: all rows are
-  /// near, with A = 0 and b = infinity, which no x meets. @throws Error for a q or qd of another size.
+  /// near, with A = 0 and b = infinity, which no x meets. A smooth constraint whose value is no number is
+  /// near too, with b = infinity. @throws Error for a q or qd of another size.
   void update(const Eigen::Ref<const Eigen::VectorXd>& q, const Eigen::Ref<const Eigen::VectorXd>& qd);
 
   /// The rows' left side, rows() x columns() of the constraints.

@@ -83,7 +83,7 @@ class Adviser {
   static constexpr double kStep = 2;
   static constexpr int kRounds = 10;
   static constexpr double kWithin = 1e-3;
-  static constexpr double kOfAPoint = 1e-9;  // of the largest R: a single point has no smallest one
+  static constexpr double kOfAPoint = 1e-9;  // m, or of the largest R: a single point has no smallest one
 
   /// The least acceleration of all radii that keep the clearance, where the task's own is below that.
   double leastKept() const {
@@ -103,12 +103,16 @@ class Adviser {
   static double lost(const RadiiAdvice& advice) { return advice.overCover + advice.perPeriod; }
   bool keeps(const RadiiAdvice& advice) const { return lost(advice) <= task_.clearance; }
 
+  /// All R above it have a volume, and none of a robot is smaller.
+  double leastR(double r, double largest) const {
+    return std::max(smallestR_ + r, std::min(1.0, largest) * kOfAPoint);
+  }
+
   /// Spends what is left of the clearance on a smaller R: the witness points then slide less.
   RadiiAdvice rounder(const RadiiAdvice& asked) const {
     const double r = asked.radii.r;
-    double low = smallestR_ + r, high = asked.radii.R;
+    double low = leastR(r, asked.radii.R), high = asked.radii.R;
     RadiiAdvice best = asked;
-    low = std::max(low, kOfAPoint * high);
     while (high > (1 + kWithin) * low) {
       const double middle = std::sqrt(low * high);
       const RadiiAdvice tried = withRadii({r, middle});
@@ -127,7 +131,7 @@ class Adviser {
   RadiiAdvice with(double acceleration) const {
     RadiiAdvice best = withRadii(radiiFor(task_, acceleration));
     const double r = best.radii.r, widest = best.radii.R;
-    const double least = std::max((1 + kWithin) * (smallestR_ + r), kOfAPoint * widest);
+    const double least = (1 + kWithin) * leastR(r, widest);
     for (int round = 0; round < 3 && std::isfinite(best.overCover); ++round) {
       const double bulge = 2 * best.radii.R * (best.overCover - r);  // b^2
       const double R = std::max(least, std::sqrt(std::max(0.0, bulge) / (2 * missed_)));

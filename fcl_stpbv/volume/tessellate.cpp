@@ -52,8 +52,17 @@ class Tessellator {
 
   int point(const Place& place, int patch, const Vector3d& n) {
     const auto [found, isNew] = known_.try_emplace(place, static_cast<int>(mesh_.vertices.size()));
-    if (isNew) mesh_.vertices.push_back(corePoint(volume_, patch, n) + volume_.radii().r * n);
+    if (isNew) mesh_.vertices.push_back(onCore(patch, n) + volume_.radii().r * n);
     return found->second;
+  }
+
+  // corePoint(), but of a face the height comes from the way across: the normal's length is off by rounding,
+  // and the height by R times as much.
+  Vector3d onCore(int patch, const Vector3d& n) const {
+    if (volume_.kind(patch) != PatchKind::face) return corePoint(volume_, patch, n);
+    const Patch face = volume_.patch(patch);
+    const Vector3d turned = n - face.axis, across = turned - turned.dot(face.axis) * face.axis;
+    return face.anchor + volume_.radii().rho * (across - turned.squaredNorm() / 2 * face.axis);
   }
 
   // Where four patches meet. Without a margin all that a vertex has is its point.
@@ -92,7 +101,9 @@ class Tessellator {
                           : hasFaces && i == 0     ? besideSide(e, 0, j, along)
                           : hasFaces && i == round ? besideSide(e, 1, j, along)
                                                    : Place{within, e, hasFaces ? i : i % round, j};
-      return point(place, patch,
+      // At an end the vertex itself: along the edge points are off by R times the rounding of the normal.
+      const int own = j == 0 ? edge(e).vertex[0] : j == along ? edge(e).vertex[1] : patch;
+      return point(place, own,
                    std::cos(tilt) * arc.at(static_cast<double>(i) / round) + std::sin(tilt) * arc.axis);
     };
     for (int i = 0; i < round; ++i)

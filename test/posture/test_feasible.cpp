@@ -93,6 +93,25 @@ TEST_CASE("where nothing is violated the posture is feasible, however early the 
   CHECK(feasible >= 80);
 }
 
+TEST_CASE("a search that is stopped ends there, and tells of no conflict") {
+  Random random(9);
+  const PostureScene scene = planarArm();
+  const Eigen::Vector3d near = poseOf(scene, randomWithin(scene, random), "tip").translation();
+  for (const Eigen::Vector3d& target : {near, Eigen::Vector3d(9, 0, 9)})
+    for (const int models : {0, 1, 2, 5, 20, 100}) {
+      int asked = 0;
+      PostureOptions options;
+      options.starts = 100000;
+      options.solver.stop = [&] { return ++asked > models; };
+      const Posture posture = found(scene, {position("tip", target)}, options);
+      CAPTURE(target, models, asked, posture.status);
+      CHECK(asked <= models + 10);  // by each part of the search once more
+      CHECK(posture.feasible == posture.violations.empty());
+      CHECK(posture.conflict.empty());
+      CHECK((posture.feasible || posture.status == "stopped"));
+    }
+}
+
 TEST_CASE("a robot without joints is where it is") {
   CHECK(found(block(), {position("base", {0, 0, 0})}).feasible);
   const Posture posture = found(block(), {position("base", {0, 0, 0.5})});

@@ -53,6 +53,8 @@ TEST_CASE("a task file's mistakes are named with their key") {
           "from 0");
   refused(R"({"placements": [], "stability": {}})", "stability", "'contacts' is missing");
   refused(R"({"placements": [], "stability": {"contacts": []}})", "stability.contacts", "at least one");
+  refused(R"({"placements": [], "stability": {"contacts": [{"link": "BODY", "points": []}]}})",
+          "stability.contacts[0].points", "at least one");
   refused(R"({"placements": [], "stability": {"contacts": [{"link": "NO", "points": [[0, 0, 0]]}]}})",
           "stability.contacts[0].link", "no link 'NO'");
   refused(

@@ -1,6 +1,7 @@
 """The Python module: arrays in and out, files, errors, a robot's constraints against differences."""
 import copy
 import functools
+import json
 import math
 import os
 import pathlib
@@ -260,6 +261,24 @@ def test_pieces_of_proofs_end_with_ctrl_c(ask):
     assert time.monotonic() - start < 10
 
 
+def test_a_search_for_a_posture_ends_with_ctrl_c(tmp_path):
+    links, body = 450, "<collision><geometry><box size='0.1 0.06 0.08'/></geometry></collision>"  # 20 s and more
+    chain = "".join(f"<link name='l{i}'>{body}</link>" for i in range(links)) + "".join(
+        f"<joint name='j{i}' type='revolute'><parent link='l{i}'/><child link='l{i + 1}'/><origin xyz='0.15 0 0'/>"
+        f"<axis xyz='0 {i % 2} {1 - i % 2}'/><limit lower='-1' upper='1' effort='1' velocity='1'/></joint>" for i in range(links - 1))
+    (tmp_path / "chain.urdf").write_text(f"<robot name='chain'>{chain}</robot>")
+    (tmp_path / "chain.srdf").write_text("<robot name='chain'/>")
+    search = fcl_stpbv.PostureSearch(tmp_path / "chain.urdf", tmp_path / "chain.srdf")
+    place = {"link": f"l{links - 1}", "target": {"position": [0.05, 0, 0]}, "free": ["rx", "ry", "rz"]}
+    timer = threading.Timer(0.5, signal.raise_signal, [signal.SIGINT])
+    timer.start()
+    start = time.monotonic()
+    with pytest.raises(KeyboardInterrupt):
+        search.solve(json.dumps({"base": "fixed", "placements": [place]}), start=3)
+    assert time.monotonic() - start < 10
+    assert search.solve(json.dumps({"base": "fixed", "placements": []}))["feasible"]
+
+
 def test_a_proof_in_pieces_is_the_whole_one():
     search = fcl_stpbv.PairSearch(DATA / "hrp2_style/hrp2_style.urdf")
     pair = pair_of(search, "LARM_LINK0", "RARM_LINK5")
@@ -307,6 +326,17 @@ def test_what_cannot_be_pickled_says_so_with_every_protocol(protocol):
                   fcl_stpbv.Robot(DATA / "hrp2_style/hrp2_style.urdf")):
         with pytest.raises(TypeError, match=f"cannot pickle '.*{type(thing).__name__}'"):
             pickle.dumps(thing, protocol)
+
+
+def test_the_base_class_cannot_be_made_nor_can_reduce_make_it():
+    base: Any = fcl_stpbv.StpBv.__mro__[1]
+    own: Any = type("Own", (base,), {})
+    things: list[Any] = [box(), fcl_stpbv.PairCache(), fcl_stpbv.Status.local, fcl_stpbv.distance(box(), pose(), box(), pose())]
+    for ask in (base, own, lambda: base(box()), *(thing.__reduce__ for thing in things),
+                *(lambda thing=thing, of=of: object.__reduce_ex__(thing, of) for thing in things for of in (0, 1))):
+        with pytest.raises(TypeError, match="No constructor"):
+            ask()
+    assert isinstance(fcl_stpbv.PairCache(), base)
 
 
 @pytest.mark.parametrize("kind", ["int64", "int32", "bool", "complex128", "str", "object", "longdouble"])

@@ -276,3 +276,34 @@ TEST_CASE("the Lagrangian's Hessian is the weighted sum of the rows', in a struc
   CHECK((MatrixXd(lower) - MatrixXd(sum.triangularView<Eigen::Lower>())).norm() < 1e-12 * (1 + sum.norm()));
   CHECK(sum.norm() > 1);
 }
+
+TEST_CASE("a sparse matrix of another structure is refused, and left as it is") {
+  const Problem p = problem(robots()[0], BaseMotion::floating);
+  CollisionConstraints constraints = crowded(p);
+  const int n = constraints.columns();
+  const VectorXd q = p.kinematics->neutral(), weights = VectorXd::Ones(constraints.rows());
+  CollisionConstraints::SparseHessian lower = constraints.makeHessian(), none, empty(n, n), more = lower;
+  more.coeffRef(0, n - 1) = 3;  // above the diagonal
+  CollisionConstraints::SparseHessian moved(n, n);
+  for (int k = 0; k < lower.nonZeros(); ++k) moved.insert(k / n, k % n) = 3;
+  moved.makeCompressed();
+  for (CollisionConstraints::SparseHessian* other : {&none, &empty, &more, &moved}) {
+    const MatrixXd before = *other;
+    CHECK_THROWS_WITH(constraints.hessian(q, weights, *other), Catch::Contains("makeHessian"));
+    CHECK(MatrixXd(*other) == before);
+  }
+  CHECK(constraints.hessian(q, weights, lower));
+  // As many entries in a matrix of another size, and room for more.
+  CollisionConstraints::SparseJacobian jacobian = constraints.makeJacobian();
+  CollisionConstraints::SparseJacobian wide(1, constraints.nonZeros()), loose = jacobian;
+  for (int k = 0; k < constraints.nonZeros(); ++k) wide.insert(0, k) = 1;
+  wide.makeCompressed();
+  loose.uncompress();
+  VectorXd d(constraints.rows());
+  RowRates rates = constraints.makeRates();
+  for (CollisionConstraints::SparseJacobian* other : {&wide, &loose}) {
+    CHECK_THROWS_WITH(constraints.evaluate(q, d, *other), Catch::Contains("makeJacobian"));
+    CHECK_THROWS_WITH(constraints.evaluate(q, 0 * q, rates, *other), Catch::Contains("makeJacobian"));
+  }
+  CHECK(constraints.evaluate(q, d, jacobian));
+}

@@ -321,6 +321,26 @@ TEST_CASE("new pairs replace old ones in an SRDF and leave the user's own alone"
   CHECK_THAT(withPairs("", "small", {{"b", "c", "Adjacent"}}), Contains("<robot name=\"small\">"));
 }
 
+TEST_CASE("line ends and tabs in the names of links are references in an SRDF, and read as the same names") {
+  TemporaryFolder folder;
+  put(folder / "s.srdf",
+      "<robot name=\"small\"><!-- two\nlines --><group name=\"g&#9;h\">\n<link name=\"a\"/></group></robot>");
+  const std::vector<std::string> names{"a", "x\ny", "x\ty", "x\ry", "x &#10; & < \"y"};
+  RobotModel model = parse(link("a"));
+  for (const std::string& name : names) model.links.push_back({name, {}, {}, -1, 0, "", {0, 0, 0}});
+  std::vector<Srdf::Pair> pairs;
+  for (std::size_t i = 1; i < names.size(); ++i) pairs.push_back({"a", names[i], "Never"});
+  const std::string text = withPairs(folder / "s.srdf", "small", pairs);
+  for (const char* part : {"x&#10;y", "x&#9;y", "x&#13;y", "g&#9;h", "<!-- two\nlines -->"})
+    CHECK_THAT(text, Contains(part));
+  put(folder / "new.srdf", text);
+  const Srdf srdf = loadSrdf(folder / "new.srdf", model);
+  CHECK(srdf.warnings.empty());
+  REQUIRE(srdf.disabled.size() == pairs.size());
+  for (std::size_t i = 0; i < pairs.size(); ++i) CHECK(srdf.disabled[i].link2 == pairs[i].link2);
+  CHECK(withPairs(folder / "new.srdf", "small", pairs) == text);
+}
+
 TEST_CASE(
     "an SRDF keeps what the user disabled without a reason, and what is enabled is not disabled again") {
   TemporaryFolder folder;

@@ -224,4 +224,5 @@ TEST_CASE("levels of other shapes and needs that make no sense are refused") {
   GeometryOptions options;
   options.cacheFolder.clear();
   CHECK_THROWS_WITH(loadLevels(*workshop.robot, options, {0.02, 0.02}), Contains("below the one before"));
+  CHECK_THROWS_WITH(loadLevels(*workshop.robot, options, {0.02, 0}), Contains("a budget of 0"));
 }

@@ -254,6 +254,35 @@ TEST_CASE("numbers of another size, too little room and rows that do not exist a
   }
 }
 
+TEST_CASE("a smooth constraint whose value is no number is near, with a row that nothing meets") {
+  const char* const rail = R"(<robot name="rail"><link name="base"/><link name="b"/>
+    <joint name="x" type="prismatic"><parent link="base"/><child link="b"/><axis xyz="1 0 0"/>
+      <limit lower="-9" upper="9" effort="1" velocity="1"/></joint></robot>)";
+  const auto model = std::make_shared<const RobotModel>(parseUrdf(rail, "rail.urdf"));
+  SmoothConstraint root;  // of 1 - q: no number beyond 1
+  root.name = "root";
+  root.coordinates = {0};
+  root.value = [](const Eigen::Ref<const VectorXd>& q, double* gradient) {
+    const double value = std::sqrt(1 - q[0]);
+    if (gradient) gradient[0] = -0.5 / value;
+    return value;
+  };
+  ConstraintOptions options;
+  options.smooth = {root};
+  CollisionConstraints constraints(std::make_shared<const Kinematics>(model),
+                                   std::make_shared<const RobotGeometry>(), {}, options);
+  for (const DamperLevel level : {DamperLevel::velocity, DamperLevel::acceleration, DamperLevel::barrier}) {
+    DamperOptions how;
+    how.level = level;
+    VelocityDamper damper(constraints, how);
+    for (const double q : {0.0, 1.5, 0.0}) {
+      damper.update(VectorXd::Constant(1, q), VectorXd::Ones(1));
+      CHECK(damper.near().size() == (q > 1 ? 1 : 0));
+      CHECK(damper.b()[0] == (q > 1 ? HUGE_VAL : -HUGE_VAL));
+    }
+  }
+}
+
 TEST_CASE("the acceleration's bound is a number: 0 where nothing changes, infinite where nothing bounds it") {
   const double none = std::numeric_limits<double>::infinity();
   CHECK(collisionAccelerationBound({}, 1, 0) == 0);  // no acting row, and so no eigenvalue

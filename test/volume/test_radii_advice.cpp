@@ -279,3 +279,23 @@ TEST_CASE(
   CHECK_THROWS_WITH(adviseRadii(box(0.1, 0.1, 0.1), task), Catch::Contains("period"));
   CHECK_THROWS_AS(adviseRadii({}, RadiiTask()), Error);
 }
+
+TEST_CASE("a body that does not turn gets the smallest R that the clearance takes, however small it is") {
+  for (const double size : {1e-4, 1e-3, 1e-2, 0.1, 1.0}) {
+    const Cloud cloud = box(size, 0.7 * size, 0.4 * size);
+    RadiiTask task;
+    task.clearance = 0.1 * size;
+    task.acceleration = 1e4;
+    task.speed = 1e-2;
+    task.turning = 0;
+    const RadiiAdvice advice = adviseRadii(cloud, task);
+    CAPTURE(size, advice.radii.r, advice.radii.R);
+    CHECK(advice.meetsBoth);
+    CHECK(advice.overCover <= task.clearance);
+    CHECK(overCover(*StpBv::build(cloud, {advice.radii.r, 0.998 * advice.radii.R}), cloud).max >
+          task.clearance);
+  }
+  const RadiiAdvice point = adviseRadii({{1, 2, 3}}, RadiiTask{0.01, 1, 0.01, 0});
+  CHECK(point.meetsBoth);
+  CHECK(point.radii.R < 1.01 * point.radii.r);
+}
