@@ -38,9 +38,7 @@ class Writer {
         }
       replace(*link);
     }
-    tinyxml2::XMLPrinter printer;
-    document_.Print(&printer);
-    return printer.CStr();
+    return printed(document_);
   }
 
  private:

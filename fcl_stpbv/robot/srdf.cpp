@@ -31,31 +31,6 @@ const std::set<std::string_view> kOthers = {"group",
                                             "enable_collisions",
                                             "disable_collisions"};
 
-// Line ends and tabs in attributes as references: bare ones are spaces to other readers.
-class AttributePrinter : public tinyxml2::XMLPrinter {
- public:
-  using XMLPrinter::VisitEnter;
-  bool VisitEnter(const XMLElement& element, const tinyxml2::XMLAttribute* attributes) override {
-    inTag_ = true;
-    const bool goesOn = XMLPrinter::VisitEnter(element, attributes);
-    inTag_ = false;
-    return goesOn;
-  }
-
- protected:
-  void Write(const char* data, std::size_t size) override {
-    if (!inTag_) return XMLPrinter::Write(data, size);
-    for (const char c : std::string_view(data, size)) {
-      const bool kept = c != '\n' && c != '\r' && c != '\t';
-      const std::string text = kept ? std::string(1, c) : "&#" + std::to_string(static_cast<int>(c)) + ";";
-      XMLPrinter::Write(text.data(), text.size());
-    }
-  }
-
- private:
-  bool inTag_ = false;
-};
-
 class SrdfReader {
  public:
   SrdfReader(const std::string& path, const RobotModel& robot, LoadFaults& faults)
@@ -287,9 +262,7 @@ std::string withPairs(const Srdf* srdf, const std::string& robotName, const std:
     e->SetAttribute("reason", pair.reason.c_str());
     root->InsertEndChild(e);
   }
-  AttributePrinter printer;
-  document.Print(&printer);
-  return printer.CStr();
+  return printed(document);
 }
 
 }  // namespace fcl_stpbv

@@ -1,4 +1,4 @@
-// Parses untrusted XML: bounds size and depth, refuses document types, NUL bytes and xacro.
+// Parses untrusted XML: bounds size and depth, refuses document types, NUL bytes and xacro. Prints it.
 #include "fcl_stpbv/robot/xml_text.h"
 
 #include <algorithm>
@@ -58,6 +58,31 @@ void refuseXacro(const tinyxml2::XMLElement& root, const std::string& name) {
   }
 }
 
+/// printed()
+class AttributePrinter : public tinyxml2::XMLPrinter {
+ public:
+  using XMLPrinter::VisitEnter;
+  bool VisitEnter(const tinyxml2::XMLElement& element, const tinyxml2::XMLAttribute* attributes) override {
+    inTag_ = true;
+    const bool goesOn = XMLPrinter::VisitEnter(element, attributes);
+    inTag_ = false;
+    return goesOn;
+  }
+
+ protected:
+  void Write(const char* data, std::size_t size) override {
+    if (!inTag_) return XMLPrinter::Write(data, size);
+    for (const char c : std::string_view(data, size)) {
+      const bool kept = c != '\n' && c != '\r' && c != '\t';
+      const std::string text = kept ? std::string(1, c) : "&#" + std::to_string(static_cast<int>(c)) + ";";
+      XMLPrinter::Write(text.data(), text.size());
+    }
+  }
+
+ private:
+  bool inTag_ = false;
+};
+
 }  // namespace
 
 void parseXml(std::string_view text, const std::string& name, tinyxml2::XMLDocument& document) {
@@ -88,6 +113,12 @@ std::string readXml(const std::string& path) { return readText(path, kMaxBytes);
 
 void loadXml(const std::string& path, tinyxml2::XMLDocument& document) {
   parseXml(readXml(path), path, document);
+}
+
+std::string printed(const tinyxml2::XMLDocument& document) {
+  AttributePrinter printer;
+  document.Print(&printer);
+  return printer.CStr();
 }
 
 std::string requiredAttribute(const tinyxml2::XMLElement& element, const char* attribute,

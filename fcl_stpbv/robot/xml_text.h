@@ -23,6 +23,10 @@ std::string readXml(const std::string& path);
 /// Reads a file and parses it. @throws Error naming the file.
 void loadXml(const std::string& path, tinyxml2::XMLDocument& document);
 
+/// The document's text, with line ends and tabs in attributes as references: bare ones are spaces to other
+/// readers.
+std::string printed(const tinyxml2::XMLDocument& document);
+
 /// An attribute that must be there. @throws Error naming file, line, element and attribute.
 std::string requiredAttribute(const tinyxml2::XMLElement& element, const char* attribute,
                               const std::string& name);

@@ -311,6 +311,13 @@ class Conversion(unittest.TestCase):
         np.testing.assert_allclose(sizes["gate"], [0.2, 0.2])
         np.testing.assert_allclose(sizes["gate_0"], [0.1])
 
+    def test_line_ends_and_tabs_in_names_are_references(self):
+        urdf = self.gate()
+        urdf.write_text(urdf.read_text().replace('"box"', '"box&#10;a&#9;b"'))
+        done = self.convert("--parts", "2")
+        self.assertEqual(done.returncode, 0, done)
+        self.assertIn('"box&#10;a&#9;b"', (self.out / "gate.urdf").read_text())
+
     def test_files_keep_their_names_whatever_way_the_folder_is_given(self):
         urdf = self.gate()
         (self.place / "red.png").write_bytes(b"")
