@@ -187,6 +187,10 @@ Plan plan(const std::vector<std::string>& inputs, const std::string& output, con
       throw UsageError("-o " + output +
                        ": a volume is no mesh; end the name in .stpbv, and for its surface give --preview " +
                        output);
+    if (options.format == Format::sch && detail::lowerExtension(output) == ".stpbv")
+      throw UsageError("-o " + output +
+                       ": is a name of this library's own format, and no program could load --format sch "
+                       "from it; end it in .txt");
     plan.jobs = {{inputs[0], output}};
   }
   InputFiles files(inputs);

@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <set>
 
+#include "fcl_stpbv/adapter/fcl_distance.h"
+
 namespace fcl_stpbv::report {
 
 using namespace detail;
@@ -38,6 +40,25 @@ std::string neutralCollisions(const NeutralPosture& found, const std::string& ne
   return warning + ".";
 }
 
+// The pair list has no pair of an obstacle and a body that no joint moves: nothing else says that they meet.
+std::string unmovedInObstacles(const CollisionReport& report) {
+  Kinematics::State state = report.kinematics->makeState();
+  report.kinematics->forwardPoses(report.kinematics->neutral(), state);
+  std::string first;
+  std::size_t meet = 0;
+  for (const Body& body : report.geometry->bodies) {
+    if (body.partOf >= 0 || moves(*report.robot, body.link)) continue;
+    const Eigen::Isometry3d pose = state.link[static_cast<std::size_t>(body.link)] * body.pose;
+    for (const Obstacle& obstacle : report.obstacles) {
+      if (!collides(*body.geometry, pose, *obstacle.geometry, obstacle.pose, report.margin)) continue;
+      if (++meet == 1) first = "'" + body.name + "' meets the obstacle '" + obstacle.name + "'";
+    }
+  }
+  if (meet == 0) return "";
+  const std::string others = meet > 1 ? ", nor " + std::to_string(meet - 1) + " more like it" : "";
+  return first + "; no joint moves it, so this pair is not checked" + others + ".";
+}
+
 std::string kinks(const CollisionReport& report) {
   const auto kinked = std::count_if(report.pairs.begin(), report.pairs.end(), [](const PairReport& pair) {
     return pair.checked && !pair.answer.continuous;
@@ -64,8 +85,9 @@ std::string openParts(const RobotGeometry& geometry) {
 
 std::vector<std::string> reportWarnings(const CollisionReport& report, const std::string& neutral) {
   std::vector<std::string> warnings;
-  for (const std::string& text : {openMeshes(report), openParts(*report.geometry),
-                                  neutralCollisions(report.neutral, neutral), kinks(report)})
+  for (const std::string& text :
+       {openMeshes(report), openParts(*report.geometry), neutralCollisions(report.neutral, neutral),
+        unmovedInObstacles(report), kinks(report)})
     if (!text.empty()) warnings.push_back(report.robot->path + ": " + text);
   return warnings;
 }

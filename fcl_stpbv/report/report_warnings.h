@@ -11,8 +11,8 @@ namespace fcl_stpbv::report {
 std::string openParts(const RobotGeometry& geometry);
 
 /// Whole sentences for meshes that are not closed, for bodies that meet in the neutral
-/// posture (`neutral` is its name, "" for the usual one) and for pairs whose gradient may
-/// jump. The report's pairs and fits are there.
+/// posture (`neutral` is its name, "" for the usual one), for those that no joint moves and that meet an
+/// obstacle, and for pairs whose gradient may jump. The report's pairs and fits are there.
 std::vector<std::string> reportWarnings(const CollisionReport& report, const std::string& neutral);
 
 }  // namespace fcl_stpbv::report

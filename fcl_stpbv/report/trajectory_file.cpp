@@ -20,6 +20,7 @@ namespace {
 constexpr std::size_t kMostText = 256u << 20;
 // As of a posture: larger than any robot's, and past it a sine loses digits.
 constexpr double kMost = 1e6;
+constexpr const char* kJson = "{\"joints\": [names], \"points\": [[values], ...]}";
 
 struct Columns {
   std::vector<std::string> names;  // "time" is the time
@@ -77,6 +78,7 @@ Columns fromCsv(const std::string& text, const std::string& path) {
 
 Columns fromJson(const std::string& text, const std::string& path) {
   const nlohmann::json json = parseJson(text, path);
+  if (!json.is_object()) throw Error(path + ": is no object of JSON, expected " + kJson);
   Columns columns;
   try {
     for (const auto& [key, value] : json.items())
@@ -99,8 +101,7 @@ Columns fromJson(const std::string& text, const std::string& path) {
       for (std::size_t i = 0; i < time.size(); ++i) columns.rows[i].push_back(time[i]);
     }
   } catch (const nlohmann::json::exception& error) {
-    throw Error(path + ": expected {\"joints\": [names], \"points\": [[values], ...]} (" + error.what() +
-                ")");
+    throw Error(path + ": expected " + kJson + " (" + error.what() + ")");
   }
   return columns;
 }
@@ -147,7 +148,8 @@ Trajectory readTrajectory(const std::string& path, const Kinematics& kinematics,
   const std::size_t first = text.find_first_not_of(" \t\r\n");
   if (first == std::string::npos)
     throw Error(path + ": is empty; expected a line of joint names and way points");
-  const Columns columns = text[first] == '{' ? fromJson(text, path) : fromCsv(text, path);
+  const Columns columns =
+      text[first] == '{' || text[first] == '[' ? fromJson(text, path) : fromCsv(text, path);
   const std::vector<int> coordinates = coordinatesOf(columns, path, kinematics);
   if (columns.rows.size() < 2)
     throw Error(path + ": has " + std::to_string(columns.rows.size()) + " way points, a motion needs two");

@@ -63,8 +63,6 @@ class ColladaNodes {
 
   void check() {
     forEach("library_geometries", "geometry", [this](const XMLElement& e) { addGeometry(e); });
-    forEach("library_controllers", "controller",
-            [this](const XMLElement& e) { shapes_.emplace(attribute(e, "id"), &e); });
     forEach("library_nodes", "node", [this](const XMLElement& e) { nodes_.insert(attribute(e, "id")); });
     forEach("library_visual_scenes", "visual_scene", [this](const XMLElement& e) { addScene(e); });
     forEach("library_nodes", "node", [this](const XMLElement& e) { checkNode(e); });
@@ -119,8 +117,12 @@ class ColladaNodes {
                         "names the node '#" + target +
                             "', which is neither in the scene nor at the top of a <library_nodes>",
                         name_);
-      } else if (kind == "instance_geometry" || kind == "instance_controller") {
+      } else if (kind == "instance_geometry") {
         checkShape(*e);
+      } else if (kind == "instance_controller") {
+        throw Error(xmlPlace(*e, name_) +
+                    "<instance_controller> has a skin or morph targets, which move vertices and are not "
+                    "read; export the mesh with them applied");
       }
     }
   }
@@ -138,7 +140,7 @@ class ColladaNodes {
 
   const XMLElement& root_;
   const std::string& name_;
-  std::map<std::string, const XMLElement*> shapes_;  // geometries and controllers
+  std::map<std::string, const XMLElement*> shapes_;  // geometries
   std::set<std::string> nodes_;                      // those that an <instance_node> may name
 };
 

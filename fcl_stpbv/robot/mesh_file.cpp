@@ -78,6 +78,7 @@ class Gatherer {
     std::vector<int> index;
     index.reserve(mesh.mNumVertices);
     for (unsigned v = 0; v < mesh.mNumVertices; ++v) {
+      several_ = several_ || mesh.mVertices[v] != mesh.mVertices[0];
       const aiVector3D p = transform * mesh.mVertices[v];
       index.push_back(
           add(Vector3d(static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z))));
@@ -121,7 +122,7 @@ class Gatherer {
   Vector3d scale_;
   TriangleMesh mesh_;
   std::optional<Vector3d> first_;
-  bool several_ = false;  // distinct points before they are scaled
+  bool several_ = false;  // distinct points before they are scaled, by a node or here
   std::unordered_map<Vector3d, int, HashVector> index_;
 };
 
@@ -154,6 +155,28 @@ void checkFaces(const aiScene& scene, const std::string& path) {
   }
 }
 
+// Twice the area of all faces, of each that of its outline seen along its normal (m^2): whatever way a face
+// is split, its triangles have as much in all, or more where it is not flat.
+double outlinedArea(const aiScene& scene) {
+  double sum = 0;
+  for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
+    const aiMesh& mesh = *scene.mMeshes[m];
+    const auto place = [&mesh](unsigned vertex) {
+      const aiVector3D& p = mesh.mVertices[vertex];
+      return Vector3d(static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z));
+    };
+    for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
+      const aiFace& face = mesh.mFaces[f];
+      const Vector3d first = place(face.mIndices[0]);
+      Vector3d area(0, 0, 0);
+      for (unsigned k = 2; k < face.mNumIndices; ++k)
+        area += (place(face.mIndices[k - 1]) - first).cross(place(face.mIndices[k]) - first);
+      sum += area.norm();
+    }
+  }
+  return sum;
+}
+
 const aiScene& read(Assimp::Importer& importer, ReadableFiles& files, const std::string& path) {
   const std::string text = readText(path), expected = expectedFormat(text, path);
   const auto check = [&](const std::string& format) {
@@ -167,7 +190,13 @@ const aiScene& read(Assimp::Importer& importer, ReadableFiles& files, const std:
   if (scene != nullptr) {
     if (const std::string format = formatOf(*scene, importer); format != expected) check(format);
     checkFaces(*scene, path);
+    constexpr double kRounding = 1e-9;  // of sums of doubles, and far less than a face
+    const double area = outlinedArea(*scene);
     scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
+    // assimp leaves out what it cannot split of a polygon with corners on one line.
+    if (scene != nullptr && outlinedArea(*scene) < (1 - kRounding) * area)
+      throw Error(path +
+                  ": a face of many corners cannot be split into triangles; export the mesh as triangles");
   }
   if (scene == nullptr || scene->mRootNode == nullptr) {
     throw Error(path + ": cannot be read as a mesh (" + importer.GetErrorString() +

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <filesystem>
 #include <memory>
+#include <string>
 #include <string_view>
 
 #include "fcl_stpbv/error.h"
@@ -93,6 +94,16 @@ std::unique_ptr<aiScene> sceneOf(const std::vector<TriangleMesh>& meshes) {
   return scene;
 }
 
+std::string exported(const aiScene& scene, const char* assimpId, const std::string& path) {
+  Assimp::Exporter exporter;
+  const aiExportDataBlob* blob = exporter.ExportToBlob(&scene, assimpId);
+  if (blob == nullptr) throw Error(path + ": cannot be written (" + exporter.GetErrorString() + ")");
+  return {static_cast<const char*>(blob->data), blob->size};
+}
+
+// Whether the first byte of a binary PLY's values is that of a line feed: assimp would pass over it.
+bool beginsWithLineFeed(const std::string& ply) { return ply.find("end_header\n\n") != std::string::npos; }
+
 }  // namespace
 
 bool canSaveMesh(const std::string& path) { return formatOf(path) != nullptr; }
@@ -106,10 +117,10 @@ void saveColoured(const std::string& path, const std::vector<TriangleMesh>& mesh
       std::any_of(meshes.begin(), meshes.end(), [](const auto& m) { return m.triangles.empty(); });
   if (meshes.empty() || none) throw Error(path + ": not written, the mesh has no triangles");
   const std::unique_ptr<aiScene> scene = sceneOf(meshes);
-  Assimp::Exporter exporter;
-  const aiExportDataBlob* blob = exporter.ExportToBlob(scene.get(), format->assimpId);
-  if (blob == nullptr) throw Error(path + ": cannot be written (" + exporter.GetErrorString() + ")");
-  atomicWrite(path, std::string_view(static_cast<const char*>(blob->data), blob->size));
+  std::string text = exported(*scene, format->assimpId, path);
+  if (format->assimpId == std::string_view("plyb") && beginsWithLineFeed(text))
+    text = exported(*scene, "ply", path);
+  atomicWrite(path, text);
 }
 
 }  // namespace fcl_stpbv

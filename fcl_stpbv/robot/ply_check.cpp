@@ -6,6 +6,7 @@
 #include <charconv>
 #include <limits>
 #include <map>
+#include <set>
 #include <vector>
 
 #include "fcl_stpbv/error.h"
@@ -103,7 +104,8 @@ Header readHeader(MeshLines& lines) {
   }
 }
 
-// assimp puts 0 for a coordinate that it does not find, and leaves out the faces whose vertices it does not.
+// assimp puts 0 for a coordinate that it does not find, and leaves out the faces whose vertices it does not,
+// all but the last of several elements of one name, and all of a strip but its first triangle.
 void checkNames(const Header& header, const std::string& name) {
   const auto require = [&](const Element& element, bool isList, std::initializer_list<const char*> names) {
     const auto fits = [&](const Property& property) {
@@ -114,7 +116,14 @@ void checkNames(const Header& header, const std::string& name) {
       throw Error(name + ": the element '" + element.name + "' has no " + (isList ? "list" : "property") +
                   " '" + *names.begin() + "'; export the mesh again");
   };
+  std::set<std::string> seen;
   for (const Element& element : header.elements) {
+    if (!seen.insert(element.name).second)
+      throw Error(name + ": has two elements '" + element.name +
+                  "', of which one is read; export the mesh again");
+    if (element.count > 0 && element.name == "tristrips")
+      throw Error(name +
+                  ": the element 'tristrips' is not read whole; export the mesh with triangles as faces");
     if (element.count > 0 && element.properties.empty())
       throw Error(name + ": the element '" + element.name + "' has no properties; export the mesh again");
     if (element.name == "vertex")
@@ -236,6 +245,11 @@ void checkPly(std::string_view text, const std::string& name) {
     for (const Element& element : header.elements) body.pass(element);
   } else {
     if (lines.end() == "\r") lines.refuse("the line must end by a line feed before values in binary");
+    // assimp passes over all line feeds behind this one, and would read the values from other bytes.
+    if (lines.end() == "\n" && lines.rest().substr(0, 1) == "\n")
+      lines.refuse(
+          "the values in binary begin with a byte that is not read right, 10 as of a line feed; export the "
+          "mesh as text, or another format");
     PlyBody body(lines.rest(), header.encoding, name);
     for (const Element& element : header.elements) body.pass(element);
   }

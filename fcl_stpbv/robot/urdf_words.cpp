@@ -2,7 +2,9 @@
 #include "fcl_stpbv/robot/urdf_words.h"
 
 #include <algorithm>
+#include <cctype>
 #include <initializer_list>
+#include <numeric>
 #include <string_view>
 #include <vector>
 
@@ -114,6 +116,36 @@ bool isLost(const XMLElement& element) {
          !isShape(holder->Parent());
 }
 
+// Letters to put in, to leave out or to change until one word is the other, capitals or not.
+std::size_t editsBetween(std::string_view a, std::string_view b) {
+  const auto lower = [](char c) { return std::tolower(static_cast<unsigned char>(c)); };
+  std::vector<std::size_t> edits(b.size() + 1);  // from what of `a` was looked at to each beginning of `b`
+  std::iota(edits.begin(), edits.end(), std::size_t{0});
+  for (const char c : a) {
+    std::size_t before = edits[0]++;
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      const std::size_t changed = before + (lower(c) != lower(b[j]));
+      before = edits[j + 1];
+      edits[j + 1] = std::min({changed, before + 1, edits[j] + 1});
+    }
+  }
+  return edits.back();
+}
+
+// The word that a name in a link misspells by up to one letter in four, "" if none: such an element would
+// lose a body even where nothing in it tells, as an empty one or one with further misspelt words.
+std::string_view misspeltShape(std::string_view name) {
+  for (const std::string_view word : {"collision", "visual"})
+    if (name != word && editsBetween(name, word) <= word.size() / 4) return word;
+  return "";
+}
+
+std::string misspeltIn(const XMLElement& element, std::string_view word) {
+  const std::string name = element.Name();
+  return "<" + name + "> within <link>, where no robot has one; is it a misspelt <" + std::string(word) +
+         ">? Where it is another tool's, put a prefix before its name, as in <tool:" + name + ">";
+}
+
 std::string misplaced(const XMLElement& element, const XMLElement& holder, bool known) {
   const std::string name = element.Name(), around = holder.Name();
   const std::string within = "<" + name + "> within <" + around + ">, where no robot has one; ";
@@ -181,6 +213,10 @@ int checkPlaces(const XMLElement& robot, const std::string& path, LoadFaults& fa
     for (const XMLElement* e = at.FirstChildElement(); e; e = e->NextSiblingElement()) {
       const std::string_view name = e->Name();
       if (name == "gazebo" || ofSelfFilter(name) || ofOtherTools(name)) continue;
+      if (const std::string_view word = link ? misspeltShape(name) : ""; !word.empty()) {
+        faults.shapes.push_back(xmlPlace(*e, path) + misspeltIn(*e, word));
+        continue;
+      }
       if ((name == "collision" && !link) || (name == "geometry" && !shape) || isLost(*e)) {
         const bool inLink = name != "collision" && isInLink(*e, robot);  // costs a shape
         (inLink ? faults.shapes : faults.errors)

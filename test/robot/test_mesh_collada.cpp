@@ -76,13 +76,24 @@ TEST_CASE("a COLLADA document without a mesh in its scene is no body") {
 TEST_CASE("a COLLADA reference that leads nowhere is refused") {
   const std::string shape = "<instance_geometry url=\"#g\"/>", node = "<instance_node url=\"#m\"/>";
   checkRefused({{"url=\"#g\"", "url=\"#h\"", "t.dae:17: <instance_geometry> names the geometry '#h'"},
-                {shape, shape + "<instance_controller url=\"#h\"/>", "t.dae:17: "},
                 {shape, shape + "<instance_geometry url=\"other.dae#g\"/>", "t.dae:17: "},
                 {node, node + "<instance_node url=\"#o\"/>", "t.dae:20: <instance_node> names the node '#o'"},
                 {node, node + "<instance_node url=\"other.dae#m\"/>", "t.dae:20: "},
                 {"source=\"#p\"", "source=\"#q\"", "t.dae:11: "},
                 {"source=\"#ta\"", "source=\"#q\"", "t.dae:9: "},
                 {"<geometry id=\"g\">", "<geometry id=\"g\"/><geometry id=\"g\">", "t.dae:4: "}});
+}
+
+TEST_CASE("a COLLADA skin or morph, whose vertices are elsewhere than the geometry's, is refused") {
+  const std::string shape = "<instance_geometry url=\"#g\"/>", library = "<library_visual_scenes>";
+  const std::string skin =
+      "<library_controllers><controller id=\"c\"><skin source=\"#g\"><bind_shape_matrix>1 0 0 5 0 1 0 0 0 0 "
+      "1 0 "
+      "0 0 0 1</bind_shape_matrix></skin></controller></library_controllers>";
+  const std::string unused = changed(kSound, {library, skin + library});
+  CHECK(loadedText(unused) == "");
+  CHECK_THAT(loadedText(changed(unused, {shape, "<instance_controller url=\"#c\"/>"})),
+             Contains("t.dae:17: <instance_controller> has a skin or morph"));
 }
 
 TEST_CASE("a COLLADA array that is shorter than its accessor takes it to be is refused") {

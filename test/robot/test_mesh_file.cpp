@@ -1,6 +1,9 @@
 // Meshes in and out: every format gives the same points, broken files are refused by name.
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <filesystem>
 #include <set>
 #include <sstream>
@@ -229,6 +232,27 @@ TEST_CASE("files that hold no mesh are refused by name") {
           "");
 }
 
+TEST_CASE(
+    "a mesh whose first byte in a binary PLY would be a line feed's is written so that it can be read") {
+  const TemporaryFolder folder;
+  TriangleMesh mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1.0 / 3, 0.1}}, {{0, 1, 2}}};
+  int fed = 0;
+  float x = 0.3f;
+  for (int i = 0; i < 256; ++i, x = std::nextafter(x, 1.0f)) {
+    std::uint32_t bits = 0;
+    std::memcpy(&bits, &x, sizeof bits);
+    if ((bits & 0xff) != '\n') continue;
+    ++fed;
+    mesh.vertices[0].x() = static_cast<double>(x);
+    saveMesh(folder / "fed.ply", mesh);
+    const std::vector<Vector3d> read = loadPoints(folder / "fed.ply");
+    REQUIRE(read.size() == 3);
+    CHECK(read[0].x() == static_cast<double>(x));
+    CHECK((read[2] - mesh.vertices[2]).norm() < 1e-7);  // single precision
+  }
+  CHECK(fed == 1);
+}
+
 TEST_CASE("a PLY file cut off or with flipped bits is refused or read, in text and in binary") {
   const TemporaryFolder folder;
   saveMesh(folder / "b.ply", tessellate(*StpBv::build(box(0.2, 0.3, 0.5)), 1));
@@ -250,6 +274,57 @@ TEST_CASE("a PLY file cut off or with flipped bits is refused or read, in text a
       CHECK((message.empty() || message.find(folder / "d.ply") == 0));
     }
   }
+}
+
+TEST_CASE(
+    "a PLY in binary whose values begin as a line feed does is refused, not read from the byte behind") {
+  const TemporaryFolder folder;
+  const auto read = [&](const std::string& end, const std::string& first) {
+    std::string content = "ply" + end + "format binary_little_endian 1.0" + end + "element vertex 4" + end;
+    for (const char* name : {"x", "y", "z"}) content += std::string("property float ") + name + end;
+    content += "end_header" + end + first;
+    for (int i = 1; i < 12; ++i) content += i % 4 == 0 ? "\x3e\x80\x10\x3f" : "\x3d\x10\x80\x3e";
+    put(folder / "b.ply", content);
+    std::vector<Vector3d> points;
+    const std::string message =
+        refusal([&](const std::string& path) { points = loadPoints(path); }, folder / "b.ply");
+    if (message.empty()) CHECK((points.size() == 3 || points.size() == 4));
+    for (const Vector3d& p : points) CHECK((p.minCoeff() > 0.2 && p.maxCoeff() < 0.6));
+    return message;
+  };
+  const std::string feed = "\n\x10\x80\x3e";  // 0.25 and a little
+  CHECK(read("\n", feed).find(folder / "b.ply:7: the values in binary begin with a byte") == 0);
+  CHECK(read("\n", "\r" + feed.substr(1)) == "");
+  CHECK(read("\n", " " + feed.substr(1)) == "");
+  CHECK(read("\r\n", feed) == "");
+}
+
+TEST_CASE("a polygon that cannot be split is refused, not read with a part of its triangles") {
+  const TemporaryFolder folder;
+  // A comb in some plane: assimp leaves out 2 of its 12 m^2.
+  put(folder / "comb.obj",
+      "v 0 -0 -0\n"
+      "v 0.02403695 -0.3935097 -0.9190062\n"
+      "v -0.9741027 -0.4544796 -0.9190062\n"
+      "v -0.9981396 -0.06096986 -0\n"
+      "v -1.996279 -0.1219397 -0\n"
+      "v -1.972242 -0.5154495 -0.9190062\n"
+      "v -2.970382 -0.5764193 -0.9190062\n"
+      "v -2.994419 -0.1829096 -0\n"
+      "v -3.992558 -0.2438795 -0\n"
+      "v -3.968521 -0.6373892 -0.9190062\n"
+      "v -4.966661 -0.6983591 -0.9190062\n"
+      "v -4.990698 -0.3048493 -0\n"
+      "v -5.988838 -0.3658192 -0\n"
+      "v -5.964801 -0.7593289 -0.9190062\n"
+      "v -6.96294 -0.8202988 -0.9190062\n"
+      "v -6.986977 -0.426789 -0\n"
+      "v -7.985117 -0.4877589 -0\n"
+      "v -8.009154 -0.09424916 0.9190062\n"
+      "v -0.02403695 0.3935097 0.9190062\n"
+      "f 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19\n");
+  const auto load = [](const std::string& path) { loadMesh(path); };
+  CHECK(refusal(load, folder / "comb.obj").find(folder / "comb.obj: a face of many corners") == 0);
 }
 
 TEST_CASE("the humanoid's meshes and their polyhedra are the same bodies") {

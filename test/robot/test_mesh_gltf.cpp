@@ -165,6 +165,12 @@ TEST_CASE("glTF: nodes whose transform or children would be taken for others are
        {"\"nodes\":[0]", "\"nodes\":[0,0.0]", "scenes[0].nodes[1] must be a whole"}});
 }
 
+TEST_CASE("glTF: a node that leaves a single point of a mesh is no body of one point") {
+  for (const char* node : {"{\"mesh\":0,\"scale\":[0,0,0]}", "{\"mesh\":0,\"scale\":[1e-30,0,0]}",
+                           "{\"mesh\":0,\"matrix\":[0,0,0,0,0,0,0,0,0,0,0,0,1,0,0,1]}"})
+    checkGltfRefused({{"{\"mesh\":0}", node, "is smaller than 1e-9 m along each axis"}});
+}
+
 TEST_CASE("sound glTF is read, whatever its exporter adds") {
   const std::string primitive = "\"indices\":1", asset = "{\"asset\"";
   const std::string data = "data:application/octet-stream;base64," + base64(triangleBytes());

@@ -187,7 +187,11 @@ TEST_CASE("PLY as text: an element a line, and the properties that make a mesh")
        {ply("\n" + xyz, ""), ":4: "},
        {"ply\nformat ascii 1.0\nelement vertex 3\n" + xyz +
             "element face 1\nproperty list uchar int vertices\nend_header\n",
-        ": the element 'face' has no list 'vertex_indices'"}});
+        ": the element 'face' has no list 'vertex_indices'"},
+       {ply(xyz + "element vertex 3\n" + xyz, vertices + vertices + face), ": has two elements 'vertex'"},
+       {ply(xyz + "element tristrips 1\nproperty list int int vertex_indices\n",
+            vertices + "4 0 1 2 0\n" + face),
+        ": the element 'tristrips' is not read whole"}});
   checkRead("t.ply", {ply(xyz, vertices + face), ply(xyz + "comment a\n", "0 0 0\n\n1 0 0\n0 1 0\n\n" + face),
                       ply("property uchar red\n" + xyz, "1 0 0 0\n255 1 0 0\n0 0 1 0\n" + face)});
 }

@@ -161,6 +161,22 @@ TEST_CASE("a shape whose collision and geometry are both misspelt is not lost wi
   CHECK(shapesIn(kBox + "<box/><sensor><mesh/></sensor><x:c><box size=\"1 1 1\"/></x:c>") == 1);
 }
 
+TEST_CASE("a name in a link that is nearly <collision> costs a shape, whatever it holds") {
+  for (const char* shape : {"<collison/>", "<Collision/>", "<colision name=\"f\"/>", "<collisions/>",
+                            "<visul/>", "<Collision><Geometry><Box size=\"1 1 1\"/></Geometry></Collision>",
+                            "<collison><geometri><bx size=\"1 1 1\"/></geometri></collison>"}) {
+    CAPTURE(shape);
+    LoadFaults faults;
+    const RobotModel model =
+        parseUrdf(robot("<link name=\"a\">" + kBox + "\n" + shape + "</link>"), "small.urdf", faults);
+    CHECK(faults.errors.empty());
+    REQUIRE(faults.shapes.size() == 1);
+    CHECK_THAT(faults.shapes[0], Contains("small.urdf:3: <") && Contains("misspelt <"));
+    CHECK(model.links[0].collision.size() == 1);
+  }
+  CHECK(shapesIn(kBox + "<collision_checking/><contact/><virtual/><x:collison/><sensor/>") == 1);
+}
+
 TEST_CASE("a misspelt <joint> is named where a link is left without a parent") {
   CHECK_THAT(
       refused(robot(link("a") + link("b") +

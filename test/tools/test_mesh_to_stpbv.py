@@ -205,6 +205,7 @@ class MeshToStpbv(unittest.TestCase):
                 (["cube.txt", "-o", "a.stpbv", "-r", "nan"], ["-r"]),
                 (["cube.txt", "-o", "a.stpbv", "-r", "1", "-R", "1"], ["-R"]),
                 (["cube.txt", "-o", "a.stpbv", "--scale", "0"], ["--scale"]),
+                (["cube.txt", "-o", "a.stpbv", "--format", "sch"], ["-o a.stpbv", "--format sch", ".txt"]),
                 (["cube.txt", "-o", "a.stpbv", "--format", "step"], ["--format", "stpbv", "sch"]),
                 (["cube.txt", "-o", "a.stpbv", "--preview", "a.doc"], ["--preview a.doc", ".glb"]),
                 (["cube.txt", "other.txt", "-o", "out", "--preview", "a.obj"], ["--preview a.obj", "one input"]),

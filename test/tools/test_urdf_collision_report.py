@@ -103,6 +103,7 @@ class Report(unittest.TestCase):
                            ("slide\n0\n1,2\n", "way.csv:3: has 2 values"), ("time\n0\n1\n", "names no joint"),
                            ("slide\n0\nnan\n", "must be from"), ("slide\n0\n1e7\n", "must be from"),
                            ("time,slide\n1,0\n1,1\n", "must grow"), ('{"joints": ["slide"]}', "expected"),
+                           ('[{"slide": 0}, {"slide": 1}]', "no object of JSON"),
                            ('{"joints": ["slide"], "points": [[0], [1, 2]]}', "points[1]"),
                            ('{"joints": ["slide"], "points": [[0], [1]], "time": [0]}', '"time" has 1')]:
             done = self.follow("way.csv", text)
@@ -180,6 +181,22 @@ class Report(unittest.TestCase):
         hand = {p["link1"]: p for p in searched["pairs"] if p["obstacle"]}["LARM_LINK6"]
         self.assertEqual(hand["reason"], "sometimes")
         self.assertLessEqual(hand["distance"], 0)
+
+    def test_an_obstacle_around_a_body_that_no_joint_moves_is_told(self):
+        ball = '<sphere radius="0.05"/>'
+        robot = self.robot(link("base", ball) + link("arm", ball) + joint("turn", "base", "arm", origin="0 0 9"))
+
+        def warnings(*places):
+            scene = self.put("scene.urdf", '<robot name="scene">' + link("floor") + "".join(
+                link(f"ball{i}", ball) + joint(f"to{i}", "floor", f"ball{i}", "fixed", at) for i, at in enumerate(places)) + "</robot>")
+            done = self.run_tool(robot, "--samples", "20", "--obstacles", scene, "--format", "json")
+            self.assertEqual(done.returncode, 0, done.stderr)  # what is checked is clear
+            return [w for w in json.loads(done.stdout)["warnings"] if "obstacle" in w]
+
+        self.assertEqual(warnings("0 0 0.09"), [f"{robot}: 'base' meets the obstacle 'ball0'; no joint moves it, so this pair is "
+                                                "not checked."])
+        self.assertIn("not checked, nor 1 more like it.", warnings("0 0 0", "3 3 3", "0.05 0 0")[0])
+        self.assertEqual(warnings("0 0 0.2", "0 9 0"), [])
 
     def test_json_has_the_keys_that_the_page_on_robots_lists(self):
         report = json.loads(self.humanoid("--pose", "zero", "--format", "json").stdout)
