@@ -19,7 +19,8 @@ struct CheckedPair {
   bool obstacle = false;  ///< whether `other` is an obstacle
 };
 
-/// Something that stands still in the world.
+/// Something that stands still in the world. Its geometry must not change once a checker, constraints or a
+/// motion check has it: they look at its corners and boxes once.
 struct Obstacle {
   std::string name;                                         ///< for messages and reports
   std::shared_ptr<const fcl::CollisionGeometryd> geometry;  ///< what queries get

@@ -105,16 +105,18 @@ Header readHeader(MeshLines& lines) {
 }
 
 // assimp puts 0 for a coordinate that it does not find, and leaves out the faces whose vertices it does not,
-// all but the last of several elements of one name, and all of a strip but its first triangle.
+// all but the last of several elements or properties of one name, and all of a strip but its first triangle.
 void checkNames(const Header& header, const std::string& name) {
   const auto require = [&](const Element& element, bool isList, std::initializer_list<const char*> names) {
     const auto fits = [&](const Property& property) {
       return (property.count.bytes != 0) == isList &&
              std::find(names.begin(), names.end(), property.name) != names.end();
     };
-    if (element.count > 0 && std::none_of(element.properties.begin(), element.properties.end(), fits))
-      throw Error(name + ": the element '" + element.name + "' has no " + (isList ? "list" : "property") +
-                  " '" + *names.begin() + "'; export the mesh again");
+    const auto found = std::count_if(element.properties.begin(), element.properties.end(), fits);
+    if (element.count > 0 && found != 1)
+      throw Error(name + ": the element '" + element.name + "' has " +
+                  (found == 0 ? "no " : "more than one ") + (isList ? "list" : "property") + " '" +
+                  *names.begin() + "'; export the mesh again");
   };
   std::set<std::string> seen;
   for (const Element& element : header.elements) {

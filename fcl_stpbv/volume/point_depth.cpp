@@ -3,10 +3,9 @@
 // The core lies in the ball of each face, so no way out is longer than out of one of these balls. And a point
 // deep enough leaves the core through a face: along an edge or a vertex the surface bends too much to be a
 // shortest way. So the depth is the least of the depths in the balls.
-// 1. Of each ball the power of the point, |p - c|^2 - rho^2, which has no cancellation where the ball's
-// centre c
-//    is far away: with an anchor a on the ball and the normal u there it is (p - a) . (p - a + 2 rho u).
-// 2. The largest power is that of the ball which the point leaves soonest.
+// 1. Of each ball take the power of the point, |p - c|^2 - rho^2. From a point a on the ball and the normal u
+//    there it is (p - a) . (p - a + 2 rho u), which does not cancel where the centre c is far away.
+// 2. The ball with the largest power is the one that the point leaves soonest.
 #include "fcl_stpbv/volume/point_depth.h"
 
 #include <algorithm>
@@ -29,7 +28,7 @@ struct Power {
   int face;      ///< its place among the faces
 };
 
-/// The least negative power. `p` is inside or outside.
+/// The largest power over all faces, four at a time.
 inline Power largestPower(const FaceRecord* faces, int count, double rho, const Packed& p) {
   const auto read = [](const Vector3d& v) {  // the fourth number is the record's next
     Packed four;

@@ -188,6 +188,8 @@ TEST_CASE("PLY as text: an element a line, and the properties that make a mesh")
        {"ply\nformat ascii 1.0\nelement vertex 3\n" + xyz +
             "element face 1\nproperty list uchar int vertices\nend_header\n",
         ": the element 'face' has no list 'vertex_indices'"},
+       {ply(xyz + "property float x\n", "0 0 0 5\n1 0 0 5\n0 1 0 5\n" + face),
+        ": the element 'vertex' has more than one property 'x'"},
        {ply(xyz + "element vertex 3\n" + xyz, vertices + vertices + face), ": has two elements 'vertex'"},
        {ply(xyz + "element tristrips 1\nproperty list int int vertex_indices\n",
             vertices + "4 0 1 2 0\n" + face),
