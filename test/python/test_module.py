@@ -229,16 +229,20 @@ def test_a_batch_ends_with_ctrl_c_and_the_robot_answers_on(ask):
     robot = fcl_stpbv.Robot(DATA / "hrp2_style/hrp2_style.urdf", DATA / "hrp2_style/hrp2_style.srdf")
     q = np.random.default_rng(1).uniform(robot.lower, robot.upper, size=(2000, len(robot.names)))
     before = robot.distances_many(q[:3])
-    start = time.monotonic()
-    getattr(robot, ask)(q)
-    once = time.monotonic() - start
-    many = np.broadcast_to(q, (int(20 / once) + 2, *q.shape)).reshape(-1, q.shape[1])  # 20 s and more
-    timer = threading.Timer(0.5, signal.raise_signal, [signal.SIGINT])
-    timer.start()
-    start = time.monotonic()
-    with pytest.raises(KeyboardInterrupt):
-        getattr(robot, ask)(many)
-    assert time.monotonic() - start < 10
+
+    def ended_sooner():
+        start = time.monotonic()
+        getattr(robot, ask)(q)
+        once = time.monotonic() - start
+        times = int(10 / once) + 2  # 10 s and more
+        many = np.broadcast_to(q, (times, *q.shape)).reshape(-1, q.shape[1])
+        timer = threading.Timer(0.5, signal.raise_signal, [signal.SIGINT])
+        timer.start()
+        start = time.monotonic()
+        with pytest.raises(KeyboardInterrupt):
+            getattr(robot, ask)(many)
+        return time.monotonic() - start < 0.7 * times * once
+    assert any(ended_sooner() for _ in range(4))  # a busy machine may slow it down, but not each time
     assert np.array_equal(robot.distances_many(q[:3]), before)
 
 
@@ -262,7 +266,7 @@ def test_pieces_of_proofs_end_with_ctrl_c(ask):
 
 
 def test_a_search_for_a_posture_ends_with_ctrl_c(tmp_path):
-    links, body = 450, "<collision><geometry><box size='0.1 0.06 0.08'/></geometry></collision>"  # 20 s and more
+    links, body = 250, "<collision><geometry><box size='0.1 0.06 0.08'/></geometry></collision>"  # a second or more in the solver
     chain = "".join(f"<link name='l{i}'>{body}</link>" for i in range(links)) + "".join(
         f"<joint name='j{i}' type='revolute'><parent link='l{i}'/><child link='l{i + 1}'/><origin xyz='0.15 0 0'/>"
         f"<axis xyz='0 {i % 2} {1 - i % 2}'/><limit lower='-1' upper='1' effort='1' velocity='1'/></joint>" for i in range(links - 1))
@@ -270,12 +274,26 @@ def test_a_search_for_a_posture_ends_with_ctrl_c(tmp_path):
     (tmp_path / "chain.srdf").write_text("<robot name='chain'/>")
     search = fcl_stpbv.PostureSearch(tmp_path / "chain.urdf", tmp_path / "chain.srdf")
     place = {"link": f"l{links - 1}", "target": {"position": [0.05, 0, 0]}, "free": ["rx", "ry", "rz"]}
-    timer = threading.Timer(0.5, signal.raise_signal, [signal.SIGINT])
-    timer.start()
-    start = time.monotonic()
-    with pytest.raises(KeyboardInterrupt):
-        search.solve(json.dumps({"base": "fixed", "placements": [place]}), start=3)
-    assert time.monotonic() - start < 10
+    task = json.dumps({"base": "fixed", "placements": [place]})
+
+    def solved_in():
+        start = time.monotonic()
+        search.solve(task, start=3)
+        return time.monotonic() - start
+
+    def interrupted_in(seconds):
+        timer = threading.Timer(seconds, signal.raise_signal, [signal.SIGINT])
+        timer.start()
+        start = time.monotonic()
+        with pytest.raises(KeyboardInterrupt):
+            search.solve(task, start=3)
+        return time.monotonic() - start
+
+    # A busy machine may slow either down, but not each time.
+    def ended_sooner():
+        whole = solved_in()
+        return interrupted_in(0.6 * whole) < 0.85 * whole
+    assert any(ended_sooner() for _ in range(4))
     assert search.solve(json.dumps({"base": "fixed", "placements": []}))["feasible"]
 
 
