@@ -129,10 +129,7 @@ bool surelyOverlap(const ShapeQuery& q) {
 }
 
 /// Of cores that overlap.
-Solution solveDeep(ShapeQuery& q, const StartNormal& start) {
-  const LeastOverlap deep = leastOverlap(q, start);
-  return {deep.at, DistanceStatus::local, std::max(deep.bound, deep.at.gap)};
-}
+Solution deepSolution(const LeastOverlap& deep) { return {deep.at, DistanceStatus::local, deep.bound}; }
 
 Solution solve(ShapeQuery& q, const StartNormal& start) {
   constexpr double kNone = std::numeric_limits<double>::infinity();
@@ -143,10 +140,10 @@ Solution solve(ShapeQuery& q, const StartNormal& start) {
     if (q.shape.unbounded()) return {found, DistanceStatus::exact, found.gap};
     if (certified(q, found)) return {found, DistanceStatus::exact, kNone};
   }
-  if (const auto deep = overlapOfPoint(q, start)) return {deep->at, DistanceStatus::local, deep->bound};
-  if (overlap) return solveDeep(q, start);
+  if (const auto deep = overlapOfPoint(q, start)) return deepSolution(*deep);
+  if (overlap) return deepSolution(leastOverlap(q, start));
   const LeastOverlap cuts = widestGapByCuts(q, found.apart ? StartNormal{found.n, found.patch} : start);
-  if (cuts.overlap) return solveDeep(q, {cuts.at.n, cuts.at.patch});
+  if (cuts.overlap) return deepSolution(leastOverlap(q, {cuts.at.n, cuts.at.patch}));
   // Near the answer now; a feature search from here proves it to the last digit.
   found = nearestOnShape(q, {cuts.at.n, cuts.at.patch});
   if (certified(q, found)) return {found, DistanceStatus::exact, kNone};

@@ -102,7 +102,10 @@ std::string exported(const aiScene& scene, const char* assimpId, const std::stri
 }
 
 // Whether the first byte of a binary PLY's values is that of a line feed: assimp would pass over it.
-bool beginsWithLineFeed(const std::string& ply) { return ply.find("end_header\n\n") != std::string::npos; }
+bool beginsWithLineFeed(std::string_view ply) {
+  constexpr std::string_view kEnd = "end_header\n";
+  return ply.substr(ply.find(kEnd) + kEnd.size(), 1) == "\n";
+}
 
 }  // namespace
 

@@ -140,18 +140,23 @@ std::string_view misspeltShape(std::string_view name) {
   return "";
 }
 
+std::string placeWithin(const std::string& name, const std::string& around) {
+  return "<" + name + "> within <" + around + ">, where no robot has one; ";
+}
+
+std::string ofAnotherTool(const std::string& name) {
+  return " Where it is another tool's, put a prefix before its name, as in <tool:" + name + ">";
+}
+
 std::string misspeltIn(const XMLElement& element, std::string_view word) {
   const std::string name = element.Name();
-  return "<" + name + "> within <link>, where no robot has one; is it a misspelt <" + std::string(word) +
-         ">? Where it is another tool's, put a prefix before its name, as in <tool:" + name + ">";
+  return placeWithin(name, "link") + "is it a misspelt <" + std::string(word) + ">?" + ofAnotherTool(name);
 }
 
 std::string misplaced(const XMLElement& element, const XMLElement& holder, bool known) {
-  const std::string name = element.Name(), around = holder.Name();
-  const std::string within = "<" + name + "> within <" + around + ">, where no robot has one; ";
+  const std::string around = holder.Name(), within = placeWithin(element.Name(), around);
   if (known) return within + "a shape stands in the <geometry> of a link's <collision> or <visual>";
-  return within + "is <" + around +
-         "> misspelt? Where it is another tool's, put a prefix before its name, as in <tool:" + around + ">";
+  return within + "is <" + around + "> misspelt?" + ofAnotherTool(around);
 }
 
 bool isInLink(const XMLElement& element, const XMLElement& robot) {

@@ -58,7 +58,9 @@ inline Power largestPower(const FaceRecord* faces, int count, double rho, const 
 
 /// The least depth in a face's ball.
 FCL_STPBV_VECTORIZED
-PointDepth depthInBalls(const PatchTable& patches, double rho, const Vector3d& p) {
+PointDepth depthInBalls(const StpBv& body, const Vector3d& p) {
+  const PatchTable& patches = body.tables().patches;
+  const double rho = body.radii().rho;
   const Power power =
       largestPower(&patches.face(patches.firstFace()), patches.count() - patches.firstFace(), rho, pack(p));
   const FaceRecord& face = patches.face(patches.firstFace() + power.face);
@@ -71,15 +73,15 @@ PointDepth depthInBalls(const PatchTable& patches, double rho, const Vector3d& p
 
 std::optional<PointDepth> pointDepth(const StpBv& body, const Vector3d& p) {
   constexpr int kMost = 4000;  // faces: beyond, growing a polytope takes less time
-  const QueryTables& tables = body.tables();
-  if (!(tables.capHeight < std::numeric_limits<double>::infinity()) || body.faceCount() > kMost) return {};
+  const double least = body.tables().capHeight;
+  if (std::isinf(least) || body.faceCount() > kMost) return {};
   constexpr double kCentred = 0.999;  // of the ball's radius: no way out of a ball from its centre
-  const PointDepth found = depthInBalls(tables.patches, body.radii().rho, p);
-  if (!(found.depth > tables.capHeight && found.depth < kCentred * body.radii().rho)) return {};
+  const PointDepth found = depthInBalls(body, p);
+  if (!(found.depth > least && found.depth < kCentred * body.radii().rho)) return {};
   return found;
 }
 
-double capHeight(const StpBv& body, const PatchTable& patches) {
+double capHeight(const StpBv& body) {
   constexpr double kNone = std::numeric_limits<double>::infinity(), kSafe = 1.0 + 1e-9;  // beyond rounding
   const double rho = body.radii().rho;
   if (!(body.innerRadius() > 0.0)) return kNone;
@@ -99,7 +101,7 @@ double capHeight(const StpBv& body, const PatchTable& patches) {
       face = std::max(face, 0.5 * rho * (body.corner(f, vertex) - mean).squaredNorm());
   }
   const double height = kSafe * (edge + face) + 1e-12 * body.extent();
-  return depthInBalls(patches, rho, body.centre()).depth > height ? height : kNone;
+  return depthInBalls(body, body.centre()).depth > height ? height : kNone;
 }
 
 }  // namespace fcl_stpbv::detail

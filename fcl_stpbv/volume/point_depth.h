@@ -23,6 +23,6 @@ std::optional<PointDepth> pointDepth(const StpBv& body, const Eigen::Vector3d& p
 
 /// A point of the core that is deeper than this in all faces' balls leaves the core soonest through a face
 /// (docs/theory.md, 5, "A point"). Infinite where the centre is not as deep.
-double capHeight(const StpBv& body, const PatchTable& patches);
+double capHeight(const StpBv& body);
 
 }  // namespace fcl_stpbv::detail

@@ -182,7 +182,7 @@ void StpBv::makePatches(QueryTables& tables) {
   tables.patches = PatchTable(vertices_, std::move(records), faces_, faceNormals_);
   firstFace_ = tables.patches.firstFace();
   tables.shallowFaces = shallowFaces(tables.patches, centre_);
-  tables.capHeight = capHeight(*this, tables.patches);
+  tables.capHeight = capHeight(*this);
 }
 
 void StpBv::makeDirectionTables(QueryTables& tables) const {

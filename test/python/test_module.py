@@ -224,6 +224,15 @@ def test_an_object_whose_constructor_has_not_run_is_no_argument():
             ask()
 
 
+def seconds_until_ctrl_c_ends(ask, pressed=0.5):
+    timer = threading.Timer(pressed, signal.raise_signal, [signal.SIGINT])
+    timer.start()
+    start = time.monotonic()
+    with pytest.raises(KeyboardInterrupt):
+        ask()
+    return time.monotonic() - start
+
+
 @pytest.mark.parametrize("ask", ["collides_many", "distances_many", "evaluate_many"])
 def test_a_batch_ends_with_ctrl_c_and_the_robot_answers_on(ask):
     robot = fcl_stpbv.Robot(DATA / "hrp2_style/hrp2_style.urdf", DATA / "hrp2_style/hrp2_style.srdf")
@@ -236,12 +245,7 @@ def test_a_batch_ends_with_ctrl_c_and_the_robot_answers_on(ask):
         once = time.monotonic() - start
         times = int(10 / once) + 2  # 10 s and more
         many = np.broadcast_to(q, (times, *q.shape)).reshape(-1, q.shape[1])
-        timer = threading.Timer(0.5, signal.raise_signal, [signal.SIGINT])
-        timer.start()
-        start = time.monotonic()
-        with pytest.raises(KeyboardInterrupt):
-            getattr(robot, ask)(many)
-        return time.monotonic() - start < 0.7 * times * once
+        return seconds_until_ctrl_c_ends(lambda: getattr(robot, ask)(many)) < 0.5 * times * once
     assert any(ended_sooner() for _ in range(4))  # a busy machine may slow it down, but not each time
     assert np.array_equal(robot.distances_many(q[:3]), before)
 
@@ -257,12 +261,7 @@ def pair_of(search, *links):
 def test_pieces_of_proofs_end_with_ctrl_c(ask):
     search = fcl_stpbv.PairSearch(DATA / "hrp2_style/hrp2_style.urdf")
     pair = pair_of(search, "LARM_LINK1", "RARM_LINK6")  # 617,001 boxes, a minute and more
-    timer = threading.Timer(0.5, signal.raise_signal, [signal.SIGINT])
-    timer.start()
-    start = time.monotonic()
-    with pytest.raises(KeyboardInterrupt):
-        ask(search, pair)
-    assert time.monotonic() - start < 10
+    assert seconds_until_ctrl_c_ends(lambda: ask(search, pair)) < 10
 
 
 def test_a_search_for_a_posture_ends_with_ctrl_c(tmp_path):
@@ -276,24 +275,12 @@ def test_a_search_for_a_posture_ends_with_ctrl_c(tmp_path):
     place = {"link": f"l{links - 1}", "target": {"position": [0.05, 0, 0]}, "free": ["rx", "ry", "rz"]}
     task = json.dumps({"base": "fixed", "placements": [place]})
 
-    def solved_in():
+    def ended_sooner():
         start = time.monotonic()
         search.solve(task, start=3)
-        return time.monotonic() - start
-
-    def interrupted_in(seconds):
-        timer = threading.Timer(seconds, signal.raise_signal, [signal.SIGINT])
-        timer.start()
-        start = time.monotonic()
-        with pytest.raises(KeyboardInterrupt):
-            search.solve(task, start=3)
-        return time.monotonic() - start
-
-    # A busy machine may slow either down, but not each time.
-    def ended_sooner():
-        whole = solved_in()
-        return interrupted_in(0.6 * whole) < 0.85 * whole
-    assert any(ended_sooner() for _ in range(4))
+        whole = time.monotonic() - start
+        return seconds_until_ctrl_c_ends(lambda: search.solve(task, start=3), 0.6 * whole) < 0.85 * whole
+    assert any(ended_sooner() for _ in range(4))  # a busy machine may slow it down, but not each time
     assert search.solve(json.dumps({"base": "fixed", "placements": []}))["feasible"]
 
 
