@@ -265,22 +265,16 @@ def test_pieces_of_proofs_end_with_ctrl_c(ask):
 
 
 def test_a_search_for_a_posture_ends_with_ctrl_c(tmp_path):
-    links, body = 250, "<collision><geometry><box size='0.1 0.06 0.08'/></geometry></collision>"  # a second or more in the solver
-    chain = "".join(f"<link name='l{i}'>{body}</link>" for i in range(links)) + "".join(
+    links, ball = 500, "<collision><geometry><sphere radius='0.01'/></geometry></collision>"  # a minute in the solver, 0.1 s a model
+    chain = "".join(f"<link name='l{i}'>{ball if i in (0, links - 1) else ''}</link>" for i in range(links)) + "".join(
         f"<joint name='j{i}' type='revolute'><parent link='l{i}'/><child link='l{i + 1}'/><origin xyz='0.15 0 0'/>"
         f"<axis xyz='0 {i % 2} {1 - i % 2}'/><limit lower='-1' upper='1' effort='1' velocity='1'/></joint>" for i in range(links - 1))
     (tmp_path / "chain.urdf").write_text(f"<robot name='chain'>{chain}</robot>")
     (tmp_path / "chain.srdf").write_text("<robot name='chain'/>")
     search = fcl_stpbv.PostureSearch(tmp_path / "chain.urdf", tmp_path / "chain.srdf")
-    place = {"link": f"l{links - 1}", "target": {"position": [0.05, 0, 0]}, "free": ["rx", "ry", "rz"]}
+    place = {"link": f"l{links - 1}", "target": {"position": [0.5, 0.2, 0]}, "free": ["rx", "ry", "rz"]}
     task = json.dumps({"base": "fixed", "placements": [place]})
-
-    def ended_sooner():
-        start = time.monotonic()
-        search.solve(task, start=3)
-        whole = time.monotonic() - start
-        return seconds_until_ctrl_c_ends(lambda: search.solve(task, start=3), 0.6 * whole) < 0.85 * whole
-    assert any(ended_sooner() for _ in range(4))  # a busy machine may slow it down, but not each time
+    assert seconds_until_ctrl_c_ends(lambda: search.solve(task, start=3)) < 10
     assert search.solve(json.dumps({"base": "fixed", "placements": []}))["feasible"]
 
 
