@@ -27,6 +27,9 @@ inline FourVectors four(const Packed& p, const Packed& q, const Packed& r, const
           __builtin_shufflevector(pqEven, rsEven, 2, 3, 6, 7)};
 }
 
+inline FourVectors operator+(const FourVectors& a, const FourVectors& b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
 inline FourVectors operator-(const FourVectors& a, const FourVectors& b) {
   return {a.x - b.x, a.y - b.y, a.z - b.z};
 }
@@ -44,6 +47,9 @@ inline Packed roots(const Packed& v) {
 
 /// Whether a comparison holds for all four.
 inline bool all(const PackedBits& holds) { return (holds[0] & holds[1] & holds[2] & holds[3]) != 0; }
+
+/// Whether it holds for one of them or more.
+inline bool any(const PackedBits& holds) { return (holds[0] | holds[1] | holds[2] | holds[3]) != 0; }
 
 }  // namespace fcl_stpbv::detail
 

@@ -7,7 +7,7 @@
 //    (convex/direction_cone.h): slow, sure. From the normal found, a feature
 //    search again proves the last digits.
 // 4. Cores that overlap, as a ball in the volume may tell at once: a point's way out through a face
-//    (point_overlap.cpp), else EPA (shape_overlap.cpp).
+//    (point_overlap.cpp), the cones of a flat shape's normals (cone_overlap.cpp), else EPA (shape_overlap.cpp).
 #include "fcl_stpbv/distance/shape_distance.h"
 
 #include <algorithm>
@@ -141,6 +141,7 @@ Solution solve(ShapeQuery& q, const StartNormal& start) {
     if (certified(q, found)) return {found, DistanceStatus::exact, kNone};
   }
   if (const auto deep = overlapOfPoint(q, start)) return deepSolution(*deep);
+  if (const auto deep = overlapOfCones(q)) return deepSolution(*deep);
   if (overlap) return deepSolution(leastOverlap(q, start));
   const LeastOverlap cuts = widestGapByCuts(q, found.apart ? StartNormal{found.n, found.patch} : start);
   if (cuts.overlap) return deepSolution(leastOverlap(q, {cuts.at.n, cuts.at.patch}));

@@ -1,5 +1,5 @@
-// An STP-BV and a simple shape whose cores overlap: how deep they are in each other, where no point of the
-// shape alone tells it (point_overlap.cpp).
+// An STP-BV and a simple shape whose cores overlap: how deep they are in each other, where neither a point of
+// the shape alone (point_overlap.cpp) nor the cones of its normals (cone_overlap.cpp) tell it.
 //
 // 1. EPA (convex/epa.h) on the difference of the two cores bounds the depth, and finds its normal to some
 //    digits.
@@ -238,30 +238,29 @@ std::optional<Nearest> touchingFeature(ShapeQuery& q, const Nearest& near) {
   return features.search({none, none, none}, 0);
 }
 
+void polishOverlap(ShapeQuery& q, const ShapeCorners& met, LeastOverlap& found) {
+  if (const auto exact = DeepFeatures(q, {found.at.n, found.at.patch}, found.at.gap).search(met.p, met.count))
+    found.at = *exact;
+}
+
 LeastOverlap leastOverlap(ShapeQuery& q, const StartNormal& start) {
   ShapeDifference difference(q);
   Epa<ShapeDifference> epa(difference, q.rounding.gap);
   epa.look(start.n);
   if (!epa.run()) climbToLeastOverlap(epa);
-  std::array<Vector3d, 3> met;
-  int count = 0;
+  ShapeCorners met;
   for (int i = 0; i < epa.metCount; ++i) {
     const Vector3d& p = epa.met[static_cast<std::size_t>(i)].shape;
-    if (std::find(met.begin(), met.begin() + count, p) == met.begin() + count)
-      met[static_cast<std::size_t>(count++)] = p;
+    if (std::find(met.p.begin(), met.p.begin() + met.count, p) == met.p.begin() + met.count)
+      met.p[static_cast<std::size_t>(met.count++)] = p;
   }
   // The polytope's points are the volume's to the rounding of its own.
   LeastOverlap best{{}, std::max(epa.bound, epa.gap) + q.rounding.across, true, epa.solved()};
-  const StartNormal near{epa.n, -1};
-  if (const auto polished = DeepFeatures(q, near, epa.gap).search(met, count)) {
-    best.at = *polished;
-    return best;
-  }
-  best.at.n = near.n;
-  best.at.patch = near.patch;
+  best.at.n = epa.n;
   best.at.gap = epa.gap;
   best.at.y = epa.onB();
   best.at.corners = 1;
+  polishOverlap(q, met, best);
   return best;
 }
 

@@ -138,6 +138,21 @@ void placeOppositeOnEllipsoid(ShapeQuery& q, Nearest& found);
 /// point.
 std::optional<LeastOverlap> overlapOfPoint(ShapeQuery& q, const StartNormal& start);
 
+/// Up to three corners of a polytope: of a face, of an edge, or one alone.
+struct ShapeCorners {
+  std::array<Eigen::Vector3d, 3> p;
+  int count = 0;
+};
+
+/// Next to the answer of overlapping cores: its normal and points to rounding, from the shape's feature
+/// there, which for a polytope is one of `met`. Leaves `found` as it is where none holds the answer.
+void polishOverlap(ShapeQuery& q, const ShapeCorners& met, LeastOverlap& found);
+
+/// The answer of overlapping cores of the volume and a segment, a triangle or a box, in closed form. Nothing
+/// for other kinds, for volumes of too many faces, and where no point of the shape is deep enough
+/// (volume/point_depth.h).
+std::optional<LeastOverlap> overlapOfCones(ShapeQuery& q);
+
 /// How deep overlapping cores are in each other, next to `start` first. `at.gap` is minus the depth along the
 /// best normal seen, `bound` holds for every normal.
 LeastOverlap leastOverlap(ShapeQuery& q, const StartNormal& start);

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <type_traits>
 
 #include "fcl_stpbv/four_vectors.h"
 #include "fcl_stpbv/vectorized.h"
@@ -25,19 +26,37 @@ namespace {
 
 struct Power {
   double value;  ///< of the point to the face's ball (m^2); negative inside
-  int face;      ///< its place among the faces
+  int face;      ///< its place among the faces; -1: none
 };
 
-/// The largest power over all faces, four at a time.
-inline Power largestPower(const FaceRecord* faces, int count, double rho, const Packed& p) {
+/// All ways out.
+struct AllWays {};
+
+/// Those that lean against none of some sides.
+struct WaysBetween {
+  const Vector3d* side;  ///< unit
+  int count;
+  double rounding;  ///< of a way's product with one, where it is as long as a ball's radius (m)
+
+  PackedBits allow(const FourVectors& way) const {
+    PackedBits allowed = PackedBits{} - 1;
+    for (int i = 0; i < count; ++i) allowed &= dot(way, four(pack(side[i]))) >= Packed{} - rounding;
+    return allowed;
+  }
+};
+
+/// The largest power above `above` over the faces that one of the `ways` leads through, four at a time.
+template <typename Ways>
+inline Power largestPower(const FaceRecord* faces, int count, double rho, const Packed& p, double above,
+                          const Ways& ways) {
   const auto read = [](const Vector3d& v) {  // the fourth number is the record's next
     Packed four;
     std::memcpy(&four, v.data(), sizeof four);
     return four;
   };
   const FourVectors point = four(p);
-  Packed most = Packed{} - std::numeric_limits<double>::infinity();
-  PackedBits first{};  // the first face of the four that each is of
+  Packed most = Packed{} + above;
+  PackedBits first = PackedBits{} - 1;  // the first face of the four that each is of
   for (int f = 0; f < count; f += 4) {
     const FaceRecord& s = faces[f];
     const FaceRecord& t = faces[std::min(f + 1, count - 1)];
@@ -46,27 +65,43 @@ inline Power largestPower(const FaceRecord* faces, int count, double rho, const 
     const FourVectors from = point - four(read(s.anchor), read(t.anchor), read(u.anchor), read(v.anchor)),
                       normal = four(read(s.normal), read(t.normal), read(u.normal), read(v.normal));
     const Packed power = dot(from, from) + 2.0 * rho * dot(from, normal);
-    const PackedBits more = power > most;
+    PackedBits more = power > most;
+    if constexpr (std::is_same_v<Ways, WaysBetween>) {
+      if (!any(more)) continue;
+      more &= ways.allow(from + (Packed{} + rho) * normal);
+    }
     most = more ? power : most;
     first = more ? PackedBits{} + f : first;
   }
   int lane = 0;
   for (int i = 1; i < 4; ++i)
     if (most[i] > most[lane]) lane = i;
+  if (first[lane] < 0) return {above, -1};
   return {most[lane], std::min(static_cast<int>(first[lane]) + lane, count - 1)};
 }
 
-/// The least depth in a face's ball.
-FCL_STPBV_VECTORIZED
-PointDepth depthInBalls(const StpBv& body, const Vector3d& p) {
+/// The least depth in a face's ball, of those whose power is above `above` and whose way is one of `ways`.
+template <typename Ways>
+inline PointDepth depthInBalls(const StpBv& body, const Vector3d& p, double above, const Ways& ways) {
   const PatchTable& patches = body.tables().patches;
   const double rho = body.radii().rho;
-  const Power power =
-      largestPower(&patches.face(patches.firstFace()), patches.count() - patches.firstFace(), rho, pack(p));
+  const Power power = largestPower(&patches.face(patches.firstFace()), patches.count() - patches.firstFace(),
+                                   rho, pack(p), above, ways);
+  if (power.face < 0) return {std::numeric_limits<double>::infinity(), Vector3d(0, 0, 0), -1};
   const FaceRecord& face = patches.face(patches.firstFace() + power.face);
   const Vector3d way = p - face.anchor + rho * face.normal;  // from the ball's centre
   const double length = way.norm();
   return {-power.value / (rho + length), way / length, patches.firstFace() + power.face};
+}
+
+FCL_STPBV_VECTORIZED
+PointDepth leastDepth(const StpBv& body, const Vector3d& p) {
+  return depthInBalls(body, p, -std::numeric_limits<double>::infinity(), AllWays{});
+}
+
+FCL_STPBV_VECTORIZED
+PointDepth leastDepth(const StpBv& body, const Vector3d& p, double above, const WaysBetween& ways) {
+  return depthInBalls(body, p, above, ways);
 }
 
 }  // namespace
@@ -76,8 +111,18 @@ std::optional<PointDepth> pointDepth(const StpBv& body, const Vector3d& p) {
   const double least = body.tables().capHeight;
   if (std::isinf(least) || body.faceCount() > kMost) return {};
   constexpr double kCentred = 0.999;  // of the ball's radius: no way out of a ball from its centre
-  const PointDepth found = depthInBalls(body, p);
+  const PointDepth found = leastDepth(body, p);
   if (!(found.depth > least && found.depth < kCentred * body.radii().rho)) return {};
+  return found;
+}
+
+std::optional<PointDepth> pointDepthBetween(const StpBv& body, const Vector3d& p, const Vector3d* side,
+                                            int count, double below) {
+  const double rho = body.radii().rho;
+  // A depth below `below` is a way longer than rho - below.
+  const double above = below < rho ? below * (below - 2.0 * rho) : -rho * rho;
+  const PointDepth found = leastDepth(body, p, above, WaysBetween{side, count, 1e-12 * rho});
+  if (found.patch < 0) return {};
   return found;
 }
 
@@ -101,7 +146,7 @@ double capHeight(const StpBv& body) {
       face = std::max(face, 0.5 * rho * (body.corner(f, vertex) - mean).squaredNorm());
   }
   const double height = kSafe * (edge + face) + 1e-12 * body.extent();
-  return depthInBalls(body, body.centre()).depth > height ? height : kNone;
+  return leastDepth(body, body.centre()).depth > height ? height : kNone;
 }
 
 }  // namespace fcl_stpbv::detail

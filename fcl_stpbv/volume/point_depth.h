@@ -21,6 +21,13 @@ struct PointDepth {
 /// faster.
 std::optional<PointDepth> pointDepth(const StpBv& body, const Eigen::Vector3d& p);
 
+/// The same, but only of ways `n` with `n . side >= 0` for each of `count` unit vectors, and only one shorter
+/// than `below` (m): the least of the depths in the balls whose way is one of these. For a corner of another
+/// body and its edges, how deep that body is there, if anywhere it is deeper than `capHeight`
+/// (docs/theory.md, 5).
+std::optional<PointDepth> pointDepthBetween(const StpBv& body, const Eigen::Vector3d& p,
+                                            const Eigen::Vector3d* side, int count, double below);
+
 /// A point of the core that is deeper than this in all faces' balls leaves the core soonest through a face
 /// (docs/theory.md, 5, "A point"). Infinite where the centre is not as deep.
 double capHeight(const StpBv& body);

@@ -58,8 +58,8 @@ Twists randomTwists(Random& random) {
 }
 
 /// How far a difference of answers may be from a derivative: what rounding of an answer does to it.
-struct Rounding {
-  Rounding(const DerivativePair& pair, const Distance& d, double h) {
+struct DerivativeRounding {
+  DerivativeRounding(const DerivativePair& pair, const Distance& d, double h) {
     const double core = d.distance + pair.margins();
     distance = 16 * kEpsilon / h;  // numbers up to 4 m
     // The core's point moves rho an ulp of the normal, the normal that over the cores' distance.
@@ -120,7 +120,7 @@ TEST_CASE(
         return ((8 * (value(2) - value(1)) - (value(3) - value(0))) / (12 * step)).eval();
       };
       using Number = Eigen::Matrix<double, 1, 1>;
-      const Rounding rounding(pair, d, step);
+      const DerivativeRounding rounding(pair, d, step);
       // Truncation: (1e-3)^4 of levers up to 3 m over the cores' distance, to the power of the derivative.
       const double lever = 3 + 1 / (d.distance + pair.margins());
       const double speed = central([&](int k) { return Number(side[k].distance); })(0);
@@ -178,7 +178,7 @@ TEST_CASE(
       REQUIRE(under.status == DistanceStatus::exact);
       REQUIRE(over.status == DistanceStatus::exact);
       const double core = over.distance + pair.margins();
-      const Rounding exact(pair, over, 1);
+      const DerivativeRounding exact(pair, over, 1);
       CHECK(std::abs(under.distance - over.distance) <= exact.distance + 4 * (high - low));
       CHECK((gradientOf(under, below) - gradientOf(over, above)).norm() <=
             8 * exact.point + 10 * (high - low) / core);
@@ -210,7 +210,7 @@ TEST_CASE(
               .eval();
         };
         using Number = Eigen::Matrix<double, 1, 1>;
-        const Rounding rounding(pair, d, step);
+        const DerivativeRounding rounding(pair, d, step);
         const double lever = 3 + 1 / core, scale = 1 + pair.rho() * 1e-2 + h.matrix.cwiseAbs().maxCoeff();
         const double speed = sided([&](int k) { return Number(there[k].distance); })(0);
         CHECK(std::abs(speed - rates.speed) <= 8 * rounding.distance + 1e-10 * lever);

@@ -1,0 +1,163 @@
+// A segment, a triangle or a box deep in an STP-BV: the depth from the cones of its normals, against EPA,
+// which shares no step with it, and against searches over all directions in long double.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <memory>
+
+#include "fcl_stpbv/distance/shape_distance.h"
+#include "fcl_stpbv/distance/shape_query.h"
+#include "test/reference/shape_reference.h"
+
+using namespace fcl_stpbv;
+using namespace fcl_stpbv::test;
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+namespace {
+
+struct ConeBody {
+  Cloud cloud;
+  double r, R;
+  StpBv::Ptr volume;
+};
+
+std::vector<ConeBody> coneBodies() {
+  std::vector<ConeBody> all;
+  const auto add = [&](const Cloud& cloud, double r, double R) {
+    all.push_back({cloud, r, R, StpBv::build(cloud, {r, R})});
+  };
+  for (const double R : {0.3, 1.0, 10.0, 1e4, 1e6}) {
+    add(box(0.3, 0.2, 0.1), 0.01, R);
+    add(randomHull(60, {0.2, 0.15, 0.1}, 3), 0, R);
+    add(cylinder(0.1, 0.4, 16), 0.02, R);
+    add(geodesicSphere(0.2, 2), 0.01, R);
+  }
+  return all;
+}
+
+/// From much smaller than the bodies to much larger, also thin.
+TestShape randomFlat(Random& random) {
+  const double size = std::pow(10.0, random.uniform(-2.5, 0));
+  const auto side = [&] { return size * (random.below(6) == 0 ? 1e-4 : random.uniform(0.1, 1)); };
+  const int kind = random.below(3);
+  if (kind == 0) return {"capsule", Shape::capsule(0.02 * random.below(2), side()), nullptr};
+  auto corners = std::make_shared<Cloud>();
+  if (kind == 1) {
+    const Vector3d half = 0.5 * Vector3d(side(), side(), random.below(8) == 0 ? 0.0 : side());
+    for (int k = 0; k < 8; ++k)
+      corners->push_back(half.cwiseProduct(Vector3d(k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1)));
+    return {"box", Shape::boxOf(2 * half), corners};
+  }
+  for (int k = 0; k < 3; ++k) corners->push_back(size * random.direction());
+  return {"triangle", Shape::triangleOf((*corners)[0], (*corners)[1], (*corners)[2]), corners};
+}
+
+/// Often with the axes of the body, often with its centre.
+Isometry3d within(const ConeBody& body, const Shape& shape, Random& random) {
+  Eigen::Matrix3d turn = random.rotation();
+  const int kind = random.below(4);
+  if (kind == 0) turn = Eigen::Matrix3d::Identity();
+  if (kind == 1) turn = random.rotation(random.below(2) ? 1e-9 : 1e-3);
+  const double off = random.below(4) == 0 ? 0.0 : random.uniform(0, 1.5) * body.volume->innerRadius();
+  return pose(turn, body.volume->centre() + off * random.direction() - turn * shape.centre);
+}
+
+}  // namespace
+
+TEST_CASE("The depth from a shape's cones of normals is what EPA finds") {
+  const std::vector<ConeBody> bodies = coneBodies();
+  Random random(51);
+  int told = 0;
+  for (int i = 0; i < 6000; ++i) {
+    const ConeBody& body = bodies[static_cast<std::size_t>(i) % bodies.size()];
+    const TestShape flat = randomFlat(random);
+    const Shape& shape = flat.shape;
+    const Isometry3d at = within(body, shape, random);
+    const detail::RelativePose posed(Isometry3d::Identity(), at);
+    detail::ShapeQuery q(*body.volume, shape, posed), again(*body.volume, shape, posed);
+    const auto found = detail::overlapOfCones(q);
+    if (!found) continue;
+    ++told;
+    const detail::LeastOverlap epa = detail::leastOverlap(again, {Vector3d::UnitX(), -1});
+    CAPTURE(i, body.R, flat.name, found->at.gap, found->bound, epa.at.gap, epa.bound);
+    // Each bound holds for the other's answer, and no wider gap was there. Roundings of the gap add up.
+    const double rounding = 4 * q.rounding.gap;
+    REQUIRE(found->bound >= found->at.gap);
+    REQUIRE(epa.at.gap <= found->bound + rounding);
+    REQUIRE(found->at.gap <= epa.bound + rounding);
+    REQUIRE(epa.at.gap <= found->at.gap + rounding + q.rounding.across);
+    REQUIRE(found->bound - found->at.gap <= rounding + q.rounding.across);
+    // The point is the shape's last along the normal, and opposite the volume's.
+    REQUIRE(std::abs(found->at.n.dot(found->at.y - q.facing(found->at.n))) <= rounding);
+    int steps = 0;
+    const detail::SupportPoint view = detail::viewVolume(*body.volume, found->at.n, -1, steps);
+    REQUIRE((found->at.y - view.point - found->at.gap * found->at.n).norm() <= 2 * q.rounding.across);
+    Isometry3d point = Isometry3d::Identity();
+    point.translation() = found->at.y;
+    Shape core = shape;
+    core.margin = 0;
+    REQUIRE(distance(Shape::sphere(0), point, core, at).distance <= 4 * rounding);
+  }
+  REQUIRE(told > 3000);
+}
+
+TEST_CASE("No direction of many leads out of a volume sooner than the cones of normals tell") {
+  const std::vector<ConeBody> bodies = coneBodies();
+  Random random(52);
+  int told = 0;
+  for (int i = 0; i < 300; ++i) {
+    const ConeBody& body = bodies[static_cast<std::size_t>(i) % bodies.size()];
+    if (body.R > 100) continue;  // the reference's long double is good to R times its rounding
+    const TestShape flat = randomFlat(random);
+    const Shape& shape = flat.shape;
+    const Isometry3d at = within(body, shape, random);
+    const Distance d = distance(*body.volume, Isometry3d::Identity(), shape, at);
+    if (!(d.distance < -(body.r + shape.margin))) continue;
+    ++told;
+    const ReferenceBody a = referenceBody(body.cloud, body.r, body.R, Isometry3d::Identity());
+    CAPTURE(i, body.R, flat.name, d.distance);
+    const auto widest = static_cast<double>(widestGapOverDirections(a, flat.posed(at), 500));
+    REQUIRE(widest <= d.upper);
+  }
+  REQUIRE(told > 100);
+}
+
+TEST_CASE("A triangle, a box and a capsule deep in a volume take a bounded number of looks at it") {
+  const Cloud cloud = geodesicSphere(0.2, 2);
+  const StpBv::Ptr volume = StpBv::build(cloud, {0.01, 10});
+  const ConeBody body{cloud, 0.01, 10, volume};
+  Random random(53);
+  long looks = 0;
+  int deep = 0, most = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const TestShape flat = randomFlat(random);
+    const Shape& shape = flat.shape;
+    const Distance d = distance(*volume, Isometry3d::Identity(), shape, within(body, shape, random));
+    if (!(d.distance < -(0.05 + shape.margin))) continue;
+    ++deep;
+    looks += d.patchPairs;
+    most = std::max(most, d.patchPairs);
+    REQUIRE(d.upper - d.lower < 1e-12);
+  }
+  CAPTURE(deep, most, static_cast<double>(looks) / deep);
+  REQUIRE(deep > 1000);
+  CHECK(looks <= 26L * deep);  // 23.2 now; EPA takes 45 and more
+  CHECK(most <= 120);
+}
+
+TEST_CASE("Slivers, round shapes and volumes of many faces are left to EPA") {
+  const StpBv::Ptr volume = StpBv::build(geodesicSphere(0.2, 2), {0.01, 10}),
+                   fine = StpBv::build(geodesicSphere(0.2, 4), {0.01, 10});
+  const auto told = [](const StpBv& body, const Shape& shape) {
+    const detail::RelativePose posed(Isometry3d::Identity(), Isometry3d::Identity());
+    detail::ShapeQuery q(body, shape, posed);
+    return detail::overlapOfCones(q).has_value();
+  };
+  CHECK(told(*volume, Shape::boxOf({0.1, 0.1, 0.1})));
+  CHECK_FALSE(told(*fine, Shape::boxOf({0.1, 0.1, 0.1})));
+  CHECK_FALSE(told(*volume, Shape::cylinderOf(0.1, 0.1)));
+  CHECK_FALSE(told(*volume, Shape::triangleOf({0, 0, 0}, {0.1, 0, 0}, {0.05, 1e-5, 0})));
+  CHECK_FALSE(told(*volume, Shape::triangleOf({0, 0, 0}, {0, 0, 0}, {0, 0, 0})));
+  CHECK_FALSE(told(*StpBv::build({{0, 0, 0}, {0.3, 0, 0}}, {0.01, 1}), Shape::boxOf({0.1, 0.1, 0.1})));
+}
