@@ -32,6 +32,7 @@ class PythonRobot {
               double influence, double handOver) {
     const auto scene = std::make_shared<PythonScene>();
     named(srdf, "srdf"), named(obstacles, "obstacles");
+    requireLength(influence, "influence"), requireLength(handOver, "hand_over");
     scene->robot = std::make_shared<const RobotModel>(loadUrdf(urdf.string()));
     if (srdf) scene->srdf = loadSrdf(srdf->string(), *scene->robot);
     scene->options.radii = {r, R};
@@ -150,7 +151,8 @@ class PythonRobot {
                           &qd = checked(givenQd, "qd", kinematics_->size());
     RowRates rates = constraints_->makeRates();
     Eigen::MatrixXd jacobian(rows(), constraints_->columns());
-    if (!constraints_->evaluate(q, qd, rates, jacobian)) throw Error("qd: holds a number above 1e100");
+    requireUsable(qd, "qd");
+    constraints_->evaluate(q, qd, rates, jacobian);
     return py::make_tuple(std::move(rates.d), std::move(jacobian), std::move(rates.speed),
                           std::move(rates.drift));
   }
@@ -159,12 +161,14 @@ class PythonRobot {
                           &weights = checked(givenWeights, "weights", rows()),
                           &v = checked(givenV, "v", kinematics_->size());
     Eigen::VectorXd product(q.size());
-    if (!constraints_->hessianVector(q, weights, v, product)) throw Error("v: holds a number above 1e100");
+    requireUsable(weights, "weights"), requireUsable(v, "v");
+    constraints_->hessianVector(q, weights, v, product);
     return product;
   }
   Eigen::MatrixXd hessian(const Given& givenQ, const Given& givenWeights) {
     const Eigen::VectorXd &q = checked(givenQ, "q", kinematics_->size()),
                           &weights = checked(givenWeights, "weights", rows());
+    requireUsable(weights, "weights");
     CollisionConstraints::SparseHessian lower = constraints_->makeHessian();
     constraints_->hessian(q, weights, lower);
     return Eigen::MatrixXd(lower).selfadjointView<Eigen::Lower>();
@@ -185,10 +189,22 @@ class PythonRobot {
       checker_ = std::make_unique<CollisionChecker>(kinematics_, geometry, pairs, scene_->obstacles);
   }
 
+  /// @throws Error naming the argument, before the work of loading.
+  static void requireLength(double length, const char* name) {
+    if (!(length > 0))
+      throw Error(std::string(name) + ": got " + std::string(py::str(py::float_(length))) +
+                  ", expected a length above 0 (m)");
+  }
   /// @throws Error naming the argument.
   static const Eigen::VectorXd& checked(const Given& given, const char* name, int size) {
     requireNumbers(given.value, size, name);
     return given.value;
+  }
+
+  /// @throws Error naming the argument, for what the rows' second derivatives take for no number.
+  static void requireUsable(const Eigen::VectorXd& numbers, const char* name) {
+    if (!(numbers.array().abs() <= 1e100).all())
+      throw Error(std::string(name) + ": holds a number above 1e100");
   }
 
   const Rows& checkedRows(GivenRows& given) const {

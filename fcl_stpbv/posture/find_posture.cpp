@@ -13,6 +13,7 @@
 #include <limits>
 #include <random>
 
+#include "fcl_stpbv/error.h"
 #include "fcl_stpbv/posture/approach.h"
 
 namespace fcl_stpbv {
@@ -152,6 +153,9 @@ Posture findPosture(PostureSetup& setup, const PostureOptions& options) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   };
   PostureProblem& problem = *setup.problem;
+  if (setup.start.size() != problem.kinematics().size())
+    throw Error("findPosture: the start has " + std::to_string(setup.start.size()) +
+                " coordinates, the robot " + std::to_string(problem.kinematics().size()));
   const long queriesBefore = problem.queries();
   Posture best;
   Eigen::VectorXd bestX;

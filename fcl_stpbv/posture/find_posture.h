@@ -38,7 +38,8 @@ struct Posture {
   std::vector<std::string> conflictLimits;  ///< names of the joint limits in the way of `conflict`
 };
 
-/// Never throws. Deterministic for a seed, but for a solver that runs out of time.
+/// Deterministic for a seed, but for a solver that runs out of time.
+/// @throws Error for a start of another size than the robot's, as one of another base; else never.
 Posture findPosture(PostureSetup& setup, const PostureOptions& options = {});
 
 }  // namespace fcl_stpbv

@@ -56,9 +56,7 @@ class CollisionChecker::Impl {
 
   const std::vector<CheckedPair>& pairs() const { return pairs_; }
   const Kinematics& kinematics() const { return *kinematics_; }
-  std::string name(int pair) const {
-    return nameOf(pairs_.at(static_cast<std::size_t>(pair)), *geometry_, obstacles_);
-  }
+  std::string name(int pair) const;
   double margin() const { return margin_; }
   void setMargin(double margin);
   std::optional<Hit> firstHit(const ConstVector& q);

@@ -68,6 +68,13 @@ void CollisionChecker::Impl::addPair(const CheckedPair& pair) {
   checked_.push_back(added);
 }
 
+std::string CollisionChecker::Impl::name(int pair) const {
+  if (pair < 0 || at(pair) >= pairs_.size())
+    throw Error("CollisionChecker: there is no pair " + std::to_string(pair) + " of " +
+                std::to_string(pairs_.size()) + "; a hit has none where q is no configuration");
+  return nameOf(pairs_[at(pair)], *geometry_, obstacles_);
+}
+
 void CollisionChecker::Impl::setMargin(double margin) {
   if (std::isnan(margin)) throw Error("CollisionChecker: the margin is not a number");
   margin_ = margin;

@@ -55,7 +55,7 @@ class CollisionChecker {
   const std::vector<CheckedPair>& pairs() const;
   /// The robot.
   const Kinematics& kinematics() const;
-  /// The names of a pair's bodies.
+  /// The names of a pair's bodies. @throws Error for a pair that does not exist, as that of a q that is none.
   std::string name(int pair) const;
 
   /// The margin (m).

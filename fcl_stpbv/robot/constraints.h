@@ -134,8 +134,8 @@ class CollisionConstraints {
   double gradientRateBound(int row) const;
 
   /// Sum over the rows of weight times (Hessian of d) times v: the change of J as q moves along v. Closed
-  /// form and differences as above. Where one of these numbers is not finite, or one of v above 1e100, 0.
-  /// @returns whether all were.
+  /// form and differences as above. Rows of weight 0 count for nothing, whatever they are. Where one of these
+  /// numbers is not finite, or one of the weights or of v above 1e100, 0. @returns whether all were.
   bool hessianVector(const ConstVector& q, const ConstVector& weights, const ConstVector& v, Vector out);
 
   /// The lower triangle that a weighted sum of the rows' Hessians may fill, for hessian() to fill: columns
@@ -146,6 +146,7 @@ class CollisionConstraints {
   /// @throws Error for a matrix of another structure than makeHessian()'s.
   bool hessian(const ConstVector& q, const ConstVector& weights, SparseHessian& lower);
   /// The Hessian of one row, columns() x columns(), symmetric. Numbers that are not finite as above.
+  /// @throws Error for a matrix of another size.
   bool hessian(const ConstVector& q, int row, Eigen::Ref<Eigen::MatrixXd> full);
 
   /// What the last evaluation found for a pair; status `invalid` where its spheres were enough, and for the
@@ -193,6 +194,7 @@ class CollisionConstraints {
   void addSmooth(const SmoothConstraint& constraint);
   const fcl::CollisionGeometryd& second(const CheckedPair& pair) const;
   void requireRow(int row) const;
+  static bool isUsable(const ConstVector& numbers);
   void requireSizes(const ConstVector& q, Eigen::Index d, Eigen::Index values) const;
   void requireSizes(const ConstVector& q, const ConstVector& qd, const RowRates& rates,
                     Eigen::Index values) const;

@@ -14,12 +14,12 @@ namespace {
 using namespace detail;
 using Eigen::Vector3d;
 
-// Finite, and so small that products of two with lengths and curvatures stay finite.
-bool isUsableVelocity(const CollisionConstraints::ConstVector& velocity) {
-  return (velocity.array().abs() <= 1e100).all();
-}
-
 }  // namespace
+
+// Finite, and so small that products of two or three with lengths and curvatures stay finite.
+bool CollisionConstraints::isUsable(const ConstVector& numbers) {
+  return (numbers.array().abs() <= 1e100).all();
+}
 
 void CollisionConstraints::bodyVelocities(std::size_t row, Twist& first, Twist& second) const {
   first = rate_.link[at(geometry_->bodies[at(rows_[row].a)].link)];
@@ -74,7 +74,7 @@ bool CollisionConstraints::rateRow(std::size_t row, RowRates& rates, double* val
 bool CollisionConstraints::evaluateValues(const ConstVector& q, const ConstVector& qd, RowRates& rates,
                                           Vector values) {
   requireSizes(q, qd, rates, values.size());
-  if (!q.allFinite() || !isUsableVelocity(qd)) {
+  if (!q.allFinite() || !isUsable(qd)) {
     nothingKnown(rates.d.data(), values.data());
     rates.speed.setZero();
     rates.drift.setZero();
@@ -197,7 +197,7 @@ bool CollisionConstraints::hessianVector(const ConstVector& q, const ConstVector
   if (v.size() != columns() || out.size() != columns())
     throw Error("CollisionConstraints: v and the result have one number for each coordinate");
   out.setZero();
-  if (!q.allFinite() || !weights.allFinite() || !isUsableVelocity(v)) return false;
+  if (!q.allFinite() || !isUsable(weights) || !isUsable(v)) return false;
   place(q);
   kinematics_->differentiate(q, v, state_, rate_);
   moving_ = false;  // v is a direction, and what rate_ holds is of it
@@ -205,7 +205,7 @@ bool CollisionConstraints::hessianVector(const ConstVector& q, const ConstVector
   for (std::size_t row = 0; row < pairs_.size(); ++row) open_[row] = !rowChange(row, change_.data());
   if (std::find(open_.begin(), open_.end(), 1) != open_.end()) differences(q, v);
   for (int row = 0; row < rows(); ++row)
-    for (int k = rowStart_[at(row)]; k < rowStart_[at(row) + 1]; ++k)
+    for (int k = rowStart_[at(row)]; weights[row] != 0 && k < rowStart_[at(row) + 1]; ++k)
       out[column_[at(k)]] += weights[row] * change_[k];
   return true;
 }

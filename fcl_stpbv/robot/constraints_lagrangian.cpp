@@ -144,7 +144,7 @@ bool CollisionConstraints::hessian(const ConstVector& q, const ConstVector& weig
   makeRoomForHessian();
   requireStructure(lower);
   Eigen::Map<Eigen::VectorXd>(lower.valuePtr(), lower.nonZeros()).setZero();
-  if (!q.allFinite() || !weights.allFinite()) return false;
+  if (!q.allFinite() || !isUsable(weights)) return false;
   prepareHessian(q);
   for (std::size_t row = 0; row < open_.size(); ++row) {
     const double weight = weights[static_cast<Eigen::Index>(row)];
@@ -169,6 +169,8 @@ bool CollisionConstraints::hessian(const ConstVector& q, const ConstVector& weig
 bool CollisionConstraints::hessian(const ConstVector& q, int row, Eigen::Ref<Eigen::MatrixXd> full) {
   requireRow(row);
   requireSizes(q, rows(), nonZeros());
+  if (full.rows() != columns() || full.cols() != columns())
+    throw Error("CollisionConstraints: the Hessian of a row needs a row and a column for each coordinate");
   full.setZero();
   if (!q.allFinite()) return false;
   prepareHessian(q);

@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/io/text_scanner.h"
 #include "fcl_stpbv/robot/detail_choice.h"
 
 namespace fcl_stpbv {
@@ -39,7 +40,8 @@ std::vector<std::shared_ptr<const RobotGeometry>> loadLevels(const RobotModel& r
                                                              const std::vector<double>& budgets) {
   for (std::size_t i = 0; i < budgets.size(); ++i) {
     // 0 would stand for any over-cover: GeometryOptions::overCoverBudget.
-    if (budgets[i] == 0) throw Error("loadLevels: got a budget of 0; each must be above r");
+    if (!(budgets[i] > 0))
+      throw Error("loadLevels: got a budget of " + toDecimal(budgets[i]) + "; each must be above r");
     if (i > 0 && !(budgets[i] < budgets[i - 1]))
       throw Error("loadLevels: each budget must be below the one before");
   }

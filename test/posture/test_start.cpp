@@ -113,6 +113,17 @@ TEST_CASE("every coordinate has the name that answers have") {
   CHECK(refused(R"({"base/x": 1})").find("no joint 'base/x'") != std::string::npos);
 }
 
+TEST_CASE("a start of another size than the robot's is refused") {
+  const PostureScene scene = armAmong("0 0 3");
+  const std::string reach = R"("placements": [{"link": "arm", "target": {"position": [0.5, 0, 0.2]}}])";
+  const Posture fixed = solved(R"({"base": "fixed", )" + reach + "}", scene);
+  PostureSetup setup = setUp(taskOf(R"({"base": "planar", )" + reach + "}"), scene);
+  setup.start = fixed.q;
+  CHECK_THROWS_WITH(findPosture(setup), Catch::Contains("start has 1 coordinates, the robot 4"));
+  setup.start.setZero(40);
+  CHECK_THROWS_WITH(findPosture(setup), Catch::Contains("start has 40 coordinates"));
+}
+
 TEST_CASE("random starts of a joint without limits are numbers, and no worse than none") {
   for (const std::string type : {"planar", "floating"}) {
     const PostureScene scene =

@@ -423,17 +423,22 @@ def test_a_robot_is_as_fine_as_its_needs_ask_for(hook):
     assert abs(np.diff(d, axis=0)).max() < 2 * 1.05 / 2000  # slopes are at most 2
     hit = handing.first_hit(q, margin=0.06)  # an index into rows, among which the hulls' is
     assert hit is not None and 0.04 < handing.distances(q)[hit] <= 0.06
-    with pytest.raises(fcl_stpbv.Error, match="hand"):
-        fcl_stpbv.Robot(*files, hand_over=-1)
+    for name in ("hand_over", "influence"):
+        with pytest.raises(fcl_stpbv.Error, match=f"^{name}: got -1.0, .* above 0"):
+            fcl_stpbv.Robot(*files, **{name: -1})
 
 
-def test_velocities_whose_squares_overflow_raise():
+def test_velocities_and_weights_whose_products_overflow_raise():
     robot = fcl_stpbv.Robot(DATA / "hrp2_style/hrp2_style.urdf", DATA / "hrp2_style/hrp2_style.srdf")
     q, weights = robot.neutral, np.ones(len(robot.rows))
     with pytest.raises(fcl_stpbv.Error, match="qd: .*1e100"):
         robot.rates(q, 1e200 + 0 * q)
     with pytest.raises(fcl_stpbv.Error, match="v: .*1e100"):
         robot.hessian_vector(q, weights, 1e200 + 0 * q)
+    with pytest.raises(fcl_stpbv.Error, match="weights: .*1e100"):
+        robot.hessian_vector(q, 1e200 * weights, q)
+    with pytest.raises(fcl_stpbv.Error, match="weights: .*1e100"):
+        robot.hessian(q, -1e308 * weights)
 
 
 @pytest.mark.parametrize("bad", [math.nan, math.inf, -math.inf])

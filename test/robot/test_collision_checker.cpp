@@ -232,6 +232,8 @@ TEST_CASE("a checker without pairs, with a pair of nothing, or with a margin tha
   CollisionChecker checker(p.kinematics, p.geometry, p.pairs);
   CHECK_THROWS_AS(checker.setMargin(std::nan("")), Error);
   CHECK(checker.name(0).find(" - ") != std::string::npos);
+  for (const int pair : {-1, static_cast<int>(checker.pairs().size())})
+    CHECK_THROWS_WITH(checker.name(pair), Catch::Contains("no pair " + std::to_string(pair)));
 }
 
 TEST_CASE("small steps search for few pairs, random configurations for those near each other") {

@@ -163,10 +163,42 @@ TEST_CASE("rows that do not exist and numbers of another size are refused") {
     CHECK_THROWS_AS(c.gradientRateBound(row), Error);
     CHECK_THROWS_AS(c.hessian(q, row, full), Error);
   }
+  for (const Eigen::Index rows : {c.columns() - 1, c.columns()}) {
+    Eigen::MatrixXd other = Eigen::MatrixXd::Zero(rows, c.columns() - 1);
+    CHECK_THROWS_WITH(c.hessian(q, 0, other), Catch::Contains("Hessian"));
+  }
   ConstraintOptions replacing;
   replacing.smooth.push_back({"left shoulder",
                               {2},
                               [](const Eigen::Ref<const Eigen::VectorXd>&, double*) { return 1.0; },
                               {{"LARM_LINK2", "CHEST_LINK1"}}});
   CHECK_THROWS_AS(CollisionConstraints(p.kinematics, p.geometry, {{0, 999, false}}, replacing), Error);
+}
+
+TEST_CASE("Hessians leave rows of weight 0 out, and take weights that would overflow for no numbers") {
+  const Problem p = problem(robots()[0]);
+  ConstraintOptions options;
+  options.smooth = {{"nowhere",
+                     {0, 1},
+                     [](const auto&, double* gradient) {
+                       if (gradient) gradient[0] = gradient[1] = std::numeric_limits<double>::quiet_NaN();
+                       return std::numeric_limits<double>::quiet_NaN();
+                     },
+                     {}}};
+  CollisionConstraints constraints(p.kinematics, p.geometry, p.pairs, options);
+  const Eigen::VectorXd q = p.kinematics->neutral(), v = Eigen::VectorXd::Ones(q.size());
+  Eigen::VectorXd weights = Eigen::VectorXd::Ones(constraints.rows()), product(q.size());
+  weights[constraints.rows() - 1] = 0;
+  CollisionConstraints::SparseHessian lower = constraints.makeHessian();
+  CHECK(constraints.hessian(q, weights, lower));
+  CHECK(constraints.hessianVector(q, weights, v, product));
+  const Eigen::VectorXd expected = Eigen::MatrixXd(lower).selfadjointView<Eigen::Lower>() * v;
+  CHECK((product - expected).norm() <= 1e-12 * (1 + expected.norm()));
+  for (const double huge : {1e200, -1e308}) {
+    weights.setConstant(huge);
+    CHECK(!constraints.hessian(q, weights, lower));
+    CHECK(!constraints.hessianVector(q, weights, v, product));
+    CHECK(Eigen::MatrixXd(lower).isZero(0));
+    CHECK(product.isZero(0));
+  }
 }

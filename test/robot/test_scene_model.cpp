@@ -2,6 +2,7 @@
 #include <fcl/geometry/shape/sphere.h>
 
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <filesystem>
 #include <limits>
 
@@ -225,4 +226,6 @@ TEST_CASE("levels of other shapes and needs that make no sense are refused") {
   options.cacheFolder.clear();
   CHECK_THROWS_WITH(loadLevels(*workshop.robot, options, {0.02, 0.02}), Contains("below the one before"));
   CHECK_THROWS_WITH(loadLevels(*workshop.robot, options, {0.02, 0}), Contains("a budget of 0"));
+  CHECK_THROWS_WITH(loadLevels(*workshop.robot, options, {-0.5}), Contains("a budget of -0.5"));
+  CHECK_THROWS_WITH(loadLevels(*workshop.robot, options, {std::nan("")}), Contains("a budget of nan"));
 }
