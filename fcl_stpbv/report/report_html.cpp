@@ -127,7 +127,7 @@ void shorten(nlohmann::json& value) {
 nlohmann::json dataOf(const CollisionReport& report, const std::string& title) {
   nlohmann::json data = nlohmann::json::parse(toJson(report));
   data["title"] = title;
-  data.erase("trajectory");  // drawn by chartOf()
+  data["trajectory"] = report.trajectory ? nlohmann::json(report.trajectory->path) : nlohmann::json();
   data["joints"] = report.kinematics->names();
   std::vector<Eigen::VectorXd> configurations;
   for (std::size_t i = 0; i < report.pairs.size(); ++i) {

@@ -302,6 +302,13 @@ class Page(Browser):
         self.click("#table tbody tr")
         self.assertEqual(self.script("return scene.report.bodies.filter(b => b.obstacle && scene.side(b) === 1).length"), 1)
 
+    def test_an_obstacle_with_the_name_of_a_link_has_cells_of_its_own(self):
+        scene = self.put("scene.urdf", '<robot name="scene"><link name="HEAD_LINK1"><collision><origin xyz="0.6 0 0"/><geometry>'
+                         '<box size="0.1 1 1"/></geometry></collision></link></robot>')
+        self.humanoid("--obstacles", scene)
+        self.assertEqual(self.script("return new HeatMap(scene.report, () => {}).at.size"), 2 * self.script("return scene.report.pairs.length"))
+        self.assertIn("HEAD_LINK1 (obstacle)", self.script("return new HeatMap(scene.report, () => {}).names"))
+
     def test_a_view_of_a_pair_that_is_not_there_shows_the_first(self):
         self.humanoid(view="#pair=9999&show=pair")
         self.assertEqual(self.script("return document.body.dataset.selected"), "0")

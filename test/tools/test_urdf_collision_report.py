@@ -2,11 +2,14 @@
 
     test_urdf_collision_report.py PROGRAM SOURCE_FOLDER
 """
+import base64
 import csv
+import gzip
 import io
 import json
 import math
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -92,7 +95,11 @@ class Report(unittest.TestCase):
         done = self.follow("way.csv", text)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("proven free", done.stdout)
-        self.assertIn('aria-label="Least distance over time"', self.follow("way.csv", text, "--format", "html").stdout)
+        page = self.follow("way.csv", text, "--format", "html").stdout
+        self.assertIn('aria-label="Least distance over time"', page)
+        packed = re.search('id="packed-report">([^<]*)<', page)[1]
+        data = json.loads(gzip.decompress(base64.b64decode(packed)))
+        self.assertEqual(os.path.basename(data["trajectory"]), "way.csv")  # what the page's head says that pairs are along
         # Within the margin asked for it is not: 0.1166 m apart at the third way point, less 0.1.
         self.assertEqual(self.follow("way.csv", text, "--margin", "0.0167").returncode, 1)
         self.assertEqual(self.follow("way.csv", text, "--margin", "0.0165").returncode, 0)

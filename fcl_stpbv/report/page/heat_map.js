@@ -11,14 +11,18 @@ function scaleColour(t) {
 
 class HeatMap {
   constructor(report, onSelect) {
-    const pairs = this.pairs = report.pairs, place = new Map(report.bodies.map((body, i) => [body.owner, i]));
+    // An obstacle may have the name of a link.
+    const links = new Set(report.bodies.filter(body => !body.obstacle).map(body => body.owner));
+    const label = (name, obstacle) => obstacle && links.has(name) ? `${name} (obstacle)` : name;
+    this.ends = pair => [pair.link1, label(pair.link2, pair.obstacle)];
+    const pairs = this.pairs = report.pairs, place = new Map(report.bodies.map((body, i) => [label(body.owner, body.obstacle), i]));
     this.selected = -1;
     this.canvas = byId('heat');
-    this.names = [...new Set(pairs.flatMap(p => [p.link1, p.link2]))].sort((a, b) => place.get(a) - place.get(b));
+    this.names = [...new Set(pairs.flatMap(this.ends))].sort((a, b) => place.get(a) - place.get(b));
     const number = new Map(this.names.map((name, i) => [name, i]));
     this.at = new Map();
     pairs.forEach((p, i) => {
-      const a = number.get(p.link1), b = number.get(p.link2);
+      const [a, b] = this.ends(p).map(name => number.get(name));
       this.at.set(a * this.names.length + b, i);
       this.at.set(b * this.names.length + a, i);
     });
@@ -62,7 +66,7 @@ class HeatMap {
     this.canvas.width = this.canvas.height = size * sharp;
     this.canvas.style.width = this.canvas.style.height = size + 'px';
     g.scale(sharp, sharp);
-    const pair = this.pairs[this.selected], picked = pair ? [pair.link1, pair.link2] : [];
+    const pair = this.pairs[this.selected], picked = pair ? this.ends(pair) : [];
     this.names.forEach((name, i) => {
       g.font = `${picked.includes(name) ? 600 : 400} ${Math.min(11, this.cell)}px system-ui, "DejaVu Sans", sans-serif`;
       g.fillStyle = this.style.getPropertyValue(name === picked[0] ? '--first' : name === picked[1] ? '--second' : '--soft');
@@ -98,7 +102,7 @@ class HeatMap {
     tip.hidden = i === undefined;
     if (tip.hidden) return;
     const p = this.pairs[i];
-    tip.textContent = `${p.link1} – ${p.link2}: ${mm(p.distance)} mm${p.checked ? '' : ', not checked'}`;
+    tip.textContent = `${this.ends(p).join(' – ')}: ${mm(p.distance)} mm${p.checked ? '' : ', not checked'}`;
     tip.style.left = `${Math.max(0, Math.min(event.offsetX + 14, byId('mapbox').scrollLeft + byId('mapbox').clientWidth - tip.offsetWidth - 4))}px`;
     tip.style.top = `${event.offsetY + 16}px`;
   }
