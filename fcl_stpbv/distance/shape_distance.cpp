@@ -7,7 +7,8 @@
 //    (convex/direction_cone.h): slow, sure. From the normal found, a feature
 //    search again proves the last digits.
 // 4. Cores that overlap, as a ball in the volume may tell at once: a point's way out through a face
-//    (point_overlap.cpp), the cones of a flat shape's normals (cone_overlap.cpp), else EPA (shape_overlap.cpp).
+//    (point_overlap.cpp), the cones of a flat shape's normals (cone_overlap.cpp), else EPA
+//    (shape_overlap.cpp).
 #include "fcl_stpbv/distance/shape_distance.h"
 
 #include <algorithm>

@@ -90,7 +90,7 @@ def radii(height=420):
     data = measured("radii")
     robots = list(dict.fromkeys(row["robot"] for row in data["rows"]))
     top = 1.15 * max(row["margin only"] for row in data["rows"]) + 1
-    small_print = ["Pairs in the neutral posture, all but adjacent ones, R = 10 m. Lines: one r for all links; crosses: r fitted to each link (auto).",
+    small_print = ["Pairs in the neutral posture, all but adjacent and rigid ones, R = 10 m. Lines: one r for all links; crosses: r fitted to each link (auto).",
                    "By their margins only: the volumes meet, the convex hulls do not. tools/bench/radii"]
     text = single(height, small_print, legend_rows=1) + legend([(palette.SWEEPS[i], 7, robot) for i, robot in enumerate(robots)], height) + \
         f"set logscale x\nset xrange [20:700]\nset xtics (25, 50, 100, 200, 500)\nset yrange [0:{top:g}]\n" \
