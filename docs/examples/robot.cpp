@@ -74,7 +74,7 @@ auto fridge = std::make_shared<const RobotModel>(loadUrdf("../fridge/fridge.urdf
 PostureScene scene{robot, geometry, srdf, obstaclesOf(fridge, loadGeometry(*fridge, options))};
 PostureSetup setup = setUp(loadTask("../fridge/pick_can.json"), scene);
 setup.problem->add(mine);                            // a constraint of your own, from PostureRows
-Posture posture = findPosture(setup);                // never throws
+Posture posture = findPosture(setup);                // throws Error only for a start of another size
   // clang-format on
   std::printf("%s\n", posture.feasible ? "found a posture" : "found none");
   return posture.feasible ? 0 : 1;

@@ -423,9 +423,10 @@ def test_a_robot_is_as_fine_as_its_needs_ask_for(hook):
     assert abs(np.diff(d, axis=0)).max() < 2 * 1.05 / 2000  # slopes are at most 2
     hit = handing.first_hit(q, margin=0.06)  # an index into rows, among which the hulls' is
     assert hit is not None and 0.04 < handing.distances(q)[hit] <= 0.06
-    for name in ("hand_over", "influence"):
-        with pytest.raises(fcl_stpbv.Error, match=f"^{name}: got -1.0, .* above 0"):
-            fcl_stpbv.Robot(*files, **{name: -1})
+    with pytest.raises(fcl_stpbv.Error, match="^hand_over: got -1.0, .* above 0"):
+        fcl_stpbv.Robot(*files, hand_over=-1)
+    with pytest.raises(fcl_stpbv.Error, match="^influence: got -1.0, .* above 0"):
+        fcl_stpbv.Robot(*files, influence=-1)
 
 
 def test_velocities_and_weights_whose_products_overflow_raise():
