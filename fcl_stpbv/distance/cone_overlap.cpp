@@ -99,11 +99,12 @@ class WaysOut {
     left[count++] = {whole.from, whole.to};
     for (int i = 0; count > 0; ++i) {
       const auto [from, to] = left[static_cast<std::size_t>(--count)];
-      if (isSettled(whole, from, to)) continue;
+      const Vector3d n = acrossChord(whole, from, to);
+      const double chord = n.dot(from.point - whole.a);
+      if (isSettled(whole, from, to, chord)) continue;
       if (i >= kMost || count + 2 > kPieces) return false;
-      const WayOut middle = along(acrossChord(whole, from, to), whole.a, -1);
+      const WayOut middle = along(n, whole.a, -1);
       take(middle, {{whole.a, whole.b, whole.b}, 2});
-      const double chord = middle.n.dot(from.point - whole.a);
       if (middle.depth - chord <= q_.rounding.gap) {
         bound(chord);
         continue;
@@ -143,14 +144,14 @@ class WaysOut {
     return x + y > 0.0 ? (x * e + y * f).normalized() : (from.n + to.n).normalized();
   }
 
-  /// Whether nothing between two normals is worth looking at. What it finds there it takes.
-  bool isSettled(const Arc& arc, const WayOut& from, const WayOut& to) {
+  /// Whether nothing between two normals is worth looking at; `chord` is how deep the chord of their points
+  /// is. What it finds there it takes.
+  bool isSettled(const Arc& arc, const WayOut& from, const WayOut& to, double chord) {
     const double ends = std::min(from.depth, to.depth);
     // The depth of a point alone is least at an end where it is positive: at both, or at one and the chord's.
     const double one = std::max(std::min(from.depth, to.n.dot(from.point - arc.a)),
                                 std::min(to.depth, from.n.dot(to.point - arc.a))),
-                 both = std::min(ends, acrossChord(arc, from, to).dot(from.point - arc.a)),
-                 least = std::max(one, both);
+                 least = std::max(one, std::min(ends, chord));
     if (least >= worth_) return bound(least), true;
     if (from.patch != to.patch) return false;
     const PosedPatch patch = posedPatch(q_.body, from.patch);

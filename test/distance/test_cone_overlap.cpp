@@ -44,10 +44,9 @@ TestShape randomFlat(Random& random) {
   if (kind == 0) return {"capsule", Shape::capsule(0.02 * random.below(2), side()), nullptr};
   auto corners = std::make_shared<Cloud>();
   if (kind == 1) {
-    const Vector3d half = 0.5 * Vector3d(side(), side(), random.below(8) == 0 ? 0.0 : side());
-    for (int k = 0; k < 8; ++k)
-      corners->push_back(half.cwiseProduct(Vector3d(k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1)));
-    return {"box", Shape::boxOf(2 * half), corners};
+    const Vector3d sides(side(), side(), random.below(8) == 0 ? 0.0 : side());
+    *corners = box(sides.x(), sides.y(), sides.z());
+    return {"box", Shape::boxOf(sides), corners};
   }
   for (int k = 0; k < 3; ++k) corners->push_back(size * random.direction());
   return {"triangle", Shape::triangleOf((*corners)[0], (*corners)[1], (*corners)[2]), corners};
