@@ -82,10 +82,14 @@ def run(urdf, r, R, margin):
 
 def main(project, folder):
     path = pathlib.Path(folder) / "controller_py.csv"
-    path.touch()  # a folder that is not there is told at once
+    if not path.parent.is_dir():  # told at once, not after the run
+        raise NotADirectoryError(f"{folder} is no folder: FOLDER is where the table goes")
+    robot = pathlib.Path(project) / "data/hrp2_style/hrp2_style.urdf"
+    if not robot.is_file():
+        raise FileNotFoundError(f"{robot} is missing: PROJECT is the folder that holds data/")
     with tempfile.TemporaryDirectory() as place:
         urdf = pathlib.Path(place) / "boxes.urdf"
-        urdf.write_text(with_boxes(f"{project}/data/hrp2_style/hrp2_style.urdf"))
+        urdf.write_text(with_boxes(robot))
         smooth, sharp = run(str(urdf), 0.01, 10, 0), run(str(urdf), 1e-6, 1000, 0.01)
     times = np.arange(len(smooth)) * PERIOD
     np.savetxt(path, np.column_stack([times, smooth, sharp]), delimiter=",", comments="",
@@ -96,4 +100,9 @@ def main(project, folder):
 
 
 if __name__ == "__main__":
-    sys.exit(main(*sys.argv[1:]) if len(sys.argv) == 3 else __doc__)
+    if len(sys.argv) != 3:
+        sys.exit(__doc__)
+    try:
+        sys.exit(main(*sys.argv[1:]))
+    except OSError as error:
+        sys.exit(str(error))

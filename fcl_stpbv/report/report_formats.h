@@ -9,6 +9,8 @@ namespace fcl_stpbv::report {
 
 /// For people: a summary and the first `top` lines of each list, the closest pairs first.
 std::string toText(const CollisionReport& report, std::size_t top);
+/// What became of the report's trajectory: proven free, or which pair touches when.
+std::string trajectoryVerdict(const CollisionReport& report);
 std::string toJson(const CollisionReport& report);
 std::string toCsv(const CollisionReport& report);
 /// The robot's SRDF with the pairs that need no check. Where shapes of the robot were left out, pairs that do

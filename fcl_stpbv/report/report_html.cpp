@@ -127,7 +127,9 @@ void shorten(nlohmann::json& value) {
 nlohmann::json dataOf(const CollisionReport& report, const std::string& title) {
   nlohmann::json data = nlohmann::json::parse(toJson(report));
   data["title"] = title;
-  data["trajectory"] = report.trajectory ? nlohmann::json(report.trajectory->path) : nlohmann::json();
+  data["trajectory"] = nlohmann::json();
+  if (report.trajectory)
+    data["trajectory"] = {{"file", report.trajectory->path}, {"verdict", trajectoryVerdict(report)}};
   data["joints"] = report.kinematics->names();
   std::vector<Eigen::VectorXd> configurations;
   for (std::size_t i = 0; i < report.pairs.size(); ++i) {
@@ -173,12 +175,10 @@ std::string filled(std::string_view text, const std::map<std::string_view, std::
 // The chart over the tables, where a trajectory was followed.
 static std::string trajectorySection(const CollisionReport& report) {
   if (!report.trajectory) return "";
-  const TrajectoryReport& t = *report.trajectory;
-  const std::string verdict = t.verdict == MotionVerdict::free      ? "proven free"
-                              : t.verdict == MotionVerdict::contact ? "contact"
-                                                                    : "not decided";
-  return "<section id=\"trajectory\" aria-label=\"Trajectory\"><h2>Trajectory: " + verdict +
-         "; least distance of all checked pairs over time</h2>" + chartOf(t, report.margin) + "</section>";
+  return "<section id=\"trajectory\" aria-label=\"Trajectory\"><h2>Least distance of all checked pairs along "
+         "the "
+         "trajectory</h2>" +
+         chartOf(*report.trajectory, report.margin) + "</section>";
 }
 
 std::string toHtml(const CollisionReport& report, const std::string& title) {

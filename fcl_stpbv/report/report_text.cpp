@@ -120,20 +120,14 @@ std::string trajectory(const CollisionReport& report) {
   const TrajectoryReport& t = *report.trajectory;
   const char* unit = t.trajectory.timed ? " s" : "";
   const char* speed = t.trajectory.timed ? "m/s" : "m a way point";
-  std::string text =
-      "Trajectory " + t.path + ", " + std::to_string(t.trajectory.points.size()) + " way points: ";
-  if (t.verdict == MotionVerdict::free) {
-    text += "proven free\n";
-  } else if (t.verdict == MotionVerdict::contact) {
-    text += "CONTACT of " + report.trajectoryPair(t.pair) +
-            formatted(" between %.9g and %.9g%s, at", t.from, t.until, unit);
+  std::string text = "Trajectory " + t.path + ", " + std::to_string(t.trajectory.points.size()) +
+                     " way points: " + trajectoryVerdict(report);
+  if (t.verdict == MotionVerdict::contact) {
+    text += ", at";
     for (const Eigen::Vector3d& p : t.contact.points)
       text += formatted(" (%.6f %.6f %.6f)", p.x(), p.y(), p.z());
-    text += "\n";
-  } else {
-    text += "NOT DECIDED for " + report.trajectoryPair(t.pair) +
-            formatted(" at %.9g%s, free before: the distance is the margin to rounding\n", t.from, unit);
   }
+  text += "\n";
   if (t.steepestPair >= 0)
     text += formatted("fastest approach %.4f %s, ", t.steepest, speed) +
             report.trajectoryPair(t.steepestPair) + formatted(" at %.4g%s\n", t.steepestTime, unit);
@@ -160,6 +154,21 @@ std::string contradictions(const CollisionReport& report, std::size_t top) {
 }
 
 }  // namespace
+
+std::string trajectoryVerdict(const CollisionReport& report) {
+  const TrajectoryReport& t = *report.trajectory;
+  const char* unit = t.trajectory.timed ? " s" : "";
+  switch (t.verdict) {
+    case MotionVerdict::free:
+      return "proven free";
+    case MotionVerdict::contact:
+      return "CONTACT of " + report.trajectoryPair(t.pair) +
+             formatted(" between %.9g and %.9g%s", t.from, t.until, unit);
+    default:
+      return "NOT DECIDED for " + report.trajectoryPair(t.pair) +
+             formatted(" at %.9g%s, free before: the distance is the margin to rounding", t.from, unit);
+  }
+}
 
 std::string toText(const CollisionReport& report, std::size_t top) {
   std::string text = report.robot->name + ": " + std::to_string(report.robot->links.size()) + " links, " +

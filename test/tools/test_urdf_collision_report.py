@@ -71,6 +71,10 @@ class Report(unittest.TestCase):
         return self.run_tool(self.slider(), "--primitives", "flat", "--samples", "20", "--trajectory",
                              self.put(name, text), *arguments)
 
+    def page_data(self, page):
+        """The report that a page holds."""
+        return json.loads(gzip.decompress(base64.b64decode(re.search('id="packed-report">([^<]*)<', page)[1])))
+
     def test_a_trajectory_that_collides_between_its_way_points_names_time_and_pair(self):
         # The balls touch 0.08 m before the middle: 0.92 m of 2 m, in 4 s.
         for name, text in [("way.csv", "time,slide\n1,0\n5,2\n"),
@@ -88,7 +92,9 @@ class Report(unittest.TestCase):
             self.assertAlmostEqual(pair["time"], 3, delta=0.01)
             self.assertLessEqual(found["steepest_approach"], 0.5)  # m/s
             self.assertGreater(found["steepest_approach"], 0.49)
-            self.assertIn("CONTACT of", self.follow(name, text).stdout)
+            verdict = self.page_data(self.follow(name, text, "--format", "html").stdout)["trajectory"]["verdict"]
+            self.assertRegex(verdict, r"^CONTACT of \w+ - \w+ between 2\.8\d+ and 2\.8\d+ s$")
+            self.assertIn(f" way points: {verdict}, at (", self.follow(name, text).stdout)
 
     def test_a_trajectory_that_keeps_clear_is_proven_free_and_drawn(self):
         text = "slide\n0\n0.5\n0.9\n0.2\n"
@@ -97,9 +103,8 @@ class Report(unittest.TestCase):
         self.assertIn("proven free", done.stdout)
         page = self.follow("way.csv", text, "--format", "html").stdout
         self.assertIn('aria-label="Least distance over time"', page)
-        packed = re.search('id="packed-report">([^<]*)<', page)[1]
-        data = json.loads(gzip.decompress(base64.b64decode(packed)))
-        self.assertEqual(os.path.basename(data["trajectory"]), "way.csv")  # what the page's head says that pairs are along
+        said = self.page_data(page)["trajectory"]  # what the page's head says
+        self.assertEqual((os.path.basename(said["file"]), said["verdict"]), ("way.csv", "proven free"))
         # Within the margin asked for it is not: 0.1166 m apart at the third way point, less 0.1.
         self.assertEqual(self.follow("way.csv", text, "--margin", "0.0167").returncode, 1)
         self.assertEqual(self.follow("way.csv", text, "--margin", "0.0165").returncode, 0)

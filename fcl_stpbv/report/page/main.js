@@ -3,7 +3,7 @@ function showHeader(report) {
   const s = report.summary, title = `${report.robot}: ${report.title}`;
   document.title = byId('title').textContent = title;
   byId('subtitle').textContent = report.pose ? `Posture: ${report.pose}`
-    : report.trajectory ? `Each pair where it comes closest along ${report.trajectory}` : 'Each pair in the closest configuration that was found';
+    : report.trajectory ? `Trajectory ${report.trajectory.file}: ${report.trajectory.verdict}. Each pair where it comes closest on it` : 'Each pair in the closest configuration that was found';
   const figure = (value, label, className = '') => byId('figures').append(make('div', `figure ${className}`, '', make('b', '', String(value)), make('span', '', label)));
   figure(s.pairs_total, 'pairs');
   figure(s.checked, 'checked');

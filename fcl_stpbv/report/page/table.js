@@ -1,14 +1,14 @@
 // The table of pairs: columns that sort, a search and four filters. Filters that would have nothing to choose are not shown.
 const COLUMNS = [
-  { key: 'link1', label: 'Link 1', text: true, width: 19 },
-  { key: 'link2', label: 'Link 2', text: true, width: 19 },
-  { key: 'distance', label: 'STP-BV mm', title: 'Distance of the two smooth volumes; negative: they overlap', width: 10 },
-  { key: 'hull_distance', label: 'Hulls mm', title: 'Distance of the convex hulls', width: 9 },
-  { key: 'mesh_distance', label: 'Meshes mm', title: 'Distance of the triangle meshes', width: 9.5 },
-  { key: 'cover', label: 'Cover mm', title: 'How much closer the volumes are than their hulls, along the normal', width: 8 },
-  { key: 'cause', label: 'Cause', title: 'What meets: the meshes, only their hulls, or only the margins around them', text: true, width: 15 },
-  { key: 'reason', label: 'Reason', title: 'What the search for collisions says', text: true, width: 17.5 },
-  { key: 'srdf_reason', label: 'SRDF', title: 'What the SRDF says', text: true, width: 10 }
+  { key: 'link1', label: 'Link 1', text: true },
+  { key: 'link2', label: 'Link 2', text: true },
+  { key: 'distance', label: 'STP-BV mm', title: 'Distance of the two smooth volumes; negative: they overlap' },
+  { key: 'hull_distance', label: 'Hulls mm', title: 'Distance of the convex hulls' },
+  { key: 'mesh_distance', label: 'Meshes mm', title: 'Distance of the triangle meshes' },
+  { key: 'cover', label: 'Cover mm', title: 'How much closer the volumes are than their hulls, along the normal' },
+  { key: 'cause', label: 'Cause', title: 'What meets: the meshes, only their hulls, or only the margins around them', text: true },
+  { key: 'reason', label: 'Reason', title: 'What the search for collisions says', text: true },
+  { key: 'srdf_reason', label: 'SRDF', title: 'What the SRDF says', text: true }
 ];
 
 const CAUSE_REAL = 'meshes meet';  // the other causes are the covers' own
@@ -20,6 +20,10 @@ const STATES = {
   contradicts: ['contradicts the SRDF', p => p.contradicts_srdf],
   kinked: ['gradient may jump', p => p.checked && !p.continuous]
 };
+
+function cellText({ key, text }, pair) {
+  return text ? pair[key] : mm(pair[key]);
+}
 
 class PairTable {
   constructor(pairs, onSelect) {
@@ -36,11 +40,23 @@ class PairTable {
     this.fill();
   }
 
+  // As wide as the longest content of a column needs, in pixels, names up to a limit. A wider table shares out the rest.
+  widthOf(column) {
+    const most = 170, padding = 12, style = getComputedStyle(byId('table'));
+    const pen = document.createElement('canvas').getContext('2d');
+    const widest = (weight, texts) => {
+      pen.font = `${weight} ${style.fontSize} ${style.fontFamily}`;
+      return [...texts].reduce((width, text) => Math.max(width, pen.measureText(text).width), 0);
+    };
+    const cells = new Set(this.pairs.map(p => cellText(column, p)));
+    const width = Math.max(widest('600', column.label.split(' ')), widest(column.key === 'distance' ? '650' : '400', cells));
+    return Math.min(most, padding + Math.ceil(width));
+  }
+
   makeHead() {
-    const all = this.columns.reduce((sum, c) => sum + c.width, 0);
     for (const column of this.columns) {
       const col = make('col');
-      col.style.width = `${100 * column.width / all}%`;
+      col.style.width = `${this.widthOf(column)}px`;
       document.querySelector('#table colgroup').append(col);
       const head = make('th', column.text ? '' : 'n', column.label);
       head.title = column.title || '';
@@ -55,8 +71,9 @@ class PairTable {
   makeRow(pair, i) {
     const row = make('tr', pair.checked ? pair.colliding ? 'hit' : '' : 'off');
     row.dataset.pair = i;
-    for (const { key, text } of this.columns) {
-      const cell = make('td', text ? '' : key === 'distance' ? 'n d' : 'n', text ? pair[key] : mm(pair[key]));
+    for (const column of this.columns) {
+      const { key, text } = column;
+      const cell = make('td', text ? '' : key === 'distance' ? 'n d' : 'n', cellText(column, pair));
       if (text) cell.title = pair[key];
       if (key === 'cause' && pair.cause) cell.replaceChildren(make('b', `cause ${pair.cause === CAUSE_REAL ? 'hit' : ''}`, pair.cause));
       row.append(cell);
