@@ -75,10 +75,7 @@ class MotionSearch {
     const std::size_t end = lists_.size();
     // Only what was looked at is given up: two covers may leave as short a time as this between them, and it
     // may be free.
-    if (end > early && b - a <= kFinest)
-      return hit_ == middle && half <= request_.tolerance
-                 ? finish(MotionVerdict::contact, a, hit_, hitPair_)
-                 : finish(MotionVerdict::undecided, a, b, lists_[early]);
+    if (end > early && b - a <= kFinest) return finishSoonAfter(a, b, early, end);
     bool over = late > early && visit(a, middle - least.before, early, late);
     if (!over && end > late) over = visit(middle + least.after, b, late, end);
     lists_.resize(early);
@@ -94,6 +91,18 @@ class MotionSearch {
       if (scene_.look(lists_[i], 0, ignored)) return lists_[i];
     }
     return -1;
+  }
+
+  // From `a` on the distance is the margin to rounding. Within the tolerance it may be a clear contact.
+  bool finishSoonAfter(double a, double b, std::size_t first, std::size_t last) {
+    const double end = std::min(1.0, a + request_.tolerance);
+    if (hit_ <= end) return finish(MotionVerdict::contact, a, hit_, hitPair_);
+    for (double time = b; time < end;) {
+      time = std::min(end, a + 2 * (time - a));
+      const int pair = inContact(time, first, last);
+      if (pair >= 0) return finish(MotionVerdict::contact, a, time, pair);
+    }
+    return finish(MotionVerdict::undecided, a, b, lists_[first]);
   }
 
   bool finish(MotionVerdict verdict, double from, double until, int pair) {

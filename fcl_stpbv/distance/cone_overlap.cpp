@@ -115,9 +115,10 @@ class WaysOut {
     return true;
   }
 
-  /// The answer, if what was looked at proves it.
+  /// The answer, if what was looked at proves it. What was left out as longer than a way known before may be
+  /// no shorter than the best that was looked at.
   std::optional<LeastOverlap> answer() {
-    if (!(best_.depth - bound_ <= 2.0 * q_.rounding.gap)) return {};
+    if (!(best_.depth - std::min(bound_, worth_) <= 2.0 * q_.rounding.gap)) return {};
     LeastOverlap found{{}, -std::min(bound_, best_.depth) + q_.rounding.across, true, true};
     found.at.n = best_.n;
     found.at.patch = best_.patch;

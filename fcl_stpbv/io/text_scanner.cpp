@@ -113,8 +113,8 @@ std::string_view TextScanner::token(std::string_view what) {
 
 double TextScanner::number(std::string_view what) {
   const std::string_view word = token(what);
-  // from_chars takes no leading plus sign, other writers may print one.
-  const std::string_view digits = word.substr(word.size() > 1 && word[0] == '+' ? 1 : 0);
+  // from_chars takes no leading plus sign, other writers may print one, but not before another sign.
+  const std::string_view digits = word.substr(word.size() > 1 && word[0] == '+' && word[1] != '-' ? 1 : 0);
   double value = 0;
   const auto result = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   const bool whole = result.ptr == digits.data() + digits.size();

@@ -175,9 +175,8 @@ std::string filled(std::string_view text, const std::map<std::string_view, std::
 // The chart over the tables, where a trajectory was followed.
 static std::string trajectorySection(const CollisionReport& report) {
   if (!report.trajectory) return "";
-  return "<section id=\"trajectory\" aria-label=\"Trajectory\"><h2>Least distance of all checked pairs along "
-         "the "
-         "trajectory</h2>" +
+  return "<section id=\"trajectory\" aria-label=\"Trajectory\"><h2>Least distance of all "
+         "checked pairs along the trajectory</h2>" +
          chartOf(*report.trajectory, report.margin) + "</section>";
 }
 

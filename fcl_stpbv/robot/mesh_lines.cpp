@@ -34,8 +34,8 @@ MeshWords wordsOf(std::string_view text) {
 }
 
 bool readMeshNumber(std::string_view word, double& value) {
-  // from_chars takes no leading plus sign, other writers may print one.
-  if (word.size() > 1 && word[0] == '+') word.remove_prefix(1);
+  // from_chars takes no leading plus sign, other writers may print one, but not before another sign.
+  if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);
   const auto result = std::from_chars(word.data(), word.data() + word.size(), value);
   if (result.ec != std::errc() || result.ptr != word.data() + word.size() || !std::isfinite(value))
     return false;

@@ -4,7 +4,8 @@
 // deep enough leaves the core through a face: along an edge or a vertex the surface bends too much to be a
 // shortest way. So the depth is the least of the depths in the balls.
 // 1. Of each ball take the power of the point, |p - c|^2 - rho^2. From a point a on the ball and the normal u
-//    there it is (p - a) . (p - a + 2 rho u), which does not cancel where the centre c is far away.
+//    there it is (p - a) . (p - a + 2 rho u), which does not cancel where the centre c is far away. Where it
+//    is near, |p - c|^2 itself keeps more digits.
 // 2. The ball with the largest power is the one that the point leaves soonest.
 #include "fcl_stpbv/volume/point_depth.h"
 
@@ -25,7 +26,7 @@ using Eigen::Vector3d;
 namespace {
 
 struct Power {
-  double value;  ///< of the point to the face's ball (m^2); negative inside
+  double value;  ///< of the point to the face's ball, or to a smaller one about its centre (m^2)
   int face;      ///< its place among the faces; -1: none
 };
 
@@ -45,10 +46,11 @@ struct WaysBetween {
   }
 };
 
-/// The largest power above `above` over the faces that one of the `ways` leads through, four at a time.
+/// The largest power above `above` over the faces that one of the `ways` leads through, four at a time. It is
+/// that to the balls of the radius `about` around the faces' centres, |p - c|^2 - about^2.
 template <typename Ways>
-inline Power largestPower(const FaceRecord* faces, int count, double rho, const Packed& p, double above,
-                          const Ways& ways) {
+inline Power largestPower(const FaceRecord* faces, int count, double rho, double about, const Packed& p,
+                          double above, const Ways& ways) {
   const auto read = [](const Vector3d& v) {  // the fourth number is the record's next
     Packed four;
     std::memcpy(&four, v.data(), sizeof four);
@@ -64,7 +66,8 @@ inline Power largestPower(const FaceRecord* faces, int count, double rho, const 
     const FaceRecord& v = faces[std::min(f + 3, count - 1)];
     const FourVectors from = point - four(read(s.anchor), read(t.anchor), read(u.anchor), read(v.anchor)),
                       normal = four(read(s.normal), read(t.normal), read(u.normal), read(v.normal));
-    const Packed power = dot(from, from) + 2.0 * rho * dot(from, normal);
+    const Packed power =
+        dot(from + (Packed{} + (rho - about)) * normal, from + (Packed{} + (rho + about)) * normal);
     PackedBits more = power > most;
     if constexpr (std::is_same_v<Ways, WaysBetween>) {
       if (!any(more)) continue;
@@ -80,28 +83,31 @@ inline Power largestPower(const FaceRecord* faces, int count, double rho, const 
   return {most[lane], std::min(static_cast<int>(first[lane]) + lane, count - 1)};
 }
 
-/// The least depth in a face's ball, of those whose power is above `above` and whose way is one of `ways`.
+/// The least depth in a face's ball, of those that are less than `below` and whose way is one of `ways`.
 template <typename Ways>
-inline PointDepth depthInBalls(const StpBv& body, const Vector3d& p, double above, const Ways& ways) {
+inline PointDepth depthInBalls(const StpBv& body, const Vector3d& p, double below, const Ways& ways) {
+  constexpr double kFar = 4.0;  // of the coordinates: then no way is much shorter than the radius
   const PatchTable& patches = body.tables().patches;
   const double rho = body.radii().rho;
+  const bool far = rho > kFar * ((p - body.centre()).norm() + body.enclosingRadius());
+  const double about = far ? rho : 0.0, least = std::max(0.0, rho - below);  // of a way's length
   const Power power = largestPower(&patches.face(patches.firstFace()), patches.count() - patches.firstFace(),
-                                   rho, pack(p), above, ways);
+                                   rho, about, pack(p), far ? -below * (rho + least) : least * least, ways);
   if (power.face < 0) return {std::numeric_limits<double>::infinity(), Vector3d(0, 0, 0), -1};
   const FaceRecord& face = patches.face(patches.firstFace() + power.face);
   const Vector3d way = p - face.anchor + rho * face.normal;  // from the ball's centre
   const double length = way.norm();
-  return {-power.value / (rho + length), way / length, patches.firstFace() + power.face};
+  return {far ? -power.value / (rho + length) : rho - length, way / length, patches.firstFace() + power.face};
 }
 
 FCL_STPBV_VECTORIZED
 PointDepth leastDepth(const StpBv& body, const Vector3d& p) {
-  return depthInBalls(body, p, -std::numeric_limits<double>::infinity(), AllWays{});
+  return depthInBalls(body, p, std::numeric_limits<double>::infinity(), AllWays{});
 }
 
 FCL_STPBV_VECTORIZED
-PointDepth leastDepth(const StpBv& body, const Vector3d& p, double above, const WaysBetween& ways) {
-  return depthInBalls(body, p, above, ways);
+PointDepth leastDepth(const StpBv& body, const Vector3d& p, double below, const WaysBetween& ways) {
+  return depthInBalls(body, p, below, ways);
 }
 
 }  // namespace
@@ -118,10 +124,7 @@ std::optional<PointDepth> pointDepth(const StpBv& body, const Vector3d& p) {
 
 std::optional<PointDepth> pointDepthBetween(const StpBv& body, const Vector3d& p, const Vector3d* side,
                                             int count, double below) {
-  const double rho = body.radii().rho;
-  // A depth below `below` is a way longer than rho - below.
-  const double above = below < rho ? below * (below - 2.0 * rho) : -rho * rho;
-  const PointDepth found = leastDepth(body, p, above, WaysBetween{side, count, 1e-12 * rho});
+  const PointDepth found = leastDepth(body, p, below, WaysBetween{side, count, 1e-12 * body.radii().rho});
   if (found.patch < 0) return {};
   return found;
 }

@@ -11,17 +11,19 @@ using namespace fcl_stpbv::detail;
 
 namespace {
 
-/// Pairs whose distances change by at most 1 in a unit of time; covers are `part` of what that allows.
+/// Pairs whose distances change by at most 1 in a unit of time; covers are `part` of what that allows after
+/// `slack` is given away.
 struct Functions {
   std::vector<std::function<double(double)>> distance;
   double part = 1;
+  double slack = 0;
   double t = 0;
 
   void place(double time) { t = time; }
   bool look(int pair, double most, Cover& cover) {
     const double gap = distance[static_cast<std::size_t>(pair)](t);
     if (!(gap > 0)) return true;
-    cover.before = cover.after = std::min(part * gap, most);
+    cover.before = cover.after = std::min(part * std::max(0.0, gap - slack), most);
     return false;
   }
 };
@@ -68,6 +70,18 @@ TEST_CASE("what grazes is undecided, and free until shortly before") {
   CHECK(found.pair == 1);
   CHECK(std::abs(found.from - 1.0 / 3) <= 1e-12);
   CHECK(std::abs(found.until - 1.0 / 3) <= 1e-12);
+}
+
+TEST_CASE("a contact just after a time at which rounding may hide it is one, and bracketed") {
+  // At 0.5, where the search looks first, the pair is apart by less than is given away for rounding.
+  for (const double tolerance : {1e-11, 1e-6, 1e-4, 0.3}) {
+    CAPTURE(tolerance);
+    const double truth = 0.5 + 1e-13;
+    const MotionBracket found = search({{[&](double t) { return truth - t; }}, 1, 1e-12}, tolerance);
+    CHECK(found.verdict == MotionVerdict::contact);
+    CHECK((found.from <= truth && found.until >= truth));
+    CHECK(found.until - found.from <= tolerance);
+  }
 }
 
 TEST_CASE("a contact is bracketed to 1e-12 whatever smaller tolerance is asked for") {

@@ -101,6 +101,34 @@ TEST_CASE("The depth from a shape's cones of normals is what EPA finds") {
   REQUIRE(told > 3000);
 }
 
+TEST_CASE("Near the smallest R, where the ways out are short beside the balls, no way is missed") {
+  Random random(54);
+  int told = 0;
+  for (int i = 0; i < 200; ++i) {
+    const Cloud cloud =
+        i % 2 ? geodesicSphere(0.2, 0)
+              : box(random.uniform(0.1, 0.3), random.uniform(0.1, 0.3), random.uniform(0.1, 0.3));
+    const double over = std::pow(10.0, random.uniform(-3.5, -2));
+    const double R = (1 + over) * StpBv::smallestR(cloud, 0);
+    const ConeBody body{cloud, 0, R, StpBv::build(cloud, {0, R})};
+    const double size = R * std::pow(10.0, random.uniform(-6, -2));
+    const Shape shape =
+        random.below(2) ? Shape::capsule(0, size) : Shape::boxOf({size, 0.7 * size, 0.3 * size});
+    Isometry3d at = within(body, shape, random);
+    at.translation() *= random.below(2) ? 0.0 : over;
+    const detail::RelativePose posed(Isometry3d::Identity(), at);
+    detail::ShapeQuery q(*body.volume, shape, posed), again(*body.volume, shape, posed);
+    const auto found = detail::overlapOfCones(q);
+    if (!found) continue;
+    ++told;
+    const detail::LeastOverlap epa = detail::leastOverlap(again, {Vector3d::UnitX(), -1});
+    CAPTURE(i, over, size, found->at.gap, found->bound, epa.at.gap);
+    REQUIRE(epa.at.gap <= found->bound + 4 * q.rounding.gap);
+    REQUIRE(found->bound - found->at.gap <= 4 * q.rounding.gap + q.rounding.across);
+  }
+  REQUIRE(told > 80);
+}
+
 TEST_CASE("No direction of many leads out of a volume sooner than the cones of normals tell") {
   const std::vector<ConeBody> bodies = coneBodies();
   Random random(52);

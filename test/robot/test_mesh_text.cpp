@@ -148,6 +148,7 @@ TEST_CASE("OFF: as many lines as the header says, and indices below its number o
                          {off, ":4: ends after 2 of the 3 vertices"},
                          {off + kBig + face, ":5: "},
                          {off + "0 nan 0\n" + face, ":5: "},
+                         {off + "0 +-1 0\n" + face, ":5: "},
                          {off + "# the third\n" + last + face, ":5: a comment or blanks"},
                          {off + last + " \n" + face, ":6: a comment or blanks"},
                          {off + last + "10 0 1 2 0 1 2 0 1 2 0\n", ":6: a face of 10 vertices"},
