@@ -175,7 +175,7 @@ class PythonPairSearch {
             rigid ? provePair(scene_, links, unproven(scene_, links).open, 1) : PairProof();
         if (!rigid) list.push_back(entryOf(links, PairReason::adjacent));
         if (rigid && proof.proven()) list.push_back(entryOf(links, PairReason::neverProven));
-        if (rigid && proof.collision) list.push_back(entryOf(links, PairReason::always));
+        if (rigid && proof.collision) list.push_back(entryOf(links, PairReason::rigid));
       }
     }
     return list;

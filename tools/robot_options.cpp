@@ -167,7 +167,8 @@ void describeSearch(Program& app, SearchArguments& a) {
       .number(0, kLargest)
       .shown();
   app.flag("--disable-default", a.disableDefault,
-           "Let an SRDF leave out the pairs that collide in the neutral posture but are clear in others");
+           "Let an SRDF leave out the pairs that collide in the neutral posture, or nearly always, but are "
+           "clear elsewhere");
 }
 
 std::pair<bool, int> partsAsked(const std::string& parts) {

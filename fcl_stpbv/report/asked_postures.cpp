@@ -26,10 +26,12 @@ AskedPostures readPostures(const ReportRequest& request, const Kinematics& kinem
   }
   if (!request.trajectory.empty()) {
     postures.trajectory = readTrajectory(request.trajectory, kinematics, postures.neutral);
-    checkLimits("--trajectory " + request.trajectory, postures.trajectory.points);
+    const std::string name = "--trajectory " + request.trajectory;
+    checkLimits(name, postures.trajectory.points);
+    const std::string turns = turnWarning(name, postures.trajectory, kinematics);
+    if (!turns.empty()) postures.warnings.push_back(turns);
     if (postures.trajectory.start != 0)
-      postures.warnings.push_back("--trajectory " + request.trajectory +
-                                  ": times count from its first one, " +
+      postures.warnings.push_back(name + ": times count from its first one, " +
                                   detail::toDecimal(postures.trajectory.start) + " s");
   }
   return postures;

@@ -186,11 +186,10 @@ NeutralPosture keptNeutral(const std::shared_ptr<const Kinematics>& kinematics,
   if (!question.whole()) return judge();
   std::string asked = question.text() + "neutral";
   std::vector<std::string> states;
-  if (srdf)
-    for (const Srdf::State& state : srdf->states) {
-      states.push_back(state.name);
-      for (const double value : kinematics->configuration(state)) appendNumber(asked += ' ', value);
-    }
+  for (const auto& [name, q] : namedPostures(*kinematics, srdf)) {
+    states.push_back(name);
+    for (const double value : q) appendNumber(asked += ' ', value);
+  }
   for (const PairEntry& entry : list) asked += ' ' + std::to_string(static_cast<int>(entry.reason));
   const auto measure = [&] {
     const NeutralPosture found = judge();

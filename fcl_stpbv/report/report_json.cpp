@@ -46,6 +46,7 @@ nlohmann::json trajectoryJson(const CollisionReport& report) {
                       {"steepest_approach", t.steepest},
                       {"steepest_time", t.steepestTime},
                       {"chart", {{"time", t.chartTime}, {"distance", t.chartDistance}}}};
+  json["steepest_pair"] = json["contact"] = nullptr;
   if (t.steepestPair >= 0) json["steepest_pair"] = report.trajectoryPair(t.steepestPair);
   if (t.verdict != MotionVerdict::free) {
     const auto& [first, second] = report.trajectoryPairs[static_cast<std::size_t>(t.pair)];

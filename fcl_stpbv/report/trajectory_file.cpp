@@ -180,4 +180,22 @@ Trajectory readTrajectory(const std::string& path, const Kinematics& kinematics,
   return trajectory;
 }
 
+std::string turnWarning(const std::string& name, const Trajectory& trajectory, const Kinematics& kinematics) {
+  for (std::size_t i = 1; i < trajectory.points.size(); ++i) {
+    for (const JointModel& joint : kinematics.robot().joints) {
+      const bool planar = joint.type == JointType::planar;
+      if (joint.mimic || !(planar || joint.type == JointType::continuous)) continue;
+      const int k = kinematics.coordinate(joint.name) + (planar ? 2 : 0);  // x, y, angle
+      const double last = trajectory.points[i - 1][k], turn = trajectory.points[i][k] - last;
+      constexpr double kOff = 1e-6;  // of half a turn in few digits (rad)
+      if (std::abs(turn) <= M_PI + kOff) continue;
+      return name + ": way point " + std::to_string(i + 1) + ": '" + kinematics.names()[at(k)] +
+             "' turns by " + toDecimal(turn) +
+             " rad, more than half a turn; this way is looked at, not the " +
+             "short one, which would end at " + toDecimal(last + std::remainder(turn, 2 * M_PI)) + " rad.";
+    }
+  }
+  return "";
+}
+
 }  // namespace fcl_stpbv::report

@@ -3,10 +3,27 @@
 #include "fcl_stpbv/robot/neutral_posture.h"
 
 #include <random>
+#include <set>
 
+#include "fcl_stpbv/error.h"
 #include "fcl_stpbv/robot/pair_samples.h"
 
 namespace fcl_stpbv::detail {
+
+std::vector<std::pair<std::string, Eigen::VectorXd>> namedPostures(const Kinematics& kinematics,
+                                                                   const Srdf* srdf) {
+  std::vector<std::pair<std::string, Eigen::VectorXd>> postures;
+  if (!srdf) return postures;
+  std::set<std::string> names;
+  for (const Srdf::State& state : srdf->states) {
+    if (!names.insert(state.name).second) continue;
+    try {
+      postures.emplace_back(state.name, kinematics.configuration(srdf->state(state.name)));
+    } catch (const Error&) {  // no posture
+    }
+  }
+  return postures;
+}
 
 NeutralPosture judgeNeutral(std::shared_ptr<const Kinematics> kinematics,
                             std::shared_ptr<const RobotGeometry> geometry, const std::vector<PairEntry>& list,
@@ -31,8 +48,7 @@ NeutralPosture judgeNeutral(std::shared_ptr<const Kinematics> kinematics,
     found.better = q;
     found.state = state;
   };
-  if (srdf)
-    for (const Srdf::State& state : srdf->states) consider(kinematics->configuration(state), state.name);
+  for (const auto& [name, q] : namedPostures(*kinematics, srdf)) consider(q, name);
   std::mt19937_64 random(1);
   for (int i = 0; i < kRandom; ++i) consider(randomConfiguration(*kinematics, random), "");
   return found;

@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "fcl_stpbv/robot/pair_list.h"
@@ -17,8 +18,13 @@ struct NeutralPosture {
   int collidingThere = 0;
 };
 
-/// Counts the pairs of `list` that collide in `neutral`; if there are any, looks at the SRDF's states (null
-/// for none), then at 200 random configurations, for the first with the fewest. The same for the same list.
+/// The SRDF's postures by name (null for none), each whole, as whoever asks for one gets it. What is no
+/// posture, such as a joint with too many values, is not among them: that is told to whoever asks for it.
+std::vector<std::pair<std::string, Eigen::VectorXd>> namedPostures(const Kinematics& kinematics,
+                                                                   const Srdf* srdf);
+
+/// Counts the pairs of `list` that collide in `neutral`; if there are any, looks at namedPostures(),
+/// then at 200 random configurations, for the first with the fewest. The same for the same list.
 NeutralPosture judgeNeutral(std::shared_ptr<const Kinematics> kinematics,
                             std::shared_ptr<const RobotGeometry> geometry, const std::vector<PairEntry>& list,
                             const Eigen::VectorXd& neutral, const Srdf* srdf, double margin);

@@ -72,7 +72,8 @@ std::vector<Srdf::Pair> toSrdf(const RobotModel& robot, const std::vector<PairEn
   std::vector<Srdf::Pair> pairs;
   for (const PairEntry& entry : list) {
     if (entry.obstacle || entry.reason == PairReason::sometimes || entry.reason == PairReason::user) continue;
-    if (entry.reason == PairReason::defaultClears && !defaultToo) continue;
+    const bool clears = entry.reason == PairReason::defaultClears || entry.reason == PairReason::always;
+    if (clears && !defaultToo) continue;
     Srdf::Pair pair{robot.links[at(entry.link1)].name, robot.links[at(entry.link2)].name, srdfReason(entry)};
     if (pair.link2 < pair.link1) std::swap(pair.link1, pair.link2);
     pairs.push_back(std::move(pair));

@@ -22,7 +22,7 @@ enum class PairReason {
   rigid,          ///< no joint can change where the two are to each other
   byDefault,      ///< collides in the neutral configuration and wherever else it was looked for
   defaultClears,  ///< collides in the neutral configuration and is clear in another; to be checked
-  always,         ///< collides in nearly every sample
+  always,         ///< clear in the neutral configuration, collides in nearly every sample; to be checked
   user,           ///< left out by the user's SRDF
   neverSampled,   ///< no collision in any sample, nor in descents
   neverProven,    ///< no collision within the joint limits
@@ -31,7 +31,7 @@ enum class PairReason {
 /// For people and reports: "never (proven)" and the like.
 const char* reasonText(PairReason reason);
 
-/// Whether a pair is checked where no SRDF says so: all but adjacent, rigid, byDefault, always and user.
+/// Whether a pair is checked where no SRDF says so: all but adjacent, rigid, byDefault and user.
 bool checkedWithoutSrdf(PairReason reason);
 
 /// How thoroughly pairs are searched.
@@ -91,7 +91,8 @@ std::vector<CheckedPair> checkedPairs(const RobotGeometry& geometry, const std::
 std::string countsOf(const std::vector<PairEntry>& list);
 
 /// The pairs of links to leave out, sorted by the links' names, for withPairs(). The user's own are not among
-/// them. Those that collide in the neutral configuration and are clear in others only with `defaultToo`.
+/// them. Those that collide in the neutral configuration, or in nearly every sample, and are clear elsewhere
+/// only with `defaultToo`.
 std::vector<Srdf::Pair> toSrdf(const RobotModel& robot, const std::vector<PairEntry>& list,
                                bool defaultToo = false);
 

@@ -28,8 +28,8 @@ const char* reasonText(PairReason reason) {
 }
 
 bool checkedWithoutSrdf(PairReason reason) {
-  return reason == PairReason::sometimes || reason == PairReason::defaultClears ||
-         reason == PairReason::neverSampled || reason == PairReason::neverProven;
+  return reason != PairReason::adjacent && reason != PairReason::rigid && reason != PairReason::byDefault &&
+         reason != PairReason::user;
 }
 
 }  // namespace fcl_stpbv

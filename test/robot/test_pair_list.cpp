@@ -324,6 +324,53 @@ TEST_CASE("what collides in the neutral posture stays checked where some posture
   }
 }
 
+TEST_CASE("what is clear in the neutral posture stays checked where nearly all others make it collide") {
+  const std::string arm =
+      link("joint", "<sphere radius=\"0.01\"/>") +
+      "<link name=\"arm\"><collision><origin xyz=\"0.5 0 0\"/><geometry>"
+      "<sphere radius=\"0.05\"/></geometry></collision></link>"
+      "<joint name=\"j\" type=\"revolute\"><parent link=\"base\"/><child link=\"joint\"/>"
+      "<axis xyz=\"0 0 1\"/><limit lower=\"-3\" upper=\"0.1\" effort=\"1\" velocity=\"1\"/></joint>" +
+      joint("f", "fixed", "joint", "arm");
+  const auto slab = [](const std::string& name) {
+    return "<link name=\"" + name +
+           "\"><collision><origin xyz=\"0 -0.56 0\"/><geometry>"
+           "<box size=\"4 1 1\"/></geometry></collision></link>";
+  };
+  GeometryOptions none;
+  none.cacheFolder.clear();
+  const auto load = [&](const std::string& text) {
+    const auto model = std::make_shared<const RobotModel>(parseUrdf(robot(text), "small.urdf"));
+    return armFrom(model, loadGeometry(*model, none));
+  };
+  const Arm itself = load(slab("base") + arm), beside = load(link("base") + arm), scene = load(slab("slab"));
+  for (const bool obstacle : {false, true}) {
+    const Arm& one = obstacle ? beside : itself;
+    PairListOptions options;
+    if (obstacle)
+      options.obstacles =
+          obstaclesOf(std::make_shared<const RobotModel>(scene.kinematics->robot()), *scene.geometry);
+    const std::vector<PairEntry> list = pairList(one.kinematics, one.geometry, nullptr, options);
+    const int moved = one.kinematics->robot().link("arm");
+    const auto entry = std::find_if(list.begin(), list.end(), [&](const PairEntry& e) {
+      return e.obstacle == obstacle && (e.link1 == moved || (!obstacle && e.link2 == moved)) &&
+             e.reason != PairReason::rigid;
+    });
+    REQUIRE(entry != list.end());
+    CHECK(entry->reason == PairReason::always);
+    const std::vector<CheckedPair> checked = checkedPairs(*one.geometry, list),
+                                   own = bodiesOf(*one.geometry, *entry);
+    CHECK(std::any_of(checked.begin(), checked.end(), [&](const CheckedPair& pair) {
+      return pair.body == own[0].body && pair.other == own[0].other && pair.obstacle == own[0].obstacle;
+    }));
+    for (const bool defaultToo : {false, true}) {
+      const std::vector<Srdf::Pair> out = toSrdf(one.kinematics->robot(), list, defaultToo);
+      CHECK(std::any_of(out.begin(), out.end(), [](const Srdf::Pair& p) { return p.reason == "Always"; }) ==
+            (defaultToo && !obstacle));
+    }
+  }
+}
+
 TEST_CASE(
     "few samples do not say that a pair always collides, nor half a turn that a geared one never does") {
   // The sphere hits the box near half a turn of its arm, which turns at a part of the wheel's speed.
@@ -407,7 +454,13 @@ TEST_CASE("another neutral posture is another default, and a better one is sugge
   const std::vector<PairEntry> list = pairList(arm.kinematics, arm.geometry, nullptr, options);
   CHECK(entryOf(arm, list, "a", "c").reason == PairReason::sometimes);
   Srdf srdf;
-  srdf.states = {{"open", "arm", {{"j2", {1.0}}}}};
+  // What is no posture, or only a part of one that another group closes, is not suggested, and hinders
+  // nothing.
+  srdf.states = {{"wrong", "arm", {{"j2", {1.0, 2.0}}}},
+                 {"half", "arm", {{"j2", {1.0}}}},
+                 {"half", "other", {{"j1", {0.0}}}},
+                 {"half", "third", {{"j2", {0.0}}}},
+                 {"open", "arm", {{"j2", {1.0}}}}};
   const NeutralPosture zero =
       judgeNeutral(arm.kinematics, arm.geometry, list, arm.kinematics->neutral(), &srdf, 0);
   CHECK(zero.state == "open");

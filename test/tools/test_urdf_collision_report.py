@@ -101,6 +101,7 @@ class Report(unittest.TestCase):
         done = self.follow("way.csv", text)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("proven free", done.stdout)
+        self.assertIsNone(json.loads(self.follow("way.csv", text, "--format", "json").stdout)["trajectory"]["contact"])
         page = self.follow("way.csv", text, "--format", "html").stdout
         self.assertIn('aria-label="Least distance over time"', page)
         said = self.page_data(page)["trajectory"]  # what the page's head says

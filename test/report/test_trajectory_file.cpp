@@ -1,0 +1,39 @@
+// What is said of way points whose angles were wrapped: the way that is looked at is the long one.
+#include <catch2/catch.hpp>
+#include <memory>
+
+#include "fcl_stpbv/report/trajectory_file.h"
+#include "test/robot/urdf_texts.h"
+
+using namespace fcl_stpbv;
+using namespace fcl_stpbv::report;
+using test::joint;
+using test::link;
+
+namespace {
+
+std::string saidOf(const std::string& type, const Eigen::VectorXd& from, const Eigen::VectorXd& to) {
+  const Kinematics kinematics(std::make_shared<const RobotModel>(
+      parseUrdf(test::robot(link("a") + link("b") + joint("j", type, "a", "b")), "small.urdf")));
+  Trajectory trajectory;
+  trajectory.points = {from, from, to};
+  return turnWarning("way.csv", trajectory, kinematics);
+}
+
+Eigen::VectorXd of(double angle) { return Eigen::VectorXd::Constant(1, angle); }
+
+}  // namespace
+
+TEST_CASE("a turn by more than half a turn between two way points is told, with where the short one ends") {
+  const std::string said = saidOf("continuous", of(3.1), of(-3.1));
+  CHECK(said.find("way.csv: way point 3: 'j' turns by -6.2 rad") == 0);
+  CHECK(said.find("end at 3.18318") != std::string::npos);
+  CHECK(saidOf("planar", Eigen::Vector3d(0, 0, -3), Eigen::Vector3d(5, 9, 3))
+            .find("'j/angle' turns by 6 rad") != std::string::npos);
+}
+
+TEST_CASE("half a turn, a long slide and a joint with limits are nothing to tell") {
+  CHECK(saidOf("continuous", of(0), of(-3.14159265)).empty());
+  CHECK(saidOf("planar", Eigen::Vector3d(0, -9, 0), Eigen::Vector3d(9, 9, 1)).empty());
+  CHECK(saidOf("revolute", of(-4), of(4)).empty());
+}
