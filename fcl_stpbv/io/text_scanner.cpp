@@ -104,6 +104,11 @@ bool TextScanner::atEnd() {
   return at_ == text_.size();
 }
 
+std::string_view withoutPlus(std::string_view number) {
+  const bool plus = number.size() > 1 && number[0] == '+' && number[1] != '-';  // "+-1" is no number
+  return number.substr(plus ? 1 : 0);
+}
+
 std::string_view TextScanner::token(std::string_view what) {
   if (atEnd()) fail("the file ends here, expected " + std::string(what));
   const std::size_t start = at_;
@@ -113,8 +118,7 @@ std::string_view TextScanner::token(std::string_view what) {
 
 double TextScanner::number(std::string_view what) {
   const std::string_view word = token(what);
-  // from_chars takes no leading plus sign, other writers may print one, but not before another sign.
-  const std::string_view digits = word.substr(word.size() > 1 && word[0] == '+' && word[1] != '-' ? 1 : 0);
+  const std::string_view digits = withoutPlus(word);
   double value = 0;
   const auto result = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   const bool whole = result.ptr == digits.data() + digits.size();

@@ -30,6 +30,9 @@ std::string toDecimal(double value);
 /// Appends three numbers, separated by blanks.
 void appendVector(std::string& text, const Eigen::Vector3d& v);
 
+/// A number without the plus sign that some writers put before it and std::from_chars does not take.
+std::string_view withoutPlus(std::string_view number);
+
 /// Walks over whitespace-separated tokens. Every failure throws Error "name:line: got ..., expected ...".
 class TextScanner {
  public:

@@ -12,27 +12,24 @@ AskedPostures readPostures(const ReportRequest& request, const Kinematics& kinem
   const auto posture = [&](const char* option, const std::string& name) {
     return namedPosture(option, name, kinematics, srdf, postures.neutral, !request.files.obstacles.empty());
   };
-  const auto checkLimits = [&](const std::string& name, const std::vector<Eigen::VectorXd>& points) {
-    const std::string warning = limitWarning(name, points, kinematics);
+  const auto warn = [&](const std::string& warning) {
     if (!warning.empty()) postures.warnings.push_back(warning);
   };
   if (!request.neutral.empty()) {
     postures.neutral = posture("--neutral", request.neutral);
-    checkLimits("--neutral " + request.neutral, {postures.neutral});
+    warn(limitWarning("--neutral " + request.neutral, {postures.neutral}, kinematics));
   }
   if (!request.pose.empty()) {
     postures.asked = posture("--pose", request.pose);
-    checkLimits("--pose " + request.pose, {*postures.asked});
+    warn(limitWarning("--pose " + request.pose, {*postures.asked}, kinematics));
   }
   if (!request.trajectory.empty()) {
     postures.trajectory = readTrajectory(request.trajectory, kinematics, postures.neutral);
     const std::string name = "--trajectory " + request.trajectory;
-    checkLimits(name, postures.trajectory.points);
-    const std::string turns = turnWarning(name, postures.trajectory, kinematics);
-    if (!turns.empty()) postures.warnings.push_back(turns);
+    warn(limitWarning(name, postures.trajectory.points, kinematics));
+    warn(turnWarning(name, postures.trajectory, kinematics));
     if (postures.trajectory.start != 0)
-      postures.warnings.push_back(name + ": times count from its first one, " +
-                                  detail::toDecimal(postures.trajectory.start) + " s");
+      warn(name + ": times count from its first one, " + detail::toDecimal(postures.trajectory.start) + " s");
   }
   return postures;
 }

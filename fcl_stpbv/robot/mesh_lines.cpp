@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/io/text_scanner.h"
 
 namespace fcl_stpbv::detail {
 namespace {
@@ -34,8 +35,7 @@ MeshWords wordsOf(std::string_view text) {
 }
 
 bool readMeshNumber(std::string_view word, double& value) {
-  // from_chars takes no leading plus sign, other writers may print one, but not before another sign.
-  if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);
+  word = withoutPlus(word);
   const auto result = std::from_chars(word.data(), word.data() + word.size(), value);
   if (result.ec != std::errc() || result.ptr != word.data() + word.size() || !std::isfinite(value))
     return false;

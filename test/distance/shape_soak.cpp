@@ -62,9 +62,8 @@ Isometry3d placed(Random& random, const TestShape& shape, const Body& body) {
 }
 
 /// The reference's answer; half spaces and planes have their normals given.
-ReferenceAnswer truthOf(const Body& body, const TestShape& shape, const Isometry3d& base,
+ReferenceAnswer truthOf(const ReferenceBody& a, const TestShape& shape, const Isometry3d& base,
                         const Isometry3d& at) {
-  const ReferenceBody a = referenceBody(body.cloud, body.r, body.R, base);
   if (!shape.shape.unbounded())
     return referenceDistance(a, shape.posed(at),
                              (at * shape.shape.centre - base.translation()).cast<long double>());
@@ -76,12 +75,9 @@ ReferenceAnswer truthOf(const Body& body, const TestShape& shape, const Isometry
 }
 
 /// The gap along a normal, from supports in long double.
-double gapAlong(const Body& body, const TestShape& shape, const Isometry3d& base, const Isometry3d& at,
-                const Vector3d& normal) {
+double gapAlong(const ReferenceBody& a, const ReferenceShape& b, const Vector3d& normal) {
   const Vector3L n = normal.cast<long double>();
-  const ReferenceShape b = shape.posed(at);
-  return static_cast<double>(n.dot(b.support(-n)) - b.margin -
-                             referenceSupport(referenceBody(body.cloud, body.r, body.R, base), n));
+  return static_cast<double>(n.dot(b.support(-n)) - b.margin - referenceSupport(a, n));
 }
 
 /// How far the derivatives of an answer are from what other poses say, in parts of what theory allows.
@@ -196,11 +192,13 @@ int main(int argc, char** argv) {
       const Distance other = distance(shape.shape, at, *body.volume, base);
       swapped += other.distance != d.distance || other.normal != -d.normal || other.point[0] != d.point[1] ||
                  other.point[1] != d.point[0];
-      const ReferenceAnswer truth = truthOf(body, shape, base, at);
+      const ReferenceBody a = referenceBody(body.cloud, body.r, body.R, base);
+      const ReferenceShape b = shape.posed(at);
+      const ReferenceAnswer truth = truthOf(a, shape, base, at);
       // The gap along any normal is no more than the distance. The reference stops short of the widest, or at
       // an overlap, where some cores are micrometres apart: then the answer's own normal tells more.
-      const double along = shape.shape.unbounded() ? static_cast<double>(truth.distance)
-                                                   : gapAlong(body, shape, base, at, d.normal);
+      const double along =
+          shape.shape.unbounded() ? static_cast<double>(truth.distance) : gapAlong(a, b, d.normal);
       if (truth.overlap && !(along + body.r + shape.shape.margin > 0)) {
         ++overlap;
         if (d.status == DistanceStatus::exact && d.distance + body.r + shape.shape.margin > 1e-13) {
@@ -208,8 +206,7 @@ int main(int argc, char** argv) {
         }
         // Nothing but directions is left to ask: none may be wider than the bound, or than the answer by more
         // than its search leaves, and along its own normal the answer is what the supports say.
-        const auto widest = static_cast<double>(
-            widestGapOverDirections(referenceBody(body.cloud, body.r, body.R, base), shape.posed(at), 500));
+        const auto widest = static_cast<double>(widestGapOverDirections(a, b, 500));
         deep = std::max({deep, widest - d.distance, widest - d.upper, std::abs(along - d.distance)});
         if (widest - d.distance > 1e-6 * (1e-3 - widest) || widest - d.upper > 1e-12 ||
             std::abs(along - d.distance) > 1e-12) {

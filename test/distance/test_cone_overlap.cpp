@@ -62,6 +62,22 @@ Isometry3d within(const ConeBody& body, const Shape& shape, Random& random) {
   return pose(turn, body.volume->centre() + off * random.direction() - turn * shape.centre);
 }
 
+/// What a shape's cones of normals tell, if they do, and EPA beside it, each from a query of its own.
+struct ConesAndEpa {
+  detail::RelativePose posed;
+  detail::ShapeQuery query, again;
+  std::optional<detail::LeastOverlap> cones;
+  detail::LeastOverlap epa{};
+
+  ConesAndEpa(const ConeBody& body, const Shape& shape, const Isometry3d& at)
+      : posed(Isometry3d::Identity(), at),
+        query(*body.volume, shape, posed),
+        again(*body.volume, shape, posed),
+        cones(detail::overlapOfCones(query)) {
+    if (cones) epa = detail::leastOverlap(again, {Vector3d::UnitX(), -1});
+  }
+};
+
 }  // namespace
 
 TEST_CASE("The depth from a shape's cones of normals is what EPA finds") {
@@ -73,12 +89,10 @@ TEST_CASE("The depth from a shape's cones of normals is what EPA finds") {
     const TestShape flat = randomFlat(random);
     const Shape& shape = flat.shape;
     const Isometry3d at = within(body, shape, random);
-    const detail::RelativePose posed(Isometry3d::Identity(), at);
-    detail::ShapeQuery q(*body.volume, shape, posed), again(*body.volume, shape, posed);
-    const auto found = detail::overlapOfCones(q);
+    const ConesAndEpa both(body, shape, at);
+    const auto& [posed, q, again, found, epa] = both;
     if (!found) continue;
     ++told;
-    const detail::LeastOverlap epa = detail::leastOverlap(again, {Vector3d::UnitX(), -1});
     CAPTURE(i, body.R, flat.name, found->at.gap, found->bound, epa.at.gap, epa.bound);
     // Each bound holds for the other's answer, and no wider gap was there. Roundings of the gap add up.
     const double rounding = 4 * q.rounding.gap;
@@ -116,12 +130,10 @@ TEST_CASE("Near the smallest R, where the ways out are short beside the balls, n
         random.below(2) ? Shape::capsule(0, size) : Shape::boxOf({size, 0.7 * size, 0.3 * size});
     Isometry3d at = within(body, shape, random);
     at.translation() *= random.below(2) ? 0.0 : over;
-    const detail::RelativePose posed(Isometry3d::Identity(), at);
-    detail::ShapeQuery q(*body.volume, shape, posed), again(*body.volume, shape, posed);
-    const auto found = detail::overlapOfCones(q);
+    const ConesAndEpa both(body, shape, at);
+    const auto& [posed, q, again, found, epa] = both;
     if (!found) continue;
     ++told;
-    const detail::LeastOverlap epa = detail::leastOverlap(again, {Vector3d::UnitX(), -1});
     CAPTURE(i, over, size, found->at.gap, found->bound, epa.at.gap);
     REQUIRE(epa.at.gap <= found->bound + 4 * q.rounding.gap);
     REQUIRE(found->bound - found->at.gap <= 4 * q.rounding.gap + q.rounding.across);

@@ -2,8 +2,6 @@
 
     test_find_posture.py PROGRAM SOURCE_FOLDER
 """
-import base64
-import gzip
 import json
 import os
 import re
@@ -12,17 +10,13 @@ import sys
 import tempfile
 import unittest
 
+from report_page import page_data
+
 PROGRAM, SOURCE = sys.argv[1:3]
 ROBOT = os.path.join(SOURCE, "data/hrp2_style/hrp2_style")
 FRIDGE = os.path.join(SOURCE, "data/fridge")
 ARM = os.path.join(SOURCE, "test/tools/six_joint_arm.urdf")
 REACH = os.path.join(SOURCE, "test/tools/reach.json")
-
-
-def page_data(page):
-    """What an HTML report holds: JSON, packed."""
-    block = re.search(r'id="packed-report">([^<]*)<', page).group(1)
-    return json.loads(gzip.decompress(base64.b64decode(block)))
 
 
 class FindPosture(unittest.TestCase):

@@ -2,9 +2,7 @@
 
     test_robot_doors.py URDF_COLLISION_REPORT FIND_POSTURE
 """
-import base64
 import csv
-import gzip
 import io
 import json
 import os
@@ -16,6 +14,8 @@ import sys
 import tempfile
 import time
 import unittest
+
+from report_page import page_text
 
 REPORT, POSTURE = sys.argv[1:3]
 
@@ -39,7 +39,7 @@ def readable(text, form):
     """The output of a format; of a page, what its packed report says."""
     if form != "html":
         return text
-    return gzip.decompress(base64.b64decode(re.search('id="packed-report">([^<]*)<', text).group(1))).decode()
+    return page_text(text)
 
 
 BAD = ['<sphere radius="0"/>', '<mesh filename="missing.stl"/>']

@@ -2,9 +2,7 @@
 
     test_urdf_collision_report.py PROGRAM SOURCE_FOLDER
 """
-import base64
 import csv
-import gzip
 import io
 import json
 import math
@@ -14,6 +12,8 @@ import subprocess
 import sys
 import tempfile
 import unittest
+
+from report_page import page_data
 
 PROGRAM, SOURCE = sys.argv[1:3]
 ROBOT = os.path.join(SOURCE, "data/hrp2_style/hrp2_style")
@@ -71,10 +71,6 @@ class Report(unittest.TestCase):
         return self.run_tool(self.slider(), "--primitives", "flat", "--samples", "20", "--trajectory",
                              self.put(name, text), *arguments)
 
-    def page_data(self, page):
-        """The report that a page holds."""
-        return json.loads(gzip.decompress(base64.b64decode(re.search('id="packed-report">([^<]*)<', page)[1])))
-
     def test_a_trajectory_that_collides_between_its_way_points_names_time_and_pair(self):
         # The balls touch 0.08 m before the middle: 0.92 m of 2 m, in 4 s.
         for name, text in [("way.csv", "time,slide\n1,0\n5,2\n"),
@@ -92,7 +88,7 @@ class Report(unittest.TestCase):
             self.assertAlmostEqual(pair["time"], 3, delta=0.01)
             self.assertLessEqual(found["steepest_approach"], 0.5)  # m/s
             self.assertGreater(found["steepest_approach"], 0.49)
-            verdict = self.page_data(self.follow(name, text, "--format", "html").stdout)["trajectory"]["verdict"]
+            verdict = page_data(self.follow(name, text, "--format", "html").stdout)["trajectory"]["verdict"]
             self.assertRegex(verdict, r"^CONTACT of \w+ - \w+ between 2\.8\d+ and 2\.8\d+ s$")
             self.assertIn(f" way points: {verdict}, at (", self.follow(name, text).stdout)
 
@@ -104,7 +100,7 @@ class Report(unittest.TestCase):
         self.assertIsNone(json.loads(self.follow("way.csv", text, "--format", "json").stdout)["trajectory"]["contact"])
         page = self.follow("way.csv", text, "--format", "html").stdout
         self.assertIn('aria-label="Least distance over time"', page)
-        said = self.page_data(page)["trajectory"]  # what the page's head says
+        said = page_data(page)["trajectory"]  # what the page's head says
         self.assertEqual((os.path.basename(said["file"]), said["verdict"]), ("way.csv", "proven free"))
         # Within the margin asked for it is not: 0.1166 m apart at the third way point, less 0.1.
         self.assertEqual(self.follow("way.csv", text, "--margin", "0.0167").returncode, 1)
