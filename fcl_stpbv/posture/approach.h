@@ -10,7 +10,7 @@ struct ApproachOptions {
   double atLeastWeight = 1;  ///< of squared violations of inequalities beside those of equalities
   int maxIterations = 50;
   double relativeChange = 1e-9;  ///< of the sum in one step, at which it is least
-  std::function<bool()> stop;    ///< SolverOptions::stop
+  std::function<bool()> stop{};  ///< SolverOptions::stop
 };
 
 struct NearPosture {

@@ -139,6 +139,37 @@ std::vector<int> coordinatesOf(const Columns& columns, const std::string& path,
   return coordinates;
 }
 
+// Where a joint's angles are among its coordinates: one, or the rotation vector of a floating one.
+struct Angles {
+  int first = 0, count = 0;
+};
+
+Angles anglesOf(const JointModel& joint) {
+  switch (joint.type) {
+    case JointType::continuous:
+      return {0, 1};
+    case JointType::planar:
+      return {2, 1};
+    case JointType::floating:
+      return {3, 3};
+    default:
+      return {};
+  }
+}
+
+// Of the angles that turn a body as `to` does, those nearest to `from`: whole turns about the same axis.
+Eigen::VectorXd nearestTurn(const Eigen::VectorXd& to, const Eigen::VectorXd& from) {
+  const double angle = to.norm();
+  const Eigen::VectorXd axis = (angle > 0 ? to : from).normalized();
+  return to + 2 * M_PI * std::round((from.dot(axis) - angle) / (2 * M_PI)) * axis;
+}
+
+std::string joined(const Eigen::VectorXd& values) {
+  std::string text;
+  for (const double value : values) text += (text.empty() ? "" : ", ") + toDecimal(value);
+  return text;
+}
+
 }  // namespace
 
 Trajectory readTrajectory(const std::string& path, const Kinematics& kinematics,
@@ -183,16 +214,20 @@ Trajectory readTrajectory(const std::string& path, const Kinematics& kinematics,
 std::string turnWarning(const std::string& name, const Trajectory& trajectory, const Kinematics& kinematics) {
   for (std::size_t i = 1; i < trajectory.points.size(); ++i) {
     for (const JointModel& joint : kinematics.robot().joints) {
-      const bool planar = joint.type == JointType::planar;
-      if (joint.mimic || !(planar || joint.type == JointType::continuous)) continue;
-      const int k = kinematics.coordinate(joint.name) + (planar ? 2 : 0);  // x, y, angle
-      const double last = trajectory.points[i - 1][k], turn = trajectory.points[i][k] - last;
+      const Angles angles = anglesOf(joint);
+      if (joint.mimic || angles.count == 0) continue;
+      const int k = kinematics.coordinate(joint.name) + angles.first;
+      const Eigen::VectorXd last = trajectory.points[i - 1].segment(k, angles.count);
+      const Eigen::VectorXd to = trajectory.points[i].segment(k, angles.count),
+                            nearest = nearestTurn(to, last);
       constexpr double kOff = 1e-6;  // of half a turn in few digits (rad)
-      if (std::abs(turn) <= M_PI + kOff) continue;
-      return name + ": way point " + std::to_string(i + 1) + ": '" + kinematics.names()[at(k)] +
-             "' turns by " + toDecimal(turn) +
-             " rad, more than half a turn; this way is looked at, not the " +
-             "short one, which would end at " + toDecimal(last + std::remainder(turn, 2 * M_PI)) + " rad.";
+      const double turn = (to - last).norm();
+      if (turn <= (nearest - last).norm() + kOff) continue;
+      const std::string what = angles.count == 1 ? kinematics.names()[at(k)] : joint.name;
+      return name + ": way point " + std::to_string(i + 1) + ": '" + what + "' turns by " +
+             toDecimal(angles.count == 1 ? to[0] - last[0] : turn) +
+             " rad, more than half a turn; this way is looked at, not the short one, which would end at " +
+             joined(nearest) + " rad.";
     }
   }
   return "";

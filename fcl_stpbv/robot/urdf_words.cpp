@@ -106,13 +106,19 @@ bool named(const tinyxml2::XMLNode* node, std::string_view name) {
 
 bool isShape(const tinyxml2::XMLNode* node) { return named(node, "collision") || named(node, "visual"); }
 
+// Whether it says more than a name. Pinocchio's <collision_checking> names shapes that a link has.
+bool saysMore(const XMLElement& element) {
+  const tinyxml2::XMLAttribute* first = element.FirstAttribute();
+  return first && (first->Next() || std::string_view(first->Name()) != "name");
+}
+
 // A box or the like that says something, and that no <geometry> holds and no shape misses: of a link's shape
 // whose own words are misspelt.
 bool isLost(const XMLElement& element) {
   const bool known = std::any_of(kInGeometry.begin(), kInGeometry.end(),
                                  [&](const Known& one) { return named(&element, one.element); });
   const tinyxml2::XMLNode* holder = element.Parent();
-  return known && element.FirstAttribute() && !named(holder, "geometry") && !isShape(holder) &&
+  return known && saysMore(element) && !named(holder, "geometry") && !isShape(holder) &&
          !isShape(holder->Parent());
 }
 

@@ -32,6 +32,19 @@ TEST_CASE("a turn by more than half a turn between two way points is told, with 
             .find("'j/angle' turns by 6 rad") != std::string::npos);
 }
 
+TEST_CASE("a floating joint's rotation vector that was kept within half a turn is told") {
+  Eigen::VectorXd from(6), to(6);
+  from << 9, 0, 0, 0, 0.6 * 3.1, 0.8 * 3.1;
+  to << 0, 0, 0, 0, -0.6 * 3.1, -0.8 * 3.1;
+  const std::string said = saidOf("floating", from, to);
+  CHECK(said.find("way.csv: way point 3: 'j' turns by 6.2 rad") == 0);
+  CHECK(said.find("end at 0, 1.90991") != std::string::npos);  // 2 pi - 3.1 along the axis
+  to.tail(3) << 3, 0, 0;  // as long, but about another axis: nearer than a whole turn on
+  CHECK(saidOf("floating", from, to).empty());
+  to.tail(3).setZero();
+  CHECK(saidOf("floating", from, to).empty());
+}
+
 TEST_CASE("half a turn, a long slide and a joint with limits are nothing to tell") {
   CHECK(saidOf("continuous", of(0), of(-3.14159265)).empty());
   CHECK(saidOf("planar", Eigen::Vector3d(0, -9, 0), Eigen::Vector3d(9, 9, 1)).empty());

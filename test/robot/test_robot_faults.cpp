@@ -175,6 +175,7 @@ TEST_CASE("a name in a link that is nearly <collision> costs a shape, whatever i
     CHECK(model.links[0].collision.size() == 1);
   }
   CHECK(shapesIn(kBox + "<collision_checking/><contact/><virtual/><x:collison/><sensor/>") == 1);
+  CHECK(shapesIn(kBox + "<collision_checking><capsule name=\"forearm\"/></collision_checking>") == 1);
 }
 
 TEST_CASE("a misspelt <joint> is named where a link is left without a parent") {
