@@ -84,27 +84,39 @@ bool holdsElement(const fcl::BVHModel<BV>& mesh, int element, const OrientedBox&
   return holds;
 }
 
-/// Whether the inner boxes were merged from their children's, as `endReplaceModel()` and `endUpdateModel()`
-/// do unless told otherwise, and not fitted to what is below. All down one way, for some fitted box may be
-/// the same by chance; but one without axes tells at once. Of a single element its own box, which FCL merges
-/// from those before and after an update.
+/// Whether a box is the one that FCL makes of its two parts'.
 template <typename BV>
-bool hasMergedBoxes(const fcl::BVHModel<BV>& mesh) {
+bool isMerged(const BV& both, const BV& first, const BV& second) {
+  const OrientedBox own = boxAround(both), made = boxAround(boxed(first) + boxed(second));
+  const double size = kSameBox * (own.half.sum() + own.centre.lpNorm<1>());
+  return (own.centre - made.centre).lpNorm<1>() <= size && (own.half - made.half).lpNorm<1>() <= size &&
+         (own.axes - made.axes).lpNorm<1>() <= kSameBox;
+}
+
+/// Whether all boxes down one way look merged from their parts', for some fitted box may do so by chance. One
+/// without axes tells at once. Of a single element its own box, which FCL merges from those before and after
+/// an update.
+template <typename BV, typename LooksMerged>
+bool lookMerged(const fcl::BVHModel<BV>& mesh, const LooksMerged& looksMerged) {
   for (int index = 0;; index = mesh.getBV(index).leftChild()) {
     const fcl::BVNode<BV>& node = mesh.getBV(index);
     const OrientedBox own = boxAround(node.bv);
     if (!hasAxes(own)) return true;
     if (node.isLeaf()) return index > 0 || !holdsElement(mesh, node.primitiveId(), own);
-    const auto &first = boxed(mesh.getBV(node.leftChild()).bv),
-               &second = boxed(mesh.getBV(node.rightChild()).bv);
-    if (!mayBeMerged(boxed(node.bv), first, second)) return false;
-    const OrientedBox both = boxAround(first + second);
-    const double size = kSameBox * (own.half.sum() + own.centre.lpNorm<1>());
-    const bool same = (own.centre - both.centre).lpNorm<1>() <= size &&
-                      (own.half - both.half).lpNorm<1>() <= size &&
-                      (own.axes - both.axes).lpNorm<1>() <= kSameBox;
-    if (!same) return false;
+    if (!looksMerged(node.bv, mesh.getBV(node.leftChild()).bv, mesh.getBV(node.rightChild()).bv))
+      return false;
   }
+}
+
+/// Whether the inner boxes were merged from their children's, as `endReplaceModel()` and `endUpdateModel()`
+/// do unless told otherwise, and not fitted to what is below. Merging anew takes long: after a look that
+/// tells almost always.
+template <typename BV>
+bool hasMergedBoxes(const fcl::BVHModel<BV>& mesh) {
+  const auto maybe = [](const BV& both, const BV& first, const BV& second) {
+    return mayBeMerged(boxed(both), boxed(first), boxed(second));
+  };
+  return lookMerged(mesh, maybe) && lookMerged(mesh, isMerged<BV>);
 }
 
 /// Boxes around what is below each node. FCL numbers nodes after their parents.

@@ -19,6 +19,20 @@ namespace fcl_stpbv::detail {
 namespace {
 
 using Eigen::Vector3d;
+using Part = PosedGeometry::Part;
+
+/// The first two elements on the way down to near boxes.
+struct FirstElements {
+  Part a, b;
+  double bound(const Part& partA, const Part& partB) const {
+    return (partB.box.centre - partA.box.centre).squaredNorm();
+  }
+  bool skip(double) const { return false; }
+  bool leaves(const Part& leafA, const Part& leafB) {
+    a = leafA, b = leafB;
+    return true;
+  }
+};
 
 class NearestElements {
  public:
@@ -27,7 +41,12 @@ class NearestElements {
 
   const ElementsDistance& result() const { return result_; }
 
-  double bound(const PosedGeometry::Part& a, const PosedGeometry::Part& b) const {
+  /// Whether there is a nearest pair, and its element of the first geometry.
+  bool any() const { return result_.found.status != DistanceStatus::invalid; }
+  const Part& first() const { return first_; }
+
+  double bound(const Part& a, const Part& b) const {
+    if (surfaces_) return gapOf(pair_, a, b, any() ? result_.runnerUp : kInfinity, plane_[0].n);
     const Vector3d d = b.box.centre - a.box.centre;
     const double rounding = boxRounding(a, b);
     double most = -kInfinity;
@@ -42,9 +61,10 @@ class NearestElements {
   // The second nearest pair is wanted too, but where two surfaces meet.
   bool skip(double bound) const { return any() && bound >= result_.runnerUp; }
 
-  bool leaves(const PosedGeometry::Part& leafA, const PosedGeometry::Part& leafB) {
+  bool leaves(const Part& leafA, const Part& leafB) {
     ConvexBody a, b;
-    if (!pair_.first.body(leafA, a) || !pair_.second.body(leafB, b)) return false;  // a free cell
+    if (any() && result_.element == std::array{leafA.node.id, leafB.node.id}) return false;  // known
+    if (!pair_.first.body(leafA, a) || !pair_.second.body(leafB, b)) return false;           // a free cell
     if (skip(gapAlongPlanes(leafA, a, leafB, b))) return false;
     PairCache start;
     if (any())
@@ -67,6 +87,7 @@ class NearestElements {
       result_.runnerUp = any() ? best.distance : kInfinity;
       best = found;
       result_.element = {leafA.node.id, leafB.node.id};
+      first_ = leafA;
       if (cache_) *cache_ = start;
     }
     if (exact_)
@@ -88,8 +109,6 @@ class NearestElements {
     double reach = 0, support = 0;  // of the one that is a body, if one is: from its box's centre, its origin
   };
 
-  bool any() const { return result_.found.status != DistanceStatus::invalid; }
-
   // Bounds of the least of all: an answer that is not exact may be the lowest, whatever it says itself.
   void bounds(const Distance& found) {
     if (found.lower < lower_) exact_ = found.status == DistanceStatus::exact;
@@ -97,8 +116,8 @@ class NearestElements {
     upper_ = std::min(upper_, found.upper);
   }
 
-  double gapAlongPlanes(const PosedGeometry::Part& leafA, const ConvexBody& a,
-                        const PosedGeometry::Part& leafB, const ConvexBody& b) const {
+  double gapAlongPlanes(const Part& leafA, const ConvexBody& a, const Part& leafB,
+                        const ConvexBody& b) const {
     if (a.unbounded() || b.unbounded()) return -kInfinity;
     const Vector3d d = b.pose.translation() - a.pose.translation();
     const double rounding =
@@ -114,8 +133,7 @@ class NearestElements {
   }
 
   // One plane of each direction is kept; that of the best answer is the first.
-  void keepPlane(const PosedGeometry::Part& a, const PosedGeometry::Part& b, const Vector3d& world,
-                 bool best) {
+  void keepPlane(const Part& a, const Part& b, const Vector3d& world, bool best) {
     constexpr double kAlike = 0.999;  // cosine of 2.6 degrees
     if (world.isZero(0) || pair_.first.unbounded() || pair_.second.unbounded()) return;
     const Vector3d n = pair_.toWorld.transpose() * world;
@@ -151,12 +169,25 @@ class NearestElements {
   const PosedPair& pair_;
   const bool surfaces_;
   ElementsDistance result_;
+  Part first_;
   double lower_ = kInfinity, upper_ = kInfinity;
   bool exact_ = false;  // whether the pair that the lower bound comes from is
   std::array<Plane, 16> plane_;
   std::size_t planes_ = 0, oldest_ = 1;
   PairCache* cache_;
 };
+
+/// Both hierarchies from their roots, two surfaces after a start from near elements.
+void search(const PosedPair& pair, NearestElements& nearest) {
+  const Part a = pair.first.whole(), b = pair.second.whole();
+  if (pair.areSurfaces()) {
+    FirstElements start;
+    descend(pair, a, b, start);
+    if (descend(pair, a, start.b, nearest)) return;
+    if (nearest.any() && descend(pair, nearest.first(), b, nearest)) return;
+  }
+  descend(pair, a, b, nearest);
+}
 
 }  // namespace
 
@@ -165,8 +196,7 @@ ElementsDistance nearestElements(const fcl::CollisionGeometryd& geometry1, const
                                  bool finite, const KnownTrees& trees, PairCache* cache) {
   const PosedPair pair(geometry1, pose1, geometry2, pose2, finite, trees);
   NearestElements nearest(pair, cache);
-  if (pair.valid && (finite || pair.finite()))
-    descend(pair, pair.first.whole(), pair.second.whole(), nearest);
+  if (pair.valid && (finite || pair.finite())) search(pair, nearest);
   return nearest.result();
 }
 

@@ -15,6 +15,7 @@
 #include "fcl_stpbv/adapter/stp_bv_geometry.h"
 #include "fcl_stpbv/convex/relative_pose.h"
 #include "fcl_stpbv/distance/shape_distance.h"
+#include "fcl_stpbv/vectorized.h"
 
 namespace fcl_stpbv::detail {
 
@@ -37,10 +38,8 @@ constexpr double kBoxRounding = 1e-14;  // of the size: of a gap between two par
 double gapOfFlat(const Shape& flat, const OrientedBox& place, const PosedGeometry::Part& part) {
   const Vector3d n = place.axes * flat.normal;
   const double height = n.dot(part.box.centre - place.centre);
-  const double size = place.centre.lpNorm<1>() + part.box.centre.lpNorm<1>() + part.box.half.sum() +
-                      part.node.box.centre.lpNorm<1>();
   return (flat.kind == ShapeKind::plane ? std::abs(height) : height) - part.box.reach(n) -
-         kBoxRounding * size;
+         kBoxRounding * (place.centre.lpNorm<1>() + part.coordinates);
 }
 
 /// The gap between `a` and a box of the same axes around `b`, whose centre is at `d` from a's.
@@ -53,6 +52,37 @@ double gapAlongAxes(const PosedGeometry::Part& a, const PosedGeometry::Part& b, 
   }
   const double most = gap.maxCoeff();
   return most > 0.0 ? gap.cwiseMax(0.0).norm() : most;
+}
+
+/// gapOf() of two boxes. Each reaches along the other's axes as the matrix between them tells.
+FCL_STPBV_VECTORIZED
+double gapOfBoxes(const OrientedBox& a, const OrientedBox& b, double rounding, double enough,
+                  const Vector3d& n) {
+  constexpr double kNone = -std::numeric_limits<double>::infinity();
+  const auto size = [](const Packed& v) { return larger(v, -v); };
+  const Rotation axesA(a.axes), axesB(b.axes);
+  const Packed halfA = pack(a.half), halfB = pack(b.half), d = pack(b.centre) - pack(a.centre);
+  const Packed alongA = size(axesA.inverse(d)), alongB = size(axesB.inverse(d));
+  const double length = std::sqrt(dot(d, d));
+  if (!(length > 0.0)) return kNone;
+  double most = kNone;
+  if (!n.isZero(0)) {
+    const Packed m = pack(n);
+    most = dot(m, d) - dot(halfA, size(axesA.inverse(m))) - dot(halfB, size(axesB.inverse(m))) - rounding;
+  }
+  if (!(most > enough))
+    most = std::max(most, length - (dot(halfA, alongA) + dot(halfB, alongB)) / length - rounding);
+  const auto alongAxes = [&](const Packed& along, const Packed& half, const Rotation& axes,
+                             const Packed& othersHalf, const Rotation& others) {
+    Packed gap = along - half;
+    for (int i = 0; i < 3; ++i) gap -= othersHalf[i] * size(axes.inverse(others.axis(i)));
+    const double widest = std::max({gap[0], gap[1], gap[2]});
+    const Packed outside = larger(gap, Packed{});
+    return (widest > 0.0 ? std::sqrt(dot(outside, outside)) : widest) - rounding;
+  };
+  if (!(most > enough)) most = std::max(most, alongAxes(alongA, halfA, axesA, halfB, axesB));
+  if (!(most > enough)) most = std::max(most, alongAxes(alongB, halfB, axesB, halfA, axesA));
+  return most;
 }
 
 }  // namespace
@@ -88,7 +118,9 @@ bool areVolumes(const fcl::CollisionGeometryd& geometry1, const Isometry3d& pose
 
 PosedGeometry::PosedGeometry(const fcl::CollisionGeometryd& geometry, const Isometry3d& pose,
                              const Isometry3d& inFrame, bool known, const ElementTree* tree)
-    : tree_(tree ? *tree : ElementTree(geometry, known)), inFrame_(inFrame) {
+    : tree_(tree ? *tree : ElementTree(geometry, known)),
+      inFrame_(inFrame),
+      first_(inFrame.matrix() == Eigen::Matrix4d::Identity()) {
   body_.pose = pose;
   if (const StpBvGeometry* g = asStpBv(&geometry))
     body_.volume = &g->volume();
@@ -104,7 +136,7 @@ PosedGeometry::Part PosedGeometry::whole() const {
     own.centre(i) = 0.5 * (high + low);
     own.half(i) = 0.5 * (high - low);
   }
-  return {{inFrame_ * own.centre, inFrame_.linear(), own.half}, true, {-1, true, nullptr, own}, &body_};
+  return part({-1, true, nullptr, own}, &body_);
 }
 
 std::size_t PosedGeometry::children(const Part& of, std::array<Part, 8>& child) const {
@@ -124,8 +156,12 @@ bool PosedGeometry::body(const Part& leaf, ConvexBody& body) const {
   return true;
 }
 
-PosedGeometry::Part PosedGeometry::part(const ElementTree::Node& node) const {
-  return {{inFrame_ * node.box.centre, inFrame_.linear() * node.box.axes, node.box.half}, node.leaf, node};
+PosedGeometry::Part PosedGeometry::part(const ElementTree::Node& node, const ConvexBody* body) const {
+  const OrientedBox& own = node.box;
+  Part part{own, node.leaf, node, body, own.half.sum() + own.centre.lpNorm<1>()};
+  if (!first_) part.box = {inFrame_ * own.centre, inFrame_.linear() * own.axes, own.half};
+  part.coordinates += part.box.centre.lpNorm<1>();
+  return part;
 }
 
 // A pose that is not rigid goes on as it is, and what it gives is never looked at.
@@ -140,9 +176,7 @@ PosedPair::PosedPair(const fcl::CollisionGeometryd& geometry1, Isometry3d pose1,
 }
 
 double boxRounding(const PosedGeometry::Part& a, const PosedGeometry::Part& b) {
-  return kBoxRounding *
-         (a.box.half.sum() + b.box.half.sum() + a.box.centre.lpNorm<1>() + b.box.centre.lpNorm<1>() +
-          a.node.box.centre.lpNorm<1>() + b.node.box.centre.lpNorm<1>());
+  return kBoxRounding * (a.coordinates + b.coordinates);
 }
 
 double gapOf(const PosedPair& pair, const PosedGeometry::Part& a, const PosedGeometry::Part& b, double enough,
@@ -150,6 +184,7 @@ double gapOf(const PosedPair& pair, const PosedGeometry::Part& a, const PosedGeo
   if (pair.first.unbounded()) return gapOfFlat(pair.first.body().shape, a.box, b);
   if (pair.second.unbounded()) return gapOfFlat(pair.second.body().shape, b.box, a);
   const double rounding = boxRounding(a, b);
+  if (!a.body && !b.body) return gapOfBoxes(a.box, b.box, rounding, enough, n);
   const Vector3d d = b.box.centre - a.box.centre;
   const double length = d.norm();
   if (!(length > 0.0)) return -std::numeric_limits<double>::infinity();

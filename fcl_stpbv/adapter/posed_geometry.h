@@ -67,6 +67,7 @@ class PosedGeometry {
     bool leaf;
     ElementTree::Node node;            ///< for a body: its id is -1, its box in the body's own frame
     const ConvexBody* body = nullptr;  ///< null where only the box is known
+    double coordinates = 0;            ///< all that make up the two boxes, summed, for rounding (m)
 
     /// How far it reaches along a unit vector of the box's frame, from the box's centre (m).
     double reach(const Eigen::Vector3d& n) const {
@@ -103,10 +104,11 @@ class PosedGeometry {
   bool body(const Part& leaf, ConvexBody& body) const;
 
  private:
-  Part part(const ElementTree::Node& node) const;
+  Part part(const ElementTree::Node& node, const ConvexBody* body = nullptr) const;
 
   ElementTree tree_;
   Eigen::Isometry3d inFrame_;
+  bool first_;  // nothing moves it
   ConvexBody body_;
   bool isShape_ = false;
 };

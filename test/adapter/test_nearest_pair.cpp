@@ -1,4 +1,5 @@
 // Meshes and trees against each other and against shapes: the nearest elements of all.
+#include <fcl/geometry/geometric_shape_to_BVH_model.h>
 #include <fcl/geometry/shape/box.h>
 #include <fcl/geometry/shape/capsule.h>
 #include <fcl/geometry/shape/cone.h>
@@ -291,4 +292,25 @@ TEST_CASE("a body deep in a mesh is measured to few of its triangles, the two ne
     CHECK(solved < kPoses * mesh->num_tris / 50);
   }
   CHECK(deep > 24);
+}
+
+TEST_CASE("two large meshes apart are measured by few of their triangles") {
+  fcl::BVHModel<fcl::OBBRSSd> mesh;
+  fcl::generateBVHModel(mesh, fcl::Ellipsoidd(0.3, 0.2, 0.4), Isometry3d::Identity(), 100u, 100u);
+  REQUIRE(mesh.num_tris == 20000);
+  Random random(11);
+  constexpr int kPoses = 50;
+  int solved = 0;
+  for (int i = 0; i < kPoses; ++i) {
+    const Isometry3d here = pose(random.rotation(), {0, 0, 0}),
+                     there = pose(random.rotation(), random.uniform(0.8, 1.2) * random.direction());
+    const ElementsDistance found = nearestElements(mesh, here, mesh, there, true),
+                           back = nearestElements(mesh, there, mesh, here, true);
+    CHECK(found.found.distance > 0);
+    CHECK(std::abs(back.found.distance - found.found.distance) <= kRounding);
+    CHECK(std::abs(back.runnerUp - found.runnerUp) <= kRounding);
+    solved += found.solved;
+  }
+  CAPTURE(solved);
+  CHECK(solved < 140 * kPoses);  // 118 on average
 }
