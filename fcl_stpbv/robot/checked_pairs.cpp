@@ -108,7 +108,7 @@ void requirePairs(std::size_t checked, const RobotModel& robot, const std::strin
       robot.path + ": no pair of bodies is checked (" +
       (why.empty() ? "fewer than two links have a body" : why) +
       "), so that nothing can be said about collisions; give an SRDF that leaves pairs to be checked, or "
-      "obstacles");
+      "obstacles and a link that moves");
 }
 
 bool moves(const RobotModel& robot, int link, bool baseMoves) {
