@@ -60,6 +60,7 @@ Vector3d ontoCore(const Shape& core, const Vector3d& y) {
       return p / std::max(1.0, scaled().norm());
     }
     case ShapeKind::triangle:
+      return ontoTriangle(core.corner, y);
     case ShapeKind::polytope:
       return nearestOfCorners(core, y);
     case ShapeKind::halfspace:
@@ -67,6 +68,28 @@ Vector3d ontoCore(const Shape& core, const Vector3d& y) {
       break;
   }
   return y;
+}
+
+Vector3d ontoTriangle(const std::array<Vector3d, 3>& corner, const Vector3d& y) {
+  Vector3d nearest = corner[0];
+  const auto offer = [&](const Vector3d& p) {
+    if ((p - y).squaredNorm() < (nearest - y).squaredNorm()) nearest = p;
+  };
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vector3d side = corner[(i + 1) % 3] - corner[i];
+    const double along = side.dot(y - corner[i]) / std::max(side.squaredNorm(), 1e-300);
+    offer(corner[i] + std::clamp(along, 0.0, 1.0) * side);
+  }
+  const Vector3d e = corner[1] - corner[0], f = corner[2] - corner[0], m = e.cross(f);
+  const double area = std::max(m.squaredNorm(), 1e-300);
+  double v = 0.0, w = 0.0;
+  for (int round = 0; round < 2; ++round) {  // the second mends the first one's rounding
+    const Vector3d beside = y - (corner[0] + v * e + w * f);
+    v += beside.cross(f).dot(m) / area;
+    w += e.cross(beside).dot(m) / area;
+  }
+  if (v >= 0.0 && w >= 0.0 && v + w <= 1.0) offer(corner[0] + v * e + w * f);
+  return nearest;
 }
 
 }  // namespace fcl_stpbv::detail

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 
 #include "fcl_stpbv/convex/shape.h"
 
@@ -9,5 +10,8 @@ namespace fcl_stpbv::detail {
 
 /// A point of the core next to `y`, the nearest one to first order. Frame and units of the shape.
 Eigen::Vector3d ontoCore(const Shape& core, const Eigen::Vector3d& y);
+
+/// The triangle's point nearest to `y`; the triangle may be a sliver, a segment or a point.
+Eigen::Vector3d ontoTriangle(const std::array<Eigen::Vector3d, 3>& corner, const Eigen::Vector3d& y);
 
 }  // namespace fcl_stpbv::detail

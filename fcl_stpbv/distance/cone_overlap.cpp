@@ -122,8 +122,8 @@ class WaysOut {
     LeastOverlap found{{}, -std::min(bound_, best_.depth) + q_.rounding.across, true, true};
     found.at.n = best_.n;
     found.at.patch = best_.patch;
-    found.at.y = met_.p[0];
     found.at.gap = -best_.depth;
+    found.at.y = ontoTriangle(met_.three(), best_.point + found.at.gap * best_.n);
     found.at.corners = 1;
     polishOverlap(q_, met_, found);
     return found;
@@ -138,11 +138,13 @@ class WaysOut {
   /// The derivative of the depth by the angle.
   static double slope(const Arc& arc, const WayOut& way) { return arc.t.cross(way.n).dot(way.point - arc.a); }
 
-  /// The unit normal of the chord between the points of two normals.
+  /// The unit normal of the chord between the points of two normals. A sliver's face is across its edges less
+  /// well than rounding.
   static Vector3d acrossChord(const Arc& arc, const WayOut& from, const WayOut& to) {
     const Vector3d &e = arc.from.n, &f = arc.to.n, chord = to.point - from.point;
     const double x = std::max(0.0, chord.dot(f)), y = std::max(0.0, -chord.dot(e));
-    return x + y > 0.0 ? (x * e + y * f).normalized() : (from.n + to.n).normalized();
+    const Vector3d n = x + y > 0.0 ? Vector3d(x * e + y * f) : Vector3d(from.n + to.n);
+    return acrossLine(n.normalized(), arc.t);
   }
 
   /// Whether nothing between two normals is worth looking at; `chord` is how deep the chord of their points
@@ -187,7 +189,7 @@ class WaysOut {
       (g < 0.0 ? low : high) = at;
       const Vector3d along = arc.t.cross(at.n);
       const double bend = along.dot(coreCurvature(patch, at.n) * along) - at.depth;
-      Vector3d next = (at.n - (g / bend) * along).normalized();
+      Vector3d next = acrossLine((at.n - (g / bend) * along).normalized(), arc.t);
       if (!(low.n.cross(next).dot(arc.t) > 0.0 && next.cross(high.n).dot(arc.t) > 0.0)) {
         next = (low.n + high.n).normalized();
         if (next == low.n || next == high.n) break;

@@ -186,9 +186,13 @@ Distance distance(const StpBv& volume, const Isometry3d& poseVolume, const Shape
   const double margins = volume.radii().r + shape.margin;
   const SupportPoint view = viewVolume(volume, x.n, x.patch, q.steps);
   // Two points of the cores; a normal is good to an ulp, so they may lie beside their bodies.
+  Nearest opposite = x;
+  const double beside = placeOpposite(q, view.point, opposite);
   if (found.status != DistanceStatus::local) {
-    const double beside = placeOpposite(q, view.point, x);
+    x = opposite;
     found.upper = std::min(found.upper, std::hypot(x.gap, beside + q.rounding.across));
+  } else if (x.n.dot(opposite.y - x.y) <= q.rounding.gap) {  // it leaves as late
+    x = opposite;
   }
   result.status = found.status;
   result.distance = x.gap - margins;

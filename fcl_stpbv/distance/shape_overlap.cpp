@@ -13,6 +13,7 @@
 #include <optional>
 
 #include "fcl_stpbv/convex/epa.h"
+#include "fcl_stpbv/convex/onto_core.h"
 #include "fcl_stpbv/convex/shape_curvature.h"
 #include "fcl_stpbv/convex/support.h"
 #include "fcl_stpbv/distance/shape_distance.h"
@@ -89,10 +90,12 @@ std::optional<Nearest> deepestOn(ShapeQuery& q, const Feature& feature, const St
   return nearestFrom(x, feature);
 }
 
-/// Whether `found` is the whole shape's answer.
-bool isDeepest(const ShapeQuery& q, const Nearest& found, double leastOverlap) {
+/// Whether `found` is the whole shape's answer. `met` are corners of the shape that it may be between.
+bool isDeepest(const ShapeQuery& q, const Nearest& found, double leastOverlap, const ShapeCorners& met) {
   if (!(found.gap >= leastOverlap - q.rounding.gap)) return false;
   if (found.n.dot(found.y - q.facing(found.n)) > q.rounding.gap) return false;
+  if (met.count > 0 && (ontoTriangle(met.three(), found.y) - found.y).norm() <= 2.0 * q.rounding.gap)
+    return true;
   if (q.shape.kind == ShapeKind::ellipsoid) return besideEllipsoid(q, found.y) <= 2.0 * q.rounding.gap;
   Shape core = q.shape;
   core.margin = 0.0;
@@ -104,11 +107,12 @@ bool isDeepest(const ShapeQuery& q, const Nearest& found, double leastOverlap) {
 /// The features that the least overlap may be on.
 class DeepFeatures {
  public:
-  DeepFeatures(ShapeQuery& q, const StartNormal& start, double leastOverlap)
-      : q_(q), start_(start), least_(leastOverlap) {}
+  /// `met` are corners of the shape that EPA's answer is of.
+  DeepFeatures(ShapeQuery& q, const StartNormal& start, double leastOverlap, const ShapeCorners& met)
+      : q_(q), start_(start), least_(leastOverlap), met_(met) {}
 
-  /// The first that holds the answer. `met` are corners of the shape that EPA's answer is of.
-  std::optional<Nearest> search(const std::array<Vector3d, 3>& met, int count) {
+  /// The first that holds the answer.
+  std::optional<Nearest> search() {
     const Vector3d axis = q_.rotation.col(2), top = q_.translation + q_.shape.half * axis,
                    bottom = q_.translation - q_.shape.half * axis;
     const bool up = start_.n.dot(axis) < 0.0;  // the end that faces the volume
@@ -123,7 +127,7 @@ class DeepFeatures {
       case ShapeKind::box:
       case ShapeKind::triangle:
       case ShapeKind::polytope:
-        corners(met, count);
+        corners();
         break;
       case ShapeKind::cylinder:
         plane(up ? top : bottom, axis);
@@ -165,7 +169,7 @@ class DeepFeatures {
   void take(const Search& search) {
     if (found_) return;
     const std::optional<Nearest> next = search();
-    if (next && isDeepest(q_, *next, least_)) found_ = next;
+    if (next && isDeepest(q_, *next, least_, met_)) found_ = next;
   }
   void point(const Vector3d& p) {
     take([&] { return deepestOn(q_, PointFeature{p}, start_); });
@@ -211,35 +215,38 @@ class DeepFeatures {
     });
   }
   /// Of up to three corners: the face, the edges, the corners alone.
-  void corners(const std::array<Vector3d, 3>& p, int count) {
-    if (count == 3) {
+  void corners() {
+    const std::array<Vector3d, 3>& p = met_.p;
+    if (met_.count == 3) {
       const Vector3d n = (p[1] - p[0]).cross(p[2] - p[0]);
       if (n.norm() > 0.0) plane(p[0], n.normalized());
     }
-    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i)
+    const auto count = static_cast<std::size_t>(met_.count);
+    for (std::size_t i = 0; i < count; ++i)
       for (std::size_t k = 0; k < i; ++k) line(p[i], (p[k] - p[i]).normalized());
-    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) point(p[i]);
+    for (std::size_t i = 0; i < count; ++i) point(p[i]);
   }
 
   ShapeQuery& q_;
   StartNormal start_;
   double least_;
+  const ShapeCorners& met_;
   std::optional<Nearest> found_;
 };
 
 }  // namespace
 
 std::optional<Nearest> touchingFeature(ShapeQuery& q, const Nearest& near) {
-  DeepFeatures features(q, {near.n, near.patch}, near.gap);
+  const ShapeCorners none;
+  DeepFeatures features(q, {near.n, near.patch}, near.gap, none);
   const ShapeKind kind = q.shape.kind;
   if (kind == ShapeKind::box || kind == ShapeKind::triangle || kind == ShapeKind::polytope)
     return features.searchAlongNormal();
-  const Vector3d none = Vector3d::Zero();
-  return features.search({none, none, none}, 0);
+  return features.search();
 }
 
 void polishOverlap(ShapeQuery& q, const ShapeCorners& met, LeastOverlap& found) {
-  if (const auto exact = DeepFeatures(q, {found.at.n, found.at.patch}, found.at.gap).search(met.p, met.count))
+  if (const auto exact = DeepFeatures(q, {found.at.n, found.at.patch}, found.at.gap, met).search())
     found.at = *exact;
 }
 

@@ -1,6 +1,7 @@
 // One STP-BV, one simple body posed in its frame, and what a search between them finds.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <optional>
 
@@ -142,6 +143,11 @@ std::optional<LeastOverlap> overlapOfPoint(ShapeQuery& q, const StartNormal& sta
 struct ShapeCorners {
   std::array<Eigen::Vector3d, 3> p;
   int count = 0;
+
+  /// All of them as a triangle's, some twice.
+  std::array<Eigen::Vector3d, 3> three() const {
+    return {p[0], p[count > 1 ? 1 : 0], p[static_cast<std::size_t>(std::max(count, 1) - 1)]};
+  }
 };
 
 /// Next to the answer of overlapping cores: its normal and points to rounding, from the shape's feature

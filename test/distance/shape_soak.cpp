@@ -113,6 +113,10 @@ bool differences(const Body& body, const Shape& shape, const Isometry3d& base, c
     }
     const Distance e = k == 1 ? d : distance(*body.volume, base, shape, there);
     value[k] = e.distance;
+    if (shape.unbounded() && e.normal.dot(d.normal) < 0.0) {  // a plane, as deep on its other side: a kink
+      parts = {};
+      return false;
+    }
     if (!rates(there, e, speed[k], second[k])) return true;
   }
   const double low = std::min({second[0], second[1], second[2]}),

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <memory>
 
+#include "fcl_stpbv/convex/onto_core.h"
 #include "fcl_stpbv/distance/shape_distance.h"
 #include "fcl_stpbv/distance/shape_query.h"
 #include "test/reference/shape_reference.h"
@@ -183,6 +184,67 @@ TEST_CASE("A triangle, a box and a capsule deep in a volume take a bounded numbe
   REQUIRE(deep > 1000);
   CHECK(looks <= 26L * deep);  // 23.2 now; EPA takes 45 and more
   CHECK(most <= 120);
+}
+
+TEST_CASE("Narrow triangles deep in a volume: the witness points are opposite each other") {
+  const StpBv::Ptr volume = StpBv::build(box(1, 0.8, 0.6), {0.01, 10});
+  const Isometry3d pose = Isometry3d::Identity();
+  const auto beside = [&](const Vector3d& a, const Vector3d& b, const Vector3d& c) {
+    const Distance d = distance(*volume, pose, Shape::triangleOf(a, b, c), pose);
+    REQUIRE(d.status == DistanceStatus::local);
+    return (d.point[1] - d.point[0] - d.distance * d.normal).norm();
+  };
+  CHECK(beside({-0.286, 0.388, 0.226}, {0.305, -0.326, -0.191}, {0.306, -0.325, -0.19}) < 1e-12);
+  Random random(58);
+  double most = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const auto inside = [&] {
+      return Vector3d(random.uniform(-0.4, 0.4), random.uniform(-0.3, 0.3), random.uniform(-0.2, 0.2));
+    };
+    const Vector3d a = inside(), b = inside(),
+                   c = a + random.uniform(0, 1) * (b - a) +
+                       std::pow(10.0, random.uniform(-5, -2)) * random.direction();
+    most = std::max(most, beside(a, b, c));
+  }
+  CHECK(most < 1e-12);
+}
+
+TEST_CASE("Prisms whose corners are off by a nanometre: the witness points are opposite each other") {
+  const StpBv::Ptr volume = StpBv::build(box(1, 0.8, 0.6), {0.01, 10});
+  Random random(60);
+  double most = 0;
+  int solved = 0;
+  for (int i = 0; i < 8000; ++i) {
+    const double size = std::pow(10.0, random.uniform(-1.5, 0.5)), height = random.uniform(0.2, 2);
+    Cloud corners = cylinder(size, size * height, 20);
+    for (Vector3d& p : corners) p += 1e-9 * random.direction();
+    const Shape prism = Shape::polytopeOf(corners.data(), static_cast<int>(corners.size()));
+    const Isometry3d at = pose(random.rotation(std::pow(10.0, random.uniform(-9, -2))),
+                               random.uniform(0, 0.25) * Vector3d::Unit(random.below(3)));
+    const Distance d = distance(*volume, Isometry3d::Identity(), prism, at);
+    REQUIRE(d.status == DistanceStatus::local);
+    if (d.upper - d.lower > 1e-12) continue;  // EPA ended at its own precision
+    ++solved;
+    most = std::max(most, (d.point[1] - d.point[0] - d.distance * d.normal).norm());
+  }
+  CHECK(most < 1e-9);
+  CHECK(solved > 6000);
+}
+
+TEST_CASE("The point of a triangle nearest to another one, of slivers, segments and points too") {
+  Random random(59);
+  for (int i = 0; i < 20000; ++i) {
+    const Vector3d a = random.direction(), b = random.below(9) == 0 ? a : random.direction(),
+                   across = random.below(9) == 0 ? Vector3d(0, 0, 0) : random.direction(),
+                   c = a + random.uniform(0, 1) * (b - a) + std::pow(10.0, random.uniform(-9, 0)) * across;
+    const Vector3d y = 2 * random.direction(), p = detail::ontoTriangle({a, b, c}, y);
+    CAPTURE(i);
+    const Vector3d way = y - p;  // no corner is further along it
+    REQUIRE(std::max({way.dot(a), way.dot(b), way.dot(c)}) - way.dot(p) <= 1e-9);
+    const double u = random.uniform(0, 1), v = random.uniform(0, 1 - u);
+    const Vector3d on = a + u * (b - a) + v * (c - a);
+    REQUIRE((detail::ontoTriangle({a, b, c}, on) - on).norm() <= 1e-10);
+  }
 }
 
 TEST_CASE("Slivers, round shapes and volumes of many faces are left to EPA") {
