@@ -51,9 +51,18 @@ SceneNeed PythonScene::toNeed(const Need& given, const std::string& name,
   need.q = q.value;
   need.clearance = clearance;
   const int link1 = robot->link(first), link2 = robot->link(second);
-  if (link1 < 0) throw Error(name + ": the robot has no link \"" + first + "\"");
-  if (link2 < 0 && obstacle == obstacles.end())
-    throw Error(name + ": there is no link or obstacle \"" + second + "\"");
+  const auto unknown = [&](const std::string& missing, const std::string& wanted) {
+    const auto body = std::find_if(geometry.bodies.begin(), geometry.bodies.end(),
+                                   [&](const Body& b) { return b.name == wanted; });
+    const std::string other = body == geometry.bodies.end()
+                                  ? ""
+                                  : "; that is a body of the link \"" +
+                                        robot->links[static_cast<std::size_t>(body->link)].name +
+                                        "\", and a need names links";
+    return Error(name + ": " + missing + " \"" + wanted + "\"" + other);
+  };
+  if (link1 < 0) throw unknown("the robot has no link", first);
+  if (link2 < 0 && obstacle == obstacles.end()) throw unknown("there is no link or obstacle", second);
   if (link2 >= 0 && obstacle != obstacles.end())
     throw Error(name + ": \"" + second + "\" is a link and an obstacle; give one of them another name");
   need.pair = link2 >= 0 ? LinkPair{link1, link2}

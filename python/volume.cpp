@@ -120,7 +120,7 @@ void addStpBv(py::module_& module) {
             const OverCover cover = overCover(volume);
             return std::make_pair(cover.max, cover.mean);
           },
-          "Largest and mean excess over the convex hull (m).")
+          "Largest and mean excess over the convex hull of the vertices (m).")
       .def(
           "verify", [](const StpBv& volume) { return verify(volume).message; }, "\"ok\", or what is wrong.")
       .def(py::pickle(

@@ -62,13 +62,18 @@ NearPosture approach(PostureProblem& problem, const Eigen::VectorXd& start, cons
       hessian(i, i) = 1;
       slope[i] = 0;
     }
-    const Eigen::VectorXd moved =
-        (result.x - hessian.ldlt().solve(slope)).cwiseMax(problem.lower()).cwiseMin(problem.upper());
-    const Eigen::VectorXd step = moved - result.x;
-    const double expected = -model.slope.dot(step) - step.dot(model.hessian * step) / 2;
+    const Eigen::VectorXd whole = -hessian.ldlt().solve(slope);
+    const Eigen::VectorXd moved = (result.x + whole).cwiseMax(problem.lower()).cwiseMin(problem.upper());
+    const auto foretold = [&](const Eigen::VectorXd& step) {
+      return -model.slope.dot(step) - step.dot(model.hessian * step) / 2;
+    };
+    const double expected = foretold(moved - result.x);
     const double reduction = model.value - sumAt(problem.evaluate(moved), options);
     if (!(reduction > 0)) {
-      if (!(expected > options.relativeChange * model.value)) break;
+      // A step that a bound cuts short may lead up where a shorter one leads down. Beside the cost that is
+      // near enough; without it only the least sum is.
+      const double hoped = options.costWeight > 0 ? expected : foretold(whole);
+      if (!(hoped > options.relativeChange * model.value)) break;
       damping *= growth;
       growth *= 2;
       continue;

@@ -119,3 +119,39 @@ TEST_CASE("a robot without joints is where it is") {
   CHECK(amountOf(posture.conflict, "base z") == Approx(0.5));
   CHECK(posture.q.size() == 0);
 }
+
+TEST_CASE("what is told to be in conflict is least: no step within the limits misses less") {
+  const char* const axes[] = {"0 0 1", "0 1 0", "0.6 0 0.8", "0 1 0", "0.8 0.6 0"};
+  std::string arm = ball("l0");
+  for (int i = 0; i < 5; ++i)
+    arm += ball("l" + std::to_string(i + 1)) +
+           joint("j" + std::to_string(i), "revolute", "l" + std::to_string(i), "l" + std::to_string(i + 1),
+                 "<origin xyz='0.3 0.1 0'/><axis xyz='" + std::string(axes[i]) +
+                     "'/><limit lower='-0.6' upper='0.4' effort='1' velocity='1'/>");
+  const PostureScene scene = bodiesOf(arm);
+  const Kinematics kinematics(scene.robot, BaseMotion::fixed);
+  Random random(5);
+  int told = 0;
+  for (int trial = 0; trial < 100; ++trial) {
+    Eigen::Isometry3d target = poseOf(scene, randomWithin(scene, random), "l5");
+    target.linear() = random.rotation();
+    const Posture posture = found(scene, {wholePose("l5", target)});
+    if (posture.feasible) continue;
+    ++told;
+    const auto missed = [&](const Eigen::VectorXd& q) {
+      const Eigen::Isometry3d off = target.inverse() * poseOf(scene, q, "l5");
+      const double angle = Eigen::AngleAxisd(off.linear()).angle();
+      return off.translation().squaredNorm() + angle * angle;
+    };
+    double sum = 0;
+    for (const Violation& v : posture.conflict) sum += v.amount * v.amount;
+    for (int step = 0; step < 200; ++step) {
+      Eigen::VectorXd q = posture.q;
+      for (Eigen::Index i = 0; i < q.size(); ++i) q[i] += random.uniform(-0.02, 0.02);
+      q = q.cwiseMax(kinematics.lower()).cwiseMin(kinematics.upper());
+      INFO(trial << ' ' << step);
+      CHECK(missed(q) > sum * (1 - 1e-3));
+    }
+  }
+  CHECK(told > 50);
+}

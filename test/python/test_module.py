@@ -396,6 +396,11 @@ def test_a_robot_is_as_fine_as_its_needs_ask_for(hook):
         hulls.model_for(needs)
     with pytest.raises(fcl_stpbv.Error, match=r'needs\[0\]: .*"l" and "post".*no pair'):
         hulls.model_for([("l", hulls.rows[1].split()[-1], q, 0.0)])
+    (hook / "two.urdf").write_text(files[0].read_text().replace("<link name='block'>", "<link name='block'><collision><geometry><sphere radius='0.01'/></geometry></collision>"))
+    two = fcl_stpbv.Robot(hook / "two.urdf", files[1])
+    assert two.rows[1] == "l - block#2"
+    with pytest.raises(fcl_stpbv.Error, match=r'needs\[0\]: .*"block#2"; that is a body of the link "block", and a need names links'):
+        two.model_for([("l", "block#2", q, 0.0)])
     (hook / "block.urdf").write_text((hook / "post.urdf").read_text().replace("link name='post'", "link name='block'"))
     with pytest.raises(fcl_stpbv.Error, match=r'needs\[0\]: "block" is a link and an obstacle'):
         fcl_stpbv.Robot(*files[:2], hook / "block.urdf", r=0.001).model_for([("l", "block", q, 0.0)])
