@@ -109,8 +109,8 @@ bool lookMerged(const fcl::BVHModel<BV>& mesh, const LooksMerged& looksMerged) {
 }
 
 /// Whether the inner boxes were merged from their children's, as `endReplaceModel()` and `endUpdateModel()`
-/// do unless told otherwise, and not fitted to what is below. Merging anew takes long: after a look that
-/// tells almost always.
+/// do unless told otherwise, and not fitted to what is below. Merging them again takes long, so a cheap look
+/// comes first, which settles almost all meshes.
 template <typename BV>
 bool hasMergedBoxes(const fcl::BVHModel<BV>& mesh) {
   const auto maybe = [](const BV& both, const BV& first, const BV& second) {
