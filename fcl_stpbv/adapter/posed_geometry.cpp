@@ -120,7 +120,7 @@ PosedGeometry::PosedGeometry(const fcl::CollisionGeometryd& geometry, const Isom
                              const Isometry3d& inFrame, bool known, const ElementTree* tree)
     : tree_(tree ? *tree : ElementTree(geometry, known)),
       inFrame_(inFrame),
-      first_(inFrame.matrix() == Eigen::Matrix4d::Identity()) {
+      unmoved_(inFrame.matrix() == Eigen::Matrix4d::Identity()) {
   body_.pose = pose;
   if (const StpBvGeometry* g = asStpBv(&geometry))
     body_.volume = &g->volume();
@@ -159,7 +159,7 @@ bool PosedGeometry::body(const Part& leaf, ConvexBody& body) const {
 PosedGeometry::Part PosedGeometry::part(const ElementTree::Node& node, const ConvexBody* body) const {
   const OrientedBox& own = node.box;
   Part part{own, node.leaf, node, body, own.half.sum() + own.centre.lpNorm<1>()};
-  if (!first_) part.box = {inFrame_ * own.centre, inFrame_.linear() * own.axes, own.half};
+  if (!unmoved_) part.box = {inFrame_ * own.centre, inFrame_.linear() * own.axes, own.half};
   part.coordinates += part.box.centre.lpNorm<1>();
   return part;
 }

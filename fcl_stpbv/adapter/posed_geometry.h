@@ -108,7 +108,7 @@ class PosedGeometry {
 
   ElementTree tree_;
   Eigen::Isometry3d inFrame_;
-  bool first_;  // nothing moves it
+  bool unmoved_;  // its frame is the pair's
   ConvexBody body_;
   bool isShape_ = false;
 };

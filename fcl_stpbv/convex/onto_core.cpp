@@ -75,11 +75,7 @@ Vector3d ontoTriangle(const std::array<Vector3d, 3>& corner, const Vector3d& y) 
   const auto offer = [&](const Vector3d& p) {
     if ((p - y).squaredNorm() < (nearest - y).squaredNorm()) nearest = p;
   };
-  for (std::size_t i = 0; i < 3; ++i) {
-    const Vector3d side = corner[(i + 1) % 3] - corner[i];
-    const double along = side.dot(y - corner[i]) / std::max(side.squaredNorm(), 1e-300);
-    offer(corner[i] + std::clamp(along, 0.0, 1.0) * side);
-  }
+  for (std::size_t i = 0; i < 3; ++i) offer(ontoSegment(corner[i], corner[(i + 1) % 3], y));
   const Vector3d e = corner[1] - corner[0], f = corner[2] - corner[0], m = e.cross(f);
   const double area = std::max(m.squaredNorm(), 1e-300);
   double v = 0.0, w = 0.0;

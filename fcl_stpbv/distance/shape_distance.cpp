@@ -186,14 +186,12 @@ Distance distance(const StpBv& volume, const Isometry3d& poseVolume, const Shape
   const double margins = volume.radii().r + shape.margin;
   const SupportPoint view = viewVolume(volume, x.n, x.patch, q.steps);
   // Two points of the cores; a normal is good to an ulp, so they may lie beside their bodies.
-  Nearest opposite = x;
-  const double beside = placeOpposite(q, view.point, opposite);
-  if (found.status != DistanceStatus::local) {
-    x = opposite;
+  const Vector3d known = x.y;
+  const double beside = placeOpposite(q, view.point, x);
+  if (found.status != DistanceStatus::local)
     found.upper = std::min(found.upper, std::hypot(x.gap, beside + q.rounding.across));
-  } else if (x.n.dot(opposite.y - x.y) <= q.rounding.gap) {  // it leaves as late
-    x = opposite;
-  }
+  else if (!(x.n.dot(x.y - known) <= q.rounding.gap))
+    x.y = known;  // the other one leaves sooner
   result.status = found.status;
   result.distance = x.gap - margins;
   result.lower = result.distance - q.rounding.certificate;

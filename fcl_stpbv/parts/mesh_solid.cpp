@@ -11,6 +11,7 @@
 #include <numeric>
 #include <utility>
 
+#include "fcl_stpbv/convex/onto_core.h"
 #include "fcl_stpbv/numbers.h"
 
 namespace fcl_stpbv {
@@ -19,13 +20,7 @@ namespace {
 using Eigen::Vector3d;
 
 using detail::at;
-
-Vector3d nearestOnSegment(const Vector3d& a, const Vector3d& b, const Vector3d& p) {
-  const Vector3d along = b - a;
-  const double length2 = along.squaredNorm();
-  if (!(length2 > 0)) return a;
-  return a + std::clamp((p - a).dot(along) / length2, 0.0, 1.0) * along;
-}
+using detail::ontoSegment;
 
 // Directions for rays: none along an axis or a plane that a designer would choose.
 const std::array<Vector3d, 8>& rayDirections() {
@@ -79,8 +74,8 @@ Vector3d nearestOf(const Triangle& triangle, const Vector3d& p) {
     const double beta = w.cross(v).dot(n) / n2, gamma = u.cross(w).dot(n) / n2;
     if (beta >= 0 && gamma >= 0 && beta + gamma <= 1) return a + beta * u + gamma * v;
   }
-  Vector3d best = nearestOnSegment(a, b, p);
-  for (const Vector3d& other : {nearestOnSegment(b, c, p), nearestOnSegment(c, a, p)})
+  Vector3d best = ontoSegment(a, b, p);
+  for (const Vector3d& other : {ontoSegment(b, c, p), ontoSegment(c, a, p)})
     if ((other - p).squaredNorm() < (best - p).squaredNorm()) best = other;
   return best;
 }

@@ -9,6 +9,7 @@
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/io/text_scanner.h"
 #include "fcl_stpbv/numbers.h"
+#include "fcl_stpbv/robot/joint_freedoms.h"
 #include "fcl_stpbv/robot/json_text.h"
 
 namespace fcl_stpbv::report {
@@ -139,21 +140,17 @@ std::vector<int> coordinatesOf(const Columns& columns, const std::string& path,
   return coordinates;
 }
 
-// Where a joint's angles are among its coordinates: one, or the rotation vector of a floating one.
-struct Angles {
-  int first = 0, count = 0;
-};
-
-Angles anglesOf(const JointModel& joint) {
-  switch (joint.type) {
+// How many of a joint's coordinates, its last ones, are angles that a whole turn brings back: one, or the
+// rotation vector of a floating joint.
+int anglesOf(JointType type) {
+  switch (type) {
     case JointType::continuous:
-      return {0, 1};
     case JointType::planar:
-      return {2, 1};
+      return 1;
     case JointType::floating:
-      return {3, 3};
+      return 3;
     default:
-      return {};
+      return 0;
   }
 }
 
@@ -214,18 +211,17 @@ Trajectory readTrajectory(const std::string& path, const Kinematics& kinematics,
 std::string turnWarning(const std::string& name, const Trajectory& trajectory, const Kinematics& kinematics) {
   for (std::size_t i = 1; i < trajectory.points.size(); ++i) {
     for (const JointModel& joint : kinematics.robot().joints) {
-      const Angles angles = anglesOf(joint);
-      if (joint.mimic || angles.count == 0) continue;
-      const int k = kinematics.coordinate(joint.name) + angles.first;
-      const Eigen::VectorXd last = trajectory.points[i - 1].segment(k, angles.count);
-      const Eigen::VectorXd to = trajectory.points[i].segment(k, angles.count),
-                            nearest = nearestTurn(to, last);
+      const int angles = anglesOf(joint.type);
+      if (joint.mimic || angles == 0) continue;
+      const int k = kinematics.coordinate(joint.name) + freedoms(joint.type) - angles;
+      const Eigen::VectorXd last = trajectory.points[i - 1].segment(k, angles),
+                            to = trajectory.points[i].segment(k, angles), nearest = nearestTurn(to, last);
       constexpr double kOff = 1e-6;  // of half a turn in few digits (rad)
       const double turn = (to - last).norm();
       if (turn <= (nearest - last).norm() + kOff) continue;
-      const std::string what = angles.count == 1 ? kinematics.names()[at(k)] : joint.name;
+      const std::string what = angles == 1 ? kinematics.names()[at(k)] : joint.name;
       return name + ": way point " + std::to_string(i + 1) + ": '" + what + "' turns by " +
-             toDecimal(angles.count == 1 ? to[0] - last[0] : turn) +
+             toDecimal(angles == 1 ? to[0] - last[0] : turn) +
              " rad, more than half a turn; this way is looked at, not the short one, which would end at " +
              joined(nearest) + " rad.";
     }
