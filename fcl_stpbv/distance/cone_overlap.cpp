@@ -70,30 +70,25 @@ class WaysOut {
     take(along(found->normal, p, found->patch), {{p, p, p}, 1});
   }
 
-  /// Whether no way between the normals of the three sides that meet in a box's corner is worth looking at:
-  /// up to an angle from one of them its point tells that, further off a ball in the volume.
-  bool isDeep(const Vector3d& p, const std::array<const WayOut*, 3>& side) const {
-    const Vector3d centre = q_.body.centre() - p;
+  /// Whether no way of a corner between a face's, `near`, and a quarter's u to v across it is worth looking
+  /// at: up to an angle from `near` its point tells that, further off a ball in the volume.
+  bool isDeep(const Vector3d& p, const WayOut& near, const Vector3d& u, const Vector3d& v) const {
+    const Vector3d centre = q_.body.centre() - p, from = near.point - p;
     const double ball = q_.body.innerRadius();
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Vector3d &n = side[k]->n, &u = side[(k + 1) % 3]->n, &v = side[(k + 2) % 3]->n,
-                     from = side[k]->point - p;
-      // Along cos(a) n + sin(a) w, with w between u and v, a vector is as long as along n times the cosine
-      // and the lesser of both others times the sine, if that is positive.
-      const double across = std::min(from.dot(u), from.dot(v)),
-                   aside = std::min(centre.dot(u), centre.dot(v)), t = across / worth_;
-      if (!(across > 0.0 && side[k]->depth >= worth_)) continue;
-      if (t >= 1.0) return true;
-      const double scale = 1.0 / (1.0 + t * t),
-                   there = scale * ((1.0 - t * t) * centre.dot(n) + 2.0 * t * aside);
-      if (aside >= 0.0 && std::min(there, aside) + ball >= worth_) return true;
-    }
-    return false;
+    // Along cos(a) n + sin(a) w, with w between u and v, a vector is as long as along n times the cosine
+    // and the lesser of both others times the sine, if that is positive.
+    const double across = std::min(from.dot(u), from.dot(v)), aside = std::min(centre.dot(u), centre.dot(v)),
+                 t = across / worth_;
+    if (!(across > 0.0 && near.depth >= worth_)) return false;
+    if (t >= 1.0) return true;
+    const double scale = 1.0 / (1.0 + t * t),
+                 there = scale * ((1.0 - t * t) * centre.dot(near.n) + 2.0 * t * aside);
+    return aside >= 0.0 && std::min(there, aside) + ball >= worth_;
   }
 
   /// False where too many pieces are left.
   bool arc(const Arc& whole) {
-    constexpr int kPieces = 24, kMost = 64;
+    constexpr int kPieces = 24, kMost = 1000;
     std::array<std::array<WayOut, 2>, kPieces> left;
     int count = 0;
     left[count++] = {whole.from, whole.to};
@@ -233,14 +228,19 @@ bool leaveTriangle(const ShapeQuery& q, WaysOut& ways) {
   if (!(up.norm() > kSliver * longest * longest)) return false;
   const Vector3d m = up.normalized();
   const WayOut front = ways.face(m, p[0], p[1], p[2]), behind = ways.face(-m, p[0], p[1], p[2]);
+  std::array<Vector3d, 3> inwards;
+  for (std::size_t i = 0; i < 3; ++i) inwards[i] = m.cross(t[i]).normalized();
   for (std::size_t i = 0; i < 3; ++i) {
-    const std::array<Vector3d, 2> side{t[i], -t[(i + 2) % 3]};
-    ways.corner(p[i], side.data(), 2);
+    const std::size_t last = (i + 2) % 3;
+    const Vector3d &u = inwards[i], &v = inwards[last];
+    const std::array<Vector3d, 2> side{t[i], -t[last]};
+    if (!(ways.isDeep(p[i], front, u, v) && ways.isDeep(p[i], behind, u, v)))
+      ways.corner(p[i], side.data(), 2);
   }
   for (std::size_t i = 0; i < 3; ++i) {
     const Vector3d& next = p[(i + 1) % 3];
-    const WayOut inwards = ways.along(m.cross(t[i]).normalized(), p[i], -1);
-    if (!ways.arc({p[i], next, -t[i], front, inwards}) || !ways.arc({p[i], next, t[i], behind, inwards}))
+    const WayOut across = ways.along(inwards[i], p[i], -1);
+    if (!ways.arc({p[i], next, -t[i], front, across}) || !ways.arc({p[i], next, t[i], behind, across}))
       return false;
   }
   return true;
@@ -266,8 +266,10 @@ bool leaveBox(const ShapeQuery& q, WaysOut& ways) {
     for (std::size_t j = 0; j < 2; ++j)
       for (std::size_t k = 0; k < 2; ++k) {
         const Vector3d p = corner(0, i, j, k);
-        const std::array<Vector3d, 3> side{normal[0][i], normal[1][j], normal[2][k]};
-        if (!ways.isDeep(p, {&face[0][i], &face[1][j], &face[2][k]})) ways.corner(p, side.data(), 3);
+        const std::array<Vector3d, 3> n{normal[0][i], normal[1][j], normal[2][k]};
+        if (!ways.isDeep(p, face[0][i], n[1], n[2]) && !ways.isDeep(p, face[1][j], n[2], n[0]) &&
+            !ways.isDeep(p, face[2][k], n[0], n[1]))
+          ways.corner(p, n.data(), 3);
       }
   for (std::size_t axis = 0; axis < 3; ++axis)
     for (std::size_t j = 0; j < 2; ++j)
@@ -282,21 +284,17 @@ bool leaveBox(const ShapeQuery& q, WaysOut& ways) {
 }  // namespace
 
 std::optional<LeastOverlap> overlapOfCones(ShapeQuery& q) {
-  constexpr int kMost = 8000;  // faces to look at for the corners; beyond, EPA takes less time
-  const int corners = q.shape.kind == ShapeKind::segment    ? 2
-                      : q.shape.kind == ShapeKind::triangle ? 3
-                      : q.shape.kind == ShapeKind::box      ? 8
-                                                            : 0;
-  if (corners == 0 || corners * q.body.faceCount() > kMost) return {};
+  const ShapeKind kind = q.shape.kind;
+  if (kind != ShapeKind::segment && kind != ShapeKind::triangle && kind != ShapeKind::box) return {};
   // A point deep enough, so that no corner leaves through an edge or a vertex of the volume.
   const Vector3d y = q.posed(ontoCore(q.shape, q.pose.inSecond(q.body.centre())));
   const std::optional<PointDepth> inside = pointDepth(q.body, y);
   if (!inside) return {};
   WaysOut ways(q);
   ways.noLonger(ways.along(inside->normal, q.facing(inside->normal), inside->patch).depth);
-  const bool done = q.shape.kind == ShapeKind::segment    ? leaveSegment(q, ways)
-                    : q.shape.kind == ShapeKind::triangle ? leaveTriangle(q, ways)
-                                                          : leaveBox(q, ways);
+  const bool done = kind == ShapeKind::segment    ? leaveSegment(q, ways)
+                    : kind == ShapeKind::triangle ? leaveTriangle(q, ways)
+                                                  : leaveBox(q, ways);
   return done ? ways.answer() : std::nullopt;
 }
 

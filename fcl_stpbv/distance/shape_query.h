@@ -155,8 +155,7 @@ struct ShapeCorners {
 void polishOverlap(ShapeQuery& q, const ShapeCorners& met, LeastOverlap& found);
 
 /// The answer of overlapping cores of the volume and a segment, a triangle or a box, in closed form. Nothing
-/// for other kinds, for volumes of too many faces, and where no point of the shape is deep enough
-/// (volume/point_depth.h).
+/// for other kinds, and where no point of the shape is deep enough (volume/point_depth.h).
 std::optional<LeastOverlap> overlapOfCones(ShapeQuery& q);
 
 /// How deep overlapping cores are in each other, next to `start` first. `at.gap` is minus the depth along the

@@ -113,9 +113,8 @@ PointDepth leastDepth(const StpBv& body, const Vector3d& p, double below, const 
 }  // namespace
 
 std::optional<PointDepth> pointDepth(const StpBv& body, const Vector3d& p) {
-  constexpr int kMost = 4000;  // faces: beyond, growing a polytope takes less time
   const double least = body.tables().capHeight;
-  if (std::isinf(least) || body.faceCount() > kMost) return {};
+  if (std::isinf(least)) return {};
   constexpr double kCentred = 0.999;  // of the ball's radius: no way out of a ball from its centre
   const PointDepth found = leastDepth(body, p);
   if (!(found.depth > least && found.depth < kCentred * body.radii().rho)) return {};

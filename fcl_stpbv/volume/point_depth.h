@@ -17,8 +17,7 @@ struct PointDepth {
 };
 
 /// The depth in closed form, from one pass over the faces' balls. Nothing for a point outside or less deep
-/// than `QueryTables::capHeight`, nor for volumes of so many faces that a search which skips most of them is
-/// faster.
+/// than `QueryTables::capHeight`.
 std::optional<PointDepth> pointDepth(const StpBv& body, const Eigen::Vector3d& p);
 
 /// The same, but only of ways `n` with `n . side >= 0` for each of `count` unit vectors, and only one shorter
