@@ -17,8 +17,25 @@ using namespace detail;
 
 namespace {
 
+/// The joints of an answer of find_posture, its member `q`. Where it has the base matters to obstacles alone.
+nlohmann::json jointsOfAnswer(const std::string& path, const nlohmann::json& q, const Kinematics& kinematics,
+                              bool obstacles) {
+  const std::vector<std::string>& own = kinematics.names();
+  nlohmann::json joints = nlohmann::json::object();
+  for (const auto& [name, value] : q.items()) {
+    if (name.rfind("base/", 0) != 0 || std::find(own.begin(), own.end(), name) != own.end())
+      joints[name] = value;
+    else if (obstacles)
+      throw Error(path + ": places the base ('" + name +
+                  "'), but the obstacles are seen from the robot's root link; give obstacles placed so that "
+                  "the base stays at the origin, and the values of joints alone");
+  }
+  return joints;
+}
+
 // A configuration from a JSON object of joints' or coordinates' values, or a list of all coordinates.
-Eigen::VectorXd poseFromJson(const std::string& path, const Kinematics& kinematics, Eigen::VectorXd rest) {
+Eigen::VectorXd poseFromJson(const std::string& path, const Kinematics& kinematics, Eigen::VectorXd rest,
+                             bool obstacles) {
   // A joint value larger than any robot's is a mistake, and past 1e9 its sine has no exact digit left.
   constexpr double kMost = 1e6;
   const auto values = [&](const nlohmann::json& json) {
@@ -28,7 +45,9 @@ Eigen::VectorXd poseFromJson(const std::string& path, const Kinematics& kinemati
     return list;
   };
   try {
-    const nlohmann::json json = readJson(path);
+    nlohmann::json json = readJson(path);
+    if (json.is_object() && json.contains("q") && json["q"].is_object())
+      json = jointsOfAnswer(path, json["q"], kinematics, obstacles);
     if (json.is_array()) {
       const std::vector<double> all = values(json);
       if (static_cast<int>(all.size()) != kinematics.size())
@@ -64,7 +83,7 @@ Eigen::VectorXd namedPosture(const std::string& option, const std::string& name,
                              const Srdf* srdf, const Eigen::VectorXd& rest, bool obstacles) {
   std::error_code ignored;
   const bool isFile = std::filesystem::exists(name, ignored) && !std::filesystem::is_directory(name, ignored);
-  if (isFile) return poseFromJson(name, kinematics, rest);  // a pipe, too
+  if (isFile) return poseFromJson(name, kinematics, rest, obstacles);  // a pipe, too
   if (!srdf)
     throw Error(option + " " + name +
                 ": no such file, and no SRDF with postures; give --srdf or a JSON file");

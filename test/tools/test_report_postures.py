@@ -109,6 +109,18 @@ class Postures(unittest.TestCase):
                            ('{"l/w": 1}', "no joint 'l/w'"), ('{"r/x": 1}', "no joint 'r/x'")):
             self.assertIn(told, self.report("--pose", self.put("pose.json", text), status=2))
 
+    def test_an_answer_of_find_posture_is_a_posture(self):
+        fixed = self.put("fixed.json", '{"feasible": true, "q": {"l": 0.5, "r": -0.5}, "pairs": 1}')
+        moving = self.put("moving.json", '{"q": {"base/x": 1, "base/rz": 2, "l": 0.5, "r": -0.5}}')
+        scene = self.put("scene.urdf", WALL)
+        for answer in (fixed, moving):
+            self.colliding("--pose", answer)
+        self.colliding("--pose", fixed, "--obstacles", scene)
+        self.assertIn("places the base", self.report("--pose", moving, "--obstacles", scene, status=2))
+        self.assertIn("no joint 'x'", self.report("--pose", self.put("other.json", '{"q": {"x": 1}}'), status=2))
+        self.urdf = self.put("q.urdf", ROBOT.replace('"l"', '"q"'))  # a joint of that name
+        self.colliding("--pose", self.put("own.json", '{"q": 0.5, "r": -0.5}'))
+
     def test_a_byte_order_mark_is_no_letter_of_a_name(self):
         self.colliding("--trajectory", self.put("motion.csv", "\ufeffl,r\n0,0\n0.5,-0.5\n"))
 
