@@ -48,6 +48,8 @@ struct type_caster<fcl_stpbv::Floats<Matrix>> {
       PyErr_Clear();
       return false;
     }
+    if (given && Py_TYPE(source.ptr()) != npy_api::get().PyArray_Type_ && hasattr(source, "mask"))
+      throw type_error("got a masked array; fill it, as with filled(value), so that every number counts");
     const char kind = numbers.dtype().kind();
     const bool fits = kind == 'f' && numbers.itemsize() <= static_cast<ssize_t>(sizeof(double));
     const bool listed = !given && (kind == 'i' || kind == 'u');

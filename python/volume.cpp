@@ -1,6 +1,7 @@
 // Volumes and their distance in Python.
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <sstream>
 
 #include "fcl_stpbv/distance/distance.h"
@@ -116,11 +117,13 @@ void addStpBv(py::module_& module) {
           py::arg("point"))
       .def(
           "over_cover",
-          [](const StpBv& volume) {
-            const OverCover cover = overCover(volume);
+          [](const StpBv& volume, const std::optional<Floats<PointArray>>& points) {
+            const OverCover cover = points ? overCover(volume, toPoints(points->value)) : overCover(volume);
             return std::make_pair(cover.max, cover.mean);
           },
-          "Largest and mean excess over the convex hull of the vertices (m).")
+          py::arg("points") = py::none(),
+          "Largest and mean excess (m) over the convex hull of the vertices, or of the points it was built "
+          "from.")
       .def(
           "verify", [](const StpBv& volume) { return verify(volume).message; }, "\"ok\", or what is wrong.")
       .def(py::pickle(

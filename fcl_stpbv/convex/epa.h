@@ -29,6 +29,41 @@ void expandAtNearest(Polytope& polytope, Visit&& visit) {
   }
 }
 
+/// Four points of a convex set that span a volume. `furthest(m)` is the set's furthest along the unit vector
+/// `m`, and `place(point)` where that is (m). Directions are looked along in a frame turned by `turn`. False
+/// where the set is flat to `rounding` (m); it has then been looked at along both normals of the flat.
+template <typename Point, typename Furthest, typename Place>
+bool spanVolume(const Eigen::Matrix3d& turn, double rounding, const Furthest& furthest, const Place& place,
+                Point* c) {
+  using Eigen::Vector3d;
+  const auto along = [&](const Vector3d& m) { return furthest((turn * m).normalized()); };
+  const auto widen = [&](const Vector3d& m, const auto& measure, Point& best) {
+    for (const Vector3d& d : {m, Vector3d(-m)}) {
+      const Point p = along(d);
+      if (measure(place(p)) > measure(place(best))) best = p;
+    }
+  };
+  // Directions in the turned frame; lengths are the same in both.
+  const auto turned = [&](const Vector3d& v) { return Vector3d(turn.transpose() * v); };
+  c[0] = along(Vector3d::UnitX());
+  const Vector3d first = place(c[0]);
+  c[1] = c[0];
+  const auto fromPoint = [&](const Vector3d& w) { return (w - first).norm(); };
+  for (int i = 0; i < 3; ++i) widen(Vector3d::Unit(i), fromPoint, c[1]);
+  if (!(fromPoint(place(c[1])) > rounding)) return false;
+  const Vector3d u = turned(place(c[1]) - first).normalized(), e = u.unitOrthogonal();
+  c[2] = c[0];
+  const auto fromLine = [&](const Vector3d& w) { return u.cross(turned(w - first)).norm(); };
+  widen(e, fromLine, c[2]);
+  widen(u.cross(e), fromLine, c[2]);
+  if (!(fromLine(place(c[2])) > rounding)) return false;
+  const Vector3d m = u.cross(turned(place(c[2]) - first)).normalized();
+  c[3] = c[0];
+  const auto fromPlane = [&](const Vector3d& w) { return std::abs(m.dot(turned(w - first))); };
+  widen(m, fromPlane, c[3]);
+  return fromPlane(place(c[3])) > rounding;
+}
+
 /// The least overlap of two cores. `Difference` is a ConvexDifference, or
 /// has the same `Corner` and `support`.
 template <typename Difference>
@@ -84,7 +119,10 @@ class Epa {
       const Eigen::Matrix3d turn =
           Eigen::AngleAxisd(attempt, Eigen::Vector3d(0.48, 0.6, 0.64)).toRotationMatrix();
       Points point;
-      if (!firstCorners(turn, point)) break;
+      if (!spanVolume(
+              turn, rounding_, [&](const Eigen::Vector3d& m) { return look(-m); },
+              [](const Corner& c) -> const Eigen::Vector3d& { return c.w; }, point.data()))
+        break;
       expand(point);
     }
     return solved();
@@ -139,37 +177,6 @@ class Epa {
       return;
     for (const int i : {0, 1, 2})
       if (weight[i] > 0.0) met[static_cast<std::size_t>(metCount++)] = i == 0 ? a : i == 1 ? b : c;
-  }
-
-  /// Four points of the difference that span a volume, each furthest along some direction. False where the
-  /// difference is flat to rounding; it has then been looked at along both normals of the flat.
-  bool firstCorners(const Eigen::Matrix3d& turn, Points& c) {
-    using Eigen::Vector3d;
-    const auto furthest = [&](const Vector3d& m) { return look(-(turn * m).normalized()); };
-    const auto widen = [&](const Vector3d& m, const auto& measure, Corner& best) {
-      for (const Vector3d& d : {m, Vector3d(-m)}) {
-        const Corner p = furthest(d);
-        if (measure(p.w) > measure(best.w)) best = p;
-      }
-    };
-    // Directions in the turned frame; lengths are the same in both.
-    const auto turned = [&](const Vector3d& v) { return Vector3d(turn.transpose() * v); };
-    c[0] = furthest(Vector3d::UnitX());
-    c[1] = c[0];
-    const auto fromPoint = [&](const Vector3d& w) { return (w - c[0].w).norm(); };
-    for (int i = 0; i < 3; ++i) widen(Vector3d::Unit(i), fromPoint, c[1]);
-    if (!(fromPoint(c[1].w) > rounding_)) return false;
-    const Vector3d u = turned(c[1].w - c[0].w).normalized(), e = u.unitOrthogonal();
-    c[2] = c[0];
-    const auto fromLine = [&](const Vector3d& w) { return u.cross(turned(w - c[0].w)).norm(); };
-    widen(e, fromLine, c[2]);
-    widen(u.cross(e), fromLine, c[2]);
-    if (!(fromLine(c[2].w) > rounding_)) return false;
-    const Vector3d m = u.cross(turned(c[2].w - c[0].w)).normalized();
-    c[3] = c[0];
-    const auto fromPlane = [&](const Vector3d& w) { return std::abs(m.dot(turned(w - c[0].w))); };
-    widen(m, fromPlane, c[3]);
-    return fromPlane(c[3].w) > rounding_;
   }
 
   Difference& difference_;

@@ -20,15 +20,13 @@
 
 namespace fcl_stpbv::detail {
 
+using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 namespace {
 
 /// Where the polytope is this much of the depth from the surface, a maximum is likely to be next to it.
 constexpr double kNear = 0.03;
-
-/// Fraction of the depth by which the bound may fall short of it.
-constexpr double kClose = 1e-3;
 
 /// Tilt from the start's normal of those whose points the polytope begins with (rad).
 constexpr double kRing = 0.8;
@@ -67,7 +65,7 @@ class CoreEpa {
     bool proven = false;
     expandAtNearest(polytope_, [&](const Polytope::Face& nearest) {
       // The polytope lies inside the difference, so with the origin inside it no direction leads out sooner.
-      bound = -std::max(0.0, std::min({least_, nearest.distance, -x_.core - pair_.gapRounding()}));
+      bound = std::min(bound, -std::min({least_, nearest.distance, -x_.core - pair_.gapRounding()}));
       proven = -x_.core - nearest.distance <= pair_.gapRounding();
       if (proven) return false;
       if (nearest.has(top_) && nearest.distance > topFrom_) {
@@ -86,8 +84,7 @@ class CoreEpa {
     if (!(nearest.distance > 0.0)) return false;
     const Vector3d vertex = unpack(pair_.differenceAgainst(-nearest.normal));
     const double far = nearest.normal.dot(vertex);
-    return (far > (1.0 + kNear) * nearest.distance || far > (1.0 + kClose) * -x_.core) &&
-           polytope_.expand(vertex);
+    return (far > (1.0 + kNear) * nearest.distance || far > -x_.core) && polytope_.expand(vertex);
   }
 
   /// False where the cores turn out to be apart.
@@ -104,7 +101,7 @@ class CoreEpa {
     const bool another = top && (trial.n - x_.n).squaredNorm() > kSame * kSame;
     const bool better = trial.core > x_.core;
     if (better) x_ = trial;
-    if (open <= pair_.gapRounding() || (top && open <= kClose * nearest.distance) ||
+    if (open <= pair_.gapRounding() ||
         !((another && better && addTop(onlyMaximumFrom(pair_, x_, pair_.insideRegions(x_)))) ||
           polytope_.expand(point)))
       putAside(nearest);
@@ -185,10 +182,11 @@ bool expandPolytope(const BodyPair& pair, double inside, Sample& x, double& boun
   else if (known.count == 0)
     search.add(vertexDifference(pair, x.n));
   if (search.run(bound)) return true;
-  const auto along = [&](const Vector3d& n) { return furthest(pair.sampleFrom(n, {-1, -1}, work.steps)); };
-  return CoreEpa(pair, {along(m[0]), along(m[1]), along(m[2]), along(-x.n)}, Polytope::Origin::anywhere, x,
-                 work)
-      .run(bound);
+  // Those were in one plane, or their polytope ended early. The smooth surfaces have a volume in common.
+  const auto against = [&](const Vector3d& m) { return furthest(pair.sampleFrom(-m, {-1, -1}, work.steps)); };
+  const auto place = [](const Vector3d& p) -> const Vector3d& { return p; };
+  return spanVolume(Matrix3d::Identity(), pair.gapRounding(), against, place, corner.data()) &&
+         CoreEpa(pair, corner, Polytope::Origin::anywhere, x, work).run(bound);
 }
 
 FCL_STPBV_VECTORIZED

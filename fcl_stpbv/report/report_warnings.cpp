@@ -20,21 +20,23 @@ std::string openMeshes(const CollisionReport& report) {
     open += !report.fits[whole < 0 ? i : static_cast<std::size_t>(whole)].closed;
   }
   if (open == 0) return "";
-  return open == 1 ? "1 mesh is not closed: whether another lies inside it is judged by its winding number, "
-                     "and its volume is not known."
-                   : std::to_string(open) +
-                         " meshes are not closed: whether another lies inside one of them is "
-                         "judged by its winding number, and their volume is not known.";
+  return open == 1
+             ? "1 mesh is not closed. Its volume is not known, and whether another mesh lies inside it is "
+               "an estimate, by its winding number."
+             : std::to_string(open) +
+                   " meshes are not closed. Their volume is not known, and whether another mesh lies "
+                   "inside one of them is an estimate, by its winding number.";
 }
 
 std::string neutralCollisions(const NeutralPosture& found, const std::string& neutral) {
   if (found.colliding == 0) return "";
-  std::string warning = "in the neutral posture (" +
-                        (neutral.empty() ? "all joints at zero, or at the limit nearest to it" : neutral) +
-                        ") the bodies of " + std::to_string(found.colliding) +
-                        (found.colliding == 1 ? " pair" : " pairs") + " of links meet that are not adjacent";
+  std::string warning =
+      std::to_string(found.colliding) +
+      (found.colliding == 1 ? " pair of links that is" : " pairs of links that are") + " not adjacent " +
+      (found.colliding == 1 ? "overlaps" : "overlap") + " in the neutral posture (" +
+      (neutral.empty() ? "all joints at zero, or at the limit nearest to it" : neutral) + ")";
   if (found.better.size() > 0)
-    warning += "; those of " + std::to_string(found.collidingThere) + " do in another posture: " +
+    warning += "; in another posture only " + std::to_string(found.collidingThere) + " overlap: " +
                (found.state.empty() ? "neutral.better in the JSON, which --neutral takes from a file"
                                     : "give --neutral " + found.state);
   return warning + ".";

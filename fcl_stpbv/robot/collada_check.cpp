@@ -56,6 +56,33 @@ class OneUnit : public tinyxml2::XMLVisitor {
   bool isGiven_ = false;
 };
 
+// assimp passes over elements that it does not know, and with them a shape or a way to it.
+void checkKnown(const XMLElement& element, const std::set<std::string_view>& inside,
+                const std::string& name) {
+  for (const XMLElement* e = element.FirstChildElement(); e != nullptr; e = e->NextSiblingElement())
+    if (inside.count(e->Name()) == 0)
+      refuseCollada(*e, "is no element of COLLADA within <" + std::string(element.Name()) + ">", name);
+}
+
+const std::set<std::string_view> kInNode{"asset",
+                                         "lookat",
+                                         "matrix",
+                                         "rotate",
+                                         "scale",
+                                         "skew",
+                                         "translate",
+                                         "node",
+                                         "instance_node",
+                                         "extra",
+                                         "instance_camera",
+                                         "instance_light",
+                                         "instance_geometry",
+                                         "instance_controller",
+                                         "evaluate_scene"};
+const std::set<std::string_view> kInGeometry{"asset", "mesh", "convex_mesh", "spline", "brep", "extra"};
+const std::set<std::string_view> kInMesh{"source",   "vertices",  "lines",   "linestrips", "polygons",
+                                         "polylist", "triangles", "trifans", "tristrips",  "extra"};
+
 // The shapes that the nodes of a document place, and the transforms to there.
 class ColladaNodes {
  public:
@@ -63,7 +90,7 @@ class ColladaNodes {
 
   void check() {
     forEach("library_geometries", "geometry", [this](const XMLElement& e) { addGeometry(e); });
-    forEach("library_nodes", "node", [this](const XMLElement& e) { nodes_.insert(attribute(e, "id")); });
+    forEach("library_nodes", "node", [this](const XMLElement& e) { addNode(e); });
     forEach("library_visual_scenes", "visual_scene", [this](const XMLElement& e) { addScene(e); });
     forEach("library_nodes", "node", [this](const XMLElement& e) { checkNode(e); });
     forEach("library_visual_scenes", "visual_scene", [this](const XMLElement& e) { checkNode(e); });
@@ -87,6 +114,12 @@ class ColladaNodes {
       refuseCollada(geometry, "has an id that another one has", name_);
   }
 
+  void addNode(const XMLElement& node) {
+    const std::string id = attribute(node, "id");
+    if (!nodes_.insert(id).second && !id.empty())
+      refuseCollada(node, "has an id that another one has", name_);
+  }
+
   // assimp finds the nodes below the scene that is shown by their names as well.
   void addScene(const XMLElement& scene) {
     const XMLElement* shown = root_.FirstChildElement("scene");
@@ -105,6 +138,7 @@ class ColladaNodes {
   }
 
   void checkNode(const XMLElement& node) const {
+    checkKnown(node, kInNode, name_);
     for (const XMLElement* e = node.FirstChildElement(); e != nullptr; e = e->NextSiblingElement()) {
       const std::string_view kind = e->Name();
       checkColladaTransform(*e, name_);
@@ -132,6 +166,8 @@ class ColladaNodes {
     const auto shape = shapes_.find(target);
     if (shape == shapes_.end())
       refuseCollada(instance, "names the geometry '#" + target + "', which does not exist", name_);
+    checkKnown(*shape->second, kInGeometry, name_);
+    if (const XMLElement* mesh = shape->second->FirstChildElement("mesh")) checkKnown(*mesh, kInMesh, name_);
     for (const char* kind : {"convex_mesh", "brep"}) {
       if (const XMLElement* unread = shape->second->FirstChildElement(kind))
         throw Error(xmlPlace(*unread, name_) + "<" + kind + "> is not read; export the geometry as a <mesh>");

@@ -199,8 +199,10 @@ const aiScene& read(Assimp::Importer& importer, ReadableFiles& files, const std:
                   ": a face of many corners cannot be split into triangles; export the mesh as triangles");
   }
   if (scene == nullptr || scene->mRootNode == nullptr) {
-    throw Error(path + ": cannot be read as a mesh (" + importer.GetErrorString() +
-                "); give a whole file of " + kReadable);
+    constexpr std::size_t kLongest = 200;  // assimp may quote the file from there to its end
+    std::string why = importer.GetErrorString();
+    if (why.size() > kLongest) why = why.substr(0, kLongest) + " ...";
+    throw Error(path + ": cannot be read as a mesh (" + why + "); give a whole file of " + kReadable);
   }
   return *scene;
 }

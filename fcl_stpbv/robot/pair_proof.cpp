@@ -73,7 +73,7 @@ class Prover {
     const JointPath path = jointPath(robot, pair.link1, pair.obstacle ? 0 : pair.link2);
     for (std::size_t i = 0; i < path.joints.size(); ++i) {
       const JointModel& joint = robot.joints[at(path.joints[i])];
-      if (joint.type == JointType::fixed) continue;
+      if (joint.type == JointType::fixed || (joint.mimic && joint.mimic->multiplier == 0)) continue;
       BoxJoint box;
       box.slides = joint.type == JointType::prismatic;
       box.up = i < path.up;

@@ -18,6 +18,7 @@ namespace {
 struct PlyType {
   std::size_t bytes = 0;
   bool isWhole = false;
+  long least = 0, most = 0;  // of a whole number
 };
 
 struct Property {
@@ -46,7 +47,12 @@ PlyType readType(std::string_view word, const MeshLines& lines) {
       {"float", 4}, {"float32", 4}, {"double", 8}, {"float64", 8}};
   const auto found = kSizes.find(word);
   if (found == kSizes.end()) lines.refuse("a property of unknown type, expected one of PLY's, such as float");
-  return {found->second, word[0] != 'f' && word[0] != 'd'};
+  PlyType type{found->second, word[0] != 'f' && word[0] != 'd'};
+  if (!type.isWhole) return type;
+  const bool isUnsigned = word[0] == 'u';
+  type.most = (1L << (8 * type.bytes - (isUnsigned ? 0 : 1))) - 1;
+  type.least = isUnsigned ? 0 : -type.most - 1;
+  return type;
 }
 
 Encoding readEncoding(std::string_view word, const MeshLines& lines) {
@@ -172,12 +178,12 @@ class PlyBody {
   const std::string& name_;
 };
 
-// Whether a word fits assimp's integers, with a sign or without.
-bool isWhole(std::string_view word) {
+// Of a number beyond its type assimp makes another one, or two.
+bool isWhole(std::string_view word, const PlyType& type) {
   long value = 0;
   const auto result = std::from_chars(word.data(), word.data() + word.size(), value);
-  return result.ec == std::errc() && result.ptr == word.data() + word.size() && value >= -2147483648L &&
-         value <= 4294967295L;
+  return result.ec == std::errc() && result.ptr == word.data() + word.size() && value >= type.least &&
+         value <= type.most;
 }
 
 /// The elements of a PLY as text. assimp takes each line for one of them, whatever it holds.
@@ -220,9 +226,11 @@ class PlyLines {
 
   void passValue(const Element& element, const Property& property) {
     const std::string_view value = word(element);
-    if (property.value.isWhole ? !isWhole(value) : !isMeshNumber(value))
-      refuse(element, property.value.isWhole ? "a whole number of 32 bits, as the header says"
-                                             : std::string("a finite number, ") + kNumberForm);
+    const PlyType& type = property.value;
+    if (type.isWhole ? !isWhole(value, type) : !isMeshNumber(value))
+      refuse(element, type.isWhole ? "a whole number from " + std::to_string(type.least) + " to " +
+                                         std::to_string(type.most) + ", as the header says"
+                                   : std::string("a finite number, ") + kNumberForm);
   }
 
   [[noreturn]] void refuse(const Element& element, const std::string& expected) const {

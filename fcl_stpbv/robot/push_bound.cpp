@@ -220,7 +220,7 @@ double PushBound::together(const Vector3d& n, const BodySide& side, const Vector
       if (!o.joint.slides) bend += (o.joint.half - std::sin(o.joint.half)) * std::abs(along);
     }
     const OutwardJoint& o = side.joints[i];
-    const double half = o.joint.rate == 0 ? 0 : o.joint.half / std::abs(o.joint.rate);
+    const double half = o.joint.half / std::abs(o.joint.rate);
     saved += std::max(0.0, apart - (half * std::abs(slope) + bend));
   }
   return saved;

@@ -14,7 +14,7 @@ struct BoxJoint {
   bool slides = false;              ///< else it turns
   bool up = false;                  ///< the first body is on the child's side
   int slot = 0;                     ///< which of the box's coordinates moves it
-  double rate = 1;                  ///< its motion per unit of that coordinate, 1 but for mimic joints
+  double rate = 1;                  ///< its motion per unit of that coordinate: not 0, 1 unless it mimics
   double half = 0;                  ///< most that it moves from the middle (rad or m)
   Eigen::Vector3d axis{0, 0, 1};    ///< unit, world
   Eigen::Vector3d origin{0, 0, 0};  ///< a point of the axis

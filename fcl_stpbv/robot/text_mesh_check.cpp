@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
+#include <set>
 
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/robot/collada_check.h"
@@ -62,6 +63,7 @@ bool looksLikeNumber(std::string_view word) {
 
 // assimp's buffer for a number holds this many characters, and the rest becomes the next number.
 constexpr std::size_t kLongestNumber = 4095;
+constexpr std::size_t kLongestQuoted = 40;
 
 // assimp counts the numbers of a vertex to the line's end, and passes over one with another count.
 void checkObjVertex(std::string_view line, const MeshLines& lines) {
@@ -117,9 +119,25 @@ class ObjReferences {
   }
 
  private:
-  static constexpr std::size_t kLongestQuoted = 40;
   bool textures_ = false, normals_ = false;
 };
+
+// assimp passes over statements that it does not know: a vertex that is lost shifts all indices after it.
+void checkObjStatement(std::string_view keyword, const MeshLines& lines) {
+  static const std::set<std::string_view> kKnown{
+      "v",      "vt",    "vn",       "vp",       "f",   "fo",         "l",         "p",      "o",
+      "g",      "s",     "mg",       "cstype",   "deg", "bmat",       "step",      "parm",   "trim",
+      "hole",   "scrv",  "sp",       "end",      "con", "curv2",      "usemtl",    "mtllib", "usemap",
+      "maplib", "bevel", "c_interp", "d_interp", "lod", "shadow_obj", "trace_obj", "ctech",  "stech"};
+  static const std::set<std::string_view> kUnread{"bsp", "bzp", "cdc", "cdp", "curv", "surf", "call", "csh"};
+  if (kUnread.count(keyword) != 0)
+    lines.refuse("'" + std::string(keyword) +
+                 "' is not read: export free-form shapes, and those of other files, "
+                 "as triangles of this one");
+  if (keyword[0] != '#' && kKnown.count(keyword) == 0)
+    lines.damaged("a line begins with '" + std::string(keyword.substr(0, kLongestQuoted)) +
+                  "', which is no statement of OBJ");
+}
 
 void checkObj(std::string_view text, const std::string& name) {
   MeshLines lines(text, name);
@@ -138,6 +156,7 @@ void checkObj(std::string_view text, const std::string& name) {
       lines.refuse("a line with blanks before '" + std::string(keyword) + "' is not read; remove them");
     if ((face || keyword == "l" || keyword == "p") && line.find('#') != std::string_view::npos)
       lines.refuse("a comment after vertices is taken for one of them; give it a line of its own");
+    if (!keyword.empty()) checkObjStatement(keyword, lines);
     references.note(line);
     if (face || keyword == "l" || keyword == "p")
       for (std::size_t i = 1; i < words.size(); ++i) references.check(words[i], lines);
@@ -237,15 +256,17 @@ class StlLines {
   int stray_ = 0;  // the first line that ended the reading
 };
 
-/// A mark before the first word hides it from assimp, and with it a vertex.
-void refuseByteOrderMark(std::string_view text, const std::string& name) {
+/// The text behind a byte-order mark. That hides the first word from assimp, and with it a vertex.
+std::string_view pastByteOrderMark(std::string_view text, const std::string& name) {
   constexpr std::string_view kMark = "\xEF\xBB\xBF";
-  if (!beginsWith(text, kMark)) return;
+  if (!beginsWith(text, kMark)) return text;
   text.remove_prefix(kMark.size());
-  if (!beginsWith(takeWord(text), "#"))
+  std::string_view first = text;
+  if (!beginsWith(takeWord(first), "#"))
     throw Error(
         name +
         ":1: begins with a byte-order mark, which hides this line; save the file as UTF-8 without one");
+  return text;
 }
 
 }  // namespace
@@ -254,8 +275,8 @@ void checkTextMesh(std::string_view text, const std::string& extension, const st
   const bool obj = extension == ".obj", off = extension == ".off", dae = extension == ".dae";
   const bool stl = extension == ".stl" && !isBinaryStl(text);
   if (obj || off || dae || stl) refuseNul(text, name);
-  if (obj || off || stl) refuseByteOrderMark(text, name);
-  if (obj) checkObj(text, name);
+  const std::string_view behindMark = obj || off || stl ? pastByteOrderMark(text, name) : text;
+  if (obj) checkObj(behindMark, name);
   if (stl) StlLines(text, name).check();
   if (off) checkOff(text, name);
   if (dae) checkCollada(text, name);

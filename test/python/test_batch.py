@@ -262,6 +262,14 @@ def test_a_bad_mesh_fails_its_own_job_and_no_other(tmp_path, jobs):
     assert (tmp_path / "volumes/BODY.stpbv").exists() and (tmp_path / "all").read_bytes() == results
 
 
+def test_the_over_cover_of_a_conversion_is_over_all_points(tmp_path):
+    mesh = HRP2 / "meshes/BODY.dae"
+    batch("convert", mesh, "-R", 0.6, "--volumes", tmp_path / "volumes", "-o", tmp_path / "out", "--jobs", 1)
+    record = json.loads((tmp_path / "out").read_text().splitlines()[1])
+    points, volume = fcl_stpbv.load_points(mesh), fcl_stpbv.StpBv.load(tmp_path / "volumes/BODY.stpbv")
+    assert record["over_cover"] == volume.over_cover(points)[0] < volume.over_cover()[0]
+
+
 def test_another_cluster_on_this_machine_goes_unnoticed(tmp_path):
     with socket.socket() as taken:
         taken.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)

@@ -39,6 +39,20 @@ def test_facing_boxes_are_apart_by_the_gap_less_the_over_cover():
     np.testing.assert_allclose(found.points[1] - found.points[0], found.distance * found.normal, atol=1e-14)
 
 
+def test_the_over_cover_is_over_the_points_where_they_are_given():
+    points = np.vstack([BOX, np.vstack([np.eye(3), -np.eye(3)]) * 0.102])  # 2 mm over the sides, which the volume covers by 10 mm
+    volume = fcl_stpbv.StpBv.build(points, r=0.01, R=1.0)
+    assert len(volume.vertices) == len(BOX)
+    directions = np.vstack([[1, 0.02, 0], np.random.default_rng(1).normal(size=(1000, 3))])  # the first is a normal of the points' hull
+    directions /= np.linalg.norm(directions, axis=1)[:, None]
+    excess = [volume.support(n) - (points @ n).max() for n in directions]
+    largest, mean = volume.over_cover(points)
+    assert max(excess) == excess[0] == pytest.approx(largest, abs=1e-15) and mean < largest
+    assert volume.over_cover()[0] == pytest.approx(0.99 - math.sqrt(0.99**2 - 0.02) + 0.01, abs=1e-14) and largest < volume.over_cover()[0] - 0.001
+    with pytest.raises(fcl_stpbv.Error):
+        volume.over_cover(np.zeros((0, 3)))
+
+
 def test_the_gradient_is_what_differences_say():
     volume, angle, step = box(), 0.3, 1e-6
     ask = lambda x, a: fcl_stpbv.distance(volume, pose(), volume, pose(x, a))
@@ -346,6 +360,16 @@ def test_arrays_that_are_not_of_floats_are_refused_by_their_type(kind):
                 lambda: fcl_stpbv.PairProof([(flat[0], np.ones(4))]), lambda: fcl_stpbv.PairProof([], flat[0])):
         with pytest.raises(TypeError, match="expected floats"):
             ask()
+
+
+def test_masked_arrays_are_refused_as_their_masks_would_be_lost():
+    with pytest.raises(TypeError, match="filled"):
+        fcl_stpbv.StpBv.build(np.ma.masked_array(BOX, mask=BOX > 1))
+
+    class Own(np.ndarray):
+        """Another kind of array."""
+
+    assert np.array_equal(fcl_stpbv.StpBv.build(BOX.view(Own)).vertices, box().vertices)
 
 
 def test_lists_of_numbers_and_single_precision_are_taken():

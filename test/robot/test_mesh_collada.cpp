@@ -84,6 +84,21 @@ TEST_CASE("a COLLADA reference that leads nowhere is refused") {
                 {"<geometry id=\"g\">", "<geometry id=\"g\"/><geometry id=\"g\">", "t.dae:4: "}});
 }
 
+TEST_CASE("COLLADA elements that assimp would pass over, and with them a shape or its place, are refused") {
+  const std::string none = "> is no element of COLLADA within <";
+  checkRefused(
+      {{"<translate>0 0 1</translate>", "<translates>0 0 1</translates>",
+        "t.dae:19: <translates" + none + "node>"},
+       {"<node id=\"n\">", "<Node><instance_geometry url=\"#g\"/></Node><node id=\"n\">",
+        "t.dae:18: <Node" + none + "visual_scene>"},
+       {"<instance_geometry url=\"#g\"/>", "<instance_geometry url=\"#g\"/><instance_geometr url=\"#g\"/>",
+        "t.dae:17: <instance_geometr" + none},
+       {"<vertices id", "<Triangles/><vertices id", "t.dae:11: <Triangles" + none + "mesh>"},
+       {"<mesh>", "<mesh/><Mesh/><mesh>", "t.dae:4: <Mesh" + none + "geometry>"},
+       {"<node id=\"m\">", "<node id=\"m\"/><node id=\"m\">",
+        "t.dae:16: <node> has an id that another one has"}});
+}
+
 TEST_CASE("a COLLADA skin or morph, whose vertices are elsewhere than the geometry's, is refused") {
   const std::string shape = "<instance_geometry url=\"#g\"/>", library = "<library_visual_scenes>";
   const std::string skin =

@@ -76,6 +76,18 @@ TEST_CASE("a damaged mesh as text is refused with its line") {
   }
 }
 
+TEST_CASE("a message about a damaged mesh does not quote the file to its end") {
+  const TemporaryFolder folder;
+  std::string text = "solid a\nfacet normal x 0 1\n";
+  for (int i = 0; i < 1000; ++i)
+    text += "outer loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nfacet normal 0 0 1\n";
+  text += "outer loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid a\n";
+  put(folder / "t.stl", text);
+  const std::string message = refusal([](const std::string& path) { loadPoints(path); }, folder / "t.stl");
+  CHECK_THAT(message, Catch::Matchers::Contains("cannot be read as a mesh (Cannot parse string \"x 0 1"));
+  CHECK(message.size() < 600);
+}
+
 TEST_CASE("sound meshes as text are read, whatever their writer's habits") {
   const TemporaryFolder folder;
   put(folder / "a.obj",

@@ -67,6 +67,18 @@ TEST_CASE("OBJ: comments, joined lines and numbers that assimp takes for others"
              "v 0 0 0 2\nv 1 0 0 1 1 1\nv 0 1e0 0\n" + face, "v 0 0 0\rv 1 0 0\rv 0 1 0\rf 1 2 3\r"});
 }
 
+TEST_CASE("OBJ: statements that assimp would pass over") {
+  const std::string obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\n", face = "f 1 2 3\n";
+  const std::string unknown = ", which is no statement of OBJ";
+  checkRefused("t.obj",
+               {{"v 0 0 0\nvv 1 0 0\nv 0 1 0\nv 9 9 9\n" + face, ":2: a line begins with 'vv'" + unknown},
+                {"v 0 0 0\n1 0 0\nv 0 1 0\nv 9 9 9\n" + face, ":2: a line begins with '1'" + unknown},
+                {obj + "face 1 2 3\n", ":4: a line begins with 'face'"},
+                {obj + face + "cstype bezier\nsurf 0 1 0 1 1 2 3 3\n", ":6: 'surf' is not read"},
+                {obj + face + "call other.obj\n", ":5: 'call' is not read"}});
+  checkRead("t.obj", {"mtllib a.mtl\no a\ng b c\ns off\nmg 0\nusemtl d\n#e\n\n" + obj + face + "bevel on\n"});
+}
+
 TEST_CASE("OBJ: faces that assimp would drop over their texture coordinates") {
   const std::string obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\n", face = "f 1/1/1 2/1/1 3/1/1\n";
   const std::string vt = "vt 0 0\n", vn = "vn 0 0 1\n", unknown = "'1/1/1' names a texture coordinate";
@@ -181,6 +193,10 @@ TEST_CASE("PLY as text: an element a line, and the properties that make a mesh")
        {ply(xyz, vertices + "3 0 1 4294967298\n"), ":13: "},
        {ply(xyz, vertices + "3 0 1 2.0\n"), ":13: "},
        {ply("property int x\nproperty float y\nproperty float z\n", "1.5 0 0\n"), ":10: "},
+       {ply("property int x\nproperty uchar y\nproperty int z\n", "1 -2 3\n"),
+        ":10: got '-2' for a value of the element 'vertex', expected a whole number from 0 to 255"},
+       {ply("property int x\nproperty int y\nproperty int z\n", "1 2 2147483648\n"), ":10: got '2147483648'"},
+       {ply("property short x\nproperty short y\nproperty short z\n", "1 2 -32769\n"), ":10: got '-32769'"},
        {ply("property float x\nproperty float y\n", ""), ": the element 'vertex' has no property 'z'"},
        {ply("", ""), ": the element 'vertex' has no properties"},
        {ply("property float x\ncomment a\nproperty float y\nproperty float z\n", ""), ":6: "},
@@ -196,6 +212,8 @@ TEST_CASE("PLY as text: an element a line, and the properties that make a mesh")
             vertices + "4 0 1 2 0\n" + face),
         ": the element 'tristrips' is not read whole"}});
   checkRead("t.ply", {ply(xyz, vertices + face), ply(xyz + "comment a\n", "0 0 0\n\n1 0 0\n0 1 0\n\n" + face),
+                      ply("property char x\nproperty uint y\nproperty short z\n",
+                          "-128 0 0\n127 4294967295 0\n0 1 -32768\n" + face),
                       ply("property uchar red\n" + xyz, "1 0 0 0\n255 1 0 0\n0 0 1 0\n" + face)});
 }
 

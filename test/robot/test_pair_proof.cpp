@@ -76,6 +76,22 @@ TEST_CASE("bounds hold across more joints than third-order terms are weighed for
   CHECK(trials.useful > 0.1);  // or it would say nothing
 }
 
+TEST_CASE("bounds hold where a joint follows another one with the multiplier 0") {
+  // Its frame stays where it is while the joint that it follows turns `b` towards `c`.
+  const std::string bar = "<box size=\"0.1 0.1 0.6\"/>";
+  const ProofScene scene = proofSceneOf(robot(
+      link("a") + link("b", bar) + link("c", bar) +
+      joint("turn", "revolute", "a", "b", "<origin xyz=\"0.25 0 0\"/><axis xyz=\"0 1 0\"/>") +
+      joint("still", "revolute", "a", "c", "<axis xyz=\"0 1 0\"/><mimic joint=\"turn\" multiplier=\"0\"/>")));
+  Random random(13);
+  for (const LinkPair& pair : {LinkPair{1, 2}, LinkPair{2, 1}}) {
+    const BoundTrials trials = tryBounds(scene, {pair}, 300, random);
+    CHECK(trials.violations == 0);
+    CHECK(trials.useful > 0.2);
+    CHECK(provePair(scene, pair, unproven(scene, pair).open, 1000).collision);
+  }
+}
+
 TEST_CASE("pairs far along a robot are settled with fewer boxes, as each takes longer, and stay checked") {
   const ProofScene scene = snake(49, "<sphere radius=\"0.05\"/>", 48);
   PairListOptions options;

@@ -64,7 +64,7 @@ class Convert:
             volume.save(str(folder / "volume"))
             content = (folder / "volume").read_bytes()
         record = {"volume": places.volume_name(path), "sha256": hashlib.sha256(content).hexdigest(), "points": len(points),
-                  "vertices": len(volume.vertices), "over_cover": volume.over_cover()[0]}
+                  "vertices": len(volume.vertices), "over_cover": volume.over_cover(points)[0]}
         return record, content
 
     def keep(self, record, content):

@@ -216,7 +216,7 @@ def advice(height=440):
     text = panels(2, height, small_print, legend_rows=1, panel_titles=True) + \
         legend([(colour, 7, scenario) for scenario, colour in colours.items()], height, columns=4) + "set logscale xy\n"
     for panel, (title, axes) in enumerate((
-            ("added by the shapes", "set xrange [0.3:100]\nset yrange [0.0001:100]\nset xlabel 'the advice\'\'s bound (m/s²)'\nset ylabel 'measured (m/s²)'\n"),
+            ("added by the shapes", "set xrange [0.3:100]\nset yrange [0.001:100]\nset xlabel 'the advice\'\'s bound (m/s²)'\nset ylabel 'measured (m/s²)' offset 1.5\n"),
             ("at the joints", "set xrange [0.3:100]\nset yrange [1:100]\nset xlabel 'clearance given (mm)'\nset ylabel 'peak joint acceleration (rad/s²)'\n"))):
         plots = [f"x with lines lw 1.5 dt 2 lc rgb '{palette.NEUTRAL}'"] if not panel else []
         for i, (scenario, colour) in enumerate(colours.items()):
