@@ -97,8 +97,8 @@ class CoreEpa {
     const Vector3d point = furthest(trial);
     const double open = -trial.core - nearest.distance;
     Vector3d ignored;
-    const bool top = open <= kNear * nearest.distance && settle(pair_, trial, ignored, work_);
-    const bool another = top && (trial.n - x_.n).squaredNorm() > kSame * kSame;
+    const bool another = open <= kNear * nearest.distance && settle(pair_, trial, ignored, work_) &&
+                         (trial.n - x_.n).squaredNorm() > kSame * kSame;
     const bool better = trial.core > x_.core;
     if (better) x_ = trial;
     if (open <= pair_.gapRounding() ||

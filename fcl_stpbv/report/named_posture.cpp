@@ -17,6 +17,10 @@ using namespace detail;
 
 namespace {
 
+constexpr const char* kBaseStays =
+    "but the obstacles are seen from the robot's root link; give obstacles placed so that the base stays at "
+    "the origin, and ";
+
 /// The joints of an answer of find_posture, its member `q`. Where it has the base matters to obstacles alone.
 nlohmann::json jointsOfAnswer(const std::string& path, const nlohmann::json& q, const Kinematics& kinematics,
                               bool obstacles) {
@@ -26,9 +30,7 @@ nlohmann::json jointsOfAnswer(const std::string& path, const nlohmann::json& q, 
     if (name.rfind("base/", 0) != 0 || std::find(own.begin(), own.end(), name) != own.end())
       joints[name] = value;
     else if (obstacles)
-      throw Error(path + ": places the base ('" + name +
-                  "'), but the obstacles are seen from the robot's root link; give obstacles placed so that "
-                  "the base stays at the origin, and the values of joints alone");
+      throw Error(path + ": places the base ('" + name + "'), " + kBaseStays + "the values of joints alone");
   }
   return joints;
 }
@@ -89,9 +91,8 @@ Eigen::VectorXd namedPosture(const std::string& option, const std::string& name,
                 ": no such file, and no SRDF with postures; give --srdf or a JSON file");
   const Srdf::State state = srdf->state(name);
   if (obstacles && srdf->movesBase(state))
-    throw Error(option + " " + name + ": places the base by the virtual joint '" + srdf->baseJoint +
-                "', but the obstacles are seen from the robot's root link; give obstacles placed so that the "
-                "base stays at the origin, and a posture without that joint");
+    throw Error(option + " " + name + ": places the base by the virtual joint '" + srdf->baseJoint + "', " +
+                kBaseStays + "a posture without that joint");
   return kinematics.configuration(state, rest);
 }
 

@@ -31,9 +31,10 @@ std::string openMeshes(const CollisionReport& report) {
 std::string neutralCollisions(const NeutralPosture& found, const std::string& neutral) {
   if (found.colliding == 0) return "";
   std::string warning =
-      std::to_string(found.colliding) +
-      (found.colliding == 1 ? " pair of links that is" : " pairs of links that are") + " not adjacent " +
-      (found.colliding == 1 ? "overlaps" : "overlap") + " in the neutral posture (" +
+      (found.colliding == 1
+           ? "1 pair of links that is not adjacent overlaps"
+           : std::to_string(found.colliding) + " pairs of links that are not adjacent overlap") +
+      " in the neutral posture (" +
       (neutral.empty() ? "all joints at zero, or at the limit nearest to it" : neutral) + ")";
   if (found.better.size() > 0)
     warning += "; in another posture only " + std::to_string(found.collidingThere) + " overlap: " +
