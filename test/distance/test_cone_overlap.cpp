@@ -217,7 +217,7 @@ TEST_CASE(
   const StpBv::Ptr volume = StpBv::build(cloud, {0.01, 1});
   for (int i = 0; i < 90; ++i) {
     const double size = std::pow(10.0, random.uniform(-7, -1));
-    const auto point = [&] { return size * random.direction(); };
+    const auto point = [&]() -> Vector3d { return size * random.direction(); };
     const Vector3d a = point(), b = point(), c = point();
     const Shape shape = i % 3 == 0   ? Shape::capsule(0, size)
                         : i % 3 == 1 ? Shape::triangleOf(a, b, c)
