@@ -20,6 +20,13 @@ inline void requireNumber(const std::string& name, double value, double least, d
   throw Error(name + text);
 }
 
+/// @throws Error naming `owner`, the argument `what` and both sizes unless they are the same.
+inline void requireSize(const char* owner, const char* what, long size, long expected) {
+  if (size != expected)
+    throw Error(std::string(owner) + ": " + what + " has the size " + std::to_string(size) + ", expected " +
+                std::to_string(expected));
+}
+
 /// @throws Error naming `owner` and both numbers unless it has a row of this number.
 inline void requireRow(const char* owner, int row, int rows) {
   if (row < 0 || row >= rows)

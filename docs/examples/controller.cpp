@@ -164,8 +164,8 @@ bool show(const std::vector<Tick>& smooth, const std::vector<Tick>& flat, std::o
 int main(int argc, char** argv) {
   return reported([&] {
     const std::filesystem::path folder = argc > 1 ? argv[1] : ".";
-    std::ofstream csv = opened(folder / "controller.csv"), page = opened(folder / "controller.html");
     const Robot robot = load();
+    std::ofstream csv = opened(folder / "controller.csv"), page = opened(folder / "controller.html");
     return show(run(robot, true), run(robot, false), csv, page) ? 0 : 1;
   });
 }

@@ -71,8 +71,9 @@ class Epa {
  public:
   using Corner = typename Difference::Corner;
 
-  /// `rounding`: of a gap (m).
-  Epa(Difference& difference, double rounding) : difference_(difference), rounding_(rounding) {}
+  /// `rounding`: of a gap (m). `rho`: A's core is an intersection of balls of this radius (m).
+  Epa(Difference& difference, double rounding, double rho = std::numeric_limits<double>::infinity())
+      : difference_(difference), rounding_(rounding), rho_(rho) {}
 
   double gap = -std::numeric_limits<double>::infinity();  ///< the widest seen: minus the least overlap (m)
   Eigen::Vector3d n{0, 0, 1};                             ///< its normal, unit, from A to B
@@ -136,24 +137,26 @@ class Epa {
   void expand(Points& point) {
     std::size_t points = 4;
     int more = 0;
-    Polytope polytope({point[0].w, point[1].w, point[2].w, point[3].w}, Polytope::Origin::anywhere);
+    const std::array<Eigen::Vector3d, 4> part{point[0].onA, point[1].onA, point[2].onA, point[3].onA};
+    Polytope polytope({point[0].w, point[1].w, point[2].w, point[3].w}, Polytope::Origin::anywhere, rho_,
+                      &part);
     expandAtNearest(polytope, [&](const Polytope::Face& face) {
-      if (face.distance > 0.0) bound = std::min(bound, -face.distance);
+      if (face.depth > 0.0) bound = std::min(bound, -face.depth);
       const Corner next = look(-face.normal);
-      const double open = -gap - face.distance;
+      const double open = -gap - face.depth;
       offerFace(point[face.corner[0]], point[face.corner[1]], point[face.corner[2]],
                 face.distance * face.normal);
-      if (face.distance > 0.0 && open <= kRelative * face.distance + rounding_ &&
+      if (face.depth > 0.0 && open <= kRelative * face.depth + rounding_ &&
           (open <= rounding_ || ++more > kMore))
         return false;
       if (!(face.normal.dot(next.w) - face.distance > rounding_) || points == point.size()) return false;
       point[points++] = next;
-      return polytope.expand(next.w);
+      return polytope.expand(next.w, next.onA);
     });
     // Faces in one plane are equally near: the origin is above one of them.
     while (polytope.sound() && off() > rounding_) {
       const Polytope::Face face = polytope.nearest();
-      if (!(face.distance <= -gap + rounding_)) break;
+      if (!(face.depth <= -gap + rounding_)) break;
       offerFace(point[face.corner[0]], point[face.corner[1]], point[face.corner[2]],
                 face.distance * face.normal);
       polytope.putAside();
@@ -180,7 +183,7 @@ class Epa {
   }
 
   Difference& difference_;
-  double rounding_;
+  double rounding_, rho_;
   Eigen::Vector3d toB_ =
       Eigen::Vector3d::Constant(1e150);  // from `onA` to the point of B that it was found with
 };

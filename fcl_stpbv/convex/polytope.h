@@ -22,7 +22,8 @@ class Polytope {
 
   struct Face {
     Eigen::Vector3d normal;       ///< unit, outward
-    double distance;              ///< its corners are at least this far along `normal` (m)
+    double distance;              ///< of its plane from the origin (m)
+    double depth;                 ///< the set's surface over it is at least this far from the origin (m)
     std::array<Index, 3> corner;  ///< counter-clockwise from outside
 
     bool has(Index point) const { return corner[0] == point || corner[1] == point || corner[2] == point; }
@@ -31,9 +32,17 @@ class Polytope {
   /// Whether the origin must be inside from the start; rounding that puts it outside then ends the search.
   enum class Origin { inside, anywhere };
 
-  explicit Polytope(const std::array<Eigen::Vector3d, 4>& corner, Origin origin = Origin::inside)
-      : origin_(origin) {
-    for (const Eigen::Vector3d& p : corner) point_[at(points_++)] = pack(p);
+  /// `rho`: the set is an intersection of balls of this radius (m), or the set of which the points' parts
+  /// `part` are, where those are given.
+  explicit Polytope(const std::array<Eigen::Vector3d, 4>& corner, Origin origin = Origin::inside,
+                    double rho = std::numeric_limits<double>::infinity(),
+                    const std::array<Eigen::Vector3d, 4>* part = nullptr)
+      : round_(part ? part_ : point_), rho_(rho), flatter_(rho / kFlatter), origin_(origin) {
+    for (std::size_t i = 0; i < 4; ++i) {
+      point_[i] = pack(corner[i]);
+      if (part) part_[i] = pack((*part)[i]);
+    }
+    points_ = 4;
     const bool flip = dot(cross(point(1) - point(0), point(2) - point(0)), point(3) - point(0)) > 0.0;
     const Index i1 = flip ? 2 : 1, i2 = flip ? 1 : 2;
     while (faces_ < 4) newFace();
@@ -42,10 +51,12 @@ class Polytope {
     join(1, 1, 2, 2), join(2, 1, 3, 2), join(3, 1, 1, 2);
   }
 
+  Polytope(const Polytope&) = delete;
+
   /// False once a face could not be made: too flat, or no room.
   bool sound() const { return sound_; }
 
-  /// The face nearest to the origin of those not put aside; at an infinite distance if all are.
+  /// The face that may be nearest to the origin of those not put aside; infinitely far if all are.
   Face nearest() {
     Packed least = rank_[0];
     PackedBits four{};  // which four each is of
@@ -59,7 +70,7 @@ class Polytope {
     nearest_ = static_cast<int>(high < low ? 4 * four[fourth ? 3 : 2] + (fourth ? 3 : 2)
                                            : 4 * four[second ? 1 : 0] + (second ? 1 : 0));
     const Triangle& f = face(nearest_);
-    return {unpack(f.normal), std::min(low, high), f.corner};
+    return {unpack(f.normal), f.distance, std::min(low, high), f.corner};
   }
 
   /// Takes the face that nearest() gave out of the search.
@@ -68,8 +79,13 @@ class Polytope {
   /// The point taken in last.
   Index lastPoint() const { return static_cast<Index>(points_ - 1); }
 
-  /// Takes `p` into the hull. False where it is inside already, or in a face's
-  /// plane to rounding, or without room.
+  /// Takes a point into the hull, with its part for the roundness. False where it is inside already, or in a
+  /// face's plane to rounding, or without room.
+  bool expand(const Eigen::Vector3d& outside, const Eigen::Vector3d& part) {
+    if (points_ < kMaxPoints) part_[at(points_)] = pack(part);
+    return expand(outside);
+  }
+
   bool expand(const Eigen::Vector3d& outside) {
     if (!sound_ || points_ == kMaxPoints) return sound_ = false;
     const Packed p = pack(outside);
@@ -118,6 +134,9 @@ class Polytope {
   static constexpr double kNarrow =
       300.0;                              // more would leave out points that a flat face of the bodies needs
   static constexpr double kFlat = 1e-15;  // of a point: this near to a face's plane is in it, to rounding
+
+  static constexpr double kFlatter =
+      4.0;  // times its distance is the radius of balls that a face looks flat on
 
   static constexpr std::array<int, 6> kTurn{0, 1, 2, 0, 1, 2};  // sides modulo 3
 
@@ -175,17 +194,54 @@ class Polytope {
     t.distance = dot(t.normal, point(a));
     // Rounding may tilt a sliver's normal far: along whatever unit vector, the triangle is no nearer than the
     // least of its corners.
-    setRank(i, std::min({t.distance, dot(t.normal, point(b)), dot(t.normal, point(c))}));
+    const double least = std::min({t.distance, dot(t.normal, point(b)), dot(t.normal, point(c))});
+    setRank(i, least > flatter_ ? roundDepth(t.corner, least) : least);
     // A sliver's normal is as much less certain as it is narrow.
     t.flat = kFlat * std::min(sides2 * inverse, kNarrow);
     // Else the origin is on the surface, to rounding.
     return origin_ == Origin::anywhere || t.distance >= 0.0;
   }
 
-  Packed point_[kMaxPoints];
+  /// A lower bound of |x| + q(x) over a face (docs/theory.md, 5), of corners that are `least` or further
+  /// along one unit vector. It takes |x| from the chord of the square root between `least` and the furthest
+  /// corner, which leaves a quadratic function of the weights.
+  [[gnu::noinline]] double roundDepth(const std::array<Index, 3>& corner, double least) const {
+    std::array<double, 3> far2, sag;  // of the corners; of the sides from the first, and across from it
+    for (std::size_t i = 0; i < 3; ++i) far2[i] = squared(point(corner[i]));
+    const double scale = 1.0 / (std::sqrt(std::max({far2[0], far2[1], far2[2]})) + least);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Index p = corner[i == 2 ? 1 : 0], q = corner[i == 2 ? 2 : i + 1];
+      sag[i] = scale * squared(point(q) - point(p)) - squared(round_[q] - round_[p]) / (2.0 * rho_);
+    }
+    const double base = least + scale * (far2[0] - least * least);
+    const double rise1 = scale * (far2[1] - far2[0]), rise2 = scale * (far2[2] - far2[0]);
+    // base + g1 u + g2 v + sag0 u^2 + sag1 v^2 + h u v over the weights u, v of the second and third corners.
+    const double g1 = rise1 - sag[0], g2 = rise2 - sag[1], h = sag[0] + sag[1] - sag[2];
+    const double det = 4.0 * sag[0] * sag[1] - h * h;
+    double u = (h * g2 - 2.0 * sag[1] * g1) / det, v = (h * g1 - 2.0 * sag[0] * g2) / det;
+    if (sag[0] > 0.0 && det > 0.0 && u >= 0.0 && v >= 0.0 && u + v <= 1.0) {
+      // Over a narrow face rounding moves them along the valley, which is level, and off it: back into it.
+      if (sag[0] > sag[1])
+        u = -(g1 + h * v) / (2.0 * sag[0]);
+      else
+        v = -(g2 + h * u) / (2.0 * sag[1]);
+      return std::max(least, base + u * (g1 + sag[0] * u + h * v) + v * (g2 + sag[1] * v));
+    }
+    const auto side = [](double from, double rise, double sagging) {
+      const double t = sagging > 0.0 ? std::min(std::max(0.5 - 0.5 * rise / sagging, 0.0), 1.0) : rise < 0.0;
+      return from + t * (rise - (1.0 - t) * sagging);
+    };
+    return std::max(least, std::min({side(base, rise1, sag[0]), side(base, rise2, sag[1]),
+                                     side(base + rise1, rise2 - rise1, sag[2])}));
+  }
+  static double squared(const Packed& p) { return dot(p, p); }
+
+  Packed point_[kMaxPoints], part_[kMaxPoints];
+  const Packed* round_;  // of these two, what is of the round set
   std::array<Triangle, kMaxFaces> face_;
-  Packed rank_[kMaxFaces / 4];  // distances, infinite for faces put aside, gone or not there yet
+  Packed rank_[kMaxFaces / 4];  // depths, infinite for faces put aside, gone or not there yet
   std::array<Index, kMaxFaces> free_;
+  double rho_, flatter_;
   Origin origin_;
   int nearest_ = 0, points_ = 0, faces_ = 0, freed_ = 0;
   bool sound_;

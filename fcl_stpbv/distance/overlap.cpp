@@ -48,7 +48,11 @@ class CoreEpa {
  public:
   CoreEpa(const BodyPair& pair, const std::array<Vector3d, 4>& corner, Polytope::Origin origin, Sample& x,
           SearchWork& work)
-      : pair_(pair), polytope_(corner, origin), x_(x), work_(work) {}
+      : pair_(pair),
+        rounding_(4.0 * pair.gapRounding()),
+        polytope_(corner, origin, pair.a().radii().rho + pair.b().radii().rho),
+        x_(x),
+        work_(work) {}
 
   /// Takes in the point of the maximum in `x`, where a face further than `from` hides no wider gap.
   bool addTop(double from) {
@@ -65,8 +69,8 @@ class CoreEpa {
     bool proven = false;
     expandAtNearest(polytope_, [&](const Polytope::Face& nearest) {
       // The polytope lies inside the difference, so with the origin inside it no direction leads out sooner.
-      bound = std::min(bound, -std::min({least_, nearest.distance, -x_.core - pair_.gapRounding()}));
-      proven = -x_.core - nearest.distance <= pair_.gapRounding();
+      bound = std::min(bound, -std::min({least_, nearest.depth, -x_.core - pair_.gapRounding()}));
+      proven = -x_.core - nearest.depth <= rounding_;
       if (proven) return false;
       if (nearest.has(top_) && nearest.distance > topFrom_) {
         polytope_.putAside();
@@ -81,10 +85,10 @@ class CoreEpa {
   /// Far from the surface vertices will do, even such as the tables name; they are the cheapest points of the
   /// difference. Near it too where the vertex is beyond the depth: no wider gap is along that normal.
   bool expandToVertex(const Polytope::Face& nearest) {
-    if (!(nearest.distance > 0.0)) return false;
+    if (!(nearest.depth > 0.0)) return false;
     const Vector3d vertex = unpack(pair_.differenceAgainst(-nearest.normal));
     const double far = nearest.normal.dot(vertex);
-    return (far > (1.0 + kNear) * nearest.distance || far > -x_.core) && polytope_.expand(vertex);
+    return (far > (1.0 + kNear) * nearest.depth || far > -x_.core) && polytope_.expand(vertex);
   }
 
   /// False where the cores turn out to be apart.
@@ -95,13 +99,13 @@ class CoreEpa {
       return false;
     }
     const Vector3d point = furthest(trial);
-    const double open = -trial.core - nearest.distance;
+    const double open = -trial.core - nearest.depth;
     Vector3d ignored;
-    const bool another = open <= kNear * nearest.distance && settle(pair_, trial, ignored, work_) &&
+    const bool another = open <= kNear * nearest.depth && settle(pair_, trial, ignored, work_) &&
                          (trial.n - x_.n).squaredNorm() > kSame * kSame;
     const bool better = trial.core > x_.core;
     if (better) x_ = trial;
-    if (open <= pair_.gapRounding() ||
+    if (open <= rounding_ ||
         !((another && better && addTop(onlyMaximumFrom(pair_, x_, pair_.insideRegions(x_)))) ||
           polytope_.expand(point)))
       putAside(nearest);
@@ -109,11 +113,12 @@ class CoreEpa {
   }
 
   void putAside(const Polytope::Face& nearest) {
-    least_ = std::min(least_, nearest.distance);
+    least_ = std::min(least_, nearest.depth);
     polytope_.putAside();
   }
 
   const BodyPair& pair_;
+  double rounding_;  // of a gap, and of a face's depth, which is of several (m)
   Polytope polytope_;
   Sample& x_;
   SearchWork& work_;
@@ -183,9 +188,9 @@ bool expandPolytope(const BodyPair& pair, double inside, Sample& x, double& boun
     search.add(vertexDifference(pair, x.n));
   if (search.run(bound)) return true;
   // Those were in one plane, or their polytope ended early. The smooth surfaces have a volume in common.
-  const auto against = [&](const Vector3d& m) { return furthest(pair.sampleFrom(-m, {-1, -1}, work.steps)); };
+  const auto along = [&](const Vector3d& n) { return furthest(pair.sampleFrom(-n, {-1, -1}, work.steps)); };
   const auto place = [](const Vector3d& p) -> const Vector3d& { return p; };
-  return spanVolume(Matrix3d::Identity(), pair.gapRounding(), against, place, corner.data()) &&
+  return spanVolume(Matrix3d::Identity(), pair.gapRounding(), along, place, corner.data()) &&
          CoreEpa(pair, corner, Polytope::Origin::anywhere, x, work).run(bound);
 }
 

@@ -252,7 +252,7 @@ void polishOverlap(ShapeQuery& q, const ShapeCorners& met, LeastOverlap& found) 
 
 LeastOverlap leastOverlap(ShapeQuery& q, const StartNormal& start) {
   ShapeDifference difference(q);
-  Epa<ShapeDifference> epa(difference, q.rounding.gap);
+  Epa<ShapeDifference> epa(difference, q.rounding.gap, q.body.radii().rho);
   epa.look(start.n);
   if (!epa.run()) climbToLeastOverlap(epa);
   ShapeCorners met;

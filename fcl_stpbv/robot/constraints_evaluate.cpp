@@ -8,30 +8,29 @@
 #include "fcl_stpbv/robot/constraints.h"
 
 namespace fcl_stpbv {
+namespace {
 
 using detail::at;
+using detail::requireSize;
 
-void CollisionConstraints::requireRow(int row) const {
-  detail::requireRow("CollisionConstraints", row, rows());
-}
+const char* const kOwner = "CollisionConstraints";
+
+}  // namespace
+
+void CollisionConstraints::requireRow(int row) const { detail::requireRow(kOwner, row, rows()); }
 
 void CollisionConstraints::requireSizes(const ConstVector& q, Eigen::Index d, Eigen::Index values) const {
-  const auto require = [](const char* what, Eigen::Index size, Eigen::Index expected) {
-    if (size != expected)
-      throw Error("CollisionConstraints: " + std::string(what) + " has the size " + std::to_string(size) +
-                  ", expected " + std::to_string(expected));
-  };
-  require("q", q.size(), columns());
-  require("d", d, rows());
-  require("the Jacobian", values, nonZeros());
+  requireSize(kOwner, "q", q.size(), columns());
+  requireSize(kOwner, "d", d, rows());
+  requireSize(kOwner, "the Jacobian", values, nonZeros());
 }
 
 void CollisionConstraints::requireSizes(const ConstVector& q, const ConstVector& qd, const RowRates& rates,
                                         Eigen::Index values) const {
   requireSizes(q, rates.d.size(), values);
-  if (qd.size() != columns() || rates.speed.size() != rows() || rates.drift.size() != rows())
-    throw Error(
-        "CollisionConstraints: qd has one number for each coordinate, each of the rates one for a row");
+  requireSize(kOwner, "qd", qd.size(), columns());
+  requireSize(kOwner, "speed", rates.speed.size(), rows());
+  requireSize(kOwner, "drift", rates.drift.size(), rows());
 }
 
 // Which entries it has takes too long to compare at every configuration.

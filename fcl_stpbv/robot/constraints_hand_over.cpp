@@ -23,13 +23,13 @@ struct Bent {
   double value, slope, curvature;
 };
 
-// The distance itself up to `start`, constant from `end` on at the middle between them; its slope falls as a
-// cubic, so it is C2.
+// The distance itself up to `start`, constant from `end` on at the middle between them, to the last bit what
+// largestValue() says; its slope falls as a cubic, so it is C2.
 Bent levelOff(double d, double start, double end) {
   if (!(d > start)) return {d, 1, 0};
-  const double width = end - start, t = std::min(1.0, (d - start) / width);
-  return {start + width * (t - t * t * t * (1 - t / 2)), 1 - t * t * (3 - 2 * t),
-          t < 1 ? 6 * t * (t - 1) / width : 0};
+  if (d >= end) return {(start + end) / 2, 0, 0};
+  const double width = end - start, t = (d - start) / width;
+  return {start + width * (t - t * t * t * (1 - t / 2)), 1 - t * t * (3 - 2 * t), 6 * t * (t - 1) / width};
 }
 
 }  // namespace

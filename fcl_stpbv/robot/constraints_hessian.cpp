@@ -3,7 +3,7 @@
 // (docs/robot.md, Second derivatives). Rows without a closed form use central differences.
 #include <algorithm>
 
-#include "fcl_stpbv/error.h"
+#include "fcl_stpbv/number_check.h"
 #include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/robot/constraints.h"
 #include "fcl_stpbv/robot/twist.h"
@@ -193,9 +193,10 @@ void CollisionConstraints::differences(const ConstVector& q, const ConstVector& 
 
 bool CollisionConstraints::hessianVector(const ConstVector& q, const ConstVector& weights,
                                          const ConstVector& v, Vector out) {
-  requireSizes(q, weights.size(), nonZeros());
-  if (v.size() != columns() || out.size() != columns())
-    throw Error("CollisionConstraints: v and the result have one number for each coordinate");
+  requireSizes(q, rows(), nonZeros());
+  requireSize("CollisionConstraints", "weights", weights.size(), rows());
+  requireSize("CollisionConstraints", "v", v.size(), columns());
+  requireSize("CollisionConstraints", "the result", out.size(), columns());
   out.setZero();
   if (!q.allFinite() || !isUsable(weights) || !isUsable(v)) return false;
   place(q);

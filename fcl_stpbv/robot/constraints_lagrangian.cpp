@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/number_check.h"
 #include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/robot/constraints.h"
 
@@ -140,7 +141,8 @@ void CollisionConstraints::openHessians(const ConstVector& q, const Add& add) {
 }
 
 bool CollisionConstraints::hessian(const ConstVector& q, const ConstVector& weights, SparseHessian& lower) {
-  requireSizes(q, weights.size(), nonZeros());
+  requireSizes(q, rows(), nonZeros());
+  detail::requireSize("CollisionConstraints", "weights", weights.size(), rows());
   makeRoomForHessian();
   requireStructure(lower);
   Eigen::Map<Eigen::VectorXd>(lower.valuePtr(), lower.nonZeros()).setZero();

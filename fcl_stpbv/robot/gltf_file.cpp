@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/robot/file_ending.h"
 #include "fcl_stpbv/robot/mesh_lines.h"
 
 namespace fcl_stpbv::detail {
@@ -113,7 +114,11 @@ std::string GltfBuffers::read(const std::string& place, const std::string& uri) 
     std::replace(path.begin(), path.end(), '\\', '/');
     for (const std::string& name : {uri, path})
       if (std::optional<std::string> part = readPart_(name)) return std::move(*part);
-    throw Error(place + "is in a file '" + uri + "' that cannot be read; put it beside the mesh or below");
+    const bool alone = lowerExtension(name_) != ".gltf";  // ReadableFiles
+    throw Error(place + "is in a file '" + uri +
+                (alone
+                     ? "', which only a .gltf may have; export the mesh as one .glb, or as .gltf with a .bin"
+                     : "' that cannot be read; put it beside the mesh or below"));
   }
   const std::string_view text = uri;
   const std::size_t start = std::min(text.find(','), text.size() - 1) + 1;

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <limits>
 
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/number_check.h"
@@ -23,12 +25,27 @@ constexpr double kLeast = 1e-9, kLargest = 1e9;
 // 0.34, for two whose sum is at most 1.
 constexpr double kMostGain = 1, kMostGainOfAccelerations = 1.0 / 3;
 
-void check(const Damper& damper) {
-  requireNumber("VelocityDamper: security", damper.security, -kLargest, kLargest);
-  requireNumber("VelocityDamper: influence", damper.influence, damper.security, kLargest);
-  requireNumber("VelocityDamper: damping", damper.damping, kLeast, kLargest);
+// `of` is "" or names the row.
+void check(const Damper& damper, const std::string& of = "") {
+  requireNumber("VelocityDamper: security" + of, damper.security, -kLargest, kLargest);
+  requireNumber("VelocityDamper: influence" + of, damper.influence, damper.security, kLargest);
+  requireNumber("VelocityDamper: damping" + of, damper.damping, kLeast, kLargest);
   if (damper.influence == damper.security)
-    throw Error("VelocityDamper: influence must be larger than security");
+    throw Error("VelocityDamper: influence" + of + " must be larger than security");
+}
+
+// No influence is beyond the largest value of its row. One that was written in decimals may be by rounding.
+void fitInfluence(double& influence, int row, double largest) {
+  if (influence > largest * (1 + 4 * std::numeric_limits<double>::epsilon())) {
+    char text[200];
+    std::snprintf(
+        text, sizeof text,
+        "VelocityDamper: influence %.9g m of row %d is beyond the most that its value can be, %.9g m; "
+        "give the constraints a larger influence or hand-over",
+        influence, row, largest);
+    throw Error(text);
+  }
+  influence = std::min(influence, largest);
 }
 
 }  // namespace
@@ -49,16 +66,13 @@ VelocityDamper::VelocityDamper(CollisionConstraints& constraints, DamperOptions 
   requireNumber("VelocityDamper: barrierGain", options_.barrierGain, kLeast, kLargest);
   for (const auto& [row, damper] : options_.rows) {
     requireRow(row);
-    check(damper);
+    check(damper, " of row " + std::to_string(row));
     dampers_[at(row)] = damper;
   }
-  for (int row = 0; row < constraints.rows(); ++row)
-    if (dampers_[at(row)].influence > constraints.largestValue(row))
-      throw Error("VelocityDamper: influence " + std::to_string(dampers_[at(row)].influence) + " m of row " +
-                  std::to_string(row) + " is beyond the most that its value can be, " +
-                  std::to_string(constraints.largestValue(row)) +
-                  " m; give the constraints a larger influence or hand-over");
-  for (int row = 0; row < constraints.rows(); ++row) rest(row);
+  for (int row = 0; row < constraints.rows(); ++row) {
+    fitInfluence(dampers_[at(row)].influence, row, constraints.largestValue(row));
+    rest(row);
+  }
   near_.reserve(at(constraints.rows()));
 }
 
@@ -143,9 +157,7 @@ double VelocityDamper::bound(int row) const {
 
 void VelocityDamper::update(const Eigen::Ref<const Eigen::VectorXd>& q,
                             const Eigen::Ref<const Eigen::VectorXd>& qd) {
-  if (qd.size() != constraints_.columns())
-    throw Error("VelocityDamper: qd has the size " + std::to_string(qd.size()) + ", expected " +
-                std::to_string(constraints_.columns()));
+  requireSize("VelocityDamper", "qd", qd.size(), constraints_.columns());
   bool known;
   if (options_.level == DamperLevel::velocity) {
     known = constraints_.evaluate(q, rates_.d, jacobian_);

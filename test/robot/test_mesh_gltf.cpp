@@ -224,3 +224,13 @@ TEST_CASE("a GLB that is cut off or has another version is refused") {
   TriangleMesh mesh;
   CHECK_THAT(loadedGltf("t.glb", old, "", mesh), Contains("t.glb: is no GLB of version 2"));
 }
+
+TEST_CASE("a GLB with bytes in another file is told to hold them itself") {
+  TriangleMesh mesh;
+  const std::string two = withChange(kTriangleGltf, {"\"buffer\":0", "\"buffer\":1", ""});
+  CHECK_THAT(
+      loadedGltf("t.glb",
+                 glb(withChange(two, {":[{\"uri", ":[{\"byteLength\":42},{\"uri", ""}), triangleBytes()),
+                 triangleBytes(), mesh),
+      Contains("buffers[1] is in a file 't.bin', which only a .gltf may have; export the mesh as one .glb"));
+}

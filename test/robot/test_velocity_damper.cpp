@@ -214,6 +214,11 @@ TEST_CASE("a damper that makes no sense is refused with what would work") {
   options = {};
   options.rows[7] = {};
   CHECK_THROWS_WITH(VelocityDamper(*held.constraints, options), Catch::Contains("no row 7"));
+  for (const Damper& wrong : {Damper{0.05, std::nan(""), 0.5}, Damper{0.01, 0.02, 0.5},
+                              Damper{0.05, 0.05, 0.5}, Damper{0.05, 0.01, -1}}) {
+    options.rows = {{0, wrong}};
+    CHECK_THROWS_WITH(VelocityDamper(*held.constraints, options), Catch::Contains("of row 0"));
+  }
   // Its rows would be 3.75 cm at any distance, and act there.
   Held small(0.01, 10, 0.2, 0.05);
   CHECK(small.constraints->largestValue(0) == Approx(0.0375).epsilon(1e-15));
