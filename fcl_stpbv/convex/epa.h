@@ -3,8 +3,8 @@
 // The set is the difference B - A of two bodies' cores that overlap, known by its support points alone:
 // 1. Begin with four points of the difference that span a volume. The origin need not be inside yet.
 // 2. Take the polytope's face nearest to the origin. The polytope lies inside the difference, so once the
-//    origin is inside it no direction leads out sooner than that face is far: a lower bound of the depth. Where
-//    A's core is round, its surface is further out than the face by what its curvature says.
+//    origin is inside it no direction leads out sooner than that face is far: a lower bound of the depth.
+//    Where A's core is round, its surface is further out than the face by what its curvature says.
 // 3. The support point along the face's normal gives an upper one: a translation along that normal separates.
 // 4. Stop where both agree. Else expand the polytope over the point and go to 2.
 // Rounding may spoil a polytope, of slivers along edges and generators: another
