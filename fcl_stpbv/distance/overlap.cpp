@@ -5,8 +5,7 @@
 // 2. Else a polytope grows from points around it. Far from the surface, vertices that the tables of
 //    directions name will do; near it, the smooth surface's own point, and the maximum of the patches there.
 // 3. A face at the maximum that hides no wider gap is put aside. The rest of the polytope bounds the depth,
-// with
-//    what the cores' curvature says of the surface beyond each face.
+//    with what the cores' curvature says of the surface beyond each face.
 // 4. Where rounding stops that, the best of the maxima from a fixed set of normals stands, without a bound.
 #include "fcl_stpbv/distance/overlap.h"
 
