@@ -216,6 +216,7 @@ CollisionConstraints::Witness CollisionConstraints::query(std::size_t row) {
       return {answer.status, answer.distance, answer.normal, answer.points};
   }
   const double most = far ? (r.whole ? options_.influence : r.end) : std::numeric_limits<double>::lowest();
+  (r.first ? found_[row].distance : answers_[row].distance) = most;
   return {DistanceStatus::invalid, most, Eigen::Vector3d::Zero(), {}};
 }
 

@@ -43,10 +43,10 @@ double CollisionConstraints::gradientRateBound(int row) const {
   if (at(row) >= pairs_.size() || !moving_) return kInfinity;
   const Row& r = rows_[at(row)];
   const Witness w = known(at(row));
-  if (w.status == DistanceStatus::invalid) return 0;
   double slope, curvature;
   bend(at(row), w.distance, slope, curvature);
   if (slope == 0 && curvature == 0) return 0;
+  if (w.status == DistanceStatus::invalid) return kInfinity;  // not far away: it cannot be measured
   std::array<Roundness, 2> round;
   if (!roundnessOf(*geometry_->bodies[at(r.a)].geometry, round[0]) ||
       !roundnessOf(second(pairs_[at(row)]), round[1]))

@@ -101,6 +101,7 @@ bool MotionChains::set(const ConstVector& q0, const ConstVector& q1) {
 bool MotionChains::begin(const ConstVector& q0, const ConstVector& q1) {
   if (!set(q0, q1)) return false;
   const RobotModel& robot = kinematics_.robot();
+  reach_ = 0;
   for (std::size_t j = 0; j < hop_.size(); ++j) {
     const bool base = j == robot.joints.size();
     Hop& hop = hop_[j] = {};
@@ -128,6 +129,7 @@ bool MotionChains::begin(const ConstVector& q0, const ConstVector& q1) {
       if (freedoms == 6) hop.turns = 1.5;
       hop.length += farthest(across);
     }
+    reach_ = std::max(reach_, hop.length + hop.slide);
   }
   for (Pair& pair : pairs_)
     for (Side& side : pair.side) prepare(side);
@@ -162,7 +164,7 @@ void MotionChains::place(double t) {
       twist_[l].angular += speed * state_.motion[at(m)].angular;
     }
   }
-  double length = 0, spin = 0;
+  double length = reach_, spin = 0;
   for (Placed& body : bodies_) {
     if (body.link >= 0) {
       const Eigen::Isometry3d& link = state_.link[at(body.link)];

@@ -81,6 +81,7 @@ class MotionChains {
   std::vector<Twist> twist_;  // of each link, per unit of time
   std::vector<Hop> hop_;      // of each joint, the base's last
   Eigen::VectorXd q0_, way_, q_;
+  double reach_ = 0;  // how far a joint's child comes from the joint, with the way it slides, at most (m)
   double slack_ = 0;
 };
 

@@ -28,6 +28,12 @@ Cover longer(const Cover& a, const Cover& b) {
   return {std::max(a.before, b.before), std::max(a.after, b.after)};
 }
 
+const std::vector<CheckedPair>& checked(const std::vector<CheckedPair>& pairs) {
+  if (pairs.empty())
+    throw Error("MotionCheck: no pairs are given, so that nothing could be said about motions");
+  return pairs;
+}
+
 }  // namespace
 
 /// The pairs' chains, what was found of each pair before, and the covers.
@@ -41,7 +47,7 @@ class MotionCheck::Impl {
         pairs_(std::move(pairs)),
         chains_(*kinematics_, *geometry_, obstacles_, pairs_),
         caches_(pairs_.size()),
-        checker_(kinematics_, geometry_, pairs_, obstacles_) {}
+        checker_(kinematics_, geometry_, checked(pairs_), obstacles_) {}
 
   const std::vector<CheckedPair>& pairs() const { return pairs_; }
   const Kinematics& kinematics() const { return *kinematics_; }

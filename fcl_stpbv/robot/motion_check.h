@@ -44,7 +44,7 @@ class MotionCheck {
   const Kinematics& kinematics() const;
 
   /// Whether no pair is within `margin` (m) at q; ends at the first that is.
-  /// False for a q that is not finite.
+  /// False for a q that is not finite or has another size, as all below are not free for one.
   bool isFree(const ConstVector& q, double margin = 0);
 
   /// Whether all along the way no pair comes within `margin` (m): a proof, not samples. What cannot be
@@ -52,7 +52,7 @@ class MotionCheck {
   bool isMotionFree(const ConstVector& q0, const ConstVector& q1, double margin = 0);
 
   /// The same with the first contact, bracketed to the request's tolerance, and its pair. Undecided for a q
-  /// that is not finite.
+  /// that is not finite or has another size.
   MotionBracket firstContact(const ConstVector& q0, const ConstVector& q1, const MotionRequest& request = {});
 
   /// Lowers each pair's `best` to what it comes to between q0 and q1, to within `precision`

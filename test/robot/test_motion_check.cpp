@@ -10,6 +10,7 @@
 
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/robot/constraints.h"
+#include "fcl_stpbv/robot/motion_chains.h"
 #include "fcl_stpbv/robot/motion_check.h"
 #include "test/reference/robots.h"
 
@@ -187,7 +188,20 @@ TEST_CASE("what is not finite is not free, and pairs that do not exist are refus
   CHECK_FALSE(check.isMotionFree(q, VectorXd::Zero(1)));
   CHECK_THROWS_AS(check.answer(-1, q), Error);
   CHECK_THROWS_AS(check.answer(static_cast<int>(scene.pairs.size()), q), Error);
-  CHECK_THROWS_AS(MotionCheck(scene.kinematics, scene.geometry, {}), Error);  // nothing checked is not free
+  CHECK_THROWS_WITH(MotionCheck(scene.kinematics, scene.geometry, {}),
+                    Catch::StartsWith("MotionCheck: no pairs are given"));  // nothing checked is not free
   CHECK_THROWS_AS(MotionCheck(scene.kinematics, scene.geometry, {{0, 99, false}}), Error);
   CHECK_THROWS_AS(MotionCheck(scene.kinematics, scene.geometry, {{0, 3, true}}, scene.obstacles), Error);
+}
+
+TEST_CASE("what rounding may add holds for a robot that comes from far away") {
+  const Scene scene = everyJoint(BaseMotion::floating);
+  MotionChains chains(*scene.kinematics, *scene.geometry, scene.obstacles, scene.pairs);
+  VectorXd q0 = VectorXd::Zero(scene.kinematics->size()), q1 = q0;
+  q0[0] = -1e6;
+  q1[0] = 1e6;
+  REQUIRE(chains.begin(q0, q1));
+  chains.place(0.5);  // at the origin
+  // q(t) is a sum of numbers of 1e6, rounded twice.
+  CHECK(chains.slack() >= 2 * 1e6 * std::numeric_limits<double>::epsilon());
 }

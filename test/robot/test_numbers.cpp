@@ -79,9 +79,13 @@ TEST_CASE("A pair that cannot be measured at a huge but finite configuration doe
   Eigen::VectorXd q = floating->neutral(), d(constraints.rows());
   q[0] = 1e160;
   CHECK(constraints.evaluate(q, d));
+  RowRates rates = constraints.makeRates();
+  Eigen::VectorXd values(constraints.nonZeros());
+  CHECK(constraints.evaluateValues(q, Eigen::VectorXd::Ones(q.size()), rates, values));
   for (int row = 0; row < constraints.rows(); ++row) {
     CHECK(constraints.answer(row).status == DistanceStatus::invalid);
     CHECK(d[row] == std::numeric_limits<double>::lowest());
+    CHECK(constraints.gradientRateBound(row) == kInf);
   }
 }
 
