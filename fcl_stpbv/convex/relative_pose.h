@@ -76,15 +76,7 @@ bool makeRotation(Rotation& rotation);
 
 /// Rounds a fresh pose's rotation as `makeRotation` does where it is off by more than rounding. False for a
 /// pose that is no rigid motion.
-inline bool makeRigid(Eigen::Isometry3d& pose) {
-  constexpr double kHuge = 1e150;  // squares must not overflow
-  Rotation rotation(pose);
-  if (!rotation.isFine()) {
-    if (!makeRotation(rotation)) return false;
-    pose.linear() = rotation.matrix();
-  }
-  return pose.translation().cwiseAbs().maxCoeff() < kHuge;
-}
+bool makeRigid(Eigen::Isometry3d& pose);
 
 /// Bound on what rounding does to a gap between two cores in the first one's frame, as a part of `size`, the
 /// bodies' coordinates and the second one's origin there, summed (docs/theory.md, 5).

@@ -137,6 +137,7 @@ Solution solve(ShapeQuery& q, const StartNormal& start) {
   const bool overlap = surelyOverlap(q);
   Nearest found;
   if (!overlap) {
+    if (walkFeatures(q, start, found)) return {found, DistanceStatus::exact, kNone};
     found = nearestOnShape(q, start);
     if (q.shape.unbounded()) return {found, DistanceStatus::exact, found.gap};
     if (certified(q, found)) return {found, DistanceStatus::exact, kNone};

@@ -85,6 +85,11 @@ Nearest nearestFrom(const AscentPoint& x, const Feature& feature) {
   return found;
 }
 
+/// Walks the volume's patches and the shape's features to where the cores are nearest, and tests it against
+/// the whole shape. False where it does not get there in a few steps, between cores that overlap, and for
+/// kinds of shapes that it does not know; `found` then says nothing.
+bool walkFeatures(ShapeQuery& q, const StartNormal& start, Nearest& found);
+
 /// Any feature that has a gradient, from a start.
 template <typename Feature>
 Nearest nearestOn(ShapeQuery& q, const Feature& feature, const StartNormal& start) {

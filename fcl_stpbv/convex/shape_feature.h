@@ -1,0 +1,185 @@
+// Which feature of a simple shape is nearest to a point outside: a corner, an edge, a face, a rim or a side.
+// In Voronoi's words, whose region the point is in (Mirtich 1998; Ericson, Real-Time Collision
+// Detection, 5.1).
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "fcl_stpbv/convex/shape.h"
+#include "fcl_stpbv/packed.h"
+
+namespace fcl_stpbv::detail {
+
+/// A feature of a shape's core, and its point nearest to the point asked about. Frame of the shape.
+struct ShapeFeature {
+  enum class Kind {
+    none,    ///< the point is in the core, or the kind of shape is not known here
+    corner,  ///< one point
+    line,    ///< an edge; with a radius, a cylinder's side
+    face,    ///< flat
+    rim,     ///< of a disc
+    side,    ///< a cone's, one of its generators
+    whole    ///< an ellipsoid
+  };
+  Kind kind = Kind::none;
+  int which = 0;      ///< of all features of the shape
+  Packed point{};     ///< the nearest; of a line with a radius the axis' point, of a rim and an ellipsoid the
+                      ///< middle (m)
+  Packed axis{};      ///< unit: along a line, outward from a face, of a rim, to a cone's apex
+  Packed apex{};      ///< through which a cone's generators run (m)
+  double radius = 0;  ///< of a rim, or around a line (m)
+  double cosine = 0, sine = 0;  ///< of a cone's outward normals across its axis and along it
+};
+
+inline ShapeFeature featureOfBox(const Shape& box, const Packed& x) {
+  const Packed half = pack(box.size);
+  ShapeFeature f;
+  int outside[3], sides = 0, axis = 0;
+  for (int i = 0; i < 3; ++i) {
+    outside[i] = x[i] > half[i] ? 1 : x[i] < -half[i] ? 2 : 0;
+    f.which = 3 * f.which + outside[i];
+    sides += outside[i] != 0;
+  }
+  if (sides == 0) return f;
+  // Across a face the one axis along which the point is outside, along an edge the one along which it is not.
+  for (int i = 0; i < 3; ++i)
+    if ((outside[i] != 0) == (sides == 1)) axis = i;
+  using Kind = ShapeFeature::Kind;
+  f.kind = sides == 1 ? Kind::face : sides == 2 ? Kind::line : Kind::corner;
+  f.point = -larger(-half, -larger(-half, x));
+  f.axis[axis] = outside[axis] == 2 ? -1.0 : 1.0;
+  return f;
+}
+
+/// Of a segment and a cylinder.
+inline ShapeFeature featureOfCylinder(const Shape& shape, const Packed& x) {
+  using Kind = ShapeFeature::Kind;
+  const bool beyond = std::abs(x[2]) > shape.half, segment = shape.kind == ShapeKind::segment,
+             aside = x[0] * x[0] + x[1] * x[1] > shape.radius * shape.radius;
+  const double z = std::min(std::max(x[2], -shape.half), shape.half);
+  ShapeFeature f;
+  f.which = !beyond ? 0 : x[2] > 0.0 ? 1 : 2;
+  f.point = Packed{0, 0, z, 0};
+  f.axis = Packed{0, 0, 1, 0};
+  if (segment || aside) {
+    f.kind = !beyond ? Kind::line : segment ? Kind::corner : Kind::rim;
+    f.radius = segment ? 0.0 : shape.radius;
+  } else if (beyond) {
+    f.kind = Kind::face;
+    f.which += 2;
+    f.point = Packed{x[0], x[1], z, 0};
+    if (x[2] < 0.0) f.axis = -f.axis;
+  }
+  return f;
+}
+
+inline ShapeFeature featureOfCone(const Shape& cone, const Packed& x) {
+  using Kind = ShapeFeature::Kind;
+  const double away = std::sqrt(x[0] * x[0] + x[1] * x[1]), height = 2.0 * cone.half,
+               slant = std::sqrt(cone.radius * cone.radius + height * height), below = cone.half - x[2];
+  ShapeFeature f;
+  f.axis = Packed{0, 0, 1, 0};
+  f.point = Packed{0, 0, -cone.half, 0};
+  f.radius = cone.radius;
+  if (below > height && away <= cone.radius) {
+    f.kind = Kind::face;
+    f.axis = -f.axis;
+    f.point = Packed{x[0], x[1], -cone.half, 0};
+    return f;
+  }
+  if (!(slant > 0.0)) return f;
+  f.cosine = height / slant;
+  f.sine = cone.radius / slant;
+  const double along = f.sine * away + f.cosine * below;
+  if (!(f.cosine * away - f.sine * below > 0.0)) {
+    if (below <= height) return f;
+    f.kind = Kind::rim;  // beside the base, below it
+  } else {
+    f.kind = along <= 0.0 ? Kind::corner : along < slant ? Kind::side : Kind::rim;
+  }
+  f.which = static_cast<int>(f.kind);
+  if (f.kind == Kind::corner) f.point = Packed{0, 0, cone.half, 0};
+  if (f.kind == Kind::side) {
+    const double out = f.sine * along / std::max(away, 1e-300);
+    f.point = Packed{out * x[0], out * x[1], cone.half - f.cosine * along, 0};
+    f.apex = Packed{0, 0, cone.half, 0};
+  }
+  return f;
+}
+
+inline ShapeFeature featureOfTriangle(const Shape& triangle, const Packed& x) {
+  using Kind = ShapeFeature::Kind;
+  ShapeFeature f;
+  Packed p[3], side[3];
+  bool before[3], behind[3];  // the side's beginning, its end
+  for (std::size_t i = 0; i < 3; ++i) p[i] = pack(triangle.corner[i]);
+  for (int i = 0; i < 3; ++i) {
+    const Packed& end = p[(i + 1) % 3];
+    side[i] = end - p[i];
+    before[i] = !(dot(x - p[i], side[i]) > 0.0);
+    behind[i] = !(dot(x - end, side[i]) < 0.0);
+  }
+  for (int i = 0; i < 3; ++i)
+    if (before[i] && behind[(i + 2) % 3]) {
+      f.kind = Kind::corner;
+      f.which = i;
+      f.point = p[i];
+      return f;
+    }
+  const auto unit = [](const Packed& v) { return v / std::sqrt(std::max(dot(v, v), 1e-300)); };
+  const Packed up = cross(side[0], side[1]);
+  for (int i = 0; i < 3; ++i) {
+    const Packed from = x - p[i];
+    if (before[i] || behind[i] || dot(cross(up, side[i]), from) > 0.0) continue;
+    f.kind = Kind::line;
+    f.which = 3 + i;
+    f.axis = unit(side[i]);
+    f.point = p[i] + dot(from, f.axis) * f.axis;
+    return f;
+  }
+  const Packed normal = unit(up);
+  const double height = dot(normal, x - p[0]);
+  f.kind = Kind::face;
+  f.which = height > 0.0 ? 6 : 7;
+  f.axis = height > 0.0 ? normal : -normal;
+  f.point = x - height * normal;
+  return f;
+}
+
+/// None of one without thickness, which is a disc or a segment.
+inline ShapeFeature featureOfEllipsoid(const Shape& ellipsoid, const Packed& x) {
+  const Packed size = pack(ellipsoid.size), scaled = x / size;
+  ShapeFeature f;
+  if (dot(scaled, scaled) > 1.0 && ellipsoid.size.minCoeff() > 0.0) f.kind = ShapeFeature::Kind::whole;
+  return f;
+}
+
+/// The feature nearest to `x`, of the kinds of shapes that have a few.
+inline ShapeFeature nearestFeature(const Shape& shape, const Packed& x) {
+  switch (shape.kind) {
+    case ShapeKind::point: {
+      ShapeFeature f;
+      f.kind = ShapeFeature::Kind::corner;
+      return f;
+    }
+    case ShapeKind::segment:
+    case ShapeKind::cylinder:
+      return featureOfCylinder(shape, x);
+    case ShapeKind::box:
+      return featureOfBox(shape, x);
+    case ShapeKind::triangle:
+      return featureOfTriangle(shape, x);
+    case ShapeKind::cone:
+      return featureOfCone(shape, x);
+    case ShapeKind::ellipsoid:
+      return featureOfEllipsoid(shape, x);
+    case ShapeKind::polytope:
+    case ShapeKind::halfspace:
+    case ShapeKind::plane:
+      break;
+  }
+  return {};
+}
+
+}  // namespace fcl_stpbv::detail

@@ -1,0 +1,263 @@
+// An STP-BV and a simple shape apart: a feature walk over the volume's patches and the shape's corners,
+// edges, faces, rims and sides, as distance.cpp walks over two volumes' patches (docs/theory.md, 5).
+//
+// 1. Start from the last answer's patch, else from a vertex that a table names for the line of centres, and
+//    from the shape's feature nearest to it (convex/shape_feature.h).
+// 2. Solve the pair of patch and feature: the normal of its widest gap, in closed form, or by Newton's method
+//    where an edge of the volume meets an edge, a rim or a cone's side.
+// 3. If that normal is past the patch's boundaries, cross the one that it passes furthest, and go to 2.
+// 4. If the patch's point there is nearest to another feature of the shape, take that one, and go to 2.
+// 5. Test what is left against the whole shape. Where it fails, or after a dozen pairs, the searches of
+//    shape_query.h take over.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "fcl_stpbv/convex/shape_feature.h"
+#include "fcl_stpbv/distance/shape_query.h"
+#include "fcl_stpbv/vectorized.h"
+
+namespace fcl_stpbv::detail {
+
+namespace {
+
+using FeatureKind = ShapeFeature::Kind;
+
+constexpr int kPasses = 8;             // of Newton's method; two or three are usual
+constexpr double kConverged2 = 1e-17;  // of a step, squared: the next one is rounding
+constexpr double kWide = 0.3;          // sine past a boundary: a table gets there sooner
+
+/// Unit, across the unit vector `t`, on the side of `v`.
+Packed unitAcross(const Packed& v, const Packed& t, const Packed& otherwise) {
+  Packed side = v - dot(v, t) * t;
+  side -= dot(side, t) * t;  // once more, as rounding may lean along `t`
+  return unnormalizedOr(side, otherwise).unit();
+}
+
+/// An edge's torus and a line: on the great circle across the line.
+Packed widestOfLine(const PosedPatch& edge, const ShapeFeature& line, Packed n) {
+  constexpr double kCrossing2 = 0.01;  // squared sine between the edge and the line
+  const Packed &t = line.axis, common = cross(edge.axis, t), anchors = line.point - edge.anchor;
+  const double sine2 = dot(common, common), along = dot(common, n);
+  if (sine2 > kCrossing2 && along * along > 0.25 * sine2)  // an edge's normals are next to those across it
+    n = std::copysign(1.0, along) * common;
+  n = unitAcross(n, t, n);
+  for (int i = 0; i < kPasses; ++i) {
+    const EdgeView view = viewEdge(edge, n);
+    const Packed difference = anchors - view.offset, e = cross(t, n);
+    const double around = dot(cross(edge.axis, n), e) / view.c, gap = dot(n, anchors) - view.rise,
+                 bend = edge.radii->rho + (view.around - edge.radii->rho) * around * around + gap;
+    if (!(bend > 0.0)) {
+      n = unitAcross(difference, t, n);
+      continue;
+    }
+    const double step = dot(difference, e) / bend;
+    n = unnormalizedOr(n + step * e, n).unit();
+    if (step * step <= kConverged2) break;
+  }
+  return n;
+}
+
+/// An edge's torus and a rim: on the sphere, from the rim's point nearest to the edge's middle.
+Packed widestOfRim(const PosedPatch& edge, const ShapeFeature& rim, Packed n) {
+  constexpr double kUpright = 1e-6;  // sine, next to the rim's axis, where it bends without bound
+  const Packed towards = rim.point - edge.anchor;
+  n = circlePoint(edge, towards - rim.radius * unitAcross(towards, rim.axis, n), n).unit();
+  for (int i = 0; i < kPasses; ++i) {
+    const EdgeView view = viewEdge(edge, n);
+    const Packed out = unitAcross(n, rim.axis, n), anchors = rim.point - rim.radius * out - edge.anchor,
+                 difference = anchors - view.offset, e1 = cross(edge.axis, n) / view.c, e2 = cross(n, e1),
+                 along = cross(rim.axis, out);
+    const double gap = dot(n, anchors) - view.rise, bent = rim.radius / std::max(dot(n, out), kUpright),
+                 f1 = dot(along, e1), f2 = dot(along, e2), m11 = view.around + bent * f1 * f1 + gap,
+                 m22 = edge.radii->rho + bent * f2 * f2 + gap, m12 = bent * f1 * f2, g1 = dot(difference, e1),
+                 g2 = dot(difference, e2), det = m11 * m22 - m12 * m12;
+    if (!(det > 0.0 && m11 > 0.0)) break;
+    const double x1 = (m22 * g1 - m12 * g2) / det, x2 = (m11 * g2 - m12 * g1) / det;
+    n = unnormalizedOr(n + x1 * e1 + x2 * e2, n).unit();
+    if (x1 * x1 + x2 * x2 <= kConverged2) break;
+  }
+  return n;
+}
+
+/// A patch and a cone's side: on the circle of its normals, by the angle around the axis. Of a vertex and a
+/// face, which are balls, the generator is the one towards the centre.
+Packed widestOfSide(const PosedPatch& a, const ShapeFeature& side, const Packed& n) {
+  const auto normalOf = [&](const Packed& e) { return -(side.cosine * e + side.sine * side.axis); };
+  Packed e = unitAcross(a.centre() - side.apex, side.axis, n);
+  if (a.kind != PatchKind::edge) return normalOf(e);
+  const Packed anchors = side.apex - a.anchor;
+  for (int i = 0; i < kPasses; ++i) {
+    const Packed m = normalOf(e), turning = -side.cosine * cross(side.axis, e);
+    const EdgeView view = viewEdge(a, m);
+    const Packed difference = anchors - view.offset;
+    const double around = dot(cross(a.axis, m), turning) / view.c,
+                 bend = side.cosine * dot(e, difference) - a.radii->rho * dot(turning, turning) -
+                        (view.around - a.radii->rho) * around * around;
+    if (!(bend < 0.0)) break;
+    const double turn = -dot(turning, difference) / bend;
+    e = unitAcross(e + turn * cross(side.axis, e), side.axis, e);
+    if (turn * turn <= kConverged2) break;
+  }
+  return normalOf(e);
+}
+
+/// A patch and an ellipsoid: on the sphere, from the unit vector `n`.
+Packed widestOfEllipsoid(const ShapeQuery& q, const PosedPatch& a, const ShapeFeature& f, Packed n) {
+  const Packed size = pack(q.shape.size), middles = f.point - a.anchor;
+  const Rotation& axes = q.pose.rotation;
+  for (int i = 0; i < kPasses; ++i) {
+    const Packed local = size * axes.inverse(n);
+    const double height = std::sqrt(dot(local, local));
+    const Packed ball = local / height, out = axes * (size * ball), anchors = middles - out;
+    Packed offset{}, e1;
+    double m11 = dot(n, anchors), m22 = m11;
+    if (a.kind == PatchKind::edge) {
+      const EdgeView view = viewEdge(a, n);
+      offset = view.offset;
+      e1 = cross(a.axis, n) / view.c;
+      m11 += view.around - view.rise, m22 += a.radii->rho - view.rise;
+    } else {
+      const CoreView view = viewCore(a, n);
+      const double bend = a.kind == PatchKind::face ? a.radii->rho : 0.0;
+      offset = view.offset;
+      e1 = cross(std::abs(n[0]) < 0.5 ? Packed{1, 0, 0, 0} : Packed{0, 1, 0, 0}, n);
+      e1 /= std::sqrt(dot(e1, e1));
+      m11 += bend - view.rise, m22 = m11;
+    }
+    const Packed e2 = cross(n, e1), difference = anchors - offset,
+                 c1 = size * axes.inverse(e1) - dot(out, e1) * ball,
+                 c2 = size * axes.inverse(e2) - dot(out, e2) * ball;
+    m11 += dot(c1, c1) / height, m22 += dot(c2, c2) / height;
+    const double m12 = dot(c1, c2) / height, g1 = dot(difference, e1), g2 = dot(difference, e2),
+                 det = m11 * m22 - m12 * m12;
+    if (!(det > 0.0 && m11 > 0.0)) {
+      n = unnormalizedOr(difference, n).unit();
+      continue;
+    }
+    const double x1 = (m22 * g1 - m12 * g2) / det, x2 = (m11 * g2 - m12 * g1) / det;
+    n = unnormalizedOr(n + x1 * e1 + x2 * e2, n).unit();
+    if (x1 * x1 + x2 * x2 <= kConverged2) break;
+  }
+  return n;
+}
+
+/// The normal from the patch to the feature at which the gap is widest, seen from the unit vector `n`.
+UnnormalizedNormal widestNormal(const ShapeQuery& q, const PosedPatch& a, const ShapeFeature& f,
+                                const Packed& n) {
+  const bool edge = a.kind == PatchKind::edge;
+  if (f.kind == FeatureKind::face) return {-f.axis, 1.0};
+  if (f.kind == FeatureKind::whole) return {widestOfEllipsoid(q, a, f, n), 1.0};
+  if (f.kind == FeatureKind::side) return {widestOfSide(a, f, n), 1.0};
+  if (f.kind == FeatureKind::line && edge) return {widestOfLine(a, f, n), 1.0};
+  if (f.kind == FeatureKind::rim && edge) return {widestOfRim(a, f, n), 1.0};
+  Packed d = f.point - a.centre();
+  if (edge) return circlePoint(a, d, n);
+  if (f.kind == FeatureKind::line) return {unitAcross(d, f.axis, n), 1.0};
+  if (f.kind == FeatureKind::rim) d -= f.radius * unitAcross(d, f.axis, n);
+  return unnormalizedOr(d, n);
+}
+
+/// The feature's point that faces a body along `n`, of a side and a face the one asked about.
+Packed facing(const ShapeQuery& q, const ShapeFeature& f, const Packed& n) {
+  if (f.kind == FeatureKind::whole) {
+    const Packed size = pack(q.shape.size), local = size * q.pose.rotation.inverse(n);
+    return f.point - q.pose.rotation * (size * local) / std::sqrt(dot(local, local));
+  }
+  if (f.kind == FeatureKind::rim) return f.point - f.radius * unitAcross(n, f.axis, n);
+  return f.kind == FeatureKind::line ? Packed(f.point - f.radius * n) : f.point;
+}
+
+/// Over the first boundary uphill from the unit vector `from`, where the pair's widest normal is far off
+/// (distance.cpp does the same). False where no boundary is ahead.
+bool crossUphill(const ShapeQuery& q, const PosedPatch& a, const ShapeFeature& f, const Packed& from,
+                 int& patch, Packed& n) {
+  const Packed difference = facing(q, f, from) - a.anchor - viewCore(a, from).offset;
+  Packed up = difference - dot(difference, from) * from;
+  if (a.kind == PatchKind::edge) up -= dot(up, a.axis) * a.axis;
+  const Packed h = unnormalizedOr(up, from).unit();
+  const Crossing over = q.body.tables().patches.ahead(patch, from, h);
+  if (!(over.past > std::numeric_limits<double>::min())) return false;
+  n = unnormalizedOr(over.past * from + h, from).unit();
+  patch = over.neighbour;
+  return true;
+}
+
+/// In the volume's frame.
+ShapeFeature featureNear(const ShapeQuery& q, const Packed& x) {
+  const Rotation& rotation = q.pose.rotation;
+  ShapeFeature f = nearestFeature(q.shape, rotation.inverse(x - q.pose.translation));
+  f.point = q.pose.placed(f.point);
+  if (f.kind == FeatureKind::side) f.apex = q.pose.placed(f.apex);
+  f.axis = rotation * f.axis;
+  return f;
+}
+
+/// Where the walk starts: in the direction of the shape's point nearest to the volume's centre, or next to
+/// the last answer.
+int startingPatch(const ShapeQuery& q, const StartNormal& start, Packed& n) {
+  const QueryTables& tables = q.body.tables();
+  n = pack(start.n);
+  if (start.patch >= 0) {
+    if (tables.patches.crossing(start.patch, n).past < kWide) return start.patch;
+  } else {
+    const Packed centre = pack(q.body.centre());
+    n = unnormalizedOr(featureNear(q, centre).point - centre, n).unit();
+  }
+  return tables.vertexNear[unpack(n)];
+}
+
+}  // namespace
+
+FCL_STPBV_VECTORIZED
+bool walkFeatures(ShapeQuery& q, const StartNormal& start, Nearest& found) {
+  constexpr int kTries = 16;             // one to five are usual
+  constexpr double kOnBoundary = 1e-15;  // rounding of a unit vector
+  constexpr double kFar = 0.3;  // cosine of the turn after which the boundary passed furthest says little
+  const PatchTable& patches = q.body.tables().patches;
+  Packed n;
+  int patch = startingPatch(q, start, n);
+  PosedPatch a = posedPatch(q.body, patch);
+  ShapeFeature f = featureNear(q, a.anchor);
+  bool again = false;  // the pair stayed, and its last digits are missing
+  for (int i = 0; i < kTries && f.kind != FeatureKind::none; ++i) {
+    ++q.pairs;
+    const UnnormalizedNormal to = widestNormal(q, a, f, n);
+    const Crossing over = patches.crossing(patch, to.d, to.length);
+    if (over.past > kOnBoundary * to.length) {
+      ++q.steps;
+      const bool fixed = f.kind == FeatureKind::face;
+      const Packed last = n;
+      n = to.unit();
+      if (fixed && over.past > kWide)
+        patch = q.body.tables().vertexNear[unpack(n)];
+      else if (fixed || dot(n, last) > kFar || !crossUphill(q, a, f, last, patch, n))
+        patch = over.neighbour;
+      a = posedPatch(q.body, patch);
+      again = false;
+      continue;
+    }
+    n = to.unit();
+    const CoreView view = viewCore(a, n);
+    const Packed x = a.anchor + view.offset;
+    const ShapeFeature next = featureNear(q, x);
+    const bool same = next.kind == f.kind && next.which == f.which;
+    f = next;
+    if (!same) continue;
+    const Packed y = facing(q, f, n), difference = y - x, across = difference - dot(difference, n) * n;
+    if (dot(across, across) > 4.0 * q.rounding.across * q.rounding.across) {
+      if (again) return false;
+      again = true;
+      continue;
+    }
+    found.n = unpack(n);
+    found.patch = patch;
+    found.y = unpack(y);
+    found.gap = dot(n, y - a.anchor) - view.rise;
+    found.apart = found.gap > 0.0;
+    return found.apart && found.n.dot(found.y - q.facing(found.n)) <= q.rounding.gap;
+  }
+  return false;
+}
+
+}  // namespace fcl_stpbv::detail
