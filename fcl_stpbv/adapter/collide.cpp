@@ -90,7 +90,7 @@ std::size_t collide(const CollisionGeometryd* geometry1, const Transform3d& pose
   unknown.pos.setZero();
   unknown.penetration_depth = request.enable_contact ? std::numeric_limits<double>::infinity() : 0;
   ConvexBody bodyA, bodyB;
-  if (areVolumes(*geometry1, pose1, *geometry2, pose2, bodyA, bodyB)) {
+  if (areBodies(*geometry1, pose1, *geometry2, pose2, bodyA, bodyB)) {
     contacts.add(bodyA, bodyB, unknown);
     return result.numContacts();
   }

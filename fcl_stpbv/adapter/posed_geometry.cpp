@@ -104,16 +104,15 @@ Distance distance(const ConvexBody& a, const ConvexBody& b, PairCache* cache) {
   return found;
 }
 
-bool areVolumes(const fcl::CollisionGeometryd& geometry1, const Isometry3d& pose1,
-                const fcl::CollisionGeometryd& geometry2, const Isometry3d& pose2, ConvexBody& a,
-                ConvexBody& b) {
+bool areBodies(const fcl::CollisionGeometryd& geometry1, const Isometry3d& pose1,
+               const fcl::CollisionGeometryd& geometry2, const Isometry3d& pose2, ConvexBody& a,
+               ConvexBody& b) {
   const StpBvGeometry *first = asStpBv(&geometry1), *second = asStpBv(&geometry2);
-  if (!first || !second) return false;
-  a.volume = &first->volume();
+  if (first) a.volume = &first->volume();
+  if (second) b.volume = &second->volume();
   a.pose = pose1;
-  b.volume = &second->volume();
   b.pose = pose2;
-  return true;
+  return first ? second || shapeOf(geometry2, b.shape) : second && shapeOf(geometry1, a.shape);
 }
 
 PosedGeometry::PosedGeometry(const fcl::CollisionGeometryd& geometry, const Isometry3d& pose,

@@ -45,17 +45,18 @@ bool isConvex(const fcl::CollisionGeometryd& geometry, ConvexBody& body);
 Distance distance(const ConvexBody& a, const ConvexBody& b, PairCache* cache = nullptr);
 
 /// Whether two bodies are certainly farther apart than `x` (m): first by what isFartherByBounds() looks at,
-/// then by a search. Poses are rigid; those of two STP-BVs may be any, and tell nothing if they are not.
+/// then by a search. Poses are rigid; with an STP-BV they may be any, and tell nothing if they are not.
 bool isFartherThan(double x, const ConvexBody& a, const ConvexBody& b, PairCache* cache,
                    ProximityCounts* counts = nullptr);
 /// By the plane of the cache's normal alone, whose gap is a lower bound like that along any other normal
-/// (docs/theory.md, 5), and for two STP-BVs by the balls around them, since no boxes were compared.
+/// (docs/theory.md, 5), and by the ball around an STP-BV, as no boxes were compared.
 bool isFartherByBounds(double x, const ConvexBody& a, const ConvexBody& b, const PairCache& cache);
 
-/// Two STP-BVs at their poses, which need no boxes around them. False where one geometry is none.
-bool areVolumes(const fcl::CollisionGeometryd& geometry1, const Eigen::Isometry3d& pose1,
-                const fcl::CollisionGeometryd& geometry2, const Eigen::Isometry3d& pose2, ConvexBody& a,
-                ConvexBody& b);
+/// Two convex bodies at their poses, one of them an STP-BV, which need no boxes around them. False for any
+/// other two.
+bool areBodies(const fcl::CollisionGeometryd& geometry1, const Eigen::Isometry3d& pose1,
+               const fcl::CollisionGeometryd& geometry2, const Eigen::Isometry3d& pose2, ConvexBody& a,
+               ConvexBody& b);
 
 /// One geometry at a pose: a body, or the elements of a mesh or a tree below their boxes. A view; the
 /// geometry must outlive it.

@@ -64,6 +64,8 @@ namespace detail {
 
 bool isFartherByBounds(double x, const ConvexBody& a, const ConvexBody& b, const PairCache& cache) {
   if (a.volume && b.volume) return isFartherByBounds(x, *a.volume, a.pose, *b.volume, b.pose, cache);
+  if (a.volume) return isFartherByBounds(x, *a.volume, a.pose, b.shape, b.pose, cache);
+  if (b.volume) return isFartherByBounds(x, *b.volume, b.pose, a.shape, a.pose, cache.mirrored());
   const Vector3d n = cache.direction();
   if (a.unbounded() || b.unbounded() || n.isZero(0)) return false;
   const Vector3d d = b.pose.translation() - a.pose.translation();
@@ -94,7 +96,7 @@ bool isFartherThan(double x, const fcl::CollisionGeometryd& geometry1, const fcl
                    const QueryContext& context) {
   if (std::isnan(x)) return false;  // no distance is known to be above what is no number
   ConvexBody bodyA, bodyB;
-  if (areVolumes(geometry1, pose1, geometry2, pose2, bodyA, bodyB))
+  if (areBodies(geometry1, pose1, geometry2, pose2, bodyA, bodyB))
     return isFartherThan(x, bodyA, bodyB, context.cache, context.proximity);
   const PosedPair pair(geometry1, pose1, geometry2, pose2, context.finite);
   if (!pair.valid) return false;

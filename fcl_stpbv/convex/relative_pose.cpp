@@ -31,4 +31,9 @@ bool makeRigid(Eigen::Isometry3d& pose) {
   return size[0] < kHuge && size[1] < kHuge && size[2] < kHuge;
 }
 
+FCL_STPBV_VECTORIZED
+RelativePose relativePose(const Eigen::Isometry3d& poseA, const Eigen::Isometry3d& poseB) {
+  return RelativePose(poseA, poseB);
+}
+
 }  // namespace fcl_stpbv::detail

@@ -122,4 +122,7 @@ struct RelativePose {
   Eigen::Vector3d normalInWorld(const Eigen::Vector3d& n) const { return (toWorld * n).normalized(); }
 };
 
+/// The same, for functions that are not compiled for wider instructions (vectorized.h).
+RelativePose relativePose(const Eigen::Isometry3d& poseA, const Eigen::Isometry3d& poseB);
+
 }  // namespace fcl_stpbv::detail

@@ -14,7 +14,8 @@ namespace fcl_stpbv::detail {
 /// A feature of a shape's core, and its point nearest to the point asked about. Frame of the shape.
 struct ShapeFeature {
   enum class Kind {
-    none,    ///< the point is in the core, or the kind of shape is not known here
+    none,    ///< not known: of a shape with many features, or one that is flat or a point
+    inside,  ///< none, as the point is in the core
     corner,  ///< one point
     line,    ///< an edge; with a radius, a cylinder's side
     face,    ///< flat
@@ -41,11 +42,12 @@ inline ShapeFeature featureOfBox(const Shape& box, const Packed& x) {
     f.which = 3 * f.which + outside[i];
     sides += outside[i] != 0;
   }
+  using Kind = ShapeFeature::Kind;
+  f.kind = Kind::inside;
   if (sides == 0) return f;
   // Across a face the one axis along which the point is outside, along an edge the one along which it is not.
   for (int i = 0; i < 3; ++i)
     if ((outside[i] != 0) == (sides == 1)) axis = i;
-  using Kind = ShapeFeature::Kind;
   f.kind = sides == 1 ? Kind::face : sides == 2 ? Kind::line : Kind::corner;
   f.point = -larger(-half, -larger(-half, x));
   f.axis[axis] = outside[axis] == 2 ? -1.0 : 1.0;
@@ -70,6 +72,8 @@ inline ShapeFeature featureOfCylinder(const Shape& shape, const Packed& x) {
     f.which += 2;
     f.point = Packed{x[0], x[1], z, 0};
     if (x[2] < 0.0) f.axis = -f.axis;
+  } else {
+    f.kind = Kind::inside;
   }
   return f;
 }
@@ -93,8 +97,8 @@ inline ShapeFeature featureOfCone(const Shape& cone, const Packed& x) {
   f.sine = cone.radius / slant;
   const double along = f.sine * away + f.cosine * below;
   if (!(f.cosine * away - f.sine * below > 0.0)) {
-    if (below <= height) return f;
-    f.kind = Kind::rim;  // beside the base, below it
+    f.kind = below <= height ? Kind::inside : Kind::rim;  // beside the base, below it
+    if (f.kind == Kind::inside) return f;
   } else {
     f.kind = along <= 0.0 ? Kind::corner : along < slant ? Kind::side : Kind::rim;
   }
@@ -151,7 +155,8 @@ inline ShapeFeature featureOfTriangle(const Shape& triangle, const Packed& x) {
 inline ShapeFeature featureOfEllipsoid(const Shape& ellipsoid, const Packed& x) {
   const Packed size = pack(ellipsoid.size), scaled = x / size;
   ShapeFeature f;
-  if (dot(scaled, scaled) > 1.0 && ellipsoid.size.minCoeff() > 0.0) f.kind = ShapeFeature::Kind::whole;
+  if (ellipsoid.size.minCoeff() > 0.0)
+    f.kind = dot(scaled, scaled) > 1.0 ? ShapeFeature::Kind::whole : ShapeFeature::Kind::inside;
   return f;
 }
 

@@ -134,10 +134,11 @@ Solution deepSolution(const LeastOverlap& deep) { return {deep.at, DistanceStatu
 
 Solution solve(ShapeQuery& q, const StartNormal& start) {
   constexpr double kNone = std::numeric_limits<double>::infinity();
+  constexpr int kTries = 16;  // one to five are usual
   const bool overlap = surelyOverlap(q);
   Nearest found;
   if (!overlap) {
-    if (walkFeatures(q, start, found)) return {found, DistanceStatus::exact, kNone};
+    if (walkFeatures(q, start, kTries, found)) return {found, DistanceStatus::exact, kNone};
     found = nearestOnShape(q, start);
     if (q.shape.unbounded()) return {found, DistanceStatus::exact, found.gap};
     if (certified(q, found)) return {found, DistanceStatus::exact, kNone};
@@ -176,7 +177,7 @@ double placeOpposite(const ShapeQuery& q, const Vector3d& point, Nearest& found)
 Distance distance(const StpBv& volume, const Isometry3d& poseVolume, const Shape& shape,
                   const Isometry3d& poseShape, PairCache* cache) {
   Distance result;
-  const RelativePose pose(poseVolume, poseShape);
+  const RelativePose pose = relativePose(poseVolume, poseShape);
   if (!shape.valid() || !pose.valid) return result;
 
   ShapeQuery q(volume, shape, pose);

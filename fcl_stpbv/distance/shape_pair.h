@@ -26,7 +26,7 @@ struct ShapePair {
 
   ShapePair(const Shape& first, const Eigen::Isometry3d& poseA, const Shape& second,
             const Eigen::Isometry3d& poseB)
-      : a(first), b(second), pose(poseA, poseB) {
+      : a(first), b(second), pose(relativePose(poseA, poseB)) {
     if (!pose.valid || !a.valid() || !b.valid() || (a.unbounded() && b.unbounded())) return;
     const double size = unpack(pose.translation).lpNorm<1>() + a.centre.lpNorm<1>() + a.reach +
                         b.centre.lpNorm<1>() + b.reach;

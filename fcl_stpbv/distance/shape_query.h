@@ -88,7 +88,15 @@ Nearest nearestFrom(const AscentPoint& x, const Feature& feature) {
 /// Walks the volume's patches and the shape's features to where the cores are nearest, and tests it against
 /// the whole shape. False where it does not get there in a few steps, between cores that overlap, and for
 /// kinds of shapes that it does not know; `found` then says nothing.
-bool walkFeatures(ShapeQuery& q, const StartNormal& start, Nearest& found);
+bool walkFeatures(ShapeQuery& q, const StartNormal& start, int tries, Nearest& found);
+
+/// Between which lengths something is (m).
+struct Span {
+  double least, most;
+};
+
+/// How far the shape's core is from the volume's centre, to rounding; negative or 0 where it may be in it.
+Span awayFromCentre(const ShapeQuery& q);
 
 /// Any feature that has a gradient, from a start.
 template <typename Feature>

@@ -1,24 +1,42 @@
 // Is an STP-BV farther from a simple shape than a threshold? Bounds from both sides, the cheapest first:
-// 1. The plane of the remembered normal, or across the line of centres, between the two.
-// 2. GJK on the cores, until a plane is far enough from both, two points of theirs are near enough, or the
+// 1. How far the shape is from the centre of the balls around and inside the volume.
+// 2. A feature walk of a few steps to the distance (shape_walk.cpp).
+// 3. GJK on the cores, until a plane is far enough from both, two points of theirs are near enough, or the
 //    cores turn out to overlap.
-// 3. The exact distance, from the best plane: next to the threshold, and where the bodies have to be deep in
+// 4. The exact distance, from the best plane: next to the threshold, and where the bodies have to be deep in
 //    each other.
 #include "fcl_stpbv/convex/gjk.h"
 #include "fcl_stpbv/convex/support.h"
 #include "fcl_stpbv/distance/shape_distance.h"
 #include "fcl_stpbv/distance/shape_query.h"
 #include "fcl_stpbv/distance/threshold.h"
+#include "fcl_stpbv/vectorized.h"
 
 namespace fcl_stpbv::detail {
 
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
+FCL_STPBV_VECTORIZED
+bool isFartherByBounds(double x, const StpBv& volume, const Isometry3d& poseVolume, const Shape& shape,
+                       const Isometry3d& poseShape, const PairCache& cache) {
+  const RelativePose pose(poseVolume, poseShape);
+  if (!shape.valid() || !pose.valid || shape.unbounded()) return false;
+  const ShapeQuery q(volume, shape, pose);
+  if (awayFromCentre(q).least - volume.enclosingRadius() - shape.margin - q.rounding.certificate > x)
+    return true;
+  const Vector3d last = pose.toWorld.inverse(cache.direction());
+  if (last.isZero(0)) return false;
+  int ignored = 0;
+  const Vector3d n = last.normalized();
+  const double gap = viewVolume(volume, n, -1, ignored).gap(q.facing(n));
+  return gap - volume.radii().r - shape.margin - q.rounding.certificate > x;
+}
+
 bool isFartherThan(double x, const StpBv& volume, const Isometry3d& poseVolume, const Shape& shape,
                    const Isometry3d& poseShape, PairCache* cache) {
   using Difference = ConvexDifference<StpBvCore, const Shape>;
-  const RelativePose pose(poseVolume, poseShape);
+  const RelativePose pose = relativePose(poseVolume, poseShape);
   if (!shape.valid() || !pose.valid) return false;
   PairCache start;
   if (cache) start = *cache;
@@ -27,9 +45,12 @@ bool isFartherThan(double x, const StpBv& volume, const Isometry3d& poseVolume, 
     if (cache) *cache = start;
     return found.lower > x;
   };
-  const ShapeQuery q(volume, shape, pose);
-  const double level = x + volume.radii().r + shape.margin, unsure = q.rounding.gap + q.rounding.across;
-  if (shape.unbounded() || !(level > unsure)) return isDistanceFarther();
+  if (shape.unbounded()) return isDistanceFarther();
+  ShapeQuery q(volume, shape, pose);
+  const double margins = volume.radii().r + shape.margin, rounding = q.rounding.certificate;
+  const Span away = awayFromCentre(q);
+  if (away.least - volume.enclosingRadius() - shape.margin - rounding > x) return true;
+  if (away.most - volume.innerRadius() - margins + rounding <= x) return false;
 
   const Vector3d last = pose.toWorld.inverse(start.direction()),
                  centres = q.posed(shape.centre) - volume.centre();
@@ -37,11 +58,21 @@ bool isFartherThan(double x, const StpBv& volume, const Isometry3d& poseVolume, 
   const Vector3d n = isKnown             ? last.normalized()
                      : centres.isZero(0) ? Vector3d(1, 0, 0)
                                          : centres.normalized();
+  constexpr int kTries = 5;  // of pairs that are apart most need no more
+  const int hint = isKnown && start.patch[0] < volume.patchCount() ? start.patch[0] : -1;
+  Nearest nearest;
+  const bool maybeApart = away.most > 0.5 * (volume.innerRadius() + volume.enclosingRadius());
+  if (maybeApart && walkFeatures(q, {n, hint}, kTries, nearest)) {
+    if (cache) *cache = {pose.normalInWorld(nearest.n), {nearest.patch, -1}};
+    return nearest.gap - margins - rounding > x;
+  }
+  const double level = x + margins, unsure = q.rounding.gap + q.rounding.across;
+  if (!(level > unsure)) return isDistanceFarther();
   int ignored = 0;
-  StpBvCore core{volume, isKnown && start.patch[0] < volume.patchCount() ? start.patch[0] : -1, ignored};
+  StpBvCore core{volume, hint, ignored};
   Difference difference(core, shape, pose);
   constexpr int kSteps = 40;
-  const double above = level + q.rounding.certificate;
+  const double above = level + rounding;
   const auto found = gjk<Difference::Corner>(
       difference, {}, n, q.rounding.gap, kSteps,
       [&](double lower, double upper) { return lower > above || upper + unsure <= level; });

@@ -210,8 +210,23 @@ int startingPatch(const ShapeQuery& q, const StartNormal& start, Packed& n) {
 }  // namespace
 
 FCL_STPBV_VECTORIZED
-bool walkFeatures(ShapeQuery& q, const StartNormal& start, Nearest& found) {
-  constexpr int kTries = 16;             // one to five are usual
+Span awayFromCentre(const ShapeQuery& q) {
+  const Packed centre = pack(q.body.centre());
+  // A narrow triangle's normal is less certain than this has to be.
+  const ShapeFeature f = q.shape.kind == ShapeKind::triangle ? ShapeFeature{} : featureNear(q, centre);
+  if (f.kind == FeatureKind::inside) return {0.0, 0.0};
+  if (f.kind == FeatureKind::none || f.kind == FeatureKind::whole) {
+    const Packed d = q.pose.placed(pack(q.shape.centre)) - centre;
+    const double length = std::sqrt(dot(d, d));
+    return {length - q.shape.reach, length - (f.kind == FeatureKind::whole ? q.shape.size.minCoeff() : 0.0)};
+  }
+  const Packed d = facing(q, f, unnormalizedOr(f.point - centre, Packed{1, 0, 0, 0}).unit()) - centre;
+  const double length = std::sqrt(dot(d, d));
+  return {length, length};
+}
+
+FCL_STPBV_VECTORIZED
+bool walkFeatures(ShapeQuery& q, const StartNormal& start, int tries, Nearest& found) {
   constexpr double kOnBoundary = 1e-15;  // rounding of a unit vector
   constexpr double kFar = 0.3;  // cosine of the turn after which the boundary passed furthest says little
   const PatchTable& patches = q.body.tables().patches;
@@ -220,7 +235,7 @@ bool walkFeatures(ShapeQuery& q, const StartNormal& start, Nearest& found) {
   PosedPatch a = posedPatch(q.body, patch);
   ShapeFeature f = featureNear(q, a.anchor);
   bool again = false;  // the pair stayed, and its last digits are missing
-  for (int i = 0; i < kTries && f.kind != FeatureKind::none; ++i) {
+  for (int i = 0; i < tries && f.kind > FeatureKind::inside; ++i) {
     ++q.pairs;
     const UnnormalizedNormal to = widestNormal(q, a, f, n);
     const Crossing over = patches.crossing(patch, to.d, to.length);

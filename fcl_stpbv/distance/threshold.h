@@ -13,13 +13,15 @@ namespace fcl_stpbv::detail {
 bool isFartherThan(double x, const StpBv& a, const Eigen::Isometry3d& poseA, const StpBv& b,
                    const Eigen::Isometry3d& poseB, PairCache* cache = nullptr);
 
-/// The same of a volume and a simple shape: a plane, GJK on the cores, and only then the distance.
+/// The same of a volume and a simple shape: balls in and around the volume, a walk of a few steps to the
+/// distance, GJK on the cores, and only then the whole distance.
 bool isFartherThan(double x, const StpBv& volume, const Eigen::Isometry3d& poseVolume, const Shape& shape,
                    const Eigen::Isometry3d& poseShape, PairCache* cache = nullptr);
 
-/// Of two volumes by the cheap part: the balls around both, and the plane of the cache's normal if it has
-/// one.
+/// By the cheap part: the balls around the volumes, and the plane of the cache's normal if it has one.
 bool isFartherByBounds(double x, const StpBv& a, const Eigen::Isometry3d& poseA, const StpBv& b,
                        const Eigen::Isometry3d& poseB, const PairCache& cache);
+bool isFartherByBounds(double x, const StpBv& volume, const Eigen::Isometry3d& poseVolume, const Shape& shape,
+                       const Eigen::Isometry3d& poseShape, const PairCache& cache);
 
 }  // namespace fcl_stpbv::detail
