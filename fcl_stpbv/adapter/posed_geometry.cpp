@@ -112,7 +112,9 @@ bool areBodies(const fcl::CollisionGeometryd& geometry1, const Isometry3d& pose1
   if (second) b.volume = &second->volume();
   a.pose = pose1;
   b.pose = pose2;
-  return first ? second || shapeOf(geometry2, b.shape) : second && shapeOf(geometry1, a.shape);
+  if (!(first || shapeOf(geometry1, a.shape)) || !(second || shapeOf(geometry2, b.shape))) return false;
+  const auto bounded = [](const Shape& shape) { return !shape.unbounded() && shape.valid(); };
+  return first || second || (bounded(a.shape) && bounded(b.shape) && makeRigid(a.pose) && makeRigid(b.pose));
 }
 
 PosedGeometry::PosedGeometry(const fcl::CollisionGeometryd& geometry, const Isometry3d& pose,

@@ -66,10 +66,13 @@ bool isFartherByBounds(double x, const ConvexBody& a, const ConvexBody& b, const
   if (a.volume && b.volume) return isFartherByBounds(x, *a.volume, a.pose, *b.volume, b.pose, cache);
   if (a.volume) return isFartherByBounds(x, *a.volume, a.pose, b.shape, b.pose, cache);
   if (b.volume) return isFartherByBounds(x, *b.volume, b.pose, a.shape, a.pose, cache.mirrored());
-  const Vector3d n = cache.direction();
-  if (a.unbounded() || b.unbounded() || n.isZero(0)) return false;
-  const Vector3d d = b.pose.translation() - a.pose.translation();
+  if (a.unbounded() || b.unbounded()) return false;
+  const Vector3d n = cache.direction(), d = b.pose.translation() - a.pose.translation();
   const double rounding = kGapRounding * (d.lpNorm<1>() + a.extent() + b.extent());
+  const auto radius = [](const Shape& shape) { return shape.reach + shape.margin; };
+  const Vector3d centres = b.pose.linear() * b.shape.centre + d - a.pose.linear() * a.shape.centre;
+  if (centres.norm() - radius(a.shape) - radius(b.shape) > x + rounding) return true;
+  if (n.isZero(0)) return false;
   return n.dot(d) - a.support(n) - b.support(-n) > x + rounding;
 }
 
