@@ -187,4 +187,15 @@ inline ShapeFeature nearestFeature(const Shape& shape, const Packed& x) {
   return {};
 }
 
+/// The core's point nearest to `x`, on the feature that nearestFeature() has found there; not of an
+/// ellipsoid.
+inline Packed nearestPoint(const ShapeFeature& f, const Packed& x) {
+  using Kind = ShapeFeature::Kind;
+  if (f.kind != Kind::line && f.kind != Kind::rim) return f.point;
+  Packed out = x - f.point;
+  out -= dot(out, f.axis) * f.axis;
+  const double length = std::sqrt(dot(out, out));
+  return length > 0.0 ? Packed(f.point + (f.radius / length) * out) : f.point;
+}
+
 }  // namespace fcl_stpbv::detail

@@ -13,8 +13,10 @@
 #include <limits>
 #include <utility>
 
+#include "fcl_stpbv/convex/shape_feature.h"
 #include "fcl_stpbv/distance/shape_distance.h"
 #include "fcl_stpbv/distance/shape_newton.h"
+#include "fcl_stpbv/vectorized.h"
 
 namespace fcl_stpbv {
 
@@ -130,6 +132,24 @@ Distance besidePlane(const Pair& p) {
   return other.distance > one.distance ? other : one;
 }
 
+/// A ball `a` outside the core of `b`: the core's point nearest to its centre, feature by feature, tested
+/// against the whole core. False for other pairs, and for cores that touch.
+FCL_STPBV_VECTORIZED
+bool besideBall(const Pair& p, Gjk& found) {
+  if (p.a.kind != ShapeKind::point) return false;
+  const Packed x = p.pose.rotation.inverse(-p.pose.translation);
+  const ShapeFeature f = nearestFeature(p.b, x);
+  if (f.kind <= ShapeFeature::Kind::inside || f.kind == ShapeFeature::Kind::whole) return false;
+  const Packed y = nearestPoint(f, x), d = p.pose.rotation * (y - x);
+  const double length = std::sqrt(dot(d, d));
+  if (!(length > p.rounding)) return false;
+  found.v = unpack(d);
+  found.n = unpack(d / length);
+  found.upper = length;
+  found.lower = Pair::Difference(p.a, p.b, p.pose).support(found.n).gap;
+  return found.upper - found.lower <= p.rounding;
+}
+
 /// The same after a search that goes on to the end, where Newton's method had no success from `found`.
 Distance separatedAtTheEnd(const Pair& p, Gjk& found) {
   for (Corner& corner : found.simplex.corner) corner.gap = -std::numeric_limits<double>::infinity();
@@ -140,7 +160,16 @@ Distance separatedAtTheEnd(const Pair& p, Gjk& found) {
 Distance solve(const Pair& p) {
   if (!p.valid) return {};
   if (p.a.unbounded()) return besidePlane(p);
-  Gjk found = p.search([&](double lower, double upper) { return p.curved() && isNear(p, lower, upper); });
+  Gjk found;
+  if (besideBall(p, found)) {
+    Distance result = p.inWorld(found.n, Vector3d(0, 0, 0), found.v);
+    result.status = DistanceStatus::exact;
+    result.distance = found.upper - p.margins();
+    result.lower = found.lower - p.margins() - p.certificate;
+    result.upper = result.distance + p.certificate;
+    return result;
+  }
+  found = p.search([&](double lower, double upper) { return p.curved() && isNear(p, lower, upper); });
   Distance result = separated(p, found);
   if (result.status == DistanceStatus::bounded && p.curved()) result = separatedAtTheEnd(p, found);
   return result.status == DistanceStatus::invalid ? overlapping(p, found) : result;

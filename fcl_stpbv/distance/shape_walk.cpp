@@ -211,18 +211,15 @@ int startingPatch(const ShapeQuery& q, const StartNormal& start, Packed& n) {
 
 FCL_STPBV_VECTORIZED
 Span awayFromCentre(const ShapeQuery& q) {
-  const Packed centre = pack(q.body.centre());
+  const Packed x = q.pose.rotation.inverse(pack(q.body.centre()) - q.pose.translation);
   // A narrow triangle's normal is less certain than this has to be.
-  const ShapeFeature f = q.shape.kind == ShapeKind::triangle ? ShapeFeature{} : featureNear(q, centre);
+  const ShapeFeature f = q.shape.kind == ShapeKind::triangle ? ShapeFeature{} : nearestFeature(q.shape, x);
   if (f.kind == FeatureKind::inside) return {0.0, 0.0};
-  if (f.kind == FeatureKind::none || f.kind == FeatureKind::whole) {
-    const Packed d = q.pose.placed(pack(q.shape.centre)) - centre;
-    const double length = std::sqrt(dot(d, d));
-    return {length - q.shape.reach, length - (f.kind == FeatureKind::whole ? q.shape.size.minCoeff() : 0.0)};
-  }
-  const Packed d = facing(q, f, unnormalizedOr(f.point - centre, Packed{1, 0, 0, 0}).unit()) - centre;
+  const bool few = f.kind != FeatureKind::none && f.kind != FeatureKind::whole;
+  const Packed d = x - (few ? nearestPoint(f, x) : pack(q.shape.centre));
   const double length = std::sqrt(dot(d, d));
-  return {length, length};
+  if (few) return {length, length};
+  return {length - q.shape.reach, length - (f.kind == FeatureKind::whole ? q.shape.size.minCoeff() : 0.0)};
 }
 
 FCL_STPBV_VECTORIZED
