@@ -35,7 +35,10 @@ class Contacts {
 
  private:
   bool meet(const ConvexBody& a, const ConvexBody& b, Contactd& contact) {
-    if (isFartherByBounds(a.rounding + b.rounding, a, b, cache_)) return false;
+    // Of two STP-BVs the distance costs less than whether there is one.
+    const bool apart = a.volume && b.volume ? isFartherByBounds(a.rounding + b.rounding, a, b, cache_)
+                                            : isFartherThan(0.0, a, b, &cache_);
+    if (apart) return false;
     const Distance found = distance(a, b, &cache_);
     if (found.status == DistanceStatus::invalid) return true;  // as it is: without an answer
     contact.normal = found.normal;

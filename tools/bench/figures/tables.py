@@ -137,6 +137,16 @@ def collide():
                       f"{row['fcl_too_deep']:.0f} %" if "fcl_too_deep" in row else "") for row in measured("collide")["rows"]])
 
 
+@table("shapes")
+def shapes():
+    rows = {(row["body"], row["asked"], row["nearest"], row["shape"]): row for row in measured("shapes")["rows"]}
+    names = list(dict.fromkeys(key[3] for key in rows))
+    cell = lambda row: f"{row['ns_fcl']:,.0f} / {row['ns_cold']:,.0f} ({row['ns_cold'] / row['ns_fcl']:.2g}, {row['ns_warm'] / row['ns_fcl']:.2g})"
+    return markdown(("body", "asked", "nearest centres (m)", *names),
+                    [(body, asked, f"{nearest:.2f}", *(cell(rows[body, asked, nearest, name]) for name in names))
+                     for body, asked, nearest in dict.fromkeys(key[:3] for key in rows)])
+
+
 @table("meshes")
 def meshes():
     us = {(row["triangles"], row["place"], row["asked"], row["body"]): (row["us_fcl"], row["us"]) for row in measured("meshes")["rows"]}
