@@ -96,17 +96,20 @@ inline ShapeFeature featureOfCone(const Shape& cone, const Packed& x) {
   f.cosine = height / slant;
   f.sine = cone.radius / slant;
   const double along = f.sine * away + f.cosine * below;
-  if (!(f.cosine * away - f.sine * below > 0.0)) {
-    f.kind = below <= height ? Kind::inside : Kind::rim;  // beside the base, below it
-    if (f.kind == Kind::inside) return f;
-  } else {
-    f.kind = along <= 0.0 ? Kind::corner : along < slant ? Kind::side : Kind::rim;
+  const bool out = f.cosine * away - f.sine * below > 0.0;  // of the side
+  if (!out && below >= 0.0 && below <= height && away <= cone.radius) {
+    f.kind = Kind::inside;
+    return f;
   }
+  if (!out && below > height)
+    f.kind = Kind::rim;  // below the base, beside it
+  else
+    f.kind = along <= 0.0 ? Kind::corner : along < slant ? Kind::side : Kind::rim;
   f.which = static_cast<int>(f.kind);
   if (f.kind == Kind::corner) f.point = Packed{0, 0, cone.half, 0};
   if (f.kind == Kind::side) {
-    const double out = f.sine * along / std::max(away, 1e-300);
-    f.point = Packed{out * x[0], out * x[1], cone.half - f.cosine * along, 0};
+    const double scale = f.sine * along / std::max(away, 1e-300);
+    f.point = Packed{scale * x[0], scale * x[1], cone.half - f.cosine * along, 0};
     f.apex = Packed{0, 0, cone.half, 0};
   }
   return f;

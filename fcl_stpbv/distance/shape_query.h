@@ -95,7 +95,7 @@ struct Span {
   double least, most;
 };
 
-/// How far the shape's core is from the volume's centre, to rounding; negative or 0 where it may be in it.
+/// The signed distance of the volume's centre from the shape's core, to rounding.
 Span awayFromCentre(const ShapeQuery& q);
 
 /// Any feature that has a gradient, from a start.

@@ -214,7 +214,7 @@ Span awayFromCentre(const ShapeQuery& q) {
   const Packed x = q.pose.rotation.inverse(pack(q.body.centre()) - q.pose.translation);
   // A narrow triangle's normal is less certain than this has to be.
   const ShapeFeature f = q.shape.kind == ShapeKind::triangle ? ShapeFeature{} : nearestFeature(q.shape, x);
-  if (f.kind == FeatureKind::inside) return {0.0, 0.0};
+  if (f.kind == FeatureKind::inside) return {-q.shape.reach, 0.0};
   const bool few = f.kind != FeatureKind::none && f.kind != FeatureKind::whole;
   const Packed d = x - (few ? nearestPoint(f, x) : pack(q.shape.centre));
   const double length = std::sqrt(dot(d, d));
