@@ -152,6 +152,8 @@ Posture findPosture(PostureSetup& setup, const PostureOptions& options) {
   const auto elapsed = [&] {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   };
+  // Steps to where the constraints hold best: next to singular postures they are many and short.
+  constexpr int kLongest = 1000;
   PostureProblem& problem = *setup.problem;
   if (setup.start.size() != problem.kinematics().size())
     throw Error("findPosture: the start has " + std::to_string(setup.start.size()) +
@@ -179,7 +181,9 @@ Posture findPosture(PostureSetup& setup, const PostureOptions& options) {
     if (stopped()) break;
   }
   if (!best.feasible && !stopped()) {
-    const NearPosture least = approached(problem, bestX, {}, options.solver);
+    ApproachOptions toTheEnd;
+    toTheEnd.maxIterations = kLongest;
+    const NearPosture least = approached(problem, bestX, toTheEnd, options.solver);
     best.conflict = problem.missed(least.x, options.solver.tolerance);
     if (best.conflict.empty())  // then they can hold together
       consider(improve(problem, least.x, options.solver));

@@ -1,14 +1,16 @@
 // Corners of a tilted patch at a margin from its edges, as seen from above.
-// 1. Hull of the points (convex_polygon.h), clipped by its edges moved inwards (Sutherland and Hodgman 1974):
-//    which edges make the corners.
-// 2. Two lines along a and b, both moved inwards by m, meet m (|a| b - |b| a) / |a x b| from where they met.
+// 1. Two lines along a and b, both moved inwards by m, meet m (|a| b - |b| a) / |a x b| from where they met.
 //    Seen from above, |a x b| is the sine between the edges times that of the patch's slope.
-// 3. As long as every edge keeps a length, the corners are right whatever the tilt.
+// 2. So each edge's length falls in proportion to m, and the edges vanish one after the other. Those beside
+//    one that has vanished meet. When none is left to vanish, m is the radius of the largest circle.
+// 3. As long as that is not below the margin the corners are right whatever the tilt, and they move on
+//    steadily where an edge vanishes.
 #include "fcl_stpbv/posture/support_patch.h"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "fcl_stpbv/error.h"
@@ -24,33 +26,6 @@ using Eigen::Vector3d;
 // A patch that is nearer to upright than 3 degrees bears nothing: its margin would be more than 20 times as
 // wide along it.
 constexpr double kUpright = 0.05;
-
-// A corner of a clipped polygon and the edge of the whole one along whose line it goes on, -1 for none.
-struct ClippedCorner {
-  Vector2d at;
-  int next;
-};
-
-// A convex polygon, counter-clockwise, without what is nearer than `margin` to its edges.
-std::vector<ClippedCorner> clipped(const std::vector<Vector2d>& hull, double margin) {
-  std::vector<ClippedCorner> kept;
-  for (const Vector2d& p : hull) kept.push_back({p, -1});
-  for (std::size_t i = 0; i < hull.size(); ++i) {
-    const Vector2d& a = hull[i];
-    const Vector2d along = (hull[(i + 1) % hull.size()] - a).normalized();
-    const auto depth = [&](const Vector2d& p) { return cross(along, p - a) - margin; };
-    std::vector<ClippedCorner> cut;
-    for (std::size_t k = 0; k < kept.size(); ++k) {
-      const Vector2d &p = kept[k].at, &q = kept[(k + 1) % kept.size()].at;
-      const double dp = depth(p), dq = depth(q);
-      if (dp >= 0) cut.push_back(kept[k]);
-      if ((dp < 0) != (dq < 0))
-        cut.push_back({p + dp / (dp - dq) * (q - p), dp < 0 ? kept[k].next : static_cast<int>(i)});
-    }
-    kept = std::move(cut);
-  }
-  return kept;
-}
 
 // Without corners that stand out by less than a nanometre, whose edges are next to parallel.
 std::vector<Vector2d> plainHull(std::vector<Vector2d> points) {
@@ -75,8 +50,7 @@ std::vector<Vector2d> plainHull(std::vector<Vector2d> points) {
 
 SupportPatch::SupportPatch(const std::vector<Vector3d>& points, double margin) {
   if (!(margin > 0)) {
-    for (const Vector3d& p : points) points_.push_back({p, -1, -1, 0});
-    corners_ = static_cast<int>(points.size());
+    for (const Vector3d& p : points) points_.push_back({p});
     return;
   }
   if (points.size() < 3) refuseNarrow();
@@ -94,62 +68,83 @@ SupportPatch::SupportPatch(const std::vector<Vector3d>& points, double margin) {
     margin_ = std::max(margin_, margin + std::abs(normal.dot(p - centre_)));
   }
   const std::vector<Vector2d> hull = plainHull(flat);
-  const int n = static_cast<int>(hull.size());
-  const std::vector<ClippedCorner> kept = n < 3 ? std::vector<ClippedCorner>{} : clipped(hull, margin_);
-  if (kept.size() < 3) refuseNarrow();
-  for (int i = 0; i < n; ++i) {
-    const Vector2d along = (hull[at((i + 1) % n)] - hull[at(i)]).normalized();
-    edges_.push_back({along.x() * u_ + along.y() * v_, -1, -1, 1});
+  if (hull.size() < 3) refuseNarrow();
+  for (std::size_t i = 0; i < hull.size(); ++i) {
+    const Vector2d along = (hull[(i + 1) % hull.size()] - hull[i]).normalized();
+    edges_.push_back({hull[i], along, along.x() * u_ + along.y() * v_});
   }
-  corners_ = static_cast<int>(kept.size());
-  for (int k = 0; k < corners_; ++k)
-    addPoint(hull, kept[at((k + corners_ - 1) % corners_)].next, kept[at(k)].next);
-  for (int k = 0; k < corners_; ++k) {
-    const int first = points_[at(k)].first, second = points_[at(k)].second;
-    edges_[at(first)].to = edges_[at(second)].from = k;
-    for (int between = (first + 1) % n; between != second; between = (between + 1) % n) {
-      Edge& edge = edges_[at(between)];
-      edge.sign = -1;
-      edge.from = addPoint(hull, first, between);
-      edge.to = addPoint(hull, between, second);
-    }
-  }
-  for (const Edge& edge : edges_)
-    if (edge.from < 0 || edge.to < 0) refuseNarrow();
+  points_.resize(edges_.size());
+  choose();
+  if (!(radius_ > margin_)) refuseNarrow();
 }
 
-int SupportPatch::addPoint(const std::vector<Vector2d>& hull, int first, int second) {
+SupportPatch::Meeting SupportPatch::meeting(int first, int second) const {
+  const Edge &a = edges_[at(first)], &b = edges_[at(second)];
+  const double sine = cross(a.along, b.along);
+  return {b.from - cross(a.along, b.from - a.from) / sine * b.along,
+          (a.length * b.along - b.length * a.along) / (upright_ * sine), sine};
+}
+
+// Lets the edges vanish one after the other. Those that are left at the margin make the corners.
+void SupportPatch::choose() {
   constexpr double kParallel = 1e-6;
-  if (first < 0 || second < 0 || first == second) refuseNarrow();
-  const auto along = [&](int edge) -> Vector2d {
-    const Vector3d& t = edges_[at(edge)].local;
-    return {u_.dot(t), v_.dot(t)};
-  };
-  const Vector2d a = along(first), b = along(second);
-  const Vector2d &p = hull[at(first)], &q = hull[at(second)];
-  const double sine = cross(a, b);
-  if (sine < kParallel && (first + 1) % static_cast<int>(hull.size()) != second) refuseNarrow();
-  const Vector2d meet =
-      (first + 1) % static_cast<int>(hull.size()) == second ? q : p + cross(q - p, b) / sine * a;
-  points_.push_back({centre_ + meet.x() * u_ + meet.y() * v_, first, second, sine});
-  return static_cast<int>(points_.size()) - 1;
+  std::vector<int> left, kept;
+  for (int i = 0; i < static_cast<int>(edges_.size()); ++i) left.push_back(i);
+  for (;;) {
+    const std::size_t n = left.size();
+    std::size_t next = 0;
+    radius_ = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < n; ++k) {
+      const Meeting from = meeting(left[(k + n - 1) % n], left[k]), to = meeting(left[k], left[(k + 1) % n]);
+      const Vector2d& along = edges_[at(left[k])].along;
+      const double length = along.dot(to.at - from.at), shrinks = along.dot(from.way - to.way);
+      if (!(shrinks > 0 && length < radius_ * shrinks)) continue;
+      radius_ = length / shrinks;
+      next = k;
+    }
+    if (kept.empty() && radius_ > margin_) kept = left;
+    around_ = {left[(next + n - 1) % n], left[next], left[(next + 1) % n]};
+    const auto sine = [&](std::size_t i, std::size_t j) {
+      return cross(edges_[at(around_[i])].along, edges_[at(around_[j])].along);
+    };
+    if (n == 3 || sine(0, 2) < kParallel) {
+      pull_ = {sine(1, 2), std::max(0.0, sine(2, 0)), sine(0, 1)};
+      break;
+    }
+    left.erase(left.begin() + static_cast<std::ptrdiff_t>(next));
+  }
+  if (kept.empty()) kept = std::move(left);
+  for (std::size_t k = 0; k < kept.size(); ++k) {
+    const int first = kept[k], second = kept[(k + 1) % kept.size()], n = static_cast<int>(edges_.size());
+    const Meeting meet = meeting(first, second);
+    const Vector3d local = centre_ + meet.at.x() * u_ + meet.at.y() * v_;
+    for (int i = first; i != second; i = (i + 1) % n) points_[at(i)] = {local, first, second, meet.sine};
+  }
 }
 
 std::vector<Vector3d> SupportPatch::flatCorners() const {
+  SupportPatch flat = *this;
+  flat.upright_ = 1;
+  for (Edge& edge : flat.edges_) edge.length = 1;
+  if (!edges_.empty()) flat.choose();
   std::vector<Vector3d> corners;
-  for (int k = 0; k < corners_; ++k) {
-    const Point& p = points_[at(k)];
-    corners.push_back(p.local);
-    if (p.first >= 0)
-      corners.back() += margin_ / p.sine * (edges_[at(p.second)].local - edges_[at(p.first)].local);
+  for (std::size_t i = 0; i < flat.points_.size(); ++i) {
+    const Point& p = flat.points_[i];
+    if (p.first < 0)
+      corners.push_back(p.local);
+    else if (at(p.first) == i)  // the first of those at one place
+      corners.push_back(p.local +
+                        margin_ / p.sine * (edges_[at(p.second)].local - edges_[at(p.first)].local));
   }
   return corners;
 }
 
 void SupportPatch::place(const Eigen::Isometry3d& link, const Eigen::Matrix3d& world) {
   world_ = world;
-  for (Point& p : points_) p.carried = link * p.local;
-  if (edges_.empty()) return;
+  const auto carry = [&] {
+    for (Point& p : points_) p.carried = link * p.local;
+  };
+  if (edges_.empty()) return carry();
   for (Edge& edge : edges_) {
     edge.turned = link.linear() * edge.local;
     edge.seen = (world * edge.turned).head<2>();
@@ -160,6 +155,8 @@ void SupportPatch::place(const Eigen::Isometry3d& link, const Eigen::Matrix3d& w
   const bool steep = std::abs(cosine) < kUpright;  // there a parabola, so that nothing is divided by 0
   upright_ = steep ? cosine * cosine / (2 * kUpright) + kUpright / 2 : std::abs(cosine);
   uprightSlope_ = steep ? cosine / kUpright : cosine < 0 ? -1 : 1;
+  choose();
+  carry();
 }
 
 Vector2d SupportPatch::spread(const Point& p) const {
@@ -167,7 +164,8 @@ Vector2d SupportPatch::spread(const Point& p) const {
   return a.length * b.seen - b.length * a.seen;
 }
 
-Vector2d SupportPatch::corner(const Point& p) const {
+Vector2d SupportPatch::corner(int i) const {
+  const Point& p = points_[at(i)];
   const Vector2d seen = (world_ * p.carried).head<2>();
   return p.first < 0 ? seen : Vector2d(seen + margin_ / (upright_ * p.sine) * spread(p));
 }
@@ -184,7 +182,8 @@ std::pair<Vector2d, double> changeOf(const Edge& edge, const Eigen::Matrix3d& wo
 
 }  // namespace
 
-Vector2d SupportPatch::cornerRate(const Point& p, const Twist& twist) const {
+Vector2d SupportPatch::cornerRate(int i, const Twist& twist) const {
+  const Point& p = points_[at(i)];
   Vector2d rate = (world_ * (twist.linear + twist.angular.cross(p.carried))).head<2>();
   if (p.first < 0) return rate;
   const Edge &a = edges_[at(p.first)], &b = edges_[at(p.second)];
@@ -196,26 +195,23 @@ Vector2d SupportPatch::cornerRate(const Point& p, const Twist& twist) const {
 }
 
 double SupportPatch::room(int row) const {
-  if (row == static_cast<int>(edges_.size())) {
-    const double cosine = world_.row(2).dot(normal_);
-    return cosine * cosine - kUpright * kUpright;
-  }
-  const Edge& edge = edges_[at(row)];
-  if (!(edge.length > 0)) return 0;
-  return edge.sign * edge.seen.dot(corner(points_[at(edge.to)]) - corner(points_[at(edge.from)])) /
-         edge.length;
+  if (row == 0) return radius_ - margin_;
+  const double cosine = world_.row(2).dot(normal_);
+  return cosine * cosine - kUpright * kUpright;
 }
 
+// The circle's centre stays where it is on the patch, as its best place: there the edges' distances, seen
+// from above, change with their lengths and the slope.
 double SupportPatch::roomRate(int row, const Twist& twist) const {
-  if (row == static_cast<int>(edges_.size()))
-    return 2 * world_.row(2).dot(normal_) * world_.row(2).dot(twist.angular.cross(normal_));
-  const Edge& edge = edges_[at(row)];
-  if (!(edge.length > 0)) return 0;
-  const Point &from = points_[at(edge.from)], &to = points_[at(edge.to)];
-  const Vector2d span = corner(to) - corner(from), along = edge.seen / edge.length;
-  const auto [turn, shorter] = changeOf(edge, world_, twist.angular);
-  return edge.sign * (along.dot(cornerRate(to, twist) - cornerRate(from, twist)) +
-                      span.dot(turn - shorter * along) / edge.length);
+  const double steeper = world_.row(2).dot(twist.angular.cross(normal_));
+  if (row == 1) return 2 * world_.row(2).dot(normal_) * steeper;
+  double length = 0, shorter = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Edge& edge = edges_[at(around_[k])];
+    length += pull_[k] * edge.length;
+    shorter += pull_[k] * changeOf(edge, world_, twist.angular).second;
+  }
+  return radius_ * (uprightSlope_ * steeper / upright_ - (length > 0 ? shorter / length : 0));
 }
 
 }  // namespace fcl_stpbv::detail

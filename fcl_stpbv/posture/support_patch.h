@@ -12,58 +12,61 @@ namespace fcl_stpbv::detail {
 
 /// A flat convex patch of a link, or any points of it where the margin is 0. A patch that is tilted is
 /// narrower seen from above: its edges move inwards there, and how far they do along the patch depends on the
-/// tilt. Which two edges make a corner is decided once, for the patch lying flat.
+/// tilt. So do the edges that are left: where one has no length any more, those beside it meet.
 class SupportPatch {
  public:
   /// `margin` in m; what the points are off their plane is added to it. @throws Error where nothing is left.
   SupportPatch(const std::vector<Eigen::Vector3d>& points, double margin);
 
-  int corners() const { return corners_; }
-  /// As the patch lies flat, in the link's frame.
+  /// The same for any tilt; some are at one place where edges have no length.
+  int corners() const { return static_cast<int>(points_.size()); }
+  /// As the patch lies flat, in the link's frame, each once.
   std::vector<Eigen::Vector3d> flatCorners() const;
   /// Where the link is. `world` turns the axes of the link's pose and of twists into those of the world.
   void place(const Eigen::Isometry3d& link, const Eigen::Matrix3d& world);
   /// A corner seen from above, and its change as the link moves.
-  Eigen::Vector2d corner(int i) const { return corner(points_[static_cast<std::size_t>(i)]); }
-  Eigen::Vector2d cornerRate(int i, const Twist& twist) const {
-    return cornerRate(points_[static_cast<std::size_t>(i)], twist);
-  }
+  Eigen::Vector2d corner(int i) const;
+  Eigen::Vector2d cornerRate(int i, const Twist& twist) const;
 
-  /// Rows that are negative where the corners do not keep the margin: the patch is too narrow seen from above
-  /// (m), or nearly upright (the last row). None without a margin.
-  int rooms() const { return edges_.empty() ? 0 : static_cast<int>(edges_.size()) + 1; }
+  /// Rows that are negative where the corners do not keep the margin: the largest circle in the patch, seen
+  /// from above, has a smaller radius (m), or the patch is nearly upright. None without a margin.
+  int rooms() const { return edges_.empty() ? 0 : 2; }
   double room(int row) const;
   double roomRate(int row, const Twist& twist) const;
 
  private:
   struct Point {  // where the lines of two edges meet
     Eigen::Vector3d local;
-    int first, second;  // edges, -1 without a margin
-    double sine;        // of the angle from one to the other
+    int first = -1, second = -1;  // edges, -1 without a margin
+    double sine = 0;              // of the angle from one to the other
     Eigen::Vector3d carried{0, 0, 0};
   };
   struct Edge {
-    Eigen::Vector3d local;  // direction, counter-clockwise about the normal
-    int from, to;           // points on it
-    double sign;            // -1 for an edge that the others leave out: they must meet inside of it
+    Eigen::Vector2d from, along;  // in the plane, counter-clockwise about the normal
+    Eigen::Vector3d local;        // `along` in the link's frame
     Eigen::Vector3d turned{0, 0, 0};
     Eigen::Vector2d seen{0, 0};
-    double length = 0;  // of `seen`
+    double length = 1;  // of `seen`
+  };
+  struct Meeting {  // of two edges' lines, and where it goes for each m of margin
+    Eigen::Vector2d at, way;
+    double sine;
   };
 
-  int addPoint(const std::vector<Eigen::Vector2d>& hull, int first, int second);
-  Eigen::Vector2d corner(const Point& p) const;
-  Eigen::Vector2d cornerRate(const Point& p, const Twist& twist) const;
+  Meeting meeting(int first, int second) const;
+  void choose();
   Eigen::Vector2d spread(const Point& p) const;
 
   double margin_ = 0;
-  int corners_ = 0;
   Eigen::Vector3d centre_{0, 0, 0}, u_{0, 0, 0}, v_{0, 0, 0};  // the patch's plane
-  std::vector<Point> points_;                                  // the corners first
+  std::vector<Point> points_;                                  // one after each edge
   std::vector<Edge> edges_;
   Eigen::Matrix3d world_ = Eigen::Matrix3d::Identity();
   Eigen::Vector3d normal_{0, 0, 1};        // axes of the link's pose
   double upright_ = 1, uprightSlope_ = 0;  // of the normal: |cosine| with the vertical, and its slope
+  double radius_ = 0;                      // of the largest circle seen from above
+  std::array<int, 3> around_{};            // edges that it touches
+  std::array<double, 3> pull_{};           // normals with these lengths add up to 0
 };
 
 }  // namespace fcl_stpbv::detail

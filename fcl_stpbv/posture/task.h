@@ -55,7 +55,7 @@ std::vector<Eigen::Vector3d> shrunk(const std::vector<Eigen::Vector3d>& points, 
 
 /// Rows: the centre of mass, seen along z, is the sum of w_k times contact point k, with w_k >= 0 of sum 1.
 /// The weights are variables of their own, from x[firstWeight] on, so that contacts may move with the posture
-/// and nothing switches as they do. Each contact, as it is seen along z, is shrunk by the margin, so the
+/// and nothing jumps as they do. Each contact, as it is seen along z, is shrunk by the margin, so the
 /// centre of mass keeps at least that far from the support polygon's edges however the contacts are tilted.
 class StaticStability : public PostureRows {
  public:

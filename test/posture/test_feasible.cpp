@@ -155,3 +155,43 @@ TEST_CASE("what is told to be in conflict is least: no step within the limits mi
   }
   CHECK(told > 50);
 }
+
+TEST_CASE("the descent to what is least goes on to its end, along a way that is long and narrow") {
+  const auto link = [](const std::string& name, const std::string& centre, const std::string& mass) {
+    return "<link name='" + name + "'><inertial><origin xyz='" + centre + "'/><mass value='" + mass +
+           "'/><inertia ixx='1' iyy='1' izz='1' ixy='0' ixz='0' iyz='0'/></inertial></link>";
+  };
+  const auto limits = [](const std::string& lower, const std::string& upper) {
+    return "<limit lower='" + lower + "' upper='" + upper + "' effort='1' velocity='1'/>";
+  };
+  const PostureScene scene =
+      bodiesOf(link("l0", "0.06 0.01 0.03", "3.2") + link("l1", "-0.056 0.06 -0.072", "4.5") +
+               joint("j1", "revolute", "l0", "l1",
+                     "<origin xyz='-0.1887 0.0289 -0.2484' rpy='-0.1 0 0.6'/><axis xyz='0 0 1'/>" +
+                         limits("-1.6", "-1")) +
+               "<link name='l2'/>" +
+               joint("j2", "continuous", "l1", "l2",
+                     "<origin xyz='0.06 0.27 -0.27' rpy='-0.8 0.06 0.36'/><axis xyz='-0.282 0.27 0.921'/>") +
+               "<link name='l3'/>" +
+               joint("j3", "revolute", "l2", "l3",
+                     "<origin xyz='-0.145 0.193 0.213' rpy='-0.24 0.93 0.66'/><axis xyz='1 0 0'/>" +
+                         limits("-0.3", "2")) +
+               link("l4", "0.092 0.096 -0.073", "5") +
+               joint("j4", "revolute", "l3", "l4",
+                     "<origin xyz='0.29 0.25 -0.21' rpy='-0.33 -0.74 -0.95'/><axis xyz='1 0 0'/>" +
+                         limits("-1", "1.5") + "<mimic joint='j2' multiplier='0.5' offset='-0.15'/>"));
+  PostureSetup setup = setUpWithoutCollisions(parseTask(R"({"base": "fixed",
+      "start": {"base": {"position": [0.06, -0.6876, -0.6083], "rpy": [-2.887, -0.213, 1.206]}},
+      "placements": [{"link": "l1", "frame": {"position": [-0.0656, -0.0265, 0.04], "rpy": [-2, -2, 0]},
+                      "target": {"position": [0.062, -0.9998, -0.472], "rpy": [0.4, 1.37, 1.88]},
+                      "free": ["x", "y", "rx", "ry", "rz"]}],
+      "stability": {"contacts": [
+        {"link": "l1", "points": [[0.25, 0.06, -0.4], [0.42, 0.12, -0.3], [0.3, 0.11, -0.36], [0.49, 0, -0.3]]},
+        {"link": "l4", "points": [[-0.002, -0.41, -0.06], [0.0743, -0.41, -0.13], [0.01, -0.4, -0.1],
+            [0.03, -0.4, -0.12], [0.04, -0.413, -0.078], [0.2, -0.5, 0], [0.065, -0.4, -0.143]]}]}})",
+                                                        "task.json"),
+                                              scene);
+  const Posture posture = findPosture(setup);
+  for (const Violation& v : posture.conflict) UNSCOPED_INFO(v.name << ' ' << v.amount);
+  CHECK(posture.feasible);
+}

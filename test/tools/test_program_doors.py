@@ -139,7 +139,7 @@ class Programs(unittest.TestCase):
 
     def test_a_folder_that_cannot_be_written_is_refused_before_the_work(self):
         folder, tried = __file__ + "/folder", 0  # within a file
-        for program in {*PROGRAMS, BIN / "collide_figures", BIN / "mesh_figures", BIN / "robot_bench", BIN / "scene_models"}:
+        for program in {*PROGRAMS, BIN / "collide_figures", BIN / "mesh_figures", BIN / "shape_figures", BIN / "robot_bench", BIN / "scene_models"}:
             entries = dict(entries_of(program)) if program.exists() else {}
             if "-o,--output" in entries and program.name not in ("mesh_to_stpbv", "urdf_to_stpbv", "urdf_collision_report", "find_posture"):
                 with self.subTest(program=program.name):
