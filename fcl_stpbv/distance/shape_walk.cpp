@@ -7,13 +7,14 @@
 //    where an edge of the volume meets an edge, a rim or a cone's side.
 // 3. If that normal is past the patch's boundaries, cross the one that it passes furthest, and go to 2.
 // 4. If the patch's point there is nearest to another feature of the shape, take that one, and go to 2.
-// 5. Test what is left against the whole shape. Where it fails, or after a dozen pairs, the searches of
+// 5. Test what is left against the whole shape. Where it fails, or after some pairs, the searches of
 //    shape_query.h take over.
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "fcl_stpbv/convex/shape_feature.h"
+#include "fcl_stpbv/distance/ascent.h"
 #include "fcl_stpbv/distance/shape_query.h"
 #include "fcl_stpbv/vectorized.h"
 
@@ -224,7 +225,6 @@ Span awayFromCentre(const ShapeQuery& q) {
 
 FCL_STPBV_VECTORIZED
 bool walkFeatures(ShapeQuery& q, const StartNormal& start, int tries, Nearest& found) {
-  constexpr double kOnBoundary = 1e-15;  // rounding of a unit vector
   constexpr double kFar = 0.3;  // cosine of the turn after which the boundary passed furthest says little
   const PatchTable& patches = q.body.tables().patches;
   Packed n;

@@ -129,7 +129,7 @@ def posture_profile(height=400):
             text += block(f"$profile{panel}{i}", curve)
             plots.append(f"$profile{panel}{i} using 1:2 with steps lw 2 lc rgb '{colour}'")
         text += f"set title '{words}' offset 0,-0.6\nplot " + ", ".join(plots) + "\n" + UNLABEL + "unset ylabel\n"
-    draw("posture_profile", "Postures: all four sources of distances take about the same effort", text + "unset multiplot\n", small_print, height)
+    draw("posture_profile", "Postures: all four solve as many in as many steps, STP-BVs in half the time", text + "unset multiplot\n", small_print, height)
 
 
 def control(height=440):
