@@ -1,6 +1,6 @@
 // Farther than a threshold?
 //
-// 1. Boxes around both geometries, or around two STP-BVs their balls.
+// 1. Boxes around both geometries, or around two convex bodies their balls.
 // 2. Down both hierarchies, near children first.
 // 3. Of two bodies the gap along the remembered normal.
 // 4. A search that ends as soon as its bounds tell.
