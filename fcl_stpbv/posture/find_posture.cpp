@@ -153,7 +153,7 @@ Posture findPosture(PostureSetup& setup, const PostureOptions& options) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   };
   // Steps to where the constraints hold best: next to singular postures they are many and short.
-  constexpr int kLongest = 1000;
+  constexpr int kLongest = 150;
   PostureProblem& problem = *setup.problem;
   if (setup.start.size() != problem.kinematics().size())
     throw Error("findPosture: the start has " + std::to_string(setup.start.size()) +
