@@ -88,9 +88,11 @@ double gapOfBoxes(const OrientedBox& a, const OrientedBox& b, double rounding, d
 }  // namespace
 
 bool isConvex(const fcl::CollisionGeometryd& geometry, ConvexBody& body) {
-  const PosedGeometry still(geometry, Isometry3d::Identity(), Isometry3d::Identity());
-  if (still.isBody()) body = still.body();
-  return still.isBody();
+  if (const StpBvGeometry* g = asStpBv(&geometry)) {
+    body.volume = &g->volume();
+    return true;
+  }
+  return shapeOf(geometry, body.shape) && body.shape.valid();
 }
 
 Distance distance(const ConvexBody& a, const ConvexBody& b, PairCache* cache) {
@@ -107,14 +109,10 @@ Distance distance(const ConvexBody& a, const ConvexBody& b, PairCache* cache) {
 bool areBodies(const fcl::CollisionGeometryd& geometry1, const Isometry3d& pose1,
                const fcl::CollisionGeometryd& geometry2, const Isometry3d& pose2, ConvexBody& a,
                ConvexBody& b) {
-  const StpBvGeometry *first = asStpBv(&geometry1), *second = asStpBv(&geometry2);
-  if (first) a.volume = &first->volume();
-  if (second) b.volume = &second->volume();
+  if (!isConvex(geometry1, a) || !isConvex(geometry2, b)) return false;
   a.pose = pose1;
   b.pose = pose2;
-  if (!(first || shapeOf(geometry1, a.shape)) || !(second || shapeOf(geometry2, b.shape))) return false;
-  const auto bounded = [](const Shape& shape) { return !shape.unbounded() && shape.valid(); };
-  return first || second || (bounded(a.shape) && bounded(b.shape) && makeRigid(a.pose) && makeRigid(b.pose));
+  return a.volume || b.volume || (!a.unbounded() && !b.unbounded() && makeRigid(a.pose) && makeRigid(b.pose));
 }
 
 PosedGeometry::PosedGeometry(const fcl::CollisionGeometryd& geometry, const Isometry3d& pose,
@@ -123,10 +121,7 @@ PosedGeometry::PosedGeometry(const fcl::CollisionGeometryd& geometry, const Isom
       inFrame_(inFrame),
       unmoved_(inFrame.matrix() == Eigen::Matrix4d::Identity()) {
   body_.pose = pose;
-  if (const StpBvGeometry* g = asStpBv(&geometry))
-    body_.volume = &g->volume();
-  else
-    isShape_ = shapeOf(geometry, body_.shape) && body_.shape.valid();
+  isShape_ = isConvex(geometry, body_) && !body_.volume;
 }
 
 PosedGeometry::Part PosedGeometry::whole() const {

@@ -71,17 +71,23 @@ struct WidestGap {
   }
 };
 
-/// Cores apart, as a search knows them: `exact` where its bounds agree. `invalid` where no gap between them
-/// was found.
-Distance asFound(const Pair& p, const Gjk& found, const WidestGap& widest) {
-  if (!(widest.gap > 0.0)) return {};
-  Distance result = p.inWorld(widest.n, found.simplex.weighted(&Corner::onA), found.v);
-  const double upper = std::max(found.upper, widest.gap);
-  result.status = upper - widest.gap <= p.rounding ? DistanceStatus::exact : DistanceStatus::bounded;
+/// Cores apart: a gap between them along `n`, and a point of A's with the way of length `upper` to one of
+/// B's. `exact` where gap and length agree.
+Distance between(const Pair& p, const Vector3d& n, double gap, const Vector3d& onA, const Vector3d& toB,
+                 double upper) {
+  Distance result = p.inWorld(n, onA, toB);
+  result.status = upper - gap <= p.rounding ? DistanceStatus::exact : DistanceStatus::bounded;
   result.distance = upper - p.margins();
-  result.lower = widest.gap - p.margins() - p.certificate;
+  result.lower = gap - p.margins() - p.certificate;
   result.upper = result.distance + p.certificate;
   return result;
+}
+
+/// Cores apart, as a search knows them. `invalid` where no gap between them was found.
+Distance asFound(const Pair& p, const Gjk& found, const WidestGap& widest) {
+  if (!(widest.gap > 0.0)) return {};
+  return between(p, widest.n, widest.gap, found.simplex.weighted(&Corner::onA), found.v,
+                 std::max(found.upper, widest.gap));
 }
 
 /// Cores apart: as found, or with the last digits of normal and points by Newton's method, where chords of a
@@ -161,14 +167,7 @@ Distance solve(const Pair& p) {
   if (!p.valid) return {};
   if (p.a.unbounded()) return besidePlane(p);
   Gjk found;
-  if (besideBall(p, found)) {
-    Distance result = p.inWorld(found.n, Vector3d(0, 0, 0), found.v);
-    result.status = DistanceStatus::exact;
-    result.distance = found.upper - p.margins();
-    result.lower = found.lower - p.margins() - p.certificate;
-    result.upper = result.distance + p.certificate;
-    return result;
-  }
+  if (besideBall(p, found)) return between(p, found.n, found.lower, Vector3d(0, 0, 0), found.v, found.upper);
   found = p.search([&](double lower, double upper) { return p.curved() && isNear(p, lower, upper); });
   Distance result = separated(p, found);
   if (result.status == DistanceStatus::bounded && p.curved()) result = separatedAtTheEnd(p, found);

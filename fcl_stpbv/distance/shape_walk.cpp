@@ -59,26 +59,60 @@ Packed widestOfLine(const PosedPatch& edge, const ShapeFeature& line, Packed n) 
   return n;
 }
 
-/// An edge's torus and a rim: on the sphere, from the rim's point nearest to the edge's middle.
-Packed widestOfRim(const PosedPatch& edge, const ShapeFeature& rim, Packed n) {
-  constexpr double kUpright = 1e-6;  // sine, next to the rim's axis, where it bends without bound
-  const Packed towards = rim.point - edge.anchor;
-  n = circlePoint(edge, towards - rim.radius * unitAcross(towards, rim.axis, n), n).unit();
+/// A round feature along a normal: its point that faces there, and its radii of curvature in the tangent
+/// plane's axes (m).
+struct RoundView {
+  Packed point;
+  double m11, m12, m22;
+};
+
+/// A patch and a round feature: on the sphere, from the unit vector `n`. `look(n, e1, e2)` gives the
+/// feature's RoundView, with e1 and e2 across n.
+template <typename Look>
+Packed widestOfRound(const PosedPatch& a, Packed n, const Look& look) {
   for (int i = 0; i < kPasses; ++i) {
-    const EdgeView view = viewEdge(edge, n);
-    const Packed out = unitAcross(n, rim.axis, n), anchors = rim.point - rim.radius * out - edge.anchor,
-                 difference = anchors - view.offset, e1 = cross(edge.axis, n) / view.c, e2 = cross(n, e1),
-                 along = cross(rim.axis, out);
-    const double gap = dot(n, anchors) - view.rise, bent = rim.radius / std::max(dot(n, out), kUpright),
-                 f1 = dot(along, e1), f2 = dot(along, e2), m11 = view.around + bent * f1 * f1 + gap,
-                 m22 = edge.radii->rho + bent * f2 * f2 + gap, m12 = bent * f1 * f2, g1 = dot(difference, e1),
-                 g2 = dot(difference, e2), det = m11 * m22 - m12 * m12;
-    if (!(det > 0.0 && m11 > 0.0)) break;
-    const double x1 = (m22 * g1 - m12 * g2) / det, x2 = (m11 * g2 - m12 * g1) / det;
+    Packed offset, e1;
+    double rise, around, along;  // of the patch; its radii of curvature along e1 and e2
+    if (a.kind == PatchKind::edge) {
+      const EdgeView view = viewEdge(a, n);
+      offset = view.offset, rise = view.rise;
+      e1 = cross(a.axis, n) / view.c;
+      around = view.around, along = a.radii->rho;
+    } else {
+      const CoreView view = viewCore(a, n);
+      offset = view.offset, rise = view.rise;
+      e1 = cross(std::abs(n[0]) < 0.5 ? Packed{1, 0, 0, 0} : Packed{0, 1, 0, 0}, n);
+      e1 /= std::sqrt(dot(e1, e1));
+      around = along = a.kind == PatchKind::face ? a.radii->rho : 0.0;
+    }
+    const Packed e2 = cross(n, e1);
+    const RoundView f = look(n, e1, e2);
+    const Packed anchors = f.point - a.anchor, difference = anchors - offset;
+    const double gap = dot(n, anchors) - rise, m11 = around + f.m11 + gap, m22 = along + f.m22 + gap,
+                 g1 = dot(difference, e1), g2 = dot(difference, e2), det = m11 * m22 - f.m12 * f.m12;
+    if (!(det > 0.0 && m11 > 0.0)) {
+      n = unnormalizedOr(difference, n).unit();
+      continue;
+    }
+    const double x1 = (m22 * g1 - f.m12 * g2) / det, x2 = (m11 * g2 - f.m12 * g1) / det;
     n = unnormalizedOr(n + x1 * e1 + x2 * e2, n).unit();
     if (x1 * x1 + x2 * x2 <= kConverged2) break;
   }
   return n;
+}
+
+/// An edge's torus and a rim, from the rim's point nearest to the edge's middle.
+Packed widestOfRim(const PosedPatch& edge, const ShapeFeature& rim, const Packed& n) {
+  constexpr double kUpright = 1e-6;  // sine, next to the rim's axis, where it bends without bound
+  const Packed towards = rim.point - edge.anchor,
+               nearest = towards - rim.radius * unitAcross(towards, rim.axis, n);
+  return widestOfRound(
+      edge, circlePoint(edge, nearest, n).unit(), [&](const Packed& m, const Packed& e1, const Packed& e2) {
+        const Packed out = unitAcross(m, rim.axis, m), along = cross(rim.axis, out);
+        const double bent = rim.radius / std::max(dot(m, out), kUpright), f1 = dot(along, e1),
+                     f2 = dot(along, e2);
+        return RoundView{rim.point - rim.radius * out, bent * f1 * f1, bent * f1 * f2, bent * f2 * f2};
+      });
 }
 
 /// A patch and a cone's side: on the circle of its normals, by the angle around the axis. Of a vertex and a
@@ -103,44 +137,18 @@ Packed widestOfSide(const PosedPatch& a, const ShapeFeature& side, const Packed&
   return normalOf(e);
 }
 
-/// A patch and an ellipsoid: on the sphere, from the unit vector `n`.
-Packed widestOfEllipsoid(const ShapeQuery& q, const PosedPatch& a, const ShapeFeature& f, Packed n) {
-  const Packed size = pack(q.shape.size), middles = f.point - a.anchor;
+/// A patch and an ellipsoid.
+Packed widestOfEllipsoid(const ShapeQuery& q, const PosedPatch& a, const ShapeFeature& f, const Packed& n) {
+  const Packed size = pack(q.shape.size);
   const Rotation& axes = q.pose.rotation;
-  for (int i = 0; i < kPasses; ++i) {
-    const Packed local = size * axes.inverse(n);
+  return widestOfRound(a, n, [&](const Packed& m, const Packed& e1, const Packed& e2) {
+    const Packed local = size * axes.inverse(m);
     const double height = std::sqrt(dot(local, local));
-    const Packed ball = local / height, out = axes * (size * ball), anchors = middles - out;
-    Packed offset{}, e1;
-    double m11 = dot(n, anchors), m22 = m11;
-    if (a.kind == PatchKind::edge) {
-      const EdgeView view = viewEdge(a, n);
-      offset = view.offset;
-      e1 = cross(a.axis, n) / view.c;
-      m11 += view.around - view.rise, m22 += a.radii->rho - view.rise;
-    } else {
-      const CoreView view = viewCore(a, n);
-      const double bend = a.kind == PatchKind::face ? a.radii->rho : 0.0;
-      offset = view.offset;
-      e1 = cross(std::abs(n[0]) < 0.5 ? Packed{1, 0, 0, 0} : Packed{0, 1, 0, 0}, n);
-      e1 /= std::sqrt(dot(e1, e1));
-      m11 += bend - view.rise, m22 = m11;
-    }
-    const Packed e2 = cross(n, e1), difference = anchors - offset,
+    const Packed ball = local / height, out = axes * (size * ball),
                  c1 = size * axes.inverse(e1) - dot(out, e1) * ball,
                  c2 = size * axes.inverse(e2) - dot(out, e2) * ball;
-    m11 += dot(c1, c1) / height, m22 += dot(c2, c2) / height;
-    const double m12 = dot(c1, c2) / height, g1 = dot(difference, e1), g2 = dot(difference, e2),
-                 det = m11 * m22 - m12 * m12;
-    if (!(det > 0.0 && m11 > 0.0)) {
-      n = unnormalizedOr(difference, n).unit();
-      continue;
-    }
-    const double x1 = (m22 * g1 - m12 * g2) / det, x2 = (m11 * g2 - m12 * g1) / det;
-    n = unnormalizedOr(n + x1 * e1 + x2 * e2, n).unit();
-    if (x1 * x1 + x2 * x2 <= kConverged2) break;
-  }
-  return n;
+    return RoundView{f.point - out, dot(c1, c1) / height, dot(c1, c2) / height, dot(c2, c2) / height};
+  });
 }
 
 /// The normal from the patch to the feature at which the gap is widest, seen from the unit vector `n`.
