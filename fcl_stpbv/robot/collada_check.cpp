@@ -19,6 +19,15 @@ namespace {
 using tinyxml2::XMLElement;
 
 double metresOf(const XMLElement& unit, const std::string& name) {
+  if (std::string_view(unit.Name()) != "unit")
+    throw Error(xmlPlace(unit, name) + "<" + unit.Name() +
+                "> is no element of COLLADA; is it a misspelt <unit>?");
+  for (const tinyxml2::XMLAttribute* a = unit.FirstAttribute(); a != nullptr; a = a->Next()) {
+    const std::string_view word = a->Name();
+    if (word != "meter" && word != "name")
+      throw Error(xmlPlace(unit, name) + "<unit> has an attribute '" + a->Name() +
+                  "' that COLLADA does not know there; it knows meter, name");
+  }
   const char* metres = unit.Attribute("meter");
   double value = 1;
   if (metres != nullptr && !(readMeshNumber(metres, value) && value > 0))
@@ -34,9 +43,8 @@ class OneUnit : public tinyxml2::XMLVisitor {
 
   bool VisitEnter(const XMLElement& element, const tinyxml2::XMLAttribute* /*first*/) override {
     const XMLElement* asset = element.Parent()->ToElement();
-    if (std::string_view(element.Name()) != "unit" || asset == nullptr ||
-        std::string_view(asset->Name()) != "asset")
-      return true;
+    const bool named = inSmallLetters(element.Name()) == "unit";
+    if (!named || asset == nullptr || std::string_view(asset->Name()) != "asset") return true;
     const double metres = metresOf(element, name_);
     const bool own = asset->Parent() == &root_;
     if (own && !isGiven_)

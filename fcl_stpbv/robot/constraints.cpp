@@ -36,8 +36,9 @@ CollisionConstraints::CollisionConstraints(std::shared_ptr<const Kinematics> kin
   if (std::isnan(options_.exactUpTo)) throw Error("CollisionConstraints: exactUpTo is not a number");
   const bool always = options_.influence == std::numeric_limits<double>::infinity();
   if (options_.exactUpTo < 0 || always) options_.exactUpTo = options_.influence / 2;
-  if (options_.exactUpTo > options_.influence)
-    throw Error("CollisionConstraints: exactUpTo must not exceed influence");
+  if (!always && options_.exactUpTo >= options_.influence)
+    throw Error(
+        "CollisionConstraints: exactUpTo must be less than influence; rows bend over between the two");
   if (!(options_.handOver > 0)) throw Error("CollisionConstraints: handOver must be larger than 0");
   for (const Obstacle& obstacle : options_.obstacles) {
     pose_.push_back(obstacle.pose);

@@ -35,7 +35,7 @@ struct ConstraintOptions {
   /// beyond `exactUpTo` a row leaves the distance d and bends over, twice continuously differentiable, to
   /// (influence + exactUpTo) / 2.
   double influence = std::numeric_limits<double>::infinity();
-  double exactUpTo = -1;  ///< negative: half the influence
+  double exactUpTo = -1;  ///< less than the influence (m); negative: half of it
   /// Two bodies whose convex parts are among the pairs (RobotGeometry::byParts) get one more row, that of the
   /// whole bodies, before the first of their parts'. Where the whole ones are farther apart than this (m), no
   /// part is asked and the parts' rows are constant at 3/4 of it, or less with `exactUpTo`; from half of it

@@ -2,6 +2,7 @@
 #include "fcl_stpbv/robot/mesh_lines.h"
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 
@@ -32,6 +33,13 @@ MeshWords wordsOf(std::string_view text) {
   MeshWords words;
   for (std::string_view word = takeWord(text); !word.empty(); word = takeWord(text)) words.push_back(word);
   return words;
+}
+
+std::string inSmallLetters(std::string_view word) {
+  std::string small(word);
+  std::transform(small.begin(), small.end(), small.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return small;
 }
 
 bool readMeshNumber(std::string_view word, double& value) {

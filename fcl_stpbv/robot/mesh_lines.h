@@ -14,6 +14,8 @@ std::string_view takeWord(std::string_view& text);
 
 MeshWords wordsOf(std::string_view text);
 
+std::string inSmallLetters(std::string_view word);
+
 /// Whether a word is a finite decimal that assimp reads as what it says: it counts the digits before the
 /// point in an integer of 64 bits, and takes more of them for 0 or for any number.
 bool readMeshNumber(std::string_view word, double& value);

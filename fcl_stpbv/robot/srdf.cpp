@@ -118,6 +118,9 @@ class SrdfReader {
     const std::string name = requiredAttribute(e, "name", path_), type = requiredAttribute(e, "type", path_);
     const char* child = e.Attribute("child_link");
     virtual_.insert(name);
+    if (type != "fixed" && type != "planar" && type != "floating")
+      throw Error(xmlPlace(e, path_) + "the virtual_joint '" + name + "' is of type '" + type +
+                  "'; SRDF knows fixed, planar, floating");
     if (child && !ofRoot(child)) {
       warn(e, "the virtual_joint '" + name + "' counts for nothing, as its child_link '" + child +
                   "' is not the root link '" + robot_.links.front().name + "' nor fixed to it");

@@ -2,7 +2,6 @@
 #include "fcl_stpbv/robot/text_mesh_check.h"
 
 #include <algorithm>
-#include <cctype>
 #include <charconv>
 #include <set>
 
@@ -13,13 +12,6 @@
 
 namespace fcl_stpbv::detail {
 namespace {
-
-std::string inSmallLetters(std::string_view word) {
-  std::string small(word);
-  std::transform(small.begin(), small.end(), small.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return small;
-}
 
 bool beginsWith(std::string_view text, std::string_view start) {
   return text.substr(0, start.size()) == start;
@@ -77,6 +69,10 @@ void checkObjVertex(std::string_view line, const MeshLines& lines) {
   if (numbers == 5 || numbers > 6)
     lines.refuse("a vertex of " + std::to_string(numbers) +
                  " numbers is not read, only one of 3, of 4 with a weight and of 6 with a colour");
+  double weight = 1;  // of a rational curve's point; assimp divides by it, others do not
+  if (numbers == 4 && !(readMeshNumber(words[4], weight) && weight == 1))
+    lines.refuse("a vertex has the weight " + std::string(words[4].substr(0, kLongestQuoted)) +
+                 ", which programs read in different ways; write its three coordinates alone");
   if (std::any_of(words.begin() + 1, words.end(), [](std::string_view w) { return !looksLikeNumber(w); }))
     lines.refuse("a number that begins with its point is not read; write a 0 before that");
   const std::string_view comment = line.substr(end);

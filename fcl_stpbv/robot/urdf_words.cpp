@@ -233,6 +233,10 @@ int checkPlaces(const XMLElement& robot, const std::string& path, LoadFaults& fa
         (inLink ? faults.shapes : faults.errors)
             .push_back(xmlPlace(*e, path) + misplaced(*e, at, link || &at == &robot));
       }
+      if (name == "origin" && link)
+        faults.errors.push_back(
+            xmlPlace(*e, path) + placeWithin("origin", "link") +
+            "it belongs into the link's <collision>, <visual> or <inertial>, or into a <joint>");
       collisions += name == "collision" && link;
       open.push_back(e);
     }

@@ -25,9 +25,10 @@ const tinyxml2::XMLElement* inertialOf(const tinyxml2::XMLElement& link);
 void checkInertialWords(const tinyxml2::XMLElement& inertial);
 
 /// Finds `<collision>` and `<geometry>` where no robot has them, and boxes and the like outside of any
-/// geometry, but for those in `<gazebo>`, whose content is the simulator's, and `<self_filter>`. Finds names
-/// in a link that are nearly `<collision>` or `<visual>`, whatever they hold. A geometry, a box or such a
-/// name in a link is an entry of `faults.shapes`, all else of `faults.errors`.
+/// geometry, and an `<origin>` right in a link, but for those in `<gazebo>`, whose content is the
+/// simulator's, and `<self_filter>`. Finds names in a link that are nearly `<collision>` or `<visual>`,
+/// whatever they hold. A geometry, a box or such a name in a link is an entry of `faults.shapes`, all else of
+/// `faults.errors`.
 /// @returns the number of `<collision>` elements of links.
 int checkPlaces(const tinyxml2::XMLElement& robot, const std::string& path, LoadFaults& faults);
 

@@ -147,6 +147,8 @@ TEST_CASE("COLLADA numbers that are none, or that assimp takes for others, are r
        {"<translate>0 0 1", "<translate>0 0 1 1", "t.dae:19: "},
        {"<translate>0 0 1", "<skew>45 0 1 0 1 0 0</skew><translate>0 0 1", "t.dae:19: "},
        {"<mesh>", "<asset><unit meter=\"0.001\"/></asset><mesh>", "t.dae:4: <unit>"},
+       {"<unit meter=\"1\"", "<unit metre=\"0.001\"", "t.dae:3: <unit> has an attribute 'metre'"},
+       {"<unit meter=\"1\"", "<Unit meter=\"0.001\"", "t.dae:3: <Unit> is no element"},
        {"</COLLADA>", "</COLLADA><COLLADA/>", "t.dae:21: not XML"},
        {"</COLLADA>", "</collada>", "t.dae:2: not XML"}});
 }

@@ -47,6 +47,8 @@ TEST_CASE("OBJ: comments, joined lines and numbers that assimp takes for others"
   checkRefused("t.obj", {{obj + "v " + kBig, ":4: "},
                          {obj + "v .5 0 0\n", ":4: "},
                          {obj + "v 0 0 0 1 1\n", ":4: a vertex of 5 numbers"},
+                         {obj + "v 0 0 0 2\n", ":4: a vertex has the weight 2,"},
+                         {obj + "v 0 0 0 0\n", ":4: a vertex has the weight 0,"},
                          {obj + "v 0 0 0 1 1 1 1\n", ":4: a vertex of 7 numbers"},
                          {obj + "V 0 0 1\n", ":4: "},
                          {obj + " v 0 0 1\n", ":4: "},
@@ -64,7 +66,7 @@ TEST_CASE("OBJ: comments, joined lines and numbers that assimp takes for others"
             {"v 0 0 0 # a\nv 1 0 0 #1\nv 0 1 0#b\n" + face,
              "# C:\\\n# a file\n" + obj + "# goes \\\non\n" + face + "# C:\\\n", obj + "f 1 \\\n2 3\n",
              obj + "f 1 2\\\r\n 3\r\n", "# C:\\ \n" + obj + face,
-             "v 0 0 0 2\nv 1 0 0 1 1 1\nv 0 1e0 0\n" + face, "v 0 0 0\rv 1 0 0\rv 0 1 0\rf 1 2 3\r"});
+             "v 0 0 0 1\nv 1 0 0 1 1 1\nv 0 1e0 0\n" + face, "v 0 0 0\rv 1 0 0\rv 0 1 0\rf 1 2 3\r"});
 }
 
 TEST_CASE("OBJ: statements that assimp would pass over") {

@@ -142,6 +142,9 @@ TEST_CASE("Options that are not finite or out of range are refused by name") {
   ConstraintOptions exact;
   exact.exactUpTo = kNaN;
   CHECK_THROWS_AS(CollisionConstraints(small.kinematics, small.geometry, small.pairs, exact), Error);
+  exact.exactUpTo = exact.influence = 0.1;  // a kink
+  CHECK_THROWS_WITH(CollisionConstraints(small.kinematics, small.geometry, small.pairs, exact),
+                    Catch::Contains("exactUpTo must be less than influence"));
   DamperOptions headroom;
   headroom.headroom = kNaN;
   CHECK_THROWS_WITH(VelocityDamper(constraints, headroom), Catch::Contains("headroom"));

@@ -103,6 +103,8 @@ TEST_CASE("words that look misspelt are refused, those of other tools are not") 
       Contains("<orign>"));
   CHECK_THAT(refused(robot("<link name=\"a\"><colision>" + box + "</colision></link>")),
              Contains("<colision>"));
+  CHECK_THAT(refused(robot("<link name=\"a\"><origin xyz=\"0 0 1\"/>" + kBox + "</link>")),
+             Contains("<origin> within <link>"));
   CHECK_THAT(refused(robot("<lnk name=\"a\"><collision>" + box + "</collision></lnk>" + link("b"))),
              Contains("<lnk>"));
   CHECK(shapesIn("<collision concave=\"yes\" x:y=\"1\"><x:proximity/><contact/>" + box + "</collision>") ==

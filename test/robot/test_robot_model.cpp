@@ -281,6 +281,9 @@ TEST_CASE("an SRDF gives pairs, states and the way the base moves") {
   CHECK(srdf.baseType == "floating");
   CHECK(srdf.state("up").joints.at("j")[0] == 0.5);
   CHECK_THAT(refusal([&](const std::string& name) { srdf.state(name); }, "down"), Contains("up"));
+  put(folder / "t.srdf", "<robot name=\"small\"><virtual_joint name=\"v\" type=\"floatin\"/></robot>");
+  CHECK_THROWS_WITH(loadSrdf(folder / "t.srdf", model),
+                    Contains("'floatin'; SRDF knows fixed, planar, floating"));
 }
 
 TEST_CASE("the virtual joint of the root link moves the base, others are told to count for nothing") {
