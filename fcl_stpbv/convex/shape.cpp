@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fcl_stpbv/convex/vertex_set.h"
+
 namespace fcl_stpbv {
 
 using Eigen::Vector3d;
@@ -53,10 +55,8 @@ Shape Shape::polytopeOf(const Vector3d* vertices, int count) {
   s.vertices = vertices;
   s.vertexCount = count;
   if (count < 1) return s;
-  for (int i = 0; i < count; ++i) s.centre += vertices[i] / count;
-  double reach2 = 0.0;
-  for (int i = 0; i < count; ++i) reach2 = std::max(reach2, (vertices[i] - s.centre).squaredNorm());
-  s.reach = std::sqrt(reach2);
+  s.centre = detail::middleOf(vertices, count);
+  s.reach = detail::reachFrom(s.centre, vertices, count);
   return s;
 }
 
@@ -122,16 +122,8 @@ Vector3d Shape::support(const Vector3d& d) const {
       const double a = d.dot(corner[0]), b = d.dot(corner[1]), c = d.dot(corner[2]);
       return corner[a >= b ? (a >= c ? 0 : 2) : (b >= c ? 1 : 2)];
     }
-    case ShapeKind::polytope: {
-      int best = 0;
-      double most = d.dot(vertices[0]);
-      for (int i = 1; i < vertexCount; ++i) {
-        const double height = d.dot(vertices[i]);
-        best = height > most ? i : best;
-        most = std::max(height, most);
-      }
-      return vertices[best];
-    }
+    case ShapeKind::polytope:
+      return vertices[detail::furthestAlong(d, vertices, vertexCount)];
     case ShapeKind::cylinder:
       return rim(std::copysign(half, d.z()));
     case ShapeKind::cone: {

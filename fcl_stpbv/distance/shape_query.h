@@ -95,8 +95,9 @@ struct Span {
   double least, most;
 };
 
-/// The signed distance of the volume's centre from the shape's core, to rounding.
-Span awayFromCentre(const ShapeQuery& q);
+/// The signed distance of the volume's centre from the shape's core, to rounding. Of a polytope the most is
+/// nearer after a look at all corners.
+Span awayFromCentre(const ShapeQuery& q, bool looksAtCorners);
 
 /// Any feature that has a gradient, from a start.
 template <typename Feature>

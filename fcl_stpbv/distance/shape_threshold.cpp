@@ -23,7 +23,7 @@ bool isFartherByBounds(double x, const StpBv& volume, const Isometry3d& poseVolu
   const RelativePose pose(poseVolume, poseShape);
   if (!shape.valid() || !pose.valid || shape.unbounded()) return false;
   const ShapeQuery q(volume, shape, pose);
-  if (awayFromCentre(q).least - volume.enclosingRadius() - shape.margin - q.rounding.certificate > x)
+  if (awayFromCentre(q, false).least - volume.enclosingRadius() - shape.margin - q.rounding.certificate > x)
     return true;
   const Vector3d last = pose.toWorld.inverse(cache.direction());
   if (last.isZero(0)) return false;
@@ -48,7 +48,7 @@ bool isFartherThan(double x, const StpBv& volume, const Isometry3d& poseVolume, 
   if (shape.unbounded()) return isDistanceFarther();
   ShapeQuery q(volume, shape, pose);
   const double margins = volume.radii().r + shape.margin, rounding = q.rounding.certificate;
-  const Span away = awayFromCentre(q);
+  const Span away = awayFromCentre(q, true);
   if (away.least - volume.enclosingRadius() - shape.margin - rounding > x) return true;
   if (away.most - volume.innerRadius() - margins + rounding <= x) return false;
 

@@ -13,8 +13,8 @@
 #include <cmath>
 #include <limits>
 
-#include "fcl_stpbv/convex/shape_feature.h"
 #include "fcl_stpbv/distance/ascent.h"
+#include "fcl_stpbv/distance/known_features.h"
 #include "fcl_stpbv/distance/shape_query.h"
 #include "fcl_stpbv/vectorized.h"
 
@@ -192,26 +192,16 @@ bool crossUphill(const ShapeQuery& q, const PosedPatch& a, const ShapeFeature& f
   return true;
 }
 
-/// In the volume's frame.
-ShapeFeature featureNear(const ShapeQuery& q, const Packed& x) {
-  const Rotation& rotation = q.pose.rotation;
-  ShapeFeature f = nearestFeature(q.shape, rotation.inverse(x - q.pose.translation));
-  f.point = q.pose.placed(f.point);
-  if (f.kind == FeatureKind::side) f.apex = q.pose.placed(f.apex);
-  f.axis = rotation * f.axis;
-  return f;
-}
-
 /// Where the walk starts: in the direction of the shape's point nearest to the volume's centre, or next to
 /// the last answer.
-int startingPatch(const ShapeQuery& q, const StartNormal& start, Packed& n) {
+int startingPatch(const ShapeQuery& q, const StartNormal& start, KnownFeatures& features, Packed& n) {
   const QueryTables& tables = q.body.tables();
   n = pack(start.n);
   if (start.patch >= 0) {
     if (tables.patches.crossing(start.patch, n).past < kWide) return start.patch;
   } else {
     const Packed centre = pack(q.body.centre());
-    n = unnormalizedOr(featureNear(q, centre).point - centre, n).unit();
+    n = unnormalizedOr(features.near(centre).point - centre, n).unit();
   }
   return tables.vertexNear[unpack(n)];
 }
@@ -219,7 +209,7 @@ int startingPatch(const ShapeQuery& q, const StartNormal& start, Packed& n) {
 }  // namespace
 
 FCL_STPBV_VECTORIZED
-Span awayFromCentre(const ShapeQuery& q) {
+Span awayFromCentre(const ShapeQuery& q, bool looksAtCorners) {
   const Packed x = q.pose.rotation.inverse(pack(q.body.centre()) - q.pose.translation);
   // A narrow triangle's normal is less certain than this has to be.
   const ShapeFeature f = q.shape.kind == ShapeKind::triangle ? ShapeFeature{} : nearestFeature(q.shape, x);
@@ -228,6 +218,13 @@ Span awayFromCentre(const ShapeQuery& q) {
   const Packed d = x - (few ? nearestPoint(f, x) : pack(q.shape.centre));
   const double length = std::sqrt(dot(d, d));
   if (few) return {length, length};
+  if (looksAtCorners &&
+      q.shape.kind == ShapeKind::polytope) {  // from its centre to the corner that faces `x`
+    const Packed corner = pack(q.shape.support(unpack(d))), along = corner - pack(q.shape.centre);
+    const double t = std::min(dot(d, along) / std::max(dot(along, along), 1e-300), 1.0);
+    const Packed rest = d - t * along;
+    return {length - q.shape.reach, std::sqrt(dot(rest, rest))};
+  }
   return {length - q.shape.reach, length - (f.kind == FeatureKind::whole ? q.shape.size.minCoeff() : 0.0)};
 }
 
@@ -235,10 +232,11 @@ FCL_STPBV_VECTORIZED
 bool walkFeatures(ShapeQuery& q, const StartNormal& start, int tries, Nearest& found) {
   constexpr double kFar = 0.3;  // cosine of the turn after which the boundary passed furthest says little
   const PatchTable& patches = q.body.tables().patches;
+  KnownFeatures features(q, start.n);
   Packed n;
-  int patch = startingPatch(q, start, n);
+  int patch = startingPatch(q, start, features, n);
   PosedPatch a = posedPatch(q.body, patch);
-  ShapeFeature f = featureNear(q, a.anchor);
+  ShapeFeature f = features.near(a.anchor);
   bool again = false;  // the pair stayed, and its last digits are missing
   for (int i = 0; i < tries && f.kind > FeatureKind::inside; ++i) {
     ++q.pairs;
@@ -260,7 +258,7 @@ bool walkFeatures(ShapeQuery& q, const StartNormal& start, int tries, Nearest& f
     n = to.unit();
     const CoreView view = viewCore(a, n);
     const Packed x = a.anchor + view.offset;
-    const ShapeFeature next = featureNear(q, x);
+    const ShapeFeature next = features.near(x);
     const bool same = next.kind == f.kind && next.which == f.which;
     f = next;
     if (!same) continue;
@@ -275,7 +273,11 @@ bool walkFeatures(ShapeQuery& q, const StartNormal& start, int tries, Nearest& f
     found.y = unpack(y);
     found.gap = dot(n, y - a.anchor) - view.rise;
     found.apart = found.gap > 0.0;
-    return found.apart && found.n.dot(found.y - q.facing(found.n)) <= q.rounding.gap;
+    const Eigen::Vector3d furthest = q.facing(found.n);
+    if (found.n.dot(found.y - furthest) <= q.rounding.gap) return found.apart;
+    if (!features.add(furthest)) return false;
+    f = features.near(x);
+    again = false;
   }
   return false;
 }

@@ -22,8 +22,15 @@ namespace {
 
 using Named = std::pair<std::string, Shape>;
 
+Shape hullOf(const std::vector<Vector3d>& points) {
+  return Shape::polytopeOf(points.data(), static_cast<int>(points.size()));
+}
+
 std::vector<Named> usual() {
-  return {{"ball", Shape::sphere(0.1)},
+  static const std::vector<Vector3d> ball = geodesicSphere(0.15, 2), crate = box(0.2, 0.3, 0.4);
+  return {{"hull of 162", hullOf(ball)},
+          {"hull of 8", hullOf(crate)},
+          {"ball", Shape::sphere(0.1)},
           {"capsule", Shape::capsule(0.1, 0.3)},
           {"box", Shape::boxOf({0.2, 0.3, 0.4})},
           {"triangle", Shape::triangleOf({0.1, 0, 0}, {-0.1, 0.1, 0}, {0, -0.2, 0.1})},
@@ -34,7 +41,14 @@ std::vector<Named> usual() {
 
 /// Without extent along some axis, or all of them.
 std::vector<Named> flat() {
-  return {{"plate", Shape::boxOf({0.2, 0.3, 0})},
+  static const std::vector<Vector3d> one{{0.1, 0, 0}}, same(5, {0.1, 0, 0}),
+      line{{0, 0, 0}, {0.1, 0, 0}, {0.2, 0, 0}, {0.1, 0, 0}, {0.3, 0, 0}},
+      square{{0, 0, 0}, {0.2, 0, 0}, {0.2, 0.2, 0}, {0, 0.2, 0}, {0.1, 0.1, 0}, {0.1, 0, 0}};
+  return {{"hull of one", hullOf(one)},
+          {"hull of one, five times", hullOf(same)},
+          {"hull of a line", hullOf(line)},
+          {"hull of a square", hullOf(square)},
+          {"plate", Shape::boxOf({0.2, 0.3, 0})},
           {"rod", Shape::boxOf({0, 0.3, 0})},
           {"box without sides", Shape::boxOf({0, 0, 0})},
           {"capsule without length", Shape::capsule(0.1, 0)},
@@ -91,7 +105,8 @@ TEST_CASE("the nearest feature's point is in the core, and no point of the core 
       REQUIRE(away.dot(shape.support(away)) <= away.dot(y) + rounding * away.norm() + 1e-16);
       ++outside;
     }
-    const bool unknown = shape.kind == ShapeKind::ellipsoid || name == "cone without sides";
+    const bool unknown = shape.kind == ShapeKind::ellipsoid || shape.kind == ShapeKind::polytope ||
+                         name == "cone without sides";
     CHECK((unknown || outside > 500));
     CHECK((shape.kind != ShapeKind::box || shape.size.minCoeff() == 0 || inside > 50));
   }
@@ -103,9 +118,9 @@ TEST_CASE("a query of an STP-BV and a shape apart takes few pairs of features, f
     double cold, warm;
   };
   // Measured when it was written, and a tenth more.
-  const Bound bounds[] = {{"ball", 1.86, 1.24},     {"capsule", 2.00, 1.48},  {"box", 2.50, 1.94},
-                          {"triangle", 2.13, 1.39}, {"cylinder", 2.11, 1.57}, {"cone", 1.96, 1.46},
-                          {"ellipsoid", 2.28, 1.26}};
+  const Bound bounds[] = {{"hull of 162", 3.53, 2.04}, {"hull of 8", 3.24, 1.69}, {"ball", 1.86, 1.24},
+                          {"capsule", 2.00, 1.48},     {"box", 2.50, 1.94},       {"triangle", 2.13, 1.39},
+                          {"cylinder", 2.11, 1.57},    {"cone", 1.96, 1.46},      {"ellipsoid", 2.28, 1.26}};
   const StpBv::Ptr bodies[] = {StpBv::build(geodesicSphere(0.2, 2), {0.01, 10}),
                                StpBv::build(box(0.2, 0.3, 0.4), {0.01, 10})};
   for (const auto& [name, shape] : usual()) {
@@ -126,11 +141,54 @@ TEST_CASE("a query of an STP-BV and a shape apart takes few pairs of features, f
     }
     const auto bound =
         std::find_if(std::begin(bounds), std::end(bounds), [&](const Bound& b) { return b.name == name; });
-    CAPTURE(name, queries, cold / double(queries), warm / double(queries));
+    CAPTURE(name, queries, double(cold) / double(queries), double(warm) / double(queries));
     CHECK(queries > 500);
     CHECK(static_cast<double>(cold) <= bound->cold * static_cast<double>(queries));
     CHECK(static_cast<double>(warm) <= bound->warm * static_cast<double>(queries));
   }
+}
+
+TEST_CASE(
+    "a box's corners as a polytope are as far away as the box, with more points in it or far from its "
+    "frame") {
+  Random random(3);
+  const Vector3d half(0.1, 0.15, 0.2);
+  std::vector<Vector3d> corners = box(0.2, 0.3, 0.4), grid, twice = corners;
+  twice.insert(twice.end(), corners.begin(), corners.end());
+  for (int i = -3; i <= 3; ++i)
+    for (int j = -3; j <= 3; ++j)
+      for (int k = -3; k <= 3; ++k) grid.push_back(half.cwiseProduct(Vector3d(i, j, k) / 3.0));
+  const Vector3d far(1000, -500, 200);
+  std::vector<Vector3d> away;
+  for (const Vector3d& p : grid) away.push_back(p + far);
+  const Shape crate = Shape::boxOf(2 * half);
+  const StpBv::Ptr bodies[] = {StpBv::build(geodesicSphere(0.2, 1), {0.01, 10}),
+                               StpBv::build(box(0.2, 0.1, 0.3), {0.01, 10}),
+                               StpBv::build(plate(0.3, 0.2, 0.001), {0, 1})};
+  int apart = 0;
+  for (const std::vector<Vector3d>* points : {&corners, &twice, &grid, &away})
+    for (const StpBv::Ptr& body : bodies)
+      for (int i = 0; i < 1500; ++i) {
+        const bool level = i % 3 > 0, stacked = i % 3 == 1;
+        const Isometry3d a = pose(random.rotation(), random.direction());
+        Isometry3d b = a;
+        if (!level) b.linear() = random.rotation();
+        b.translation() +=
+            random.uniform(0.3, 1) * (stacked ? Vector3d(a.linear().col(i % 2)) : random.direction());
+        Isometry3d at = b;
+        if (points == &away) at.translation() = b * Vector3d(-far);
+        const Distance d = distance(*body, a, hullOf(*points), at), wanted = distance(*body, a, crate, b);
+        CAPTURE(points->size(), i, d.patchPairs, wanted.distance);
+        REQUIRE(d.upper >= wanted.lower);
+        REQUIRE(d.lower <= wanted.upper);
+        if (!(wanted.lower > 0)) continue;
+        ++apart;
+        CHECK(d.status == DistanceStatus::exact);
+        const double coordinates = points == &away ? 1e-12 : 2e-15;  // rounding of some of them
+        CHECK(std::abs(d.distance - wanted.distance) <= coordinates);
+        CHECK(std::abs((d.point[1] - d.point[0]).norm() - d.distance) <= 5 * coordinates);
+      }
+  CHECK(apart > 10000);
 }
 
 TEST_CASE("thresholds of an STP-BV and a shape of any extent are judged as their distance's bounds say") {

@@ -3,6 +3,7 @@
 #include <fcl/geometry/shape/box.h>
 #include <fcl/geometry/shape/capsule.h>
 #include <fcl/geometry/shape/cone.h>
+#include <fcl/geometry/shape/convex.h>
 #include <fcl/geometry/shape/cylinder.h>
 #include <fcl/geometry/shape/ellipsoid.h>
 #include <fcl/geometry/shape/sphere.h>
@@ -82,6 +83,12 @@ int main(int argc, char** argv) {
   const auto smooth = [](const Cloud& cloud) {
     return std::make_shared<StpBvGeometry>(StpBv::build(cloud, {0.01, 10.0}));
   };
+  const auto hull = [&](const Cloud& cloud) {  // FCL's own convex body, without the smooth volume
+    const auto g = smooth(cloud);
+    return std::make_shared<fcl::Convexd>(std::make_shared<std::vector<Eigen::Vector3d>>(g->getVertices()),
+                                          g->getFaceCount(),
+                                          std::make_shared<std::vector<int>>(g->getFaces()));
+  };
   const std::vector<Named> bodies{{"STP-BV of 162", smooth(geodesicSphere(0.2, 2))},
                                   {"STP-BV of a box", smooth(box(0.2, 0.3, 0.4))},
                                   {"box", std::make_shared<fcl::Boxd>(0.2, 0.3, 0.4)},
@@ -91,7 +98,9 @@ int main(int argc, char** argv) {
                                   {"box", std::make_shared<fcl::Boxd>(0.2, 0.3, 0.4)},
                                   {"cylinder", std::make_shared<fcl::Cylinderd>(0.1, 0.4)},
                                   {"cone", std::make_shared<fcl::Coned>(0.1, 0.4)},
-                                  {"ellipsoid", std::make_shared<fcl::Ellipsoidd>(0.1, 0.15, 0.2)}};
+                                  {"ellipsoid", std::make_shared<fcl::Ellipsoidd>(0.1, 0.15, 0.2)},
+                                  {"convex of 8", hull(box(0.2, 0.3, 0.4))},
+                                  {"convex of 162", hull(geodesicSphere(0.15, 2))}};
   const std::vector<std::pair<std::string, double>> questions{
       {"distance", 0.45}, {"yes or no", 0.45}, {"yes or no", 0.15}, {"contact", 0.45}, {"contact", 0.15}};
   return app.run(argc, argv, [&] {

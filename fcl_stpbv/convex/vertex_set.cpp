@@ -1,0 +1,90 @@
+// The loops over a polytope's vertices that each query takes: four vertices side by side in three registers,
+// one for each coordinate.
+#include "fcl_stpbv/convex/vertex_set.h"
+
+#include <cmath>
+#include <cstring>
+
+#include "fcl_stpbv/packed.h"
+#include "fcl_stpbv/vectorized.h"
+
+namespace fcl_stpbv::detail {
+
+using Eigen::Vector3d;
+
+namespace {
+
+/// Coordinates of four vertices.
+struct Four {
+  Packed x, y, z;
+
+  explicit Four(const Vector3d* vertices) {
+    Packed a, b, c;
+    std::memcpy(&a, vertices[0].data(), sizeof a);
+    std::memcpy(&b, vertices[0].data() + 4, sizeof b);
+    std::memcpy(&c, vertices[0].data() + 8, sizeof c);
+    x = __builtin_shufflevector(__builtin_shufflevector(a, b, 0, 3, 6, 6), c, 0, 1, 2, 5);
+    y = __builtin_shufflevector(__builtin_shufflevector(a, b, 1, 4, 7, 7), c, 0, 1, 2, 6);
+    z = __builtin_shufflevector(__builtin_shufflevector(a, b, 2, 5, 5, 5), c, 0, 1, 4, 7);
+  }
+  Packed along(const Vector3d& d) const { return d.x() * x + d.y() * y + d.z() * z; }
+};
+
+}  // namespace
+
+FCL_STPBV_VECTORIZED
+Vector3d middleOf(const Vector3d* vertices, int count) {
+  Packed x{}, y{}, z{};
+  int i = 0;
+  for (; i + 4 <= count; i += 4) {
+    const Four four(vertices + i);
+    x += four.x, y += four.y, z += four.z;
+  }
+  const Packed all = sums(x, y, z, z);
+  Vector3d sum = unpack(all);
+  for (; i < count; ++i) sum += vertices[i];
+  return sum / count;
+}
+
+FCL_STPBV_VECTORIZED
+double reachFrom(const Vector3d& point, const Vector3d* vertices, int count) {
+  Packed most{};
+  int i = 0;
+  for (; i + 4 <= count; i += 4) {
+    const Four four(vertices + i);
+    const Packed x = four.x - point.x(), y = four.y - point.y(), z = four.z - point.z();
+    most = larger(x * x + y * y + z * z, most);
+  }
+  double reach2 = largest(most);
+  for (; i < count; ++i) reach2 = std::max(reach2, (vertices[i] - point).squaredNorm());
+  return std::sqrt(reach2);
+}
+
+FCL_STPBV_VECTORIZED
+int furthestAlong(const Vector3d& d, const Vector3d* vertices, int count) {
+  int best = 0, i = 0;
+  double most = d.dot(vertices[0]);
+  if (count >= 4) {
+    Packed height = Four(vertices).along(d);
+    PackedBits where{0, 1, 2, 3};
+    PackedBits at = where;
+    for (i = 4; i + 4 <= count; i += 4) {
+      const Packed next = Four(vertices + i).along(d);
+      at += 4;
+      const PackedBits higher = next > height;
+      where = higher ? at : where;
+      height = higher ? next : height;
+    }
+    best = static_cast<int>(where[0]), most = height[0];
+    for (int k = 1; k < 4; ++k)
+      if (height[k] > most || (height[k] == most && where[k] < best))
+        best = static_cast<int>(where[k]), most = height[k];
+  }
+  for (; i < count; ++i) {
+    const double next = d.dot(vertices[i]);
+    if (next > most) best = i, most = next;
+  }
+  return best;
+}
+
+}  // namespace fcl_stpbv::detail

@@ -1,0 +1,17 @@
+// The vertices of a polytope, four at a time.
+#pragma once
+
+#include <Eigen/Core>
+
+namespace fcl_stpbv::detail {
+
+/// Their middle, a point of their hull (m).
+Eigen::Vector3d middleOf(const Eigen::Vector3d* vertices, int count);
+
+/// How far the furthest of them is from `point` (m).
+double reachFrom(const Eigen::Vector3d& point, const Eigen::Vector3d* vertices, int count);
+
+/// The one furthest along `d` (any length), the first of several. At least one vertex.
+int furthestAlong(const Eigen::Vector3d& d, const Eigen::Vector3d* vertices, int count);
+
+}  // namespace fcl_stpbv::detail

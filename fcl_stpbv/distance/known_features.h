@@ -1,0 +1,42 @@
+// The features of a shape that a walk goes over.
+#pragma once
+
+#include <array>
+
+#include "fcl_stpbv/convex/shape_feature.h"
+#include "fcl_stpbv/distance/shape_query.h"
+
+namespace fcl_stpbv::detail {
+
+/// The shape's own features, or of a polytope those of the hull of up to four of its corners: the ones that
+/// the walk has met, but for those that the nearest point is not of (GJK's simplex). In the volume's frame.
+class KnownFeatures {
+ public:
+  /// A polytope's first corner is the one that faces the volume along the unit vector `n`; of one with few
+  /// corners those along three normals around it.
+  KnownFeatures(const ShapeQuery& q, const Eigen::Vector3d& n);
+
+  /// The feature nearest to `x`. Of a polytope's corners only those of this feature stay known.
+  ShapeFeature near(const Packed& x) {
+    if (isPolytope_) return nearestOfCorners(x);
+    const Rotation& rotation = q_.pose.rotation;
+    ShapeFeature f = nearestFeature(q_.shape, rotation.inverse(x - q_.pose.translation));
+    f.point = q_.pose.placed(f.point);
+    if (f.kind == ShapeFeature::Kind::side) f.apex = q_.pose.placed(f.apex);
+    f.axis = rotation * f.axis;
+    return f;
+  }
+
+  /// One more corner of a polytope, for the next near(). False where it is known, and for other shapes.
+  bool add(const Eigen::Vector3d& corner);
+
+ private:
+  ShapeFeature nearestOfCorners(const Packed& x);
+
+  const ShapeQuery& q_;
+  bool isPolytope_, isNew_ = true;  // whether corners came or went since the last feature was told
+  std::array<Eigen::Vector3d, 4> corner_;
+  int count_ = 0, changes_ = 0;
+};
+
+}  // namespace fcl_stpbv::detail

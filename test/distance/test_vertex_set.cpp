@@ -1,0 +1,44 @@
+// The loops over a polytope's vertices beside plain ones, for every count that four at a time may leave.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <vector>
+
+#include "fcl_stpbv/convex/vertex_set.h"
+#include "test/reference/shapes.h"
+
+using namespace fcl_stpbv::detail;
+using namespace fcl_stpbv::test;
+using Eigen::Vector3d;
+
+TEST_CASE("vertices four at a time: their middle, the furthest from a point and along a direction") {
+  Random random(1);
+  for (int count = 1; count <= 41; ++count)
+    for (int i = 0; i < 50; ++i) {
+      std::vector<Vector3d> vertices;
+      for (int k = 0; k < count; ++k) {
+        // Many of them on a grid, so that several are equally far.
+        Vector3d v = random.uniform(0, 1) * random.direction();
+        if (i % 2 == 0) v = (2 * v).array().round();
+        vertices.push_back(v);
+      }
+      const Vector3d d = i % 4 == 0 ? Vector3d::Unit(i % 3) : random.direction(), point = random.direction();
+      Vector3d sum(0, 0, 0);
+      double reach = 0, most = -1e9;
+      for (const Vector3d& v : vertices) {
+        sum += v;
+        reach = std::max(reach, (v - point).norm());
+        most = std::max(most, d.dot(v));
+      }
+      CAPTURE(count, i);
+      CHECK((middleOf(vertices.data(), count) - sum / count).norm() <= 1e-15);
+      CHECK(reachFrom(point, vertices.data(), count) == Approx(reach).margin(1e-15).epsilon(0));
+      const int best = furthestAlong(d, vertices.data(), count);
+      REQUIRE((best >= 0 && best < count));
+      CHECK(d.dot(vertices[static_cast<std::size_t>(best)]) >= most - 2e-16);
+      if (i % 4 == 0) {  // heights without rounding: the first of them
+        const auto first = std::find_if(vertices.begin(), vertices.end(),
+                                        [&](const Vector3d& v) { return d.dot(v) == most; });
+        CHECK(best == first - vertices.begin());
+      }
+    }
+}
