@@ -24,8 +24,8 @@ namespace fcl_stpbv::detail {
 
 /// Expands `polytope` at its nearest face until `visit(face)` returns false or rounding stops it: `visit`
 /// expands it or puts the face aside.
-template <typename Visit>
-void expandAtNearest(Polytope& polytope, Visit&& visit) {
+template <typename AnyPolytope, typename Visit>
+void expandAtNearest(AnyPolytope& polytope, Visit&& visit) {
   while (polytope.sound() && visit(polytope.nearest())) {
   }
 }
@@ -139,8 +139,8 @@ class Epa {
     std::size_t points = 4;
     int more = 0;
     const std::array<Eigen::Vector3d, 4> part{point[0].onA, point[1].onA, point[2].onA, point[3].onA};
-    Polytope polytope({point[0].w, point[1].w, point[2].w, point[3].w}, Polytope::Origin::anywhere, rho_,
-                      &part);
+    WidePolytope polytope({point[0].w, point[1].w, point[2].w, point[3].w}, Polytope::Origin::anywhere, rho_,
+                          &part);
     expandAtNearest(polytope, [&](const Polytope::Face& face) {
       if (face.depth > 0.0) bound = std::min(bound, -face.depth);
       const Corner next = look(-face.normal);

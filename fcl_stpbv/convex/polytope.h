@@ -247,4 +247,12 @@ class Polytope {
   bool sound_;
 };
 
+/// The same for searches that are not compiled for wider instructions themselves (vectorized.h).
+class WidePolytope : public Polytope {
+ public:
+  using Polytope::Polytope;
+  Face nearest();
+  bool expand(const Eigen::Vector3d& outside, const Eigen::Vector3d& part);
+};
+
 }  // namespace fcl_stpbv::detail
