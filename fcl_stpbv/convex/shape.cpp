@@ -16,6 +16,14 @@ namespace {
 /// What is taken for the unit normal of a plane. FCL normalizes its planes; anything else is none.
 bool isUnitNormal(const Vector3d& normal) { return std::abs(normal.squaredNorm() - 1.0) < 1e-6; }
 
+/// How far `d` goes across the z axis: in a fraction of the time of std::hypot(), unless squares would vanish
+/// or overflow.
+double acrossAxis(const Vector3d& d) {
+  constexpr double kLeast = 1e-280, kMost = 1e280;
+  const double squared = d.x() * d.x() + d.y() * d.y();
+  return squared > kLeast && squared < kMost ? std::sqrt(squared) : std::hypot(d.x(), d.y());
+}
+
 }  // namespace
 
 Shape Shape::sphere(double radius) {
@@ -109,7 +117,7 @@ bool Shape::valid() const {
 
 Vector3d Shape::support(const Vector3d& d) const {
   const auto rim = [&](double z) -> Vector3d {
-    const double across = std::hypot(d.x(), d.y());
+    const double across = acrossAxis(d);
     if (!(across > 0.0)) return {radius, 0.0, z};
     return {radius * (d.x() / across), radius * (d.y() / across), z};
   };
@@ -127,7 +135,7 @@ Vector3d Shape::support(const Vector3d& d) const {
     case ShapeKind::cylinder:
       return rim(std::copysign(half, d.z()));
     case ShapeKind::cone: {
-      const double apex = 2.0 * half * d.z(), side = radius * std::hypot(d.x(), d.y());
+      const double apex = 2.0 * half * d.z(), side = radius * acrossAxis(d);
       return apex > side ? Vector3d(0.0, 0.0, half) : rim(-half);
     }
     case ShapeKind::ellipsoid: {
