@@ -55,7 +55,7 @@ void describe(Program& app, Arguments& a) {
   app.option("--pose", request.pose, "A group_state of the SRDF, or a JSON file of joint values");
   app.option("--trajectory", request.trajectory,
              "CSV or JSON of way points: whether the straight motions between them are free, by proof; each "
-             "pair is reported where it comes closest")
+             "checked pair is reported where it comes closest")
       .type("FILE");
   app.option(
          "--polyhedra", request.polyhedra,

@@ -90,6 +90,7 @@ struct CollisionReport {
   std::vector<std::string> skipped;         ///< shapes left out as wrong, which nothing was checked against
   std::vector<PolyhedronReport> polyhedra;  ///< one a body, or none where none were asked for
   std::vector<PairReport> pairs;            ///< checked ones first, closest first
+  bool pairsOfBodies = false;               ///< pairs name bodies, not links
   std::vector<PairEntry> list;              ///< what the search found
   detail::NeutralPosture neutral;
   std::string pose;                            ///< "" where each pair is in its own closest configuration

@@ -1,6 +1,8 @@
 // See pair_measure.h.
 #include "fcl_stpbv/report/pair_measure.h"
 
+#include <algorithm>
+
 #include "fcl_stpbv/adapter/fcl_shapes.h"
 #include "fcl_stpbv/distance/shape_distance.h"
 #include "fcl_stpbv/numbers.h"
@@ -30,7 +32,7 @@ struct Placed {
     const Eigen::Vector3d n = pose.linear().transpose() * normal;
     Shape covered;
     if (!shapeOf(*hull, covered)) return 0;
-    return supportOf(*body, n) - n.dot(covered.support(n)) - covered.margin;
+    return std::max(0.0, supportOf(*body, n) - n.dot(covered.support(n)) - covered.margin);
   }
 };
 

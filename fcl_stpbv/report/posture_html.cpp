@@ -15,6 +15,8 @@ std::string toHtml(const PostureReport& report) {
   page.geometry = report.scene.geometry;
   page.kinematics = report.kinematics;
   page.obstacles = report.scene.obstacles;
+  page.pairsOfBodies = true;
+  page.margin = report.task.collisionMargin;
   page.pose = report.posture.feasible ? "feasible" : "not feasible";
   page.warnings = report.warnings;
   page.skipped = report.skipped;

@@ -58,13 +58,15 @@ nlohmann::json rowsOf(const Eigen::Isometry3d& pose) {
   return rows;
 }
 
-// Bodies and obstacles, each with its shape; equal shapes are held once.
+// Bodies and obstacles, each with its shape and, as owner, the name that its pairs have; equal shapes are
+// held once.
 class Bodies {
  public:
   explicit Bodies(const CollisionReport& report) {
     for (const Body& body : report.geometry->bodies)
-      add(body.name, report.robot->links[static_cast<std::size_t>(body.link)].name, body.link, body.pose,
-          *body.geometry, body.parts > 0);
+      add(body.name,
+          report.pairsOfBodies ? body.name : report.robot->links[static_cast<std::size_t>(body.link)].name,
+          body.link, body.pose, *body.geometry, body.parts > 0);
     for (const Obstacle& obstacle : report.obstacles)
       add(obstacle.name, obstacle.name, -1, obstacle.pose, *obstacle.geometry, false);
   }

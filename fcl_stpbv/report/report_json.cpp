@@ -148,6 +148,7 @@ std::string toJson(const CollisionReport& report) {
                      {"checked", report.checked},
                      {"disabled", static_cast<int>(report.pairs.size()) - report.checked},
                      {"min_distance", orNull(report.minDistance)},
+                     {"margin", report.margin},
                      {"colliding", report.colliding},
                      {"causes", report.causes},
                      {"ns_per_pair", report.nsPerPair},

@@ -129,8 +129,8 @@ std::string trajectory(const CollisionReport& report) {
   }
   text += "\n";
   if (t.steepestPair >= 0)
-    text += formatted("fastest approach %.4f %s, ", t.steepest, speed) +
-            report.trajectoryPair(t.steepestPair) + formatted(" at %.4g%s\n", t.steepestTime, unit);
+    text += formatted("fastest approach of %zu samples %.4f %s, ", t.chartTime.size(), t.steepest, speed) +
+            report.trajectoryPair(t.steepestPair) + formatted(" at %.6g%s\n", t.steepestTime, unit);
   if (!t.closestProven) text += "some closest approaches are those that were found, without a proof\n";
   return text;
 }
@@ -182,6 +182,7 @@ std::string toText(const CollisionReport& report, std::size_t top) {
   text.back() = '\n';
   text += std::to_string(report.checked) + " checked, " + std::to_string(report.colliding) +
           " of them in collision";
+  if (report.margin != 0) text += formatted(" (within %g mm)", report.margin * kMm);
   text += report.trajectory     ? " at their closest on the trajectory\n"
           : report.pose.empty() ? " in their closest configurations found\n"
                                 : " in the posture " + report.pose + "\n";

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
+#include "fcl_stpbv/report/formatted.h"
 #include "fcl_stpbv/robot/constraints.h"
 
 namespace fcl_stpbv::report {
@@ -52,14 +52,27 @@ void findClosest(MotionCheck& check, TrajectoryReport& report) {
   }
 }
 
-// Distances and their change at even times.
-void sample(CollisionConstraints& rows, TrajectoryReport& report) {
+// Even times, and those that a chart must not miss however short they are: the closest approach, the contact.
+std::vector<double> chartTimes(const TrajectoryReport& report) {
   constexpr int kChart = 400;
+  const double begin = report.trajectory.time.front(), end = report.trajectory.time.back();
+  std::vector<double> times{report.until};
+  for (int k = 0; k <= kChart; ++k) times.push_back(begin + (end - begin) * k / kChart);
+  const auto nearest =
+      std::min_element(report.closest.begin(), report.closest.end(),
+                       [](const Approach& a, const Approach& b) { return a.distance < b.distance; });
+  times.push_back(nearest->time);
+  std::sort(times.begin(), times.end());
+  times.erase(std::unique(times.begin(), times.end()), times.end());
+  return times;
+}
+
+// Distances and their change at the times of the chart.
+void sample(CollisionConstraints& rows, TrajectoryReport& report) {
   const Trajectory& t = report.trajectory;
   VectorXd d(rows.rows());
   auto jacobian = rows.makeJacobian();
-  for (int k = 0; k <= kChart; ++k) {
-    const double time = t.time.front() + (t.time.back() - t.time.front()) * k / kChart;
+  for (const double time : chartTimes(report)) {
     const std::size_t i = segmentAt(t, time);
     const VectorXd speed = (t.points[i + 1] - t.points[i]) / (t.time[i + 1] - t.time[i]);
     rows.evaluate(report.at(time), d, jacobian);
@@ -99,28 +112,31 @@ TrajectoryReport follow(Trajectory trajectory, std::shared_ptr<const Kinematics>
 }
 
 std::string chartOf(const TrajectoryReport& report, double margin) {
-  constexpr double kWidth = 1000, kHeight = 220, kLeft = 70, kBottom = 30;
+  constexpr double kWidth = 1000, kHeight = 220, kBottom = 30;
+  constexpr double kLetter = 9, kLine = 16;  // as wide and as high as text of 13 pixels is at most
   const double begin = report.chartTime.front(), end = report.chartTime.back();
   const auto [least, most] = std::minmax_element(report.chartDistance.begin(), report.chartDistance.end());
-  const double low = std::min({0.0, margin, *least}), high = std::max(*most, low + 1e-3);
-  const auto x = [&](double time) { return kLeft + (kWidth - kLeft) * (time - begin) / (end - begin); };
+  const double low = std::min({0.0, margin, *least}), high = std::max({*most, margin, low + 1e-3});
+  const auto label = [](double level) { return formatted("%.1f mm", level * 1e3); };
+  const double left = 6 + kLetter * static_cast<double>(std::max(label(low).size(), label(high).size()));
+  const auto x = [&](double time) { return left + (kWidth - left) * (time - begin) / (end - begin); };
   const auto y = [&](double d) { return (kHeight - kBottom) * (1 - (d - low) / (high - low)) + 10; };
-  std::string svg, path;
-  const auto add = [&svg](const char* pattern, auto... values) {
-    char text[400];
-    std::snprintf(text, sizeof text, pattern, values...);
-    svg += text;
-  };
+  std::string svg;
+  const auto add = [&svg](const char* pattern, auto... values) { svg += formatted(pattern, values...); };
   add("<svg viewBox=\"0 0 %g %g\" role=\"img\" aria-label=\"Least distance over time\" font-size=\"13\" "
       "fill=\"currentColor\">",
       kWidth + 20, kHeight + 20);
-  for (const double level : {low, margin, high}) {
+  std::vector<double> written;  // levels whose text no other one may lie over
+  for (const double level : {margin, low, high}) {
+    const auto over = [&](double other) { return std::abs(y(level) - y(other)) < kLine; };
+    if (std::any_of(written.begin(), written.end(), over)) continue;
+    written.push_back(level);
     add("<line x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\" stroke=\"currentColor\" opacity=\"0.3\"/>",
-        kLeft, y(level), kWidth, y(level));
-    add("<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"end\">%.1f mm</text>", kLeft - 6, y(level) + 4,
-        level * 1e3);
+        left, y(level), kWidth, y(level));
+    add("<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"end\">%s</text>", left - 6, y(level) + 4,
+        label(level).c_str());
   }
-  add("<text x=\"%.1f\" y=\"%.1f\">%g%s</text>", kLeft, kHeight + 12, begin,
+  add("<text x=\"%.1f\" y=\"%.1f\">%g%s</text>", left, kHeight + 12, begin,
       report.trajectory.timed ? " s" : "");
   add("<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"end\">%g%s</text>", kWidth, kHeight + 12, end,
       report.trajectory.timed ? " s" : "");

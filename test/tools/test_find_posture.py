@@ -163,6 +163,15 @@ class FindPosture(unittest.TestCase):
         careless = self.run_task(self.pick_can(), "--format", "html", "--ignore-collisions", "-r", "0.01")
         self.assertEqual(page_data(careless.stdout)["summary"]["colliding"], 7)
 
+    def test_the_page_has_a_body_for_each_name_of_its_pairs(self):
+        self.gate_task(0, parts=2, margin=0.01)
+        names = [os.path.join(self.folder.name, name) for name in ("gate.urdf", "gate.json", "gate.srdf")]
+        data = page_data(self.run_tool(*names[:2], "--srdf", names[2], "--format", "html").stdout)
+        paired = {name for pair in data["pairs"] for name in (pair["link1"], pair["link2"])}
+        self.assertIn("gate:1", paired)
+        self.assertLessEqual(paired, {body["owner"] for body in data["bodies"]})
+        self.assertEqual(data["summary"]["margin"], 0.01)
+
     def test_collisions_that_are_ignored_are_reported(self):
         careless = self.run_task(self.pick_can(), "--format", "json", "--ignore-collisions", "-r", "0.01")
         self.assertEqual(careless.returncode, 0, careless.stderr)

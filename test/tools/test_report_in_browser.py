@@ -309,6 +309,29 @@ class Page(Browser):
         self.assertEqual(self.script("return new HeatMap(scene.report, () => {}).at.size"), 2 * self.script("return scene.report.pairs.length"))
         self.assertIn("HEAD_LINK1 (obstacle)", self.script("return new HeatMap(scene.report, () => {}).names"))
 
+    def test_only_a_trajectory_that_is_free_is_shown_as_good(self):
+        way = self.put("way.csv", "RARM_JOINT0\n0\n0.1\n")
+        for margin, verdict, good in (("0", "proven free", 1), ("0.9", "CONTACT", 0)):
+            self.open(ROBOT + ".urdf", "--srdf", ROBOT + ".srdf", "--trajectory", way, "--margin", margin)
+            self.assertIn(verdict, self.browser.find_element(By.ID, "subtitle").text)
+            self.assertIn("others where it begins", self.browser.find_element(By.ID, "subtitle").text)
+            self.assertEqual(self.script("return document.querySelectorAll('.figure.good').length"), good)
+            self.assertEqual("within 900.00 mm" in self.browser.find_element(By.ID, "figures").text, not good)
+            # The chart stands off the window's edge, and none of its text is cut off.
+            self.assertTrue(self.script("""
+              const box = document.getElementById('trajectory'), edge = box.getBoundingClientRect();
+              return edge.left > 5 && [...box.querySelectorAll('text')].map(t => t.getBoundingClientRect()).every(
+                at => at.left >= edge.left && at.right <= edge.right);"""))
+        self.reopen(lambda data: data["trajectory"].update(verdict="NOT DECIDED") or data["summary"].update(colliding=0))
+        self.assertEqual(self.script("return document.querySelectorAll('.figure.good').length"), 0)
+
+    def test_a_pair_that_overlaps_by_less_than_a_negative_margin_allows_is_not_in_collision(self):
+        self.open(ROBOT + ".urdf", "--srdf", ROBOT + ".srdf", "--margin", "-0.5")
+        self.assertEqual(self.script("return document.querySelectorAll('.figure.bad').length"), 0)
+        self.assertEqual(self.script("return scene.report.pairs.filter(p => p.checked && p.distance < 0).length > 0"), True)
+        self.assertFalse(self.script("const map = new HeatMap(scene.report, () => {}); map.draw(); "
+                                     "return map.pairs.some(p => map.colour(p) === TOUCHING)"))
+
     def test_a_view_of_a_pair_that_is_not_there_shows_the_first(self):
         self.humanoid(view="#pair=9999&show=pair")
         self.assertEqual(self.script("return document.body.dataset.selected"), "0")

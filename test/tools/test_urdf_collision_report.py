@@ -106,6 +106,32 @@ class Report(unittest.TestCase):
         self.assertEqual(self.follow("way.csv", text, "--margin", "0.0167").returncode, 1)
         self.assertEqual(self.follow("way.csv", text, "--margin", "0.0165").returncode, 0)
 
+    def test_the_chart_has_the_closest_approach_and_the_contact_however_short(self):
+        # There and back in a second of 2000: between the even times of the chart.
+        text = "time,slide\n0,0\n1001,0\n1001.5,1\n1002,0\n2000,0\n"
+        report = json.loads(self.follow("way.csv", text, "--format", "json").stdout)
+        chart = report["trajectory"]["chart"]
+        self.assertEqual(chart["time"], sorted(set(chart["time"])))
+        self.assertAlmostEqual(min(chart["distance"]), report["summary"]["min_distance"], delta=1e-9)
+        self.assertIn(report["trajectory"]["contact"]["time"], chart["time"])
+        self.assertRegex(self.follow("way.csv", text).stdout, r"fastest approach of 40[123] samples 1\.\d+ m/s")
+
+    def test_the_levels_of_the_chart_stay_in_it_and_apart(self):
+        for margin in ("0", "0.001", "-0.001", "0.9", "3", "-3"):
+            page = self.follow("way.csv", "slide\n0\n2\n", "--margin", margin, "--format", "html").stdout
+            heights = sorted(float(y) for y in re.findall(r'y="([^"]*)" text-anchor="end">[-.0-9]+ mm<', page))
+            self.assertIn(f">{float(margin) * 1e3:.1f} mm<", page)
+            self.assertTrue(heights[0] > 0 and heights[-1] < 220, margin)
+            self.assertTrue(all(b - a > 13 for a, b in zip(heights, heights[1:])), margin)
+
+    def test_a_margin_is_told_beside_what_is_within_it(self):
+        pose = self.put("pose.json", '{"slide": 0.9}')  # the balls are 0.0166 m apart
+        for margin, count, said in (("0", 0, "0 of them in collision in"), ("0.03", 1, "1 of them in collision (within 30 mm) in")):
+            arguments = [self.slider(), "--primitives", "flat", "--samples", "20", "--margin", margin, "--pose", pose]
+            summary = json.loads(self.run_tool(*arguments, "--format", "json").stdout)["summary"]
+            self.assertEqual((summary["margin"], summary["colliding"]), (float(margin), count))
+            self.assertIn(said, self.run_tool(*arguments).stdout)
+
     def test_a_trajectory_that_is_none_is_refused_with_its_place(self):
         for text, said in [("", "is empty"), ("slide\n0\n", "needs two"), ("slide\n0\nx\n", "way.csv:3: got 'x'"),
                            ("slid\n0\n1\n", "no moving joint 'slid'"), ("slide,slide\n0,0\n1,1\n", "twice"),

@@ -53,7 +53,7 @@ class HeatMap {
 
   colour(pair) {
     if (!pair.checked) return this.style.getPropertyValue('--off');
-    return pair.colliding || pair.distance <= 0 ? TOUCHING : scaleColour(Math.min(1, pair.distance / this.far));
+    return pair.colliding ? TOUCHING : scaleColour(Math.max(0, Math.min(1, pair.distance / this.far)));
   }
 
   draw() {

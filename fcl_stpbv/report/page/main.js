@@ -3,16 +3,17 @@ function showHeader(report) {
   const s = report.summary, title = `${report.robot}: ${report.title}`;
   document.title = byId('title').textContent = title;
   byId('subtitle').textContent = report.pose ? `Posture: ${report.pose}`
-    : report.trajectory ? `Trajectory ${report.trajectory.file}: ${report.trajectory.verdict}. Each pair where it comes closest on it` : 'Each pair in the closest configuration that was found';
+    : report.trajectory ? `Trajectory ${report.trajectory.file}: ${report.trajectory.verdict}. Checked pairs where they come closest on it, others where it begins` : 'Each pair in the closest configuration that was found';
   const figure = (value, label, className = '') => byId('figures').append(make('div', `figure ${className}`, '', make('b', '', String(value)), make('span', '', label)));
+  const proven = !report.trajectory || report.trajectory.verdict === 'proven free';
   figure(s.pairs_total, 'pairs');
   figure(s.checked, 'checked');
-  figure(s.colliding, 'in collision', s.colliding ? 'bad' : s.checked && !report.skipped.length ? 'good' : '');
+  figure(s.colliding, s.margin ? `within ${mm(s.margin)} mm` : 'in collision', s.colliding ? 'bad' : s.checked && proven && !report.skipped.length ? 'good' : '');
   if (report.skipped.length) figure(report.skipped.length, 'left out', 'bad');
   const causes = new Map();
   for (const p of report.pairs) if (p.checked && p.colliding && p.cause) causes.set(p.cause, (causes.get(p.cause) || 0) + 1);
   for (const [cause, count] of causes) figure(count, cause);
-  figure(s.min_distance === null ? '–' : mm(s.min_distance), 'least distance [mm]', s.min_distance !== null && s.min_distance <= 0 ? 'bad' : '');
+  figure(s.min_distance === null ? '–' : mm(s.min_distance), 'least distance [mm]', s.colliding ? 'bad' : '');
   if (s.ns_per_pair) figure(s.ns_per_pair.toFixed(0), 'ns a pair');
 }
 

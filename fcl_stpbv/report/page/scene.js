@@ -149,10 +149,9 @@ class Scene {
 
   // 0 for a body of the pair's first link, 1 for one of its second, -1 for others.
   side(body) {
-    const is = name => body.name === name || body.owner === name;
     if (!this.pair) return -1;
-    if (!body.obstacle && is(this.pair.link1)) return 0;
-    return body.obstacle === this.pair.obstacle && is(this.pair.link2) ? 1 : -1;
+    if (!body.obstacle && body.owner === this.pair.link1) return 0;
+    return body.obstacle === this.pair.obstacle && body.owner === this.pair.link2 ? 1 : -1;
   }
 
   recolour() {
