@@ -138,7 +138,8 @@ Solution solve(ShapeQuery& q, const StartNormal& start) {
   const bool overlap = surelyOverlap(q);
   Nearest found;
   if (!overlap) {
-    if (walkFeatures(q, start, kTries, found)) return {found, DistanceStatus::exact, kNone};
+    if (walkFeatures(q, start, kTries, found) == WalkEnd::nearest)
+      return {found, DistanceStatus::exact, kNone};
     found = nearestOnShape(q, start);
     if (q.shape.unbounded()) return {found, DistanceStatus::exact, found.gap};
     if (certified(q, found)) return {found, DistanceStatus::exact, kNone};

@@ -85,10 +85,16 @@ Nearest nearestFrom(const AscentPoint& x, const Feature& feature) {
   return found;
 }
 
-/// Walks the volume's patches and the shape's features to where the cores are nearest, and tests it against
-/// the whole shape. False where it does not get there in a few steps, between cores that overlap, and for
-/// kinds of shapes that it does not know; `found` then says nothing.
-bool walkFeatures(ShapeQuery& q, const StartNormal& start, int tries, Nearest& found);
+/// Where a walk over features ended.
+enum class WalkEnd {
+  nearest,  ///< where the cores are nearest, tested against the whole shape
+  meeting,  ///< at a point of the volume's core that is in the shape's, to rounding
+  unknown   ///< not in a few steps, or of a kind of shape that it does not know
+};
+
+/// Walks the volume's patches and the shape's features to where the cores are nearest. `found` says nothing
+/// unless it got there.
+WalkEnd walkFeatures(ShapeQuery& q, const StartNormal& start, int tries, Nearest& found);
 
 /// Between which lengths something is (m).
 struct Span {

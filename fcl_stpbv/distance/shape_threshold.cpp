@@ -62,12 +62,14 @@ bool isFartherThan(double x, const StpBv& volume, const Isometry3d& poseVolume, 
   const int hint = isKnown && start.patch[0] < volume.patchCount() ? start.patch[0] : -1;
   Nearest nearest;
   const bool maybeApart = away.most > 0.5 * (volume.innerRadius() + volume.enclosingRadius());
-  if (maybeApart && walkFeatures(q, {n, hint}, kTries, nearest)) {
+  const WalkEnd end = maybeApart ? walkFeatures(q, {n, hint}, kTries, nearest) : WalkEnd::unknown;
+  if (end == WalkEnd::nearest) {
     if (cache) *cache = {pose.normalInWorld(nearest.n), {nearest.patch, -1}};
     return nearest.gap - margins - rounding > x;
   }
   const double level = x + margins, unsure = q.rounding.gap + q.rounding.across;
   if (!(level > unsure)) return isDistanceFarther();
+  if (end == WalkEnd::meeting) return false;
   int ignored = 0;
   StpBvCore core{volume, hint, ignored};
   Difference difference(core, shape, pose);

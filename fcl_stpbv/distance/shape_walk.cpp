@@ -229,7 +229,7 @@ Span awayFromCentre(const ShapeQuery& q, bool looksAtCorners) {
 }
 
 FCL_STPBV_VECTORIZED
-bool walkFeatures(ShapeQuery& q, const StartNormal& start, int tries, Nearest& found) {
+WalkEnd walkFeatures(ShapeQuery& q, const StartNormal& start, int tries, Nearest& found) {
   constexpr double kFar = 0.3;  // cosine of the turn after which the boundary passed furthest says little
   const PatchTable& patches = q.body.tables().patches;
   KnownFeatures features(q, start.n);
@@ -264,7 +264,7 @@ bool walkFeatures(ShapeQuery& q, const StartNormal& start, int tries, Nearest& f
     if (!same) continue;
     const Packed y = facing(q, f, n), difference = y - x, across = difference - dot(difference, n) * n;
     if (dot(across, across) > 4.0 * q.rounding.across * q.rounding.across) {
-      if (again) return false;
+      if (again) return WalkEnd::unknown;
       again = true;
       continue;
     }
@@ -274,12 +274,13 @@ bool walkFeatures(ShapeQuery& q, const StartNormal& start, int tries, Nearest& f
     found.gap = dot(n, y - a.anchor) - view.rise;
     found.apart = found.gap > 0.0;
     const Eigen::Vector3d furthest = q.facing(found.n);
-    if (found.n.dot(found.y - furthest) <= q.rounding.gap) return found.apart;
-    if (!features.add(furthest)) return false;
+    if (found.n.dot(found.y - furthest) <= q.rounding.gap)
+      return found.apart ? WalkEnd::nearest : WalkEnd::unknown;
+    if (!features.add(furthest)) return WalkEnd::unknown;
     f = features.near(x);
     again = false;
   }
-  return false;
+  return f.kind == FeatureKind::inside ? WalkEnd::meeting : WalkEnd::unknown;
 }
 
 }  // namespace fcl_stpbv::detail
