@@ -177,7 +177,7 @@ std::string toText(const CollisionReport& report, std::size_t top) {
   for (const std::string& shape : report.skipped) text += "LEFT OUT, NOT CHECKED: " + shape + "\n";
   std::map<std::string, int> reasons;
   for (const PairReport& pair : report.pairs) ++reasons[pair.reason];
-  text += std::to_string(report.pairs.size()) + " pairs:";
+  text += std::to_string(report.pairs.size()) + (report.pairs.size() == 1 ? " pair:" : " pairs:");
   for (const auto& [reason, count] : reasons) text += " " + std::to_string(count) + " " + reason + ",";
   text.back() = '\n';
   text += std::to_string(report.checked) + " checked, " + std::to_string(report.colliding) +
