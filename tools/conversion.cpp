@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <vector>
@@ -23,6 +24,15 @@ namespace {
 
 using namespace detail;
 using Points = std::vector<Eigen::Vector3d>;
+
+// By its first words.
+bool holdsVolume(const std::string& path) {
+  std::string head(256, '\0');
+  std::ifstream in(path, std::ios::binary);
+  in.read(head.data(), static_cast<std::streamsize>(head.size()));
+  head.resize(static_cast<std::size_t>(in.gcount()));
+  return looksLikeStpBv(head) || looksLikeSch(head);
+}
 
 // A volume has lost the points that its own radii left inside, so it cannot become that of other radii.
 void checkSameRadii(const std::string& input, const Radii& radii, const ConversionOptions& options) {
@@ -102,8 +112,13 @@ Content readInput(const std::string& path, double factor) {
   if (extension == ".stpbv") return {loadStpBv(path), {}};
   std::error_code ignored;
   const bool isFile = std::filesystem::is_regular_file(path, ignored);
-  if (isFile && extension != ".txt" && extension != ".otp" && !extension.empty())
-    return {nullptr, loadMesh(path, scale)};
+  if (isFile && extension != ".txt" && extension != ".otp" && !extension.empty()) {
+    try {
+      return {nullptr, loadMesh(path, scale)};
+    } catch (const Error&) {
+      if (!holdsVolume(path)) throw;  // a volume may have any name
+    }
+  }
   std::istringstream stream(readText(path));
   const std::string text = stream.str();
   if (looksLikeStpBv(text)) return {loadStpBv(stream, path), {}};

@@ -87,13 +87,14 @@ PartsReport convertToParts(const std::string& input, const std::string& output,
 
 // All texts first: a format may not hold one of the volumes.
 void write(const PartsReport& report, const ConversionOptions& options) {
-  std::vector<std::string> texts;
+  std::vector<detail::NamedText> files;
   std::vector<TriangleMesh> surfaces;
   for (std::size_t k = 0; k < report.volumes.size(); ++k) {
-    texts.push_back(fileText(*report.volumes[k], options.format, report.outputs[k]));
+    const std::string& name = report.outputs[k];
+    files.push_back({name, fileText(*report.volumes[k], options.format, name)});
     if (!options.preview.empty()) surfaces.push_back(tessellate(*report.volumes[k]));
   }
-  for (std::size_t k = 0; k < texts.size(); ++k) detail::atomicWrite(report.outputs[k], texts[k]);
+  detail::atomicWriteAll(files);
   if (!options.preview.empty()) saveColoured(options.preview, surfaces);
 }
 

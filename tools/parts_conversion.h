@@ -34,8 +34,8 @@ struct PartsReport {
 PartsReport convertToParts(const std::string& input, const std::string& output,
                            const ConversionOptions& options, bool force);
 
-/// Writes the volumes, and if asked for their preview, each in a colour. Nothing is written where the format
-/// cannot hold one of them.
+/// Writes the volumes, and if asked for their preview, each in a colour. No volume is written where the
+/// format cannot hold one of them, or one cannot be written.
 void write(const PartsReport& report, const ConversionOptions& options);
 
 std::string toText(const PartsReport& report);

@@ -8,6 +8,11 @@
 #include "tools/output_plan.h"
 
 namespace fcl_stpbv::tools {
+namespace {
+
+constexpr double kLeast = 1e-9;  // m, m/s^2: adviseRadii()'s
+
+}  // namespace
 
 RadiiTask radiiTask(const std::string& text) {
   RadiiTask task;
@@ -31,8 +36,8 @@ RadiiTask radiiTask(const std::string& text) {
       throw UsageError("--advise " + text + ": got '" + word +
                        "', expected clearance=, acceleration=, speed=, turning=, period= or distance= with a "
                        "number, or others=round or flat, with commas between");
-    const bool orZero = key != "clearance" && key != "acceleration";
-    const std::string wrong = wrongNumber(value, 0, kLargest, orZero);
+    const double least = key == "clearance" || key == "acceleration" ? kLeast : 0;
+    const std::string wrong = wrongNumber(value, least, kLargest);
     if (!wrong.empty()) throw UsageError("--advise " + text + ": " + key + ": " + wrong);
     *number->second = std::stod(value);
   }

@@ -16,6 +16,7 @@
 #include <cstring>
 #include <filesystem>
 #include <ostream>
+#include <vector>
 
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/io/signals_held.h"
@@ -102,9 +103,13 @@ void syncFolder(const std::string& path) {
   ::close(folder);
 }
 
+// A file that is whole, and only has to get its name.
+struct Whole {
+  std::string temporary, file;
+};
+
 // `old` is the file to be replaced whose permissions stay, or null.
-void replace(const std::string& file, std::string_view content, mode_t mode, const struct stat* old) {
-  const EndPutOff putOff;
+Whole writeBeside(const std::string& file, std::string_view content, mode_t mode, const struct stat* old) {
   std::string temporary;
   const int out = openBeside(file, mode, temporary);
   if (out < 0) refuse(file, errno);
@@ -112,18 +117,35 @@ void replace(const std::string& file, std::string_view content, mode_t mode, con
   if (error == 0 && old && ::fchmod(out, old->st_mode & 07777) != 0) error = errno;
   if (error == 0 && ::fsync(out) != 0) error = errno;
   if (::close(out) != 0 && error == 0) error = errno;
-  if (error == 0 && ::rename(temporary.c_str(), file.c_str()) != 0) error = errno;
   if (error != 0) {
     ::unlink(temporary.c_str());
     refuse(file, error);
   }
-  syncFolder(file);
+  return {temporary, file};
+}
+
+void putInPlace(const Whole& whole) {
+  if (::rename(whole.temporary.c_str(), whole.file.c_str()) != 0) {
+    const int error = errno;
+    ::unlink(whole.temporary.c_str());
+    refuse(whole.file, error);
+  }
+  syncFolder(whole.file);
+}
+
+// What is at `path`, if anything. Throws where that is a folder, or not to be written.
+bool findOld(const std::string& path, struct stat& old) {
+  if (path.empty()) throw Error("the name of a file to write is empty; give one");
+  if (::stat(path.c_str(), &old) != 0) return false;
+  if (S_ISDIR(old.st_mode)) refuse(path, EISDIR);
+  // A rename would replace a file that its owner made read-only.
+  if (S_ISREG(old.st_mode) && ::access(path.c_str(), W_OK) != 0) refuse(path, errno);
+  return true;
 }
 
 }  // namespace
 
 void atomicWrite(const std::string& path, std::string_view content) {
-  if (path.empty()) throw Error("the name of a file to write is empty; give one");
   const int descriptor = descriptorOf(path);
   if (descriptor >= 0) {
     const WriteSignalsHeld held;
@@ -131,17 +153,33 @@ void atomicWrite(const std::string& path, std::string_view content) {
     return;
   }
   struct stat old {};
-  const bool exists = ::stat(path.c_str(), &old) == 0;
-  if (exists && S_ISDIR(old.st_mode)) refuse(path, EISDIR);
+  const bool exists = findOld(path, old);
   if (exists && !S_ISREG(old.st_mode)) return writeStraight(path, content);
-  const std::string file = target(path);
-  // A rename would replace a file that its owner made read-only.
-  if (exists && ::access(file.c_str(), W_OK) != 0) refuse(path, errno);
-  replace(file, content, 0666, exists ? &old : nullptr);
+  const EndPutOff putOff;
+  putInPlace(writeBeside(target(path), content, 0666, exists ? &old : nullptr));
+}
+
+void atomicWriteAll(const std::vector<NamedText>& files) {
+  const EndPutOff putOff;
+  std::vector<Whole> written;
+  try {
+    for (const NamedText& file : files) {
+      struct stat old {};
+      const bool exists = findOld(file.path, old);
+      if (exists && !S_ISREG(old.st_mode))
+        throw Error(file.path + ": is a device or a pipe, which can hold nothing back; give a file's name");
+      written.push_back(writeBeside(target(file.path), file.content, 0666, exists ? &old : nullptr));
+    }
+  } catch (const Error&) {
+    for (const Whole& whole : written) ::unlink(whole.temporary.c_str());
+    throw;
+  }
+  for (const Whole& whole : written) putInPlace(whole);
 }
 
 void atomicWriteOwn(const std::string& path, std::string_view content) {
-  replace(path, content, 0600, nullptr);
+  const EndPutOff putOff;
+  putInPlace(writeBeside(path, content, 0600, nullptr));
 }
 
 void sweepTemporaries(const std::string& folder) {

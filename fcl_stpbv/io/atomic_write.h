@@ -4,6 +4,7 @@
 #include <iosfwd>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace fcl_stpbv::detail {
 
@@ -14,6 +15,14 @@ namespace fcl_stpbv::detail {
 /// straight and can be interrupted.
 /// @throws Error naming the file and the reason.
 void atomicWrite(const std::string& path, std::string_view content);
+
+struct NamedText {
+  std::string path, content;
+};
+
+/// The same for files that belong together: none gets its name before all are written. No devices or pipes.
+/// @throws Error as above; then all are as they were.
+void atomicWriteAll(const std::vector<NamedText>& files);
 
 /// The same for a file that nobody else may change: only its owner may write it, and whatever has its name, a
 /// link or a pipe, is replaced rather than written to.

@@ -40,15 +40,19 @@ class Taker {
       if (!p.allFinite())
         throw Error("the mesh has a coordinate that is not a finite number; export it again");
     const std::vector<int> number = weld(mesh.vertices, out_.vertices);
+    std::vector<char> used(out_.vertices.size(), 0);
     for (const std::array<int, 3>& triangle : mesh.triangles) {
       std::array<int, 3> corners{};
       for (std::size_t k = 0; k < 3; ++k) {
         if (triangle[k] < 0 || at(triangle[k]) >= number.size())
           throw Error("the mesh has a triangle of a vertex that does not exist; export it again");
         corners[k] = number[at(triangle[k])];
+        used[at(corners[k])] = 1;
       }
       (isLine(corners) ? lines_ : out_.triangles).push_back(corners);
     }
+    for (int i = 0; at(i) < used.size(); ++i)
+      if (!used[at(i)]) lines_.push_back({i, i, i});
   }
 
   MeshPieces take() {
@@ -146,14 +150,15 @@ class Taker {
     }
   }
 
-  // A triangle with two equal corners is the edge of another, or a piece of its own.
+  // A triangle with two equal corners is the edge of another, or a piece of its own; so is a point of no
+  // triangle. A point has no inside that it could leave open.
   void addLines() {
     for (const std::array<int, 3>& line : lines_) {
       const auto [low, high] = std::minmax_element(line.begin(), line.end());
       if (edges_.has(*low, *high)) continue;
       out_.triangles.push_back(line);
       out_.piece.push_back(out_.pieces());
-      out_.closed.push_back(0);
+      out_.closed.push_back(*low == *high);
     }
   }
 

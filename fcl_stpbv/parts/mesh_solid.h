@@ -20,7 +20,8 @@ namespace fcl_stpbv {
 /// meshes, so none of them is an error.
 struct MeshPieces {
   std::vector<Eigen::Vector3d> vertices;  ///< each point once (m)
-  /// Turned; without copies and without lines that are an edge of another. Sheets have both sides.
+  /// Turned; without copies and without lines that are an edge of another. Sheets have both sides. A point of
+  /// no triangle is one of three equal corners.
   std::vector<std::array<int, 3>> triangles;
   std::vector<int> piece;    ///< of each triangle
   std::vector<char> closed;  ///< of each piece

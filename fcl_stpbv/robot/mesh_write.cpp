@@ -120,9 +120,11 @@ void saveColoured(const std::string& path, const std::vector<TriangleMesh>& mesh
       std::any_of(meshes.begin(), meshes.end(), [](const auto& m) { return m.triangles.empty(); });
   if (meshes.empty() || none) throw Error(path + ": not written, the mesh has no triangles");
   const std::unique_ptr<aiScene> scene = sceneOf(meshes);
-  std::string text = exported(*scene, format->assimpId, path);
-  if (format->assimpId == std::string_view("plyb") && beginsWithLineFeed(text))
-    text = exported(*scene, "ply", path);
+  const bool isPly = format->assimpId == std::string_view("plyb");
+  // Into a binary PLY assimp 5.2 writes a colour's channels as floats, which the header says are bytes.
+  const bool isText = isPly && meshes.size() > 1;
+  std::string text = exported(*scene, isText ? "ply" : format->assimpId, path);
+  if (isPly && !isText && beginsWithLineFeed(text)) text = exported(*scene, "ply", path);
   atomicWrite(path, text);
 }
 

@@ -21,7 +21,7 @@ struct ContactAcceleration {
   double most;   ///< not below 0: how fast it may bend up
 
   /// The larger of both.
-  double size() const { return std::max(-least, most); }
+  double size() const { return std::max(most, -least); }  // in this order no -0
 };
 
 /// The distance d of two bodies has d'' = n . a + c. n is the normal, a the acceleration of body 2's material

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <limits>
 
 #include "fcl_stpbv/vectorized.h"
@@ -35,6 +36,18 @@ std::string number(double value) {
   return text;
 }
 
+// An R for a margin r and a smallest ball of this radius, in no more digits than it needs to work.
+std::string usableR(double r, double radius) {
+  double least = r + radius * (1 + 1e-9);
+  while (least - r <= radius) least = std::nextafter(least, std::numeric_limits<double>::infinity());
+  char text[32];
+  for (int digits = 9; digits <= 17; ++digits) {
+    std::snprintf(text, sizeof text, "%.*g", digits, least);
+    if (std::strtod(text, nullptr) >= least) break;
+  }
+  return text;
+}
+
 void checkInput(const std::vector<Vector3d>& points, const StpBvOptions& options) {
   if (points.empty()) throw Error("cannot build an STP-BV from no points: give at least one");
   constexpr double kMost = 1e75;  // m: squares of its square are finite
@@ -56,12 +69,10 @@ void checkInput(const std::vector<Vector3d>& points, const StpBvOptions& options
 Ball checkRadius(const std::vector<Vector3d>& points, const StpBvOptions& options) {
   const Ball ball = minimumEnclosingBall(points);
   const double rho = options.R - options.r;
-  if (points.size() > 1 && rho <= ball.radius) {
-    const double smallest = options.r + ball.radius;
+  if (points.size() > 1 && rho <= ball.radius)
     throw Error("R = " + number(options.R) +
                 " m is too small: the smallest usable R for these points with r = " + number(options.r) +
-                " m is just above " + number(smallest * (1 + 1e-9)) + " m");
-  }
+                " m is " + usableR(options.r, ball.radius) + " m");
   // A face of size s bulges by about s^2 / (8 R): past s / epsilon that is far below the rounding of its
   // points. The smallest of clouds, a few roundings wide, still takes what any robot does.
   constexpr double kAlways = 1e8;  // m

@@ -50,6 +50,21 @@ TEST_CASE("a place that cannot be written is refused by name") {
   CHECK(folder.files().empty());
 }
 
+TEST_CASE("files that belong together are written all or none") {
+  const TemporaryFolder folder;
+  atomicWrite(folder / "a", "old");
+  const auto write = [&](const std::string& last) {
+    atomicWriteAll({{folder / "a", "new"}, {folder / "b", "new"}, {last, "new"}});
+  };
+  CHECK(refusal(write, folder / "none/c").find(folder / "none/c: cannot be written") == 0);
+  CHECK(refusal(write, "/dev/full").find("/dev/full: is a device") == 0);
+  CHECK(folder.files() == Names{"a"});
+  CHECK(contentOf(folder / "a") == "old");
+  write(folder / "c");
+  CHECK(folder.files() == Names{"a", "b", "c"});
+  CHECK(contentOf(folder / "a") == "new");
+}
+
 TEST_CASE("a device is written straight and stays what it is") {
   atomicWrite("/dev/null", "text");
   CHECK(std::filesystem::is_character_file("/dev/null"));

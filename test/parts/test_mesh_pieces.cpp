@@ -1,4 +1,5 @@
 // Meshes with faces written more than once: what they enclose stays the same.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <string>
 #include <utility>
@@ -114,5 +115,29 @@ TEST_CASE("sheets with two sides are not closed: they have no inside") {
     const MeshSolid solid(sheet);
     CHECK_FALSE(solid.closed());
     CHECK(solid.side({0.41, 0.53, 0.37}) == Side::outside);
+  }
+}
+
+TEST_CASE("points of no triangle are pieces that enclose nothing, and parts cover them") {
+  TriangleMesh mesh = together({turned(wall(0)), tube(0), wall(1)});
+  mesh.vertices.emplace_back(3, 0.5, 0.5);
+  mesh.vertices.emplace_back(3, 0.5, 0.5);  // the same again
+  mesh.vertices.push_back(mesh.vertices[0]);
+  const MeshSolid solid(mesh);
+  CHECK(solid.closed());
+  CHECK(solid.pieces().pieces() == 2);
+  CHECK(solid.side({0.41, 0.53, 0.37}) == Side::enclosed);
+  CHECK(solid.side({2.9, 0.5, 0.5}) == Side::outside);
+  CHECK(solid.nearest({2.5, 0.5, 0.5}).distance == Approx(0.5));
+  for (const int most : {1, 4}) {
+    PartsOptions options;
+    options.most = most;
+    const ConvexParts parts = convexParts(mesh, options);
+    const bool covered = std::any_of(parts.parts.begin(), parts.parts.end(), [](const ConvexPart& part) {
+      return std::find(part.points.begin(), part.points.end(), Eigen::Vector3d(3, 0.5, 0.5)) !=
+             part.points.end();
+    });
+    CAPTURE(most);
+    CHECK(covered);
   }
 }

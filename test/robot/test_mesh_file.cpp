@@ -204,6 +204,22 @@ TEST_CASE("a mesh is previewed in four formats and reads back") {
   CHECK(refusal(save, folder / "none/p.obj").find("cannot be written") != std::string::npos);
 }
 
+TEST_CASE("several meshes in colours of their own read back from each format") {
+  const TemporaryFolder folder;
+  const TriangleMesh near{box(0.2, 0.3, 0.5), {{0, 1, 2}, {4, 5, 6}, {7, 3, 1}}};
+  TriangleMesh far = near;
+  for (Vector3d& point : far.vertices) point += Vector3d(3, 2, 1);
+  std::vector<Vector3d> all = near.vertices;
+  all.insert(all.end(), far.vertices.begin(), far.vertices.end());
+  for (const std::string name : {"p.obj", "p.stl", "p.ply", "p.glb"}) {
+    INFO(name);
+    saveColoured(folder / name, {near, far});
+    const TriangleMesh back = loadMesh(folder / name);
+    CHECK(samePoints(back.vertices, all, 1e-6));
+    CHECK(back.triangles.size() == 6);
+  }
+}
+
 TEST_CASE("files that hold no mesh are refused by name") {
   const TemporaryFolder folder;
   const auto load = [](const std::string& path) { loadPoints(path); };

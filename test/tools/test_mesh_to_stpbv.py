@@ -92,7 +92,7 @@ class MeshToStpbv(unittest.TestCase):
         self.refused("cube.txt", "-o", "new.stpbv", "--advise", "clearance=0.001", code=1, says=["cube.txt", "no r and R keep both", "acceleration="])
         self.refused("cube.txt", "-o", "new.stpbv", "--advise", "clearance=0.001,period=1", code=1, says=["cube.txt", "shorter period"])
         self.refused("cube.stpbv", "-o", "new.stpbv", "--advise", task, code=1, says=["cube.stpbv", "is an STP-BV already"])
-        for wrong in ("", "clearance", "clearance=0.6,", "clearance=0.6,clearance=0.7", "others=flat,others=flat", "clearance=x", "clearance=0", "clearance=nan", "speed=-1", "fast=1", "others=square", ","):
+        for wrong in ("", "clearance", "clearance=0.6,", "clearance=0.6,clearance=0.7", "others=flat,others=flat", "clearance=x", "clearance=0", "clearance=1e-10", "acceleration=1e-300", "clearance=nan", "speed=-1", "fast=1", "others=square", ","):
             self.refused("cube.txt", "-o", "new.stpbv", "--advise", wrong, says=["--advise"])
         for other in (["-r", "1"], ["-R", "10"], ["--parts", "2"], ["--excess", "0.1"]):
             self.refused("cube.txt", "-o", "new.stpbv", "--advise", task, *other, says=["--advise"])
@@ -284,6 +284,8 @@ class MeshToStpbv(unittest.TestCase):
                      says=["two_1.txt: ", "one or two vertices"])
         write(self.at("two_1.stpbv"), "old")
         self.refused("two.obj", "-o", "two.stpbv", "--parts", "2", code=1, says=["two_1.stpbv: exists", "--force"])
+        os.symlink("/dev/full", self.at("full_1.stpbv"))
+        self.refused("two.obj", "-o", "full.stpbv", "--parts", "2", code=1, says=["full_1.stpbv: "])
         os.mkdir(self.at("a_1.stpbv"))
         self.refused("two.obj", "-o", "a.stpbv", "--parts", "2", "--force", code=1, says=["a_1.stpbv: is a folder"])
         self.run_tool("two.obj", "-o", "two.stpbv", "--parts", "2", "--force")
@@ -291,6 +293,15 @@ class MeshToStpbv(unittest.TestCase):
         write(self.at("two_2.stpbv"), "old")
         done = self.run_tool("two.obj", "-o", "two.stpbv", "--parts", "2", "--force")
         self.assertIn("two_2.stpbv: is from an earlier run", done.stderr)
+
+    def test_parts_cover_points_that_belong_to_no_triangle(self):
+        write(self.at("loose.ply"), "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n"
+              "property list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 3 3\n4 3 3\n3 0 1 2\n")
+        report = json.loads(self.run_tool("loose.ply", "-o", "loose.stpbv", "--parts", "4", "--json").stdout)
+        self.assertEqual((report["pieces"], report["closed_pieces"]), (3, 2))  # the triangle is open
+        points = [line.split()[:3] for i in range(len(report["parts"])) for line in read(self.at("loose_%d.stpbv" % i)).splitlines()]
+        for point in ([b"3", b"3", b"3"], [b"4", b"3", b"3"]):
+            self.assertIn(point, points)
 
     def test_parts_of_an_open_mesh_claim_no_inside(self):
         triangles = "".join("v %d %d 0\nv %d %d 0\nv %d %d 1\n" % (x, 0, x + 1, 0, x, 1) for x in (0, 5))
@@ -332,6 +343,10 @@ class MeshToStpbv(unittest.TestCase):
         self.assertEqual(read(self.at("a.stpbv")), read(self.at("b.stpbv")))
         self.refused("a.stpbv", "-o", "c.stpbv", "-R", "20", says=["a.stpbv: is an STP-BV already", "R = 10"], code=1)
         self.run_tool("a.stpbv", "-o", "d.stpbv", "-R", "10", "-q")
+        for kind in ("stpbv", "sch"):  # a volume may have any name
+            self.run_tool("a.stpbv", "-o", kind + ".bak", "--format", kind, "-q")
+            self.run_tool(kind + ".bak", "-o", kind + "_back.stpbv", "-q")
+            self.assertEqual(read(self.at("a.stpbv")), read(self.at(kind + "_back.stpbv")))
 
     def test_what_sch_core_cannot_hold_is_said(self):
         write(self.at("two.txt"), points_file(CUBE[:2]))

@@ -208,6 +208,23 @@ TEST_CASE("The builder says what is wrong with its input and what would work") {
                     Catch::Contains("smallest usable R") && Catch::Contains("0.3841657"));
 }
 
+TEST_CASE("The R that a refusal states works, however large r is beside the cloud") {
+  for (const double r : {0.0, 0.001, 1.0, 1e6})
+    for (const double size : {3e-5, 0.0123, 0.7, 12345.0}) {
+      const Cloud cloud = box(size, 0.7 * size, 0.2 * size);
+      INFO("r = " << r << ", size " << size);
+      std::string said;
+      try {
+        StpBv::build(cloud, {r, r + 0.1 * size});
+      } catch (const Error& error) {
+        said = error.what();
+      }
+      const std::string words = " m is ";
+      REQUIRE(said.rfind(words) != std::string::npos);
+      CHECK_NOTHROW(StpBv::build(cloud, {r, std::stod(said.substr(said.rfind(words) + words.size()))}));
+    }
+}
+
 TEST_CASE("The smallest usable radius is the minimum enclosing ball's and the one stated works") {
   for (const Named& cloud : smallClouds()) {
     if (cloud.points.size() < 2) continue;

@@ -134,6 +134,9 @@ TEST_CASE("two balls that slide, and a big face that rocks over a plane, reach t
   CHECK(contactAcceleration(small, big, 0.03, 0.3, 0).least == 0);
   CHECK(contactAcceleration(kFlatRadii, small, 0, 0, 2).least == -4);
   CHECK(contactAcceleration(kFlatRadii, small, 0, 0, 2).most == 0);
+  CHECK_FALSE(std::signbit(contactAcceleration(kFlatRadii, small, 0.01, 0, 0).size()));
+  for (const double r : {0.0, 0.01, 1e8})  // where the normal follows the slide r plays no part
+    CHECK(contactAcceleration(kFlatRadii, {r, 1e8, 1e8 - r}, 0.1, 0.067, 1.3).most == 0.067 * 0.067 / 0.1);
   CHECK(contactAcceleration(kFlatRadii, kFlatRadii, 0, 1, 1).size() ==
         std::numeric_limits<double>::infinity());
 }
@@ -278,6 +281,20 @@ TEST_CASE(
   task.period = std::numeric_limits<double>::quiet_NaN();
   CHECK_THROWS_WITH(adviseRadii(box(0.1, 0.1, 0.1), task), Catch::Contains("period"));
   CHECK_THROWS_AS(adviseRadii({}, RadiiTask()), Error);
+}
+
+TEST_CASE("the acceleration that an advice names is kept when it is asked for") {
+  RadiiTask task;
+  task.clearance = 0.022;
+  task.acceleration = 0.014;
+  task.speed = 0.067;
+  task.turning = 1.3;
+  task.distance = 0.1;
+  const Cloud cloud = box(0.005, 0.004, 0.003);
+  const RadiiAdvice advice = adviseRadii(cloud, task);
+  REQUIRE_FALSE(advice.meetsBoth);
+  task.acceleration = advice.acceleration;
+  CHECK(adviseRadii(cloud, task).meetsBoth);
 }
 
 TEST_CASE("a body that does not turn gets the smallest R that the clearance takes, however small it is") {
