@@ -51,10 +51,11 @@ ShapeFeature KnownFeatures::nearestOfCorners(const Packed& x) {
   isNew_ = false;
 
   ShapeFeature f;
-  f.kind = inside ? ShapeFeature::Kind::inside : ShapeFeature::Kind::corner;
+  if (inside) return f;  // of a tetrahedron that may be flat to rounding, and so no proof
+  f.kind = ShapeFeature::Kind::corner;
   f.which = changes_;
   f.point = pack(nearest.weighted(&KnownCorner::place));
-  if (inside || count_ == 1) return f;
+  if (count_ == 1) return f;
   const Vector3d side = corner_[1] - corner_[0];
   const Vector3d axis = count_ == 2 ? side : side.cross(corner_[2] - corner_[0]);
   const double length = axis.norm(), outward = count_ == 3 && axis.dot(from - corner_[0]) < 0.0 ? -1.0 : 1.0;

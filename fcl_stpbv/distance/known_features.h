@@ -16,7 +16,8 @@ class KnownFeatures {
   /// corners those along three normals around it.
   KnownFeatures(const ShapeQuery& q, const Eigen::Vector3d& n);
 
-  /// The feature nearest to `x`. Of a polytope's corners only those of this feature stay known.
+  /// The feature nearest to `x`. Of a polytope's corners only those of this feature stay known; `none` where
+  /// `x` is in their hull.
   ShapeFeature near(const Packed& x) {
     if (isPolytope_) return nearestOfCorners(x);
     const Rotation& rotation = q_.pose.rotation;
