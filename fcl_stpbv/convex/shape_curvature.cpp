@@ -38,15 +38,11 @@ NormalCone ofSegment(const Vector3d& m, double half, double margin, double round
                                                             : aroundLine(m, Vector3d::UnitZ(), margin);
 }
 
-/// A face, an edge or a corner: whatever vertices lie furthest along `m`.
+/// A face, an edge or a corner: whatever vertices lie furthest along `m`, as `a` does.
 template <typename Vertex>
-NormalCone ofVertices(int count, const Vertex& vertex, const Vector3d& m, double rounding) {
-  Vector3d a = vertex(0);
-  double most = m.dot(a);
-  for (int i = 1; i < count; ++i) {
-    const Vector3d p = vertex(i);
-    if (m.dot(p) > most) most = m.dot(p), a = p;
-  }
+NormalCone ofVertices(int count, const Vertex& vertex, const Vector3d& a, const Vector3d& m,
+                      double rounding) {
+  const double most = m.dot(a);
   const auto furthest = [&](const auto& measure, Vector3d& best) {
     double length = rounding;
     for (int i = 0; i < count; ++i) {
@@ -132,15 +128,15 @@ bool normalCone(const Shape& s, const Vector3d& m, const Vector3d& x, double rou
             return Vector3d(i & 1 ? s.size.x() : -s.size.x(), i & 2 ? s.size.y() : -s.size.y(),
                             i & 4 ? s.size.z() : -s.size.z());
           },
-          m, rounding);
+          s.support(m), m, rounding);
       break;
     case ShapeKind::triangle:
       result = ofVertices(
-          3, [&](int i) { return s.corner[static_cast<std::size_t>(i)]; }, m, rounding);
+          3, [&](int i) { return s.corner[static_cast<std::size_t>(i)]; }, s.support(m), m, rounding);
       break;
     case ShapeKind::polytope:
       result = ofVertices(
-          s.vertexCount, [&](int i) { return s.vertices[i]; }, m, rounding);
+          s.vertexCount, [&](int i) { return s.vertices[i]; }, s.support(m), m, rounding);
       break;
     case ShapeKind::cylinder:
       result = ofCylinder(s, m, x, rounding);

@@ -3,7 +3,6 @@
 #include <fcl/geometry/shape/box.h>
 #include <fcl/geometry/shape/capsule.h>
 #include <fcl/geometry/shape/cone.h>
-#include <fcl/geometry/shape/convex.h>
 #include <fcl/geometry/shape/cylinder.h>
 #include <fcl/geometry/shape/ellipsoid.h>
 #include <fcl/geometry/shape/sphere.h>
@@ -19,6 +18,7 @@
 
 #include "fcl_stpbv/adapter/collide.h"
 #include "fcl_stpbv/adapter/fcl_distance.h"
+#include "fcl_stpbv/adapter/hull_geometry.h"
 #include "test/reference/motion.h"
 #include "test/reference/shapes.h"
 #include "tools/bench/measurement.h"
@@ -83,12 +83,6 @@ int main(int argc, char** argv) {
   const auto smooth = [](const Cloud& cloud) {
     return std::make_shared<StpBvGeometry>(StpBv::build(cloud, {0.01, 10.0}));
   };
-  const auto hull = [&](const Cloud& cloud) {  // FCL's own convex body, without the smooth volume
-    const auto g = smooth(cloud);
-    return std::make_shared<fcl::Convexd>(std::make_shared<std::vector<Eigen::Vector3d>>(g->getVertices()),
-                                          g->getFaceCount(),
-                                          std::make_shared<std::vector<int>>(g->getFaces()));
-  };
   const std::vector<Named> bodies{{"STP-BV of 162", smooth(geodesicSphere(0.2, 2))},
                                   {"STP-BV of a box", smooth(box(0.2, 0.3, 0.4))},
                                   {"box", std::make_shared<fcl::Boxd>(0.2, 0.3, 0.4)},
@@ -99,8 +93,8 @@ int main(int argc, char** argv) {
                                   {"cylinder", std::make_shared<fcl::Cylinderd>(0.1, 0.4)},
                                   {"cone", std::make_shared<fcl::Coned>(0.1, 0.4)},
                                   {"ellipsoid", std::make_shared<fcl::Ellipsoidd>(0.1, 0.15, 0.2)},
-                                  {"convex of 8", hull(box(0.2, 0.3, 0.4))},
-                                  {"convex of 162", hull(geodesicSphere(0.15, 2))}};
+                                  {"convex of 8", detail::hullGeometry(box(0.2, 0.3, 0.4))},
+                                  {"convex of 162", detail::hullGeometry(geodesicSphere(0.15, 2))}};
   const std::vector<std::pair<std::string, double>> questions{
       {"distance", 0.45}, {"yes or no", 0.45}, {"yes or no", 0.15}, {"contact", 0.45}, {"contact", 0.15}};
   return app.run(argc, argv, [&] {

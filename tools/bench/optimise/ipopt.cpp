@@ -1,8 +1,6 @@
 // IPOPT behind solver.h.
 #include "tools/bench/optimise/ipopt.h"
 
-#include <malloc.h>
-
 #include <IpIpoptApplication.hpp>
 #include <IpTNLP.hpp>
 
@@ -89,17 +87,9 @@ class Program : public Ipopt::TNLP {
   VectorXd entries_;
 };
 
-/// MUMPS takes memory for every factorisation and frees it afterwards. Unless told otherwise, glibc hands it
-/// back to the system each time, which makes up a third of the time of small programs.
-void keepFreedMemory() {
-  mallopt(M_MMAP_THRESHOLD, 32 << 20);
-  mallopt(M_TRIM_THRESHOLD, 1 << 30);
-}
-
 }  // namespace
 
 Solution solveByIpopt(Nlp& nlp, const VectorXd& start, Solver solver, bool warm) {
-  keepFreedMemory();
   Solution solution;
   solution.x = start;
   Ipopt::SmartPtr<Ipopt::IpoptApplication> ipopt = new Ipopt::IpoptApplication();
