@@ -214,6 +214,15 @@ std::optional<fcl_stpbv::PartsOptions> partsOf(const Arguments& arguments) {
   return options;
 }
 
+// The folders that have to be made for `folder`, innermost first.
+std::vector<std::filesystem::path> missingFolders(std::filesystem::path folder) {
+  std::vector<std::filesystem::path> missing;
+  std::error_code ignored;
+  for (; !folder.empty() && !std::filesystem::exists(folder, ignored); folder = folder.parent_path())
+    missing.push_back(folder);
+  return missing;
+}
+
 int run(Arguments& arguments) {
   arguments.conversion.measure = arguments.json || !arguments.quiet;
   arguments.conversion.format = arguments.format == "sch" ? Format::sch : Format::stpbv;
@@ -222,14 +231,17 @@ int run(Arguments& arguments) {
   const Plan plan =
       fcl_stpbv::tools::plan(arguments.inputs, arguments.output, arguments.conversion, arguments.force);
   std::error_code error;
+  const std::vector<std::filesystem::path> missing = missingFolders(plan.folder);
   if (!plan.folder.empty()) std::filesystem::create_directories(plan.folder, error);
   if (error) throw UsageError("-o " + plan.folder + ": this folder cannot be made: " + error.message());
 
   const std::size_t failed = runAll(plan.jobs, arguments);
-  if (failed > 0 && plan.jobs.size() > 1) {
-    tell(std::to_string(failed) + " of " + std::to_string(plan.jobs.size()) +
-         " inputs failed, the others are written");
-  }
+  const bool all = failed == plan.jobs.size();
+  if (all)
+    for (const std::filesystem::path& folder : missing) std::filesystem::remove(folder, error);
+  if (failed > 0 && plan.jobs.size() > 1)
+    tell((all ? "all " : std::to_string(failed) + " of ") + std::to_string(plan.jobs.size()) +
+         " inputs failed, " + (all ? "nothing is written" : "the others are written"));
   return failed > 0 ? kSomeFailed : kDone;
 }
 

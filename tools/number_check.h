@@ -24,13 +24,13 @@ inline std::string wrongNumber(const std::string& text, double least, double mos
   char* end = nullptr;
   const double value = std::strtod(text.c_str(), &end);
   const bool decimal = text.find_first_of("xX") == std::string::npos;  // strtod reads hexadecimals, too
-  if (!text.empty() && decimal && end == text.c_str() + text.size() && std::isfinite(value) &&
-      value <= most && (orEqual ? value >= least : value > least))
-    return "";
+  const bool isNumber = !text.empty() && decimal && end == text.c_str() + text.size() && std::isfinite(value);
+  const bool lost = isNumber && value == 0 && text.find_first_of("123456789") < text.find_first_of("eE");
+  if (isNumber && !lost && value <= most && (orEqual ? value >= least : value > least)) return "";
   char range[64];
   std::snprintf(range, sizeof range, "%g to %g", least, most);
-  return "got " + (text.empty() ? "nothing" : text) + ", expected a number from " + range +
-         (orEqual ? "" : ", the first excluded");
+  return "got " + (text.empty() ? "nothing" : text) + (lost ? ", too small for a double" : "") +
+         ", expected a number from " + range + (orEqual ? "" : ", the first excluded");
 }
 
 /// The same for a whole number.

@@ -100,11 +100,12 @@ void write(const PartsReport& report, const ConversionOptions& options) {
 
 std::string toText(const PartsReport& report) {
   const ConvexParts& parts = report.parts;
-  std::string text = report.input + ": " + std::to_string(parts.parts.size()) + " parts; hulls within " +
+  std::string text = report.input + ": " + std::to_string(parts.parts.size()) +
+                     (parts.parts.size() == 1 ? " part" : " parts") + "; hulls within " +
                      millimetres(parts.excess) + " of the mesh's solid, " + millimetres(parts.openExcess) +
                      " of its triangles; volumes within " + millimetres(report.excessMax()) + "; " +
                      std::to_string(parts.closedPieces) + " of " + std::to_string(parts.pieces) +
-                     " pieces closed, " +
+                     (parts.pieces == 1 ? " piece closed, " : " pieces closed, ") +
                      (parts.closedPieces > 0 ? "their inside is covered" : "the triangles alone are covered");
   if (!report.isReached())
     text += "; NOT within the " + millimetres(report.asked) + " asked for: more --parts or --effort may be";

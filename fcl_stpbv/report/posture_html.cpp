@@ -1,6 +1,7 @@
 // The page of a posture: the collision report's page with one configuration.
 #include <algorithm>
 
+#include "fcl_stpbv/report/formatted.h"
 #include "fcl_stpbv/report/pair_measure.h"
 #include "fcl_stpbv/report/posture_formats.h"
 #include "fcl_stpbv/report/report_formats.h"
@@ -8,6 +9,20 @@
 namespace fcl_stpbv::report {
 
 using namespace detail;
+
+// A line for each constraint that the posture violates, and for each of those that cannot hold together.
+static std::vector<std::string> violated(const Posture& posture) {
+  std::vector<std::string> lines;
+  if (posture.feasible) return lines;
+  for (const Violation& v : posture.violations)
+    lines.push_back(v.name + formatted(": violated by %.3g", v.amount));
+  for (const Violation& v : posture.conflict)
+    lines.push_back(
+        v.name +
+        formatted(": cannot hold together with the others, misses %.3g where all miss least", v.amount));
+  for (const std::string& limit : posture.conflictLimits) lines.push_back(limit + ": at its limit there");
+  return lines;
+}
 
 std::string toHtml(const PostureReport& report) {
   CollisionReport page;
@@ -41,7 +56,7 @@ std::string toHtml(const PostureReport& report) {
   }
   std::stable_sort(page.pairs.begin(), page.pairs.end(),
                    [](const PairReport& a, const PairReport& b) { return a.minDistance < b.minDistance; });
-  return toHtml(page, "posture for " + report.task.path);
+  return toHtml(page, "posture for " + report.task.path, violated(report.posture));
 }
 
 }  // namespace fcl_stpbv::report

@@ -17,7 +17,9 @@ std::string toCsv(const CollisionReport& report);
 /// not collide without them are not among these.
 std::string toSrdfText(const CollisionReport& report, bool defaultToo = false);
 /// One page with all it needs inside: table, heat map, and the robot in 3-D.
-/// The title follows the robot's name.
-std::string toHtml(const CollisionReport& report, const std::string& title = "self-collision report");
+/// The title follows the robot's name. `violated`: a line for each thing that keeps a posture from being
+/// feasible.
+std::string toHtml(const CollisionReport& report, const std::string& title = "self-collision report",
+                   const std::vector<std::string>& violated = {});
 
 }  // namespace fcl_stpbv::report

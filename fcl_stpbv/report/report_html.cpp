@@ -126,12 +126,16 @@ void shorten(nlohmann::json& value) {
   }
 }
 
-nlohmann::json dataOf(const CollisionReport& report, const std::string& title) {
+nlohmann::json dataOf(const CollisionReport& report, const std::string& title,
+                      const std::vector<std::string>& violated) {
   nlohmann::json data = nlohmann::json::parse(toJson(report));
   data["title"] = title;
+  data["violated"] = violated;
   data["trajectory"] = nlohmann::json();
   if (report.trajectory)
-    data["trajectory"] = {{"file", report.trajectory->path}, {"verdict", trajectoryVerdict(report)}};
+    data["trajectory"] = {{"file", report.trajectory->path},
+                          {"timed", report.trajectory->trajectory.timed},
+                          {"verdict", trajectoryVerdict(report)}};
   data["joints"] = report.kinematics->names();
   std::vector<Eigen::VectorXd> configurations;
   for (std::size_t i = 0; i < report.pairs.size(); ++i) {
@@ -182,9 +186,10 @@ static std::string trajectorySection(const CollisionReport& report) {
          chartOf(*report.trajectory, report.margin) + "</section>";
 }
 
-std::string toHtml(const CollisionReport& report, const std::string& title) {
+std::string toHtml(const CollisionReport& report, const std::string& title,
+                   const std::vector<std::string>& violated) {
   const std::string data =
-      dataOf(report, title).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+      dataOf(report, title, violated).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   return filled(kPageHtml, {{"TRAJECTORY", trajectorySection(report)},
                             {"STYLE", std::string(kPageStyle)},
                             {"SCRIPT", std::string(kPageScript)},

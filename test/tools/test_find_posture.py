@@ -226,6 +226,11 @@ class FindPosture(unittest.TestCase):
         text = self.run_task(task, "--starts", "2").stdout
         self.assertTrue(text.startswith("not feasible"))
         self.assertIn("cannot hold together", text)
+        violated = page_data(self.run_task(task, "--starts", "2", "--format", "html").stdout)["violated"]
+        for kind, said in (("violations", "violated by"), ("conflict", "cannot hold together")):
+            self.assertTrue(answer[kind])
+            for missed in answer[kind]:
+                self.assertIn((missed["constraint"], True), [(line.split(":")[0], said in line) for line in violated])
 
     def test_a_mistake_ends_with_2_and_one_line(self):
         task = self.pick_can()

@@ -161,6 +161,14 @@ class MeshToStpbv(unittest.TestCase):
         self.assertIn("missing.stl: no such file", done.stderr)
         self.assertIn("2 of 3 inputs failed", done.stderr)
 
+    def test_where_all_inputs_fail_no_folder_is_left(self):
+        done = self.run_tool("broken.txt", "missing.stl", "-o", "new/deep/", code=1)
+        self.assertIn("all 2 inputs failed, nothing is written", done.stderr)
+        self.assertFalse(os.path.exists(self.at("new")))
+        os.mkdir(self.at("kept"))  # the user's own stays
+        self.run_tool("broken.txt", "missing.stl", "-o", "kept", code=1)
+        self.assertTrue(os.path.exists(self.at("kept")))
+
     def test_any_number_of_jobs_gives_the_same_files_and_reports_in_order(self):
         inputs = ["cube.txt", "broken.txt", "other.txt"]
         for i in range(20):
@@ -203,6 +211,7 @@ class MeshToStpbv(unittest.TestCase):
                 (["cube.txt", "-o", "a.stpbv", "-r", "x"], ["-r", "x"]),
                 (["cube.txt", "-o", "a.stpbv", "-r=-1"], ["-r"]),
                 (["cube.txt", "-o", "a.stpbv", "-r", "nan"], ["-r"]),
+                (["cube.txt", "-o", "a.stpbv", "-r", "1e-400"], ["-r", "got 1e-400, too small for a double, expected a number from 0 to 1e+06"]),
                 (["cube.txt", "-o", "a.stpbv", "-r", "1", "-R", "1"], ["-R"]),
                 (["cube.txt", "-o", "a.stpbv", "--scale", "0"], ["--scale"]),
                 (["cube.txt", "-o", "a.stpbv", "--format", "sch"], ["-o a.stpbv", "--format sch", ".txt"]),

@@ -315,6 +315,7 @@ class Page(Browser):
             self.open(ROBOT + ".urdf", "--srdf", ROBOT + ".srdf", "--trajectory", way, "--margin", margin)
             self.assertIn(verdict, self.browser.find_element(By.ID, "subtitle").text)
             self.assertIn("others where it begins", self.browser.find_element(By.ID, "subtitle").text)
+            self.assertRegex(self.browser.find_element(By.ID, "detail").text, r"Closest at way point\n\d")
             self.assertEqual(self.script("return document.querySelectorAll('.figure.good').length"), good)
             self.assertEqual("within 900.00 mm" in self.browser.find_element(By.ID, "figures").text, not good)
             # The chart stands off the window's edge, and none of its text is cut off.

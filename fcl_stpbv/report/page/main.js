@@ -24,6 +24,12 @@ function showSkipped(shapes) {
   byId('skipped').lastElementChild.replaceChildren(...shapes.map(text => make('li', '', text)));
 }
 
+// What keeps a posture from being feasible.
+function showViolated(lines) {
+  byId('violated').hidden = !lines.length;
+  byId('violated').lastElementChild.replaceChildren(...lines.map(text => make('li', '', text)));
+}
+
 function showWarnings(warnings) {
   byId('warnings').hidden = !warnings.length;
   byId('warnings').open = warnings.length <= 3;
@@ -60,6 +66,7 @@ function describe(pair, report) {
   if (pair.mesh_distance !== null) fact('Meshes [mm]', mm(pair.mesh_distance, 3));
   fact('Cover, 1 + 2 [mm]', `${mm(pair.over_cover1)} + ${mm(pair.over_cover2)}`);
   fact('Least found [mm]', mm(pair.min_distance, 3));
+  if (pair.time !== null) fact(report.trajectory.timed ? 'Closest at [s]' : 'Closest at way point', String(Number(pair.time.toPrecision(6))));
   fact('Normal', pair.normal.map(v => v.toFixed(3)).join(', '));
   const steep = Object.entries(pair.gradient).sort((a, b) => Math.abs(b[1]) - Math.abs(a[1])).slice(0, 6);
   if (steep.length) slopes.append(make('b', '', 'Steepest joints [m/rad, m/m]'));
@@ -101,6 +108,7 @@ async function main() {
   const report = JSON.parse(await unpacked('packed-report')), pairs = report.pairs;
   showHeader(report);
   showSkipped(report.skipped);
+  showViolated(report.violated);
   showWarnings(report.warnings);
   showLinks(report.links);
   const scene = openScene(report), table = new PairTable(pairs, i => choose(i, true)), map = new HeatMap(report, i => choose(i, true));
