@@ -139,6 +139,7 @@ def test_a_worker_killed_in_the_middle_changes_nothing(cluster, some):
     assert some.out.read_bytes() == some.expected and some.files() == some.volumes
 
 
+@pytest.mark.parametrize("some", ["grid", "convert"], indirect=True)  # one that writes nothing else, one that does
 def test_a_scheduler_that_dies_costs_no_result_and_a_new_one_goes_on(cluster, some):
     shutil.rmtree(some.folder / "volumes", ignore_errors=True)
     run = some.start("stopped", "--scheduler", cluster.address)

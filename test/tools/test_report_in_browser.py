@@ -117,8 +117,8 @@ class Browser(unittest.TestCase):
     def open(self, urdf, *arguments, view=""):
         """Writes the report's page and opens it; the exit status must be that of a report."""
         page = self.path("report.html")
-        done = subprocess.run([PROGRAM, urdf, "--samples", "10", "--format", "html", "--no-cache", "-o", page, *arguments],
-                              capture_output=True, text=True)
+        done = subprocess.run([PROGRAM, urdf, "--samples", "10", "--format", "html", "-o", page, *arguments],
+                              capture_output=True, text=True, env={**os.environ, "XDG_CACHE_HOME": self.path("cache")})
         self.assertIn(done.returncode, (1, 3) if "--skip-invalid" in arguments else (0, 1), done.stderr)
         self.show(view)
         return os.path.getsize(page)
