@@ -83,16 +83,22 @@ std::vector<std::size_t> followTrajectory(const ReportRequest& request, const Tr
   return first;
 }
 
-// Where the bodies first to last of the trajectory's are closest on it.
+// Where the bodies first to last of the trajectory's are closest on it. The closest approach is found to a
+// precision; a contact may be less deep than that.
 void placeOnTrajectory(const TrajectoryReport& trajectory, std::size_t first, std::size_t last,
                        PairReport& pair) {
   if (first == last) return;
+  const bool touches = trajectory.verdict == MotionVerdict::contact &&
+                       static_cast<std::size_t>(trajectory.pair) >= first &&
+                       static_cast<std::size_t>(trajectory.pair) < last;
   const auto begin = trajectory.closest.begin();
   const auto nearest =
       std::min_element(begin + static_cast<std::ptrdiff_t>(first), begin + static_cast<std::ptrdiff_t>(last),
                        [](const Approach& a, const Approach& b) { return a.distance < b.distance; });
-  pair.time = nearest->time;
-  pair.configuration = trajectory.at(nearest->time);
+  pair.time =
+      touches && !(nearest->distance < trajectory.contact.distance) ? trajectory.until : nearest->time;
+  pair.configuration = trajectory.at(pair.time);
+  pair.colliding = touches;
 }
 
 // What the search and the SRDF say about a pair.
@@ -118,7 +124,7 @@ PairReport said(const PairEntry& entry, const CollisionReport& report, const Ski
 // Where the volumes meet, or come closer than what they exceed their hulls by: farther apart the volumes'
 // distance says enough. A contradiction is explained where it was found.
 void explain(const std::vector<CheckedPair>& bodies, double margin, PairCauses& causes, PairReport& pair) {
-  if (pair.answer.distance <= std::max(margin, pair.overCover1 + pair.overCover2)) {
+  if (pair.colliding || pair.answer.distance <= std::max(margin, pair.overCover1 + pair.overCover2)) {
     const PairCause found = causes.explain(bodies, pair.configuration, margin);
     pair.meshDistance = found.meshDistance;
     pair.cause = found.cause;
@@ -173,7 +179,7 @@ void examine(const ReportRequest& request, const PairListOptions& search, const 
     if (pair.answer.status == DistanceStatus::invalid)  // no answer is not clear
       throw Error(report.robot->path + ": the distance of " + pair.link1 + " and " + pair.link2 +
                   " cannot be computed; look for numbers out of all proportion");
-    pair.colliding = pair.answer.distance <= search.margin;
+    pair.colliding |= pair.answer.distance <= search.margin;
     if (const auto known = kept.find(pair.links); known != kept.end()) {
       pair.meshDistance = known->second.meshDistance;
       pair.cause = known->second.cause;

@@ -29,7 +29,7 @@ std::string packed(const std::string& text) {
   constexpr int kGzip = 16 + MAX_WBITS;  // zlib's way to ask for gzip's header
   constexpr int kMemory = 8;             // zlib's default
   z_stream stream{};
-  if (deflateInit2(&stream, Z_BEST_COMPRESSION, Z_DEFLATED, kGzip, kMemory, Z_DEFAULT_STRATEGY) != Z_OK)
+  if (deflateInit2(&stream, Z_DEFAULT_COMPRESSION, Z_DEFLATED, kGzip, kMemory, Z_DEFAULT_STRATEGY) != Z_OK)
     throw Error("zlib: not enough memory to compress the page");
   std::string out(deflateBound(&stream, static_cast<uLong>(text.size())), '\0');
   stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(text.data()));

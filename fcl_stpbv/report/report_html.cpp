@@ -1,5 +1,5 @@
-// The report's page: the files of page/ filled with its data. Shapes and postures are 16-bit numbers in one
-// packed block (packed_text.h), the rest is JSON with figures cut to eight digits.
+// The report's page: the files of page/ filled with its data in one packed block (packed_text.h): JSON with
+// figures cut to eight digits, in which shapes are 16-bit numbers.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -10,6 +10,7 @@
 #include "fcl_stpbv/report/packed_text.h"
 #include "fcl_stpbv/report/page_files.h"
 #include "fcl_stpbv/report/report_formats.h"
+#include "fcl_stpbv/robot/joint_freedoms.h"
 
 namespace fcl_stpbv::report {
 
@@ -90,29 +91,58 @@ class Bodies {
   std::map<std::string, std::size_t> known_;
 };
 
-// The links' poses in all the postures that pairs are in: position and quaternion, in 16-bit steps.
-nlohmann::json posturesOf(const CollisionReport& report, const std::vector<Eigen::VectorXd>& configurations) {
-  constexpr double kMost = 32767;
-  std::vector<Eigen::Isometry3d> poses;
-  Kinematics::State state = report.kinematics->makeState();
-  double far = 1e-3;
-  for (const Eigen::VectorXd& q : configurations) {
-    report.kinematics->forward(q, state);
-    for (const Eigen::Isometry3d& pose : state.link) {
-      poses.push_back(pose);
-      far = std::max(far, pose.translation().lpNorm<Eigen::Infinity>());
+// How each link stands on its parent: the joint's origin, what it slides by and what it turns by.
+class Joints {
+ public:
+  explicit Joints(const Kinematics& kinematics) {
+    const RobotModel& robot = kinematics.robot();
+    for (const LinkModel& link : robot.links) {  // parents first
+      if (link.parentJoint < 0) {
+        add(-1, Eigen::Isometry3d::Identity());
+        if (kinematics.baseMoves()) move(baseOf(kinematics), Eigen::Vector3d::UnitZ(), 0);
+        continue;
+      }
+      const JointModel& joint = robot.joints[static_cast<std::size_t>(link.parentJoint)];
+      add(joint.parent, joint.origin);
+      const int followed = joint.mimic ? joint.mimic->joint : link.parentJoint;
+      const int coordinate = kinematics.coordinate(robot.joints[static_cast<std::size_t>(followed)].name);
+      move(joint.type, joint.axis, coordinate, joint.mimic.value_or(Mimic{followed, 1, 0}));
     }
   }
-  const double step = far / kMost;
-  std::vector<std::int16_t> values;
-  for (const Eigen::Isometry3d& pose : poses) {
-    for (int i = 0; i < 3; ++i)
-      values.push_back(static_cast<std::int16_t>(std::lround(pose.translation()[i] / step)));
-    const Eigen::Vector4d turn = Eigen::Quaterniond(pose.linear()).normalized().coeffs();  // x, y, z, w
-    for (int i = 0; i < 4; ++i) values.push_back(static_cast<std::int16_t>(std::lround(turn[i] * kMost)));
+  nlohmann::json list = nlohmann::json::array();
+
+ private:
+  static JointType baseOf(const Kinematics& kinematics) {
+    const auto& motions = kinematics.motions();
+    const auto ofBase = std::count_if(motions.begin(), motions.end(),
+                                      [](const Kinematics::Motion& motion) { return motion.joint < 0; });
+    return ofBase == freedoms(JointType::planar) ? JointType::planar : JointType::floating;
   }
-  return {{"links", report.robot->links.size()}, {"step", step}, {"values", base64(values)}};
-}
+
+  void add(int parent, const Eigen::Isometry3d& origin) {
+    list.push_back({{"parent", parent},
+                    {"origin", rowsOf(origin)},
+                    {"slides", nlohmann::json::array()},
+                    {"turns", nlohmann::json::array()}});
+  }
+
+  // Of the joint added last, with the first of its coordinates.
+  void move(JointType type, const Eigen::Vector3d& axis, int coordinate, const Mimic& by = {-1, 1, 0}) {
+    const auto add = [&](const char* what, const Eigen::Vector3d& along) {
+      list.back()[what].push_back({{"axis", {along.x(), along.y(), along.z()}},
+                                   {"coordinate", coordinate++},
+                                   {"multiplier", by.multiplier},
+                                   {"offset", by.offset}});
+    };
+    if (type == JointType::planar)
+      for (int i = 0; i < 2; ++i) add("slides", planeAcross(axis).col(i));
+    if (type == JointType::floating)
+      for (const char* what : {"slides", "turns"})
+        for (int i = 0; i < 3; ++i) add(what, Eigen::Vector3d::Unit(i));
+    else if (type != JointType::fixed)
+      add(type == JointType::prismatic ? "slides" : "turns", axis);
+  }
+};
 
 // To eight digits: what nobody reads off a page, and what compresses badly.
 void shorten(nlohmann::json& value) {
@@ -137,27 +167,28 @@ nlohmann::json dataOf(const CollisionReport& report, const std::string& title,
                           {"timed", report.trajectory->trajectory.timed},
                           {"verdict", trajectoryVerdict(report)}};
   data["joints"] = report.kinematics->names();
-  std::vector<Eigen::VectorXd> configurations;
+  data["configurations"] = nlohmann::json::array();
+  std::map<std::vector<double>, std::size_t> known;
+  const auto indexOf = [&](const Eigen::VectorXd& q) {
+    const auto [at, isNew] = known.emplace(std::vector<double>(q.data(), q.data() + q.size()), known.size());
+    if (isNew) data["configurations"].push_back(at->first);
+    return at->second;
+  };
   for (std::size_t i = 0; i < report.pairs.size(); ++i) {
     const PairReport& pair = report.pairs[i];
-    auto found = std::find(configurations.begin(), configurations.end(), pair.configuration);
-    if (found == configurations.end()) found = configurations.insert(found, pair.configuration);
     nlohmann::json& item = data["pairs"][i];
-    item["posture"] = found - configurations.begin();
+    item["posture"] = indexOf(pair.configuration);
     item["cover"] = pair.overCover1 + pair.overCover2;
     item["colliding"] = pair.colliding;
     item["contradicts_srdf"] = pair.contradictsSrdf;
     item.erase("closest");
   }
-  if (configurations.empty()) configurations.push_back(report.kinematics->neutral());
-  data["configurations"] = nlohmann::json::array();
-  for (const Eigen::VectorXd& q : configurations)
-    data["configurations"].push_back(std::vector<double>(q.data(), q.data() + q.size()));
+  if (known.empty()) indexOf(report.kinematics->neutral());
+  data["kinematics"] = std::move(Joints(*report.kinematics).list);
   shorten(data);
   Bodies bodies(report);
   data["shapes"] = std::move(bodies.shapes);
   data["bodies"] = std::move(bodies.list);
-  data["postures"] = posturesOf(report, configurations);
   return data;
 }
 

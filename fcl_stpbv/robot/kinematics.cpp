@@ -26,6 +26,7 @@ using Eigen::Vector3d;
 using detail::at;
 using detail::crossMatrix;
 using detail::freedoms;
+using detail::planeAcross;
 
 // Rotation by a rotation vector, and the matrix that turns its rate into the angular velocity.
 void exponential(const Vector3d& w, Matrix3d& rotation, Matrix3d& rate) {
@@ -77,14 +78,6 @@ inline void compose(const Frame& parent, const Frame& local, Isometry3d& pose) {
 
 Twist turning(const Vector3d& axis, const Vector3d& origin) { return {origin.cross(axis), axis}; }
 Twist sliding(const Vector3d& axis) { return {axis, Vector3d::Zero()}; }
-
-/// The plane a planar joint moves in: the frame whose z axis is the joint's, turned from
-/// the link's frame by the smallest angle.
-Matrix3d planeAcross(const Vector3d& axis) {
-  const Vector3d across = Vector3d::UnitZ().cross(axis);
-  const Vector3d turn = across.norm() > 0 ? across.stableNormalized() : Vector3d::UnitX();
-  return Eigen::AngleAxisd(std::atan2(across.norm(), axis.z()), turn).toRotationMatrix();
-}
 
 // Files and answers tell coordinates by their names.
 void requireDistinct(const std::vector<std::string>& names, const std::string& path) {

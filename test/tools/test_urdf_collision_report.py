@@ -116,6 +116,14 @@ class Report(unittest.TestCase):
         self.assertIn(report["trajectory"]["contact"]["time"], chart["time"])
         self.assertRegex(self.follow("way.csv", text).stdout, r"fastest approach of 40[123] samples 1\.\d+ m/s")
 
+    def test_a_contact_less_deep_than_the_precision_counts_as_one(self):
+        for deepest, free in (("0.919999", True), ("0.92000000001", False), ("0.920000001", False), ("0.92001", False)):
+            done = self.follow("way.csv", f"slide\n0\n{deepest}\n0\n", "--format", "json")
+            report = json.loads(done.stdout)
+            self.assertEqual((report["trajectory"]["verdict"], done.returncode), ("free", 0) if free else ("contact", 1))
+            self.assertEqual(report["summary"]["colliding"], 0 if free else 1, deepest)
+            self.assertIn("proven free" if free else "1 of them in collision", self.follow("way.csv", f"slide\n0\n{deepest}\n0\n").stdout)
+
     def test_the_levels_of_the_chart_stay_in_it_and_apart(self):
         for margin in ("0", "0.001", "-0.001", "0.9", "3", "-3"):
             page = self.follow("way.csv", "slide\n0\n2\n", "--margin", margin, "--format", "html").stdout

@@ -1,4 +1,4 @@
-// What the page holds, unpacked: the report, its shapes as triangles, its poses as matrices.
+// What the page holds, unpacked: the report, its shapes as triangles, its links' poses as matrices.
 const byId = id => document.getElementById(id);
 const mm = (value, digits = 2) => value === null || value === undefined ? '–' : (1e3 * value).toFixed(digits);
 
@@ -26,17 +26,20 @@ function corners(shape) {
   return Float32Array.from(steps, (step, i) => shape.low[i % 3] + step * shape.step[i % 3]);
 }
 
-// The pose of link `link` in posture `posture`, as position and quaternion; each number has 16 bits.
-class Postures {
-  constructor(report) {
-    this.values = new Int16Array(bytes(report.postures.values).buffer);
-    this.links = report.postures.links;
-    this.step = report.postures.step;
+// A pose of three rows of four.
+function poseOf(rows) {
+  return new THREE.Matrix4().set(...rows, 0, 0, 0, 1);
+}
+
+// Where the links are at the coordinates `q`: each on its parent, at the joint's origin, slid, then turned. What a joint
+// turns by is a rotation vector.
+function linkPoses(joints, q) {
+  const sum = motions => motions.reduce((v, m) => v.addScaledVector(new THREE.Vector3(...m.axis), m.multiplier * q[m.coordinate] + m.offset), new THREE.Vector3());
+  const poses = [];
+  for (const joint of joints) {
+    const turn = sum(joint.turns), angle = turn.length(), rotation = new THREE.Quaternion().setFromAxisAngle(turn.divideScalar(angle || 1), angle);
+    const moved = new THREE.Matrix4().compose(sum(joint.slides), rotation, new THREE.Vector3(1, 1, 1)).premultiply(poseOf(joint.origin));
+    poses.push(joint.parent < 0 ? moved : moved.premultiply(poses[joint.parent]));
   }
-  matrix(posture, link) {
-    const at = 7 * (posture * this.links + link), v = this.values;
-    const position = new THREE.Vector3(v[at], v[at + 1], v[at + 2]).multiplyScalar(this.step);
-    const turn = new THREE.Quaternion(v[at + 3], v[at + 4], v[at + 5], v[at + 6]).normalize();
-    return new THREE.Matrix4().compose(position, turn, new THREE.Vector3(1, 1, 1));
-  }
+  return poses;
 }

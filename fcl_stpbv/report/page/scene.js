@@ -57,7 +57,6 @@ class Scene {
   constructor(report, canvas) {
     this.report = report;
     this.canvas = canvas;
-    this.postures = new Postures(report);
     this.show = 'all';
     this.pair = null;
     this.frames = 0;
@@ -121,11 +120,10 @@ class Scene {
   }
 
   place(posture) {
-    const at = new THREE.Matrix4();
+    const links = linkPoses(this.report.kinematics, this.report.configurations[posture]);
     this.report.bodies.forEach((body, i) => {
-      const [a, b, c, d, e, f, g, h, j, k, l, m] = body.at;
-      at.set(a, b, c, d, e, f, g, h, j, k, l, m, 0, 0, 0, 1);
-      if (body.link >= 0) at.premultiply(this.postures.matrix(posture, body.link));
+      const at = poseOf(body.at);
+      if (body.link >= 0) at.premultiply(links[body.link]);
       this.bodies[i].matrix.copy(at);
       this.bodies[i].updateMatrixWorld(true);
     });
