@@ -122,8 +122,8 @@ void StpBvGeometry::computeLocalAABB() {
 }
 
 const StpBvGeometry* asStpBv(const fcl::CollisionGeometryd* geometry) {
-  if (!geometry) return nullptr;
-  // The usual type at once; a class derived from it takes the longer way.
+  // FCL's other types at once, then the usual one; a class derived from it takes the longer way.
+  if (!geometry || geometry->getNodeType() != fcl::GEOM_CONVEX) return nullptr;
   return typeid(*geometry) == typeid(StpBvGeometry) ? static_cast<const StpBvGeometry*>(geometry)
                                                     : dynamic_cast<const StpBvGeometry*>(geometry);
 }
