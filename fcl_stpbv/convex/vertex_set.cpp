@@ -87,4 +87,21 @@ int furthestAlong(const Vector3d& d, const Vector3d* vertices, int count) {
   return best;
 }
 
+FCL_STPBV_VECTORIZED
+int fromHeight(double least, const Vector3d& d, const Vector3d* vertices, int count, int* found, int room) {
+  int many = 0, i = 0;
+  const auto take = [&](int which) {
+    if (many++ < room) found[many - 1] = which;
+  };
+  for (; i + 4 <= count; i += 4) {
+    const Packed height = Four(vertices + i).along(d);
+    if (largest(height) < least) continue;
+    for (int k = 0; k < 4; ++k)
+      if (!(height[k] < least)) take(i + k);
+  }
+  for (; i < count; ++i)
+    if (!(d.dot(vertices[i]) < least)) take(i);
+  return many;
+}
+
 }  // namespace fcl_stpbv::detail

@@ -8,13 +8,16 @@
 // 3. The point is that of the more strongly curved feature, the other one's is opposite it.
 // 4. Both are brought onto their bodies, and taken where they still are opposite each other, and as far apart
 //    as the supporting planes.
+// Of a polytope the few vertices that normals next to `n` can show are asked, and all of them at the end.
 #include "fcl_stpbv/distance/shape_newton.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
 #include "fcl_stpbv/convex/onto_core.h"
+#include "fcl_stpbv/convex/vertex_set.h"
 #include "fcl_stpbv/distance/turning.h"
 
 namespace fcl_stpbv::detail {
@@ -22,6 +25,34 @@ namespace fcl_stpbv::detail {
 using Eigen::Vector3d;
 
 namespace {
+
+/// A shape for normals within `angle` (rad) of `n`: a polytope has only the vertices that one of them shows,
+/// or that are as near to it as twice that angle and `rounding` (m). It is whole where these are many.
+class ShapeNear {
+ public:
+  ShapeNear(const Shape& shape, const Vector3d& n, double angle, double rounding) : whole_(shape) {
+    if (shape.kind != ShapeKind::polytope || shape.vertexCount <= kFew) return;
+    const double below = 2.0 * rounding + 8.0 * shape.reach * angle;
+    std::array<int, kFew> which;
+    const int count =
+        fromHeight(n.dot(shape.support(n)) - below, n, shape.vertices, shape.vertexCount, which.data(), kFew);
+    if (count > kFew) return;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) vertex_[i] = shape.vertices[which[i]];
+    few_ = shape;
+    few_->vertices = vertex_.data();
+    few_->vertexCount = count;
+  }
+  ShapeNear(const ShapeNear&) = delete;
+
+  const Shape& shape() const { return few_ ? *few_ : whole_; }
+  bool isWhole() const { return !few_; }
+
+ private:
+  static constexpr int kFew = 32;
+  const Shape& whole_;
+  std::optional<Shape> few_;
+  std::array<Vector3d, kFew> vertex_;
+};
 
 /// The two shapes along one normal.
 struct Facing {
@@ -89,6 +120,10 @@ struct Facing {
   }
 };
 
+double gapAlong(const Shape& a, const Shape& b, const RelativePose& pose, const Vector3d& n) {
+  return n.dot(pose.placed(b.support(pose.opposite(n))) - a.support(n));
+}
+
 std::optional<OppositePoints> onFeaturesOf(Facing facing, Vector3d onA, double rounding) {
   constexpr int kSteps = 8;
   constexpr double kLast = 1e-9;  // rad; after a step as small as this, the next is rounding
@@ -115,13 +150,22 @@ std::optional<OppositePoints> nearestOnFeatures(const Shape& a, const Shape& b, 
                                                 const Vector3d& n, double gap, const Vector3d& onA,
                                                 double angle, double rounding) {
   constexpr double kFiner = 1e-3;
+  const ShapeNear nearA(a, n, angle, rounding), nearB(b, pose.opposite(n), angle, rounding);
+  const bool isWhole = nearA.isWhole() && nearB.isWhole();
   const double most = 2.0 * std::max(a.reach, b.reach);
   for (double within = angle;; within *= kFiner) {
     if (!(most * within > rounding)) within = 0.0;
     // The features that a turn by `within` can bring to face each other.
     const double levelA = 2.0 * a.reach * within + rounding, levelB = 2.0 * b.reach * within + rounding;
-    const std::optional<OppositePoints> found =
-        onFeaturesOf({a, b, pose, levelA, levelB, n, {}, {}, {}, {}, 0.0}, onA, rounding);
+    std::optional<OppositePoints> found = onFeaturesOf(
+        {nearA.shape(), nearB.shape(), pose, levelA, levelB, n, {}, {}, {}, {}, 0.0}, onA, rounding);
+    if (found && !isWhole) {
+      const double gapOfAll = gapAlong(a, b, pose, found->n);
+      if (gapOfAll >= found->gap - rounding)
+        found->gap = std::min(found->gap, gapOfAll);
+      else
+        found.reset();
+    }
     if (found && found->gap >= gap - rounding) return found;
     if (!(within > 0.0)) return {};
   }

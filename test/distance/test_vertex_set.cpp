@@ -1,6 +1,7 @@
 // The loops over a polytope's vertices beside plain ones, for every count that four at a time may leave.
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <vector>
 
 #include "fcl_stpbv/convex/vertex_set.h"
@@ -35,6 +36,20 @@ TEST_CASE("vertices four at a time: their middle, the furthest from a point and 
       const int best = furthestAlong(d, vertices.data(), count);
       REQUIRE((best >= 0 && best < count));
       CHECK(d.dot(vertices[static_cast<std::size_t>(best)]) >= most - 2e-16);
+      std::vector<int> high(static_cast<std::size_t>(count) + 1, -1), expected;
+      const double least = most - 0.5;
+      for (int k = 0; k < count; ++k)
+        if (d.dot(vertices[static_cast<std::size_t>(k)]) >= least) expected.push_back(k);
+      const bool told = std::none_of(vertices.begin(), vertices.end(),
+                                     [&](const Vector3d& v) { return std::abs(d.dot(v) - least) < 1e-15; });
+      for (const int room : {count, 2}) {
+        const int many = fromHeight(least, d, vertices.data(), count, high.data(), room);
+        if (!told) continue;  // by rounding either way
+        REQUIRE(many == static_cast<int>(expected.size()));
+        const auto written = std::min<std::size_t>(expected.size(), static_cast<std::size_t>(room));
+        CHECK(std::equal(expected.begin(), expected.begin() + static_cast<long>(written), high.begin()));
+        CHECK(high[static_cast<std::size_t>(count)] == -1);
+      }
       if (i % 4 == 0) {  // heights without rounding: the first of them
         const auto first = std::find_if(vertices.begin(), vertices.end(),
                                         [&](const Vector3d& v) { return d.dot(v) == most; });

@@ -1,0 +1,85 @@
+// Polytopes of many vertices beside simple shapes and each other: the search asks few of them, the answer
+// must be that of all. Flat faces of more vertices than it takes for few, and faces parallel to the other
+// body's.
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <memory>
+
+#include "fcl_stpbv/convex/shape_curvature.h"
+#include "fcl_stpbv/distance/shape_distance.h"
+#include "test/reference/shape_reference.h"
+
+using namespace fcl_stpbv;
+using namespace fcl_stpbv::test;
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+namespace {
+
+TestShape polytope(const std::string& name, const Cloud& cloud) {
+  TestShape shape{name, {}, std::make_shared<Cloud>(cloud)};
+  shape.shape = Shape::polytopeOf(shape.vertices->data(), static_cast<int>(cloud.size()));
+  return shape;
+}
+
+Cloud grid(double side, int count) {
+  Cloud points;
+  for (int i = 0; i < count; ++i)
+    for (int k = 0; k < count; ++k)
+      for (const double z : {-0.02, 0.02})
+        points.emplace_back(side * (i / (count - 1.0) - 0.5), side * (k / (count - 1.0) - 0.5), z);
+  return points;
+}
+
+}  // namespace
+
+TEST_CASE("polytopes of many vertices are as far from any shape as all of their vertices say") {
+  const std::vector<TestShape> polytopes{
+      polytope("ball of 642", geodesicSphere(0.2, 3)), polytope("prism of 90", cylinder(0.1, 0.3, 90)),
+      polytope("grid of 200", grid(0.3, 10)), polytope("hull of 60", randomHull(60, {0.2, 0.1, 0.15}, 3))};
+  Random random(21);
+  std::vector<TestShape> others = polytopes;
+  for (const std::string& name : boundedShapes()) others.push_back(randomShape(name, random));
+  for (const TestShape& first : polytopes)
+    for (const TestShape& second : others)
+      for (int i = 0; i < 30; ++i) {
+        CAPTURE(first.name, second.name, i);
+        const Isometry3d a = pose(random.rotation(), random.direction());
+        Isometry3d b = a;  // a third with parallel axes, one of them turned by hardly anything
+        if (i % 3 != 0) b.linear() = a.linear() * (i % 3 == 1 ? random.rotation() : random.rotation(1e-9));
+        b.translation() += (i % 3 == 1 ? random.direction() : a.linear().col(i % 2)) * random.uniform(0.4, 3);
+        const ReferenceAnswer truth = referenceDistance(
+            first.posed(a), second.posed(b), (b.translation() - a.translation()).cast<long double>());
+        if (truth.overlap) continue;
+        const Distance d = distance(first.shape, a, second.shape, b);
+        CHECK(d.lower <= static_cast<double>(truth.distance));
+        CHECK(d.upper >= static_cast<double>(truth.distance));
+        // Faces turned by 1e-9 rad from each other: which of their corners are nearest is up to rounding.
+        const double turned = i % 3 == 2 ? 1e-9 : 0.0;
+        if (turned == 0.0) CHECK(d.status == DistanceStatus::exact);
+        CHECK(std::abs(d.distance - static_cast<double>(truth.distance)) <=
+              1e-14 + turned);  // of some metres
+        CHECK((d.point[1] - d.point[0] - d.distance * d.normal).norm() <= 2e-14 + turned);
+        // No part of either body is beyond its point.
+        const Vector3L n = d.normal.cast<long double>();
+        CHECK(std::abs(static_cast<double>(referenceGap(first.posed(a), second.posed(b), n)) - d.distance) <=
+              1e-14 + turned);
+      }
+}
+
+TEST_CASE("a face, an edge or a corner of a polytope is told whatever number of vertices is in it") {
+  for (const int sides : {8, 31, 32, 33, 90}) {
+    const Cloud cloud = cylinder(0.1, 0.3, sides);
+    const Shape prism = Shape::polytopeOf(cloud.data(), static_cast<int>(cloud.size()));
+    CAPTURE(sides);
+    detail::NormalCone cone;
+    REQUIRE(detail::normalCone(prism, Vector3d::UnitZ(), {0, 0, 0.15}, 1e-9, cone));
+    CHECK(cone.count == 0);
+    CHECK((cone.normal - Vector3d::UnitZ()).norm() <= 1e-12);
+    const Vector3d edge = (cloud[1] + cloud[3]).cwiseProduct(Vector3d(1, 1, 0)).normalized();
+    REQUIRE(detail::normalCone(prism, (edge + Vector3d::UnitZ()).normalized(), {0, 0, 0.15}, 1e-9, cone));
+    CHECK(cone.count == 1);
+    REQUIRE(detail::normalCone(prism, Vector3d(1.0, 0.01, 1.0).normalized(), {0, 0, 0.15}, 1e-9, cone));
+    CHECK(cone.count == 2);
+  }
+}
