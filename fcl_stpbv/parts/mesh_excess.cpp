@@ -18,6 +18,7 @@
 #include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/parts/cut_triangle.h"
 #include "fcl_stpbv/parts/mesh_solid.h"
+#include "fcl_stpbv/volume/point_check.h"
 #include "fcl_stpbv/volume/rolling_ball.h"
 
 namespace fcl_stpbv {
@@ -243,6 +244,8 @@ MeshExcess excessOf(const std::vector<Triangle>& surface, const MeshSolid& mesh,
 }
 
 std::vector<Triangle> hullTriangles(const std::vector<Vector3d>& points) {
+  if (points.empty()) throw Error("no points have no hull: give at least one");
+  for (std::size_t i = 0; i < points.size(); ++i) requireFinite(i, points[i]);
   const RolledHull hull = rollBall(points);
   std::vector<Triangle> triangles;
   if (hull.faces.empty())

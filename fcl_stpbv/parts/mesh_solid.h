@@ -138,12 +138,13 @@ MeshExcess excessOf(const std::vector<Triangle>& surface, const MeshSolid& mesh,
                     const ExcessOptions& options = {});
 
 /// The same of the surface of the convex hull of a cloud.
-/// @throws Error as rollBall() does.
+/// @throws Error as hullTriangles() does.
 MeshExcess hullExcess(const std::vector<Eigen::Vector3d>& points, const MeshSolid& mesh,
                       const ExcessOptions& options = {});
 
 /// The triangles of the convex hull's surface; a flat hull has two sides, a segment
 /// and a point one triangle that is one.
+/// @throws Error for an empty cloud or a coordinate that is not finite.
 std::vector<Triangle> hullTriangles(const std::vector<Eigen::Vector3d>& points);
 
 }  // namespace fcl_stpbv

@@ -131,6 +131,7 @@ void checkReadable(const std::string& path, const Vector3d& scale) {
     throw Error(path +
                 ": a scale of 0 or one that is not finite leaves no body; give a finite number other than 0");
   }
+  if (path.empty()) throw Error("the name of a file to read is empty; give one");
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored)) throw Error(path + ": is a folder, expected a file");
   if (path != "-" && !std::filesystem::exists(path, ignored)) throw Error(path + ": no such file");

@@ -160,6 +160,13 @@ TEST_CASE("a mesh without triangles, or with coordinates that are no numbers, is
   CHECK_THROWS_WITH(MeshSolid({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 3}}}), Contains("does not exist"));
 }
 
+TEST_CASE("a hull of no points, or of coordinates that are no numbers, is refused in one message") {
+  const MeshSolid solid(lShape());
+  CHECK_THROWS_WITH(hullExcess({}, solid), Contains("no points"));
+  CHECK_THROWS_WITH(hullTriangles({}), Contains("no points"));
+  CHECK_THROWS_WITH(hullExcess({{0, 0, 0}, {std::nan(""), 0, 0}}, solid), Contains("point 1 is not finite"));
+}
+
 TEST_CASE(
     "parts whose faces end on flat parts' borders and inside the solid are known to a millionth, quickly") {
   // The lower box of an L, and the whole height of its upright: their faces lie on the
