@@ -53,9 +53,14 @@ struct type_caster<fcl_stpbv::Floats<Matrix>> {
     const char kind = numbers.dtype().kind();
     const bool fits = kind == 'f' && numbers.itemsize() <= static_cast<ssize_t>(sizeof(double));
     const bool listed = !given && (kind == 'i' || kind == 'u');
-    if (!fits && !listed)
-      throw type_error("got an array of " + std::string(str(numbers.dtype())) +
-                       ", expected floats; convert it with astype(float) if that is what is meant");
+    if (!fits && !listed) {
+      const std::string of = " of " + std::string(str(numbers.dtype()));
+      if (given)
+        throw type_error("got an array" + of +
+                         ", expected floats; convert it with astype(float) if that is what is meant");
+      throw type_error("got " + std::string(Py_TYPE(source.ptr())->tp_name) + (numbers.ndim() > 0 ? of : "") +
+                       ", expected an array of floats or a list of numbers");
+    }
     if constexpr (Matrix::RowsAtCompileTime == Eigen::Dynamic && Matrix::ColsAtCompileTime > 1)
       if (!given && numbers.size() == 0) {  // a list without rows: no array knows how long they would be
         value.value.resize(0, Matrix::ColsAtCompileTime);

@@ -30,6 +30,13 @@ using namespace detail;
 using Boxes = std::vector<std::pair<Eigen::VectorXd, Eigen::VectorXd>>;  ///< lower and upper limits
 using GivenBoxes = std::vector<std::pair<Floats<Eigen::VectorXd>, Floats<Eigen::VectorXd>>>;
 
+/// @throws Error naming the argument.
+void requireCount(long count, long least, const char* name) {
+  if (count < least)
+    throw Error(std::string(name) + ": got " + std::to_string(count) + ", expected " + std::to_string(least) +
+                " or more");
+}
+
 /// A robot and the pairs of its links that joints move against each other.
 class PythonPairSearch {
  public:
@@ -81,6 +88,7 @@ class PythonPairSearch {
 
   PairProof prove(std::size_t pair, const GivenBoxes& boxes, long most) const {
     const LinkPair links = linksOf(pair);
+    requireCount(most, 0, "max_boxes");
     const std::size_t size = proofCoordinates(scene_, links).size();
     std::vector<JointBox> open;
     for (const auto& box : boxes) {
@@ -106,6 +114,7 @@ class PythonPairSearch {
 
   std::optional<Eigen::VectorXd> descend(std::size_t pair, std::uint64_t seed, int starts) const {
     const LinkPair links = linksOf(pair);
+    requireCount(starts, 0, "starts");
     PairSearch search = searchOf(links);
     std::mt19937_64 random = numbered(seed, pair);
     const double room = searchRoom(scene_.kinematics->robot(), *scene_.geometry, scene_.obstacles);
@@ -280,7 +289,7 @@ void addShards(py::module_& module) {
       .def(
           "sample",
           [](const PythonPairSearch& search, std::uint64_t seed, std::uint64_t block, int count) {
-            if (count < 1) throw Error("count is " + std::to_string(count) + ", expected at least 1");
+            requireCount(count, 1, "count");
             std::vector<PairSamples> found;
             {
               const py::gil_scoped_release others;

@@ -181,10 +181,11 @@ void addDistance(py::module_& module) {
         return py::str("<Distance: {} m, {}>").format(d.distance, py::cast(d.status).attr("name"));
       });
 
-  module.def(
-      "distance", &ask, py::arg("first"), py::arg("first_pose"), py::arg("second"), py::arg("second_pose"),
-      py::arg("cache") = static_cast<PairCache*>(nullptr),
-      "Signed distance of two volumes at 4x4 poses. Poses that are no rigid motion give Status.invalid.");
+  module.def("distance", &ask, py::arg("first"), py::arg("first_pose"), py::arg("second"),
+             py::arg("second_pose"), py::arg("cache") = static_cast<PairCache*>(nullptr),
+             "Signed distance of two volumes at 4x4 poses. Poses that are no rigid motion give "
+             "Status.invalid; a last\n"
+             "row other than 0 0 0 1 raises ValueError.");
 }
 
 void addAdvice(py::module_& module) {

@@ -5,6 +5,7 @@ import json
 import os
 import pathlib
 import random
+import resource
 import shutil
 import socket
 import subprocess
@@ -111,6 +112,15 @@ def test_proofs_agree_with_samples_and_collisions_collide(proofs, arm):
         assert not (proven and least[pair] <= 0)
 
 
+def test_names_that_are_not_utf8_are_told(tmp_path):
+    for old, places in ((b"forearm", ("sample", "prove")), (b"joint3", ("postures",))):
+        urdf = tmp_path / "latin.urdf"
+        urdf.write_bytes(ARM.read_bytes().replace(old, b"\xe9t\xe9"))
+        for kind in places:
+            message = batch(kind, urdf, *([TOOLS / "reach.json"] if kind == "postures" else []), "--jobs", 1, "-o", tmp_path / kind, status=2)
+            assert message == f"fcl_stpbv.batch: {urdf}: a name in it or in its obstacles is not UTF-8; save the files in UTF-8\n"
+
+
 def test_a_pair_across_a_floating_joint_is_never_proven(tmp_path):
     ball = '<collision><geometry><sphere radius="0.1"/></geometry></collision>'
     (tmp_path / "free.urdf").write_text(f"""<robot name="free"><link name="a">{ball}</link><link name="m"/><link name="b">{ball}</link>
@@ -147,6 +157,19 @@ def test_shards_go_on_from_merged_results(proofs, tmp_path):
         if merged.returncode == 0:
             break
     assert (tmp_path / "first").read_bytes() == proofs.read_bytes() and number < 7
+
+
+def test_closed_streams_cost_no_result(proofs, tmp_path):
+    def run(closed, *more):
+        out = tmp_path / f"{closed}{len(more)}"
+        command = [sys.executable, "-B", "-m", "fcl_stpbv.batch", *map(str, PROVE), "--jobs", "1", "-o", out, *more]
+        done = subprocess.run(["sh", "-c", f'exec "$@" {closed}', "sh", *command], capture_output=True, text=True, timeout=120)
+        assert out.read_bytes() == proofs.read_bytes()
+        return done.returncode, done.stderr
+
+    assert run("<&- >&- 2>&-", "-q") == run("<&- 2>&-") == (0, "")
+    status, message = run(">&-")
+    assert status == 2 and message.startswith("fcl_stpbv.batch: standard output: cannot be written") and message.count("\n") == 1
 
 
 def test_an_interrupted_run_goes_on_to_the_same_bytes(proofs, tmp_path):
@@ -244,6 +267,18 @@ def test_a_robot_travels_with_its_meshes(tmp_path):
     assert bundle.digest_of(files) != bundle.digest_of({**files, "robot/robot.urdf": files["robot/robot.urdf"] + b" "})
 
 
+@pytest.mark.parametrize("name", [" in front.stl", "behind.stl ", "a&b'c.stl"])
+def test_a_mesh_travels_under_any_name(tmp_path, name):
+    from fcl_stpbv.batch import bundle
+
+    shutil.copy(HRP2 / "meshes/LARM_LINK0.stl", tmp_path / name)
+    (tmp_path / "one.urdf").write_text(f"""<robot name="one"><link name="a"><collision><geometry><mesh filename="{name.replace('&', '&amp;')}"/>
+        </geometry></collision></link></robot>""")
+    with bundle.Unpacked(bundle.robot_files("robot", tmp_path / "one.urdf", [])) as folder:
+        (_, path), = fcl_stpbv.mesh_files(folder / "robot/robot.urdf")
+        assert pathlib.Path(path).read_bytes() == (tmp_path / name).read_bytes() and str(folder) in path
+
+
 @pytest.mark.parametrize("jobs", [1, 2])
 def test_a_bad_mesh_fails_its_own_job_and_no_other(tmp_path, jobs):
     bad, missing = tmp_path / "bad.stl", tmp_path / "missing.stl"
@@ -260,6 +295,49 @@ def test_a_bad_mesh_fails_its_own_job_and_no_other(tmp_path, jobs):
     (tmp_path / "volumes/BODY.stpbv").unlink()
     batch(*arguments, "--jobs", 1, status=1)
     assert (tmp_path / "volumes/BODY.stpbv").exists() and (tmp_path / "all").read_bytes() == results
+
+
+@pytest.mark.parametrize("room", [250, 600])  # bytes: too little for the mesh, for the volume
+def test_a_full_folder_for_temporary_files_is_no_fault_of_the_meshs(tmp_path, room):
+    triangles = np.zeros(4, [("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("more", "<u2")])
+    triangles["corners"] = np.random.default_rng(1).normal(size=(4, 3, 3))
+    (tmp_path / "few.stl").write_bytes(bytes(80) + (4).to_bytes(4, "little") + triangles.tobytes())
+    convert = ["convert", "few.stl", "--volumes", "v", "--jobs", 1, "-o", "out"]
+    message = batch(*convert, status=1, cwd=tmp_path,
+                    preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (room, resource.RLIM_INFINITY)))
+    assert message.startswith("fcl_stpbv.batch: ['few.stl'] has no result: OSError: ") and message.count("\n") == 1, message
+    assert "1 volumes, 0 failed" in batch(*convert, cwd=tmp_path)
+    assert (tmp_path / "few.stl").stat().st_size < 600 < (tmp_path / "v/few.stpbv").stat().st_size
+
+
+def test_meshes_are_read_when_their_turn_comes(tmp_path):
+    size = 4 << 20
+
+    def memory(count):
+        """The most that such a run needs (bytes)."""
+        meshes = [tmp_path / f"{count}_{i}.stl" for i in range(count)]
+        for mesh in meshes:
+            mesh.write_bytes(bytes(size))
+        command = ["convert", *meshes, "--volumes", tmp_path / "volumes", "--jobs", 1, "-o", tmp_path / f"out{count}"]
+        run = subprocess.Popen([sys.executable, "-B", "-m", "fcl_stpbv.batch", *map(str, command)], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        _, run.returncode, used = os.wait4(run.pid, 0)
+        return 1024 * used.ru_maxrss
+
+    assert memory(40) < memory(2) + 10 * size
+
+
+def test_a_mesh_that_changes_while_a_batch_runs_is_told(tmp_path):
+    from fcl_stpbv.batch import __main__ as program, kinds
+
+    mesh = tmp_path / "mesh.stl"
+    shutil.copy(HRP2 / "meshes/LARM_LINK0.stl", mesh)
+    kind = kinds.Convert(program.described().parse_args(["convert", str(mesh), "--volumes", str(tmp_path / "volumes"), "-o", "out"]))
+    (_, given), = kind.jobs(str(mesh), {})
+    assert dict(given()) == {"mesh.stl": mesh.read_bytes()}
+    for change in (lambda: mesh.write_bytes(b"solid"), mesh.unlink):
+        change()
+        with pytest.raises(fcl_stpbv.Error, match=f"^{mesh}: has changed"):
+            given()
 
 
 def test_the_over_cover_of_a_conversion_is_over_all_points(tmp_path):

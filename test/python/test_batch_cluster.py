@@ -2,6 +2,7 @@
 import json
 import os
 import pathlib
+import resource
 import shutil
 import signal
 import socket
@@ -194,3 +195,37 @@ def test_a_scheduler_that_is_not_there_is_named(tmp_path):
     run = start("fcl_stpbv.batch", *SAMPLE, "--scheduler", "tcp://127.0.0.1:1", "-o", tmp_path / "out")
     _, message = run.communicate(timeout=60)
     assert run.returncode == 2 and "tcp://127.0.0.1:1" in message and "Traceback" not in message
+
+
+def test_processes_that_the_machine_does_not_grant_are_named(tmp_path):
+    command = [sys.executable, "-B", "-m", "fcl_stpbv.batch", *map(str, SAMPLE), "--jobs", "2", "-o", str(tmp_path / "out")]
+    run = subprocess.run(command, capture_output=True, text=True, timeout=60,
+                         preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_NOFILE, (30, 30)))
+    assert run.returncode == 2 and run.stderr.count("\n") == 1, run.stderr
+    assert run.stderr.startswith("fcl_stpbv.batch: --jobs 2: these processes cannot be started ([Errno 24] Too many open files)")
+
+
+def test_a_process_that_dies_while_it_starts_is_not_waited_for_for_ever(tmp_path):
+    # Dask hears nothing of one that is killed then.
+    broken = ("import asyncio, sys, distributed, fcl_stpbv.batch.__main__ as batch\n"
+              "cluster = distributed.LocalCluster\n"
+              "def soon(*workers, death_timeout, **more): return cluster(*workers, death_timeout='3s', **more)\n"
+              "async def unheard(self, uid): await asyncio.sleep(1000)\n"
+              "distributed.LocalCluster, distributed.nanny.WorkerProcess._wait_until_connected = soon, unheard\n"
+              "sys.exit(batch.main())")
+    run = subprocess.run([sys.executable, "-B", "-c", broken, *map(str, SAMPLE), "--jobs", "2", "-o", str(tmp_path / "out")],
+                         capture_output=True, text=True, timeout=60)
+    assert run.returncode == 2 and run.stderr.count("\n") == 1, run.stderr
+    assert "--jobs 2: these processes cannot be started (one does not answer)" in run.stderr
+
+
+def test_what_a_killed_run_leaves_is_cleared_away_in_silence(expected, tmp_path):
+    command = [sys.executable, "-B", "-m", "fcl_stpbv.batch", *map(str, SAMPLE), "--jobs", "2", "-o", str(tmp_path / "out")]
+    where = {**os.environ, "TMPDIR": str(tmp_path)}
+    run = subprocess.Popen(command, env=where, start_new_session=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    wait_for_lines(tmp_path / "out", 2, run)
+    os.killpg(run.pid, signal.SIGKILL)
+    run.communicate(timeout=10)
+    assert list((tmp_path / "dask-worker-space").glob("worker-*"))
+    again = subprocess.run([*command, "-q"], env=where, capture_output=True, text=True, timeout=100)
+    assert (again.returncode, again.stderr) == (0, "") and (tmp_path / "out").read_bytes() == expected

@@ -113,6 +113,7 @@ def test_wrong_grids_are_refused_in_one_line(tmp_path):
         wrong[json.dumps({"axes": [AXES[0], {**AXES[1], **change}]})] = what
     wrong[json.dumps({"axes": [{**AXES[0], "count": 1000}, {**AXES[1], "count": 1001}]})] = "1001000 places, expected at most 1000000"
     wrong[json.dumps({"axes": [{key: value for key, value in AXES[0].items() if key != "from"}]})] = "axes[0].from: is missing"
+    wrong[json.dumps({"axes": AXES}).replace('"count"', '"count": 1, "count"', 1)] = "has the key 'count' twice; remove one"
     for grid, what in wrong.items():
         with pytest.raises(fcl_stpbv.Error) as refused:
             Placements(TASK.read_text(), grid, "grid.json")

@@ -217,6 +217,10 @@ def test_a_file_with_an_empty_name_is_not_left_out(empty):
                        ("srdf", lambda: fcl_stpbv.PostureSearch(urdf, empty)), ("obstacles", lambda: fcl_stpbv.PostureSearch(urdf, None, empty))):
         with pytest.raises(fcl_stpbv.Error, match=f"^{name}: .*empty.*None"):
             load()
+    readers: list[Callable] = [fcl_stpbv.load_points, fcl_stpbv.StpBv.load, fcl_stpbv.Robot, fcl_stpbv.mesh_files]
+    for read in readers:
+        with pytest.raises(fcl_stpbv.Error, match="^the name of a file to read is empty"):
+            read(empty)
 
 
 def test_an_object_whose_constructor_has_not_run_is_no_argument():
@@ -302,6 +306,14 @@ def test_a_proof_in_pieces_is_the_whole_one():
     assert [box[0].tolist() for box in rest.open] == [box[0].tolist() for box in whole.open]
 
 
+def test_counts_below_their_least_are_refused():
+    search = fcl_stpbv.PairSearch(DATA / "hrp2_style/hrp2_style.urdf")
+    for name, ask in (("max_boxes", lambda: search.prove(0, search.unproven(0).open, -1)), ("starts", lambda: search.descend(0, 1, -1)),
+                      ("count", lambda: search.sample(1, 0, 0))):
+        with pytest.raises(fcl_stpbv.Error, match=f"^{name}: got (-1, expected 0|0, expected 1) or more$"):
+            ask()
+
+
 def test_slices_of_a_batch_change_no_bit():
     robot = fcl_stpbv.Robot(DATA / "hrp2_style/hrp2_style.urdf", DATA / "hrp2_style/hrp2_style.srdf")
     path = np.linspace(robot.lower, robot.configuration("half_sitting"), 400)
@@ -377,6 +389,10 @@ def test_lists_of_numbers_and_single_precision_are_taken():
     for wrong in (["1", "0", "0"], [1j, 0, 0], [True, False, False], [None, 0, 0], [1, 0], "100", 3):
         with pytest.raises(TypeError):
             box().support(wrong)  # type: ignore[arg-type]
+    nothing: Any = None
+    for given, told in ((nothing, "NoneType"), (iter([1.0, 0.0, 0.0]), "list_iterator"), ([True, False, False], "list of bool")):
+        with pytest.raises(TypeError, match=f"^got {told}, expected an array of floats or a list of numbers$"):
+            box().support(given)
 
 
 def prism(outline, height):

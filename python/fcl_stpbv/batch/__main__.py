@@ -11,7 +11,7 @@ from fcl_stpbv.batch.bundle import digest_of
 from fcl_stpbv.batch.kinds import KINDS
 
 FOOTER = """Exit status: 0 all jobs are done; 1 some failed or are missing, the others are in the file; 2 the command line or an input is
-wrong, or Dask is missing; 130 interrupted. A run that ended early goes on where it was when it is started again."""
+wrong, or Dask is missing or cannot start its processes; 130 interrupted. A run that ended early goes on where it was when it is started again."""
 
 
 def number(kind, least, most, unit=""):
@@ -128,7 +128,10 @@ def run(arguments):
     if arguments.kind == "postures" and arguments.independent and not grid:
         raise fcl_stpbv.Error("--independent: is about the places of a grid; give --grid")
     places.check(arguments)
-    kind = KINDS["grid" if grid else arguments.kind](arguments)
+    try:
+        kind = KINDS["grid" if grid else arguments.kind](arguments)
+    except UnicodeDecodeError:  # of links and joints, which Python takes for UTF-8
+        raise fcl_stpbv.Error(f"{arguments.robot}: a name in it or in its obstacles is not UTF-8; save the files in UTF-8") from None
     header = {"batch": kind.name, "version": fcl_stpbv.__version__, "bundle": digest_of(kind.files), **kind.options}
     jobs = results.merge(arguments.merge, header, kind)
     file = results.ResultFile(arguments.output, header, kind)
@@ -154,7 +157,16 @@ def run(arguments):
     return 1 if schedule.ready or any("error" in record for record in file.jobs.values()) else 0
 
 
+def open_streams():
+    """Fills the places of streams that are closed, so that no file of results takes their numbers. What is written to a standard output that
+    was closed fails, as it should."""
+    for name, mode, access in (("stdin", "r", os.O_RDONLY), ("stdout", "w", os.O_RDONLY), ("stderr", "w", os.O_WRONLY)):
+        if getattr(sys, name) is None:
+            setattr(sys, name, open(os.open(os.devnull, access), mode))
+
+
 def main():
+    open_streams()
     try:
         return run(asked())
     except fcl_stpbv.Error as error:

@@ -79,7 +79,7 @@ def robot_files(role, urdf, package_path):
         files.update({f"{role}/{known}/{name}": content for name, content in entries})
 
     def moved(match):
-        place = places.get(html.unescape(match[2][1:-1].decode("utf-8", "replace")).strip())
+        place = places.get(html.unescape(match[2][1:-1].decode("utf-8", "replace")))
         return match[1] + b'"' + html.escape(place).encode() + b'"' if place else match[0]
 
     files[f"{role}/robot.urdf"] = FILENAME.sub(moved, read(urdf))

@@ -52,12 +52,21 @@ def outcome(kind, context, options, key, given):
         return {"error": str(error)}, None
 
 
+def content_of(given):
+    """What a job is given, which may be large: then the schedule has a function that reads it, for the time when it is handed out."""
+    return given() if callable(given) else given
+
+
 def run_here(schedule, show):
     kind = schedule.kind
     while schedule.ready:
         show(len(schedule.results.jobs), len(schedule.ready))
         group, key, given = schedule.ready.popleft()
-        schedule.finish(group, key, *outcome(kind, kind.context, kind.options, key, given))
+        try:
+            result = outcome(kind, kind.context, kind.options, key, content_of(given))
+        except OSError as error:  # the folder for temporary files is full, which another run may find otherwise
+            raise Stopped(f"{list(key)} has no result: {type(error).__name__}: {error}") from None
+        schedule.finish(group, key, *result)
 
 
 contexts = {}  # of this worker, by what they were made from
@@ -90,6 +99,23 @@ async def greet(address):
     await line.close()
 
 
+def local_cluster(workers):
+    """Dask's cluster on this machine. Where a process does not start, by limits of the machine or because it is killed, Dask raises what
+    comes of it, after a while."""
+    import distributed
+
+    # Without a dashboard the scheduler would still listen on Dask's usual port, and warn where that is taken.
+    local = {"dashboard": False, "dashboard_address": "127.0.0.1:0"}
+    try:
+        return distributed.LocalCluster(workers, threads_per_worker=1, dashboard_address=None, scheduler_kwargs=local, silence_logs="CRITICAL",
+                                        death_timeout="3m")  # else Dask waits for ever for a process that was killed while it started
+    except Exception as error:
+        while error.__context__:
+            error = error.__context__
+        why = str(error) or "one does not answer"
+        raise fcl_stpbv.Error(f"--jobs {workers}: these processes cannot be started ({why}); give fewer") from None
+
+
 @contextlib.contextmanager
 def connected(scheduler, workers):
     """A Dask client: of the cluster at this address, or of one on this machine."""
@@ -99,17 +125,15 @@ def connected(scheduler, workers):
     except ImportError:
         raise fcl_stpbv.Error("more than one process needs Dask: install Debian's python3-distributed, or give --jobs 1, "
                               "or share out with --shard") from None
-    quiet = {"distributed.worker.daemon": False, "distributed.logging.distributed": "critical", "distributed.admin.tick.limit": "1h"}
+    quiet = {"distributed.worker.daemon": False, "distributed.logging.distributed": "critical", "distributed.admin.tick.limit": "1h",
+             "distributed.nanny.pre-spawn-environ.DASK_LOGGING__DISTRIBUTED": "critical"}  # for processes of ours, which log as they start
     logging.disable(logging.CRITICAL)  # a connection that breaks ends in one message, ours, and not in Dask's tracebacks
     # A call that is under way when the scheduler goes ends in either kind of cancellation: the second is no Exception.
     gone = (distributed.comm.CommClosedError, concurrent.futures.CancelledError, asyncio.CancelledError)
     with dask.config.set(quiet), contextlib.ExitStack() as stack:
         try:
             if not scheduler:
-                # Without a dashboard the scheduler would still listen on Dask's usual port, and warn where that is taken.
-                local = {"dashboard": False, "dashboard_address": "127.0.0.1:0"}
-                scheduler = stack.enter_context(distributed.LocalCluster(workers, threads_per_worker=1, dashboard_address=None,
-                                                                         scheduler_kwargs=local, silence_logs="CRITICAL"))
+                scheduler = stack.enter_context(local_cluster(workers))
             else:
                 asyncio.run(greet(scheduler))
             client = stack.enter_context(distributed.Client(scheduler, timeout="15s", set_as_default=False))
@@ -147,7 +171,7 @@ def run_on(client, schedule, show):
             while schedule.ready and len(jobs) < most:
                 group, key, given = schedule.ready.popleft()
                 future = client.submit(work, kind.name, kind.options, bundle, digest, fcl_stpbv.__version__, key,
-                                       pickle.dumps(given), key=f"{kind.name}-{json.dumps(key)}-{run}")
+                                       pickle.dumps(content_of(given)), key=f"{kind.name}-{json.dumps(key)}-{run}")
                 jobs[future.key] = (group, key)
                 done.add(future)
         show(len(schedule.results.jobs), len(jobs) + len(schedule.ready))

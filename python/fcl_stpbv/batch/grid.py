@@ -16,8 +16,16 @@ def refuse(where, got, expected):
 
 
 def loaded(text, where):
+    def once(pairs):
+        known = {}
+        for key, value in pairs:
+            if key in known:
+                raise fcl_stpbv.Error(f"{where}: has the key '{key}' twice; remove one")
+            known[key] = value
+        return known
+
     try:
-        return json.loads(text)
+        return json.loads(text, object_pairs_hook=once)
     except (ValueError, RecursionError) as error:
         raise fcl_stpbv.Error(f"{where}: is no JSON: {error}") from None
 

@@ -4,6 +4,7 @@ A kind is made by the process that hands out the jobs. Its class is what workers
 files, once a worker, and `run` is a pure function of that, the options and the job. `key` has the types of what a job is known by, and
 `fits` says whether a record holds what is read of it.
 """
+import functools
 import hashlib
 import pathlib
 
@@ -23,9 +24,11 @@ class Convert:
         self.options = {key: getattr(arguments, key) for key in ("r", "R", "scale")}
         self.folder, self.files = pathlib.Path(arguments.volumes), {}
         self.groups = list(dict.fromkeys(arguments.meshes))
-        contents = hashlib.sha256()
+        contents, self.known = hashlib.sha256(), {}
         for mesh in self.groups:
-            contents.update(repr((mesh, self.given(mesh))).encode())
+            text = repr((mesh, self.given(mesh))).encode()
+            contents.update(text)
+            self.known[mesh] = hashlib.sha256(text).digest()
         self.options["meshes"] = contents.hexdigest()
         taken = {}
         for mesh in self.groups:
@@ -45,6 +48,13 @@ class Convert:
         except fcl_stpbv.Error as error:
             return str(error)
 
+    def later(self, mesh):
+        """What `given` gives, when the mesh's turn comes: all of them together may be more than memory holds."""
+        given = self.given(mesh)
+        if hashlib.sha256(repr((mesh, given)).encode()).digest() != self.known[mesh]:
+            raise fcl_stpbv.Error(f"{mesh}: has changed while the batch ran; start it anew, with another -o")
+        return given
+
     @staticmethod
     def open(folder, options):
         return None
@@ -61,7 +71,10 @@ class Convert:
             except fcl_stpbv.Error as error:
                 message = str(error).replace(str(path), job[0])
                 raise fcl_stpbv.Error(message if job[0] in message else f"{job[0]}: {message}") from None
-            volume.save(str(folder / "volume"))
+            try:
+                volume.save(str(folder / "volume"))
+            except fcl_stpbv.Error as error:
+                raise OSError(str(error)) from None  # no fault of the mesh's
             content = (folder / "volume").read_bytes()
         record = {"volume": places.volume_name(path), "sha256": hashlib.sha256(content).hexdigest(), "points": len(points),
                   "vertices": len(volume.vertices), "over_cover": volume.over_cover(points)[0]}
@@ -85,7 +98,7 @@ class Convert:
 
     def jobs(self, mesh, done):
         record = done.get((mesh,))
-        return [] if record is not None and ("error" in record or self.there(record)) else [((mesh,), self.given(mesh))]
+        return [] if record is not None and ("error" in record or self.there(record)) else [((mesh,), functools.partial(self.later, mesh))]
 
     def summary(self, done):
         failed = sum("error" in record for record in done.values())
