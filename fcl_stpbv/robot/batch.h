@@ -27,7 +27,7 @@ class ConstraintsBatch {
   using Configurations = Eigen::Ref<const Eigen::MatrixXd>;  ///< one a column
   using Matrix = Eigen::Ref<Eigen::MatrixXd>;                ///< room for results
 
-  /// @throws Error unless `threads` is above 0.
+  /// @throws Error unless `threads` is from 1 to 256.
   ConstraintsBatch(const CollisionConstraints& constraints, int threads);
   /// Takes over all that the other one has; the other one may only be destroyed.
   ConstraintsBatch(ConstraintsBatch&&) noexcept;
@@ -52,7 +52,7 @@ class CheckerBatch {
   using Configurations = Eigen::Ref<const Eigen::MatrixXd>;            ///< one a column
   using Verdicts = Eigen::Ref<Eigen::Array<bool, Eigen::Dynamic, 1>>;  ///< one a configuration
 
-  /// @throws Error unless `threads` is above 0.
+  /// @throws Error unless `threads` is from 1 to 256.
   CheckerBatch(const CollisionChecker& checker, int threads);
   /// Takes over all that the other one has; the other one may only be destroyed.
   CheckerBatch(CheckerBatch&&) noexcept;

@@ -155,7 +155,7 @@ class CollisionConstraints {
   RowAnswer answer(int row) const;
   /// Where the links were at the last evaluation.
   const Kinematics::State& state() const { return state_; }
-  /// Makes the next evaluation start from FCL's witness again.
+  /// Makes the next evaluation start as the first one did.
   void forget();
 
  private:

@@ -123,10 +123,9 @@ class StpBv {
   /// The surface point whose outward normal is the unit vector `n` (m); the centre where `n` is not finite.
   Eigen::Vector3d surfacePoint(const Eigen::Vector3d& n, int hint = -1) const;
 
-  /// A point well inside, the centre of the vertices' minimum enclosing ball, and that ball's radius (m):
-  /// every surface point is within `enclosingRadius()` of `centre()`.
+  /// A point well inside: the centre of the vertices' minimum enclosing ball (m).
   const Eigen::Vector3d& centre() const { return centre_; }
-  /// Radius of a ball about centre() that holds the body (m).
+  /// Radius of a ball about centre() that holds the body: that of the vertices' ball, and r (m).
   double enclosingRadius() const { return enclosingRadius_; }
 
   /// Radius of a ball about `centre()` inside the vertices' hull, 0 where there is none (m).

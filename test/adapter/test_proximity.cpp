@@ -210,7 +210,7 @@ TEST_CASE(
       solvedAbove += counts.solved;
     }
   CAPTURE(pairs, asked, solvedBelow, solvedAbove);
-  CHECK(solvedBelow <= pairs / 500);  // 0.13 % of all pairs of bodies, a millimetre below the distance
+  CHECK(solvedBelow <= pairs / 500);  // 0.14 % of all pairs of bodies, a millimetre below the distance
   CHECK(solvedAbove <= 2 * asked);    // 1.2 a question on average, a millimetre above it
 }
 

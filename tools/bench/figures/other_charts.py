@@ -1,4 +1,5 @@
 """Charts of the jump, the hard cases, proofs, postures and controllers."""
+import pathlib
 import statistics
 
 from . import palette, stability_verdicts
@@ -212,7 +213,7 @@ def advice(height=440):
     data = measured("control_advice")
     colours = dict(zip(dict.fromkeys(row["scenario"] for row in data["rows"]), (*palette.SWEEPS, palette.SMOOTH)))
     small_print = ["Radii advised for clearances of 0.5 to 32 mm and 4 m/s² that the shapes may add; what is held at 1 kHz, the obstacle flat (boxes: both round).",
-                   "Left: measured against the bound; only runs that moved as stated.", data["command"]]
+                   "Left: measured against the bound (dashed: equal); only runs that moved as stated.", data["command"]]
     text = panels(2, height, small_print, legend_rows=1, panel_titles=True) + \
         legend([(colour, 7, scenario) for scenario, colour in colours.items()], height, columns=4) + "set logscale xy\n"
     for panel, (title, axes) in enumerate((
@@ -241,8 +242,10 @@ def parts(height=440):
             if tick["method"] == method:
                 of = [row["excess"] for row in rows if (row["method"], row["most"]) == (method, tick["most"])]
                 curves[method].append((tick["most"], mean(of), tick["us_a_tick"]))
+    program, robot = data["command"].split()[0], pathlib.Path(data["command"].split()[2]).name
     small_print = [f"JVRC-1: the mean of its {links} concave links; excess: the most that a hull is from the mesh's solid. A tick: distances and Jacobian of all",
-                   f"pairs of all links' parts, {ticks[0]['rows']} to {max(tick['rows'] for tick in ticks):,} rows, without what leaves far rows out. Numbers: parts a link at most.", data["command"] + ":", data["machine"]]
+                   f"pairs of all links' parts, {ticks[0]['rows']} to {max(tick['rows'] for tick in ticks):,} rows, without what leaves far rows out. Numbers: parts a link at most.",
+                   f"{program} --robot {robot}: {data['machine']}"]
     text = panels(2, height, small_print, legend_rows=1, panel_titles=True, between=72) + \
         legend([palette.PEERS[method] for method in curves], height) + \
         f"set logscale xy\nset yrange [{0.5 * min(y for curve in curves.values() for _, y, _ in curve):g}:{2 * mean(hulls.values()):g}]\nset ytics (0.5, 1, 2, 5, 10, 20, 50)\n"

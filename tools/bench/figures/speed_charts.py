@@ -25,7 +25,7 @@ def speed_accuracy(height=440):
     below = origin(data, [f"{data['about']['vertices']} vertices a body, 20° and 2 cm between queries. Up: p5 to p99, mark at the median. Across: median to worst of "
                           f"{ours['checked']} answers,", "mark at the worst. Polyhedral methods against the polyhedra, with FCL's default tolerance; STP-BV against the STP-BVs."])
     floor = 2e-18  # where a median error of nothing is drawn
-    offset = {"FCL with gap stop": "1.2,0.7", "STP-BV through FCL": "1.2,-0.5", "STP-BV warm": "1.2,-0.4"}
+    offset = {"FCL with gap stop": "1.2,0.7", "STP-BV through FCL": "1.2,-0.5", "STP-BV warm": "1.2,-0.4", "Bullet GJK": "1.2,1.2"}
     text = single(height, below) + "set logscale xy\nset xrange [1e-18:1e-2]\nset yrange [60:1e5]\nset format x '1e%T'\n" \
         f"set ytics {TIME_TICS}\nset xlabel 'error of the distance (m)'\nset ylabel 'time of a query' offset 1\nset key off\n" \
         "set object 1 rectangle from graph 0,0 to graph 0.27,0.4 fc rgb '#e6f2e1' fs solid noborder behind\n" \
@@ -94,8 +94,8 @@ def solver_error(height=450):
             f"unset format y\nset yrange [60:1e5]\nset ytics {TIME_TICS}\nset ylabel 'median time of a query' offset 1\n"
         text += "plot " + ", ".join(plots) + "\n" + UNLABEL
     worst = max(row["distance_error_max"] / tolerance(row) for row in rows if row["method"] == "FCL libccd")
-    draw("solver_error", f"FCL's worst error is up to {worst:.0f} times its tolerance; the STP-BV's is rounding" if worst > 1.5 else
-         "FCL keeps its tolerance, and takes longer than the STP-BV does to be exact", text + "unset multiplot\n", below, height)
+    draw("solver_error", f"FCL libccd's worst error is up to {worst:.0f} times its tolerance; the STP-BV's is rounding" if worst > 1.5 else
+         "FCL libccd keeps its tolerance, and takes longer than the STP-BV does to be exact", text + "unset multiplot\n", below, height)
 
 
 def model_error(height=430):
