@@ -96,8 +96,15 @@ Distance overlapping(const Pair& p, const Pair::Gjk& found) {
   if (epa.off() > p.rounding) offerAround(p, epa);
   if (epa.off() > p.rounding) offerToAndFro(p, epa);
   if (p.curved() || epa.off() > p.rounding || !(epa.bound - epa.gap <= p.rounding)) {
-    const auto deepest =
-        nearestOnFeatures(p.a, p.b, p.pose, epa.n, epa.gap, epa.onA, Pair::kWidest, p.rounding);
+    // As far as the normal may be off where the difference curves by much more than the depth, or by any
+    // angle.
+    const double open = std::max(epa.bound - epa.gap, p.rounding),
+                 likely = 4.0 * std::sqrt(open / std::max(-epa.gap, p.rounding));
+    const auto within = [&](double angle) {
+      return nearestOnFeatures(p.a, p.b, p.pose, epa.n, epa.gap, epa.onA, angle, p.rounding);
+    };
+    auto deepest = within(std::min(likely, Pair::kWidest));
+    if (!deepest && likely < Pair::kWidest) deepest = within(Pair::kWidest);
     if (deepest) {
       epa.n = deepest->n;
       epa.gap = deepest->gap;

@@ -94,7 +94,8 @@ int main(int argc, char** argv) {
                                   {"cone", std::make_shared<fcl::Coned>(0.1, 0.4)},
                                   {"ellipsoid", std::make_shared<fcl::Ellipsoidd>(0.1, 0.15, 0.2)},
                                   {"convex of 8", detail::hullGeometry(box(0.2, 0.3, 0.4))},
-                                  {"convex of 162", detail::hullGeometry(geodesicSphere(0.15, 2))}};
+                                  {"convex of 162", detail::hullGeometry(geodesicSphere(0.15, 2))},
+                                  {"convex of 642", detail::hullGeometry(geodesicSphere(0.15, 3))}};
   const std::vector<std::pair<std::string, double>> questions{
       {"distance", 0.45}, {"yes or no", 0.45}, {"yes or no", 0.15}, {"contact", 0.45}, {"contact", 0.15}};
   return app.run(argc, argv, [&] {
