@@ -5,6 +5,8 @@
 #include <sstream>
 
 #include "fcl_stpbv/distance/distance.h"
+#include "fcl_stpbv/distance/shape_distance.h"
+#include "fcl_stpbv/error.h"
 #include "fcl_stpbv/io/volume_files.h"
 #include "fcl_stpbv/robot/mesh_file.h"
 #include "fcl_stpbv/volume/measure.h"
@@ -26,6 +28,18 @@ struct PlacedDistance : Distance {
       : Distance(found), origins{origin1, origin2} {}
   std::array<Eigen::Vector3d, 2> origins;
 };
+
+/// What a volume exceeds the hull of points by means nothing where one of them is outside. @throws Error for
+/// it.
+void requireInside(const StpBv& volume, const std::vector<Eigen::Vector3d>& points) {
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Distance found = distance(volume, Eigen::Isometry3d::Identity(), points[i]);
+    const bool unknown = found.status == DistanceStatus::invalid && points[i].allFinite();
+    if (unknown || found.lower > 0.0)
+      throw Error("points: point " + std::to_string(i) +
+                  " is outside the volume; give those that it was built from");
+  }
+}
 
 }  // namespace
 }  // namespace fcl_stpbv
@@ -118,12 +132,14 @@ void addStpBv(py::module_& module) {
       .def(
           "over_cover",
           [](const StpBv& volume, const std::optional<Floats<PointArray>>& points) {
-            const OverCover cover = points ? overCover(volume, toPoints(points->value)) : overCover(volume);
+            const std::vector<Eigen::Vector3d> cloud = points ? toPoints(points->value) : volume.vertices();
+            if (points) requireInside(volume, cloud);
+            const OverCover cover = overCover(volume, cloud);
             return std::make_pair(cover.max, cover.mean);
           },
           py::arg("points") = py::none(),
           "Largest and mean excess (m) over the convex hull of the vertices, or of the points it was built "
-          "from.")
+          "from; Error where one of them is outside.")
       .def(
           "verify", [](const StpBv& volume) { return verify(volume).message; }, "\"ok\", or what is wrong.")
       .def(py::pickle(

@@ -51,6 +51,9 @@ def test_the_over_cover_is_over_the_points_where_they_are_given():
     assert volume.over_cover()[0] == pytest.approx(0.99 - math.sqrt(0.99**2 - 0.02) + 0.01, abs=1e-14) and largest < volume.over_cover()[0] - 0.001
     with pytest.raises(fcl_stpbv.Error):
         volume.over_cover(np.zeros((0, 3)))
+    for wrong in (points + [0.5, 0, 0], 1e3 * points, 1e150 * points):  # of another body, or in millimetres
+        with pytest.raises(fcl_stpbv.Error, match="^points: point [0-9]+ is outside the volume; give those that it was built from$"):
+            volume.over_cover(wrong)
 
 
 def test_the_gradient_is_what_differences_say():
