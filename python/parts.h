@@ -32,6 +32,13 @@ inline const std::optional<Path>& named(const std::optional<Path>& file, const c
   return file;
 }
 
+/// @throws Error naming the argument.
+inline void requireCount(long count, long least, const char* name) {
+  if (count < least)
+    throw Error(std::string(name) + ": got " + std::to_string(count) + ", expected " + std::to_string(least) +
+                " or more");
+}
+
 inline std::vector<std::string> toText(const std::vector<Path>& paths) {
   return {paths.begin(), paths.end()};
 }

@@ -132,7 +132,7 @@ void addPostures(py::module_& module) {
           "solve",
           [](const PythonPostureSearch& search, const std::string& task, const std::string& path, int start,
              std::uint64_t seed, const std::optional<Floats<Eigen::VectorXd>>& from) {
-            if (start < 0) throw Error("start: got " + std::to_string(start) + ", expected 0 or more");
+            requireCount(start, 0, "start");
             Posture posture;
             {
               const py::gil_scoped_release others;

@@ -30,13 +30,6 @@ using namespace detail;
 using Boxes = std::vector<std::pair<Eigen::VectorXd, Eigen::VectorXd>>;  ///< lower and upper limits
 using GivenBoxes = std::vector<std::pair<Floats<Eigen::VectorXd>, Floats<Eigen::VectorXd>>>;
 
-/// @throws Error naming the argument.
-void requireCount(long count, long least, const char* name) {
-  if (count < least)
-    throw Error(std::string(name) + ": got " + std::to_string(count) + ", expected " + std::to_string(least) +
-                " or more");
-}
-
 /// A robot and the pairs of its links that joints move against each other.
 class PythonPairSearch {
  public:

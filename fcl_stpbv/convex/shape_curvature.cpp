@@ -4,10 +4,7 @@
 #include "fcl_stpbv/convex/shape_curvature.h"
 
 #include <Eigen/Geometry>
-#include <array>
 #include <cmath>
-
-#include "fcl_stpbv/convex/vertex_set.h"
 
 namespace fcl_stpbv::detail {
 
@@ -62,20 +59,6 @@ NormalCone ofVertices(int count, const Vertex& vertex, const Vector3d& a, const 
   Vector3d c = a;
   if (!furthest([&](const Vector3d& p) { return t.cross(p - a).norm(); }, c)) return aroundLine(m, t, 0.0);
   return noWay(m, t.cross(c - a).normalized());
-}
-
-/// The same of many vertices, few of which are furthest.
-NormalCone ofPolytope(const Shape& s, const Vector3d& m, double rounding) {
-  constexpr int kFew = 32;
-  std::array<int, kFew> near;
-  const Vector3d a = s.support(m);
-  const double least = m.dot(a) - 2.0 * rounding;  // those beside `rounding` are left out below
-  const int count = fromHeight(least, m, s.vertices, s.vertexCount, near.data(), kFew);
-  if (count > kFew)
-    return ofVertices(
-        s.vertexCount, [&](int i) { return s.vertices[i]; }, a, m, rounding);
-  return ofVertices(
-      count, [&](int i) { return s.vertices[near[static_cast<std::size_t>(i)]]; }, a, m, rounding);
 }
 
 /// A disc's rim: a circle of this radius around z. Near the axis the normal says little about the place on
@@ -152,7 +135,8 @@ bool normalCone(const Shape& s, const Vector3d& m, const Vector3d& x, double rou
           3, [&](int i) { return s.corner[static_cast<std::size_t>(i)]; }, s.support(m), m, rounding);
       break;
     case ShapeKind::polytope:
-      result = ofPolytope(s, m, rounding);
+      result = ofVertices(
+          s.vertexCount, [&](int i) { return s.vertices[i]; }, s.support(m), m, rounding);
       break;
     case ShapeKind::cylinder:
       result = ofCylinder(s, m, x, rounding);

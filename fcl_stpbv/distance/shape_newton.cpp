@@ -17,6 +17,7 @@
 #include <utility>
 
 #include "fcl_stpbv/convex/onto_core.h"
+#include "fcl_stpbv/convex/support.h"
 #include "fcl_stpbv/convex/vertex_set.h"
 #include "fcl_stpbv/distance/turning.h"
 
@@ -120,10 +121,6 @@ struct Facing {
   }
 };
 
-double gapAlong(const Shape& a, const Shape& b, const RelativePose& pose, const Vector3d& n) {
-  return n.dot(pose.placed(b.support(pose.opposite(n))) - a.support(n));
-}
-
 std::optional<OppositePoints> onFeaturesOf(Facing facing, Vector3d onA, double rounding) {
   constexpr int kSteps = 8;
   constexpr double kLast = 1e-9;  // rad; after a step as small as this, the next is rounding
@@ -160,7 +157,7 @@ std::optional<OppositePoints> nearestOnFeatures(const Shape& a, const Shape& b, 
     std::optional<OppositePoints> found = onFeaturesOf(
         {nearA.shape(), nearB.shape(), pose, levelA, levelB, n, {}, {}, {}, {}, 0.0}, onA, rounding);
     if (found && !isWhole) {
-      const double gapOfAll = gapAlong(a, b, pose, found->n);
+      const double gapOfAll = ConvexDifference(a, b, pose).support(found->n).gap;
       if (gapOfAll >= found->gap - rounding)
         found->gap = std::min(found->gap, gapOfAll);
       else

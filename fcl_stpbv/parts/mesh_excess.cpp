@@ -245,7 +245,7 @@ MeshExcess excessOf(const std::vector<Triangle>& surface, const MeshSolid& mesh,
 
 std::vector<Triangle> hullTriangles(const std::vector<Vector3d>& points) {
   if (points.empty()) throw Error("no points have no hull: give at least one");
-  for (std::size_t i = 0; i < points.size(); ++i) requireFinite(i, points[i]);
+  requireFinite(points);
   const RolledHull hull = rollBall(points);
   std::vector<Triangle> triangles;
   if (hull.faces.empty())

@@ -153,7 +153,7 @@ OverCover overCover(const StpBv& volume) { return overCover(volume, volume.verti
 
 OverCover overCover(const StpBv& volume, const std::vector<Vector3d>& cloud) {
   if (cloud.empty()) throw Error("cannot measure the over-cover of no points: give at least one");
-  for (std::size_t i = 0; i < cloud.size(); ++i) requireFinite(i, cloud[i]);
+  requireFinite(cloud);
   const HullExcess excess(cloud);
   return {excess.max(volume), excess.mean(volume)};
 }

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <string>
+#include <vector>
 
 #include "fcl_stpbv/error.h"
 
@@ -13,6 +14,11 @@ namespace fcl_stpbv::detail {
 inline void requireFinite(std::size_t number, const Eigen::Vector3d& point) {
   if (!point.allFinite())
     throw Error("point " + std::to_string(number) + " is not finite: every coordinate must be a number");
+}
+
+/// The same of all points.
+inline void requireFinite(const std::vector<Eigen::Vector3d>& points) {
+  for (std::size_t i = 0; i < points.size(); ++i) requireFinite(i, points[i]);
 }
 
 }  // namespace fcl_stpbv::detail

@@ -50,10 +50,10 @@ TEST_CASE("polytopes of many vertices are as far from any shape as all of their 
         if (i % 3 != 0) b.linear() = a.linear() * (i % 3 == 1 ? random.rotation() : random.rotation(1e-9));
         b.translation() += (i % 3 == 1 ? random.direction() : a.linear().col(i % 2)) *
                            random.uniform(i % 2 ? 0.05 : 0.4, i % 2 ? 0.4 : 3);
-        const ReferenceAnswer truth = referenceDistance(
-            first.posed(a), second.posed(b), (b.translation() - a.translation()).cast<long double>());
-        const Distance d = distance(first.shape, a, second.shape, b);
         const ReferenceShape one = first.posed(a), other = second.posed(b);
+        const ReferenceAnswer truth =
+            referenceDistance(one, other, (b.translation() - a.translation()).cast<long double>());
+        const Distance d = distance(first.shape, a, second.shape, b);
         const auto along = static_cast<double>(referenceGap(one, other, d.normal.cast<long double>()));
         if (truth.overlap) {
           ++deep;

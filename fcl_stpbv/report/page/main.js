@@ -17,24 +17,22 @@ function showHeader(report) {
   if (s.ns_per_pair) figure(s.ns_per_pair.toFixed(0), 'ns a pair');
 }
 
-// Shapes that nothing was checked against: no figure on the page holds for them.
-function showSkipped(shapes) {
-  byId('skipped').hidden = !shapes.length;
-  byId('skipped').firstElementChild.textContent = `Left out and not checked: ${shapes.length === 1 ? '1 shape' : `${shapes.length} shapes`}`;
-  byId('skipped').lastElementChild.replaceChildren(...shapes.map(text => make('li', '', text)));
+// A place that is there only with something to list in it.
+function showList(id, lines) {
+  byId(id).hidden = !lines.length;
+  byId(id).lastElementChild.replaceChildren(...lines.map(text => make('li', '', text)));
 }
 
-// What keeps a posture from being feasible.
-function showViolated(lines) {
-  byId('violated').hidden = !lines.length;
-  byId('violated').lastElementChild.replaceChildren(...lines.map(text => make('li', '', text)));
+// Shapes that nothing was checked against: no figure on the page holds for them.
+function showSkipped(shapes) {
+  showList('skipped', shapes);
+  byId('skipped').firstElementChild.textContent = `Left out and not checked: ${shapes.length === 1 ? '1 shape' : `${shapes.length} shapes`}`;
 }
 
 function showWarnings(warnings) {
-  byId('warnings').hidden = !warnings.length;
+  showList('warnings', warnings);
   byId('warnings').open = warnings.length <= 3;
   byId('warnings').firstElementChild.textContent = warnings.length === 1 ? '1 warning' : `${warnings.length} warnings`;
-  byId('warnings').lastElementChild.replaceChildren(...warnings.map(text => make('li', '', text)));
 }
 
 // Links, those whose volume exceeds their mesh most first.
@@ -108,7 +106,7 @@ async function main() {
   const report = JSON.parse(await unpacked('packed-report')), pairs = report.pairs;
   showHeader(report);
   showSkipped(report.skipped);
-  showViolated(report.violated);
+  showList('violated', report.violated);  // what keeps a posture from being feasible
   showWarnings(report.warnings);
   showLinks(report.links);
   const scene = openScene(report), table = new PairTable(pairs, i => choose(i, true)), map = new HeatMap(report, i => choose(i, true));

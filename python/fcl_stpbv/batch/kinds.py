@@ -26,7 +26,7 @@ class Convert:
         self.groups = list(dict.fromkeys(arguments.meshes))
         contents, self.known = hashlib.sha256(), {}
         for mesh in self.groups:
-            text = repr((mesh, self.given(mesh))).encode()
+            text = self.text(mesh, self.given(mesh))
             contents.update(text)
             self.known[mesh] = hashlib.sha256(text).digest()
         self.options["meshes"] = contents.hexdigest()
@@ -48,10 +48,15 @@ class Convert:
         except fcl_stpbv.Error as error:
             return str(error)
 
+    @staticmethod
+    def text(mesh, given):
+        """What tells a mesh and its files from any other."""
+        return repr((mesh, given)).encode()
+
     def later(self, mesh):
         """What `given` gives, when the mesh's turn comes: all of them together may be more than memory holds."""
         given = self.given(mesh)
-        if hashlib.sha256(repr((mesh, given)).encode()).digest() != self.known[mesh]:
+        if hashlib.sha256(self.text(mesh, given)).digest() != self.known[mesh]:
             raise fcl_stpbv.Error(f"{mesh}: has changed while the batch ran; start it anew, with another -o")
         return given
 
