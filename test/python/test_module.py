@@ -228,7 +228,7 @@ def test_a_file_with_an_empty_name_is_not_left_out(empty):
 
 def test_an_object_whose_constructor_has_not_run_is_no_argument():
     kinds: list[Any] = [fcl_stpbv.StpBv, fcl_stpbv.PairCache, fcl_stpbv.Distance, fcl_stpbv.RadiiAdvice, fcl_stpbv.Robot, fcl_stpbv.PairProof,
-                        fcl_stpbv.PairSearch, fcl_stpbv.PostureSearch]
+                        fcl_stpbv.PairSearch, fcl_stpbv.PostureSearch, fcl_stpbv.MotionBracket]
     for kind in kinds:
         unmade = kind.__new__(kind)
         for name, member in vars(kind).items():
