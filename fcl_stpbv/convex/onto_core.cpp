@@ -30,14 +30,25 @@ Vector3d nearestOfCorners(const Shape& polytope, const Vector3d& y) {
   return y + reduceToNearest(found.simplex, nearest).point;
 }
 
+/// The cone's point nearest to `y`. Beyond the side it is on the generator, on a flat cone far from the one
+/// at y's height.
+Vector3d ontoCone(double radius, double half, const Vector3d& y) {
+  const double across = std::hypot(y.x(), y.y()), height = 2.0 * half, down = half - y.z(),
+               squared = radius * radius + height * height;
+  double out = std::min(across, radius), z = std::clamp(y.z(), -half, half);
+  if (height * across > radius * down && squared > 0.0) {
+    const double t = std::clamp((radius * across + height * down) / squared, 0.0, 1.0);
+    out = t * radius;
+    z = half - t * height;
+  }
+  const double scale = across > 0.0 ? out / across : 0.0;
+  return {scale * y.x(), scale * y.y(), z};
+}
+
 }  // namespace
 
 Vector3d ontoCore(const Shape& core, const Vector3d& y) {
   const double half = core.half, z = std::clamp(y.z(), -half, half);
-  const auto within = [&](double radius) -> Vector3d {
-    const double across = std::hypot(y.x(), y.y()), scale = across > radius ? radius / across : 1.0;
-    return {scale * y.x(), scale * y.y(), z};
-  };
   switch (core.kind) {
     case ShapeKind::point:
       return {0, 0, 0};
@@ -45,10 +56,13 @@ Vector3d ontoCore(const Shape& core, const Vector3d& y) {
       return {0, 0, z};
     case ShapeKind::box:
       return y.cwiseMax(-core.size).cwiseMin(core.size);
-    case ShapeKind::cylinder:
-      return within(core.radius);
+    case ShapeKind::cylinder: {
+      const double across = std::hypot(y.x(), y.y()),
+                   scale = across > core.radius ? core.radius / across : 1.0;
+      return {scale * y.x(), scale * y.y(), z};
+    }
     case ShapeKind::cone:
-      return within(half > 0.0 ? core.radius * (half - z) / (2.0 * half) : core.radius);
+      return ontoCone(core.radius, half, y);
     case ShapeKind::ellipsoid: {
       Vector3d p = y;
       for (int i = 0; i < 3; ++i)

@@ -88,6 +88,19 @@ struct Facing {
     return coneA.count == 1 && coneB.count == 1 && line(coneA).cross(line(coneB)).norm() > kParallel;
   }
 
+  /// Two parallel lines: the normal turns around them, to that between the middles of the circles that they
+  /// curve by. Where neither curves it is as good as it comes.
+  void turnAroundLines() {
+    const double bentA = coneA.along[0] - a.margin, bentB = coneB.along[0] - b.margin;
+    if (!(bentA + bentB > 0.0)) return;
+    const Vector3d t = line(coneB), middles = pointB - pointA + (bentA + bentB) * n,
+                   across = middles - middles.dot(t) * t;
+    constexpr double kKnown = 0.1;  // of the radii: middles nearer to each other say less about the normal
+    if (!(across.dot(n) > kKnown * (bentA + bentB))) return;
+    n = across.normalized();
+    n = (n - n.dot(t) * t).normalized();  // rounding of a long way along the lines would lean
+  }
+
   /// One step. False where there is none.
   bool turn() {
     const NormalCone &flat = aIsFlatter() ? coneA : coneB, &curved = aIsFlatter() ? coneB : coneA;
@@ -95,7 +108,10 @@ struct Facing {
     support();
     if (flat.count == 0) return true;
     if (curved.count == 1) {
-      if (!cross()) return true;
+      if (!cross()) {
+        turnAroundLines();
+        return true;
+      }
       const Vector3d across = line(curved);
       n = (n + across.dot(curved.normal - n) / across.dot(flat.way[0]) * flat.way[0]).normalized();
       return true;
@@ -115,8 +131,12 @@ struct Facing {
     };
     if (coneA.count == 2 && !(bend(coneB) < bend(coneA))) return pointA;
     if (coneB.count == 2) return pointB - gap * n;
-    if (!cross()) return onA + (pointA - onA).dot(n) * n;
     const Vector3d u = line(coneA), v = line(coneB), normal = u.cross(v);
+    if (!cross()) {  // of a round side the point may be off its line, and only that is opposite
+      if (coneA.count == 1) return pointA + (onA - pointA).dot(u) * u;
+      if (coneB.count == 1) return pointB + (onA - pointB).dot(v) * v - gap * n;
+      return onA + (pointA - onA).dot(n) * n;
+    }
     return pointA + (pointB - pointA).cross(v).dot(normal) / normal.squaredNorm() * u;
   }
 };

@@ -102,6 +102,63 @@ TEST_CASE("the normal from a box's corner to a rim is that of the two points") {
   CHECK(corners > 5000);
 }
 
+TEST_CASE("an upright cylinder or capsule beside an upright box: as far, to rounding, as in the plane") {
+  Random random(7);
+  int edges = 0, faces = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const Vector3d half(random.uniform(0.02, 0.5), random.uniform(0.02, 0.5), random.uniform(0.02, 0.5));
+    const Cloud corners = box(half.x() * 2, half.y() * 2, half.z() * 2);
+    const double radius = random.uniform(0.05, 1), length = random.uniform(0.05, 1);
+    // Past the box's edge along y, or before its face; in front of its middle GJK's points are lopsided.
+    const double beyond = i % 2 ? random.uniform(0.001, 1) : i % 4 ? -half.y() : random.uniform(-half.y(), 0);
+    const Vector3d shift(half.x() + 1.1 * radius + random.uniform(0, 1), half.y() + beyond,
+                         random.uniform(-0.9, 0.9) * (half.z() + length / 2));
+    const double truth = std::hypot(shift.x() - half.x(), std::max(beyond, 0.0)) - radius;
+    const Isometry3d one = pose(random.rotation(), random.direction()),
+                     other = one * at(shift.x(), shift.y(), shift.z());
+    const Shape round = i % 3 ? Shape::cylinderOf(radius, length) : Shape::capsule(radius, length);
+    for (const Shape& flat : {Shape::boxOf(2.0 * half), Shape::polytopeOf(corners.data(), 8)}) {
+      CAPTURE(i, truth, static_cast<int>(flat.kind), static_cast<int>(round.kind));
+      const Distance d = distance(flat, one, round, other);
+      ++(i % 2 ? edges : faces);
+      CHECK(d.status == DistanceStatus::exact);
+      CHECK(std::abs(d.distance - truth) <= 1e-14);
+      CHECK((d.lower <= truth && d.upper >= truth));
+      CHECK(besideEachOther(d) <= 1e-14);
+      const Vector3d n = one.linear().transpose() * d.normal;
+      CHECK(std::abs(n.z()) <= 1e-13);
+      CHECK((n.head<2>() * (truth + radius) - Eigen::Vector2d(shift.x() - half.x(), std::max(beyond, 0.0)))
+                .norm() <= 1e-13);
+    }
+  }
+  CHECK((edges > 1000 && faces > 1000));
+}
+
+TEST_CASE(
+    "a polytope's corner over a cone's side, steep or as flat as a sheet: exact, on the generator below it") {
+  Random random(11);
+  const Cloud spike{{0, 0, 0}, {0.1, 0.02, 0.3}, {-0.1, 0.05, 0.3}, {0.03, -0.2, 0.3}};
+  const Shape corner = Shape::polytopeOf(spike.data(), 4);
+  for (int i = 0; i < 2000; ++i) {
+    const double radius = 0.3, half = std::pow(10.0, random.uniform(-5, -1));
+    const Vector3d side = Vector3d(half * 2, 0, radius).normalized(), along(-side.z(), 0, side.x());
+    const double gap = random.uniform(0.001, 0.1), angle = random.uniform(-3, 3);
+    // Above a point of the generator, turned around the axis.
+    const Vector3d foot =
+        Vector3d(0, 0, half) - random.uniform(0.1, 0.9) * std::hypot(radius, 2 * half) * along;
+    const Eigen::Matrix3d turn = Eigen::AngleAxisd(angle, Vector3d::UnitZ()).toRotationMatrix();
+    const Vector3d tip = turn * (foot + gap * side);
+    const Distance d =
+        distance(Shape::coneOf(radius, 2.0 * half), at(0, 0, 0), corner, at(tip.x(), tip.y(), tip.z()));
+    CAPTURE(i, half, gap);
+    CHECK(d.status == DistanceStatus::exact);
+    CHECK(std::abs(d.distance - gap) <= 1e-15);
+    CHECK((d.normal - turn * side).norm() <= 1e-15 / gap);
+    CHECK((d.point[0] - turn * foot).norm() <= 2e-15);
+    CHECK(besideEachOther(d) <= 1e-15);
+  }
+}
+
 TEST_CASE("all but touching an STP-BV of a huge R, a point's true gap is below the upper bound") {
   const Cloud cloud{{-0.142, -0.211, 0.286},
                     {-0.045, -0.203, -0.392},
