@@ -6,7 +6,9 @@
 //    origin is inside it no direction leads out sooner than that face is far: a lower bound of the depth.
 //    Where A's core is round, its surface is further out than the face by what its curvature says.
 // 3. The support point along the face's normal gives an upper one: a translation along that normal separates.
-// 4. Stop where both agree. Else expand the polytope over the point and go to 2.
+// 4. Once they nearly do, the caller may know the maximum there, and how far around it none is deeper
+//    (local_maximum.h): faces that hide nothing else are put aside.
+// 5. Stop where both agree. Else expand the polytope over the point and go to 2.
 // Rounding may spoil a polytope, of slivers along edges and generators: another
 // first tetrahedron makes other faces.
 #pragma once
@@ -17,7 +19,9 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
+#include "fcl_stpbv/convex/local_maximum.h"
 #include "fcl_stpbv/convex/polytope.h"
 
 namespace fcl_stpbv::detail {
@@ -116,37 +120,75 @@ class Epa {
   /// Searches until the bounds agree. False where rounding or the polytope's
   /// size stopped it; both bounds hold.
   bool run() {
+    return run([](Epa&) { return std::optional<LocalMaximum>(); });
+  }
+  /// `maximum(epa)` is asked once the bounds are near each other: it takes the search on to the maximum next
+  /// to `n` and tells what is known around it, or nothing.
+  template <typename FindMaximum>
+  bool run(const FindMaximum& maximum) {
     constexpr int kAttempts = 4;
     for (int attempt = 0; attempt < kAttempts && !solved(); ++attempt) {
       const Eigen::Matrix3d turn =
           Eigen::AngleAxisd(attempt, Eigen::Vector3d(0.48, 0.6, 0.64)).toRotationMatrix();
       Points point;
-      if (!spanVolume(
-              turn, rounding_, [&](const Eigen::Vector3d& m) { return look(-m); },
-              [](const Corner& c) -> const Eigen::Vector3d& { return c.w; }, point.data()))
+      const bool around = attempt == 0 && spanAround(point);
+      if (!around && !spanVolume(
+                         turn, rounding_, [&](const Eigen::Vector3d& m) { return look(-m); },
+                         [](const Corner& c) -> const Eigen::Vector3d& { return c.w; }, point.data()))
         break;
-      expand(point);
+      expand(point, maximum);
     }
     return solved();
   }
 
  private:
   static constexpr double kRelative = 1e-6;  // of the depth, for round bodies
-  static constexpr int kMore = 16;  // steps from there for a normal to rounding, which flat faces give
+  static constexpr int kMore = 16;         // steps from there for a normal to rounding, which flat faces give
+  static constexpr double kNear = 0.03;    // of the depth: from here a maximum is likely to be found
+  static constexpr double kNearer = 0.03;  // of that, from where it is tried again
   using Points = std::array<Corner, Polytope::kMaxPoints>;
 
-  void expand(Points& point) {
+  /// Three points around the best normal so far and one behind. False where they are almost in one plane.
+  bool spanAround(Points& point) {
+    constexpr double kRing = 0.8;   // tilt of the normals around (its tangent)
+    constexpr double kFlat = 0.01;  // of the volume of a box with sides as long
+    const Eigen::Vector3d m = n, e = m.unitOrthogonal(), f = std::sqrt(0.75) * m.cross(e);
+    point[0] = look((m - kRing * e).normalized());
+    point[1] = look((m + kRing * (0.5 * e - f)).normalized());
+    point[2] = look((m + kRing * (0.5 * e + f)).normalized());
+    point[3] = look(-m);
+    const Eigen::Vector3d a = point[0].w - point[3].w, b = point[1].w - point[3].w,
+                          c = point[2].w - point[3].w;
+    return std::abs(a.dot(b.cross(c))) > kFlat * a.norm() * b.norm() * c.norm();
+  }
+
+  template <typename FindMaximum>
+  void expand(Points& point, const FindMaximum& maximum) {
     std::size_t points = 4;
     int more = 0;
+    double near = kNear;
+    std::optional<LocalMaximum> top;
     const std::array<Eigen::Vector3d, 4> part{point[0].onA, point[1].onA, point[2].onA, point[3].onA};
     WidePolytope polytope({point[0].w, point[1].w, point[2].w, point[3].w}, Polytope::Origin::anywhere, rho_,
                           &part);
     expandAtNearest(polytope, [&](const Polytope::Face& face) {
       if (face.depth > 0.0) bound = std::min(bound, -face.depth);
+      if (top) {
+        if (-gap - face.depth <= rounding_) return false;
+        if (top->holdsBeyond(face.normal, polytope.leastAlong(face))) {
+          polytope.putAside();
+          return true;
+        }
+      }
       const Corner next = look(-face.normal);
       const double open = -gap - face.depth;
-      offerFace(point[face.corner[0]], point[face.corner[1]], point[face.corner[2]],
-                face.distance * face.normal);
+      if (open <= kNear * std::max(face.depth, 0.0) + rounding_)
+        offerFace(point[face.corner[0]], point[face.corner[1]], point[face.corner[2]],
+                  face.distance * face.normal);
+      if (open <= near * face.depth && (!top || gap > rounding_ - top->depth())) {
+        near *= kNearer;
+        top = maximum(*this);
+      }
       if (face.depth > 0.0 && open <= kRelative * face.depth + rounding_ &&
           (open <= rounding_ || ++more > kMore))
         return false;

@@ -76,6 +76,12 @@ class Polytope {
   /// Takes the face that nearest() gave out of the search.
   void putAside() { setRank(nearest_, kNowhere); }
 
+  /// No point of a face is nearer to the origin along the face's normal (m): rounding may tilt a sliver's.
+  double leastAlong(const Face& f) const {
+    const Packed n = pack(f.normal);
+    return std::min({dot(n, point(f.corner[0])), dot(n, point(f.corner[1])), dot(n, point(f.corner[2]))});
+  }
+
   /// The point taken in last.
   Index lastPoint() const { return static_cast<Index>(points_ - 1); }
 

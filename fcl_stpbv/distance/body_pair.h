@@ -117,11 +117,6 @@ class BodyPair {
   /// the vertices, which do not reach past theirs, is safe from it (m).
   double touching() const { return kTouching * acrossRounding_; }
 
-  /// How far the sample's normal is inside the regions of its patches, as a sine; negative outside.
-  double insideRegions(const Sample& s) const {
-    return -std::max(a_.outside(s.patch[0], s.n), b_.outside(s.patch[1], opposite(s.n)));
-  }
-
   /// Whether the gap is as wide as it gets near the sample's normal: its gradient is rounding.
   bool isStationary(const Sample& s) const {
     return s.across.squaredNorm() <= acrossRounding_ * acrossRounding_;

@@ -3,8 +3,7 @@
 // 1. A side: triangles from the maximum's own point to the corners of the feature that it is on. They are as
 //    far from the origin as the maximum is deep, but for a part that leaves no room for a wider gap.
 // 2. From the sides of that feature a closed surface over a ball inside both cores, or where the
-//    ball is too small over the other sides of the difference of two boxes, or a dozen triangles
-//    to points beyond the corners and one behind.
+//    ball is too small over the other sides of the difference of two boxes.
 // 3. All of it lies in the difference of the cores, which is convex. So if every plane of it is as far from
 //    the origin as the maximum is deep, no direction leads out sooner.
 #include "fcl_stpbv/distance/certificate.h"
@@ -27,18 +26,9 @@ namespace {
 struct Triangle {
   Packed p, q, r;
 
-  Packed normal() const { return cross(q - p, r - p); }
-
-  /// Whether its plane has the origin on its inner side, at least this far away.
-  bool beyond(double distance) const {
-    const Packed m = normal();
-    const double height = dot(m, p);
-    return height > 0.0 && height * height >= distance * distance * dot(m, m);
-  }
-
   /// Its plane's distance from the origin.
   double distance() const {
-    const Packed m = normal();
+    const Packed m = cross(q - p, r - p);
     return std::abs(dot(m, p)) / std::sqrt(dot(m, m));
   }
 };
@@ -98,32 +88,6 @@ Packed nearestOf(std::size_t count, const Point& point, const Packed& target) {
   return nearest;
 }
 
-/// Whether triangles from the corners of a feature to as many points beyond it and one behind, each with its
-/// plane at least `depth` from the origin, close the surface.
-bool closesWithTriangles(const BodyPair& pair, const FeatureCorners& corners, const Packed& n, double depth) {
-  constexpr double kRing = 0.7;   // rad from the top's normal to those of the points beyond its feature
-  constexpr double kDeep = 0.25;  // of the smaller body's radius: deeper, so few triangles hardly ever do
-  if (depth > kDeep * std::min(pair.a().enclosingRadius(), pair.b().enclosingRadius())) return false;
-  const auto& [corner, count] = corners;
-  Packed ring[FeatureCorners::kMost];
-  for (std::size_t i = 0; i < count; ++i) {
-    const Packed &p = corner[i], &q = corner[(i + 1) % count], side = q - p;
-    ring[i] = pair.differenceAgainst(unpack(std::sqrt(dot(side, side)) * n - kRing * cross(n, side)));
-    const Triangle wall{q, p, ring[i]};
-    if (wall.beyond(depth)) continue;
-    ring[i] = pack(vertexDifference(pair, unpack(-wall.normal())));
-    if (!Triangle{q, p, ring[i]}.beyond(depth)) return false;
-  }
-  const Packed behind = pair.differenceAgainst(unpack(-n));
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::size_t j = (i + 1) % count;
-    if (!Triangle{corner[j], ring[i], ring[j]}.beyond(depth) ||
-        !Triangle{ring[j], ring[i], behind}.beyond(depth))
-      return false;
-  }
-  return true;
-}
-
 /// Of two boxes, whose difference has a side along each of fifteen axes and its opposite, and no others:
 /// whether the feature is one of these sides, and all others are at least `depth` from the origin. The
 /// feature lies in its side's plane to rounding. Were it only a part of that side, another side would be in
@@ -159,20 +123,6 @@ bool closesOver(const Packed& centre, double radius, const FeatureSides& sides, 
   return all((dot(turn, four(n)) < 0.0) & ((rises & falls) | (shortTurn & (rises | falls))));
 }
 
-/// Least radius of curvature of the difference's surface where two patches own its normals, at least (m).
-double leastRadius(const BodyPair& pair, const std::array<int, 2>& patch) {
-  const PatchKind a = pair.tablesA().patches.kind(patch[0]), b = pair.tablesB().patches.kind(patch[1]);
-  const double rhoA = pair.a().radii().rho, rhoB = pair.b().radii().rho;
-  if (a != PatchKind::edge || b != PatchKind::edge)
-    return (a == PatchKind::face ? rhoA : 0.0) + (b == PatchKind::face ? rhoB : 0.0);
-  // Each edge bends with rho along itself. A normal leans along an edge by at most its sine, which brings the
-  // two directions across the normal that much nearer to each other than the edges are.
-  const PosedPatch edgeA = pair.patchA(patch[0]), edgeB = pair.patchB(patch[1]);
-  const double along = std::abs(dot(edgeA.axis, edgeB.axis)) + edgeA.sine * edgeB.sine,
-               across2 = (1.0 - edgeA.sine * edgeA.sine) * (1.0 - edgeB.sine * edgeB.sine);
-  return std::max(0.0, rhoA * rhoB * (across2 - along * along) / ((rhoA + rhoB) * across2));
-}
-
 }  // namespace
 
 FeatureCorners cornersAround(const BodyPair& pair, const Sample& top) {
@@ -195,15 +145,13 @@ FeatureCorners cornersAround(const BodyPair& pair, const Sample& top) {
   return c;
 }
 
-double onlyMaximumFrom(const BodyPair& pair, const Sample& top, double inside) {
-  constexpr double kInside = 0.7;  // rad; `inside` is an angle or its sine,
-  constexpr double kSafe = 1.1;    // which differ by less up to there, rounding included
-  constexpr double kLevel = 1e-7;  // rounding of a sine from its cosine
-  constexpr double kMost = 0.6;    // below the sine of an eighth of a turn, to which the proof holds
-  const double depth = -top.core, radius = leastRadius(pair, top.patch);
-  const double sine = std::min(std::min(inside, kInside) * radius / (kSafe * 2.0 * depth), kMost);
-  if (!(sine > kLevel && radius >= depth)) return std::numeric_limits<double>::infinity();
-  return depth * std::sqrt(1.0 - sine * sine);
+LocalMaximum localMaximum(const BodyPair& pair, const Sample& top) {
+  LocalMaximum local(top.n, -top.core);
+  const auto insideA = [&] { return -pair.a().outside(top.patch[0], top.n); };
+  const auto insideB = [&] { return -pair.b().outside(top.patch[1], pair.opposite(top.n)); };
+  addPatch(pair.patchA(top.patch[0]), top.n, insideA, local);
+  addPatch(pair.patchB(top.patch[1]), top.n, insideB, local);
+  return local;
 }
 
 FCL_STPBV_VECTORIZED
@@ -213,19 +161,23 @@ bool closesOverBall(const Packed& centre, double radius, const FeatureCorners& c
 }
 
 FCL_STPBV_VECTORIZED
-WidestProof proveWidest(const BodyPair& pair, const Sample& top, double inside) {
-  WidestProof proof{cornersAround(pair, top), onlyMaximumFrom(pair, top, inside)};
+WidestProof proveWidest(const BodyPair& pair, const Sample& top) {
+  WidestProof proof{cornersAround(pair, top), localMaximum(pair, top)};
   const double depth = -top.core - pair.gapRounding();
   if (proof.corners.count == 0 || !(depth > 0.0)) return proof;
   const Packed n = pack(top.n), summit = top.core * n + pack(top.across);
   const FeatureSides sides(proof.corners);
   const FourVectors normal = cross(sides.to - sides.from, four(summit) - sides.from);
   const Packed height = dot(normal, sides.from), far2 = height * height / dot(normal, normal);
-  if (!all((height > 0.0) & (far2 > proof.onlyFrom * proof.onlyFrom))) return proof;
+  if (!all(height > 0.0)) return proof;
+  // A plane through the maximum's point is tilted by the angle whose cosine is its distance over the depth,
+  // and what is beyond it by no more than twice that.
+  const double nearest2 = std::min(std::min(far2[0], far2[1]), std::min(far2[2], far2[3])),
+               c2 = std::min(nearest2 / (top.core * top.core), 1.0);
+  if (!proof.around.holdsWithin(2.0 * std::sqrt(c2 * (1.0 - c2)), 2.0 * c2 - 1.0)) return proof;
   const double innerRadius = pair.a().innerRadius() + pair.b().innerRadius();
   if (!closesOver(pair.centreDifference(), innerRadius, sides, n, depth) &&
-      !closesOverBoxes(pair, top, proof.corners, depth) &&
-      !closesWithTriangles(pair, proof.corners, n, depth))
+      !closesOverBoxes(pair, top, proof.corners, depth))
     return proof;
   proof.proven = true;
   proof.bound = -depth;

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 
+#include "fcl_stpbv/convex/local_maximum.h"
 #include "fcl_stpbv/distance/body_pair.h"
 
 namespace fcl_stpbv::detail {
@@ -19,28 +20,25 @@ struct FeatureCorners {
 /// vertex nearest to the maximum. None of other features, which are rarely one.
 FeatureCorners cornersAround(const BodyPair& pair, const Sample& top);
 
-/// A triangle with the point of the maximum `top` for a corner hides no wider gap where its plane is further
-/// from the origin than this (m); infinite where nothing is known. `inside`: of the regions of its patches
-/// (insideRegions). The proof is in docs/theory.md, 5, "Deeper".
-double onlyMaximumFrom(const BodyPair& pair, const Sample& top, double inside);
+/// The maximum `top`, and what the two cores hold around its points.
+LocalMaximum localMaximum(const BodyPair& pair, const Sample& top);
 
 /// Whether a maximum is the widest gap, and what a search needs that goes on from it.
 struct WidestProof {
   FeatureCorners corners;  ///< cornersAround
-  double onlyFrom = 0;     ///< onlyMaximumFrom
+  LocalMaximum around;     ///< localMaximum
   bool proven = false;     ///< along no normal is the gap of the cores more than `bound` (m, negative)
   double bound = 0;
 };
 
 /// Closes a surface around the origin: from the maximum to the corners of its feature, and from
-/// there over a ball inside, over the other sides of two boxes' difference, or in a dozen triangles
-/// to points beyond the corners and one behind.
+/// there over a ball inside, or over the other sides of two boxes' difference.
 /// All of it lies in the difference of the cores, which is convex, so no direction leads out of it sooner
 /// than through the nearest plane. Proven where that is one at the top and hides no wider gap.
 ///
 /// The points only have to put the origin on the inner side of every triangle: then
 /// each ray from the origin meets the surface.
-WidestProof proveWidest(const BodyPair& pair, const Sample& top, double inside);
+WidestProof proveWidest(const BodyPair& pair, const Sample& top);
 
 /// Closes a surface around the origin from the corners of a maximum's feature over a ball that the difference
 /// holds: from each side of the feature along the plane that touches the ball, from each corner along the

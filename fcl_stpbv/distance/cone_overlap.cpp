@@ -120,7 +120,8 @@ class WaysOut {
     found.at.gap = -best_.depth;
     found.at.y = ontoTriangle(met_.three(), best_.point + found.at.gap * best_.n);
     found.at.corners = 1;
-    polishOverlap(q_, met_, found);
+    if (const auto exact = deepestFeature(q_, {found.at.n, found.at.patch}, found.at.gap, met_))
+      found.at = exact->at;
     return found;
   }
 

@@ -152,10 +152,7 @@ bool walkFeatures(const BodyPair& pair, const SearchStart& start, WidestGap& fou
     if (past <= kOnBoundary * to.length) {
       at.n = to.unit();
       found.at = BodyPair::sample(at.n, at.patch, at.a, at.b);
-      if (pair.isStationary(found.at)) {
-        if (found.at.core < 0.0) found.inside = -past / to.length;
-        return true;
-      }
+      if (pair.isStationary(found.at)) return true;
       continue;  // two tori may need a second go for the last digits
     }
     ++work.steps;

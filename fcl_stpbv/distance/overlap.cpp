@@ -55,11 +55,11 @@ class CoreEpa {
         x_(x),
         work_(work) {}
 
-  /// Takes in the point of the maximum in `x`, where a face further than `from` hides no wider gap.
-  bool addTop(double from) {
+  /// Takes in the point of the maximum in `x`.
+  bool addTop(const LocalMaximum& around) {
     if (!add(furthest(x_))) return false;
     top_ = polytope_.lastPoint();
-    topFrom_ = from;
+    around_ = around;
     return true;
   }
 
@@ -73,7 +73,7 @@ class CoreEpa {
       bound = std::min(bound, -std::min({least_, nearest.depth, -x_.core - pair_.gapRounding()}));
       proven = -x_.core - nearest.depth <= rounding_;
       if (proven) return false;
-      if (nearest.has(top_) && nearest.distance > topFrom_) {
+      if (nearest.has(top_) && around_.holdsBeyond(nearest.normal, polytope_.leastAlong(nearest))) {
         polytope_.putAside();
         return true;
       }
@@ -102,13 +102,14 @@ class CoreEpa {
     const Vector3d point = furthest(trial);
     const double open = -trial.core - nearest.depth;
     Vector3d ignored;
-    const bool another = open <= kNear * nearest.depth && settle(pair_, trial, ignored, work_) &&
+    // From next to the maximum that is known the same is found again.
+    const bool another = !nearest.has(top_) && open <= kNear * nearest.depth &&
+                         settle(pair_, trial, ignored, work_) &&
                          (trial.n - x_.n).squaredNorm() > kSame * kSame;
     const bool better = trial.core > x_.core;
     if (better) x_ = trial;
     if (open <= rounding_ ||
-        !((another && better && addTop(onlyMaximumFrom(pair_, x_, pair_.insideRegions(x_)))) ||
-          polytope_.expand(point)))
+        !((another && better && addTop(localMaximum(pair_, x_))) || polytope_.expand(point)))
       putAside(nearest);
     return true;
   }
@@ -123,9 +124,9 @@ class CoreEpa {
   Polytope polytope_;
   Sample& x_;
   SearchWork& work_;
-  Polytope::Index top_ = Polytope::kNone;                     // point of a maximum
-  double topFrom_ = std::numeric_limits<double>::infinity();  // of a face there that hides no wider gap
-  double least_ = std::numeric_limits<double>::infinity();    // distance of the faces done with
+  Polytope::Index top_ = Polytope::kNone;                   // point of a maximum
+  LocalMaximum around_;                                     // what is known around it
+  double least_ = std::numeric_limits<double>::infinity();  // distance of the faces done with
 };
 
 /// The few best of many starts, apart from each other so that they do not all lead to the same maximum.
@@ -169,9 +170,9 @@ bool expandPolytope(const BodyPair& pair, const std::array<Vector3d, 4>& corner,
 }
 
 FCL_STPBV_VECTORIZED
-bool expandPolytope(const BodyPair& pair, double inside, Sample& x, double& bound, SearchWork& work) {
+bool expandPolytope(const BodyPair& pair, Sample& x, double& bound, SearchWork& work) {
   const bool top = pair.isStationary(x);
-  const WidestProof proof = top ? proveWidest(pair, x, inside) : WidestProof{cornersAround(pair, x)};
+  const WidestProof proof = top ? proveWidest(pair, x) : WidestProof{cornersAround(pair, x), {}};
   if (proof.proven) {
     bound = proof.bound;
     return true;
@@ -184,7 +185,7 @@ bool expandPolytope(const BodyPair& pair, double inside, Sample& x, double& boun
   CoreEpa search(pair, corner, Polytope::Origin::anywhere, x, work);
   for (std::size_t i = 0; i < known.count; ++i) search.add(unpack(known.point[i]));
   if (top)
-    search.addTop(proof.onlyFrom);
+    search.addTop(proof.around);
   else if (known.count == 0)
     search.add(vertexDifference(pair, x.n));
   if (search.run(bound)) return true;

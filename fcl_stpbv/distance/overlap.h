@@ -20,9 +20,8 @@ Sample boxStart(const BodyPair& pair);
 /// den Bergen 2001, "expanding polytope"), from around `x.n`. Leaves the maximum of the gap with the least
 /// overlap in `x`, and in `bound` what holds for all: along no normal is the gap of the cores more than this
 /// (m, not positive). False when rounding, the size of the polytope or a gap between the cores stopped it;
-/// `x` and the bound hold all the same. `inside`: how far `x.n` is inside the regions of its patches, where
-/// `x` is a maximum.
-bool expandPolytope(const BodyPair& pair, double inside, Sample& x, double& bound, SearchWork& work);
+/// `x` and the bound hold all the same.
+bool expandPolytope(const BodyPair& pair, Sample& x, double& bound, SearchWork& work);
 
 /// The same from four points of the difference around the origin.
 bool expandPolytope(const BodyPair& pair, const std::array<Eigen::Vector3d, 4>& corner, Sample& x,

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "fcl_stpbv/convex/local_maximum.h"
 #include "fcl_stpbv/distance/core_gap.h"
 
 namespace fcl_stpbv::detail {
@@ -16,6 +17,19 @@ void turnToWidestOfEdges(const PosedPatch& a, const PosedPatch& b, Packed& n);
 /// Radii of curvature of the patch's core at its outward normal `n`, as a matrix on the tangent plane: the
 /// second derivative of its support function (m).
 Eigen::Matrix3d coreCurvature(const PosedPatch& p, const Eigen::Vector3d& n);
+
+/// What a patch's core holds around its point with the normal `n`, along which a gap is widest: of a face its
+/// ball's cap, of an edge its arc. `inside()` tells how far a face's normal is inside its region (a sine).
+template <typename Inside>
+void addPatch(const PosedPatch& patch, const Eigen::Vector3d& n, const Inside& inside, LocalMaximum& around) {
+  const double rho = patch.radii->rho;
+  if (patch.kind == PatchKind::face) around.addCap(rho, rho * inside());
+  if (patch.kind != PatchKind::edge) return;
+  const Eigen::Vector3d u = unpack(patch.axis);
+  const double lean = u.dot(n);
+  // The sine from lean to end is more than the difference of their own.
+  around.addArc((u - lean * n) / std::sqrt(1.0 - lean * lean), rho, rho * (patch.sine - std::abs(lean)));
+}
 
 /// A direction not yet made a unit vector: what is asked of it first, on which side of boundaries it lies,
 /// does not wait for the division.

@@ -6,7 +6,7 @@
 // 3. Else bisect the directions left with support points of the two whole bodies
 //    (convex/direction_cone.h): slow, sure. From the normal found, a feature
 //    search again proves the last digits.
-// 4. Cores that overlap, as a ball in the volume may tell at once: a point's way out through a face
+// 4. Cores that overlap, as a ball in the volume may tell at once, else GJK: a point's way out through a face
 //    (point_overlap.cpp), the cones of a flat shape's normals (cone_overlap.cpp), else EPA
 //    (shape_overlap.cpp).
 #include "fcl_stpbv/distance/shape_distance.h"
@@ -14,9 +14,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "fcl_stpbv/convex/direction_cone.h"
+#include "fcl_stpbv/convex/gjk.h"
 #include "fcl_stpbv/convex/onto_core.h"
 #include "fcl_stpbv/convex/support.h"
 #include "fcl_stpbv/distance/shape_query.h"
@@ -125,28 +127,40 @@ struct Solution {
 
 /// A point of the shape in a ball that the volume's core holds.
 bool surelyOverlap(const ShapeQuery& q) {
-  return !q.shape.unbounded() &&
-         (q.posed(q.shape.centre) - q.body.centre()).norm() < q.body.innerRadius() - q.rounding.across;
+  return !q.shape.unbounded() && awayFromCentre(q, true).most < q.body.innerRadius() - q.rounding.across;
 }
 
 /// Of cores that overlap.
 Solution deepSolution(const LeastOverlap& deep) { return {deep.at, DistanceStatus::local, deep.bound}; }
 
+/// Whether GJK finds the cores to overlap, be it by rounding alone.
+bool seemToOverlap(ShapeQuery& q, const StartNormal& start) {
+  using Difference = ConvexDifference<StpBvCore, const Shape>;
+  constexpr int kSteps = 20;
+  StpBvCore core{q.body, start.patch, q.steps};
+  Difference difference(core, q.shape, q.pose);
+  const auto found = gjk<Difference::Corner>(difference, {}, start.n, q.rounding.across, kSteps,
+                                             [](double lower, double) { return lower > 0.0; });
+  return found.verdict == GjkResult<Difference::Corner>::Verdict::overlap;
+}
+
 Solution solve(ShapeQuery& q, const StartNormal& start) {
   constexpr double kNone = std::numeric_limits<double>::infinity();
-  constexpr int kTries = 16;  // one to five are usual
+  constexpr int kTries = 16;       // one to five are usual
+  constexpr double kBeyond = 1e3;  // of rounding: less may be a touch
   const bool overlap = surelyOverlap(q);
   Nearest found;
-  if (!overlap) {
-    if (walkFeatures(q, start, kTries, found) == WalkEnd::nearest)
-      return {found, DistanceStatus::exact, kNone};
-    found = nearestOnShape(q, start);
-    if (q.shape.unbounded()) return {found, DistanceStatus::exact, found.gap};
-    if (certified(q, found)) return {found, DistanceStatus::exact, kNone};
+  if (!overlap && walkFeatures(q, start, kTries, found) == WalkEnd::nearest)
+    return {found, DistanceStatus::exact, kNone};
+  if (overlap || (!q.shape.unbounded() && seemToOverlap(q, start))) {
+    if (const auto deep = overlapOfPoint(q, start)) return deepSolution(*deep);
+    if (const auto deep = overlapOfCones(q)) return deepSolution(*deep);
+    const LeastOverlap deep = leastOverlap(q, start);
+    if (overlap || deep.at.gap < -kBeyond * q.rounding.across) return deepSolution(deep);
   }
-  if (const auto deep = overlapOfPoint(q, start)) return deepSolution(*deep);
-  if (const auto deep = overlapOfCones(q)) return deepSolution(*deep);
-  if (overlap) return deepSolution(leastOverlap(q, start));
+  found = nearestOnShape(q, start);
+  if (q.shape.unbounded()) return {found, DistanceStatus::exact, found.gap};
+  if (certified(q, found)) return {found, DistanceStatus::exact, kNone};
   const LeastOverlap cuts = widestGapByCuts(q, found.apart ? StartNormal{found.n, found.patch} : start);
   if (cuts.overlap) return deepSolution(leastOverlap(q, {cuts.at.n, cuts.at.patch}));
   // Near the answer now; a feature search from here proves it to the last digit.
@@ -156,7 +170,8 @@ Solution solve(ShapeQuery& q, const StartNormal& start) {
   const double upper = cuts.solved ? std::min(cuts.bound, cuts.at.gap + q.rounding.gap) : cuts.bound;
   const bool proven = upper - cuts.at.gap <= q.rounding.gap;
   // Where the cores touch, the gap says less about the normal than its gradient does.
-  found = touchingFeature(q, cuts.at).value_or(cuts.at);
+  const std::optional<DeepFeature> touching = touchingFeature(q, cuts.at);
+  found = touching ? touching->at : cuts.at;
   return {found, proven ? DistanceStatus::exact : DistanceStatus::bounded, upper + q.rounding.across};
 }
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <optional>
 
+#include "fcl_stpbv/convex/local_maximum.h"
 #include "fcl_stpbv/convex/relative_pose.h"
 #include "fcl_stpbv/convex/shape.h"
 #include "fcl_stpbv/distance/shape_ascent.h"
@@ -170,9 +171,16 @@ struct ShapeCorners {
   }
 };
 
+/// A maximum of the gap that one feature of the shape holds.
+struct DeepFeature {
+  Nearest at;
+  std::optional<LocalMaximum> around;  ///< nothing where rounding has the points beside each other
+};
+
 /// Next to the answer of overlapping cores: its normal and points to rounding, from the shape's feature
-/// there, which for a polytope is one of `met`. Leaves `found` as it is where none holds the answer.
-void polishOverlap(ShapeQuery& q, const ShapeCorners& met, LeastOverlap& found);
+/// there, which for a polytope is one of `met`. Nothing where none holds a gap of `leastOverlap` or wider.
+std::optional<DeepFeature> deepestFeature(ShapeQuery& q, const StartNormal& start, double leastOverlap,
+                                          const ShapeCorners& met);
 
 /// The answer of overlapping cores of the volume and a segment, a triangle or a box, in closed form. Nothing
 /// for other kinds, and where no point of the shape is deep enough (volume/point_depth.h).
@@ -184,7 +192,7 @@ LeastOverlap leastOverlap(ShapeQuery& q, const StartNormal& start);
 
 /// From next to the answer of cores that touch, or all but: the answer of the feature there, as deep as
 /// `near` to rounding. Nothing where none holds one.
-std::optional<Nearest> touchingFeature(ShapeQuery& q, const Nearest& near);
+std::optional<DeepFeature> touchingFeature(ShapeQuery& q, const Nearest& near);
 
 /// The plane of a flat end: its normal is fixed, only the position is to be
 /// checked. `apart` where the core is above.

@@ -50,7 +50,7 @@ bool polyhedralStart(const BodyPair& pair, const VertexGjk& search, WidestGap& f
 /// the polytope around that proves it.
 bool overlapAround(const BodyPair& pair, WidestGap& found, SearchWork& work) {
   found.status = DistanceStatus::local;
-  const bool proven = expandPolytope(pair, found.inside, found.at, found.bound, work);
+  const bool proven = expandPolytope(pair, found.at, found.bound, work);
   if (found.at.core > 0.0) {
     found = ascendToWidest(pair, found.at, work);
     return true;
@@ -73,7 +73,7 @@ WidestGap solveOverlap(const BodyPair& pair, const Vector3d& n, const std::array
   const auto fromCorners = [&] {
     return search.surrounded && expandPolytope(pair, search.corner, x, bound, work);
   };
-  const auto fromTop = [&] { return expandPolytope(pair, pair.insideRegions(x), x, bound, work); };
+  const auto fromTop = [&] { return expandPolytope(pair, x, bound, work); };
   if (!fromTop() && !fromCorners()) leastPenetration(pair, x, work);
   if (x.core > 0.0) return ascendToWidest(pair, x, work);
   ascend(pair, x, work);

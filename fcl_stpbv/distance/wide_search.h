@@ -10,8 +10,7 @@ namespace fcl_stpbv::detail {
 struct WidestGap {
   Sample at;
   DistanceStatus status = DistanceStatus::exact;
-  double bound = 0.0;   ///< for cores that overlap: along no normal is their gap wider (m)
-  double inside = 0.0;  ///< of a maximum: how far its normal is inside the regions of its patches (a sine)
+  double bound = 0.0;  ///< for cores that overlap: along no normal is their gap wider (m)
 };
 
 /// Where a search starts.

@@ -1,0 +1,91 @@
+// How far around a maximum of the gap between overlapping cores no normal has a wider one.
+//
+// The maximum has the normal n, the depth D, and D n for the difference's point furthest along n. Next to
+// that point the difference holds arcs, segments and caps of balls. Along a normal at the angle t from n:
+// 1. The point alone is D cos(t) from the origin, less than D by D (1 - cos(t)).
+// 2. An arc of radius k through it, seen at the sine x along the arc, is further out than the point by
+//    k x^2 / 2 at least, or by half the way to its end times x where it ends before that. A segment is so by
+//    its length to the end times x.
+// 3. Where the sum of these is at least what the point alone lacks, the cores overlap by D or more.
+// For all normals within an angle that is a test of one quadratic form across n (docs/theory.md, 5, "Next to
+// a maximum").
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace fcl_stpbv::detail {
+
+/// A maximum of the gap, and what the difference of the cores holds around its point there.
+class LocalMaximum {
+ public:
+  static constexpr double kEndless = std::numeric_limits<double>::infinity();
+
+  /// None: nothing is known around it.
+  LocalMaximum() = default;
+  /// `n`: unit, along which the cores overlap by `depth` (m).
+  LocalMaximum(const Eigen::Vector3d& n, double depth) : n_(n), depth_(depth) {}
+
+  double depth() const { return depth_; }
+
+  /// An arc through the point along the unit vector `d`, which is across the normal: its radius, and the
+  /// radius times the sine of the angle to its nearer end (m). Up to five of all kinds.
+  void addArc(const Eigen::Vector3d& d, double radius, double reach) {
+    if (!(std::abs(d.dot(n_)) < kAcross)) return;
+    if (isFirstArc_) e_ = d, f_ = n_.cross(d), isFirstArc_ = false;
+    const double x = d.dot(e_), y = d.dot(f_);
+    add({x * x, x * y, y * y, radius, reach});
+  }
+  /// A segment, `length` from the point to its nearer end (m).
+  void addSegment(const Eigen::Vector3d& d, double length) { addArc(d, kEndless, 2.0 * length); }
+  /// A cap of a ball, which is an arc all around; one without a radius is a disc.
+  void addCap(double radius, double reach) { add({1.0, 0.0, 1.0, radius, reach}); }
+  void addDisc(double length) { addCap(kEndless, 2.0 * length); }
+
+  /// Whether along no normal within an angle from `n` do the cores overlap by less.
+  bool holdsWithin(double sine, double cosine) const {
+    if (!(cosine > kLeast)) return false;
+    double a = 0.0, b = 0.0, c = 0.0;  // [a b; b c]: the sum of radii, times the sine, as a form across n
+    for (int i = 0; i < count_; ++i) {
+      const Part& p = part_[static_cast<std::size_t>(i)];
+      const double radius = std::min(p.radius * sine, p.reach);
+      a += radius * p.xx, b += radius * p.xy, c += radius * p.yy;
+    }
+    const double needed = kSafe * 2.0 * depth_ / (1.0 + cosine) * sine;
+    return a > needed && (a - needed) * (c - needed) >= b * b;
+  }
+
+  /// Whether none of the difference's points that are beyond a plane, at `distance` from the origin (m) with
+  /// the unit outward normal `m`, ends a shorter way out than this maximum's.
+  bool holdsBeyond(const Eigen::Vector3d& m, double distance) const {
+    const double c1 = -n_.dot(m), c2 = distance / depth_;
+    if (!(c1 > kLeast && c2 > kLeast)) return false;
+    const double s1 = n_.cross(m).norm(), s2 = std::sqrt(std::max(0.0, (1.0 - c2) * (1.0 + c2)));
+    return holdsWithin(s1 * c2 + c1 * s2, c1 * c2 - s1 * s2);
+  }
+
+ private:
+  struct Part {
+    double xx, xy, yy;     // products of its direction's coordinates
+    double radius, reach;  // m
+  };
+  static constexpr double kLeast = 0.7;    // of a cosine: normals further off are left to other proofs
+  static constexpr double kSafe = 1.001;   // covers that the point is D n to rounding only
+  static constexpr double kAcross = 1e-9;  // of a cosine: else rounding has made the direction
+
+  void add(const Part& p) {
+    if (p.reach > 0.0) part_[static_cast<std::size_t>(count_++)] = p;
+  }
+
+  Eigen::Vector3d n_{0, 0, 1}, e_{0, 0, 0}, f_{0, 0, 0};  // the first arc's direction, and across it and n
+  double depth_ = 0;
+  std::array<Part, 5> part_;
+  int count_ = 0;
+  bool isFirstArc_ = true;
+};
+
+}  // namespace fcl_stpbv::detail

@@ -1,0 +1,277 @@
+// The features of a simple shape that the least overlap with an STP-BV may be on.
+//
+// 1. From next to the answer Newton's method on one feature gives the normal and both points to rounding; of
+//    a flat face the normal is given. The flatter features come first.
+// 2. What it gives is taken if it is the whole shape's answer: on the shape, with nothing of the shape
+//    nearer, and no deeper than what is known.
+// 3. The feature, and the volume's patch there, tell how far around no normal has a wider gap
+//    (convex/local_maximum.h).
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "fcl_stpbv/convex/local_maximum.h"
+#include "fcl_stpbv/convex/onto_core.h"
+#include "fcl_stpbv/convex/shape_curvature.h"
+#include "fcl_stpbv/distance/patch_pair.h"
+#include "fcl_stpbv/distance/shape_query.h"
+#include "fcl_stpbv/volume/patch_view.h"
+
+namespace fcl_stpbv::detail {
+
+using Eigen::Vector3d;
+
+namespace {
+
+/// Newton's method along one feature, from next to the least overlap. Nothing if it does not converge.
+template <typename Feature>
+std::optional<Nearest> deepestOn(ShapeQuery& q, const Feature& feature, const StartNormal& start) {
+  constexpr int kSteps = 20, kHalvings = 12;  // the start is good to some digits
+  const Vector3d* t = feature.direction();
+  const Vector3d n = t ? acrossLine(start.n, *t) : start.n;
+  AscentPoint x = ascentPoint(q.body, feature, n, start.patch, q.steps);
+  const auto rounded = [&] { return q.rounding.across + feature.wobble(x.view.n); };
+  for (int i = 0; i < kSteps && x.across.norm() > 0.25 * rounded(); ++i) {
+    Vector3d to = newtonTarget(q.body, x, feature.direction());
+    bool flatter = false;  // a step over a region boundary may be too long
+    for (int k = 0; k < kHalvings && !flatter; ++k, to = (to + x.view.n).normalized()) {
+      ++q.pairs;
+      const AscentPoint y = ascentPoint(q.body, feature, to, x.view.patch, q.steps);
+      flatter = y.across.norm() < x.across.norm();
+      if (flatter) x = y;
+    }
+    if (!flatter) break;
+  }
+  if (!(x.across.norm() <= rounded())) return {};
+  return nearestFrom(x, feature);
+}
+
+/// Whether `found` is the whole shape's answer. `met` are corners of the shape that it may be between.
+bool isDeepest(const ShapeQuery& q, const Nearest& found, double leastOverlap, const ShapeCorners& met) {
+  if (!(found.gap >= leastOverlap - q.rounding.gap)) return false;
+  if (found.n.dot(found.y - q.facing(found.n)) > q.rounding.gap) return false;
+  if (met.count > 0 && (ontoTriangle(met.three(), found.y) - found.y).norm() <= 2.0 * q.rounding.gap)
+    return true;
+  if (q.shape.kind == ShapeKind::ellipsoid) return besideEllipsoid(q, found.y) <= 2.0 * q.rounding.gap;
+  const Vector3d own = q.pose.inSecond(found.y);
+  return (ontoCore(q.shape, own) - own).norm() <= 2.0 * q.rounding.gap;
+}
+
+/// The features that the least overlap may be on.
+class DeepFeatures {
+ public:
+  /// `met` are corners of the shape that EPA's answer is of.
+  DeepFeatures(ShapeQuery& q, const StartNormal& start, double leastOverlap, const ShapeCorners& met)
+      : q_(q), start_(start), least_(leastOverlap), met_(met) {}
+
+  /// The first that holds the answer.
+  std::optional<DeepFeature> search() {
+    const Vector3d axis = q_.rotation.col(2), top = q_.translation + q_.shape.half * axis,
+                   bottom = q_.translation - q_.shape.half * axis;
+    const bool up = start_.n.dot(axis) < 0.0;  // the end that faces the volume
+    switch (q_.shape.kind) {
+      case ShapeKind::point:
+        point(q_.translation);
+        break;
+      case ShapeKind::segment:
+        line(q_.translation, axis, -q_.shape.half, q_.shape.half);
+        point(up ? top : bottom);
+        break;
+      case ShapeKind::box:
+      case ShapeKind::triangle:
+      case ShapeKind::polytope:
+        corners();
+        break;
+      case ShapeKind::cylinder:
+        disc(up ? top : bottom, axis);
+        side(axis);
+        rim(up ? top : bottom, axis);
+        break;
+      case ShapeKind::cone:
+        disc(bottom, axis);
+        generator(top, axis);
+        point(top);
+        rim(bottom, axis);
+        break;
+      case ShapeKind::ellipsoid:
+        ellipsoid();
+        break;
+      case ShapeKind::halfspace:
+      case ShapeKind::plane:
+        break;
+    }
+    return found_;
+  }
+
+  /// The same of a polytope whose cores only touch: its face, edge or corner along the start's normal.
+  std::optional<DeepFeature> searchAlongNormal() {
+    for (const double angle : {1e-6, 1e-9}) {  // rad, by which the gap's rounding may turn the normal
+      NormalCone cone;
+      const Vector3d p = q_.facing(start_.n);
+      if (!normalCone(q_.shape, q_.pose.opposite(start_.n), p, 2.0 * angle * q_.shape.reach, cone)) continue;
+      const auto turned = [&](const Vector3d& v) { return Vector3d(q_.rotation * v); };
+      const auto unknown = [](const Nearest&) { return 0.0; };
+      if (cone.count == 0) plane(p, turned(cone.normal), unknown);
+      if (cone.count == 1) line(p, turned(cone.normal.cross(cone.way[0])), 0.0, 0.0);
+      if (cone.count == 2) point(p);
+    }
+    return found_;
+  }
+
+ private:
+  /// `around` adds what the shape holds next to the point.
+  template <typename Search, typename Around>
+  void take(const Search& search, const Around& around) {
+    if (found_) return;
+    const std::optional<Nearest> next = search();
+    if (!next || !isDeepest(q_, *next, least_, met_)) return;
+    found_.emplace(DeepFeature{*next, {}});
+    const SupportPoint view = viewVolume(q_.body, next->n, next->patch, q_.steps);
+    if (!((view.point + next->gap * next->n - next->y).norm() <= 4.0 * q_.rounding.across)) return;
+    LocalMaximum& local = found_->around.emplace(next->n, -next->gap);
+    const auto inside = [&] { return -q_.body.outside(view.patch, next->n); };
+    addPatch(posedPatch(q_.body, view.patch), next->n, inside, local);
+    around(*next, local);
+  }
+  void point(const Vector3d& p) {
+    take([&] { return deepestOn(q_, PointFeature{p}, start_); }, [](const Nearest&, LocalMaximum&) {});
+  }
+  /// From `p` on along the unit vector `t` by between two lengths.
+  void line(const Vector3d& p, const Vector3d& t, double from, double to) {
+    take(
+        [&] {
+          return deepestOn(q_, LineFeature{p, t}, start_);
+        },
+        [&](const Nearest& at, LocalMaximum& local) {
+          const double along = t.dot(at.y - p);
+          local.addSegment(t, std::min(along - from, to - along));
+        });
+  }
+  void rim(const Vector3d& middle, const Vector3d& axis) {
+    take(
+        [&] {
+          return deepestOn(q_, RimFeature{middle, axis, q_.shape.radius}, start_);
+        },
+        [&](const Nearest& at, LocalMaximum& local) {
+          local.addArc(axis.cross(at.n).normalized(), q_.shape.radius, LocalMaximum::kEndless);
+        });
+  }
+  /// A flat face: its normal is given, either way. `inside` tells how far a point is from its boundary.
+  template <typename Inside>
+  void plane(const Vector3d& p, const Vector3d& n, const Inside& inside) {
+    const Vector3d along = n.dot(start_.n) < 0.0 ? Vector3d(-n) : n;
+    take([&] { return std::optional(nearestOnPlane(q_, p, along, start_.patch)); },
+         [&](const Nearest& at, LocalMaximum& local) { local.addDisc(inside(at)); });
+  }
+  void disc(const Vector3d& middle, const Vector3d& axis) {
+    plane(middle, axis, [&](const Nearest& at) { return q_.shape.radius - (at.y - middle).norm(); });
+  }
+  /// A cylinder's: its axis with the radius around it.
+  void side(const Vector3d& axis) {
+    take(
+        [&] {
+          std::optional<Nearest> found = deepestOn(q_, LineFeature{q_.translation, axis}, start_);
+          if (!found) return found;
+          found->gap -= q_.shape.radius;
+          found->y -= q_.shape.radius * found->n;
+          return found;
+        },
+        [&](const Nearest& at, LocalMaximum& local) {
+          local.addSegment(axis, q_.shape.half - std::abs(axis.dot(at.y - q_.translation)));
+          local.addArc(axis.cross(at.n).normalized(), q_.shape.radius, LocalMaximum::kEndless);
+        });
+  }
+  /// A cone's: half of what the generator gives, and of the circle through the point, is no more than both
+  /// do.
+  void generator(const Vector3d& apex, const Vector3d& axis) {
+    take([&] { return std::optional(nearestOnGenerator(q_, start_)); },
+         [&](const Nearest& at, LocalMaximum& local) {
+           const Vector3d from = at.y - apex;
+           const double far = from.norm(), slant = std::hypot(q_.shape.radius, 2.0 * q_.shape.half);
+           if (!(far > 0.0)) return;
+           local.addSegment(from / far, 0.5 * std::min(far, slant - far));
+           local.addArc(axis.cross(at.n).normalized(), 0.5 * q_.shape.radius * far / slant,
+                        LocalMaximum::kEndless);
+         });
+  }
+  void ellipsoid() {
+    const PosedEllipsoid e(q_);
+    if (e.isSegment) {
+      const Vector3d axis = e.whole.axes.col(e.longest);
+      const double half = q_.shape.size[e.longest];
+      line(q_.translation, q_.rotation.col(e.longest), -half, half);
+      point(q_.translation + (start_.n.dot(axis) < 0.0 ? axis : Vector3d(-axis)));
+      return;
+    }
+    if (e.isDisc) plane(q_.translation, q_.rotation.col(e.shortest), [](const Nearest&) { return 0.0; });
+    take(
+        [&]() -> std::optional<Nearest> {
+          std::optional<Nearest> found = deepestOn(q_, e.whole, start_);
+          if (!found || !(e.whole.wobble(found->n) > q_.rounding.across)) return found;
+          placeOppositeOnEllipsoid(q_, *found);
+          const Vector3d opposite =
+              viewVolume(q_.body, found->n, found->patch, q_.steps).point + found->gap * found->n;
+          if ((found->y - opposite).norm() > 4.0 * q_.rounding.across) return {};
+          return found;
+        },
+        [&](const Nearest& at, LocalMaximum& local) {
+          const Vector3d& half = q_.shape.size;
+          const double most = half.maxCoeff(),
+                       across = (q_.rotation.transpose() * at.n).cwiseProduct(half).norm();
+          for (int i = 0; i < 3; ++i) {
+            const double both = half[(i + 1) % 3] * half[(i + 2) % 3] / across;
+            const Vector3d d = q_.rotation.col(i).cross(at.n);
+            local.addArc(d.normalized(), both * both * d.squaredNorm() / most, LocalMaximum::kEndless);
+          }
+        });
+  }
+  /// Of up to three corners: the face, the edges, the corners alone.
+  void corners() {
+    const std::array<Vector3d, 3>& p = met_.p;
+    if (met_.count == 3) {
+      const Vector3d n = (p[1] - p[0]).cross(p[2] - p[0]);
+      const auto inside = [&](const Nearest& at) {
+        double least = std::numeric_limits<double>::infinity();
+        for (std::size_t i = 0; i < 3; ++i) {
+          const Vector3d side = p[(i + 1) % 3] - p[i];
+          least = std::min(least, n.dot(side.cross(at.y - p[i])) / (n.norm() * side.norm()));
+        }
+        return least;
+      };
+      if (n.norm() > 0.0) plane(p[0], n.normalized(), inside);
+    }
+    const auto count = static_cast<std::size_t>(met_.count);
+    for (std::size_t i = 0; i < count; ++i)
+      for (std::size_t k = 0; k < i; ++k) {
+        const Vector3d side = p[k] - p[i];
+        line(p[i], side.normalized(), 0.0, side.norm());
+      }
+    for (std::size_t i = 0; i < count; ++i) point(p[i]);
+  }
+
+  ShapeQuery& q_;
+  StartNormal start_;
+  double least_;
+  const ShapeCorners& met_;
+  std::optional<DeepFeature> found_;
+};
+
+}  // namespace
+
+std::optional<DeepFeature> deepestFeature(ShapeQuery& q, const StartNormal& start, double leastOverlap,
+                                          const ShapeCorners& met) {
+  return DeepFeatures(q, start, leastOverlap, met).search();
+}
+
+std::optional<DeepFeature> touchingFeature(ShapeQuery& q, const Nearest& near) {
+  const ShapeCorners none;
+  DeepFeatures features(q, {near.n, near.patch}, near.gap, none);
+  const ShapeKind kind = q.shape.kind;
+  if (kind == ShapeKind::box || kind == ShapeKind::triangle || kind == ShapeKind::polytope)
+    return features.searchAlongNormal();
+  return features.search();
+}
+
+}  // namespace fcl_stpbv::detail
