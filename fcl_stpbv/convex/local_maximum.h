@@ -32,8 +32,8 @@ class LocalMaximum {
 
   double depth() const { return depth_; }
 
-  /// An arc through the point along the unit vector `d`, which is across the normal: its radius, and the
-  /// radius times the sine of the angle to its nearer end (m). Up to five of all kinds.
+  /// An arc through the point along the unit vector `d`, which is across the normal, else it is left out: its
+  /// radius, and the radius times the sine of the angle to its nearer end (m).
   void addArc(const Eigen::Vector3d& d, double radius, double reach) {
     if (!(std::abs(d.dot(n_)) < kAcross)) return;
     if (isFirstArc_) e_ = d, f_ = n_.cross(d), isFirstArc_ = false;
@@ -41,7 +41,9 @@ class LocalMaximum {
     add({x * x, x * y, y * y, radius, reach});
   }
   /// A segment, `length` from the point to its nearer end (m).
-  void addSegment(const Eigen::Vector3d& d, double length) { addArc(d, kEndless, 2.0 * length); }
+  void addSegment(const Eigen::Vector3d& d, double length) {
+    if (std::abs(d.dot(n_)) < kExactlyAcross) addArc(d, kEndless, 2.0 * length);
+  }
   /// A cap of a ball, which is an arc all around; one without a radius is a disc.
   void addCap(double radius, double reach) { add({1.0, 0.0, 1.0, radius, reach}); }
   void addDisc(double length) { addCap(kEndless, 2.0 * length); }
@@ -73,17 +75,19 @@ class LocalMaximum {
     double xx, xy, yy;     // products of its direction's coordinates
     double radius, reach;  // m
   };
+  static constexpr int kMost = 6;          // of two bodies; what is more is left out
   static constexpr double kLeast = 0.7;    // of a cosine: normals further off are left to other proofs
   static constexpr double kSafe = 1.001;   // covers that the point is D n to rounding only
   static constexpr double kAcross = 1e-9;  // of a cosine: else rounding has made the direction
+  static constexpr double kExactlyAcross = 4e-15;  // a segment that leans is further out on one side only
 
   void add(const Part& p) {
-    if (p.reach > 0.0) part_[static_cast<std::size_t>(count_++)] = p;
+    if (p.reach > 0.0 && count_ < kMost) part_[static_cast<std::size_t>(count_++)] = p;
   }
 
   Eigen::Vector3d n_{0, 0, 1}, e_{0, 0, 0}, f_{0, 0, 0};  // the first arc's direction, and across it and n
   double depth_ = 0;
-  std::array<Part, 5> part_;
+  std::array<Part, kMost> part_;
   int count_ = 0;
   bool isFirstArc_ = true;
 };

@@ -14,6 +14,7 @@
 
 #include "fcl_stpbv/convex/local_maximum.h"
 #include "fcl_stpbv/convex/onto_core.h"
+#include "fcl_stpbv/convex/shape_around.h"
 #include "fcl_stpbv/convex/shape_curvature.h"
 #include "fcl_stpbv/distance/patch_pair.h"
 #include "fcl_stpbv/distance/shape_query.h"
@@ -76,7 +77,7 @@ class DeepFeatures {
         point(q_.translation);
         break;
       case ShapeKind::segment:
-        line(q_.translation, axis, -q_.shape.half, q_.shape.half);
+        line(q_.translation, axis);
         point(up ? top : bottom);
         break;
       case ShapeKind::box:
@@ -85,13 +86,13 @@ class DeepFeatures {
         corners();
         break;
       case ShapeKind::cylinder:
-        disc(up ? top : bottom, axis);
+        plane(up ? top : bottom, axis);
         side(axis);
         rim(up ? top : bottom, axis);
         break;
       case ShapeKind::cone:
-        disc(bottom, axis);
-        generator(top, axis);
+        plane(bottom, axis);
+        generator();
         point(top);
         rim(bottom, axis);
         break;
@@ -112,16 +113,15 @@ class DeepFeatures {
       const Vector3d p = q_.facing(start_.n);
       if (!normalCone(q_.shape, q_.pose.opposite(start_.n), p, 2.0 * angle * q_.shape.reach, cone)) continue;
       const auto turned = [&](const Vector3d& v) { return Vector3d(q_.rotation * v); };
-      const auto unknown = [](const Nearest&) { return 0.0; };
-      if (cone.count == 0) plane(p, turned(cone.normal), unknown);
-      if (cone.count == 1) line(p, turned(cone.normal.cross(cone.way[0])), 0.0, 0.0);
+      if (cone.count == 0) plane(p, turned(cone.normal));
+      if (cone.count == 1) line(p, turned(cone.normal.cross(cone.way[0])));
       if (cone.count == 2) point(p);
     }
     return found_;
   }
 
  private:
-  /// `around` adds what the shape holds next to the point.
+  /// `around` adds what the corners met hold around the point, of a shape without names for its features.
   template <typename Search, typename Around>
   void take(const Search& search, const Around& around) {
     if (found_) return;
@@ -133,110 +133,85 @@ class DeepFeatures {
     LocalMaximum& local = found_->around.emplace(next->n, -next->gap);
     const auto inside = [&] { return -q_.body.outside(view.patch, next->n); };
     addPatch(posedPatch(q_.body, view.patch), next->n, inside, local);
-    around(*next, local);
+    if (hasAround(q_.shape))
+      addShape(q_.shape, q_.pose.inSecond(next->y), q_.pose.opposite(next->n), q_.rotation, local);
+    else
+      around(*next, local);
+  }
+  template <typename Search>
+  void take(const Search& search) {
+    take(search, [](const Nearest&, LocalMaximum&) {});
   }
   void point(const Vector3d& p) {
-    take([&] { return deepestOn(q_, PointFeature{p}, start_); }, [](const Nearest&, LocalMaximum&) {});
+    take([&] { return deepestOn(q_, PointFeature{p}, start_); });
   }
-  /// From `p` on along the unit vector `t` by between two lengths.
-  void line(const Vector3d& p, const Vector3d& t, double from, double to) {
+  /// A line of the shape's, between two of its corners if it has no names.
+  void line(const Vector3d& p, const Vector3d& t, double length = 0.0) {
     take(
         [&] {
           return deepestOn(q_, LineFeature{p, t}, start_);
         },
         [&](const Nearest& at, LocalMaximum& local) {
           const double along = t.dot(at.y - p);
-          local.addSegment(t, std::min(along - from, to - along));
+          local.addSegment(t, std::min(along, length - along));
         });
   }
   void rim(const Vector3d& middle, const Vector3d& axis) {
-    take(
-        [&] {
-          return deepestOn(q_, RimFeature{middle, axis, q_.shape.radius}, start_);
-        },
-        [&](const Nearest& at, LocalMaximum& local) {
-          local.addArc(axis.cross(at.n).normalized(), q_.shape.radius, LocalMaximum::kEndless);
-        });
+    take([&] { return deepestOn(q_, RimFeature{middle, axis, q_.shape.radius}, start_); });
   }
-  /// A flat face: its normal is given, either way. `inside` tells how far a point is from its boundary.
+  /// A flat face: its normal is given, either way. `inside` tells how far a point is from the boundary of
+  /// what is known of it.
   template <typename Inside>
   void plane(const Vector3d& p, const Vector3d& n, const Inside& inside) {
     const Vector3d along = n.dot(start_.n) < 0.0 ? Vector3d(-n) : n;
     take([&] { return std::optional(nearestOnPlane(q_, p, along, start_.patch)); },
-         [&](const Nearest& at, LocalMaximum& local) { local.addDisc(inside(at)); });
+         [&](const Nearest& at, LocalMaximum& local) { local.addDisc(inside(at.y)); });
   }
-  void disc(const Vector3d& middle, const Vector3d& axis) {
-    plane(middle, axis, [&](const Nearest& at) { return q_.shape.radius - (at.y - middle).norm(); });
+  void plane(const Vector3d& p, const Vector3d& n) {
+    plane(p, n, [](const Vector3d&) { return 0.0; });
   }
   /// A cylinder's: its axis with the radius around it.
   void side(const Vector3d& axis) {
-    take(
-        [&] {
-          std::optional<Nearest> found = deepestOn(q_, LineFeature{q_.translation, axis}, start_);
-          if (!found) return found;
-          found->gap -= q_.shape.radius;
-          found->y -= q_.shape.radius * found->n;
-          return found;
-        },
-        [&](const Nearest& at, LocalMaximum& local) {
-          local.addSegment(axis, q_.shape.half - std::abs(axis.dot(at.y - q_.translation)));
-          local.addArc(axis.cross(at.n).normalized(), q_.shape.radius, LocalMaximum::kEndless);
-        });
+    take([&] {
+      std::optional<Nearest> found = deepestOn(q_, LineFeature{q_.translation, axis}, start_);
+      if (!found) return found;
+      found->gap -= q_.shape.radius;
+      found->y -= q_.shape.radius * found->n;
+      return found;
+    });
   }
-  /// A cone's: half of what the generator gives, and of the circle through the point, is no more than both
-  /// do.
-  void generator(const Vector3d& apex, const Vector3d& axis) {
-    take([&] { return std::optional(nearestOnGenerator(q_, start_)); },
-         [&](const Nearest& at, LocalMaximum& local) {
-           const Vector3d from = at.y - apex;
-           const double far = from.norm(), slant = std::hypot(q_.shape.radius, 2.0 * q_.shape.half);
-           if (!(far > 0.0)) return;
-           local.addSegment(from / far, 0.5 * std::min(far, slant - far));
-           local.addArc(axis.cross(at.n).normalized(), 0.5 * q_.shape.radius * far / slant,
-                        LocalMaximum::kEndless);
-         });
+  void generator() {
+    take([&] { return std::optional(nearestOnGenerator(q_, start_)); });
   }
   void ellipsoid() {
     const PosedEllipsoid e(q_);
     if (e.isSegment) {
       const Vector3d axis = e.whole.axes.col(e.longest);
-      const double half = q_.shape.size[e.longest];
-      line(q_.translation, q_.rotation.col(e.longest), -half, half);
+      line(q_.translation, q_.rotation.col(e.longest));
       point(q_.translation + (start_.n.dot(axis) < 0.0 ? axis : Vector3d(-axis)));
       return;
     }
-    if (e.isDisc) plane(q_.translation, q_.rotation.col(e.shortest), [](const Nearest&) { return 0.0; });
-    take(
-        [&]() -> std::optional<Nearest> {
-          std::optional<Nearest> found = deepestOn(q_, e.whole, start_);
-          if (!found || !(e.whole.wobble(found->n) > q_.rounding.across)) return found;
-          placeOppositeOnEllipsoid(q_, *found);
-          const Vector3d opposite =
-              viewVolume(q_.body, found->n, found->patch, q_.steps).point + found->gap * found->n;
-          if ((found->y - opposite).norm() > 4.0 * q_.rounding.across) return {};
-          return found;
-        },
-        [&](const Nearest& at, LocalMaximum& local) {
-          const Vector3d& half = q_.shape.size;
-          const double most = half.maxCoeff(),
-                       across = (q_.rotation.transpose() * at.n).cwiseProduct(half).norm();
-          for (int i = 0; i < 3; ++i) {
-            const double both = half[(i + 1) % 3] * half[(i + 2) % 3] / across;
-            const Vector3d d = q_.rotation.col(i).cross(at.n);
-            local.addArc(d.normalized(), both * both * d.squaredNorm() / most, LocalMaximum::kEndless);
-          }
-        });
+    if (e.isDisc) plane(q_.translation, q_.rotation.col(e.shortest));
+    take([&]() -> std::optional<Nearest> {
+      std::optional<Nearest> found = deepestOn(q_, e.whole, start_);
+      if (!found || !(e.whole.wobble(found->n) > q_.rounding.across)) return found;
+      placeOppositeOnEllipsoid(q_, *found);
+      const Vector3d opposite =
+          viewVolume(q_.body, found->n, found->patch, q_.steps).point + found->gap * found->n;
+      if ((found->y - opposite).norm() > 4.0 * q_.rounding.across) return {};
+      return found;
+    });
   }
   /// Of up to three corners: the face, the edges, the corners alone.
   void corners() {
     const std::array<Vector3d, 3>& p = met_.p;
     if (met_.count == 3) {
       const Vector3d n = (p[1] - p[0]).cross(p[2] - p[0]);
-      const auto inside = [&](const Nearest& at) {
+      const auto inside = [&](const Vector3d& y) {
         double least = std::numeric_limits<double>::infinity();
         for (std::size_t i = 0; i < 3; ++i) {
           const Vector3d side = p[(i + 1) % 3] - p[i];
-          least = std::min(least, n.dot(side.cross(at.y - p[i])) / (n.norm() * side.norm()));
+          least = std::min(least, n.dot(side.cross(y - p[i])) / (n.norm() * side.norm()));
         }
         return least;
       };
@@ -246,7 +221,7 @@ class DeepFeatures {
     for (std::size_t i = 0; i < count; ++i)
       for (std::size_t k = 0; k < i; ++k) {
         const Vector3d side = p[k] - p[i];
-        line(p[i], side.normalized(), 0.0, side.norm());
+        line(p[i], side.normalized(), side.norm());
       }
     for (std::size_t i = 0; i < count; ++i) point(p[i]);
   }

@@ -1,20 +1,23 @@
 // How deep two simple shapes are in each other.
 //
 // 1. Bodies of revolution on parallel axes are as deep towards all generators as towards one, more than EPA
-// has
-//    room for; a polygon in the plane of their axes tells their depth.
-// 2. EPA (convex/epa.h) on the difference of the cores.
+//    has room for; a polygon in the plane of their axes tells their depth.
+// 2. EPA (convex/epa.h) on the difference of the cores. Once it is near, Newton's method on the features
+//    there (shape_newton.h) gives the maximum to rounding, and of shapes whose features are known what they
+//    hold around it puts EPA's faces there aside.
 // 3. Points of both bodies opposite each other: the answer's, those where cores cross without a volume in
 //    common, those of the features around, and of faces side by side.
-// 4. Newton's method on the features there gives the last digits of normal and points (shape_newton.h).
+// 4. Newton's method gives the last digits of normal and points where that was not done yet.
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "fcl_stpbv/convex/epa.h"
 #include "fcl_stpbv/convex/meridian.h"
 #include "fcl_stpbv/convex/onto_core.h"
+#include "fcl_stpbv/convex/shape_around.h"
 #include "fcl_stpbv/distance/shape_newton.h"
 #include "fcl_stpbv/distance/shape_pair.h"
 
@@ -74,6 +77,17 @@ void offerToAndFro(const Pair& p, DepthSearch& epa) {
   }
 }
 
+/// Whether what the cores hold around a maximum is worth the search for it: round ones take EPA many steps.
+bool isCoveredAround(const Pair& p) { return p.curved() && hasAround(p.a) && hasAround(p.b); }
+
+/// What both cores hold around two points opposite each other.
+LocalMaximum around(const Pair& p, const OppositePoints& at) {
+  LocalMaximum local(at.n, -at.gap);
+  addShape(p.a, at.onA, at.n, Eigen::Matrix3d::Identity(), local);
+  addShape(p.b, p.pose.inSecond(at.onA + at.toB), p.pose.opposite(at.n), p.pose.rotation.matrix(), local);
+  return local;
+}
+
 }  // namespace
 
 Distance overlapping(const Pair& p, const Pair::Gjk& found) {
@@ -91,24 +105,39 @@ Distance overlapping(const Pair& p, const Pair::Gjk& found) {
     if (inner.depth > 0.0) epa.bound = std::min(epa.bound, -inner.depth);
     if (inner.found) epa.offer(inner.onA, inner.toB);
   }
-  epa.run();
+  std::optional<OppositePoints> top;
+  const auto opposite = [&](double angle) {
+    return nearestOnFeatures(p.a, p.b, p.pose, epa.n, epa.gap, epa.onA, angle, p.rounding);
+  };
+  // As far as the normal may be off where the difference curves by much more than the depth, or by any
+  // angle.
+  const auto likelyOff = [&] {
+    const double open = std::max(epa.bound - epa.gap, p.rounding);
+    return 4.0 * std::sqrt(open / std::max(-epa.gap, p.rounding));
+  };
+  const auto maximum = [&](DepthSearch&) -> std::optional<LocalMaximum> {
+    top = opposite(std::min(likelyOff(), Pair::kWidest));
+    if (!top) return {};
+    epa.n = top->n, epa.gap = top->gap;
+    epa.offer(top->onA, top->toB);
+    return around(p, *top);
+  };
+  if (isCoveredAround(p))
+    epa.run(maximum);
+  else
+    epa.run();
   epa.offer(onA, toB);  // the answer's where cores cross without a volume in common, as two segments do
   if (epa.off() > p.rounding) offerAround(p, epa);
   if (epa.off() > p.rounding) offerToAndFro(p, epa);
-  if (p.curved() || epa.off() > p.rounding || !(epa.bound - epa.gap <= p.rounding)) {
-    // As far as the normal may be off where the difference curves by much more than the depth, or by any
-    // angle.
-    const double open = std::max(epa.bound - epa.gap, p.rounding),
-                 likely = 4.0 * std::sqrt(open / std::max(-epa.gap, p.rounding));
-    const auto within = [&](double angle) {
-      return nearestOnFeatures(p.a, p.b, p.pose, epa.n, epa.gap, epa.onA, angle, p.rounding);
-    };
-    auto deepest = within(std::min(likely, Pair::kWidest));
-    if (!deepest && likely < Pair::kWidest) deepest = within(Pair::kWidest);
-    if (deepest) {
-      epa.n = deepest->n;
-      epa.gap = deepest->gap;
-      epa.onA = deepest->onA;
+  const bool done = top && top->gap == epa.gap;
+  if (!done && (p.curved() || epa.off() > p.rounding || !(epa.bound - epa.gap <= p.rounding))) {
+    const double likely = likelyOff();
+    top = opposite(std::min(likely, Pair::kWidest));
+    if (!top && likely < Pair::kWidest) top = opposite(Pair::kWidest);
+    if (top) {
+      epa.n = top->n;
+      epa.gap = top->gap;
+      epa.onA = top->onA;
     }
   }
   Distance result = p.inWorld(epa.n, epa.onA, epa.gap * epa.n);

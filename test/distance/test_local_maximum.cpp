@@ -143,7 +143,7 @@ TEST_CASE("An STP-BV and a simple shape deep in each other take few steps, and t
     double bounded;  // share of answers whose bounds differ by more than rounding
   };
   const std::vector<Bound> bounds{{"cylinder", Shape::cylinderOf(0.1, 0.4), 54, 0.01},
-                                  {"cone", Shape::coneOf(0.1, 0.4), 54, 0.01},
+                                  {"cone", Shape::coneOf(0.1, 0.4), 28, 0.01},
                                   {"ellipsoid", Shape::ellipsoidOf({0.1, 0.15, 0.2}), 64, 0.15}};
   Random some(13);
   for (const Cloud& cloud : {geodesicSphere(0.2, 2), box(0.2, 0.3, 0.4)}) {
