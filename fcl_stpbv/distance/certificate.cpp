@@ -170,10 +170,11 @@ WidestProof proveWidest(const BodyPair& pair, const Sample& top) {
   const FourVectors normal = cross(sides.to - sides.from, four(summit) - sides.from);
   const Packed height = dot(normal, sides.from), far2 = height * height / dot(normal, normal);
   if (!all(height > 0.0)) return proof;
+  constexpr double kLevel = 1.0 - 1e-14;  // rounding of the quotient
   // A plane through the maximum's point is tilted by the angle whose cosine is its distance over the depth,
   // and what is beyond it by no more than twice that.
   const double nearest2 = std::min(std::min(far2[0], far2[1]), std::min(far2[2], far2[3])),
-               c2 = std::min(nearest2 / (top.core * top.core), 1.0);
+               c2 = std::min(nearest2 / (top.core * top.core), kLevel);
   if (!proof.around.holdsWithin(2.0 * std::sqrt(c2 * (1.0 - c2)), 2.0 * c2 - 1.0)) return proof;
   const double innerRadius = pair.a().innerRadius() + pair.b().innerRadius();
   if (!closesOver(pair.centreDifference(), innerRadius, sides, n, depth) &&
