@@ -34,6 +34,14 @@ void expandAtNearest(AnyPolytope& polytope, Visit&& visit) {
   }
 }
 
+/// Normals to begin a polytope with, of any length: three tilted from the unit vector `n`, a third of a turn
+/// apart, and the opposite one.
+inline std::array<Eigen::Vector3d, 4> normalsAround(const Eigen::Vector3d& n) {
+  constexpr double kRing = 0.8;  // the tilt's tangent
+  const Eigen::Vector3d e = n.unitOrthogonal(), f = std::sqrt(0.75) * n.cross(e);
+  return {n - kRing * e, n - kRing * (f - 0.5 * e), n + kRing * (f + 0.5 * e), -n};
+}
+
 /// Four points of a convex set that span a volume. `furthest(m)` is the set's furthest along the unit vector
 /// `m`, and `place(point)` where that is (m). Directions are looked along in a frame turned by `turn`. False
 /// where the set is flat to `rounding` (m); it has then been looked at along both normals of the flat.
@@ -150,13 +158,9 @@ class Epa {
 
   /// Three points around the best normal so far and one behind. False where they are almost in one plane.
   bool spanAround(Points& point) {
-    constexpr double kRing = 0.8;   // tilt of the normals around (its tangent)
     constexpr double kFlat = 0.01;  // of the volume of a box with sides as long
-    const Eigen::Vector3d m = n, e = m.unitOrthogonal(), f = std::sqrt(0.75) * m.cross(e);
-    point[0] = look((m - kRing * e).normalized());
-    point[1] = look((m + kRing * (0.5 * e - f)).normalized());
-    point[2] = look((m + kRing * (0.5 * e + f)).normalized());
-    point[3] = look(-m);
+    const std::array<Eigen::Vector3d, 4> normal = normalsAround(n);
+    for (std::size_t i = 0; i < 4; ++i) point[i] = look(normal[i].normalized());
     const Eigen::Vector3d a = point[0].w - point[3].w, b = point[1].w - point[3].w,
                           c = point[2].w - point[3].w;
     return std::abs(a.dot(b.cross(c))) > kFlat * a.norm() * b.norm() * c.norm();

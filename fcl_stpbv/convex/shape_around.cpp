@@ -2,8 +2,7 @@
 //
 // 1. A box: a segment along each axis that is across the normal.
 // 2. A cylinder and a cone: of a flat end its disc, of a rim its circle, of a side the generator and the
-// circle
-//    there. A cone holds both of these, but not their sum: half of each.
+//    circle there. A cone holds both of these, but not their sum: half of each.
 // 3. An ellipsoid: it is further out than its point by as much as circles along each of its axes
 //    (docs/theory.md, 5).
 #include "fcl_stpbv/convex/shape_around.h"

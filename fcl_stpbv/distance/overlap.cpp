@@ -29,20 +29,11 @@ namespace {
 /// Where the polytope is this much of the depth from the surface, a maximum is likely to be next to it.
 constexpr double kNear = 0.03;
 
-/// Tilt from the start's normal of those whose points the polytope begins with (rad).
-constexpr double kRing = 0.8;
-
 /// Normals of one maximum found twice differ by less (rad).
 constexpr double kSame = 1e-7;
 
 /// The difference's point furthest against the sample's normal.
 Vector3d furthest(const Sample& s) { return s.core * s.n + s.across; }
-
-/// Three unit vectors across `n`, a third of a turn apart.
-std::array<Vector3d, 3> around(const Vector3d& n) {
-  const Vector3d e = n.unitOrthogonal(), f = std::sqrt(0.75) * n.cross(e);
-  return {e, f - 0.5 * e, -f - 0.5 * e};
-}
 
 /// EPA on the difference of two STP-BVs, from around a maximum of the gap.
 class CoreEpa {
@@ -178,10 +169,9 @@ bool expandPolytope(const BodyPair& pair, Sample& x, double& bound, SearchWork& 
     return true;
   }
   const FeatureCorners& known = proof.corners;
-  const std::array<Vector3d, 3> m = around(x.n);
+  const std::array<Vector3d, 4> normal = normalsAround(x.n);
   std::array<Vector3d, 4> corner;
-  for (std::size_t i = 0; i < 3; ++i) corner[i] = unpack(pair.differenceAgainst(x.n - kRing * m[i]));
-  corner[3] = unpack(pair.differenceAgainst(-x.n));
+  for (std::size_t i = 0; i < 4; ++i) corner[i] = unpack(pair.differenceAgainst(normal[i]));
   CoreEpa search(pair, corner, Polytope::Origin::anywhere, x, work);
   for (std::size_t i = 0; i < known.count; ++i) search.add(unpack(known.point[i]));
   if (top)
