@@ -34,10 +34,14 @@ class Contacts {
   }
 
  private:
+  /// Whether the distance costs less than whether there is one.
+  static bool isQuick(const ConvexBody& a, const ConvexBody& b) {
+    const auto isBall = [](const ConvexBody& c) { return c.shape.kind == ShapeKind::point; };
+    return a.volume ? b.volume != nullptr : !b.volume && (isBall(a) || isBall(b));
+  }
   bool meet(const ConvexBody& a, const ConvexBody& b, Contactd& contact) {
-    // Of two STP-BVs the distance costs less than whether there is one.
-    const bool apart = a.volume && b.volume ? isFartherByBounds(a.rounding + b.rounding, a, b, cache_)
-                                            : isFartherThan(0.0, a, b, &cache_);
+    const bool apart = isQuick(a, b) ? isFartherByBounds(a.rounding + b.rounding, a, b, cache_)
+                                     : isFartherThan(0.0, a, b, &cache_);
     if (apart) return false;
     const Distance found = distance(a, b, &cache_);
     if (found.status == DistanceStatus::invalid) return true;  // as it is: without an answer

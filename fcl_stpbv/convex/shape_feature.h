@@ -190,15 +190,21 @@ inline ShapeFeature nearestFeature(const Shape& shape, const Packed& x) {
   return {};
 }
 
-/// The core's point nearest to `x`, on the feature that nearestFeature() has found there; not of an
-/// ellipsoid.
-inline Packed nearestPoint(const ShapeFeature& f, const Packed& x) {
+/// From the core's point nearest to `x`, which is on the feature that nearestFeature() has found there, to
+/// `x`; not of an ellipsoid. Right to rounding of its own length too, where that is next to nothing.
+inline Packed wayFrom(const ShapeFeature& f, const Packed& x) {
   using Kind = ShapeFeature::Kind;
-  if (f.kind != Kind::line && f.kind != Kind::rim) return f.point;
-  Packed out = x - f.point;
-  out -= dot(out, f.axis) * f.axis;
+  const Packed from = x - (f.kind == Kind::side ? f.apex : f.point);
+  if (f.kind == Kind::corner || f.kind == Kind::face) return from;
+  const Packed along = dot(from, f.axis) * f.axis, out = from - along;
   const double length = std::sqrt(dot(out, out));
-  return length > 0.0 ? Packed(f.point + (f.radius / length) * out) : f.point;
+  const Packed outward = length > 0.0 ? Packed(out / length) : Packed{};
+  if (f.kind == Kind::side) {
+    const Packed normal = f.cosine * outward + f.sine * f.axis;
+    return dot(from, normal) * normal;
+  }
+  const Packed across = (length - f.radius) * outward;
+  return f.kind == Kind::rim ? along + across : across;
 }
 
 }  // namespace fcl_stpbv::detail

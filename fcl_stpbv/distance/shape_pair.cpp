@@ -3,9 +3,10 @@
 //
 // 1. Put the pair into one order, so that both orders of a call are the same query.
 // 2. Half spaces and planes: the gap along their normal is all there is to know.
-// 3. GJK with the duality gap as its stop. Its upper bound is the distance of two points of the bodies, its
+// 3. A ball beside a shape of few features, or in one: closed form (ball_pair.cpp).
+// 4. GJK with the duality gap as its stop. Its upper bound is the distance of two points of the bodies, its
 //    lower one the gap between the supporting planes of the answer's normal.
-// 4. Newton's method on the features there gives the last digits (shape_newton.h). Overlap: shape_depth.cpp.
+// 5. Newton's method on the features there gives the last digits (shape_newton.h). Overlap: shape_depth.cpp.
 #include "fcl_stpbv/distance/shape_pair.h"
 
 #include <algorithm>
@@ -13,10 +14,8 @@
 #include <limits>
 #include <utility>
 
-#include "fcl_stpbv/convex/shape_feature.h"
 #include "fcl_stpbv/distance/shape_distance.h"
 #include "fcl_stpbv/distance/shape_newton.h"
-#include "fcl_stpbv/vectorized.h"
 
 namespace fcl_stpbv {
 
@@ -138,25 +137,7 @@ Distance besidePlane(const Pair& p) {
   return other.distance > one.distance ? other : one;
 }
 
-/// A ball `a` outside the core of `b`: the core's point nearest to its centre, feature by feature, tested
-/// against the whole core. False for other pairs, and for cores that touch.
-FCL_STPBV_VECTORIZED
-bool besideBall(const Pair& p, Gjk& found) {
-  if (p.a.kind != ShapeKind::point) return false;
-  const Packed x = p.pose.rotation.inverse(-p.pose.translation);
-  const ShapeFeature f = nearestFeature(p.b, x);
-  if (f.kind <= ShapeFeature::Kind::inside || f.kind == ShapeFeature::Kind::whole) return false;
-  const Packed y = nearestPoint(f, x), d = p.pose.rotation * (y - x);
-  const double length = std::sqrt(dot(d, d));
-  if (!(length > p.rounding)) return false;
-  found.v = unpack(d);
-  found.n = unpack(d / length);
-  found.upper = length;
-  found.lower = Pair::Difference(p.a, p.b, p.pose).support(found.n).gap;
-  return found.upper - found.lower <= p.rounding;
-}
-
-/// The same after a search that goes on to the end, where Newton's method had no success from `found`.
+/// Cores apart, after a search that goes on to the end, where Newton's method had no success from `found`.
 Distance separatedAtTheEnd(const Pair& p, Gjk& found) {
   for (Corner& corner : found.simplex.corner) corner.gap = -std::numeric_limits<double>::infinity();
   found = searchToTheEnd(p, found.simplex);  // seen along new normals
@@ -166,9 +147,10 @@ Distance separatedAtTheEnd(const Pair& p, Gjk& found) {
 Distance solve(const Pair& p) {
   if (!p.valid) return {};
   if (p.a.unbounded()) return besidePlane(p);
-  Gjk found;
-  if (besideBall(p, found)) return between(p, found.n, found.lower, Vector3d(0, 0, 0), found.v, found.upper);
-  found = p.search([&](double lower, double upper) { return p.curved() && isNear(p, lower, upper); });
+  OppositePoints at;
+  if (oppositeBall(p, at))
+    return between(p, at.n, at.gap, at.onA, at.toB, at.gap < 0.0 ? at.gap : at.toB.norm());
+  Gjk found = p.search([&](double lower, double upper) { return p.curved() && isNear(p, lower, upper); });
   Distance result = separated(p, found);
   if (result.status == DistanceStatus::bounded && p.curved()) result = separatedAtTheEnd(p, found);
   return result.status == DistanceStatus::invalid ? overlapping(p, found) : result;
@@ -178,6 +160,12 @@ Distance solve(const Pair& p) {
 bool isFarther(double x, const Pair& p, Vector3d& normal) {
   if (!p.valid) return false;
   if (p.a.unbounded()) return besidePlane(p).lower > x;
+  OppositePoints at;
+  if (oppositeBall(p, at)) {
+    const bool farther = at.gap - p.margins() - p.certificate > x;
+    if (farther) normal = p.pose.normalInWorld(at.n);
+    return farther;
+  }
   const double core = x + p.margins();
   Gjk found =
       p.search([&](double lower, double upper) { return lower > core + p.certificate || upper <= core; });

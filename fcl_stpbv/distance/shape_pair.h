@@ -7,6 +7,7 @@
 #include "fcl_stpbv/convex/gjk.h"
 #include "fcl_stpbv/convex/support.h"
 #include "fcl_stpbv/distance/distance.h"
+#include "fcl_stpbv/distance/shape_newton.h"
 
 namespace fcl_stpbv::detail {
 
@@ -65,6 +66,10 @@ struct ShapePair {
     return result;
   }
 };
+
+/// A ball `a` beside or in the core of `b`: its centre and the core's point nearest to it. False for other
+/// pairs, and for what has no closed form, or is on the surface but for rounding.
+bool oppositeBall(const ShapePair& p, OppositePoints& found);
 
 /// Cores with a common point, as far as GJK could tell: the shortest translation that separates them.
 Distance overlapping(const ShapePair& p, const ShapePair::Gjk& found);

@@ -215,7 +215,7 @@ Span awayFromCentre(const ShapeQuery& q, bool looksAtCorners) {
   const ShapeFeature f = q.shape.kind == ShapeKind::triangle ? ShapeFeature{} : nearestFeature(q.shape, x);
   if (f.kind == FeatureKind::inside) return {-q.shape.reach, 0.0};
   const bool few = f.kind != FeatureKind::none && f.kind != FeatureKind::whole;
-  const Packed d = x - (few ? nearestPoint(f, x) : pack(q.shape.centre));
+  const Packed d = few ? wayFrom(f, x) : x - pack(q.shape.centre);
   const double length = std::sqrt(dot(d, d));
   if (few) return {length, length};
   if (looksAtCorners &&

@@ -95,7 +95,7 @@ TEST_CASE("the nearest feature's point is in the core, and no point of the core 
         continue;
       }
       if (f.kind == ShapeFeature::Kind::none || f.kind == ShapeFeature::Kind::whole) continue;
-      const Vector3d y = unpack(nearestPoint(f, pack(x))), away = x - y;
+      const Vector3d away = unpack(wayFrom(f, pack(x))), y = x - away;
       // A narrow triangle's face is across its sides to rounding over its width.
       const double rounding = name == "narrow triangle" ? 1e-7 : 2e-15;
       for (int k = 0; k < 50; ++k) {

@@ -1,0 +1,85 @@
+// A ball and a simple shape of few features: the way between the ball's centre and the core's surface, in
+// closed form.
+//
+// 1. Outside the core: its nearest point, feature by feature (convex/shape_feature.h), tested against the
+//    whole core.
+// 2. Inside: the nearest of the planes that touch the core. A ball about the centre that reaches as far lies
+//    in the core, so no other way out is shorter.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "fcl_stpbv/convex/shape_feature.h"
+#include "fcl_stpbv/distance/shape_pair.h"
+#include "fcl_stpbv/vectorized.h"
+
+namespace fcl_stpbv::detail {
+
+namespace {
+
+/// The shortest way out of a core.
+struct WayOut {
+  double length;   ///< m
+  Packed outward;  ///< the surface's unit normal where it ends
+};
+
+bool hasPlanes(const Shape& core) {
+  return core.kind == ShapeKind::box || core.kind == ShapeKind::cylinder || core.kind == ShapeKind::cone;
+}
+
+/// From `x` in one of these, or next to its surface; `f` is what nearestFeature() says there.
+WayOut wayOut(const Shape& core, const ShapeFeature& f, const Packed& x) {
+  WayOut shortest{std::numeric_limits<double>::infinity(), {}};
+  const auto plane = [&](double length, const Packed& outward) {
+    if (length < shortest.length) shortest = {length, outward};
+  };
+  if (core.kind == ShapeKind::box) {
+    for (int i = 0; i < 3; ++i) {
+      Packed axis{};
+      axis[i] = std::copysign(1.0, x[i]);
+      plane(core.size[i] - std::abs(x[i]), axis);
+    }
+    return shortest;
+  }
+  const double away = std::sqrt(x[0] * x[0] + x[1] * x[1]);
+  const Packed up{0, 0, 1, 0}, out = away > 0.0 ? Packed{x[0] / away, x[1] / away, 0, 0} : Packed{1, 0, 0, 0};
+  plane(core.half + x[2], -up);
+  if (core.kind == ShapeKind::cone) {
+    plane(f.sine * (core.half - x[2]) - f.cosine * away, f.cosine * out + f.sine * up);
+  } else {
+    plane(core.half - x[2], up);
+    plane(core.radius - away, out);
+  }
+  return shortest;
+}
+
+}  // namespace
+
+FCL_STPBV_VECTORIZED
+bool oppositeBall(const ShapePair& p, OppositePoints& found) {
+  using Kind = ShapeFeature::Kind;
+  if (p.a.kind != ShapeKind::point) return false;
+  const Packed x = p.pose.rotation.inverse(-p.pose.translation);
+  const ShapeFeature f = nearestFeature(p.b, x);
+  const bool isInside = f.kind == Kind::inside;
+  if (f.kind == Kind::none || f.kind == Kind::whole || (isInside && !hasPlanes(p.b))) return false;
+  const Packed d = isInside ? Packed{} : p.pose.rotation * -wayFrom(f, x);
+  const double length = std::sqrt(dot(d, d));
+  found.onA.setZero();
+  if (length > p.rounding) {
+    found.n = unpack(d / length);
+    found.toB = unpack(d);
+    found.gap = ShapePair::Difference(p.a, p.b, p.pose).support(found.n).gap;
+    return length - found.gap <= p.rounding;
+  }
+  // Inside, or but for rounding on the surface, where the way is too short to tell a normal.
+  if (!hasPlanes(p.b)) return false;
+  const WayOut way = wayOut(p.b, f, x);
+  const Packed n = p.pose.rotation * -way.outward;
+  found.n = unpack(n);
+  found.gap = isInside ? -std::max(way.length, 0.0) : std::max(-way.length, 0.0);
+  found.toB = unpack(isInside ? found.gap * n : d);
+  return true;
+}
+
+}  // namespace fcl_stpbv::detail
