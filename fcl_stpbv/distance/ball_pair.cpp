@@ -17,10 +17,10 @@ namespace fcl_stpbv::detail {
 
 namespace {
 
-/// The shortest way out of a core.
-struct WayOut {
-  double length;   ///< m
-  Packed outward;  ///< the surface's unit normal where it ends
+/// The plane that touches a core nearest to a point in it.
+struct TouchingPlane {
+  double away;     ///< from the point (m)
+  Packed outward;  ///< unit
 };
 
 bool hasPlanes(const Shape& core) {
@@ -28,10 +28,10 @@ bool hasPlanes(const Shape& core) {
 }
 
 /// From `x` in one of these, or next to its surface; `f` is what nearestFeature() says there.
-WayOut wayOut(const Shape& core, const ShapeFeature& f, const Packed& x) {
-  WayOut shortest{std::numeric_limits<double>::infinity(), {}};
-  const auto plane = [&](double length, const Packed& outward) {
-    if (length < shortest.length) shortest = {length, outward};
+TouchingPlane nearestPlane(const Shape& core, const ShapeFeature& f, const Packed& x) {
+  TouchingPlane nearest{std::numeric_limits<double>::infinity(), {}};
+  const auto plane = [&](double away, const Packed& outward) {
+    if (away < nearest.away) nearest = {away, outward};
   };
   if (core.kind == ShapeKind::box) {
     for (int i = 0; i < 3; ++i) {
@@ -39,7 +39,7 @@ WayOut wayOut(const Shape& core, const ShapeFeature& f, const Packed& x) {
       axis[i] = std::copysign(1.0, x[i]);
       plane(core.size[i] - std::abs(x[i]), axis);
     }
-    return shortest;
+    return nearest;
   }
   const double away = std::sqrt(x[0] * x[0] + x[1] * x[1]);
   const Packed up{0, 0, 1, 0}, out = away > 0.0 ? Packed{x[0] / away, x[1] / away, 0, 0} : Packed{1, 0, 0, 0};
@@ -50,7 +50,7 @@ WayOut wayOut(const Shape& core, const ShapeFeature& f, const Packed& x) {
     plane(core.half - x[2], up);
     plane(core.radius - away, out);
   }
-  return shortest;
+  return nearest;
 }
 
 }  // namespace
@@ -74,10 +74,10 @@ bool oppositeBall(const ShapePair& p, OppositePoints& found) {
   }
   // Inside, or but for rounding on the surface, where the way is too short to tell a normal.
   if (!hasPlanes(p.b)) return false;
-  const WayOut way = wayOut(p.b, f, x);
-  const Packed n = p.pose.rotation * -way.outward;
+  const TouchingPlane plane = nearestPlane(p.b, f, x);
+  const Packed n = p.pose.rotation * -plane.outward;
   found.n = unpack(n);
-  found.gap = isInside ? -std::max(way.length, 0.0) : std::max(-way.length, 0.0);
+  found.gap = isInside ? -std::max(plane.away, 0.0) : std::max(-plane.away, 0.0);
   found.toB = unpack(isInside ? found.gap * n : d);
   return true;
 }

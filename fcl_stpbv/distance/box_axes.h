@@ -7,11 +7,12 @@
 #include <limits>
 
 #include "fcl_stpbv/distance/body_pair.h"
+#include "fcl_stpbv/four_vectors.h"
 
 namespace fcl_stpbv::detail {
 
-/// How far the boxes around two bodies' vertices overlap along the normals of either's sides and the cross
-/// products of their edges: the difference of two boxes has no other sides. Frame of the first body.
+/// How far two boxes overlap along the normals of either's sides and the cross products of their edges: the
+/// difference of two boxes has no other sides. Frame of the first body; the boxes must outlive this.
 class BoxAxes {
  public:
   /// One axis: of the first box's sides, of the second one's, or of an edge of the first one, by its place
@@ -22,7 +23,8 @@ class BoxAxes {
     int which;
   };
 
-  explicit BoxAxes(const BodyPair& pair);
+  BoxAxes(const BodyBox& a, const BodyBox& b, const RelativePose& pose);
+  explicit BoxAxes(const BodyPair& pair) : BoxAxes(pair.tablesA().box, pair.tablesB().box, pair.pose()) {}
 
   /// The axis of the least overlap, and the unit vector along one, from the first body to the second.
   Axis least() const;
@@ -42,9 +44,17 @@ class BoxAxes {
   /// nearly parallel that their cross product is uncertain.
   bool othersBeyond(const Axis& axis, double depth) const;
 
-  /// The axis of the side or of the two edges that the maximum's patches are of; its
-  /// kind is `kinds` where there is none.
-  Axis of(const Sample& top) const;
+  /// Whether the overlap is at least `depth` - 2 `rounding` along all axes, if no projection onto one is off
+  /// by more than `rounding` (m). False where edges are so nearly parallel that this leaves it open.
+  bool noneNearer(double depth, double rounding) const;
+
+  /// The direction of the first box's edge that an axis is of, and of the second's.
+  const Packed& firstEdge(const Axis& axis) const { return first_[axis.kind - Axis::firstCross]; }
+  const Packed& secondEdge(const Axis& axis) const { return second_[axis.which]; }
+
+  /// The axis of the side or of the two edges that the patches of a maximum between STP-BVs are of; its kind
+  /// is `kinds` where there is none.
+  Axis of(const BodyPair& pair, const Sample& top) const;
 
  private:
   /// Squared sine between two edges below which their cross product is not looked at.
@@ -61,16 +71,15 @@ class BoxAxes {
     return -1;
   }
 
-  const BodyPair& pair_;
-  Packed second_[3];                                    // the second box's axes
+  const Packed (&first_)[3];  // the boxes' axes
+  Packed second_[3];
   Packed between_;                                      // from centre to centre
   Packed overlap_[Axis::kinds], length2_[Axis::kinds];  // an axis each; times the length of what it is along
 };
 
-inline BoxAxes::BoxAxes(const BodyPair& pair) : pair_(pair) {
-  const BodyBox &a = pair.tablesA().box, &b = pair.tablesB().box;
-  for (int j = 0; j < 3; ++j) second_[j] = pair.pose().rotation * b.axis[j];
-  between_ = pair.pose().placed(b.centre) - a.centre;
+inline BoxAxes::BoxAxes(const BodyBox& a, const BodyBox& b, const RelativePose& pose) : first_(a.axis) {
+  for (int j = 0; j < 3; ++j) second_[j] = pose.rotation * b.axis[j];
+  between_ = pose.placed(b.centre) - a.centre;
   const Rotation first(a.axis[0], a.axis[1], a.axis[2]), second(second_[0], second_[1], second_[2]);
   const Packed row[] = {second.inverse(a.axis[0]), second.inverse(a.axis[1]), second.inverse(a.axis[2])},
                t = first.inverse(between_), s = second.inverse(between_);
@@ -93,22 +102,23 @@ inline BoxAxes::BoxAxes(const BodyPair& pair) : pair_(pair) {
 }
 
 inline BoxAxes::Axis BoxAxes::least() const {
+  constexpr Packed kNone = Packed{} + std::numeric_limits<double>::infinity();
   Axis least{0, 0};
   double overlap = std::numeric_limits<double>::infinity();
-  for (std::size_t kind = 0; kind < Axis::kinds; ++kind)
-    for (int i = 0; i < 3; ++i) {
-      const double length2 = length2_[kind][i], here = overlap_[kind][i];
-      if (!(length2 > kParallel2)) continue;
-      const double scaled = kind < Axis::firstCross ? here : here / std::sqrt(length2);
-      if (scaled < overlap) overlap = scaled, least = {kind, i};
-    }
+  for (std::size_t kind = 0; kind < Axis::kinds; ++kind) {
+    const Packed &length2 = length2_[kind], &here = overlap_[kind],
+                 scaled = kind < Axis::firstCross ? here
+                          : length2 > kParallel2  ? here / roots(length2)
+                                                  : kNone;
+    for (int i = 0; i < 3; ++i)
+      if (scaled[i] < overlap) overlap = scaled[i], least = {kind, i};
+  }
   return least;
 }
 
 inline Eigen::Vector3d BoxAxes::normal(const Axis& axis) const {
-  const Packed* first = pair_.tablesA().box.axis;
-  Packed n = axis.kind == Axis::firstSides ? first[axis.which] : second_[axis.which];
-  if (axis.kind >= Axis::firstCross) n = cross(first[axis.kind - Axis::firstCross], n);
+  Packed n = axis.kind == Axis::firstSides ? first_[axis.which] : second_[axis.which];
+  if (axis.kind >= Axis::firstCross) n = cross(firstEdge(axis), n);
   return unpack(n * ((dot(n, between_) < 0.0 ? -1.0 : 1.0) / std::sqrt(dot(n, n))));
 }
 
@@ -125,24 +135,35 @@ inline bool BoxAxes::othersBeyond(const Axis& axis, double depth) const {
   return !(std::max(std::max(nearer[0], nearer[1]), nearer[2]) > 0.0);
 }
 
-inline BoxAxes::Axis BoxAxes::of(const Sample& top) const {
+inline bool BoxAxes::noneNearer(double depth, double rounding) const {
+  constexpr double kSame2 = 4e-30;  // squared sine of two edges that are parallel but for rounding
+  const double least = depth - 2.0 * rounding;
+  Packed nearer{};
+  for (std::size_t kind = 0; kind < Axis::kinds; ++kind) {
+    const Packed over = overlap_[kind] - rounding, &length2 = length2_[kind];
+    const PackedBits beyond = (length2 <= kSame2) | ((over > 0.0) & (over * over >= least * least * length2));
+    nearer = larger(nearer, beyond ? Packed{} : Packed{} + 1.0);
+  }
+  return !(std::max({nearer[0], nearer[1], nearer[2]}) > 0.0);
+}
+
+inline BoxAxes::Axis BoxAxes::of(const BodyPair& pair, const Sample& top) const {
   constexpr double kSide = 0.9;         // cosine: the normal of a bulging side's maximum is near the side's
   constexpr double kEdge = 1.0 - 1e-9;  // an edge's is the box's, unless it is a side's diagonal
   constexpr Axis kNone{Axis::kinds, 0};
-  const BodyBox& box = pair_.tablesA().box;
-  const PatchKind kindA = pair_.a().kind(top.patch[0]), kindB = pair_.b().kind(top.patch[1]);
+  const PatchKind kindA = pair.a().kind(top.patch[0]), kindB = pair.b().kind(top.patch[1]);
   const Packed n = pack(top.n);
   int which = -1;
   std::size_t kind = Axis::kinds;
   if (kindA == PatchKind::face && kindB == PatchKind::vertex) {
     kind = Axis::firstSides;
-    which = along(box.axis, n, kSide);
+    which = along(first_, n, kSide);
   } else if (kindA == PatchKind::vertex && kindB == PatchKind::face) {
     kind = Axis::secondSides;
     which = along(second_, n, kSide);
   } else if (kindA == PatchKind::edge && kindB == PatchKind::edge) {
-    const int i = along(box.axis, pair_.patchA(top.patch[0]).axis, kEdge);
-    which = along(second_, pair_.patchB(top.patch[1]).axis, kEdge);
+    const int i = along(first_, pair.patchA(top.patch[0]).axis, kEdge);
+    which = along(second_, pair.patchB(top.patch[1]).axis, kEdge);
     if (i < 0) return kNone;
     kind = Axis::firstCross + static_cast<std::size_t>(i);
   }

@@ -98,7 +98,7 @@ bool closesOverBoxes(const BodyPair& pair, const Sample& top, const FeatureCorne
   if (!pair.tablesA().box.isHull || !pair.tablesB().box.isHull || corners.count != 4) return false;
   const double size = pair.a().extent() + pair.b().extent();
   const BoxAxes axes(pair);
-  const BoxAxes::Axis axis = axes.of(top);
+  const BoxAxes::Axis axis = axes.of(pair, top);
   const double beyond = depth + kApart * size;
   if (axis.kind == BoxAxes::Axis::kinds || !axes.othersBeyond(axis, beyond) || axes.opposite(axis) < beyond)
     return false;

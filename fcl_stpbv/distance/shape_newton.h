@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 #include <optional>
 
 #include "fcl_stpbv/convex/relative_pose.h"
@@ -11,10 +12,11 @@ namespace fcl_stpbv::detail {
 
 /// Two points of the cores that are opposite each other along a normal. Frame of the first shape.
 struct OppositePoints {
-  Eigen::Vector3d n;    ///< unit, from the first shape to the second
-  double gap;           ///< between the cores' supporting planes along it (m)
-  Eigen::Vector3d onA;  ///< the first core's point
-  Eigen::Vector3d toB;  ///< from there to the second core's, `gap` along `n` to rounding
+  Eigen::Vector3d n{0, 0, 1};  ///< unit, from the first shape to the second
+  double gap =
+      -std::numeric_limits<double>::infinity();  ///< between the cores' supporting planes along it (m)
+  Eigen::Vector3d onA{0, 0, 0};                  ///< the first core's point
+  Eigen::Vector3d toB{0, 0, 0};  ///< from there to the second core's, `gap` along `n` to rounding
 };
 
 /// Where the gap of two bounded shapes' cores is widest, the nearest points of cores that are apart, from

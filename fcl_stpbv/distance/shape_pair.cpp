@@ -3,7 +3,8 @@
 //
 // 1. Put the pair into one order, so that both orders of a call are the same query.
 // 2. Half spaces and planes: the gap along their normal is all there is to know.
-// 3. A ball beside a shape of few features, or in one: closed form (ball_pair.cpp).
+// 3. A ball beside a shape of few features or in one, and two boxes that overlap: closed form (ball_pair.cpp,
+//    box_pair.cpp).
 // 4. GJK with the duality gap as its stop. Its upper bound is the distance of two points of the bodies, its
 //    lower one the gap between the supporting planes of the answer's normal.
 // 5. Newton's method on the features there gives the last digits (shape_newton.h). Overlap: shape_depth.cpp.
@@ -148,7 +149,7 @@ Distance solve(const Pair& p) {
   if (!p.valid) return {};
   if (p.a.unbounded()) return besidePlane(p);
   OppositePoints at;
-  if (oppositeBall(p, at))
+  if (oppositeBall(p, at) || oppositeBoxes(p, at))
     return between(p, at.n, at.gap, at.onA, at.toB, at.gap < 0.0 ? at.gap : at.toB.norm());
   Gjk found = p.search([&](double lower, double upper) { return p.curved() && isNear(p, lower, upper); });
   Distance result = separated(p, found);
@@ -161,11 +162,10 @@ bool isFarther(double x, const Pair& p, Vector3d& normal) {
   if (!p.valid) return false;
   if (p.a.unbounded()) return besidePlane(p).lower > x;
   OppositePoints at;
-  if (oppositeBall(p, at)) {
-    const bool farther = at.gap - p.margins() - p.certificate > x;
-    if (farther) normal = p.pose.normalInWorld(at.n);
-    return farther;
-  }
+  const bool known = oppositeBall(p, at) || oppositeBoxes(p, at);
+  const bool farther = at.gap - p.margins() - p.certificate > x;
+  if (farther) normal = p.pose.normalInWorld(at.n);
+  if (known || farther) return farther;
   const double core = x + p.margins();
   Gjk found =
       p.search([&](double lower, double upper) { return lower > core + p.certificate || upper <= core; });

@@ -68,8 +68,11 @@ struct ShapePair {
 };
 
 /// A ball `a` beside or in the core of `b`: its centre and the core's point nearest to it. False for other
-/// pairs, and for what has no closed form, or is on the surface but for rounding.
+/// pairs, and for what has no closed form. `found` may hold a gap along a normal then too.
 bool oppositeBall(const ShapePair& p, OppositePoints& found);
+
+/// The same of two boxes that overlap.
+bool oppositeBoxes(const ShapePair& p, OppositePoints& found);
 
 /// Cores with a common point, as far as GJK could tell: the shortest translation that separates them.
 Distance overlapping(const ShapePair& p, const ShapePair::Gjk& found);

@@ -1,0 +1,67 @@
+// Two boxes: by separating axes whether and how deep they overlap.
+//
+// 1. Their difference has a side along each of fifteen axes and its opposite, and no others (box_axes.h). The
+//    least overlap along these is the depth.
+// 2. Points opposite each other: of a box's side the other one's corner, put onto both in turns where edges
+//    or sides are level with it; of two edges where their lines cross.
+#include "fcl_stpbv/convex/onto_core.h"
+#include "fcl_stpbv/distance/box_axes.h"
+#include "fcl_stpbv/distance/shape_pair.h"
+#include "fcl_stpbv/vectorized.h"
+
+namespace fcl_stpbv::detail {
+
+using Eigen::Vector3d;
+
+namespace {
+
+BodyBox bodyBox(const Shape& box) {
+  BodyBox body;
+  for (int i = 0; i < 3; ++i) body.axis[i][i] = 1.0;
+  body.half = pack(box.size);
+  return body;
+}
+
+/// Points opposite each other, `found.gap` along `found.n`, from A's corner `found.onA` and B's `onB`. False
+/// where there are none so near.
+bool placeOpposite(const ShapePair& p, const BoxAxes& axes, const BoxAxes::Axis& axis, Vector3d onB,
+                   OppositePoints& found) {
+  constexpr int kTurns = 4;  // a corner over a side needs one, edges and sides that are level mostly two
+  const Vector3d way = found.gap * found.n;
+  const auto ontoB = [&](const Vector3d& y) { return p.pose.placed(ontoCore(p.b, p.pose.inSecond(y))); };
+  if (axis.kind == BoxAxes::Axis::secondSides) onB = ontoB(found.onA + way);
+  for (int i = 0; i < kTurns; ++i) {
+    if (axis.kind >= BoxAxes::Axis::firstCross) {  // along B's edge to the plane of A's edge and the normal
+      const Vector3d a = unpack(axes.firstEdge(axis)), b = unpack(axes.secondEdge(axis)),
+                     across = b - a.dot(b) * a;
+      onB = ontoB(onB - (onB - way - found.onA).dot(across) / across.squaredNorm() * b);
+    }
+    found.onA = ontoCore(p.a, onB - way);
+    found.toB = onB - found.onA;
+    if ((found.toB - way).norm() <= p.rounding) return true;
+    if (axis.kind < BoxAxes::Axis::firstCross) onB = ontoB(found.onA + way);
+  }
+  return false;
+}
+
+}  // namespace
+
+FCL_STPBV_VECTORIZED
+bool oppositeBoxes(const ShapePair& p, OppositePoints& found) {
+  if (p.a.kind != ShapeKind::box || p.b.kind != ShapeKind::box) return false;
+  const double reach = p.a.reach + p.b.reach;
+  if (dot(p.pose.translation, p.pose.translation) > reach * reach) return false;
+  const BodyBox a = bodyBox(p.a), b = bodyBox(p.b);
+  const BoxAxes axes(a, b, p.pose);
+  const BoxAxes::Axis axis = axes.least();
+  const double depth = axes.overlap(axis);
+  found.n = axes.normal(axis);
+  const ShapePair::Corner corner = ShapePair::Difference(p.a, p.b, p.pose).support(found.n);
+  found.gap = corner.gap;
+  found.onA = corner.onA;
+  return found.gap < 0.0 && found.gap + depth >= -0.5 * p.rounding &&
+         axes.noneNearer(-found.gap, 0.5 * p.rounding) &&
+         placeOpposite(p, axes, axis, corner.onA + corner.w, found);
+}
+
+}  // namespace fcl_stpbv::detail
