@@ -1,7 +1,8 @@
-// Two boxes: by separating axes whether and how deep they overlap.
+// Two boxes by separating axes: how deep they overlap, and where a side of one or two edges are nearest, how
+// far apart they are.
 //
 // 1. Their difference has a side along each of fifteen axes and its opposite, and no others (box_axes.h). The
-//    least overlap along these is the depth.
+//    least overlap along these is the depth, and no gap along one is more than the distance.
 // 2. Points opposite each other: of a box's side the other one's corner, put onto both in turns where edges
 //    or sides are level with it; of two edges where their lines cross.
 #include "fcl_stpbv/convex/onto_core.h"
@@ -49,8 +50,6 @@ bool placeOpposite(const ShapePair& p, const BoxAxes& axes, const BoxAxes::Axis&
 FCL_STPBV_VECTORIZED
 bool oppositeBoxes(const ShapePair& p, OppositePoints& found) {
   if (p.a.kind != ShapeKind::box || p.b.kind != ShapeKind::box) return false;
-  const double reach = p.a.reach + p.b.reach;
-  if (dot(p.pose.translation, p.pose.translation) > reach * reach) return false;
   const BodyBox a = bodyBox(p.a), b = bodyBox(p.b);
   const BoxAxes axes(a, b, p.pose);
   const BoxAxes::Axis axis = axes.least();
@@ -59,9 +58,10 @@ bool oppositeBoxes(const ShapePair& p, OppositePoints& found) {
   const ShapePair::Corner corner = ShapePair::Difference(p.a, p.b, p.pose).support(found.n);
   found.gap = corner.gap;
   found.onA = corner.onA;
-  return found.gap < 0.0 && found.gap + depth >= -0.5 * p.rounding &&
-         axes.noneNearer(-found.gap, 0.5 * p.rounding) &&
-         placeOpposite(p, axes, axis, corner.onA + corner.w, found);
+  // Apart, points that are opposite each other prove the gap, in each other the other axes have to.
+  const bool isWidest = found.gap > 0.0 || (found.gap + depth >= -0.5 * p.rounding &&
+                                            axes.noneNearer(-found.gap, 0.5 * p.rounding));
+  return isWidest && placeOpposite(p, axes, axis, corner.onA + corner.w, found);
 }
 
 }  // namespace fcl_stpbv::detail

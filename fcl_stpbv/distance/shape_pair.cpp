@@ -3,8 +3,7 @@
 //
 // 1. Put the pair into one order, so that both orders of a call are the same query.
 // 2. Half spaces and planes: the gap along their normal is all there is to know.
-// 3. A ball beside a shape of few features or in one, and two boxes that overlap: closed form (ball_pair.cpp,
-//    box_pair.cpp).
+// 3. A ball and a shape of few features, and most boxes: closed form (ball_pair.cpp, box_pair.cpp).
 // 4. GJK with the duality gap as its stop. Its upper bound is the distance of two points of the bodies, its
 //    lower one the gap between the supporting planes of the answer's normal.
 // 5. Newton's method on the features there gives the last digits (shape_newton.h). Overlap: shape_depth.cpp.

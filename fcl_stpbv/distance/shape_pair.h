@@ -71,7 +71,7 @@ struct ShapePair {
 /// pairs, and for what has no closed form. `found` may hold a gap along a normal then too.
 bool oppositeBall(const ShapePair& p, OppositePoints& found);
 
-/// The same of two boxes that overlap.
+/// The same of two boxes, but for a corner that is nearest to a corner or an edge.
 bool oppositeBoxes(const ShapePair& p, OppositePoints& found);
 
 /// Cores with a common point, as far as GJK could tell: the shortest translation that separates them.

@@ -49,9 +49,9 @@ Matrix3d someTurn(Random& random) {
 
 }  // namespace
 
-TEST_CASE("Two boxes in each other are as deep as the least of their overlaps, whatever is level") {
+TEST_CASE("Two boxes are as far apart or as deep as supports say, whatever is level") {
   Random random(3);
-  int deep = 0, exact = 0;
+  int deep = 0, exact = 0, beside = 0, outsideOne = 0;
   for (int i = 0; i < 4000; ++i) {
     CAPTURE(i);
     const TestShape one = someBox(random), same = someBox(random), &other = random.below(8) ? same : one;
@@ -61,12 +61,11 @@ TEST_CASE("Two boxes in each other are as deep as the least of their overlaps, w
                   random.uniform(0, random.below(2) ? 0.1 : 0.5) *
                       (random.below(2) ? Vector3d::Unit(random.below(3)) : Vector3d(random.direction())));
     const Distance found = distance(one.shape, at, other.shape, there);
-    if (!(found.distance < 0.0)) continue;
-    ++deep;
+    deep += found.distance < 0.0;
     exact += found.status == DistanceStatus::exact;
     // Poses, normals and lengths are good to a few roundings of some 3 m.
     const double rounding = found.upper - found.lower + 32 * 2.2e-16 * 3;
-    CHECK(found.upper - found.lower < 1e-12);
+    CHECK(found.upper - found.lower < (found.status == DistanceStatus::exact ? 1e-12 : 1e-8));
     const ReferenceShape a = one.posed(at), b = other.posed(there);
     const auto gap = [&](const Vector3L& n) { return static_cast<double>(referenceGap(a, b, n)); };
     CHECK(std::abs(gap(found.normal.cast<long double>().normalized()) - found.distance) <= rounding);
@@ -87,19 +86,24 @@ TEST_CASE("Two boxes in each other are as deep as the least of their overlaps, w
     CHECK(widest <= found.upper + rounding);
 
     const Vector3d opposite = found.point[1] - found.point[0] - found.distance * found.normal;
-    CHECK(opposite.norm() <= rounding);
+    beside += opposite.norm() > rounding;
+    CHECK(opposite.norm() <= (found.distance < 0.0 ? rounding : 1e-7));
     for (const bool first : {true, false}) {  // each point in its own box
       const Vector3d local = (first ? at : there).inverse() * found.point[first ? 0 : 1];
       const Vector3d outside = local.cwiseAbs() - (first ? one : other).shape.size;
-      CHECK(outside.maxCoeff() <= rounding);
+      outsideOne += outside.maxCoeff() > rounding;
+      CHECK(outside.maxCoeff() <= 1e-9);
     }
     const Distance swapped = distance(other.shape, there, one.shape, at);
     CHECK(swapped.distance == found.distance);
     CHECK(swapped.normal == -found.normal);
-    CHECK_FALSE(isFartherThan(0.0, one.shape, at, other.shape, there));
+    CHECK(isFartherThan(0.0, one.shape, at, other.shape, there) == (found.lower > 0.0));
     CHECK(isFartherThan(found.lower - rounding, one.shape, at, other.shape, there));
     CHECK_FALSE(isFartherThan(found.upper, one.shape, at, other.shape, there));
   }
   CHECK(deep > 1500);
-  CHECK(exact > 0.995 * deep);  // edges 1e-15 to 1e-11 rad from parallel are left to EPA
+  // What is left to GJK and EPA: edges next to each other, 1e-15 to 1e-5 rad from parallel.
+  CHECK(exact > 0.997 * 4000);
+  CHECK(beside < 0.003 * 4000);
+  CHECK(outsideOne < 0.003 * 4000);
 }
