@@ -18,13 +18,12 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// Of a body of revolution: the circle through `y`, `part` of it, and where the normal is along the axis the
-/// disc of a flat end, as large as it is around `y`. Both together are the disc of all of the end.
-void addAround(double radius, double part, const Vector3d& y, const Vector3d& m, const Matrix3d& rotation,
+/// Of a body of revolution: the circle through `y`, `part` of it, and on a flat end its disc, as large as it
+/// is around `y`. Both together are the disc of all of the end.
+void addAround(double radius, double part, bool isFlat, const Vector3d& y, const Matrix3d& rotation,
                LocalMaximum& around) {
-  constexpr double kUpright = 1e-15;  // a sine; flat ends have their normal to rounding
   const double across = std::hypot(y.x(), y.y());
-  if (std::hypot(m.x(), m.y()) < kUpright) around.addDisc(radius - across);
+  if (isFlat) around.addDisc(radius - across);
   if (across > 0.0)
     around.addArc(rotation * Vector3d(-y.y() / across, y.x() / across, 0.0), part * across,
                   LocalMaximum::kEndless);
@@ -34,7 +33,9 @@ void addAround(double radius, double part, const Vector3d& y, const Vector3d& m,
 
 void addShape(const Shape& shape, const Vector3d& y, const Vector3d& m, const Matrix3d& rotation,
               LocalMaximum& around) {
-  constexpr double kEdge = 1e-9;  // of the generator: nearer to its end is on the rim
+  constexpr double kEdge = 1e-9;      // of the generator: nearer to its end is on the rim
+  constexpr double kUpright = 1e-15;  // a sine; flat ends have their normal to rounding
+  const bool isUpright = std::hypot(m.x(), m.y()) < kUpright;
   const double half = shape.half, radius = shape.radius;
   switch (shape.kind) {
     case ShapeKind::segment:
@@ -45,14 +46,15 @@ void addShape(const Shape& shape, const Vector3d& y, const Vector3d& m, const Ma
       break;
     case ShapeKind::cylinder:
       around.addSegment(rotation.col(2), half - std::abs(y.z()));
-      addAround(radius, 1.0, y, m, rotation, around);
+      addAround(radius, 1.0, isUpright, y, rotation, around);
       break;
     case ShapeKind::cone: {
       const Vector3d from = y - Vector3d(0, 0, half);
       const double far = from.norm(), left = std::hypot(radius, 2.0 * half) - far;
       const bool onSide = far > 0.0 && left > kEdge * far;
       if (onSide) around.addSegment(rotation * (from / far), 0.5 * std::min(far, left));
-      addAround(radius, onSide ? 0.5 : 1.0, y, m, rotation, around);
+      addAround(radius, onSide ? 0.5 : 1.0, isUpright && m.z() < 0.0, y, rotation,
+                around);  // no disc at the apex
       break;
     }
     case ShapeKind::ellipsoid: {

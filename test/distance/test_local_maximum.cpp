@@ -7,6 +7,7 @@
 
 #include "fcl_stpbv/convex/local_maximum.h"
 #include "fcl_stpbv/distance/shape_distance.h"
+#include "test/reference/shape_reference.h"
 #include "test/reference/shapes.h"
 
 using namespace fcl_stpbv;
@@ -179,4 +180,36 @@ TEST_CASE("An STP-BV and a simple shape deep in each other take few steps, and t
       CHECK(bounded <= bound.bounded * deep);
     }
   }
+}
+
+TEST_CASE("Bodies of revolution deep in each other with parallel axes: an apex is no flat end") {
+  Random some(14);
+  int deep = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const char* const kinds[] = {"cone", "cylinder", "box", "ellipsoid", "capsule", "sphere"};
+    TestShape one = randomShape(kinds[some.below(2)], some), other = randomShape(kinds[some.below(6)], some);
+    if (some.below(2)) one = {"cone", Shape::coneOf(some.uniform(0.5, 2), some.uniform(0.1, 0.8)), {}};
+    const Eigen::Matrix3d turn = some.rotation();
+    Eigen::Matrix3d upright = Eigen::AngleAxisd(some.uniform(0, 7), Vector3d::UnitZ()).toRotationMatrix();
+    if (some.below(2)) upright.rightCols<2>() *= -1;
+    const Vector3d off(some.below(2) ? 0 : some.uniform(-0.1, 0.1), 0, some.uniform(-0.2, 0.2));
+    const Isometry3d at = pose(turn, some.direction()), there = at * pose(upright, off);
+    const Distance d = distance(one.shape, at, other.shape, there);
+    if (!(d.distance < -one.shape.margin - other.shape.margin)) continue;
+    ++deep;
+    CAPTURE(i, one.name, other.name, d.distance);
+    const ReferenceShape a = one.posed(at), b = other.posed(there);
+    const auto gap = [&](const Vector3d& n) {
+      return static_cast<double>(referenceGap(a, b, n.cast<long double>().normalized()));
+    };
+    for (int k = 0; k < 200; ++k) {
+      const double tilt = 3.141592653589793 * k / 200, round = some.uniform(0, 7);
+      const Vector3d n(std::sin(tilt) * std::cos(round), std::sin(tilt) * std::sin(round), std::cos(tilt));
+      REQUIRE(gap(turn * n) <= d.upper);
+    }
+    for (const double tilt : {1e-1, 1e-2, 1e-3, 1e-4})
+      for (int k = 0; k < 8; ++k) REQUIRE(gap(d.normal + tilt * some.direction()) <= d.upper);
+    REQUIRE(std::abs(gap(d.normal) - d.distance) <= 1e-14 * 4);
+  }
+  CHECK(deep > 1500);
 }
