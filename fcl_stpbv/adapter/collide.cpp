@@ -91,7 +91,7 @@ std::size_t collide(const CollisionGeometryd* geometry1, const Transform3d& pose
                     const CollisionRequestd& request, CollisionResultd& result, PairCache* cache,
                     bool finite) {
   Contacts contacts(request, result, cache);
-  if (contacts.full()) return result.numContacts();
+  if (contacts.full() || !isOccupied(*geometry1) || !isOccupied(*geometry2)) return result.numContacts();
   Contactd unknown(geometry1, geometry2, Contactd::NONE, Contactd::NONE);
   unknown.normal.setZero();
   unknown.pos.setZero();

@@ -21,8 +21,9 @@ namespace fcl_stpbv {
 /// between the deepest points (world, m). Without, each pair of elements costs no more than `isFartherThan`.
 /// Touching is a contact. A pair without an answer (a pose that is not rigid, an invalid shape, a corner that
 /// is no number, two planes) counts as one too, of infinite depth and without a normal: nobody has found it
-/// clear. Cost sources are not made; the other fields of the request change nothing. `finite`: as
-/// QueryContext's.
+/// clear. A geometry that FCL's marks call free or unknown (`cost_density` below `threshold_occupied`; not a
+/// tree, whose cells tell) meets nothing, as in FCL. Cost sources are not made; the other fields of the
+/// request change nothing. `finite`: as QueryContext's.
 std::size_t collide(const fcl::CollisionObjectd* object1, const fcl::CollisionObjectd* object2,
                     const fcl::CollisionRequestd& request, fcl::CollisionResultd& result,
                     PairCache* cache = nullptr, bool finite = false);
@@ -32,11 +33,13 @@ std::size_t collide(const fcl::CollisionGeometryd* geometry1, const fcl::Transfo
                     const fcl::CollisionRequestd& request, fcl::CollisionResultd& result,
                     PairCache* cache = nullptr, bool finite = false);
 
-/// FCL's other scalar is refused here, with the reason.
+/// FCL's other scalar is refused here, with the reason. `collide<double>(...)`, as generic code names it, is
+/// the function above.
 template <typename S>
-std::size_t collide(const fcl::CollisionObject<S>*, const fcl::CollisionObject<S>*,
-                    const fcl::CollisionRequest<S>&, fcl::CollisionResult<S>&) {
+std::size_t collide(const fcl::CollisionObject<S>* object1, const fcl::CollisionObject<S>* object2,
+                    const fcl::CollisionRequest<S>& request, fcl::CollisionResult<S>& result) {
   static_assert(isDouble<S>, "fcl_stpbv answers about objects in double: make them fcl::CollisionObjectd");
+  if constexpr (isDouble<S>) return fcl_stpbv::collide(object1, object2, request, result);
   return 0;
 }
 

@@ -173,6 +173,20 @@ double inFclTerms(const MotionAnswer& found, const SteadyMotion& motion1, const 
   return found.answer.status == DistanceStatus::invalid ? -1 : result.time_of_contact;
 }
 
+/// Two geometries on their ways, in FCL's words.
+double collideOnTheirWays(const CollisionGeometryd& geometry1, const SteadyMotion& motion1,
+                          const CollisionGeometryd& geometry2, const SteadyMotion& motion2,
+                          const ContinuousCollisionRequestd& request, ContinuousCollisionResultd& result) {
+  if (isOccupied(geometry1) && isOccupied(geometry2))
+    return inFclTerms(firstContact(geometry1, motion1, geometry2, motion2, {0, request.toc_err}), motion1,
+                      motion2, result);
+  result.is_collide = false;
+  result.time_of_contact = 1;
+  result.contact_tf1 = motion1.at(1);
+  result.contact_tf2 = motion2.at(1);
+  return 1;
+}
+
 double unknown(ContinuousCollisionResultd& result) {
   result.is_collide = true;
   result.time_of_contact = 0;
@@ -210,8 +224,7 @@ double continuousCollide(const CollisionGeometryd* geometry1, const fcl::MotionB
                          const ContinuousCollisionRequestd& request, ContinuousCollisionResultd& result) {
   SteadyMotion first, second;
   if (!steadyMotion(*motion1, first) || !steadyMotion(*motion2, second)) return unknown(result);
-  return inFclTerms(firstContact(*geometry1, first, *geometry2, second, {0, request.toc_err}), first, second,
-                    result);
+  return collideOnTheirWays(*geometry1, first, *geometry2, second, request, result);
 }
 
 double continuousCollide(const CollisionGeometryd* geometry1, const Transform3d& begin1,
@@ -222,8 +235,7 @@ double continuousCollide(const CollisionGeometryd* geometry1, const Transform3d&
   if (!steadyMotion(begin1, end1, request.ccd_motion_type, first) ||
       !steadyMotion(begin2, end2, request.ccd_motion_type, second))
     return unknown(result);
-  return inFclTerms(firstContact(*geometry1, first, *geometry2, second, {0, request.toc_err}), first, second,
-                    result);
+  return collideOnTheirWays(*geometry1, first, *geometry2, second, request, result);
 }
 
 double continuousCollide(const fcl::CollisionObjectd* object1, const Transform3d& end1,

@@ -33,9 +33,10 @@ struct SteadyMotion {
 bool steadyMotion(const Eigen::Isometry3d& begin, const Eigen::Isometry3d& end, fcl::CCDMotionType type,
                   SteadyMotion& motion);
 
-/// What one of FCL's motion objects does. False for splines and types of others. An `fcl::InterpMotion` that
-/// turns and was made without a reference point moves about whatever the memory held there (FCL 0.7 leaves it
-/// unset), and so does the answer; false where that is not within 1e6 m. Give one, or ask between two poses.
+/// What one of FCL's motion objects does. False for splines and types of others, also those derived from
+/// FCL's, which may go another way. An `fcl::InterpMotion` that turns and was made without a reference point
+/// moves about whatever the memory held there (FCL 0.7 leaves it unset), and so does the answer; false where
+/// that is not within 1e6 m. Give one, or ask between two poses.
 bool steadyMotion(const fcl::MotionBased& motion, SteadyMotion& result);
 
 /// What became of a motion.
@@ -89,7 +90,8 @@ MotionAnswer firstContact(const fcl::CollisionGeometryd& geometry1, const Steady
 /// of `MotionAnswer::until`, in contact; of an undecided motion those of `MotionAnswer::from`, until which it
 /// is proven free, not in contact but for rounding or not at all. Either way it is at most `toc_err` after
 /// the first contact, if there is one. -1 with `is_collide` at time 0 for what has no answer: splines, poses
-/// that are not rigid, pairs without a distance.
+/// that are not rigid, pairs without a distance. What FCL's marks call free or unknown meets nothing, as in
+/// collide().
 double continuousCollide(const fcl::CollisionGeometryd* geometry1, const fcl::MotionBased* motion1,
                          const fcl::CollisionGeometryd* geometry2, const fcl::MotionBased* motion2,
                          const fcl::ContinuousCollisionRequestd& request,

@@ -80,7 +80,7 @@ Result withMesh(const fcl::CollisionGeometryd& g, const Action& action, Result o
 
 template <typename Mesh>
 Shape meshElement(const Mesh& mesh, std::intptr_t id) {
-  if (!mesh.tri_indices) {  // a point cloud
+  if (isCloud(mesh)) {
     const Vector3d p = mesh.vertices[id];
     return Shape::triangleOf(p, p, p);
   }
@@ -212,9 +212,7 @@ bool ElementTree::find(std::intptr_t id, const Vector3d& x, double off, Shape& s
   if (!node.handle) {  // a mesh: any id within bounds
     const bool within = withMesh(
         geometry_,
-        [&](const auto& mesh) {
-          return id >= 0 && id < (mesh.tri_indices ? mesh.num_tris : mesh.num_vertices);
-        },
+        [&](const auto& mesh) { return id >= 0 && id < (isCloud(mesh) ? mesh.num_vertices : mesh.num_tris); },
         false);
     return within && element({id, true, nullptr, node.box}, shape, place);
   }

@@ -135,18 +135,21 @@ double distance(const fcl::CollisionGeometryd* geometry1, const fcl::Transform3d
                 const fcl::CollisionGeometryd* geometry2, const fcl::Transform3d& pose2,
                 const fcl::DistanceRequestd& request, fcl::DistanceResultd& result);
 
-/// FCL's other scalar is refused here, with the reason.
+/// FCL's other scalar is refused here, with the reason. `distance<double>(...)`, as generic code names it, is
+/// the function above.
 template <typename S>
-double distance(const fcl::CollisionObject<S>*, const fcl::CollisionObject<S>*,
-                const fcl::DistanceRequest<S>&, fcl::DistanceResult<S>&) {
+double distance(const fcl::CollisionObject<S>* object1, const fcl::CollisionObject<S>* object2,
+                const fcl::DistanceRequest<S>& request, fcl::DistanceResult<S>& result) {
   static_assert(isDouble<S>, "fcl_stpbv answers about objects in double: make them fcl::CollisionObjectd");
+  if constexpr (isDouble<S>) return fcl_stpbv::distance(object1, object2, request, result);
   return -1;
 }
 /// Refused likewise.
 template <typename S>
-DistanceAnswer distance(const fcl::CollisionObject<S>&, const fcl::CollisionObject<S>&,
-                        const QueryContext& = {}) {
+DistanceAnswer distance(const fcl::CollisionObject<S>& object1, const fcl::CollisionObject<S>& object2,
+                        const QueryContext& context = {}) {
   static_assert(isDouble<S>, "fcl_stpbv answers about objects in double: make them fcl::CollisionObjectd");
+  if constexpr (isDouble<S>) return fcl_stpbv::distance(object1, object2, context);
   return {};
 }
 

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "fcl_stpbv/adapter/element_tree.h"
@@ -64,10 +66,16 @@ inline bool hasAxes(const OrientedBox& box) {
   return (box.axes.transpose() * box.axes - Eigen::Matrix3d::Identity()).lpNorm<1>() <= kSameBox;
 }
 
+/// Whether its elements are points. A cloud that was begun with room for triangles has an array of none.
+template <typename BV>
+bool isCloud(const fcl::BVHModel<BV>& mesh) {
+  return mesh.num_tris == 0;
+}
+
 /// Calls `action` with each corner of a triangle, or with the point of a cloud.
 template <typename BV, typename Action>
 void forCorners(const fcl::BVHModel<BV>& mesh, int element, Action&& action) {
-  if (!mesh.tri_indices) return action(mesh.vertices[element]);
+  if (isCloud(mesh)) return action(mesh.vertices[element]);
   const fcl::Triangle& t = mesh.tri_indices[element];
   for (const std::size_t i : {t[0], t[1], t[2]}) action(mesh.vertices[i]);
 }
@@ -108,15 +116,24 @@ bool lookMerged(const fcl::BVHModel<BV>& mesh, const LooksMerged& looksMerged) {
   }
 }
 
+/// Whether FCL has fitted boxes to triangles that are not there: where a cloud has an array of none, it reads
+/// what the memory behind it holds. AABB and KDOP go by the points.
+template <typename BV>
+bool hasStrayBoxes(const fcl::BVHModel<BV>& mesh) {
+  using Boxed = std::decay_t<decltype(boxed(std::declval<const BV&>()))>;
+  constexpr bool byArray = std::is_same_v<Boxed, fcl::OBBd> || std::is_same_v<Boxed, fcl::RSSd>;
+  return byArray && isCloud(mesh) && mesh.tri_indices;
+}
+
 /// Whether the inner boxes were merged from their children's, as `endReplaceModel()` and `endUpdateModel()`
-/// do unless told otherwise, and not fitted to what is below. Merging them again takes long, so a cheap look
-/// comes first, which settles almost all meshes.
+/// do unless told otherwise, or are stray, and not fitted to what is below. Merging them again takes long, so
+/// a cheap look comes first, which settles almost all meshes.
 template <typename BV>
 bool hasMergedBoxes(const fcl::BVHModel<BV>& mesh) {
   const auto maybe = [](const BV& both, const BV& first, const BV& second) {
     return mayBeMerged(boxed(both), boxed(first), boxed(second));
   };
-  return lookMerged(mesh, maybe) && lookMerged(mesh, isMerged<BV>);
+  return hasStrayBoxes(mesh) || (lookMerged(mesh, maybe) && lookMerged(mesh, isMerged<BV>));
 }
 
 /// Boxes around what is below each node. FCL numbers nodes after their parents.

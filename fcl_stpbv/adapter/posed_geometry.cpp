@@ -87,6 +87,10 @@ double gapOfBoxes(const OrientedBox& a, const OrientedBox& b, double rounding, d
 
 }  // namespace
 
+bool isOccupied(const fcl::CollisionGeometryd& geometry) {
+  return geometry.getNodeType() == fcl::GEOM_OCTREE || !(geometry.cost_density < geometry.threshold_occupied);
+}
+
 bool isConvex(const fcl::CollisionGeometryd& geometry, ConvexBody& body) {
   if (const StpBvGeometry* g = asStpBv(&geometry)) {
     body.volume = &g->volume();

@@ -38,6 +38,10 @@ struct ConvexBody {
   }
 };
 
+/// Whether FCL's marks let a geometry meet others. The dynamic AABB trees may hand over cells of an octree
+/// that nobody has seen yet, as boxes whose marks tell so. A tree's own cells tell for themselves.
+bool isOccupied(const fcl::CollisionGeometryd& geometry);
+
 /// Whether the geometry is one valid convex body, and if so that body, without a pose.
 bool isConvex(const fcl::CollisionGeometryd& geometry, ConvexBody& body);
 

@@ -12,6 +12,7 @@
 #include <fcl/math/motion/translation_motion.h>
 
 #include <cmath>
+#include <typeinfo>
 
 #include "fcl_stpbv/adapter/continuous_collide.h"
 #include "fcl_stpbv/convex/relative_pose.h"
@@ -33,6 +34,12 @@ struct InterpolationEnds : fcl::InterpMotion<double> {
   using fcl::InterpMotion<double>::tf1;
   using fcl::InterpMotion<double>::tf2;
 };
+
+/// The motion as the type it is; null for any other, also one derived from it, which may go another way.
+template <typename Motion>
+const Motion* exactly(const fcl::MotionBased& motion) {
+  return typeid(motion) == typeid(Motion) ? static_cast<const Motion*>(&motion) : nullptr;
+}
 
 /// A point of the body's frame moves straight.
 SteadyMotion about(const Isometry3d& begin, const Isometry3d& end, const Vector3d& point) {
@@ -91,7 +98,7 @@ bool steadyMotion(const Isometry3d& givenBegin, const Isometry3d& givenEnd, fcl:
 }
 
 bool steadyMotion(const fcl::MotionBased& motion, SteadyMotion& result) {
-  if (const auto* m = dynamic_cast<const fcl::TranslationMotion<double>*>(&motion)) {
+  if (const auto* m = exactly<fcl::TranslationMotion<double>>(motion)) {
     Isometry3d begin;
     m->integrate(0);
     m->getCurrentTransform(begin);
@@ -99,9 +106,9 @@ bool steadyMotion(const fcl::MotionBased& motion, SteadyMotion& result) {
     end.translation() += m->getVelocity();
     return steadyMotion(begin, end, fcl::CCDM_TRANS, result);
   }
-  if (const auto* m = dynamic_cast<const fcl::ScrewMotion<double>*>(&motion))
+  if (const auto* m = exactly<fcl::ScrewMotion<double>>(motion))
     return steadyMotion(m->*&ScrewEnds::tf1, m->*&ScrewEnds::tf2, fcl::CCDM_SCREW, result);
-  if (const auto* m = dynamic_cast<const fcl::InterpMotion<double>*>(&motion)) {
+  if (const auto* m = exactly<fcl::InterpMotion<double>>(motion)) {
     Isometry3d begin = m->*&InterpolationEnds::tf1, end = m->*&InterpolationEnds::tf2;
     if (!makeRigid(begin) || !makeRigid(end)) return false;
     // FCL's constructors without a point leave it to what the memory held, and its object then moves about

@@ -1,10 +1,13 @@
 // Contacts in FCL's words, of smooth bodies, shapes, meshes and trees.
 #include <fcl/broadphase/broadphase_dynamic_AABB_tree.h>
+#include <fcl/broadphase/broadphase_dynamic_AABB_tree_array.h>
 #include <fcl/geometry/shape/halfspace.h>
 #include <fcl/geometry/shape/sphere.h>
+#include <fcl/narrowphase/collision.h>
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <tuple>
 
 #include "fcl_stpbv/adapter/collide.h"
 #include "fcl_stpbv/adapter/distance_callback.h"
@@ -81,6 +84,24 @@ TEST_CASE("cubes whose margins alone overlap collide, where fcl::collide sees on
   CHECK((found[0].pos - Vector3d(0.125, 0, 0)).norm() <= 1e-12);
 }
 
+TEST_CASE("a call that names its scalar, as generic code does, is the same call") {
+  const auto ball = std::make_shared<fcl::Sphered>(0.1);
+  const fcl::CollisionObjectd a(ball), b(ball, pose(Eigen::Matrix3d::Identity(), {0.15, 0, 0}));
+  fcl::CollisionResultd result;
+  CHECK(fcl_stpbv::collide<double>(&a, &b, fcl::CollisionRequestd(1, true), result) == 1);
+  REQUIRE(result.numContacts() == 1);
+  CHECK(std::abs(result.getContact(0).penetration_depth - 0.05) <= 1e-15);
+  fcl::DistanceResultd distant;
+  CHECK(std::abs(fcl_stpbv::distance<double>(&a, &b, fcl::DistanceRequestd(), distant) + 0.05) <= 1e-15);
+  CHECK(distant.o1 == ball.get());
+  PairCache cache;
+  QueryContext context;
+  context.cache = &cache;
+  const DistanceAnswer answer = fcl_stpbv::distance<double>(a, b, context);
+  CHECK(answer.status == DistanceStatus::exact);
+  CHECK(std::abs(answer.distance + 0.05) <= 1e-15);
+}
+
 TEST_CASE("meshes and trees have one contact for each two elements that meet, in either order") {
   const auto kinds = elementKinds();
   Random random(2);
@@ -136,6 +157,55 @@ TEST_CASE("a box on a half space, a smooth body in a tree, touching and what has
   CHECK(contactsOf(ball, at(std::nan("")), ball, at(1), 1, false).size() == 1);
   CHECK(contactsOf(ball, at(0), ball, at(0), 0).empty());
 }
+
+TEST_CASE("what FCL's marks call free or unknown meets nothing") {
+  const auto ball = std::make_shared<fcl::Sphered>(0.1), mark = std::make_shared<fcl::Sphered>(0.1);
+  const auto body = std::make_shared<StpBvGeometry>(StpBv::build(box(0.2, 0.2, 0.2)));
+  const auto mesh = meshKind<fcl::OBBRSSd>("OBBRSS").geometry;
+  const Isometry3d here = Isometry3d::Identity(), there = pose(Eigen::Matrix3d::Identity(), {0.15, 0, 0});
+  const auto count = [&](const fcl::CollisionGeometryd& other) {
+    const std::size_t found = contactsOf(*mark, here, other, there).size();
+    CHECK((contactsOf(other, there, *mark, here, 100000, false).size() > 0) == (found > 0));
+    return found;
+  };
+  for (const auto& [density, threshold, meets] :
+       {std::tuple(1.0, 1.0, true), {0.7, 0.7, true}, {0.5, 0.7, false}, {0.0, 1.0, false}}) {
+    CAPTURE(density, threshold);
+    mark->cost_density = density;
+    mark->threshold_occupied = threshold;
+    CHECK((count(*ball) > 0) == meets);
+    CHECK((count(*body) > 0) == meets);
+    CHECK((count(*mesh) > 0) == meets);
+    fcl::CollisionResultd fcls;
+    CHECK((fcl::collide(mark.get(), here, ball.get(), there, fcl::CollisionRequestd(), fcls) > 0) == meets);
+  }
+}
+
+#if FCL_HAVE_OCTOMAP
+TEMPLATE_TEST_CASE("a manager that hands over an octree's cells one by one meets the occupied ones alone", "",
+                   fcl::DynamicAABBTreeCollisionManagerd, fcl::DynamicAABBTreeCollisionManager_Arrayd) {
+  const auto cells = std::make_shared<octomap::OcTree>(0.1);
+  cells->updateNode(octomap::point3d(0.05f, 0.05f, 0.05f), true);
+  cells->updateNode(octomap::point3d(1.05f, 0.05f, 0.05f), false);
+  fcl::CollisionObjectd tree(std::make_shared<fcl::OcTreed>(cells));
+  for (const double x :
+       {0.15, 1.05, 5.0}) {  // in the occupied cell, in the free one, where nobody has looked
+    fcl::CollisionObjectd object(std::make_shared<StpBvGeometry>(StpBv::build({{0, 0, 0}}, {0.1, 1})),
+                                 pose(Eigen::Matrix3d::Identity(), {x, 0.05, 0.05}));
+    for (const bool whole : {true, false}) {
+      CAPTURE(x, whole);
+      TestType manager;
+      manager.octree_as_geometry_collide = whole;
+      manager.registerObject(&object);
+      manager.setup();
+      CollisionData data;
+      data.request = fcl::CollisionRequestd(100, true);
+      manager.collide(&tree, &data, collisionCallback);
+      CHECK(data.result.numContacts() == (x < 1 ? 1 : 0));
+    }
+  }
+}
+#endif
 
 TEST_CASE("the callback gathers a scene's contacts over pairs and stops at as many as were asked for") {
   Random random(4);

@@ -243,6 +243,45 @@ TEST_CASE("objects that carry their motion, and a screw without a turn, go where
   CHECK(result.is_collide);
 }
 
+TEST_CASE("what FCL's marks call free is met by no motion, and its poses are those of the end") {
+  const fcl::Sphered ball(0.1);
+  fcl::Sphered mark(0.1);
+  for (const double density : {1.0, 0.5}) {
+    mark.cost_density = density;
+    fcl::ContinuousCollisionResultd result, mirrored;
+    const double met = fcl_stpbv::continuousCollide(&mark, at(0, 0, 0), at(0, 0, 0), &ball, at(-1, 0, 0),
+                                                    at(1, 0, 0), requestOf(fcl::CCDM_TRANS), result);
+    CHECK(result.is_collide == (density == 1));
+    CHECK(std::abs(met - (density == 1 ? 0.4 : 1)) <= 1e-9);
+    CHECK(result.time_of_contact == met);
+    CHECK((result.contact_tf2.translation() - Vector3d(2 * met - 1, 0, 0)).norm() <= 1e-15);
+    CHECK(fcl_stpbv::continuousCollide(&ball, at(-1, 0, 0), at(1, 0, 0), &mark, at(0, 0, 0), at(0, 0, 0),
+                                       requestOf(fcl::CCDM_TRANS), mirrored) == met);
+  }
+}
+
+TEST_CASE("a motion derived from FCL's, which may go another way, has no answer") {
+  /// Between its ends it goes round by y.
+  struct Detour : fcl::InterpMotion<double> {
+    Detour(const Isometry3d& begin, const Isometry3d& end)
+        : fcl::InterpMotion<double>(Eigen::Matrix3d(begin.linear()), begin.translation(),
+                                    Eigen::Matrix3d(end.linear()), end.translation(), Vector3d(0, 0, 0)) {}
+    bool integrate(double t) const override {
+      fcl::InterpMotion<double>::integrate(t);
+      tf.translation().y() += 4 * t * (1 - t);
+      return true;
+    }
+  };
+  const fcl::Sphered ball(0.1);
+  const Detour detour(at(-1, 0, 0), at(1, 0, 0));
+  const fcl::TranslationMotion<double> still(at(0, 1, 0), at(0, 1, 0));
+  SteadyMotion motion;
+  CHECK_FALSE(steadyMotion(detour, motion));
+  fcl::ContinuousCollisionResultd result;
+  CHECK(fcl_stpbv::continuousCollide(&ball, &detour, &ball, &still, {}, result) == -1);
+  CHECK(result.is_collide);
+}
+
 TEST_CASE("a motion ends at its end pose, by whatever turn the two poses differ") {
   Random random(7);
   for (const double angle :

@@ -1,5 +1,6 @@
 // What FCL leaves behind that its types do not show: boxes merged after a mesh's vertices have moved, meshes
-// half built, cells that lie far from their tree's origin, motions about a point that nobody has set.
+// half built, clouds with room for triangles, cells that lie far from their tree's origin, motions about a
+// point that nobody has set.
 #include <fcl/config.h>
 #include <fcl/geometry/bvh/BVH_model.h>
 #include <fcl/geometry/geometric_shape_to_BVH_model.h>
@@ -18,11 +19,13 @@
 #include <cmath>
 #include <limits>
 #include <new>
+#include <type_traits>
 
 #include "fcl_stpbv/adapter/collide.h"
 #include "fcl_stpbv/adapter/continuous_collide.h"
 #include "fcl_stpbv/adapter/element_tree.h"
 #include "fcl_stpbv/adapter/fcl_distance.h"
+#include "fcl_stpbv/adapter/fcl_hessian.h"
 #include "test/adapter/bodies.h"
 #include "test/reference/reference.h"
 
@@ -198,6 +201,47 @@ TEMPLATE_TEST_CASE("boxes fitted to a moved mesh lead to the few triangles near 
     for (int k = 0; k < 3; ++k)
       if (mesh->tri_indices[i][k] == moved.size() / 2)
         CHECK(std::find(found.begin(), found.end(), i) != found.end());
+}
+
+TEMPLATE_TEST_CASE("a cloud that was begun with room for triangles is its points", "", fcl::AABBd, fcl::OBBd,
+                   fcl::RSSd, fcl::kIOSd, fcl::OBBRSSd, (fcl::KDOP<double, 16>), (fcl::KDOP<double, 24>)) {
+  constexpr bool goesByPoints =
+      !std::is_same_v<TestType, fcl::OBBd> && !std::is_same_v<TestType, fcl::RSSd> &&
+      !std::is_same_v<TestType, fcl::kIOSd> && !std::is_same_v<TestType, fcl::OBBRSSd>;
+  Random random(13);
+  const fcl::Sphered ball(0.1);
+  const Isometry3d still = Isometry3d::Identity();
+  for (const std::size_t count : {1u, 2u, 7u, 60u}) {
+    std::vector<Vector3d> points;
+    for (std::size_t i = 0; i < count; ++i) points.push_back(random.uniform(0, 1) * random.direction());
+    fcl::BVHModel<TestType> cloud;
+    // FCL fits boxes that are turned to the triangles that are not there, whatever the memory holds: these
+    // clouds are given the array afterwards.
+    cloud.beginModel(goesByPoints ? 8 : 0, static_cast<int>(count));
+    for (const Vector3d& p : points) cloud.addVertex(p);
+    cloud.endModel();
+    if (!goesByPoints) cloud.tri_indices = new fcl::Triangle[0];
+    REQUIRE(cloud.tri_indices);
+    CHECK(detail::ElementTree(cloud).merged() == !goesByPoints);
+    CHECK(hasFiniteCorners(cloud) == goesByPoints);
+    for (int i = 0; i < 40; ++i) {
+      const Vector3d at = random.uniform(0, 1.5) * random.direction();
+      const Isometry3d there = pose(random.rotation(), at);
+      std::size_t nearest = 0;
+      for (std::size_t k = 1; k < count; ++k)
+        if ((points[k] - at).norm() < (points[nearest] - at).norm()) nearest = k;
+      const double least = (points[nearest] - at).norm() - 0.1;
+      CAPTURE(count, i);
+      const DistanceAnswer d = distance(cloud, still, ball, there);
+      CHECK(std::abs(d.distance - least) <= 1e-15);
+      CHECK(d.element[0] == static_cast<std::intptr_t>(nearest));
+      CHECK(touch(cloud, ball, there) == (least <= 0));
+      CHECK(isFartherThan(least - 1e-6, cloud, still, ball, there));
+      CHECK_FALSE(isFartherThan(least + 1e-6, cloud, still, ball, there));
+      DistanceHessian second;
+      CHECK(hessian(cloud, still, ball, there, d, second));
+    }
+  }
 }
 
 #if FCL_HAVE_OCTOMAP
