@@ -1,11 +1,13 @@
 // The centre of mass of all links and, by the mass below each joint, how the coordinates move it.
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/number_check.h"
 #include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/posture/task.h"
 
 namespace fcl_stpbv {
 
 using detail::at;
+using detail::requireSize;
 using Eigen::Vector3d;
 
 CentreOfMass::CentreOfMass(const Kinematics& kinematics) {
@@ -20,11 +22,17 @@ CentreOfMass::CentreOfMass(const Kinematics& kinematics) {
   if (!(mass_ > 0)) throw Error(robot.path + ": no link has a mass; give the links <inertial> elements");
   for (const Kinematics::Motion& motion : kinematics.motions())
     motions_.push_back({motion.joint < 0 ? 0 : robot.joints[at(motion.joint)].child, motion.coordinate});
+  coordinates_ = kinematics.size();
   below_.resize(links_.size());
   momentBelow_.resize(links_.size());
 }
 
 Vector3d CentreOfMass::evaluate(const Kinematics::State& state, Eigen::Ref<Eigen::Matrix3Xd> jacobian) {
+  requireSize("CentreOfMass", "state.link", static_cast<long>(state.link.size()),
+              static_cast<long>(links_.size()));
+  requireSize("CentreOfMass", "state.motion", static_cast<long>(state.motion.size()),
+              static_cast<long>(motions_.size()));
+  requireSize("CentreOfMass", "the Jacobian", jacobian.cols(), coordinates_);
   for (std::size_t i = 0; i < links_.size(); ++i) {
     below_[i] = links_[i].mass;
     momentBelow_[i] = links_[i].mass * (state.link[i] * links_[i].centre);

@@ -7,6 +7,7 @@
 #include "fcl_stpbv/cross_matrix.h"
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/posture/task.h"
+#include "fcl_stpbv/robot/link_check.h"
 
 namespace fcl_stpbv {
 namespace {
@@ -62,6 +63,7 @@ PlacementRows::PlacementRows(const Kinematics& kinematics, Placement placement)
   if (turns == 2)
     throw Error("placement '" + placement_.name + "': two rotations are free; free one of them or all three");
   if (turns != 1) freeAxis_ = -1;
+  detail::requireLink("placement '" + placement_.name + "'", placement_.link, kinematics.robot());
   for (const Kinematics::Dependence& d : kinematics.dependence(placement_.link)) {
     const std::size_t motion = static_cast<std::size_t>(d.motion);
     carriers_.push_back({motion, kinematics.motions()[motion].coordinate});

@@ -5,10 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fcl_stpbv/number_check.h"
 #include "fcl_stpbv/posture/mimic_limits.h"
 
 namespace fcl_stpbv {
 namespace {
+
+using detail::requireSize;
 
 void sortWorstFirst(std::vector<Violation>& list) {
   std::stable_sort(list.begin(), list.end(),
@@ -36,6 +39,9 @@ PostureProblem::PostureProblem(std::shared_ptr<const Kinematics> kinematics, Pos
       lowerOf_(static_cast<std::size_t>(kinematics_->size())),
       upperOf_(static_cast<std::size_t>(kinematics_->size())),
       state_(kinematics_->makeState()) {
+  requireSize("PostureProblem", "start", start.size(), kinematics_->size());
+  requireSize("PostureProblem", "the cost's weights", cost_.weights.size(), kinematics_->size());
+  requireSize("PostureProblem", "the cost's reference", cost_.reference.size(), kinematics_->size());
   detail::keepMimicLimits(*kinematics_, {lower_, lowerOf_}, {upper_, upperOf_});
   for (const Kinematics::Motion& motion : kinematics_->motions()) {
     const int i = motion.coordinate;
@@ -83,6 +89,7 @@ std::string PostureProblem::limitName(int i, bool upper) const {
 }
 
 Eigen::VectorXd PostureProblem::variablesAt(const Eigen::VectorXd& q) const {
+  requireSize("PostureProblem", "q", q.size(), kinematics_->size());
   Eigen::VectorXd x(variables());
   x.head(q.size()) = q;
   for (const auto& [first, count] : shares_) x.segment(first, count).setConstant(1.0 / count);
@@ -96,6 +103,7 @@ Eigen::VectorXd PostureProblem::costCurvature() const {
 }
 
 const PostureValues& PostureProblem::evaluate(const Eigen::Ref<const Eigen::VectorXd>& x) {
+  requireSize("PostureProblem", "x", x.size(), variables());
   if (known_ && x == values_.x) return values_;
   known_ = true;
   values_.x = x;

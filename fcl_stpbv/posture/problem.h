@@ -74,7 +74,7 @@ class PostureProblem {
   /// The joints keep to their limits, and to those of the joints that mimic them. A moving base's rotation
   /// vector keeps within a quarter turn, axis by axis, of that at `start`: then it stays away from the full
   /// turn, where it is singular, wherever the start faces. @throws Error naming the joints where mimic ones
-  /// leave a joint no value.
+  /// leave a joint no value, and, as all below do, for vectors of another size.
   PostureProblem(std::shared_ptr<const Kinematics> kinematics, PostureCost cost,
                  const Eigen::VectorXd& start);
 
@@ -161,7 +161,7 @@ struct SolverOutcome {
   std::string status;  ///< why it ended, for people
 };
 
-/// Sequential quadratic programming by NLopt's SLSQP.
+/// Sequential quadratic programming by NLopt's SLSQP. @throws Error for a start of another size.
 SolverOutcome solveBySlsqp(PostureProblem& problem, const Eigen::VectorXd& start,
                            const SolverOptions& options);
 

@@ -12,6 +12,7 @@
 #include <memory>
 #include <vector>
 
+#include "fcl_stpbv/number_check.h"
 #include "fcl_stpbv/posture/independent_rows.h"
 
 namespace fcl_stpbv {
@@ -195,6 +196,7 @@ class Slsqp {
 
 SolverOutcome solveBySlsqp(PostureProblem& problem, const Eigen::VectorXd& start,
                            const SolverOptions& options) {
+  requireSize("solveBySlsqp", "start", start.size(), problem.variables());
   if (problem.variables() == 0) return {start, 0, "converged"};
   return Slsqp(problem, options).run(start);
 }

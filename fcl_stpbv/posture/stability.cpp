@@ -5,6 +5,7 @@
 #include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/posture/support_patch.h"
 #include "fcl_stpbv/posture/task.h"
+#include "fcl_stpbv/robot/link_check.h"
 
 namespace fcl_stpbv {
 namespace {
@@ -74,6 +75,7 @@ StaticStability::StaticStability(const Kinematics& kinematics, const std::vector
       firstWeight_(firstWeight),
       centreJacobian_(3, kinematics.size()) {
   for (const Contact& contact : contacts) {
+    detail::requireLink("StaticStability", contact.link, kinematics.robot());
     patches_->links.push_back(contact.link);
     patches_->list.emplace_back(contact.points, margin);
     weights_ += patches_->list.back().corners();

@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/number_check.h"
 #include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/posture/convex_polygon.h"
 
@@ -49,6 +50,7 @@ std::vector<Vector2d> plainHull(std::vector<Vector2d> points) {
 }  // namespace
 
 SupportPatch::SupportPatch(const std::vector<Vector3d>& points, double margin) {
+  requireNumber("a contact's margin", margin, 0, 1e9);
   if (!(margin > 0)) {
     for (const Vector3d& p : points) points_.push_back({p});
     return;

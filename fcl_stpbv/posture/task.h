@@ -23,7 +23,8 @@ class CentreOfMass {
 
   /// Of all links (kg).
   double mass() const { return mass_; }
-  /// World frame. `jacobian` (3 x coordinates) is overwritten.
+  /// World frame. `jacobian` (3 x coordinates) is overwritten. @throws Error for another size, or the state
+  /// of another robot.
   Eigen::Vector3d evaluate(const Kinematics::State& state, Eigen::Ref<Eigen::Matrix3Xd> jacobian);
 
  private:
@@ -39,6 +40,7 @@ class CentreOfMass {
   std::vector<Link> links_;
   std::vector<Motion> motions_;
   double mass_ = 0;
+  int coordinates_ = 0;
   std::vector<double> below_;                 // mass of each link and all below it
   std::vector<Eigen::Vector3d> momentBelow_;  // their masses times positions
 };
@@ -50,7 +52,8 @@ struct Contact {
 };
 
 /// The corners of a flat convex patch moved inwards so that each edge moves by `margin` (m). One or two
-/// points have no inside: they stay where they are with a margin of 0. @throws Error where nothing is left.
+/// points have no inside: they stay where they are with a margin of 0. @throws Error where nothing is left,
+/// and for a margin that is below 0 or no number.
 std::vector<Eigen::Vector3d> shrunk(const std::vector<Eigen::Vector3d>& points, double margin);
 
 /// Rows: the centre of mass, seen along z, is the sum of w_k times contact point k, with w_k >= 0 of sum 1.
@@ -61,7 +64,7 @@ class StaticStability : public PostureRows {
  public:
   /// Keeps a reference to `kinematics`. `margin` in m; with one, room() belongs to the problem as well.
   /// `world` turns the axes that `kinematics` has for the world's into those with z upwards.
-  /// @throws Error where a contact has nothing left.
+  /// @throws Error where a contact has nothing left, and for a link that does not exist.
   StaticStability(const Kinematics& kinematics, const std::vector<Contact>& contacts, double margin,
                   int firstWeight, const Eigen::Matrix3d& world = Eigen::Matrix3d::Identity());
 
@@ -103,7 +106,7 @@ struct Placement {
 /// frame's. Neither vanishes anywhere else; both have a singularity at half a turn only.
 class PlacementRows : public PostureRows {
  public:
-  /// @throws Error for two free rotations.
+  /// @throws Error for two free rotations, and for a link that does not exist.
   PlacementRows(const Kinematics& kinematics, Placement placement);
 
   Kind kind() const override { return Kind::equal; }

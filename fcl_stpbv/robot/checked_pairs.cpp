@@ -6,6 +6,7 @@
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/robot/adjacency.h"
 #include "fcl_stpbv/robot/kinematics.h"
+#include "fcl_stpbv/robot/link_check.h"
 
 namespace fcl_stpbv {
 namespace {
@@ -112,6 +113,7 @@ void requirePairs(std::size_t checked, const RobotModel& robot, const std::strin
 }
 
 bool moves(const RobotModel& robot, int link, bool baseMoves) {
+  detail::requireLink("moves", link, robot);
   for (int at = link; !baseMoves && at >= 0; at = parentOf(robot, at)) {
     const int joint = robot.links[static_cast<std::size_t>(at)].parentJoint;
     if (joint >= 0 && robot.joints[static_cast<std::size_t>(joint)].type != JointType::fixed) return true;

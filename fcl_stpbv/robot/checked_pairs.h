@@ -64,7 +64,7 @@ std::vector<CheckedPair> bodiesOf(const RobotGeometry& geometry, const LinkPair&
 /// @throws Error naming the robot's file and what would work, unless `checked` is above 0.
 void requirePairs(std::size_t checked, const RobotModel& robot, const std::string& why);
 
-/// Whether a joint, or the base, moves the link.
+/// Whether a joint, or the base, moves the link. @throws Error for a link that does not exist.
 bool moves(const RobotModel& robot, int link, bool baseMoves = false);
 
 /// Every body against every obstacle, but for bodies that no joint moves.

@@ -14,6 +14,7 @@
 #include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/packed.h"
 #include "fcl_stpbv/robot/joint_freedoms.h"
+#include "fcl_stpbv/robot/link_check.h"
 #include "fcl_stpbv/vectorized.h"
 
 namespace fcl_stpbv {
@@ -238,6 +239,7 @@ void Kinematics::placeFree(const Step& step, const Eigen::Ref<const Eigen::Vecto
 }
 
 std::vector<Kinematics::Dependence> Kinematics::dependence(int link) const {
+  detail::requireLink("Kinematics", link, *robot_);
   std::vector<Dependence> list;
   for (int at1 = link; at1 >= 0;) {
     const int s = stepOf_[at(at1)];

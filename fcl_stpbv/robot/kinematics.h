@@ -98,9 +98,9 @@ class Kinematics {
   void differentiate(const Eigen::Ref<const Eigen::VectorXd>& q, const Eigen::Ref<const Eigen::VectorXd>& v,
                      const State& state, Rate& rate) const;
 
-  /// The motions that change where one link is to the other.
+  /// The motions that change where one link is to the other. @throws Error for a link that does not exist.
   std::vector<Dependence> dependence(int link1, int link2) const;
-  /// The motions that carry a link.
+  /// The motions that carry a link. @throws Error for one that does not exist.
   std::vector<Dependence> dependence(int link) const;
 
  private:

@@ -7,6 +7,7 @@
 #include <assimp/Exporter.hpp>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -57,6 +58,19 @@ std::unique_ptr<aiMesh> toAssimp(const TriangleMesh& mesh) {
                    [](int index) { return static_cast<unsigned>(index); });
   }
   return out;
+}
+
+// assimp looks at neither, and reads memory that is not the mesh's for a triangle of no vertex.
+void requireSound(const TriangleMesh& mesh, const std::string& path) {
+  const auto exists = [&](int i) { return i >= 0 && static_cast<std::size_t>(i) < mesh.vertices.size(); };
+  for (const std::array<int, 3>& triangle : mesh.triangles)
+    if (!std::all_of(triangle.begin(), triangle.end(), exists))
+      throw Error(path + ": not written, a triangle names a vertex that does not exist: there are " +
+                  std::to_string(mesh.vertices.size()));
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i)
+    if (!(mesh.vertices[i].array().abs() <= std::numeric_limits<float>::max()).all())
+      throw Error(path + ": not written, vertex " + std::to_string(i) +
+                  " has a coordinate that is no number or beyond single precision");
 }
 
 // Colours that differ: the hue turns by the golden section from mesh to mesh.
@@ -119,6 +133,7 @@ void saveColoured(const std::string& path, const std::vector<TriangleMesh>& mesh
   const bool none =
       std::any_of(meshes.begin(), meshes.end(), [](const auto& m) { return m.triangles.empty(); });
   if (meshes.empty() || none) throw Error(path + ": not written, the mesh has no triangles");
+  for (const TriangleMesh& mesh : meshes) requireSound(mesh, path);
   const std::unique_ptr<aiScene> scene = sceneOf(meshes);
   const bool isPly = format->assimpId == std::string_view("plyb");
   // Into a binary PLY assimp 5.2 writes a colour's channels as floats, which the header says are bytes.

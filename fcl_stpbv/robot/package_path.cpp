@@ -1,6 +1,6 @@
 // Where package://, file:// and relative names lead: the given folders, ROS_PACKAGE_PATH, AMENT_PREFIX_PATH,
-// the package around the URDF and those beside it, in this order; at last the given ones by the end of a
-// name.
+// the package around the URDF and those beside it, in this order; then the given ones by the end of a
+// name; at last what lies deeper in ROS_PACKAGE_PATH.
 #include "fcl_stpbv/robot/package_path.h"
 
 #include <algorithm>
@@ -8,6 +8,8 @@
 #include <cstdlib>
 #include <filesystem>
 #include <optional>
+#include <set>
+#include <utility>
 
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/robot/uri_text.h"
@@ -64,12 +66,41 @@ bool isPackage(const fs::path& folder, const std::string& name) {
   return plain.filename() == name || packageIn(folder) == name;
 }
 
+// The package that a name is of, and the path in it, however many slashes lead there.
+std::pair<std::string, std::string> partsOf(const std::string& uri) {
+  const std::string inside = uri.substr(kPackage.size());
+  const std::size_t slash = inside.find('/');
+  const std::size_t start = std::min(inside.find_first_not_of('/', slash), inside.size());
+  return {inside.substr(0, slash), fs::path(inside.substr(start)).lexically_normal().string()};
+}
+
+// The packages of a name below a folder where rospack finds them: at any depth, but not within another
+// package, nor in folders that are hidden or marked. Each folder of `seen` is looked into once.
+void findBelow(const fs::path& folder, const std::string& package, std::set<fs::path>& seen,
+               std::vector<std::string>& found) {
+  constexpr std::size_t kMost = 100000;  // where somebody names a whole disk
+  std::error_code end, ignored;
+  if (seen.size() == kMost || !seen.insert(fs::canonical(folder, ignored)).second) return;
+  if (fs::exists(folder / "package.xml", ignored)) {
+    if (packageIn(folder) == package) found.push_back(folder.string());
+    return;
+  }
+  std::set<fs::path> inner;  // in the same order everywhere
+  fs::directory_iterator entry(folder, fs::directory_options::skip_permission_denied, end);
+  for (; !end && entry != fs::directory_iterator(); entry.increment(end))
+    if (entry->is_directory(ignored) && entry->path().filename().string()[0] != '.')
+      inner.insert(entry->path());
+  for (const fs::path& next : inner)
+    if (!fs::exists(next / "CATKIN_IGNORE", ignored)) findBelow(next, package, seen, found);
+}
+
 }  // namespace
 
 PackagePath::PackagePath(const std::string& urdf, std::vector<std::string> folders)
-    : folders_(std::move(folders)), prefixes_(splitAtColons(std::getenv("AMENT_PREFIX_PATH"))) {
-  for (std::string& folder : splitAtColons(std::getenv("ROS_PACKAGE_PATH")))
-    folders_.push_back(std::move(folder));
+    : folders_(std::move(folders)),
+      rosFolders_(splitAtColons(std::getenv("ROS_PACKAGE_PATH"))),
+      prefixes_(splitAtColons(std::getenv("AMENT_PREFIX_PATH"))) {
+  folders_.insert(folders_.end(), rosFolders_.begin(), rosFolders_.end());
   std::error_code error;
   // What comes through a pipe has no folder of its own; its relative names are of the working folder.
   const bool pipe = fs::exists(urdf, error) && !fs::is_regular_file(urdf, error);
@@ -96,12 +127,7 @@ std::vector<std::string> PackagePath::candidates(const std::string& uri) const {
     for (const std::string& folder : urdfFolders_)
       add(fs::path(folder) / filePathIn(uri).value_or(uri));  // an absolute path stays as it is
   } else {
-    const std::string inside = uri.substr(kPackage.size());
-    const std::size_t slash = inside.find('/');
-    const std::string package = inside.substr(0, slash);
-    // Below the package, however many slashes lead there.
-    const std::size_t start = std::min(inside.find_first_not_of('/', slash), inside.size());
-    const std::string rest = fs::path(inside.substr(start)).lexically_normal().string();
+    const auto [package, rest] = partsOf(uri);
     for (const std::string& folder : folders_) {
       if (isPackage(folder, package)) add(fs::path(folder) / rest);
       add(fs::path(folder) / package / rest);
@@ -122,6 +148,14 @@ std::vector<std::string> PackagePath::candidates(const std::string& uri) const {
   return paths;
 }
 
+const std::vector<std::string>& PackagePath::deeper(const std::string& package) const {
+  const auto [places, isNew] = deeper_.try_emplace(package);
+  std::set<fs::path> seen;
+  for (const std::string& folder : rosFolders_)
+    if (isNew) findBelow(folder, package, seen, places->second);
+  return places->second;
+}
+
 std::string PackagePath::resolve(const std::string& uri) const {
   if (const std::string kind = otherKind(uri); !kind.empty())
     throw Error(uri + ": names that begin with '" + kind +
@@ -132,6 +166,15 @@ std::string PackagePath::resolve(const std::string& uri) const {
   std::error_code ignored;
   for (const std::string& path : paths)
     if (fs::is_regular_file(path, ignored)) return path;
+  for (const std::string& name : {uri, percentDecoded(uri)}) {  // reads many folders: only where it must be
+    if (!startsWith(name, kPackage)) continue;
+    const auto [package, rest] = partsOf(name);
+    for (const std::string& place : deeper(package)) {
+      const std::string path = (fs::path(place) / rest).lexically_normal().string();
+      if (fs::is_regular_file(path, ignored)) return path;
+      if (std::find(paths.begin(), paths.end(), path) == paths.end()) paths.push_back(path);
+    }
+  }
   std::string message = uri + ": no such file; tried";
   for (const std::string& path : paths) message += "\n  " + path;
   if (startsWith(uri, kPackage)) {

@@ -8,6 +8,7 @@
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/robot/checked_pairs.h"
+#include "fcl_stpbv/robot/link_check.h"
 
 namespace fcl_stpbv {
 namespace {
@@ -74,6 +75,7 @@ std::vector<Srdf::Pair> toSrdf(const RobotModel& robot, const std::vector<PairEn
     if (entry.obstacle || entry.reason == PairReason::sometimes || entry.reason == PairReason::user) continue;
     const bool clears = entry.reason == PairReason::defaultClears || entry.reason == PairReason::always;
     if (clears && !defaultToo) continue;
+    for (const int link : {entry.link1, entry.link2}) detail::requireLink("toSrdf", link, robot);
     Srdf::Pair pair{robot.links[at(entry.link1)].name, robot.links[at(entry.link2)].name, srdfReason(entry)};
     if (pair.link2 < pair.link1) std::swap(pair.link1, pair.link2);
     pairs.push_back(std::move(pair));

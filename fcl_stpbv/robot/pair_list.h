@@ -92,7 +92,7 @@ std::string countsOf(const std::vector<PairEntry>& list);
 
 /// The pairs of links to leave out, sorted by the links' names, for withPairs(). The user's own are not among
 /// them. Those that collide in the neutral configuration, or in nearly every sample, and are clear elsewhere
-/// only with `defaultToo`.
+/// only with `defaultToo`. @throws Error for a link that the robot does not have.
 std::vector<Srdf::Pair> toSrdf(const RobotModel& robot, const std::vector<PairEntry>& list,
                                bool defaultToo = false);
 

@@ -16,6 +16,11 @@
 #include "fcl_stpbv/robot/xml_text.h"
 
 namespace fcl_stpbv {
+
+template <int alignment, int byMalloc>
+void detail::EigenMemory<alignment, byMalloc>::asInTheLibrary() {}
+template struct detail::EigenMemory<EIGEN_MAX_STATIC_ALIGN_BYTES, EIGEN_MALLOC_ALREADY_ALIGNED>;
+
 namespace {
 
 using namespace detail;

@@ -11,6 +11,20 @@
 
 namespace fcl_stpbv {
 
+namespace detail {
+/// Where Eigen's types lie depends on the compiler's flags: -march=native and -mavx align them to more bytes,
+/// -fsanitize=address takes their memory in another way. A program with other flags than the library would
+/// read beside the members of a robot and free what was not allocated, so it does not link: only the library
+/// has this, for its own flags (docs/tutorial.md, 1).
+template <int alignment, int byMalloc>
+struct [[gnu::visibility("default")]] EigenMemory {
+  static void asInTheLibrary();  ///< Does nothing.
+};
+extern template struct EigenMemory<EIGEN_MAX_STATIC_ALIGN_BYTES, EIGEN_MALLOC_ALREADY_ALIGNED>;
+[[gnu::used]] static void (*const eigenMemory)() =
+    &EigenMemory<EIGEN_MAX_STATIC_ALIGN_BYTES, EIGEN_MALLOC_ALREADY_ALIGNED>::asInTheLibrary;
+}  // namespace detail
+
 /// Each entry is a whole message that names the file, the element and what would work.
 struct LoadFaults {
   std::vector<std::string> errors;    ///< the robot cannot be loaded with these

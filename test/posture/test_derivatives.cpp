@@ -168,6 +168,48 @@ TEST_CASE("a shrunk contact keeps the margin from every edge") {
   CHECK_THROWS_WITH(shrunk({{0, 0, 0}}, 0.01), Catch::Contains("smaller margin"));
 }
 
+TEST_CASE("sizes, links and margins that are wrong are refused by name") {
+  const auto kinematics = std::make_shared<const Kinematics>(hrp2Scene().robot);
+  const int n = kinematics->size();
+  const Eigen::VectorXd q = kinematics->neutral(), other = q.head(n - 1);
+  const auto refused = [](const auto& act, const std::string& message) {
+    INFO(message);
+    CHECK_THROWS_WITH(act(), Catch::Contains(message));
+  };
+  const std::string sizes = " has the size " + std::to_string(n - 1) + ", expected " + std::to_string(n);
+  const auto make = [&](const PostureCost& cost, const Eigen::VectorXd& start) {
+    return PostureProblem(kinematics, cost, start);
+  };
+  const PostureCost cost = quarterCost(*kinematics);
+  refused([&] { make(cost, other); }, "PostureProblem: start" + sizes);
+  refused([&] { make({other, cost.reference}, q); }, "PostureProblem: the cost's weights" + sizes);
+  refused([&] { make({cost.weights, other}, q); }, "PostureProblem: the cost's reference" + sizes);
+  PostureProblem problem = make(cost, q);
+  refused([&] { problem.evaluate(other); }, "PostureProblem: x" + sizes);
+  refused([&] { problem.violations(other, 1e-6); }, "PostureProblem: x" + sizes);
+  refused([&] { problem.variablesAt(other); }, "PostureProblem: q" + sizes);
+  refused([&] { solveBySlsqp(problem, other, {}); }, "solveBySlsqp: start" + sizes);
+  CentreOfMass centre(*kinematics);
+  Eigen::Matrix3Xd narrow(3, n - 1), moved(3, n);
+  const Kinematics::State state = kinematics->makeState();
+  refused([&] { centre.evaluate(state, narrow); }, "CentreOfMass: the Jacobian" + sizes);
+  refused([&] { centre.evaluate({}, moved); }, "CentreOfMass: state.link has the size 0");
+  const int links = static_cast<int>(kinematics->robot().links.size());
+  const std::vector<Eigen::Vector3d> sole{{0.1, 0.05, 0}, {-0.1, 0.05, 0}, {0, -0.05, 0}};
+  for (const int link : {-1, links}) {
+    const std::string none = "there is no link " + std::to_string(link) + " of " + std::to_string(links);
+    Placement placement;
+    placement.name = "hand";
+    placement.link = link;
+    refused([&] { PlacementRows(*kinematics, placement); }, "placement 'hand': " + none);
+    refused([&] { StaticStability(*kinematics, {{link, sole}}, 0, n); }, "StaticStability: " + none);
+  }
+  for (const double margin : {-0.01, std::nan("")}) {
+    refused([&] { shrunk(sole, margin); }, "a contact's margin: got");
+    refused([&] { StaticStability(*kinematics, {{0, sole}}, margin, n); }, "a contact's margin: got");
+  }
+}
+
 TEST_CASE("collisions' derivatives agree with differences away from deep penetration") {
   Random random(5);
   const PostureScene scene = hrp2Scene();

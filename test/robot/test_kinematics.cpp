@@ -1,7 +1,9 @@
 // Poses and motions of links against differences and known positions.
 #include <catch2/catch.hpp>
 
+#include "fcl_stpbv/robot/checked_pairs.h"
 #include "fcl_stpbv/robot/kinematics.h"
+#include "fcl_stpbv/robot/pair_list.h"
 #include "test/reference/robots.h"
 #include "test/reference/shapes.h"
 #include "test/robot/urdf_texts.h"
@@ -136,6 +138,12 @@ TEST_CASE("a pair depends on the joints between its links only") {
   CHECK(list[0].sign == -1);
   CHECK(list[1].sign == 1);
   CHECK(kinematics.dependence(model.link("c"), model.link("c")).empty());
+  CHECK_THROWS_WITH(kinematics.dependence(4), "Kinematics: there is no link 4 of 4");
+  CHECK_THROWS_WITH(kinematics.dependence(0, -1), "Kinematics: there is no link -1 of 4");
+  CHECK_THROWS_WITH(moves(model, 999), "moves: there is no link 999 of 4");
+  PairEntry foreign;
+  foreign.link1 = 0, foreign.link2 = 4, foreign.reason = PairReason::adjacent;
+  CHECK_THROWS_WITH(toSrdf(model, {foreign}), "toSrdf: there is no link 4 of 4");
 }
 
 TEST_CASE("two coordinates of one name are refused, with the name and the file") {

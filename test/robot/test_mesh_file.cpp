@@ -204,6 +204,29 @@ TEST_CASE("a mesh is previewed in four formats and reads back") {
   CHECK(refusal(save, folder / "none/p.obj").find("cannot be written") != std::string::npos);
 }
 
+TEST_CASE("a mesh that no file can hold is not written") {
+  const TemporaryFolder folder;
+  const TriangleMesh sound{kCorners, {kTriangles.begin(), kTriangles.end()}};
+  TriangleMesh none = sound, below = sound, wild = sound, far = sound;
+  none.triangles[1][2] = 5000000;
+  below.triangles[0][0] = -1;
+  wild.vertices[3].y() = std::nan("");
+  far.vertices[2].z() = -1e39;
+  for (const std::string name : {"p.obj", "p.stl", "p.ply", "p.glb"}) {
+    INFO(name);
+    const auto message = [&](const TriangleMesh& mesh) {
+      return refusal([&](const std::string& path) { saveColoured(path, {sound, mesh}); }, folder / name);
+    };
+    for (const TriangleMesh& mesh : {none, below})
+      CHECK(message(mesh).find("a triangle names a vertex that does not exist: there are 4") !=
+            std::string::npos);
+    CHECK(message(wild).find("vertex 3 has a coordinate that is no number or beyond single precision") !=
+          std::string::npos);
+    CHECK(message(far).find("vertex 2 has") != std::string::npos);
+  }
+  CHECK(folder.files().empty());
+}
+
 TEST_CASE("several meshes in colours of their own read back from each format") {
   const TemporaryFolder folder;
   const TriangleMesh near{box(0.2, 0.3, 0.5), {{0, 1, 2}, {4, 5, 6}, {7, 3, 1}}};

@@ -229,6 +229,34 @@ TEST_CASE("names lead where their writer meant, whatever the working folder is")
   CHECK(paths.resolve("package://pkg/models/meshes/e.stl") == folder / "pkg/models/meshes/e.stl");
 }
 
+TEST_CASE("a package in a repository of a workspace is found where rospack finds it") {
+  const TemporaryFolder folder;
+  for (const char* name :
+       {"repo/pkg/meshes", "repo/other/pkg", ".hidden/pkg", "off/pkg", "deep/er/two/meshes"})
+    std::filesystem::create_directories(folder / "src" + ("/" + std::string(name)));
+  const std::string src = folder / "src/";
+  put(src + "repo/pkg/package.xml", "<package><name>pkg</name></package>");
+  put(src + "repo/pkg/meshes/a.stl", "x");
+  put(src + "repo/other/package.xml", "<package><name>other</name></package>");
+  put(src + "off/CATKIN_IGNORE", "");
+  for (const char* none : {"repo/other/pkg", ".hidden/pkg", "off/pkg"}) {  // inside a package, hidden, marked
+    put(src + none + "/package.xml", "<package><name>none</name></package>");
+    put(src + none + "/a.stl", "x");
+  }
+  put(src + "deep/er/two/package.xml", "<package><name>named otherwise</name></package>");
+  put(src + "deep/er/two/meshes/b c.stl", "x");
+  std::filesystem::create_directory_symlink("..", src + "repo/loop");
+  ::setenv("ROS_PACKAGE_PATH", ("/none:" + src).c_str(), 1);
+  const PackagePath paths("/home/robot.urdf");
+  ::unsetenv("ROS_PACKAGE_PATH");
+  CHECK(paths.resolve("package://pkg/meshes/a.stl") == src + "repo/pkg/meshes/a.stl");
+  CHECK(paths.resolve("package://pkg//meshes/../meshes/a.stl") == src + "repo/pkg/meshes/a.stl");
+  CHECK(paths.resolve("package://named%20otherwise/meshes/b%20c.stl") == src + "deep/er/two/meshes/b c.stl");
+  const auto resolve = [&](const std::string& uri) { paths.resolve(uri); };
+  CHECK_THAT(refusal(resolve, "package://none/a.stl"), !Contains("repo") && !Contains("off"));
+  CHECK_THAT(refusal(resolve, "package://pkg/b.stl"), Contains(src + "repo/pkg/b.stl"));
+}
+
 TEST_CASE("names of another kind are refused as such") {
   const PackagePath paths("/home/robot.urdf");
   for (const char* uri : {"http://a.org/a.stl", "model://a/a.stl", "Package://a/a.stl", "package:/a/a.stl"})
