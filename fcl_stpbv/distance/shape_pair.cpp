@@ -6,7 +6,8 @@
 // 3. A ball and a shape of few features, and most boxes: closed form (ball_pair.cpp, box_pair.cpp).
 // 4. GJK with the duality gap as its stop. Its upper bound is the distance of two points of the bodies, its
 //    lower one the gap between the supporting planes of the answer's normal.
-// 5. Newton's method on the features there gives the last digits (shape_newton.h). Overlap: shape_depth.cpp.
+// 5. Newton's method on the features there gives the last digits (shape_newton.h), of flat sides what their
+//    corners' heights say (level_faces.cpp). Overlap: shape_depth.cpp.
 #include "fcl_stpbv/distance/shape_pair.h"
 
 #include <algorithm>
@@ -103,8 +104,12 @@ Distance separated(const Pair& p, const Gjk& found) {
   const double open = std::max(found.upper - widest.gap, p.rounding);
   const double angle = std::min(std::sqrt(2.0 * open / found.upper), Pair::kWidest);
   const Vector3d& n = widest.gap > 0.0 ? widest.n : found.n;
-  const auto nearest = nearestOnFeatures(p.a, p.b, p.pose, n, widest.gap,
-                                         found.simplex.weighted(&Corner::onA), angle, p.rounding);
+  OppositePoints level;
+  level.n = n;
+  const bool isLevel = !p.curved() && oppositeLevel(p, angle, level) && level.gap >= widest.gap - p.rounding;
+  const auto nearest = isLevel ? level
+                               : nearestOnFeatures(p.a, p.b, p.pose, n, widest.gap,
+                                                   found.simplex.weighted(&Corner::onA), angle, p.rounding);
   if (!nearest || !(nearest->gap > 0.0)) {
     if (p.curved() && !opposite && result.status == DistanceStatus::exact)
       result.status = DistanceStatus::bounded;

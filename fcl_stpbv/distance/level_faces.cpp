@@ -1,0 +1,187 @@
+// Two flat-sided bodies apart, whose faces or edges are level but for a hair: the last digits of normal and
+// points.
+//
+// Where GJK's bounds agree to rounding its normal is good to the root of that only, and beside the bodies'
+// size the heights by which corners differ are rounding. So:
+// 1. Of both bodies the corners count that are as high along the normal n as the highest, but for what n may
+//    be off by.
+// 2. Next to n, turned by t across it, the gap is D + min(h + p.t) - D |t|^2 / 2. D is the gap along n, and
+// of
+//    each difference of two corners h is the height above that and p the place across.
+// 3. The t where that is most is sought among the maxima of up to three differences; the lowest one there
+//    joins them, until none is lower. Their weights make the two points.
+#include <algorithm>
+#include <array>
+#include <initializer_list>
+#include <limits>
+
+#include "fcl_stpbv/convex/vertex_set.h"
+#include "fcl_stpbv/distance/shape_pair.h"
+
+namespace fcl_stpbv::detail {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+namespace {
+
+/// The corners of a core that are level with the highest along a normal.
+struct LevelCorners {
+  static constexpr int kMost = 32;
+  std::array<Vector3d, kMost> at;  ///< frame of the first core (m)
+  int count = 0;
+
+  /// Those of `shape` that are at most `below` (m) under the highest along `m`, in the shape's own frame.
+  /// False where they are too many, or round.
+  bool find(const Shape& shape, const Vector3d& m, double below) {
+    std::array<Vector3d, 8> corner;
+    const Vector3d* all = corner.data();
+    int number = 0;
+    switch (shape.kind) {
+      case ShapeKind::point:
+        corner[number++].setZero();
+        break;
+      case ShapeKind::segment:
+        for (const double z : {shape.half, -shape.half})
+          corner[static_cast<std::size_t>(number++)] = {0, 0, z};
+        break;
+      case ShapeKind::box:
+        for (std::size_t i = 0; i < 8; ++i)
+          corner[i] = shape.size.cwiseProduct(Vector3d(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1));
+        number = 8;
+        break;
+      case ShapeKind::triangle:
+        all = shape.corner.data();
+        number = 3;
+        break;
+      case ShapeKind::polytope:
+        all = shape.vertices;
+        number = shape.vertexCount;
+        break;
+      default:
+        return false;
+    }
+    std::array<int, kMost> which;
+    count = fromHeight(m.dot(shape.support(m)) - below, m, all, number, which.data(), kMost);
+    if (count > kMost) return false;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) at[i] = all[which[i]];
+    return true;
+  }
+};
+
+/// A difference of two corners as it is seen along the normal.
+struct LevelDifference {
+  std::size_t a = 0, b = 0;  ///< the corners
+  double height = 0;         ///< above the lowest (m)
+  Vector2d across{0, 0};     ///< m
+
+  double heightAt(const Vector2d& turn) const { return height + across.dot(turn); }
+};
+
+/// Up to four differences, and the turn that the gap between them is widest at.
+struct WidestTurn {
+  std::array<LevelDifference, 4> difference;
+  std::array<double, 4> weight{};
+  int count = 0;
+  Vector2d turn{0, 0};                                    ///< tangent of the angle
+  double gap = -std::numeric_limits<double>::infinity();  ///< more than D there (m)
+
+  void add(const LevelDifference& one) { difference[static_cast<std::size_t>(count++)] = one; }
+  double lowest(const Vector2d& at) const {
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i)
+      least = std::min(least, difference[i].heightAt(at));
+    return least;
+  }
+
+  /// The same of all of them, at the distance `d` (m). What has no weight is left out.
+  WidestTurn best(double d) const {
+    WidestTurn widest;
+    // The weighted sum of the places across is `d` times the turn, but only to rounding of the bodies' size:
+    // where differences are level at the turn, their heights tell it.
+    const auto offer = [&](std::initializer_list<int> which, std::initializer_list<double> weights,
+                           const Vector2d& at) {
+      WidestTurn x;
+      x.turn = at;
+      const double* w = weights.begin();
+      for (const int i : which) {
+        if (!(*w >= 0.0)) return;
+        x.weight[static_cast<std::size_t>(x.count)] = *w++;
+        x.add(difference[static_cast<std::size_t>(i)]);
+      }
+      x.gap = lowest(at) - 0.5 * d * at.squaredNorm();
+      if (x.gap > widest.gap) widest = x;
+    };
+    for (int i = 0; i < count; ++i) {
+      const LevelDifference& p = difference[static_cast<std::size_t>(i)];
+      offer({i}, {1.0}, p.across / d);
+      for (int j = 0; j < i; ++j) {
+        const LevelDifference& q = difference[static_cast<std::size_t>(j)];
+        const Vector2d e = q.across - p.across;
+        const double e2 = e.squaredNorm(), he = p.height - q.height;  // level: e.t is what they differ by
+        const double w = (d * he - p.across.dot(e)) / e2;
+        offer({i, j}, {1.0 - w, w}, he / e2 * e + cross(e, p.across) / (d * e2) * Vector2d(-e.y(), e.x()));
+        for (int k = 0; k < j; ++k) {
+          const LevelDifference& r = difference[static_cast<std::size_t>(k)];
+          const Vector2d f = r.across - p.across;
+          const double area = cross(e, f), hf = p.height - r.height;
+          const Vector2d t((he * f.y() - hf * e.y()) / area, (hf * e.x() - he * f.x()) / area),
+              from = d * t - p.across;
+          const double u = cross(from, f) / area, v = cross(e, from) / area;
+          offer({i, j, k}, {1.0 - u - v, u, v}, t);
+        }
+      }
+    }
+    return widest;
+  }
+
+ private:
+  static double cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
+};
+
+}  // namespace
+
+bool oppositeLevel(const ShapePair& p, double angle, OppositePoints& found) {
+  constexpr int kRounds = 4, kSteps = 40;
+  LevelCorners a, b;
+  for (int round = 0; round < kRounds; ++round) {
+    const Vector3d n = found.n, m = p.pose.opposite(n), e = n.unitOrthogonal(), f = n.cross(e);
+    const double below = 4.0 * (p.a.reach + p.b.reach) * angle + 4.0 * p.rounding;
+    if (!a.find(p.a, n, below) || !b.find(p.b, m, below)) return false;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(b.count); ++i) b.at[i] = p.pose.placed(b.at[i]);
+    const Vector3d topA = p.a.support(n), topB = p.pose.placed(p.b.support(m));
+    const double distance = n.dot(topB - topA);
+    if (!(distance > p.rounding)) return false;
+    const auto lowest = [&](const Vector2d& turn) {
+      const Vector3d way = n + turn.x() * e + turn.y() * f;
+      const auto i = static_cast<std::size_t>(furthestAlong(way, a.at.data(), a.count)),
+                 k = static_cast<std::size_t>(furthestAlong(-way, b.at.data(), b.count));
+      const Vector3d between = b.at[k] - a.at[i];
+      return LevelDifference{
+          i, k, n.dot(b.at[k] - topB) - n.dot(a.at[i] - topA), {e.dot(between), f.dot(between)}};
+    };
+    WidestTurn widest;
+    LevelDifference next = lowest(Vector2d(0, 0));
+    for (int step = 0; step < kSteps; ++step) {
+      widest.add(next);
+      widest = widest.best(distance);
+      next = lowest(widest.turn);
+      if (next.heightAt(widest.turn) >= widest.lowest(widest.turn) - 0.1 * p.rounding) break;
+    }
+    found.onA.setZero(), found.toB.setZero();
+    for (std::size_t i = 0; i < static_cast<std::size_t>(widest.count); ++i) {
+      const LevelDifference& one = widest.difference[i];
+      found.onA += widest.weight[i] * a.at[one.a];
+      found.toB += widest.weight[i] * b.at[one.b];
+    }
+    found.toB -= found.onA;
+    found.n = (n + widest.turn.x() * e + widest.turn.y() * f).normalized();
+    found.gap = ShapePair::Difference(p.a, p.b, p.pose).support(found.n).gap;
+    const double off = (found.toB - found.gap * found.n).norm();
+    if (off <= 2.0 * p.rounding) return true;
+    angle = 8.0 * off / distance;
+  }
+  return false;
+}
+
+}  // namespace fcl_stpbv::detail
