@@ -5,11 +5,10 @@
 // size the heights by which corners differ are rounding. So:
 // 1. Of both bodies the corners count that are as high along the normal n as the highest, but for what n may
 //    be off by.
-// 2. Next to n, turned by t across it, the gap is D + min(h + p.t) - D |t|^2 / 2. D is the gap along n, and
-// of
-//    each difference of two corners h is the height above that and p the place across.
-// 3. The t where that is most is sought among the maxima of up to three differences; the lowest one there
-//    joins them, until none is lower. Their weights make the two points.
+// 2. Along n turned by t the gap is D + min(h + p.t) - D |t|^2 / 2: D is the gap along n, and each difference
+//    of two corners is higher than that by h, and p to the side.
+// 3. Of up to three differences the t where that is most has a closed form. The difference that is lowest
+//    there joins them, until none is lower. Their weights make the two points.
 #include <algorithm>
 #include <array>
 #include <initializer_list>
