@@ -1,20 +1,17 @@
-// Two flat-sided bodies apart, whose faces or edges are level but for a hair: the last digits of normal and
+// Two bodies apart, whose faces, ends or edges are level but for a hair: the last digits of normal and
 // points.
 //
 // Where GJK's bounds agree to rounding its normal is good to the root of that only, and beside the bodies'
 // size the heights by which corners differ are rounding. So:
-// 1. Of both bodies the corners count that are as high along the normal n as the highest, but for what n may
-//    be off by.
-// 2. Along n turned by t the gap is D + min(h + p.t) - D |t|^2 / 2: D is the gap along n, and each difference
-//    of two corners is higher than that by h, and p to the side.
-// 3. Of up to three differences the t where that is most has a closed form. The difference that is lowest
+// 1. Along GJK's normal n turned by t the gap is D + min(h + p.t) - D |t|^2 / 2: D is the gap along n, and
+//    each difference of two support points is higher than that by h, and p to the side.
+// 2. Of up to three differences the t where that is most has a closed form. The difference that is lowest
 //    there joins them, until none is lower. Their weights make the two points.
 #include <algorithm>
 #include <array>
 #include <initializer_list>
 #include <limits>
 
-#include "fcl_stpbv/convex/vertex_set.h"
 #include "fcl_stpbv/distance/shape_pair.h"
 
 namespace fcl_stpbv::detail {
@@ -24,55 +21,11 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// The corners of a core that are level with the highest along a normal.
-struct LevelCorners {
-  static constexpr int kMost = 32;
-  std::array<Vector3d, kMost> at;  ///< frame of the first core (m)
-  int count = 0;
-
-  /// Those of `shape` that are at most `below` (m) under the highest along `m`, in the shape's own frame.
-  /// False where they are too many, or round.
-  bool find(const Shape& shape, const Vector3d& m, double below) {
-    std::array<Vector3d, 8> corner;
-    const Vector3d* all = corner.data();
-    int number = 0;
-    switch (shape.kind) {
-      case ShapeKind::point:
-        corner[number++].setZero();
-        break;
-      case ShapeKind::segment:
-        for (const double z : {shape.half, -shape.half})
-          corner[static_cast<std::size_t>(number++)] = {0, 0, z};
-        break;
-      case ShapeKind::box:
-        for (std::size_t i = 0; i < 8; ++i)
-          corner[i] = shape.size.cwiseProduct(Vector3d(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1));
-        number = 8;
-        break;
-      case ShapeKind::triangle:
-        all = shape.corner.data();
-        number = 3;
-        break;
-      case ShapeKind::polytope:
-        all = shape.vertices;
-        number = shape.vertexCount;
-        break;
-      default:
-        return false;
-    }
-    std::array<int, kMost> which;
-    count = fromHeight(m.dot(shape.support(m)) - below, m, all, number, which.data(), kMost);
-    if (count > kMost) return false;
-    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) at[i] = all[which[i]];
-    return true;
-  }
-};
-
 /// A difference of two corners as it is seen along the normal.
 struct LevelDifference {
-  std::size_t a = 0, b = 0;  ///< the corners
-  double height = 0;         ///< above the lowest (m)
-  Vector2d across{0, 0};     ///< m
+  Vector3d onA{0, 0, 0}, onB{0, 0, 0};  ///< the corners (m)
+  double height = 0;                    ///< above the lowest (m)
+  Vector2d across{0, 0};                ///< m
 
   double heightAt(const Vector2d& turn) const { return height + across.dot(turn); }
 };
@@ -86,6 +39,12 @@ struct WidestTurn {
   double gap = -std::numeric_limits<double>::infinity();  ///< more than D there (m)
 
   void add(const LevelDifference& one) { difference[static_cast<std::size_t>(count++)] = one; }
+  Vector3d weighted(Vector3d LevelDifference::*point) const {
+    Vector3d sum(0, 0, 0);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i)
+      sum += weight[i] * (difference[i].*point);
+    return sum;
+  }
   double lowest(const Vector2d& at) const {
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i)
@@ -140,24 +99,18 @@ struct WidestTurn {
 
 }  // namespace
 
-bool oppositeLevel(const ShapePair& p, double angle, OppositePoints& found) {
+bool oppositeLevel(const ShapePair& p, OppositePoints& found) {
   constexpr int kRounds = 4, kSteps = 40;
-  LevelCorners a, b;
   for (int round = 0; round < kRounds; ++round) {
-    const Vector3d n = found.n, m = p.pose.opposite(n), e = n.unitOrthogonal(), f = n.cross(e);
-    const double below = 4.0 * (p.a.reach + p.b.reach) * angle + 4.0 * p.rounding;
-    if (!a.find(p.a, n, below) || !b.find(p.b, m, below)) return false;
-    for (std::size_t i = 0; i < static_cast<std::size_t>(b.count); ++i) b.at[i] = p.pose.placed(b.at[i]);
-    const Vector3d topA = p.a.support(n), topB = p.pose.placed(p.b.support(m));
+    const Vector3d n = found.n, e = n.unitOrthogonal(), f = n.cross(e);
+    const auto onA = [&](const Vector3d& m) { return p.a.support(m); };
+    const auto onB = [&](const Vector3d& m) { return p.pose.placed(p.b.support(p.pose.opposite(m))); };
+    const Vector3d topA = onA(n), topB = onB(n);
     const double distance = n.dot(topB - topA);
     if (!(distance > p.rounding)) return false;
     const auto lowest = [&](const Vector2d& turn) {
-      const Vector3d way = n + turn.x() * e + turn.y() * f;
-      const auto i = static_cast<std::size_t>(furthestAlong(way, a.at.data(), a.count)),
-                 k = static_cast<std::size_t>(furthestAlong(-way, b.at.data(), b.count));
-      const Vector3d between = b.at[k] - a.at[i];
-      return LevelDifference{
-          i, k, n.dot(b.at[k] - topB) - n.dot(a.at[i] - topA), {e.dot(between), f.dot(between)}};
+      const Vector3d m = n + turn.x() * e + turn.y() * f, a = onA(m), b = onB(m), between = b - a;
+      return LevelDifference{a, b, n.dot(b - topB) - n.dot(a - topA), {e.dot(between), f.dot(between)}};
     };
     WidestTurn widest;
     LevelDifference next = lowest(Vector2d(0, 0));
@@ -167,18 +120,11 @@ bool oppositeLevel(const ShapePair& p, double angle, OppositePoints& found) {
       next = lowest(widest.turn);
       if (next.heightAt(widest.turn) >= widest.lowest(widest.turn) - 0.1 * p.rounding) break;
     }
-    found.onA.setZero(), found.toB.setZero();
-    for (std::size_t i = 0; i < static_cast<std::size_t>(widest.count); ++i) {
-      const LevelDifference& one = widest.difference[i];
-      found.onA += widest.weight[i] * a.at[one.a];
-      found.toB += widest.weight[i] * b.at[one.b];
-    }
-    found.toB -= found.onA;
+    found.onA = widest.weighted(&LevelDifference::onA);
+    found.toB = widest.weighted(&LevelDifference::onB) - found.onA;
     found.n = (n + widest.turn.x() * e + widest.turn.y() * f).normalized();
     found.gap = ShapePair::Difference(p.a, p.b, p.pose).support(found.n).gap;
-    const double off = (found.toB - found.gap * found.n).norm();
-    if (off <= 2.0 * p.rounding) return true;
-    angle = 8.0 * off / distance;
+    if ((found.toB - found.gap * found.n).norm() <= 2.0 * p.rounding) return true;
   }
   return false;
 }

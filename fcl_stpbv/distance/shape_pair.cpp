@@ -6,8 +6,8 @@
 // 3. A ball and a shape of few features, and most boxes: closed form (ball_pair.cpp, box_pair.cpp).
 // 4. GJK with the duality gap as its stop. Its upper bound is the distance of two points of the bodies, its
 //    lower one the gap between the supporting planes of the answer's normal.
-// 5. Newton's method on the features there gives the last digits (shape_newton.h), of flat sides what their
-//    corners' heights say (level_faces.cpp). Overlap: shape_depth.cpp.
+// 5. Newton's method on the features there gives the last digits (shape_newton.h), where faces are level what
+//    heights along the normal say (level_faces.cpp). Overlap: shape_depth.cpp.
 #include "fcl_stpbv/distance/shape_pair.h"
 
 #include <algorithm>
@@ -91,9 +91,9 @@ Distance asFound(const Pair& p, const Gjk& found, const WidestGap& widest) {
 }
 
 /// Cores apart: as found, or with the last digits of normal and points by Newton's method, where chords of a
-/// round surface or the rounding of points that all but touch left them open. `invalid` where the cores
-/// overlap, or no gap between them was found.
-Distance separated(const Pair& p, const Gjk& found) {
+/// round surface or the rounding of points that all but touch left them open; where it has no success and the
+/// search `isLast`, by what is level. `invalid` where the cores overlap, or no gap between them was found.
+Distance separated(const Pair& p, const Gjk& found, bool isLast) {
   if (found.verdict == Gjk::Verdict::overlap) return {};
   const WidestGap widest(p, found);
   Distance result = asFound(p, found, widest);
@@ -104,12 +104,11 @@ Distance separated(const Pair& p, const Gjk& found) {
   const double open = std::max(found.upper - widest.gap, p.rounding);
   const double angle = std::min(std::sqrt(2.0 * open / found.upper), Pair::kWidest);
   const Vector3d& n = widest.gap > 0.0 ? widest.n : found.n;
+  auto nearest = nearestOnFeatures(p.a, p.b, p.pose, n, widest.gap, found.simplex.weighted(&Corner::onA),
+                                   angle, p.rounding);
   OppositePoints level;
   level.n = n;
-  const bool isLevel = !p.curved() && oppositeLevel(p, angle, level) && level.gap >= widest.gap - p.rounding;
-  const auto nearest = isLevel ? level
-                               : nearestOnFeatures(p.a, p.b, p.pose, n, widest.gap,
-                                                   found.simplex.weighted(&Corner::onA), angle, p.rounding);
+  if (!nearest && isLast && oppositeLevel(p, level) && level.gap >= widest.gap - p.rounding) nearest = level;
   if (!nearest || !(nearest->gap > 0.0)) {
     if (p.curved() && !opposite && result.status == DistanceStatus::exact)
       result.status = DistanceStatus::bounded;
@@ -146,7 +145,7 @@ Distance besidePlane(const Pair& p) {
 Distance separatedAtTheEnd(const Pair& p, Gjk& found) {
   for (Corner& corner : found.simplex.corner) corner.gap = -std::numeric_limits<double>::infinity();
   found = searchToTheEnd(p, found.simplex);  // seen along new normals
-  return separated(p, found);
+  return separated(p, found, true);
 }
 
 Distance solve(const Pair& p) {
@@ -156,7 +155,7 @@ Distance solve(const Pair& p) {
   if (oppositeBall(p, at) || oppositeBoxes(p, at))
     return between(p, at.n, at.gap, at.onA, at.toB, at.gap < 0.0 ? at.gap : at.toB.norm());
   Gjk found = p.search([&](double lower, double upper) { return p.curved() && isNear(p, lower, upper); });
-  Distance result = separated(p, found);
+  Distance result = separated(p, found, !p.curved());
   if (result.status == DistanceStatus::bounded && p.curved()) result = separatedAtTheEnd(p, found);
   return result.status == DistanceStatus::invalid ? overlapping(p, found) : result;
 }
@@ -178,7 +177,7 @@ bool isFarther(double x, const Pair& p, Vector3d& normal) {
     return true;
   }
   if (found.verdict != Gjk::Verdict::overlap && found.upper <= core) return false;
-  Distance answer = separated(p, found);
+  Distance answer = separated(p, found, !p.curved());
   if (answer.status == DistanceStatus::bounded && p.curved() && answer.lower <= x && x < answer.upper)
     answer = separatedAtTheEnd(p, found);
   if (answer.status != DistanceStatus::invalid) {

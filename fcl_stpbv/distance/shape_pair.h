@@ -74,9 +74,9 @@ bool oppositeBall(const ShapePair& p, OppositePoints& found);
 /// The same of two boxes, but for a corner that is nearest to a corner or an edge.
 bool oppositeBoxes(const ShapePair& p, OppositePoints& found);
 
-/// Two flat-sided cores apart, from a normal `found.n` that is off by `angle` (rad) at most: the widest gap
-/// and points opposite each other. False where rounding or many corners that are level leave none.
-bool oppositeLevel(const ShapePair& p, double angle, OppositePoints& found);
+/// Two cores apart, from a normal `found.n` that is good to the root of rounding: the widest gap and points
+/// opposite each other. False where rounding leaves none.
+bool oppositeLevel(const ShapePair& p, OppositePoints& found);
 
 /// Cores with a common point, as far as GJK could tell: the shortest translation that separates them.
 Distance overlapping(const ShapePair& p, const ShapePair::Gjk& found);
