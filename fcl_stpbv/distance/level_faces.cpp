@@ -99,15 +99,15 @@ struct WidestTurn {
 
 }  // namespace
 
-bool oppositeLevel(const ShapePair& p, OppositePoints& found) {
+std::optional<OppositePoints> oppositeLevel(const ShapePair& p, Vector3d n) {
   constexpr int kRounds = 4, kSteps = 40;
   for (int round = 0; round < kRounds; ++round) {
-    const Vector3d n = found.n, e = n.unitOrthogonal(), f = n.cross(e);
+    const Vector3d e = n.unitOrthogonal(), f = n.cross(e);
     const auto onA = [&](const Vector3d& m) { return p.a.support(m); };
     const auto onB = [&](const Vector3d& m) { return p.pose.placed(p.b.support(p.pose.opposite(m))); };
     const Vector3d topA = onA(n), topB = onB(n);
     const double distance = n.dot(topB - topA);
-    if (!(distance > p.rounding)) return false;
+    if (!(distance > p.rounding)) return {};
     const auto lowest = [&](const Vector2d& turn) {
       const Vector3d m = n + turn.x() * e + turn.y() * f, a = onA(m), b = onB(m), between = b - a;
       return LevelDifference{a, b, n.dot(b - topB) - n.dot(a - topA), {e.dot(between), f.dot(between)}};
@@ -120,13 +120,13 @@ bool oppositeLevel(const ShapePair& p, OppositePoints& found) {
       next = lowest(widest.turn);
       if (next.heightAt(widest.turn) >= widest.lowest(widest.turn) - 0.1 * p.rounding) break;
     }
-    found.onA = widest.weighted(&LevelDifference::onA);
-    found.toB = widest.weighted(&LevelDifference::onB) - found.onA;
-    found.n = (n + widest.turn.x() * e + widest.turn.y() * f).normalized();
-    found.gap = ShapePair::Difference(p.a, p.b, p.pose).support(found.n).gap;
-    if ((found.toB - found.gap * found.n).norm() <= 2.0 * p.rounding) return true;
+    n = (n + widest.turn.x() * e + widest.turn.y() * f).normalized();
+    const double gap = ShapePair::Difference(p.a, p.b, p.pose).support(n).gap;
+    const Vector3d pointOfA = widest.weighted(&LevelDifference::onA),
+                   toB = widest.weighted(&LevelDifference::onB) - pointOfA;
+    if ((toB - gap * n).norm() <= 2.0 * p.rounding) return OppositePoints{n, gap, pointOfA, toB};
   }
-  return false;
+  return {};
 }
 
 }  // namespace fcl_stpbv::detail

@@ -106,10 +106,8 @@ Distance separated(const Pair& p, const Gjk& found, bool isLast) {
   const Vector3d& n = widest.gap > 0.0 ? widest.n : found.n;
   auto nearest = nearestOnFeatures(p.a, p.b, p.pose, n, widest.gap, found.simplex.weighted(&Corner::onA),
                                    angle, p.rounding);
-  OppositePoints level;
-  level.n = n;
-  if (!nearest && isLast && oppositeLevel(p, level) && level.gap >= widest.gap - p.rounding) nearest = level;
-  if (!nearest || !(nearest->gap > 0.0)) {
+  if (!nearest && isLast) nearest = oppositeLevel(p, n);
+  if (!nearest || !(nearest->gap > 0.0 && nearest->gap >= widest.gap - p.rounding)) {
     if (p.curved() && !opposite && result.status == DistanceStatus::exact)
       result.status = DistanceStatus::bounded;
     return result;

@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <limits>
+#include <optional>
 
 #include "fcl_stpbv/convex/gjk.h"
 #include "fcl_stpbv/convex/support.h"
@@ -74,9 +75,9 @@ bool oppositeBall(const ShapePair& p, OppositePoints& found);
 /// The same of two boxes, but for a corner that is nearest to a corner or an edge.
 bool oppositeBoxes(const ShapePair& p, OppositePoints& found);
 
-/// Two cores apart, from a normal `found.n` that is good to the root of rounding: the widest gap and points
-/// opposite each other. False where rounding leaves none.
-bool oppositeLevel(const ShapePair& p, OppositePoints& found);
+/// Two cores apart, from a normal `n` that is good to the root of rounding: the widest gap and points
+/// opposite each other. Nothing where rounding leaves none.
+std::optional<OppositePoints> oppositeLevel(const ShapePair& p, Eigen::Vector3d n);
 
 /// Cores with a common point, as far as GJK could tell: the shortest translation that separates them.
 Distance overlapping(const ShapePair& p, const ShapePair::Gjk& found);
