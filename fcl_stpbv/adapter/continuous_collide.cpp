@@ -63,6 +63,11 @@ class Moving {
            motion_.turning.norm();
   }
 
+  bool isEmptyTree() const {
+    const ElementTree tree(geometry, /*known=*/true);
+    return tree.any() && !tree.occupied(tree.root());
+  }
+
   /// With boxes in place of those that FCL has merged; null where it has not.
   const ElementTree* refitted() const { return refitted_ ? &*refitted_ : nullptr; }
 
@@ -116,6 +121,9 @@ class MovingPair {
     b_.place(t);
   }
 
+  /// Whether there is nothing to meet: one of them is a tree whose cells are all free.
+  bool hasNothing() const { return a_.known && b_.known && (a_.isEmptyTree() || b_.isEmptyTree()); }
+
   bool look(int, double most, Cover& cover) {
     QueryContext context;
     context.cache = &cache_;
@@ -163,6 +171,8 @@ bool makeSteady(SteadyMotion& motion) {
          motion.angular.allFinite();
 }
 
+const MotionAnswer kMeetsNothing{MotionVerdict::free, 1, 1, {}, 1};
+
 double inFclTerms(const MotionAnswer& found, const SteadyMotion& motion1, const SteadyMotion& motion2,
                   ContinuousCollisionResultd& result) {
   result.is_collide = found.verdict != MotionVerdict::free;
@@ -170,21 +180,21 @@ double inFclTerms(const MotionAnswer& found, const SteadyMotion& motion1, const 
   result.time_of_contact = found.verdict == MotionVerdict::undecided ? found.from : found.until;
   result.contact_tf1 = motion1.at(result.time_of_contact);
   result.contact_tf2 = motion2.at(result.time_of_contact);
-  return found.answer.status == DistanceStatus::invalid ? -1 : result.time_of_contact;
+  const bool answered =
+      found.answer.status != DistanceStatus::invalid || found.verdict == MotionVerdict::free;
+  return answered ? result.time_of_contact : -1;
 }
 
 /// Two geometries on their ways, in FCL's words.
 double collideOnTheirWays(const CollisionGeometryd& geometry1, const SteadyMotion& motion1,
                           const CollisionGeometryd& geometry2, const SteadyMotion& motion2,
                           const ContinuousCollisionRequestd& request, ContinuousCollisionResultd& result) {
+  MotionAnswer found;
   if (isOccupied(geometry1) && isOccupied(geometry2))
-    return inFclTerms(firstContact(geometry1, motion1, geometry2, motion2, {0, request.toc_err}), motion1,
-                      motion2, result);
-  result.is_collide = false;
-  result.time_of_contact = 1;
-  result.contact_tf1 = motion1.at(1);
-  result.contact_tf2 = motion2.at(1);
-  return 1;
+    found = firstContact(geometry1, motion1, geometry2, motion2, {0, request.toc_err});
+  else
+    found = kMeetsNothing;
+  return inFclTerms(found, motion1, motion2, result);
 }
 
 double unknown(ContinuousCollisionResultd& result) {
@@ -208,7 +218,7 @@ MotionAnswer firstContact(const CollisionGeometryd& geometry1, const SteadyMotio
   const bool begins = pair.look(0, 0, ignored);
   result.answer = pair.answer;
   result.queries = 1;
-  if (pair.answer.status == DistanceStatus::invalid) return result;
+  if (pair.answer.status == DistanceStatus::invalid) return pair.hasNothing() ? kMeetsNothing : result;
   if (begins) {
     result.verdict = MotionVerdict::contact;
     return result;

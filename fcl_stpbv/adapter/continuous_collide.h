@@ -76,8 +76,8 @@ struct MotionAnswer {
 
 /// Whether two moving bodies stay apart: exact distances, and between them a bound on how far the bodies'
 /// points move along the normal (moving_bodies.h; docs/motion.md). Never throws. Undecided from 0 on for a
-/// pair that has no distance. The corners of a mesh, and boxes that FCL has merged, are looked at once a
-/// motion.
+/// pair that has no distance; but a tree whose cells are all free meets nothing. The corners of a mesh, and
+/// boxes that FCL has merged, are looked at once a motion.
 MotionAnswer firstContact(const fcl::CollisionGeometryd& geometry1, const SteadyMotion& motion1,
                           const fcl::CollisionGeometryd& geometry2, const SteadyMotion& motion2,
                           const MotionRequest& request = {});

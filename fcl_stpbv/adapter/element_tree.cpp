@@ -191,6 +191,15 @@ int ElementTree::children(const Node& node, std::array<Node, 8>& child) const {
       0);
 }
 
+bool ElementTree::occupied(const Node& node) const {
+  Shape shape;
+  Vector3d place;
+  if (node.leaf) return element(node, shape, place);
+  std::array<Node, 8> child;
+  const auto end = child.begin() + children(node, child);
+  return std::any_of(child.begin(), end, [this](const Node& next) { return occupied(next); });
+}
+
 bool ElementTree::element(const Node& leaf, Shape& shape, Vector3d& place) const {
 #if FCL_HAVE_OCTOMAP
   if (const fcl::OcTreed* tree = asOcTree(geometry_)) {

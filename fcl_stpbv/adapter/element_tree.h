@@ -58,6 +58,8 @@ class ElementTree {
   /// Whether inner boxes tell little of where the elements are, as an octree's, which is kilometres across.
   bool loose() const { return geometry_.getNodeType() == fcl::GEOM_OCTREE; }
   Node root() const;
+  /// Whether there is an element below: a tree's cells may all be free. Looks at cells until it finds one.
+  bool occupied(const Node& node) const;
   /// The node's children, at most eight; how many.
   int children(const Node& node, std::array<Node, 8>& child) const;
   /// A leaf as a shape, placed in the geometry's frame. False for a cell that is free.

@@ -13,9 +13,11 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <utility>
 
 #include "fcl_stpbv/adapter/continuous_collide.h"
 #include "test/adapter/element_kinds.h"
+#include "test/reference/trials.h"
 
 using namespace fcl_stpbv;
 using namespace fcl_stpbv::detail;
@@ -172,7 +174,7 @@ TEST_CASE(
         const auto apart = [&](double time) {
           return distance(*first.geometry, posed(*a, time), *second.geometry, posed(*b, time)).distance;
         };
-        constexpr int kSamples = 200;
+        constexpr int kSamples = trials(200);
         for (int i = 0; i <= kSamples; ++i) {
           const double time = static_cast<double>(i) / kSamples;
           if (time >= t - 1e-4) break;
@@ -259,6 +261,31 @@ TEST_CASE("what FCL's marks call free is met by no motion, and its poses are tho
                                        requestOf(fcl::CCDM_TRANS), mirrored) == met);
   }
 }
+
+#if FCL_HAVE_OCTOMAP
+TEST_CASE("a tree whose cells are all free is met by no motion") {
+  const fcl::Sphered ball(0.1);
+  for (const bool wall : {false, true}) {
+    const auto cells = std::make_shared<octomap::OcTree>(0.1);
+    for (int i = 0; i < 10; ++i)
+      cells->updateNode(octomap::point3d(0.05F, 0.1F * static_cast<float>(i), 0), false);
+    if (wall) cells->updateNode(octomap::point3d(0.05F, 0.45F, 0), true);
+    const fcl::OcTreed tree(cells);
+    fcl::ContinuousCollisionResultd result;
+    const double met = fcl_stpbv::continuousCollide(&tree, at(0, 0, 0), at(0, 0, 0), &ball, at(-1, 0.45, 0),
+                                                    at(1, 0.45, 0), requestOf(fcl::CCDM_TRANS), result);
+    CHECK(result.is_collide == wall);
+    CHECK(std::abs(met - (wall ? 0.45 : 1)) <= 1e-7);
+    CHECK(fcl_stpbv::continuousCollide(&ball, at(-1, 0.45, 0), at(1, 0.45, 0), &tree, at(0, 0, 0),
+                                       at(0, 0, 0), requestOf(fcl::CCDM_TRANS), result) == met);
+    // No motion is clear of what has no answer for another reason.
+    const fcl::Sphered none(-1.0);
+    CHECK(fcl_stpbv::continuousCollide(&ball, at(-1, 0.45, 0), at(1, 0.45, 0), &none, at(0, 0, 0),
+                                       at(0, 0, 0), requestOf(fcl::CCDM_TRANS), result) == -1);
+    CHECK(result.is_collide);
+  }
+}
+#endif
 
 TEST_CASE("a motion derived from FCL's, which may go another way, has no answer") {
   /// Between its ends it goes round by y.
