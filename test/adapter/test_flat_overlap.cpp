@@ -19,6 +19,7 @@
 #include "fcl_stpbv/convex/relative_pose.h"
 #include "fcl_stpbv/distance/shape_distance.h"
 #include "test/reference/shapes.h"
+#include "test/reference/trials.h"
 
 using namespace fcl_stpbv;
 using namespace fcl_stpbv::detail;
@@ -290,8 +291,9 @@ TEST_CASE("identical, pointlike and barely overlapping boxes") {
 
 TEST_CASE("overlapping hulls: the widest gap over all normals that three vertices or two edges can have") {
   Random random(4);
-  for (int i = 0; i < 203; ++i) {
-    const int count = i < 200 ? 10 : 60;
+  constexpr int kSmall = trials(200), kLarge = trials(3);
+  for (int i = 0; i < kSmall + kLarge; ++i) {
+    const int count = i < kSmall ? 10 : 60;
     CAPTURE(i, count);
     const auto p = randomHull(count, {0.2, 0.15, 0.1}, static_cast<unsigned>(2 * i + 1));
     const auto q = randomHull(count, {0.1, 0.2, 0.15}, static_cast<unsigned>(2 * i + 2));

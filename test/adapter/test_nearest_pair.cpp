@@ -19,6 +19,7 @@
 #include "fcl_stpbv/convex/relative_pose.h"
 #include "test/adapter/bodies.h"
 #include "test/adapter/element_kinds.h"
+#include "test/reference/trials.h"
 
 using namespace fcl_stpbv;
 using namespace fcl_stpbv::detail;
@@ -198,7 +199,7 @@ TEST_CASE("a ball against a mesh is signed, whichever triangle it is deepest in"
 TEST_CASE("where FCL measures two meshes it names triangles that are as near as ours") {
   Random random(4);
   const ElementKind mesh = meshKind<fcl::RSSd>("RSS", 8);
-  for (int i = 0; i < 100; ++i) {
+  for (int i = 0; i < trials(100); ++i) {
     const Isometry3d a = pose(random.rotation(), random.direction());
     const Isometry3d b =
         pose(random.rotation(), a.translation() + random.uniform(0.1, 1) * random.direction());

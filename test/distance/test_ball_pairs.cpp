@@ -7,6 +7,7 @@
 
 #include "fcl_stpbv/distance/shape_distance.h"
 #include "test/reference/shape_reference.h"
+#include "test/reference/trials.h"
 
 using namespace fcl_stpbv;
 using namespace fcl_stpbv::test;
@@ -48,7 +49,7 @@ TEST_CASE("A ball and a shape of few features are exact wherever the ball's cent
   Random random(5);
   int inside = 0, cases = 0;
   for (const char* name : {"sphere", "capsule", "box", "triangle", "cylinder", "cone"})
-    for (int i = 0; i < 400; ++i) {
+    for (int i = 0; i < trials(400); ++i) {
       CAPTURE(name, i);
       const TestShape shape = randomShape(name, random), ball = randomShape("sphere", random);
       TestShape centre = ball;

@@ -5,6 +5,7 @@
 #include "fcl_stpbv/distance/distance.h"
 #include "test/reference/reference.h"
 #include "test/reference/shapes.h"
+#include "test/reference/trials.h"
 
 using namespace fcl_stpbv;
 using namespace fcl_stpbv::test;
@@ -99,7 +100,7 @@ TEST_CASE("Up to R = 1e6 m no answer is bounded: boxes, plates, flat clouds and 
     for (const double r : {0.0, 0.01})
       for (const double R : {1.2 * StpBv::smallestR(cloud, r), 10.0, 1e3, 1e6})
         all.push_back(make(cloud, r, R));
-  const Outcome outcome = check(all, all, 20000);
-  CHECK(outcome.exact > 15000);
+  const Outcome outcome = check(all, all, trials(20000));
+  CHECK(outcome.exact > trials(15000));
   CHECK(outcome.bounded == 0);
 }

@@ -8,6 +8,7 @@
 #include "fcl_stpbv/convex/shape_curvature.h"
 #include "fcl_stpbv/distance/shape_distance.h"
 #include "test/reference/shape_reference.h"
+#include "test/reference/trials.h"
 
 using namespace fcl_stpbv;
 using namespace fcl_stpbv::test;
@@ -43,7 +44,7 @@ TEST_CASE("polytopes of many vertices are as far from any shape as all of their 
   int deep = 0;
   for (const TestShape& first : polytopes)
     for (const TestShape& second : others)
-      for (int i = 0; i < 30; ++i) {
+      for (int i = 0; i < trials(30); ++i) {
         CAPTURE(first.name, second.name, i);
         const Isometry3d a = pose(random.rotation(), random.direction());
         Isometry3d b = a;  // a third with parallel axes, one of them turned by hardly anything
@@ -72,7 +73,7 @@ TEST_CASE("polytopes of many vertices are as far from any shape as all of their 
         CHECK((d.point[1] - d.point[0] - d.distance * d.normal).norm() <= 2e-14 + turned);
         CHECK(std::abs(along - d.distance) <= 1e-14 + turned);  // no part of either body is beyond its point
       }
-  CHECK(deep > 200);
+  CHECK(deep > trials(200));
 }
 
 TEST_CASE("a face, an edge or a corner of a polytope is told whatever number of vertices is in it") {

@@ -11,6 +11,7 @@
 #include "fcl_stpbv/distance/certificate.h"
 #include "fcl_stpbv/distance/distance.h"
 #include "test/reference/shapes.h"
+#include "test/reference/trials.h"
 
 using namespace fcl_stpbv;
 using namespace fcl_stpbv::detail;
@@ -89,12 +90,12 @@ double leastSupport(const Hull& h, Random& some) {
 TEST_CASE("A ball and the corners of a feature prove a depth") {
   Random some(5);
   int proven = 0, refuted = 0;
-  for (int i = 0; i < 30000; ++i) {
+  for (int i = 0; i < trials(30000); ++i) {
     const Hull h = Hull::random(some);
     const double side = h.side();
     if (!(side > 0.9 * h.depth)) continue;
     const bool closes = h.closes();
-    if (!closes && refuted > 300) continue;
+    if (!closes && refuted > trials(300)) continue;
     const double least = leastSupport(h, some);
     if (closes) {
       ++proven;
@@ -104,8 +105,8 @@ TEST_CASE("A ball and the corners of a feature prove a depth") {
       refuted += least < side * (1 - 1e-6);
     }
   }
-  CHECK(proven > 300);
-  CHECK(refuted > 300);  // and hulls of which it is not true are among those tried
+  CHECK(proven > trials(300));
+  CHECK(refuted > trials(300));  // and hulls of which it is not true are among those tried
 }
 
 TEST_CASE("The inner ball is inside the vertices' hull, and as large as the centre allows") {

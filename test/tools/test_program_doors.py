@@ -11,13 +11,14 @@ import unittest
 
 BIN, PROJECT = (pathlib.Path(folder).resolve() for folder in sys.argv[1:3])
 PROGRAMS = [BIN / name for name in (
-    "mesh_to_stpbv", "urdf_collision_report", "urdf_to_stpbv", "find_posture", "demo", "adapter_figures", "build_benchmark",
-    "constraints_benchmark",
-    "jump_sweep", "posture_study", "proof_boxes", "speed_accuracy", "stability")]
-PROGRAMS += [BIN / name for name in ("control_bench", "optimise_bench", "parts_benchmark") if (BIN / name).exists()]  # where Bullet, or IPOPT, is
+    "mesh_to_stpbv", "urdf_collision_report", "urdf_to_stpbv", "find_posture", "demo", "jump_sweep", "speed_accuracy", "stability")]
 SOAKS = [BIN / name for name in (
-    "distance_soak", "shape_soak", "deep_soak", "truth_soak", "mirrored_soak", "bound_soak", "parts_soak", "mirrored_limbs", "cloud_report", "fuzz",
-    "geodesic_queries", "answers_usual")]
+    "distance_soak", "shape_soak", "deep_soak", "truth_soak", "mirrored_limbs", "cloud_report", "fuzz", "geodesic_queries", "answers_usual")]
+# Where they were built: target `benchmarks`, and some where Bullet or IPOPT is.
+PROGRAMS += [BIN / name for name in (
+    "adapter_figures", "build_benchmark", "constraints_benchmark", "control_bench", "optimise_bench", "parts_benchmark", "posture_study", "proof_boxes")
+    if (BIN / name).exists()]
+SOAKS += [BIN / name for name in ("mirrored_soak", "bound_soak", "parts_soak") if (BIN / name).exists()]
 # Words that some scripts do take: ctest's options, names of files and folders, and what a program of ours refuses itself.
 TAKE = {"nonsense": ("check_format", "demo", "fuzz", "make_packages"), "--no-such-option": ("test",)}
 NO_NUMBERS = ["nan", "-nan", "inf", "-inf", "1e400", "1,5", "1.5x", "x", "", " "]
@@ -135,7 +136,7 @@ class Programs(unittest.TestCase):
                 with self.subTest(program=name):
                     tried += 1
                     self.refused(run(BIN / name, *["robot.urdf"] * robot, "--name", "a/b"), "--name a/b: ")
-        self.assertGreaterEqual(tried, 2)
+        self.assertGreaterEqual(tried, 1)
 
     def test_a_folder_that_cannot_be_written_is_refused_before_the_work(self):
         folder, tried = __file__ + "/folder", 0  # within a file
@@ -145,7 +146,7 @@ class Programs(unittest.TestCase):
                 with self.subTest(program=program.name):
                     tried += 1
                     self.refused(run(program, *["robot.urdf"] * ("ROBOT" in entries), "-o", folder), f"-o {folder}: cannot be written")
-        self.assertGreaterEqual(tried, 9)
+        self.assertGreaterEqual(tried, 3)
 
 
 if __name__ == "__main__":

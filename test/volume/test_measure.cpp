@@ -12,6 +12,7 @@
 #include "fcl_stpbv/volume/tessellate.h"
 #include "fcl_stpbv/volume/verify.h"
 #include "test/reference/shapes.h"
+#include "test/reference/trials.h"
 
 using namespace fcl_stpbv;
 using namespace fcl_stpbv::detail;
@@ -143,7 +144,7 @@ TEST_CASE("The height of the surface over a point of the hull agrees with halvin
       if (radii.r == 0 && cloud.size() <= 3) continue;  // sharp ends, where rays graze the surface
       const StpBv::Ptr volume = StpBv::build(cloud, radii);
       Random random(4);
-      for (int k = 0; k < 100; ++k) {
+      for (int k = 0; k < trials(100); ++k) {
         Vector3d y = Vector3d::Zero();
         double sum = 0;
         for (const Vector3d& p : cloud) {  // anywhere in the hull, near a side of it more often than not

@@ -14,6 +14,7 @@
 #include "fcl_stpbv/volume/surface_check.h"
 #include "fcl_stpbv/volume/verify.h"
 #include "test/reference/shapes.h"
+#include "test/reference/trials.h"
 
 using namespace fcl_stpbv;
 using namespace fcl_stpbv::detail;
@@ -59,7 +60,7 @@ TEST_CASE("A side in double precision is the exact one") {
 
 TEST_CASE("Quickhull finds the faces that the ball rolls onto") {
   Random random(22);
-  for (int k = 0; k < 80; ++k) {
+  for (int k = 0; k < trials(80); ++k) {
     Cloud points;
     switch (k % 4) {
       case 0:
