@@ -272,7 +272,7 @@ def test_a_mesh_travels_under_any_name(tmp_path, name):
     from fcl_stpbv.batch import bundle
 
     shutil.copy(HRP2 / "meshes/LARM_LINK0.stl", tmp_path / name)
-    (tmp_path / "one.urdf").write_text(f"""<robot name="one"><link name="a"><collision><geometry><mesh filename="{name.replace('&', '&amp;')}"/>
+    (tmp_path / "one.urdf").write_text(f"""<robot name="one"><link name="a"><collision><geometry><!-- filename=" --><mesh filename="{name.replace('&', '&amp;')}"/>
         </geometry></collision></link></robot>""")
     with bundle.Unpacked(bundle.robot_files("robot", tmp_path / "one.urdf", [])) as folder:
         (_, path), = fcl_stpbv.mesh_files(folder / "robot/robot.urdf")

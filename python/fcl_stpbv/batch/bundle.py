@@ -10,7 +10,7 @@ import urllib.parse
 
 import fcl_stpbv
 
-FILENAME = re.compile(rb"""(filename\s*=\s*)("[^"]*"|'[^']*')""")
+FILENAME = re.compile(rb"""<!--.*?-->|(filename\s*=\s*)("[^"]*"|'[^']*')""", re.DOTALL)  # comments are passed over
 
 
 def require_file(path, name=None):
@@ -79,6 +79,8 @@ def robot_files(role, urdf, package_path):
         files.update({f"{role}/{known}/{name}": content for name, content in entries})
 
     def moved(match):
+        if match[1] is None:
+            return match[0]
         place = places.get(html.unescape(match[2][1:-1].decode("utf-8", "replace")))
         return match[1] + b'"' + html.escape(place).encode() + b'"' if place else match[0]
 
