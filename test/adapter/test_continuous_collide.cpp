@@ -278,11 +278,13 @@ TEST_CASE("a tree whose cells are all free is met by no motion") {
     CHECK(std::abs(met - (wall ? 0.45 : 1)) <= 1e-7);
     CHECK(fcl_stpbv::continuousCollide(&ball, at(-1, 0.45, 0), at(1, 0.45, 0), &tree, at(0, 0, 0),
                                        at(0, 0, 0), requestOf(fcl::CCDM_TRANS), result) == met);
-    // No motion is clear of what has no answer for another reason.
+    // No motion is clear of a body that is none, nor one that is none.
     const fcl::Sphered none(-1.0);
-    CHECK(fcl_stpbv::continuousCollide(&ball, at(-1, 0.45, 0), at(1, 0.45, 0), &none, at(0, 0, 0),
-                                       at(0, 0, 0), requestOf(fcl::CCDM_TRANS), result) == -1);
-    CHECK(result.is_collide);
+    for (const auto& [body, end] : {std::pair<const fcl::Sphered*, double>{&none, 1.0}, {&ball, NAN}}) {
+      CHECK(fcl_stpbv::continuousCollide(&tree, at(0, 0, 0), at(0, 0, 0), body, at(-1, 0.45, 0),
+                                         at(end, 0.45, 0), requestOf(fcl::CCDM_TRANS), result) == -1);
+      CHECK(result.is_collide);
+    }
   }
 }
 #endif
