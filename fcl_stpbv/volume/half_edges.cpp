@@ -18,6 +18,7 @@ using Ring = std::vector<int>;
 
 std::vector<HalfEdge> pairHalfEdges(const std::vector<Vector3d>& points, const std::vector<Ring>& faces,
                                     const std::vector<Vector3d>& normals, double radius) {
+  constexpr double kNothing = 1e-6;  // rad
   const double curvature = std::isinf(radius) ? 0 : 1 / radius;
   const auto at = [&](int i) -> const Vector3d& { return points[static_cast<std::size_t>(i)]; };
   std::vector<HalfEdge> halfEdges;
@@ -65,12 +66,14 @@ std::vector<HalfEdge> pairHalfEdges(const std::vector<Vector3d>& points, const s
       return Vector3d(m - m.dot(u) * u);
     };
     const Vector3d from = across(edge.face), side = u.cross(from);
-    // Nearly a whole turn is possible only where the face's other vertices hardly rise over the arc that the
-    // ball rolls on: straight ahead of its normal, seen along the edge.
+    // All but a whole turn is possible only where one of the face's other vertices hardly rises over the arc
+    // that the ball rolls on, and is highest in what the turn lacks: straight ahead of its normal, seen along
+    // the edge.
     const auto isSpindle = [&] {
       return std::any_of(ring.begin(), ring.end(), [&](int i) {
         const Vector3d q = (at(i) - at(a)) - (at(i) - at(a)).dot(u) * u;
-        return i != a && i != b && q.dot(from) > 0.99 * q.norm() * from.norm();
+        return i != a && i != b && q.dot(from) > 0 &&
+               q.cross(from).norm() <= 2 * kNothing * q.norm() * from.norm();
       });
     };
     for (std::size_t i = begin[static_cast<std::size_t>(b)]; i < begin[static_cast<std::size_t>(b) + 1];
@@ -78,7 +81,8 @@ std::vector<HalfEdge> pairHalfEdges(const std::vector<Vector3d>& points, const s
       if (leaving[i].to != a) continue;
       const Vector3d to = across(halfEdges[static_cast<std::size_t>(leaving[i].half)].face);
       double turn = std::atan2(to.dot(side), to.dot(from));
-      if (turn < 0) turn = turn > -1e-6 && !isSpindle() ? 0 : turn + 2 * kPi;  // a turn of nothing, rounded
+      if (turn < 0)
+        turn = turn > -kNothing && !isSpindle() ? 0 : turn + 2 * kPi;  // a turn of nothing, rounded
       if (edge.twin < 0 || turn < edge.turn) edge.twin = leaving[i].half, edge.turn = turn;
     }
     // As for nearly all edges: the ball rolls back by the same angle.

@@ -166,6 +166,19 @@ TEST_CASE("Two vertices may be joined by two edges near the smallest radius") {
   }
 }
 
+TEST_CASE(
+    "A flat polygon just above its smallest R: both sides share diagonals over which the ball hardly turns") {
+  Random random(41);
+  for (int i = 0; i < 1500; ++i) {
+    const Cloud points = disc(random.uniform(0.03, 1), 3 + random.below(40));
+    const double above = std::pow(10.0, -random.uniform(2, 8));
+    CAPTURE(i, points.size(), above);
+    StpBv::Ptr volume;
+    REQUIRE_NOTHROW(volume = StpBv::build(points, {0.0, StpBv::smallestR(points, 0.0) + above}));
+    CHECK(volume->vertexCount() == static_cast<int>(points.size()));
+  }
+}
+
 TEST_CASE("Points inside and points closer than rounding drop out") {
   Cloud points = box(0.2, 0.4, 0.6);
   Random random(4);
