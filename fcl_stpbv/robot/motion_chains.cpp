@@ -142,6 +142,11 @@ void MotionChains::prepare(Side& side) const {
   const Placed& body = bodies_[at(side.body)];
   side.acceleration = 0;
   if (body.link < 0) return;
+  if (body.convex && body.body.unbounded()) {  // where it turns, no bound holds for all its points
+    for (int h = side.firstHop; h < side.lastHop; ++h)
+      if (hop_[at(hops_[at(h)])].spin > 0) side.acceleration = kInfinity;
+    return;
+  }
   double inner = 0;
   for (int h = side.firstHop; h < side.lastHop; ++h) inner += hop_[at(hops_[at(h)])].spin;
   double lever = body.centre.norm() + body.radius;

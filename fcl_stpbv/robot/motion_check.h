@@ -48,7 +48,7 @@ class MotionCheck {
   bool isFree(const ConstVector& q, double margin = 0);
 
   /// Whether all along the way no pair comes within `margin` (m): a proof, not samples. What cannot be
-  /// decided is not free.
+  /// decided is not free, such as a half space or plane of the robot that turns against the other body.
   bool isMotionFree(const ConstVector& q0, const ConstVector& q1, double margin = 0);
 
   /// The same with the first contact, bracketed to the request's tolerance, and its pair. Undecided for a q

@@ -91,6 +91,8 @@ class Prover {
   }
 
   Index coordinates() const { return static_cast<Index>(search_.coordinates().size()); }
+  /// Whether anything bounds the pair: nothing does across planar and floating joints or a moving base.
+  bool hasBound() const { return lipschitz_.allFinite(); }
   const Eigen::VectorXd& middle() const { return q_; }
   int widest() const { return widest_; }
 
@@ -116,6 +118,11 @@ class Prover {
     search_.forget();
     distance_ = search_.distance(q_);
     place();
+    leversHold_ = std::all_of(joints_.begin(), joints_.end(), [&](const BoxJoint& joint) {
+      const int k = search_.coordinates()[at(joint.slot)];
+      return !joint.slides || (box.lower[joint.slot] >= scene_.kinematics->lower()[k] &&
+                               box.upper[joint.slot] <= scene_.kinematics->upper()[k]);
+    });
   }
 
   // Lower bound on the distance all over the box: the cheap one, and where that is not above
@@ -124,7 +131,7 @@ class Prover {
   double bound(double enough) {
     const CollisionConstraints& rows = search_.constraints();
     const Eigen::VectorXd share = lipschitz_.cwiseProduct(half_);
-    const double cheap = share.sum();
+    const double cheap = leversHold_ ? share.sum() : kInfinity;
     double lowest = kInfinity;
     for (int row = 0; row < rows.rows(); ++row) {
       const DistanceAnswer answer = rows.answer(row);
@@ -142,9 +149,10 @@ class Prover {
 
   // Axes, origins and ranges of the joints in the middle of the box, and what rounding may have made of a
   // bound: each of some `steps` products and sums behind a coordinate, from the root along the links and
-  // through the bound's own sums, is off by a few units in the last place of the longest length.
+  // through the bound's own sums, is off by a few units in the last place of the longest length. The angle of
+  // a joint that mimics another one is rounded itself, and its joint may turn by up to 1e6 rad.
   void place() {
-    double length = 0;
+    double length = 0, angles = 0;
     const Kinematics::State& state = search_.constraints().state();
     for (std::size_t i = 0; i < joints_.size(); ++i) {
       const Eigen::Isometry3d& child = state.link[at(models_[i]->child)];
@@ -152,6 +160,9 @@ class Prover {
       joints_[i].origin = child.translation();
       joints_[i].half = half_[joints_[i].slot] * std::abs(joints_[i].rate) * (1 + kEps);
       length = std::max(length, joints_[i].origin.norm() + (joints_[i].slides ? joints_[i].half : 0));
+      if (!models_[i]->mimic || joints_[i].slides) continue;
+      const double middle = q_[search_.coordinates()[at(joints_[i].slot)]];
+      angles += std::abs(joints_[i].rate * middle) + joints_[i].half + std::abs(models_[i]->mimic->offset);
     }
     const auto reach = [&](const Vector3d& centre, double radius) {
       length = std::max(length, centre.norm() + radius);
@@ -166,7 +177,8 @@ class Prover {
       reach(obstacle.centre, obstacle.radius);
     }
     const double m = static_cast<double>(joints_.size());
-    const double steps = static_cast<double>(scene_.kinematics->robot().joints.size()) + m * m * m + 16;
+    const double steps =
+        static_cast<double>(scene_.kinematics->robot().joints.size()) + m * m * m + 16 + angles;
     slack_ = 16 * kEps * steps * length;
   }
 
@@ -206,6 +218,7 @@ class Prover {
   PlaneBound bound_;
   BodyPoints first_, second_;
   double distance_ = 0, slack_ = 0;
+  bool leversHold_ = true;  // which they do as far as the joints that slide keep to their limits
   int widest_ = 0;
 };
 
@@ -253,6 +266,7 @@ PairProof provePair(const ProofScene& scene, const LinkPair& pair, std::vector<J
   if (!std::all_of(proof.open.begin(), proof.open.end(), bounded)) return proof;
   Prover prover(scene, pair);
   for (const JointBox& box : proof.open) requireSize(box, prover.coordinates());
+  if (!prover.hasBound()) return proof;
   while (!proof.open.empty() && proof.boxes < maxBoxes) {
     JointBox box = std::move(proof.open.back());
     proof.open.pop_back();
@@ -280,7 +294,7 @@ PairProof provePair(const ProofScene& scene, const LinkPair& pair, std::vector<J
 double distanceBound(const ProofScene& scene, const LinkPair& pair, const JointBox& box) {
   Prover prover(scene, pair);
   requireSize(box, prover.coordinates());
-  return bounded(box) ? prover.lowerBound(box) : -kInfinity;
+  return bounded(box) && prover.hasBound() ? prover.lowerBound(box) : -kInfinity;
 }
 
 PairProof merge(PairProof one, PairProof other) {

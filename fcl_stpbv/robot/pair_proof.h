@@ -60,7 +60,7 @@ PairProof unproven(const ProofScene& scene, const LinkPair& pair);
 /// Looks at up to `maxBoxes` boxes, starting with the last of these, cutting those that a bound does not
 /// clear; stops at a collision. What a box gives depends on the box alone, so that the same boxes and budget
 /// always give the same result, and a proof that goes on from `open` ends as if it had not been interrupted.
-/// Boxes without limits (planar and floating joints) stay open.
+/// Boxes without limits stay open, and so do all across planar and floating joints and a moving base.
 PairProof provePair(const ProofScene& scene, const LinkPair& pair, std::vector<JointBox> boxes,
                     long maxBoxes);
 

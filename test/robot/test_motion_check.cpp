@@ -7,6 +7,7 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <limits>
 
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/robot/constraints.h"
@@ -204,4 +205,38 @@ TEST_CASE("what rounding may add holds for a robot that comes from far away") {
   chains.place(0.5);  // at the origin
   // q(t) is a sum of numbers of 1e6, rounded twice.
   CHECK(chains.slack() >= 2 * 1e6 * std::numeric_limits<double>::epsilon());
+}
+
+TEST_CASE("a half space that a link carries is not proven free of what it turns into") {
+  const std::string ball = "<collision><geometry><sphere radius=\"0.1\"/></geometry></collision></link>";
+  const auto carried = [&](const std::string& type) {
+    Scene scene;
+    scene.model = std::make_shared<const RobotModel>(
+        parseUrdf("<robot name=\"r\"><link name=\"a\">" + ball + "<link name=\"b\">" + ball +
+                      "<joint name=\"j\" type=\"" + type +
+                      "\"><parent link=\"a\"/><child link=\"b\"/><origin xyz=\"1 0 0\"/><axis xyz=\"0 0 1\"/>"
+                      "<limit lower=\"-3\" upper=\"3\" effort=\"1\" velocity=\"1\"/></joint></robot>",
+                  "half_space.urdf"));
+    RobotGeometry geometry = loadGeometry(*scene.model);
+    const Eigen::Vector3d up = type == "revolute" ? Eigen::Vector3d::UnitY() : Eigen::Vector3d::UnitZ();
+    geometry.bodies[1].geometry = std::make_shared<fcl::Halfspaced>(up, -0.3);
+    geometry.bodies[1].centre.setConstant(std::numeric_limits<double>::quiet_NaN());
+    geometry.bodies[1].radius = std::numeric_limits<double>::infinity();
+    scene.geometry = std::make_shared<const RobotGeometry>(std::move(geometry));
+    scene.kinematics = std::make_shared<const Kinematics>(scene.model);
+    return MotionCheck(scene.kinematics, scene.geometry, {{0, 1, false}});
+  };
+  const VectorXd zero = VectorXd::Zero(1);
+  MotionCheck turning = carried("revolute");
+  CHECK(turning.isFree(zero));
+  for (const double angle : {-0.25, -1.0, -3.0}) {  // at 0.2 rad it meets the ball, at 3 rad it has left it
+    const MotionBracket first = turning.firstContact(zero, VectorXd::Constant(1, angle));
+    CHECK(first.verdict != MotionVerdict::free);
+    CHECK(first.from <= 0.21 / -angle);
+  }
+  MotionCheck sliding = carried("prismatic");
+  CHECK(sliding.isMotionFree(zero, VectorXd::Constant(1, 0.199)));
+  const MotionBracket first = sliding.firstContact(zero, VectorXd::Constant(1, 0.4));
+  CHECK(first.verdict == MotionVerdict::contact);
+  CHECK(first.until == Approx(0.5).margin(1e-4));
 }

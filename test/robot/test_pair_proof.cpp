@@ -1,7 +1,10 @@
 // Proofs over joint boxes: no bound above a sample's distance, pieces that make the same whole in any order.
+#include <fcl/geometry/shape/sphere.h>
+
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <limits>
 #include <random>
 
 #include "fcl_stpbv/error.h"
@@ -254,4 +257,67 @@ TEST_CASE("joints without limits leave a pair unproven, a rigid pair needs one b
   const PairProof rigid = provePair(scene, {0, 2}, unproven(scene, {0, 2}).open, 100);
   CHECK(rigid.boxes == 1);
   CHECK(rigid.proven());
+}
+
+TEST_CASE("limits that a box sets itself make no bound across planar and floating joints and moving bases") {
+  const std::string ball = "<sphere radius=\"0.1\"/>";
+  for (const std::string type : {"planar", "floating"}) {
+    const ProofScene scene =
+        proofSceneOf(robot(link("a", ball) + link("b", ball) +
+                           joint("p", type, "a", "b", "<origin xyz=\"2 0 0\"/><axis xyz=\"0 0 1\"/>")));
+    const Eigen::VectorXd room = Eigen::VectorXd::Constant(scene.kinematics->size(), 3);
+    for (const double wide : {0.0, 1.0}) {  // the bodies meet within the wide one
+      const JointBox box{-wide * room, wide * room};
+      CHECK(distanceBound(scene, {0, 1}, box) == -std::numeric_limits<double>::infinity());
+      CHECK(provePair(scene, {0, 1}, {box}, 100).open.size() == 1);
+    }
+  }
+  const ProofScene still =
+      proofSceneOf(robot(link("a", ball) + link("b", ball) + joint("p", "revolute", "a", "b")));
+  const fcl::CollisionObjectd wall(std::make_shared<fcl::Sphered>(0.1),
+                                   fcl::Transform3d(Eigen::Translation3d(2, 0, 0)));
+  const ProofScene moving =
+      proofScene(std::make_shared<const Kinematics>(
+                     std::make_shared<const RobotModel>(still.kinematics->robot()), BaseMotion::planar),
+                 still.geometry, {obstacleOf(wall, "wall")}, 0);
+  const JointBox box{Eigen::Vector4d::Constant(-3), Eigen::Vector4d::Constant(3)};
+  CHECK(distanceBound(moving, {1, 0, true}, box) == -std::numeric_limits<double>::infinity());
+  CHECK_FALSE(provePair(moving, {1, 0, true}, {box}, 100).proven());
+}
+
+TEST_CASE("a box in which a joint slides beyond its limits is not proven by levers within them") {
+  // The ball on the slide meets the other one 2.9 m beyond the slide's limits.
+  const std::string ball = "<geometry><sphere radius=\"0.1\"/></geometry></collision></link>";
+  const ProofScene scene = proofSceneOf(robot(
+      "<link name=\"a\"><collision><origin xyz=\"0 3 0\"/>" + ball + link("m") +
+      "<link name=\"b\"><collision>" + ball + joint("turn", "continuous", "a", "m", "<axis xyz=\"0 0 1\"/>") +
+      joint("slide", "prismatic", "m", "b", "<axis xyz=\"1 0 0\"/>", 0)));
+  const JointBox box{Eigen::Vector2d(0, 2.9), Eigen::Vector2d(3, 2.9)};
+  CHECK(provePair(scene, {0, 2}, {box}, 1000).collision);
+}
+
+TEST_CASE("no bound is above a distance where a mimic joint has made many turns, whose angle is rounded") {
+  // `b` swings 0.5 m around the axis, the wall's ball is 2 m away.
+  const std::string ball = "<geometry><sphere radius=\"0.1\"/></geometry></collision></link>";
+  const double multiplier = 0.7371234567891234;
+  const ProofScene scene = proofSceneOf(
+      robot("<link name=\"a\"><collision><origin xyz=\"2 0 0\"/>" + ball + link("leader") +
+            "<link name=\"b\"><collision><origin xyz=\"0.5 0 0\"/>" + ball +
+            joint("turn", "continuous", "a", "leader", "<axis xyz=\"0 0 1\"/>") +
+            joint("follow", "continuous", "a", "b",
+                  "<axis xyz=\"0 0 1\"/><mimic joint=\"turn\" multiplier=\"0.7371234567891234\"/>")));
+  REQUIRE(scene.kinematics->upper()[0] >= 1e6);
+  Random random(17);
+  double highest = -1;
+  for (int i = 0; i < 300; ++i) {
+    const double q = random.uniform(1e5, 1e6);
+    const JointBox box{Eigen::VectorXd::Constant(1, q), Eigen::VectorXd::Constant(1, q)};
+    const double bound = distanceBound(scene, pairNamed(scene, "a", "b"), box);
+    const long double angle = static_cast<long double>(multiplier) * q;
+    const long double x = 0.5L * std::cos(angle) - 2, y = 0.5L * std::sin(angle);
+    const long double truth = std::sqrt(x * x + y * y) - 0.2L;
+    CHECK(bound <= truth);
+    highest = std::max(highest, static_cast<double>(bound - truth));
+  }
+  CHECK(highest > -1e-8);  // the bound is near what it bounds
 }
