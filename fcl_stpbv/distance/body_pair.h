@@ -43,7 +43,8 @@ class BodyPair {
     const double size = a.extent() + b.extent() + unpack(pose.translation).lpNorm<1>();
     gapRounding_ = kRounding * size;
     acrossRounding_ = gapRounding_ + kRounding * (a.radii().rho + b.radii().rho);
-    certificateRounding_ = kGapRounding * size + acrossRounding_ / kTouching;
+    certificateRounding_ =
+        kGapRounding * size + acrossRounding_ / kTouching + tablesA_.supportError + tablesB_.supportError;
   }
 
   const StpBv& a() const { return a_; }

@@ -22,7 +22,7 @@ ShapeQuery::ShapeQuery(const StpBv& a, const Shape& s, const RelativePose& p)
       a.centre().lpNorm<1>() + a.enclosingRadius() + translation.lpNorm<1>() + s.centre.lpNorm<1>() + s.reach;
   rounding.gap = 8.0 * kEpsilon * size;
   rounding.across = rounding.gap + 8.0 * kEpsilon * a.radii().rho;
-  rounding.certificate = kGapRounding * (size + s.margin) + 1e-6 * rounding.across;
+  rounding.certificate = kGapRounding * (size + s.margin) + 1e-6 * rounding.across + a.tables().supportError;
 }
 
 bool isNearer(const ShapeQuery& q, const Nearest& x, const Nearest& than, const Vector3d* points, int count) {

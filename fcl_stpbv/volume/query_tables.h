@@ -12,6 +12,9 @@
 namespace fcl_stpbv::detail {
 
 struct QueryTables {
+  /// A bound on how far the support function is off the points' own, beyond its rounding: surface_check.h
+  /// (m). Set by the builder once it has looked at what it made, before anyone else sees it.
+  mutable double supportError = 0;
   PatchTable patches;  ///< with the boundaries of their regions of normals
   /// Faces near the centre, nearest first, each the nearest of those about its direction: along their normals
   /// the body is likely to be left soonest.

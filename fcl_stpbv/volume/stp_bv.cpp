@@ -116,7 +116,9 @@ StpBv::Ptr StpBv::build(const std::vector<Vector3d>& points, const StpBvOptions&
     for (std::size_t i = 0; i < points.size(); ++i)
       if (newIndex[i] < 0) others.push_back(points[i]);
     const Ptr volume = make(std::move(vertices), std::move(hull.faces), options);
-    found = soundnessOf(*volume, points, others);
+    double off = 0;
+    found = soundnessOf(*volume, points, others, &off);
+    volume->tables_->supportError = supportErrorOf(*volume, off);
     return volume;
   };
   const double rho = options.R - options.r;
@@ -183,9 +185,11 @@ StpBv::Ptr StpBv::assemble(std::vector<Vector3d> vertices, std::vector<Ring> fac
     throw Error("the faces are not one closed surface: vertices - edges + faces is " + std::to_string(euler) +
                 ", not 2");
   // Vertices that coincide pass all of that, and so does a surface that goes round twice.
-  if (soundnessOf(*volume, volume->vertices_, {}) == Soundness::broken)
+  double off = 0;
+  if (soundnessOf(*volume, volume->vertices_, {}, &off) == Soundness::broken)
     throw Error(
         "the faces are no convex surface: their patches overlap or leave gaps; do two vertices coincide?");
+  volume->tables_->supportError = supportErrorOf(*volume, off);
   return volume;
 }
 

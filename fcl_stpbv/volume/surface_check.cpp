@@ -22,6 +22,7 @@
 
 #include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/volume/ball_faces.h"
+#include "fcl_stpbv/volume/ball_side.h"
 #include "fcl_stpbv/volume/patch_view.h"
 #include "fcl_stpbv/volume/point_tree.h"
 #include "fcl_stpbv/volume/regions.h"
@@ -35,11 +36,22 @@ constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 // Two normals of an edge that are tried are that far apart (rad).
 constexpr double kWide = 0.3;
 
-// Height of a vertex over the ball of a face (m).
-double height(const StpBv& volume, int face, int vertex) {
+// Height of a vertex over the ball of a face (m), as the face's patch has it.
+double patchHeight(const StpBv& volume, int face, int vertex) {
   const FaceRecord& f = volume.tables().patches.face(volume.facePatch(face));
   const Vector3d q = at(volume, vertex) - f.anchor;
   return q.squaredNorm() / (2 * volume.radii().rho) + q.dot(f.normal);
+}
+
+// The same, where it is small not by the patch's normal, which is rounded: by next to nothing on the support
+// function.
+double height(const StpBv& volume, int face, int vertex) {
+  const double rounded = patchHeight(volume, face, vertex);
+  if (rounded < -1e-9 * volume.enclosingRadius()) return rounded;
+  const std::array<int, 3> t =
+      wideTriangle(volume.vertices(), volume.faces()[static_cast<std::size_t>(face)]);
+  const TouchingBall ball(at(volume, t[0]), at(volume, t[1]), at(volume, t[2]), volume.radii().rho);
+  return ball.valid() ? static_cast<double>(ball.height(at(volume, vertex))) : rounded;
 }
 
 // The most that a point is outside of the ball that rolls over an edge, in between its ends (m).
@@ -91,13 +103,32 @@ double farthestOut(const StpBv& volume, const std::vector<Vector3d>& points) {
   return out;
 }
 
+// Heights of a face's corners over its own ball, which three of them fix: nothing for a triangle.
+struct CornerHeights {
+  double highest = -kInfinity, lowest = kInfinity;
+};
+
+CornerHeights cornerHeights(const StpBv& volume) {
+  CornerHeights found;
+  for (int f = 0; f < volume.faceCount(); ++f) {
+    const StpBv::Ring& ring = volume.faces()[static_cast<std::size_t>(f)];
+    if (ring.size() == 3) continue;
+    for (const int i : ring) {
+      const double over = height(volume, f, i);
+      found.highest = std::max(found.highest, over);
+      found.lowest = std::min(found.lowest, over);
+    }
+  }
+  return found;
+}
+
 // The largest distance between patches that should meet. Those of an edge part by as much as its ends are off
 // its faces' balls, so that only wide turns, which may be none, are measured.
 double largestGap(const StpBv& volume) {
   double gap = 0;
   for (int f = 0; f < volume.faceCount(); ++f)
     for (const int i : volume.faces()[static_cast<std::size_t>(f)])
-      gap = std::max(gap, std::abs(height(volume, f, i)));
+      gap = std::max(gap, std::abs(patchHeight(volume, f, i)));
   for (int e = 0; e < volume.edgeCount(); ++e)
     if (volume.edges()[static_cast<std::size_t>(e)].turn >= kWide)
       gap = std::max(gap, edgeGap(volume, e).largest());
@@ -161,10 +192,7 @@ RegionAngles regionAngles(const StpBv& volume) {
 }
 
 double vertexHeight(const StpBv& volume) {
-  double worst = -kInfinity;
-  for (int f = 0; f < volume.faceCount(); ++f)
-    for (const int i : volume.faces()[static_cast<std::size_t>(f)])
-      worst = std::max(worst, height(volume, f, i));
+  double worst = cornerHeights(volume).highest;
   for (const StpBv::Edge& edge : volume.edges()) {
     if (edge.face[0] < 0) continue;
     for (const std::size_t side : {0u, 1u}) {
@@ -208,14 +236,26 @@ EdgeGap edgeGap(const StpBv& volume, int e) {
 }
 
 Soundness soundnessOf(const StpBv& volume, const std::vector<Vector3d>& points,
-                      const std::vector<Vector3d>& others) {
+                      const std::vector<Vector3d>& others, double* off) {
   const double held = vertexHeight(volume), left = others.empty() ? -kInfinity : farthestOut(volume, others);
   const double size = volume.enclosingRadius(), same = 2 * touchTolerance(points), out = std::max(held, left);
+  if (off) *off = std::max(out, -cornerHeights(volume).lowest);
   const double wide = 1e-9 * size + same;
   const double shift = 1e-3 * size + wide + 64 * kEpsilon * volume.radii().rho;
   if (!(out <= wide && tilesSphere(volume) && largestGap(volume) <= shift)) return Soundness::broken;
   if (!(out <= same + 8 * kEpsilon * volume.radii().rho)) return Soundness::off;
   return left <= 16 * kEpsilon * size ? Soundness::exact : Soundness::sound;
+}
+
+// A centre C is at `rho` from its patch's vertices to `off`, and from no point further than that. Moved
+// towards the smallest ball's centre, which is at that ball's radius from all, it has all within `rho`; and
+// no centre that has is much lower along a normal between the vertices' own. Either way n.C changes by `off`
+// times rho / sqrt(rho^2 - radius^2) at most, by less where `off` is all that there is above the smallest R.
+double supportErrorOf(const StpBv& volume, double off) {
+  if (!(off > 0)) return 0;
+  const double rho = volume.radii().rho, radius = volume.enclosingRadius() - volume.radii().r;
+  const double room = std::max(0.0, rho - radius) * (rho + radius);
+  return 2 * off * rho / std::sqrt(room + rho * off);  // twice that
 }
 
 }  // namespace fcl_stpbv::detail

@@ -17,8 +17,14 @@ enum class Soundness { exact, sound, off, broken };
 
 /// By local tests, in a time that grows with the number of patches: no walks and no search but for `others`,
 /// the points that are no vertices. `points` are all of them.
+/// `off`, where asked for, is the most that a point is outside a face's or an edge's ball, or a face's corner
+/// off its own (m).
 Soundness soundnessOf(const StpBv& volume, const std::vector<Eigen::Vector3d>& points,
-                      const std::vector<Eigen::Vector3d>& others);
+                      const std::vector<Eigen::Vector3d>& others, double* off = nullptr);
+
+/// A bound on how far the support function is off the points' own, beyond its rounding, where their heights
+/// are off by that (m).
+double supportErrorOf(const StpBv& volume, double off);
 
 /// Solid angles of the patches' regions of normals, by Gauss and Bonnet, an edge's further parts with their
 /// edge (sr); and the least angle by which a face's region turns left at a corner (rad).

@@ -87,6 +87,39 @@ TEST_CASE(
   CHECK(known >= 0.85 * exact);  // the rest is compared with a truth that is known less well
 }
 
+TEST_CASE(
+    "lower <= truth <= upper next to the smallest R, where a face's many corners are on its ball to "
+    "rounding") {
+  Random random(29);
+  const Cloud rod = needle(0.5);
+  const StpBv::Ptr other = StpBv::build(rod, {0.0, 1.0});
+  int known = 0, all = 0;
+  for (const Cloud& flat :
+       {plate(0.9, 0.6), Cloud{{-0.9, -0.6, 0}, {0.9, -0.6, 0}, {0.9, 0.6, 0}, {-0.9, 0.6, 0}},
+        cylinder(0.3, 0.1), cylinder(0.1, 0.4)})
+    for (const double above : {1e-10, 1e-9, 1e-7, 1e-4})
+      for (int i = 0; i < 6; ++i) {
+        const Isometry3d turn = pose(random.rotation(), random.direction());
+        Cloud cloud = flat;
+        for (Vector3d& p : cloud) p = turn * p;
+        const double R = StpBv::smallestR(cloud, 0.0) + above;
+        const StpBv::Ptr volume = StpBv::build(cloud, {0.0, R});
+        const Isometry3d pa = Isometry3d::Identity(),
+                         pb = pose(random.rotation(), turn.translation() + 3 * (turn.linear().col(2) +
+                                                                                0.1 * random.direction()));
+        CAPTURE(flat.size(), above, i);
+        const Distance d = distance(*volume, pa, *other, pb);
+        REQUIRE(d.status == DistanceStatus::exact);
+        known += holds(
+            d, enclose<Quad>(d, {cloud, 0.0, R, pa}, {rod, 0.0, 1.0, pb}, 0.02 * (d.upper - d.lower), true));
+        ++all;
+        const Distance point = distance(*volume, pa, Vector3d(pb.translation()));
+        holds(point, enclose<Quad>(point, {cloud, 0.0, R, pa}, {Cloud{pb.translation()}, 0.0, 1.0, pa}, 1e-17,
+                                   true));
+      }
+  CHECK(known == all);
+}
+
 TEST_CASE("lower <= truth <= upper for a volume and each shape, and for each two shapes") {
   Random random(23);
   const Cloud cloud = box(0.3, 0.2, 0.1);

@@ -267,6 +267,9 @@ TEST_CASE("Bodies next to their smallest R are almost balls, and as deep as they
   int deep = 0, met = 0;
   for (const double more : {1e-9, 1e-6, 1e-4, 1e-3, 1e-2, 0.1}) {
     std::vector<StpBv::Ptr> volumes;
+    // Where many corners share a face's ball but for rounding, the support function is off by that times
+    // this.
+    const double support = 1e-16 * (1 + more) / std::sqrt(more * (2 + more));
     for (const Cloud& cloud : clouds)
       volumes.push_back(StpBv::build(cloud, {0.01, (1 + more) * StpBv::smallestR(cloud, 0.01)}));
     for (int i = 0; i < 150; ++i) {
@@ -277,7 +280,7 @@ TEST_CASE("Bodies next to their smallest R are almost balls, and as deep as they
       const Distance d = distance(a, Eigen::Isometry3d::Identity(), b, at);
       if (!(d.distance < -0.021)) continue;
       ++deep;
-      met += d.upper - d.lower <= 1e-13;
+      met += d.upper - d.lower <= 1e-13 + support;
       CAPTURE(more, i, d.distance, d.lower, d.upper);
       // Where whole rings of normals are equally good, the polytope runs out of points: up to 3e-4 of the
       // depth in 14,000 of such pairs, less in these.

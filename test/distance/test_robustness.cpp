@@ -175,12 +175,16 @@ TEST_CASE("Big radii from just above the smallest to a million metres are solved
     const double smallest = StpBv::smallestR(cloud, 0.01);
     for (const double R : {smallest * (1 + 1e-9), smallest * (1 + 1e-6), smallest * 1.001, 1e3, 1e6}) {
       const StpBv::Ptr a = StpBv::build(cloud, {0.01, R}), b = StpBv::build(box(0.1, 0.2, 0.1), {0.0, R});
+      // Where many corners share a face's ball but for rounding, the support function is off by that times
+      // this.
+      const double rho = R - 0.01, ball = smallest - 0.01;
+      const double support = 1e-16 * rho / std::sqrt((rho - ball) * (rho + ball));
       for (int i = 0; i < trials(40); ++i) {
         const Isometry3d pa = pose(random.rotation(), Vector3d::Zero());
         const Isometry3d pb = pose(random.rotation(), 0.7 * random.direction());
         const Distance d = distance(*a, pa, *b, pb);
         REQUIRE(d.status == DistanceStatus::exact);
-        CHECK(d.upper - d.lower < 1e-13 + 1e-16 * R);
+        CHECK(d.upper - d.lower < 1e-13 + 1e-16 * R + support);
         const ReferenceDistance reference =
             referenceDistance(referenceBody(cloud, 0.01, R, pa),
                               referenceBody(box(0.1, 0.2, 0.1), 0.0, R, pb), d.normal.cast<long double>());
