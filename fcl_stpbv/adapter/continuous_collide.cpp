@@ -113,7 +113,8 @@ class MovingPair {
     if (a_.unbounded) a_.reachTo(b_);
     if (b_.unbounded) b_.reachTo(a_);
     // Some dozens of products and sums lie between the poses and a bound.
-    slack_ = 64 * std::numeric_limits<double>::epsilon() * (a_.coordinates() + b_.coordinates());
+    slack_ = 64 * std::numeric_limits<double>::epsilon() * (a_.coordinates() + b_.coordinates()) +
+             2 * (a_.body.supportError() + b_.body.supportError());
   }
 
   void place(double t) {

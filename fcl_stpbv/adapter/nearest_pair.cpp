@@ -120,8 +120,8 @@ class NearestElements {
                         const ConvexBody& b) const {
     if (a.unbounded() || b.unbounded()) return -kInfinity;
     const Vector3d d = b.pose.translation() - a.pose.translation();
-    const double rounding =
-        a.rounding + b.rounding + kGapRounding * (d.lpNorm<1>() + a.extent() + b.extent());
+    const double rounding = a.rounding + b.rounding + a.supportError() + b.supportError() +
+                            kGapRounding * (d.lpNorm<1>() + a.extent() + b.extent());
     double most = -kInfinity;
     for (std::size_t i = 0; i < planes_ && !skip(most); ++i) {
       const Vector3d& n = plane_[i].world;

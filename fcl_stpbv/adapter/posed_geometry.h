@@ -8,6 +8,7 @@
 
 #include "fcl_stpbv/adapter/element_tree.h"
 #include "fcl_stpbv/distance/distance.h"
+#include "fcl_stpbv/volume/query_tables.h"
 
 namespace fcl_stpbv {
 struct ProximityCounts;
@@ -32,6 +33,8 @@ struct ConvexBody {
   double localSupport(const Eigen::Vector3d& m, int hint = -1) const {
     return volume ? volume->support(m, hint) : m.dot(shape.support(m)) + shape.margin;
   }
+  /// Bound on how far the support function is off, beyond its rounding (m).
+  double supportError() const { return volume ? volume->tables().supportError : 0.0; }
   /// Bound on its coordinates, for rounding (m).
   double extent() const {
     return volume ? volume->extent() : shape.centre.lpNorm<1>() + shape.reach + shape.margin;

@@ -62,7 +62,7 @@ void CollisionChecker::Impl::addPair(const CheckedPair& pair) {
   added.b = at(pair.other) + (pair.obstacle ? geometry_->bodies.size() : 0);
   const PlacedBody &a = bodies_[added.a], &b = bodies_[added.b];
   added.bend = b.body.volume ? 0.5 * b.body.volume->radii().R : kInfinity;
-  added.rounding = kGapRounding * (a.radius + b.radius);
+  added.rounding = kGapRounding * (a.radius + b.radius) + 2 * (a.body.supportError() + b.body.supportError());
   if (a.convex && b.convex) added.rounding += kGapRounding * (a.body.extent() + b.body.extent());
   if (b.body.volume) added.rounding += kGapRounding * b.body.volume->radii().R;  // 1 + u.w for |t|^2 / 2
   checked_.push_back(added);

@@ -181,7 +181,8 @@ Cover MotionCheck::Impl::cover(int pair, const Distance& found, double margin, d
              d.dot(body.body.pose.translation() - about);
     };
   };
-  return planeCover(found.normal, gap, support(a, 0), va, support(b, 1), vb, most, chains_.slack());
+  const double slack = chains_.slack() + 2 * (a.body.supportError() + b.body.supportError());
+  return planeCover(found.normal, gap, support(a, 0), va, support(b, 1), vb, most, slack);
 }
 
 bool MotionCheck::Impl::isFree(const ConstVector& q, double margin) {
