@@ -172,6 +172,7 @@ bool makeSteady(SteadyMotion& motion) {
          motion.angular.allFinite();
 }
 
+/// Where FCL's marks or a tree's cells call all of a geometry free.
 const MotionAnswer kMeetsNothing{MotionVerdict::free, 1, 1, {}, 1};
 
 double inFclTerms(const MotionAnswer& found, const SteadyMotion& motion1, const SteadyMotion& motion2,
@@ -190,11 +191,9 @@ double inFclTerms(const MotionAnswer& found, const SteadyMotion& motion1, const 
 double collideOnTheirWays(const CollisionGeometryd& geometry1, const SteadyMotion& motion1,
                           const CollisionGeometryd& geometry2, const SteadyMotion& motion2,
                           const ContinuousCollisionRequestd& request, ContinuousCollisionResultd& result) {
-  MotionAnswer found;
-  if (isOccupied(geometry1) && isOccupied(geometry2))
-    found = firstContact(geometry1, motion1, geometry2, motion2, {0, request.toc_err});
-  else
-    found = kMeetsNothing;
+  const bool canMeet = isOccupied(geometry1) && isOccupied(geometry2);
+  const MotionAnswer found =
+      canMeet ? firstContact(geometry1, motion1, geometry2, motion2, {0, request.toc_err}) : kMeetsNothing;
   return inFclTerms(found, motion1, motion2, result);
 }
 

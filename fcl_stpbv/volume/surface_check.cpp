@@ -122,6 +122,24 @@ CornerHeights cornerHeights(const StpBv& volume) {
   return found;
 }
 
+// The most that a corner of a face, or the next corner beyond an edge of it, is outside its ball.
+double vertexHeight(const StpBv& volume, const CornerHeights& corners) {
+  double worst = corners.highest;
+  for (const StpBv::Edge& edge : volume.edges()) {
+    if (edge.face[0] < 0) continue;
+    for (const std::size_t side : {0u, 1u}) {
+      const StpBv::Ring& ring = volume.faces()[static_cast<std::size_t>(edge.face[side])];
+      const auto from =
+          static_cast<std::size_t>(std::find(ring.begin(), ring.end(), edge.vertex[side]) - ring.begin());
+      const int over = edge.face[1 - side];
+      worst = std::max(worst, height(volume, over, ring[(from + 2) % ring.size()]));
+      if (ring.size() > 3)
+        worst = std::max(worst, height(volume, over, ring[(from + ring.size() - 1) % ring.size()]));
+    }
+  }
+  return worst;
+}
+
 // The largest distance between patches that should meet. Those of an edge part by as much as its ends are off
 // its faces' balls, so that only wide turns, which may be none, are measured.
 double largestGap(const StpBv& volume) {
@@ -191,22 +209,7 @@ RegionAngles regionAngles(const StpBv& volume) {
   return angles;
 }
 
-double vertexHeight(const StpBv& volume) {
-  double worst = cornerHeights(volume).highest;
-  for (const StpBv::Edge& edge : volume.edges()) {
-    if (edge.face[0] < 0) continue;
-    for (const std::size_t side : {0u, 1u}) {
-      const StpBv::Ring& ring = volume.faces()[static_cast<std::size_t>(edge.face[side])];
-      const auto from =
-          static_cast<std::size_t>(std::find(ring.begin(), ring.end(), edge.vertex[side]) - ring.begin());
-      const int over = edge.face[1 - side];
-      worst = std::max(worst, height(volume, over, ring[(from + 2) % ring.size()]));
-      if (ring.size() > 3)
-        worst = std::max(worst, height(volume, over, ring[(from + ring.size() - 1) % ring.size()]));
-    }
-  }
-  return worst;
-}
+double vertexHeight(const StpBv& volume) { return vertexHeight(volume, cornerHeights(volume)); }
 
 EdgeGap edgeGap(const StpBv& volume, int e) {
   EdgeGap gap;
@@ -237,9 +240,11 @@ EdgeGap edgeGap(const StpBv& volume, int e) {
 
 Soundness soundnessOf(const StpBv& volume, const std::vector<Vector3d>& points,
                       const std::vector<Vector3d>& others, double* off) {
-  const double held = vertexHeight(volume), left = others.empty() ? -kInfinity : farthestOut(volume, others);
+  const CornerHeights corners = cornerHeights(volume);
+  const double held = vertexHeight(volume, corners),
+               left = others.empty() ? -kInfinity : farthestOut(volume, others);
   const double size = volume.enclosingRadius(), same = 2 * touchTolerance(points), out = std::max(held, left);
-  if (off) *off = std::max(out, -cornerHeights(volume).lowest);
+  if (off) *off = std::max(out, -corners.lowest);
   const double wide = 1e-9 * size + same;
   const double shift = 1e-3 * size + wide + 64 * kEpsilon * volume.radii().rho;
   if (!(out <= wide && tilesSphere(volume) && largestGap(volume) <= shift)) return Soundness::broken;
