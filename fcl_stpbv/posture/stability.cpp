@@ -5,6 +5,7 @@
 #include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/posture/support_patch.h"
 #include "fcl_stpbv/posture/task.h"
+#include "fcl_stpbv/posture/task_start.h"
 #include "fcl_stpbv/robot/link_check.h"
 
 namespace fcl_stpbv {
@@ -74,10 +75,12 @@ StaticStability::StaticStability(const Kinematics& kinematics, const std::vector
       world_(world),
       firstWeight_(firstWeight),
       centreJacobian_(3, kinematics.size()) {
-  for (const Contact& contact : contacts) {
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    const Contact& contact = contacts[c];
     detail::requireLink("StaticStability", contact.link, kinematics.robot());
     patches_->links.push_back(contact.link);
-    patches_->list.emplace_back(contact.points, margin);
+    patches_->list.push_back(
+        within("contacts[" + std::to_string(c) + "]", [&] { return SupportPatch(contact.points, margin); }));
     weights_ += patches_->list.back().corners();
     carriers_.push_back(kinematics.dependence(contact.link));
   }

@@ -22,7 +22,9 @@ int linkNamed(const std::string& name, const PostureScene& scene, const std::str
 
 // An obstacle of this link of the scene: the link's first shape has its name, others #2, #3 after it.
 bool isOf(const Obstacle& obstacle, const std::string& link) {
-  return obstacle.name == link || obstacle.name.compare(0, link.size() + 1, link + "#") == 0;
+  if (obstacle.name == link) return true;
+  if (obstacle.name.compare(0, link.size() + 1, link + "#") != 0) return false;
+  return obstacle.name.find_first_not_of("0123456789", link.size() + 1) == std::string::npos;
 }
 
 std::vector<int> linksNamed(const std::vector<std::string>& names, const PostureScene& scene,

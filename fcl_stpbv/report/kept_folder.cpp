@@ -44,7 +44,10 @@ std::string keyOfFolder(const std::string& path, const std::vector<std::string>&
   const fs::path name = (fs::path(path) / "").parent_path();  // without a slash at the end
   const fs::path parent = name.parent_path().empty() ? "." : name.parent_path();
   if (!fs::is_directory(parent, ignored))
-    throw Error("-o " + path + ": the folder " + parent.string() + " does not exist; make it first");
+    throw Error("-o " + path + ": " +
+                (fs::exists(parent, ignored)
+                     ? parent.string() + " is a file, expected a folder"
+                     : "the folder " + parent.string() + " does not exist; make it first"));
   const bool isNew = !fs::exists(fs::symlink_status(name, ignored));
   if (!isNew && !fs::is_directory(name, ignored))
     throw Error("-o " + path +

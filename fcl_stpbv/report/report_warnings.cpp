@@ -37,9 +37,14 @@ std::string neutralCollisions(const NeutralPosture& found, const std::string& ne
       " in the neutral posture (" +
       (neutral.empty() ? "all joints at zero, or at the limit nearest to it" : neutral) + ")";
   if (found.better.size() > 0)
-    warning += "; in another posture only " + std::to_string(found.collidingThere) + " overlap: " +
-               (found.state.empty() ? "neutral.better in the JSON, which --neutral takes from a file"
-                                    : "give --neutral " + found.state);
+    warning += "; in another posture " +
+               (found.collidingThere == 0   ? "none does"
+                : found.collidingThere == 1 ? "only 1 does"
+                                            : "only " + std::to_string(found.collidingThere) + " do") +
+               ": " +
+               (found.state.empty()
+                    ? "neutral.better in the JSON of urdf_collision_report, which --neutral takes from a file"
+                    : "give --neutral " + found.state);
   return warning + ".";
 }
 
@@ -70,7 +75,7 @@ std::string kinks(const CollisionReport& report) {
   return std::to_string(kinked) +
          (kinked == 1 ? " checked pair has no smooth body, so its gradient may jump"
                       : " checked pairs have no smooth body, so their gradients may jump") +
-         " (\"continuous\" is false in the JSON).";
+         " (\"continuous\" is false in the JSON of urdf_collision_report).";
 }
 
 }  // namespace

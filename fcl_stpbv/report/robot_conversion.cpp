@@ -71,8 +71,12 @@ ordered_json inputsOf(const RobotConversion& conversion, std::vector<std::string
     inputs[what] = {{"file", path}, {"sha256", sha256(readText(path))}};
   };
   inputs["version"] = FCL_STPBV_VERSION;
-  inputs["writer"] = 3;  // changes when the same inputs give other files
+  inputs["writer"] = 4;  // changes when the same inputs give other files
   add("urdf", files.urdf);
+  // From the folder on, names of visual meshes and textures are written: one that was moved is another.
+  std::error_code ignored;
+  const fs::path home = fs::absolute(files.urdf).parent_path();
+  inputs["urdf"]["from_folder"] = fs::relative(home, fs::absolute(conversion.folder), ignored).string();
   add("srdf", files.srdf);
   add("obstacles", files.obstacles);
   if (!conversion.report.neutral.empty()) inputs["neutral"] = digestOf(conversion.report.neutral);
@@ -91,6 +95,9 @@ ordered_json inputsOf(const RobotConversion& conversion, std::vector<std::string
 }  // namespace
 
 ConversionResult convertRobot(const RobotConversion& conversion) {
+  const std::string& prefix = conversion.meshPrefix;
+  if (!prefix.empty() && prefix.back() != '/')
+    throw Error("--mesh-prefix " + prefix + ": expected a / at its end, as the meshes' names follow it");
   ConversionResult result;
   std::vector<std::string> read;
   const ordered_json inputs = inputsOf(conversion, read);
@@ -108,7 +115,10 @@ ConversionResult convertRobot(const RobotConversion& conversion) {
   requireFolderPlace(conversion.folder);
   const CollisionReport report = makeReport(request);
   PartFiles output(conversion, report);
-  atomicWriteFolder(conversion.folder, output.make(inputs, key));
+  const FolderFiles files = output.make(inputs, key);
+  // That took a while: nothing of the user's may have come into the folder meanwhile.
+  keyOfFolder(conversion.folder, read, conversion.force);
+  atomicWriteFolder(conversion.folder, files);
   result.warnings = report.warnings;
   result.skipped = report.skipped;
   result.summary = formatted(

@@ -123,7 +123,7 @@ class VolumeMaker {
                                  a.perPeriod,
                                  std::isfinite(a.leastClearance) ? a.leastClearance : kNever};
     };
-    std::vector<double> kept = cache_.numbers(key.content, "advice 2", ask);
+    std::vector<double> kept = cache_.numbers(key.content, "advice 3", ask);
     if (kept.size() != 7) kept = ask();
     return {{kept[0], kept[1]},
             kept[2] != 0,

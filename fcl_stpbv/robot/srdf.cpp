@@ -2,10 +2,12 @@
 #include "fcl_stpbv/robot/srdf.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <optional>
 #include <set>
 #include <sstream>
+#include <string_view>
 #include <unordered_set>
 
 #include "fcl_stpbv/error.h"
@@ -219,6 +221,38 @@ Srdf loadSrdf(const std::string& path, const RobotModel& robot) {
   return srdf;
 }
 
+namespace {
+
+bool isUtf8(std::string_view text) {
+  for (std::size_t i = 0; i < text.size();) {
+    const auto byte = [&](std::size_t k) {
+      return static_cast<unsigned char>(k < text.size() ? text[k] : 0);
+    };
+    const int c = byte(i);
+    const std::size_t length = c < 0x80 ? 1 : c >= 0xc2 && c < 0xe0 ? 2 : c >= 0xe0 && c < 0xf0 ? 3 : 4;
+    if (length == 4 && (c < 0xf0 || c > 0xf4)) return false;
+    for (std::size_t k = 1; k < length; ++k)
+      if ((byte(i + k) & 0xc0) != 0x80) return false;
+    i += length;
+  }
+  return true;
+}
+
+// Names in another encoding come from a URDF that has it. A file that says it is UTF-8, or nothing, would be
+// no XML with them to strict readers; in ISO-8859-1 each byte is a character.
+void declareEncoding(tinyxml2::XMLDocument& document) {
+  tinyxml2::XMLNode* first = document.FirstChild();
+  tinyxml2::XMLDeclaration* said = first ? first->ToDeclaration() : nullptr;
+  std::string value = said ? said->Value() : "";
+  for (char& c : value) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const bool other = value.find("encoding") != std::string::npos && value.find("utf-8") == std::string::npos;
+  if (other || isUtf8(printed(document))) return;
+  if (said) document.DeleteChild(said);
+  document.InsertFirstChild(document.NewDeclaration("xml version=\"1.0\" encoding=\"ISO-8859-1\""));
+}
+
+}  // namespace
+
 std::string withPairs(const std::string& path, const std::string& robotName,
                       const std::vector<Srdf::Pair>& pairs, const std::vector<std::string>& comments) {
   Srdf srdf;
@@ -265,6 +299,7 @@ std::string withPairs(const Srdf* srdf, const std::string& robotName, const std:
     e->SetAttribute("reason", pair.reason.c_str());
     root->InsertEndChild(e);
   }
+  declareEncoding(document);
   return printed(document);
 }
 

@@ -83,7 +83,7 @@ class Adviser {
   static constexpr double kStep = 2;
   static constexpr int kRounds = 10;
   static constexpr double kWithin = 1e-3;
-  static constexpr double kOfAPoint = 1e-9;  // m, or of the largest R: a single point has no smallest one
+  static constexpr double kOfAPoint = 1e-9;  // m, the least R of a single point, which has no smallest one
 
   /// The least acceleration of all radii that keep the clearance, where the task's own is below that.
   double leastKept() const {
@@ -105,7 +105,7 @@ class Adviser {
 
   /// All R above it have a volume, and none of a robot is smaller.
   double leastR(double r, double largest) const {
-    return std::max(smallestR_ + r, std::min(1.0, largest) * kOfAPoint);
+    return std::max(smallestR_ + r, std::min(kOfAPoint, largest));
   }
 
   /// Spends what is left of the clearance on a smaller R: the witness points then slide less.

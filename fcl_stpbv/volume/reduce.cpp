@@ -11,6 +11,7 @@
 #include <cstdio>
 #include <numeric>
 
+#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/volume/hull_excess.h"
 #include "fcl_stpbv/volume/measure.h"
 #include "fcl_stpbv/volume/minimum_ball.h"
@@ -48,10 +49,23 @@ class Reducer {
   }
 
  private:
-  // How far each point sticks out of the margin.
+  // How far a point sticks out of the margin.
+  double sticksOut(const StpBv& volume, const Vector3d& p) const {
+    return signedDistance(volume, p) + options_.r;
+  }
+
+  // The same of all points; vertices are as deep as the volume's own r.
   std::vector<double> sticksOut(const StpBv& volume) const {
+    const auto before = [](const Vector3d& a, const Vector3d& b) {
+      return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
+    };
+    Cloud vertices = volume.vertices();
+    std::sort(vertices.begin(), vertices.end(), before);
     std::vector<double> heights;
-    for (const Vector3d& p : hull_) heights.push_back(signedDistance(volume, p) + options_.r);
+    for (const Vector3d& p : hull_)
+      heights.push_back(std::binary_search(vertices.begin(), vertices.end(), p, before)
+                            ? options_.r - volume.radii().r
+                            : sticksOut(volume, p));
     return heights;
   }
 
@@ -66,20 +80,27 @@ class Reducer {
   }
 
   // The volume on these vertices with r grown until it covers all points with the margin; null where it
-  // cannot or exceeds the budget.
-  StpBv::Ptr cover(const Cloud& vertices) const {
+  // cannot, exceeds the budget, or needs an r over `most`. What sticks out at the point `first` is looked at
+  // before the others.
+  StpBv::Ptr cover(const Cloud& vertices, double most = kInfinity, const Vector3d* first = nullptr) const {
     StpBvOptions grown = options_;
     // A larger r makes rho smaller and the core rounder, so the first growth is at most a little too much.
     for (int round = 0; round < 20; ++round) {
-      if (grown.R <= StpBv::smallestR(vertices, grown.r)) return nullptr;
+      if (grown.r > most || grown.R <= StpBv::smallestR(vertices, grown.r)) return nullptr;
       const StpBv::Ptr volume = tried(vertices, grown);
-      if (!volume) return nullptr;
+      if (!volume || (first && grown.r + sticksOut(*volume, *first) > most)) return nullptr;
       const std::vector<double> heights = sticksOut(*volume);
       const double height = *std::max_element(heights.begin(), heights.end());
       if (height <= 0) return excess_.max(*volume) <= budget_ ? volume : nullptr;
       grown.r += height + 1e-15;
     }
     return nullptr;
+  }
+
+  // The same on some of the points. The over-cover is r or more there, so no r over the budget is tried.
+  // Most that fail do so at the point that was just dropped, if there is one.
+  StpBv::Ptr coverFrom(const Cloud& points, const Vector3d* dropped = nullptr) const {
+    return cover(points, budget_, dropped);
   }
 
   Cloud sphere() const { return {minimumEnclosingBall(hull_).centre}; }
@@ -121,7 +142,7 @@ class Reducer {
                 [&](std::size_t i, std::size_t j) { return heights[i] > heights[j]; });
       // What sticks out is added to r; where that alone is over the budget there is no need to try.
       if (heights[order[0]] <= budget_ - options_.r)
-        if (const StpBv::Ptr covering = cover(chosen)) return covering;
+        if (const StpBv::Ptr covering = coverFrom(chosen)) return covering;
       const std::size_t more = 1 + chosen.size() / 16;
       for (std::size_t k = 0; k < std::min(more, order.size()) && heights[order[k]] > 0; ++k)
         chosen.push_back(hull_[order[k]]);
@@ -134,8 +155,9 @@ class Reducer {
   StpBv::Ptr thin(StpBv::Ptr best) const {
     for (int i = 0; i < best->vertexCount() && best->vertexCount() > 1;) {
       Cloud fewer = best->vertices();
+      const Vector3d dropped = fewer[static_cast<std::size_t>(i)];
       fewer.erase(fewer.begin() + i);
-      const StpBv::Ptr trial = cover(fewer);
+      const StpBv::Ptr trial = coverFrom(fewer, &dropped);
       if (trial && trial->vertexCount() < best->vertexCount())
         best = trial;
       else

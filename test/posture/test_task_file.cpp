@@ -59,7 +59,7 @@ TEST_CASE("a task file's mistakes are named with their key") {
           "stability.contacts[0].link", "no link 'NO'");
   refused(
       R"({"placements": [], "stability": {"margin": 0.1, "contacts": [{"link": "BODY", "points": [[0, 0, 0]]}]}})",
-      "stability", "smaller margin");
+      "stability: contacts[0]", "smaller margin");
   refused(R"({"placements": [], "collisions": {"pairs": [{"links": ["NO"]}]}})", "collisions.pairs[0].links",
           "no link 'NO'");
   refused(R"({"placements": [], "collisions": {"ignore": [{"obstacles": ["NO"]}]}})",
@@ -80,4 +80,19 @@ TEST_CASE("pairs are what the task names, less what it ignores") {
         bodies + obstacles - 1);
   CHECK(count(R"({"self": false, "ignore": [{"links": ["BODY"], "obstacles": ["can"]}]})") ==
         bodies * obstacles - 1);
+}
+
+TEST_CASE("an obstacle's other shapes are named with it, and other links whose names begin so are not") {
+  PostureScene scene = hrp2Scene();
+  std::vector<std::string> names = {"can", "can#2", "can#left"};
+  for (std::size_t i = 0; i < names.size(); ++i) scene.obstacles[i].name = names[i];
+  for (std::size_t i = names.size(); i < scene.obstacles.size(); ++i) scene.obstacles[i].name = "other";
+  const auto pairs = [&](const std::string& obstacle) {
+    const std::string collisions =
+        R"({"self": false, "pairs": [{"links": ["BODY"], "obstacles": [")" + obstacle + R"("]}]})";
+    return pairsOf(parseTask(R"({"placements": [], "collisions": )" + collisions + "}", "task.json"), scene)
+        .size();
+  };
+  CHECK(pairs("can") == 2);
+  CHECK(pairs("can#left") == 1);
 }

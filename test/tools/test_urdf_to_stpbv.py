@@ -14,6 +14,7 @@ import sys
 import tempfile
 import time
 import unittest
+from xml.etree import ElementTree
 
 import numpy as np
 
@@ -228,6 +229,7 @@ class Conversion(unittest.TestCase):
             self.refused(self.run_tool(self.place / "gate.urdf", "-o", self.folder / name), says)
         self.refused(self.run_tool(self.place / "gate.urdf", "-o", self.place / "gate.obj"), "gate.obj")
         self.refused(self.run_tool(self.place / "gate.urdf", "-o", self.folder / "no" / "where"), "does not exist")
+        self.refused(self.run_tool(self.place / "gate.urdf", "-o", self.place / "gate.obj" / "out"), "gate.obj is a file, expected")
         (self.out / "manifest.json").write_text("{}")
         self.refused(self.convert(), "manifest.json")
 
@@ -289,6 +291,7 @@ class Conversion(unittest.TestCase):
         self.assertIn("no pair of bodies is checked", found.stderr)  # there is a single visual shape, and it was found
         self.convert("--parts", "2", "--mesh-prefix", "package://gate/")
         self.assertIn('filename="package://gate/meshes/gate_1.obj"', (self.out / "gate.urdf").read_text())
+        self.refused(self.convert("--mesh-prefix", "package://gate"), "package://gate: expected a / at its end")
 
     def test_a_visual_mesh_named_by_file_is_still_found(self):
         for name in ("file://gate.obj", f"file://{self.place}/gate.obj", f"file://localhost{self.place}/gate.obj", "file://a%20gate.obj"):
@@ -318,6 +321,19 @@ class Conversion(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done)
         self.assertIn('"box&#10;a&#9;b"', (self.out / "gate.urdf").read_text())
 
+    def test_the_pair_list_is_xml_in_whatever_encoding_the_robot_has_its_names(self):
+        urdf = self.gate()
+        sound = urdf.read_text().replace('"box"', '"bo\u00eete"')
+        for encoding in ("ISO-8859-1", "UTF-8"):
+            urdf.write_bytes(f'<?xml version="1.0" encoding="{encoding}"?>{sound}'.encode(encoding))
+            for srdf in ("", '<robot name="gate"/>', '<?xml version="1.0" encoding="utf-8"?><robot name="gate"/>'):
+                (self.place / "gate.srdf").write_text(srdf)
+                given = ("--srdf", self.place / "gate.srdf") if srdf else ()
+                done = self.run_tool(urdf, "-o", self.out, "--samples", "20", "--parts", "none", "--force", "-q", *given)
+                self.assertEqual(done.returncode, 0, done.stderr)
+                pairs = ElementTree.parse(self.out / "gate.srdf").getroot().iter("disable_collisions")
+                self.assertIn("bo\u00eete", [name for pair in pairs for name in (pair.get("link1"), pair.get("link2"))])
+
     def test_files_keep_their_names_whatever_way_the_folder_is_given(self):
         urdf = self.gate()
         (self.place / "red.png").write_bytes(b"")
@@ -332,6 +348,15 @@ class Conversion(unittest.TestCase):
             self.assertIn("red.png", [pathlib.Path(name).name for name in names])
             for name in names:
                 self.assertTrue((written / name).is_file(), (out, name))
+
+    def test_in_a_folder_that_was_moved_other_meshes_are_found_again(self):
+        self.gate()
+        self.assertEqual(self.convert("--parts", "none").returncode, 0)
+        (self.folder / "deep").mkdir()
+        self.out = self.out.rename(self.folder / "deep" / "out")
+        self.assertIn("convex parts", self.convert("--parts", "none").stdout)
+        visual = re.search(r'<visual>\s*<geometry>\s*<mesh filename="([^"]*)"', (self.out / "gate.urdf").read_text())[1]
+        self.assertTrue((self.out / visual).samefile(self.place / "gate.obj"), visual)
 
     def test_visual_shapes_become_collision_shapes(self):
         (self.place / "gate.obj").write_text(box_obj(0.1, (-0.3, 0, 0), (0.3, 0, 0)))
@@ -360,7 +385,8 @@ class Conversion(unittest.TestCase):
         path.write_text(json.dumps(joints))
         return path
 
-    def test_an_interrupted_run_leaves_no_folder_and_its_parts_in_the_cache(self):
+    def start_and_wait_for_parts(self, count):
+        """A conversion that takes seconds, and what tells of the parts that it has put into the cache: so many at least."""
         urdf = self.gate()
         links = "".join('<link name="l%d"><collision><geometry><mesh filename="many%d.obj"/></geometry></collision></link>'
                         '<joint name="k%d" type="revolute"><parent link="gate"/><child link="l%d"/><origin xyz="0 %d 0"/>'
@@ -372,16 +398,30 @@ class Conversion(unittest.TestCase):
         cache = self.folder / "cache" / "fcl_stpbv"
         parts = lambda: {p.name: p.stat().st_mtime_ns for p in cache.glob("*.parts")} if cache.exists() else {}
         running = subprocess.Popen([PROGRAM, str(urdf), "-o", str(self.out), "--samples", "5", "--jobs", "2"],
-                                   env=self.environment, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+                                   env=self.environment, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
         until = time.monotonic() + 100
-        while len(parts()) < 4 and running.poll() is None and time.monotonic() < until:
+        while len(parts()) < count and running.poll() is None and time.monotonic() < until:
             time.sleep(0.01)
+        return running, parts
+
+    def test_files_that_come_into_the_folder_meanwhile_are_never_replaced(self):
+        running, _ = self.start_and_wait_for_parts(1)
+        self.assertIsNone(running.poll())
+        self.out.mkdir()
+        (self.out / "notes.txt").write_text("mine")
+        self.assertIn("holds files that no conversion wrote", running.communicate(timeout=100)[1])
+        self.assertEqual(running.returncode, 2)
+        self.assertEqual([p.name for p in self.out.iterdir()], ["notes.txt"])
+
+    def test_an_interrupted_run_leaves_no_folder_and_its_parts_in_the_cache(self):
+        running, parts = self.start_and_wait_for_parts(4)
         running.send_signal(signal.SIGINT)
-        self.assertEqual(running.wait(60), -signal.SIGINT)
+        running.communicate(timeout=60)
+        self.assertEqual(running.returncode, -signal.SIGINT)
         done = parts()
         self.assertGreaterEqual(len(done), 4)
         self.assertFalse(self.out.exists())
-        self.assertEqual(self.run_tool(urdf, "-o", self.out, "--samples", "5").returncode, 0)
+        self.assertEqual(self.run_tool(self.place / "gate.urdf", "-o", self.out, "--samples", "5").returncode, 0)
         self.assertEqual({name: time for name, time in parts().items() if name in done}, done)
         self.assertGreater(len(parts()), len(done))
 

@@ -315,4 +315,8 @@ TEST_CASE("a body that does not turn gets the smallest R that the clearance take
   const RadiiAdvice point = adviseRadii({{1, 2, 3}}, RadiiTask{0.01, 1, 0.01, 0});
   CHECK(point.meetsBoth);
   CHECK(point.radii.R < 1.01 * point.radii.r);
+  // A point without a margin may have any R; none of a robot is smaller than this.
+  const RadiiAdvice sharp = adviseRadii({{1, 2, 3}}, RadiiTask{1e-3, 2, 0.3, 1, 1e-3, 0.02});
+  CHECK(sharp.radii.r == 0);
+  CHECK(sharp.radii.R == Approx(1e-9).epsilon(0.01));
 }

@@ -20,7 +20,7 @@ using Json = nlohmann::ordered_json;
 namespace {
 
 /// The share of FCL's contacts (%) that are deeper than the shortest way out by more than 1 %. That of the
-/// cores is taken, which hold the hulls.
+/// cores is taken, which hold the hulls. NaN where the two never both find one, as among few queries.
 double tooDeep(const StpBvGeometry& g, const benchmark::Poses& poses) {
   const fcl::CollisionRequestd request(1, true);
   std::size_t contacts = 0, deep = 0;
@@ -64,7 +64,8 @@ Json figures(const char* name, const Cloud& cloud, int queries, double nearest, 
            {"ns_fcl", std::round(ns[0])},
            {"ns_cold", std::round(ns[1])},
            {"ns_warm", std::round(ns[2])}};
-  if (contact && hits > 0) row["fcl_too_deep"] = tooDeep(g, poses);
+  const double share = contact && hits > 0 ? tooDeep(g, poses) : NAN;
+  if (!std::isnan(share)) row["fcl_too_deep"] = share;
   return row;
 }
 

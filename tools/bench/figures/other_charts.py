@@ -194,7 +194,7 @@ def success_map(name, scene, title, across, upward, panel, height, tics):
                 text += block(f"$cells{i}_{k}", cells)
                 x, y = 0.46 * step(axes[2]), 0.46 * step(axes[1])
                 plots.append(f"$cells{i}_{k} using 1:2:($1-{x:g}):($1+{x:g}):($2-{y:g}):($2+{y:g}) with boxxyerror fc rgb '{colour}'")
-        text += f"set title {quoted(panel(at(axes[0], i)))} offset 0,-0.6\nplot " + ", ".join(plots) + "\n" + UNLABEL + "unset ylabel\nset format y ''\n"
+        text += f"set title {quoted(panel(at(axes[0], i)))} offset 0,-0.6\nplot " + ", ".join(plots or ["NaN"]) + "\n" + UNLABEL + "unset ylabel\nset format y ''\n"
     draw(name, title, text + "unset multiplot\n", small_print, height)
 
 
