@@ -42,7 +42,6 @@ class ShapeNear {
     few_ = shape;
     few_->vertices = vertex_.data();
     few_->vertexCount = count;
-    few_->cap = nullptr;
   }
   ShapeNear(const ShapeNear&) = delete;
 
