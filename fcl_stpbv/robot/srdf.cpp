@@ -238,17 +238,19 @@ bool isUtf8(std::string_view text) {
   return true;
 }
 
-// Names in another encoding come from a URDF that has it. A file that says it is UTF-8, or nothing, would be
-// no XML with them to strict readers; in ISO-8859-1 each byte is a character.
-void declareEncoding(tinyxml2::XMLDocument& document) {
+// The document's text. Names in another encoding come from a URDF that has it. A file that says it is UTF-8,
+// or nothing, would be no XML with them to strict readers; in ISO-8859-1 each byte is a character.
+std::string printedInItsEncoding(tinyxml2::XMLDocument& document) {
+  std::string text = printed(document);
+  if (isUtf8(text)) return text;
   tinyxml2::XMLNode* first = document.FirstChild();
   tinyxml2::XMLDeclaration* said = first ? first->ToDeclaration() : nullptr;
   std::string value = said ? said->Value() : "";
   for (char& c : value) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  const bool other = value.find("encoding") != std::string::npos && value.find("utf-8") == std::string::npos;
-  if (other || isUtf8(printed(document))) return;
+  if (value.find("encoding") != std::string::npos && value.find("utf-8") == std::string::npos) return text;
   if (said) document.DeleteChild(said);
   document.InsertFirstChild(document.NewDeclaration("xml version=\"1.0\" encoding=\"ISO-8859-1\""));
+  return printed(document);
 }
 
 }  // namespace
@@ -299,8 +301,7 @@ std::string withPairs(const Srdf* srdf, const std::string& robotName, const std:
     e->SetAttribute("reason", pair.reason.c_str());
     root->InsertEndChild(e);
   }
-  declareEncoding(document);
-  return printed(document);
+  return printedInItsEncoding(document);
 }
 
 }  // namespace fcl_stpbv
