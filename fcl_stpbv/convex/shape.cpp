@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fcl_stpbv/convex/vertex_cap.h"
 #include "fcl_stpbv/convex/vertex_set.h"
 
 namespace fcl_stpbv {
@@ -131,6 +132,7 @@ Vector3d Shape::support(const Vector3d& d) const {
       return corner[a >= b ? (a >= c ? 0 : 2) : (b >= c ? 1 : 2)];
     }
     case ShapeKind::polytope:
+      if (cap) return cap->furthest(d, vertices, vertexCount);
       return vertices[detail::furthestAlong(d, vertices, vertexCount)];
     case ShapeKind::cylinder:
       return rim(std::copysign(half, d.z()));

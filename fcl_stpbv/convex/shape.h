@@ -6,6 +6,10 @@
 
 namespace fcl_stpbv {
 
+namespace detail {
+class VertexCap;
+}
+
 /// What a simple shape is.
 enum class ShapeKind {
   point,      ///< a ball, by its margin
@@ -34,6 +38,7 @@ struct Shape {
                                         Eigen::Vector3d(0, 0, 0)};  ///< triangle
   const Eigen::Vector3d* vertices = nullptr;                        ///< polytope, at least one
   int vertexCount = 0;                                              ///< how many `vertices` points to
+  detail::VertexCap* cap = nullptr;                                 ///< polytope: set by a query, for itself
   Eigen::Vector3d centre{0, 0, 0};                                  ///< some point of the core
   double reach = 0;  ///< every point of the core is within this of `centre`
 

@@ -108,4 +108,32 @@ int fromHeight(double least, const Vector3d& d, const Vector3d* vertices, int co
   return many;
 }
 
+// Asked for is the sign of w.n + chord |w|, of all w from `v`: that of (w.n) |w.n| + chord^2 w.w.
+FCL_STPBV_VECTORIZED
+int notBelow(const Vector3d& v, const Vector3d& n, double chord, const Vector3d* vertices, int count,
+             Vector3d* found, int room) {
+  const auto fourTimes = [](double number) { return Packed{} + number; };
+  const Packed x = fourTimes(v.x()), y = fourTimes(v.y()), z = fourTimes(v.z()), nx = fourTimes(n.x()),
+               ny = fourTimes(n.y()), nz = fourTimes(n.z()), chord2 = fourTimes(chord * chord);
+  int many = 0, i = 0;
+  const auto take = [&](int which) {
+    if (many++ < room) found[many - 1] = vertices[which];
+  };
+  for (; i + 4 <= count; i += 4) {
+    Four w(vertices + i);
+    w.x -= x, w.y -= y, w.z -= z;
+    const Packed height = nx * w.x + ny * w.y + nz * w.z,
+                 sign = height * larger(height, -height) + chord2 * (w.x * w.x + w.y * w.y + w.z * w.z);
+    if (largest(sign) < 0.0) continue;
+    for (int k = 0; k < 4; ++k)
+      if (!(sign[k] < 0.0)) take(i + k);
+  }
+  for (; i < count; ++i) {
+    const Vector3d w = vertices[i] - v;
+    const double height = n.dot(w);
+    if (!(height * std::abs(height) + chord2[0] * w.squaredNorm() < 0.0)) take(i);
+  }
+  return many;
+}
+
 }  // namespace fcl_stpbv::detail

@@ -19,4 +19,9 @@ int furthestAlong(const Eigen::Vector3d& d, const Eigen::Vector3d* vertices, int
 int fromHeight(double least, const Eigen::Vector3d& d, const Eigen::Vector3d* vertices, int count, int* found,
                int room);
 
+/// How many of them some unit vector within `chord` of the unit vector `n` may have as high as `v` or higher;
+/// the first `room` of these are put into `found`.
+int notBelow(const Eigen::Vector3d& v, const Eigen::Vector3d& n, double chord,
+             const Eigen::Vector3d* vertices, int count, Eigen::Vector3d* found, int room);
+
 }  // namespace fcl_stpbv::detail

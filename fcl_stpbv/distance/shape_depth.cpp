@@ -134,10 +134,12 @@ Distance overlapping(const Pair& p, const Pair::Gjk& found) {
     const double likely = likelyOff();
     top = opposite(std::min(likely, Pair::kWidest));
     if (!top && likely < Pair::kWidest) top = opposite(Pair::kWidest);
+    if (!top && epa.gap > 0.0) top = oppositeLevel(p, epa.n);  // apart, where GJK could not tell
     if (top) {
       epa.n = top->n;
       epa.gap = top->gap;
       epa.onA = top->onA;
+      if (epa.gap > 0.0) epa.bound = std::min(epa.bound, top->toB.norm());
     }
   }
   Distance result = p.inWorld(epa.n, epa.onA, epa.gap * epa.n);

@@ -42,6 +42,7 @@ class ShapeNear {
     few_ = shape;
     few_->vertices = vertex_.data();
     few_->vertexCount = count;
+    few_->cap = nullptr;
   }
   ShapeNear(const ShapeNear&) = delete;
 
@@ -80,6 +81,10 @@ struct Facing {
     pointA = a.support(n);
     pointB = pose.placed(b.support(pose.opposite(n)));
     gap = n.dot(pointB - pointA);
+  }
+  /// Whether the point may be on a cone's generator: what is known is that before the last step.
+  bool isOnGenerator() const {
+    return (a.kind == ShapeKind::cone || b.kind == ShapeKind::cone) && coneA.count < 2 && coneB.count < 2;
   }
   bool aIsFlatter() const { return coneA.count < coneB.count; }
   static Vector3d line(const NormalCone& cone) { return cone.normal.cross(cone.way[0]); }
@@ -143,14 +148,15 @@ struct Facing {
 
 std::optional<OppositePoints> onFeaturesOf(Facing facing, Vector3d onA, double rounding) {
   constexpr int kSteps = 8;
-  constexpr double kLast = 1e-9;  // rad; after a step as small as this, the next is rounding
+  // After a step as small as this (rad) the next is rounding; the point is as far off as a generator's step.
+  constexpr double kLast = 1e-9, kLastOnGenerator = 1e-14;
   facing.support();
   for (int i = 0; i < kSteps; ++i) {
     const Vector3d before = facing.n;
     if (!facing.look(onA, onA + facing.gap * before) || !facing.turn()) return {};
     facing.support();
     onA = facing.point(onA);
-    if ((facing.n - before).norm() <= kLast) break;
+    if ((facing.n - before).norm() <= (facing.isOnGenerator() ? kLastOnGenerator : kLast)) break;
   }
   const RelativePose& pose = facing.pose;
   const Vector3d across = facing.gap * facing.n;

@@ -4,8 +4,9 @@
 // 1. Put the pair into one order, so that both orders of a call are the same query.
 // 2. Half spaces and planes: the gap along their normal is all there is to know.
 // 3. A ball and a shape of few features, and most boxes: closed form (ball_pair.cpp, box_pair.cpp).
-// 4. GJK with the duality gap as its stop. Its upper bound is the distance of two points of the bodies, its
-//    lower one the gap between the supporting planes of the answer's normal.
+// 4. GJK from two points that projections onto one body and the other have brought near to each other, with
+//    the duality gap as its stop. Its upper bound is the distance of two points of the bodies, its lower one
+//    the gap between the supporting planes of the answer's normal.
 // 5. Newton's method on the features there gives the last digits (shape_newton.h), where faces are level what
 //    heights along the normal say (level_faces.cpp). Overlap: shape_depth.cpp.
 #include "fcl_stpbv/distance/shape_pair.h"
@@ -15,6 +16,8 @@
 #include <limits>
 #include <utility>
 
+#include "fcl_stpbv/convex/onto_core.h"
+#include "fcl_stpbv/convex/vertex_cap.h"
 #include "fcl_stpbv/distance/shape_distance.h"
 #include "fcl_stpbv/distance/shape_newton.h"
 
@@ -22,6 +25,29 @@ namespace fcl_stpbv {
 
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
+
+namespace detail {
+
+ShapePair::Corner ShapePair::nearCorner(int rounds) const {
+  constexpr double kGain = 0.996;  // a round that shortens the way by less is the last one
+  Corner near;
+  near.gap = -std::numeric_limits<double>::infinity();
+  near.onA = a.centre;
+  Vector3d onB = pose.placed(b.centre);
+  double least2 = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < rounds; ++i) {
+    if (!isHull(a)) near.onA = ontoCore(a, onB);
+    if (!isHull(b)) onB = pose.placed(ontoCore(b, pose.inSecond(near.onA)));
+    near.w = onB - near.onA;
+    const double apart2 = near.w.squaredNorm();
+    if (!(apart2 < kGain * least2)) break;
+    least2 = apart2;
+    if (isHull(a) || isHull(b)) break;  // its centre stays
+  }
+  return near;
+}
+
+}  // namespace detail
 
 namespace {
 
@@ -48,7 +74,7 @@ bool comesFirst(const Shape& a, const Isometry3d& poseA, const Shape& b, const I
   return std::lexicographical_compare(x, x + 16, y, y + 16);
 }
 
-Gjk searchToTheEnd(const Pair& p, const Simplex<Corner>& start = {}) {
+Gjk searchToTheEnd(const Pair& p, const Simplex<Corner>& start) {
   return p.search([](double, double) { return false; }, start);
 }
 
@@ -141,8 +167,7 @@ Distance besidePlane(const Pair& p) {
 
 /// Cores apart, after a search that goes on to the end, where Newton's method had no success from `found`.
 Distance separatedAtTheEnd(const Pair& p, Gjk& found) {
-  for (Corner& corner : found.simplex.corner) corner.gap = -std::numeric_limits<double>::infinity();
-  found = searchToTheEnd(p, found.simplex);  // seen along new normals
+  found = searchToTheEnd(p, {});  // from the centres: near the answer a search sees few normals
   return separated(p, found, true);
 }
 
@@ -152,7 +177,9 @@ Distance solve(const Pair& p) {
   OppositePoints at;
   if (oppositeBall(p, at) || oppositeBoxes(p, at))
     return between(p, at.n, at.gap, at.onA, at.toB, at.gap < 0.0 ? at.gap : at.toB.norm());
-  Gjk found = p.search([&](double lower, double upper) { return p.curved() && isNear(p, lower, upper); });
+  constexpr int kRounds = 6;
+  Gjk found = p.search([&](double lower, double upper) { return p.curved() && isNear(p, lower, upper); },
+                       p.nearCorner(kRounds));
   Distance result = separated(p, found, !p.curved());
   if (result.status == DistanceStatus::bounded && p.curved()) result = separatedAtTheEnd(p, found);
   return result.status == DistanceStatus::invalid ? overlapping(p, found) : result;
@@ -168,8 +195,11 @@ bool isFarther(double x, const Pair& p, Vector3d& normal) {
   if (farther) normal = p.pose.normalInWorld(at.n);
   if (known || farther) return farther;
   const double core = x + p.margins();
-  Gjk found =
-      p.search([&](double lower, double upper) { return lower > core + p.certificate || upper <= core; });
+  constexpr int kRounds = 2;
+  const Corner near = p.nearCorner(kRounds);
+  if (core >= 0.0 && near.w.norm() <= std::max(core, p.rounding)) return false;
+  Gjk found = p.search(
+      [&](double lower, double upper) { return lower > core + p.certificate || upper <= core; }, near);
   if (found.lower > core + p.certificate) {  // along whatever normal, apart or not
     normal = p.pose.normalInWorld(found.widest);
     return true;
@@ -187,7 +217,10 @@ bool isFarther(double x, const Pair& p, Vector3d& normal) {
 
 }  // namespace
 
-Distance distance(const Shape& a, const Isometry3d& poseA, const Shape& b, const Isometry3d& poseB) {
+Distance distance(const Shape& shapeA, const Isometry3d& poseA, const Shape& shapeB,
+                  const Isometry3d& poseB) {
+  const QueriedShape queriedA(shapeA), queriedB(shapeB);
+  const Shape &a = queriedA.shape(), &b = queriedB.shape();
   if (comesFirst(a, poseA, b, poseB)) return solve({a, poseA, b, poseB});
   Distance result = solve({b, poseB, a, poseA});
   result.normal = -result.normal;
@@ -195,8 +228,10 @@ Distance distance(const Shape& a, const Isometry3d& poseA, const Shape& b, const
   return result;
 }
 
-bool isFartherThan(double x, const Shape& a, const Isometry3d& poseA, const Shape& b, const Isometry3d& poseB,
-                   PairCache* cache) {
+bool isFartherThan(double x, const Shape& shapeA, const Isometry3d& poseA, const Shape& shapeB,
+                   const Isometry3d& poseB, PairCache* cache) {
+  const QueriedShape queriedA(shapeA), queriedB(shapeB);
+  const Shape &a = queriedA.shape(), &b = queriedB.shape();
   Vector3d normal = Vector3d::Zero();
   const bool asGiven = comesFirst(a, poseA, b, poseB);
   const bool farther =
@@ -210,7 +245,7 @@ bool isFartherThan(double x, const Shape& a, const Isometry3d& poseA, const Shap
 Vector3d commonPoint(const Shape& a, const Isometry3d& poseA, const Shape& b, const Isometry3d& poseB) {
   const Pair p(a, poseA, b, poseB);
   Simplex<Corner> around;
-  const NearestPoint nearest = reduceToNearest(searchToTheEnd(p).simplex, around);
+  const NearestPoint nearest = reduceToNearest(searchToTheEnd(p, {}).simplex, around);
   const double share = p.margins() > 0.0 ? a.margin / p.margins() : 0.5;
   return p.pose.inWorld(around.weighted(&Corner::onA) + share * nearest.point);
 }

@@ -45,10 +45,30 @@ struct ShapePair {
     return s.kind == ShapeKind::cylinder || s.kind == ShapeKind::cone || s.kind == ShapeKind::ellipsoid;
   }
 
-  /// GJK from what an earlier search ended with, until both bounds agree or `told(lower, upper)` says that it
-  /// has heard enough.
+  /// Whether GJK steps from corner to corner.
+  static bool isHull(const Shape& s) {
+    return s.kind == ShapeKind::triangle || s.kind == ShapeKind::polytope;
+  }
+
+  /// Points of both cores that are near to each other, as a corner of the difference: by projections onto one
+  /// core and the other in turn (von Neumann 1950), `rounds` at most. Of corners' hulls the centres are
+  /// taken.
+  Corner nearCorner(int rounds) const;
+
+  /// GJK from two points of the cores, until both bounds agree or `told(lower, upper)` says that it has heard
+  /// enough. From the line of the centres where the points are too near to each other to tell a normal, or
+  /// are the centres.
   template <typename Told>
-  Gjk search(const Told& told, const Simplex<Corner>& start = {}) const {
+  Gjk search(const Told& told, const Corner& from) const {
+    constexpr double kApart = 1e8;  // of rounding
+    Simplex<Corner> start;
+    if (from.w.norm() > kApart * rounding && !(isHull(a) && isHull(b))) start.add(from);
+    return search(told, start);
+  }
+
+  /// The same from what an earlier search ended with.
+  template <typename Told>
+  Gjk search(const Told& told, const Simplex<Corner>& start) const {
     constexpr int kSteps = 120;  // polytopes take a dozen, round bodies some thirty
     const Eigen::Vector3d d = pose.placed(b.centre) - a.centre;
     Difference difference(a, b, pose);

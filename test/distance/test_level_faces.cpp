@@ -42,7 +42,7 @@ TEST_CASE(
   const std::vector<std::string> kinds{"box", "hull", "prism", "triangle", "cylinder"};
   std::vector<std::string> downwards = kinds;
   downwards.push_back("cone");
-  int cases = 0;
+  int cases = 0, open = 0;
   for (const std::string& first : kinds)
     for (const std::string& second : downwards)
       for (const double tilt :
@@ -59,11 +59,15 @@ TEST_CASE(
           const auto aside = [&] { return random.below(2) ? 0.0 : random.uniform(-0.3, 0.3); };
           const Matrix3d turn =
               tilt > 0 ? random.rotation(tilt * random.uniform(0.1, 1)) : Matrix3d::Identity();
-          const double gap = std::pow(10.0, -3 * random.below(3));
+          const double gap = std::pow(10.0, -3 * random.below(4));
           const Isometry3d there = at * pose(turn, {aside(), aside(), half.z() + otherHalf.z() + gap});
           const Distance found = distance(one.shape, at, other.shape, there);
           if (!(found.distance > 0.0)) continue;  // tilted into each other
           CAPTURE(first, second, tilt, i, found.distance);
+          if (gap < 1e-8 && found.status == DistanceStatus::bounded) {  // GJK takes it for a touch
+            ++open;
+            continue;
+          }
           REQUIRE(found.status == DistanceStatus::exact);
           // Poses, normals and lengths are good to a few roundings of some 3 m.
           const double rounding = found.upper - found.lower + 32 * 2.2e-16 * 3;
@@ -85,5 +89,6 @@ TEST_CASE(
           CHECK(distance(other.shape, there, one.shape, at).distance == found.distance);
           ++cases;
         }
-  CHECK(cases > 0.97 * 30 * 13 * 30);
+  CHECK(cases > 0.9 * 30 * 13 * 30);
+  CHECK(open <= 1);  // of 2900 that are 1e-9 m apart; nine if level faces were not looked at after EPA
 }

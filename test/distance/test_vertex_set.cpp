@@ -2,8 +2,10 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <limits>
 #include <vector>
 
+#include "fcl_stpbv/convex/vertex_cap.h"
 #include "fcl_stpbv/convex/vertex_set.h"
 #include "test/reference/shapes.h"
 
@@ -56,4 +58,36 @@ TEST_CASE("vertices four at a time: their middle, the furthest from a point and 
         CHECK(best == first - vertices.begin());
       }
     }
+}
+
+TEST_CASE("a cap's vertex is as far along a direction as any, whatever was asked for before") {
+  Random random(2);
+  Cloud grid, doubled = geodesicSphere(1, 2);
+  for (int k = 0; k < 1800; ++k) grid.push_back({0.1 * (k % 30), 0.1 * (k / 30 % 30), k < 900 ? 0.0 : 1e-3});
+  for (const Vector3d& v : geodesicSphere(1, 2)) doubled.push_back(v + 1e-15 * random.direction());
+  const std::vector<Cloud> bodies{geodesicSphere(1, 3), cylinder(1, 2, 200), grid, doubled,
+                                  randomHull(500, {1, 1e-3, 1}, 4)};
+  for (const Cloud& body : bodies)
+    for (const double scale : {1e-6, 1.0, 1e6})
+      for (const double away : {0.0, 1e3}) {
+        Cloud vertices;
+        double size = 0;
+        for (const Vector3d& v : body) vertices.push_back(scale * (v + away * Vector3d(1, -1, 1)));
+        for (const Vector3d& v : vertices) size = std::max(size, v.lpNorm<Eigen::Infinity>());
+        const int count = static_cast<int>(vertices.size());
+        VertexCap cap;
+        Vector3d d = random.direction();
+        for (int i = 0; i < 300; ++i) {
+          d += std::pow(10.0, random.uniform(-9, 0)) * random.direction();
+          if (i % 50 == 0) d = Vector3d::Unit(i / 50 % 3);
+          d.normalize();
+          const double length = i % 3 == 0 ? 1.0 : std::pow(10.0, random.uniform(-3, 3));
+          const Vector3d found = cap.furthest(length * d, vertices.data(), count);
+          double most = -std::numeric_limits<double>::infinity();
+          for (const Vector3d& v : vertices) most = std::max(most, d.dot(v));
+          CAPTURE(count, scale, away, i);
+          CHECK(std::find(vertices.begin(), vertices.end(), found) != vertices.end());
+          CHECK(d.dot(found) >= most - 2e-15 * size);  // three products and two sums, of either
+        }
+      }
 }

@@ -1,0 +1,37 @@
+// Let b be a polytope's vertex furthest along the unit vector d. Another one, v, is no further than b along a
+// unit vector e where (v - b).d + |v - b| |e - d| <= 0. So one pass over all vertices finds those that any
+// direction within a given chord of d can show: of a round body a fortieth.
+#include "fcl_stpbv/convex/vertex_cap.h"
+
+#include "fcl_stpbv/convex/vertex_set.h"
+
+namespace fcl_stpbv::detail {
+
+using Eigen::Vector3d;
+
+namespace {
+
+constexpr double kChord = 0.15;  // between the axis and directions that a cap serves
+constexpr double kWider = 0.16;  // that it is made for: rounding leaves no vertex out
+
+}  // namespace
+
+bool VertexCap::isNearAxis(const Vector3d& d) const {
+  constexpr double kCosine = 1.0 - 0.5 * kChord * kChord;
+  const double along = d.dot(axis_);
+  return along > 0.0 && along * along >= kCosine * kCosine * d.squaredNorm();
+}
+
+Vector3d VertexCap::furthest(const Vector3d& d, const Vector3d* vertices, int count) {
+  if (!full_ && isNearAxis(d)) {
+    if (count_ == 0) count_ = notBelow(furthest_, axis_, kWider, vertices, count, near_.data(), kRoom);
+    full_ = count_ > kRoom;
+    if (!full_) return near_[static_cast<std::size_t>(furthestAlong(d, near_.data(), count_))];
+  }
+  axis_ = d.normalized();
+  count_ = 0;
+  furthest_ = vertices[furthestAlong(d, vertices, count)];
+  return furthest_;
+}
+
+}  // namespace fcl_stpbv::detail

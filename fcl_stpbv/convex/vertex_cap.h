@@ -1,0 +1,49 @@
+// The vertices of a large polytope that normals next to each other can show. A query asks for a dozen support
+// points, most of them along normals near the answer's.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <optional>
+
+#include "fcl_stpbv/convex/shape.h"
+
+namespace fcl_stpbv::detail {
+
+/// What one query has learnt about a polytope's vertices. Asking changes it, so no two threads share one.
+class VertexCap {
+ public:
+  /// The vertex furthest along `d` (any length), but for rounding. Always the same polytope's.
+  Eigen::Vector3d furthest(const Eigen::Vector3d& d, const Eigen::Vector3d* vertices, int count);
+
+ private:
+  static constexpr int kRoom = 96;
+
+  bool isNearAxis(const Eigen::Vector3d& d) const;
+
+  Eigen::Vector3d axis_{0, 0, 0}, furthest_;  // the last direction that all were asked for, and its vertex
+  int count_ = 0;                             // of `near_`; 0 until a second direction is near the first
+  bool full_ = false;                         // more are near than there is room for
+  std::array<Eigen::Vector3d, kRoom> near_;
+};
+
+/// A shape as one query sees it: a polytope of many vertices with a cap.
+class QueriedShape {
+ public:
+  explicit QueriedShape(const Shape& shape) : shape_(shape) {
+    if (shape.kind != ShapeKind::polytope || shape.vertexCount <= kMany || shape.cap) return;
+    capped_ = shape;
+    capped_->cap = &cap_;
+  }
+  QueriedShape(const QueriedShape&) = delete;
+
+  const Shape& shape() const { return capped_ ? *capped_ : shape_; }
+
+ private:
+  static constexpr int kMany = 128;  // all of fewer are looked at in no more time
+  const Shape& shape_;
+  std::optional<Shape> capped_;
+  VertexCap cap_;
+};
+
+}  // namespace fcl_stpbv::detail
