@@ -108,6 +108,7 @@ def local_cluster(workers):
     local = {"dashboard": False, "dashboard_address": "127.0.0.1:0"}
     try:
         return distributed.LocalCluster(workers, threads_per_worker=1, dashboard_address=None, scheduler_kwargs=local, silence_logs="CRITICAL",
+                                        extensions={},  # shuffling, which none needs: its closing twice ends in a traceback
                                         death_timeout="3m")  # else Dask waits for ever for a process that was killed while it started
     except Exception as error:
         while error.__context__:
