@@ -33,9 +33,9 @@ NormalCone ofBall(const Vector3d& m, double radius) {
   return {2, m, {e, m.cross(e)}, {radius, radius}, 0.0};
 }
 
-NormalCone ofSegment(const Vector3d& m, double half, double margin, double rounding) {
-  return half * std::abs(m.z()) > rounding || !(half > 0.0) ? ofBall(m, margin)
-                                                            : aroundLine(m, Vector3d::UnitZ(), margin);
+NormalCone ofSegment(const Vector3d& m, double half, double rounding) {
+  return half * std::abs(m.z()) > rounding || !(half > 0.0) ? ofBall(m, 0.0)
+                                                            : aroundLine(m, Vector3d::UnitZ(), 0.0);
 }
 
 /// A face, an edge or a corner: whatever vertices lie furthest along `m`, as `a` does.
@@ -71,7 +71,7 @@ NormalCone ofRim(const Vector3d& m, const Vector3d& x, double radius, double acr
 }
 
 NormalCone ofCylinder(const Shape& s, const Vector3d& m, const Vector3d& x, double rounding) {
-  if (!(s.radius > 0.0)) return ofSegment(m, s.half, 0.0, rounding);
+  if (!(s.radius > 0.0)) return ofSegment(m, s.half, rounding);
   const double across = std::hypot(m.x(), m.y());
   if (s.radius * across <= rounding) return noWay(m, Vector3d::UnitZ());
   if (s.half > 0.0 && s.half * std::abs(m.z()) <= rounding) return aroundLine(m, Vector3d::UnitZ(), s.radius);
@@ -79,15 +79,16 @@ NormalCone ofCylinder(const Shape& s, const Vector3d& m, const Vector3d& x, doub
 }
 
 NormalCone ofCone(const Shape& s, const Vector3d& m, const Vector3d& x, double rounding) {
-  if (!(s.radius > 0.0)) return ofSegment(m, s.half, 0.0, rounding);
+  if (!(s.radius > 0.0)) return ofSegment(m, s.half, rounding);
   const double across = std::hypot(m.x(), m.y()), height = 2.0 * s.half;
   if (s.radius * across <= rounding && (m.z() < 0.0 || !(height > 0.0))) return noWay(m, Vector3d::UnitZ());
   const double towardsApex = m.z() * height - across * s.radius;
   if (towardsApex > rounding) return ofBall(m, 0.0);
   if (!(height > 0.0) || towardsApex < -rounding) return ofRim(m, x, s.radius, across);
-  const double down =
-      (x - Vector3d(0, 0, s.half)).norm();  // the generator, which curves by more the further down
   const Vector3d out = Vector3d(m.x(), m.y(), 0.0) / across;
+  // The generator curves by more the further down.
+  const double down =
+      (x - Vector3d(0, 0, s.half)).dot((s.radius * out - height * Vector3d::UnitZ()).normalized());
   return {1,
           (height * out + s.radius * Vector3d::UnitZ()).normalized(),
           {Vector3d::UnitZ().cross(out), kNone},
@@ -111,15 +112,14 @@ bool ofEllipsoid(const Shape& s, const Vector3d& m, NormalCone& result) {
   return true;
 }
 
-}  // namespace
-
-bool normalCone(const Shape& s, const Vector3d& m, const Vector3d& x, double rounding, NormalCone& result) {
+/// The same of the core, around which the margin is the same along every way.
+bool coneOfCore(const Shape& s, const Vector3d& m, const Vector3d& x, double rounding, NormalCone& result) {
   switch (s.kind) {
     case ShapeKind::point:
-      result = ofBall(m, s.margin);
+      result = ofBall(m, 0.0);
       break;
     case ShapeKind::segment:
-      result = ofSegment(m, s.half, s.margin, rounding);
+      result = ofSegment(m, s.half, rounding);
       break;
     case ShapeKind::box:
       result = ofVertices(
@@ -152,6 +152,14 @@ bool normalCone(const Shape& s, const Vector3d& m, const Vector3d& x, double rou
       break;
   }
   return result.normal.squaredNorm() > 0.5;  // not a line along `m`
+}
+
+}  // namespace
+
+bool normalCone(const Shape& s, const Vector3d& m, const Vector3d& x, double rounding, NormalCone& result) {
+  if (!coneOfCore(s, m, x, rounding, result)) return false;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(result.count); ++i) result.along[i] += s.margin;
+  return true;
 }
 
 }  // namespace fcl_stpbv::detail

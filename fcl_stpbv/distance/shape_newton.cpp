@@ -149,15 +149,18 @@ struct Facing {
 std::optional<OppositePoints> onFeaturesOf(Facing facing, Vector3d onA, double rounding) {
   constexpr int kSteps = 8;
   // After a step as small as this (rad) the next is rounding; the point is as far off as a generator's step.
-  constexpr double kLast = 1e-9, kLastOnGenerator = 1e-14;
+  constexpr double kLast = 1e-9, kLastOnGenerator = 1e-14, kAtRest = 1e-7;
+  double step = 0.0;
   facing.support();
   for (int i = 0; i < kSteps; ++i) {
     const Vector3d before = facing.n;
     if (!facing.look(onA, onA + facing.gap * before) || !facing.turn()) return {};
     facing.support();
     onA = facing.point(onA);
-    if ((facing.n - before).norm() <= (facing.isOnGenerator() ? kLastOnGenerator : kLast)) break;
+    step = (facing.n - before).norm();
+    if (step <= (facing.isOnGenerator() ? kLastOnGenerator : kLast)) break;
   }
+  if (!(step <= kAtRest)) return {};  // to and fro between features
   const RelativePose& pose = facing.pose;
   const Vector3d across = facing.gap * facing.n;
   OppositePoints found{facing.n, facing.gap, {}, {}};

@@ -276,3 +276,29 @@ TEST_CASE("farther than a threshold just below the distance, for round shapes as
     CHECK_FALSE(isFartherThan(d.upper, a, one, b, other));
   }
 }
+
+TEST_CASE("where Newton's method goes to and fro between a needle's corners the normal is still exact") {
+  const Cloud needle{{-0.0013916191057474483, 0.030376258278758696, -4.4348601268053001},
+                     {0.0013540108854690727, 0.0175705739211005, 9.4207327606053752},
+                     {-0.0011152431122478477, -0.034577229245053687, 5.9146256835397031},
+                     {0.0011354722451111928, -0.021981348937437441, 10.239074849448686},
+                     {-0.001094148629131263, 0.021710113110745423, 10.57294269121765},
+                     {-0.00039830981825632913, 0.046710218851419086, 1.3930071763351493}};
+  const Shape hull = Shape::polytopeOf(needle.data(), static_cast<int>(needle.size())),
+              ellipsoid = Shape::ellipsoidOf({1.8585705707949101, 1.4089412746871455, 2.5876373024355148});
+  Isometry3d poseA = Isometry3d::Identity(), poseB = Isometry3d::Identity();
+  poseA.translation() = Vector3d(31.805786046408794, 16.18345741489863, -3.9167469425325354);
+  poseB.matrix().topRows<3>() << -0.32510812735545752, -0.22789464096240725, -0.91780648186207703,
+      33.008970400170682, 0.94194410038680965, 0.0081092864931814161, -0.33567179091942656,
+      12.935722063495188, 0.083940557979509584, -0.97365202823862429, 0.21202761761832251,
+      -5.9360943396652619;
+  const Distance d = distance(hull, poseA, ellipsoid, poseB);
+  REQUIRE(d.status == DistanceStatus::exact);
+  constexpr double kDistance = 1.622114215970088141;  // by GJK in float128
+  CHECK(std::abs(d.distance - kDistance) < 2e-14);    // coordinates of 36 m
+  // The ellipsoid's point is where the normal is its own: to rounding of the coordinates over the radii.
+  const Vector3d axes = ellipsoid.size, n = poseB.linear().transpose() * -d.normal,
+                 onSurface = axes.cwiseAbs2().cwiseProduct(n) / axes.cwiseProduct(n).norm();
+  CHECK((poseB * onSurface - d.point[1]).norm() < 1e-12);
+  CHECK((d.point[1] - d.point[0] - d.distance * d.normal).norm() < 1e-13);
+}
