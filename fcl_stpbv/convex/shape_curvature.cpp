@@ -28,13 +28,14 @@ NormalCone noWay(const Vector3d& m, const Vector3d& face) {
   return {0, m.dot(face) < 0.0 ? Vector3d(-face) : face, {kNone, kNone}, {0.0, 0.0}, 0.0};
 }
 
-NormalCone ofBall(const Vector3d& m, double radius) {
+/// All normals next to `m`, of a point.
+NormalCone allAround(const Vector3d& m) {
   const Vector3d e = m.unitOrthogonal();
-  return {2, m, {e, m.cross(e)}, {radius, radius}, 0.0};
+  return {2, m, {e, m.cross(e)}, {0.0, 0.0}, 0.0};
 }
 
 NormalCone ofSegment(const Vector3d& m, double half, double rounding) {
-  return half * std::abs(m.z()) > rounding || !(half > 0.0) ? ofBall(m, 0.0)
+  return half * std::abs(m.z()) > rounding || !(half > 0.0) ? allAround(m)
                                                             : aroundLine(m, Vector3d::UnitZ(), 0.0);
 }
 
@@ -54,7 +55,7 @@ NormalCone ofVertices(int count, const Vertex& vertex, const Vector3d& a, const 
     return length > rounding;
   };
   Vector3d b = a;
-  if (!furthest([&](const Vector3d& p) { return (p - a).norm(); }, b)) return ofBall(m, 0.0);
+  if (!furthest([&](const Vector3d& p) { return (p - a).norm(); }, b)) return allAround(m);
   const Vector3d t = (b - a).normalized();
   Vector3d c = a;
   if (!furthest([&](const Vector3d& p) { return t.cross(p - a).norm(); }, c)) return aroundLine(m, t, 0.0);
@@ -83,24 +84,20 @@ NormalCone ofCone(const Shape& s, const Vector3d& m, const Vector3d& x, double r
   const double across = std::hypot(m.x(), m.y()), height = 2.0 * s.half;
   if (s.radius * across <= rounding && (m.z() < 0.0 || !(height > 0.0))) return noWay(m, Vector3d::UnitZ());
   const double towardsApex = m.z() * height - across * s.radius;
-  if (towardsApex > rounding) return ofBall(m, 0.0);
+  if (towardsApex > rounding) return allAround(m);
   if (!(height > 0.0) || towardsApex < -rounding) return ofRim(m, x, s.radius, across);
-  const Vector3d out = Vector3d(m.x(), m.y(), 0.0) / across;
+  const Vector3d out = Vector3d(m.x(), m.y(), 0.0) / across, around = Vector3d::UnitZ().cross(out),
+                 normal = (height * out + s.radius * Vector3d::UnitZ()).normalized();
   // The generator curves by more the further down.
-  const double down =
-      (x - Vector3d(0, 0, s.half)).dot((s.radius * out - height * Vector3d::UnitZ()).normalized());
-  return {1,
-          (height * out + s.radius * Vector3d::UnitZ()).normalized(),
-          {Vector3d::UnitZ().cross(out), kNone},
-          {down * s.radius / height, 0.0},
-          0.0};
+  const double down = (x - Vector3d(0, 0, s.half)).dot(around.cross(normal));
+  return {1, normal, {around, kNone}, {down * s.radius / height, 0.0}, 0.0};
 }
 
 bool ofEllipsoid(const Shape& s, const Vector3d& m, NormalCone& result) {
   const Vector3d e = s.size.cwiseProduct(m);
   const double h = e.norm();
   if (!(h > 1e-9 * s.reach)) return false;
-  result = ofBall(m, 0.0);
+  result = allAround(m);
   // Across the point of the unit ball that the ellipsoid's is the image of: no digits cancel.
   const auto across = [&](const Vector3d& t) {
     const Vector3d image = s.size.cwiseProduct(t);
@@ -116,7 +113,7 @@ bool ofEllipsoid(const Shape& s, const Vector3d& m, NormalCone& result) {
 bool coneOfCore(const Shape& s, const Vector3d& m, const Vector3d& x, double rounding, NormalCone& result) {
   switch (s.kind) {
     case ShapeKind::point:
-      result = ofBall(m, 0.0);
+      result = allAround(m);
       break;
     case ShapeKind::segment:
       result = ofSegment(m, s.half, rounding);

@@ -74,8 +74,9 @@ bool comesFirst(const Shape& a, const Isometry3d& poseA, const Shape& b, const I
   return std::lexicographical_compare(x, x + 16, y, y + 16);
 }
 
-Gjk searchToTheEnd(const Pair& p, const Simplex<Corner>& start) {
-  return p.search([](double, double) { return false; }, start);
+/// From the line of the centres: next to the answer a search sees few normals.
+Gjk searchToTheEnd(const Pair& p) {
+  return p.search([](double, double) { return false; }, {});
 }
 
 /// Whether the bounds are near enough for Newton's method on the features there: those of round bodies are
@@ -167,7 +168,7 @@ Distance besidePlane(const Pair& p) {
 
 /// Cores apart, after a search that goes on to the end, where Newton's method had no success from `found`.
 Distance separatedAtTheEnd(const Pair& p, Gjk& found) {
-  found = searchToTheEnd(p, {});  // from the centres: near the answer a search sees few normals
+  found = searchToTheEnd(p);
   return separated(p, found, true);
 }
 
@@ -245,7 +246,7 @@ bool isFartherThan(double x, const Shape& shapeA, const Isometry3d& poseA, const
 Vector3d commonPoint(const Shape& a, const Isometry3d& poseA, const Shape& b, const Isometry3d& poseB) {
   const Pair p(a, poseA, b, poseB);
   Simplex<Corner> around;
-  const NearestPoint nearest = reduceToNearest(searchToTheEnd(p, {}).simplex, around);
+  const NearestPoint nearest = reduceToNearest(searchToTheEnd(p).simplex, around);
   const double share = p.margins() > 0.0 ? a.margin / p.margins() : 0.5;
   return p.pose.inWorld(around.weighted(&Corner::onA) + share * nearest.point);
 }

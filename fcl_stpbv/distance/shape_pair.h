@@ -56,20 +56,14 @@ struct ShapePair {
   Corner nearCorner(int rounds) const;
 
   /// GJK from two points of the cores, until both bounds agree or `told(lower, upper)` says that it has heard
-  /// enough. From the line of the centres where the points are too near to each other to tell a normal, or
-  /// are the centres.
+  /// enough. From the line of the centres where `from` has no points, the points are the centres, or they are
+  /// so near to each other that tetrahedra with their corner are too flat to tell an overlap.
   template <typename Told>
   Gjk search(const Told& told, const Corner& from) const {
     constexpr double kApart = 1e8;  // of rounding
+    constexpr int kSteps = 120;     // polytopes take a dozen, round bodies some thirty
     Simplex<Corner> start;
     if (from.w.norm() > kApart * rounding && !(isHull(a) && isHull(b))) start.add(from);
-    return search(told, start);
-  }
-
-  /// The same from what an earlier search ended with.
-  template <typename Told>
-  Gjk search(const Told& told, const Simplex<Corner>& start) const {
-    constexpr int kSteps = 120;  // polytopes take a dozen, round bodies some thirty
     const Eigen::Vector3d d = pose.placed(b.centre) - a.centre;
     Difference difference(a, b, pose);
     return gjk<Corner>(
