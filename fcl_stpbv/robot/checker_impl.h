@@ -69,6 +69,7 @@ class CollisionChecker::Impl {
   void addBody(std::size_t frame, const fcl::CollisionGeometryd& geometry, const Eigen::Isometry3d& pose,
                const Eigen::Vector3d& centre, double radius);
   void addPair(const CheckedPair& pair);
+  void findPlaced();
   bool place(const ConstVector& q);
   void placeSpheres();
   bool isClear(const detail::NearPair& near);
@@ -91,6 +92,8 @@ class CollisionChecker::Impl {
   double margin_ = 0, largest_ = 0, slack_ = 0;  // of the margin, of all radii, of the poses' rounding (m)
   Kinematics::State state_;                      // with the world's frame as one more link
   std::vector<detail::PlacedBody> bodies_;
+  std::vector<std::size_t> placed_;            // those that pairs have
+  Kinematics::Subtree placing_;                // their links
   std::vector<detail::SphereCentre> centres_;  // of the bodies' spheres
   std::vector<detail::KeptPair> checked_;
   detail::SpherePairs near_;

@@ -26,7 +26,7 @@ constexpr double kLowest = std::numeric_limits<double>::lowest();
 bool CollisionChecker::Impl::place(const ConstVector& q) {
   ++work_.configurations;
   if (q.size() != kinematics_->size() || !q.allFinite()) return false;
-  kinematics_->forwardPoses(q, state_);
+  kinematics_->forwardPoses(q, state_, placing_);
   placeSpheres();
   constexpr double kMost = 1e-3;  // m; links so far away that rounding moves them more are nowhere
   return slack_ < kMost;
@@ -35,7 +35,7 @@ bool CollisionChecker::Impl::place(const ConstVector& q) {
 FCL_STPBV_VECTORIZED
 void CollisionChecker::Impl::placeSpheres() {
   Packed most{};
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+  for (const std::size_t i : placed_) {
     const PlacedBody& body = bodies_[i];
     const Isometry3d& frame = state_.link[body.frame];
     const Packed c = turned(frame, pack3(body.centre)) + column(frame, 3);

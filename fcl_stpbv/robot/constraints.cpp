@@ -1,5 +1,5 @@
 // All distances of a robot and their Jacobian at q:
-// 1. place the links and find each joint's twist, once for all rows;
+// 1. place the links that rows ask for and find each joint's twist, once for all rows;
 // 2. per row: skip a pair that bounding spheres put beyond the influence, else
 //    ask the distance from its last answer;
 // 3. the row of J is the gradient's product with the twists of the joints that move the pair (paper, eq. 2);
@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/numbers.h"
@@ -49,6 +50,7 @@ CollisionConstraints::CollisionConstraints(std::shared_ptr<const Kinematics> kin
   leaveOutReplaced();
   addWholePairs();
   for (const CheckedPair& pair : pairs_) addPair(pair);
+  findPlaced();
   for (const SmoothConstraint& constraint : options_.smooth) addSmooth(constraint);
   caches_.resize(pairs_.size());
   found_.resize(pairs_.size());
@@ -157,6 +159,18 @@ void CollisionConstraints::addSmooth(const SmoothConstraint& constraint) {
   rowStart_.push_back(nonZeros());
 }
 
+void CollisionConstraints::findPlaced() {
+  std::set<int> bodies;
+  for (const CheckedPair& pair : pairs_) {
+    bodies.insert(pair.body);
+    if (!pair.obstacle) bodies.insert(pair.other);
+  }
+  placed_.assign(bodies.begin(), bodies.end());
+  std::vector<int> links;
+  for (const int body : placed_) links.push_back(geometry_->bodies[at(body)].link);
+  placing_ = kinematics_->subtree(links);
+}
+
 const fcl::CollisionGeometryd& CollisionConstraints::second(const CheckedPair& pair) const {
   return pair.obstacle ? *options_.obstacles[at(pair.other)].geometry
                        : *geometry_->bodies[at(pair.other)].geometry;
@@ -254,11 +268,11 @@ void CollisionConstraints::writeRow(std::size_t row, const Witness& witness, dou
 }
 
 void CollisionConstraints::place(const ConstVector& q) {
-  kinematics_->forward(q, state_);
-  for (std::size_t i = 0; i < geometry_->bodies.size(); ++i) {
-    const Body& body = geometry_->bodies[i];
-    pose_[i] = state_.link[at(body.link)] * body.pose;
-    centre_[i] = state_.link[at(body.link)] * body.centre;
+  kinematics_->forward(q, state_, placing_);
+  for (const int i : placed_) {
+    const Body& body = geometry_->bodies[at(i)];
+    pose_[at(i)] = state_.link[at(body.link)] * body.pose;
+    centre_[at(i)] = state_.link[at(body.link)] * body.centre;
   }
   askWhole();
 }

@@ -153,7 +153,8 @@ class CollisionConstraints {
   /// row of a smooth constraint, which has no points. hessian() asks only the rows that it is given weights
   /// for: after it evaluate anew.
   RowAnswer answer(int row) const;
-  /// Where the links were at the last evaluation.
+  /// Where the links were at the last evaluation: those of the rows' bodies and all that carry them. The
+  /// others are not placed.
   const Kinematics::State& state() const { return state_; }
   /// Makes the next evaluation start as the first one did.
   void forget();
@@ -192,6 +193,7 @@ class CollisionConstraints {
   void addWholePairs();
   void addPair(const CheckedPair& pair);
   void addSmooth(const SmoothConstraint& constraint);
+  void findPlaced();
   const fcl::CollisionGeometryd& second(const CheckedPair& pair) const;
   void requireRow(int row) const;
   static bool isUsable(const ConstVector& numbers);
@@ -235,6 +237,8 @@ class CollisionConstraints {
   std::vector<Witness> whole_;         // what its bodies are at, once placed
   std::vector<CommonMotion> common_;
   std::vector<Term> terms_;
+  std::vector<int> placed_;      // the robot's bodies that rows have
+  Kinematics::Subtree placing_;  // their links
   Kinematics::State state_;
   Kinematics::Rate rate_;
   std::vector<Eigen::Isometry3d> pose_;  // of each body, then of each obstacle

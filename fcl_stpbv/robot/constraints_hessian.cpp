@@ -81,7 +81,7 @@ bool CollisionConstraints::evaluateValues(const ConstVector& q, const ConstVecto
     return false;
   }
   place(q);
-  kinematics_->differentiate(q, qd, state_, rate_);
+  kinematics_->differentiate(q, qd, state_, rate_, placing_);
   moving_ = true;
   std::fill(open_.begin(), open_.end(), 1);
   for (std::size_t row = 0; row < pairs_.size(); ++row) open_[row] = !rateRow(row, rates, values.data());
@@ -200,7 +200,7 @@ bool CollisionConstraints::hessianVector(const ConstVector& q, const ConstVector
   out.setZero();
   if (!q.allFinite() || !isUsable(weights) || !isUsable(v)) return false;
   place(q);
-  kinematics_->differentiate(q, v, state_, rate_);
+  kinematics_->differentiate(q, v, state_, rate_, placing_);
   moving_ = false;  // v is a direction, and what rate_ holds is of it
   std::fill(open_.begin(), open_.end(), 1);
   for (std::size_t row = 0; row < pairs_.size(); ++row) open_[row] = !rowChange(row, change_.data());

@@ -54,7 +54,7 @@ void CollisionConstraints::prepareHessian(const ConstVector& q) {
   moved_.setZero();
   for (int k = 0; k < columns(); ++k) {
     moved_[k] = 1;
-    kinematics_->differentiate(q, moved_, state_, alongEach_[at(k)]);
+    kinematics_->differentiate(q, moved_, state_, alongEach_[at(k)], placing_);
     moved_[k] = 0;
   }
   moving_ = false;

@@ -155,6 +155,7 @@ void Kinematics::addStep(int joint, const JointModel& model, int coordinate, dou
   if (freedoms(model.type) > 0) step.motion = static_cast<int>(motions_.size());
   for (int k = 0; k < freedoms(model.type); ++k) motions_.push_back({joint, coordinate + k, multiplier});
   stepOf_[at(model.child)] = static_cast<int>(steps_.size());
+  whole_.steps_.push_back(static_cast<int>(steps_.size()));
   steps_.push_back(step);
 }
 
@@ -168,16 +169,31 @@ Kinematics::State Kinematics::makeState() const {
           std::vector<Twist>(motions_.size())};
 }
 
-FCL_STPBV_VECTORIZED
-void Kinematics::forward(const Eigen::Ref<const Eigen::VectorXd>& q, State& state) const {
-  if (stepOf_[0] < 0) state.link[0].setIdentity();
-  for (const Step& step : steps_) place<true>(step, q, state);
+Kinematics::Subtree Kinematics::subtree(const std::vector<int>& links) const {
+  std::vector<char> isOn(steps_.size());
+  for (int link : links) {
+    detail::requireLink("Kinematics", link, *robot_);
+    for (int s; link >= 0 && (s = stepOf_[at(link)]) >= 0 && !isOn[at(s)]; link = steps_[at(s)].parent)
+      isOn[at(s)] = 1;
+  }
+  Subtree part;
+  for (const int s : whole_.steps_)
+    if (isOn[at(s)]) part.steps_.push_back(s);
+  return part;
 }
 
 FCL_STPBV_VECTORIZED
-void Kinematics::forwardPoses(const Eigen::Ref<const Eigen::VectorXd>& q, State& state) const {
+void Kinematics::forward(const Eigen::Ref<const Eigen::VectorXd>& q, State& state,
+                         const Subtree& only) const {
   if (stepOf_[0] < 0) state.link[0].setIdentity();
-  for (const Step& step : steps_) place<false>(step, q, state);
+  for (const int s : only.steps_) place<true>(steps_[at(s)], q, state);
+}
+
+FCL_STPBV_VECTORIZED
+void Kinematics::forwardPoses(const Eigen::Ref<const Eigen::VectorXd>& q, State& state,
+                              const Subtree& only) const {
+  if (stepOf_[0] < 0) state.link[0].setIdentity();
+  for (const int s : only.steps_) place<false>(steps_[at(s)], q, state);
 }
 
 template <bool withMotions>

@@ -54,6 +54,12 @@ class Kinematics {
     std::vector<Twist> drift;   ///< change of each link's velocity while that of q stays what it is
   };
 
+  /// Some links and all that carry them, down from the root: what has to be placed to place them.
+  class Subtree {
+    friend class Kinematics;
+    std::vector<int> steps_;  // parents first
+  };
+
   /// Coordinates for a robot whose base moves like that. @throws Error naming the robot's file where two
   /// coordinates have one name, as those of a planar joint `p` and of a joint `p/x`.
   explicit Kinematics(std::shared_ptr<const RobotModel> robot, BaseMotion base = BaseMotion::fixed);
@@ -87,16 +93,29 @@ class Kinematics {
 
   /// Room for forward().
   State makeState() const;
+  /// These links and their ancestors. @throws Error for a link that does not exist.
+  Subtree subtree(const std::vector<int>& links) const;
   /// Fills the state. Never throws or allocates; `q` has size() entries.
-  void forward(const Eigen::Ref<const Eigen::VectorXd>& q, State& state) const;
+  void forward(const Eigen::Ref<const Eigen::VectorXd>& q, State& state) const { forward(q, state, whole_); }
+  /// Fills what a part of the robot has in the state, as it is in forward(); the rest stays.
+  void forward(const Eigen::Ref<const Eigen::VectorXd>& q, State& state, const Subtree& only) const;
   /// Fills the links' poses alone, as they are in forward(): all that a collision check needs.
-  void forwardPoses(const Eigen::Ref<const Eigen::VectorXd>& q, State& state) const;
+  void forwardPoses(const Eigen::Ref<const Eigen::VectorXd>& q, State& state) const {
+    forwardPoses(q, state, whole_);
+  }
+  /// The same of a part of the robot.
+  void forwardPoses(const Eigen::Ref<const Eigen::VectorXd>& q, State& state, const Subtree& only) const;
 
   /// Room for differentiate().
   Rate makeRate() const;
   /// Fills the rate of `state`, which is that of q, as q moves with velocity v. Never throws or allocates.
   void differentiate(const Eigen::Ref<const Eigen::VectorXd>& q, const Eigen::Ref<const Eigen::VectorXd>& v,
-                     const State& state, Rate& rate) const;
+                     const State& state, Rate& rate) const {
+    differentiate(q, v, state, rate, whole_);
+  }
+  /// The same of a part of the robot that forward() has placed.
+  void differentiate(const Eigen::Ref<const Eigen::VectorXd>& q, const Eigen::Ref<const Eigen::VectorXd>& v,
+                     const State& state, Rate& rate, const Subtree& only) const;
 
   /// The motions that change where one link is to the other. @throws Error for a link that does not exist.
   std::vector<Dependence> dependence(int link1, int link2) const;
@@ -133,6 +152,7 @@ class Kinematics {
   std::vector<Motion> motions_;
   std::vector<Step> steps_;  // parents before children
   std::vector<int> stepOf_;  // the step that places each link, -1 for a root that stands still
+  Subtree whole_;            // all steps
 };
 
 }  // namespace fcl_stpbv

@@ -56,10 +56,10 @@ Kinematics::Rate Kinematics::makeRate() const {
 }
 
 void Kinematics::differentiate(const Eigen::Ref<const Eigen::VectorXd>& q,
-                               const Eigen::Ref<const Eigen::VectorXd>& v, const State& state,
-                               Rate& rate) const {
+                               const Eigen::Ref<const Eigen::VectorXd>& v, const State& state, Rate& rate,
+                               const Subtree& only) const {
   if (stepOf_[0] < 0) rate.link[0] = rate.drift[0] = {};
-  for (const Step& step : steps_) differentiate(step, q, v, state, rate);
+  for (const int s : only.steps_) differentiate(steps_[at(s)], q, v, state, rate);
 }
 
 // Each motion's axis is carried by the parent link and by the motions of the same joint before it.

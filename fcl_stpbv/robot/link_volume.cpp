@@ -2,18 +2,19 @@
 // over-cover budget R is doubled until the volume keeps to it, then reduce() drops vertices.
 #include "fcl_stpbv/robot/link_volume.h"
 
-#include <fcl/geometry/shape/sphere.h>
-
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <set>
 
-#include "fcl_stpbv/adapter/fcl_distance.h"
-#include "fcl_stpbv/adapter/hull_geometry.h"
 #include "fcl_stpbv/convex/hull_graph.h"
+#include "fcl_stpbv/distance/shape_distance.h"
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/io/text_scanner.h"
+#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/volume/reduce.h"
+#include "fcl_stpbv/volume/rolling_ball.h"
 
 namespace fcl_stpbv::detail {
 namespace {
@@ -97,16 +98,20 @@ class VolumeMaker {
     return wide.R;
   }
 
-  // How far a point is from the hull of the volume's vertices at most (m).
+  // How far a point is from the hull of the volume's vertices at most (m): corners of the hull that are none
+  // of these.
   double leftInside(const StpBv& volume) const {
-    constexpr double kBall = 1e-3;  // FCL has no shape that is a point
-    const fcl::Sphered ball(kBall);
-    const auto hull = hullGeometry(points()), kept = hullGeometry(volume.vertices());
+    using Corner = std::array<double, 3>;
+    std::set<Corner> kept;
+    for (const Eigen::Vector3d& v : volume.vertices()) kept.insert({v.x(), v.y(), v.z()});
+    const Shape hull = Shape::polytopeOf(volume.vertices().data(), volume.vertexCount());
     double most = 0;
-    for (const Eigen::Vector3d& v : hull->getVertices()) {
-      const fcl::Transform3d there{Eigen::Translation3d(v)};
-      const DistanceAnswer found = distance(ball, there, *kept, fcl::Transform3d::Identity());
-      if (found.status != DistanceStatus::invalid) most = std::max(most, found.distance + kBall);
+    for (const int i : flatHull(points()).vertices) {
+      const Eigen::Vector3d& v = points()[at(i)];
+      if (kept.count({v.x(), v.y(), v.z()}) > 0) continue;
+      const Distance found = distance(Shape::sphere(0), Eigen::Isometry3d(Eigen::Translation3d(v)), hull,
+                                      Eigen::Isometry3d::Identity());
+      if (found.status != DistanceStatus::invalid) most = std::max(most, found.distance);
     }
     return most;
   }

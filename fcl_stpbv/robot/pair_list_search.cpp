@@ -187,8 +187,8 @@ class Search {
     for (int i = 0; i < options_.descents && at(i) < found.closest.size(); ++i)
       if (descend(found.closest[at(i)].second)) return std::nullopt;
     Open open{&entry, {}};
-    // A descent places all links at every step: robots of hundreds of links get fewer for each of their many
-    // pairs, so that the list takes a minute and not hours.
+    // Robots of hundreds of links get fewer descents for each of their many pairs, so that the list takes a
+    // minute and not hours.
     constexpr double kUsualWork = 1e5;  // pairs times coordinates
     const double work = static_cast<double>(list_.size()) * static_cast<double>(kinematics_->size());
     double descents = options_.randomDescents * std::min(1.0, kUsualWork / work);

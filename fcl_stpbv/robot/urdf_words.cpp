@@ -67,12 +67,19 @@ void checkAttributes(const XMLElement& element, const Known& known) {
   }
 }
 
+// Three zeros: of an origin that moves nothing, wherever it stands and whatever it is called.
+bool isNowhere(std::string_view attribute, std::string_view numbers) {
+  return (attribute == "xyz" || attribute == "rpy") &&
+         numbers.find_first_not_of("0.+- \t\r\n") == std::string_view::npos;
+}
+
 // An element of an unknown name is let pass, as other tools add their own,
 // unless it says what a known one would say.
 void checkUnknown(const XMLElement& element, const std::vector<Known>& list) {
   for (const Known& known : list) {
     for (const std::string_view attribute : known.attributes) {
-      if (attribute != "name" && element.Attribute(std::string(attribute).c_str()))
+      const char* value = element.Attribute(std::string(attribute).c_str());
+      if (value && attribute != "name" && !isNowhere(attribute, value))
         throw Error("<" + std::string(element.Name()) + "> is no element of URDF, yet has '" +
                     std::string(attribute) + "'; is it a misspelt <" + std::string(known.element) + ">?");
     }
@@ -110,6 +117,12 @@ bool isShape(const tinyxml2::XMLNode* node) { return named(node, "collision") ||
 bool saysMore(const XMLElement& element) {
   const tinyxml2::XMLAttribute* first = element.FirstAttribute();
   return first && (first->Next() || std::string_view(first->Name()) != "name");
+}
+
+bool isNowhere(const XMLElement& origin) {
+  for (const tinyxml2::XMLAttribute* a = origin.FirstAttribute(); a; a = a->Next())
+    if (!isNowhere(a->Name(), a->Value())) return false;
+  return true;
 }
 
 // A box or the like that says something, and that no <geometry> holds and no shape misses: of a link's shape
@@ -233,7 +246,7 @@ int checkPlaces(const XMLElement& robot, const std::string& path, LoadFaults& fa
         (inLink ? faults.shapes : faults.errors)
             .push_back(xmlPlace(*e, path) + misplaced(*e, at, link || &at == &robot));
       }
-      if (name == "origin" && link)
+      if (name == "origin" && link && !isNowhere(*e))
         faults.errors.push_back(
             xmlPlace(*e, path) + placeWithin("origin", "link") +
             "it belongs into the link's <collision>, <visual> or <inertial>, or into a <joint>");

@@ -146,6 +146,49 @@ TEST_CASE("a pair depends on the joints between its links only") {
   CHECK_THROWS_WITH(toSrdf(model, {foreign}), "toSrdf: there is no link 4 of 4");
 }
 
+TEST_CASE("a subtree has all that carries its links, as the whole robot has, and nothing else") {
+  const auto model = std::make_shared<const RobotModel>(loadUrdf(robots()[0].urdf));
+  const Kinematics kinematics(model, BaseMotion::floating);
+  Random random(3);
+  const Eigen::VectorXd q = randomConfiguration(kinematics, random),
+                        v = randomConfiguration(kinematics, random);
+  const int hand = model->link("RARM_LINK6"), head = model->link("HEAD_LINK1");
+  REQUIRE((hand >= 0 && head >= 0));
+  const Kinematics::Subtree arm = kinematics.subtree({hand, head, hand});
+  Kinematics::State all = kinematics.makeState(), some = all, poses = all;
+  Kinematics::Rate allRates = kinematics.makeRate(), rates = allRates;
+  kinematics.forward(q, all);
+  kinematics.differentiate(q, v, all, allRates);
+  kinematics.forward(q, some, arm);
+  kinematics.forwardPoses(q, poses, arm);
+  kinematics.differentiate(q, v, some, rates, arm);
+  std::size_t placed = 0;
+  for (std::size_t l = 0; l < all.link.size(); ++l) {
+    const auto carries = [&](int link) {
+      while (link > static_cast<int>(l)) {
+        const int joint = model->links[static_cast<std::size_t>(link)].parentJoint;
+        link = joint < 0 ? -1 : model->joints[static_cast<std::size_t>(joint)].parent;
+      }
+      return link == static_cast<int>(l);
+    };
+    const bool isOn = carries(hand) || carries(head);
+    placed += isOn;
+    const Eigen::Matrix4d expected = isOn ? all.link[l].matrix() : Eigen::Matrix4d::Identity();
+    CHECK(some.link[l].matrix() == expected);
+    CHECK(poses.link[l].matrix() == expected);
+    CHECK(rates.link[l].linear == (isOn ? allRates.link[l].linear : Eigen::Vector3d(0, 0, 0)));
+  }
+  CHECK(placed > 8);
+  CHECK(placed < all.link.size() - 8);
+  for (const int link : {hand, head})
+    for (const Kinematics::Dependence& d : kinematics.dependence(link)) {
+      const auto m = static_cast<std::size_t>(d.motion);
+      CHECK(some.motion[m].linear == all.motion[m].linear);
+      CHECK(rates.motion[m].angular == allRates.motion[m].angular);
+    }
+  CHECK_THROWS_WITH(kinematics.subtree({0, 99}), Catch::Contains("there is no link 99"));
+}
+
 TEST_CASE("two coordinates of one name are refused, with the name and the file") {
   const std::string links = link("a") + link("b") + link("c");
   const auto said = [&](const std::string& joints, BaseMotion base) {

@@ -114,6 +114,27 @@ TEST_CASE("words that look misspelt are refused, those of other tools are not") 
   CHECK(shapesIn(kBox + "<self_filter>" + box + "</self_filter><x:filter>" + box + "</x:filter>") == 1);
 }
 
+TEST_CASE("an origin that moves nothing is let pass wherever it stands") {
+  const auto jointWith = [](const std::string& element) {
+    return robot(link("a") + link("b") +
+                 "<joint name=\"j\" type=\"fixed\"><parent link=\"a\"/><child link=\"b\"/>" + element +
+                 "</joint>");
+  };
+  for (const char* zeros : {"xyz=\"0 0 0\"", "xyz=\"0.0 -0 +0.\" rpy=\"0 0 0\"", ""}) {
+    CAPTURE(zeros);
+    CHECK(shapesIn(std::string("<origin ") + zeros + "/>" + kBox) == 1);
+    CHECK(parseUrdf(jointWith(std::string("<anchor ") + zeros + "/>"), "small.urdf").joints.size() == 1);
+  }
+  for (const char* moves : {"xyz=\"0 0 1\"", "xyz=\"0 0 0\" rpy=\"0 1e-9 0\"", "xyz=\"a b c\""}) {
+    CAPTURE(moves);
+    CHECK_THAT(refused(robot(std::string("<link name=\"a\"><origin ") + moves + "/>" + kBox + "</link>")),
+               Contains("<origin> within <link>"));
+    CHECK_THAT(refused(jointWith(std::string("<anchor ") + moves + "/>")), Contains("misspelt <origin>"));
+  }
+  CHECK_THAT(refused(robot("<link name=\"a\"><origin xzy=\"0 0 0\"/>" + kBox + "</link>")),
+             Contains("<origin> within <link>"));
+}
+
 TEST_CASE("another tool's attribute is let pass where none of URDF's is missing") {
   const auto jointWith = [](const std::string& limit) {
     return robot(link("a") + link("b") +
