@@ -8,7 +8,7 @@
 
 #include "fcl_stpbv/adapter/fcl_shapes.h"
 #include "fcl_stpbv/adapter/stp_bv_geometry.h"
-#include "fcl_stpbv/volume/measure.h"
+#include "fcl_stpbv/volume/hull_excess.h"
 
 namespace fcl_stpbv::detail {
 namespace {
@@ -97,7 +97,7 @@ std::optional<BodyPoints> bodyPoints(const fcl::CollisionGeometryd& geometry, co
   Shape shape;
   if (const StpBvGeometry* smooth = asStpBv(&geometry)) {
     body.points = smooth->volume().vertices();
-    body.radius = overCover(smooth->volume()).max;
+    body.radius = HullExcess(body.points).max(smooth->volume());
   } else if (shapeOf(geometry, shape)) {
     body.points = cornersOf(shape);
     body.radius = shape.margin;

@@ -1,19 +1,22 @@
-// Where a ray from inside leaves a volume. Of all supporting planes that the ray meets, the first one touches
-// the surface there: a convex minimisation over the normals.
-// 1. Solve the exit of the patch that owns the current normal in closed form; if
-//    its normal is the patch's own, done.
-// 2. Else the plane rules out half of the normals; done where no normal that is
-//    left can be lower by more than rounding.
-// 3. Go on at that exit's normal, or at the centroid of what is left.
+// Where a ray from inside leaves a volume.
+// 1. From patch to patch: solve the exit of one in closed form. Where its normal is the patch's own the ray
+//    leaves there, else go on at the neighbour over the boundary that it is furthest beyond.
+// 2. Where that ends nowhere, a convex minimisation over the normals: of all supporting planes that the ray
+//    meets, the first one touches the surface. Each plane rules out half of the normals; done where none that
+//    is left can be lower by more than rounding. Next is the normal of the patch's exit, or the centroid of
+//    what is left.
 #include "fcl_stpbv/volume/surface_height.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "fcl_stpbv/volume/patch_view.h"
+#include "fcl_stpbv/volume/query_tables.h"
 
 namespace fcl_stpbv::detail {
 namespace {
@@ -21,10 +24,17 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-// Height above y, along the unit direction d, at which a ray from inside leaves the patch continued over the
-// whole sphere: |q + t d - I| = c for a point, the circle's farthest point likewise.
+/// Where a ray from inside leaves a patch that is continued over the whole sphere.
+struct Exit {
+  double height = 0;    // along the ray (m)
+  bool isThere = true;  // or else the ray passes by, and this is where it is nearest
+  Vector3d normal;      // outward, unit
+};
+
+// The height above y, along the unit direction d: |q + t d - I| = c for a point, the circle's farthest point
+// likewise.
 double exitHeight(const Patch& patch, PatchKind kind, const Radii& radii, const Vector3d& y,
-                  const Vector3d& d) {
+                  const Vector3d& d, bool& isThere) {
   const Vector3d q = y - patch.anchor;
   if (kind != PatchKind::edge) {
     // |q + t d + rho m|^2 = R^2 for a face, |q + t d|^2 = r^2 for a vertex; the
@@ -33,8 +43,8 @@ double exitHeight(const Patch& patch, PatchKind kind, const Radii& radii, const 
                  c = kind == PatchKind::face ? radii.R : radii.r;
     const double half = d.dot(q + rho * patch.axis);
     const double constant = q.squaredNorm() + 2 * rho * q.dot(patch.axis) - radii.r * (c + rho);
-    if (half * half <= constant)
-      return -half;  // past it: the nearest place on the ray tells which way to go on
+    isThere = half * half > constant;
+    if (!isThere) return -half;
     const double root = std::sqrt(half * half - constant);
     return half > 0 ? -constant / (half + root) : root - half;
   }
@@ -51,7 +61,8 @@ double exitHeight(const Patch& patch, PatchKind kind, const Radii& radii, const 
     const double value = across * (across + 2 * patch.kappa) + along * along - rest;
     const double slope =
         2 * (along * d.dot(patch.axis) + (across > 0 ? (1 + patch.kappa / across) * side.dot(d) : 0));
-    if (!(slope > 0)) break;
+    isThere = slope > 0;
+    if (!isThere) break;
     const double step = value / slope;
     t -= step;
     if (!(step > 1e-16 * (1 + std::abs(t)))) break;
@@ -59,23 +70,43 @@ double exitHeight(const Patch& patch, PatchKind kind, const Radii& radii, const 
   return t;
 }
 
-// The outward normal where the ray leaves the continued patch.
-Vector3d exitNormal(const StpBv& volume, int index, const Vector3d& y, const Vector3d& d) {
+Exit exitOf(const StpBv& volume, int index, const Vector3d& y, const Vector3d& d) {
   const Patch patch = volume.patch(index);
   const PatchKind kind = volume.kind(index);
-  Vector3d n =
-      y + exitHeight(patch, kind, volume.radii(), y, d) * d - unpack(posedPatch(volume, index).centre());
+  Exit exit;
+  exit.height = exitHeight(patch, kind, volume.radii(), y, d, exit.isThere);
+  Vector3d n = y + exit.height * d - unpack(posedPatch(volume, index).centre());
   if (kind == PatchKind::edge) {
     const Vector3d side = n - n.dot(patch.axis) * patch.axis;
     if (side.norm() > 0) n += patch.kappa * side.normalized();
   }
-  return n.normalized();
+  exit.normal = n.normalized();
+  return exit;
+}
+
+// From patch `index` on. Mostly one or two patches are enough. `tried` is how many were looked at.
+std::optional<SurfaceHeight> fromPatchToPatch(const StpBv& volume, const Vector3d& y, const Vector3d& d,
+                                              int index, int& tried) {
+  constexpr double kOnBoundary = 4 * std::numeric_limits<double>::epsilon();
+  constexpr int kPatches = 60;
+  int before = -1;
+  for (tried = 1; tried <= kPatches; ++tried) {
+    const Exit exit = exitOf(volume, index, y, d);
+    const Crossing over = volume.tables().patches.crossing(index, pack(exit.normal));
+    if (!(over.past > kOnBoundary)) {
+      if (!exit.isThere || !(exit.normal.dot(d) > 0)) break;
+      return SurfaceHeight{exit.height, index, tried};
+    }
+    if (over.neighbour == before) break;  // to and fro
+    before = std::exchange(index, over.neighbour);
+  }
+  return std::nullopt;
 }
 
 // A convex polygon that shrinks around a minimum.
 class Fence {
  public:
-  explicit Fence(double half) : corners_{{-half, -half}, {half, -half}, {half, half}, {-half, half}} {}
+  explicit Fence(double half = 0) : corners_{{-half, -half}, {half, -half}, {half, half}, {-half, half}} {}
 
   // Keeps what lies on the far side of the line through `a`, seen along `uphill`.
   void cut(const Vector2d& a, const Vector2d& uphill) {
@@ -122,22 +153,20 @@ class Fence {
   std::vector<Vector2d> corners_, kept_;
 };
 
-}  // namespace
-
-SurfaceHeight surfaceHeight(const StpBv& volume, const Vector3d& y, const Vector3d& d, int hint) {
+// By supporting planes, from patch `index` on.
+SurfaceHeight lowestPlane(const StpBv& volume, const Vector3d& y, const Vector3d& d, int index) {
   // Of all supporting planes that the ray can meet, normals along d + a with a across d, the one met first is
   // the surface's. With H the support function of length one along d, the height is H(d + a) - (d + a).y:
   // convex in a, its gradient the part across d of x - y, x the surface point with that normal. A plane
   // leaves half of the normals; a patch whose own exit has one of its own normals is the answer.
   const Vector3d e = d.unitOrthogonal(), f = d.cross(e);
   const double reach = 2 * volume.enclosingRadius() + (y - volume.centre()).norm();
-  // The plane that the ray meets first is at least r from y and the way there at most `reach`.
-  Fence fence(2 * reach / std::max(volume.radii().r, 1e-8 * reach));
-  SurfaceHeight best{std::numeric_limits<double>::infinity(), hint, 0};
+  constexpr double kWidest = 2e8;  // beyond it a ray grazes the surface
+  SurfaceHeight best{std::numeric_limits<double>::infinity(), index, 0};
   // What rounds a surface point: its own coordinates, and rho times the rounding of its normal.
   const double rounding = 1e-15 * (reach + volume.radii().R + y.norm());
   Vector2d a = Vector2d::Zero();
-  int index = hint;
+  Fence fence;
   for (int step = 1; step <= 400; ++step) {
     const Vector3d along = d + a.x() * e + a.y() * f;
     const double stretch = along.norm();
@@ -150,13 +179,14 @@ SurfaceHeight surfaceHeight(const StpBv& volume, const Vector3d& y, const Vector
     const Vector3d over = corePoint(volume, index, n) + volume.radii().r * n - y;
     const Vector2d uphill(over.dot(e), over.dot(f));
     if (uphill.norm() <= rounding) break;
+    // Each plane is at least r from y, so none along d + a is lower than r |d + a|.
+    if (step == 1) fence = Fence(std::min(kWidest, (height + rounding) / volume.radii().r));
     fence.cut(a, uphill);
     // The height is convex: no normal in the fence is lower than the tangent says. An exit normal that has
     // many roundings itself, as on a thin edge patch with r = 0, is recognised as the answer by this alone.
     if (fence.isSpent() || fence.least(a, uphill) >= -rounding) break;
-    // The patch's own exit is the answer where it is inside the patch; every
-    // third step makes sure of progress.
-    const Vector3d exit = exitNormal(volume, index, y, d);
+    // Every third step makes sure of progress.
+    const Vector3d exit = exitOf(volume, index, y, d).normal;
     const double slope = exit.dot(d);
     const Vector2d target(exit.dot(e) / slope, exit.dot(f) / slope);
     if (slope > 0 && step % 3 != 0 && fence.holds(target)) {
@@ -166,6 +196,17 @@ SurfaceHeight surfaceHeight(const StpBv& volume, const Vector3d& y, const Vector
     }
   }
   return best;
+}
+
+}  // namespace
+
+SurfaceHeight surfaceHeight(const StpBv& volume, const Vector3d& y, const Vector3d& d, int hint) {
+  const int first = volume.owner(d, hint);
+  int tried = 0;
+  if (const auto found = fromPatchToPatch(volume, y, d, first, tried)) return *found;
+  SurfaceHeight lowest = lowestPlane(volume, y, d, first);
+  lowest.planes += tried;
+  return lowest;
 }
 
 }  // namespace fcl_stpbv::detail

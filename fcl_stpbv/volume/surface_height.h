@@ -11,7 +11,7 @@ namespace fcl_stpbv::detail {
 struct SurfaceHeight {
   double height;  ///< along the ray (m)
   int patch;      ///< the patch it leaves through
-  int planes;     ///< supporting planes that were tried: the work done
+  int planes;     ///< exits and supporting planes that were tried: the work done
 };
 
 /// Height of the surface over `y`, any point of the vertices' hull, along the unit direction `d`. `hint` is a
