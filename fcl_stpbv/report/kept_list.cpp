@@ -33,6 +33,8 @@ class Question {
       add(*body.geometry);
     }
     for (const LinkPair& pair : geometry.byParts) add(pair.link1, pair.link2, pair.obstacle);
+    if (!geometry.incomplete.empty()) text_ += "incomplete\n";
+    for (const int link : geometry.incomplete) add(link);
     text_ += "srdf\n";
     if (srdf) reasons(kinematics.robot(), *srdf);
     for (const Obstacle& obstacle : options.obstacles) {

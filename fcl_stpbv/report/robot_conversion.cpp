@@ -121,10 +121,12 @@ ConversionResult convertRobot(const RobotConversion& conversion) {
   atomicWriteFolder(conversion.folder, files);
   result.warnings = report.warnings;
   result.skipped = report.skipped;
-  result.summary = formatted(
-      "%s: %d convex parts, their volumes within %.3f mm of the meshes; %d of %zu pairs checked -> %s",
-      report.robot->name.c_str(), output.parts(), output.excess() * 1e3, report.checked, report.pairs.size(),
-      conversion.folder.c_str());
+  const std::string parts = output.parts() == 0
+                                ? "no meshes"
+                                : formatted("%d convex parts, their volumes within %.3f mm of the meshes",
+                                            output.parts(), output.excess() * 1e3);
+  result.summary = formatted("%s: %s; %d of %zu pairs checked -> %s", report.robot->name.c_str(),
+                             parts.c_str(), report.checked, report.pairs.size(), conversion.folder.c_str());
   return result;
 }
 

@@ -13,7 +13,11 @@ namespace {
 using namespace detail;
 
 // Nothing can be said about a robot of which nothing was loaded, least of all that it is clear.
-void requireBodies(const RobotModel& robot, const RobotGeometry& geometry, bool visual) {
+void requireBodies(const RobotModel& robot, const RobotGeometry& geometry, bool visual,
+                   const std::vector<std::string>& leftOut) {
+  if (geometry.bodies.empty() && !geometry.incomplete.empty())
+    throw Error(robot.path + ": no shape could be read, so that nothing can be checked; the first one: " +
+                leftOut.front());
   if (geometry.bodies.empty())
     throw Error(robot.path + ": no link has a shape that could be checked; give a URDF with " +
                 (visual ? "<visual> shapes, or leave out --visual where only <collision> ones are there"
@@ -105,8 +109,8 @@ void RobotLoader::build() {
   RobotGeometry bodies = buildGeometry(*robot_, files_.geometry, shapes_, faults_), around;
   if (scene_) around = buildGeometry(*scene_, sceneOptions_, sceneShapes_, faults_);
   faults_.refuse(files_.skipInvalid);
-  requireBodies(*robot_, bodies, files_.geometry.visual);
-  if (scene_) requireBodies(*scene_, around, files_.geometry.visual);
+  requireBodies(*robot_, bodies, files_.geometry.visual, faults_.shapes);
+  if (scene_) requireBodies(*scene_, around, files_.geometry.visual, faults_.shapes);
   requireRoomForPairs(*kinematics_, bodies, around.bodies.size());
   if (!files_.flatPrimitives)
     coverPrimitives(pairsToCover(*kinematics_, bodies, srdf_.get(), around.bodies.size()), bodies, &around);

@@ -33,7 +33,7 @@ Adjacency::Adjacency(const RobotModel& robot, const RobotGeometry& geometry)
       partBody_(robot.links.size()) {
   for (std::size_t l = 0; l < robot.links.size(); ++l) {  // parents first
     const auto [first, last] = geometry.of(static_cast<int>(l));
-    body_[l] = first < last;
+    body_[l] = first < last || geometry.incomplete.count(static_cast<int>(l)) > 0;
     part_[l] = static_cast<int>(l);
     const int j = robot.links[l].parentJoint;
     if (j >= 0 && robot.joints[at(j)].type == JointType::fixed) {

@@ -21,7 +21,7 @@ enum class Joining {
 /// Two links are rigid where only fixed joints lie between them. They are adjacent where one joint that turns
 /// or slides lies between them, neither planar nor floating, or several turning joints whose origins coincide
 /// (a compound joint, such as the three axes of a ball joint), and no link on the way, nor any fixed to it,
-/// has a body.
+/// has a body, be it one that was left out.
 class Adjacency {
  public:
   Adjacency(const RobotModel& robot, const RobotGeometry& geometry);
@@ -31,7 +31,7 @@ class Adjacency {
   Eigen::Vector3d originOn(const JointModel& joint, bool parent) const;
 
   const RobotModel& robot_;
-  std::vector<char> body_;               // of each link: whether it has one
+  std::vector<char> body_;               // of each link: whether it has one, known or left out
   std::vector<int> part_;                // the topmost of the links that are rigidly joined to it
   std::vector<Eigen::Isometry3d> pose_;  // in the frame of that link
   std::vector<char> partBody_;           // of a topmost link: whether one of its part has a body

@@ -65,6 +65,7 @@ class Builder {
 
   RobotGeometry build(const ShapeSources& sources) {
     geometry_.warnings = sources.warnings;
+    geometry_.incomplete = sources.incomplete;
     const std::vector<ShapeSource>& shapes = sources.shapes;
     std::vector<Body> bodies(shapes.size());
     std::vector<std::string> wrong(shapes.size());
@@ -79,10 +80,12 @@ class Builder {
       if (options_.progress) options_.progress(i, shapes.size(), nameOf(shapes[i]));
     });
     for (std::size_t i = 0; i < shapes.size(); ++i) {
-      if (wrong[i].empty())
+      if (wrong[i].empty()) {
         geometry_.bodies.push_back(std::move(bodies[i]));
-      else
+      } else {
         faults_.shapes.push_back(std::move(wrong[i]));
+        geometry_.incomplete.insert(shapes[i].link);
+      }
     }
     warnOfAdvice();
     warnWithoutMesh();

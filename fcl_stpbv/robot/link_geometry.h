@@ -93,6 +93,7 @@ struct RobotGeometry {
   std::vector<std::string> warnings;  ///< whole sentences, to be told to the user
   int fromCache = 0;                  ///< volumes that needed no building
   std::set<LinkPair> byParts;         ///< pairs that are taken by their bodies' parts, not whole
+  std::set<int> incomplete;           ///< links that a shape was left out of, as it could not be read
 
   /// Whether this body stands for its link where the pair is, or is not, taken by parts.
   bool counts(int body, bool inParts) const;

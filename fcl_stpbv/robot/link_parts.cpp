@@ -137,6 +137,7 @@ RobotGeometry LinkParts::geometry(const std::map<int, int>& most, const std::set
   all.warnings = whole_->warnings;
   all.fromCache = whole_->fromCache;
   all.byParts = byParts;
+  all.incomplete = whole_->incomplete;
   const std::vector<Body>& bodies = whole_->bodies;
   for (std::size_t first = 0; first < bodies.size();) {
     std::size_t last = first;

@@ -13,8 +13,8 @@
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/io/text_scanner.h"
 #include "fcl_stpbv/numbers.h"
+#include "fcl_stpbv/volume/hull_excess.h"
 #include "fcl_stpbv/volume/reduce.h"
-#include "fcl_stpbv/volume/rolling_ball.h"
 
 namespace fcl_stpbv::detail {
 namespace {
@@ -77,8 +77,9 @@ class VolumeMaker {
     appendNumber(from, key.radii.R);
     from += '\n' + key.content;
     const auto measure = [this] {
-      const OverCover cover = overCover(*body_.volume, points());
-      return std::vector<double>{cover.max, cover.mean, leavesNoneInside()};
+      const HullExcess hull(points());
+      const OverCover cover = hull.of(*body_.volume);
+      return std::vector<double>{cover.max, cover.mean, leavesNoneInside(hull.corners())};
     };
     std::vector<double> kept = cache_.numbers(from, "over-cover", measure);
     if (kept.size() != 3) kept = measure();
@@ -89,24 +90,23 @@ class VolumeMaker {
   }
 
   // The body's R, or a larger one where its own leaves corners of the hull inside.
-  double leavesNoneInside() const {
+  double leavesNoneInside(const std::vector<int>& corners) const {
     StpBvOptions wide = body_.radii;
-    for (StpBv::Ptr v = body_.volume; leftInside(*v) > kNothing && wide.R < kLargest;) {
+    for (StpBv::Ptr v = body_.volume; leftInside(*v, corners) > kNothing && wide.R < kLargest;) {
       wide.R *= 4;
       v = StpBv::build(points(), wide);
     }
     return wide.R;
   }
 
-  // How far a point is from the hull of the volume's vertices at most (m): corners of the hull that are none
-  // of these.
-  double leftInside(const StpBv& volume) const {
+  // How far a point is from the hull of the volume's vertices at most (m): a corner of the hull of all.
+  double leftInside(const StpBv& volume, const std::vector<int>& corners) const {
     using Corner = std::array<double, 3>;
     std::set<Corner> kept;
     for (const Eigen::Vector3d& v : volume.vertices()) kept.insert({v.x(), v.y(), v.z()});
     const Shape hull = Shape::polytopeOf(volume.vertices().data(), volume.vertexCount());
     double most = 0;
-    for (const int i : flatHull(points()).vertices) {
+    for (const int i : corners) {
       const Eigen::Vector3d& v = points()[at(i)];
       if (kept.count({v.x(), v.y(), v.z()}) > 0) continue;
       const Distance found = distance(Shape::sphere(0), Eigen::Isometry3d(Eigen::Translation3d(v)), hull,
@@ -140,8 +140,9 @@ class VolumeMaker {
 
   void reduceTo(double budget) {
     StpBvOptions& radii = body_.radii;
-    body_.cover = overCover(*body_.volume, points());
-    for (; body_.cover.max > budget && radii.R < kLargest; body_.cover = overCover(*body_.volume, points())) {
+    const HullExcess hull(points());
+    body_.cover = hull.of(*body_.volume);
+    for (; body_.cover.max > budget && radii.R < kLargest; body_.cover = hull.of(*body_.volume)) {
       radii.R *= 2;  // the over-cover falls towards r
       body_.volume = cache_.volume(source_.key, radii, [&] { return StpBv::build(points(), radii); });
     }
@@ -153,7 +154,7 @@ class VolumeMaker {
     if (few->vertexCount() >= body_.volume->vertexCount()) return;
     if (!body_.full) body_.full = geometryOf(body_.volume);
     body_.volume = few;
-    body_.cover = overCover(*few, points());
+    body_.cover = hull.of(*few);
   }
 
   static constexpr double kLargest = 1e5;   // beyond it a big sphere is flat to rounding (m)

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <utility>
 
 #include "fcl_stpbv/error.h"
@@ -109,8 +110,11 @@ LinkModel readLink(const XMLElement& element, const std::string& path, RobotMode
                    LoadFaults& faults) {
   LinkModel link;
   link.name = element.Attribute("name");
+  const std::size_t collisions = faults.shapes.size(), visuals = robot.visualFaults.size();
   link.collision = readShapes(element, "collision", path, faults.shapes);
   link.visual = readShapes(element, "visual", path, robot.visualFaults);
+  link.lacksCollision = faults.shapes.size() > collisions;
+  link.lacksVisual = robot.visualFaults.size() > visuals;
   if (const XMLElement* inertial = inertialOf(element)) {
     try {
       readInertial(*inertial, link);
@@ -271,10 +275,14 @@ RobotModel parseUrdf(const std::string& text, const std::string& path, LoadFault
   RobotModel robot;
   robot.name = requiredAttribute(root, "name", path);
   robot.path = path;
-  const int collisions = checkPlaces(root, path, faults);
+  std::set<const XMLElement*> incomplete;
+  const int collisions = checkPlaces(root, path, faults, incomplete);
   const UrdfTree tree = readTree(root, path, faults);
   const std::size_t errors = faults.errors.size(), refused = faults.shapes.size();
-  for (const XMLElement* link : tree.links) robot.links.push_back(readLink(*link, path, robot, faults));
+  for (const XMLElement* link : tree.links) {
+    robot.links.push_back(readLink(*link, path, robot, faults));
+    if (incomplete.count(link) > 0) robot.links.back().lacksCollision = robot.links.back().lacksVisual = true;
+  }
   if (errors == 0) checkAllThere(collisions, robot, faults.shapes.size() - refused);
   readJoints(tree, robot, faults);
   return robot;

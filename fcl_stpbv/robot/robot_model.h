@@ -90,6 +90,8 @@ struct LinkModel {
   double mass = 0;                    ///< kg; 0 without an inertial element, or with a wrong one
   std::string massFault;  ///< what is wrong with the inertial element, and where; "" where it is sound
   Eigen::Vector3d centreOfMass{0, 0, 0};  ///< in the link's frame (m)
+  bool lacksCollision = false;            ///< whether a collision shape that the file has could not be read
+  bool lacksVisual = false;               ///< the same of the visual shapes
 };
 
 /// A robot as its URDF describes it: a tree of links.

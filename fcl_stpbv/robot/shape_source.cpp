@@ -30,8 +30,11 @@ class Reader {
   ShapeSources read(bool visual, const IsCached& isCached) {
     const Shapes shapes = choose(visual);
     for (std::size_t l = 0; l < robot_.links.size(); ++l) {
+      const LinkModel& link = robot_.links[l];
+      if (shapes == &LinkModel::visual ? link.lacksVisual : link.lacksCollision)
+        sources_.incomplete.insert(static_cast<int>(l));
       int number = 0;
-      for (const ShapeModel& shape : robot_.links[l].*shapes) {
+      for (const ShapeModel& shape : link.*shapes) {
         ShapeSource source;
         source.link = static_cast<int>(l);
         source.number = ++number;
@@ -91,6 +94,7 @@ class Reader {
       sources_.shapes.push_back(std::move(source));
     } catch (const Error& error) {
       faults_.shapes.push_back(source.shape->place + ": " + error.what());
+      sources_.incomplete.insert(source.link);
     }
   }
 

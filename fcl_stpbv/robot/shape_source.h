@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -38,6 +39,7 @@ using IsCached = std::function<bool(const std::string& link, const std::string& 
 
 struct ShapeSources {
   std::vector<ShapeSource> shapes;    ///< in the order of the links; they point into the robot's model
+  std::set<int> incomplete;           ///< links that a shape was left out of
   std::vector<std::string> warnings;  ///< whole sentences, to be told to the user
 };
 

@@ -178,10 +178,11 @@ std::string misplaced(const XMLElement& element, const XMLElement& holder, bool 
   return within + "is <" + around + "> misspelt?" + ofAnotherTool(around);
 }
 
-bool isInLink(const XMLElement& element, const XMLElement& robot) {
+// The link that an element is in; null for none.
+const XMLElement* linkAround(const XMLElement& element, const XMLElement& robot) {
   const tinyxml2::XMLNode* above = element.Parent();
   while (above != &robot && above->Parent() != &robot) above = above->Parent();
-  return named(above, "link");
+  return named(above, "link") ? above->ToElement() : nullptr;
 }
 
 }  // namespace
@@ -226,7 +227,8 @@ void checkInertialWords(const XMLElement& inertial) {
   checkChildren(inertial, kInInertial);
 }
 
-int checkPlaces(const XMLElement& robot, const std::string& path, LoadFaults& faults) {
+int checkPlaces(const XMLElement& robot, const std::string& path, LoadFaults& faults,
+                std::set<const XMLElement*>& incomplete) {
   int collisions = 0;
   std::vector<const XMLElement*> open{&robot};
   while (!open.empty()) {
@@ -239,11 +241,14 @@ int checkPlaces(const XMLElement& robot, const std::string& path, LoadFaults& fa
       if (name == "gazebo" || ofSelfFilter(name) || ofOtherTools(name)) continue;
       if (const std::string_view word = link ? misspeltShape(name) : ""; !word.empty()) {
         faults.shapes.push_back(xmlPlace(*e, path) + misspeltIn(*e, word));
+        incomplete.insert(&at);
         continue;
       }
       if ((name == "collision" && !link) || (name == "geometry" && !shape) || isLost(*e)) {
-        const bool inLink = name != "collision" && isInLink(*e, robot);  // costs a shape
-        (inLink ? faults.shapes : faults.errors)
+        const XMLElement* around =
+            name == "collision" ? nullptr : linkAround(*e, robot);  // that lacks a shape
+        if (around) incomplete.insert(around);
+        (around ? faults.shapes : faults.errors)
             .push_back(xmlPlace(*e, path) + misplaced(*e, at, link || &at == &robot));
       }
       if (name == "origin" && link && !isNowhere(*e))

@@ -3,6 +3,7 @@
 
 #include <tinyxml2.h>
 
+#include <set>
 #include <string>
 
 #include "fcl_stpbv/robot/robot_model.h"
@@ -28,8 +29,9 @@ void checkInertialWords(const tinyxml2::XMLElement& inertial);
 /// geometry, and an `<origin>` right in a link, but for those in `<gazebo>`, whose content is the
 /// simulator's, and `<self_filter>`. Finds names in a link that are nearly `<collision>` or `<visual>`,
 /// whatever they hold. A geometry, a box or such a name in a link is an entry of `faults.shapes`, all else of
-/// `faults.errors`.
+/// `faults.errors`; `incomplete` gets the links of the former, where it may be a shape of theirs.
 /// @returns the number of `<collision>` elements of links.
-int checkPlaces(const tinyxml2::XMLElement& robot, const std::string& path, LoadFaults& faults);
+int checkPlaces(const tinyxml2::XMLElement& robot, const std::string& path, LoadFaults& faults,
+                std::set<const tinyxml2::XMLElement*>& incomplete);
 
 }  // namespace fcl_stpbv::detail

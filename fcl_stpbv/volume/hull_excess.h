@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "fcl_stpbv/volume/half_edges.h"
+#include "fcl_stpbv/volume/measure.h"
 #include "fcl_stpbv/volume/stp_bv.h"
 
 namespace fcl_stpbv::detail {
@@ -21,11 +22,17 @@ class HullExcess {
   /// Mean height of the surface over the hull's faces, by area; over a segment along it (m).
   double mean(const StpBv& volume) const;
 
+  /// Both.
+  OverCover of(const StpBv& volume) const { return {max(volume), mean(volume)}; }
+
+  /// The hull's vertices, among the points.
+  const std::vector<int>& corners() const { return corners_; }
+
  private:
   const Eigen::Vector3d& at(int i) const { return points_[static_cast<std::size_t>(i)]; }
 
   std::vector<Eigen::Vector3d> points_;
-  std::vector<int> ends_;  // the hull's vertices
+  std::vector<int> corners_;
   std::vector<std::vector<int>> faces_;
   std::vector<Eigen::Vector3d> normals_;
   std::vector<HalfEdge> halfEdges_;

@@ -23,9 +23,9 @@ OverCover overCover(const StpBv& volume);
 /// Over the hull of the cloud. @throws Error for an empty cloud or a coordinate that is not finite.
 OverCover overCover(const StpBv& volume, const std::vector<Eigen::Vector3d>& cloud);
 
-/// Bound on the over-cover for a body whose faces are acute and whose longest edge is `a` (m): R - sqrt(rho^2
-/// - a^2/3). The paper (III.C) prints a^2/12, which is the inradius of an equilateral
-///   face and too small; docs/theory.md, 4.
+/// Bound on the over-cover, R - sqrt(rho^2 - a^2/3), for a body whose faces are acute and whose longest edge
+/// is `a` (m). The paper (III.C) prints a^2/12, which is the square of an equilateral face's inradius and too
+/// small (docs/theory.md, 4).
 double overCoverBound(const Radii& radii, double longestEdge);
 
 /// Volume enclosed (m^3).

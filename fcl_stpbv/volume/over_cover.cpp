@@ -94,7 +94,7 @@ HullExcess::HullExcess(const std::vector<Vector3d>& points) : points_(points) {
   const double flat = flatRadius(points);
   RolledHull hull = flatHull(points);
   faces_ = std::move(hull.faces);
-  ends_ = std::move(hull.vertices);
+  corners_ = std::move(hull.vertices);
   for (const std::vector<int>& ring : faces_) {
     const std::array<int, 3> wide = wideTriangle(points_, ring);
     // The builder's own ball: the cross product of a sliver's sides is rounding.
@@ -110,11 +110,11 @@ double HullExcess::max(const StpBv& volume) const {
   };
   double best = 0;
   if (faces_.empty()) {  // a point, or a segment as an edge with normals all the way round
-    const Vector3d edge = at(ends_.back()) - at(ends_.front());
+    const Vector3d edge = at(corners_.back()) - at(corners_.front());
     const Vector3d u = edge.norm() > 0 ? Vector3d(edge.normalized()) : Vector3d::UnitX();
-    best = std::max(along(u, ends_.back()), along(-u, ends_.front()));
+    best = std::max(along(u, corners_.back()), along(-u, corners_.front()));
     return std::max(best,
-                    largestOverEdge(volume, at(ends_.front()), u, u.unitOrthogonal(), 6.283185307179586));
+                    largestOverEdge(volume, at(corners_.front()), u, u.unitOrthogonal(), 6.283185307179586));
   }
   for (std::size_t f = 0; f < faces_.size(); ++f) best = std::max(best, along(normals_[f], faces_[f][0]));
   for (std::size_t h = 0; h < halfEdges_.size(); ++h) {
@@ -154,8 +154,7 @@ OverCover overCover(const StpBv& volume) { return overCover(volume, volume.verti
 OverCover overCover(const StpBv& volume, const std::vector<Vector3d>& cloud) {
   if (cloud.empty()) throw Error("cannot measure the over-cover of no points: give at least one");
   requireFinite(cloud);
-  const HullExcess excess(cloud);
-  return {excess.max(volume), excess.mean(volume)};
+  return HullExcess(cloud).of(volume);
 }
 
 }  // namespace fcl_stpbv

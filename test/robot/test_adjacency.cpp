@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include "fcl_stpbv/robot/adjacency.h"
+#include "fcl_stpbv/robot/geometry_steps.h"
 #include "fcl_stpbv/robot/pair_list.h"
 #include "test/robot/urdf_texts.h"
 
@@ -95,6 +96,42 @@ TEST_CASE(
   CHECK(chain(link("x") + link("y") + joint("j", "revolute", "a", "x", far) +
               joint("f", "fixed", "x", "y", at("0 0 0.1")) + joint("k", "revolute", "y", "b", at("0 0 -0.1")))
             .of("a", "b") == Joining::adjacent);
+}
+
+TEST_CASE("a link that a shape was left out of has a body, whatever is wrong with it") {
+  const std::string box = "<geometry><box size=\"1 1 1\"/></geometry>";
+  const auto between = [&](const std::string& middle, bool visual) {
+    std::string text = robot(link("a", kBall) + "<link name=\"m\">" + middle + "</link>" + link("b", kBall) +
+                             joint("f", "fixed", "a", "m") + joint("j", "revolute", "m", "b"));
+    if (visual) {
+      for (std::size_t at = 0; (at = text.find("collision>", at)) != std::string::npos;)
+        text.replace(at, 10, "visual>");
+    }
+    LoadFaults faults;
+    const auto model = std::make_shared<const RobotModel>(parseUrdf(text, "small.urdf", faults));
+    GeometryOptions options;
+    options.cacheFolder.clear();
+    options.visual = visual;
+    const ShapeSources shapes = readGeometry(*model, options, faults);
+    const RobotGeometry geometry = buildGeometry(*model, options, shapes, faults);
+    CHECK(geometry.bodies.size() == 2);
+    CHECK(faults.shapes.empty() == geometry.incomplete.empty());
+    auto whole = std::make_shared<const RobotGeometry>(geometry);
+    CHECK(LinkParts(whole, "").geometry({}, {}).incomplete == geometry.incomplete);
+    return Adjacency(*model, geometry).of(model->link("a"), model->link("b"));
+  };
+  for (const bool visual : {false, true}) {
+    CAPTURE(visual);
+    CHECK(between("", visual) == Joining::adjacent);
+    for (const char* wrong :
+         {"<mesh filename=\"missing.stl\"/>", "<sphere radius=\"0\"/>", "<bx size=\"1 1 1\"/>"})
+      CHECK(between(std::string("<collision><geometry>") + wrong + "</geometry></collision>", visual) ==
+            Joining::separate);
+    CHECK(between("<colision>" + box + "</colision>", visual) == Joining::separate);
+    CHECK(between("<shape>" + box + "</shape>", visual) == Joining::separate);
+  }
+  // What is wrong with shapes that are not used is no matter.
+  CHECK(between("<visual><geometry><sphere radius=\"0\"/></geometry></visual>", false) == Joining::adjacent);
 }
 
 TEST_CASE("a planar or floating joint holds its links nowhere near each other") {

@@ -101,7 +101,23 @@ class Doors(unittest.TestCase):
         for command in ([REPORT], [POSTURE]):
             more = [self.task] if command == [POSTURE] else []
             self.refused(*command, empty, *more, names=["no link has a shape"])
-            self.refused(*command, broken, *more, "--skip-invalid", names=["no link has a shape"])
+            self.refused(*command, broken, *more, "--skip-invalid",
+                         names=["no shape could be read", "broken.urdf:1: link 'a', collision 1"])
+
+    def test_links_on_either_side_of_one_whose_shape_is_left_out_are_checked(self):
+        def side(name, x, size):
+            return (f'<link name="{name}"><collision><origin xyz="{x} 0 0"/><geometry><box size="{size} 0.1 0.1"/>'
+                    '</geometry></collision></link>')
+
+        for middle, status in (("", 2), ('<collision><geometry><mesh filename="missing.stl"/></geometry></collision>', 1)):
+            path = self.put("three.urdf", '<robot name="r">' + side("left", 0, 0.1) + f'<link name="m">{middle}</link>' +
+                            side("right", 0.3, 0.4) + '<joint name="f" type="fixed"><parent link="left"/><child link="m"/>'
+                            '<origin xyz="0.3 0 0"/></joint><joint name="j" type="revolute"><parent link="m"/>'
+                            '<child link="right"/><axis xyz="0 0 1"/><limit lower="0" upper="3.14" effort="1" velocity="1"/>'
+                            '</joint></robot>')
+            done = self.run_tool(REPORT, path, "--skip-invalid", "--samples", "200", "--format", "srdf")
+            self.assertEqual(done.returncode, status, done)  # without any shape in between the two are adjacent
+            self.assertNotIn("disable_collisions", done.stdout)
 
     def test_csv_has_all_columns_for_a_shape_left_out_too(self):
         text = self.run_tool(REPORT, self.bad, "--skip-invalid", "--samples", "20", "--format", "csv").stdout

@@ -358,6 +358,15 @@ class Conversion(unittest.TestCase):
         visual = re.search(r'<visual>\s*<geometry>\s*<mesh filename="([^"]*)"', (self.out / "gate.urdf").read_text())[1]
         self.assertTrue((self.out / visual).samefile(self.place / "gate.obj"), visual)
 
+    def test_a_robot_of_primitives_is_said_to_have_no_meshes(self):
+        ball = '<link name="%s"><collision><geometry><sphere radius="0.1"/></geometry></collision></link>'
+        (self.place / "gate.urdf").write_text(
+            '<robot name="gate">' + ball % "a" + ball % "b" + '<joint name="j" type="prismatic"><parent link="a"/>'
+            '<child link="b"/><origin xyz="1 0 0"/><limit lower="0" upper="1" effort="1" velocity="1"/></joint></robot>')
+        done = self.convert()
+        self.assertEqual(done.returncode, 0, done)
+        self.assertIn("gate: no meshes; 0 of 1 pairs checked -> ", done.stdout)
+
     def test_visual_shapes_become_collision_shapes(self):
         (self.place / "gate.obj").write_text(box_obj(0.1, (-0.3, 0, 0), (0.3, 0, 0)))
         (self.place / "gate.urdf").write_text(
