@@ -1,6 +1,6 @@
 // Where package://, file:// and relative names lead: the given folders, ROS_PACKAGE_PATH, AMENT_PREFIX_PATH,
 // the package around the URDF and those beside it, in this order; then the given ones by the end of a
-// name; at last what lies deeper in ROS_PACKAGE_PATH.
+// name, and folders near the URDF; at last what lies deeper in ROS_PACKAGE_PATH.
 #include "fcl_stpbv/robot/package_path.h"
 
 #include <algorithm>
@@ -143,7 +143,12 @@ std::vector<std::string> PackagePath::candidates(const std::string& uri) const {
            next != std::string::npos && rest.find('/', next + 1) != std::string::npos;
            next = rest.find('/', next + 1))
         add(fs::path(folder) / rest.substr(next + 1));
-    if (paths.empty()) add(fs::path(urdfFolders_.front()) / package / rest);
+    // A download has its packages beside each other, often without a package.xml.
+    constexpr int kNear = 3;  // the URDF's folder, its package, and what holds that
+    for (const std::string& place : urdfFolders_) {
+      fs::path folder = place;
+      for (int up = 0; up < kNear; ++up, folder = folder.parent_path()) add(folder / package / rest);
+    }
   }
   return paths;
 }

@@ -229,6 +229,20 @@ TEST_CASE("names lead where their writer meant, whatever the working folder is")
   CHECK(paths.resolve("package://pkg/models/meshes/e.stl") == folder / "pkg/models/meshes/e.stl");
 }
 
+TEST_CASE("packages without a package.xml are found near the URDF, after all others") {
+  const TemporaryFolder folder;
+  for (const char* name : {"arm_description/urdf", "arm_meshes/v", "given/arm_meshes/v"})
+    std::filesystem::create_directories(folder / name);
+  put(folder / "arm_meshes/v/a.stl", "x");
+  put(folder / "arm_meshes/v/b.stl", "x");
+  put(folder / "given/arm_meshes/v/b.stl", "x");
+  const PackagePath paths(folder / "arm_description/urdf/arm.urdf", {folder / "given"});
+  CHECK(paths.resolve("package://arm_meshes/v/a.stl") == folder / "arm_meshes/v/a.stl");
+  CHECK(paths.resolve("package://arm_meshes/v/b.stl") == folder / "given/arm_meshes/v/b.stl");
+  const auto resolve = [&](const std::string& uri) { paths.resolve(uri); };
+  CHECK_THAT(refusal(resolve, "package://arm_meshes/v/c.stl"), Contains(folder / "arm_meshes/v/c.stl"));
+}
+
 TEST_CASE("a package in a repository of a workspace is found where rospack finds it") {
   const TemporaryFolder folder;
   for (const char* name :
