@@ -63,9 +63,8 @@ void covers(const CollisionReport& report, const CheckedPair& both, const Kinema
   pair.hullDistance = std::numeric_limits<double>::quiet_NaN();
   Shape a, b;
   if (!shapeOf(*first.hull, a) || !shapeOf(*second.hull, b)) return;
-  if (!isFartherThan(0.0, a, first.pose, b, second.pose)) return;  // no depth, which takes long, is asked for
-  const Distance hulls = distance(a, first.pose, b, second.pose);
-  if (hulls.status != DistanceStatus::invalid && hulls.distance > 0) pair.hullDistance = hulls.distance;
+  if (isFartherThan(0.0, a, first.pose, b, second.pose))  // a depth takes long, and is not asked for
+    pair.hullDistance = distance(a, first.pose, b, second.pose).distance;
 }
 
 }  // namespace

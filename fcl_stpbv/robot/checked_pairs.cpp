@@ -2,6 +2,8 @@
 // ones; and bodies against obstacles, but for links that do not move.
 #include "fcl_stpbv/robot/checked_pairs.h"
 
+#include <set>
+
 #include "fcl_stpbv/convex/relative_pose.h"
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/robot/adjacency.h"
@@ -43,6 +45,22 @@ void requireBodies(const CheckedPair& pair, const RobotGeometry& geometry, std::
   if (!exists(pair.body, geometry.bodies.size()) ||
       !exists(pair.other, pair.obstacle ? obstacles : geometry.bodies.size()))
     throw Error(who + ": a pair names a body or an obstacle that does not exist");
+}
+
+PairedBodies detail::pairedBodies(const std::vector<CheckedPair>& pairs, const RobotGeometry& geometry) {
+  std::set<int> bodies, links, obstacles;
+  const auto add = [&](int body) {
+    bodies.insert(body);
+    links.insert(geometry.bodies[static_cast<std::size_t>(body)].link);
+  };
+  for (const CheckedPair& pair : pairs) {
+    add(pair.body);
+    if (pair.obstacle)
+      obstacles.insert(pair.other);
+    else
+      add(pair.other);
+  }
+  return {{bodies.begin(), bodies.end()}, {links.begin(), links.end()}, {obstacles.begin(), obstacles.end()}};
 }
 
 std::vector<Obstacle> obstaclesOf(std::shared_ptr<const RobotModel> scene, const RobotGeometry& geometry) {

@@ -59,6 +59,16 @@ std::vector<CheckedPair> pairsWithObstacle(const RobotGeometry& geometry, int li
 /// The bodies behind a pair of links, or of a link and an obstacle.
 std::vector<CheckedPair> bodiesOf(const RobotGeometry& geometry, const LinkPair& pair);
 
+namespace detail {
+
+/// What some pairs are of: bodies of the robot, their links, and obstacles. Each once, ascending.
+struct PairedBodies {
+  std::vector<int> bodies, links, obstacles;
+};
+PairedBodies pairedBodies(const std::vector<CheckedPair>& pairs, const RobotGeometry& geometry);
+
+}  // namespace detail
+
 /// Refuses to go on without any pair to check: nothing checked is not clear.
 /// `why` says what became of all pairs.
 /// @throws Error naming the robot's file and what would work, unless `checked` is above 0.

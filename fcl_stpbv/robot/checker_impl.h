@@ -69,7 +69,6 @@ class CollisionChecker::Impl {
   void addBody(std::size_t frame, const fcl::CollisionGeometryd& geometry, const Eigen::Isometry3d& pose,
                const Eigen::Vector3d& centre, double radius);
   void addPair(const CheckedPair& pair);
-  void findPlaced();
   bool place(const ConstVector& q);
   void placeSpheres();
   bool isClear(const detail::NearPair& near);

@@ -31,7 +31,10 @@ CollisionChecker::Impl::Impl(std::shared_ptr<const Kinematics> kinematics,
   for (const Obstacle& obstacle : obstacles_)
     addBody(world, *obstacle.geometry, obstacle.pose, obstacle.centre, obstacle.radius);
   for (const CheckedPair& pair : pairs_) addPair(pair);
-  findPlaced();
+  const PairedBodies paired = pairedBodies(pairs_, *geometry_);
+  for (const int body : paired.bodies) placed_.push_back(at(body));
+  for (const int obstacle : paired.obstacles) placed_.push_back(geometry_->bodies.size() + at(obstacle));
+  placing_ = kinematics_->subtree(paired.links);
   centres_.resize(bodies_.size());
   near_.resize(pairs_.size());
   hits_.reserve(pairs_.size());
@@ -67,18 +70,6 @@ void CollisionChecker::Impl::addPair(const CheckedPair& pair) {
   if (a.convex && b.convex) added.rounding += kGapRounding * (a.body.extent() + b.body.extent());
   if (b.body.volume) added.rounding += kGapRounding * b.body.volume->radii().R;  // 1 + u.w for |t|^2 / 2
   checked_.push_back(added);
-}
-
-void CollisionChecker::Impl::findPlaced() {
-  std::vector<char> isAsked(bodies_.size());
-  for (const KeptPair& pair : checked_) isAsked[pair.a] = isAsked[pair.b] = 1;
-  std::vector<int> links;
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    if (!isAsked[i]) continue;
-    placed_.push_back(i);
-    if (i < geometry_->bodies.size()) links.push_back(geometry_->bodies[i].link);
-  }
-  placing_ = kinematics_->subtree(links);
 }
 
 std::string CollisionChecker::Impl::name(int pair) const {

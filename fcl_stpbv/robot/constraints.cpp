@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <set>
 
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/numbers.h"
@@ -50,7 +49,9 @@ CollisionConstraints::CollisionConstraints(std::shared_ptr<const Kinematics> kin
   leaveOutReplaced();
   addWholePairs();
   for (const CheckedPair& pair : pairs_) addPair(pair);
-  findPlaced();
+  const detail::PairedBodies paired = detail::pairedBodies(pairs_, *geometry_);
+  placed_ = paired.bodies;
+  placing_ = kinematics_->subtree(paired.links);
   for (const SmoothConstraint& constraint : options_.smooth) addSmooth(constraint);
   caches_.resize(pairs_.size());
   found_.resize(pairs_.size());
@@ -157,18 +158,6 @@ void CollisionConstraints::addSmooth(const SmoothConstraint& constraint) {
                 "' needs a function and existing coordinates in ascending order");
   column_.insert(column_.end(), list.begin(), list.end());
   rowStart_.push_back(nonZeros());
-}
-
-void CollisionConstraints::findPlaced() {
-  std::set<int> bodies;
-  for (const CheckedPair& pair : pairs_) {
-    bodies.insert(pair.body);
-    if (!pair.obstacle) bodies.insert(pair.other);
-  }
-  placed_.assign(bodies.begin(), bodies.end());
-  std::vector<int> links;
-  for (const int body : placed_) links.push_back(geometry_->bodies[at(body)].link);
-  placing_ = kinematics_->subtree(links);
 }
 
 const fcl::CollisionGeometryd& CollisionConstraints::second(const CheckedPair& pair) const {

@@ -193,7 +193,6 @@ class CollisionConstraints {
   void addWholePairs();
   void addPair(const CheckedPair& pair);
   void addSmooth(const SmoothConstraint& constraint);
-  void findPlaced();
   const fcl::CollisionGeometryd& second(const CheckedPair& pair) const;
   void requireRow(int row) const;
   static bool isUsable(const ConstVector& numbers);

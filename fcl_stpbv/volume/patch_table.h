@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 #include <vector>
 
 #include "fcl_stpbv/packed.h"
@@ -31,6 +32,10 @@ struct Crossing {
   double past;
   int neighbour;
 };
+
+/// A normal this far past a region boundary still counts as inside: the rounding of one dot product of unit
+/// vectors.
+constexpr double kBoundaryRounding = 4 * std::numeric_limits<double>::epsilon();
 
 /// Patches by number: vertices, then edges with their further parts, then faces.
 /// Boundaries are tested four at a time.

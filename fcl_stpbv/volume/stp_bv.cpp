@@ -26,10 +26,6 @@ namespace {
 using namespace detail;
 using Eigen::Vector3d;
 
-// A normal this far past a region boundary still counts as inside: the rounding
-// of one dot product of unit vectors.
-constexpr double kBoundaryRounding = 4 * std::numeric_limits<double>::epsilon();
-
 std::string number(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.9g", value);

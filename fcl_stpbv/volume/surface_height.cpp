@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -26,15 +25,15 @@ using Eigen::Vector3d;
 
 /// Where a ray from inside leaves a patch that is continued over the whole sphere.
 struct Exit {
-  double height = 0;    // along the ray (m)
-  bool isThere = true;  // or else the ray passes by, and this is where it is nearest
-  Vector3d normal;      // outward, unit
+  double height;    // along the ray (m)
+  bool isThere;     // or else the ray passes by, and this is where it is nearest
+  Vector3d normal;  // outward, unit
 };
 
 // The height above y, along the unit direction d: |q + t d - I| = c for a point, the circle's farthest point
-// likewise.
-double exitHeight(const Patch& patch, PatchKind kind, const Radii& radii, const Vector3d& y,
-                  const Vector3d& d, bool& isThere) {
+// likewise. Without the normal.
+Exit exitHeight(const Patch& patch, PatchKind kind, const Radii& radii, const Vector3d& y,
+                const Vector3d& d) {
   const Vector3d q = y - patch.anchor;
   if (kind != PatchKind::edge) {
     // |q + t d + rho m|^2 = R^2 for a face, |q + t d|^2 = r^2 for a vertex; the
@@ -43,10 +42,9 @@ double exitHeight(const Patch& patch, PatchKind kind, const Radii& radii, const 
                  c = kind == PatchKind::face ? radii.R : radii.r;
     const double half = d.dot(q + rho * patch.axis);
     const double constant = q.squaredNorm() + 2 * rho * q.dot(patch.axis) - radii.r * (c + rho);
-    isThere = half * half > constant;
-    if (!isThere) return -half;
+    if (!(half * half > constant)) return {-half, false, {}};
     const double root = std::sqrt(half * half - constant);
-    return half > 0 ? -constant / (half + root) : root - half;
+    return {half > 0 ? -constant / (half + root) : root - half, true, {}};
   }
   // The distance to the circle's farthest point is convex along the ray: Newton
   // from beyond comes down monotonically.
@@ -61,20 +59,18 @@ double exitHeight(const Patch& patch, PatchKind kind, const Radii& radii, const 
     const double value = across * (across + 2 * patch.kappa) + along * along - rest;
     const double slope =
         2 * (along * d.dot(patch.axis) + (across > 0 ? (1 + patch.kappa / across) * side.dot(d) : 0));
-    isThere = slope > 0;
-    if (!isThere) break;
+    if (!(slope > 0)) return {t, false, {}};
     const double step = value / slope;
     t -= step;
     if (!(step > 1e-16 * (1 + std::abs(t)))) break;
   }
-  return t;
+  return {t, true, {}};
 }
 
 Exit exitOf(const StpBv& volume, int index, const Vector3d& y, const Vector3d& d) {
   const Patch patch = volume.patch(index);
   const PatchKind kind = volume.kind(index);
-  Exit exit;
-  exit.height = exitHeight(patch, kind, volume.radii(), y, d, exit.isThere);
+  Exit exit = exitHeight(patch, kind, volume.radii(), y, d);
   Vector3d n = y + exit.height * d - unpack(posedPatch(volume, index).centre());
   if (kind == PatchKind::edge) {
     const Vector3d side = n - n.dot(patch.axis) * patch.axis;
@@ -84,23 +80,22 @@ Exit exitOf(const StpBv& volume, int index, const Vector3d& y, const Vector3d& d
   return exit;
 }
 
-// From patch `index` on. Mostly one or two patches are enough. `tried` is how many were looked at.
-std::optional<SurfaceHeight> fromPatchToPatch(const StpBv& volume, const Vector3d& y, const Vector3d& d,
-                                              int index, int& tried) {
-  constexpr double kOnBoundary = 4 * std::numeric_limits<double>::epsilon();
+// From patch `index` on; its patch is -1 where that ends nowhere. Mostly one or two patches are enough.
+SurfaceHeight fromPatchToPatch(const StpBv& volume, const Vector3d& y, const Vector3d& d, int index) {
   constexpr int kPatches = 60;
-  int before = -1;
-  for (tried = 1; tried <= kPatches; ++tried) {
+  int before = -1, tried = 0;
+  while (tried < kPatches) {
+    ++tried;
     const Exit exit = exitOf(volume, index, y, d);
     const Crossing over = volume.tables().patches.crossing(index, pack(exit.normal));
-    if (!(over.past > kOnBoundary)) {
+    if (!(over.past > kBoundaryRounding)) {
       if (!exit.isThere || !(exit.normal.dot(d) > 0)) break;
-      return SurfaceHeight{exit.height, index, tried};
+      return {exit.height, index, tried};
     }
     if (over.neighbour == before) break;  // to and fro
     before = std::exchange(index, over.neighbour);
   }
-  return std::nullopt;
+  return {0, -1, tried};
 }
 
 // A convex polygon that shrinks around a minimum.
@@ -202,10 +197,10 @@ SurfaceHeight lowestPlane(const StpBv& volume, const Vector3d& y, const Vector3d
 
 SurfaceHeight surfaceHeight(const StpBv& volume, const Vector3d& y, const Vector3d& d, int hint) {
   const int first = volume.owner(d, hint);
-  int tried = 0;
-  if (const auto found = fromPatchToPatch(volume, y, d, first, tried)) return *found;
+  const SurfaceHeight found = fromPatchToPatch(volume, y, d, first);
+  if (found.patch >= 0) return found;
   SurfaceHeight lowest = lowestPlane(volume, y, d, first);
-  lowest.planes += tried;
+  lowest.planes += found.planes;
   return lowest;
 }
 
