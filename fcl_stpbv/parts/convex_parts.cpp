@@ -290,6 +290,8 @@ ConvexParts convexParts(const TriangleMesh& input, const PartsOptions& options) 
   space.facets = flatParts(mesh, space.slack, facetOf);
   const bool each = mesh.pieces().pieces() <= kStartPieces;
   const std::vector<TriangleSoup> soups = groups(mesh, facetOf, each);
+  space.isWhole = std::all_of(soups.begin(), soups.end(),
+                              [](const TriangleSoup& soup) { return soup.triangles.size() <= kSearched; });
   Searches searches(space, soups, options.most);
   const long work = workFor(space, options);
   ConvexParts out = searches.within(options.excess, work);

@@ -35,8 +35,9 @@ class Bound {
   }
 
   MeshExcess over(const std::vector<Triangle>& surface) {
-    for (const Triangle& t : surface) {
-      add({std::numeric_limits<double>::infinity(), t, -1});
+    for (const auto& [bound, t] : largestFirst(surface)) {
+      if (bound <= best_.lower) break;  // nor can those that follow be farther
+      add({bound, *t, -1});
       if (best_.lower > options_.enough)
         return {std::numeric_limits<double>::infinity(), best_.lower, best_.where};
     }
@@ -64,22 +65,45 @@ class Bound {
     bool operator<(const Open& other) const { return bound < other.bound; }
   };
 
+  // A point of a triangle is nowhere farther from the nearest corner than 1/sqrt(3) of the longest side, as
+  // in the middle of an equilateral one. What is far from the mesh is mostly under large ones.
+  std::vector<std::pair<double, const Triangle*>> largestFirst(const std::vector<Triangle>& surface) const {
+    std::vector<std::pair<double, const Triangle*>> sorted;
+    for (const Triangle& t : surface) {
+      const double longest = std::max({(t[1] - t[0]).norm(), (t[2] - t[1]).norm(), (t[0] - t[2]).norm()});
+      sorted.push_back({options_.corners + 0.5774 * longest, &t});
+    }
+    std::stable_sort(sorted.begin(), sorted.end(),
+                     [](const auto& a, const auto& b) { return a.first > b.first; });
+    return sorted;
+  }
+
   bool settled(double bound) const {
     return bound <= best_.lower * (1 + options_.relative) + options_.absolute;
+  }
+
+  double farthestCorner(const Triangle& t, int near) const {
+    double most = 0;
+    for (const Vector3d& p : t) most = std::max(most, mesh_.distance(p, near));
+    return most;
   }
 
   void add(Open piece) {
     const Triangle& t = piece.corners;
     const Vector3d middle = (t[0] + t[1] + t[2]) / 3;
-    const auto [distance, near] = mesh_.nearest(middle, piece.near);
-    ++queries_;
-    double radius = 0, corner = 0;
-    for (const Vector3d& p : t) {
-      radius = std::max(radius, (p - middle).norm());
-      corner = std::max(corner, (nearestOf(mesh_.triangles()[at(near)], p) - p).norm());
+    double radius = 0;
+    for (const Vector3d& p : t) radius = std::max(radius, (p - middle).norm());
+    if (piece.near >= 0) {
+      piece.bound = std::min(piece.bound, farthestCorner(t, piece.near));
+      if (settle(piece.bound)) return;
     }
+    const auto [distance, near] =
+        mesh_.nearest(middle, piece.near >= 0 ? piece.near : last_, best_.lower - radius);
+    last_ = near;
+    ++queries_;
+    piece.bound = std::min(
+        {piece.bound, distance + radius, near == piece.near ? piece.bound : farthestCorner(t, near)});
     piece.near = near;
-    piece.bound = std::min({piece.bound, distance + radius, corner});
     double here = distance;
     if (inside_ && distance > best_.lower && mesh_.side(middle) == MeshSolid::Side::enclosed) {
       here = 0;  // and so all around that is nearer than the surface
@@ -89,12 +113,15 @@ class Bound {
       best_.lower = here;
       best_.where = middle;
     }
-    if (settled(piece.bound)) {
-      best_.upper = std::max(best_.upper, piece.bound);
-      return;
-    }
+    if (settle(piece.bound)) return;
     open_.push_back(piece);
     std::push_heap(open_.begin(), open_.end());
+  }
+
+  bool settle(double bound) {
+    if (!settled(bound)) return false;
+    best_.upper = std::max(best_.upper, bound);
+    return true;
   }
 
   void add(const CutTriangle& ring, const Open& of) {
@@ -109,7 +136,10 @@ class Bound {
     const Triangle& m = mesh_.triangles()[at(piece.near)];
     const Vector3d normal = (m[1] - m[0]).cross(m[2] - m[0]);
     if (!(normal.norm() > 0)) return false;
-    const double worth = kWorth * CutTriangle(piece.corners).area();
+    const Triangle& t = piece.corners;
+    const double area = CutTriangle(t).area(), worth = kWorth * area;
+    if (!(area > slack_ * ((t[1] - t[0]).norm() + (t[2] - t[0]).norm())))
+      return false;  // a needle stays whole
     if (0.5 * normal.norm() < worth) return false;
     std::array<CutTriangle, 3> outside;
     CutTriangle over(piece.corners);
@@ -119,7 +149,7 @@ class Bound {
     }
     if (over.area() < worth) return false;
     double height = 0;
-    for (const Vector3d& p : over) height = std::max(height, (nearestOf(m, p) - p).norm());
+    for (const Vector3d& p : over) height = std::max(height, mesh_.distance(p, piece.near));
     if (!settled(height)) return false;
     best_.upper = std::max(best_.upper, std::min(height, piece.bound));
     for (const CutTriangle& rest : outside) add(rest, piece);
@@ -234,6 +264,7 @@ class Bound {
   MeshExcess best_;
   std::vector<Open> open_;
   long queries_ = 0;
+  int last_ = -1;  // the mesh's triangle that was nearest last
 };
 
 }  // namespace

@@ -1,6 +1,7 @@
 // Distance to a mesh, and whether a point is inside.
 // 1. A tree of boxes over the triangles, split at the median along the longest axis.
-// 2. Nearest triangle: branch and bound down the tree.
+// 2. Nearest triangle: branch and bound down the tree. Over a triangle or not is told by two dot products
+//    with vectors that are computed once; only sides beyond which a point is are looked at.
 // 3. Inside: crossings of a ray, counted with their sign for closed pieces; a crossing that rounding leaves
 //    unclear takes the next of eight directions.
 #include "fcl_stpbv/parts/mesh_solid.h"
@@ -11,7 +12,6 @@
 #include <numeric>
 #include <utility>
 
-#include "fcl_stpbv/convex/onto_core.h"
 #include "fcl_stpbv/numbers.h"
 
 namespace fcl_stpbv {
@@ -20,7 +20,6 @@ namespace {
 using Eigen::Vector3d;
 
 using detail::at;
-using detail::ontoSegment;
 
 // Directions for rays: none along an axis or a plane that a designer would choose.
 const std::array<Vector3d, 8>& rayDirections() {
@@ -66,18 +65,31 @@ double turnsAround(const Vector3d& a, const Vector3d& b, const Vector3d& c) {
 
 }  // namespace
 
-Vector3d nearestOf(const Triangle& triangle, const Vector3d& p) {
-  const auto& [a, b, c] = triangle;
-  const Vector3d u = b - a, v = c - a, n = u.cross(v), w = p - a;
+MeshSolid::Foot::Foot(const Triangle& triangle) : a(triangle[0]), u(triangle[1] - a), v(triangle[2] - a) {
+  constexpr double kThin = 1e-6;  // sine of the angle below which rounding says beyond which sides a foot is
+  const Vector3d n = u.cross(v);
   const double n2 = n.squaredNorm();
-  if (n2 > 0) {  // barycentric coordinates of the foot on the plane
-    const double beta = w.cross(v).dot(n) / n2, gamma = u.cross(w).dot(n) / n2;
-    if (beta >= 0 && gamma >= 0 && beta + gamma <= 1) return a + beta * u + gamma * v;
-  }
-  Vector3d best = ontoSegment(a, b, p);
-  for (const Vector3d& other : {ontoSegment(b, c, p), ontoSegment(c, a, p)})
-    if ((other - p).squaredNorm() < (best - p).squaredNorm()) best = other;
-  return best;
+  isThin = !(n2 > kThin * kThin * u.squaredNorm() * v.squaredNorm());
+  const double scale = n2 > 0 ? 1 / n2 : std::numeric_limits<double>::quiet_NaN();
+  alongU = scale * v.cross(n);
+  alongV = scale * n.cross(u);
+}
+
+double MeshSolid::Foot::squaredDistance(const Vector3d& p) const {
+  const auto fromSegment = [](const Vector3d& from, const Vector3d& along) {
+    const double t = from.dot(along), length = along.squaredNorm();
+    if (t <= 0) return from.squaredNorm();
+    return (t >= length ? Vector3d(from - along) : Vector3d(from - t / length * along)).squaredNorm();
+  };
+  const Vector3d w = p - a;
+  const double beta = w.dot(alongU), gamma = w.dot(alongV), alpha = 1 - beta - gamma;
+  double least = std::numeric_limits<double>::infinity();
+  if (alpha >= 0 && beta >= 0 && gamma >= 0) least = (w - beta * u - gamma * v).squaredNorm();
+  // Else the nearest point is on a side beyond which the foot is.
+  if (isThin || gamma < 0) least = std::min(least, fromSegment(w, u));
+  if (isThin || beta < 0) least = std::min(least, fromSegment(w, v));
+  if (isThin || alpha < 0) least = std::min(least, fromSegment(w - u, v - u));
+  return least;
 }
 
 MeshSolid::MeshSolid(const TriangleMesh& mesh) : pieces_(meshPieces(mesh)) {
@@ -85,14 +97,15 @@ MeshSolid::MeshSolid(const TriangleMesh& mesh) : pieces_(meshPieces(mesh)) {
   for (const std::array<int, 3>& t : pieces_.triangles)
     triangles_.push_back(
         {pieces_.vertices[at(t[0])], pieces_.vertices[at(t[1])], pieces_.vertices[at(t[2])]});
+  for (const Triangle& t : triangles_) feet_.emplace_back(t);
   order_.resize(triangles_.size());
   std::iota(order_.begin(), order_.end(), 0);
-  nodes_.reserve(triangles_.size());
+  nodes_.reserve(2 * triangles_.size());
   build(0, static_cast<int>(order_.size()));
 }
 
 int MeshSolid::build(int begin, int end) {
-  constexpr int kLeaf = 4;
+  constexpr int kLeaf = 1;
   const int number = static_cast<int>(nodes_.size());
   Node node{Vector3d::Constant(std::numeric_limits<double>::infinity()),
             Vector3d::Constant(-std::numeric_limits<double>::infinity()), begin, end};
@@ -119,10 +132,11 @@ int MeshSolid::build(int begin, int end) {
   return number;
 }
 
-MeshSolid::Nearest MeshSolid::nearest(const Vector3d& p, int guess, long* tried) const {
+MeshSolid::Nearest MeshSolid::nearest(const Vector3d& p, int guess, double enough, long* tried) const {
   double best = std::numeric_limits<double>::infinity();
+  const double near2 = enough > 0 ? enough * enough : 0;
   int found = guess;
-  if (guess >= 0) best = (nearestOf(triangles_[at(guess)], p) - p).squaredNorm();
+  if (guess >= 0) best = feet_[at(guess)].squaredDistance(p);
   const auto away = [&](int node) {
     const Node& n = nodes_[at(node)];
     return (n.low - p).cwiseMax(p - n.high).cwiseMax(0.0).squaredNorm();
@@ -130,14 +144,14 @@ MeshSolid::Nearest MeshSolid::nearest(const Vector3d& p, int guess, long* tried)
   std::array<std::pair<double, int>, 64> open;  // halved at each level: no deeper than 32
   std::size_t count = 0;
   open[count++] = {away(0), 0};
-  while (count > 0) {
+  while (count > 0 && best > near2) {
     const auto [least, number] = open[--count];
     if (least >= best) continue;
     const Node& node = nodes_[at(number)];
     if (node.left < 0) {
       if (tried) *tried += node.end - node.begin;
       for (int i = node.begin; i < node.end; ++i) {
-        const double d = (nearestOf(triangles_[at(order_[at(i)])], p) - p).squaredNorm();
+        const double d = feet_[at(order_[at(i)])].squaredDistance(p);
         if (d < best) best = d, found = order_[at(i)];
       }
       continue;
@@ -148,6 +162,10 @@ MeshSolid::Nearest MeshSolid::nearest(const Vector3d& p, int guess, long* tried)
     open[count++] = near;
   }
   return {std::sqrt(best), found};
+}
+
+double MeshSolid::distance(const Vector3d& p, int triangle) const {
+  return std::sqrt(feet_[at(triangle)].squaredDistance(p));
 }
 
 template <class Misses, class Visit>

@@ -37,10 +37,6 @@ MeshPieces meshPieces(const TriangleMesh& mesh);
 /// The three corners (m).
 using Triangle = std::array<Eigen::Vector3d, 3>;
 
-/// Point of a triangle nearest to `p`; the triangle may be a segment or a point. To rounding, and always a
-/// point of the triangle, so that a distance made of it is never too small by more than rounding.
-Eigen::Vector3d nearestOf(const Triangle& triangle, const Eigen::Vector3d& p);
-
 /// A mesh as a solid: its triangles and all that its closed pieces enclose. The solid's boundary lies in the
 /// triangles, so bodies that stay outside each other are as far apart as their triangles are.
 class MeshSolid {
@@ -67,8 +63,12 @@ class MeshSolid {
     double distance;  ///< from the surface (m)
     int triangle;     ///< index into triangles()
   };
-  /// `guess` is a triangle that is probably near, or -1; the triangles looked at are added to `tried`.
-  Nearest nearest(const Eigen::Vector3d& p, int guess = -1, long* tried = nullptr) const;
+  /// `guess` is a triangle that is probably near, or -1. Any triangle within `enough` (m) will do. The
+  /// triangles looked at are added to `tried`.
+  Nearest nearest(const Eigen::Vector3d& p, int guess = -1, double enough = 0, long* tried = nullptr) const;
+
+  /// Of a point from one of the triangles (m).
+  double distance(const Eigen::Vector3d& p, int triangle) const;
 
   /// Calls `visit` with triangles until it says false: all whose boxes meet the box from `low` to `high`.
   /// Whether it never did.
@@ -90,6 +90,15 @@ class MeshSolid {
     int begin, end;  // among order_
     int left = -1, right = -1;
   };
+  /// A triangle, as distances from it are computed. To rounding, and never too small by more than that.
+  struct Foot {
+    Eigen::Vector3d a, u, v;  ///< a corner, and from there to the others (m)
+    Eigen::Vector3d alongU,
+        alongV;   ///< times p - a: barycentric coordinates of p's foot; NaN without a plane
+    bool isThin;  ///< rounding may say that a foot inside is beyond a side
+    explicit Foot(const Triangle& triangle);
+    double squaredDistance(const Eigen::Vector3d& p) const;
+  };
   int build(int begin, int end);
   /// The triangles in boxes that are not missed, until `visit` returns false. @returns whether it never did.
   template <class Misses, class Visit>
@@ -100,6 +109,7 @@ class MeshSolid {
 
   MeshPieces pieces_;
   std::vector<Triangle> triangles_;
+  std::vector<Foot> feet_;  // of the triangles
   std::vector<int> order_;
   std::vector<Node> nodes_;
 };
@@ -112,6 +122,7 @@ struct ExcessOptions {
   bool filled = true;      ///< points that the mesh encloses count 0; else all points from its triangles
   double enough =
       std::numeric_limits<double>::infinity();  ///< ends once the truth is seen to exceed this (m)
+  double corners = std::numeric_limits<double>::infinity();  ///< the surface's are known to be this near (m)
 };
 
 /// For a figure to read rather than a proof: a tenth of a second, within 2 % and 0.1 mm as a rule.

@@ -22,7 +22,7 @@ double costOf(const MeshSolid& mesh) {
   const std::vector<Vector3d>& v = mesh.pieces().vertices;
   long tried = 0;
   for (std::size_t i = 0; i < kTries; ++i)  // between two corners from all over the mesh
-    mesh.nearest(0.5 * (v[i * 7919 % v.size()] + v[(i * 104729 + v.size() / 2) % v.size()]), -1, &tried);
+    mesh.nearest(0.5 * (v[i * 7919 % v.size()] + v[(i * 104729 + v.size() / 2) % v.size()]), -1, 0, &tried);
   return std::max(1.0, static_cast<double>(tried) / (kTries * kUsual));
 }
 
@@ -41,6 +41,7 @@ void measureAgain(Part& part, const PartSpace& space, const Measure& measure) {
   options.relative = measure.relative;
   options.queries = measure.queries + 2 * static_cast<long>(part.hull.surface.size());
   options.enough = measure.enough;
+  if (space.isWhole) options.corners = space.slack;
   const MeshExcess before = part.excess;
   part.excess = excessOf(part.hull.surface, space.mesh, options);
   if (part.queries == 0) {
@@ -55,11 +56,19 @@ void measureAgain(Part& part, const PartSpace& space, const Measure& measure) {
 
 Part makePart(BspLeaves leaves, const PartSpace& space, const Measure& measure) {
   std::vector<Vector3d> points;
-  for (const auto& leaf : leaves) {
+  for (const auto& leaf : leaves)
     points.insert(points.end(), leaf->soup.points.begin(), leaf->soup.points.end());
-    points.insert(points.end(), leaf->corners.begin(), leaf->corners.end());
+  return makePart(std::move(leaves), partHull(points), space, measure);
+}
+
+Part makePart(BspLeaves leaves, PartHull hull, const PartSpace& space, const Measure& measure) {
+  std::vector<Vector3d> corners;
+  for (const auto& leaf : leaves) corners.insert(corners.end(), leaf->corners.begin(), leaf->corners.end());
+  if (!corners.empty()) {
+    corners.insert(corners.end(), hull.vertices.begin(), hull.vertices.end());
+    hull = partHull(corners);
   }
-  Part part{std::move(leaves), partHull(points), {}, 0};
+  Part part{std::move(leaves), std::move(hull), {}, 0};
   measureAgain(part, space, measure);
   return part;
 }
@@ -102,18 +111,21 @@ std::pair<BspLeaves, BspLeaves> cut(const Part& part, const CutPlane& plane, con
   return sides;
 }
 
-double volumeOfCut(const Part& part, const CutPlane& plane, const PartSpace& space) {
-  double sum = 0, longest = 0;
-  for (const CutPlane& towards : {plane, plane.turned()}) {
+std::optional<CutHulls> hullsOfCut(const Part& part, const CutPlane& plane, const PartSpace& space) {
+  const auto half = [&](const CutPlane& towards) -> std::optional<PartHull> {
     std::vector<Vector3d> points;
     for (const auto& leaf : part.leaves) pointsAbove(leaf->soup, towards, space.slack, points);
-    if (points.empty()) return -1;
-    const PartHull half = partHull(points);
-    sum += half.volume;
-    longest = std::max(longest, half.diagonal());
-  }
+    if (points.empty()) return std::nullopt;
+    return partHull(points);
+  };
+  std::optional<PartHull> above = half(plane);
+  if (!above) return std::nullopt;
+  std::optional<PartHull> below = half(plane.turned());
+  if (!below) return std::nullopt;
   constexpr double kLong = 0.002;
-  return sum * (1 + kLong * longest / part.hull.diagonal());
+  const double longest = std::max(above->diagonal(), below->diagonal());
+  const double volume = (above->volume + below->volume) * (1 + kLong * longest / part.hull.diagonal());
+  return CutHulls{*std::move(above), *std::move(below), volume};
 }
 
 }  // namespace fcl_stpbv::detail

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -21,6 +22,7 @@ struct PartSpace {
   double fine;                   ///< excess that the search does not look below (m)
   double costly;                 ///< what a distance costs, in distances to a usual mesh; at least 1
   std::vector<CutPlane> facets;  ///< flat parts of the mesh
+  bool isWhole = true;           ///< the search sees the mesh itself, not a coarser one
 
   explicit PartSpace(const MeshSolid& solid);
 };
@@ -65,6 +67,9 @@ void measureAgain(Part& part, const PartSpace& space, const Measure& measure);
 /// The part of these leaves.
 Part makePart(BspLeaves leaves, const PartSpace& space, const Measure& measure);
 
+/// Likewise, where the hull of the leaves' triangles is known.
+Part makePart(BspLeaves leaves, PartHull hull, const PartSpace& space, const Measure& measure);
+
 /// The hull of two parts together.
 Part joined(const Part& a, const Part& b, const PartSpace& space, const Measure& measure);
 
@@ -72,9 +77,15 @@ Part joined(const Part& a, const Part& b, const PartSpace& space, const Measure&
 /// side only stays whole, so each point of the mesh stays in a leaf.
 std::pair<BspLeaves, BspLeaves> cut(const Part& part, const CutPlane& plane, const PartSpace& space);
 
-/// Sum of the volumes of the two hulls that cut() would leave, without making the leaves, and up to 0.2 %
-/// more the longer they are: no single cut lowers the volume of a ring's hull, and cuts across it lead on.
-/// Less than 0 where the plane leaves nothing on one side (m^3).
-double volumeOfCut(const Part& part, const CutPlane& plane, const PartSpace& space);
+/// The hulls of the triangles that cut() would leave on either side, without making the leaves.
+struct CutHulls {
+  PartHull above, below;
+  /// Sum of their volumes, and up to 0.2 % more the longer they are: no single cut lowers the volume of a
+  /// ring's hull, and cuts across it lead on (m^3).
+  double volume = 0;
+};
+
+/// Nothing where the plane leaves nothing on one side.
+std::optional<CutHulls> hullsOfCut(const Part& part, const CutPlane& plane, const PartSpace& space);
 
 }  // namespace fcl_stpbv::detail

@@ -16,7 +16,7 @@ struct PartHull {
   double diagonal() const;
 };
 
-/// By qhull, or for flat clouds, which qhull refuses, by the rolling ball.
+/// To rounding of the coordinates, by quickhull; of flat clouds by the rolling ball.
 PartHull partHull(const std::vector<Eigen::Vector3d>& points);
 
 }  // namespace fcl_stpbv::detail

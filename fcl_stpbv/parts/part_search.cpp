@@ -110,17 +110,17 @@ const std::vector<PartSearch::Split>& PartSearch::splits(const PartPtr& part) {
   if (!isNew) return ways;
   kept_.push_back(part);
   const std::vector<CutPlane> planes = cutPlanes(*part, space_);
-  std::vector<std::pair<double, std::size_t>> byVolume;
-  for (std::size_t i = 0; i < planes.size(); ++i) {
-    const double volume = volumeOfCut(*part, planes[i], space_);
-    if (volume >= 0) byVolume.push_back({volume, i});
-  }
-  std::sort(byVolume.begin(), byVolume.end());
+  std::vector<std::pair<CutHulls, std::size_t>> byVolume;
+  for (std::size_t i = 0; i < planes.size(); ++i)
+    if (auto hulls = hullsOfCut(*part, planes[i], space_)) byVolume.push_back({*std::move(hulls), i});
+  const auto lessVolume = [](const auto& a, const auto& b) { return a.first.volume < b.first.volume; };
+  std::stable_sort(byVolume.begin(), byVolume.end(), lessVolume);
   if (byVolume.size() > scored) byVolume.resize(scored);
   spent_ += static_cast<long>(planes.size());
   std::vector<Split> best;  // by score
   double lastVolume = -1;
-  for (const auto& [volume, i] : byVolume) {
+  for (auto& [hulls, i] : byVolume) {
+    const double volume = hulls.volume;
     const bool another =
         volume > lastVolume * (1 + 1e-3);  // planes of nearly one place have nearly one volume
     const bool kept = ways.size() < kByVolume && another;
@@ -130,10 +130,12 @@ const std::vector<PartSearch::Split>& PartSearch::splits(const PartPtr& part) {
     if (above.empty() || below.empty()) continue;
     // A half that is worse than the bar allows rules the plane out.
     const Measure measure{kResolution * excessOf(part), kept ? kInfinity : bar / weight};
-    const auto up = std::make_shared<Part>(makePart(std::move(above), space_, measure));
+    const auto up =
+        std::make_shared<Part>(makePart(std::move(above), std::move(hulls.above), space_, measure));
     ++spent_;
     if (excessOf(up) > measure.enough) continue;
-    const auto down = std::make_shared<Part>(makePart(std::move(below), space_, measure));
+    const auto down =
+        std::make_shared<Part>(makePart(std::move(below), std::move(hulls.below), space_, measure));
     ++spent_;
     const auto [less, more] = std::minmax({excessOf(up), excessOf(down)});
     const Split split{(more + 0.5 * less) * weight + 1e-5 * space_.size * left, up, down};

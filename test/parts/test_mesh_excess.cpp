@@ -15,6 +15,7 @@
 using namespace fcl_stpbv;
 using namespace fcl_stpbv::test;
 using Catch::Matchers::Contains;
+using Eigen::Vector3d;
 
 namespace {
 
@@ -55,6 +56,71 @@ TEST_CASE("the distance from a mesh is that of its nearest triangle") {
     }
     CHECK(worst < kRounding);
   }
+}
+
+TEST_CASE("the distance from a triangle holds for slivers, needles and points") {
+  Random random(6);
+  double below = 0, above = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const auto anywhere = [&] {
+      return Vector3d(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+    };
+    const double width = std::pow(10, random.uniform(-17, 0));  // of a triangle a metre long
+    const Vector3d a = anywhere(), b = anywhere(),
+                   c = a + random.uniform(-0.5, 1.5) * (b - a) + width * anywhere();
+    const Vector3d beside = anywhere() * std::pow(10, random.uniform(-16, 0));
+    const double s = random.uniform(-0.2, 1.2), t = random.uniform(-0.2, 1.2);
+    const Vector3d p = a + s * (b - a) + t * (c - a) + beside;
+    const double found = MeshSolid({{a, b, c}, {{0, 1, 2}}}).nearest(p).distance;
+    const double u = (b - a).norm(), v = (c - a).norm(), sine = (b - a).cross(c - a).norm() / (u * v);
+    const double sides = referenceDistance({{a, b, c}, {{0, 1, 1}, {1, 2, 2}, {2, 0, 0}}}, p);
+    if (sine > 1e-5) {  // rounding moves a foot in the plane by so much
+      const double truth = referenceDistance({{a, b, c}, {{0, 1, 2}}}, p);
+      below = std::max(below, truth - found);
+      above = std::max(above, found - truth - 1e-15 / sine);
+    } else {  // of a sliver's plane the reference knows too little
+      below = std::max(below, sides - sine * std::min(u, v) - found);
+      above = std::max(above, found - sides);
+    }
+  }
+  CHECK(below < kRounding);
+  CHECK(above < kRounding);
+  const MeshSolid point(TriangleMesh{{{1, 2, 3}, {1, 2, 3}, {1, 2, 3}}, {{0, 1, 2}}});
+  CHECK(point.nearest({1, 2, 5}).distance == 2);
+}
+
+TEST_CASE("a distance that is near enough ends the search for a nearer one") {
+  Random random(8);
+  for (const auto& [name, mesh] : closedMeshes()) {
+    INFO(name);
+    const MeshSolid solid(mesh);
+    int ended = 0;
+    for (int i = 0; i < 500; ++i) {
+      const Eigen::Vector3d p = pointAround(mesh, random);
+      const double truth = referenceDistance(mesh, p), enough = random.uniform(0, 0.05);
+      const MeshSolid::Nearest found = solid.nearest(p, -1, enough);
+      CHECK(found.distance >= truth - kRounding);
+      CHECK(found.distance <= std::max(truth, enough) + kRounding);
+      CHECK(std::abs(found.distance - solid.distance(p, found.triangle)) < kRounding);
+      ended += found.distance > truth + kRounding;
+    }
+    CHECK(ended > 0);
+  }
+}
+
+TEST_CASE("the excess of a needle ends") {
+  // A triangle of a hull with its corners on a line, beside the mesh's nearest triangle (upper arm of
+  // Interbotix' WX250). Nothing of it is over that triangle: cutting it off left the same needle.
+  const Vector3d left(-0.0496, -0.0215, 0.23575), middle(0.00144, -0.0215, 0.23575),
+      right(0.0496, -0.0215, 0.23575);
+  const TriangleMesh mesh{
+      {left, right, {-0.0104, -0.02, 0.23355}, {0.0104, -0.02, 0.23355}, {-0.0104, -0.0121, 0.23355}},
+      {{0, 0, 0}, {1, 1, 1}, {2, 3, 4}}};
+  ExcessOptions options;
+  options.absolute = 1e-7;
+  const MeshExcess excess = excessOf({{left, middle, right}}, MeshSolid(mesh), options);
+  CHECK(excess.lower > 0.01);
+  CHECK(excess.upper <= excess.lower * (1 + options.relative) + options.absolute);
 }
 
 TEST_CASE("a mesh encloses what its winding number says, whichever way its faces point") {

@@ -9,7 +9,7 @@ using namespace fcl_stpbv::detail;
 using Eigen::Vector3d;
 
 TEST_CASE("a nearly flat cloud has a hull") {
-  // Seven points of JVRC-1's L_ANKLE_P, 7 nm off a plane: qhull merges facets without end.
+  // Seven points of JVRC-1's L_ANKLE_P, 7 nm off a plane.
   const std::vector<Vector3d> points{{-0.031999979168176651, 0.0067450362257659435, -0.084174789488315582},
                                      {-0.031999971717596054, -0.0024469145573675632, -0.075162507593631744},
                                      {-0.031999979168176651, -0.0023415547329932451, -0.092878125607967377},

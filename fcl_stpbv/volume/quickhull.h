@@ -1,0 +1,253 @@
+// Quickhull (Barber, Dobkin, Huhdanpaa 1996) with any kind of surface through three points in place of
+// planes:
+// 1. four points far apart make the first faces; each lists points outside its surface;
+// 2. a face's farthest point enters: the faces whose surfaces do not hold it give way to new ones that join
+// it
+//    to their rim, and the points in their lists go to the new faces or, inside all of them, nowhere;
+// 3. done when all lists are empty.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "fcl_stpbv/volume/space_order.h"
+
+namespace fcl_stpbv::detail {
+
+/// `Surface` is made of three points, counter-clockwise seen from outside, and a length (m). It has
+/// `valid()`, false where the points make none, and `side(p, &height)`: 1 where p is outside, which has it
+/// enter, else 0 or -1, and p's height (m). Its points stay where they are as long as the hull lives.
+template <class Surface>
+class Quickhull {
+ public:
+  struct Face {
+    std::array<int, 3> corner;  // counter-clockwise seen from outside
+    std::array<int, 3> beside;  // the face over the side from that corner on
+    Surface surface;
+    int first = kNone;     // of the points outside that it lists
+    int farthest = kNone;  // among them
+    double height = 0;     // of that one
+    int round = 0;         // the last round in which it was asked whether it sees a point
+    bool sees = false;     // what it said
+    bool isGone = false;
+  };
+
+  Quickhull(const std::vector<Eigen::Vector3d>& points, double length)
+      : length_(length), order_(spaceOrder(points)) {
+    points_.reserve(order_.size());
+    for (const int i : order_) points_.push_back(points[static_cast<std::size_t>(i)]);
+    next_.assign(points_.size(), kNone);
+    newFrom_.assign(points_.size(), kNone);
+  }
+
+  /// False where the points are flat or a rim is no loop: another way has to be taken.
+  bool make();
+
+  /// Those that are not gone are the hull's, once made.
+  std::vector<Face>& faces() { return faces_; }
+  const std::vector<Face>& faces() const { return faces_; }
+  /// A corner's point, and its index in the cloud.
+  const Eigen::Vector3d& at(int corner) const { return points_[static_cast<std::size_t>(corner)]; }
+  int original(int corner) const { return order_[static_cast<std::size_t>(corner)]; }
+  /// How many times the side of a point was asked: the work done.
+  long asked() const { return asked_; }
+
+ private:
+  using Vector3d = Eigen::Vector3d;
+  static constexpr int kNone = -1;
+  struct Rim {
+    int from, to, beyond, within;  // a side's ends, the face that stays and the one that goes
+  };
+
+  Face& face(int f) { return faces_[static_cast<std::size_t>(f)]; }
+  int sideOf(int f, int point) {
+    double height = 0;
+    ++asked_;
+    return face(f).surface.side(at(point), &height);
+  }
+  int addFace(int a, int b, int c);
+  bool start();
+  bool enter(int f);
+  bool findRim(int p, int f);
+  bool isLoop();
+  void list(int point, std::vector<int>& among);
+
+  double length_;
+  std::vector<int> order_;        // the cloud's indices in the order of points_
+  std::vector<Vector3d> points_;  // neighbours in space are near each other
+  std::vector<int> next_;         // in the list that holds the point
+  std::vector<Face> faces_;
+  std::vector<int> free_, waiting_, visible_, fresh_, newFrom_;
+  std::vector<Rim> rim_;
+  int round_ = 0;
+  long asked_ = 0;
+};
+
+template <class Surface>
+int Quickhull<Surface>::addFace(int a, int b, int c) {
+  int f = kNone;
+  if (free_.empty()) {
+    f = static_cast<int>(faces_.size());
+    faces_.emplace_back();
+  } else {
+    f = free_.back();
+    free_.pop_back();
+    face(f) = Face();
+  }
+  face(f).corner = {a, b, c};
+  face(f).surface = Surface(at(a), at(b), at(c), length_);
+  return f;
+}
+
+// Puts a point that no face lists into the list of the first one that it is outside of; to the front with
+// that one, for the next point is likely near.
+template <class Surface>
+void Quickhull<Surface>::list(int point, std::vector<int>& among) {
+  for (std::size_t k = 0; k < among.size(); ++k) {
+    Face& f = face(among[k]);
+    double height = 0;
+    ++asked_;
+    if (f.surface.side(at(point), &height) <= 0) continue;
+    next_[static_cast<std::size_t>(point)] = f.first;
+    f.first = point;
+    if (f.farthest == kNone || height > f.height) f.farthest = point, f.height = height;
+    if (k > 0) std::swap(among[0], among[k]);
+    return;
+  }
+}
+
+template <class Surface>
+bool Quickhull<Surface>::start() {
+  const int count = static_cast<int>(points_.size());
+  const auto farthest = [&](const auto& measure) {
+    int best = 0;
+    double most = measure(at(0));
+    for (int i = 1; i < count; ++i) {
+      const double m = measure(at(i));
+      if (m > most) most = m, best = i;
+    }
+    return best;
+  };
+  const int low = farthest([](const Vector3d& p) { return -p.x() - p.y() - p.z(); });
+  const int a = farthest([&](const Vector3d& p) { return (p - at(low)).squaredNorm(); });
+  int b = farthest([&](const Vector3d& p) { return (p - at(a)).squaredNorm(); });
+  const Vector3d along = at(b) - at(a);
+  int c = farthest([&](const Vector3d& p) { return along.cross(p - at(a)).squaredNorm(); });
+  const Vector3d up = along.cross(at(c) - at(a));
+  const int d = farthest([&](const Vector3d& p) { return std::abs(up.dot(p - at(a))); });
+  const double rise = up.dot(at(d) - at(a));
+  // Flatter than this, the side of the first faces' planes is rounding.
+  constexpr double kFlat = 1e-9;
+  if (!(std::abs(rise) > kFlat * along.norm() * up.norm())) return false;
+  if (rise > 0) std::swap(b, c);
+  // d is below a, b, c.
+  const std::array<int, 4> first{addFace(a, b, c), addFace(a, d, b), addFace(b, d, c), addFace(c, d, a)};
+  face(first[0]).beside = {first[1], first[2], first[3]};
+  face(first[1]).beside = {first[3], first[2], first[0]};
+  face(first[2]).beside = {first[1], first[3], first[0]};
+  face(first[3]).beside = {first[2], first[1], first[0]};
+  const std::array<int, 4> opposite{d, c, a, b};
+  for (std::size_t k = 0; k < 4; ++k)
+    if (!face(first[k]).surface.valid() || sideOf(first[k], opposite[k]) >= 0) return false;
+  std::vector<int> among(first.begin(), first.end());
+  for (int i = 0; i < count; ++i) list(i, among);
+  waiting_.assign(first.begin(), first.end());
+  return true;
+}
+
+// The faces whose surfaces do not hold p, from f on, and the rim around them.
+template <class Surface>
+bool Quickhull<Surface>::findRim(int p, int f) {
+  ++round_;
+  const auto sees = [&](int g) {
+    Face& seen = face(g);
+    if (seen.round != round_) seen.round = round_, seen.sees = sideOf(g, p) > 0;
+    return seen.sees;
+  };
+  visible_.assign(1, f);
+  face(f).round = round_, face(f).sees = true;
+  rim_.clear();
+  for (std::size_t done = 0; done < visible_.size(); ++done) {
+    const int g = visible_[done];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const int beyond = face(g).beside[k];
+      const bool isNew = face(beyond).round != round_;
+      if (!sees(beyond))
+        rim_.push_back({face(g).corner[k], face(g).corner[(k + 1) % 3], beyond, g});
+      else if (isNew)
+        visible_.push_back(beyond);
+    }
+  }
+  return rim_.size() >= 3;
+}
+
+// Whether the rim is one loop that meets no vertex twice; newFrom_ then leads
+// from each vertex to its side's new face.
+template <class Surface>
+bool Quickhull<Surface>::isLoop() {
+  bool isSimple = true;
+  for (std::size_t k = 0; k < rim_.size(); ++k) {
+    int& place = newFrom_[static_cast<std::size_t>(rim_[k].from)];
+    isSimple = isSimple && place == kNone;
+    place = static_cast<int>(k);
+  }
+  std::size_t length = 0;
+  int k = 0;
+  do {
+    k = newFrom_[static_cast<std::size_t>(rim_[static_cast<std::size_t>(k)].to)];
+    ++length;
+  } while (k > 0 && length <= rim_.size());
+  return isSimple && k == 0 && length == rim_.size();
+}
+
+template <class Surface>
+bool Quickhull<Surface>::enter(int f) {
+  const int p = face(f).farthest;
+  if (!findRim(p, f) || !isLoop()) return false;
+  fresh_.clear();
+  for (const Rim& side : rim_) {
+    const int made = addFace(side.from, side.to, p);
+    if (!face(made).surface.valid()) return false;
+    fresh_.push_back(made);
+    face(made).beside[0] = side.beyond;
+    std::array<int, 3>& back = face(side.beyond).beside;
+    for (std::size_t k = 0; k < 3; ++k)
+      if (back[k] == side.within && face(side.beyond).corner[k] == side.to) back[k] = made;
+  }
+  for (std::size_t k = 0; k < rim_.size(); ++k) {
+    const auto after = static_cast<std::size_t>(newFrom_[static_cast<std::size_t>(rim_[k].to)]);
+    face(fresh_[k]).beside[1] = fresh_[after];
+    face(fresh_[after]).beside[2] = fresh_[k];
+  }
+  for (const Rim& side : rim_) newFrom_[static_cast<std::size_t>(side.from)] = kNone;
+  for (const int g : visible_) {
+    for (int i = face(g).first; i != kNone;) {
+      const int after = next_[static_cast<std::size_t>(i)];
+      if (i != p) list(i, fresh_);
+      i = after;
+    }
+    face(g).isGone = true;
+    face(g).first = kNone;
+    free_.push_back(g);
+  }
+  for (const int g : fresh_)
+    if (face(g).first != kNone) waiting_.push_back(g);
+  return true;
+}
+
+template <class Surface>
+bool Quickhull<Surface>::make() {
+  if (points_.size() < 4 || !start()) return false;
+  while (!waiting_.empty()) {
+    const int f = waiting_.back();
+    waiting_.pop_back();
+    if (face(f).first != kNone && !enter(f)) return false;
+  }
+  return true;
+}
+
+}  // namespace fcl_stpbv::detail
