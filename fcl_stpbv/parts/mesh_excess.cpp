@@ -45,8 +45,7 @@ class Bound {
       std::pop_heap(open_.begin(), open_.end());
       const Open worst = open_.back();
       open_.pop_back();
-      if (settled(worst.bound)) {
-        best_.upper = std::max(best_.upper, worst.bound);  // and no other is above it
+      if (settle(worst.bound)) {  // and no other is above it
         open_.clear();
         break;
       }
@@ -82,9 +81,11 @@ class Bound {
     return bound <= best_.lower * (1 + options_.relative) + options_.absolute;
   }
 
-  double farthestCorner(const Triangle& t, int near) const {
+  // Of a polygon from the mesh's triangle `near`: the distance is largest at a corner.
+  template <class Polygon>
+  double farthest(const Polygon& polygon, int near) const {
     double most = 0;
-    for (const Vector3d& p : t) most = std::max(most, mesh_.distance(p, near));
+    for (const Vector3d& p : polygon) most = std::max(most, mesh_.distance(p, near));
     return most;
   }
 
@@ -94,15 +95,15 @@ class Bound {
     double radius = 0;
     for (const Vector3d& p : t) radius = std::max(radius, (p - middle).norm());
     if (piece.near >= 0) {
-      piece.bound = std::min(piece.bound, farthestCorner(t, piece.near));
+      piece.bound = std::min(piece.bound, farthest(t, piece.near));
       if (settle(piece.bound)) return;
     }
     const auto [distance, near] =
         mesh_.nearest(middle, piece.near >= 0 ? piece.near : last_, best_.lower - radius);
     last_ = near;
     ++queries_;
-    piece.bound = std::min(
-        {piece.bound, distance + radius, near == piece.near ? piece.bound : farthestCorner(t, near)});
+    piece.bound = std::min(piece.bound, distance + radius);
+    if (near != piece.near) piece.bound = std::min(piece.bound, farthest(t, near));
     piece.near = near;
     double here = distance;
     if (inside_ && distance > best_.lower && mesh_.side(middle) == MeshSolid::Side::enclosed) {
@@ -148,8 +149,7 @@ class Bound {
       std::tie(outside[k], over) = over.cut(away, away.dot(m[k]), slack_);
     }
     if (over.area() < worth) return false;
-    double height = 0;
-    for (const Vector3d& p : over) height = std::max(height, mesh_.distance(p, piece.near));
+    const double height = farthest(over, piece.near);
     if (!settled(height)) return false;
     best_.upper = std::max(best_.upper, std::min(height, piece.bound));
     for (const CutTriangle& rest : outside) add(rest, piece);

@@ -1,5 +1,5 @@
 // Distance to a mesh, and whether a point is inside.
-// 1. A tree of boxes over the triangles, split at the median along the longest axis.
+// 1. A tree of boxes, down to single triangles, split at the median along the longest axis.
 // 2. Nearest triangle: branch and bound down the tree. Over a triangle or not is told by two dot products
 //    with vectors that are computed once; only sides beyond which a point is are looked at.
 // 3. Inside: crossings of a ray, counted with their sign for closed pieces; a crossing that rounding leaves
@@ -98,34 +98,32 @@ MeshSolid::MeshSolid(const TriangleMesh& mesh) : pieces_(meshPieces(mesh)) {
     triangles_.push_back(
         {pieces_.vertices[at(t[0])], pieces_.vertices[at(t[1])], pieces_.vertices[at(t[2])]});
   for (const Triangle& t : triangles_) feet_.emplace_back(t);
-  order_.resize(triangles_.size());
-  std::iota(order_.begin(), order_.end(), 0);
+  std::vector<int> order(triangles_.size());
+  std::iota(order.begin(), order.end(), 0);
   nodes_.reserve(2 * triangles_.size());
-  build(0, static_cast<int>(order_.size()));
+  build(order.begin(), order.end());
 }
 
-int MeshSolid::build(int begin, int end) {
-  constexpr int kLeaf = 1;
+int MeshSolid::build(std::vector<int>::iterator begin, std::vector<int>::iterator end) {
   const int number = static_cast<int>(nodes_.size());
   Node node{Vector3d::Constant(std::numeric_limits<double>::infinity()),
-            Vector3d::Constant(-std::numeric_limits<double>::infinity()), begin, end};
-  for (int i = begin; i < end; ++i) {
-    for (const Vector3d& p : triangles_[at(order_[at(i)])]) {
+            Vector3d::Constant(-std::numeric_limits<double>::infinity()), *begin};
+  for (auto t = begin; t != end; ++t) {
+    for (const Vector3d& p : triangles_[at(*t)]) {
       node.low = node.low.cwiseMin(p);
       node.high = node.high.cwiseMax(p);
     }
   }
   nodes_.push_back(node);
-  if (end - begin <= kLeaf) return number;
+  if (end - begin == 1) return number;
   Eigen::Index axis;
   (node.high - node.low).maxCoeff(&axis);
-  const int middle = begin + (end - begin) / 2;
+  const auto middle = begin + (end - begin) / 2;
   const auto along = [&](int t) {
     const Triangle& x = triangles_[at(t)];
     return x[0][axis] + x[1][axis] + x[2][axis];
   };
-  std::nth_element(order_.begin() + begin, order_.begin() + middle, order_.begin() + end,
-                   [&](int s, int t) { return along(s) < along(t); });
+  std::nth_element(begin, middle, end, [&](int s, int t) { return along(s) < along(t); });
   const int left = build(begin, middle), right = build(middle, end);
   nodes_[at(number)].left = left;
   nodes_[at(number)].right = right;
@@ -149,11 +147,9 @@ MeshSolid::Nearest MeshSolid::nearest(const Vector3d& p, int guess, double enoug
     if (least >= best) continue;
     const Node& node = nodes_[at(number)];
     if (node.left < 0) {
-      if (tried) *tried += node.end - node.begin;
-      for (int i = node.begin; i < node.end; ++i) {
-        const double d = feet_[at(order_[at(i)])].squaredDistance(p);
-        if (d < best) best = d, found = order_[at(i)];
-      }
+      if (tried) ++*tried;
+      const double d = feet_[at(node.triangle)].squaredDistance(p);
+      if (d < best) best = d, found = node.triangle;
       continue;
     }
     std::pair<double, int> near{away(node.left), node.left}, far{away(node.right), node.right};
@@ -181,8 +177,7 @@ bool MeshSolid::each(const Misses& misses, const Visit& visit) const {
       open[count++] = node.right;
       continue;
     }
-    for (int i = node.begin; i < node.end; ++i)
-      if (!visit(order_[at(i)])) return false;
+    if (!visit(node.triangle)) return false;
   }
   return true;
 }

@@ -87,19 +87,19 @@ class MeshSolid {
  private:
   struct Node {
     Eigen::Vector3d low, high;
-    int begin, end;  // among order_
+    int triangle;  // a leaf's
     int left = -1, right = -1;
   };
   /// A triangle, as distances from it are computed. To rounding, and never too small by more than that.
   struct Foot {
     Eigen::Vector3d a, u, v;  ///< a corner, and from there to the others (m)
-    Eigen::Vector3d alongU,
-        alongV;   ///< times p - a: barycentric coordinates of p's foot; NaN without a plane
+    /// Times p - a they are the barycentric coordinates of p's foot; NaN without a plane.
+    Eigen::Vector3d alongU, alongV;
     bool isThin;  ///< rounding may say that a foot inside is beyond a side
     explicit Foot(const Triangle& triangle);
     double squaredDistance(const Eigen::Vector3d& p) const;
   };
-  int build(int begin, int end);
+  int build(std::vector<int>::iterator begin, std::vector<int>::iterator end);
   /// The triangles in boxes that are not missed, until `visit` returns false. @returns whether it never did.
   template <class Misses, class Visit>
   bool each(const Misses& misses, const Visit& visit) const;
@@ -110,7 +110,6 @@ class MeshSolid {
   MeshPieces pieces_;
   std::vector<Triangle> triangles_;
   std::vector<Foot> feet_;  // of the triangles
-  std::vector<int> order_;
   std::vector<Node> nodes_;
 };
 

@@ -9,6 +9,7 @@
 #include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/volume/quickhull.h"
 #include "fcl_stpbv/volume/rolling_ball.h"
+#include "fcl_stpbv/volume/rolling_cloud.h"
 
 namespace fcl_stpbv::detail {
 namespace {
@@ -39,14 +40,8 @@ class HalfSpace {
   double onIt_ = 0;  // heights that rounding may make (m)
 };
 
-double diagonalOf(const std::vector<Vector3d>& points) {
-  Vector3d low = points.front(), high = low;
-  for (const Vector3d& v : points) low = low.cwiseMin(v), high = high.cwiseMax(v);
-  return (high - low).norm();
-}
-
 bool byPlanes(const std::vector<Vector3d>& points, PartHull& out) {
-  Quickhull<HalfSpace> hull(points, diagonalOf(points));
+  Quickhull<HalfSpace> hull(points, extentOf(points));
   if (!hull.make()) return false;
   std::vector<char> isVertex(points.size(), 0);
   for (const auto& face : hull.faces()) {
@@ -69,7 +64,7 @@ bool byPlanes(const std::vector<Vector3d>& points, PartHull& out) {
 
 }  // namespace
 
-double PartHull::diagonal() const { return diagonalOf(vertices); }
+double PartHull::diagonal() const { return extentOf(vertices); }
 
 PartHull partHull(const std::vector<Vector3d>& points) {
   PartHull hull;

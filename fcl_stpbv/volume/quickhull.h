@@ -1,9 +1,8 @@
 // Quickhull (Barber, Dobkin, Huhdanpaa 1996) with any kind of surface through three points in place of
 // planes:
 // 1. four points far apart make the first faces; each lists points outside its surface;
-// 2. a face's farthest point enters: the faces whose surfaces do not hold it give way to new ones that join
-// it
-//    to their rim, and the points in their lists go to the new faces or, inside all of them, nowhere;
+// 2. a face's farthest point enters: the faces whose surfaces do not hold it give way to new ones that
+//    join it to their rim, and the points in their lists go to the new faces or, inside all, nowhere;
 // 3. done when all lists are empty.
 #pragma once
 

@@ -115,9 +115,7 @@ void Roller::roll() {
 }  // namespace
 
 double flatRadius(const std::vector<Vector3d>& points) {
-  Vector3d low = points[0], high = points[0];
-  for (const Vector3d& p : points) low = low.cwiseMin(p), high = high.cwiseMax(p);
-  const double extent = (high - low).norm();
+  const double extent = extentOf(points);
   return extent > 0 ? 1e15 * extent : 1;
 }
 

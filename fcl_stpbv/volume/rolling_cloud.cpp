@@ -5,17 +5,20 @@ namespace fcl_stpbv::detail {
 
 using Eigen::Vector3d;
 
+double extentOf(const std::vector<Vector3d>& points) {
+  Vector3d low = points[0], high = points[0];
+  for (const Vector3d& p : points) low = low.cwiseMin(p), high = high.cwiseMax(p);
+  return (high - low).norm();
+}
+
 RollingCloud::RollingCloud(const std::vector<Vector3d>& cloud, double ballRadius)
     : points(cloud),
       radius(ballRadius),
       curvature(std::isinf(radius) ? 0 : 1 / radius),
+      extent(extentOf(points)),
       tree(points),
       same_(touchTolerance(points)),
-      isVertex_(points.size(), 0) {
-  Vector3d low = points[0], high = points[0];
-  for (const Vector3d& p : points) low = low.cwiseMin(p), high = high.cwiseMax(p);
-  extent = (high - low).norm();
-}
+      isVertex_(points.size(), 0) {}
 
 void RollingCloud::removeTwins(int i) {
   std::vector<int> twins;

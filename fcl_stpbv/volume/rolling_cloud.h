@@ -10,6 +10,9 @@
 
 namespace fcl_stpbv::detail {
 
+/// Diagonal of the bounding box of a cloud that is not empty (m).
+double extentOf(const std::vector<Eigen::Vector3d>& points);
+
 /// Points that lie closer than rounding to a vertex vanish into it: the tree does not see them any more.
 class RollingCloud {
  public:
