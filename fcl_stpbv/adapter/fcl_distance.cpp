@@ -10,7 +10,6 @@
 #include "fcl_stpbv/adapter/known_trees.h"
 #include "fcl_stpbv/adapter/nearest_pair.h"
 #include "fcl_stpbv/adapter/polyhedral_witness.h"
-#include "fcl_stpbv/convex/relative_pose.h"
 #include "fcl_stpbv/distance/shape_distance.h"
 #include "fcl_stpbv/vectorized.h"
 
@@ -54,10 +53,10 @@ Distance smoothDistance(const StpBvGeometry& a, const Transform3d& poseA, const 
 }
 
 /// An STP-BV and anything else, in either order: the same query, so the same answer from the other side.
-bool mixedDistance(const StpBvGeometry* a, const CollisionGeometryd& geometry1, const Transform3d& pose1,
-                   const StpBvGeometry* b, const CollisionGeometryd& geometry2, const Transform3d& pose2,
-                   const QueryContext& context, const KnownTrees& trees, DistanceAnswer& answer) {
-  if (!a && !b) return false;
+DistanceAnswer mixedDistance(const StpBvGeometry* a, const CollisionGeometryd& geometry1,
+                             const Transform3d& pose1, const StpBvGeometry* b,
+                             const CollisionGeometryd& geometry2, const Transform3d& pose2,
+                             const QueryContext& context, const KnownTrees& trees) {
   PairCache cache;  // of the STP-BV first
   if (context.cache) cache = *context.cache;
   if (!a) cache = cache.mirrored();
@@ -78,41 +77,39 @@ bool mixedDistance(const StpBvGeometry* a, const CollisionGeometryd& geometry1, 
     std::swap(other.found.patch[0], other.found.patch[1]);
   }
   if (context.cache) *context.cache = cache;
-  answer = inFclTerms(other.found, pose1, pose2);
-  if (answer.status == DistanceStatus::invalid) return true;
+  DistanceAnswer answer = inFclTerms(other.found, pose1, pose2);
+  if (answer.status == DistanceStatus::invalid) return answer;
   answer.element[a ? 1 : 0] = other.element[1];
   answer.runnerUp = other.runnerUp;
   answer.continuous = isShape;  // of meshes and trees the nearest element switches
-  return true;
+  return answer;
 }
 
-/// Two simple shapes, neither an STP-BV.
-bool shapeDistance(const CollisionGeometryd& geometry1, const Transform3d& pose1,
-                   const CollisionGeometryd& geometry2, const Transform3d& pose2, DistanceAnswer& answer) {
-  Shape a, b;
-  if (!shapeOf(geometry1, a) || !shapeOf(geometry2, b)) return false;
-  answer = inFclTerms(distance(a, pose1, b, pose2), pose1, pose2);
-  answer.continuous = false;
-  return true;
-}
-
-/// Any pair but two STP-BVs. A pose next to a rigid one is taken for the nearest, any
-/// other has no answer, whatever the geometries.
-DistanceAnswer otherDistance(const StpBvGeometry* a, const CollisionGeometryd& geometry1, Transform3d pose1,
-                             const StpBvGeometry* b, const CollisionGeometryd& geometry2, Transform3d pose2,
+/// Neither an STP-BV: two simple shapes, or meshes and trees.
+DistanceAnswer plainDistance(const CollisionGeometryd& geometry1, const Transform3d& pose1,
+                             const CollisionGeometryd& geometry2, const Transform3d& pose2,
                              const QueryContext& context, const KnownTrees& trees) {
-  DistanceAnswer answer;
-  if (!makeRigid(pose1) || !makeRigid(pose2)) return answer;
-  if (mixedDistance(a, geometry1, pose1, b, geometry2, pose2, context, trees, answer) ||
-      shapeDistance(geometry1, pose1, geometry2, pose2, answer))
-    return answer;
-  const ElementsDistance elements =
-      nearestElements(geometry1, pose1, geometry2, pose2, context.finite, trees);
-  answer = inFclTerms(elements.found, pose1, pose2);
+  Shape a, b;
+  ElementsDistance elements;
+  if (shapeOf(geometry1, a) && shapeOf(geometry2, b))
+    elements.found = distance(a, pose1, b, pose2);
+  else
+    elements = nearestElements(geometry1, pose1, geometry2, pose2, context.finite, trees);
+  DistanceAnswer answer = inFclTerms(elements.found, pose1, pose2);
   answer.element = elements.element;
   answer.runnerUp = elements.runnerUp;
   answer.continuous = false;
   return answer;
+}
+
+DistanceAnswer anyDistance(const CollisionGeometryd& geometry1, const Transform3d& pose1,
+                           const CollisionGeometryd& geometry2, const Transform3d& pose2,
+                           const QueryContext& context, const KnownTrees& trees) {
+  const StpBvGeometry* a = asStpBv(&geometry1);
+  const StpBvGeometry* b = asStpBv(&geometry2);
+  if (a && b) return inFclTerms(smoothDistance(*a, pose1, *b, pose2, context), pose1, pose2);
+  if (a || b) return mixedDistance(a, geometry1, pose1, b, geometry2, pose2, context, trees);
+  return plainDistance(geometry1, pose1, geometry2, pose2, context, trees);
 }
 
 }  // namespace
@@ -144,10 +141,7 @@ DistanceAnswer distance(const CollisionGeometryd& geometry1, const Transform3d& 
 DistanceAnswer detail::distance(const CollisionGeometryd& geometry1, const Transform3d& pose1,
                                 const CollisionGeometryd& geometry2, const Transform3d& pose2,
                                 const QueryContext& context, const KnownTrees& trees) {
-  const StpBvGeometry* a = asStpBv(&geometry1);
-  const StpBvGeometry* b = asStpBv(&geometry2);
-  DistanceAnswer answer = a && b ? inFclTerms(smoothDistance(*a, pose1, *b, pose2, context), pose1, pose2)
-                                 : otherDistance(a, geometry1, pose1, b, geometry2, pose2, context, trees);
+  DistanceAnswer answer = anyDistance(geometry1, pose1, geometry2, pose2, context, trees);
   answer.geometry = {&geometry1, &geometry2};
   return answer;
 }

@@ -20,6 +20,7 @@
 #include "fcl_stpbv/convex/vertex_cap.h"
 #include "fcl_stpbv/distance/shape_distance.h"
 #include "fcl_stpbv/distance/shape_newton.h"
+#include "fcl_stpbv/vectorized.h"
 
 namespace fcl_stpbv {
 
@@ -27,6 +28,14 @@ using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
 namespace detail {
+
+FCL_STPBV_VECTORIZED
+Distance ShapePair::inWorld(const Vector3d& n, const Vector3d& onA, const Vector3d& toB) const {
+  Distance result;
+  result.normal = pose.normalInWorld(n);
+  result.point = {pose.inWorld(onA + a.margin * n), pose.inWorld(onA + toB - b.margin * n)};
+  return result;
+}
 
 ShapePair::Corner ShapePair::nearCorner(int rounds) const {
   constexpr double kGain = 0.996;  // a round that shortens the way by less is the last one

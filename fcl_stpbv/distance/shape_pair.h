@@ -74,12 +74,7 @@ struct ShapePair {
 
   /// What a search found, in the world: `n` from A to B, `onA` a point of A's
   /// core, `toB` from there to B's core.
-  Distance inWorld(const Eigen::Vector3d& n, const Eigen::Vector3d& onA, const Eigen::Vector3d& toB) const {
-    Distance result;
-    result.normal = pose.normalInWorld(n);
-    result.point = {pose.inWorld(onA + a.margin * n), pose.inWorld(onA + toB - b.margin * n)};
-    return result;
-  }
+  Distance inWorld(const Eigen::Vector3d& n, const Eigen::Vector3d& onA, const Eigen::Vector3d& toB) const;
 };
 
 /// A ball `a` beside or in the core of `b`: its centre and the core's point nearest to it. False for other
