@@ -2,57 +2,27 @@
 // 1. approach the constraints (approach.h), first with light obstacles, then in full;
 // 2. solve by SLSQP from there (slsqp.cpp);
 // 3. stop at the first feasible posture.
-// Without one, the least sum of squared violations names the constraints in
-// conflict and the limits they push against. Where it leaves none, it is a
-// feasible posture itself.
+// Without one, the joints of what is violated in the best posture are drawn anew, and the search goes on from
+// there. Then the least sum of squared violations names the constraints in conflict and the limits they push
+// against. Where it leaves none, it is a feasible posture itself.
 #include "fcl_stpbv/posture/find_posture.h"
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <initializer_list>
 #include <limits>
+#include <optional>
 #include <random>
 
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/posture/approach.h"
+#include "fcl_stpbv/posture/starts.h"
 
 namespace fcl_stpbv {
 namespace {
 
 using namespace detail;
-
-// A random posture around the start: joints up to half way to anywhere within their limits, a moving base
-// up to 10 cm and 0.2 rad away, and what has no limits likewise 0.1 m or rad.
-Eigen::VectorXd randomStart(const PostureProblem& problem, const Eigen::VectorXd& start,
-                            std::mt19937_64& random) {
-  const Kinematics& kinematics = problem.kinematics();
-  const auto uniform = [&] { return static_cast<double>(random() >> 11) * 0x1p-53; };
-  Eigen::VectorXd q = start;
-  for (int i = 0; i < kinematics.size(); ++i) {
-    const double low = problem.lower()[i], range = problem.upper()[i] - low, share = uniform();
-    q[i] += std::isfinite(range) ? 0.5 * (low + share * range - start[i]) : 0.1 * (2 * share - 1);
-  }
-  for (const Kinematics::Motion& motion : kinematics.motions()) {
-    if (motion.joint >= 0) continue;
-    const bool turns = std::isfinite(kinematics.lower()[motion.coordinate]);
-    q[motion.coordinate] = start[motion.coordinate] + (turns ? 0.2 : 0.1) * (2 * uniform() - 1);
-  }
-  return q;
-}
-
-// The random numbers of a start follow those of the starts before it. At each hundred thousandth they begin
-// anew, so that none is a long way off.
-constexpr long long kAnew = 100000;
-std::mt19937_64 randomBefore(const PostureProblem& problem, const Eigen::VectorXd& start, std::uint64_t seed,
-                             long long number) {
-  std::mt19937_64 random(seed);
-  if (number >= kAnew) {
-    std::seed_seq words{seed, seed >> 32, static_cast<std::uint64_t>(number / kAnew)};
-    random.seed(words);
-  }
-  for (long long i = number < kAnew ? 1 : 0; i < number % kAnew; ++i) randomStart(problem, start, random);
-  return random;
-}
 
 // Infinite where one is no number, so that nothing is worse.
 double total(const std::vector<Violation>& violations) {
@@ -110,11 +80,8 @@ SolverOutcome improve(PostureProblem& problem, const Eigen::VectorXd& x, const S
 // 1. near to the posture by damped steps;
 // 2. to it by sequential quadratic programming;
 // 3. where that ends close by, to where the constraints hold best, and if they hold on from there.
-SolverOutcome solve(PostureProblem& problem, const Eigen::VectorXd& start, const SolverOptions& options) {
-  // The cost then pulls the constraints apart by about 1e-4 times their multipliers: millimetres.
-  constexpr double kCostWeight = 1e-4;
-  // Soft obstacles first: a hand that would be caught before one passes through it and is pushed out behind.
-  constexpr double kSoft = 0.3, kFirm = 1;
+SolverOutcome solve(PostureProblem& problem, const Eigen::VectorXd& start,
+                    std::initializer_list<ApproachOptions> approaches, const SolverOptions& options) {
   // Farther away than this (m, rad) where the damped steps end, the start leads into a dead end.
   constexpr double kNear = 0.1;
   // Farther away than this where the programming ends, more steps seldom get there.
@@ -125,8 +92,8 @@ SolverOutcome solve(PostureProblem& problem, const Eigen::VectorXd& start, const
   };
   NearPosture near{start, {}, 0};
   int iterations = 0;
-  for (const double weight : {kSoft, kFirm}) {
-    near = approached(problem, near.x, {kCostWeight, weight}, options);
+  for (const ApproachOptions& how : approaches) {
+    near = approached(problem, near.x, how, options);
     iterations += near.iterations;
   }
   if (worst(near.x) > kNear) return {near.x, iterations, "stuck"};
@@ -154,6 +121,11 @@ Posture findPosture(PostureSetup& setup, const PostureOptions& options) {
   };
   // Steps to where the constraints hold best: next to singular postures they are many and short.
   constexpr int kLongest = 150;
+  constexpr int kMends = 3;
+  // The cost pulls the constraints apart by about this times their multipliers: millimetres.
+  constexpr double kCostWeight = 1e-4;
+  // Soft obstacles first: a hand that would be caught before one passes through it and is pushed out behind.
+  constexpr double kSoft = 0.3, kFirm = 1;
   PostureProblem& problem = *setup.problem;
   if (setup.start.size() != problem.kinematics().size())
     throw Error("findPosture: the start has " + std::to_string(setup.start.size()) +
@@ -174,11 +146,18 @@ Posture findPosture(PostureSetup& setup, const PostureOptions& options) {
   const auto stopped = [&] { return options.solver.stop && options.solver.stop(); };
   std::mt19937_64 random = randomBefore(problem, setup.start, options.seed, first);
   for (long long i = first; i < last && !best.feasible; ++i) {
-    if (i > first && i % kAnew == 0) random = randomBefore(problem, setup.start, options.seed, i);
+    if (i > first && i % kRandomAnew == 0) random = randomBefore(problem, setup.start, options.seed, i);
     const Eigen::VectorXd q = i == 0 ? setup.start : randomStart(problem, setup.start, random);
     ++best.starts;
-    consider(solve(problem, problem.variablesAt(q), options.solver));
+    consider(
+        solve(problem, problem.variablesAt(q), {{kCostWeight, kSoft}, {kCostWeight, kFirm}}, options.solver));
     if (stopped()) break;
+  }
+  for (int i = 0; i < kMends && !best.feasible && !stopped(); ++i) {
+    const std::optional<Eigen::VectorXd> x = mended(problem, bestX, setup.start, options.solver, random);
+    if (!x) break;
+    consider(
+        solve(problem, *x, {ApproachOptions()}, options.solver));  // the inequalities are to go on to hold
   }
   if (!best.feasible && !stopped()) {
     ApproachOptions toTheEnd;

@@ -1,5 +1,6 @@
 // What is told as feasible is, and what is not has constraints that cannot hold together.
 #include <catch2/catch.hpp>
+#include <cmath>
 
 #include "test/posture/arms.h"
 
@@ -12,6 +13,50 @@ double amountOf(const std::vector<Violation>& list, const std::string& name) {
   for (const Violation& v : list)
     if (v.name == name) return v.amount;
   return 0;
+}
+
+// Of each coordinate: it misses by 5 cm and more but within 0.3 of `room`, and least of all else at 0.
+class Pockets : public PostureRows {
+ public:
+  Pockets(int coordinates, double room) : coordinates_(coordinates), room_(room) {}
+
+  Kind kind() const override { return Kind::atLeast; }
+  int size() const override { return coordinates_; }
+  std::string name(int row) const override { return "pocket " + std::to_string(row); }
+  void evaluate(const Point& at, Eigen::Ref<Eigen::VectorXd> values,
+                Eigen::Ref<RowMatrix> jacobian) override {
+    for (int i = 0; i < coordinates_; ++i) {
+      const auto hill = [&](double height, double centre, double width) {
+        const double u = (at.x[i] - centre) / width, value = height * std::exp(-u * u);
+        values[i] += value;
+        jacobian(i, i) -= 2 * u / width * value;
+      };
+      values[i] = -0.15;
+      hill(0.1, 0, 0.5);
+      hill(0.3, room_, 0.3);
+    }
+  }
+
+ private:
+  int coordinates_;
+  double room_;
+};
+
+Posture amongPockets(double room, std::uint64_t seed) {
+  std::string arm = ball("l0");
+  constexpr int kJoints = 8;
+  for (int i = 0; i < kJoints; ++i)
+    arm += ball("l" + std::to_string(i + 1)) + joint("j" + std::to_string(i), "revolute",
+                                                     "l" + std::to_string(i), "l" + std::to_string(i + 1),
+                                                     "<origin xyz='0.3 0 0'/><axis xyz='0 0 1'/>"
+                                                     "<limit lower='-3' upper='3' effort='1' velocity='1'/>");
+  PostureTask task;
+  task.base = BaseMotion::fixed;
+  PostureSetup setup = setUpWithoutCollisions(task, bodiesOf(arm));
+  setup.problem->add(std::make_shared<Pockets>(kJoints, room));
+  PostureOptions options;
+  options.seed = seed;
+  return findPosture(setup, options);
 }
 
 }  // namespace
@@ -110,6 +155,20 @@ TEST_CASE("a search that is stopped ends there, and tells of no conflict") {
       CHECK(posture.conflict.empty());
       CHECK((posture.feasible || posture.status == "stopped"));
     }
+}
+
+TEST_CASE("constraints of one joint each are freed one by one, where no random posture frees all at once") {
+  for (const std::uint64_t seed : {1, 2, 3, 4, 5}) {
+    CAPTURE(seed);
+    const Posture posture = amongPockets(2, seed);
+    CHECK(posture.feasible);
+    for (const double q : posture.q) CHECK(std::abs(q - 2) < 0.3);
+    CHECK(posture.conflict.empty());
+  }
+  const Posture none = amongPockets(9, 1);  // beyond the limits
+  CHECK_FALSE(none.feasible);
+  CHECK(none.conflict.size() == 8);
+  CHECK(amountOf(none.conflict, "pocket 3") == Approx(0.05));
 }
 
 TEST_CASE("a robot without joints is where it is") {
