@@ -1,5 +1,7 @@
 // Motions as FCL makes them, from two poses or from FCL's own objects.
-// 1. The rotation from the first pose to the second, as axis and angle, is the angular velocity.
+// 1. The rotation from the first pose to the second, as axis and angle, is the angular velocity. Next to half
+// a
+//    turn the last digits of the given matrices tell which way round FCL goes.
 // 2. CCDM_LINEAR: the body's origin moves on a straight line. CCDM_TRANS: the same without the rotation.
 // 3. CCDM_SCREW: Chasles' theorem. Some axis moves along itself only. Across it the origin goes along an arc
 //    whose chord is the way across: at first with the velocity
@@ -41,16 +43,35 @@ const Motion* exactly(const fcl::MotionBased& motion) {
   return typeid(motion) == typeid(Motion) ? static_cast<const Motion*>(&motion) : nullptr;
 }
 
+/// Both ends of a motion, as given and made rigid.
+struct Ends {
+  Isometry3d givenBegin, givenEnd, begin = givenBegin, end = givenEnd;
+  bool valid = makeRigid(begin) && makeRigid(end);
+
+  Ends(const Isometry3d& first, const Isometry3d& last) : givenBegin(first), givenEnd(last) {}
+
+  /// The rotation vector from the first to the last, the way round that FCL goes. (rad)
+  Vector3d turn() const {
+    const auto between = [](const Isometry3d& from, const Isometry3d& to) {
+      return Eigen::AngleAxisd(Eigen::Matrix3d(to.linear() * from.linear().transpose()));
+    };
+    const Eigen::AngleAxisd exact = between(begin, end), asFcl = between(givenBegin, givenEnd);
+    if (exact.angle() > 3 && exact.axis().dot(asFcl.axis()) < 0)
+      return (exact.angle() - 2 * EIGEN_PI) * exact.axis();
+    return exact.angle() * exact.axis();
+  }
+};
+
 /// A point of the body's frame moves straight.
-SteadyMotion about(const Isometry3d& begin, const Isometry3d& end, const Vector3d& point) {
-  const Eigen::AngleAxisd turn(Eigen::Matrix3d(end.linear() * begin.linear().transpose()));
-  const Vector3d angular = turn.angle() * turn.axis();
-  return {begin, end * point - begin * point, (begin.linear() * point).cross(angular), angular};
+SteadyMotion about(const Ends& ends, const Vector3d& point) {
+  const Vector3d angular = ends.turn();
+  return {ends.begin, ends.end * point - ends.begin * point, (ends.begin.linear() * point).cross(angular),
+          angular};
 }
 
 /// An axis stays where it is but for the way along itself (Chasles).
-SteadyMotion screw(const Isometry3d& begin, const Isometry3d& end) {
-  SteadyMotion motion = about(begin, end, Vector3d(0, 0, 0));
+SteadyMotion screw(const Ends& ends) {
+  SteadyMotion motion = about(ends, Vector3d(0, 0, 0));
   const double angle = motion.angular.norm(), half = 0.5 * angle;
   if (!(angle > 0)) return motion;
   const Vector3d axis = motion.angular / angle, along = axis.dot(motion.linear) * axis;
@@ -78,19 +99,20 @@ Isometry3d SteadyMotion::at(double t, Vector3d* velocity) const {
   return pose;
 }
 
-bool steadyMotion(const Isometry3d& givenBegin, const Isometry3d& givenEnd, fcl::CCDMotionType type,
+bool steadyMotion(const Isometry3d& begin, const Isometry3d& end, fcl::CCDMotionType type,
                   SteadyMotion& motion) {
-  Isometry3d begin = givenBegin, end = givenEnd;
-  if (!makeRigid(begin) || !makeRigid(end)) return false;
+  Ends ends(begin, end);
+  if (!ends.valid) return false;
   switch (type) {
     case fcl::CCDM_TRANS:
-      end.linear() = begin.linear();
-      [[fallthrough]];
+      motion = {ends.begin, ends.end.translation() - ends.begin.translation(), Vector3d(0, 0, 0),
+                Vector3d(0, 0, 0)};
+      return true;
     case fcl::CCDM_LINEAR:
-      motion = about(begin, end, Vector3d(0, 0, 0));
+      motion = about(ends, Vector3d(0, 0, 0));
       return true;
     case fcl::CCDM_SCREW:
-      motion = screw(begin, end);
+      motion = screw(ends);
       return true;
     default:
       return false;
@@ -109,16 +131,16 @@ bool steadyMotion(const fcl::MotionBased& motion, SteadyMotion& result) {
   if (const auto* m = exactly<fcl::ScrewMotion<double>>(motion))
     return steadyMotion(m->*&ScrewEnds::tf1, m->*&ScrewEnds::tf2, fcl::CCDM_SCREW, result);
   if (const auto* m = exactly<fcl::InterpMotion<double>>(motion)) {
-    Isometry3d begin = m->*&InterpolationEnds::tf1, end = m->*&InterpolationEnds::tf2;
-    if (!makeRigid(begin) || !makeRigid(end)) return false;
+    const Ends ends(m->*&InterpolationEnds::tf1, m->*&InterpolationEnds::tf2);
+    if (!ends.valid) return false;
     // FCL's constructors without a point leave it to what the memory held, and its object then moves about
     // that. It does not matter where nothing turns; where it is no place for a body, nothing is known.
     constexpr double kFar = 1e6;  // m
     const Vector3d& given = m->getReferencePoint();
-    result = about(begin, end, Vector3d(0, 0, 0));
+    result = about(ends, Vector3d(0, 0, 0));
     if (result.angular.isZero(0)) return true;
     if (!(given.lpNorm<1>() < kFar)) return false;
-    result = about(begin, end, given);
+    result = about(ends, given);
     return true;
   }
   return false;

@@ -124,11 +124,11 @@ struct PartPoints {
 bool coverInside(const PartSearch::Parts& parts, const std::vector<TriangleSoup>& groups,
                  const PartSpace& space, std::vector<PartPoints>& points) {
   std::vector<HullPlanes> hulls;
-  for (const PartPoints& one : points) hulls.push_back(hullPlanes(one.found, 2 * space.slack));
+  for (const PartPoints& one : points)
+    hulls.push_back(one.found.empty() ? HullPlanes() : hullPlanes(one.found, 2 * space.slack));
   if (parts.front()->leaves.front()->isFacet)
     return isInsideCovered(Cell(space.mesh), hulls, space.mesh, space.slack);
   for (std::size_t p = 0; p < parts.size(); ++p) {
-    if (points[p].found.empty()) continue;
     std::vector<HullPlanes> ownFirst = hulls;
     std::swap(ownFirst[0], ownFirst[p]);
     for (const auto& leaf : parts[p]->leaves) {
@@ -140,8 +140,8 @@ bool coverInside(const PartSearch::Parts& parts, const std::vector<TriangleSoup>
       // With its corners the leaf has all of the solid in its cell: the rest of the cell does not matter.
       std::vector<Vector3d> whole = corners;
       append(whole, pointsIn(*leaf, groups, space));
-      for (const CutPlane& plane : hullPlanes(whole, 2 * space.slack))
-        cell = cell.above(plane.turned(), space.slack);
+      if (const HullPlanes around = hullPlanes(whole, 2 * space.slack); !isFlat(around))
+        for (const CutPlane& plane : around) cell = cell.above(plane.turned(), space.slack);
       if (!isInsideCovered(cell, ownFirst, space.mesh, space.slack)) append(points[p].needed, corners);
     }
   }
@@ -182,14 +182,15 @@ Certified certified(const PartSearch::Parts& parts, const std::vector<TriangleSo
   if (space.mesh.pieces().closedPieces() > 0) out.covers = coverInside(parts, soups, space, points);
   if (!out.covers) return out;
   for (PartPoints& one : points) {
-    if (one.found.empty()) continue;  // a leaf of the coarse mesh alone
-    ConvexPart part = certified(one.found, space);
+    ConvexPart part;  // stays without points where only the coarse mesh has any in its cells
+    if (!one.found.empty()) part = certified(one.found, space);
     if (!one.needed.empty()) {
       const double before = part.excess.upper;
       append(one.found, one.needed);
       part = certified(one.found, space);
       out.asFound = out.asFound && part.excess.upper <= before + 0.5 * space.fine;
     }
+    if (part.points.empty()) continue;
     out.parts.excess = std::max(out.parts.excess, part.excess.upper);
     out.parts.openExcess = std::max(out.parts.openExcess, part.openExcess.upper);
     out.parts.parts.push_back(std::move(part));

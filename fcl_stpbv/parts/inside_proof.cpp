@@ -2,7 +2,8 @@
 // 1. a hull's planes cut the cell one after the other; what is outside a plane is one piece that the hull
 //    does not hold, what is left at the end it holds;
 // 2. the pieces are cut by the next hull in the same way;
-// 3. the triangles are all in hulls, so a piece that is left is inside the solid or
+// 3. a flat hull holds nothing, but its plane cuts the pieces in two;
+// 4. the triangles are all in hulls, so a piece that is left is inside the solid or
 //    outside as a whole, and one point of it tells.
 #include "fcl_stpbv/parts/inside_proof.h"
 
@@ -24,6 +25,10 @@ void subtract(const Cell& cell, const HullPlanes& hull, double slack, std::vecto
     out.push_back(cell);
     return;
   }
+  if (isFlat(hull)) {
+    for (const CutPlane& side : {hull.front(), hull.front().turned()}) out.push_back(cell.above(side, slack));
+    return;
+  }
   Cell rest = cell;
   for (const CutPlane& plane : hull) {
     const auto [low, high] = rest.reach(plane);
@@ -38,11 +43,23 @@ void subtract(const Cell& cell, const HullPlanes& hull, double slack, std::vecto
   }
 }
 
+// The plane of a flat hull, by its largest triangle; none of a line or a point.
+HullPlanes planeOf(const PartHull& flat) {
+  Vector3d normal = Vector3d::Zero();
+  for (const Triangle& t : flat.surface) {
+    const Vector3d n = (t[1] - t[0]).cross(t[2] - t[0]);
+    if (n.squaredNorm() > normal.squaredNorm()) normal = n;
+  }
+  if (!(normal.norm() > 0)) return {};
+  normal.normalize();
+  return {{normal, normal.dot(flat.vertices.front())}};
+}
+
 }  // namespace
 
 HullPlanes hullPlanes(const std::vector<Vector3d>& points, double cover) {
   const PartHull hull = partHull(points);
-  if (!(hull.volume > 0)) return {};
+  if (!(hull.volume > 0)) return planeOf(hull);
   Vector3d middle = Vector3d::Zero();
   for (const Vector3d& v : hull.vertices) middle += v / static_cast<double>(hull.vertices.size());
   HullPlanes planes;

@@ -9,10 +9,12 @@
 
 namespace fcl_stpbv::detail {
 
-/// A convex hull as planes with normals outwards; none for a flat one.
+/// A convex hull as planes with normals outwards. Of a flat one the plane that it lies in alone; none of a
+/// line or a point.
 using HullPlanes = std::vector<CutPlane>;
+inline bool isFlat(const HullPlanes& hull) { return hull.size() < 4; }
 
-/// The planes of a cloud's hull, moved outwards by `cover` (m).
+/// The planes of a cloud's hull, moved outwards by `cover` (m) where it is not flat.
 HullPlanes hullPlanes(const std::vector<Eigen::Vector3d>& points, double cover);
 
 /// True where every point of the solid in `cell` is in one of the hulls, which together

@@ -49,9 +49,14 @@ class Cutter {
  private:
   signed char side(int point) const { return side_[at(point)]; }
 
+  // Of a triangle on the plane. One without a normal of its own goes to one side all the same, the other one
+  // for the plane turned over.
   bool bordersAbove(const std::array<int, 3>& t) const {
     const Vector3d &a = soup_.points[at(t[0])], &b = soup_.points[at(t[1])], &c = soup_.points[at(t[2])];
-    return (b - a).cross(c - a).dot(plane_.normal) < 0;
+    const Vector3d& n = plane_.normal;
+    const double along = (b - a).cross(c - a).dot(n);
+    if (along != 0) return along < 0;
+    return n.x() != 0 ? n.x() > 0 : n.y() != 0 ? n.y() > 0 : n.z() > 0;
   }
 
   // From the lower index to the higher, so that both triangles of an edge get the same point, and so do both

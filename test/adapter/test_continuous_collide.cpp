@@ -338,6 +338,34 @@ TEST_CASE("a motion ends at its end pose, by whatever turn the two poses differ"
   CHECK((spiral.at(1).translation() - Vector3d(1, 0, 2)).norm() <= 1e-14);
 }
 
+TEST_CASE("half a turn goes the way round that FCL's does, also between poses of few digits") {
+  Random random(17);
+  // As a float keeps a number, as seven digits do, and in full.
+  const auto kept = [](double x, int how) {
+    return how == 0 ? static_cast<double>(static_cast<float>(x)) : how == 1 ? 1e-7 * std::round(1e7 * x) : x;
+  };
+  for (int i = 0; i < 6000; ++i) {
+    Isometry3d begin = pose(random.rotation(), random.direction()), end = begin;
+    end.linear() = Eigen::AngleAxisd(M_PI, random.direction()) * begin.linear();
+    end.translation() += random.direction();
+    for (Isometry3d* one : {&begin, &end})
+      one->linear() = one->linear().unaryExpr([&](double x) { return kept(x, i % 3); });
+    for (const auto type : {fcl::CCDM_LINEAR, fcl::CCDM_SCREW}) {
+      const auto fclObject = fclMotion(begin, end, type);
+      SteadyMotion object, poses;
+      REQUIRE(steadyMotion(*fclObject, object));
+      REQUIRE(steadyMotion(begin, end, type, poses));
+      const double digits = i % 3 == 2 ? 1e-12 : 1e-6;  // that the poses have
+      for (const SteadyMotion* motion : {&object, &poses}) {
+        INFO(i << " " << type);
+        // A quarter of a turn on.
+        CHECK((motion->at(0.5).matrix() - posed(*fclObject, 0.5).matrix()).norm() < 10 * digits);
+        CHECK((motion->at(1).matrix() - end.matrix()).norm() < 10 * digits);
+      }
+    }
+  }
+}
+
 TEST_CASE("a screw by next to no turn is as free, and meets as soon, as the straight motion") {
   const StpBvGeometry point(StpBv::build({{0, 0, 0}}, {0.1, 10}));
   const fcl::Sphered ball(0.1);

@@ -209,6 +209,37 @@ TEST_CASE("a mesh too fine for the search is covered all the same") {
   CHECK(open == 0);
 }
 
+TEST_CASE("parts of a rough mesh, of which the search saw a coarser one, cover it and its inside") {
+  // Some parts have triangles of the coarse mesh alone.
+  constexpr int kRings = 42;
+  std::vector<std::pair<double, double>> profile;
+  for (int i = 0; i <= kRings; ++i) {
+    const double turn = M_PI * i / kRings, out = 1 + 0.3 * std::sin(3 * turn);
+    profile.emplace_back(i % kRings == 0 ? 0.0 : out * std::sin(turn), -out * std::cos(turn));
+  }
+  TriangleMesh mesh = turnedProfile(profile, kRings);
+  Random random(1);
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+    Eigen::Vector3d& v = mesh.vertices[i];
+    if (i % (kRings + 1) % kRings != 0) v *= 1 - 0.02 * random.uniform(0, 1);
+    v = v.cwiseProduct(Eigen::Vector3d(1, 0.2, 0.5));
+  }
+  PartsOptions options = quick(64);
+  options.effort = 0.02;
+  const ConvexParts parts = convexParts(mesh, options);
+  CHECK(parts.closedPieces == parts.pieces);
+  CHECK(std::none_of(parts.parts.begin(), parts.parts.end(),
+                     [](const ConvexPart& part) { return part.points.empty(); }));
+  const std::vector<StpBv::Ptr> volumes = volumesOf(parts);
+  int open = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const Eigen::Vector3d p = pointOn(mesh, random), q = 0.5 * (p + pointOn(mesh, random));
+    open += !covered(volumes, p);
+    open += !covered(volumes, q) && std::abs(referenceWinding(mesh, q)) > 0.5;
+  }
+  CHECK(open == 0);
+}
+
 TEST_CASE("one triangle, slivers and lines are covered; no triangle at all is refused") {
   const TriangleMesh one{{{0, 0, 0}, {0.1, 0, 0}, {0, 0.1, 0}}, {{0, 1, 2}}};
   CHECK(convexParts(one).parts.size() == 1);
@@ -227,6 +258,30 @@ TEST_CASE("one triangle, slivers and lines are covered; no triangle at all is re
                     [&](const auto& v) { return covered(volumes, v); }));
   CHECK_THROWS_WITH(convexParts({{{0, 0, 0}}, {}}), Contains("no triangles"));
   CHECK_THROWS_WITH(convexParts(one, quick(0)), Contains("most: got 0, expected a number from 1"));
+}
+
+TEST_CASE("lines and points in the plane of a cut stay on one side of it") {
+  const Eigen::Vector3d far(0.12, 0.05, 0.02);
+  TriangleMesh mesh = lShape();  // with an inner face of y = 0.05 and one of x = 0.05
+  const int first = static_cast<int>(mesh.vertices.size());
+  for (const double x : {0.1, 0.12, 0.4}) mesh.vertices.push_back({x, far.y(), far.z()});
+  for (const double y : {0.11, 0.12, 0.5}) mesh.vertices.push_back({0.05, y, 0.01});
+  TriangleMesh points = mesh;
+  for (const int k : {first, first + 3}) {
+    mesh.triangles.push_back({k, k + 1, k + 2});
+    mesh.triangles.push_back({k + 2, k + 1, k});
+  }
+  for (int k = first; k < first + 30; ++k) {
+    if (k >= static_cast<int>(points.vertices.size()))
+      points.vertices.push_back({0.06 + 0.01 * (k - first), far.y(), far.z()});
+    points.triangles.push_back({k, k, k});
+  }
+  for (const TriangleMesh& one : {mesh, points})
+    for (const int most : {1, 2, 3, 8}) {
+      CAPTURE(one.triangles.size(), most);
+      const std::vector<StpBv::Ptr> volumes = volumesOf(convexParts(one, quick(most)));
+      for (const Eigen::Vector3d& v : one.vertices) CHECK(covered(volumes, v));
+    }
 }
 
 TEST_CASE("bodies with faces that are not convex are found in the boxes that they are made of") {
