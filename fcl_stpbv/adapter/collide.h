@@ -16,14 +16,14 @@ namespace fcl_stpbv {
 /// `request.num_max_contacts` in all, and returns how many it then holds. Never throws.
 ///
 /// Two convex bodies have one contact, a mesh or a tree one for each element that meets the other geometry,
-/// `b1` and `b2` as FCL numbers them. With `enable_contact`: `penetration_depth` is the exact one, not below
-/// 0, `normal` that of the smooth surface, from geometry 1 to 2 in the order of the call, `pos` half way
-/// between the deepest points (world, m). Without, each pair of elements costs no more than `isFartherThan`.
-/// Touching is a contact. A pair without an answer (a pose that is not rigid, an invalid shape, a corner that
-/// is no number, two planes) counts as one too, of infinite depth and without a normal: nobody has found it
-/// clear. A geometry that FCL's marks call free or unknown (`cost_density` below `threshold_occupied`; not a
-/// tree, whose cells tell) meets nothing, as in FCL. Cost sources are not made; the other fields of the
-/// request change nothing. `finite`: as QueryContext's.
+/// `b1` and `b2` as FCL numbers them. With `enable_contact`: `penetration_depth` is that of `distance()`,
+/// whose bounds a contact has no place for, not below 0, `normal` that of the smooth surface, from geometry 1
+/// to 2 in the order of the call, `pos` half way between the deepest points (world, m). Without, each pair of
+/// elements costs no more than `isFartherThan`. Touching is a contact. A pair without an answer (a pose that
+/// is not rigid, an invalid shape, a corner that is no number, two planes) counts as one too, of infinite
+/// depth and without a normal: nobody has found it clear. A geometry that FCL's marks call free or unknown
+/// (`cost_density` below `threshold_occupied`; not a tree, whose cells tell) meets nothing, as in FCL. Cost
+/// sources are not made; the other fields of the request change nothing. `finite`: as QueryContext's.
 std::size_t collide(const fcl::CollisionObjectd* object1, const fcl::CollisionObjectd* object2,
                     const fcl::CollisionRequestd& request, fcl::CollisionResultd& result,
                     PairCache* cache = nullptr, bool finite = false);

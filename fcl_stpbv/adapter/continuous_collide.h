@@ -33,10 +33,11 @@ struct SteadyMotion {
 bool steadyMotion(const Eigen::Isometry3d& begin, const Eigen::Isometry3d& end, fcl::CCDMotionType type,
                   SteadyMotion& motion);
 
-/// What one of FCL's motion objects does. False for splines and types of others, also those derived from
-/// FCL's, which may go another way. An `fcl::InterpMotion` that turns and was made without a reference point
-/// moves about whatever the memory held there (FCL 0.7 leaves it unset), and so does the answer; false where
-/// that is not within 1e6 m. Give one, or ask between two poses.
+/// What one of FCL's motion objects does, but for a screw that turns by less than 1e-10: FCL's then goes the
+/// way times its own length, this one to the end. False for splines and types of others, also those derived
+/// from FCL's, which may go another way. An `fcl::InterpMotion` that turns and was made without a reference
+/// point moves about whatever the memory held there (FCL 0.7 leaves it unset), and so does the answer; false
+/// where that is not within 1e6 m. Give one, or ask between two poses.
 bool steadyMotion(const fcl::MotionBased& motion, SteadyMotion& result);
 
 /// What became of a motion.

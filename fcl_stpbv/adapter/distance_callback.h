@@ -52,7 +52,8 @@ struct DistanceData {
   MappingCounts* mapping = nullptr;      ///< optional: gets how good FCL's features were as starts; slower
   StartFrom start = StartFrom::centres;  ///< of pairs without a last answer
   /// Optional: pairs that are not asked, as two parts of one body, which FCL's managers offer like any others
-  /// (docs/fcl.md). Takes the objects in the manager's order.
+  /// (docs/fcl.md). Takes the objects in the manager's order; an octree's side is a box without marks unless
+  /// the manager takes trees whole.
   std::function<bool(const fcl::CollisionObjectd*, const fcl::CollisionObjectd*)> leaveOut = nullptr;
   bool finite = false;      ///< as QueryContext's
   std::size_t pairs = 0;    ///< pairs asked

@@ -76,7 +76,7 @@ struct ProximityCounts {
   long solved = 0;  ///< pairs of bodies whose distance had to be searched for
 };
 
-/// Where a query of two STP-BVs starts that knows no last answer. Either way the answer is the same.
+/// Where a query of two STP-BVs starts that knows no last answer. Either way the distance is the same.
 enum class StartFrom {
   centres,     ///< the line between the centres: the fastest
   fclWitness,  ///< the features of FCL's polyhedral witness: the paper's way (IV.B)
