@@ -121,7 +121,6 @@ Posture findPosture(PostureSetup& setup, const PostureOptions& options) {
   };
   // Steps to where the constraints hold best: next to singular postures they are many and short.
   constexpr int kLongest = 150;
-  constexpr int kMends = 3;
   // The cost pulls the constraints apart by about this times their multipliers: millimetres.
   constexpr double kCostWeight = 1e-4;
   // Soft obstacles first: a hand that would be caught before one passes through it and is pushed out behind.
@@ -153,7 +152,7 @@ Posture findPosture(PostureSetup& setup, const PostureOptions& options) {
         solve(problem, problem.variablesAt(q), {{kCostWeight, kSoft}, {kCostWeight, kFirm}}, options.solver));
     if (stopped()) break;
   }
-  for (int i = 0; i < kMends && !best.feasible && !stopped(); ++i) {
+  for (int i = 0; i < options.mends && !best.feasible && !stopped(); ++i) {
     const std::optional<Eigen::VectorXd> x = mended(problem, bestX, setup.start, options.solver, random);
     if (!x) break;
     consider(

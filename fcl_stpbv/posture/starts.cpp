@@ -2,6 +2,7 @@
 // before it.
 #include "fcl_stpbv/posture/starts.h"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -51,7 +52,7 @@ VectorXd randomStart(const PostureProblem& problem, const VectorXd& start, std::
 
 std::optional<VectorXd> mended(PostureProblem& problem, const VectorXd& from, const VectorXd& start,
                                const SolverOptions& options, std::mt19937_64& random) {
-  constexpr int kDraws = 200;
+  constexpr int kDraws = 400;  // in all
   const auto missed = [](const PostureValues& values) { return -values.atLeast.cwiseMin(0).sum(); };
   const auto holds = [&](const PostureValues& values, int row) {
     return values.atLeast[row] >= -options.tolerance;
@@ -63,11 +64,12 @@ std::optional<VectorXd> mended(PostureProblem& problem, const VectorXd& from, co
     if (!holds(before, row)) violated.push_back(row);
   if (violated.empty()) return std::nullopt;
 
+  const int draws = std::max(1, kDraws / static_cast<int>(violated.size()));
   VectorXd x = from;
   double least = missed(before);
   for (const int row : violated) {
     bool done = holds(problem.evaluate(x), row);
-    for (int i = 0; i < kDraws && !done; ++i) {
+    for (int i = 0; i < draws && !done; ++i) {
       if (options.stop && options.stop()) return x;
       const VectorXd anywhere = randomPosture(problem, start, kAnywhere, random);
       VectorXd drawn = x;

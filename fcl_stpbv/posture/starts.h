@@ -22,9 +22,9 @@ Eigen::VectorXd randomStart(const PostureProblem& problem, const Eigen::VectorXd
                             std::mt19937_64& random);
 
 /// The variables x, mended: for each inequality that they violate, the coordinates on which that one depends
-/// are drawn anywhere within their limits until it holds and all inequalities together miss less. So pairs
-/// that have little to do with each other are freed one after the other, where a random posture would have to
-/// free all of them at once. Nothing where x violates no inequality.
+/// are drawn anywhere within their limits, some hundred times for all, until it holds and all inequalities
+/// together miss less. So pairs that have little to do with each other are freed one after the other, where a
+/// random posture would have to free all of them at once. Nothing where x violates no inequality.
 std::optional<Eigen::VectorXd> mended(PostureProblem& problem, const Eigen::VectorXd& x,
                                       const Eigen::VectorXd& start, const SolverOptions& options,
                                       std::mt19937_64& random);
