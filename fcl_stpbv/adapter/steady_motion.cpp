@@ -1,7 +1,6 @@
 // Motions as FCL makes them, from two poses or from FCL's own objects.
-// 1. The rotation from the first pose to the second, as axis and angle, is the angular velocity. Next to half
-// a
-//    turn the last digits of the given matrices tell which way round FCL goes.
+// 1. The rotation from the first pose to the second, as axis and angle, is the angular velocity. Next to
+//    half a turn it goes FCL's way round, which the last digits of the given matrices tell.
 // 2. CCDM_LINEAR: the body's origin moves on a straight line. CCDM_TRANS: the same without the rotation.
 // 3. CCDM_SCREW: Chasles' theorem. Some axis moves along itself only. Across it the origin goes along an arc
 //    whose chord is the way across: at first with the velocity
@@ -50,7 +49,7 @@ struct Ends {
 
   Ends(const Isometry3d& first, const Isometry3d& last) : givenBegin(first), givenEnd(last) {}
 
-  /// The rotation vector from the first to the last, the way round that FCL goes. (rad)
+  /// The rotation vector (rad) from the first to the last, the way round that FCL goes.
   Vector3d turn() const {
     const auto between = [](const Isometry3d& from, const Isometry3d& to) {
       return Eigen::AngleAxisd(Eigen::Matrix3d(to.linear() * from.linear().transpose()));

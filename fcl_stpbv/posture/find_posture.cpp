@@ -155,8 +155,8 @@ Posture findPosture(PostureSetup& setup, const PostureOptions& options) {
   for (int i = 0; i < options.mends && !best.feasible && !stopped(); ++i) {
     const std::optional<Eigen::VectorXd> x = mended(problem, bestX, setup.start, options.solver, random);
     if (!x) break;
-    consider(
-        solve(problem, *x, {ApproachOptions()}, options.solver));  // the inequalities are to go on to hold
+    const ApproachOptions firm;  // without the cost, which would pull the pairs into each other again
+    consider(solve(problem, *x, {firm}, options.solver));
   }
   if (!best.feasible && !stopped()) {
     ApproachOptions toTheEnd;
