@@ -54,8 +54,8 @@ struct Ends {
     const auto between = [](const Isometry3d& from, const Isometry3d& to) {
       return Eigen::AngleAxisd(Eigen::Matrix3d(to.linear() * from.linear().transpose()));
     };
-    const Eigen::AngleAxisd exact = between(begin, end), asFcl = between(givenBegin, givenEnd);
-    if (exact.angle() > 3 && exact.axis().dot(asFcl.axis()) < 0)
+    const Eigen::AngleAxisd exact = between(begin, end);
+    if (exact.angle() > 3 && exact.axis().dot(between(givenBegin, givenEnd).axis()) < 0)
       return (exact.angle() - 2 * EIGEN_PI) * exact.axis();
     return exact.angle() * exact.axis();
   }
@@ -100,7 +100,7 @@ Isometry3d SteadyMotion::at(double t, Vector3d* velocity) const {
 
 bool steadyMotion(const Isometry3d& begin, const Isometry3d& end, fcl::CCDMotionType type,
                   SteadyMotion& motion) {
-  Ends ends(begin, end);
+  const Ends ends(begin, end);
   if (!ends.valid) return false;
   switch (type) {
     case fcl::CCDM_TRANS:

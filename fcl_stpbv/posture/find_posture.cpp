@@ -13,7 +13,6 @@
 #include <initializer_list>
 #include <limits>
 #include <optional>
-#include <random>
 
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/posture/approach.h"
@@ -143,17 +142,15 @@ Posture findPosture(PostureSetup& setup, const PostureOptions& options) {
   };
   const long long first = std::max(0, options.firstStart), last = first + std::max(1, options.starts);
   const auto stopped = [&] { return options.solver.stop && options.solver.stop(); };
-  std::mt19937_64 random = randomBefore(problem, setup.start, options.seed, first);
+  Starts starts(problem, setup.start, options.seed, first);
   for (long long i = first; i < last && !best.feasible; ++i) {
-    if (i > first && i % kRandomAnew == 0) random = randomBefore(problem, setup.start, options.seed, i);
-    const Eigen::VectorXd q = i == 0 ? setup.start : randomStart(problem, setup.start, random);
     ++best.starts;
-    consider(
-        solve(problem, problem.variablesAt(q), {{kCostWeight, kSoft}, {kCostWeight, kFirm}}, options.solver));
+    consider(solve(problem, problem.variablesAt(starts.next()), {{kCostWeight, kSoft}, {kCostWeight, kFirm}},
+                   options.solver));
     if (stopped()) break;
   }
   for (int i = 0; i < options.mends && !best.feasible && !stopped(); ++i) {
-    const std::optional<Eigen::VectorXd> x = mended(problem, bestX, setup.start, options.solver, random);
+    const std::optional<Eigen::VectorXd> x = starts.mended(bestX, options.solver);
     if (!x) break;
     const ApproachOptions firm;  // without the cost, which would pull the pairs into each other again
     consider(solve(problem, *x, {firm}, options.solver));

@@ -9,24 +9,33 @@
 
 namespace fcl_stpbv::detail {
 
-/// The random numbers begin anew at starts whose numbers this divides, so that none is a long way off.
-constexpr long long kRandomAnew = 100000;
+/// The starts of a search by their numbers. The problem and the task's start must outlive it.
+class Starts {
+ public:
+  /// From the start number `first` on, not below 0.
+  Starts(PostureProblem& problem, const Eigen::VectorXd& start, std::uint64_t seed, long long first);
 
-/// The state of the random numbers before the start of this number, which is not negative.
-std::mt19937_64 randomBefore(const PostureProblem& problem, const Eigen::VectorXd& start, std::uint64_t seed,
-                             long long number);
+  /// Number 0 is the task's own. The others are random postures around it: joints up to half way to anywhere
+  /// within their limits, a moving base up to 10 cm and 0.2 rad away, and what has no limits likewise 0.1 m
+  /// or rad.
+  Eigen::VectorXd next();
 
-/// A random posture around the start: joints up to half way to anywhere within their limits, a moving base up
-/// to 10 cm and 0.2 rad away, and what has no limits likewise 0.1 m or rad.
-Eigen::VectorXd randomStart(const PostureProblem& problem, const Eigen::VectorXd& start,
-                            std::mt19937_64& random);
+  /// The variables x, mended: for each inequality that they violate, the coordinates on which that one
+  /// depends are drawn anywhere within their limits, some hundred times for all, until it holds and all
+  /// inequalities together miss less. So pairs that have little to do with each other are freed one after the
+  /// other, where a random posture would have to free all of them at once. Nothing where x violates no
+  /// inequality.
+  std::optional<Eigen::VectorXd> mended(const Eigen::VectorXd& x, const SolverOptions& options);
 
-/// The variables x, mended: for each inequality that they violate, the coordinates on which that one depends
-/// are drawn anywhere within their limits, some hundred times for all, until it holds and all inequalities
-/// together miss less. So pairs that have little to do with each other are freed one after the other, where a
-/// random posture would have to free all of them at once. Nothing where x violates no inequality.
-std::optional<Eigen::VectorXd> mended(PostureProblem& problem, const Eigen::VectorXd& x,
-                                      const Eigen::VectorXd& start, const SolverOptions& options,
-                                      std::mt19937_64& random);
+ private:
+  Eigen::VectorXd randomPosture(double way);
+  void beginAnew();
+
+  PostureProblem& problem_;
+  const Eigen::VectorXd& start_;
+  std::uint64_t seed_;
+  long long next_;  // number of the start that comes next
+  std::mt19937_64 random_;
+};
 
 }  // namespace fcl_stpbv::detail

@@ -42,14 +42,23 @@ class Pockets : public PostureRows {
   double room_;
 };
 
+// Balls l0, l1, ... in a row by the joints j0, j1, ..., with `more(i)` in each.
+template <class More>
+std::string chain(int joints, More more) {
+  std::string links = ball("l0");
+  for (int i = 0; i < joints; ++i) {
+    const std::string parent = std::to_string(i), child = std::to_string(i + 1);
+    links += ball("l" + child) + joint("j" + parent, "revolute", "l" + parent, "l" + child, more(i));
+  }
+  return links;
+}
+
 Posture amongPockets(double room, std::uint64_t seed) {
-  std::string arm = ball("l0");
   constexpr int kJoints = 8;
-  for (int i = 0; i < kJoints; ++i)
-    arm += ball("l" + std::to_string(i + 1)) + joint("j" + std::to_string(i), "revolute",
-                                                     "l" + std::to_string(i), "l" + std::to_string(i + 1),
-                                                     "<origin xyz='0.3 0 0'/><axis xyz='0 0 1'/>"
-                                                     "<limit lower='-3' upper='3' effort='1' velocity='1'/>");
+  const std::string arm = chain(kJoints, [](int) {
+    return "<origin xyz='0.3 0 0'/><axis xyz='0 0 1'/>"
+           "<limit lower='-3' upper='3' effort='1' velocity='1'/>";
+  });
   PostureTask task;
   task.base = BaseMotion::fixed;
   PostureSetup setup = setUpWithoutCollisions(task, bodiesOf(arm));
@@ -181,12 +190,10 @@ TEST_CASE("a robot without joints is where it is") {
 
 TEST_CASE("what is told to be in conflict is least: no step within the limits misses less") {
   const char* const axes[] = {"0 0 1", "0 1 0", "0.6 0 0.8", "0 1 0", "0.8 0.6 0"};
-  std::string arm = ball("l0");
-  for (int i = 0; i < 5; ++i)
-    arm += ball("l" + std::to_string(i + 1)) +
-           joint("j" + std::to_string(i), "revolute", "l" + std::to_string(i), "l" + std::to_string(i + 1),
-                 "<origin xyz='0.3 0.1 0'/><axis xyz='" + std::string(axes[i]) +
-                     "'/><limit lower='-0.6' upper='0.4' effort='1' velocity='1'/>");
+  const std::string arm = chain(5, [&](int i) {
+    return "<origin xyz='0.3 0.1 0'/><axis xyz='" + std::string(axes[i]) +
+           "'/><limit lower='-0.6' upper='0.4' effort='1' velocity='1'/>";
+  });
   const PostureScene scene = bodiesOf(arm);
   const Kinematics kinematics(scene.robot, BaseMotion::fixed);
   Random random(5);
