@@ -101,6 +101,12 @@ Vector3d Cell::middle() const {
   return sum / static_cast<double>(corners_.size());
 }
 
+std::vector<Vector3d> Cell::corners() const {
+  std::vector<Vector3d> out;
+  for (const Corner& corner : corners_) out.push_back(corner.point);
+  return out;
+}
+
 std::vector<Vector3d> Cell::enclosedCorners() const {
   std::vector<Vector3d> points;
   for (const Corner& c : corners_)

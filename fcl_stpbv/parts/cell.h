@@ -30,6 +30,7 @@ class Cell {
   /// The mean of its corners, a point inside where it is not flat.
   Eigen::Vector3d middle() const;
 
+  std::vector<Eigen::Vector3d> corners() const;
   /// Corners that the mesh encloses, or that are too near its surface to tell.
   std::vector<Eigen::Vector3d> enclosedCorners() const;
 

@@ -2,8 +2,10 @@
 // 1. take the connected pieces (mesh_solid.h) and make them coarser for the search;
 // 2. search for few parts (part_search.h), by cutting and joining;
 // 3. cut the whole mesh again by the same planes;
-// 4. prove the inside covered (inside_proof.h); a part gets those corners of its cells that this needs. Where
-//    they take it away from the mesh, search again with all corners in the parts, and take the better answer;
+// 4. see that the inside is covered too. Parts that are joined facets grow until it is (fill_inside.h). To
+//    parts by cuts it is proven (inside_proof.h); a part gets those corners of its cells that this needs.
+//    Where they take it away from the mesh, let the parts grow as well, search again with all corners in the
+//    parts, and take the best answer;
 // 5. certify each hull's excess (mesh_solid.h).
 #include "fcl_stpbv/parts/convex_parts.h"
 
@@ -12,6 +14,7 @@
 #include <cmath>
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -19,6 +22,7 @@
 #include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/parts/cut_planes.h"
 #include "fcl_stpbv/parts/facet_parts.h"
+#include "fcl_stpbv/parts/fill_inside.h"
 #include "fcl_stpbv/parts/inside_proof.h"
 #include "fcl_stpbv/parts/part_search.h"
 #include "fcl_stpbv/volume/rolling_ball.h"
@@ -119,15 +123,27 @@ struct PartPoints {
   std::vector<Vector3d> needed;  // corners of its cells that the inside needs besides
 };
 
-// Whether the hulls hold what the mesh encloses, as they hold its triangles. Where a leaf does not, its
-// cell's corners make it, unless it is of facets and has no cell: false.
-bool coverInside(const PartSearch::Parts& parts, const std::vector<TriangleSoup>& groups,
+// What the parts hold, as found.
+std::vector<PartPoints> pointsOf(const PartSearch::Parts& parts, const std::vector<TriangleSoup>& groups,
+                                 const PartSpace& space) {
+  std::vector<PartPoints> points;
+  for (const PartPtr& part : parts) {
+    points.emplace_back();
+    for (const auto& leaf : part->leaves) {
+      append(points.back().found, pointsIn(*leaf, groups, space));
+      append(points.back().found, leaf->corners);
+    }
+  }
+  return points;
+}
+
+// Where the hulls do not hold what the mesh encloses in a leaf's cell, as they hold its triangles, the cell's
+// corners make them.
+void coverInside(const PartSearch::Parts& parts, const std::vector<TriangleSoup>& groups,
                  const PartSpace& space, std::vector<PartPoints>& points) {
   std::vector<HullPlanes> hulls;
   for (const PartPoints& one : points)
     hulls.push_back(one.found.empty() ? HullPlanes() : hullPlanes(one.found, 2 * space.slack));
-  if (parts.front()->leaves.front()->isFacet)
-    return isInsideCovered(Cell(space.mesh), hulls, space.mesh, space.slack);
   for (std::size_t p = 0; p < parts.size(); ++p) {
     std::vector<HullPlanes> ownFirst = hulls;
     std::swap(ownFirst[0], ownFirst[p]);
@@ -145,7 +161,6 @@ bool coverInside(const PartSearch::Parts& parts, const std::vector<TriangleSoup>
       if (!isInsideCovered(cell, ownFirst, space.mesh, space.slack)) append(points[p].needed, corners);
     }
   }
-  return true;
 }
 
 ConvexPart certified(const std::vector<Vector3d>& points, const PartSpace& space) {
@@ -164,23 +179,11 @@ ConvexPart certified(const std::vector<Vector3d>& points, const PartSpace& space
 
 struct Certified {
   ConvexParts parts;
-  bool covers = true;   // what the mesh encloses too
   bool asFound = true;  // no part is farther from the mesh for corners that it turned out to need
 };
 
-Certified certified(const PartSearch::Parts& parts, const std::vector<TriangleSoup>& soups,
-                    const PartSpace& space) {
-  std::vector<PartPoints> points;
-  for (const PartPtr& part : parts) {
-    points.emplace_back();
-    for (const auto& leaf : part->leaves) {
-      append(points.back().found, pointsIn(*leaf, soups, space));
-      append(points.back().found, leaf->corners);
-    }
-  }
+Certified certified(std::vector<PartPoints> points, const PartSpace& space) {
   Certified out;
-  if (space.mesh.pieces().closedPieces() > 0) out.covers = coverInside(parts, soups, space, points);
-  if (!out.covers) return out;
   for (PartPoints& one : points) {
     ConvexPart part;  // stays without points where only the coarse mesh has any in its cells
     if (!one.found.empty()) part = certified(one.found, space);
@@ -222,10 +225,22 @@ class Searches {
   ConvexParts within(double excess, long work);
 
  private:
+  bool hasInside() const { return space_.mesh.pieces().closedPieces() > 0; }
+  Certified byCells(const PartSearch::Parts& parts) const {
+    std::vector<PartPoints> points = pointsOf(parts, soups_, space_);
+    if (hasInside()) coverInside(parts, soups_, space_, points);
+    return certified(std::move(points), space_);
+  }
+  // Of parts whose hulls hold the mesh's triangles. Nothing where one gets farther from it than `bound` (m).
+  std::optional<ConvexParts> byGrowing(PartSearch::Parts parts, double bound) const {
+    if (hasInside()) parts = filled(std::move(parts), space_, most_, bound);
+    if (parts.empty()) return std::nullopt;
+    return certified(pointsOf(parts, soups_, space_), space_).parts;
+  }
   ConvexParts byCutsWithCorners(double excess, long work) {
     withCorners_.aim(excess);
     if (startWithCorners_.empty()) startWithCorners_ = uncut(soups_, space_, true);
-    return certified(withCorners_.byCuts(startWithCorners_, work), soups_, space_).parts;
+    return byCells(withCorners_.byCuts(startWithCorners_, work)).parts;
   }
 
   const PartSpace& space_;
@@ -238,7 +253,9 @@ class Searches {
 
 // 1. Facets, joined, where these are enough.
 // 2. Parts by cuts. Where these are not enough, facets again, joined and cut on.
-// 3. Where the inside needs corners that raise the excess: by cuts again, with corners from the start.
+// 3. Where the inside needs corners that raise the excess: parts that grow instead, and cuts again, with
+// corners
+//    from the start.
 ConvexParts Searches::within(double excess, long work) {
   if (needsCorners_) return byCutsWithCorners(excess, work);
   plain_.aim(excess);
@@ -246,7 +263,7 @@ ConvexParts Searches::within(double excess, long work) {
   if (!facets.empty()) {
     const PartSearch::Parts few = plain_.improved(facets.front(), work / 10);
     if (plain_.isEnough(few))
-      if (Certified done = certified(few, soups_, space_); done.covers) return std::move(done.parts);
+      if (auto done = byGrowing(few, std::max(excess, space_.fine))) return *std::move(done);
   }
   if (start_.empty()) start_ = uncut(soups_, space_, false);
   const PartSearch::Parts cuts = plain_.byCuts(start_, work);
@@ -258,15 +275,20 @@ ConvexParts Searches::within(double excess, long work) {
     }
     const PartSearch::Parts other = plain_.improved(best, work / 4);
     if (PartSearch::isBetter(other, cuts))
-      if (Certified done = certified(other, soups_, space_); done.covers) return std::move(done.parts);
+      if (auto done = byGrowing(other, PartSearch::worstExcess(cuts))) return *std::move(done);
   }
-  Certified found = certified(cuts, soups_, space_);
+  Certified found = byCells(cuts);
+  ConvexParts& best = found.parts;
   if (!found.asFound) {
+    // The search's coarser mesh does not tell where the triangles are.
+    if (auto grown = space_.isWhole ? byGrowing(cuts, best.excess) : std::nullopt;
+        grown && grown->excess < best.excess)
+      best = *std::move(grown);
     ConvexParts other = byCutsWithCorners(excess, work);
-    needsCorners_ = other.excess < found.parts.excess;
+    needsCorners_ = other.excess < best.excess;
     if (needsCorners_) return other;
   }
-  return std::move(found.parts);
+  return std::move(best);
 }
 
 // Hulls to spend on a search. Beyond kSearched triangles it sees a coarser mesh, of which it need not get the

@@ -77,9 +77,9 @@ HullPlanes hullPlanes(const std::vector<Vector3d>& points, double cover) {
   return planes;
 }
 
-bool isInsideCovered(const Cell& cell, const std::vector<HullPlanes>& hulls, const MeshSolid& mesh,
-                     double slack) {
-  constexpr std::size_t kMostPieces = 5000;
+std::optional<std::vector<Cell>> uncoveredInside(const Cell& cell, const std::vector<HullPlanes>& hulls,
+                                                 const MeshSolid& mesh, double slack) {
+  constexpr std::size_t kMostPieces = 20000;
   std::vector<Cell> pieces{cell};
   for (const HullPlanes& hull : hulls) {
     std::vector<Cell> left;
@@ -87,11 +87,19 @@ bool isInsideCovered(const Cell& cell, const std::vector<HullPlanes>& hulls, con
     left.erase(std::remove_if(left.begin(), left.end(), [](const Cell& c) { return c.isFlat(); }),
                left.end());
     pieces = std::move(left);
-    if (pieces.size() > kMostPieces) return false;
+    if (pieces.size() > kMostPieces) return std::nullopt;
   }
-  return std::all_of(pieces.begin(), pieces.end(), [&](const Cell& piece) {
+  const auto isOutside = [&](const Cell& piece) {
     return mesh.side(piece.middle()) == MeshSolid::Side::outside;
-  });
+  };
+  pieces.erase(std::remove_if(pieces.begin(), pieces.end(), isOutside), pieces.end());
+  return pieces;
+}
+
+bool isInsideCovered(const Cell& cell, const std::vector<HullPlanes>& hulls, const MeshSolid& mesh,
+                     double slack) {
+  const auto left = uncoveredInside(cell, hulls, mesh, slack);
+  return left && left->empty();
 }
 
 }  // namespace fcl_stpbv::detail

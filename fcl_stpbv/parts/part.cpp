@@ -6,6 +6,7 @@
 #include "fcl_stpbv/parts/part.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 namespace fcl_stpbv::detail {
@@ -31,7 +32,8 @@ double costOf(const MeshSolid& mesh) {
 PartSpace::PartSpace(const MeshSolid& solid)
     : mesh(solid),
       size((solid.high() - solid.low()).norm()),
-      slack(1e-7 * size),
+      slack(1e-7 * size + 64 * std::numeric_limits<double>::epsilon() *
+                              solid.low().cwiseAbs().cwiseMax(solid.high().cwiseAbs()).maxCoeff()),
       fine(5e-4 * size),
       costly(costOf(solid)) {}
 

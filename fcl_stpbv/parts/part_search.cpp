@@ -6,6 +6,9 @@
 // 3. Where that is not near enough, local search from two other starts: the best cut each time until there
 //    are many parts, joined again; and the uncut mesh, for half as many parts first. The best answer counts.
 //    The work given bounds all of it.
+// 4. More than eight parts are made from eight: the worst is cut the best way each time, and what comes of it
+//    goes through the local search; likewise for twice as many, until as many as asked for. So they are not
+//    farther from the mesh than eight. Each round has the work given.
 #include "fcl_stpbv/parts/part_search.h"
 
 #include <algorithm>
@@ -32,14 +35,14 @@ std::size_t worstOf(const PartSearch::Parts& parts) {
   return static_cast<std::size_t>(std::max_element(parts.begin(), parts.end(), less) - parts.begin());
 }
 
-double worstExcess(const PartSearch::Parts& parts) { return excessOf(parts[worstOf(parts)]); }
-
 // Parts to cut into before they are joined to at most `most`. For two, many are not worth their time.
 std::size_t manyParts(int most) {
   return static_cast<std::size_t>(std::max({most, most < 4 ? 2 * most : 16, std::min(2 * most, 24)}));
 }
 
 }  // namespace
+
+double PartSearch::worstExcess(const Parts& parts) { return excessOf(parts[worstOf(parts)]); }
 
 bool PartSearch::isEnough(const Parts& parts) const {
   return parts.size() <= static_cast<std::size_t>(most_) && isWithin(parts);
@@ -274,8 +277,7 @@ PartSearch::Parts PartSearch::byBestCuts(Parts parts) {
   return joined(std::move(parts), most_, 0.5 * bound_);
 }
 
-PartSearch::Parts PartSearch::byCuts(const Parts& start, long work) {
-  work_ = spent_ + work;
+PartSearch::Parts PartSearch::fewByCuts(const Parts& start) {
   Parts best = improved(byBeam(start), most_);
   const auto another = [&](Parts from) {
     Parts found = improved(std::move(from), most_);
@@ -287,6 +289,22 @@ PartSearch::Parts PartSearch::byCuts(const Parts& start, long work) {
     const int half = most_ < 4 ? most_ : most_ / 2;
     another(half == most_ ? joined(start, half, 0) : improved(joined(start, half, 0), half));
   }
+  return best;
+}
+
+PartSearch::Parts PartSearch::byCuts(const Parts& start, long work) {
+  constexpr int kFew = 8;  // all four ways to cut are followed for so many
+  const int goal = most_;
+  most_ = std::min(goal, kFew);
+  work_ = spent_ + work;
+  Parts best = fewByCuts(start);
+  while (most_ < goal && !isWithin(best)) {
+    most_ = std::min(goal, 2 * most_);
+    work_ = spent_ + work;
+    Parts more = improved(byBestCuts(best), most_);
+    if (isBetter(more, best)) best = std::move(more);
+  }
+  most_ = goal;
   return joined(best);
 }
 

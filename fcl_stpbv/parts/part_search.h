@@ -26,12 +26,15 @@ class PartSearch {
   /// known.
   void aim(double bound) { bound_ = std::max(bound, space_.fine); }
 
-  /// From parts that cover all, found by cutting them; `work` is the number of hulls to spend.
+  /// From parts that cover all, found by cutting them; `work` is the number of hulls to spend, and as many
+  /// again each time that there may be twice as many parts.
   Parts byCuts(const Parts& start, long work);
   /// The same parts, joined to few, then cut and joined on while that makes the worst of them better; `work`
   /// is the number of hulls to spend.
   Parts improved(const Parts& parts, long work);
 
+  /// The largest excess of a part, as far as it is known (m).
+  static double worstExcess(const Parts& parts);
   /// Whether the search would end with these.
   bool isEnough(const Parts& parts) const;
   /// By the worst part by 1 % of it, then by the second worst and so on: where two parts are equally bad, a
@@ -59,6 +62,7 @@ class PartSearch {
   Parts joined(const Parts& parts) { return joined(parts, most_, bound_); }
   Parts byBeam(const Parts& start);
   Parts byBestCuts(Parts parts);
+  Parts fewByCuts(const Parts& start);
   Parts improved(Parts parts, int most);
   bool exhausted() const { return spent_ >= work_; }
 

@@ -166,6 +166,43 @@ TEST_CASE("an inside that no face of the mesh belongs to is covered too") {
   CHECK(open == 0);
 }
 
+TEST_CASE("joined faces grow until they hold an inside that none of them reaches") {
+  // A square tub over a hollow: its floor is thick, and in the middle of it no hull of faces that are near
+  // each other has a point.
+  const TriangleMesh tub =
+      turnedProfile({{0, 0.01}, {0.06, 0.01}, {0.1, 0}, {0.1, 0.3}, {0.08, 0.3}, {0.08, 0.04}, {0, 0.04}}, 4);
+  PartsOptions options;
+  options.most = 16;
+  const ConvexParts parts = convexParts(tub, options);
+  CHECK(parts.closedPieces == 1);
+  CHECK(parts.parts.size() <= 10);
+  CHECK(parts.excess < 2e-4);  // what the bound is known to; by cuts it was 2 mm
+  const std::vector<StpBv::Ptr> volumes = volumesOf(parts);
+  Random random(41);
+  int inside = 0, open = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const Eigen::Vector3d p(random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1), random.uniform(0, 0.05));
+    if (std::abs(referenceWinding(tub, p)) < 0.5) continue;
+    ++inside;
+    open += !covered(volumes, p);
+  }
+  CHECK(inside > 5000);
+  CHECK(open == 0);
+}
+
+TEST_CASE("more parts than eight are made from eight, and not farther from the mesh") {
+  // A search that begins with many parts has them cut before any is near the mesh.
+  for (const TriangleMesh& mesh : {torusMesh(0.12, 0.03, 24, 10), spikyBall()}) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const int most : {8, 16, 32}) {
+      const ConvexParts parts = convexParts(mesh, quick(most));
+      CHECK(parts.parts.size() <= static_cast<std::size_t>(most));
+      CHECK(parts.excess <= 1.01 * least);  // the search does not look at less
+      least = parts.excess;
+    }
+  }
+}
+
 TEST_CASE("a turned body is found in the cylinders that it is made of") {
   const ConvexParts parts = convexParts(dumbbell(20), quick(8));
   CHECK(parts.closedPieces == 1);

@@ -192,9 +192,10 @@ def test_an_address_that_cannot_be_a_schedulers_is_refused_at_once(address, tmp_
 
 
 def test_a_scheduler_that_is_not_there_is_named(tmp_path):
-    run = start("fcl_stpbv.batch", *SAMPLE, "--scheduler", "tcp://127.0.0.1:1", "-o", tmp_path / "out")
-    _, message = run.communicate(timeout=60)
-    assert run.returncode == 2 and "tcp://127.0.0.1:1" in message and "Traceback" not in message
+    impatient = "import sys\nfrom fcl_stpbv.batch import __main__ as batch, engine\nengine.PATIENCE = 1\nsys.exit(batch.main())"
+    run = subprocess.run([sys.executable, "-B", "-c", impatient, *map(str, SAMPLE), "--scheduler", "tcp://127.0.0.1:1", "-o", str(tmp_path / "out")],
+                         capture_output=True, text=True, timeout=60)
+    assert run.returncode == 2 and "tcp://127.0.0.1:1" in run.stderr and "Traceback" not in run.stderr
 
 
 def test_processes_that_the_machine_does_not_grant_are_named(tmp_path):

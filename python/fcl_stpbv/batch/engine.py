@@ -15,6 +15,7 @@ from fcl_stpbv.batch.bundle import Unpacked, digest_of
 from fcl_stpbv.batch.kinds import KINDS
 
 AHEAD = 4  # jobs handed out for each worker, so that it never waits for the next one
+PATIENCE = 15  # s that a scheduler may take to answer
 
 
 class Stopped(Exception):
@@ -95,7 +96,7 @@ async def greet(address):
     """Connects once: a Client that is refused would go on waiting, for half a minute."""
     import distributed
 
-    line = await distributed.comm.connect(address, timeout=15, **distributed.Security().get_connection_args("client"))
+    line = await distributed.comm.connect(address, timeout=PATIENCE, **distributed.Security().get_connection_args("client"))
     await line.close()
 
 
@@ -137,7 +138,7 @@ def connected(scheduler, workers):
                 scheduler = stack.enter_context(local_cluster(workers))
             else:
                 asyncio.run(greet(scheduler))
-            client = stack.enter_context(distributed.Client(scheduler, timeout="15s", set_as_default=False))
+            client = stack.enter_context(distributed.Client(scheduler, timeout=PATIENCE, set_as_default=False))
         except (OSError, ValueError, TypeError, TimeoutError) as error:  # a type: tls:// without certificates
             raise fcl_stpbv.Error(f"--scheduler {scheduler}: no Dask scheduler answers there ({error}); "
                                   "start one with dask-scheduler") from None

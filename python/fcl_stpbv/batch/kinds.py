@@ -26,9 +26,8 @@ class Convert:
         self.groups = list(dict.fromkeys(arguments.meshes))
         contents, self.known = hashlib.sha256(), {}
         for mesh in self.groups:
-            text = self.text(mesh, self.given(mesh))
-            contents.update(text)
-            self.known[mesh] = hashlib.sha256(text).digest()
+            self.known[mesh] = self.digest(mesh, self.given(mesh))
+            contents.update(self.known[mesh].encode())
         self.options["meshes"] = contents.hexdigest()
         taken = {}
         for mesh in self.groups:
@@ -49,14 +48,15 @@ class Convert:
             return str(error)
 
     @staticmethod
-    def text(mesh, given):
-        """What tells a mesh and its files from any other."""
-        return repr((mesh, given)).encode()
+    def digest(mesh, given):
+        """Of a mesh's path and its files, or of what is wrong with them."""
+        wrong, files = (given, []) if isinstance(given, str) else ("", given)
+        return bundle.digest_of({"": repr((mesh, wrong)).encode(), **dict(files)})
 
     def later(self, mesh):
         """What `given` gives, when the mesh's turn comes: all of them together may be more than memory holds."""
         given = self.given(mesh)
-        if hashlib.sha256(self.text(mesh, given)).digest() != self.known[mesh]:
+        if self.digest(mesh, given) != self.known[mesh]:
             raise fcl_stpbv.Error(f"{mesh}: has changed while the batch ran; start it anew, with another -o")
         return given
 

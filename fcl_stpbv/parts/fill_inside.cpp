@@ -1,0 +1,85 @@
+// What hulls of a surface leave open of the inside is a union of convex pieces (inside_proof.h), all of it in
+// the solid. The largest pieces first, each goes to the part that stays nearest to the mesh with it, or is
+// one more part. A part that has grown holds other pieces too, so what is left open is found anew after some.
+#include "fcl_stpbv/parts/fill_inside.h"
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "fcl_stpbv/numbers.h"
+#include "fcl_stpbv/parts/inside_proof.h"
+
+namespace fcl_stpbv::detail {
+namespace {
+
+using Eigen::Vector3d;
+
+/// The pieces as parts, the largest first.
+PartSearch::Parts piecesOf(const std::vector<Cell>& cells) {
+  PartSearch::Parts pieces;
+  for (const Cell& cell : cells) {
+    auto leaf = std::make_shared<BspLeaf>();
+    leaf->corners = cell.corners();
+    leaf->isFacet = true;
+    auto piece = std::make_shared<Part>();
+    piece->hull = partHull(leaf->corners);
+    piece->leaves = {std::move(leaf)};
+    pieces.push_back(std::move(piece));
+  }
+  std::stable_sort(pieces.begin(), pieces.end(),
+                   [](const PartPtr& a, const PartPtr& b) { return a->hull.volume > b->hull.volume; });
+  return pieces;
+}
+
+bool isIn(const HullPlanes& hull, const std::vector<Vector3d>& points) {
+  return !isFlat(hull) && std::all_of(hull.begin(), hull.end(), [&](const CutPlane& plane) {
+    return std::all_of(points.begin(), points.end(), [&](const Vector3d& p) { return plane.height(p) <= 0; });
+  });
+}
+
+}  // namespace
+
+PartSearch::Parts filled(PartSearch::Parts parts, const PartSpace& space, int most, double bound) {
+  constexpr int kRounds = 20, kEach = 12;
+  const auto planesOf = [&](const PartPtr& part) { return hullPlanes(part->hull.vertices, 2 * space.slack); };
+  std::vector<HullPlanes> hulls;
+  std::stable_sort(parts.begin(), parts.end(),
+                   [](const PartPtr& a, const PartPtr& b) { return a->hull.volume > b->hull.volume; });
+  for (const PartPtr& part : parts) hulls.push_back(planesOf(part));
+  for (int round = 0; round < kRounds; ++round) {
+    const auto open = uncoveredInside(Cell(space.mesh), hulls, space.mesh, space.slack);
+    if (!open) return {};
+    int grown = 0;
+    for (const PartPtr& piece : piecesOf(*open)) {
+      const std::vector<Vector3d>& corners = piece->hull.vertices;
+      if (std::any_of(hulls.begin(), hulls.end(), [&](const HullPlanes& h) { return isIn(h, corners); }))
+        continue;
+      PartPtr best;
+      std::size_t place = 0;
+      for (std::size_t i = 0; i < parts.size(); ++i) {
+        const double bar = best ? best->excess.lower : std::numeric_limits<double>::infinity();
+        auto both = std::make_shared<Part>(joined(*parts[i], *piece, space, {0.5 * space.fine, bar}));
+        if (best && !(both->excess.lower < bar)) continue;
+        best = std::move(both);
+        place = i;
+      }
+      if (best->excess.lower > bound) {
+        if (parts.size() >= at(most)) return {};
+        measureAgain(*piece, space, {0.5 * space.fine});
+        parts.push_back(piece);
+        hulls.push_back(planesOf(piece));
+      } else {
+        parts[place] = best;
+        hulls[place] = planesOf(best);
+      }
+      if (++grown == kEach) break;
+    }
+    if (grown == 0) return parts;  // what is left is in one of them each
+  }
+  return {};
+}
+
+}  // namespace fcl_stpbv::detail
