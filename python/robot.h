@@ -68,10 +68,14 @@ class PythonRobot {
   const Kinematics& kinematics() const { return *kinematics_; }
   int vertices() const {
     std::set<const StpBv*> volumes;
-    for (const CheckedPair& pair : constraints_->pairs())
-      for (const int body : {pair.body, pair.obstacle ? pair.body : pair.other})
-        volumes.insert(geometry_->bodies[static_cast<std::size_t>(body)].volume.get());
-    volumes.erase(nullptr);
+    const auto add = [&](const fcl::CollisionGeometryd& geometry) {
+      if (const StpBvGeometry* smooth = asStpBv(&geometry)) volumes.insert(&smooth->volume());
+    };
+    for (const CheckedPair& pair : constraints_->pairs()) {
+      add(*geometry_->bodies[static_cast<std::size_t>(pair.body)].geometry);
+      const auto other = static_cast<std::size_t>(pair.other);
+      add(pair.obstacle ? *scene_->obstacles[other].geometry : *geometry_->bodies[other].geometry);
+    }
     int sum = 0;
     for (const StpBv* volume : volumes) sum += volume->vertexCount();
     return sum;

@@ -44,10 +44,12 @@ nlohmann::json trajectoryJson(const CollisionReport& report) {
                       {"closest_proven", t.closestProven},
                       {"closest_precision", TrajectoryReport::kPrecision},
                       {"steepest_approach", t.steepest},
-                      {"steepest_time", t.steepestTime},
                       {"chart", {{"time", t.chartTime}, {"distance", t.chartDistance}}}};
-  json["steepest_pair"] = json["contact"] = nullptr;
-  if (t.steepestPair >= 0) json["steepest_pair"] = report.trajectoryPair(t.steepestPair);
+  json["steepest_pair"] = json["steepest_time"] = json["contact"] = nullptr;
+  if (t.steepestPair >= 0) {
+    json["steepest_pair"] = report.trajectoryPair(t.steepestPair);
+    json["steepest_time"] = t.steepestTime;
+  }
   if (t.verdict != MotionVerdict::free) {
     const auto& [first, second] = report.trajectoryPairs[static_cast<std::size_t>(t.pair)];
     json["contact"] = {{"time", t.until},

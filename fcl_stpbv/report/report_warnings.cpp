@@ -6,6 +6,7 @@
 #include <set>
 
 #include "fcl_stpbv/adapter/fcl_distance.h"
+#include "fcl_stpbv/report/formatted.h"
 
 namespace fcl_stpbv::report {
 
@@ -15,10 +16,8 @@ namespace {
 
 std::string openMeshes(const CollisionReport& report) {
   std::size_t open = 0;
-  for (std::size_t i = 0; i < report.fits.size(); ++i) {
-    const int whole = report.geometry->bodies[i].partOf;
-    open += !report.fits[whole < 0 ? i : static_cast<std::size_t>(whole)].closed;
-  }
+  for (std::size_t i = 0; i < report.fits.size(); ++i)
+    open += report.geometry->bodies[i].partOf < 0 && !report.fits[i].closed;
   if (open == 0) return "";
   return open == 1
              ? "1 mesh is not closed. Its volume is not known, and whether another mesh lies inside it is "
@@ -67,6 +66,12 @@ std::string unmovedInObstacles(const CollisionReport& report) {
   return first + "; no joint moves it, so this pair is not checked" + others + ".";
 }
 
+std::string overlapsAllowed(const CollisionReport& report) {
+  if (report.margin >= 0) return "";
+  return formatted("the margin is negative: what overlaps by less than %g m counts as clear.",
+                   -report.margin);
+}
+
 std::string kinks(const CollisionReport& report) {
   const auto kinked = std::count_if(report.pairs.begin(), report.pairs.end(), [](const PairReport& pair) {
     return pair.checked && !pair.answer.continuous;
@@ -95,7 +100,7 @@ std::vector<std::string> reportWarnings(const CollisionReport& report, const std
   std::vector<std::string> warnings;
   for (const std::string& text :
        {openMeshes(report), openParts(*report.geometry), neutralCollisions(report.neutral, neutral),
-        unmovedInObstacles(report), kinks(report)})
+        unmovedInObstacles(report), overlapsAllowed(report), kinks(report)})
     if (!text.empty()) warnings.push_back(report.robot->path + ": " + text);
   return warnings;
 }

@@ -26,7 +26,7 @@ Obstacle obstacleOf(const fcl::CollisionObjectd& object, const std::string& name
   const auto& geometry = object.collisionGeometry();
   Eigen::Isometry3d pose = object.getTransform();
   makeRigid(pose);  // as distance() does: bounds take it as it is
-  return {name, geometry, pose, pose * geometry->aabb_center, geometry->aabb_radius, nullptr};
+  return {name, geometry, pose, pose * geometry->aabb_center, geometry->aabb_radius, nullptr, nullptr};
 }
 
 std::string nameOf(const CheckedPair& pair, const RobotGeometry& geometry,
@@ -70,8 +70,8 @@ std::vector<Obstacle> obstaclesOf(std::shared_ptr<const RobotModel> scene, const
   std::vector<Obstacle> obstacles;
   for (const Body& body : geometry.bodies) {
     const Eigen::Isometry3d& link = state.link[static_cast<std::size_t>(body.link)];
-    obstacles.push_back(
-        {body.name, body.geometry, link * body.pose, link * body.centre, body.radius, body.primitive});
+    obstacles.push_back({body.name, body.geometry, link * body.pose, link * body.centre, body.radius,
+                         body.primitive, body.full});
   }
   return obstacles;
 }

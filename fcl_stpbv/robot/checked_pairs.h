@@ -28,7 +28,8 @@ struct Obstacle {
   Eigen::Vector3d centre;                                   ///< of a sphere that holds it, in the world (m)
   double radius = 0;                                        ///< of that sphere (m)
   std::shared_ptr<const fcl::CollisionGeometryd>
-      primitive;  ///< the primitive under its smooth cover, else null
+      primitive;                                        ///< the primitive under its smooth cover, else null
+  std::shared_ptr<const fcl::CollisionGeometryd> full;  ///< of a body of a scene, its Body::full
 };
 
 /// An FCL object as an obstacle, where it stands now; a rotation that is off by up to 1e-6 becomes the

@@ -72,6 +72,32 @@ void checkKnown(const XMLElement& element, const std::set<std::string_view>& ins
       refuseCollada(*e, "is no element of COLLADA within <" + std::string(element.Name()) + ">", name);
 }
 
+const std::set<std::string_view> kInRoot{"asset",
+                                         "library_animations",
+                                         "library_animation_clips",
+                                         "library_articulated_systems",
+                                         "library_cameras",
+                                         "library_controllers",
+                                         "library_effects",
+                                         "library_force_fields",
+                                         "library_formulas",
+                                         "library_geometries",
+                                         "library_images",
+                                         "library_joints",
+                                         "library_kinematics_models",
+                                         "library_kinematics_scenes",
+                                         "library_lights",
+                                         "library_materials",
+                                         "library_nodes",
+                                         "library_physics_materials",
+                                         "library_physics_models",
+                                         "library_physics_scenes",
+                                         "library_visual_scenes",
+                                         "scene",
+                                         "extra"};
+const std::set<std::string_view> kInAsset{"contributor", "coverage", "created", "keywords",
+                                          "modified",    "revision", "subject", "title",
+                                          "unit",        "up_axis",  "extra"};
 const std::set<std::string_view> kInNode{"asset",
                                          "lookat",
                                          "matrix",
@@ -97,6 +123,9 @@ class ColladaNodes {
   ColladaNodes(const XMLElement& root, const std::string& name) : root_(root), name_(name) {}
 
   void check() {
+    checkKnown(root_, kInRoot, name_);
+    for (const XMLElement* e = root_.FirstChildElement("asset"); e; e = e->NextSiblingElement("asset"))
+      checkKnown(*e, kInAsset, name_);
     forEach("library_geometries", "geometry", [this](const XMLElement& e) { addGeometry(e); });
     forEach("library_nodes", "node", [this](const XMLElement& e) { addNode(e); });
     forEach("library_visual_scenes", "visual_scene", [this](const XMLElement& e) { addScene(e); });

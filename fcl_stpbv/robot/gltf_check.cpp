@@ -130,7 +130,18 @@ class GltfCheck {
                                       ", which has " + std::to_string(vertices) + ", the first being 0");
   }
 
+  // A misspelt key is a body that is not there, or stands elsewhere.
+  void checkNodeKeys(const GltfItem& node) const {
+    static const std::string_view kKeys[] = {"camera", "children",    "extensions", "extras",
+                                             "matrix", "mesh",        "name",       "rotation",
+                                             "scale",  "translation", "skin",       "weights"};
+    for (const auto& [key, ignored] : node.value->items())
+      if (std::find(std::begin(kKeys), std::end(kKeys), key) == std::end(kKeys))
+        values_.refuse(node, "has '" + key + "', which is nothing that glTF knows of a node");
+  }
+
   void checkNode(const GltfItem& node) const {
+    checkNodeKeys(node);
     refuseExtension(node, "EXT_mesh_gpu_instancing", "export a node for each instance");
     if (values_.find(node, "mesh") && values_.find(node, "skin"))
       values_.refuse(node,

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <assimp/Importer.hpp>
+#include <iterator>
 #include <set>
 
 #include "fcl_stpbv/error.h"
@@ -21,7 +22,8 @@ namespace {
 
 // Those of a single reader. The readers of .gltf and .glb, of .xml and of unknown endings look at the
 // content.
-const std::set<std::string_view> kByName{".3mf", ".amf", ".dae", ".fbx", ".obj", ".off", ".ply", ".stl"};
+const std::set<std::string_view> kByName{".3mf", ".amf", ".dae",  ".dxf", ".fbx",
+                                         ".obj", ".off", ".ogex", ".ply", ".stl"};
 
 bool looksLikeGltf(std::string_view text) {
   const std::size_t start = std::min(text.find_first_not_of(" \t\r\n"), text.size());
@@ -52,9 +54,13 @@ std::string formatOf(const aiScene& scene, const Assimp::Importer& importer) {
 
 void checkMeshFormat(std::string_view text, const std::string& format, const std::string& path,
                      const ReadPart& readPart) {
-  if (format == ".3mf" || format == ".amf" || format == ".fbx")
+  constexpr std::string_view kWithUnit[] = {".3mf", ".amf", ".dxf", ".fbx", ".ogex"};
+  const bool isX3d = format == ".x3d" || format == ".x3db";
+  if (std::find(std::begin(kWithUnit), std::end(kWithUnit), format) != std::end(kWithUnit) ||
+      (isX3d && text.find("conversionFactor") != std::string_view::npos))
     throw Error(path +
-                ": states a unit of its own, millimetres or centimetres if it names none, which is not read; "
+                ": is of a format that states a unit of its own, often millimetres or centimetres, which is "
+                "not read; "
                 "convert it to STL or OBJ in metres");
   if (format == ".dae" && text.substr(0, 2) == "PK")
     throw Error(path + ": is a packed COLLADA, which is not read; unpack it and give the .dae in it");

@@ -140,6 +140,8 @@ void checkNames(const Header& header, const std::string& name) {
   }
 }
 
+constexpr char kMore[] = "holds more than the elements that the header promises";
+
 class PlyBody {
  public:
   PlyBody(std::string_view bytes, Encoding encoding, const std::string& name)
@@ -152,6 +154,11 @@ class PlyBody {
         skip(values * property.value.bytes, element);
       }
     }
+  }
+
+  void end() const {
+    if (bytes_.find_first_not_of(std::string_view(" \t\r\n\0", 5)) != std::string_view::npos)
+      throw Error(name_ + ": " + kMore);
   }
 
  private:
@@ -206,6 +213,11 @@ class PlyLines {
     }
   }
 
+  void end() {
+    while (lines_.next())
+      if (!wordsOf(lines_.text()).empty()) lines_.damaged(kMore);
+  }
+
  private:
   // assimp passes over a single empty line.
   void nextLine(const Element& element) {
@@ -253,6 +265,7 @@ void checkPly(std::string_view text, const std::string& name) {
     refuseNul(text, name);
     PlyLines body(lines);
     for (const Element& element : header.elements) body.pass(element);
+    body.end();
   } else {
     if (lines.end() == "\r") lines.refuse("the line must end by a line feed before values in binary");
     // assimp passes over all line feeds behind this one, and would read the values from other bytes.
@@ -262,6 +275,7 @@ void checkPly(std::string_view text, const std::string& name) {
           "mesh as text, or another format");
     PlyBody body(lines.rest(), header.encoding, name);
     for (const Element& element : header.elements) body.pass(element);
+    body.end();
   }
 }
 

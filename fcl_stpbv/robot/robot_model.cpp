@@ -199,8 +199,11 @@ void setMimic(const Mimic& end, int joint, RobotModel& robot) {
   const auto single = [](const JointModel& m) {
     return m.type >= JointType::revolute && m.type <= JointType::prismatic;
   };
-  if (!single(model) || !single(robot.joints[static_cast<std::size_t>(end.joint)]) ||
-      !(std::abs(end.multiplier) <= kLargestValue) || !(std::abs(end.offset) <= kLargestValue))
+  const JointModel& leader = robot.joints[static_cast<std::size_t>(end.joint)];
+  if (!single(leader))
+    throw Error("mimics '" + leader.name + "', expected a joint that moves along or about one axis");
+  if (!single(model) || !(std::abs(end.multiplier) <= kLargestValue) ||
+      !(std::abs(end.offset) <= kLargestValue))
     throw Error("only a joint with one axis can mimic another one, by numbers from -1e6 to 1e6");
   model.mimic = end;
 }

@@ -6,12 +6,12 @@
 #include <cmath>
 #include <optional>
 #include <set>
-#include <sstream>
 #include <string_view>
 #include <unordered_set>
 
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/numbers.h"
+#include "fcl_stpbv/robot/mesh_lines.h"
 #include "fcl_stpbv/robot/xml_text.h"
 
 namespace fcl_stpbv {
@@ -144,12 +144,11 @@ class SrdfReader {
         warn(*j, "<" + std::string(j->Name()) + "> counts for nothing in a <group_state>, expected <joint>");
         continue;
       }
-      std::istringstream values(requiredAttribute(*j, "value", path_));
-      values.imbue(std::locale::classic());
+      const std::string text = requiredAttribute(*j, "value", path_);
       std::vector<double>& list = state.joints[requiredAttribute(*j, "name", path_)];
-      for (double value; values >> value;) list.push_back(value);
-      const bool finite = std::all_of(list.begin(), list.end(), [](double v) { return std::isfinite(v); });
-      if (list.empty() || !finite || !values.eof())
+      for (const std::string_view word : wordsOf(text))
+        if (double value; readMeshNumber(word, value)) list.push_back(value);
+      if (list.empty() || list.size() != wordsOf(text).size())
         throw Error(xmlPlace(*j, path_) + "a joint's value must be finite numbers");
     }
     return state;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <iterator>
 #include <set>
 
 #include "fcl_stpbv/error.h"
@@ -196,17 +197,27 @@ class StlLines {
       const MeshWords words = wordsOf(lines_.text());
       if (words.empty()) continue;
       const std::string keyword = inSmallLetters(words[0]);
-      if (keyword != words[0] && (keyword == "facet" || keyword == "vertex"))
+      const bool known = isKnown(keyword) || beginsWith(keyword, "solid") || beginsWith(keyword, "endsolid");
+      if (keyword != words[0] && known)
         lines_.refuse("'" + std::string(words[0]) + "' is not read; write it in small letters");
+      if (inSolid_ && !known)
+        lines_.damaged("got '" + std::string(words[0]) + "', expected a line of a facet, or 'endsolid'");
       if (inSolid_)
         within(keyword, words);
       else
         between(keyword, words);
     }
     if (inFacet_) lines_.damaged("ends within a facet");
+    if (inSolid_) lines_.damaged("ends within a solid; is the file whole? It must end by 'endsolid'");
   }
 
  private:
+  static bool isKnown(std::string_view word) {
+    constexpr std::string_view kWords[] = {"facet",  "normal",  "outer",   "loop",
+                                           "vertex", "endloop", "endfacet"};
+    return std::find(std::begin(kWords), std::end(kWords), word) != std::end(kWords);
+  }
+
   void between(const std::string& keyword, const MeshWords& words) {
     if (beginsWith(keyword, "solid") && stray_ == 0)
       inSolid_ = !endsWithin(words, 2);
@@ -231,6 +242,7 @@ class StlLines {
       inFacet_ = true;
       corners_ = 0;
     } else if (keyword == "endfacet") {
+      if (!inFacet_) lines_.damaged("'endfacet' outside of a facet");
       if (corners_ != 3) lines_.damaged("a facet has " + std::to_string(corners_) + " vertices, expected 3");
       inFacet_ = false;
     }

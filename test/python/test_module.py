@@ -428,6 +428,7 @@ def test_a_robot_is_as_fine_as_its_needs_ask_for(hook):
     files = hook / "hook.urdf", hook / "hook.srdf", hook / "post.urdf"
     hulls = fcl_stpbv.Robot(*files, r=0.001)
     assert len(hulls.rows) == 2  # the L and the post do not move
+    assert hulls.vertices == fcl_stpbv.Robot(*files[:2], r=0.001).vertices + 8  # the post's
     q = np.zeros(1)
     assert hulls.distances(q)[0] < 0  # in the notch: inside the hull
     same, unmet = hulls.model_for([])

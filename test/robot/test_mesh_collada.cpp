@@ -95,6 +95,12 @@ TEST_CASE("COLLADA elements that assimp would pass over, and with them a shape o
         "t.dae:17: <instance_geometr" + none},
        {"<vertices id", "<Triangles/><vertices id", "t.dae:11: <Triangles" + none + "mesh>"},
        {"<mesh>", "<mesh/><Mesh/><mesh>", "t.dae:4: <Mesh" + none + "geometry>"},
+       {"<library_geometries>", "<assets><unit meter=\"0.01\"/></assets><library_geometries>",
+        "<assets" + none + "COLLADA>"},
+       {"<library_geometries>", "<c:asset><unit meter=\"0.01\"/></c:asset><library_geometries>",
+        "<c:asset" + none},
+       {"<library_geometries>", "<asset><units meter=\"0.01\"/></asset><library_geometries>",
+        "<units" + none + "asset>"},
        {"<node id=\"m\">", "<node id=\"m\"/><node id=\"m\">",
         "t.dae:16: <node> has an id that another one has"}});
 }

@@ -261,6 +261,8 @@ TEST_CASE("files that hold no mesh are refused by name") {
   refused("t.amf", "<?xml version=\"1.0\"?><amf unit=\"inch\"/>", "convert it to STL or OBJ in metres");
   refused("t.fbx", "; FBX 7.4.0 project file\n", "convert it to STL or OBJ in metres");
   refused("t.3mf", "PK", "convert it to STL or OBJ in metres");
+  refused("t.dxf", "0\nSECTION\n2\nENTITIES\n0\nENDSEC\n0\nEOF\n", "convert it to STL or OBJ in metres");
+  refused("t.ogex", "Metric (key = \"distance\") {float {0.01}}\n", "convert it to STL or OBJ in metres");
   refused("t.txt", obj(), "t.txt:1:");
   refused("cut.off", "OFF\n4 4 6\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1", "damaged");
   refused("nan.off", "OFF\n3 1 3\n0 0 0\n1 0 nan\n0 1 0\n3 0 1 2\n", "");
@@ -302,6 +304,9 @@ TEST_CASE("a PLY file cut off or with flipped bits is refused or read, in text a
       return refusal([](const std::string& path) { loadPoints(path); }, folder / "d.ply");
     };
     CHECK(read(whole).empty());
+    CHECK(read(whole + "\n").empty());
+    CHECK(read(whole + "3 0 1 2\n").find("holds more than the elements that the header promises") !=
+          std::string::npos);
     for (int i = 0; i < 100; ++i) {
       const int size = static_cast<int>(whole.size());
       CHECK(read(whole.substr(0, static_cast<std::size_t>(random.below(size - 1)))).find(folder / "d.ply") ==

@@ -156,6 +156,8 @@ TEST_CASE("glTF: nodes whose transform or children would be taken for others are
        {node, "{\"mesh\":0,\"rotation\":[0,0,0,0]}", "nodes[0].rotation is a quaternion"},
        {node, "{\"mesh\":0,\"rotation\":[0,0,0.707,0.707]}", "nodes[0].rotation is a quaternion"},
        {node, "{\"mesh\":0,\"rotation\":[0,0,1]}", "nodes[0].rotation must be a list of 4 numbers"},
+       {node, "{\"mesh\":0},{\"Mesh\":0}", "nodes[1] has 'Mesh', which is nothing that glTF knows"},
+       {node, "{\"mesh\":0,\"scales\":[2,2,2]}", "nodes[0] has 'scales'"},
        {node, "{\"mesh\":0,\"translation\":[1,2]}", "nodes[0].translation must be a list of 3"},
        {node, "{\"mesh\":0,\"translation\":[1,2,\"3\"]}", "nodes[0].translation must be a list of 3"},
        {node, "{\"mesh\":0,\"matrix\":[1]}", "nodes[0].matrix must be a list of 16"},

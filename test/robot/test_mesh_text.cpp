@@ -145,9 +145,16 @@ TEST_CASE("STL: each facet is in a solid and each vertex in a facet") {
                          {"solid a\nfacet normal 0 0 1\nvertex 0 0 0 1\n", ":3: "},
                          {"solid a\nfacet normal 0 0 1\nvertex " + kBig, ":3: "},
                          {"solid a\n" + facet + "FACET normal 0 0 1\n", ":9: "},
+                         {solid + "SOLID b\n" + facet + "endsolid b\n", ":10: 'SOLID' is not read"},
+                         {solid + "Solid b\n" + facet + "endsolid b\n", ":10: "},
+                         {"solid a\n" + facet + "EndSolid a\n" + solid, ":9: "},
+                         {"solid a\n" + facet, ":8: ends within a solid"},
+                         {"solid a\n" + facet + "fac", ":9: got 'fac'"},
+                         {"solid a\n\u200B" + facet + "endsolid a\n", ":2: got"},
+                         {"solid a\n" + facet + "endfacet\nendsolid a\n", ":9: 'endfacet' outside"},
                          {" solid a\nfacet normal 0 0 1\nvertex 0,5 0 0\n", ":3: "}});
-  checkRead("t.stl", {"solid a\nendsolid a\n\n  " + solid, solid + "\nby hand\n",
-                      "solid\n" + facet + "endsolid\n", "solid a\n" + facet});
+  checkRead("t.stl",
+            {"solid a\nendsolid a\n\n  " + solid, solid + "\nby hand\n", "solid\n" + facet + "endsolid\n"});
   checkRead("t.stl", {solid + "solid b\n" + facet + "endsolid b facet\n"}, 2);
 }
 
@@ -193,6 +200,7 @@ TEST_CASE("PLY as text: an element a line, and the properties that make a mesh")
        {ply(xyz, "0 0 0\n\n\n1 0 0\n0 1 0\n" + face), ":12: the line holds less than one"},
        {ply(xyz, vertices), ":12: ends within its elements 'face'"},
        {ply(xyz, vertices + "3 0 1 4294967298\n"), ":13: "},
+       {ply(xyz, vertices + face + "\n" + face), ":15: holds more than the elements"},
        {ply(xyz, vertices + "3 0 1 2.0\n"), ":13: "},
        {ply("property int x\nproperty float y\nproperty float z\n", "1.5 0 0\n"), ":10: "},
        {ply("property int x\nproperty uchar y\nproperty int z\n", "1 -2 3\n"),

@@ -266,6 +266,24 @@ TEST_CASE("all that is wrong with a robot is told at once, before a volume is bu
     CHECK_THAT(message, Contains(part));
 }
 
+TEST_CASE("each value of a joint in a group_state must be a number to its end") {
+  const TemporaryFolder folder;
+  const RobotModel model =
+      parseUrdf(robot(link("a") + link("b") + joint("j", "revolute", "a", "b")), "small.urdf");
+  const auto read = [&](const std::string& value) {
+    put(folder / "s.srdf", "<robot name=\"small\"><group_state name=\"s\"><joint name=\"j\" value=\"" +
+                               value + "\"/></group_state></robot>");
+    LoadFaults faults;
+    loadSrdf(folder / "s.srdf", model, faults);
+    return faults.errors.size();
+  };
+  for (const char* sound : {"0.5", " -5e-1 ", "+0.5"}) CHECK(read(sound) == 0);
+  for (const char* broken : {"", "0.5 1e999", "0.5 -", "0.5 1e", "0.5 .", "5e-1.", "0,5", "nan", "0.5x"}) {
+    INFO(broken);
+    CHECK(read(broken) == 1);
+  }
+}
+
 TEST_CASE("entries of an SRDF for links that the robot does not have are warnings, and count for nothing") {
   const TemporaryFolder folder;
   const RobotModel model =

@@ -93,6 +93,15 @@ TEST_CASE("a mimic joint is tied to the end of its chain") {
   CHECK(model.joints[2].mimic->offset == -0.25);
 }
 
+TEST_CASE("a mimic joint that cannot follow is refused by what it is tied to") {
+  const std::string links = link("a") + link("b") + link("c");
+  for (const char* type : {"fixed", "planar"})
+    CHECK_THAT(
+        refused(robot(links + joint("j", type, "a", "b") +
+                      joint("k", "revolute", "b", "c", "<mimic joint=\"j\"/>"))),
+        Contains("joint 'k'") && Contains("mimics 'j', expected a joint that moves along or about one axis"));
+}
+
 TEST_CASE("what cannot be a robot is refused with a reason") {
   const std::string ab = link("a") + link("b");
   CHECK_THAT(refused("hello"), Contains("small.urdf"));

@@ -156,6 +156,33 @@ class Report(unittest.TestCase):
         self.assertEqual(self.run_tool(self.slider(), "--trajectory", "no/such.csv").returncode, 2)
         self.assertEqual(self.follow("way.csv", "slide\n0\n1\n", "--pose", "x").returncode, 2)
 
+    def test_a_margin_below_0_is_warned_of(self):
+        for margin, warned in (("0", False), ("-0.01", True)):
+            said = self.run_tool(self.slider(), "--primitives", "flat", "--samples", "20", "--margin", margin).stderr
+            self.assertEqual("the margin is negative: what overlaps by less than 0.01 m counts as clear" in said, warned, said)
+
+    def test_an_arm_that_comes_no_nearer_has_no_time_of_its_fastest_approach(self):
+        done = self.follow("way.csv", "time,slide\n6,0\n7,-1\n", "--format", "json")
+        way = json.loads(done.stdout)["trajectory"]
+        self.assertEqual((way["steepest_pair"], way["steepest_time"], way["steepest_approach"]), (None, None, 0))
+
+    def test_the_hull_of_an_obstacle_has_all_corners_of_its_mesh(self):
+        # A lens so flat that the tip on it is inside its volume: a cube ends 1 mm above the tip.
+        ring = [(0.2 * math.cos(math.pi * i / 4), 0.2 * math.sin(math.pi * i / 4), 0) for i in range(8)]
+        lens = "".join(f"v {x:.9f} {y:.9f} {z}\n" for x, y, z in ring + [(0, 0, 0.008), (0, 0, -0.05)])
+        lens += "".join(f"f {i + 1} {(i + 1) % 8 + 1} 9\nf {(i + 1) % 8 + 1} {i + 1} 10\n" for i in range(8))
+        self.put("lens.obj", lens)
+        cube = [(x, y, z) for x in (-0.05, 0.05) for y in (-0.05, 0.05) for z in (-0.05, 0.05)]
+        self.put("cube.obj", "".join(f"v {x} {y} {z}\n" for x, y, z in cube) + "f 1 2 4\nf 5 6 8\nf 1 3 7\n")
+        scene = self.put("scene.urdf", '<robot name="s">' + link("lens", '<mesh filename="lens.obj"/>') + "</robot>")
+        robot = self.robot(link("base") + link("arm", '<mesh filename="cube.obj"/>')
+                           + '<joint name="j" type="prismatic"><parent link="base"/><child link="arm"/><axis xyz="0 0 1"/>'
+                             '<limit lower="-1" upper="1" effort="1" velocity="1"/></joint>')
+        pose = self.put("pose.json", '{"j": 0.059}')
+        done = self.run_tool(robot, "--obstacles", scene, "-r", "0.01", "-R", "1", "--pose", pose, "--format", "json")
+        (pair,) = json.loads(done.stdout)["pairs"]
+        self.assertAlmostEqual(pair["hull_distance"], 1e-3, delta=2e-5)  # 9 mm without the tip
+
     def test_a_clear_posture_exits_with_0_and_states_every_figure(self):
         done = self.humanoid("--pose", "half_sitting", "--format", "json")
         self.assertEqual(done.returncode, 0, done.stderr)
