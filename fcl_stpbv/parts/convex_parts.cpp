@@ -253,9 +253,8 @@ class Searches {
 
 // 1. Facets, joined, where these are enough.
 // 2. Parts by cuts. Where these are not enough, facets again, joined and cut on.
-// 3. Where the inside needs corners that raise the excess: parts that grow instead, and cuts again, with
-// corners
-//    from the start.
+// 3. Where the inside needs corners that raise the excess: parts that grow instead, and cuts again, with all
+//    corners from the start.
 ConvexParts Searches::within(double excess, long work) {
   if (needsCorners_) return byCutsWithCorners(excess, work);
   plain_.aim(excess);

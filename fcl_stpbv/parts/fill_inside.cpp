@@ -4,6 +4,7 @@
 #include "fcl_stpbv/parts/fill_inside.h"
 
 #include <algorithm>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -34,6 +35,25 @@ PartSearch::Parts piecesOf(const std::vector<Cell>& cells) {
   return pieces;
 }
 
+/// A part and a piece together, and which part it was.
+struct Growth {
+  PartPtr part;
+  std::size_t place = 0;
+};
+
+/// Of the part that stays nearest to the mesh with the piece.
+Growth leastFar(const PartSearch::Parts& parts, const Part& piece, const PartSpace& space) {
+  Growth best;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    auto both = std::make_shared<Part>(joined(*parts[i], piece, space, {0.5 * space.fine, least}));
+    if (best.part && !(both->excess.lower < least)) continue;
+    least = both->excess.lower;
+    best = {std::move(both), i};
+  }
+  return best;
+}
+
 bool isIn(const HullPlanes& hull, const std::vector<Vector3d>& points) {
   return !isFlat(hull) && std::all_of(hull.begin(), hull.end(), [&](const CutPlane& plane) {
     return std::all_of(points.begin(), points.end(), [&](const Vector3d& p) { return plane.height(p) <= 0; });
@@ -44,36 +64,32 @@ bool isIn(const HullPlanes& hull, const std::vector<Vector3d>& points) {
 
 PartSearch::Parts filled(PartSearch::Parts parts, const PartSpace& space, int most, double bound) {
   constexpr int kRounds = 20, kEach = 12;
+  constexpr std::size_t kMostPlanes = 3000, kMostOpen = 3000;  // more take longer than they are worth
   const auto planesOf = [&](const PartPtr& part) { return hullPlanes(part->hull.vertices, 2 * space.slack); };
   std::vector<HullPlanes> hulls;
   std::stable_sort(parts.begin(), parts.end(),
                    [](const PartPtr& a, const PartPtr& b) { return a->hull.volume > b->hull.volume; });
   for (const PartPtr& part : parts) hulls.push_back(planesOf(part));
   for (int round = 0; round < kRounds; ++round) {
+    std::size_t planes = 0;
+    for (const HullPlanes& hull : hulls) planes += hull.size();
+    if (planes > kMostPlanes) return {};
     const auto open = uncoveredInside(Cell(space.mesh), hulls, space.mesh, space.slack);
-    if (!open) return {};
+    if (!open || open->size() > kMostOpen) return {};
     int grown = 0;
     for (const PartPtr& piece : piecesOf(*open)) {
       const std::vector<Vector3d>& corners = piece->hull.vertices;
       if (std::any_of(hulls.begin(), hulls.end(), [&](const HullPlanes& h) { return isIn(h, corners); }))
         continue;
-      PartPtr best;
-      std::size_t place = 0;
-      for (std::size_t i = 0; i < parts.size(); ++i) {
-        const double bar = best ? best->excess.lower : std::numeric_limits<double>::infinity();
-        auto both = std::make_shared<Part>(joined(*parts[i], *piece, space, {0.5 * space.fine, bar}));
-        if (best && !(both->excess.lower < bar)) continue;
-        best = std::move(both);
-        place = i;
-      }
-      if (best->excess.lower > bound) {
+      const Growth best = leastFar(parts, *piece, space);
+      if (best.part->excess.lower > bound) {
         if (parts.size() >= at(most)) return {};
         measureAgain(*piece, space, {0.5 * space.fine});
         parts.push_back(piece);
         hulls.push_back(planesOf(piece));
       } else {
-        parts[place] = best;
-        hulls[place] = planesOf(best);
+        parts[best.place] = best.part;
+        hulls[best.place] = planesOf(best.part);
       }
       if (++grown == kEach) break;
     }

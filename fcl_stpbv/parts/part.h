@@ -28,7 +28,8 @@ struct PartSpace {
 };
 
 /// A leaf of the binary space partition (BSP) that the cuts make: the mesh's triangles in it, and the corners
-/// of its cell that are inside the solid. Or a facet of the mesh, or what cuts left of one: it has no cell.
+/// of its cell that are inside the solid. Or a facet of the mesh, or what cuts left of one, or a convex piece
+/// of the inside, by its corners: these have no cell.
 struct BspLeaf {
   TriangleSoup soup;
   Cell cell;
