@@ -173,7 +173,7 @@ ConvexPart certified(const std::vector<Vector3d>& points, const PartSpace& space
   open.queries = std::max(10000L, static_cast<long>(1e6 / space.costly));
   out.excess = out.openExcess = excessOf(surface, mesh, open);
   open.filled = false;
-  if (mesh.pieces().closedPieces() > 0) out.openExcess = excessOf(surface, mesh, open);
+  if (mesh.hasInside()) out.openExcess = excessOf(surface, mesh, open);
   return out;
 }
 
@@ -207,7 +207,7 @@ PartSearch::Parts uncut(const std::vector<TriangleSoup>& soups, const PartSpace&
   for (std::size_t g = 0; g < soups.size(); ++g) {
     auto leaf = std::make_shared<BspLeaf>();
     leaf->soup = forSearch(soups[g], space);
-    if (corners && space.mesh.pieces().closedPieces() > 0) leaf->cell = Cell(space.mesh);
+    if (corners && space.mesh.hasInside()) leaf->cell = Cell(space.mesh);
     leaf->group = static_cast<int>(g);
     parts.push_back(std::make_shared<Part>(makePart({leaf}, space, {space.fine})));
   }
@@ -225,15 +225,14 @@ class Searches {
   ConvexParts within(double excess, long work);
 
  private:
-  bool hasInside() const { return space_.mesh.pieces().closedPieces() > 0; }
   Certified byCells(const PartSearch::Parts& parts) const {
     std::vector<PartPoints> points = pointsOf(parts, soups_, space_);
-    if (hasInside()) coverInside(parts, soups_, space_, points);
+    if (space_.mesh.hasInside()) coverInside(parts, soups_, space_, points);
     return certified(std::move(points), space_);
   }
   // Of parts whose hulls hold the mesh's triangles. Nothing where one gets farther from it than `bound` (m).
   std::optional<ConvexParts> byGrowing(PartSearch::Parts parts, double bound) const {
-    if (hasInside()) parts = filled(std::move(parts), space_, most_, bound);
+    if (space_.mesh.hasInside()) parts = filled(std::move(parts), space_, most_, bound);
     if (parts.empty()) return std::nullopt;
     return certified(pointsOf(parts, soups_, space_), space_).parts;
   }

@@ -4,7 +4,6 @@
 #include "fcl_stpbv/parts/fill_inside.h"
 
 #include <algorithm>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -18,7 +17,12 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// The pieces as parts, the largest first.
+void sortLargestFirst(PartSearch::Parts& parts) {
+  std::stable_sort(parts.begin(), parts.end(),
+                   [](const PartPtr& a, const PartPtr& b) { return a->hull.volume > b->hull.volume; });
+}
+
+/// The pieces as parts, the largest first. How far they are from the mesh is not measured: they are in it.
 PartSearch::Parts piecesOf(const std::vector<Cell>& cells) {
   PartSearch::Parts pieces;
   for (const Cell& cell : cells) {
@@ -30,8 +34,7 @@ PartSearch::Parts piecesOf(const std::vector<Cell>& cells) {
     piece->leaves = {std::move(leaf)};
     pieces.push_back(std::move(piece));
   }
-  std::stable_sort(pieces.begin(), pieces.end(),
-                   [](const PartPtr& a, const PartPtr& b) { return a->hull.volume > b->hull.volume; });
+  sortLargestFirst(pieces);
   return pieces;
 }
 
@@ -44,7 +47,7 @@ struct Growth {
 /// Of the part that stays nearest to the mesh with the piece.
 Growth leastFar(const PartSearch::Parts& parts, const Part& piece, const PartSpace& space) {
   Growth best;
-  double least = std::numeric_limits<double>::infinity();
+  double least = kInfinity;
   for (std::size_t i = 0; i < parts.size(); ++i) {
     auto both = std::make_shared<Part>(joined(*parts[i], piece, space, {0.5 * space.fine, least}));
     if (best.part && !(both->excess.lower < least)) continue;
@@ -67,8 +70,7 @@ PartSearch::Parts filled(PartSearch::Parts parts, const PartSpace& space, int mo
   constexpr std::size_t kMostPlanes = 3000, kMostOpen = 3000;  // more take longer than they are worth
   const auto planesOf = [&](const PartPtr& part) { return hullPlanes(part->hull.vertices, 2 * space.slack); };
   std::vector<HullPlanes> hulls;
-  std::stable_sort(parts.begin(), parts.end(),
-                   [](const PartPtr& a, const PartPtr& b) { return a->hull.volume > b->hull.volume; });
+  sortLargestFirst(parts);
   for (const PartPtr& part : parts) hulls.push_back(planesOf(part));
   for (int round = 0; round < kRounds; ++round) {
     std::size_t planes = 0;
@@ -84,7 +86,6 @@ PartSearch::Parts filled(PartSearch::Parts parts, const PartSpace& space, int mo
       const Growth best = leastFar(parts, *piece, space);
       if (best.part->excess.lower > bound) {
         if (parts.size() >= at(most)) return {};
-        measureAgain(*piece, space, {0.5 * space.fine});
         parts.push_back(piece);
         hulls.push_back(planesOf(piece));
       } else {

@@ -43,6 +43,27 @@ void subtract(const Cell& cell, const HullPlanes& hull, double slack, std::vecto
   }
 }
 
+// What the hulls leave of a cell. Nothing where that takes too many pieces.
+std::optional<std::vector<Cell>> outsideOf(const std::vector<HullPlanes>& hulls, const Cell& cell,
+                                           double slack) {
+  constexpr std::size_t kMostPieces = 20000;
+  std::vector<Cell> pieces{cell};
+  for (const HullPlanes& hull : hulls) {
+    std::vector<Cell> left;
+    for (const Cell& piece : pieces) subtract(piece, hull, slack, left);
+    left.erase(std::remove_if(left.begin(), left.end(), [](const Cell& c) { return c.isFlat(); }),
+               left.end());
+    pieces = std::move(left);
+    if (pieces.size() > kMostPieces) return std::nullopt;
+  }
+  return pieces;
+}
+
+// Of a piece that is inside the solid or outside as a whole.
+bool isOutside(const Cell& piece, const MeshSolid& mesh) {
+  return mesh.side(piece.middle()) == MeshSolid::Side::outside;
+}
+
 // The plane of a flat hull, by its largest triangle; none of a line or a point.
 HullPlanes planeOf(const PartHull& flat) {
   Vector3d normal = Vector3d::Zero();
@@ -79,27 +100,17 @@ HullPlanes hullPlanes(const std::vector<Vector3d>& points, double cover) {
 
 std::optional<std::vector<Cell>> uncoveredInside(const Cell& cell, const std::vector<HullPlanes>& hulls,
                                                  const MeshSolid& mesh, double slack) {
-  constexpr std::size_t kMostPieces = 20000;
-  std::vector<Cell> pieces{cell};
-  for (const HullPlanes& hull : hulls) {
-    std::vector<Cell> left;
-    for (const Cell& piece : pieces) subtract(piece, hull, slack, left);
-    left.erase(std::remove_if(left.begin(), left.end(), [](const Cell& c) { return c.isFlat(); }),
-               left.end());
-    pieces = std::move(left);
-    if (pieces.size() > kMostPieces) return std::nullopt;
-  }
-  const auto isOutside = [&](const Cell& piece) {
-    return mesh.side(piece.middle()) == MeshSolid::Side::outside;
-  };
-  pieces.erase(std::remove_if(pieces.begin(), pieces.end(), isOutside), pieces.end());
-  return pieces;
+  std::optional<std::vector<Cell>> left = outsideOf(hulls, cell, slack);
+  if (left)
+    left->erase(std::remove_if(left->begin(), left->end(), [&](const Cell& c) { return isOutside(c, mesh); }),
+                left->end());
+  return left;
 }
 
 bool isInsideCovered(const Cell& cell, const std::vector<HullPlanes>& hulls, const MeshSolid& mesh,
                      double slack) {
-  const auto left = uncoveredInside(cell, hulls, mesh, slack);
-  return left && left->empty();
+  const std::optional<std::vector<Cell>> left = outsideOf(hulls, cell, slack);
+  return left && std::all_of(left->begin(), left->end(), [&](const Cell& c) { return isOutside(c, mesh); });
 }
 
 }  // namespace fcl_stpbv::detail

@@ -30,7 +30,7 @@ using Eigen::Vector3d;
 class Bound {
  public:
   Bound(const MeshSolid& mesh, const ExcessOptions& options) : mesh_(mesh), options_(options) {
-    inside_ = options.filled && mesh.pieces().closedPieces() > 0;
+    inside_ = options.filled && mesh.hasInside();
     slack_ = 1e-9 * (mesh.high() - mesh.low()).norm();
   }
 

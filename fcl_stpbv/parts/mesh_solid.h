@@ -53,6 +53,8 @@ class MeshSolid {
   const MeshPieces& pieces() const { return pieces_; }
   /// Whether every piece is closed, so that the mesh has an inside everywhere.
   bool closed() const { return pieces_.closedPieces() == pieces_.pieces(); }
+  /// Whether a piece is closed, so that the mesh encloses something.
+  bool hasInside() const { return pieces_.closedPieces() > 0; }
   /// Least coordinates of a box that holds the mesh (m).
   const Eigen::Vector3d& low() const { return nodes_[0].low; }
   /// Largest coordinates of that box (m).

@@ -249,62 +249,60 @@ PartSearch::Parts PartSearch::improved(const Parts& parts, long work) {
   return joined(improved(joined(parts), most_));
 }
 
-PartSearch::Parts PartSearch::byBeam(const Parts& start) {
-  const auto most = static_cast<std::size_t>(most_);
-  Parts best = joined(start, most_, 0);
+PartSearch::Parts PartSearch::byBeam(const Parts& start, int most) {
+  Parts best = joined(start, most, 0);
   std::vector<Line> beam{line(start)};
-  while (!beam.empty() && !isWithin(best) && beam.front().parts.size() < manyParts(most_)) {
-    if (exhausted() || beam.front().parts.size() >= most) beam.resize(1);  // then on to what is joined again
+  while (!beam.empty() && !isWithin(best) && beam.front().parts.size() < manyParts(most)) {
+    if (exhausted() || beam.front().parts.size() >= at(most))
+      beam.resize(1);  // then on to what is joined again
     beam = cutOn(beam);
     for (const Line& tried : beam) {
-      const bool few = tried.parts.size() <= most;
+      const bool few = tried.parts.size() <= at(most);
       if (!few && exhausted()) continue;
-      Parts parts = few ? tried.parts : joined(tried.parts, most_, 0.5 * bound_);
+      Parts parts = few ? tried.parts : joined(tried.parts, most, 0.5 * bound_);
       if (worstExcess(parts) < worstExcess(best)) best = std::move(parts);
     }
   }
   return best;
 }
 
-PartSearch::Parts PartSearch::byBestCuts(Parts parts) {
-  while (!exhausted() && !isWithin(parts) && parts.size() < manyParts(most_)) {
+PartSearch::Parts PartSearch::byBestCuts(Parts parts, int most) {
+  while (!exhausted() && !isWithin(parts) && parts.size() < manyParts(most)) {
     const std::size_t w = worstOf(parts);
     const std::vector<Split>& ways = splits(parts[w]);
     if (ways.empty()) break;
     parts[w] = ways.front().up;
     parts.push_back(ways.front().down);
   }
-  return joined(std::move(parts), most_, 0.5 * bound_);
+  return joined(std::move(parts), most, 0.5 * bound_);
 }
 
-PartSearch::Parts PartSearch::fewByCuts(const Parts& start) {
-  Parts best = improved(byBeam(start), most_);
+PartSearch::Parts PartSearch::fewByCuts(const Parts& start, int most) {
+  Parts best = improved(byBeam(start, most), most);
   const auto another = [&](Parts from) {
-    Parts found = improved(std::move(from), most_);
+    Parts found = improved(std::move(from), most);
     if (isBetter(found, best)) best = std::move(found);
   };
   const auto goesOn = [&] { return !exhausted() && !isWithin(best); };
-  if (goesOn()) another(byBestCuts(start));
+  if (goesOn()) another(byBestCuts(start, most));
   if (goesOn()) {
-    const int half = most_ < 4 ? most_ : most_ / 2;
-    another(half == most_ ? joined(start, half, 0) : improved(joined(start, half, 0), half));
+    const int half = most < 4 ? most : most / 2;
+    another(half == most ? joined(start, half, 0) : improved(joined(start, half, 0), half));
   }
   return best;
 }
 
 PartSearch::Parts PartSearch::byCuts(const Parts& start, long work) {
   constexpr int kFew = 8;  // all four ways to cut are followed for so many
-  const int goal = most_;
-  most_ = std::min(goal, kFew);
+  int most = std::min(most_, kFew);
   work_ = spent_ + work;
-  Parts best = fewByCuts(start);
-  while (most_ < goal && !isWithin(best)) {
-    most_ = std::min(goal, 2 * most_);
+  Parts best = fewByCuts(start, most);
+  while (most < most_ && !isWithin(best)) {
+    most = std::min(most_, 2 * most);
     work_ = spent_ + work;
-    Parts more = improved(byBestCuts(best), most_);
+    Parts more = improved(byBestCuts(best, most), most);
     if (isBetter(more, best)) best = std::move(more);
   }
-  most_ = goal;
   return joined(best);
 }
 

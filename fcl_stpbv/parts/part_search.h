@@ -60,9 +60,9 @@ class PartSearch {
   PartPtr join(const PartPtr& a, const PartPtr& b, const Measure& measure);
   Parts joined(Parts parts, int most, double bound);
   Parts joined(const Parts& parts) { return joined(parts, most_, bound_); }
-  Parts byBeam(const Parts& start);
-  Parts byBestCuts(Parts parts);
-  Parts fewByCuts(const Parts& start);
+  Parts byBeam(const Parts& start, int most);
+  Parts byBestCuts(Parts parts, int most);
+  Parts fewByCuts(const Parts& start, int most);
   Parts improved(Parts parts, int most);
   bool exhausted() const { return spent_ >= work_; }
 

@@ -36,24 +36,25 @@ struct Placed {
   }
 };
 
-template <typename Shape>  // a Body or an Obstacle
-Placed placed(const Shape& shape, const Eigen::Isometry3d& pose) {
-  std::shared_ptr<const fcl::CollisionGeometryd> hull = shape.geometry;
-  if (shape.primitive) hull = shape.primitive;
-  if (shape.full) hull = shape.full;
-  return {shape.geometry.get(), hull, pose};
+template <typename Placeable>  // a Body or an Obstacle
+Placed placed(const Placeable& body, const Eigen::Isometry3d& pose) {
+  std::shared_ptr<const fcl::CollisionGeometryd> hull = body.geometry;
+  if (body.primitive) hull = body.primitive;
+  if (body.full) hull = body.full;
+  return {body.geometry.get(), hull, pose};
 }
 
 Placed placed(const Body& body, const Kinematics::State& state) {
   return placed(body, state.link[at(body.link)] * body.pose);
 }
 
+Placed placed(const Obstacle& obstacle) { return placed(obstacle, obstacle.pose); }
+
 void covers(const CollisionReport& report, const CheckedPair& both, const Kinematics::State& state,
             PairReport& pair) {
   const Placed first = placed(report.geometry->bodies[at(both.body)], state);
-  const Placed second = both.obstacle
-                            ? placed(report.obstacles[at(both.other)], report.obstacles[at(both.other)].pose)
-                            : placed(report.geometry->bodies[at(both.other)], state);
+  const Placed second = both.obstacle ? placed(report.obstacles[at(both.other)])
+                                      : placed(report.geometry->bodies[at(both.other)], state);
   pair.overCover1 = first.cover(pair.answer.normal);
   pair.overCover2 = second.cover(-pair.answer.normal);
   const auto margin = [](const Placed& body) {

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <assimp/Importer.hpp>
-#include <iterator>
 #include <set>
 
 #include "fcl_stpbv/error.h"
@@ -24,6 +23,9 @@ namespace {
 // content.
 const std::set<std::string_view> kByName{".3mf", ".amf", ".dae",  ".dxf", ".fbx",
                                          ".obj", ".off", ".ogex", ".ply", ".stl"};
+
+// Those that state a unit, often millimetres or centimetres, which assimp does not apply.
+const std::set<std::string_view> kWithUnit{".3mf", ".amf", ".dxf", ".fbx", ".ogex"};
 
 bool looksLikeGltf(std::string_view text) {
   const std::size_t start = std::min(text.find_first_not_of(" \t\r\n"), text.size());
@@ -54,14 +56,11 @@ std::string formatOf(const aiScene& scene, const Assimp::Importer& importer) {
 
 void checkMeshFormat(std::string_view text, const std::string& format, const std::string& path,
                      const ReadPart& readPart) {
-  constexpr std::string_view kWithUnit[] = {".3mf", ".amf", ".dxf", ".fbx", ".ogex"};
-  const bool isX3d = format == ".x3d" || format == ".x3db";
-  if (std::find(std::begin(kWithUnit), std::end(kWithUnit), format) != std::end(kWithUnit) ||
-      (isX3d && text.find("conversionFactor") != std::string_view::npos))
+  const bool inOwnUnit = format == ".x3d" && text.find("conversionFactor") != std::string_view::npos;
+  if (kWithUnit.count(format) != 0 || inOwnUnit)
     throw Error(path +
                 ": is of a format that states a unit of its own, often millimetres or centimetres, which is "
-                "not read; "
-                "convert it to STL or OBJ in metres");
+                "not read; convert it to STL or OBJ in metres");
   if (format == ".dae" && text.substr(0, 2) == "PK")
     throw Error(path + ": is a packed COLLADA, which is not read; unpack it and give the .dae in it");
   if (format == ".ply")

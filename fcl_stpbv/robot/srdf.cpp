@@ -144,11 +144,12 @@ class SrdfReader {
         warn(*j, "<" + std::string(j->Name()) + "> counts for nothing in a <group_state>, expected <joint>");
         continue;
       }
-      const std::string text = requiredAttribute(*j, "value", path_);
+      const std::string value = requiredAttribute(*j, "value", path_);
+      const MeshWords words = wordsOf(value);
       std::vector<double>& list = state.joints[requiredAttribute(*j, "name", path_)];
-      for (const std::string_view word : wordsOf(text))
-        if (double value; readMeshNumber(word, value)) list.push_back(value);
-      if (list.empty() || list.size() != wordsOf(text).size())
+      for (const std::string_view word : words)
+        if (double number; readMeshNumber(word, number)) list.push_back(number);
+      if (list.empty() || list.size() != words.size())
         throw Error(xmlPlace(*j, path_) + "a joint's value must be finite numbers");
     }
     return state;

@@ -263,6 +263,12 @@ TEST_CASE("files that hold no mesh are refused by name") {
   refused("t.3mf", "PK", "convert it to STL or OBJ in metres");
   refused("t.dxf", "0\nSECTION\n2\nENTITIES\n0\nENDSEC\n0\nEOF\n", "convert it to STL or OBJ in metres");
   refused("t.ogex", "Metric (key = \"distance\") {float {0.01}}\n", "convert it to STL or OBJ in metres");
+  refused(
+      "t.x3d",
+      "<?xml version=\"1.0\"?><X3D><head><unit category=\"length\" conversionFactor=\"0.001\"/></head><Scene>"
+      "<Shape><IndexedFaceSet coordIndex=\"0 1 2 -1\"><Coordinate point=\"0 0 0 1 0 0 0 1 0\"/>"
+      "</IndexedFaceSet></Shape></Scene></X3D>",
+      "convert it to STL or OBJ in metres");
   refused("t.txt", obj(), "t.txt:1:");
   refused("cut.off", "OFF\n4 4 6\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1", "damaged");
   refused("nan.off", "OFF\n3 1 3\n0 0 0\n1 0 nan\n0 1 0\n3 0 1 2\n", "");
