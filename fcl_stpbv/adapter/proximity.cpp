@@ -2,8 +2,9 @@
 //
 // 1. Boxes around both geometries, or around two convex bodies their balls.
 // 2. Down both hierarchies, near children first.
-// 3. Of two bodies the gap along the remembered normal.
+// 3. Of two bodies the gap along the remembered normal, and the balls in them.
 // 4. A search that ends as soon as its bounds tell.
+#include <algorithm>
 #include <cmath>
 
 #include "fcl_stpbv/adapter/fcl_distance.h"
@@ -47,6 +48,38 @@ class Within {
   ProximityCounts* counts_ = nullptr;
 };
 
+/// How far the bodies' coordinates reach, for rounding, and the way between the centres of two shapes (m).
+struct Centres {
+  double rounding, apart;
+
+  Centres(const ConvexBody& a, const ConvexBody& b) {
+    const Vector3d d = b.pose.translation() - a.pose.translation();
+    rounding = kGapRounding * (d.lpNorm<1>() + a.extent() + b.extent());
+    apart = (b.pose.linear() * b.shape.centre + d - a.pose.linear() * a.shape.centre).norm();
+  }
+};
+
+/// Radius of a ball about a bounded shape's centre that lies in it; no more than the margin where finding a
+/// larger one takes longer.
+double ballInside(const Shape& shape) {
+  switch (shape.kind) {
+    case ShapeKind::box:
+    case ShapeKind::ellipsoid:
+      return shape.size.minCoeff() + shape.margin;
+    case ShapeKind::cylinder:
+      return std::min(shape.radius, shape.half) + shape.margin;
+    default:
+      return shape.margin;
+  }
+}
+
+/// Whether balls in two shapes tell that these are no farther apart.
+bool areWithinByBalls(double x, const ConvexBody& a, const ConvexBody& b) {
+  if (a.unbounded() || b.unbounded()) return false;
+  const Centres centres(a, b);
+  return centres.apart - ballInside(a.shape) - ballInside(b.shape) + centres.rounding <= x;
+}
+
 /// By the elements of a valid pair.
 bool areElementsFarther(double x, const PosedPair& pair, const QueryContext& context) {
   if (x < 0 && pair.areSurfaces()) return true;  // they have no depth: their distance is at least 0
@@ -67,13 +100,13 @@ bool isFartherByBounds(double x, const ConvexBody& a, const ConvexBody& b, const
   if (a.volume) return isFartherByBounds(x, *a.volume, a.pose, b.shape, b.pose, cache);
   if (b.volume) return isFartherByBounds(x, *b.volume, b.pose, a.shape, a.pose, cache.mirrored());
   if (a.unbounded() || b.unbounded()) return false;
-  const Vector3d n = cache.direction(), d = b.pose.translation() - a.pose.translation();
-  const double rounding = kGapRounding * (d.lpNorm<1>() + a.extent() + b.extent());
-  const auto radius = [](const Shape& shape) { return shape.reach + shape.margin; };
-  const Vector3d centres = b.pose.linear() * b.shape.centre + d - a.pose.linear() * a.shape.centre;
-  if (centres.norm() - radius(a.shape) - radius(b.shape) > x + rounding) return true;
+  const Centres centres(a, b);
+  const auto ballAround = [](const Shape& shape) { return shape.reach + shape.margin; };
+  if (centres.apart - ballAround(a.shape) - ballAround(b.shape) > x + centres.rounding) return true;
+  const Vector3d n = cache.direction();
   if (n.isZero(0)) return false;
-  return n.dot(d) - a.support(n) - b.support(-n) > x + rounding;
+  const Vector3d d = b.pose.translation() - a.pose.translation();
+  return n.dot(d) - a.support(n) - b.support(-n) > x + centres.rounding;
 }
 
 bool isFartherThan(double x, const ConvexBody& a, const ConvexBody& b, PairCache* cache,
@@ -81,8 +114,10 @@ bool isFartherThan(double x, const ConvexBody& a, const ConvexBody& b, PairCache
   x += a.rounding + b.rounding;
   if (counts) ++counts->bounds;
   if (isFartherByBounds(x, a, b, cache ? *cache : PairCache())) return true;
+  const bool areShapes = !a.volume && !b.volume;
+  if (areShapes && areWithinByBalls(x, a, b)) return false;
   if (counts) ++counts->solved;
-  if (!a.volume && !b.volume) return isFartherThan(x, a.shape, a.pose, b.shape, b.pose, cache);
+  if (areShapes) return isFartherThan(x, a.shape, a.pose, b.shape, b.pose, cache);
   if (a.volume && b.volume) return isFartherThan(x, *a.volume, a.pose, *b.volume, b.pose, cache);
   if (a.volume) return isFartherThan(x, *a.volume, a.pose, b.shape, b.pose, cache);
   PairCache mirrored;

@@ -214,6 +214,36 @@ TEST_CASE(
   CHECK(solvedAbove <= 2 * asked);    // 1.2 a question on average, a millimetre above it
 }
 
+TEST_CASE("balls in two simple shapes tell that these meet, and never more than that") {
+  const fcl::Sphered ball(0.2);
+  const fcl::Boxd cube(0.4, 0.4, 0.4);
+  const fcl::Cylinderd cylinder(0.2, 0.4);
+  const fcl::Ellipsoidd ellipsoid(0.2, 0.2, 0.2);
+  Random random(6);
+  for (const fcl::CollisionGeometryd* first :
+       std::initializer_list<const fcl::CollisionGeometryd*>{&ball, &cube, &cylinder, &ellipsoid})
+    for (const fcl::CollisionGeometryd* second :
+         std::initializer_list<const fcl::CollisionGeometryd*>{&ball, &cube, &cylinder, &ellipsoid}) {
+      ProximityCounts counts;
+      QueryContext context;
+      context.proximity = &counts;
+      // To 1e-12 m, where rounding is below 1e-13 of a size of a metre. Faces, ends and balls opposite each
+      // other along x, y or z: the balls' distance is the bodies'. A cylinder's end is along z alone, and its
+      // side anywhere across.
+      for (const double gap : {-0.3, -1e-3, 1e-3, 0.3}) {
+        const Vector3d axis = Vector3d::Unit(static_cast<int>(random.uniform(0, 3)));
+        Isometry3d a = pose(random.rotation(), random.direction()), b = a;
+        b.translation() += a.linear() * ((0.4 + gap) * axis);
+        CAPTURE(first->getNodeType(), second->getNodeType(), gap, axis);
+        CHECK_FALSE(isFartherThan(gap + 1e-12, *first, a, *second, b, context));
+        CHECK(isFartherThan(gap - 1e-12, *first, a, *second, b, context));
+        counts = {};
+        CHECK_FALSE(isFartherThan(gap + 1e-12, *first, a, *second, b, context));
+        CHECK(counts.solved == 0);
+      }
+    }
+}
+
 TEST_CASE("whatever distance says of two kinds that overlap, a threshold below 0 is judged by it") {
   const auto kinds = everyKind();
   Random random(4);
