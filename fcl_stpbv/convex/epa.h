@@ -19,7 +19,9 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <new>
 #include <optional>
+#include <type_traits>
 
 #include "fcl_stpbv/convex/local_maximum.h"
 #include "fcl_stpbv/convex/polytope.h"
@@ -138,13 +140,13 @@ class Epa {
     for (int attempt = 0; attempt < kAttempts && !solved(); ++attempt) {
       const Eigen::Matrix3d turn =
           Eigen::AngleAxisd(attempt, Eigen::Vector3d(0.48, 0.6, 0.64)).toRotationMatrix();
-      Points point;
-      const bool around = attempt == 0 && spanAround(point);
+      Tetrahedron first;
+      const bool around = attempt == 0 && spanAround(first);
       if (!around && !spanVolume(
                          turn, rounding_, [&](const Eigen::Vector3d& m) { return look(-m); },
-                         [](const Corner& c) -> const Eigen::Vector3d& { return c.w; }, point.data()))
+                         [](const Corner& c) -> const Eigen::Vector3d& { return c.w; }, first.data()))
         break;
-      expand(point, maximum);
+      expand(first, maximum);
     }
     return solved();
   }
@@ -154,10 +156,31 @@ class Epa {
   static constexpr int kMore = 16;         // steps from there for a normal to rounding, which flat faces give
   static constexpr double kNear = 0.03;    // of the depth: from here a maximum is likely to be found
   static constexpr double kNearer = 0.03;  // of that, from where it is tried again
-  using Points = std::array<Corner, Polytope::kMaxPoints>;
+  using Tetrahedron = std::array<Corner, 4>;
+
+  /// Room for the corners of all of a polytope's points. It is not cleared: that would take as long as
+  /// several steps of the search.
+  class Corners {
+   public:
+    explicit Corners(const Tetrahedron& first) {
+      for (const Corner& c : first) add(c);
+    }
+    void add(const Corner& c) { new (&room_[count_++].corner) Corner(c); }
+    bool full() const { return count_ == room_.size(); }
+    const Corner& operator[](std::size_t i) const { return room_[i].corner; }
+
+   private:
+    union Room {
+      Room() {}
+      Corner corner;
+    };
+    static_assert(std::is_trivially_destructible_v<Corner>);
+    std::size_t count_ = 0;
+    std::array<Room, Polytope::kMaxPoints> room_;
+  };
 
   /// Three points around the best normal so far and one behind. False where they are almost in one plane.
-  bool spanAround(Points& point) {
+  bool spanAround(Tetrahedron& point) {
     constexpr double kFlat = 0.01;  // of the volume of a box with sides as long
     const std::array<Eigen::Vector3d, 4> normal = normalsAround(n);
     for (std::size_t i = 0; i < 4; ++i) point[i] = look(normal[i].normalized());
@@ -167,8 +190,8 @@ class Epa {
   }
 
   template <typename FindMaximum>
-  void expand(Points& point, const FindMaximum& maximum) {
-    std::size_t points = 4;
+  void expand(const Tetrahedron& first, const FindMaximum& maximum) {
+    Corners point(first);
     int more = 0;
     double near = kNear;
     std::optional<LocalMaximum> top;
@@ -196,8 +219,8 @@ class Epa {
       if (face.depth > 0.0 && open <= kRelative * face.depth + rounding_ &&
           (open <= rounding_ || ++more > kMore))
         return false;
-      if (!(face.normal.dot(next.w) - face.distance > rounding_) || points == point.size()) return false;
-      point[points++] = next;
+      if (!(face.normal.dot(next.w) - face.distance > rounding_) || point.full()) return false;
+      point.add(next);
       return polytope.expand(next.w, next.onA);
     });
     // Faces in one plane are equally near: the origin is above one of them.

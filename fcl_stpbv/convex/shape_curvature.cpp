@@ -62,6 +62,20 @@ NormalCone ofVertices(int count, const Vertex& vertex, const Vector3d& a, const 
   return noWay(m, t.cross(c - a).normalized());
 }
 
+/// A box's: along those of its sides whose ends lie as far along `m` as each other.
+NormalCone ofBox(const Vector3d& half, const Vector3d& m, double rounding) {
+  const auto isLevel = [&](int i) {
+    const double side = 2.0 * half[i];
+    return side * std::abs(m[i]) <= rounding && side > rounding;
+  };
+  int steepest, count = 0, along = 0;  // axes
+  m.cwiseAbs().maxCoeff(&steepest);
+  for (int i = 0; i < 3; ++i)
+    if (i != steepest && isLevel(i)) ++count, along = i;
+  if (count == 0) return allAround(m);
+  return count == 1 ? aroundLine(m, Vector3d::Unit(along), 0.0) : noWay(m, Vector3d::Unit(steepest));
+}
+
 /// A disc's rim: a circle of this radius around z. Near the axis the normal says little about the place on
 /// the rim, so the point `x` tells it.
 NormalCone ofRim(const Vector3d& m, const Vector3d& x, double radius, double across) {
@@ -73,7 +87,7 @@ NormalCone ofRim(const Vector3d& m, const Vector3d& x, double radius, double acr
 
 NormalCone ofCylinder(const Shape& s, const Vector3d& m, const Vector3d& x, double rounding) {
   if (!(s.radius > 0.0)) return ofSegment(m, s.half, rounding);
-  const double across = std::hypot(m.x(), m.y());
+  const double across = m.head<2>().norm();
   if (s.radius * across <= rounding) return noWay(m, Vector3d::UnitZ());
   if (s.half > 0.0 && s.half * std::abs(m.z()) <= rounding) return aroundLine(m, Vector3d::UnitZ(), s.radius);
   return ofRim(m, x, s.radius, across);
@@ -81,7 +95,7 @@ NormalCone ofCylinder(const Shape& s, const Vector3d& m, const Vector3d& x, doub
 
 NormalCone ofCone(const Shape& s, const Vector3d& m, const Vector3d& x, double rounding) {
   if (!(s.radius > 0.0)) return ofSegment(m, s.half, rounding);
-  const double across = std::hypot(m.x(), m.y()), height = 2.0 * s.half;
+  const double across = m.head<2>().norm(), height = 2.0 * s.half;
   if (s.radius * across <= rounding && (m.z() < 0.0 || !(height > 0.0))) return noWay(m, Vector3d::UnitZ());
   const double towardsApex = m.z() * height - across * s.radius;
   if (towardsApex > rounding) return allAround(m);
@@ -119,13 +133,7 @@ bool coneOfCore(const Shape& s, const Vector3d& m, const Vector3d& x, double rou
       result = ofSegment(m, s.half, rounding);
       break;
     case ShapeKind::box:
-      result = ofVertices(
-          8,
-          [&](int i) {
-            return Vector3d(i & 1 ? s.size.x() : -s.size.x(), i & 2 ? s.size.y() : -s.size.y(),
-                            i & 4 ? s.size.z() : -s.size.z());
-          },
-          s.support(m), m, rounding);
+      result = ofBox(s.size, m, rounding);
       break;
     case ShapeKind::triangle:
       result = ofVertices(
