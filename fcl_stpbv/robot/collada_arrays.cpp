@@ -10,6 +10,7 @@
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/robot/mesh_lines.h"
 #include "fcl_stpbv/robot/xml_text.h"
+#include "fcl_stpbv/words.h"
 
 namespace fcl_stpbv::detail {
 namespace {
@@ -19,10 +20,10 @@ using tinyxml2::XMLElement;
 constexpr const char* kIndex = "a whole number from 0";
 
 // The uses of a source that assimp knows. It passes over others.
-const std::set<std::string_view> kSemantics{"POSITION", "NORMAL",     "TEXCOORD", "COLOR",
-                                            "TANGENT",  "TEXTANGENT", "BINORMAL", "TEXBINORMAL"};
-const std::set<std::string_view> kPrimitives{"triangles", "lines",   "linestrips", "polygons",
-                                             "polylist",  "trifans", "tristrips"};
+constexpr Words kSemantics{"POSITION", "NORMAL",     "TEXCOORD", "COLOR",
+                           "TANGENT",  "TEXTANGENT", "BINORMAL", "TEXBINORMAL"};
+constexpr Words kPrimitives{"triangles", "lines",   "linestrips", "polygons",
+                            "polylist",  "trifans", "tristrips"};
 
 // The line of a place in a text, whose own line is that of its first word.
 int lineWithin(const tinyxml2::XMLText& text, std::size_t at) {
@@ -103,7 +104,7 @@ class ColladaArrays {
       } else if (kind == "vertices") {
         for (const XMLElement* e = element->FirstChildElement("input"); e; e = e->NextSiblingElement("input"))
           vertexInputs.push_back(e);
-      } else if (kPrimitives.count(kind) != 0) {
+      } else if (holds(kPrimitives, kind)) {
         checkPrimitives(*element, vertexInputs);
       }
     }
@@ -181,7 +182,7 @@ class ColladaArrays {
   void checkInput(const XMLElement& input) {
     numberOf(input, "offset", 0, name_);
     const char* semantic = input.Attribute("semantic");
-    if (semantic == nullptr || kSemantics.count(semantic) == 0) return;
+    if (semantic == nullptr || !holds(kSemantics, semantic)) return;
     const std::string source = colladaTarget(input, "source", name_);
     const auto found = accessors_.find(source);
     if (found == accessors_.end())

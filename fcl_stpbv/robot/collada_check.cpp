@@ -12,6 +12,7 @@
 #include "fcl_stpbv/robot/collada_transforms.h"
 #include "fcl_stpbv/robot/mesh_lines.h"
 #include "fcl_stpbv/robot/xml_text.h"
+#include "fcl_stpbv/words.h"
 
 namespace fcl_stpbv::detail {
 namespace {
@@ -65,57 +66,55 @@ class OneUnit : public tinyxml2::XMLVisitor {
 };
 
 // assimp passes over elements that it does not know, and with them a shape or a way to it.
-void checkKnown(const XMLElement& element, const std::set<std::string_view>& inside,
-                const std::string& name) {
+void checkKnown(const XMLElement& element, const Words& inside, const std::string& name) {
   for (const XMLElement* e = element.FirstChildElement(); e != nullptr; e = e->NextSiblingElement())
-    if (inside.count(e->Name()) == 0)
+    if (!holds(inside, e->Name()))
       refuseCollada(*e, "is no element of COLLADA within <" + std::string(element.Name()) + ">", name);
 }
 
-const std::set<std::string_view> kInRoot{"asset",
-                                         "library_animations",
-                                         "library_animation_clips",
-                                         "library_articulated_systems",
-                                         "library_cameras",
-                                         "library_controllers",
-                                         "library_effects",
-                                         "library_force_fields",
-                                         "library_formulas",
-                                         "library_geometries",
-                                         "library_images",
-                                         "library_joints",
-                                         "library_kinematics_models",
-                                         "library_kinematics_scenes",
-                                         "library_lights",
-                                         "library_materials",
-                                         "library_nodes",
-                                         "library_physics_materials",
-                                         "library_physics_models",
-                                         "library_physics_scenes",
-                                         "library_visual_scenes",
-                                         "scene",
-                                         "extra"};
-const std::set<std::string_view> kInAsset{"contributor", "coverage", "created", "keywords",
-                                          "modified",    "revision", "subject", "title",
-                                          "unit",        "up_axis",  "extra"};
-const std::set<std::string_view> kInNode{"asset",
-                                         "lookat",
-                                         "matrix",
-                                         "rotate",
-                                         "scale",
-                                         "skew",
-                                         "translate",
-                                         "node",
-                                         "instance_node",
-                                         "extra",
-                                         "instance_camera",
-                                         "instance_light",
-                                         "instance_geometry",
-                                         "instance_controller",
-                                         "evaluate_scene"};
-const std::set<std::string_view> kInGeometry{"asset", "mesh", "convex_mesh", "spline", "brep", "extra"};
-const std::set<std::string_view> kInMesh{"source",   "vertices",  "lines",   "linestrips", "polygons",
-                                         "polylist", "triangles", "trifans", "tristrips",  "extra"};
+constexpr Words kInRoot{"asset",
+                        "library_animations",
+                        "library_animation_clips",
+                        "library_articulated_systems",
+                        "library_cameras",
+                        "library_controllers",
+                        "library_effects",
+                        "library_force_fields",
+                        "library_formulas",
+                        "library_geometries",
+                        "library_images",
+                        "library_joints",
+                        "library_kinematics_models",
+                        "library_kinematics_scenes",
+                        "library_lights",
+                        "library_materials",
+                        "library_nodes",
+                        "library_physics_materials",
+                        "library_physics_models",
+                        "library_physics_scenes",
+                        "library_visual_scenes",
+                        "scene",
+                        "extra"};
+constexpr Words kInAsset{"contributor", "coverage", "created", "keywords", "modified", "revision",
+                         "subject",     "title",    "unit",    "up_axis",  "extra"};
+constexpr Words kInNode{"asset",
+                        "lookat",
+                        "matrix",
+                        "rotate",
+                        "scale",
+                        "skew",
+                        "translate",
+                        "node",
+                        "instance_node",
+                        "extra",
+                        "instance_camera",
+                        "instance_light",
+                        "instance_geometry",
+                        "instance_controller",
+                        "evaluate_scene"};
+constexpr Words kInGeometry{"asset", "mesh", "convex_mesh", "spline", "brep", "extra"};
+constexpr Words kInMesh{"source",   "vertices",  "lines",   "linestrips", "polygons",
+                        "polylist", "triangles", "trifans", "tristrips",  "extra"};
 
 // The shapes that the nodes of a document place, and the transforms to there.
 class ColladaNodes {

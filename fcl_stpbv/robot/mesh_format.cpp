@@ -15,17 +15,17 @@
 #include "fcl_stpbv/robot/gltf_check.h"
 #include "fcl_stpbv/robot/ply_check.h"
 #include "fcl_stpbv/robot/text_mesh_check.h"
+#include "fcl_stpbv/words.h"
 
 namespace fcl_stpbv::detail {
 namespace {
 
 // Those of a single reader. The readers of .gltf and .glb, of .xml and of unknown endings look at the
 // content.
-const std::set<std::string_view> kByName{".3mf", ".amf", ".dae",  ".dxf", ".fbx",
-                                         ".obj", ".off", ".ogex", ".ply", ".stl"};
+constexpr Words kByName{".3mf", ".amf", ".dae", ".dxf", ".fbx", ".obj", ".off", ".ogex", ".ply", ".stl"};
 
 // Those that state a unit, often millimetres or centimetres, which assimp does not apply.
-const std::set<std::string_view> kWithUnit{".3mf", ".amf", ".dxf", ".fbx", ".ogex"};
+constexpr Words kWithUnit{".3mf", ".amf", ".dxf", ".fbx", ".ogex"};
 
 bool looksLikeGltf(std::string_view text) {
   const std::size_t start = std::min(text.find_first_not_of(" \t\r\n"), text.size());
@@ -36,7 +36,7 @@ bool looksLikeGltf(std::string_view text) {
 
 std::string expectedFormat(std::string_view text, const std::string& path) {
   const std::string extension = lowerExtension(path);
-  if (kByName.count(extension) != 0) return extension;
+  if (holds(kByName, extension)) return extension;
   if (text.substr(0, 3) == "ply") return ".ply";
   if ((extension == ".gltf" || extension == ".glb") && looksLikeGltf(text)) return ".gltf";
   return "";
@@ -57,7 +57,7 @@ std::string formatOf(const aiScene& scene, const Assimp::Importer& importer) {
 void checkMeshFormat(std::string_view text, const std::string& format, const std::string& path,
                      const ReadPart& readPart) {
   const bool inOwnUnit = format == ".x3d" && text.find("conversionFactor") != std::string_view::npos;
-  if (kWithUnit.count(format) != 0 || inOwnUnit)
+  if (holds(kWithUnit, format) || inOwnUnit)
     throw Error(path +
                 ": is of a format that states a unit of its own, often millimetres or centimetres, which is "
                 "not read; convert it to STL or OBJ in metres");

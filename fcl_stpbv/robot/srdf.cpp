@@ -13,6 +13,7 @@
 #include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/robot/mesh_lines.h"
 #include "fcl_stpbv/robot/xml_text.h"
+#include "fcl_stpbv/words.h"
 
 namespace fcl_stpbv {
 namespace {
@@ -21,17 +22,17 @@ using namespace detail;
 using tinyxml2::XMLElement;
 
 // Elements of SRDF that nothing here reads.
-const std::set<std::string_view> kOthers = {"group",
-                                            "end_effector",
-                                            "passive_joint",
-                                            "joint_property",
-                                            "link_sphere_approximation",
-                                            "chain",
-                                            "group_state",
-                                            "virtual_joint",
-                                            "disable_default_collisions",
-                                            "enable_collisions",
-                                            "disable_collisions"};
+constexpr Words kOthers{"group",
+                        "end_effector",
+                        "passive_joint",
+                        "joint_property",
+                        "link_sphere_approximation",
+                        "chain",
+                        "group_state",
+                        "virtual_joint",
+                        "disable_default_collisions",
+                        "enable_collisions",
+                        "disable_collisions"};
 
 class SrdfReader {
  public:
@@ -68,7 +69,7 @@ class SrdfReader {
       srdf_.defaultsOff.push_back(e.Attribute("link"));
     if (name == "group_state") srdf_.states.push_back(state(e));
     if (name == "virtual_joint") addVirtualJoint(e);
-    if (kOthers.count(name) == 0 && name.find(':') == std::string_view::npos) {
+    if (!holds(kOthers, name) && name.find(':') == std::string_view::npos) {
       const bool pair = e.Attribute("link1") || e.Attribute("link2");
       warn(e, "<" + std::string(name) + "> is no element of SRDF and counts for nothing" +
                   (pair ? "; is it a misspelt <disable_collisions>?" : ""));

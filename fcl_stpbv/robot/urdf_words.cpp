@@ -3,44 +3,53 @@
 
 #include <algorithm>
 #include <cctype>
-#include <initializer_list>
+#include <iterator>
 #include <numeric>
+#include <set>
 #include <string_view>
 #include <vector>
 
 #include "fcl_stpbv/robot/xml_text.h"
+#include "fcl_stpbv/words.h"
 
 namespace fcl_stpbv::detail {
 namespace {
 
 using tinyxml2::XMLElement;
-using Words = std::vector<std::string_view>;
 
 /// An element that counts, its attributes, and those that several tools write and none here uses.
 struct Known {
   std::string_view element;
-  Words attributes, unused{};
+  Words attributes, unused = {};
 };
 
-const std::vector<Known> kInJoint = {
+/// What may be in an element.
+class Elements {
+ public:
+  template <std::size_t n>
+  constexpr Elements(const Known (&known)[n]) : begin_(known), end_(known + n) {}
+  constexpr const Known* begin() const { return begin_; }
+  constexpr const Known* end() const { return end_; }
+
+ private:
+  const Known *begin_, *end_;
+};
+
+constexpr Known kInJoint[] = {
     {"origin", {"xyz", "rpy"}},
     {"parent", {"link"}},
     {"child", {"link"}},
     {"axis", {"xyz"}},
     {"limit", {"lower", "upper", "effort", "velocity"}, {"acceleration", "deceleration", "jerk"}},
     {"mimic", {"joint", "multiplier", "offset"}}};
-const std::vector<Known> kInInertial = {
+constexpr Known kInInertial[] = {
     {"origin", {"xyz", "rpy"}}, {"mass", {"value"}}, {"inertia", {}}};  // what inertia says is not used
-const std::vector<Known> kInShape = {{"origin", {"xyz", "rpy"}}, {"geometry", {"name"}}};
-const std::vector<Known> kInGeometry = {{"box", {"size"}},
-                                        {"sphere", {"radius"}},
-                                        {"cylinder", {"radius", "length"}},
-                                        {"capsule", {"radius", "length"}},
-                                        {"mesh", {"filename", "scale"}}};
-
-bool holds(const Words& words, std::string_view word) {
-  return std::find(words.begin(), words.end(), word) != words.end();
-}
+constexpr Known kInShape[] = {{"origin", {"xyz", "rpy"}}, {"geometry", {"name"}}};
+constexpr Known kInGeometry[] = {{"box", {"size"}},
+                                 {"sphere", {"radius"}},
+                                 {"cylinder", {"radius", "length"}},
+                                 {"capsule", {"radius", "length"}},
+                                 {"mesh", {"filename", "scale"}}};
 
 // Self filters have shapes of their own, to take a robot out of its sensors' point clouds.
 bool ofSelfFilter(std::string_view name) { return name == "self_filter"; }
@@ -75,7 +84,7 @@ bool isNowhere(std::string_view attribute, std::string_view numbers) {
 
 // An element of an unknown name is let pass, as other tools add their own,
 // unless it says what a known one would say.
-void checkUnknown(const XMLElement& element, const std::vector<Known>& list) {
+void checkUnknown(const XMLElement& element, const Elements& list) {
   for (const Known& known : list) {
     for (const std::string_view attribute : known.attributes) {
       const char* value = element.Attribute(std::string(attribute).c_str());
@@ -87,9 +96,9 @@ void checkUnknown(const XMLElement& element, const std::vector<Known>& list) {
 }
 
 // How many of the children count.
-int checkChildren(const XMLElement& parent, const std::vector<Known>& list) {
+int checkChildren(const XMLElement& parent, const Elements& list) {
   int count = 0;
-  Words seen;
+  std::set<std::string_view> seen;
   for (const XMLElement* e = parent.FirstChildElement(); e; e = e->NextSiblingElement()) {
     const std::string_view name = e->Name();
     if (ofOtherTools(name)) continue;
@@ -99,8 +108,7 @@ int checkChildren(const XMLElement& parent, const std::vector<Known>& list) {
       checkUnknown(*e, list);
       continue;
     }
-    if (holds(seen, name)) throw Error("has two <" + std::string(name) + ">; remove one");
-    seen.push_back(name);
+    if (!seen.insert(name).second) throw Error("has two <" + std::string(name) + ">; remove one");
     checkAttributes(*e, *known);
     ++count;
   }
@@ -128,7 +136,7 @@ bool isNowhere(const XMLElement& origin) {
 // A box or the like that says something, and that no <geometry> holds and no shape misses: of a link's shape
 // whose own words are misspelt.
 bool isLost(const XMLElement& element) {
-  const bool known = std::any_of(kInGeometry.begin(), kInGeometry.end(),
+  const bool known = std::any_of(std::begin(kInGeometry), std::end(kInGeometry),
                                  [&](const Known& one) { return named(&element, one.element); });
   const tinyxml2::XMLNode* holder = element.Parent();
   return known && saysMore(element) && !named(holder, "geometry") && !isShape(holder) &&

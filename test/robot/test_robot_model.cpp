@@ -17,6 +17,16 @@ namespace {
 
 RobotModel parse(const std::string& body) { return parseUrdf(robot(body), "small.urdf"); }
 
+/// What came of a robot that was read before main() began.
+const std::string early = [] {
+  try {
+    parse("<link name=\"a\"><collision><geometry><sphere radius=\"0.1\"/></geometry></collision></link>");
+  } catch (const Error& error) {
+    return std::string(error.what());
+  }
+  return std::string("read");
+}();
+
 }  // namespace
 
 TEST_CASE("links come parents first and joints in the order of the file") {
@@ -33,6 +43,8 @@ TEST_CASE("links come parents first and joints in the order of the file") {
   CHECK(model.joints[1].upper == Approx(M_PI));
   CHECK(model.link("nobody") == -1);
 }
+
+TEST_CASE("a robot may be read while the program starts") { CHECK(early == "read"); }
 
 TEST_CASE("primitives keep their kind and sizes") {
   const RobotModel model = parse(
