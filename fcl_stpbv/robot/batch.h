@@ -21,7 +21,7 @@ enum class Sequence {
 constexpr Eigen::Index kBatchPiece = 64;
 
 /// d(q) and J(q) of many configurations. Each thread has its own copy of the constraints. The answers are the
-/// same for any number of threads. One thread at a time may use one.
+/// same for any number of threads, least distances to rounding. One thread at a time may use one.
 class ConstraintsBatch {
  public:
   using Configurations = Eigen::Ref<const Eigen::MatrixXd>;  ///< one a column

@@ -29,8 +29,8 @@ struct PlacedBody {
   Eigen::Isometry3d inFrame;
   Eigen::Vector3d centre;  ///< of a sphere that holds it, in its frame (m)
   double radius;           ///< of that sphere (m)
-  double inner;            ///< of a ball about the same centre that it holds (m)
-  bool finite;             ///< its corners are numbers, if it is a mesh
+  double inner;  ///< of a ball about the same centre that it holds (m); -inf where the centre may be outside
+  bool finite;   ///< its corners are numbers, if it is a mesh
   bool convex;
   ConvexBody body;  ///< where it is convex; posed at the last query
 };

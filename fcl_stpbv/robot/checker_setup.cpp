@@ -1,4 +1,6 @@
 // Sets a CollisionChecker up: its bodies with their spheres, its pairs with their rounding, its margin.
+#include <fcl/geometry/shape/sphere.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -43,12 +45,19 @@ CollisionChecker::Impl::Impl(std::shared_ptr<const Kinematics> kinematics,
 
 void CollisionChecker::Impl::addBody(std::size_t frame, const fcl::CollisionGeometryd& geometry,
                                      const Isometry3d& pose, const Vector3d& centre, double radius) {
-  PlacedBody placed{frame, &geometry, pose, centre, radius, 0, hasFiniteCorners(geometry), false, {}};
+  PlacedBody placed{frame, &geometry, pose, centre, radius, -kInfinity, hasFiniteCorners(geometry),
+                    false, {}};
   placed.convex = isConvex(geometry, placed.body);
   if (const StpBv* volume = placed.body.volume) {
     placed.centre = pose * volume->centre();
     placed.radius = volume->enclosingRadius();
     placed.inner = volume->innerRadius() + volume->radii().r;
+  } else if (placed.convex) {
+    const fcl::Sphered point(0);  // a sphere's centre need not be in the body that the sphere is around
+    Isometry3d where = Isometry3d::Identity();
+    where.translation() = centre;
+    const double away = distance(geometry, pose, point, where).upper;
+    if (away <= 0) placed.inner = -away;
   }
   if (!placed.centre.allFinite() || !std::isfinite(placed.radius)) {  // a half space, whose box is infinite
     placed.centre = pose.translation();

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <limits>
 
+#include "fcl_stpbv/adapter/hull_geometry.h"
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/robot/collision_checker.h"
 #include "fcl_stpbv/robot/constraints.h"
@@ -262,4 +263,42 @@ TEST_CASE("small steps search for few pairs, random configurations for those nea
   CHECK(per(small.searched, small) < 0.032);
   CHECK(per(large.near, large) < 8.7);
   CHECK(per(large.searched, large) < 8.3);
+}
+
+TEST_CASE("a body in the middle of a room's mesh, or in the box around a hull, is not in collision") {
+  const std::string ball =
+      "<robot name='r'><link name='a'/><link name='b'><collision><geometry><sphere radius='0.1'/></geometry>"
+      "</collision></link><joint name='j' type='prismatic'><parent link='a'/><child link='b'/><axis xyz='1 1 "
+      "1'/>"
+      "<limit lower='-1' upper='1' effort='1' velocity='1'/></joint></robot>";
+  const auto model = std::make_shared<const RobotModel>(parseUrdf(ball, "ball"));
+  const auto kinematics = std::make_shared<const Kinematics>(model);
+  const auto geometry = std::make_shared<const RobotGeometry>(loadGeometry(*model, {}));
+  auto room = std::make_shared<fcl::BVHModel<fcl::OBBRSSd>>();
+  fcl::generateBVHModel(*room, fcl::Boxd(6, 6, 6), Eigen::Isometry3d::Identity());
+  room->computeLocalAABB();
+  // The box around this tetrahedron has its middle outside, sqrt(3) / 6 from the slanted face.
+  const std::vector<Eigen::Vector3d> corners{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  struct Case {
+    std::shared_ptr<fcl::CollisionGeometryd> geometry;
+    double q, distance;  // of the ball, as far along (1, 1, 1)
+  };
+  for (const Case& c :
+       {Case{room, 0, 2.9}, Case{detail::hullGeometry(corners), std::sqrt(0.75), std::sqrt(3.0) / 6 - 0.1}}) {
+    const std::vector<Obstacle> obstacles{
+        obstacleOf(fcl::CollisionObjectd(c.geometry, Eigen::Isometry3d::Identity()), "obstacle")};
+    CollisionChecker checker(kinematics, geometry, {{0, 0, true}}, obstacles);
+    const VectorXd q = VectorXd::Constant(1, c.q);
+    CHECK(checker.minDistance(q) == Approx(c.distance).margin(1e-12));  // rounding of coordinates below 6 m
+    for (const double off : {-1e-9, 1e-9}) {
+      checker.setMargin(c.distance + off);
+      CHECK(checker.collides(q) == (off > 0));
+    }
+  }
+  // A centre that is in its hull still tells so without a search.
+  const std::vector<Obstacle> around{obstacleOf(
+      fcl::CollisionObjectd(detail::hullGeometry(box(1, 1, 1)), Eigen::Isometry3d::Identity()), "hull")};
+  CollisionChecker checker(kinematics, geometry, {{0, 0, true}}, around);
+  CHECK(checker.collides(VectorXd::Zero(1)));
+  CHECK(checker.work().searched == 0);
 }
