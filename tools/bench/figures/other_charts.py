@@ -65,7 +65,8 @@ def stability():
     ours = failures["stpbv_warm"]
     draw("stability", f"{len(data['rows'])} hard cases: the STP-BV query fails {ours or 'none'}, FCL {failures['fcl_libccd_1e-6']}",
          text + "plot " + ", ".join(plots),
-         ["A cell: the worst verdict of a group of cases; its number: how many of them fail (a gradient that jumps, or worse)."], height)
+         ["A cell: the worst verdict of a group of cases; its number: how many fail (a jump, or worse). The legend goes from best to worst."],
+         height)
 
 
 def proof_boxes(height=420):
@@ -75,7 +76,7 @@ def proof_boxes(height=420):
                                 f"and {about['most_boxes_of_planes']:,} by planes."])
     text = single(height, small_print, legend_rows=1) + legend([(palette.SMOOTH, 5, "planes between the links"),
                                                                 (palette.SWEEPS[0], 5, "levers of the joints")], height) + \
-        "set logscale x\nset xrange [1:100000]\nset yrange [0:100]\nset xtics ('1' 1, '10' 10, '100' 100, '1000' 1000, '10,000' 1e4, '100,000' 1e5)\n" \
+        "set logscale x\nset xrange [1:100000]\nset yrange [0:100]\nset xtics ('1' 1, '10' 10, '100' 100, '1,000' 1000, '10,000' 1e4, '100,000' 1e5)\n" \
         "set xlabel 'boxes of joint values'\nset ylabel 'pairs proven (%)'\n"
     plots = []
     for i, (bound, colour) in enumerate((("levers", palette.SWEEPS[0]), ("planes", palette.SMOOTH))):
@@ -130,7 +131,7 @@ def posture_profile(height=400):
             text += block(f"$profile{panel}{i}", curve)
             plots.append(f"$profile{panel}{i} using 1:2 with steps lw 2 lc rgb '{colour}'")
         text += f"set title '{words}' offset 0,-0.6\nplot " + ", ".join(plots) + "\n" + UNLABEL + "unset ylabel\n"
-    draw("posture_profile", "Postures: all four solve as many in as many steps, STP-BVs in half the time", text + "unset multiplot\n", small_print, height)
+    draw("posture_profile", "Postures: all four solve as many in as many steps, STP-BVs in under half of FCL's time", text + "unset multiplot\n", small_print, height)
 
 
 def control(height=440):
@@ -192,10 +193,10 @@ def success_map(name, scene, title, across, upward, panel, height, tics):
             cells = [(at(axes[2], x), at(axes[1], y)) for y in range(second) for x, found in enumerate(rows[i * second + y]) if found == mark]
             if cells:
                 text += block(f"$cells{i}_{k}", cells)
-                x, y = 0.46 * step(axes[2]), 0.46 * step(axes[1])
+                x, y = 0.5 * step(axes[2]), 0.5 * step(axes[1])
                 plots.append(f"$cells{i}_{k} using 1:2:($1-{x:g}):($1+{x:g}):($2-{y:g}):($2+{y:g}) with boxxyerror fc rgb '{colour}'")
         text += f"set title {quoted(panel(at(axes[0], i)))} offset 0,-0.6\nplot " + ", ".join(plots or ["NaN"]) + "\n" + UNLABEL + "unset ylabel\nset format y ''\n"
-    draw(name, title, text + "unset multiplot\n", small_print, height)
+    draw(name, title, text + "unset multiplot\n", small_print, height, crisp=True)
 
 
 def posture_grid_fridge(height=400):

@@ -14,8 +14,9 @@ TIME_TICS = "('10 ns' 1e1, '100 ns' 1e2, '1 µs' 1e3, '10 µs' 1e4, '100 µs' 1e
 
 
 def measured(name):
-    """A measurement: command, machine, spread, about, rows."""
-    return json.loads((MEASURED / f"{name}.json").read_text())
+    """A measurement: command, machine, spread, about, rows. The folder of robots that are no part of the project is $ROBOTS (CONTRIBUTING.md)."""
+    data = json.loads((MEASURED / f"{name}.json").read_text())
+    return {**data, "command": data["command"].replace("../shared/robots", "$ROBOTS")}
 
 
 def is_text(name):
@@ -47,8 +48,8 @@ def block(name, rows):
     return f"{name} << EOD\n" + "\n".join(" ".join(map(cell, row)) for row in rows) + "\nEOD\n"
 
 
-def draw(name, title, commands, below=(), height=420):
-    """Writes NAME.svg whole or not at all. `below`: lines of small print."""
+def draw(name, title, commands, below=(), height=420, crisp=False):
+    """Writes NAME.svg whole or not at all. `below`: lines of small print. `crisp`: cells that touch leave no seam between them."""
     if not shutil.which("gnuplot"):
         sys.exit("the charts need gnuplot (Debian package gnuplot-nox)")
     IMAGES.mkdir(parents=True, exist_ok=True)
@@ -64,6 +65,8 @@ def draw(name, title, commands, below=(), height=420):
     if done.returncode or not part.exists() or "line" in done.stderr:
         part.unlink(missing_ok=True)
         sys.exit(f"gnuplot could not draw {name}:\n{done.stderr[-800:]}")
+    if crisp:
+        part.write_text(part.read_text().replace("<svg", '<svg shape-rendering="crispEdges"', 1))
     part.rename(IMAGES / f"{name}.svg")
 
 
@@ -89,7 +92,8 @@ def legend(entries, height, columns=3):
     text = "set key off\n"
     for i, (colour, mark, words) in enumerate(entries):
         x, y = 24 + (i % columns) * (WIDTH - 30) / columns, 48 + 22 * (i // columns)
-        at = f"at screen {x / WIDTH:.4f},{1 - y / height:.4f}"
+        level = y + {9: 1, 11: -1}.get(mark, 0)  # triangles are not drawn around their middle
+        at = f"at screen {x / WIDTH:.4f},{1 - level / height:.4f}"
         text += f"set label {120 + 2 * i} '' {at} point pt {mark} ps 1 lc rgb '{colour}'\n"
         text += f"set label {121 + 2 * i} {quoted(words)} at screen {(x + 14) / WIDTH:.4f},{1 - y / height:.4f} left font ',13'\n"
     return text

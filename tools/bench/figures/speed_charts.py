@@ -44,15 +44,16 @@ def speed_accuracy(height=440):
 
 def size(height=440):
     data = measured("size")
-    below = origin(data, ["Geodesic spheres of radius 0.20 m, centres 0.38 to 0.80 m apart, r = 1 cm, R = 10 m. Medians, bars from p5 to p99.",
-                          f"At most {data['about']['most_calls']:,} calls a point."])
+    below = origin(data, ["Geodesic spheres of radius 0.20 m, centres 0.38 to 0.80 m apart, r = 1 cm, R = 10 m. Medians;",
+                          f"bands from p5 to p99 of FCL libccd and of the STP-BV from the last answer. At most {data['about']['most_calls']:,} calls a point."])
     text = panels(2, height, below, legend_rows=2, panel_titles=True) + method_legend(data["rows"], height) + \
         f"set logscale xy\nset xrange [9:14000]\nset yrange [50:4e6]\nset ytics {TIME_TICS}\n" \
-        "set xtics (12, 42, 162, 642, 2562, '10,242' 10242)\nset xlabel 'vertices of each body'\nset ylabel 'time of a query' offset 1\n"
+        "set xtics (12, 42, 162, 642, '2,562' 2562, '10,242' 10242)\nset xlabel 'vertices of each body'\nset ylabel 'time of a query' offset 1\n"
     largest = max(row["vertices"] for row in data["rows"])
-    at = {row["method"]: row["ns_p50"] for row in data["rows"] if row["steps"] == "large" and row["vertices"] == largest}
+    at = {(row["method"], row["steps"]): row["ns_p50"] for row in data["rows"] if row["vertices"] == largest}
+    times = {steps: f"{at['FCL libccd', steps] / at['STP-BV warm', steps]:.0f}" for steps in STEPS}
     for step, words in STEPS.items():
-        plots = []
+        bands, plots = [], []
         for i, method in enumerate(palette.METHODS):
             rows = [(r["vertices"], r["ns_p5"], r["ns_p50"], r["ns_p99"]) for r in data["rows"]
                     if r["steps"] == step and r["method"] == method]
@@ -60,12 +61,14 @@ def size(height=440):
                 continue
             name, look = f"${step}{i}", palette.look(method)
             text += block(name, rows)
-            plots += [f"{name} using 1:3:2:4 with yerrorbars {look} ps 0.01 lw 0.7", f"{name} using 1:3 with linespoints {look} ps 0.8 lw 2"]
-        text += f"set title '{words}' offset 0,-0.6\nplot " + ", ".join(plots) + "\n" + UNLABEL
+            if method in ("FCL libccd", "STP-BV warm"):
+                bands.append(f"{name} using 1:2:4 with filledcurves fs transparent solid 0.18 noborder fc rgb '{palette.METHODS[method][0]}'")
+            plots.append(f"{name} using 1:3 with linespoints {look} ps 0.8 lw 2")
+        text += f"set title '{words}' offset 0,-0.6\nplot " + ", ".join(bands + plots) + "\n" + UNLABEL
     fastest = all(row["ns_p50"] >= other["ns_p50"] for row in data["rows"] for other in data["rows"] if other["method"] == "STP-BV warm" and
                   (row["steps"], row["vertices"]) == (other["steps"], other["vertices"]))
-    draw("size", f"The STP-BV query is {at['FCL libccd'] / at['STP-BV warm']:.0f} times as fast as FCL at {largest:,} vertices" +
-                (", and fastest at every size" if fastest else ""),
+    least, most = sorted(times.values(), key=float)
+    draw("size", f"STP-BV queries are {'fastest at every size, ' if fastest else ''}{least} to {most} times as fast as FCL at {largest:,} vertices",
          text + "unset multiplot\n", below, height)
 
 
@@ -74,12 +77,13 @@ def solver_error(height=450):
     rows = [row for row in data["rows"] if row["steps"] == "large"]
     tolerance = lambda row: float(row["setting"].split()[1])
     below = origin(data, [f"Geodesic spheres of {data['about']['vertices']} vertices, large steps, {rows[0]['checked']} answers checked, each method against the exact distance of the",
-                          "bodies it is asked about. A method without a tolerance is a level line; dashed: error = tolerance."])
+                          "bodies it is asked about. A method without a tolerance is a level line, with marks anywhere on it; dashed: error = tolerance."])
     text = panels(2, height, below, legend_rows=2) + method_legend(rows, height) + \
         "set logscale xy\nset xrange [1e-1:1e-13] reverse\nset xtics ('1e-2' 1e-2, '1e-4' 1e-4, '1e-6' 1e-6, '1e-8' 1e-8, '1e-10' 1e-10, '1e-12' 1e-12)\n" \
         "set xlabel 'tolerance asked for'\n"
     for panel, column in (("error", "distance_error_max"), ("time", "ns_p50")):
         plots = [] if panel == "time" else [f"x with lines dt 2 lc rgb '{palette.QUIET}'"]
+        levels = []  # of the methods without a tolerance
         for i, (method, (colour, mark, _)) in enumerate(palette.METHODS.items()):
             mine = [row for row in rows if row["method"] == method]
             asked = [row for row in mine if row["setting"].startswith("tolerance")]
@@ -87,12 +91,19 @@ def solver_error(height=450):
                 points, marked = sorted((tolerance(row), row[column]) for row in asked), f"linespoints pt {mark} ps 0.8"
             else:
                 points, marked = [(x, row[column]) for row in mine if default_setting(row) for x in (1e-1, 1e-13)], "lines"
+                levels += [points[0][1]] if points else []
+                # Lines that lie on each other show whose they are by marks that take turns.
+                text += block(f"$marks{panel}{i}", [(10.0 ** -x, points[0][1]) for x in range(2 + 2 * (i % 3), 14, 6)] if points else [])
             if points:
                 text += block(f"${panel}{i}", points)
                 plots.append(f"${panel}{i} using 1:2 with {marked} lw 2 lc rgb '{colour}'")
-        text += "set format y '1e%T'\nset yrange [1e-17:1]\nset ytics 1e-16,1e4,1\nset ylabel 'worst error of the distance (m)'\n" if panel == "error" else \
+                plots += [] if asked else [f"$marks{panel}{i} using 1:2 with points pt {mark} ps 0.8 lc rgb '{colour}'"]
+        together = [level for level in levels if panel == "error" and level < 1e-14]
+        if len(together) > 1:
+            text += f'set label 3 "{len(together)} lines on each other,\\n{max(together):.0e} m" at graph 0.03,0.24 left font ",12" tc rgb "{palette.NEUTRAL}"\n'
+        text += "set format y '1e%T'\nset yrange [1e-17:1]\nset ytics 1e-16,1e4,1\nunset mytics\nset ylabel 'worst error of the distance (m)'\n" if panel == "error" else \
             f"unset format y\nset yrange [60:1e5]\nset ytics {TIME_TICS}\nset ylabel 'median time of a query' offset 1\n"
-        text += "plot " + ", ".join(plots) + "\n" + UNLABEL
+        text += "plot " + ", ".join(plots) + "\n" + UNLABEL + "unset label 3\n"
     worst = max(row["distance_error_max"] / tolerance(row) for row in rows if row["method"] == "FCL libccd")
     draw("solver_error", f"FCL libccd's worst error is up to {worst:.0f} times its tolerance; the STP-BV's is rounding" if worst > 1.5 else
          "FCL libccd keeps its tolerance, and takes longer than the STP-BV does to be exact", text + "unset multiplot\n", below, height)
