@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <string>
 
-namespace fcl_stpbv::report {
+namespace fcl_stpbv::detail {
 
 /// As long as it comes out: names from a user's file have no greatest length.
 template <class... Values>
@@ -16,4 +16,4 @@ std::string formatted(const char* pattern, Values... values) {
   return text;
 }
 
-}  // namespace fcl_stpbv::report
+}  // namespace fcl_stpbv::detail

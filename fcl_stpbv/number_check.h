@@ -1,11 +1,11 @@
-// The door for numbers that callers give as options to what builds and loads: each is in its range or is
+// The check of numbers that callers give as options to what builds and loads: each is in its range or is
 // refused by name. NaN is in no range.
 #pragma once
 
-#include <cstdio>
 #include <string>
 
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/formatted.h"
 
 namespace fcl_stpbv::detail {
 
@@ -15,9 +15,7 @@ constexpr double kLargestR = 1e8;
 /// @throws Error naming the number and the range that would work unless `least <= value <= most`.
 inline void requireNumber(const std::string& name, double value, double least, double most) {
   if (value >= least && value <= most) return;
-  char text[96];
-  std::snprintf(text, sizeof text, ": got %.9g, expected a number from %.9g to %.9g", value, least, most);
-  throw Error(name + text);
+  throw Error(name + formatted(": got %.9g, expected a number from %.9g to %.9g", value, least, most));
 }
 
 /// @throws Error naming `owner`, the argument `what` and both sizes unless they are the same.

@@ -32,9 +32,15 @@ void addRobot(py::module_& module) {
       .def_property_readonly(
           "names", [](const PythonRobot& robot) { return robot.kinematics().names(); }, "of the coordinates")
       .def_property_readonly("rows", &PythonRobot::rowNames, "names of the pairs, in the order of d")
-      .def_property_readonly("lower", [](const PythonRobot& robot) { return robot.kinematics().lower(); })
-      .def_property_readonly("upper", [](const PythonRobot& robot) { return robot.kinematics().upper(); })
-      .def_property_readonly("neutral", [](const PythonRobot& robot) { return robot.kinematics().neutral(); })
+      .def_property_readonly(
+          "lower", [](const PythonRobot& robot) { return robot.kinematics().lower(); },
+          "Least coordinates (m or rad), in the order of names; -inf where there is no limit.")
+      .def_property_readonly(
+          "upper", [](const PythonRobot& robot) { return robot.kinematics().upper(); },
+          "Largest coordinates, likewise; inf where there is no limit.")
+      .def_property_readonly(
+          "neutral", [](const PythonRobot& robot) { return robot.kinematics().neutral(); },
+          "The coordinates nearest to 0 within the limits (m or rad).")
       .def("configuration", &PythonRobot::configuration, py::arg("state"),
            "q of one of the SRDF's group states.")
       .def("distances", &PythonRobot::distances, py::arg("q"), "d(q), one row a pair (m).")

@@ -102,20 +102,26 @@ void addStpBv(py::module_& module) {
           py::arg("points"), py::arg("r") = 0.01, py::arg("R") = 10.0,
           "Volume around an (n, 3) array of points; raises Error naming what would work.")
       .def_static(
-          "load", [](const Path& path) { return held(loadStpBv(path.string())); }, py::arg("path"))
+          "load", [](const Path& path) { return held(loadStpBv(path.string())); }, py::arg("path"),
+          "Reads a .stpbv file; raises Error naming it.")
       .def(
           "save", [](const StpBv& volume, const Path& path) { saveStpBv(path.string(), volume); },
-          py::arg("path"))
-      .def_property_readonly("r", [](const StpBv& volume) { return volume.radii().r; })
-      .def_property_readonly("R", [](const StpBv& volume) { return volume.radii().R; })
-      .def_property_readonly("vertices", [](const StpBv& volume) { return toArray(volume.vertices()); })
+          py::arg("path"), "Writes a .stpbv file, whole or not at all.")
+      .def_property_readonly(
+          "r", [](const StpBv& volume) { return volume.radii().r; }, "Radius of the small spheres (m).")
+      .def_property_readonly(
+          "R", [](const StpBv& volume) { return volume.radii().R; }, "Radius of the big spheres (m).")
+      .def_property_readonly(
+          "vertices", [](const StpBv& volume) { return toArray(volume.vertices()); },
+          "(n, 3), m, in the volume's own frame.")
       .def_property_readonly(
           "faces", [](const StpBv& volume) { return volume.faces(); },
           "Lists of vertex indices, counter-clockwise seen from outside.")
       .def(
           "support",
           [](const StpBv& volume, const Floats<Eigen::Vector3d>& n) { return volume.support(direction(n)); },
-          py::arg("direction"))
+          py::arg("direction"),
+          "Height of the supporting plane with this outward normal above the own frame's origin (m).")
       .def(
           "surface_point",
           [](const StpBv& volume, const Floats<Eigen::Vector3d>& n) {
@@ -128,7 +134,7 @@ void addStpBv(py::module_& module) {
             requireFinite(point.value, "point");
             return signedDistance(volume, point.value);
           },
-          py::arg("point"))
+          py::arg("point"), "Of a point of the volume's own frame from its surface (m), negative inside.")
       .def(
           "over_cover",
           [](const StpBv& volume, const std::optional<Floats<PointArray>>& points) {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/formatted.h"
 #include "fcl_stpbv/io/text_scanner.h"
 #include "fcl_stpbv/io/volume_files.h"
 #include "fcl_stpbv/parts/mesh_solid.h"
@@ -74,11 +75,7 @@ RadiiAdvice advised(const std::string& input, const Points& points, const RadiiT
                    : "no volume of this body keeps the acceleration"));
 }
 
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g", value);
-  return text;
-}
+std::string number(double value) { return detail::formatted("%.4g", value); }
 
 void check(Report& report, const Points& points, const ConversionOptions& options) {
   if (options.verify) {

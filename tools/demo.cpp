@@ -10,6 +10,7 @@
 #include <random>
 
 #include "fcl_stpbv/adapter/polyhedral_witness.h"
+#include "fcl_stpbv/formatted.h"
 #include "tools/posed_robot.h"
 #include "tools/program.h"
 
@@ -32,11 +33,7 @@ void heading(const std::string& text) {
   std::printf("\n%s\n%s\n", text.c_str(), std::string(text.size(), '-').c_str());
 }
 
-std::string millimetres(double metres) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%g", std::round(metres * 1e6) / 1e3);
-  return text;
-}
+std::string millimetres(double metres) { return detail::formatted("%g", std::round(metres * 1e6) / 1e3); }
 
 struct PlainFcl {
   double distance;

@@ -4,9 +4,9 @@
 #include <memory>
 #include <tuple>
 
+#include "fcl_stpbv/formatted.h"
 #include "fcl_stpbv/io/atomic_write.h"
 #include "fcl_stpbv/posture/collision_rows.h"
-#include "fcl_stpbv/report/formatted.h"
 #include "fcl_stpbv/report/posture_formats.h"
 #include "fcl_stpbv/report/posture_parts.h"
 #include "fcl_stpbv/report/report_warnings.h"
@@ -125,6 +125,8 @@ int run(Arguments& a) {
   if (a.careless) more = collisionsOf(report);
   if (const std::string open = openParts(*report.scene.geometry); !open.empty())
     more.push_back(report.scene.robot->path + ": " + open);
+  if (const std::string allowed = overlapsAllowed(report.task.collisionMargin); !allowed.empty())
+    more.push_back(a.task + ": " + allowed);
   report.warnings.insert(report.warnings.end(), more.begin(), more.end());
   for (const std::string& warning : more)
     if (!a.quiet) std::cerr << "find_posture: " << warning << "\n";

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/formatted.h"
 #include "fcl_stpbv/io/atomic_write.h"
 #include "fcl_stpbv/io/volume_files.h"
 #include "fcl_stpbv/robot/mesh_file.h"
@@ -18,11 +19,7 @@
 namespace fcl_stpbv::tools {
 namespace {
 
-std::string millimetres(double metres) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3f mm", 1e3 * metres);
-  return text;
-}
+std::string millimetres(double metres) { return detail::formatted("%.3f mm", 1e3 * metres); }
 
 std::string fileText(const StpBv& volume, Format format, const std::string& name) {
   std::ostringstream text;

@@ -34,7 +34,7 @@ class Contacts {
   }
 
  private:
-  /// Whether the distance costs less than whether there is one.
+  /// Whether the exact distance is cheaper than the yes-or-no test.
   static bool isQuick(const ConvexBody& a, const ConvexBody& b) {
     const auto isBall = [](const ConvexBody& c) { return c.shape.kind == ShapeKind::point; };
     return a.volume ? b.volume != nullptr : !b.volume && (isBall(a) || isBall(b));

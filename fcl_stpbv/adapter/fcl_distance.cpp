@@ -45,7 +45,7 @@ Distance smoothDistance(const StpBvGeometry& a, const Transform3d& poseA, const 
                         const Transform3d& poseB, const QueryContext& context) {
   PairCache start;
   PairCache& cache = context.cache ? *context.cache : start;
-  if (!(cache.normal.squaredNorm() > 0)) {
+  if (!PairCache::isDirection(cache.normal.squaredNorm())) {
     if (context.mapping) return countedDistance(a, poseA, b, poseB, cache, *context.mapping);
     if (context.start == StartFrom::fclWitness) cache = startFromFcl(a, poseA, b, poseB);
   }
@@ -152,6 +152,11 @@ DistanceAnswer distance(const fcl::CollisionObjectd& object1, const fcl::Collisi
                                    *object2.collisionGeometry(), object2.getTransform(), context);
   answer.object = {&object1, &object2};
   return answer;
+}
+
+Distance distance(const StpBvGeometry& geometry, const fcl::Transform3d& pose, const Eigen::Vector3d& point,
+                  PairCache* cache) {
+  return distance(geometry.volume(), pose, point, cache);
 }
 
 fcl::DistanceResultd toFclResult(const DistanceAnswer& answer) {

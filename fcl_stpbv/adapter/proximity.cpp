@@ -142,9 +142,4 @@ bool isFartherThan(double x, const fcl::CollisionGeometryd& geometry1, const fcl
   return areElementsFarther(x, pair, context) && (context.finite || pair.finite());
 }
 
-Distance distance(const StpBvGeometry& geometry, const fcl::Transform3d& pose, const Eigen::Vector3d& point,
-                  PairCache* cache) {
-  return distance(geometry.volume(), pose, point, cache);
-}
-
 }  // namespace fcl_stpbv

@@ -1,7 +1,7 @@
 // A convex hull's features and how to climb its edges.
 //
-// 1. Roll a plane around the points: the rolling ball with R infinite gives the
-//    hull's facets (volume/rolling_ball.h).
+// 1. Facets by quickhull, or where rounding defeats that by rolling a ball of nearly infinite radius around
+//    the points (volume/rolling_ball.h).
 // 2. Name its edges and the faces around each vertex.
 // 3. Support: hill climbing from the last vertex (as FCL's), eight neighbours at
 //    once; a table of directions names a start.
@@ -32,16 +32,16 @@ Eigen::Vector3d ringNormal(const std::vector<Eigen::Vector3d>& points, const std
   return sum.normalized();
 }
 
-RolledHull convexHull(const std::vector<Eigen::Vector3d>& cloud) {
+RolledHull checkedHull(const std::vector<Eigen::Vector3d>& cloud) {
   if (cloud.empty()) throw Error("convex hull: the cloud is empty; give at least one point");
   for (const Eigen::Vector3d& p : cloud)
     if (!p.allFinite()) throw Error("convex hull: a coordinate is not finite");
-  return rollBall(cloud);
+  return convexHull(cloud);
 }
 
 }  // namespace
 
-HullGraph::HullGraph(const std::vector<Eigen::Vector3d>& cloud) : HullGraph(cloud, convexHull(cloud)) {}
+HullGraph::HullGraph(const std::vector<Eigen::Vector3d>& cloud) : HullGraph(cloud, checkedHull(cloud)) {}
 
 HullGraph::HullGraph(const std::vector<Eigen::Vector3d>& cloud, RolledHull hull) {
   cloudIndex_ = std::move(hull.vertices);

@@ -30,7 +30,7 @@ class HullGraph {
   /// @throws Error for a cloud that is empty or not finite.
   explicit HullGraph(const std::vector<Eigen::Vector3d>& cloud);
 
-  /// The same where the cloud's convex hull, as rollBall() gives it, is known.
+  /// The same where the cloud's convex hull, as convexHull() gives it, is known.
   HullGraph(const std::vector<Eigen::Vector3d>& cloud, RolledHull hull);
 
   int vertexCount() const { return static_cast<int>(points_.size()); }

@@ -86,7 +86,7 @@ int nearby(const StpBv& body, int patch, const Packed& now, const Eigen::Vector3
 SearchStart startOf(const BodyPair& pair, const Rotation& toWorld, const PairCache* cache) {
   const Packed last = cache ? toWorld.inverse(pack(cache->normal)) : Packed{};
   const double length2 = dot(last, last);
-  if (length2 > 0.25 && length2 < 4.0) {
+  if (PairCache::isDirection(length2)) {
     const Packed n = renormalized(last);
     const std::array<int, 2> patch{nearby(pair.a(), cache->patch[0], n, cache->seen[0]),
                                    nearby(pair.b(), cache->patch[1], pair.opposite(n), cache->seen[1])};

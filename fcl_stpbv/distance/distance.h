@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <array>
+#include <cmath>
 #include <limits>
 
 #include "fcl_stpbv/volume/stp_bv.h"
@@ -29,9 +30,10 @@ struct Distance {
   double distance = 0;                              ///< signed: negative where the bodies overlap
   /// Certified: the gap between the two supporting planes of `normal`, rounded down.
   double lower = -std::numeric_limits<double>::infinity();
-  /// Certified: from the distance of the cores' points, or how deep they are at least, rounded up. Both
-  /// bounds are rounded by more than arithmetic can be off, so `lower <= truth <= upper` holds as it stands
-  /// (docs/theory.md, 5). They are apart by roundings of the size, or of R where the cores all but touch.
+  /// Certified, rounded up: from the distance of two points of the cores; where these overlap, minus the
+  /// depth that is proven at least. Both bounds are rounded by more than arithmetic can be off, so `lower <=
+  /// truth <= upper` holds as it stands (docs/theory.md, 5). They are apart by roundings of the size, or of R
+  /// where the cores all but touch.
   double upper = std::numeric_limits<double>::infinity();
   Eigen::Vector3d normal{0, 0, 0};  ///< unit, from body 1 to body 2
   std::array<Eigen::Vector3d, 2> point{Eigen::Vector3d(0, 0, 0),
@@ -65,9 +67,11 @@ struct PairCache {
   /// The last normal, unit; zero where there is none, or what the caller has put there is not near unit
   /// length.
   Eigen::Vector3d direction() const {
-    const double length = normal.norm();
-    return length > 0.5 && length < 2.0 ? Eigen::Vector3d(normal / length) : Eigen::Vector3d(0, 0, 0);
+    const double squared = normal.squaredNorm();
+    return isDirection(squared) ? Eigen::Vector3d(normal / std::sqrt(squared)) : Eigen::Vector3d(0, 0, 0);
   }
+  /// Whether a vector of this squared length is near enough to unit length to be a direction.
+  static constexpr bool isDirection(double squared) { return squared > 0.25 && squared < 4.0; }
 };
 
 /// Signed distance between `a` placed at `poseA` and `b` placed at `poseB`.

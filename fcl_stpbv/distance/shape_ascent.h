@@ -14,6 +14,7 @@
 #include "fcl_stpbv/convex/direction_cone.h"
 #include "fcl_stpbv/convex/support.h"
 #include "fcl_stpbv/distance/patch_pair.h"
+#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/volume/stp_bv.h"
 
 namespace fcl_stpbv::detail {
@@ -166,9 +167,9 @@ bool findGap(const StpBv& body, const Feature& feature, AscentPoint& x, double t
   if (!(difference(x).norm() > touch)) return false;
   if (const Eigen::Vector3d* t = feature.direction()) {
     constexpr int kHalvings = 60;
-    constexpr double kQuarter = 1.57079632679489662;
     const Eigen::Vector3d d = difference(x) - difference(x).dot(*t) * *t;
     const Eigen::Vector3d e1 = d.normalized(), e2 = t->cross(e1);
+    constexpr double kQuarter = kPi / 2;
     double low = -kQuarter, high = kQuarter;
     for (int i = 0; i < kHalvings && high > low; ++i) {
       const double angle = 0.5 * (low + high);

@@ -20,6 +20,7 @@
 #include "fcl_stpbv/convex/shape_around.h"
 #include "fcl_stpbv/distance/shape_newton.h"
 #include "fcl_stpbv/distance/shape_pair.h"
+#include "fcl_stpbv/numbers.h"
 
 namespace fcl_stpbv::detail {
 
@@ -41,7 +42,7 @@ struct CornersAround {
     std::size_t i = 0;
     for (const double tilt : {1e-3, 1e-5, 1e-7})  // rad; the narrower ones for curved sides
       for (int k = 0; k < 8; ++k) {
-        const double angle = 0.785398163397448 * k;
+        const double angle = kPi / 4 * k;
         corner[i++] = epa.look((n + tilt * (std::cos(angle) * e + std::sin(angle) * f)).normalized());
       }
     for (Corner& c : corner) c.w -= epa.gap * epa.n;

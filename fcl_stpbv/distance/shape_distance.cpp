@@ -34,8 +34,9 @@ using namespace detail;
 
 /// From the remembered normal, else from the volume's centre to the shape's.
 StartNormal startOf(const ShapeQuery& q, const Vector3d& remembered, int patch) {
-  const double length = remembered.norm();
-  if (length > 0.5 && length < 2.0 && patch < q.body.patchCount()) return {remembered / length, patch};
+  const double length2 = remembered.squaredNorm();
+  if (PairCache::isDirection(length2) && patch < q.body.patchCount())
+    return {remembered / std::sqrt(length2), patch};
   const Vector3d d = q.posed(q.shape.centre) - q.body.centre();
   const double away = d.norm();
   return {away > 0.0 ? Vector3d(d / away) : Vector3d::UnitX(), -1};
@@ -150,7 +151,7 @@ Solution solve(ShapeQuery& q, const StartNormal& start) {
   constexpr double kBeyond = 1e3;  // of rounding: less may be a touch
   const bool overlap = surelyOverlap(q);
   Nearest found;
-  if (!overlap && walkFeatures(q, start, kTries, found) == WalkEnd::nearest)
+  if (!overlap && walkShapeFeatures(q, start, kTries, found) == WalkEnd::nearest)
     return {found, DistanceStatus::exact, kNone};
   if (overlap || (!q.shape.unbounded() && seemToOverlap(q, start))) {
     if (const auto deep = overlapOfPoint(q, start)) return deepSolution(*deep);

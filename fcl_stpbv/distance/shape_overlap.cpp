@@ -13,6 +13,7 @@
 #include "fcl_stpbv/convex/support.h"
 #include "fcl_stpbv/distance/shape_distance.h"
 #include "fcl_stpbv/distance/shape_query.h"
+#include "fcl_stpbv/numbers.h"
 
 namespace fcl_stpbv::detail {
 
@@ -54,7 +55,7 @@ void climbToLeastOverlap(Search& epa) {
     const Vector3d n = epa.n, e = n.unitOrthogonal(), f = n.cross(e);
     const double gap = epa.gap;
     for (int k = 0; k < 8 && epa.gap <= gap; ++k, ++trials) {
-      const double angle = 0.785398163397448 * k + 40.0 * step;  // turned a little each round
+      const double angle = kPi / 4 * k + 40.0 * step;  // turned a little each round
       epa.look((n + step * (std::cos(angle) * e + std::sin(angle) * f)).normalized());
     }
     if (epa.gap <= gap) step *= 0.5;

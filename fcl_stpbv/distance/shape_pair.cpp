@@ -96,12 +96,12 @@ bool isNear(const Pair& p, double lower, double upper) {
 }
 
 /// The widest gap that a search has seen, and its normal.
-struct WidestGap {
+struct SeenGap {
   double gap;
   Vector3d n;
 
   /// The last normal, which the search did not look at. Rounding can make it worse than an earlier one.
-  WidestGap(const Pair& p, const Gjk& found)
+  SeenGap(const Pair& p, const Gjk& found)
       : gap(Pair::Difference(p.a, p.b, p.pose).support(found.n).gap), n(found.n) {
     if (found.lower > gap) gap = found.lower, n = found.widest;
   }
@@ -120,7 +120,7 @@ Distance between(const Pair& p, const Vector3d& n, double gap, const Vector3d& o
 }
 
 /// Cores apart, as a search knows them. `invalid` where no gap between them was found.
-Distance asFound(const Pair& p, const Gjk& found, const WidestGap& widest) {
+Distance asFound(const Pair& p, const Gjk& found, const SeenGap& widest) {
   if (!(widest.gap > 0.0)) return {};
   return between(p, widest.n, widest.gap, found.simplex.weighted(&Corner::onA), found.v,
                  std::max(found.upper, widest.gap));
@@ -131,7 +131,7 @@ Distance asFound(const Pair& p, const Gjk& found, const WidestGap& widest) {
 /// search `isLast`, by what is level. `invalid` where the cores overlap, or no gap between them was found.
 Distance separated(const Pair& p, const Gjk& found, bool isLast) {
   if (found.verdict == Gjk::Verdict::overlap) return {};
-  const WidestGap widest(p, found);
+  const SeenGap widest(p, found);
   Distance result = asFound(p, found, widest);
   const bool opposite = (found.v - widest.gap * widest.n).norm() <= 2.0 * p.rounding;
   // A chord of a rim is as good as its arc for the gap, but its normal is off by the root of rounding.

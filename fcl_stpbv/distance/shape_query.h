@@ -95,7 +95,7 @@ enum class WalkEnd {
 
 /// Walks the volume's patches and the shape's features to where the cores are nearest. `found` says nothing
 /// unless it got there.
-WalkEnd walkFeatures(ShapeQuery& q, const StartNormal& start, int tries, Nearest& found);
+WalkEnd walkShapeFeatures(ShapeQuery& q, const StartNormal& start, int tries, Nearest& found);
 
 /// Between which lengths something is (m).
 struct Span {

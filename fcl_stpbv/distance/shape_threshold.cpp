@@ -62,7 +62,7 @@ bool isFartherThan(double x, const StpBv& volume, const Isometry3d& poseVolume, 
   const int hint = isKnown && start.patch[0] < volume.patchCount() ? start.patch[0] : -1;
   Nearest nearest;
   const bool maybeApart = away.most > 0.5 * (volume.innerRadius() + volume.enclosingRadius());
-  const WalkEnd end = maybeApart ? walkFeatures(q, {n, hint}, kTries, nearest) : WalkEnd::unknown;
+  const WalkEnd end = maybeApart ? walkShapeFeatures(q, {n, hint}, kTries, nearest) : WalkEnd::unknown;
   if (end == WalkEnd::nearest) {
     if (cache) *cache = {pose.normalInWorld(nearest.n), {nearest.patch, -1}};
     return nearest.gap - margins - rounding > x;

@@ -229,7 +229,7 @@ Span awayFromCentre(const ShapeQuery& q, bool looksAtCorners) {
 }
 
 FCL_STPBV_VECTORIZED
-WalkEnd walkFeatures(ShapeQuery& q, const StartNormal& start, int tries, Nearest& found) {
+WalkEnd walkShapeFeatures(ShapeQuery& q, const StartNormal& start, int tries, Nearest& found) {
   constexpr double kFar = 0.3;  // cosine of the turn after which the boundary passed furthest says little
   const PatchTable& patches = q.body.tables().patches;
   KnownFeatures features(q, start.n);

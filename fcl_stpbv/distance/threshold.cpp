@@ -1,4 +1,4 @@
-// Bounds from both sides, the cheapest first:
+// Are two STP-BVs farther apart than a threshold? Bounds from both sides, the cheapest first:
 // 1. Balls around the volumes apart, or balls inside them near each other.
 // 2. Where the pair's last plane is known and the bodies have hardly turned: the distance, a step or two
 //    away, unless the cores overlap along that plane.
@@ -28,7 +28,7 @@ bool isRecent(const PairCache& cache, const BodyPair& pair, const RelativePose& 
   const auto turned = [](const Vector3d& now, const Eigen::Vector3f& then) {
     return (now - then.cast<double>()).squaredNorm();
   };
-  return n.squaredNorm() > 0.25 && turned(n, cache.seen[0]) < kTurn * kTurn &&
+  return PairCache::isDirection(n.squaredNorm()) && turned(n, cache.seen[0]) < kTurn * kTurn &&
          turned(pair.opposite(n), cache.seen[1]) < kTurn * kTurn;
 }
 
@@ -47,7 +47,7 @@ bool isFartherByBounds(double x, const StpBv& a, const Isometry3d& poseA, const 
   if (length - a.innerRadius() - b.innerRadius() - pair.margins() <= x) return false;  // no plane is
   const Packed last = pose.toWorld.inverse(pack(cache.normal));
   const double length2 = dot(last, last);
-  if (!(length2 > 0.25 && length2 < 4.0)) return false;
+  if (!PairCache::isDirection(length2)) return false;
   int ignored = 0;
   // From the tables: the cache's patches may be far off by now.
   const Sample plane = pair.sampleFrom(unpack(last / std::sqrt(length2)), {-1, -1}, ignored);

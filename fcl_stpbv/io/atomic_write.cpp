@@ -6,6 +6,7 @@
 #include "fcl_stpbv/io/atomic_write.h"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -35,6 +36,11 @@ int writeAll(int file, std::string_view content) {
   while (!content.empty()) {
     const ssize_t written = ::write(file, content.data(), content.size());
     if (written < 0 && errno == EINTR) continue;
+    if (written < 0 && errno == EAGAIN) {  // a pipe that does not block, while its reader takes its time
+      pollfd space{file, POLLOUT, 0};
+      ::poll(&space, 1, -1);
+      continue;
+    }
     if (written < 0) return errno;
     content.remove_prefix(static_cast<std::size_t>(written));
   }

@@ -13,6 +13,7 @@
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/io/sch_data.h"
 #include "fcl_stpbv/io/text_scanner.h"
+#include "fcl_stpbv/vector_hash.h"
 
 namespace fcl_stpbv::detail::sch {
 namespace {
@@ -21,14 +22,6 @@ using Eigen::Vector3d;
 using Triangle = std::array<int, 3>;
 
 constexpr double kSlack = 8;
-
-struct HashVector {
-  std::size_t operator()(const Vector3d& v) const {
-    std::size_t seed = 0;
-    for (double x : v) seed = seed * 1000003u ^ std::hash<double>()(x);
-    return seed;
-  }
-};
 
 class Checker {
  public:
@@ -93,7 +86,7 @@ class Checker {
 
   // Faces repeat their vertices' coordinates instead of their ids.
   void findCorners() {
-    std::unordered_map<Vector3d, int, HashVector> index;
+    std::unordered_map<Vector3d, int, VectorHash> index;
     for (int v = 0; v < vertexCount(); ++v) {
       // Adding zero makes -0 a 0, so that both have one hash.
       const bool isNew = index.emplace(vertex(v) + Vector3d::Zero(), v).second;

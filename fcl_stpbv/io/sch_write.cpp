@@ -11,6 +11,7 @@
 #include "fcl_stpbv/io/atomic_write.h"
 #include "fcl_stpbv/io/text_scanner.h"
 #include "fcl_stpbv/io/volume_files.h"
+#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/volume/patch_view.h"
 
 namespace fcl_stpbv {
@@ -20,7 +21,7 @@ using namespace detail;
 using Eigen::Vector3d;
 
 // A rim of half a turn, as a flat right-angled triangle has, is still one region; the rest is rounding.
-constexpr double kHalfTurn = 3.14159265358979 + 1e-9;
+constexpr double kHalfTurn = kPi + 1e-9;
 
 void requireWritable(const StpBv& volume) {
   if (volume.faceCount() == 0) {

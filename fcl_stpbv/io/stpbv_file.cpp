@@ -13,9 +13,9 @@ using namespace detail;
 constexpr std::string_view kMagic = "stpbv";
 constexpr int kVersion = 1;
 
-// Shortest possible lines: "0 0 0\n", and a face is at least "2 0 1\n" once its own count is read.
-constexpr std::size_t kVertexLine = 6;
-constexpr std::size_t kFaceLine = 8;  // "3 0 1 2\n"
+// The shortest possible lines.
+constexpr std::size_t kVertexLine = 6;  // "0 0 0\n"
+constexpr std::size_t kFaceLine = 8;    // "3 0 1 2\n"
 constexpr std::size_t kCornerBytes = 2;
 
 std::string stpbvText(const StpBv& volume) {

@@ -21,13 +21,6 @@ constexpr std::size_t kLongestQuote = 40;  // a message stays on one line whatev
 
 bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == '\v' || c == '\f'; }
 
-// The token as a message may show it: short and printable.
-std::string quoted(std::string_view token) {
-  std::string text = "'";
-  for (char c : token.substr(0, kLongestQuote)) text += (c >= ' ' && c <= '~') ? c : '?';
-  return text + (token.size() > kLongestQuote ? "...'" : "'");
-}
-
 int significantDigits(std::string_view token) {
   int digits = 0;
   for (char c : token) {
@@ -39,6 +32,12 @@ int significantDigits(std::string_view token) {
 }
 
 }  // namespace
+
+std::string quoted(std::string_view word) {
+  std::string text = "'";
+  for (char c : word.substr(0, kLongestQuote)) text += (c >= ' ' && c <= '~') ? c : '?';
+  return text + (word.size() > kLongestQuote ? "...'" : "'");
+}
 
 std::string readText(const std::string& path, std::size_t mostBytes) {
   std::error_code ignored;

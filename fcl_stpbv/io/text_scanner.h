@@ -30,6 +30,9 @@ std::string toDecimal(double value);
 /// Appends three numbers, separated by blanks.
 void appendVector(std::string& text, const Eigen::Vector3d& v);
 
+/// What a message says of a file's word: its first characters, those that cannot be printed as '?'.
+std::string quoted(std::string_view word);
+
 /// A number without the plus sign that some writers put before it and std::from_chars does not take.
 std::string_view withoutPlus(std::string_view number);
 

@@ -166,7 +166,7 @@ void coverInside(const PartSearch::Parts& parts, const std::vector<TriangleSoup>
 ConvexPart certified(const std::vector<Vector3d>& points, const PartSpace& space) {
   const MeshSolid& mesh = space.mesh;
   ConvexPart out;
-  for (const int v : rollBall(points).vertices) out.points.push_back(points[at(v)]);
+  for (const int v : convexHull(points).vertices) out.points.push_back(points[at(v)]);
   const std::vector<Triangle> surface = hullTriangles(out.points);
   ExcessOptions open;
   open.absolute = 0.04 * space.fine;

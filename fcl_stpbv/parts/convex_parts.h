@@ -13,7 +13,7 @@ namespace fcl_stpbv {
 struct PartsOptions {
   int most = 8;       ///< no more parts than this
   double excess = 0;  ///< with a value: as few parts as reach it (m), still no more than `most`
-  double effort = 1;  ///< of the search, in parts of the usual one
+  double effort = 1;  ///< of the search; 1 is the usual one
 };
 
 /// One convex part of a mesh.

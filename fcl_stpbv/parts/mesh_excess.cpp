@@ -277,7 +277,7 @@ MeshExcess excessOf(const std::vector<Triangle>& surface, const MeshSolid& mesh,
 std::vector<Triangle> hullTriangles(const std::vector<Vector3d>& points) {
   if (points.empty()) throw Error("no points have no hull: give at least one");
   requireFinite(points);
-  const RolledHull hull = rollBall(points);
+  const RolledHull hull = convexHull(points);
   std::vector<Triangle> triangles;
   if (hull.faces.empty())
     return {{points[at(hull.vertices.front())], points[at(hull.vertices.back())],

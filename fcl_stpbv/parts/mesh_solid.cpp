@@ -57,10 +57,8 @@ RayHit rayHit(const Vector3d& a, const Vector3d& b, const Vector3d& c, const Vec
 
 // Solid angle of a triangle seen from the origin, signed (van Oosterom and Strackee 1983), in whole turns.
 double turnsAround(const Vector3d& a, const Vector3d& b, const Vector3d& c) {
-  constexpr double kHalfTurns = 6.283185307179586;
   const double la = a.norm(), lb = b.norm(), lc = c.norm();
-  return std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb) /
-         kHalfTurns;
+  return std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb) / kTwoPi;
 }
 
 }  // namespace

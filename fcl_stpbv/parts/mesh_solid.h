@@ -122,8 +122,9 @@ struct ExcessOptions {
   long queries = 1000000;  ///< unless that would take more distances than this
   bool filled = true;      ///< points that the mesh encloses count 0; else all points from its triangles
   double enough =
-      std::numeric_limits<double>::infinity();  ///< ends once the truth is seen to exceed this (m)
-  double corners = std::numeric_limits<double>::infinity();  ///< the surface's are known to be this near (m)
+      std::numeric_limits<double>::infinity();  ///< stops as soon as the excess is proven larger (m)
+  /// Known bound on the distance of the surface's corners from the mesh (m).
+  double corners = std::numeric_limits<double>::infinity();
 };
 
 /// For a figure to read rather than a proof: a tenth of a second, within 2 % and 0.1 mm as a rule.

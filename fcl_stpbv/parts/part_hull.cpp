@@ -69,7 +69,7 @@ double PartHull::diagonal() const { return extentOf(vertices); }
 PartHull partHull(const std::vector<Vector3d>& points) {
   PartHull hull;
   if (byPlanes(points, hull)) return hull;
-  for (const int v : rollBall(points).vertices) hull.vertices.push_back(points[at(v)]);
+  for (const int v : convexHull(points).vertices) hull.vertices.push_back(points[at(v)]);
   hull.surface = hullTriangles(hull.vertices);
   return hull;
 }

@@ -6,11 +6,13 @@
 #include <cmath>
 
 #include "fcl_stpbv/number_check.h"
+#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/posture/mimic_limits.h"
 
 namespace fcl_stpbv {
 namespace {
 
+using detail::kPi;
 using detail::requireSize;
 
 void sortWorstFirst(std::vector<Violation>& list) {
@@ -46,8 +48,8 @@ PostureProblem::PostureProblem(std::shared_ptr<const Kinematics> kinematics, Pos
   for (const Kinematics::Motion& motion : kinematics_->motions()) {
     const int i = motion.coordinate;
     if (motion.joint >= 0 || !std::isfinite(lower_[i])) continue;
-    lower_[i] = start[i] - M_PI / 2;
-    upper_[i] = start[i] + M_PI / 2;
+    lower_[i] = start[i] - kPi / 2;
+    upper_[i] = start[i] + kPi / 2;
   }
 }
 

@@ -1,4 +1,5 @@
-// See asked_postures.h.
+// --neutral, --pose and --trajectory, read in this order: a pose may leave joints out, which stay neutral.
+// What is beyond the joint limits is warned of.
 #include "fcl_stpbv/report/asked_postures.h"
 
 #include "fcl_stpbv/io/text_scanner.h"

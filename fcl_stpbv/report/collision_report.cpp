@@ -89,14 +89,14 @@ void placeOnTrajectory(const TrajectoryReport& trajectory, std::size_t first, st
                        PairReport& pair) {
   if (first == last) return;
   const bool touches = trajectory.verdict == MotionVerdict::contact &&
-                       static_cast<std::size_t>(trajectory.pair) >= first &&
-                       static_cast<std::size_t>(trajectory.pair) < last;
+                       static_cast<std::size_t>(trajectory.stop.pair) >= first &&
+                       static_cast<std::size_t>(trajectory.stop.pair) < last;
   const auto begin = trajectory.closest.begin();
   const auto nearest =
       std::min_element(begin + static_cast<std::ptrdiff_t>(first), begin + static_cast<std::ptrdiff_t>(last),
                        [](const Approach& a, const Approach& b) { return a.distance < b.distance; });
-  pair.time =
-      touches && !(nearest->distance < trajectory.contact.distance) ? trajectory.until : nearest->time;
+  pair.time = touches && !(nearest->distance < trajectory.stop.answer.distance) ? trajectory.stop.until
+                                                                                : nearest->time;
   pair.configuration = trajectory.at(pair.time);
   pair.colliding = touches;
 }
@@ -180,6 +180,7 @@ void examine(const ReportRequest& request, const PairListOptions& search, const 
       throw Error(report.robot->path + ": the distance of " + pair.link1 + " and " + pair.link2 +
                   " cannot be computed; look for numbers out of all proportion");
     pair.colliding |= pair.answer.distance <= search.margin;
+    pair.minDistance = std::min(pair.minDistance, pair.answer.distance);
     if (const auto known = kept.find(pair.links); known != kept.end()) {
       pair.meshDistance = known->second.meshDistance;
       pair.cause = known->second.cause;

@@ -1,4 +1,5 @@
-// See named_posture.h.
+// A posture from a group state of the SRDF, else from a JSON file: values by joint, all coordinates in a
+// list, or an answer of find_posture. Joints that it leaves out stay as they are.
 #include "fcl_stpbv/report/named_posture.h"
 
 #include <algorithm>
@@ -84,7 +85,13 @@ Eigen::VectorXd poseFromJson(const std::string& path, const Kinematics& kinemati
 Eigen::VectorXd namedPosture(const std::string& option, const std::string& name, const Kinematics& kinematics,
                              const Srdf* srdf, const Eigen::VectorXd& rest, bool obstacles) {
   std::error_code ignored;
-  const bool isFile = std::filesystem::exists(name, ignored) && !std::filesystem::is_directory(name, ignored);
+  const bool isFile = name == "-" || (std::filesystem::exists(name, ignored) &&
+                                      !std::filesystem::is_directory(name, ignored));
+  const bool isState = srdf && std::any_of(srdf->states.begin(), srdf->states.end(),
+                                           [&](const Srdf::State& state) { return state.name == name; });
+  if (isFile && isState)
+    throw Error(option + " " + name + ": is a state of the SRDF and a file; give ./" + name +
+                " for the file, or rename it");
   if (isFile) return poseFromJson(name, kinematics, rest, obstacles);  // a pipe, too
   if (!srdf)
     throw Error(option + " " + name +
@@ -113,11 +120,11 @@ std::string limitWarning(const std::string& name, const std::vector<Eigen::Vecto
     });
     if (outside == postures.end() || ++more > 0) continue;
     const char* unit = joint.type == JointType::revolute ? " rad" : " m";
-    first =
-        name + ": " +
-        (postures.size() > 1 ? "way point " + std::to_string(outside - postures.begin() + 1) + ": " : "") +
-        "the joint '" + joint.name + "' is at " + toDecimal(valueIn(*outside)) + unit +
-        ", outside of its limits " + toDecimal(joint.lower) + " to " + toDecimal(joint.upper) + unit;
+    first = name + ": " +
+            (postures.size() > 1 ? "way point " + std::to_string(outside - postures.begin()) + " (from 0): "
+                                 : "") +
+            "the joint '" + joint.name + "' is at " + toDecimal(valueIn(*outside)) + unit +
+            ", outside of its limits " + toDecimal(joint.lower) + " to " + toDecimal(joint.upper) + unit;
   }
   if (more > 0)
     first += ", and " + std::to_string(more) +

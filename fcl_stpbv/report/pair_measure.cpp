@@ -1,4 +1,7 @@
-// See pair_measure.h.
+// A pair in one configuration.
+// 1. Distance, normal and gradient of its bodies.
+// 2. The over-cover of each along that normal: the difference of two support functions.
+// 3. The distance of what they cover, hulls and primitives, where these are apart.
 #include "fcl_stpbv/report/pair_measure.h"
 
 #include <algorithm>

@@ -4,11 +4,12 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "fcl_stpbv/report/formatted.h"
+#include "fcl_stpbv/formatted.h"
 
 namespace fcl_stpbv::report {
 namespace {
 
+using detail::formatted;
 nlohmann::json list(const std::vector<Violation>& violations) {
   nlohmann::json items = nlohmann::json::array();
   for (const Violation& v : violations) items.push_back({{"constraint", v.name}, {"amount", v.amount}});

@@ -1,7 +1,7 @@
 // The page of a posture: the collision report's page with one configuration.
 #include <algorithm>
 
-#include "fcl_stpbv/report/formatted.h"
+#include "fcl_stpbv/formatted.h"
 #include "fcl_stpbv/report/pair_measure.h"
 #include "fcl_stpbv/report/posture_formats.h"
 #include "fcl_stpbv/report/report_formats.h"

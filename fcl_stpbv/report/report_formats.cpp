@@ -13,7 +13,7 @@ using namespace detail;
 
 namespace {
 
-std::string quoted(const std::string& text) {
+std::string cellOf(const std::string& text) {
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
   std::string out = "\"";
   for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
@@ -26,17 +26,22 @@ std::string toCsv(const CollisionReport& report) {
   std::string text =
       "link1,link2,reason,srdf_reason,checked,cause,distance,mesh_distance,hull_distance,over_cover1,over_"
       "cover2,min_distance,"
-      "point1_x,point1_y,point1_z,point2_x,point2_y,point2_z,normal_x,normal_y,normal_z\n";
+      "point1_x,point1_y,point1_z,point2_x,point2_y,point2_z,normal_x,normal_y,normal_z";
+  text += report.trajectory ? ",time\n" : "\n";
+  const std::string rest(report.trajectory ? 17 : 16, ',');
+  if (report.trajectory)
+    text += ",," + cellOf("trajectory: " + trajectoryVerdict(report)) + ",,0" + rest + "\n";
   for (const std::string& shape : report.skipped)
-    text += ",," + quoted("left out: " + shape) + ",,0" + std::string(16, ',') + "\n";
+    text += ",," + cellOf("left out: " + shape) + ",,0" + rest + "\n";
   for (const PairReport& pair : report.pairs) {
-    text += quoted(pair.link1) + "," + quoted(pair.link2) + "," + quoted(pair.reason) + "," +
-            quoted(pair.srdfReason) + "," + (pair.checked ? "1" : "0") + "," + pair.cause;
+    text += cellOf(pair.link1) + "," + cellOf(pair.link2) + "," + cellOf(pair.reason) + "," +
+            cellOf(pair.srdfReason) + "," + (pair.checked ? "1" : "0") + "," + pair.cause;
     for (double value : {pair.answer.distance, pair.meshDistance, pair.hullDistance, pair.overCover1,
                          pair.overCover2, pair.minDistance})
       text += "," + (std::isfinite(value) ? toDecimal(value) : std::string());
     for (const Eigen::Vector3d& v : {pair.answer.points[0], pair.answer.points[1], pair.answer.normal})
       for (int i = 0; i < 3; ++i) text += "," + toDecimal(v[i]);
+    if (report.trajectory) text += "," + (std::isfinite(pair.time) ? toDecimal(pair.time) : std::string());
     text += "\n";
   }
   return text;

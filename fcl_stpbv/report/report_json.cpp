@@ -40,7 +40,7 @@ nlohmann::json trajectoryJson(const CollisionReport& report) {
                       {"way_points", t.trajectory.points.size()},
                       {"timed", t.trajectory.timed},
                       {"verdict", verdicts[static_cast<int>(t.verdict)]},
-                      {"free_until", t.from},
+                      {"free_until", t.stop.from},
                       {"closest_proven", t.closestProven},
                       {"closest_precision", TrajectoryReport::kPrecision},
                       {"steepest_approach", t.steepest},
@@ -51,12 +51,17 @@ nlohmann::json trajectoryJson(const CollisionReport& report) {
     json["steepest_time"] = t.steepestTime;
   }
   if (t.verdict != MotionVerdict::free) {
-    const auto& [first, second] = report.trajectoryPairs[static_cast<std::size_t>(t.pair)];
-    json["contact"] = {{"time", t.until},
+    const auto& [first, second] = report.trajectoryPairs[static_cast<std::size_t>(t.stop.pair)];
+    json["contact"] = {{"time", t.stop.until},
                        {"link1", first},
                        {"link2", second},
-                       {"point1", numbers(t.contact.points[0])},
-                       {"point2", numbers(t.contact.points[1])}};
+                       {"point1", numbers(t.stop.answer.points[0])},
+                       {"point2", numbers(t.stop.answer.points[1])}};
+  }
+  json["undecided"] = nlohmann::json::array();
+  for (const TrajectoryStop& pair : t.undecided) {
+    const auto& [first, second] = report.trajectoryPairs[static_cast<std::size_t>(pair.pair)];
+    json["undecided"].push_back({{"time", pair.from}, {"link1", first}, {"link2", second}});
   }
   return json;
 }

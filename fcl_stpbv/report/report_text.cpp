@@ -4,12 +4,13 @@
 #include <map>
 #include <numeric>
 
-#include "fcl_stpbv/report/formatted.h"
+#include "fcl_stpbv/formatted.h"
 #include "fcl_stpbv/report/report_formats.h"
 
 namespace fcl_stpbv::report {
 namespace {
 
+using detail::formatted;
 constexpr double kMm = 1e3;
 
 std::string steepest(const PairReport& pair) {
@@ -124,13 +125,17 @@ std::string trajectory(const CollisionReport& report) {
                      " way points: " + trajectoryVerdict(report);
   if (t.verdict == MotionVerdict::contact) {
     text += ", at";
-    for (const Eigen::Vector3d& p : t.contact.points)
+    for (const Eigen::Vector3d& p : t.stop.answer.points)
       text += formatted(" (%.6f %.6f %.6f)", p.x(), p.y(), p.z());
   }
   text += "\n";
+  for (const TrajectoryStop& pair : t.undecided)
+    if (t.verdict == MotionVerdict::contact || pair.pair != t.stop.pair)
+      text += "not decided: " + report.trajectoryPair(pair.pair) +
+              formatted(", whose distance is the margin to rounding from %.12g%s on\n", pair.from, unit);
   if (t.steepestPair >= 0)
     text += formatted("fastest approach of %zu samples %.4f %s, ", t.chartTime.size(), t.steepest, speed) +
-            report.trajectoryPair(t.steepestPair) + formatted(" at %.6g%s\n", t.steepestTime, unit);
+            report.trajectoryPair(t.steepestPair) + formatted(" at %.12g%s\n", t.steepestTime, unit);
   if (!t.closestProven) text += "some closest approaches are those that were found, without a proof\n";
   return text;
 }
@@ -162,11 +167,13 @@ std::string trajectoryVerdict(const CollisionReport& report) {
     case MotionVerdict::free:
       return "proven free";
     case MotionVerdict::contact:
-      return "CONTACT of " + report.trajectoryPair(t.pair) +
-             formatted(" between %.9g and %.9g%s", t.from, t.until, unit);
+      return "CONTACT of " + report.trajectoryPair(t.stop.pair) +
+             formatted(" between %.12g and %.12g%s", t.stop.from, t.stop.until, unit);
     default:
-      return "NOT DECIDED for " + report.trajectoryPair(t.pair) +
-             formatted(" at %.9g%s, free before: the distance is the margin to rounding", t.from, unit);
+      return "NOT DECIDED for " + report.trajectoryPair(t.stop.pair) +
+             formatted(" at %.12g%s, free before: ", t.stop.from, unit) +
+             (t.tooLong ? "the way is so long that a proof takes too many distances; give way points between"
+                        : "the distance is the margin to rounding");
   }
 }
 

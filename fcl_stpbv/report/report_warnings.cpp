@@ -1,4 +1,4 @@
-// See report_warnings.h.
+// One function a warning; each gives a whole sentence, or nothing.
 #include "fcl_stpbv/report/report_warnings.h"
 
 #include <algorithm>
@@ -6,7 +6,7 @@
 #include <set>
 
 #include "fcl_stpbv/adapter/fcl_distance.h"
-#include "fcl_stpbv/report/formatted.h"
+#include "fcl_stpbv/formatted.h"
 
 namespace fcl_stpbv::report {
 
@@ -66,12 +66,6 @@ std::string unmovedInObstacles(const CollisionReport& report) {
   return first + "; no joint moves it, so this pair is not checked" + others + ".";
 }
 
-std::string overlapsAllowed(const CollisionReport& report) {
-  if (report.margin >= 0) return "";
-  return formatted("the margin is negative: what overlaps by less than %g m counts as clear.",
-                   -report.margin);
-}
-
 std::string kinks(const CollisionReport& report) {
   const auto kinked = std::count_if(report.pairs.begin(), report.pairs.end(), [](const PairReport& pair) {
     return pair.checked && !pair.answer.continuous;
@@ -84,6 +78,11 @@ std::string kinks(const CollisionReport& report) {
 }
 
 }  // namespace
+
+std::string overlapsAllowed(double margin) {
+  if (margin >= 0) return "";
+  return formatted("the margin is negative: what overlaps by less than %g m counts as clear.", -margin);
+}
 
 std::string openParts(const RobotGeometry& geometry) {
   std::set<std::string> names;
@@ -100,7 +99,7 @@ std::vector<std::string> reportWarnings(const CollisionReport& report, const std
   std::vector<std::string> warnings;
   for (const std::string& text :
        {openMeshes(report), openParts(*report.geometry), neutralCollisions(report.neutral, neutral),
-        unmovedInObstacles(report), overlapsAllowed(report), kinks(report)})
+        unmovedInObstacles(report), overlapsAllowed(report.margin), kinks(report)})
     if (!text.empty()) warnings.push_back(report.robot->path + ": " + text);
   return warnings;
 }

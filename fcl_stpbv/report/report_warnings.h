@@ -10,6 +10,9 @@ namespace fcl_stpbv::report {
 /// A sentence on meshes that are split and not closed, whose parts cover their faces alone; "" without one.
 std::string openParts(const RobotGeometry& geometry);
 
+/// A sentence where a margin below 0 (m) lets bodies overlap; "" else.
+std::string overlapsAllowed(double margin);
+
 /// Whole sentences for meshes that are not closed, for bodies that meet in the neutral
 /// posture (`neutral` is its name, "" for the usual one), for those that no joint moves and that meet an
 /// obstacle, and for pairs whose gradient may jump. The report's pairs and fits are there.

@@ -7,9 +7,9 @@
 #include <nlohmann/json.hpp>
 
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/formatted.h"
 #include "fcl_stpbv/io/text_scanner.h"
 #include "fcl_stpbv/report/digest.h"
-#include "fcl_stpbv/report/formatted.h"
 #include "fcl_stpbv/report/kept_folder.h"
 #include "fcl_stpbv/report/part_files.h"
 

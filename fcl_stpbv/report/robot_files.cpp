@@ -3,7 +3,7 @@
 #include "fcl_stpbv/report/robot_files.h"
 
 #include "fcl_stpbv/error.h"
-#include "fcl_stpbv/report/formatted.h"
+#include "fcl_stpbv/formatted.h"
 #include "fcl_stpbv/robot/checked_pairs.h"
 #include "fcl_stpbv/robot/pair_list.h"
 

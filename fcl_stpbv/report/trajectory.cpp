@@ -1,10 +1,15 @@
-// See trajectory.h.
+// A robot along a trajectory, segment by segment.
+// 1. The first contact: bracketed in time, or proven absent (robot/motion_check.h).
+// 2. Each pair's closest approach, proven likewise.
+// 3. Even samples, the contact and the closest approach, for the chart and the steepest approach: distances
+//    and, by the Jacobian, how fast they change.
 #include "fcl_stpbv/report/trajectory.h"
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <utility>
 
-#include "fcl_stpbv/report/formatted.h"
 #include "fcl_stpbv/robot/constraints.h"
 
 namespace fcl_stpbv::report {
@@ -22,19 +27,54 @@ double timeAt(const Trajectory& trajectory, std::size_t segment, double part) {
   return trajectory.time[segment] + part * (trajectory.time[segment + 1] - trajectory.time[segment]);
 }
 
-void findContact(MotionCheck& check, double margin, TrajectoryReport& report) {
-  const Trajectory& t = report.trajectory;
-  report.verdict = MotionVerdict::free;
-  report.from = report.until = t.time.back();
-  for (std::size_t i = 0; i + 1 < t.points.size() && report.verdict == MotionVerdict::free; ++i) {
-    const MotionBracket found = check.firstContact(t.points[i], t.points[i + 1], {margin, 1e-6});
+/// A trajectory's first contact, or where nothing is decided.
+struct FirstStop {
+  MotionVerdict verdict = MotionVerdict::free;
+  std::size_t segment = 0;
+  TrajectoryStop at;
+  bool tooLong = false;
+};
+
+FirstStop firstStop(MotionCheck& check, double margin, const Trajectory& t, std::size_t segment) {
+  for (std::size_t i = segment; i + 1 < t.points.size(); ++i) {
+    const MotionRequest request{margin, 1e-6};
+    const MotionBracket found = check.firstContact(t.points[i], t.points[i + 1], request);
     if (found.verdict == MotionVerdict::free) continue;
-    report.verdict = found.verdict;
-    report.from = timeAt(t, i, found.from);
-    report.until = timeAt(t, i, found.until);
-    report.pair = found.pair;
-    report.contact = check.answer(found.pair, t.points[i] + found.until * (t.points[i + 1] - t.points[i]));
+    const VectorXd q = t.points[i] + found.until * (t.points[i + 1] - t.points[i]);
+    return {found.verdict,
+            i,
+            {timeAt(t, i, found.from), timeAt(t, i, found.until), found.pair, check.answer(found.pair, q)},
+            found.queries > request.mostQueries};
   }
+  FirstStop none;
+  none.at.from = none.at.until = t.time.back();
+  return none;
+}
+
+// A pair whose distance is the margin to rounding must not hide a contact of another one: it is set aside,
+// and the search goes on with the others from where it was.
+void findContact(std::shared_ptr<const Kinematics> kinematics, std::shared_ptr<const RobotGeometry> geometry,
+                 std::vector<CheckedPair> pairs, const std::vector<Obstacle>& obstacles, double margin,
+                 TrajectoryReport& report) {
+  std::vector<int> number(pairs.size());  // of each pair that is left
+  std::iota(number.begin(), number.end(), 0);
+  FirstStop stop;
+  for (;;) {
+    MotionCheck check(kinematics, geometry, pairs, obstacles);
+    stop = firstStop(check, margin, report.trajectory, stop.segment);
+    const std::ptrdiff_t left = stop.at.pair;
+    if (left >= 0) stop.at.pair = number[static_cast<std::size_t>(left)];
+    report.tooLong = stop.verdict == MotionVerdict::undecided && stop.tooLong;
+    if (stop.verdict != MotionVerdict::undecided || report.tooLong) break;
+    report.undecided.push_back(stop.at);
+    number.erase(number.begin() + left);
+    pairs.erase(pairs.begin() + left);
+    if (pairs.empty()) break;
+  }
+  const bool isOpen = stop.verdict != MotionVerdict::contact && !report.undecided.empty();
+  report.verdict = isOpen ? MotionVerdict::undecided : stop.verdict;
+  report.stop = isOpen ? report.undecided.front() : stop.at;
+  report.tooLong &= report.undecided.empty();
 }
 
 void findClosest(MotionCheck& check, TrajectoryReport& report) {
@@ -56,7 +96,7 @@ void findClosest(MotionCheck& check, TrajectoryReport& report) {
 std::vector<double> chartTimes(const TrajectoryReport& report) {
   constexpr int kChart = 400;
   const double begin = report.trajectory.time.front(), end = report.trajectory.time.back();
-  std::vector<double> times{report.until};
+  std::vector<double> times{report.stop.until};
   for (int k = 0; k <= kChart; ++k) times.push_back(begin + (end - begin) * k / kChart);
   const auto nearest =
       std::min_element(report.closest.begin(), report.closest.end(),
@@ -101,53 +141,14 @@ TrajectoryReport follow(Trajectory trajectory, std::shared_ptr<const Kinematics>
                         const std::vector<Obstacle>& obstacles, double margin) {
   TrajectoryReport report;
   report.trajectory = std::move(trajectory);
+  findContact(kinematics, geometry, pairs, obstacles, margin, report);
   MotionCheck check(kinematics, geometry, pairs, obstacles);
-  findContact(check, margin, report);
   findClosest(check, report);
   ConstraintOptions options;
   options.obstacles = obstacles;
   CollisionConstraints rows(kinematics, geometry, pairs, options);
   sample(rows, report);
   return report;
-}
-
-std::string chartOf(const TrajectoryReport& report, double margin) {
-  constexpr double kWidth = 1000, kHeight = 220, kBottom = 30;
-  constexpr double kLetter = 9, kLine = 16;  // as wide and as high as text of 13 pixels is at most
-  const double begin = report.chartTime.front(), end = report.chartTime.back();
-  const auto [least, most] = std::minmax_element(report.chartDistance.begin(), report.chartDistance.end());
-  const double low = std::min({0.0, margin, *least}), high = std::max({*most, margin, low + 1e-3});
-  const auto label = [](double level) { return formatted("%.1f mm", level * 1e3); };
-  const double left = 6 + kLetter * static_cast<double>(std::max(label(low).size(), label(high).size()));
-  const auto x = [&](double time) { return left + (kWidth - left) * (time - begin) / (end - begin); };
-  const auto y = [&](double d) { return (kHeight - kBottom) * (1 - (d - low) / (high - low)) + 10; };
-  std::string svg;
-  const auto add = [&svg](const char* pattern, auto... values) { svg += formatted(pattern, values...); };
-  add("<svg viewBox=\"0 0 %g %g\" role=\"img\" aria-label=\"Least distance over time\" font-size=\"13\" "
-      "fill=\"currentColor\">",
-      kWidth + 20, kHeight + 20);
-  std::vector<double> written;  // levels whose text no other one may lie over
-  for (const double level : {margin, low, high}) {
-    const auto over = [&](double other) { return std::abs(y(level) - y(other)) < kLine; };
-    if (std::any_of(written.begin(), written.end(), over)) continue;
-    written.push_back(level);
-    add("<line x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\" stroke=\"currentColor\" opacity=\"0.3\"/>",
-        left, y(level), kWidth, y(level));
-    add("<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"end\">%s</text>", left - 6, y(level) + 4,
-        label(level).c_str());
-  }
-  add("<text x=\"%.1f\" y=\"%.1f\">%g%s</text>", left, kHeight + 12, begin,
-      report.trajectory.timed ? " s" : "");
-  add("<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"end\">%g%s</text>", kWidth, kHeight + 12, end,
-      report.trajectory.timed ? " s" : "");
-  svg += "<polyline fill=\"none\" stroke=\"#2a7ae2\" stroke-width=\"2\" points=\"";
-  for (std::size_t i = 0; i < report.chartTime.size(); ++i)
-    add("%.2f,%.2f ", x(report.chartTime[i]), y(report.chartDistance[i]));
-  svg += "\"/>";
-  if (report.verdict != MotionVerdict::free)
-    add("<line x1=\"%.1f\" y1=\"10\" x2=\"%.1f\" y2=\"%.1f\" stroke=\"#c0392b\" stroke-width=\"2\"/>",
-        x(report.until), x(report.until), y(low));
-  return svg + "</svg>";
 }
 
 }  // namespace fcl_stpbv::report

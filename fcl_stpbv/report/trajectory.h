@@ -9,13 +9,22 @@
 
 namespace fcl_stpbv::report {
 
+/// Where a segment's search ended: proven free before `from`.
+struct TrajectoryStop {
+  double from = 0, until = 0;  ///< of the trajectory's time
+  int pair = -1;               ///< among the pairs of bodies; -1 where the trajectory is free
+  DistanceAnswer answer;       ///< of the pair at `until`
+};
+
 struct TrajectoryReport {
   std::string path;
   Trajectory trajectory;
   MotionVerdict verdict = MotionVerdict::undecided;
-  double from = 0, until = 0;     ///< first contact, or where nothing is decided: proven free before `from`
-  int pair = -1;                  ///< among the pairs of bodies; -1 without a contact
-  DistanceAnswer contact;         ///< at `until`
+  TrajectoryStop stop;  ///< the first contact; without one the first place where nothing is decided
+  /// Pairs whose distance is the margin to rounding somewhere, each where that begins, in the order of time.
+  /// A contact is the first of all other pairs.
+  std::vector<TrajectoryStop> undecided;
+  bool tooLong = false;           ///< undecided because it took too many distances
   std::vector<Approach> closest;  ///< of each pair of bodies, its time that of the trajectory
   /// Every `closest` is that of the whole trajectory to this (m); false where
   /// a pair was too deep in another one.

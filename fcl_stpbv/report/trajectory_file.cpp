@@ -1,4 +1,4 @@
-// See trajectory_file.h. Both formats become columns of numbers under names, which are then looked at once.
+// A trajectory from CSV or JSON: both become columns of numbers under names, which are then checked once.
 #include "fcl_stpbv/report/trajectory_file.h"
 
 #include <algorithm>
@@ -65,9 +65,10 @@ Columns fromCsv(const std::string& text, const std::string& path) {
     std::vector<double> row;
     for (const std::string& cell : cells) {
       double value = 0;
-      const auto read = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-      if (read.ec != std::errc() || read.ptr != cell.data() + cell.size())
-        throw Error(place + ": got '" + cell + "', expected a number" +
+      const std::string_view digits = withoutPlus(cell);
+      const auto read = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+      if (read.ec != std::errc() || read.ptr != digits.data() + digits.size())
+        throw Error(place + ": got " + detail::quoted(cell) + ", expected a number" +
                     (cell.find_first_of("; \t") == std::string::npos ? "" : "; commas stand between values"));
       row.push_back(value);
     }
@@ -158,7 +159,7 @@ int anglesOf(JointType type) {
 Eigen::VectorXd nearestTurn(const Eigen::VectorXd& to, const Eigen::VectorXd& from) {
   const double angle = to.norm();
   const Eigen::VectorXd axis = (angle > 0 ? to : from).normalized();
-  return to + 2 * M_PI * std::round((from.dot(axis) - angle) / (2 * M_PI)) * axis;
+  return to + kTwoPi * std::round((from.dot(axis) - angle) / (kTwoPi)) * axis;
 }
 
 std::string joined(const Eigen::VectorXd& values) {
@@ -220,7 +221,7 @@ std::string turnWarning(const std::string& name, const Trajectory& trajectory, c
       const double turn = (to - last).norm();
       if (turn <= (nearest - last).norm() + kOff) continue;
       const std::string what = angles == 1 ? kinematics.names()[at(k)] : joint.name;
-      return name + ": way point " + std::to_string(i + 1) + ": '" + what + "' turns by " +
+      return name + ": way point " + std::to_string(i) + " (from 0): '" + what + "' turns by " +
              toDecimal(angles == 1 ? to[0] - last[0] : turn) +
              " rad, more than half a turn; this way is looked at, not the short one, which would end at " +
              joined(nearest) + " rad.";

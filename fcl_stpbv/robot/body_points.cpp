@@ -8,7 +8,8 @@
 
 #include "fcl_stpbv/adapter/fcl_shapes.h"
 #include "fcl_stpbv/adapter/stp_bv_geometry.h"
-#include "fcl_stpbv/volume/hull_excess.h"
+#include "fcl_stpbv/numbers.h"
+#include "fcl_stpbv/volume/covered_hull.h"
 
 namespace fcl_stpbv::detail {
 namespace {
@@ -18,9 +19,9 @@ using Eigen::Vector3d;
 constexpr int kRimCorners = 24;  // a polygon around a rim is then 0.9 % wider than it
 
 void addRim(double radius, double z, std::vector<Vector3d>& points) {
-  const double around = radius / std::cos(M_PI / kRimCorners);
+  const double around = radius / std::cos(kPi / kRimCorners);
   for (int k = 0; k < kRimCorners; ++k) {
-    const double angle = 2 * M_PI * k / kRimCorners;
+    const double angle = kTwoPi * k / kRimCorners;
     points.emplace_back(around * std::cos(angle), around * std::sin(angle), z);
   }
 }
@@ -97,7 +98,7 @@ std::optional<BodyPoints> bodyPoints(const fcl::CollisionGeometryd& geometry, co
   Shape shape;
   if (const StpBvGeometry* smooth = asStpBv(&geometry)) {
     body.points = smooth->volume().vertices();
-    body.radius = HullExcess(body.points).max(smooth->volume());
+    body.radius = CoveredHull(body.points).max(smooth->volume());
   } else if (shapeOf(geometry, shape)) {
     body.points = cornersOf(shape);
     body.radius = shape.margin;

@@ -62,10 +62,13 @@ std::vector<CheckedPair> bodiesOf(const RobotGeometry& geometry, const LinkPair&
 
 namespace detail {
 
-/// What some pairs are of: bodies of the robot, their links, and obstacles. Each once, ascending.
+/// What some pairs are of. Each index once, ascending.
 struct PairedBodies {
-  std::vector<int> bodies, links, obstacles;
+  std::vector<int> bodies;     ///< into RobotGeometry::bodies
+  std::vector<int> links;      ///< into RobotModel::links, of these bodies
+  std::vector<int> obstacles;  ///< into the scene's obstacles
 };
+/// The bodies, links and obstacles of `pairs`.
 PairedBodies pairedBodies(const std::vector<CheckedPair>& pairs, const RobotGeometry& geometry);
 
 }  // namespace detail

@@ -19,7 +19,7 @@ struct Hit {
   CheckedPair bodies{-1, -1, false};  ///< the pair's
 };
 
-/// What verdicts took, counted: what a change must not raise, whatever the machine does beside it.
+/// What verdicts took: counts of work, which unlike times are the same on any machine.
 struct CheckerWork {
   long configurations = 0;  ///< asked about
   long near = 0;            ///< pairs that their spheres did not clear, and that were looked at

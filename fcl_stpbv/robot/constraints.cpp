@@ -86,20 +86,14 @@ void CollisionConstraints::addPair(const CheckedPair& pair) {
   const Body& body = geometry_->bodies[at(pair.body)];
   const StpBvGeometry* first = asStpBv(body.geometry.get());
   const StpBvGeometry* other = asStpBv(&second(pair));
-  Row row{nullptr,
-          nullptr,
-          pair.body,
-          pair.other,
-          static_cast<int>(terms_.size()),
-          0,
-          options_.influence,
-          options_.exactUpTo,
-          options_.influence,
-          groupOf_[rows_.size()],
-          false,
-          hasFiniteCorners(*body.geometry) && hasFiniteCorners(second(pair)),
-          static_cast<int>(common_.size()),
-          0};
+  Row row;
+  row.a = pair.body;
+  row.b = pair.obstacle ? static_cast<int>(geometry_->bodies.size()) + pair.other : pair.other;
+  row.far = options_.influence;
+  row.start = options_.exactUpTo;
+  row.end = options_.influence;
+  row.group = groupOf_[rows_.size()];
+  row.finite = hasFiniteCorners(*body.geometry) && hasFiniteCorners(second(pair));
   if (row.group >= 0) {
     row.whole = wholeRow_[at(row.group)] == rows_.size();
     row.start = std::min(options_.handOver / 2, options_.exactUpTo);
@@ -110,23 +104,28 @@ void CollisionConstraints::addPair(const CheckedPair& pair) {
     row.first = &first->volume();
     row.second = &other->volume();
   }
+  row.far += body.radius + (pair.obstacle ? options_.obstacles[at(pair.other)].radius
+                                          : geometry_->bodies[at(pair.other)].radius);
+  addTerms(pair, row);
+  rows_.push_back(row);
+}
+
+// The motions that change the pair's distance, and the coordinates that they belong to.
+void CollisionConstraints::addTerms(const CheckedPair& pair, Row& row) {
+  const int link = geometry_->bodies[at(pair.body)].link;
   std::vector<Kinematics::Dependence> list;
-  row.far += body.radius;
   if (pair.obstacle) {
-    list = kinematics_->dependence(body.link);
+    list = kinematics_->dependence(link);
     for (Kinematics::Dependence& d : list) d.sign = -1;
-    row.far += options_.obstacles[at(pair.other)].radius;
-    row.b += static_cast<int>(geometry_->bodies.size());
   } else {
-    const Body& otherBody = geometry_->bodies[at(pair.other)];
-    list = kinematics_->dependence(body.link, otherBody.link);
-    row.far += otherBody.radius;
+    list = kinematics_->dependence(link, geometry_->bodies[at(pair.other)].link);
   }
   std::vector<int> columns;
   for (const Kinematics::Dependence& d : list)
     columns.push_back(kinematics_->motions()[at(d.motion)].coordinate);
   std::sort(columns.begin(), columns.end());
   columns.erase(std::unique(columns.begin(), columns.end()), columns.end());
+  row.firstTerm = static_cast<int>(terms_.size());
   for (const Kinematics::Dependence& d : list) {
     const int coordinate = kinematics_->motions()[at(d.motion)].coordinate;
     const auto slot = std::lower_bound(columns.begin(), columns.end(), coordinate) - columns.begin();
@@ -135,7 +134,8 @@ void CollisionConstraints::addPair(const CheckedPair& pair) {
   std::stable_sort(terms_.begin() + row.firstTerm, terms_.end(),
                    [](const Term& a, const Term& b) { return a.slot < b.slot; });
   row.lastTerm = static_cast<int>(terms_.size());
-  for (const Kinematics::Dependence& d : kinematics_->dependence(body.link)) {
+  row.firstCommon = static_cast<int>(common_.size());
+  for (const Kinematics::Dependence& d : kinematics_->dependence(link)) {
     const int coordinate = kinematics_->motions()[at(d.motion)].coordinate;
     const bool own =
         std::any_of(list.begin(), list.end(), [&](const auto& l) { return l.motion == d.motion; });
@@ -144,7 +144,6 @@ void CollisionConstraints::addPair(const CheckedPair& pair) {
       common_.push_back({d.motion, rowStart_.back() + static_cast<int>(slot - columns.begin())});
   }
   row.lastCommon = static_cast<int>(common_.size());
-  rows_.push_back(row);
   column_.insert(column_.end(), columns.begin(), columns.end());
   rowStart_.push_back(nonZeros());
 }

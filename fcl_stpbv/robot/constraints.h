@@ -172,15 +172,15 @@ class CollisionConstraints {
     int slot;
   };
   struct Row {
-    const StpBv *first, *second;  // null where one of the two is no STP-BV
-    int a, b;                     // places among pose_ and centre_
-    int firstTerm, lastTerm;
-    double far;         // centres farther apart than this need no query
-    double start, end;  // where the row leaves the distance, and where it is constant
-    int group;          // of the whole bodies that hand over to it, -1 for none
-    bool whole;         // hands over to the parts
-    bool finite;        // the corners of both are numbers, if they are meshes
-    int firstCommon, lastCommon;
+    const StpBv *first = nullptr, *second = nullptr;  // null where one of the two is no STP-BV
+    int a = 0, b = 0;                                 // places among pose_ and centre_
+    int firstTerm = 0, lastTerm = 0;
+    double far = 0;             // centres farther apart than this need no query
+    double start = 0, end = 0;  // where the row leaves the distance, and where it is constant
+    int group = -1;             // of the whole bodies that hand over to it, -1 for none
+    bool whole = false;         // hands over to the parts
+    bool finite = false;        // the corners of both are numbers, if they are meshes
+    int firstCommon = 0, lastCommon = 0;
   };
   struct Witness {
     DistanceStatus status;
@@ -192,6 +192,7 @@ class CollisionConstraints {
   void leaveOutReplaced();
   void addWholePairs();
   void addPair(const CheckedPair& pair);
+  void addTerms(const CheckedPair& pair, Row& row);
   void addSmooth(const SmoothConstraint& constraint);
   const fcl::CollisionGeometryd& second(const CheckedPair& pair) const;
   void requireRow(int row) const;

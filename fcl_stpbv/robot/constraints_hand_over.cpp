@@ -23,11 +23,13 @@ struct Bent {
   double value, slope, curvature;
 };
 
-// The distance itself up to `start`, constant from `end` on at the middle between them, to the last bit what
-// largestValue() says; its slope falls as a cubic, so it is C2.
+// What a distance that levels off from `start` to `end` is from there on.
+double levelAt(double start, double end) { return (start + end) / 2; }
+
+// The distance itself up to `start`, constant from `end` on; its slope falls as a cubic, so it is C2.
 Bent levelOff(double d, double start, double end) {
   if (!(d > start)) return {d, 1, 0};
-  if (d >= end) return {(start + end) / 2, 0, 0};
+  if (d >= end) return {levelAt(start, end), 0, 0};
   const double width = end - start, t = (d - start) / width;
   return {start + width * (t - t * t * t * (1 - t / 2)), 1 - t * t * (3 - 2 * t), 6 * t * (t - 1) / width};
 }
@@ -42,13 +44,13 @@ double CollisionConstraints::bend(std::size_t row, double d, double& slope, doub
   Bent bent = levelOff(d, options_.exactUpTo, options_.influence);
   if (r.group >= 0 && !unknown) {
     const Bent part = levelOff(d, r.start, r.end);
+    const double level = levelAt(r.start, r.end);
     if (!r.whole)
       bent = part;
     else if (d > r.start)
-      bent = {bent.value + (levelOff(r.end, r.start, r.end).value - part.value), bent.slope - part.slope,
-              bent.curvature - part.curvature};
+      bent = {bent.value + (level - part.value), bent.slope - part.slope, bent.curvature - part.curvature};
     else
-      bent = {levelOff(r.end, r.start, r.end).value, 0, 0};
+      bent = {level, 0, 0};
   }
   slope = bent.slope;
   curvature = bent.curvature;
@@ -59,7 +61,7 @@ double CollisionConstraints::largestValue(int row) const {
   requireRow(row);
   if (at(row) >= pairs_.size()) return std::numeric_limits<double>::infinity();
   const Row& r = rows_[at(row)];
-  return r.group >= 0 && !r.whole ? (r.start + r.end) / 2 : (options_.exactUpTo + options_.influence) / 2;
+  return r.group >= 0 && !r.whole ? levelAt(r.start, r.end) : levelAt(options_.exactUpTo, options_.influence);
 }
 
 // Puts a pair of whole bodies before the first of two or more pairs of their parts.

@@ -1,4 +1,6 @@
-// See followed_range.h.
+// A continuous joint that others mimic: its range is as many turns as bring all followers back to where they
+// were, the least common multiple of each one's, and where a prismatic joint follows, what that one's limits
+// allow.
 #include "fcl_stpbv/robot/followed_range.h"
 
 #include <algorithm>
@@ -6,6 +8,8 @@
 #include <map>
 #include <numeric>
 #include <utility>
+
+#include "fcl_stpbv/numbers.h"
 
 namespace fcl_stpbv::detail {
 namespace {
@@ -42,7 +46,7 @@ void widenFollowed(std::vector<JointModel>& joints) {
   }
   for (const auto& [joint, all] : turns) {
     JointModel& leader = joints[static_cast<std::size_t>(joint)];
-    const double reach = all > 0 ? std::min(M_PI * static_cast<double>(all), kLargestValue) : kLargestValue;
+    const double reach = all > 0 ? std::min(kPi * static_cast<double>(all), kLargestValue) : kLargestValue;
     leader.lower = std::min(leader.lower, -reach);
     leader.upper = std::max(leader.upper, reach);
   }

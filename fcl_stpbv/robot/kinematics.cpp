@@ -27,6 +27,7 @@ using Eigen::Vector3d;
 using detail::at;
 using detail::crossMatrix;
 using detail::freedoms;
+using detail::kPi;
 using detail::planeAcross;
 
 // Rotation by a rotation vector, and the matrix that turns its rate into the angular velocity.
@@ -119,8 +120,6 @@ Kinematics::Kinematics(std::shared_ptr<const RobotModel> robot, BaseMotion base)
     else
       addStep(link.parentJoint, joint, coordinateOf_[at(link.parentJoint)], 1, 0);
   }
-  lower_ = Eigen::Map<const Eigen::VectorXd>(lowerList_.data(), size());
-  upper_ = Eigen::Map<const Eigen::VectorXd>(upperList_.data(), size());
   neutral_ = Eigen::VectorXd::Zero(size()).cwiseMax(lower_).cwiseMin(upper_);
 }
 
@@ -128,15 +127,17 @@ void Kinematics::addCoordinates(const std::string& name, JointType type, double 
   const double infinity = std::numeric_limits<double>::infinity();
   const auto add = [&](const std::string& suffix, double low, double high) {
     names_.push_back(name + suffix);
-    lowerList_.push_back(low);
-    upperList_.push_back(high);
+    lower_.conservativeResize(size());
+    upper_.conservativeResize(size());
+    lower_[size() - 1] = low;
+    upper_[size() - 1] = high;
   };
   if (type == JointType::planar) {
     for (const char* suffix : {"/x", "/y"}) add(suffix, -infinity, infinity);
-    add("/angle", -M_PI, M_PI);
+    add("/angle", -kPi, kPi);
   } else if (type == JointType::floating) {
     for (const char* suffix : {"/x", "/y", "/z"}) add(suffix, -infinity, infinity);
-    for (const char* suffix : {"/rx", "/ry", "/rz"}) add(suffix, -M_PI, M_PI);
+    for (const char* suffix : {"/rx", "/ry", "/rz"}) add(suffix, -kPi, kPi);
   } else {
     add("", lower, upper);
   }
@@ -257,12 +258,12 @@ void Kinematics::placeFree(const Step& step, const Eigen::Ref<const Eigen::Vecto
 std::vector<Kinematics::Dependence> Kinematics::dependence(int link) const {
   detail::requireLink("Kinematics", link, *robot_);
   std::vector<Dependence> list;
-  for (int at1 = link; at1 >= 0;) {
-    const int s = stepOf_[at(at1)];
+  for (int l = link; l >= 0;) {
+    const int s = stepOf_[at(l)];
     if (s < 0) break;
     const Step& step = steps_[at(s)];
     for (int k = 0; k < freedoms(step.type); ++k) list.push_back({step.motion + k, 1.0});
-    at1 = step.parent;
+    l = step.parent;
   }
   std::sort(list.begin(), list.end(),
             [](const Dependence& a, const Dependence& b) { return a.motion < b.motion; });

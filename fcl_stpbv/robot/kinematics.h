@@ -148,7 +148,6 @@ class Kinematics {
   std::vector<std::string> names_;
   std::vector<int> coordinateOf_;  // of each joint, -1 for none
   Eigen::VectorXd lower_, upper_, neutral_;
-  std::vector<double> lowerList_, upperList_;
   std::vector<Motion> motions_;
   std::vector<Step> steps_;  // parents before children
   std::vector<int> stepOf_;  // the step that places each link, -1 for a root that stands still

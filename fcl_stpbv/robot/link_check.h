@@ -1,4 +1,4 @@
-// The door for links that callers name by their index.
+// The check of links that callers name by their index.
 #pragma once
 
 #include <string>

@@ -17,6 +17,7 @@
 
 #include "fcl_stpbv/adapter/hull_geometry.h"
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/formatted.h"
 #include "fcl_stpbv/number_check.h"
 #include "fcl_stpbv/robot/geometry_steps.h"
 #include "fcl_stpbv/robot/link_volume.h"
@@ -134,16 +135,15 @@ class Builder {
     }
     if (!worst) return;
     const RadiiAdvice& advice = *worst->advice;
-    char text[256];
-    std::snprintf(text, sizeof text,
-                  ": no r and R keep %d of %d meshes within a clearance of %.4g m and %.4g m/s^2; the most "
-                  "is ",
-                  count, all, options_.advice->clearance, options_.advice->acceleration);
-    std::string warning = robot_.path + text + worst->name;
-    std::snprintf(text, sizeof text, ", whose shape may add %.4g m/s^2", advice.acceleration);
-    warning += text;
-    std::snprintf(text, sizeof text, ", or needs a clearance of %.4g m", advice.leastClearance);
-    if (std::isfinite(advice.leastClearance)) warning += text;
+    std::string warning =
+        robot_.path +
+        formatted(
+            ": no r and R keep %d of %d meshes within a clearance of %.4g m and %.4g m/s^2; the most "
+            "is ",
+            count, all, options_.advice->clearance, options_.advice->acceleration) +
+        worst->name + formatted(", whose shape may add %.4g m/s^2", advice.acceleration);
+    if (std::isfinite(advice.leastClearance))
+      warning += formatted(", or needs a clearance of %.4g m", advice.leastClearance);
     geometry_.warnings.push_back(warning);
   }
 
@@ -167,23 +167,12 @@ class Builder {
   void addMesh(const std::string& link, const ShapeSource& source, Body& body) {
     try {
       if (isFlat(options_, link))
-        addHull(source, body);
+        makeHull(source.points(), body);
       else
         makeVolume(options_, link, source, cache_, body);
     } catch (const Error& error) {
-      const std::string message = error.what();
-      const bool named = message.find(body.file) != std::string::npos;
-      throw Error(named ? message : body.file + ": " + message);
+      throw namingFile(body.file, error);
     }
-  }
-
-  static void addHull(const ShapeSource& source, Body& body) {
-    const auto hull = hullGeometry(source.points());
-    body.centre = hull->aabb_center;
-    body.radius = 0;
-    for (const Eigen::Vector3d& v : hull->getVertices())
-      body.radius = std::max(body.radius, (v - body.centre).norm());
-    body.geometry = hull;
   }
 
   void addPrimitive(const std::string& link, const ShapeModel& shape, Body& body) const {

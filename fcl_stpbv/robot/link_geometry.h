@@ -54,7 +54,7 @@ struct Body {
   std::string name;                                   ///< the link's, with #2, #3 ... for its further shapes
   Eigen::Isometry3d pose;                             ///< in the link's frame; a rotation to rounding
   std::shared_ptr<fcl::CollisionGeometryd> geometry;  ///< what queries get
-  StpBvOptions radii;  ///< those asked for, or fitted; where a primitive is flat, those of its cover to be
+  StpBvOptions radii;  ///< those asked for, or fitted; of a flat primitive those that its cover would have
   StpBv::Ptr volume;   ///< null for a flat primitive and for a flat mesh
   std::optional<RadiiAdvice> advice;  ///< where GeometryOptions::advice asked for it
   /// The volume of all the mesh's points where `volume` is a reduced one, or so round that corners of the

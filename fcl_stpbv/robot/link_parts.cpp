@@ -2,11 +2,11 @@
 // of the whole body.
 #include <mutex>
 
-#include "fcl_stpbv/adapter/hull_geometry.h"
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/parts/convex_parts.h"
 #include "fcl_stpbv/robot/link_geometry.h"
+#include "fcl_stpbv/robot/link_volume.h"
 #include "fcl_stpbv/robot/mesh_file.h"
 #include "fcl_stpbv/robot/shape_source.h"
 #include "fcl_stpbv/robot/share_out.h"
@@ -38,10 +38,7 @@ Body partOf(const Body& whole, int index, int number, const ConvexPart& part, in
     body.centre = body.volume->centre();
     body.radius = body.volume->enclosingRadius();
   } else {
-    const auto hull = hullGeometry(part.points);
-    body.geometry = hull;
-    body.centre = hull->aabb_center;
-    body.radius = hull->aabb_radius;
+    makeHull(part.points, body);
   }
   body.centre = body.pose * body.centre;
   return body;
@@ -92,9 +89,7 @@ class LinkParts::Store {
       for (const ConvexPart& part : parts.parts)
         bodies.push_back(partOf(whole, index, ++number, part, parts.pieces - parts.closedPieces));
     } catch (const Error& error) {
-      const std::string message = error.what();
-      const bool named = message.find(whole.file) != std::string::npos;
-      throw Error(named ? message : whole.file + ": " + message);
+      throw namingFile(whole.file, error);
     }
     return bodies;
   }

@@ -8,12 +8,13 @@
 #include <limits>
 #include <set>
 
+#include "fcl_stpbv/adapter/hull_geometry.h"
 #include "fcl_stpbv/convex/hull_graph.h"
 #include "fcl_stpbv/distance/shape_distance.h"
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/io/text_scanner.h"
 #include "fcl_stpbv/numbers.h"
-#include "fcl_stpbv/volume/hull_excess.h"
+#include "fcl_stpbv/volume/covered_hull.h"
 #include "fcl_stpbv/volume/reduce.h"
 
 namespace fcl_stpbv::detail {
@@ -77,7 +78,7 @@ class VolumeMaker {
     appendNumber(from, key.radii.R);
     from += '\n' + key.content;
     const auto measure = [this] {
-      const HullExcess hull(points());
+      const CoveredHull hull(points());
       const OverCover cover = hull.of(*body_.volume);
       return std::vector<double>{cover.max, cover.mean, leavesNoneInside(hull.corners())};
     };
@@ -140,7 +141,7 @@ class VolumeMaker {
 
   void reduceTo(double budget) {
     StpBvOptions& radii = body_.radii;
-    const HullExcess hull(points());
+    const CoveredHull hull(points());
     body_.cover = hull.of(*body_.volume);
     for (; body_.cover.max > budget && radii.R < kLargest; body_.cover = hull.of(*body_.volume)) {
       radii.R *= 2;  // the over-cover falls towards r
@@ -188,6 +189,15 @@ void makeVolume(const GeometryOptions& options, const std::string& link, const S
   const auto budget = options.budgets.find(link);
   VolumeMaker(source, cache, body)
       .make(options, link, budget == options.budgets.end() ? options.overCoverBudget : budget->second);
+}
+
+void makeHull(const Points& points, Body& body) {
+  const auto hull = hullGeometry(points);
+  body.centre = hull->aabb_center;
+  body.radius = 0;
+  for (const Eigen::Vector3d& v : hull->getVertices())
+    body.radius = std::max(body.radius, (v - body.centre).norm());
+  body.geometry = hull;
 }
 
 }  // namespace fcl_stpbv::detail

@@ -1,4 +1,4 @@
-// The STP-BV of a link's mesh: its radii, the budget for its over-cover, and the cache.
+// The STP-BV of a link's mesh: its radii, the budget for its over-cover, and the cache; or its flat hull.
 #pragma once
 
 #include "fcl_stpbv/robot/fitted_radii.h"
@@ -24,5 +24,8 @@ StpBvOptions radiiFor(const GeometryOptions& options, const std::string& link,
 /// Makes `body` the volume of its mesh. @throws Error without the file's name.
 void makeVolume(const GeometryOptions& options, const std::string& link, const ShapeSource& source,
                 VolumeCache& cache, Body& body);
+
+/// Makes `body` the convex hull of a cloud (m, the shape's own frame), flat, with its centre in that frame.
+void makeHull(const std::vector<Eigen::Vector3d>& points, Body& body);
 
 }  // namespace fcl_stpbv::detail

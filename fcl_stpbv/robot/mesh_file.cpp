@@ -24,6 +24,7 @@
 #include "fcl_stpbv/robot/file_ending.h"
 #include "fcl_stpbv/robot/mesh_format.h"
 #include "fcl_stpbv/robot/readable_files.h"
+#include "fcl_stpbv/vector_hash.h"
 
 namespace fcl_stpbv {
 namespace {
@@ -33,14 +34,6 @@ using Eigen::Vector3d;
 
 constexpr const char* kReadable =
     "STL, OBJ, DAE, PLY, glTF, GLB, OFF, or a polyhedron of qhull's (*-ch.txt, *.otp)";
-
-struct HashVector {
-  std::size_t operator()(const Vector3d& v) const {
-    std::size_t seed = 0;
-    for (double x : v) seed = seed * 1000003u ^ std::hash<double>()(x);
-    return seed;
-  }
-};
 
 Eigen::AlignedBox3d boxAround(const std::vector<Vector3d>& points) {
   Eigen::AlignedBox3d box;
@@ -123,7 +116,7 @@ class Gatherer {
   TriangleMesh mesh_;
   std::optional<Vector3d> first_;
   bool several_ = false;  // distinct points before they are scaled, by a node or here
-  std::unordered_map<Vector3d, int, HashVector> index_;
+  std::unordered_map<Vector3d, int, VectorHash> index_;
 };
 
 void checkReadable(const std::string& path, const Vector3d& scale) {

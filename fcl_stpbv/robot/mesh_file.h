@@ -14,7 +14,8 @@ namespace fcl_stpbv {
 ///
 /// COLLADA's `unit` is applied, so lengths are in metres. Its `up_axis` is not, as in rviz and MoveIt, for
 /// which robot descriptions are made: a point's x stays x. Coordinates in other formats are taken as metres;
-/// 3MF, AMF and FBX, which state a unit that is not read, are refused. assimp stores single precision: a
+/// 3MF, AMF, DXF, FBX and OpenGEX, which state a unit that is not read, are refused, and X3D where it states
+/// one. assimp stores single precision: a
 /// coordinate of 1 m is good to 0.06 um.
 ///
 /// Of a qhull polyhedron or point file (`*-ch.txt`, `*.otp`, told by their content; double precision and as

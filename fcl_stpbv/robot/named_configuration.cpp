@@ -42,7 +42,7 @@ Eigen::VectorXd Kinematics::configuration(const Srdf::State& state, Eigen::Vecto
         model.mimic ? model.mimic->multiplier * q[coordinateOf_[at(model.mimic->joint)]] + model.mimic->offset
                     : 0.0;
     const bool turns = model.type == JointType::revolute || model.type == JointType::continuous;
-    const double off = turns ? std::remainder(values[0] - own, 2 * M_PI) : values[0] - own;
+    const double off = turns ? std::remainder(values[0] - own, kTwoPi) : values[0] - own;
     if (std::abs(off) <= kOff) return;
     throw Error(where + "cannot be " + toDecimal(values[0]) + ": it " +
                 (model.mimic ? "follows '" + robot_->joints[at(model.mimic->joint)].name + "' and is " +

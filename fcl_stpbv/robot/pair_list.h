@@ -22,7 +22,8 @@ enum class PairReason {
   rigid,          ///< no joint can change where the two are to each other
   byDefault,      ///< collides in the neutral configuration and wherever else it was looked for
   defaultClears,  ///< collides in the neutral configuration and is clear in another; to be checked
-  always,         ///< clear in the neutral configuration, collides in nearly every sample; to be checked
+  always,         ///< collides in nearly every sample; to be checked. Links are clear in the neutral
+                  ///< configuration then, a link and an obstacle need not be
   user,           ///< left out by the user's SRDF
   neverSampled,   ///< no collision in any sample, nor in descents
   neverProven,    ///< no collision within the joint limits
@@ -44,7 +45,7 @@ struct PairListOptions {
                              ///< a list of P pairs of a robot of N coordinates, P N > 100,000, 100,000/(P N)
   long proofBoxes = 200;     ///< looked at for each pair found clear so far; likewise, (24/n)^3 of them
   double proofSeconds = 0;  ///< time for further proofs in all; a pair that is not decided then stays sampled
-  double margin = 0;  ///< a distance not above it is a collision (m); FCL's own answers are 0 at overlap
+  double margin = 0;        ///< a pair collides if its distance is at most this (m)
   double alwaysFraction = 0.95;     ///< of at least 60 samples in collision, as MoveIt has it
   Eigen::VectorXd neutral;          ///< the neutral configuration; empty for Kinematics::neutral()
   int threads = 1;                  ///< that share the work

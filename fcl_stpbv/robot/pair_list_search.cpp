@@ -151,7 +151,8 @@ class Search {
   }
 
   void judge(PairEntry& entry, const PairSamples& found) {
-    constexpr int kFewest = 60;  // below 0.95^60 = 5 %, a pair that often clears has not done so
+    constexpr int kFewest =
+        60;  // a pair that is clear in 5 % of them is missed with probability 0.95^60 = 5 %
     entry.samples = found.samples;
     entry.collisions = found.collisions;
     note(entry, found.closest.front().first, found.closest.front().second);

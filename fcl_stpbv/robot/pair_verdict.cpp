@@ -2,7 +2,7 @@
 // 1. Balls inside two bodies may prove a hit.
 // 2. The plane that kept a pair apart last time is kept in both bodies' frames. When they have turned, what
 //    the second body rises over it is bounded twice: by its sphere's radius times the turn, and by the ball
-//    of radius R that holds an STP-BV and touches it at the plane (docs/performance.md).
+//    of radius R that holds an STP-BV and touches it at the plane (docs/robot.md).
 // 3. Else the search of distance/threshold.h, or adapter/proximity.cpp's for bodies that are not convex.
 #include <algorithm>
 #include <cmath>

@@ -53,9 +53,9 @@ void PlaneBound::set(const std::vector<BoxJoint>& joints, const BodyPoints& firs
   bool shared = false;
   for (const BoxJoint& joint : joints) {
     for (const OutwardJoint& other : joints_) shared |= other.joint.slot == joint.slot;
-    const double half = std::min(joint.half, M_PI);
+    const double half = std::min(joint.half, kPi);
     joints_.push_back(
-        {joint, std::sin(std::min(half, M_PI / 2)), 1 - std::cos(half), 2 * std::sin(half / 2), 0});
+        {joint, std::sin(std::min(half, kPi / 2)), 1 - std::cos(half), 2 * std::sin(half / 2), 0});
   }
   push_.setShared(shared);
   first_.body = &first;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/robot/capsule_fit.h"
 #include "fcl_stpbv/robot/followed_range.h"
 #include "fcl_stpbv/robot/mimic_chain.h"
@@ -148,8 +149,8 @@ JointType toType(const urdf::Joint& joint) {
 
 void readLimits(const urdf::Joint& joint, JointModel& model) {
   if (model.type == JointType::continuous) {
-    model.lower = -M_PI;
-    model.upper = M_PI;
+    model.lower = -kPi;
+    model.upper = kPi;
   } else if (joint.limits) {
     model.lower = joint.limits->lower;
     model.upper = joint.limits->upper;

@@ -1,4 +1,4 @@
-// See search_room.h.
+// Reaches are added up along the tree of joints: a bound for every configuration, from the lengths alone.
 #include "fcl_stpbv/robot/search_room.h"
 
 #include <algorithm>

@@ -7,10 +7,14 @@
 #include <string>
 #include <vector>
 
+#include "fcl_stpbv/error.h"
 #include "fcl_stpbv/robot/link_geometry.h"
 #include "fcl_stpbv/robot/robot_model.h"
 
 namespace fcl_stpbv::detail {
+
+/// The error, with the file's name before what it says unless that names it.
+Error namingFile(const std::string& file, const Error& error);
 
 /// What the cache (volume_cache.h) knows a mesh by: a digest of the file and of the scale.
 /// @throws Error naming the file.

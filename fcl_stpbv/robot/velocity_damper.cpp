@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/formatted.h"
 #include "fcl_stpbv/number_check.h"
 #include "fcl_stpbv/numbers.h"
 
@@ -36,15 +37,11 @@ void check(const Damper& damper, const std::string& of = "") {
 
 // No influence is beyond the largest value of its row. One that was written in decimals may be by rounding.
 void fitInfluence(double& influence, int row, double largest) {
-  if (influence > largest * (1 + 4 * std::numeric_limits<double>::epsilon())) {
-    char text[200];
-    std::snprintf(
-        text, sizeof text,
+  if (influence > largest * (1 + 4 * std::numeric_limits<double>::epsilon()))
+    throw Error(formatted(
         "VelocityDamper: influence %.9g m of row %d is beyond the most that its value can be, %.9g m; "
         "give the constraints a larger influence or hand-over",
-        influence, row, largest);
-    throw Error(text);
-  }
+        influence, row, largest));
   influence = std::min(influence, largest);
 }
 

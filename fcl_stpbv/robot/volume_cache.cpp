@@ -207,7 +207,7 @@ ConvexParts VolumeCache::parts(std::string_view content, const PartsOptions& opt
 
 RolledHull VolumeCache::convexHull(const std::vector<Eigen::Vector3d>& cloud) {
   const std::string_view content(reinterpret_cast<const char*>(cloud.data()), cloud.size() * sizeof cloud[0]);
-  return find<RolledHull>(pathOf(content, "hull"), [&cloud] { return rollBall(cloud); });
+  return find<RolledHull>(pathOf(content, "hull"), [&cloud] { return detail::convexHull(cloud); });
 }
 
 std::vector<double> VolumeCache::numbers(std::string_view content, const std::string& kind,

@@ -39,7 +39,7 @@ class VolumeCache {
                     const std::function<ConvexParts()>& build);
 
   /// The convex hull of a cloud that is finite and not empty: the one found before, or else a new one.
-  /// @throws Error as rollBall().
+  /// @throws Error as convexHull().
   RolledHull convexHull(const std::vector<Eigen::Vector3d>& cloud);
 
   /// The same of finite numbers that follow from `content` and whose kind, a short word, is the end of the

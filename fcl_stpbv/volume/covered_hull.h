@@ -11,9 +11,9 @@
 namespace fcl_stpbv::detail {
 
 /// The convex hull of a cloud, to measure volumes around it against (docs/theory.md, 4).
-class HullExcess {
+class CoveredHull {
  public:
-  explicit HullExcess(const std::vector<Eigen::Vector3d>& points);
+  explicit CoveredHull(const std::vector<Eigen::Vector3d>& points);
 
   /// Largest distance of the volume's surface from the hull (m): the largest difference of the support
   /// functions, found at a face normal of the hull or along the normals of one of its edges.

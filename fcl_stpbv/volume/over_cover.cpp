@@ -8,9 +8,10 @@
 #include <cmath>
 #include <limits>
 
+#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/volume/ball_faces.h"
 #include "fcl_stpbv/volume/ball_side.h"
-#include "fcl_stpbv/volume/hull_excess.h"
+#include "fcl_stpbv/volume/covered_hull.h"
 #include "fcl_stpbv/volume/measure.h"
 #include "fcl_stpbv/volume/patch_view.h"
 #include "fcl_stpbv/volume/point_check.h"
@@ -90,7 +91,7 @@ double meanOverSegment(const StpBv& volume) {
 
 }  // namespace
 
-HullExcess::HullExcess(const std::vector<Vector3d>& points) : points_(points) {
+CoveredHull::CoveredHull(const std::vector<Vector3d>& points) : points_(points) {
   const double flat = flatRadius(points);
   RolledHull hull = flatHull(points);
   faces_ = std::move(hull.faces);
@@ -103,7 +104,7 @@ HullExcess::HullExcess(const std::vector<Vector3d>& points) : points_(points) {
   halfEdges_ = pairHalfEdges(points_, faces_, normals_, flat);
 }
 
-double HullExcess::max(const StpBv& volume) const {
+double CoveredHull::max(const StpBv& volume) const {
   const auto along = [&](const Vector3d& n, int vertex) {
     const int patch = volume.owner(n);
     return n.dot(volume.patch(patch).anchor - at(vertex)) + supportAboveAnchor(volume, patch, n);
@@ -113,8 +114,7 @@ double HullExcess::max(const StpBv& volume) const {
     const Vector3d edge = at(corners_.back()) - at(corners_.front());
     const Vector3d u = edge.norm() > 0 ? Vector3d(edge.normalized()) : Vector3d::UnitX();
     best = std::max(along(u, corners_.back()), along(-u, corners_.front()));
-    return std::max(best,
-                    largestOverEdge(volume, at(corners_.front()), u, u.unitOrthogonal(), 6.283185307179586));
+    return std::max(best, largestOverEdge(volume, at(corners_.front()), u, u.unitOrthogonal(), kTwoPi));
   }
   for (std::size_t f = 0; f < faces_.size(); ++f) best = std::max(best, along(normals_[f], faces_[f][0]));
   for (std::size_t h = 0; h < halfEdges_.size(); ++h) {
@@ -129,7 +129,7 @@ double HullExcess::max(const StpBv& volume) const {
   return best;
 }
 
-double HullExcess::mean(const StpBv& volume) const {
+double CoveredHull::mean(const StpBv& volume) const {
   if (faces_.empty()) return volume.edgeCount() == 1 ? meanOverSegment(volume) : volume.radii().r;
   double area = 0, sum = 0;
   for (std::size_t f = 0; f < faces_.size(); ++f) {
@@ -154,7 +154,7 @@ OverCover overCover(const StpBv& volume) { return overCover(volume, volume.verti
 OverCover overCover(const StpBv& volume, const std::vector<Vector3d>& cloud) {
   if (cloud.empty()) throw Error("cannot measure the over-cover of no points: give at least one");
   requireFinite(cloud);
-  return HullExcess(cloud).of(volume);
+  return CoveredHull(cloud).of(volume);
 }
 
 }  // namespace fcl_stpbv

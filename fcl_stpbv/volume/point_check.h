@@ -1,4 +1,4 @@
-// The door for points that callers give to what builds and measures.
+// The check of points that callers give to what builds and measures.
 #pragma once
 
 #include <Eigen/Core>

@@ -9,9 +9,10 @@
 #include <limits>
 
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/formatted.h"
 #include "fcl_stpbv/number_check.h"
 #include "fcl_stpbv/numbers.h"
-#include "fcl_stpbv/volume/hull_excess.h"
+#include "fcl_stpbv/volume/covered_hull.h"
 
 namespace fcl_stpbv {
 namespace {
@@ -60,7 +61,8 @@ class Adviser {
       : points_(points),
         task_(task),
         missed_(0.5 * std::pow(task.turning * task.period, 2)),
-        smallestR_(StpBv::smallestR(points, 0)),
+        smallestR_(StpBv::smallestR(points, 0)),  // refuses points without a volume
+
         hull_(points) {}
 
   RadiiAdvice advise() const {
@@ -155,27 +157,23 @@ class Adviser {
   }
 
   [[noreturn]] void refuse() const {
-    char text[256];
-    std::snprintf(
-        text, sizeof text,
+    throw Error(formatted(
         "adviseRadii: found no r and R that keep a clearance of %.9g m with a period of %.9g s; state "
         "a larger clearance, a shorter period or a slower motion",
-        task_.clearance, task_.period);
-    throw Error(text);
+        task_.clearance, task_.period));
   }
 
   const Points& points_;
   const RadiiTask& task_;
   double missed_;     // of R, how far d may fall below a row that is linear for a period
   double smallestR_;  // without a margin (m)
-  HullExcess hull_;
+  CoveredHull hull_;
 };
 
 }  // namespace
 
 RadiiAdvice adviseRadii(const Points& points, const RadiiTask& task) {
   check(task);
-  StpBv::smallestR(points, 0);  // refuses points without a volume
   return Adviser(points, task).advise();
 }
 

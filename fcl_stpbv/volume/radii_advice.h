@@ -15,10 +15,10 @@ namespace fcl_stpbv {
 constexpr Radii kFlatRadii{0, std::numeric_limits<double>::infinity(),
                            std::numeric_limits<double>::infinity()};
 
-/// Bounds (m/s^2).
+/// Bounds on the second derivative of the distance in time (m/s^2).
 struct ContactAcceleration {
-  double least;  ///< not above 0: how fast the distance may bend down
-  double most;   ///< not below 0: how fast it may bend up
+  double least;  ///< lower bound, not above 0
+  double most;   ///< upper bound, not below 0
 
   /// The larger of both.
   double size() const { return std::max(most, -least); }  // in this order no -0

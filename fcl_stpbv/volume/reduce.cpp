@@ -11,8 +11,9 @@
 #include <cstdio>
 #include <numeric>
 
+#include "fcl_stpbv/formatted.h"
 #include "fcl_stpbv/numbers.h"
-#include "fcl_stpbv/volume/hull_excess.h"
+#include "fcl_stpbv/volume/covered_hull.h"
 #include "fcl_stpbv/volume/measure.h"
 #include "fcl_stpbv/volume/minimum_ball.h"
 #include "fcl_stpbv/volume/rolling_ball.h"
@@ -28,17 +29,13 @@ class Reducer {
  public:
   Reducer(const Cloud& points, const StpBvOptions& options, double budget)
       : options_(options), budget_(budget), full_(StpBv::build(points, options)), excess_(points) {
-    for (const int i : rollBall(points).vertices) hull_.push_back(points[static_cast<std::size_t>(i)]);
+    for (const int i : convexHull(points).vertices) hull_.push_back(points[static_cast<std::size_t>(i)]);
     const double own = excess_.max(*full_);
-    if (!(own <= budget)) {
-      char text[200];
-      std::snprintf(
-          text, sizeof text,
+    if (!(own <= budget))
+      throw Error(formatted(
           "an over-cover of %.9g m cannot be reached: with r = %.9g m and R = %.9g m all points give %.9g m; "
           "allow more or choose a smaller r or a larger R",
-          budget, options.r, options.R, own);
-      throw Error(text);
-    }
+          budget, options.r, options.R, own));
   }
 
   StpBv::Ptr run() {
@@ -169,7 +166,7 @@ class Reducer {
   StpBvOptions options_;
   double budget_;
   StpBv::Ptr full_;
-  HullExcess excess_;
+  CoveredHull excess_;
   Cloud hull_;  // the points that matter: vertices of the convex hull
 };
 

@@ -163,7 +163,9 @@ std::vector<int> needleEnds(const std::vector<Vector3d>& points) {
   return {std::min(a, b), std::max(a, b)};
 }
 
-RolledHull rolled(const std::vector<Vector3d>& points, double radius) {
+}  // namespace
+
+RolledHull rollBall(const std::vector<Vector3d>& points, double radius) {
   Roller roller(points, radius);
   try {
     roller.roll();
@@ -176,10 +178,7 @@ RolledHull rolled(const std::vector<Vector3d>& points, double radius) {
   return hullOf(points, std::move(roller.faces), std::move(roller.loneVertices), radius);
 }
 
-}  // namespace
-
-RolledHull rollBall(const std::vector<Vector3d>& points, double radius) {
-  if (!std::isinf(radius)) return rolled(points, radius);
+RolledHull convexHull(const std::vector<Vector3d>& points) {
   if (std::vector<int> ends = needleEnds(points); !ends.empty()) return {std::move(ends), {}};
   return flatHull(points);
 }
@@ -194,7 +193,7 @@ RolledHull flatHull(const std::vector<Vector3d>& points) {
   } catch (const Error&) {  // its faces do not close
   }
   try {
-    return rolled(points, radius);
+    return rollBall(points, radius);
   } catch (const Error&) {  // nor do those of the roll: many points on the sides of one polygon
     const Ring front = flatOutline(points);
     if (front.empty()) throw;

@@ -1,8 +1,8 @@
-// Rolls a ball over a cloud and names the vertices and faces it touches (paper IV.A, Algorithm 1).
+// The hull of a cloud under a ball: the vertices and faces that a ball rolled over it touches (paper IV.A,
+// Algorithm 1), and the convex hull, which a ball of infinite radius gives.
 #pragma once
 
 #include <Eigen/Core>
-#include <limits>
 #include <vector>
 
 namespace fcl_stpbv::detail {
@@ -13,28 +13,29 @@ struct RolledHull {
   std::vector<std::vector<int>> faces;  ///< rings of touched points, counter-clockwise seen from outside
 };
 
-/// Hull of the cloud under a ball of `radius` that touches it from the inner side: the ball hull,
-/// or for the infinite radius the convex hull. Points of one ball to rounding share one k-gon
-/// face, points closer together than rounding count as one. A flat cloud gives two faces back to
-/// back; two points, or collinear ones, no face.
+/// Hull of the cloud under a ball of finite `radius` that touches it from the inner side: the ball hull.
+/// Points of one ball to rounding share one k-gon face, points closer together than rounding count as one.
+/// Two points, or collinear ones, give no face.
 ///
-/// Works on any cloud that is not empty, finite, and has a minimum enclosing ball smaller than `radius`. The
-/// convex hull comes from quickhull (ball_quickhull.h) where that suits the cloud.
+/// Works on any cloud that is not empty, finite, and has a minimum enclosing ball smaller than `radius`.
 /// @throws Error where rounding defeats it.
-RolledHull rollBall(const std::vector<Eigen::Vector3d>& points,
-                    double radius = std::numeric_limits<double>::infinity());
+RolledHull rollBall(const std::vector<Eigen::Vector3d>& points, double radius);
 
-/// The convex hull, as rollBall() finds it, but with faces also where rounding alone keeps the points off one
-/// line.
+/// The convex hull, by quickhull (ball_quickhull.h) where that suits the cloud. A flat cloud gives two faces
+/// back to back.
+/// @throws Error likewise.
+RolledHull convexHull(const std::vector<Eigen::Vector3d>& points);
+
+/// The same, but with faces also where rounding alone keeps the points off one line.
 /// @throws Error likewise.
 RolledHull flatHull(const std::vector<Eigen::Vector3d>& points);
 
-/// The same hull by the definition of its faces, slow and sure: for at most kMostByDefinition points
+/// What rollBall() finds, by the definition of its faces, slow and sure: for at most kMostByDefinition points
 /// (ball_faces.h) and a finite radius. Empty for a sphere or a spindle, which
 /// have no face.
 RolledHull hullByDefinition(const std::vector<Eigen::Vector3d>& points, double radius);
 
-/// The same hull by quickhull (ball_quickhull.h), much faster; without faces where that does not suit the
+/// The same by quickhull (ball_quickhull.h), much faster; without faces where that does not suit the
 /// cloud. The caller has to check what comes back (surface_check.h).
 RolledHull quickBallHull(const std::vector<Eigen::Vector3d>& points, double radius);
 

@@ -1,6 +1,8 @@
 // Building a volume and its simple queries.
 // 1. Check points and radii; the smallest ball decides whether R is large enough.
-// 2. Roll the ball (rolling_ball.cpp), make patches (stp_bv_topology.cpp).
+// 2. Find the faces that a ball of radius R - r can touch from inside: by quickhull, where that fails the
+//    check of the surface by rolling the ball, and of few points by the faces' definition (rolling_ball.h).
+//    Make patches of them (stp_bv_topology.cpp).
 // 3. Queries walk from a hint to the patch that owns the normal and use its closed form.
 #include "fcl_stpbv/volume/stp_bv.h"
 
@@ -10,6 +12,7 @@
 #include <cstdlib>
 #include <limits>
 
+#include "fcl_stpbv/formatted.h"
 #include "fcl_stpbv/vectorized.h"
 #include "fcl_stpbv/volume/ball_faces.h"
 #include "fcl_stpbv/volume/minimum_ball.h"
@@ -26,11 +29,7 @@ namespace {
 using namespace detail;
 using Eigen::Vector3d;
 
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.9g", value);
-  return text;
-}
+std::string number(double value) { return formatted("%.9g", value); }
 
 // An R for a margin r and a smallest ball of this radius, in no more digits than it needs to work.
 std::string usableR(double r, double radius) {
@@ -61,8 +60,8 @@ void checkInput(const std::vector<Vector3d>& points, const StpBvOptions& options
                 ": the big radius must be a finite number of metres, larger than r");
 }
 
-// The ball that rolls must hold all points with room to move, or its centre has nowhere to go.
-Ball checkRadius(const std::vector<Vector3d>& points, const StpBvOptions& options) {
+// A ball of radius R - r must hold all points with room to move, or it touches no three of them from inside.
+void checkRadius(const std::vector<Vector3d>& points, const StpBvOptions& options) {
   const Ball ball = minimumEnclosingBall(points);
   const double rho = options.R - options.r;
   if (points.size() > 1 && rho <= ball.radius)
@@ -79,7 +78,6 @@ Ball checkRadius(const std::vector<Vector3d>& points, const StpBvOptions& option
         "R = " + number(options.R) +
         " m is too large: such faces are flat to rounding; the largest usable R for these points with r = " +
         number(options.r) + " m is just below " + number(largest) + " m");
-  return ball;
 }
 
 }  // namespace

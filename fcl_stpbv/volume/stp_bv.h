@@ -64,8 +64,9 @@ class StpBv {
     double turn;                ///< angle between its faces' normals (rad)
   };
 
-  /// Rolls a ball of radius `R - r` over the cloud (paper IV.A, Algorithm 1). Points that it cannot touch are
-  /// inside and drop out; cospherical ones share one k-gon face.
+  /// Its faces are those that a ball of radius `R - r` touches from inside as it rolls over the cloud (paper
+  /// IV.A, Algorithm 1). Points that it cannot touch are inside and drop out; cospherical ones share one
+  /// k-gon face.
   /// @throws Error for an empty cloud, a coordinate that is not finite, r < 0, R <= r, R below the smallest
   /// usable one, and R so large that faces are flat to rounding; the message states the usable one.
   static Ptr build(const std::vector<Eigen::Vector3d>& points, const StpBvOptions& options = {});

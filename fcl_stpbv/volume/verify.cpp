@@ -12,6 +12,7 @@
 #include <cstdio>
 #include <limits>
 
+#include "fcl_stpbv/formatted.h"
 #include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/volume/ball_faces.h"
 #include "fcl_stpbv/volume/join_faces.h"
@@ -27,11 +28,7 @@ namespace {
 using namespace detail;
 using Eigen::Vector3d;
 
-std::string brief(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
-  return text;
-}
+std::string brief(double value) { return formatted("%.3g", value); }
 
 // Largest height over the surface pulled in by `margin`, of the volume's own vertices and
 // of a cloud's. A vertex is on its own patch; any other point may come closest to an
@@ -41,7 +38,7 @@ double containmentOf(const StpBv& volume, const std::vector<Vector3d>& cloud, do
   if (cloud.empty()) return worst;
   const PointTree tree(volume.vertices());
   std::vector<int> near;
-  for (const int i : rollBall(cloud).vertices) {
+  for (const int i : convexHull(cloud).vertices) {
     const Vector3d& p = cloud[static_cast<std::size_t>(i)];
     tree.within(p, 0, &near, 1);
     if (near.empty() || margin > volume.radii().r)

@@ -10,9 +10,10 @@ namespace fcl_stpbv {
 
 /// What verify() found. Lengths in m.
 struct Verification {
-  bool ok = false;         ///< whether nothing is off by more than rounding
-  double containment = 0;  ///< largest height of a point over the surface pulled in by the margin; at most
-                           ///< rounding. Infinite where a point or the margin is not finite: nothing is ok
+  bool ok = false;  ///< whether nothing is off by more than rounding
+  double containment =
+      0;  ///< largest height of a point over the surface pulled in by the margin; at most
+          ///< rounding. Infinite where a point or the margin is not finite: `ok` is false then
   double solidAngleError = 0;  ///< sum of the regions' solid angles minus 4 pi (sr)
   double boundaryGap = 0;      ///< largest distance between two patches' core points at a common normal
   std::string message;         ///< "ok", or what is wrong

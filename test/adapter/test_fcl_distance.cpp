@@ -1,3 +1,6 @@
+// fcl_stpbv::distance in place of FCL's. Distances against the known ones of sharp polyhedra, gradients
+// against central differences, swapped and mirrored pairs against each other; what FCL's result holds; what
+// pairs without an STP-BV and broken poses are told.
 #include <fcl/geometry/shape/box.h>
 #include <fcl/geometry/shape/halfspace.h>
 #include <fcl/geometry/shape/plane.h>

@@ -1,3 +1,6 @@
+// An STP-BV as FCL's geometry. Its polyhedron is convex, closed and of the volume's vertices; extreme
+// vertices are those found by looking at all; its box touches the smooth surface; its features name patches;
+// plain FCL takes it.
 #include <fcl/narrowphase/collision.h>
 #include <fcl/narrowphase/distance.h>
 

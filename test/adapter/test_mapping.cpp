@@ -1,3 +1,5 @@
+// The paper's mapping from closest features of polyhedra to patches (IV.B). How often it names the patches of
+// the solver's answer, for bodies near each other and far apart; overlapping ones have nothing to map.
 #include <catch2/catch.hpp>
 
 #include "fcl_stpbv/adapter/feature_map.h"

@@ -1,3 +1,6 @@
+// The closest features of two hulls, by FCL's GJK with a stop that proves convergence. Its bounds hold
+// against known distances of pairs that FCL gets wrong and against planes held to all vertices; its features
+// are right in poses where they are plain to see.
 #include <catch2/catch.hpp>
 #include <cmath>
 

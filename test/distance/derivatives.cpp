@@ -1,3 +1,5 @@
+// Moves a pair along twists and asks the library for its distance and second derivatives. The signature of an
+// answer names its patches, and of a shape the corners, sides and rims that the normal selects.
 #include "test/distance/derivatives.h"
 
 #include <cmath>

@@ -1,3 +1,6 @@
+// 1. A cloud is built, measured and verified. 2. Normals are drawn at random, across three of its points, and
+// next to those. 3. Along each, checkBallHull() judges the core's surface point, and the points' height the
+// over-cover.
 #include "test/fuzz/cloud_check.h"
 
 #include <Eigen/Geometry>

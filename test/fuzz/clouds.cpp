@@ -1,3 +1,5 @@
+// 1. A kind of cloud is drawn. 2. Points are doubled or added. 3. All are scaled, turned, shifted, and shaken
+// or rounded. 4. R is drawn, from just above the smallest one possible to far above it.
 #include "test/fuzz/clouds.h"
 
 #include <cmath>

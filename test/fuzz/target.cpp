@@ -1,3 +1,6 @@
+// The table of targets, and how a text gets damaged. Here are clouds, queries, files of volumes and of
+// points, URDF, SRDF and meshes: an Error is accepted, else volumes must hold their points and answers keep
+// their bounds. structured.cpp has the targets that are whole in form.
 #include "test/fuzz/target.h"
 
 #include <cmath>

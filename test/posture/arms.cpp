@@ -1,4 +1,5 @@
-// See arms.h.
+// The arms are URDF texts, put together joint by joint. Tasks for them are solved on a fixed base, without
+// collisions.
 #include "test/posture/arms.h"
 
 namespace fcl_stpbv::test {

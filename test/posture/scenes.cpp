@@ -1,4 +1,5 @@
-// See scenes.h.
+// Loads the robot of data/hrp2_style, and the fridge and the task of data/fridge. Volumes are built once a
+// program, without a cache.
 #include "test/posture/scenes.h"
 
 #include "test/reference/source_folder.h"

@@ -1,3 +1,6 @@
+// 1. The points' heights over the claimed ball. 2. The points that it touches, at most forty, no two at one
+// place. 3. Of each one, two and three of these, the weights whose mean is nearest to the line along n
+// through x, and the lower bound that ball_hull_check.h derives from them.
 #include "test/reference/ball_hull_check.h"
 
 #include <Eigen/Geometry>

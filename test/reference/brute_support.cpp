@@ -1,3 +1,5 @@
+// 1. Candidates for the lowest centre: below one point, lowest on the circle of two points' spheres, both
+// points where three points' spheres meet. 2. The lowest one that lies in the balls around all points.
 #include "test/reference/brute_support.h"
 
 #include <Eigen/Geometry>

@@ -1,3 +1,5 @@
+// Pairs on which FCL stops on equal norms are written out with their distances. Field cases are read from
+// their file; their distances are here, in the file's order.
 #include "test/reference/hard_cases.h"
 
 #include <array>

@@ -1,4 +1,5 @@
-// See mesh_reference.h.
+// A triangle's distance is its plane's where the foot lies inside, else its nearest side's. The winding
+// number is the sum of solid angles (Van Oosterom and Strackee, The solid angle of a plane triangle, 1983).
 #include "test/reference/mesh_reference.h"
 
 #include <Eigen/Geometry>

@@ -1,3 +1,5 @@
+// The n-th poses in closed form. Each body turns by n steps about three axes, in ratios that do not close
+// early; the distance of the centres is a seesaw.
 #include "test/reference/motion.h"
 
 #include <cmath>

@@ -1,4 +1,5 @@
-// See robots.h.
+// Finds the robots' files, and warns of those that are not there. Loads them without a cache, with all pairs
+// but those of the SRDF or of adjacent links. Draws configurations at random.
 #include "test/reference/robots.h"
 
 #include <algorithm>

@@ -1,3 +1,6 @@
+// 1. A shape's furthest point comes from its numbers or its vertices. 2. Apart: the gap along a normal says
+// which half of the normals can be better; the other half is cut off until none are left. 3. Overlapping: a
+// Fibonacci spiral of normals, the best polished by random steps that shrink.
 #include "test/reference/shape_reference.h"
 
 #include <cmath>

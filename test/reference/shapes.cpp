@@ -1,3 +1,5 @@
+// Boxes, prisms, geodesic spheres by splitting an icosahedron, and random clouds. Random numbers come from a
+// Mersenne twister's bits alone. Rotations and poses to move bodies by.
 #include "test/reference/shapes.h"
 
 #include <array>

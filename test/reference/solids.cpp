@@ -1,4 +1,5 @@
-// See solids.h.
+// Boxes and the L are prisms over polygons, torus and bowl rings of vertices. finer() cuts at the middles of
+// sides. A point of a surface is drawn by the triangles' areas, then uniform within the triangle.
 #include "test/reference/solids.h"
 
 #include <Eigen/Geometry>

@@ -1,3 +1,4 @@
+// How many random trials a test's longest loops make: an eighth under a sanitizer.
 #pragma once
 
 namespace fcl_stpbv::test {

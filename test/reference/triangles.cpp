@@ -1,4 +1,5 @@
-// See triangles.h.
+// Two triangles: 0 where an edge of one goes through the other, else the least of all corners from the other
+// triangle and all edges from all edges.
 #include "test/reference/triangles.h"
 
 #include <algorithm>

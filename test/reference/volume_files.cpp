@@ -1,4 +1,5 @@
-// See volume_files.h.
+// Volumes that file formats must keep, and which of them SCH files can hold. Folders that remove themselves.
+// Sample files beside the project.
 #include "test/reference/volume_files.h"
 
 #include <algorithm>

@@ -26,7 +26,7 @@ Eigen::VectorXd of(double angle) { return Eigen::VectorXd::Constant(1, angle); }
 
 TEST_CASE("a turn by more than half a turn between two way points is told, with where the short one ends") {
   const std::string said = saidOf("continuous", of(3.1), of(-3.1));
-  CHECK(said.find("way.csv: way point 3: 'j' turns by -6.2 rad") == 0);
+  CHECK(said.find("way.csv: way point 2 (from 0): 'j' turns by -6.2 rad") == 0);
   CHECK(said.find("end at 3.18318") != std::string::npos);
   CHECK(saidOf("planar", Eigen::Vector3d(0, 0, -3), Eigen::Vector3d(5, 9, 3))
             .find("'j/angle' turns by 6 rad") != std::string::npos);
@@ -37,7 +37,7 @@ TEST_CASE("a floating joint's rotation vector that was kept within half a turn i
   from << 9, 0, 0, 0, 0.6 * 3.1, 0.8 * 3.1;
   to << 0, 0, 0, 0, -0.6 * 3.1, -0.8 * 3.1;
   const std::string said = saidOf("floating", from, to);
-  CHECK(said.find("way.csv: way point 3: 'j' turns by 6.2 rad") == 0);
+  CHECK(said.find("way.csv: way point 2 (from 0): 'j' turns by 6.2 rad") == 0);
   CHECK(said.find("end at 0, 1.90991") != std::string::npos);  // 2 pi - 3.1 along the axis
   to.tail(3) << 3, 0, 0;  // as long, but about another axis: nearer than a whole turn on
   CHECK(saidOf("floating", from, to).empty());

@@ -1,4 +1,6 @@
-// See bound_trials.h.
+// 1. A pair of links, or a link and an obstacle, is drawn, and a box of joint values. 2. The library bounds
+// the distance over the box. 3. The distance is asked in the box's middle, in corners and in between; one
+// below the bound is a violation.
 #include "test/robot/bound_trials.h"
 
 #include <fcl/geometry/shape/box.h>

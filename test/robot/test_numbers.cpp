@@ -1,5 +1,5 @@
 // Numbers that are none, infinite or out of range: a query takes them for the worst, an option is refused by
-// name. One section a door.
+// name. One section for each place where they come in.
 #include <fcl/geometry/shape/box.h>
 
 #include <catch2/catch.hpp>

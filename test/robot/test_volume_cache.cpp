@@ -64,7 +64,7 @@ TEST_CASE("a hull is rolled once, and again where its entry is damaged") {
                                                          {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}},
                                                          {{0, 0, 0}, {1, 2, 3}}};
   const auto isRolled = [&](const std::vector<Eigen::Vector3d>& cloud) {
-    const RolledHull hull = VolumeCache(folder / "a").convexHull(cloud), rolled = rollBall(cloud);
+    const RolledHull hull = VolumeCache(folder / "a").convexHull(cloud), rolled = convexHull(cloud);
     return hull.vertices == rolled.vertices && hull.faces == rolled.faces;
   };
   for (const auto& cloud : clouds) CHECK(isRolled(cloud));

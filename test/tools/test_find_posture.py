@@ -114,6 +114,16 @@ class FindPosture(unittest.TestCase):
             json.dump(task, file)
         self.assertEqual(self.gate_posture()[0], 1)
 
+    def test_a_margin_below_zero_is_warned_of(self):
+        self.gate_task(0.5, margin=-0.2)
+        status, answer, complaints = self.gate_posture()
+        self.assertEqual(status, 0)
+        warning = "gate.json: the margin is negative: what overlaps by less than 0.2 m counts as clear."
+        self.assertIn(warning, complaints)
+        self.assertTrue(any(told.endswith(warning) for told in answer["warnings"]), answer["warnings"])
+        self.gate_task(0.5, margin=0)
+        self.assertNotIn("negative", self.gate_posture()[2])
+
     def test_parts_that_are_none_are_refused(self):
         for wrong in (1, 65, 2.5, "some", True, None):
             self.gate_task(0, parts=wrong)

@@ -82,13 +82,27 @@ class Postures(unittest.TestCase):
                 self.assertIn("virtual joint 'v'", told)
             self.report("--srdf", srdf, "--pose", "away", status=0)  # where the base is changes nothing
 
+    def test_a_name_of_a_state_and_of_a_file_is_refused(self):
+        srdf = self.srdf(state("home", "one", l=0.5))
+        folder = os.getcwd()
+        os.chdir(self.folder)
+        self.addCleanup(os.chdir, folder)
+        self.put("home", '{"l": -0.5}')
+        for option in ("--pose", "--neutral"):
+            self.assertIn(f"{option} home: is a state of the SRDF and a file; give ./home",
+                          self.report("--srdf", srdf, option, "home", status=2))
+        pairs = self.report("--srdf", srdf, "--pose", "./home", status=0)["pairs"]
+        self.assertAlmostEqual(pairs[0]["distance"], 1.3, delta=1e-6)  # of two balls, 1.5 m from centre to centre
+        os.remove("home")
+        self.assertAlmostEqual(self.report("--srdf", srdf, "--pose", "home", status=0)["pairs"][0]["distance"], 0.3, delta=1e-6)
+
     def test_what_leaves_the_limits_is_told(self):
         pose = self.put("pose.json", '{"l": -90, "r": -2}')
         warnings = self.report("--pose", pose, status=0)["warnings"]
         self.assertTrue(any("'l' is at -90 m" in w and "-1 to 1" in w and "1 other" in w for w in warnings), warnings)
         motion = self.put("motion.csv", "l,r\n0,0\n-3,0\n")
         warnings = self.report("--trajectory", motion, status=0)["warnings"]
-        self.assertTrue(any("way point 2" in w and "'l'" in w for w in warnings), warnings)
+        self.assertTrue(any("way point 1 (from 0)" in w and "'l'" in w for w in warnings), warnings)
         within = self.put("within.csv", "l,r\n0,0\n-1,0\n")
         self.assertFalse(any("way point" in w for w in self.report("--trajectory", within, status=0)["warnings"]))
 

@@ -92,6 +92,36 @@ class Report(unittest.TestCase):
             self.assertRegex(verdict, r"^CONTACT of \w+ - \w+ between 2\.8\d+ and 2\.8\d+ s$")
             self.assertIn(f" way points: {verdict}, at (", self.follow(name, text).stdout)
 
+    def test_a_touch_that_is_not_decided_hides_no_contact_of_another_pair(self):
+        # A ball comes down onto a table, 0 away to rounding, and rolls along it against another ball: centres 0.3 m
+        # apart, 0.1 m of it in height, where x = 0.8 - sqrt(0.08).
+        def slide(name, parent, child, axis, origin):
+            return (f'<joint name="{name}" type="prismatic"><parent link="{parent}"/><child link="{child}"/><origin xyz="{origin}"/>'
+                    f'<axis xyz="{axis}"/><limit lower="-2" upper="2" effort="1" velocity="1"/></joint>')
+
+        box = '<link name="table"><collision><origin xyz="0 0 -0.05"/><geometry><box size="2 2 0.1"/></geometry></collision></link>'
+        table = self.robot(box + link("still", '<sphere radius="0.2"/>') + link("m") + link("ball", '<sphere radius="0.1"/>')
+                           + joint("w", "table", "still", "fixed", "0.8 0 0.2") + slide("x", "table", "m", "1 0 0", "0 0 0")
+                           + slide("z", "m", "ball", "0 0 1", "0 0 0.1"))
+        srdf = self.put("table.srdf", '<robot name="t"><disable_collisions link1="table" link2="still"/></robot>')
+        path = self.put("roll.csv", "time,x,z\n0,-0.5,+0.2\n1,-0.5,0\n2,0.8,0\n")  # with a plus sign, as printf writes it
+        arguments = ["--primitives", "flat", "--samples", "20", "--srdf", srdf, "--trajectory", path]
+        report = json.loads(self.run_tool(table, *arguments, "--format", "json").stdout)["trajectory"]
+        self.assertEqual((report["verdict"], report["contact"]["link1"], report["contact"]["link2"]), ("contact", "still", "ball"))
+        self.assertAlmostEqual(report["contact"]["time"], 1 + (1.3 - math.sqrt(0.08)) / 1.3, delta=1e-6)
+        self.assertEqual([(u["link1"], u["link2"]) for u in report["undecided"]], [("table", "ball")])
+        self.assertAlmostEqual(report["undecided"][0]["time"], 1, delta=1e-6)
+        self.assertIn("not decided: table - ball", self.run_tool(table, *arguments).stdout)
+        rows = self.run_tool(table, *arguments, "--format", "csv").stdout.splitlines()
+        self.assertRegex(rows[1], r"^,,trajectory: CONTACT of still - ball between 1\.78\d+ and 1\.78\d+ s,")
+        self.assertEqual({row.count(",") for row in rows}, {21})
+        self.assertRegex(next(row for row in rows if row.startswith("still,ball")), r",1\.99\d*$|,2$")  # its time
+        alone = self.put("alone.csv", "time,x,z\n0,-0.5,0.2\n1,-0.5,0\n2,-0.4,0\n")
+        done = self.run_tool(table, "--primitives", "flat", "--srdf", srdf, "--trajectory", alone)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("NOT DECIDED for table - ball at 0.99", done.stdout)
+        self.assertIn("free before: the distance is the margin to rounding", done.stdout)
+
     def test_a_trajectory_that_keeps_clear_is_proven_free_and_drawn(self):
         text = "slide\n0\n0.5\n0.9\n0.2\n"
         done = self.follow("way.csv", text)

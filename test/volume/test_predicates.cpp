@@ -131,7 +131,7 @@ TEST_CASE("The tree finds the highest point over a ball and all points in a rang
 TEST_CASE("The rolled convex hull is convex, closed and holds all points") {
   for (const Cloud& points : {box(0.2, 0.4, 0.6), cylinder(0.1, 0.3), geodesicSphere(0.2, 2),
                               randomHull(300, {0.3, 0.2, 0.1}, 6)}) {
-    const RolledHull hull = rollBall(points);
+    const RolledHull hull = convexHull(points);
     std::size_t sides = 0;
     for (const std::vector<int>& ring : hull.faces) {
       sides += ring.size();

@@ -104,12 +104,12 @@ TEST_CASE("The convex hull of a finely divided box has no vertex inside its flat
         for (const Vector3d& p : {Vector3d(x, y, z), Vector3d(y, z, x), Vector3d(z, x, y)})
           points.push_back(p);
       }
-  const RolledHull straight = rollBall(points);
+  const RolledHull straight = convexHull(points);
   CHECK(straight.vertices.size() == 8);
   CHECK(straight.faces.size() == 6);
   const Eigen::Matrix3d turn = Random(3).rotation();
   for (Vector3d& p : points) p = turn * p;
-  const RolledHull turned = rollBall(points);
+  const RolledHull turned = convexHull(points);
   CHECK(turned.vertices.size() < 200);
   for (const std::vector<int>& ring : turned.faces) {
     const auto t = wideTriangle(points, ring);
@@ -169,7 +169,7 @@ TEST_CASE("Of a large cloud only points well inside are left out") {
         const std::vector<int> outer = outerPoints(points);
         std::vector<char> stays(points.size(), 0);
         for (const int i : outer) stays[static_cast<std::size_t>(i)] = 1;
-        for (const int i : rollBall(points).vertices) CHECK(stays[static_cast<std::size_t>(i)]);
+        for (const int i : convexHull(points).vertices) CHECK(stays[static_cast<std::size_t>(i)]);
         if (half.z() > 0.01 && away == 0) CHECK(outer.size() < points.size() / 2);
         Cloud left;
         for (const int i : outer) left.push_back(points[static_cast<std::size_t>(i)]);
@@ -219,7 +219,7 @@ TEST_CASE("Points on a line but for rounding have its ends as their convex hull"
       points.push_back(middle + random.uniform(-1, 1) * axis + width * random.direction());
     double lowest = 1e300, highest = -1e300;
     const auto along = [&](const Vector3d& p) { return axis.dot(p - middle); };
-    for (const int i : rollBall(points).vertices) {
+    for (const int i : convexHull(points).vertices) {
       lowest = std::min(lowest, along(points[static_cast<std::size_t>(i)]));
       highest = std::max(highest, along(points[static_cast<std::size_t>(i)]));
     }
@@ -250,7 +250,7 @@ TEST_CASE("Many points on the sides of one polygon have its corners as their con
       cloud.push_back((1 - share) * from + share * to);
     }
     CAPTURE(seed);
-    const RolledHull hull = rollBall(cloud);
+    const RolledHull hull = convexHull(cloud);
     REQUIRE(hull.faces.size() == 2);
     CHECK(hull.faces[0].size() == hull.vertices.size());
     for (int i = 0; i < corners; ++i) CHECK(std::count(hull.vertices.begin(), hull.vertices.end(), i) == 1);

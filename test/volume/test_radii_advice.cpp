@@ -6,7 +6,7 @@
 
 #include "fcl_stpbv/distance/shape_distance.h"
 #include "fcl_stpbv/error.h"
-#include "fcl_stpbv/volume/hull_excess.h"
+#include "fcl_stpbv/volume/covered_hull.h"
 #include "fcl_stpbv/volume/measure.h"
 #include "fcl_stpbv/volume/radii_advice.h"
 #include "test/reference/shapes.h"
@@ -230,7 +230,7 @@ TEST_CASE("a long period makes R smaller, and refuses nothing that some radii ke
     // The least acceleration of radii that keep the clearance, on a grid.
     double least = std::numeric_limits<double>::infinity();
     const double smallest = StpBv::smallestR(cloud, 0);
-    const detail::HullExcess hull(cloud);
+    const detail::CoveredHull hull(cloud);
     for (double r = 1e-3 * task.clearance; r < task.clearance; r *= 1.4)
       for (double R = 1.01 * (smallest + r); R < 1e6; R *= 1.7) {
         const double over = hull.max(*StpBv::build(cloud, {r, R}));

@@ -1,3 +1,6 @@
+// The methods that are timed. Polyhedra: fcl::distance with either of FCL's solvers, and FCL's GJK with the
+// duality gap as stop. STP-BVs: started from FCL's witness, or from the last answer. Bullet's is in
+// bullet.cpp.
 #include "tools/bench/method.h"
 
 #include <fcl/narrowphase/distance.h>

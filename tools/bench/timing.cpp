@@ -1,3 +1,6 @@
+// 1. A block of new poses. 2. Each method answers all of them, in an order turned round from block to block;
+// the thread's own time counts. 3. Where single queries are timed, what reading the clock costs is measured
+// first and taken off. The first block is not counted.
 #include "tools/bench/timing.h"
 
 #include <algorithm>

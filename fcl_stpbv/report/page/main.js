@@ -64,7 +64,7 @@ function describe(pair, report) {
   if (pair.mesh_distance !== null) fact('Meshes [mm]', mm(pair.mesh_distance, 3));
   fact('Cover, 1 + 2 [mm]', `${mm(pair.over_cover1)} + ${mm(pair.over_cover2)}`);
   fact('Least found [mm]', mm(pair.min_distance, 3));
-  if (pair.time !== null) fact(report.trajectory.timed ? 'Closest at [s]' : 'Closest at way point', String(Number(pair.time.toPrecision(6))));
+  if (pair.time !== null) fact(report.trajectory.timed ? 'Closest at [s]' : 'Closest at way point', String(Number(pair.time.toPrecision(12))));
   fact('Normal', pair.normal.map(v => v.toFixed(3)).join(', '));
   const steep = Object.entries(pair.gradient).sort((a, b) => Math.abs(b[1]) - Math.abs(a[1])).slice(0, 6);
   if (steep.length) slopes.append(make('b', '', 'Steepest joints [m/rad, m/m]'));

@@ -1,3 +1,6 @@
+// How fcl_parity asks. 1. A child process asks each pair of types, at each time with that time's seed. 2. It
+// writes its findings into memory shared with the parent. 3. A question that ends it or takes a second is
+// noted, and a new child goes on from there. 4. Findings become cells of Markdown tables.
 #include "test/adapter/parity/questions.h"
 
 #include <fcntl.h>

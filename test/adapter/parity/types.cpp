@@ -1,3 +1,6 @@
+// FCL's types with their convex pieces, and the truth about two of them: the least distance over all pairs of
+// pieces, those first whose balls are nearest. Half spaces and planes have closed forms here; triangles.h
+// answers two triangles, shape_reference.h all else.
 #include "test/adapter/parity/types.h"
 
 #include <fcl/geometry/shape/capsule.h>

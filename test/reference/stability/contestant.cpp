@@ -1,3 +1,6 @@
+// The table of methods, and FCL's and the library's own: fcl::distance with either solver, signed or not;
+// STP-BVs started from FCL's witness or from the last answer; the paper's mapping alone (IV.C, IV.D), which
+// nothing checks. Bullet and libccd have their own files.
 #include "test/reference/stability/contestant.h"
 
 #include <fcl/narrowphase/distance.h>

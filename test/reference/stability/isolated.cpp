@@ -1,3 +1,6 @@
+// 1. A child process answers placement after placement and sends each answer through a pipe; each has a limit
+// on processor time. 2. Where answers end early, the child's end tells an abort from a hang. 3. A new child
+// goes on with the next situation.
 #include "test/reference/stability/isolated.h"
 
 #include <fcntl.h>

@@ -1,3 +1,6 @@
+// 1. Some verdicts need no truth: ended, refused, threw, not a number. 2. An answer's error against the
+// truth, in metres, less what rounding explains. 3. Along a path, the gradient's change in a step against the
+// most that the radii allow (docs/theory.md, 6). 4. The worst verdict counts.
 #include "test/reference/stability/judge.h"
 
 #include <algorithm>

@@ -1,3 +1,6 @@
+// Apart: Wolfe's active sets in the differences of corners. The corner extreme along the present difference
+// joins; those without weight leave. Overlapping: all normals across three corners of one hull, and across
+// two directions between corners, one of each hull.
 #include "test/reference/stability/polyhedra.h"
 
 #include <Eigen/Dense>

@@ -1,3 +1,5 @@
+// A body is made from points and facets. The size of a pair says what its errors are measured by. The list of
+// all situations is sorted by group, with no two of one name.
 #include "test/reference/stability/situation.h"
 
 #include <algorithm>

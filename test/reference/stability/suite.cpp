@@ -1,3 +1,5 @@
+// 1. The truths of all situations. 2. Each method's answers, from child processes. 3. A judgement of each
+// answer, and counts of failures.
 #include "test/reference/stability/suite.h"
 
 #include <algorithm>

@@ -1,3 +1,6 @@
+// STP-BVs: 1. The distance of reference.h, if its own gap proves it. 2. Else, as where cores overlap, the
+// widest gap over a spiral of directions, the best ones climbed. Polyhedra: 1. The nearest difference of
+// polyhedra.h. 2. If they share a point, its least overlap.
 #include "test/reference/stability/truth.h"
 
 #include <algorithm>

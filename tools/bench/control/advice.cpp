@@ -1,4 +1,6 @@
-// See advice.h.
+// 1. First runs, with r = 5 mm and R = 1 m, tell how fast the bodies move. 2. Radii are advised for each
+// clearance, that motion and a quarter more. 3. Runs with these radii tell what the shapes add to d'' and how
+// much clearance is lost. More added than advised, in motion as stated, is an error.
 #include "tools/bench/control/advice.h"
 
 #include <algorithm>

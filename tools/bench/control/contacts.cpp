@@ -1,4 +1,6 @@
-// See contacts.h.
+// 1. Both bodies' twists, and the velocities of normal and witness points that the constraints give. 2. The
+// bodies' relative motion at the witness points. 3. c from turning, velocity and the slide of a point, as in
+// docs/choosing_r_and_R.md; the largest is kept.
 #include "tools/bench/control/contacts.h"
 
 #include <algorithm>

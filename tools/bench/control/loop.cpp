@@ -1,4 +1,6 @@
-// See loop.h.
+// A tick: 1. The hands' paths become least squares in the joints' velocities. 2. Collision rows come from the
+// library's velocity damper, or from pairs of features. 3. The program is solved within the joints' greatest
+// speed. 4. What the joints are told is measured; true distances are those of the hulls.
 #include "tools/bench/control/loop.h"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
-// See manifold.h.
+// 1. Each vertex of one body against the box, in the box's frame; where both are boxes, also the other way
+// round. 2. Edges against edges, if they are not parallel, face each other, and their lines are nearest
+// inside both. What is farther than the reach is left out.
 #include "tools/bench/control/manifold.h"
 
 #include <cmath>

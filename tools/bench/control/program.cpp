@@ -1,4 +1,5 @@
-// See program.h.
+// 1. The minimum without rows, by Cholesky. 2. If it violates a row: the dual, a complementarity problem, by
+// Bullet's btSolveDantzigLCP. 3. The rows' multipliers move the minimum.
 #include "tools/bench/control/program.h"
 
 #include <BulletDynamics/MLCPSolvers/btDantzigLCP.h>

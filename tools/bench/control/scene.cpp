@@ -1,4 +1,6 @@
-// See scene.h.
+// Eight scenarios of the robot of data/hrp2_style: boxes in its hands, its arms, a hand and a foot, along
+// tables, a wall, a shelf and each other. A seed varies the waves of their paths. Their pairs become rows of
+// CollisionConstraints, as a method sees the bodies.
 #include "tools/bench/control/scene.h"
 
 #include <algorithm>

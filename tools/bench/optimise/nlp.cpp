@@ -1,4 +1,5 @@
-// See nlp.h.
+// Rows and their Jacobian are those of CollisionConstraints at each knot. Second derivatives are its own; for
+// hulls they are central differences of the gradient, or those of one side where it jumps on the other.
 #include "tools/bench/optimise/nlp.h"
 
 namespace fcl_stpbv::benchmark {

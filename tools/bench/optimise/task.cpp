@@ -1,4 +1,5 @@
-// See task.h.
+// Four tasks of boxes; a seed varies sizes and starts. place: put a box onto a plate. slot: the widest
+// clearance between two plates. pack: pull five together. corner: a path around a block's corner.
 #include "tools/bench/optimise/task.h"
 
 #include <algorithm>

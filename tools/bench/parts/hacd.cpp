@@ -1,4 +1,5 @@
-// See hacd.h. HACD wants corners that triangles share; those at one place are made one first.
+// 1. Corners at one place are made one, as HACD wants corners that triangles share. 2. HACD partitions the
+// triangles; the number of clusters alone decides. 3. A cluster's points are its triangles' corners.
 #include "tools/bench/parts/hacd.h"
 
 #include <hacdHACD.h>

@@ -1,4 +1,6 @@
-// See hull_rows.h.
+// 1. Pairs whose bounding spheres are farther apart than the influence are not asked about. 2. The others:
+// fcl::distance, or FCL's GJK with a stop that proves convergence. 3. Where hulls overlap, fcl::collide's
+// depth and normal. 4. The gradient is the normal times the witness points' velocities.
 #include "tools/bench/posture_study/hull_rows.h"
 
 #include <fcl/narrowphase/collision.h>

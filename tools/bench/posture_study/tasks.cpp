@@ -1,4 +1,6 @@
-// See tasks.h.
+// 1. The seed picks one of four families. 2. The robot stands on both feet. 3. A fridge, a table or shelves
+// of random size hold things, none within 9 cm of a place to be reached beside them; or a block stands before
+// the legs. 4. One hand is to reach the place.
 #include "tools/bench/posture_study/tasks.h"
 
 #include <fcl/geometry/shape/box.h>
