@@ -25,11 +25,12 @@ using Eigen::Vector3d;
 namespace {
 
 /// What the volume shows along a normal, and how far one point or edge of the shape leaves along it (m).
+/// Not initialised: arcs have room for many.
 struct WayOut {
-  Vector3d n{0, 0, 0};
-  int patch = -1;
-  Vector3d point{0, 0, 0};  ///< the core's
-  double depth = 0;
+  Vector3d n;
+  int patch;
+  Vector3d point;  ///< the core's
+  double depth;
 };
 
 /// An edge of the shape and a quarter of its arc of normals, from `from.n` to `to.n`, about `t`.
@@ -198,7 +199,7 @@ class WaysOut {
   ShapeQuery& q_;
   double worth_ = std::numeric_limits<double>::infinity();  // a longer way is not the shortest
   double bound_ = std::numeric_limits<double>::infinity();  // no way in the cones done with is shorter
-  WayOut best_{{}, -1, {}, std::numeric_limits<double>::infinity()};
+  WayOut best_{{0, 0, 0}, -1, {0, 0, 0}, std::numeric_limits<double>::infinity()};
   ShapeCorners met_;  // what leaves last along it
 };
 
