@@ -40,7 +40,7 @@ nlohmann::json trajectoryJson(const CollisionReport& report) {
                       {"way_points", t.trajectory.points.size()},
                       {"timed", t.trajectory.timed},
                       {"verdict", verdicts[static_cast<int>(t.verdict)]},
-                      {"free_until", t.stop.from},
+                      {"free_until", t.undecided.empty() ? t.stop.from : t.undecided.front().from},
                       {"closest_proven", t.closestProven},
                       {"closest_precision", TrajectoryReport::kPrecision},
                       {"steepest_approach", t.steepest},

@@ -9,7 +9,7 @@
 
 namespace fcl_stpbv::report {
 
-/// Where a segment's search ended: proven free before `from`.
+/// Where the search for a contact ended: all pairs that it followed are proven free before `from`.
 struct TrajectoryStop {
   double from = 0, until = 0;  ///< of the trajectory's time
   int pair = -1;               ///< among the pairs of bodies; -1 where the trajectory is free

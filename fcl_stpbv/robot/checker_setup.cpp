@@ -52,7 +52,7 @@ void CollisionChecker::Impl::addBody(std::size_t frame, const fcl::CollisionGeom
     placed.centre = pose * volume->centre();
     placed.radius = volume->enclosingRadius();
     placed.inner = volume->innerRadius() + volume->radii().r;
-  } else if (placed.convex) {
+  } else if (placed.convex && !placed.body.unbounded()) {
     const fcl::Sphered point(0);  // a sphere's centre need not be in the body that the sphere is around
     Isometry3d where = Isometry3d::Identity();
     where.translation() = centre;

@@ -111,6 +111,7 @@ class Report(unittest.TestCase):
         self.assertAlmostEqual(report["contact"]["time"], 1 + (1.3 - math.sqrt(0.08)) / 1.3, delta=1e-6)
         self.assertEqual([(u["link1"], u["link2"]) for u in report["undecided"]], [("table", "ball")])
         self.assertAlmostEqual(report["undecided"][0]["time"], 1, delta=1e-6)
+        self.assertEqual(report["free_until"], report["undecided"][0]["time"])
         self.assertIn("not decided: table - ball", self.run_tool(table, *arguments).stdout)
         rows = self.run_tool(table, *arguments, "--format", "csv").stdout.splitlines()
         self.assertRegex(rows[1], r"^,,trajectory: CONTACT of still - ball between 1\.78\d+ and 1\.78\d+ s,")
