@@ -1,6 +1,7 @@
 // Polytopes of many vertices beside simple shapes and each other: the search asks few of them, the answer
 // must be that of all. Flat faces of more vertices than it takes for few, and faces parallel to the other
 // body's.
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <memory>
@@ -91,4 +92,41 @@ TEST_CASE("a face, an edge or a corner of a polytope is told whatever number of 
     REQUIRE(detail::normalCone(prism, Vector3d(1.0, 0.01, 1.0).normalized(), {0, 0, 0.15}, 1e-9, cone));
     CHECK(cone.count == 2);
   }
+}
+
+TEST_CASE("a box's normals are those of the polytope of its corners") {
+  Random random(21);
+  std::array<int, 3> seen{0, 0, 0};
+  for (int i = 0; i < 3000; ++i) {
+    Vector3d sides;  // some of them plates and needles
+    for (double& side : sides) side = std::pow(10.0, random.uniform(-4, 0));
+    if (i % 10 == 0) sides[i / 10 % 3] = 0.0;
+    std::array<Vector3d, 8> corner;
+    for (std::size_t k = 0; k < 8; ++k)
+      corner[k] = 0.5 * sides.cwiseProduct(Vector3d(k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1));
+    const Shape box = Shape::boxOf(sides), polytope = Shape::polytopeOf(corner.data(), 8);
+    // Across a face, an edge, or neither, but for a turn; sides that are level to 1e-9 m are one face's.
+    Vector3d m = random.direction();
+    const int across = i % 3;
+    for (int k = 0; k < across; ++k) m[(k + i / 3) % 3] = i % 2 ? 0.0 : 1e-6 * m[(k + i / 3) % 3];
+    m.normalize();
+    constexpr double kLevel = 1e-9;
+    int steepest;
+    m.cwiseAbs().maxCoeff(&steepest);
+    if (sides[steepest] * std::abs(m[steepest]) <= 4 * kLevel) continue;  // its ends are level, too
+    if ((sides.cwiseProduct(m.cwiseAbs()).array() - kLevel).abs().minCoeff() < 0.6 * kLevel) continue;
+    detail::NormalCone a, b;
+    const Vector3d y = polytope.support(m);
+    const bool known = detail::normalCone(box, m, y, kLevel, a);
+    CAPTURE(i, sides, m);
+    REQUIRE(known == detail::normalCone(polytope, m, y, kLevel, b));
+    if (!known) continue;
+    REQUIRE(a.count == b.count);
+    ++seen[static_cast<std::size_t>(a.count)];
+    CHECK((a.normal - b.normal).norm() < 1e-12);  // of corners' differences, divided by 1e-4 m
+    if (a.count == 1) CHECK(a.way[0].cross(b.way[0]).norm() < 1e-12);
+    for (int k = 0; k < a.count; ++k)
+      CHECK(std::abs(a.way[static_cast<std::size_t>(k)].dot(a.normal)) < 1e-12);
+  }
+  CHECK((seen[0] > 300 && seen[1] > 300 && seen[2] > 300));
 }
