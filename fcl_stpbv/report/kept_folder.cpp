@@ -8,7 +8,6 @@
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/io/text_scanner.h"
 #include "fcl_stpbv/report/digest.h"
-#include "fcl_stpbv/robot/json_text.h"
 
 namespace fcl_stpbv::report {
 namespace {
@@ -21,7 +20,7 @@ nlohmann::json manifestOf(const fs::path& folder) {
   std::error_code ignored;
   if (!fs::is_regular_file(fs::symlink_status(path, ignored)))
     throw Error(folder.string() + ": holds files that no conversion wrote; name a new or an empty folder");
-  const nlohmann::json manifest = detail::parseJson(detail::readText(path.string()), path.string());
+  const nlohmann::json manifest = nlohmann::json::parse(detail::readText(path.string()), nullptr, false);
   const bool ours = manifest.is_object() && manifest.value("program", nlohmann::json()) == "urdf_to_stpbv" &&
                     manifest.value("key", nlohmann::json()).is_string() &&
                     manifest.value("files", nlohmann::json()).is_object();
@@ -40,6 +39,8 @@ bool isIn(const fs::path& folder, const std::string& path) {
 
 std::string keyOfFolder(const std::string& path, const std::vector<std::string>& inputs, bool force) {
   if (path.empty()) throw Error("-o: expected the name of a folder");
+  if (path == "-")
+    throw Error("-o -: expected the name of a folder, since a robot is many files; ./- is one");
   std::error_code ignored;
   const fs::path name = (fs::path(path) / "").parent_path();  // without a slash at the end
   const fs::path parent = name.parent_path().empty() ? "." : name.parent_path();

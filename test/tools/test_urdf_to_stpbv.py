@@ -230,8 +230,10 @@ class Conversion(unittest.TestCase):
         self.refused(self.run_tool(self.place / "gate.urdf", "-o", self.place / "gate.obj"), "gate.obj")
         self.refused(self.run_tool(self.place / "gate.urdf", "-o", self.folder / "no" / "where"), "does not exist")
         self.refused(self.run_tool(self.place / "gate.urdf", "-o", self.place / "gate.obj" / "out"), "gate.obj is a file, expected")
-        (self.out / "manifest.json").write_text("{}")
-        self.refused(self.convert(), "manifest.json")
+        self.refused(self.run_tool(self.place / "gate.urdf", "-o", "-"), "-o -: expected the name of a folder")
+        for damaged in ("{}", "", '{"program": "urdf_to_stpbv", "ke'):
+            (self.out / "manifest.json").write_text(damaged)
+            self.refused(self.convert(), "manifest.json: is no manifest of a conversion; name a new or an empty folder")
 
     def test_a_urdf_that_is_a_link_has_its_meshes_beside_the_file(self):
         self.gate()
