@@ -86,9 +86,7 @@ std::string steepest(const PosedRobot& posed, const Kinematics& kinematics, int 
             [](const auto& a, const auto& b) { return std::abs(a.first) > std::abs(b.first); });
   std::string text;
   for (std::size_t i = 0; i < std::min<std::size_t>(2, slopes.size()); ++i) {
-    char cell[64];
-    std::snprintf(cell, sizeof cell, "%s%+.3f %s", i ? ", " : "", slopes[i].first, slopes[i].second.c_str());
-    text += cell;
+    text += detail::formatted("%s%+.3f %s", i ? ", " : "", slopes[i].first, slopes[i].second.c_str());
   }
   return text;
 }
@@ -191,12 +189,12 @@ void printMirrored(PosedRobot& posed, const Kinematics& kinematics, const RobotG
     }
   }
   heading("Left against right in " + std::to_string(kPostures) + " mirrored postures");
-  char bounds[64] = "both bounds the same number";
-  if (smooth.worst > 0) std::snprintf(bounds, sizeof bounds, "bounds at most %.0e m apart", smooth.worst);
+  const std::string bounds = smooth.worst > 0 ? detail::formatted("bounds at most %.0e m apart", smooth.worst)
+                                              : "both bounds the same number";
   std::printf(
       "%d separated pairs, off by more than 1e-6 m: STP-BV %d (%s), plain FCL %d (by up to "
       "%.3f mm)\n",
-      smooth.queries, smooth.wrong, bounds, plain.wrong, plain.worst * kMm);
+      smooth.queries, smooth.wrong, bounds.c_str(), plain.wrong, plain.worst * kMm);
 }
 
 int run(const std::string& urdf, const std::string& srdfPath, const std::string& pose, std::size_t top) {

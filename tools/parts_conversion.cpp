@@ -106,9 +106,8 @@ std::string toText(const PartsReport& report) {
                      (parts.closedPieces > 0 ? "their inside is covered" : "the triangles alone are covered");
   if (!report.isReached())
     text += "; NOT within the " + millimetres(report.asked) + " asked for: more --parts or --effort may be";
-  char seconds[32];
-  std::snprintf(seconds, sizeof seconds, "; %.2f s", report.seconds);
-  return text + seconds + " -> " + report.outputs.front() + (report.outputs.size() > 1 ? " ..." : "");
+  return text + detail::formatted("; %.2f s", report.seconds) + " -> " + report.outputs.front() +
+         (report.outputs.size() > 1 ? " ..." : "");
 }
 
 std::string toJson(const PartsReport& report) {

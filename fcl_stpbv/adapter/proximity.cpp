@@ -48,17 +48,6 @@ class Within {
   ProximityCounts* counts_ = nullptr;
 };
 
-/// How far the bodies' coordinates reach, for rounding, and the way between the centres of two shapes (m).
-struct Centres {
-  double rounding, apart;
-
-  Centres(const ConvexBody& a, const ConvexBody& b) {
-    const Vector3d d = b.pose.translation() - a.pose.translation();
-    rounding = kGapRounding * (d.lpNorm<1>() + a.extent() + b.extent());
-    apart = (b.pose.linear() * b.shape.centre + d - a.pose.linear() * a.shape.centre).norm();
-  }
-};
-
 /// Radius of a ball about a bounded shape's centre that lies in it; no more than the margin where finding a
 /// larger one takes longer.
 double ballInside(const Shape& shape) {
@@ -73,12 +62,33 @@ double ballInside(const Shape& shape) {
   }
 }
 
-/// Whether balls in two shapes tell that these are no farther apart.
-bool areWithinByBalls(double x, const ConvexBody& a, const ConvexBody& b) {
-  if (a.unbounded() || b.unbounded()) return false;
-  const Centres centres(a, b);
-  return centres.apart - ballInside(a.shape) - ballInside(b.shape) + centres.rounding <= x;
-}
+/// What is known of two bounded shapes without a search.
+class ShapeBounds {
+ public:
+  ShapeBounds(const ConvexBody& a, const ConvexBody& b)
+      : a_(a), b_(b), d_(b.pose.translation() - a.pose.translation()) {
+    rounding_ = kGapRounding * (d_.lpNorm<1>() + a.extent() + b.extent());
+    centres_ = (b.pose.linear() * b.shape.centre + d_ - a.pose.linear() * a.shape.centre).norm();
+  }
+
+  /// Whether the balls around them are farther apart, or the planes along the cache's normal.
+  bool areFarther(double x, const PairCache& cache) const {
+    const auto ballAround = [](const Shape& shape) { return shape.reach + shape.margin; };
+    if (centres_ - ballAround(a_.shape) - ballAround(b_.shape) > x + rounding_) return true;
+    const Vector3d n = cache.direction();
+    return !n.isZero(0) && n.dot(d_) - a_.support(n) - b_.support(-n) > x + rounding_;
+  }
+  /// Whether the balls in them are no farther apart.
+  bool areWithin(double x) const {
+    return centres_ - ballInside(a_.shape) - ballInside(b_.shape) + rounding_ <= x;
+  }
+
+ private:
+  const ConvexBody &a_, &b_;
+  Vector3d d_;       // from one's origin to the other's (m)
+  double rounding_;  // of a gap (m)
+  double centres_;   // how far apart they are (m)
+};
 
 /// By the elements of a valid pair.
 bool areElementsFarther(double x, const PosedPair& pair, const QueryContext& context) {
@@ -99,23 +109,23 @@ bool isFartherByBounds(double x, const ConvexBody& a, const ConvexBody& b, const
   if (a.volume && b.volume) return isFartherByBounds(x, *a.volume, a.pose, *b.volume, b.pose, cache);
   if (a.volume) return isFartherByBounds(x, *a.volume, a.pose, b.shape, b.pose, cache);
   if (b.volume) return isFartherByBounds(x, *b.volume, b.pose, a.shape, a.pose, cache.mirrored());
-  if (a.unbounded() || b.unbounded()) return false;
-  const Centres centres(a, b);
-  const auto ballAround = [](const Shape& shape) { return shape.reach + shape.margin; };
-  if (centres.apart - ballAround(a.shape) - ballAround(b.shape) > x + centres.rounding) return true;
-  const Vector3d n = cache.direction();
-  if (n.isZero(0)) return false;
-  const Vector3d d = b.pose.translation() - a.pose.translation();
-  return n.dot(d) - a.support(n) - b.support(-n) > x + centres.rounding;
+  return !a.unbounded() && !b.unbounded() && ShapeBounds(a, b).areFarther(x, cache);
 }
 
 bool isFartherThan(double x, const ConvexBody& a, const ConvexBody& b, PairCache* cache,
                    ProximityCounts* counts) {
   x += a.rounding + b.rounding;
   if (counts) ++counts->bounds;
-  if (isFartherByBounds(x, a, b, cache ? *cache : PairCache())) return true;
+  const PairCache nothing;
+  const PairCache& known = cache ? *cache : nothing;
   const bool areShapes = !a.volume && !b.volume;
-  if (areShapes && areWithinByBalls(x, a, b)) return false;
+  if (areShapes && !a.unbounded() && !b.unbounded()) {
+    const ShapeBounds bounds(a, b);
+    if (bounds.areFarther(x, known)) return true;
+    if (bounds.areWithin(x)) return false;
+  } else if (isFartherByBounds(x, a, b, known)) {
+    return true;
+  }
   if (counts) ++counts->solved;
   if (areShapes) return isFartherThan(x, a.shape, a.pose, b.shape, b.pose, cache);
   if (a.volume && b.volume) return isFartherThan(x, *a.volume, a.pose, *b.volume, b.pose, cache);

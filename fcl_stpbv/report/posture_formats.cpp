@@ -10,6 +10,7 @@ namespace fcl_stpbv::report {
 namespace {
 
 using detail::formatted;
+
 nlohmann::json list(const std::vector<Violation>& violations) {
   nlohmann::json items = nlohmann::json::array();
   for (const Violation& v : violations) items.push_back({{"constraint", v.name}, {"amount", v.amount}});

@@ -11,6 +11,7 @@ namespace fcl_stpbv::report {
 namespace {
 
 using detail::formatted;
+
 constexpr double kMm = 1e3;
 
 std::string steepest(const PairReport& pair) {
@@ -172,8 +173,9 @@ std::string trajectoryVerdict(const CollisionReport& report) {
     default:
       return "NOT DECIDED for " + report.trajectoryPair(t.stop.pair) +
              formatted(" at %.12g%s, free before: ", t.stop.from, unit) +
-             (t.tooLong ? "the way is so long that a proof takes too many distances; give way points between"
-                        : "the distance is the margin to rounding");
+             (t.undecided.empty()
+                  ? "the way is so long that a proof takes too many distances; give way points between"
+                  : "the distance is the margin to rounding");
   }
 }
 

@@ -53,28 +53,31 @@ FirstStop firstStop(MotionCheck& check, double margin, const Trajectory& t, std:
 
 // A pair whose distance is the margin to rounding must not hide a contact of another one: it is set aside,
 // and the search goes on with the others from where it was.
-void findContact(std::shared_ptr<const Kinematics> kinematics, std::shared_ptr<const RobotGeometry> geometry,
-                 std::vector<CheckedPair> pairs, const std::vector<Obstacle>& obstacles, double margin,
-                 TrajectoryReport& report) {
+void findContact(MotionCheck& all, const std::shared_ptr<const RobotGeometry>& geometry,
+                 const std::shared_ptr<const Kinematics>& kinematics, const std::vector<Obstacle>& obstacles,
+                 double margin, TrajectoryReport& report) {
+  std::vector<CheckedPair> pairs = all.pairs();
   std::vector<int> number(pairs.size());  // of each pair that is left
   std::iota(number.begin(), number.end(), 0);
-  FirstStop stop;
-  for (;;) {
-    MotionCheck check(kinematics, geometry, pairs, obstacles);
-    stop = firstStop(check, margin, report.trajectory, stop.segment);
+  FirstStop stop = firstStop(all, margin, report.trajectory, 0);
+  while (stop.verdict == MotionVerdict::undecided && !stop.tooLong) {
     const std::ptrdiff_t left = stop.at.pair;
-    if (left >= 0) stop.at.pair = number[static_cast<std::size_t>(left)];
-    report.tooLong = stop.verdict == MotionVerdict::undecided && stop.tooLong;
-    if (stop.verdict != MotionVerdict::undecided || report.tooLong) break;
+    stop.at.pair = number[static_cast<std::size_t>(left)];
     report.undecided.push_back(stop.at);
     number.erase(number.begin() + left);
     pairs.erase(pairs.begin() + left);
     if (pairs.empty()) break;
+    MotionCheck others(kinematics, geometry, pairs, obstacles);
+    stop = firstStop(others, margin, report.trajectory, stop.segment);
   }
-  const bool isOpen = stop.verdict != MotionVerdict::contact && !report.undecided.empty();
-  report.verdict = isOpen ? MotionVerdict::undecided : stop.verdict;
-  report.stop = isOpen ? report.undecided.front() : stop.at;
-  report.tooLong &= report.undecided.empty();
+  if (stop.verdict != MotionVerdict::contact && !report.undecided.empty()) {
+    report.verdict = MotionVerdict::undecided;
+    report.stop = report.undecided.front();
+    return;
+  }
+  report.verdict = stop.verdict;
+  report.stop = stop.at;
+  if (stop.at.pair >= 0) report.stop.pair = number[static_cast<std::size_t>(stop.at.pair)];
 }
 
 void findClosest(MotionCheck& check, TrajectoryReport& report) {
@@ -141,8 +144,8 @@ TrajectoryReport follow(Trajectory trajectory, std::shared_ptr<const Kinematics>
                         const std::vector<Obstacle>& obstacles, double margin) {
   TrajectoryReport report;
   report.trajectory = std::move(trajectory);
-  findContact(kinematics, geometry, pairs, obstacles, margin, report);
   MotionCheck check(kinematics, geometry, pairs, obstacles);
+  findContact(check, geometry, kinematics, obstacles, margin, report);
   findClosest(check, report);
   ConstraintOptions options;
   options.obstacles = obstacles;

@@ -12,6 +12,7 @@
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/robot/gltf_values.h"
 #include "fcl_stpbv/robot/json_text.h"
+#include "fcl_stpbv/words.h"
 
 namespace fcl_stpbv::detail {
 namespace {
@@ -25,14 +26,12 @@ constexpr double kUnit = 1e-5;
 
 // Extensions that change no vertex, besides KHR_materials_...
 bool isHarmless(std::string_view extension) {
-  static const std::string_view kOthers[] = {
-      "EXT_lights_ies",        "EXT_lights_image_based", "EXT_texture_avif",
-      "EXT_texture_webp",      "KHR_lights_punctual",    "KHR_texture_basisu",
-      "KHR_texture_transform", "KHR_techniques_webgl",   "KHR_xmp",
-      "KHR_xmp_json_ld",       "MSFT_texture_dds"};
+  constexpr Words kOthers{"EXT_lights_ies",        "EXT_lights_image_based", "EXT_texture_avif",
+                          "EXT_texture_webp",      "KHR_lights_punctual",    "KHR_texture_basisu",
+                          "KHR_texture_transform", "KHR_techniques_webgl",   "KHR_xmp",
+                          "KHR_xmp_json_ld",       "MSFT_texture_dds"};
   constexpr std::string_view kMaterials = "KHR_materials_";
-  return extension.substr(0, kMaterials.size()) == kMaterials ||
-         std::find(std::begin(kOthers), std::end(kOthers), extension) != std::end(kOthers);
+  return extension.substr(0, kMaterials.size()) == kMaterials || holds(kOthers, extension);
 }
 
 class GltfCheck {

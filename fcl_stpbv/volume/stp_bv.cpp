@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
 #include <limits>
 
@@ -35,10 +34,10 @@ std::string number(double value) { return formatted("%.9g", value); }
 std::string usableR(double r, double radius) {
   double least = r + radius * (1 + 1e-9);
   while (least - r <= radius) least = std::nextafter(least, std::numeric_limits<double>::infinity());
-  char text[32];
+  std::string text;
   for (int digits = 9; digits <= 17; ++digits) {
-    std::snprintf(text, sizeof text, "%.*g", digits, least);
-    if (std::strtod(text, nullptr) >= least) break;
+    text = formatted("%.*g", digits, least);
+    if (std::strtod(text.c_str(), nullptr) >= least) break;
   }
   return text;
 }
