@@ -7,6 +7,7 @@
 #include "fcl_stpbv/formatted.h"
 #include "fcl_stpbv/io/atomic_write.h"
 #include "fcl_stpbv/posture/collision_rows.h"
+#include "fcl_stpbv/report/named_posture.h"
 #include "fcl_stpbv/report/posture_formats.h"
 #include "fcl_stpbv/report/posture_parts.h"
 #include "fcl_stpbv/report/report_warnings.h"
@@ -123,6 +124,9 @@ int run(Arguments& a) {
   report.pairs = setup.pairs;
   std::vector<std::string> more;
   if (a.careless) more = collisionsOf(report);
+  const std::string beyond = limitWarning(a.task + ": start", {setup.start}, *report.kinematics,
+                                          "the search starts within the limits");
+  if (!beyond.empty()) more.push_back(beyond);
   if (const std::string open = openParts(*report.scene.geometry); !open.empty())
     more.push_back(report.scene.robot->path + ": " + open);
   if (const std::string allowed = overlapsAllowed(report.task.collisionMargin); !allowed.empty())

@@ -142,7 +142,9 @@ Posture findPosture(PostureSetup& setup, const PostureOptions& options) {
   };
   const long long first = std::max(0, options.firstStart), last = first + std::max(1, options.starts);
   const auto stopped = [&] { return options.solver.stop && options.solver.stop(); };
-  Starts starts(problem, setup.start, options.seed, first);
+  // The random starts are around one within the limits: around another all could end at the same limit.
+  const Eigen::VectorXd start = problem.variablesAt(setup.start).head(setup.start.size());
+  Starts starts(problem, start, options.seed, first);
   for (long long i = first; i < last && !best.feasible; ++i) {
     ++best.starts;
     consider(solve(problem, problem.variablesAt(starts.next()), {{kCostWeight, kSoft}, {kCostWeight, kFirm}},

@@ -16,18 +16,21 @@ AskedPostures readPostures(const ReportRequest& request, const Kinematics& kinem
   const auto warn = [&](const std::string& warning) {
     if (!warning.empty()) postures.warnings.push_back(warning);
   };
+  const auto warnOfLimits = [&](const std::string& name, const std::vector<Eigen::VectorXd>& list) {
+    warn(limitWarning(name, list, kinematics, "what the pair list proves holds within the limits"));
+  };
   if (!request.neutral.empty()) {
     postures.neutral = posture("--neutral", request.neutral);
-    warn(limitWarning("--neutral " + request.neutral, {postures.neutral}, kinematics));
+    warnOfLimits("--neutral " + request.neutral, {postures.neutral});
   }
   if (!request.pose.empty()) {
     postures.asked = posture("--pose", request.pose);
-    warn(limitWarning("--pose " + request.pose, {*postures.asked}, kinematics));
+    warnOfLimits("--pose " + request.pose, {*postures.asked});
   }
   if (!request.trajectory.empty()) {
     postures.trajectory = readTrajectory(request.trajectory, kinematics, postures.neutral);
     const std::string name = "--trajectory " + request.trajectory;
-    warn(limitWarning(name, postures.trajectory.points, kinematics));
+    warnOfLimits(name, postures.trajectory.points);
     warn(turnWarning(name, postures.trajectory, kinematics));
     if (postures.trajectory.start != 0)
       warn(name + ": times count from its first one, " + detail::toDecimal(postures.trajectory.start) + " s");

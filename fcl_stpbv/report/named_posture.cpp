@@ -104,7 +104,7 @@ Eigen::VectorXd namedPosture(const std::string& option, const std::string& name,
 }
 
 std::string limitWarning(const std::string& name, const std::vector<Eigen::VectorXd>& postures,
-                         const Kinematics& kinematics) {
+                         const Kinematics& kinematics, const std::string& consequence) {
   constexpr double kOff = 1e-6;  // what a rounded number is off by (rad or m)
   std::string first;
   int more = -1;
@@ -129,8 +129,7 @@ std::string limitWarning(const std::string& name, const std::vector<Eigen::Vecto
   if (more > 0)
     first += ", and " + std::to_string(more) +
              (more == 1 ? " other joint leaves its" : " other joints leave theirs");
-  if (!first.empty()) first += "; what the pair list proves holds within the limits.";
-  return first;
+  return first.empty() ? "" : first + "; " + consequence + ".";
 }
 
 }  // namespace fcl_stpbv::report

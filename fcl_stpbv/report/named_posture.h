@@ -16,8 +16,9 @@ namespace fcl_stpbv::report {
 Eigen::VectorXd namedPosture(const std::string& option, const std::string& name, const Kinematics& kinematics,
                              const Srdf* srdf, const Eigen::VectorXd& rest, bool obstacles);
 
-/// A warning where coordinates leave their joints' limits in one of `postures`, which `name` gave; else "".
+/// A warning where coordinates leave their joints' limits in one of `postures`, which `name` gave, and the
+/// `consequence` of that; else "".
 std::string limitWarning(const std::string& name, const std::vector<Eigen::VectorXd>& postures,
-                         const Kinematics& kinematics);
+                         const Kinematics& kinematics, const std::string& consequence);
 
 }  // namespace fcl_stpbv::report

@@ -114,6 +114,18 @@ class FindPosture(unittest.TestCase):
             json.dump(task, file)
         self.assertEqual(self.gate_posture()[0], 1)
 
+    def test_a_start_beyond_the_limits_begins_within_them(self):
+        with open(REACH, encoding="utf-8") as file:
+            task = json.load(file)
+        task["start"] = {"joints": {"joint1": 100}}
+        path = os.path.join(self.folder.name, "reach.json")
+        with open(path, "w", encoding="utf-8") as file:
+            json.dump(task, file)
+        run = self.run_tool(ARM, path)
+        self.assertEqual(run.returncode, 0, run.stdout)
+        self.assertIn(f"{path}: start: the joint 'joint1' is at 100 rad, outside of its limits -3.1 to 3.1 rad; "
+                      "the search starts within the limits.", run.stderr)
+
     def test_a_margin_below_zero_is_warned_of(self):
         self.gate_task(0.5, margin=-0.2)
         status, answer, complaints = self.gate_posture()
