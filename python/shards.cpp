@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -30,6 +31,20 @@ using namespace detail;
 using Boxes = std::vector<std::pair<Eigen::VectorXd, Eigen::VectorXd>>;  ///< lower and upper limits
 using GivenBoxes = std::vector<std::pair<Floats<Eigen::VectorXd>, Floats<Eigen::VectorXd>>>;
 
+// Boxes of coordinates from Python. A box without room, or of limits that are no numbers, is refused.
+std::vector<JointBox> boxesOf(const GivenBoxes& given) {
+  std::vector<JointBox> boxes;
+  for (const auto& [lower, upper] : given) {
+    if (lower.value.size() != upper.value.size())
+      throw Error("boxes: a box has " + std::to_string(lower.value.size()) + " lower limits and " +
+                  std::to_string(upper.value.size()) + " upper ones; give as many of both");
+    if (!(lower.value.array() <= upper.value.array()).all())
+      throw Error("boxes: a lower limit is above its upper limit or not a number");
+    boxes.push_back({lower.value, upper.value});
+  }
+  return boxes;
+}
+
 /// A robot and the pairs of its links that joints move against each other.
 class PythonPairSearch {
  public:
@@ -42,13 +57,11 @@ class PythonPairSearch {
     options.radii = {r, R};
     options.packagePath = toText(packagePath);
     const auto geometry = std::make_shared<const RobotGeometry>(loadGeometry(*model, options));
+    std::set<std::pair<int, int>> known;
     for (const CheckedPair& pair : selfPairs(*model, *geometry, nullptr)) {
       const LinkPair links{geometry->bodies[static_cast<std::size_t>(pair.body)].link,
                            geometry->bodies[static_cast<std::size_t>(pair.other)].link};
-      const bool known = std::any_of(pairs_.begin(), pairs_.end(), [&](const LinkPair& p) {
-        return p.link1 == links.link1 && p.link2 == links.link2;
-      });
-      if (!known) pairs_.push_back(links);
+      if (known.emplace(links.link1, links.link2).second) pairs_.push_back(links);
     }
     std::vector<Obstacle> around;
     if (obstacles) {
@@ -83,16 +96,11 @@ class PythonPairSearch {
     const LinkPair links = linksOf(pair);
     requireCount(most, 0, "max_boxes");
     const std::size_t size = proofCoordinates(scene_, links).size();
-    std::vector<JointBox> open;
-    for (const auto& box : boxes) {
-      const Eigen::VectorXd &lower = box.first.value, &upper = box.second.value;
-      if (static_cast<std::size_t>(lower.size()) != size || lower.size() != upper.size())
+    std::vector<JointBox> open = boxesOf(boxes);
+    for (const JointBox& box : open)
+      if (static_cast<std::size_t>(box.lower.size()) != size)
         throw Error("boxes: a box of this pair has " + std::to_string(size) + " coordinates, got one of " +
-                    std::to_string(lower.size()) + " and " + std::to_string(upper.size()));
-      if (!(lower.array() <= upper.array()).all())
-        throw Error("boxes: a lower limit is above its upper limit or not a number");
-      open.push_back({lower, upper});
-    }
+                    std::to_string(box.lower.size()));
     constexpr long kAtOnce = 500;  // boxes, some 10 ms; a box's result depends on that box alone
     Interrupt interrupt;
     for (PairProof proof{std::move(open), std::nullopt, 0};; interrupt()) {
@@ -132,7 +140,7 @@ class PythonPairSearch {
     const std::string base = named(path, "srdf") ? path->string() : "";
     const Srdf known = base.empty() ? Srdf() : loadSrdf(base, robot);
     std::vector<PairEntry> list = joined();
-    for (const std::size_t pair : never) {
+    for (const std::size_t pair : std::set(never.begin(), never.end())) {
       const LinkPair& links = linksOf(pair);
       if (links.obstacle) continue;
       list.push_back(entryOf(links, PairReason::neverProven));
@@ -229,10 +237,9 @@ void addProof(py::module_& module) {
   py::class_<PairProof>(module, "PairProof", "How far the proof has come that a pair of links never meets.")
       .def(py::init([](const GivenBoxes& open, const std::optional<Floats<Eigen::VectorXd>>& collision,
                        long boxes) {
-             PairProof proof;
-             for (const auto& [lower, upper] : open) proof.open.push_back({lower.value, upper.value});
+             requireCount(boxes, 0, "boxes");
+             PairProof proof{boxesOf(open), std::nullopt, boxes};
              if (collision) proof.collision = collision->value;
-             proof.boxes = boxes;
              return proof;
            }),
            py::arg("open"), py::arg("collision") = py::none(), py::arg("boxes") = 0)

@@ -76,6 +76,19 @@ def test_a_piece_is_the_same_whatever_was_asked_before(arm):
     assert ask(arm, 4) == ask(fresh, 4) != ask(fresh, 5)
 
 
+@pytest.mark.parametrize("box", [([0.0], [0.0, 1.0]), ([1.0], [0.0]), ([float("nan")], [1.0])])
+def test_a_box_that_is_none_is_refused(arm, box):
+    with pytest.raises(fcl_stpbv.Error, match="^boxes: "):
+        fcl_stpbv.PairProof([box])
+    with pytest.raises(fcl_stpbv.Error, match="^boxes: "):
+        arm.prove(0, [box], 1)
+
+
+def test_a_count_below_zero_is_refused():
+    with pytest.raises(fcl_stpbv.Error, match="boxes"):
+        fcl_stpbv.PairProof([], None, -1)
+
+
 @pytest.mark.parametrize("margin", [float("nan"), float("inf"), -1e7])
 def test_a_margin_that_is_no_length_is_refused(margin):
     with pytest.raises(fcl_stpbv.Error, match="margin: got"):  # nothing collides within what is not a number

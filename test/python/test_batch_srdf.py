@@ -64,6 +64,11 @@ def test_no_sample_contradicts_what_an_srdf_calls_never(tmp_path):
     assert never and all(least[pair] > 0 for pair in never)
 
 
+def test_a_pair_named_twice_is_left_out_once():
+    arm = fcl_stpbv.PairSearch(str(ARM))
+    assert arm.srdf([3, 1, 3]) == arm.srdf([1, 3])
+
+
 def test_what_is_out_of_reach_is_proven_clear_and_what_is_hit_is_not(tmp_path):
     # From the shoulder at 0.26 m the arm reaches less than 1.1 m with all its bodies; the far sphere is 3 m away, the near one in its way.
     around = scene(tmp_path / "scene.urdf", far="0 3 0.26", near="0.5 0 0.26")
