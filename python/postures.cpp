@@ -50,7 +50,7 @@ class PythonPostureSearch {
     PostureOptions options;
     options.firstStart = start;
     options.starts = 1;
-    options.mends = 0;
+    options.mends = options.anywhere = 0;
     options.seed = seed;
     options.solver.maxSeconds = std::numeric_limits<double>::infinity();  // the clock must not decide
     Interrupt interrupt;

@@ -3,7 +3,7 @@
 // 2. solve by SLSQP from there (slsqp.cpp);
 // 3. stop at the first feasible posture.
 // Without one, the joints of what is violated in the best posture are drawn anew, and the search goes on from
-// there. Then the least sum of squared violations names the constraints in conflict and the limits they push
+// there; then from postures anywhere. Then the least sum of squared violations names the constraints in conflict and the limits they push
 // against. Where it leaves none, it is a feasible posture itself.
 #include "fcl_stpbv/posture/find_posture.h"
 
@@ -157,6 +157,8 @@ Posture findPosture(PostureSetup& setup, const PostureOptions& options) {
     const ApproachOptions firm;  // without the cost, which would pull the pairs into each other again
     consider(solve(problem, *x, {firm}, options.solver));
   }
+  for (int i = 0; i < options.anywhere && !best.feasible && !stopped(); ++i)
+    consider(solve(problem, starts.anywhere(), {ApproachOptions{}}, options.solver));
   if (!best.feasible && !stopped()) {
     ApproachOptions toTheEnd;
     toTheEnd.maxIterations = kLongest;

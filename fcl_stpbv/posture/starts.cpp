@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 namespace fcl_stpbv::detail {
@@ -52,6 +53,19 @@ VectorXd Starts::randomPosture(double way) {
     q[motion.coordinate] = start_[motion.coordinate] + (turns ? 0.2 : 0.1) * (2 * uniform() - 1);
   }
   return q;
+}
+
+VectorXd Starts::anywhere() {
+  constexpr int kDraws = 10;
+  VectorXd nearest;
+  double least = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < kDraws; ++i) {
+    const VectorXd x = problem_.variablesAt(randomPosture(kAnywhere));
+    const PostureValues& values = problem_.evaluate(x);
+    const double missed = values.equal.squaredNorm() + values.atLeast.cwiseMin(0).squaredNorm();
+    if (nearest.size() == 0 || missed < least) nearest = x, least = missed;
+  }
+  return nearest;
 }
 
 std::optional<VectorXd> Starts::mended(const VectorXd& from, const SolverOptions& options) {

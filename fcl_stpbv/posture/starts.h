@@ -27,6 +27,9 @@ class Starts {
   /// inequality.
   std::optional<Eigen::VectorXd> mended(const Eigen::VectorXd& x, const SolverOptions& options);
 
+  /// Variables of a posture anywhere within the limits: of ten random ones that which misses least.
+  Eigen::VectorXd anywhere();
+
  private:
   Eigen::VectorXd randomPosture(double way);
   void beginAnew();

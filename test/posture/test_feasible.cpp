@@ -261,3 +261,24 @@ TEST_CASE("the descent to what is least goes on to its end, along a way that is 
   for (const Violation& v : posture.conflict) UNSCOPED_INFO(v.name << ' ' << v.amount);
   CHECK(posture.feasible);
 }
+
+TEST_CASE("whole poses that an arm of six joints can take are found from one start of its own") {
+  const PostureScene scene = bodiesOf(chain(6, [](int i) {
+    const char* axis[] = {"0 0 1", "0 1 0", "0 1 0", "1 0 0", "0 1 0", "1 0 0"};
+    return "<origin xyz='" + std::string(i < 4 ? "0.3" : "0.05") + " 0 0.02'/><axis xyz='" + axis[i] +
+           "'/><limit lower='-2.5' upper='2.5' effort='1' velocity='1'/>";
+  }));
+  constexpr int kPoses = 200;
+  Random random(5);
+  int nearby = 0, anywhere = 0;
+  for (int i = 0; i < kPoses; ++i) {
+    const Eigen::Isometry3d target = poseOf(scene, randomWithin(scene, random), "l6");
+    PostureOptions options;
+    anywhere += found(scene, {wholePose("l6", target)}, options).feasible;
+    options.anywhere = 0;
+    nearby += found(scene, {wholePose("l6", target)}, options).feasible;
+  }
+  CAPTURE(nearby, anywhere);
+  CHECK(anywhere >= 0.99 * kPoses);
+  CHECK(nearby < anywhere);  // each pose has few solutions, far apart
+}
