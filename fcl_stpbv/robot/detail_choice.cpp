@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "fcl_stpbv/adapter/fcl_distance.h"
+#include "fcl_stpbv/adapter/fcl_shapes.h"
 #include "fcl_stpbv/adapter/hull_geometry.h"
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/numbers.h"
@@ -20,13 +21,32 @@
 namespace fcl_stpbv::detail {
 namespace {
 
+// Flat primitives of the same kind and size, or none.
+bool samePrimitive(const Body& a, const Body& b) {
+  const auto shape = [](const Body& body) {
+    Shape found;
+    const fcl::CollisionGeometryd& geometry = body.primitive ? *body.primitive : *body.geometry;
+    shapeOf(geometry, found);
+    return found;
+  };
+  const Shape x = shape(a), y = shape(b);
+  return x.kind == y.kind && x.margin == y.margin && x.radius == y.radius && x.half == y.half &&
+         x.size == y.size;
+}
+
+// The same mesh or primitive at the same place: levels differ in how it is covered.
+bool sameShape(const Body& a, const Body& b) {
+  return a.link == b.link && a.pose.matrix() == b.pose.matrix() && a.file == b.file && a.scale == b.scale &&
+         (!a.file.empty() || samePrimitive(a, b));
+}
+
 void requireSameShapes(const DetailChoice::Levels& levels) {
   if (levels.empty()) throw Error("modelForScene: no level of bodies was given");
   for (const auto& level : levels) {
     bool same = level->bodies.size() == levels[0]->bodies.size();
     for (std::size_t i = 0; same && i < level->bodies.size(); ++i) {
       const Body &a = level->bodies[i], &b = levels[0]->bodies[i];
-      same = a.link == b.link && a.file == b.file && a.partOf < 0;
+      same = sameShape(a, b) && a.partOf < 0;
     }
     if (!same) throw Error("modelForScene: each level must have the same links' whole bodies");
   }
@@ -91,7 +111,9 @@ bool DetailChoice::meets(const SceneNeed& need, Details details) {
   };
   const auto apart = [&](const Body& a, const fcl::CollisionGeometryd& geometry,
                          const Eigen::Isometry3d& pose) {
-    return fcl_stpbv::distance(*a.geometry, poseOf(a), geometry, pose).distance > need.clearance;
+    const DistanceAnswer found = fcl_stpbv::distance(*a.geometry, poseOf(a), geometry, pose);
+    return found.status != DistanceStatus::invalid &&
+           found.distance > need.clearance;  // else nothing is known
   };
   for (const Body* a : bodiesOf(need.pair.link1, details.first)) {
     if (need.pair.obstacle) {

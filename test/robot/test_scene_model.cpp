@@ -229,3 +229,50 @@ TEST_CASE("levels of other shapes and needs that make no sense are refused") {
   CHECK_THROWS_WITH(loadLevels(*workshop.robot, options, {-0.5}), Contains("a budget of -0.5"));
   CHECK_THROWS_WITH(loadLevels(*workshop.robot, options, {std::nan("")}), Contains("a budget of nan"));
 }
+
+TEST_CASE("what cannot be measured is not met") {
+  const Workshop& workshop = workshopOfAll();
+  const VectorXd q = workshop.at(0.5, 0.5), far = workshop.at(1e151, 0.5);
+  const auto unmetAmong = [&](const Eigen::Isometry3d& pose) {
+    const auto ball = std::make_shared<const fcl::Sphered>(0.1);
+    const std::vector<Obstacle> obstacles{{"ball", ball, pose, {0, 0, 0}, 0.1, nullptr, nullptr}};
+    const LinkPair pair{workshop.cupAndL.link2, 0, true};
+    return modelForScene(workshop.kinematics, workshop.levels, obstacles, {{pair, q, 0}}, workshop.options)
+        .unmet.size();
+  };
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  pose.translation() = Eigen::Vector3d(9, 9, 9);
+  CHECK(unmetAmong(pose) == 0);
+  pose.linear() *= 2;
+  CHECK(unmetAmong(pose) == 1);
+  CHECK(workshop.model({{workshop.cupAndL, far, 0.01}}).unmet.size() == 1);
+}
+
+TEST_CASE("levels of bodies that differ are refused") {
+  const TemporaryFolder folder;
+  const auto levelOf = [&](const std::string& shape) {
+    const auto model = parseUrdf(fcl_stpbv::test::robot(link("a", shape)), folder / "r.urdf");
+    return std::make_shared<const RobotGeometry>(loadGeometry(model, {}));
+  };
+  saveMesh(folder / "l.obj", lShape());
+  const auto kinematics = std::make_shared<const Kinematics>(std::make_shared<const RobotModel>(
+      parseUrdf(fcl_stpbv::test::robot(link("a", "<sphere radius=\"1\"/>")), folder / "r.urdf")));
+  const auto refused = [&](const std::string& one, const std::string& other) {
+    try {
+      modelForScene(kinematics, {levelOf(one), levelOf(other)}, {}, {}, {});
+    } catch (const Error& error) {
+      return std::string(error.what()).find("the same links' whole bodies") != std::string::npos;
+    }
+    return false;
+  };
+  const std::string ball = "<sphere radius=\"1\"/>", box = "<box size=\"1 2 3\"/>",
+                    mesh = "<mesh filename=\"l.obj\"";
+  CHECK_FALSE(refused(ball, ball));
+  CHECK_FALSE(refused(box, box));
+  CHECK_FALSE(refused(mesh + "/>", mesh + "/>"));
+  CHECK(refused(ball, "<sphere radius=\"2\"/>"));
+  CHECK(refused(ball, box));
+  CHECK(refused(box, "<box size=\"1 2 4\"/>"));
+  CHECK(refused(mesh + "/>", mesh + " scale=\"2 2 2\"/>"));
+  CHECK(refused(mesh + "/>", ball));
+}
