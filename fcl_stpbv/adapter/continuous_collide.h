@@ -53,7 +53,7 @@ struct MotionRequest {
   double margin = 0;  ///< a distance not above it is a contact (m); two meshes or trees have none below 0
   double tolerance =
       1e-4;  ///< of the time of contact, 1e-12 at least; 1 for any contact instead of the first
-  long mostQueries = 200000;  ///< then undecided
+  long mostQueries = 200000;  ///< or 1000 for each pair where these are more; then undecided
 };
 
 /// What becomes of pairs over the time from 0 to 1.
@@ -63,6 +63,7 @@ struct MotionBracket {
   double until = 1;                             ///< in contact at it; 1 for a free motion
   int pair = -1;                                ///< the one in contact, or not decided
   long queries = 0;                             ///< distances asked for
+  bool tooMany = false;                         ///< not decided because these are MotionRequest::mostQueries
 };
 
 /// What became of a motion over the time from 0 to 1.

@@ -15,6 +15,7 @@
 #include <limits>
 
 #include "fcl_stpbv/adapter/mesh_boxes.h"
+#include "fcl_stpbv/convex/vertex_set.h"
 #include "fcl_stpbv/packed.h"
 #include "fcl_stpbv/vectorized.h"
 
@@ -164,6 +165,20 @@ ElementTree::ElementTree(const fcl::CollisionGeometryd& geometry, bool known) : 
 bool ElementTree::finite() const {
   return withMesh(
       geometry_, [](const auto& mesh) { return areNumbers(mesh.vertices, mesh.num_vertices); }, true);
+}
+
+int ElementTree::corners() const {
+  return withMesh(
+      geometry_, [](const auto& mesh) { return mesh.num_vertices; }, 0);
+}
+
+double ElementTree::reach(const Vector3d& n) const {
+  return withMesh(
+      geometry_,
+      [&](const auto& mesh) {
+        return n.dot(mesh.vertices[furthestAlong(n, mesh.vertices, mesh.num_vertices)]);
+      },
+      std::numeric_limits<double>::infinity());
 }
 
 Node ElementTree::root() const {

@@ -53,6 +53,10 @@ class ElementTree {
   /// Whether all its corners are numbers, below 1e150 m: FCL's boxes hide those that are not. Looks at each
   /// of them, whether a triangle has it or not.
   bool finite() const;
+  /// How many corners a mesh has, and how far any of them reaches along `n` (geometry's frame, m), looking at
+  /// each; nothing is known of a tree.
+  int corners() const;
+  double reach(const Eigen::Vector3d& n) const;
   /// Whether FCL has merged its inner boxes. All boxes were then fitted anew, to the corners as they are now.
   bool merged() const { return fitted_ != nullptr; }
   /// Whether inner boxes tell little of where the elements are, as an octree's, which is kilometres across.

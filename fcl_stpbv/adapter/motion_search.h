@@ -27,6 +27,8 @@ class MotionSearch {
 
   MotionBracket run(int pairs) {
     result_ = {};
+    constexpr long kForEach = 1000;
+    most_ = std::max(request_.mostQueries, kForEach * pairs);
     hit_ = std::numeric_limits<double>::infinity();
     lists_.resize(static_cast<std::size_t>(pairs));
     for (std::size_t i = 0; i < lists_.size(); ++i) lists_[i] = static_cast<int>(i);
@@ -51,7 +53,8 @@ class MotionSearch {
       const int pair = inContact(b, first, last);
       if (pair >= 0) return finish(MotionVerdict::contact, a, b, pair);
     }
-    if (result_.queries > request_.mostQueries) return finish(MotionVerdict::undecided, a, b, lists_[first]);
+    result_.tooMany = result_.queries > most_;
+    if (result_.tooMany) return finish(MotionVerdict::undecided, a, b, lists_[first]);
     const double half = 0.5 * (b - a), middle = a + half;
     Cover least{half, half};
     const std::size_t early = lists_.size();
@@ -116,6 +119,7 @@ class MotionSearch {
   Scene& scene_;
   MotionRequest request_;
   MotionBracket result_;
+  long most_ = 0;   // queries
   double hit_ = 0;  // a contact, the earliest known
   int hitPair_ = -1;
   std::vector<int> lists_, later_;

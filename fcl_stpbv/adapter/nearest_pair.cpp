@@ -4,7 +4,9 @@
 //    and the body's support points (posed_geometry.h);
 // 2. skip what cannot hold one of the nearest two;
 // 3. solve two elements exactly, keep the two least.
-// Apart, one normal tells most. In an overlap each side of a body has its own.
+// Apart, one normal tells most. In an overlap each side of a body has its own. Where two meshes go on for as
+// many looks as they have corners, all corners are tried on the nearest elements' planes: level faces of many
+// triangles are all as near, and FCL's boxes, which are wider, cannot tell that none is nearer.
 #include "fcl_stpbv/adapter/nearest_pair.h"
 
 #include <algorithm>
@@ -37,7 +39,10 @@ struct FirstElements {
 class NearestElements {
  public:
   NearestElements(const PosedPair& pair, PairCache* cache)
-      : pair_(pair), surfaces_(pair.areSurfaces()), cache_(cache) {}
+      : pair_(pair), surfaces_(pair.areSurfaces()), cache_(cache) {
+    constexpr long kLeast = 100, kPart = 16;  // a look takes as long as some twenty corners
+    if (surfaces_) patience_ = kLeast + (pair.first.tree().corners() + pair.second.tree().corners()) / kPart;
+  }
 
   const ElementsDistance& result() const { return result_; }
 
@@ -45,7 +50,8 @@ class NearestElements {
   bool any() const { return result_.found.status != DistanceStatus::invalid; }
   const Part& first() const { return first_; }
 
-  double bound(const Part& a, const Part& b) const {
+  double bound(const Part& a, const Part& b) {
+    if (surfaces_ && ++result_.looks > patience_) tryAllCorners();
     if (surfaces_) return gapOf(pair_, a, b, any() ? result_.runnerUp : kInfinity, plane_[0].n);
     const Vector3d d = b.box.centre - a.box.centre;
     const double rounding = boxRounding(a, b);
@@ -59,7 +65,7 @@ class NearestElements {
     return skip(most) ? most : std::max(most, gapOf(pair_, a, b, result_.runnerUp));
   }
   // The second nearest pair is wanted too, but where two surfaces meet.
-  bool skip(double bound) const { return any() && bound >= result_.runnerUp; }
+  bool skip(double bound) const { return any() && (noneNearer_ || bound >= result_.runnerUp); }
 
   bool leaves(const Part& leafA, const Part& leafB) {
     ConvexBody a, b;
@@ -132,6 +138,23 @@ class NearestElements {
     return most;
   }
 
+  // Whether a gap along the best answer's normal is as wide as the answer: then no elements are nearer, and
+  // others may be as near.
+  void tryAllCorners() {
+    patience_ *= 2;
+    Distance& best = result_.found;
+    if (noneNearer_ || planes_ == 0 || !any()) return;
+    const Vector3d& n = plane_[0].n;
+    const double onA = pair_.first.reach(n), onB = -pair_.second.reach(-n);
+    const double rounding =
+        kGapRounding * (pair_.first.whole().coordinates + pair_.second.whole().coordinates);
+    const double gap = onB - onA - rounding;
+    if (!(gap >= best.distance - 2.0 * rounding)) return;
+    noneNearer_ = true;
+    result_.runnerUp = best.distance;
+    best.lower = lower_ = std::min(lower_, gap);
+  }
+
   // One plane of each direction is kept; that of the best answer is the first.
   void keepPlane(const Part& a, const Part& b, const Vector3d& world, bool best) {
     constexpr double kAlike = 0.999;  // cosine of 2.6 degrees
@@ -175,6 +198,8 @@ class NearestElements {
   std::array<Plane, 16> plane_;
   std::size_t planes_ = 0, oldest_ = 1;
   PairCache* cache_;
+  long patience_ = 0;
+  bool noneNearer_ = false;
 };
 
 /// Both hierarchies from their roots, two surfaces after a start from near elements.

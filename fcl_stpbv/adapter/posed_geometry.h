@@ -105,6 +105,11 @@ class PosedGeometry {
   /// The body. Only where it is one.
   const ConvexBody& body() const { return body_; }
 
+  /// How far a mesh reaches along `n` (frame of the pair's first geometry, m): looks at each corner.
+  double reach(const Eigen::Vector3d& n) const {
+    return n.dot(inFrame_.translation()) + tree_.reach(inFrame_.linear().transpose() * n);
+  }
+
   Part whole() const;
   /// At most eight; how many.
   std::size_t children(const Part& of, std::array<Part, 8>& child) const;

@@ -44,7 +44,7 @@ FirstStop firstStop(MotionCheck& check, double margin, const Trajectory& t, std:
     return {found.verdict,
             i,
             {timeAt(t, i, found.from), timeAt(t, i, found.until), found.pair, check.answer(found.pair, q)},
-            found.queries > request.mostQueries};
+            found.tooMany};
   }
   FirstStop none;
   none.at.from = none.at.until = t.time.back();

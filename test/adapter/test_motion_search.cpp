@@ -93,3 +93,20 @@ TEST_CASE("a contact is bracketed to 1e-12 whatever smaller tolerance is asked f
     CHECK(std::abs(found.until - 0.7) <= 1e-12);
   }
 }
+
+TEST_CASE("many pairs may take more looks than few") {
+  // A pair at this distance takes some hundreds of looks.
+  const std::function<double(double)> slow = [](double) { return 1.0 / 400; };
+  MotionRequest request;
+  request.mostQueries = 10;
+  Functions many{std::vector(50, slow)};
+  const MotionBracket free = MotionSearch<Functions>(many, request).run(50);
+  CHECK(free.verdict == MotionVerdict::free);
+  CHECK_FALSE(free.tooMany);
+  CHECK(free.queries > 50 * 100);
+  Functions slower{{[](double) { return 1e-5; }}};
+  const MotionBracket given = MotionSearch<Functions>(slower, request).run(1);
+  CHECK(given.verdict == MotionVerdict::undecided);
+  CHECK(given.tooMany);
+  CHECK(given.queries < 2000);
+}

@@ -315,3 +315,41 @@ TEST_CASE("two large meshes apart are measured by few of their triangles") {
   CAPTURE(solved);
   CHECK(solved < 140 * kPoses);  // 118 on average
 }
+
+TEST_CASE("level faces of many triangles take no more looks than the meshes have corners") {
+  const auto grid = [](int cells) {
+    auto mesh = std::make_shared<fcl::BVHModel<fcl::OBBRSSd>>();
+    std::vector<Vector3d> points;
+    std::vector<fcl::Triangle> triangles;
+    for (int i = 0; i <= cells; ++i)
+      for (int j = 0; j <= cells; ++j)
+        points.emplace_back(double(i) / cells - 0.5, double(j) / cells - 0.5, 0);
+    for (int i = 0; i < cells; ++i)
+      for (int j = 0; j < cells; ++j) {
+        const auto a = static_cast<std::size_t>(i * (cells + 1) + j),
+                   b = a + static_cast<std::size_t>(cells) + 1;
+        triangles.emplace_back(a, b, a + 1);
+        triangles.emplace_back(a + 1, b, b + 1);
+      }
+    mesh->beginModel();
+    mesh->addSubModel(points, triangles);
+    mesh->endModel();
+    return mesh;
+  };
+  const auto a = grid(60), b = grid(45);
+  for (const double gap : {0.3, 1e-3, 1e-9}) {
+    for (const double turn : {0.0, 0.7}) {
+      Isometry3d pose = Isometry3d::Identity();
+      pose.linear() = Eigen::AngleAxisd(turn, Vector3d::UnitZ()).toRotationMatrix();
+      pose.translation() = Vector3d(0.003, 0.002, gap);
+      const ElementsDistance found = nearestElements(*a, Isometry3d::Identity(), *b, pose, false);
+      CAPTURE(gap, turn, found.looks);
+      CHECK(found.looks < a->num_vertices + b->num_vertices);
+      CHECK(found.found.status == DistanceStatus::exact);
+      CHECK(std::abs(found.found.distance - gap) <= kRounding);
+      CHECK((found.found.lower <= gap && gap <= found.found.upper));
+      CHECK(found.found.upper - found.found.lower <= 2 * kRounding);
+      CHECK(std::abs(found.runnerUp - gap) <= kRounding);
+    }
+  }
+}
