@@ -13,6 +13,7 @@
 #include "fcl_stpbv/distance/shape_distance.h"
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/io/text_scanner.h"
+#include "fcl_stpbv/number_check.h"
 #include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/volume/covered_hull.h"
 #include "fcl_stpbv/volume/reduce.h"
@@ -93,8 +94,8 @@ class VolumeMaker {
   // The body's R, or a larger one where its own leaves corners of the hull inside.
   double leavesNoneInside(const std::vector<int>& corners) const {
     StpBvOptions wide = body_.radii;
-    for (StpBv::Ptr v = body_.volume; leftInside(*v, corners) > kNothing && wide.R < kLargest;) {
-      wide.R *= 4;
+    for (StpBv::Ptr v = body_.volume; leftInside(*v, corners) > kNothing && wide.R < kLargestR;) {
+      wide.R = std::min(4 * wide.R, kLargestR);
       v = StpBv::build(points(), wide);
     }
     return wide.R;
@@ -143,8 +144,8 @@ class VolumeMaker {
     StpBvOptions& radii = body_.radii;
     const CoveredHull hull(points());
     body_.cover = hull.of(*body_.volume);
-    for (; body_.cover.max > budget && radii.R < kLargest; body_.cover = hull.of(*body_.volume)) {
-      radii.R *= 2;  // the over-cover falls towards r
+    for (; body_.cover.max > budget && radii.R < kLargestR; body_.cover = hull.of(*body_.volume)) {
+      radii.R = std::min(2 * radii.R, kLargestR);  // the over-cover falls towards r
       body_.volume = cache_.volume(source_.key, radii, [&] { return StpBv::build(points(), radii); });
     }
     if (body_.cover.max > budget)
@@ -158,7 +159,6 @@ class VolumeMaker {
     body_.cover = hull.of(*few);
   }
 
-  static constexpr double kLargest = 1e5;   // beyond it a big sphere is flat to rounding (m)
   static constexpr double kNothing = 1e-5;  // what a distance to the hull may be off by (m)
 
   const ShapeSource& source_;

@@ -15,6 +15,7 @@
 #include "fcl_stpbv/number_check.h"
 #include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/robot/adjacency.h"
+#include "fcl_stpbv/robot/joint_path.h"
 #include "fcl_stpbv/robot/pair_list.h"
 #include "fcl_stpbv/robot/pair_list_again.h"
 #include "fcl_stpbv/robot/pair_proof.h"
@@ -198,7 +199,8 @@ class Search {
       // Ways of more joints than usual get fewer boxes and random descents: a box takes the square of the
       // joints, a descent their number, and a robot of long ways has many pairs.
       constexpr double kUsual = 24;  // joints
-      const double joints = static_cast<double>(open.proof.open.front().lower.size());
+      const double joints =
+          std::max<double>(static_cast<double>(open.proof.open.front().lower.size()), movingJoints(entry));
       const double share = std::min(1.0, kUsual / joints);
       descents *= std::pow(share, 2);
       if (advance(open, std::lround(static_cast<double>(options_.proofBoxes) * std::pow(share, 3))))
@@ -210,6 +212,15 @@ class Search {
     for (int i = 0; i < descents; ++i)
       if (descend(randomConfiguration(*kinematics_, random, room_))) return std::nullopt;
     return open;
+  }
+
+  // Between the two, mimic ones included, of which many may follow one coordinate.
+  int movingJoints(const LinkPair& pair) const {
+    const RobotModel& robot = kinematics_->robot();
+    const std::vector<int> path = jointPath(robot, pair.link1, pair.obstacle ? 0 : pair.link2).joints;
+    return static_cast<int>(std::count_if(path.begin(), path.end(), [&](int joint) {
+      return robot.joints[at(joint)].type != JointType::fixed;
+    }));
   }
 
   // Goes on with a proof; whether that decided the pair.

@@ -1,4 +1,5 @@
-// Parses untrusted XML: bounds size and depth, refuses document types, NUL bytes and xacro. Prints it.
+// Parses untrusted XML: bounds size, depth and attributes, refuses document types, NUL bytes and xacro.
+// Prints it.
 #include "fcl_stpbv/robot/xml_text.h"
 
 #include <algorithm>
@@ -23,6 +24,36 @@ void refuseDocumentType(const tinyxml2::XMLDocument& document, const std::string
       throw Error(at(name, node->GetLineNum()) +
                   "a document type with its own entities is not read; remove <!DOCTYPE ...> and write the "
                   "entities out");
+    }
+  }
+}
+
+// Parsers look for a name that comes twice among all that an element has so far: a million bytes of them take
+// a minute. Counts what is quoted in each tag; what is no tag, as in a comment, is not counted.
+void refuseManyAttributes(std::string_view text, const std::string& name) {
+  constexpr long kMost = 1000;
+  const auto skipTo = [&](std::size_t from, std::string_view end) {
+    return std::min(text.find(end, from), text.size());
+  };
+  for (std::size_t i = text.find('<'); i < text.size(); i = std::min(text.find('<', i), text.size())) {
+    const std::string_view rest = text.substr(i);
+    if (rest.substr(0, 4) == "<!--") {
+      i = skipTo(i + 4, "-->");
+    } else if (rest.substr(0, 9) == "<![CDATA[") {
+      i = skipTo(i + 9, "]]>");
+    } else {
+      const std::size_t start = i;
+      long quoted = 0;
+      for (; i < text.size() && text[i] != '>'; ++i) {
+        if (text[i] != '"' && text[i] != '\'') continue;
+        i = skipTo(i + 1, text.substr(i, 1));
+        if (++quoted > kMost)
+          throw Error(
+              at(name, 1 + static_cast<int>(std::count(
+                               text.begin(), text.begin() + static_cast<std::ptrdiff_t>(start), '\n'))) +
+              "an element of more than " + std::to_string(kMost) +
+              " attributes, which no robot description needs");
+      }
     }
   }
 }
@@ -89,6 +120,7 @@ void parseXml(std::string_view text, const std::string& name, tinyxml2::XMLDocum
   if (text.size() > kMaxBytes) throw Error(name + ": larger than 64 MB, which no robot description needs");
   if (text.find('\0') != std::string_view::npos)
     throw Error(name + ": holds NUL bytes; expected a text in XML, in UTF-8 and not in UTF-16");
+  refuseManyAttributes(text, name);
   if (document.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {
     const bool deep = document.ErrorID() == tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED;
     throw Error(at(name, document.ErrorLineNum()) +

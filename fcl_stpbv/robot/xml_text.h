@@ -1,4 +1,4 @@
-// XML from untrusted files: size, depth and entities are bounded before anything else reads it.
+// XML from untrusted files: size, depth, attributes and entities are bounded before anything else reads it.
 #pragma once
 
 #include <tinyxml2.h>

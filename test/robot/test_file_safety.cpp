@@ -235,6 +235,7 @@ TEST_CASE("a hostile robot description costs memory and time in proportion to it
       robot("<link name=\"" + std::string(2000000, 'a') + "\"/>"),
       robot(repeated(100000, "<link>") + repeated(100000, "</link>")),
       robot(repeated(100000, "<!-- -->")),
+      robot("<link name=\"a\"" + repeated(100000, " a=''") + "/>"),
       robot(test::link("a", "<sphere radius=\"1e999\"/>")),
       robot(test::link("a", "<mesh filename=\"/dev/zero\"/>")),
       std::string(1000000, '<'),

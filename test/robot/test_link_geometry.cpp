@@ -213,6 +213,13 @@ TEST_CASE("single links have their own radii, and an over-cover budget raises R"
   options.overCoverBudget = 0.004;
   CHECK_THAT(refusal([&](const std::string&) { loadGeometry(model, options); }, ""), Contains("budget"));
   options = cachedIn("");
+  options.radii.R = 100;
+  options.overCoverBudget = 0.0102;  // of which large faces leave 0.2 mm for what R adds
+  const TemporaryFolder other;
+  const Body large = loadGeometry(tetrahedron(other, 20), options).bodies[0];
+  CHECK(large.cover.max <= 0.0102);
+  CHECK(large.volume->radii().R > 2e5);
+  options = cachedIn("");
   options.links["nobody"] = {};
   CHECK_THAT(refusal([&](const std::string&) { loadGeometry(model, options); }, ""), Contains("nobody"));
 }
