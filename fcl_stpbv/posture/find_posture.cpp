@@ -3,8 +3,8 @@
 // 2. solve by SLSQP from there (slsqp.cpp);
 // 3. stop at the first feasible posture.
 // Without one, the joints of what is violated in the best posture are drawn anew, and the search goes on from
-// there; then from postures anywhere. Then the least sum of squared violations names the constraints in conflict and the limits they push
-// against. Where it leaves none, it is a feasible posture itself.
+// there; then from postures anywhere. Then the least sum of squared violations names the constraints in
+// conflict and the limits they push against. Where it leaves none, it is a feasible posture itself.
 #include "fcl_stpbv/posture/find_posture.h"
 
 #include <algorithm>

@@ -72,6 +72,7 @@ class Study {
   Study(int starts, int searchStarts, double tolerance)
       : scene_(loadRobot()), check_(scene_.robot, nullptr, {}), searchStarts_(searchStarts) {
     options_.starts = starts;
+    options_.anywhere = 0;  // what starts near the task's are worth is compared
     options_.solver.costTolerance = tolerance;
   }
 
