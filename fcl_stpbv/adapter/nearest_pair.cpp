@@ -4,9 +4,9 @@
 //    and the body's support points (posed_geometry.h);
 // 2. skip what cannot hold one of the nearest two;
 // 3. solve two elements exactly, keep the two least.
-// Apart, one normal tells most. In an overlap each side of a body has its own. Where two meshes go on for as
-// many looks as they have corners, all corners are tried on the nearest elements' planes: level faces of many
-// triangles are all as near, and FCL's boxes, which are wider, cannot tell that none is nearer.
+// Apart, one normal tells most. In an overlap each side of a body has its own. Where two meshes take
+// many looks, all their corners are tried on the nearest elements' planes: level faces of many triangles are
+// all as near, and FCL's boxes, which are wider, cannot tell that none is nearer.
 #include "fcl_stpbv/adapter/nearest_pair.h"
 
 #include <algorithm>

@@ -21,7 +21,7 @@
 namespace fcl_stpbv::detail {
 namespace {
 
-// Flat primitives of the same kind and size, or none.
+// Whether two primitives, covered or not, are of the same kind and size.
 bool samePrimitive(const Body& a, const Body& b) {
   const auto shape = [](const Body& body) {
     Shape found;
