@@ -124,9 +124,10 @@ int run(Arguments& a) {
   report.pairs = setup.pairs;
   std::vector<std::string> more;
   if (a.careless) more = collisionsOf(report);
-  const std::string beyond = limitWarning(a.task + ": start", {setup.start}, *report.kinematics,
-                                          "the search starts within the limits");
-  if (!beyond.empty()) more.push_back(beyond);
+  if (const std::string beyond = limitWarning(a.task + ": start", {setup.start}, *report.kinematics,
+                                              "the search starts within the limits");
+      !beyond.empty())
+    more.push_back(beyond);
   if (const std::string open = openParts(*report.scene.geometry); !open.empty())
     more.push_back(report.scene.robot->path + ": " + open);
   if (const std::string allowed = overlapsAllowed(report.task.collisionMargin); !allowed.empty())

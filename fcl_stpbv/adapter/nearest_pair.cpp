@@ -4,9 +4,9 @@
 //    and the body's support points (posed_geometry.h);
 // 2. skip what cannot hold one of the nearest two;
 // 3. solve two elements exactly, keep the two least.
-// Apart, one normal tells most. In an overlap each side of a body has its own. Where two meshes take
-// many looks, all their corners are tried on the nearest elements' planes: level faces of many triangles are
-// all as near, and FCL's boxes, which are wider, cannot tell that none is nearer.
+// Apart, one normal tells most. In an overlap each side of a body has its own. Where two meshes take many
+// looks, all their corners are tried on the nearest elements' planes: level faces of many triangles are all
+// as near, and FCL's boxes, which are wider, cannot tell that none is nearer.
 #include "fcl_stpbv/adapter/nearest_pair.h"
 
 #include <algorithm>
@@ -51,8 +51,10 @@ class NearestElements {
   const Part& first() const { return first_; }
 
   double bound(const Part& a, const Part& b) {
-    if (surfaces_ && ++result_.looks > patience_) tryAllCorners();
-    if (surfaces_) return gapOf(pair_, a, b, any() ? result_.runnerUp : kInfinity, plane_[0].n);
+    if (surfaces_) {
+      if (++result_.looks > patience_) tryAllCorners();
+      return gapOf(pair_, a, b, any() ? result_.runnerUp : kInfinity, plane_[0].n);
+    }
     const Vector3d d = b.box.centre - a.box.centre;
     const double rounding = boxRounding(a, b);
     double most = -kInfinity;

@@ -8,23 +8,17 @@
 namespace fcl_stpbv::detail {
 namespace {
 
-// Half the sum that is minimised, its slope and the Gauss-Newton approximation of its Hessian.
+// halfSum(), its slope and the Gauss-Newton approximation of its Hessian.
 struct Model {
   double value = 0;
   Eigen::VectorXd slope;
   Eigen::MatrixXd hessian;
 };
 
-double sumAt(const PostureValues& values, const ApproachOptions& options) {
-  return (options.costWeight * values.cost + values.equal.squaredNorm() +
-          options.atLeastWeight * values.atLeast.cwiseMin(0).squaredNorm()) /
-         2;
-}
-
 Model modelAt(const PostureValues& values, const Eigen::VectorXd& costCurvature,
               const ApproachOptions& options) {
   Model model;
-  model.value = sumAt(values, options);
+  model.value = halfSum(values, options);
   model.slope =
       options.costWeight / 2 * values.costGradient + values.equalJacobian.transpose() * values.equal;
   model.hessian = values.equalJacobian.transpose() * values.equalJacobian;
@@ -39,6 +33,12 @@ Model modelAt(const PostureValues& values, const Eigen::VectorXd& costCurvature,
 }
 
 }  // namespace
+
+double halfSum(const PostureValues& values, const ApproachOptions& options) {
+  return (options.costWeight * values.cost + values.equal.squaredNorm() +
+          options.atLeastWeight * values.atLeast.cwiseMin(0).squaredNorm()) /
+         2;
+}
 
 NearPosture approach(PostureProblem& problem, const Eigen::VectorXd& start, const ApproachOptions& options) {
   constexpr double kDamping = 1e-2;  // of the first step, in the units of the Hessian: m^2 or rad^2 per rad^2
@@ -68,7 +68,7 @@ NearPosture approach(PostureProblem& problem, const Eigen::VectorXd& start, cons
       return -model.slope.dot(step) - step.dot(model.hessian * step) / 2;
     };
     const double expected = foretold(moved - result.x);
-    const double reduction = model.value - sumAt(problem.evaluate(moved), options);
+    const double reduction = model.value - halfSum(problem.evaluate(moved), options);
     if (!(reduction > 0)) {
       // A step that a bound cuts short may lead up where a shorter one leads down. Beside the cost that is
       // near enough; without it only the least sum is.

@@ -19,6 +19,9 @@ struct NearPosture {
   int iterations = 0;
 };
 
+/// Half the sum that approach() minimises.
+double halfSum(const PostureValues& values, const ApproachOptions& options);
+
 /// Minimises costWeight * cost + the weighted sum of all squared violations within the bounds (Levenberg and
 /// Marquardt; steps end at bounds, variables that would leave them are held). Unlike a step of sequential
 /// quadratic programming its steps stay short where the constraints' Jacobian is singular, as it is for a

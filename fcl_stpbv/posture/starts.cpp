@@ -7,6 +7,8 @@
 #include <limits>
 #include <vector>
 
+#include "fcl_stpbv/posture/approach.h"
+
 namespace fcl_stpbv::detail {
 
 using Eigen::VectorXd;
@@ -61,8 +63,7 @@ VectorXd Starts::anywhere() {
   double least = std::numeric_limits<double>::infinity();
   for (int i = 0; i < kDraws; ++i) {
     const VectorXd x = problem_.variablesAt(randomPosture(kAnywhere));
-    const PostureValues& values = problem_.evaluate(x);
-    const double missed = values.equal.squaredNorm() + values.atLeast.cwiseMin(0).squaredNorm();
+    const double missed = halfSum(problem_.evaluate(x), {});
     if (nearest.size() == 0 || missed < least) nearest = x, least = missed;
   }
   return nearest;

@@ -318,7 +318,6 @@ TEST_CASE("two large meshes apart are measured by few of their triangles") {
 
 TEST_CASE("level faces of many triangles take no more looks than the meshes have corners") {
   const auto grid = [](int cells) {
-    auto mesh = std::make_shared<fcl::BVHModel<fcl::OBBRSSd>>();
     std::vector<Vector3d> points;
     std::vector<fcl::Triangle> triangles;
     for (int i = 0; i <= cells; ++i)
@@ -331,10 +330,7 @@ TEST_CASE("level faces of many triangles take no more looks than the meshes have
         triangles.emplace_back(a, b, a + 1);
         triangles.emplace_back(a + 1, b, b + 1);
       }
-    mesh->beginModel();
-    mesh->addSubModel(points, triangles);
-    mesh->endModel();
-    return mesh;
+    return meshOf<fcl::OBBRSSd>(points, triangles);
   };
   const auto a = grid(60), b = grid(45);
   for (const double gap : {0.3, 1e-3, 1e-9}) {
