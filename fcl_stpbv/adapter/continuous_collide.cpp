@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 
+#include "fcl_stpbv/adapter/element_cover.h"
 #include "fcl_stpbv/adapter/known_trees.h"
 #include "fcl_stpbv/adapter/motion_search.h"
 #include "fcl_stpbv/adapter/posed_geometry.h"
@@ -135,30 +136,48 @@ class MovingPair {
     const double gap = answer.lower - margin_;
     // What has no bounds and turns leaves every fixed plane.
     const bool turning = (a_.unbounded && a_.turns()) || (b_.unbounded && b_.turns());
-    if (margin_ < 0 && !a_.convex && !b_.convex)
+    if (margin_ < 0 && !a_.convex && !b_.convex) {
       cover = {most, most};  // surfaces have no depth
-    else
-      cover = a_.convex && b_.convex && !turning
-                  ? byPlane(gap, most)
-                  : speedCover(gap, a_.speed() + b_.speed(), 0.0, most, slack_);
+    } else if (a_.convex && b_.convex && !turning) {
+      cover = byPlane(gap, most);
+    } else {
+      cover = speedCover(gap, a_.speed() + b_.speed(), 0.0, most, slack_);
+      if (!turning && std::min(cover.before, cover.after) < most) byElements(most, cover);
+    }
     return false;
   }
 
   DistanceAnswer answer;
 
  private:
+  Vector3d about() const { return 0.5 * (answer.points[0] + answer.points[1]); }
+
   Cover byPlane(double gap, double most) const {
-    const Vector3d about = 0.5 * (answer.points[0] + answer.points[1]);
-    const auto support = [&](const Moving& m, std::size_t which) {
-      return [&m, &about, which, this](const Vector3d& d) {
+    const auto support = [this](const Moving& m, std::size_t which) {
+      return [&m, which, this](const Vector3d& d) {
         // What has no bounds does not turn: its plane is the one that it shows.
-        if (m.unbounded) return d.dot(answer.points[which] - about);
+        if (m.unbounded) return d.dot(answer.points[which] - about());
         const double length = d.norm();
-        return length * m.body.support(d / length) + d.dot(m.pose.translation() - about);
+        return length * m.body.support(d / length) + d.dot(m.pose.translation() - about());
       };
     };
-    return planeCover(answer.normal, gap, support(a_, 0), a_.velocity(about), support(b_, 1),
-                      b_.velocity(about), most, slack_);
+    return planeCover(answer.normal, gap, support(a_, 0), a_.velocity(about()), support(b_, 1),
+                      b_.velocity(about()), most, slack_);
+  }
+
+  void byElements(double most, Cover& cover) const {
+    const PosedPair pair(a_.geometry, a_.pose, b_.geometry, b_.pose, /*known=*/true,
+                         {a_.refitted(), b_.refitted()});
+    lengthenByElements({pair,
+                        a_.pose,
+                        answer.normal,
+                        answer.points,
+                        about(),
+                        {a_.velocity(about()), b_.velocity(about())},
+                        a_.speed() + b_.speed(),
+                        margin_,
+                        slack_},
+                       most, cover);
   }
 
   Moving a_, b_;

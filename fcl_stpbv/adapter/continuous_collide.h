@@ -63,7 +63,7 @@ struct MotionBracket {
   double until = 1;                             ///< in contact at it; 1 for a free motion
   int pair = -1;                                ///< the one in contact, or not decided
   long queries = 0;                             ///< distances asked for
-  bool tooMany = false;                         ///< not decided because these are MotionRequest::mostQueries
+  bool tooMany = false;  ///< not decided because these exceed MotionRequest::mostQueries
 };
 
 /// What became of a motion over the time from 0 to 1.

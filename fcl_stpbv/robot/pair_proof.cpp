@@ -57,8 +57,10 @@ void requireSize(const JointBox& box, Index coordinates) {
   if (box.lower.size() != coordinates || box.upper.size() != coordinates)
     throw Error("a proof's boxes need a lower and an upper limit of each of the pair's " +
                 std::to_string(coordinates) + " coordinates");
-  if ((box.lower.array() > box.upper.array()).any())
-    throw Error("a proof's box has a lower limit above the upper one, so that it holds no configuration");
+  if (!(box.lower.array() <= box.upper.array()).all())
+    throw Error(
+        "a proof's box has a lower limit above the upper one or not a number, so that it holds no "
+        "configuration");
 }
 
 bool bounded(const JointBox& box) { return box.lower.allFinite() && box.upper.allFinite(); }
@@ -263,10 +265,9 @@ PairProof provePair(const ProofScene& scene, const LinkPair& pair, std::vector<J
                     long maxBoxes) {
   PairProof proof;
   proof.open = std::move(boxes);
-  if (!std::all_of(proof.open.begin(), proof.open.end(), bounded)) return proof;
   Prover prover(scene, pair);
   for (const JointBox& box : proof.open) requireSize(box, prover.coordinates());
-  if (!prover.hasBound()) return proof;
+  if (!prover.hasBound() || !std::all_of(proof.open.begin(), proof.open.end(), bounded)) return proof;
   while (!proof.open.empty() && proof.boxes < maxBoxes) {
     JointBox box = std::move(proof.open.back());
     proof.open.pop_back();

@@ -212,6 +212,10 @@ TEST_CASE("a proof of links without bodies, of what does not exist and of other 
   turned.lower.swap(turned.upper);
   CHECK_THROWS_WITH(provePair(scene, pair, {turned}, 1), Catch::Matchers::Contains("lower limit above"));
   CHECK_THROWS_AS(distanceBound(scene, pair, turned), Error);
+  JointBox unknown = unproven(scene, pair).open[0];
+  unknown.upper[0] = std::numeric_limits<double>::quiet_NaN();
+  CHECK_THROWS_WITH(provePair(scene, pair, {unknown}, 1), Catch::Matchers::Contains("not a number"));
+  CHECK_THROWS_AS(distanceBound(scene, pair, unknown), Error);
 }
 
 TEST_CASE("what bodies are too thin for is proven in one box, what they are not is found") {

@@ -1,0 +1,118 @@
+// Branch and bound over both hierarchies, for the two elements that may meet first. Two parts stay apart
+// 1. for as long as they need to come near, however they move;
+// 2. for as long as the plane of the distance now stays between them: a floor, with all that lies flat in it;
+// 3. two elements also for as long as the plane of their own distance does: a wall beside the floor.
+// Parts that stay apart for longer than two elements that are known are left out.
+#include "fcl_stpbv/adapter/element_cover.h"
+
+#include <cmath>
+#include <limits>
+
+namespace fcl_stpbv::detail {
+namespace {
+
+using Eigen::Vector3d;
+using Part = PosedGeometry::Part;
+
+constexpr double kSettled = std::numeric_limits<double>::infinity();
+
+Cover longer(const Cover& p, const Cover& q) {
+  return {std::max(p.before, q.before), std::max(p.after, q.after)};
+}
+
+Cover shorter(const Cover& p, const Cover& q) {
+  return {std::min(p.before, q.before), std::min(p.after, q.after)};
+}
+
+/// A visitor of descend().
+class FirstToMeet {
+ public:
+  FirstToMeet(const MovingNow& now, double most) : now_(now), met_{most, most}, left_{most, most} {}
+
+  /// For how long all stay apart.
+  Cover least() const { return shorter(met_, left_); }
+
+  double bound(const Part& a, const Part& b) {
+    const double gap = gapOf(now_.pair, a, b, kSettled);
+    if (leaveOut(bySpeed(gap))) return kSettled;
+    const auto reachA = [&](const Vector3d& d) { return reachOf(a, 0, d); };
+    const auto reachB = [&](const Vector3d& d) { return reachOf(b, 1, d); };
+    return leaveOut(byPlane(now_.normal, reachA, reachB, boxRounding(a, b))) ? kSettled : gap;
+  }
+
+  bool skip(double gap) { return leaveOut(bySpeed(gap)); }
+
+  bool leaves(const Part& a, const Part& b) {
+    std::array<ConvexBody, 2> body;
+    if (!now_.pair.first.body(a, body[0]) || !now_.pair.second.body(b, body[1])) return false;
+    const auto reachA = [&](const Vector3d& d) { return reachOf(body[0], 0, d); };
+    const auto reachB = [&](const Vector3d& d) { return reachOf(body[1], 1, d); };
+    const double rounding = body[0].rounding + body[1].rounding;
+    Cover cover = byPlane(now_.normal, reachA, reachB, rounding);
+    if (leaveOut(cover)) return false;
+    if (++queries_ <= kQueries) {
+      const Distance own = distance(body[0], body[1]);
+      if (own.status != DistanceStatus::invalid)
+        cover = longer(cover, longer(bySpeed(own.lower), byPlane(own.normal, reachA, reachB, rounding)));
+    } else {
+      cover = longer(cover, bySpeed(gapOf(now_.pair, a, b, kSettled)));
+    }
+    met_ = shorter(met_, cover);
+    return false;
+  }
+
+ private:
+  static constexpr int kQueries = 64;     // of two elements: more cost more than they gain
+  static constexpr double kEnough = 0.5;  // of the time of the elements met: fine meshes have many alike
+
+  double most() const { return std::max(met_.before, met_.after); }
+  bool leaveOut(const Cover& cover) {
+    if (!(cover.before >= kEnough * met_.before && cover.after >= kEnough * met_.after)) return false;
+    left_ = shorter(left_, cover);
+    return true;
+  }
+
+  Cover bySpeed(double gap) const {
+    return speedCover(gap - now_.margin, now_.speed, 0.0, most(), now_.slack);
+  }
+  /// From the gap along `n` of what both reach.
+  template <typename ReachA, typename ReachB>
+  Cover byPlane(const Vector3d& n, const ReachA& reachA, const ReachB& reachB, double rounding) const {
+    const double gap = -reachB(Vector3d(-n)) - reachA(n) - now_.margin;
+    return planeCover(n, gap, reachA, now_.velocity[0], reachB, now_.velocity[1], most(),
+                      now_.slack + rounding);
+  }
+
+  /// How far a part, or an element, reaches from `about` along `d`, of any length (m). What has no bounds
+  /// shows one plane.
+  double reachOf(const Part& part, std::size_t which, const Vector3d& d) const {
+    if (isUnbounded(which)) return d.dot(now_.point[which] - now_.about);
+    const double length = d.norm();
+    return length * part.reach(now_.pair.toWorld.transpose() * (d / length)) +
+           d.dot(now_.pose * part.box.centre - now_.about);
+  }
+  double reachOf(const ConvexBody& body, std::size_t which, const Vector3d& d) const {
+    if (isUnbounded(which)) return d.dot(now_.point[which] - now_.about);
+    const double length = d.norm();
+    return length * body.support(d / length) + d.dot(body.pose.translation() - now_.about);
+  }
+  bool isUnbounded(std::size_t which) const {
+    return which == 0 ? now_.pair.first.unbounded() : now_.pair.second.unbounded();
+  }
+
+  const MovingNow& now_;
+  Cover met_, left_;  // of the elements that were looked at, of what was left out
+  int queries_ = 0;
+};
+
+}  // namespace
+
+void lengthenByElements(const MovingNow& now, double most, Cover& cover) {
+  if (!now.pair.valid || !(now.normal.squaredNorm() > 0)) return;
+  const Part a = now.pair.first.whole(), b = now.pair.second.whole();
+  FirstToMeet first(now, most);
+  if (!first.skip(first.bound(a, b))) descend(now.pair, a, b, first);
+  cover = longer(cover, first.least());
+}
+
+}  // namespace fcl_stpbv::detail

@@ -1,0 +1,29 @@
+// How long a moving mesh or tree certainly stays apart from another geometry: of all its elements those near
+// enough to matter, each with a plane of its own between it and the other body.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <array>
+
+#include "fcl_stpbv/adapter/moving_bodies.h"
+#include "fcl_stpbv/adapter/posed_geometry.h"
+
+namespace fcl_stpbv::detail {
+
+/// Two geometries on their way, at one time. A geometry without bounds does not turn.
+struct MovingNow {
+  const PosedPair& pair;
+  Eigen::Isometry3d pose;                ///< of the first one
+  Eigen::Vector3d normal;                ///< of the distance now: unit, from the first to the second
+  std::array<Eigen::Vector3d, 2> point;  ///< its witness points
+  Eigen::Vector3d about;                 ///< between these: what the velocities are of
+  std::array<BodyVelocity, 2> velocity;
+  double speed;  ///< most at which any two of their points come nearer (m)
+  double margin;
+  double slack;  ///< for rounding, of a gap (m)
+};
+
+/// Makes `cover`, which the speed alone gives, longer where planes between elements do: up to `most`.
+void lengthenByElements(const MovingNow& now, double most, Cover& cover);
+
+}  // namespace fcl_stpbv::detail
