@@ -96,19 +96,23 @@ const fcl::OcTreed* asOcTree(const fcl::CollisionGeometryd& g) {
   return g.getNodeType() == fcl::GEOM_OCTREE ? static_cast<const fcl::OcTreed*>(&g) : nullptr;
 }
 
-Node treeNode(const fcl::OcTreed& tree, const Cell* cell, const fcl::AABBd& box) {
-  return {cell - tree.getRoot(), !tree.nodeHasChildren(cell), cell, boxAround(box)};
+Node treeNode(const fcl::OcTreed& tree, const Cell* cell, bool leaf, const fcl::AABBd& box) {
+  return {cell - tree.getRoot(), leaf, cell, boxAround(box)};
 }
 
+/// Cells that are free are left out. An inner cell's own mark may be older than those below it.
 int treeChildren(const fcl::OcTreed& tree, const Node& node, std::array<Node, 8>& child) {
   const Cell* cell = static_cast<const Cell*>(node.handle);
   const fcl::AABBd box(node.box.centre - node.box.half, node.box.centre + node.box.half);
   int count = 0;
   for (unsigned i = 0; i < 8; ++i) {
     if (!tree.nodeChildExists(cell, i)) continue;
+    const Cell* below = tree.getNodeChild(cell, i);
+    const bool leaf = !tree.nodeHasChildren(below);
+    if (leaf && !tree.isNodeOccupied(below)) continue;
     fcl::AABBd part;
     fcl::computeChildBV(box, i, part);
-    child[static_cast<std::size_t>(count++)] = treeNode(tree, tree.getNodeChild(cell, i), part);
+    child[static_cast<std::size_t>(count++)] = treeNode(tree, below, leaf, part);
   }
   return count;
 }
@@ -184,7 +188,7 @@ double ElementTree::reach(const Vector3d& n) const {
 Node ElementTree::root() const {
 #if FCL_HAVE_OCTOMAP
   if (const fcl::OcTreed* tree = asOcTree(geometry_))
-    return treeNode(*tree, tree->getRoot(), tree->getRootBV());
+    return treeNode(*tree, tree->getRoot(), !tree->nodeHasChildren(tree->getRoot()), tree->getRootBV());
 #endif
   const Node none{-1, true, nullptr, {Vector3d::Zero(), Matrix3d::Zero(), Vector3d::Zero()}};
   return withMesh(

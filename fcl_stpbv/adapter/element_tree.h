@@ -64,7 +64,7 @@ class ElementTree {
   Node root() const;
   /// Whether there is an element below: a tree's cells may all be free. Looks at cells until it finds one.
   bool occupied(const Node& node) const;
-  /// The node's children, at most eight; how many.
+  /// The node's children but for cells that are free, at most eight; how many.
   int children(const Node& node, std::array<Node, 8>& child) const;
   /// A leaf as a shape, placed in the geometry's frame. False for a cell that is free.
   bool element(const Node& leaf, Shape& shape, Eigen::Vector3d& place) const;

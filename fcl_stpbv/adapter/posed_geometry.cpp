@@ -54,6 +54,27 @@ double gapAlongAxes(const PosedGeometry::Part& a, const PosedGeometry::Part& b, 
   return most > 0.0 ? gap.cwiseMax(0.0).norm() : most;
 }
 
+/// The box of these axes around a body.
+OrientedBox boxAlong(const Matrix3d& axes, const PosedGeometry::Part& body) {
+  OrientedBox box{body.box.centre, axes, {0, 0, 0}};
+  for (int i = 0; i < 3; ++i) {
+    const Vector3d axis = axes.col(i);
+    const double up = body.reach(axis), down = body.reach(-axis);
+    box.centre += 0.5 * (up - down) * axis;
+    box.half(i) = 0.5 * (up + down);
+  }
+  return box;
+}
+
+/// How far a body's box is from a cell of the same axes, or how deep in it. `inside`: the box's centre is in
+/// the cell, which hardly any plane then keeps from the body.
+double gapFromCell(const OrientedBox& body, const OrientedBox& cell, bool& inside) {
+  const Vector3d off = (cell.axes.transpose() * (body.centre - cell.centre)).cwiseAbs() - cell.half;
+  const double most = (off - body.half).maxCoeff();
+  inside = off.maxCoeff() <= 0.0;
+  return most > 0.0 ? (off - body.half).cwiseMax(0.0).norm() : most;
+}
+
 /// gapOf() of two boxes. Each reaches along the other's axes as the matrix between them tells.
 FCL_STPBV_VECTORIZED
 double gapOfBoxes(const OrientedBox& a, const OrientedBox& b, double rounding, double enough,
@@ -173,6 +194,11 @@ PosedPair::PosedPair(const fcl::CollisionGeometryd& geometry1, Isometry3d pose1,
       second(geometry2, pose2, between(pose1, pose2), known, trees[1]),
       toWorld(pose1.linear()) {
   valid = valid && first.known() && second.known() && !(first.unbounded() && second.unbounded());
+  if (!valid) return;
+  if (first.loose() && second.isBody() && !second.unbounded())
+    besideTree = boxAlong(first.axes(), second.whole());
+  if (second.loose() && first.isBody() && !first.unbounded())
+    besideTree = boxAlong(second.axes(), first.whole());
 }
 
 double boxRounding(const PosedGeometry::Part& a, const PosedGeometry::Part& b) {
@@ -191,10 +217,20 @@ double gapOf(const PosedPair& pair, const PosedGeometry::Part& a, const PosedGeo
   const auto along = [&](const Vector3d& axis) {
     return axis.dot(d) - a.reach(axis) - b.reach(-axis) - rounding;
   };
-  double most = n.isZero(0) ? -std::numeric_limits<double>::infinity() : along(n);
+  double most = -std::numeric_limits<double>::infinity();
+  const auto tryAxesOf = [&](const PosedGeometry::Part& part) {
+    if (!(most > enough))
+      most = std::max(most, (&part == &a ? gapAlongAxes(a, b, d) : gapAlongAxes(b, a, -d)) - rounding);
+  };
+  if (pair.besideTree) {
+    bool inside = false;
+    most = gapFromCell(*pair.besideTree, a.body ? b.box : a.box, inside) - rounding;
+    if (inside) return most;
+    tryAxesOf(a.body ? a : b);
+  }
+  if (!(most > enough) && !n.isZero(0)) most = std::max(most, along(n));
   if (!(most > enough)) most = std::max(most, along(d / length));
-  if (!(most > enough)) most = std::max(most, gapAlongAxes(a, b, d) - rounding);
-  if (!(most > enough)) most = std::max(most, gapAlongAxes(b, a, -d) - rounding);
+  if (!pair.besideTree) tryAxesOf(a), tryAxesOf(b);
   return most;
 }
 

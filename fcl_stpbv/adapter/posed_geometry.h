@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <optional>
 
 #include "fcl_stpbv/adapter/element_tree.h"
 #include "fcl_stpbv/distance/distance.h"
@@ -100,6 +101,8 @@ class PosedGeometry {
   bool loose() const { return tree_.loose(); }
   /// Its elements, of which there may be none.
   const ElementTree& tree() const { return tree_; }
+  /// Its axes in the frame of the pair's first geometry.
+  Eigen::Matrix3d axes() const { return inFrame_.linear(); }
   bool isBody() const { return body_.volume || isShape_; }
   bool unbounded() const { return isShape_ && body_.shape.unbounded(); }
   /// The body. Only where it is one.
@@ -143,6 +146,8 @@ struct PosedPair {
   bool valid;  ///< both poses rigid, both geometries known, one of them bounded
   PosedGeometry first, second;
   Eigen::Matrix3d toWorld;  ///< the first geometry's axes
+  /// Beside a tree: a bounded body's box along the axes that all the tree's cells have.
+  std::optional<OrientedBox> besideTree;
 };
 
 /// No more than the distance of two parts (m): the widest gap along `n` (unit or zero, frame of the first

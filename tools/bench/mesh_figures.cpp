@@ -1,6 +1,10 @@
-// Microseconds of fcl_stpbv's queries of a body against a mesh of many triangles beside FCL's own, the two
-// taking turns; for the table of docs/fcl.md.
+// Microseconds of fcl_stpbv's queries of a body against a mesh of many triangles or an octree beside FCL's
+// own, the two taking turns; for the table of docs/fcl.md.
+#include <fcl/config.h>
 #include <fcl/geometry/bvh/BVH_model.h>
+#if FCL_HAVE_OCTOMAP
+#include <fcl/geometry/octree/octree.h>
+#endif
 #include <fcl/geometry/shape/box.h>
 #include <fcl/geometry/shape/cylinder.h>
 #include <fcl/geometry/shape/sphere.h>
@@ -66,8 +70,44 @@ benchmark::Poses posesAt(double away, int count) {
   return poses;
 }
 
+#if FCL_HAVE_OCTOMAP
+/// A map of a room 2.4 m wide and 1 m high, of cells of 5 cm: its floor, a wall, 300 cells here and there.
+/// The others are known to be free.
+Geometry roomMap() {
+  constexpr int kWide = 48, kHigh = 20;
+  auto cells = std::make_shared<octomap::OcTree>(0.05);
+  const auto mark = [&](int i, int j, int k, bool occupied) {
+    const auto at = [](int cell) { return 0.05F * (static_cast<float>(cell) + 0.5F); };
+    cells->updateNode(octomap::point3d(at(i - kWide / 2), at(j - kWide / 2), at(k)), occupied);
+  };
+  for (int i = 0; i < kWide; ++i)
+    for (int j = 0; j < kWide; ++j)
+      for (int k = -1; k < kHigh; ++k) mark(i, j, k, k < 0 || j == 0);
+  Random random(4);
+  for (int i = 0; i < 300; ++i)
+    for (int seen = 0; seen < 4; ++seen)  // over what is known of it
+      mark(random.below(kWide), random.below(kWide), random.below(kHigh), true);
+  cells->updateInnerOccupancy();
+  cells->prune();
+  return std::make_shared<fcl::OcTreed>(cells);
+}
+
+/// Anywhere over the map's floor, from a height of `low` to 0.3 m more, turned at random.
+benchmark::Poses posesOver(double low, int count) {
+  Random random(7);
+  benchmark::Poses poses;
+  for (int i = 0; i < count; ++i) {
+    const Vector3d place(random.uniform(-1, 1), random.uniform(-1, 1), low + random.uniform(0, 0.3));
+    poses.a.push_back(pose(random.rotation(), place));
+    poses.b.push_back(Isometry3d::Identity());
+  }
+  return poses;
+}
+#endif
+
 /// `distance`, else a contact or a yes or no. FCL sees an STP-BV's hull.
-Json figures(const Geometry& body, const Geometry& mesh, const benchmark::Poses& poses, const char* asked) {
+Json figures(const Geometry& body, const Geometry& surface, const benchmark::Poses& poses,
+             const char* asked) {
   const bool isDistance = std::string(asked) == "distance";
   const fcl::CollisionRequestd contacts(1, std::string(asked) == "contact");
   const fcl::DistanceRequestd points(true);
@@ -77,9 +117,9 @@ Json figures(const Geometry& body, const Geometry& mesh, const benchmark::Poses&
       fcl::DistanceResultd distance;
       fcl::CollisionResultd collision;
       if (isDistance)
-        distances(body.get(), a, mesh.get(), b, points, distance);
+        distances(body.get(), a, surface.get(), b, points, distance);
       else
-        collides(body.get(), a, mesh.get(), b, contacts, collision);
+        collides(body.get(), a, surface.get(), b, contacts, collision);
     };
   };
   const auto fcls =
@@ -104,24 +144,34 @@ int main(int argc, char** argv) {
     benchmark::Measurement result;
     result.name = "meshes";
     benchmark::requirePlace(folder, result.name);
-    for (const int n : {10, 100}) {
-      const Geometry mesh = bumpySurface(n);
+    const auto measure = [&](const std::string& surface, const Geometry& geometry, const Geometry& mesh,
+                             const char* place, const benchmark::Poses& poses) {
       const std::vector<std::pair<const char*, Geometry>> bodies{
           {"STP-BV",
            std::make_shared<StpBvGeometry>(StpBv::build(randomHull(60, {0.2, 0.2, 0.25}, 3), {0.01, 10}))},
           {"box", std::make_shared<fcl::Boxd>(0.4, 0.4, 0.5)},
           {"cylinder", std::make_shared<fcl::Cylinderd>(0.2, 0.4)},
           {"ball", std::make_shared<fcl::Sphered>(0.2)},
-          {"the mesh", mesh}};
-      for (const auto& [place, away] : {std::pair("meets", 0.3), std::pair("apart", 0.8)})
-        for (const char* asked : {"distance", "contact", "yes or no"})
-          for (const auto& [name, body] : bodies) {
-            Json row{{"triangles", 4 * n * (n - 1)}, {"body", name}, {"place", place}, {"asked", asked}};
-            row.update(figures(body, mesh, posesAt(away, queries), asked));
-            std::printf("%s\n", row.dump().c_str());
-            result.rows.push_back(std::move(row));
-          }
+          {"mesh", mesh}};
+      for (const char* asked : {"distance", "contact", "yes or no"})
+        for (const auto& [name, body] : bodies) {
+          Json row{{"surface", surface}, {"body", name}, {"place", place}, {"asked", asked}};
+          row.update(figures(body, geometry, poses, asked));
+          std::printf("%s\n", row.dump().c_str());
+          result.rows.push_back(std::move(row));
+        }
+    };
+    for (const int n : {10, 100}) {
+      const Geometry mesh = bumpySurface(n);
+      const std::string name = n == 10 ? "360 triangles" : "39,600 triangles";
+      measure(name, mesh, mesh, "meets", posesAt(0.3, queries));
+      measure(name, mesh, mesh, "apart", posesAt(0.8, queries));
     }
+#if FCL_HAVE_OCTOMAP
+    const Geometry map = roomMap(), mesh = bumpySurface(10);
+    measure("octree", map, mesh, "meets", posesOver(0.0, queries));
+    measure("octree", map, mesh, "apart", posesOver(1.5, queries));
+#endif
     if (!folder.empty()) benchmark::write(result, benchmark::commandLine(argc, argv), folder);
     return 0;
   });

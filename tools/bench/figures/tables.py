@@ -149,14 +149,14 @@ def shapes():
 
 @table("meshes")
 def meshes():
-    us = {(row["triangles"], row["place"], row["asked"], row["body"]): (row["us_fcl"], row["us"]) for row in measured("meshes")["rows"]}
+    us = {(row["surface"], row["place"], row["asked"], row["body"]): (row["us_fcl"], row["us"]) for row in measured("meshes")["rows"]}
     bodies = list(dict.fromkeys(key[3] for key in us))
     places = {"meets": "overlap", "apart": "apart"}
     short = lambda us: f"{us:,.0f}" if us >= 100 else f"{us:.3g}"
     cell = lambda fcl, ours: f"{short(fcl)} / {short(ours)} ({ours / fcl:.2g})"
-    return markdown(("triangles", "the two", "asked", *bodies),
-                    [(f"{triangles:,}", places[place], asked, *(cell(*us[triangles, place, asked, body]) for body in bodies))
-                     for triangles, place, asked in dict.fromkeys(key[:3] for key in us)])
+    return markdown(("surface", "the two", "asked", *bodies),
+                    [(surface, places[place], asked, *(cell(*us[surface, place, asked, body]) for body in bodies))
+                     for surface, place, asked in dict.fromkeys(key[:3] for key in us)])
 
 
 @table("constraints", "constraints_jvrc1")
