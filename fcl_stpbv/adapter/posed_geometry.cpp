@@ -137,7 +137,8 @@ bool areBodies(const fcl::CollisionGeometryd& geometry1, const Isometry3d& pose1
   if (!isConvex(geometry1, a) || !isConvex(geometry2, b)) return false;
   a.pose = pose1;
   b.pose = pose2;
-  return a.volume || b.volume || (!a.unbounded() && !b.unbounded() && makeRigid(a.pose) && makeRigid(b.pose));
+  return a.volume || b.volume ||
+         (!(a.unbounded() && b.unbounded()) && makeRigid(a.pose) && makeRigid(b.pose));
 }
 
 PosedGeometry::PosedGeometry(const fcl::CollisionGeometryd& geometry, const Isometry3d& pose,

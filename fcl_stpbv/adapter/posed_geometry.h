@@ -61,7 +61,7 @@ bool isFartherThan(double x, const ConvexBody& a, const ConvexBody& b, PairCache
 bool isFartherByBounds(double x, const ConvexBody& a, const ConvexBody& b, const PairCache& cache);
 
 /// Two convex bodies at their poses, which need no boxes around them: with an STP-BV at any poses, else
-/// bounded and valid ones at poses that are made rigid. False for any other two.
+/// valid ones, one of them bounded, at poses that are made rigid. False for any other two.
 bool areBodies(const fcl::CollisionGeometryd& geometry1, const Eigen::Isometry3d& pose1,
                const fcl::CollisionGeometryd& geometry2, const Eigen::Isometry3d& pose2, ConvexBody& a,
                ConvexBody& b);
