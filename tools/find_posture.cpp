@@ -24,6 +24,7 @@ using namespace fcl_stpbv::tools;
 
 enum Exit { kFeasible = 0, kInfeasible = 1, kUsage = 2, kPartly = 3 };
 
+constexpr const char* kProgram = "find_posture";
 constexpr const char* kDescription =
     "A posture of a robot that does a task free of collisions, by constrained optimisation with the smooth "
     "distance "
@@ -67,10 +68,9 @@ void describe(Program& app, Arguments& a) {
   app.flag("-q,--quiet", a.quiet, "No warnings");
 }
 
-void tell(const PostureReport& report) {
-  for (const std::string& shape : report.skipped)
-    std::cerr << "find_posture: left out and not checked: " << shape << "\n";
-  for (const std::string& warning : report.warnings) std::cerr << "find_posture: " << warning << "\n";
+void tellAll(const PostureReport& report) {
+  for (const std::string& shape : report.skipped) tell(kProgram, "left out and not checked: " + shape);
+  for (const std::string& warning : report.warnings) tell(kProgram, warning);
 }
 
 // The pairs that a posture found without them brings nearer than the margin, as warnings.
@@ -103,7 +103,7 @@ std::unique_ptr<PostureParts> load(const Arguments& a, PostureReport& report) {
   report.warnings = loader.warnings();
   report.skipped = loader.skipped();
   const bool split = report.task.partsAuto || report.task.parts > 1;
-  if (!a.quiet) tell(report);
+  if (!a.quiet) tellAll(report);
   return split ? std::make_unique<PostureParts>(report.task, scene, loader.sceneGeometry(), files.geometry)
                : nullptr;
 }
@@ -134,7 +134,7 @@ int run(Arguments& a) {
     more.push_back(a.task + ": " + allowed);
   report.warnings.insert(report.warnings.end(), more.begin(), more.end());
   for (const std::string& warning : more)
-    if (!a.quiet) std::cerr << "find_posture: " << warning << "\n";
+    if (!a.quiet) tell(kProgram, warning);
   if (!setup.pairs.empty() && !a.careless) {
     PostureSetup free = setUpWithoutCollisions(report.task, report.scene);
     report.withoutCollisions = findPosture(free, a.options);
@@ -150,7 +150,7 @@ int run(Arguments& a) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  Program program(kDescription, "find_posture");
+  Program program(kDescription, kProgram);
   program.footer(kFooter);
   Arguments arguments;
   describe(program, arguments);

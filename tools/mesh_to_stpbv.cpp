@@ -29,6 +29,7 @@ constexpr int kMostParts = 64;  // enough for any link, and each pair of two suc
 
 enum Exit { kDone = 0, kSomeFailed = 1 };
 
+constexpr const char* kProgram = "mesh_to_stpbv";
 constexpr const char* kDescription =
     "Builds the sphere-torus-patch bounding volume (STP-BV) of each input: a smooth, strictly convex body "
     "around its points.";
@@ -119,8 +120,6 @@ void describe(Program& app, Arguments& arguments) {
   app.flag("-q,--quiet", arguments.quiet, "No report for people and no progress bar; errors are still told");
 }
 
-void tell(const std::string& message) { std::cerr << "mesh_to_stpbv: " << message << std::endl; }
-
 // What became of one input: lines for standard output and for standard error.
 struct Outcome {
   bool good = false;
@@ -188,7 +187,7 @@ std::size_t runAll(const std::vector<Job>& jobs, const Arguments& arguments) {
       for (; told < jobs.size() && outcomes[told]; ++told) {
         bar.clear();
         reports << outcomes[told]->report << std::flush;
-        if (!outcomes[told]->complaint.empty()) tell(outcomes[told]->complaint);
+        if (!outcomes[told]->complaint.empty()) tell(kProgram, outcomes[told]->complaint);
         if (!outcomes[told]->good) ++failed;
         *outcomes[told] = {};
       }
@@ -240,15 +239,15 @@ int run(Arguments& arguments) {
   if (all)
     for (const std::filesystem::path& folder : missing) std::filesystem::remove(folder, error);
   if (failed > 0 && plan.jobs.size() > 1)
-    tell((all ? "all " : std::to_string(failed) + " of ") + std::to_string(plan.jobs.size()) +
-         " inputs failed, " + (all ? "nothing is written" : "the others are written"));
+    tell(kProgram, (all ? "all " : std::to_string(failed) + " of ") + std::to_string(plan.jobs.size()) +
+                       " inputs failed, " + (all ? "nothing is written" : "the others are written"));
   return failed > 0 ? kSomeFailed : kDone;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  Program program(kDescription, "mesh_to_stpbv");
+  Program program(kDescription, kProgram);
   program.footer(kFooter);
   Arguments arguments;
   describe(program, arguments);

@@ -3,6 +3,7 @@
 #include "tools/program.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -146,6 +147,11 @@ int Program::outputOr(int status) const {
   return kWrong;
 }
 
-void Program::say(const std::string& message) const { std::cerr << name_ << ": " << message << std::endl; }
+void tell(const std::string& program, std::string message) {
+  std::replace_if(
+      message.begin(), message.end(),
+      [](unsigned char c) { return (c < ' ' && c != '\n' && c != '\t') || c == 0x7f; }, '?');
+  std::cerr << program << ": " << message << std::endl;
+}
 
 }  // namespace fcl_stpbv::tools

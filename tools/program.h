@@ -43,6 +43,10 @@ class Option {
   CLI::Option* option_;
 };
 
+/// One message to standard error, after the program's name. Control characters, which names in it may have,
+/// would move the cursor or colour what follows: they become '?'.
+void tell(const std::string& program, std::string message);
+
 class Program {
  public:
   Program(const std::string& description, const std::string& name);
@@ -65,7 +69,7 @@ class Program {
  private:
   void refuseNoValue(int argc, char** argv) const;
   int outputOr(int status) const;
-  void say(const std::string& message) const;
+  void say(const std::string& message) const { tell(name_, message); }
 
   std::string name_;
   std::unique_ptr<CLI::App> app_;

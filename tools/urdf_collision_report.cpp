@@ -22,6 +22,7 @@ using namespace fcl_stpbv::tools;
 
 enum Exit { kClear = 0, kCollision = 1, kUsage = 2, kPartly = 3 };
 
+constexpr const char* kProgram = "urdf_collision_report";
 constexpr const char* kDescription =
     "Distances between the links of a robot, each covered by its sphere-torus-patch bounding volume "
     "(STP-BV).";
@@ -78,11 +79,10 @@ std::string written(const CollisionReport& report, const Arguments& a) {
 }
 
 void warn(const std::vector<std::string>& warnings, std::size_t top) {
-  for (std::size_t i = 0; i < std::min(top, warnings.size()); ++i)
-    std::cerr << "urdf_collision_report: " << warnings[i] << "\n";
+  for (std::size_t i = 0; i < std::min(top, warnings.size()); ++i) tell(kProgram, warnings[i]);
   if (warnings.size() > top)
-    std::cerr << "urdf_collision_report: ... and " << warnings.size() - top
-              << " more warnings (--top; the JSON has all)\n";
+    tell(kProgram,
+         "... and " + std::to_string(warnings.size() - top) + " more warnings (--top; the JSON has all)");
 }
 
 int run(Arguments& a) {
@@ -102,8 +102,7 @@ int run(Arguments& a) {
   const CollisionReport report = makeReport(request);
   stages.clear();
   if (!a.quiet) {
-    for (const std::string& shape : report.skipped)
-      std::cerr << "urdf_collision_report: left out and not checked: " << shape << "\n";
+    for (const std::string& shape : report.skipped) tell(kProgram, "left out and not checked: " + shape);
     warn(report.warnings, a.top);
   }
   const std::string text = written(report, a);
@@ -117,7 +116,7 @@ int run(Arguments& a) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  Program program(kDescription, "urdf_collision_report");
+  Program program(kDescription, kProgram);
   program.footer(kFooter);
   Arguments arguments;
   describe(program, arguments);

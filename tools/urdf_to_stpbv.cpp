@@ -14,6 +14,7 @@ using namespace fcl_stpbv::tools;
 
 enum Exit { kDone = 0, kUsage = 2, kPartly = 3 };
 
+constexpr const char* kProgram = "urdf_to_stpbv";
 constexpr const char* kDescription =
     "A robot's URDF with convex parts as its collision meshes, their sphere-torus-patch bounding volumes "
     "(STP-BVs), and the pairs of links to check.";
@@ -61,9 +62,8 @@ int run(Arguments& a) {
   const ConversionResult result = convertRobot(a.conversion);
   stages.clear();
   if (!a.quiet) {
-    for (const std::string& shape : result.skipped)
-      std::cerr << "urdf_to_stpbv: left out and not checked: " << shape << "\n";
-    for (const std::string& warning : result.warnings) std::cerr << "urdf_to_stpbv: " << warning << "\n";
+    for (const std::string& shape : result.skipped) tell(kProgram, "left out and not checked: " + shape);
+    for (const std::string& warning : result.warnings) tell(kProgram, warning);
     std::cout << result.summary << std::endl;
   }
   return result.skipped.empty() ? kDone : kPartly;
@@ -72,7 +72,7 @@ int run(Arguments& a) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  Program program(kDescription, "urdf_to_stpbv");
+  Program program(kDescription, kProgram);
   program.footer(kFooter);
   Arguments arguments;
   describe(program, arguments);

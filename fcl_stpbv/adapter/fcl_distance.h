@@ -59,7 +59,8 @@ struct DistanceAnswer {
   std::array<std::intptr_t, 2> element{-1, -1};
   /// Distance to the next triangle or cell (m), infinite where there is none: the nearest one
   /// can switch once both have come nearer to each other by the difference. Equal where the
-  /// nearest point is on a shared edge or corner.
+  /// nearest point is on a shared edge or corner. Of two meshes, clouds or trees it may be less
+  /// than that, down to `distance`: where one plane parts them, no next pair is looked for.
   double runnerUp = std::numeric_limits<double>::infinity();
   /// Whether distance and gradient are continuous over motions: true for an STP-BV against
   /// one or a simple shape; false for meshes and trees, whose nearest element switches,

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fcl_stpbv/numbers.h"
+
 namespace fcl_stpbv {
 namespace {
 
@@ -31,6 +33,32 @@ void requireBasePose(const PostureTask& task, const PostureScene& scene) {
                 scene.srdf->baseJoint +
                 "', and start.base leaves it at the origin; say in start.base where it stands, or name a "
                 "state without that joint");
+}
+
+bool endsWith(const std::string& name, const std::string& end) {
+  return name.size() > end.size() && name.compare(name.size() - end.size(), end.size(), end) == 0;
+}
+
+// Full turns are taken off where they make no difference to the posture: from rotations, and from continuous
+// joints that no other one follows. The search looks for them within half a turn.
+void takeOffTurns(const Kinematics& kinematics, Eigen::VectorXd& q) {
+  const std::vector<JointModel>& joints = kinematics.robot().joints;
+  const auto isFollowed = [&](int leader) {
+    return std::any_of(joints.begin(), joints.end(),
+                       [&](const JointModel& joint) { return joint.mimic && joint.mimic->joint == leader; });
+  };
+  for (int i = 0; i < kinematics.size(); ++i) {
+    const std::string& name = kinematics.names()[static_cast<std::size_t>(i)];
+    const int joint = kinematics.robot().joint(name);
+    if (joint >= 0
+            ? joints[static_cast<std::size_t>(joint)].type == JointType::continuous && !isFollowed(joint)
+            : endsWith(name, "/angle")) {
+      q[i] = std::remainder(q[i], detail::kTwoPi);
+    } else if (joint < 0 && endsWith(name, "/rx")) {
+      const double angle = q.segment<3>(i).norm();
+      if (angle > detail::kPi) q.segment<3>(i) *= std::remainder(angle, detail::kTwoPi) / angle;
+    }
+  }
 }
 
 [[noreturn]] void refuseJoint(const std::string& where, const std::string& joint) {
@@ -80,6 +108,7 @@ Eigen::VectorXd startOf(const PostureTask& task, const PostureScene& scene, cons
     }
     q[named.front()] = value;
   }
+  takeOffTurns(kinematics, q);
   return q;
 }
 

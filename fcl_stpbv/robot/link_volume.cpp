@@ -149,8 +149,9 @@ class VolumeMaker {
       body_.volume = cache_.volume(source_.key, radii, [&] { return StpBv::build(points(), radii); });
     }
     if (body_.cover.max > budget)
-      throw Error("no R keeps its over-cover within " + toDecimal(budget) +
-                  " m with r = " + toDecimal(radii.r) + " m; give a larger budget or a smaller r");
+      throw Error("no R up to " + toDecimal(kLargestR) + " m keeps its over-cover within " +
+                  toDecimal(budget) + " m with r = " + toDecimal(radii.r) +
+                  " m; give a larger budget or a smaller r");
     const StpBv::Ptr few = cache_.volume(source_.key + "\nreduced to " + toDecimal(budget), radii,
                                          [&] { return reduce(points(), radii, budget); });
     if (few->vertexCount() >= body_.volume->vertexCount()) return;

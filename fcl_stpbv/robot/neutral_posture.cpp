@@ -3,7 +3,6 @@
 #include "fcl_stpbv/robot/neutral_posture.h"
 
 #include <random>
-#include <set>
 
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/robot/pair_samples.h"
@@ -14,11 +13,9 @@ std::vector<std::pair<std::string, Eigen::VectorXd>> namedPostures(const Kinemat
                                                                    const Srdf* srdf) {
   std::vector<std::pair<std::string, Eigen::VectorXd>> postures;
   if (!srdf) return postures;
-  std::set<std::string> names;
-  for (const Srdf::State& state : srdf->states) {
-    if (!names.insert(state.name).second) continue;
+  for (const Srdf::State& state : srdf->allStates()) {
     try {
-      postures.emplace_back(state.name, kinematics.configuration(srdf->state(state.name)));
+      postures.emplace_back(state.name, kinematics.configuration(state));
     } catch (const Error&) {  // no posture
     }
   }

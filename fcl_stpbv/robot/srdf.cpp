@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <set>
 #include <string_view>
@@ -147,7 +148,12 @@ class SrdfReader {
       }
       const std::string value = requiredAttribute(*j, "value", path_);
       const MeshWords words = wordsOf(value);
-      std::vector<double>& list = state.joints[requiredAttribute(*j, "name", path_)];
+      const std::string name = requiredAttribute(*j, "name", path_);
+      const auto [place, isNew] = state.joints.try_emplace(name);
+      if (!isNew)
+        throw Error(xmlPlace(*j, path_) + "the group_state '" + state.name + "' names the joint '" + name +
+                    "' twice; leave one of them out");
+      std::vector<double>& list = place->second;
       for (const std::string_view word : words)
         if (double number; readMeshNumber(word, number)) list.push_back(number);
       if (list.empty() || list.size() != words.size())
@@ -168,6 +174,13 @@ std::pair<std::string, std::string> ascending(const std::string& link1, const st
   return link1 < link2 ? std::pair(link1, link2) : std::pair(link2, link1);
 }
 
+/// Takes over the joints of another state of the name. The first joint that the two differ in, or "".
+std::string takeJoints(Srdf::State& all, const Srdf::State& state) {
+  for (const auto& [joint, values] : state.joints)
+    if (all.joints.emplace(joint, values).first->second != values) return joint;
+  return "";
+}
+
 }  // namespace
 
 SkipReasons::SkipReasons(const Srdf* srdf) {
@@ -185,20 +198,34 @@ std::string SkipReasons::of(const std::string& link1, const std::string& link2) 
 }
 
 Srdf::State Srdf::state(const std::string& name) const {
-  std::string known;
   std::optional<State> found;
   for (const State& state : states) {
-    known += (known.empty() ? "" : ", ") + state.name;
     if (state.name != name) continue;
     if (!found) found = State{name, state.group, {}};
-    for (const auto& [joint, values] : state.joints)
-      if (found->joints.emplace(joint, values).first->second != values)
-        throw Error(path + ": several group_states are named '" + name + "' and differ in the joint '" +
-                    joint + "'; give one of them another name");
+    if (const std::string joint = takeJoints(*found, state); !joint.empty())
+      throw Error(path + ": several group_states are named '" + name + "' and differ in the joint '" + joint +
+                  "'; give one of them another name");
   }
   if (found) return *found;
+  std::string known;
+  for (const State& state : states) known += (known.empty() ? "" : ", ") + state.name;
   throw Error(path + ": no group_state is named '" + name + "'; " +
               (known.empty() ? "it has none" : "there are: " + known));
+}
+
+std::vector<Srdf::State> Srdf::allStates() const {
+  std::vector<State> all;
+  std::map<std::string, std::size_t> place;
+  std::set<std::string> differing;
+  for (const State& state : states) {
+    const auto [known, isNew] = place.emplace(state.name, all.size());
+    if (isNew) all.push_back(state);
+    if (!takeJoints(all[known->second], state).empty()) differing.insert(state.name);
+  }
+  all.erase(std::remove_if(all.begin(), all.end(),
+                           [&](const State& state) { return differing.count(state.name) > 0; }),
+            all.end());
+  return all;
 }
 
 bool Srdf::movesBase(const State& state) const {

@@ -40,6 +40,8 @@ struct Srdf {
   /// The posture of this name; of several groups together, where each has a state of the name.
   /// @throws Error naming the states there are, or a joint in which states of the name differ.
   State state(const std::string& name) const;
+  /// Those of all names, in the order that the file first has them; without names whose states differ.
+  std::vector<State> allStates() const;
   /// Whether the state puts the root link elsewhere, by other values of the virtual joint than those of no
   /// motion.
   bool movesBase(const State& state) const;

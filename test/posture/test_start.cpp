@@ -1,6 +1,8 @@
 // Where a task puts the base and the joints: a fixed base stands there, a planar one keeps its height, every
 // coordinate has its name; starts that lead nowhere.
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 
 #include "fcl_stpbv/error.h"
 #include "test/posture/arms.h"
@@ -111,6 +113,41 @@ TEST_CASE("every coordinate has the name that answers have") {
   CHECK(refused(R"({"p": 1})").find("start.joints: 'p' has several coordinates; give p/x, p/y, p/angle") !=
         std::string::npos);
   CHECK(refused(R"({"base/x": 1})").find("no joint 'base/x'") != std::string::npos);
+}
+
+TEST_CASE("full turns of a start make no difference, but for a joint that others follow at another speed") {
+  const std::string hand = ball("base") + ball("cart") + ball("hand", 0.3) + ball("tool") + ball("rack") +
+                           joint("p", "planar", "base", "cart", "<axis xyz='0 0 1'/>") +
+                           joint("c", "continuous", "cart", "hand", "") +
+                           joint("l", "continuous", "hand", "tool", "") +
+                           joint("m", "revolute", "tool", "rack",
+                                 "<limit lower='-9' upper='9' effort='1' velocity='1'/>"
+                                 "<mimic joint='l' multiplier='0.5'/>");
+  const PostureScene scene = bodiesOf(hand);
+  const auto startWith = [&](const std::string& base, const std::string& joints) {
+    const PostureTask task =
+        taskOf(R"({"base": ")" + base + R"(", "placements": [], "start": {"joints": )" + joints + "}}");
+    return startOf(task, scene, Kinematics(scene.robot, task.base));
+  };
+  const auto isNear = [](double found, double expected) { return std::abs(found - expected) < 1e-12; };
+  const Eigen::VectorXd q = startWith("planar", R"({"c": 4, "p/angle": -50, "base/angle": 7, "l": 4})");
+  const Kinematics kinematics(scene.robot, BaseMotion::planar);
+  const auto of = [&](const std::string& name) {
+    const auto& names = kinematics.names();
+    return q[std::find(names.begin(), names.end(), name) - names.begin()];
+  };
+  CHECK(isNear(of("c"), 4 - 2 * M_PI));
+  CHECK(isNear(of("p/angle"), -50 + 16 * M_PI));
+  CHECK(isNear(of("base/angle"), 7 - 2 * M_PI));
+  CHECK(of("l") == 4);  // half a turn less for `m` would be another posture
+  const Eigen::VectorXd turned = startWith("floating", R"({"base/rx": 5, "base/rz": -1})");
+  const Eigen::Vector3d given(5, 0, -1);
+  const auto rotation = [](const Eigen::Vector3d& v) {
+    return Eigen::AngleAxisd(v.norm(), v.normalized()).toRotationMatrix();
+  };
+  CHECK(turned.segment<3>(3).norm() < M_PI);
+  CHECK((rotation(turned.segment<3>(3)) - rotation(given)).norm() < 1e-14);
+  CHECK(startWith("floating", R"({"base/rx": 3, "c": -3})").segment<3>(3) == Eigen::Vector3d(3, 0, 0));
 }
 
 TEST_CASE("a start of another size than the robot's is refused") {

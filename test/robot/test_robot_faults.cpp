@@ -282,6 +282,12 @@ TEST_CASE("each value of a joint in a group_state must be a number to its end") 
     INFO(broken);
     CHECK(read(broken) == 1);
   }
+  CHECK(read("0.5\"/><joint name=\"k\" value=\"1") == 0);
+  put(folder / "s.srdf",
+      "<robot name=\"small\"><group_state name=\"s\"><joint name=\"j\" value=\"1\"/>\n<joint name=\"j\" "
+      "value=\"1\"/></group_state></robot>");
+  CHECK_THAT(refusal([&](const std::string& path) { loadSrdf(path, model); }, folder / "s.srdf"),
+             Contains("s.srdf:2") && Contains("'s'") && Contains("names the joint 'j' twice"));
 }
 
 TEST_CASE("entries of an SRDF for links that the robot does not have are warnings, and count for nothing") {

@@ -442,6 +442,13 @@ TEST_CASE("a posture of several groups is taken whole, and nothing of it is left
   CHECK(home[kinematics.coordinate("j")] == 0.2);
   CHECK(home[kinematics.coordinate("k")] == 0.3);
   CHECK_THAT(refusal([&](const std::string& name) { srdf.state(name); }, "odd"), Contains("'j'"));
+  CHECK_THAT(refusal([&](const std::string& name) { srdf.state(name); }, "hom"), Contains("home, home, odd"));
+  std::vector<std::string> names;
+  for (const Srdf::State& each : srdf.allStates()) {
+    names.push_back(each.name);
+    CHECK(each.joints == srdf.state(each.name).joints);
+  }
+  CHECK(names == std::vector<std::string>{"home", "typo", "follows", "still"});  // "odd" is two of one name
   REQUIRE(srdf.warnings.size() == 1);
   CHECK_THAT(srdf.warnings[0], Contains("'typo'") && Contains("'jj'"));
   CHECK(kinematics.configuration(srdf.state("still")) == kinematics.neutral());

@@ -269,6 +269,8 @@ class FindPosture(unittest.TestCase):
             self.assertEqual(run.stderr.count("\n"), 1, run.stderr)
             for word in words:
                 self.assertIn(word, run.stderr)
+        task["placements"][2]["link"] = "\x1b[31mred\r"
+        self.assertIn("the robot has no link '?[31mred?'", self.run_task(task).stderr)
         self.assertEqual(self.run_tool().returncode, 2)
         self.assertEqual(self.run_task(self.pick_can(), "--format", "xml").returncode, 2)
         self.assertEqual(self.run_tool("--help").returncode, 0)

@@ -148,6 +148,7 @@ class Postures(unittest.TestCase):
         self.urdf = self.put("planar.urdf", ROBOT.replace('name="l" type="prismatic"', 'name="l" type="planar"'))
         self.assertIn("name l/x and", self.report("--trajectory", self.put("motion.csv", "l,r\n0,0\n0.1,0.1\n"), status=2))
         self.assertIn("commas stand", self.report("--trajectory", self.put("motion.csv", "l;r\n0;0\n0.1;0.1\n"), status=2))
+        self.assertIn("carriage returns alone", self.report("--trajectory", self.put("motion.csv", "l,r\r0,0\r0.1,0.1\r"), status=2))
 
     def test_a_joint_named_time_is_not_taken_for_the_time(self):
         self.urdf = self.put("timed.urdf", ROBOT.replace('"r"', '"time"'))
