@@ -37,6 +37,7 @@ class Contacts {
   /// Whether the exact distance is cheaper than the yes-or-no test.
   static bool isQuick(const ConvexBody& a, const ConvexBody& b) {
     const auto isBall = [](const ConvexBody& c) { return c.shape.kind == ShapeKind::point; };
+    if (a.unbounded() || b.unbounded()) return true;
     return a.volume ? b.volume != nullptr : !b.volume && (isBall(a) || isBall(b));
   }
   bool meet(const ConvexBody& a, const ConvexBody& b, Contactd& contact) {

@@ -143,7 +143,7 @@ def shapes():
     names = list(dict.fromkeys(key[3] for key in rows))
     cell = lambda row: f"{row['ns_fcl']:,.0f} / {row['ns_cold']:,.0f} ({row['ns_cold'] / row['ns_fcl']:.2g}, {row['ns_warm'] / row['ns_fcl']:.2g})"
     return markdown(("body", "asked", "nearest centres (m)", *names),
-                    [(body, asked, f"{nearest:.2f}", *(cell(rows[body, asked, nearest, name]) for name in names))
+                    [(body, asked, f"{nearest:.2f}", *(cell(rows[key]) if (key := (body, asked, nearest, name)) in rows else "" for name in names))
                      for body, asked, nearest in dict.fromkeys(key[:3] for key in rows)])
 
 
