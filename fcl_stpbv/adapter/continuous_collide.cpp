@@ -52,6 +52,10 @@ class Moving {
   }
   /// Most that any of its points moves in a unit of time (m).
   double speed() const { return motion_.linear.norm() + turning_; }
+  /// The same seen from the other body. What is common to both does not bring them nearer.
+  double speedBeside(const Moving& other) const {
+    return (motion_.linear - other.motion_.linear).norm() + turning_ + other.turning_;
+  }
   bool turns() const { return !motion_.angular.isZero(0); }
   /// For what has no bounds: only where `other` comes does its speed matter, seen from the axis, which moves.
   void reachTo(const Moving& other) {
@@ -141,7 +145,7 @@ class MovingPair {
     } else if (a_.convex && b_.convex && !turning) {
       cover = byPlane(gap, most);
     } else {
-      cover = speedCover(gap, a_.speed() + b_.speed(), 0.0, most, slack_);
+      cover = speedCover(gap, a_.speedBeside(b_), 0.0, most, slack_);
       if (!turning && std::min(cover.before, cover.after) < most) byElements(most, cover);
     }
     return false;
@@ -174,7 +178,7 @@ class MovingPair {
                         answer.points,
                         about(),
                         {a_.velocity(about()), b_.velocity(about())},
-                        a_.speed() + b_.speed(),
+                        a_.speedBeside(b_),
                         margin_,
                         slack_},
                        most, cover);

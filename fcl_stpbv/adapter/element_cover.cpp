@@ -27,7 +27,9 @@ Cover shorter(const Cover& p, const Cover& q) {
 /// A visitor of descend().
 class FirstToMeet {
  public:
-  FirstToMeet(const MovingNow& now, double most) : now_(now), met_{most, most}, left_{most, most} {}
+  /// `known`: any two stay apart for as long as that.
+  FirstToMeet(const MovingNow& now, double most, const Cover& known)
+      : now_(now), known_(known), met_{most, most}, left_{most, most} {}
 
   /// For how long all stay apart.
   Cover least() const { return shorter(met_, left_); }
@@ -57,12 +59,12 @@ class FirstToMeet {
     } else {
       cover = longer(cover, bySpeed(gapOf(now_.pair, a, b, kSettled)));
     }
-    met_ = shorter(met_, cover);
+    met_ = shorter(met_, longer(cover, known_));
     return false;
   }
 
  private:
-  static constexpr int kQueries = 64;     // of two elements: more cost more than they gain
+  static constexpr int kQueries = 256;    // of two elements: more cost more than they gain
   static constexpr double kEnough = 0.5;  // of the time of the elements met: fine meshes have many alike
 
   double most() const { return std::max(met_.before, met_.after); }
@@ -101,6 +103,7 @@ class FirstToMeet {
   }
 
   const MovingNow& now_;
+  const Cover known_;
   Cover met_, left_;  // of the elements that were looked at, of what was left out
   int queries_ = 0;
 };
@@ -110,7 +113,7 @@ class FirstToMeet {
 void lengthenByElements(const MovingNow& now, double most, Cover& cover) {
   if (!now.pair.valid || !(now.normal.squaredNorm() > 0)) return;
   const Part a = now.pair.first.whole(), b = now.pair.second.whole();
-  FirstToMeet first(now, most);
+  FirstToMeet first(now, most, cover);
   if (!first.skip(first.bound(a, b))) descend(now.pair, a, b, first);
   cover = longer(cover, first.least());
 }

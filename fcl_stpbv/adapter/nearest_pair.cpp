@@ -209,7 +209,7 @@ void search(const PosedPair& pair, NearestElements& nearest) {
   const Part a = pair.first.whole(), b = pair.second.whole();
   if (pair.areSurfaces()) {
     FirstElements start;
-    descend(pair, a, b, start);
+    if (!descend(pair, a, b, start)) return;  // a tree of free cells
     if (descend(pair, a, start.b, nearest)) return;
     if (nearest.any() && descend(pair, nearest.first(), b, nearest)) return;
   }

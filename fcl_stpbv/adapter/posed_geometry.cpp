@@ -203,7 +203,8 @@ PosedPair::PosedPair(const fcl::CollisionGeometryd& geometry1, Isometry3d pose1,
 }
 
 double boxRounding(const PosedGeometry::Part& a, const PosedGeometry::Part& b) {
-  return kBoxRounding * (a.coordinates + b.coordinates);
+  return kBoxRounding * (a.coordinates + b.coordinates) + (a.body ? a.body->supportError() : 0.0) +
+         (b.body ? b.body->supportError() : 0.0);
 }
 
 double gapOf(const PosedPair& pair, const PosedGeometry::Part& a, const PosedGeometry::Part& b, double enough,

@@ -156,7 +156,7 @@ struct PosedPair {
 double gapOf(const PosedPair& pair, const PosedGeometry::Part& a, const PosedGeometry::Part& b, double enough,
              const Eigen::Vector3d& n = {0, 0, 0});
 
-/// What a gap between two boxes may be off by rounding (m).
+/// What a gap between two parts may be off by rounding, and by their support functions (m).
 double boxRounding(const PosedGeometry::Part& a, const PosedGeometry::Part& b);
 
 /// Goes down both hierarchies, the bigger part first and near children first. `visitor.bound(a, b)` is a

@@ -13,6 +13,7 @@
 #include <cmath>
 #include <memory>
 #include <utility>
+#include <vector>
 
 #include "fcl_stpbv/adapter/continuous_collide.h"
 #include "test/adapter/bodies.h"
@@ -77,6 +78,22 @@ TEST_CASE("a slide in a room, along a tree's cells and over bumps takes few look
     }
   slide(fcl::OcTreed(cells), 0, 30);
 #endif
+}
+
+TEST_CASE("what moves with a mesh stays as far from it, however fast both are") {
+  const auto floor = bumpyGround<fcl::AABBd>(10, 0.05);
+  std::vector<Vector3d> points;
+  Random random(9);
+  for (int i = 0; i < 25; ++i) points.push_back(0.3 * random.direction() + Vector3d(0, 0, 0.35 + 1e-6));
+  fcl::BVHModel<fcl::OBBRSSd> cloud;
+  cloud.beginModel();
+  cloud.addSubModel(points);
+  cloud.endModel();
+  SteadyMotion motion;
+  motion.linear = {3, 2, 1};
+  const MotionAnswer answer = firstContact(*floor, motion, cloud, motion);
+  CHECK(answer.verdict == MotionVerdict::free);
+  CHECK(answer.queries < 5);
 }
 
 TEST_CASE("bodies that graze bumpy ground are free or meet it where dense samples see it") {

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "fcl_stpbv/adapter/collide.h"
+#include "fcl_stpbv/adapter/continuous_collide.h"
 #include "fcl_stpbv/adapter/fcl_distance.h"
 #include "test/adapter/bodies.h"
 #include "test/reference/trials.h"
@@ -110,6 +111,28 @@ TEST_CASE("distances, contacts and thresholds beside a map are those of its occu
       }
   }
   CHECK((hits > trials(100) && apart > trials(60)));
+}
+
+TEST_CASE("a tree of free cells alone has no distance to anything, and meets nothing") {
+  const auto cells = std::make_shared<octomap::OcTree>(0.1);
+  cells->updateNode(octomap::point3d(0.3F, 0.1F, 0.2F), false);
+  cells->updateNode(octomap::point3d(1.3F, 0.1F, 0.2F), false);
+  const fcl::OcTreed tree(cells);
+  auto others = bodies();
+  others.push_back(std::make_shared<fcl::OcTreed>(Map(Marks::current).cells));
+  others.push_back(std::make_shared<fcl::OcTreed>(cells));
+  const Isometry3d here = at(0, 0, 0);
+  SteadyMotion still, past;
+  past.linear = {1, 0, 0};
+  for (const auto& other : others) {
+    CHECK(distance(*other, here, tree, here).status == DistanceStatus::invalid);
+    CHECK(distance(tree, here, *other, here).status == DistanceStatus::invalid);
+    CHECK(isFartherThan(0.0, tree, here, *other, here));
+    fcl::CollisionResultd none;
+    CHECK(collide(&tree, here, other.get(), here, {1, true}, none) == 0);
+    CHECK(firstContact(tree, still, *other, past).verdict == MotionVerdict::free);
+    CHECK(firstContact(*other, past, tree, still).verdict == MotionVerdict::free);
+  }
 }
 
 TEST_CASE("space known to be free costs a query nothing") {
