@@ -1,6 +1,5 @@
 // find_posture: joint values for a task, free of collisions, or which of
 // its constraints cannot hold together.
-#include <iostream>
 #include <memory>
 #include <tuple>
 
@@ -68,11 +67,6 @@ void describe(Program& app, Arguments& a) {
   app.flag("-q,--quiet", a.quiet, "No warnings");
 }
 
-void tellAll(const PostureReport& report) {
-  for (const std::string& shape : report.skipped) tell(kProgram, "left out and not checked: " + shape);
-  for (const std::string& warning : report.warnings) tell(kProgram, warning);
-}
-
 // The pairs that a posture found without them brings nearer than the margin, as warnings.
 std::vector<std::string> collisionsOf(const PostureReport& report) {
   std::vector<std::string> list;
@@ -103,7 +97,7 @@ std::unique_ptr<PostureParts> load(const Arguments& a, PostureReport& report) {
   report.warnings = loader.warnings();
   report.skipped = loader.skipped();
   const bool split = report.task.partsAuto || report.task.parts > 1;
-  if (!a.quiet) tellAll(report);
+  if (!a.quiet) tellAll(kProgram, report.skipped, report.warnings);
   return split ? std::make_unique<PostureParts>(report.task, scene, loader.sceneGeometry(), files.geometry)
                : nullptr;
 }
@@ -133,8 +127,7 @@ int run(Arguments& a) {
   if (const std::string allowed = overlapsAllowed(report.task.collisionMargin); !allowed.empty())
     more.push_back(a.task + ": " + allowed);
   report.warnings.insert(report.warnings.end(), more.begin(), more.end());
-  for (const std::string& warning : more)
-    if (!a.quiet) tell(kProgram, warning);
+  if (!a.quiet) tellAll(kProgram, {}, more);
   if (!setup.pairs.empty() && !a.careless) {
     PostureSetup free = setUpWithoutCollisions(report.task, report.scene);
     report.withoutCollisions = findPosture(free, a.options);

@@ -1,6 +1,7 @@
 // See robot_options.h.
 #include "tools/robot_options.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <tuple>
 
@@ -208,6 +209,15 @@ report::RobotFiles filesOf(const RobotArguments& arguments) {
   if (arguments.noCache) files.geometry.cacheFolder.clear();
   files.geometry.threads = arguments.jobs;
   return files;
+}
+
+void tellAll(const std::string& program, const std::vector<std::string>& skipped,
+             const std::vector<std::string>& warnings, std::size_t top) {
+  for (const std::string& shape : skipped) tell(program, "left out and not checked: " + shape);
+  for (std::size_t i = 0; i < std::min(top, warnings.size()); ++i) tell(program, warnings[i]);
+  if (warnings.size() > top)
+    tell(program,
+         "... and " + std::to_string(warnings.size() - top) + " more warnings (--top; the JSON has all)");
 }
 
 void checkOutput(const std::string& path, const report::RobotFiles& robot,

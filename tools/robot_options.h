@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -46,6 +47,11 @@ report::ReportRequest requestOf(const RobotArguments& robot, const SearchArgumen
 
 /// The files that the arguments ask for. @throws Error naming the option and what would work.
 report::RobotFiles filesOf(const RobotArguments& arguments);
+
+/// Tells of the shapes that were left out, and of the warnings the first `top`.
+void tellAll(const std::string& program, const std::vector<std::string>& skipped,
+             const std::vector<std::string>& warnings,
+             std::size_t top = std::numeric_limits<std::size_t>::max());
 
 /// @throws Error where nothing can be written to `path`, the argument of -o, and UsageError where that would
 /// replace a file that is read: the robot's, a mesh among them, or one of `others`.

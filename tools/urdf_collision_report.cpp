@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <functional>
-#include <iostream>
 #include <memory>
 
 #include "fcl_stpbv/io/atomic_write.h"
@@ -78,13 +77,6 @@ std::string written(const CollisionReport& report, const Arguments& a) {
   return toText(report, a.top);
 }
 
-void warn(const std::vector<std::string>& warnings, std::size_t top) {
-  for (std::size_t i = 0; i < std::min(top, warnings.size()); ++i) tell(kProgram, warnings[i]);
-  if (warnings.size() > top)
-    tell(kProgram,
-         "... and " + std::to_string(warnings.size() - top) + " more warnings (--top; the JSON has all)");
-}
-
 int run(Arguments& a) {
   const ReportRequest& asked = a.search.request;
   RobotFiles read = a.robot.files;
@@ -101,10 +93,7 @@ int run(Arguments& a) {
                 ": cannot be given with --pose; leave one of them out");
   const CollisionReport report = makeReport(request);
   stages.clear();
-  if (!a.quiet) {
-    for (const std::string& shape : report.skipped) tell(kProgram, "left out and not checked: " + shape);
-    warn(report.warnings, a.top);
-  }
+  if (!a.quiet) tellAll(kProgram, report.skipped, report.warnings, a.top);
   const std::string text = written(report, a);
   requireNoInput("-o", a.output, report.meshFiles);  // of a robot from a pipe, too
   writeOutput(a.output, text);

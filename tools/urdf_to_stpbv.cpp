@@ -62,8 +62,7 @@ int run(Arguments& a) {
   const ConversionResult result = convertRobot(a.conversion);
   stages.clear();
   if (!a.quiet) {
-    for (const std::string& shape : result.skipped) tell(kProgram, "left out and not checked: " + shape);
-    for (const std::string& warning : result.warnings) tell(kProgram, warning);
+    tellAll(kProgram, result.skipped, result.warnings);
     std::cout << result.summary << std::endl;
   }
   return result.skipped.empty() ? kDone : kPartly;

@@ -146,7 +146,7 @@ class MovingPair {
       cover = byPlane(gap, most);
     } else {
       cover = speedCover(gap, a_.speedBeside(b_), 0.0, most, slack_);
-      if (!turning && std::min(cover.before, cover.after) < most) byElements(most, cover);
+      if (!turning && std::min(cover.before, cover.after) < most) cover = byElements(most, cover);
     }
     return false;
   }
@@ -158,30 +158,25 @@ class MovingPair {
 
   Cover byPlane(double gap, double most) const {
     const auto support = [this](const Moving& m, std::size_t which) {
-      return [&m, which, this](const Vector3d& d) {
-        // What has no bounds does not turn: its plane is the one that it shows.
-        if (m.unbounded) return d.dot(answer.points[which] - about());
-        const double length = d.norm();
-        return length * m.body.support(d / length) + d.dot(m.pose.translation() - about());
-      };
+      return [&m, which, this](const Vector3d& d) { return m.body.reach(d, about(), answer.points[which]); };
     };
     return planeCover(answer.normal, gap, support(a_, 0), a_.velocity(about()), support(b_, 1),
                       b_.velocity(about()), most, slack_);
   }
 
-  void byElements(double most, Cover& cover) const {
+  Cover byElements(double most, const Cover& known) const {
     const PosedPair pair(a_.geometry, a_.pose, b_.geometry, b_.pose, /*known=*/true,
                          {a_.refitted(), b_.refitted()});
-    lengthenByElements({pair,
-                        a_.pose,
-                        answer.normal,
-                        answer.points,
-                        about(),
-                        {a_.velocity(about()), b_.velocity(about())},
-                        a_.speedBeside(b_),
-                        margin_,
-                        slack_},
-                       most, cover);
+    return elementCover({pair,
+                         a_.pose,
+                         answer.normal,
+                         answer.points,
+                         about(),
+                         {a_.velocity(about()), b_.velocity(about())},
+                         a_.speedBeside(b_),
+                         margin_,
+                         slack_},
+                        most, known);
   }
 
   Moving a_, b_;

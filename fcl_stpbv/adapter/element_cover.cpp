@@ -85,21 +85,14 @@ class FirstToMeet {
                       now_.slack + rounding);
   }
 
-  /// How far a part, or an element, reaches from `about` along `d`, of any length (m). What has no bounds
-  /// shows one plane.
+  /// How far a part, or an element, reaches from `about` along `d`, of any length (m).
   double reachOf(const Part& part, std::size_t which, const Vector3d& d) const {
-    if (isUnbounded(which)) return d.dot(now_.point[which] - now_.about);
-    const double length = d.norm();
-    return length * part.reach(now_.pair.toWorld.transpose() * (d / length)) +
+    if (part.body) return reachOf(*part.body, which, d);
+    return part.box.reach(now_.pair.toWorld.transpose() * d) +
            d.dot(now_.pose * part.box.centre - now_.about);
   }
   double reachOf(const ConvexBody& body, std::size_t which, const Vector3d& d) const {
-    if (isUnbounded(which)) return d.dot(now_.point[which] - now_.about);
-    const double length = d.norm();
-    return length * body.support(d / length) + d.dot(body.pose.translation() - now_.about);
-  }
-  bool isUnbounded(std::size_t which) const {
-    return which == 0 ? now_.pair.first.unbounded() : now_.pair.second.unbounded();
+    return body.reach(d, now_.about, now_.point[which]);
   }
 
   const MovingNow& now_;
@@ -110,12 +103,12 @@ class FirstToMeet {
 
 }  // namespace
 
-void lengthenByElements(const MovingNow& now, double most, Cover& cover) {
-  if (!now.pair.valid || !(now.normal.squaredNorm() > 0)) return;
+Cover elementCover(const MovingNow& now, double most, const Cover& known) {
+  if (!now.pair.valid || !(now.normal.squaredNorm() > 0)) return known;
   const Part a = now.pair.first.whole(), b = now.pair.second.whole();
-  FirstToMeet first(now, most, cover);
+  FirstToMeet first(now, most, known);
   if (!first.skip(first.bound(a, b))) descend(now.pair, a, b, first);
-  cover = longer(cover, first.least());
+  return longer(known, first.least());
 }
 
 }  // namespace fcl_stpbv::detail

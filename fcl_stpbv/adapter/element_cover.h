@@ -23,7 +23,8 @@ struct MovingNow {
   double slack;  ///< for rounding, of a gap (m)
 };
 
-/// Makes `cover`, which the speed alone gives, longer where planes between elements do: up to `most`.
-void lengthenByElements(const MovingNow& now, double most, Cover& cover);
+/// For how long, up to `most`, planes between their elements keep them apart: no shorter than `known`, which
+/// any two of them are.
+Cover elementCover(const MovingNow& now, double most, const Cover& known);
 
 }  // namespace fcl_stpbv::detail

@@ -16,10 +16,10 @@ namespace fcl_stpbv::detail {
 struct ElementsDistance {
   Distance found;
   std::array<std::intptr_t, 2> element{-1, -1};  ///< triangles or cells, as FCL numbers them; -1 for a shape
-  double runnerUp =
-      std::numeric_limits<double>::infinity();  ///< of the next two elements; of two surfaces no more (m)
-  int solved = 0;                               ///< pairs of elements whose distance was asked: the work
-  long looks = 0;                               ///< two meshes: pairs of boxes whose gap was asked
+  /// Distance of the next two elements; of two surfaces no more than that (m).
+  double runnerUp = std::numeric_limits<double>::infinity();
+  int solved = 0;  ///< pairs of elements whose distance was asked: the work
+  long looks = 0;  ///< two meshes: pairs of boxes whose gap was asked
 };
 
 /// A mesh or a tree against an STP-BV or a shape: signed, the least over its elements. Two of them: 0 where

@@ -42,6 +42,12 @@ double gapOfFlat(const Shape& flat, const OrientedBox& place, const PosedGeometr
          kBoxRounding * (place.centre.lpNorm<1>() + part.coordinates);
 }
 
+/// How far two boxes of the same axes are apart, or how deep in each other, by their gaps along these.
+double apartBy(const Vector3d& gap) {
+  const double most = gap.maxCoeff();
+  return most > 0.0 ? gap.cwiseMax(0.0).norm() : most;
+}
+
 /// The gap between `a` and a box of the same axes around `b`, whose centre is at `d` from a's.
 double gapAlongAxes(const PosedGeometry::Part& a, const PosedGeometry::Part& b, const Vector3d& d) {
   Vector3d gap;
@@ -50,16 +56,16 @@ double gapAlongAxes(const PosedGeometry::Part& a, const PosedGeometry::Part& b, 
     const double along = axis.dot(d);
     gap(i) = std::abs(along) - a.box.half(i) - b.reach(std::copysign(1.0, -along) * axis);
   }
-  const double most = gap.maxCoeff();
-  return most > 0.0 ? gap.cwiseMax(0.0).norm() : most;
+  return apartBy(gap);
 }
 
-/// The box of these axes around a body.
-OrientedBox boxAlong(const Matrix3d& axes, const PosedGeometry::Part& body) {
-  OrientedBox box{body.box.centre, axes, {0, 0, 0}};
+/// The box of these axes around what reaches so far from `place`.
+template <typename Reach>
+OrientedBox boxAlong(const Matrix3d& axes, const Vector3d& place, const Reach& reach) {
+  OrientedBox box{place, axes, {0, 0, 0}};
   for (int i = 0; i < 3; ++i) {
     const Vector3d axis = axes.col(i);
-    const double up = body.reach(axis), down = body.reach(-axis);
+    const double up = reach(axis), down = reach(Vector3d(-axis));
     box.centre += 0.5 * (up - down) * axis;
     box.half(i) = 0.5 * (up + down);
   }
@@ -70,9 +76,8 @@ OrientedBox boxAlong(const Matrix3d& axes, const PosedGeometry::Part& body) {
 /// the cell, which hardly any plane then keeps from the body.
 double gapFromCell(const OrientedBox& body, const OrientedBox& cell, bool& inside) {
   const Vector3d off = (cell.axes.transpose() * (body.centre - cell.centre)).cwiseAbs() - cell.half;
-  const double most = (off - body.half).maxCoeff();
   inside = off.maxCoeff() <= 0.0;
-  return most > 0.0 ? (off - body.half).cwiseMax(0.0).norm() : most;
+  return apartBy(off - body.half);
 }
 
 /// gapOf() of two boxes. Each reaches along the other's axes as the matrix between them tells.
@@ -153,11 +158,8 @@ PosedGeometry::PosedGeometry(const fcl::CollisionGeometryd& geometry, const Isom
 PosedGeometry::Part PosedGeometry::whole() const {
   if (!isBody()) return part(tree_.root());
   OrientedBox own{body_.shape.centre, Matrix3d::Identity(), {0, 0, 0}};
-  for (int i = 0; i < 3 && !unbounded(); ++i) {
-    const double high = body_.localSupport(own.axes.col(i)), low = -body_.localSupport(-own.axes.col(i));
-    own.centre(i) = 0.5 * (high + low);
-    own.half(i) = 0.5 * (high - low);
-  }
+  if (!unbounded())
+    own = boxAlong(own.axes, {0, 0, 0}, [this](const Vector3d& m) { return body_.localSupport(m); });
   return part({-1, true, nullptr, own}, &body_);
 }
 
@@ -196,10 +198,12 @@ PosedPair::PosedPair(const fcl::CollisionGeometryd& geometry1, Isometry3d pose1,
       toWorld(pose1.linear()) {
   valid = valid && first.known() && second.known() && !(first.unbounded() && second.unbounded());
   if (!valid) return;
-  if (first.loose() && second.isBody() && !second.unbounded())
-    besideTree = boxAlong(first.axes(), second.whole());
-  if (second.loose() && first.isBody() && !first.unbounded())
-    besideTree = boxAlong(second.axes(), first.whole());
+  const auto boxBeside = [](const PosedGeometry& tree, const PosedGeometry& other) {
+    const PosedGeometry::Part body = other.whole();
+    return boxAlong(tree.axes(), body.box.centre, [&](const Vector3d& axis) { return body.reach(axis); });
+  };
+  if (first.loose() && second.isBody() && !second.unbounded()) besideTree = boxBeside(first, second);
+  if (second.loose() && first.isBody() && !first.unbounded()) besideTree = boxBeside(second, first);
 }
 
 double boxRounding(const PosedGeometry::Part& a, const PosedGeometry::Part& b) {
@@ -220,19 +224,20 @@ double gapOf(const PosedPair& pair, const PosedGeometry::Part& a, const PosedGeo
     return axis.dot(d) - a.reach(axis) - b.reach(-axis) - rounding;
   };
   double most = -std::numeric_limits<double>::infinity();
-  const auto tryAxesOf = [&](const PosedGeometry::Part& part) {
-    if (!(most > enough))
-      most = std::max(most, (&part == &a ? gapAlongAxes(a, b, d) : gapAlongAxes(b, a, -d)) - rounding);
+  const auto tryAxes = [&](const PosedGeometry::Part& of, const PosedGeometry::Part& other,
+                           const Vector3d& to) {
+    if (!(most > enough)) most = std::max(most, gapAlongAxes(of, other, to) - rounding);
   };
   if (pair.besideTree) {
     bool inside = false;
     most = gapFromCell(*pair.besideTree, a.body ? b.box : a.box, inside) - rounding;
     if (inside) return most;
-    tryAxesOf(a.body ? a : b);
   }
+  if (pair.besideTree && a.body) tryAxes(a, b, d);
+  if (pair.besideTree && b.body) tryAxes(b, a, -d);
   if (!(most > enough) && !n.isZero(0)) most = std::max(most, along(n));
   if (!(most > enough)) most = std::max(most, along(d / length));
-  if (!pair.besideTree) tryAxesOf(a), tryAxesOf(b);
+  if (!pair.besideTree) tryAxes(a, b, d), tryAxes(b, a, -d);
   return most;
 }
 

@@ -30,7 +30,15 @@ struct ConvexBody {
   double support(const Eigen::Vector3d& n, int hint = -1) const {
     return localSupport(pose.linear().transpose() * n, hint);
   }
-  /// The same along a unit vector `m` of the body's own frame.
+  /// How far it reaches from the point `about` along `d`, of any length (world, m). What has no bounds is
+  /// looked at along its own normal alone: it shows the plane through `point`.
+  double reach(const Eigen::Vector3d& d, const Eigen::Vector3d& about, const Eigen::Vector3d& point,
+               int hint = -1) const {
+    if (unbounded()) return d.dot(point - about);
+    const double length = d.norm();
+    return length * support(d / length, hint) + d.dot(pose.translation() - about);
+  }
+  /// The same as support() along a unit vector `m` of the body's own frame.
   double localSupport(const Eigen::Vector3d& m, int hint = -1) const {
     return volume ? volume->support(m, hint) : m.dot(shape.support(m)) + shape.margin;
   }

@@ -46,7 +46,7 @@ std::vector<std::string> cellsOf(std::string_view line) {
 
 Columns fromCsv(const std::string& text, const std::string& path) {
   Columns columns;
-  if (text.find('\r') != std::string::npos && text.find('\n') == std::string::npos)
+  if (text.find('\n') == std::string::npos && text.find('\r') != std::string::npos)
     throw Error(path + ": its lines end in carriage returns alone; save it with line feeds");
   std::size_t number = 0;
   for (std::string_view rest = text; !rest.empty();) {

@@ -175,10 +175,7 @@ Cover MotionCheck::Impl::cover(int pair, const Distance& found, double margin, d
   }
   const auto support = [&](const Placed& body, std::size_t which) {
     return [&body, &about, &found, which](const Vector3d& d) {
-      if (body.body.unbounded()) return d.dot(found.point[which] - about);  // it does not turn
-      const double length = d.norm();
-      return length * body.body.support(d / length, found.patch[which]) +
-             d.dot(body.body.pose.translation() - about);
+      return body.body.reach(d, about, found.point[which], found.patch[which]);
     };
   };
   const double slack = chains_.slack() + 2 * (a.body.supportError() + b.body.supportError());

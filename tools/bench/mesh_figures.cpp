@@ -161,9 +161,8 @@ int main(int argc, char** argv) {
           result.rows.push_back(std::move(row));
         }
     };
-    for (const int n : {10, 100}) {
+    for (const auto& [n, name] : {std::pair(10, "360 triangles"), {100, "39,600 triangles"}}) {
       const Geometry mesh = bumpySurface(n);
-      const std::string name = n == 10 ? "360 triangles" : "39,600 triangles";
       measure(name, mesh, mesh, "meets", posesAt(0.3, queries));
       measure(name, mesh, mesh, "apart", posesAt(0.8, queries));
     }
