@@ -48,7 +48,7 @@ class Moving {
     body.pose = pose;
   }
   BodyVelocity velocity(const Vector3d& about) const {
-    return {velocity_ + motion_.angular.cross(about - pose.translation()), motion_.angular, acceleration_};
+    return {velocity_ + motion_.angular.cross(about - pose.translation()), motion_.angular, acceleration_, true};
   }
   /// Most that any of its points moves in a unit of time (m).
   double speed() const { return motion_.linear.norm() + turning_; }
@@ -174,6 +174,7 @@ class MovingPair {
                          about(),
                          {a_.velocity(about()), b_.velocity(about())},
                          a_.speedBeside(b_),
+                         0.0,  // that is the most on the whole way
                          margin_,
                          slack_},
                         most, known);

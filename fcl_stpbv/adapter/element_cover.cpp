@@ -75,7 +75,7 @@ class FirstToMeet {
   }
 
   Cover bySpeed(double gap) const {
-    return speedCover(gap - now_.margin, now_.speed, 0.0, most(), now_.slack);
+    return speedCover(gap - now_.margin, now_.speed, now_.acceleration, most(), now_.slack);
   }
   /// From the gap along `n` of what both reach.
   template <typename ReachA, typename ReachB>

@@ -18,7 +18,8 @@ struct MovingNow {
   std::array<Eigen::Vector3d, 2> point;  ///< its witness points
   Eigen::Vector3d about;                 ///< between these: what the velocities are of
   std::array<BodyVelocity, 2> velocity;
-  double speed;  ///< most at which any two of their points come nearer (m)
+  double speed;         ///< most at which any two of their points come nearer now (m)
+  double acceleration;  ///< most by which that speed grows in a unit of time (m)
   double margin;
   double slack;  ///< for rounding, of a gap (m)
 };

@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace fcl_stpbv::detail {
 
@@ -15,6 +16,15 @@ struct BodyVelocity {
   Eigen::Vector3d linear{0, 0, 0};  ///< of the point `about` (plane_cover), as if the body carried it
   Eigen::Vector3d angular{0, 0, 0};
   double acceleration = 0;  ///< no point of the body is ever accelerated by more
+  bool steady = false;      ///< `angular` never changes its direction: all accelerations are across it
+
+  /// No point of the body is ever accelerated by more along the unit vector `n`.
+  double accelerationAlong(const Eigen::Vector3d& n) const {
+    const double turn = angular.norm();
+    if (!steady || !(turn > 0)) return acceleration;
+    constexpr double kRounding = 4 * std::numeric_limits<double>::epsilon();  // of the sine
+    return acceleration * std::min(1.0, n.cross(angular).norm() / turn + kRounding);
+  }
 };
 
 /// Time before and after now for which two bodies certainly stay farther apart than a margin.
@@ -23,9 +33,9 @@ struct Cover {
 };
 
 /// The longest time up to `most` for which `gap + rate t - acceleration t^2 / 2`
-/// stays above 0 with the rate at most 0.
+/// stays above 0 with the rate at most 0. Of what is no number: 0.
 inline double timeAbove(double gap, double rate, double acceleration, double most) {
-  if (!(gap > 0)) return 0;
+  if (!(gap > 0) || std::isnan(rate) || std::isnan(acceleration)) return 0;
   const double k = std::min(rate, 0.0);
   if (gap + k * most - 0.5 * acceleration * most * most > 0) return most;
   const double root = std::sqrt(k * k + 2 * acceleration * gap);
@@ -44,7 +54,8 @@ Cover planeCover(const Eigen::Vector3d& n, double gap, const SupportA& supportA,
   gap -= slack;
   if (!(gap > 0)) return {};
   const Eigen::Vector3d turnA = n.cross(a.angular), turnB = n.cross(b.angular);
-  const double along = n.dot(b.linear - a.linear), acceleration = a.acceleration + b.acceleration;
+  const double along = n.dot(b.linear - a.linear),
+               acceleration = a.accelerationAlong(n) + b.accelerationAlong(n);
   const double now = -supportB(Eigen::Vector3d(-n)) - supportA(n);
   // What the velocities alone make of the gap after a time, against now.
   const auto rate = [&](double t) {

@@ -141,6 +141,7 @@ bool MotionChains::begin(const ConstVector& q0, const ConstVector& q1) {
 void MotionChains::prepare(Side& side) const {
   const Placed& body = bodies_[at(side.body)];
   side.acceleration = 0;
+  side.steady = true;
   if (body.link < 0) return;
   if (body.convex && body.body.unbounded()) {  // where it turns, no bound holds for all its points
     for (int h = side.firstHop; h < side.lastHop; ++h)
@@ -148,7 +149,11 @@ void MotionChains::prepare(Side& side) const {
     return;
   }
   double inner = 0;
-  for (int h = side.firstHop; h < side.lastHop; ++h) inner += hop_[at(hops_[at(h)])].spin;
+  for (int h = side.firstHop; h < side.lastHop; ++h) {
+    const Hop& hop = hop_[at(hops_[at(h)])];
+    side.steady &= !(hop.spin > 0) || (!(inner > 0) && hop.turns == 1);
+    inner += hop.spin;
+  }
   double lever = body.centre.norm() + body.radius;
   for (int h = side.lastHop; h-- > side.firstHop;) {
     const Hop& hop = hop_[at(hops_[at(h)])];
@@ -196,7 +201,7 @@ BodyVelocity MotionChains::velocityOf(const Pair& pair, int side, const Vector3d
     twist.linear -= twist_[at(pair.root)].linear;
     twist.angular -= twist_[at(pair.root)].angular;
   }
-  return {twist.linear + twist.angular.cross(about), twist.angular, of.acceleration};
+  return {twist.linear + twist.angular.cross(about), twist.angular, of.acceleration, of.steady};
 }
 
 }  // namespace fcl_stpbv::detail

@@ -35,6 +35,7 @@ class MotionChains {
     int body;               ///< among the bodies
     int firstHop, lastHop;  ///< joints of the chain, inner ones first
     double acceleration = 0;
+    bool steady = false;  ///< at most one joint turns, about an axis that its parent holds
   };
   struct Pair {
     Side side[2];

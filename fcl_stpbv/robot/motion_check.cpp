@@ -3,8 +3,8 @@
 // 1. robot/motion_chains.h says how the bodies move, and how much each can accelerate at most.
 // 2. At each time looked at: how long before and after it a plane keeps the bodies apart
 //    (planeCover), from their velocities. First the plane between their bounding balls; where that
-//    does not cover enough, the plane of the exact distance's normal. Bodies that are not convex have
-//    no such plane: the bound on their speed takes its place.
+//    does not cover enough, the plane of the exact distance's normal. Beside meshes and trees the bound
+//    on the bodies' speed, and a plane for each element (elementCover).
 // 3. adapter/motion_search.h chooses the times until the covers hold the whole motion, or a contact is found.
 //    For the closest approach the margin is the smallest distance so far.
 #include "fcl_stpbv/robot/motion_check.h"
@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fcl_stpbv/adapter/element_cover.h"
 #include "fcl_stpbv/adapter/motion_search.h"
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/numbers.h"
@@ -166,19 +167,28 @@ Cover MotionCheck::Impl::cover(int pair, const Distance& found, double margin, d
   const Vector3d about = 0.5 * (found.point[0] + found.point[1]);
   const BodyVelocity va = chains_.velocityOf(chains_.pair(pair), 0, about),
                      vb = chains_.velocityOf(chains_.pair(pair), 1, about);
+  const double slack = chains_.slack() + 2 * (a.body.supportError() + b.body.supportError());
   if (!a.convex || !b.convex) {
-    const auto speed = [](const Placed& body, const BodyVelocity& v, const Vector3d& point) {
-      return v.linear.norm() + v.angular.norm() * ((body.where - point).norm() + body.radius);
+    const double acceleration = va.acceleration + vb.acceleration;
+    if (!std::isfinite(acceleration)) return {};
+    // A half space has no ball; it does not turn here.
+    const auto turning = [&](const Placed& body, const BodyVelocity& v) {
+      const double turn = v.angular.norm();
+      return turn > 0 ? turn * ((body.where - about).norm() + body.radius) : 0.0;
     };
-    return speedCover(gap, speed(a, va, about) + speed(b, vb, about), va.acceleration + vb.acceleration, most,
-                      chains_.slack());
+    const double speed = (va.linear - vb.linear).norm() + turning(a, va) + turning(b, vb);
+    const Cover known = speedCover(gap, speed, acceleration, most, slack);
+    if (known.before >= most && known.after >= most) return known;
+    const PosedPair posed(*a.geometry, a.body.pose, *b.geometry, b.body.pose, a.finite && b.finite);
+    return elementCover(
+        {posed, a.body.pose, found.normal, found.point, about, {va, vb}, speed, acceleration, margin, slack},
+        most, known);
   }
   const auto support = [&](const Placed& body, std::size_t which) {
     return [&body, &about, &found, which](const Vector3d& d) {
       return body.body.reach(d, about, found.point[which], found.patch[which]);
     };
   };
-  const double slack = chains_.slack() + 2 * (a.body.supportError() + b.body.supportError());
   return planeCover(found.normal, gap, support(a, 0), va, support(b, 1), vb, most, slack);
 }
 

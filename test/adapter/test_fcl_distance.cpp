@@ -16,7 +16,7 @@
 #include "fcl_stpbv/adapter/fcl_shapes.h"
 #include "fcl_stpbv/convex/relative_pose.h"
 #include "fcl_stpbv/volume/measure.h"
-#include "test/adapter/bodies.h"
+#include "test/reference/fcl_bodies.h"
 #include "test/adapter/mirrored_pairs.h"
 #include "test/reference/hard_cases.h"
 #include "test/reference/shapes.h"

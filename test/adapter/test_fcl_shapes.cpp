@@ -22,7 +22,7 @@
 
 #include "fcl_stpbv/adapter/fcl_distance.h"
 #include "fcl_stpbv/distance/shape_distance.h"
-#include "test/adapter/bodies.h"
+#include "test/reference/fcl_bodies.h"
 
 using namespace fcl_stpbv;
 using namespace fcl_stpbv::test;

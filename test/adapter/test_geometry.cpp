@@ -10,7 +10,7 @@
 #include "fcl_stpbv/adapter/stp_bv_geometry.h"
 #include "fcl_stpbv/convex/hull_graph.h"
 #include "fcl_stpbv/error.h"
-#include "test/adapter/bodies.h"
+#include "test/reference/fcl_bodies.h"
 
 using namespace fcl_stpbv;
 using namespace fcl_stpbv::detail;

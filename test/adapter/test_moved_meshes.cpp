@@ -26,7 +26,7 @@
 #include "fcl_stpbv/adapter/element_tree.h"
 #include "fcl_stpbv/adapter/fcl_distance.h"
 #include "fcl_stpbv/adapter/fcl_hessian.h"
-#include "test/adapter/bodies.h"
+#include "test/reference/fcl_bodies.h"
 #include "test/reference/reference.h"
 
 using namespace fcl_stpbv;

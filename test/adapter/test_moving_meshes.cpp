@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "fcl_stpbv/adapter/continuous_collide.h"
-#include "test/adapter/bodies.h"
+#include "test/reference/fcl_bodies.h"
 #include "test/reference/trials.h"
 
 using namespace fcl_stpbv;

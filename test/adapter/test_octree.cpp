@@ -15,7 +15,7 @@
 #include "fcl_stpbv/adapter/collide.h"
 #include "fcl_stpbv/adapter/continuous_collide.h"
 #include "fcl_stpbv/adapter/fcl_distance.h"
-#include "test/adapter/bodies.h"
+#include "test/reference/fcl_bodies.h"
 #include "test/reference/trials.h"
 
 using namespace fcl_stpbv;

@@ -23,7 +23,7 @@
 #include "fcl_stpbv/adapter/hull_geometry.h"
 #include "fcl_stpbv/distance/shape_distance.h"
 #include "fcl_stpbv/distance/threshold.h"
-#include "test/adapter/bodies.h"
+#include "test/reference/fcl_bodies.h"
 #include "test/reference/shapes.h"
 
 using namespace fcl_stpbv;

@@ -13,6 +13,7 @@
 #include "fcl_stpbv/robot/constraints.h"
 #include "fcl_stpbv/robot/motion_chains.h"
 #include "fcl_stpbv/robot/motion_check.h"
+#include "test/reference/fcl_bodies.h"
 #include "test/reference/robots.h"
 
 using namespace fcl_stpbv;
@@ -47,6 +48,12 @@ const char* const kJoints = R"(<robot name="joints">
   <joint name="float" type="floating"><parent link="d"/><child link="e"/><origin xyz="-0.2 0 0"/></joint>
 </robot>)";
 
+std::shared_ptr<fcl::BVHModel<fcl::OBBRSSd>> meshOfBox(double x, double y, double z) {
+  auto mesh = std::make_shared<fcl::BVHModel<fcl::OBBRSSd>>();
+  fcl::generateBVHModel(*mesh, fcl::Boxd(x, y, z), Eigen::Isometry3d::Identity());
+  return mesh;
+}
+
 struct Scene {
   std::shared_ptr<const RobotModel> model;
   std::shared_ptr<const Kinematics> kinematics;
@@ -60,10 +67,13 @@ Scene everyJoint(BaseMotion base) {
   scene.model = std::make_shared<const RobotModel>(parseUrdf(kJoints, "joints.urdf"));
   GeometryOptions options;
   options.cacheFolder.clear();
-  scene.geometry = std::make_shared<const RobotGeometry>(loadGeometry(*scene.model, options));
+  RobotGeometry geometry = loadGeometry(*scene.model, options);
+  for (Body& body : geometry.bodies)
+    if (scene.model->links[static_cast<std::size_t>(body.link)].name == "e")
+      body.geometry = meshOfBox(0.3, 0.05, 0.05);
+  scene.geometry = std::make_shared<const RobotGeometry>(std::move(geometry));
   scene.kinematics = std::make_shared<const Kinematics>(scene.model, base);
-  auto mesh = std::make_shared<fcl::BVHModel<fcl::OBBRSSd>>();
-  fcl::generateBVHModel(*mesh, fcl::Boxd(0.3, 0.3, 0.3), Eigen::Isometry3d::Identity());
+  const auto mesh = meshOfBox(0.3, 0.3, 0.3);
   const auto place = [](double x, double y, double z) {
     return pose(Eigen::Matrix3d::Identity(), {x, y, z});
   };
@@ -173,6 +183,51 @@ TEST_CASE("the closest approach of each pair is within its precision of what sam
       CHECK(found.distance - precision <= least[row]);
       rows.evaluate(q0 + found.time * (q1 - q0), d);
       CHECK(std::abs(found.distance - d[row]) <= 1e-9);
+    }
+  }
+}
+
+TEST_CASE("a link that slides over a flat mesh takes few looks, however near, and meets a floor in time") {
+  const char* const gantry =
+      R"(<robot name="gantry"><link name="base"/><link name="rail"/><link name="wrist"/>
+    <link name="tool"><collision><geometry><box size="0.1 0.08 0.06"/></geometry></collision></link>
+    <joint name="along" type="prismatic"><parent link="base"/><child link="rail"/><axis xyz="1 0 0"/>
+      <limit lower="-1" upper="1" effort="1" velocity="1"/></joint>
+    <joint name="up" type="prismatic"><parent link="rail"/><child link="wrist"/><axis xyz="0 0 1"/>
+      <limit lower="-1" upper="1" effort="1" velocity="1"/></joint>
+    <joint name="turn" type="revolute"><parent link="wrist"/><child link="tool"/><axis xyz="0 0 1"/>
+      <limit lower="-1" upper="1" effort="1" velocity="1"/></joint></robot>)";
+  const auto model = std::make_shared<const RobotModel>(parseUrdf(gantry, "gantry.urdf"));
+  const auto kinematics = std::make_shared<const Kinematics>(model);
+  RobotGeometry geometry = loadGeometry(*model);
+  const auto check = [&](std::shared_ptr<fcl::CollisionGeometryd> obstacle) {
+    const fcl::CollisionObjectd object(std::move(obstacle), Eigen::Isometry3d::Identity());
+    return MotionCheck(kinematics, std::make_shared<const RobotGeometry>(geometry), {{0, 0, true}},
+                       {obstacleOf(object, "floor")});
+  };
+  const auto halfSpace = [] { return std::make_shared<fcl::Halfspaced>(Eigen::Vector3d::UnitZ(), 0); };
+  for (const bool meshLink : {false, true}) {
+    if (meshLink) geometry.bodies[0].geometry = meshOfBox(0.1, 0.08, 0.06);
+    for (const bool meshFloor : {false, true}) {
+      CAPTURE(meshLink, meshFloor);
+      MotionCheck floor = meshFloor ? check(bumpyGround<fcl::OBBRSSd>(10, 0)) : check(halfSpace());
+      for (const double room : {1e-3, 1e-6})
+        for (const double turn : {0.0, 0.8}) {
+          CAPTURE(room, turn);
+          const Eigen::Vector3d q0(-0.1, 0.03 + room, 0), q1(0.1, 0.03 + room, turn),
+              below(0.1, 0.03 - room, turn);
+          const MotionBracket slide = floor.firstContact(q0, q1);
+          CHECK(slide.verdict == MotionVerdict::free);
+          CHECK(slide.queries < 10);
+          std::vector<Approach> best;
+          CHECK(floor.closest(q0, q1, 1e-9, 0, best));
+          CHECK(std::abs(best[0].distance - room) <= 1e-12);
+          const MotionBracket sinks = floor.firstContact(q0, below, {0, 1e-6});
+          CHECK(sinks.verdict == MotionVerdict::contact);
+          CHECK(std::abs(sinks.until - 0.5) <= 1e-6 + 1e-15 / room);
+        }
+      // It is free at the middle, in contact at the end.
+      CHECK_FALSE(floor.isMotionFree(Eigen::Vector3d(-0.1, 0.031, 0), Eigen::Vector3d(0.1, 0.0295, 0)));
     }
   }
 }

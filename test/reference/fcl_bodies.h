@@ -1,4 +1,4 @@
-// Bodies that several of the adapter's tests ask about: a volume as FCL's geometry, a link, bumpy ground.
+// Bodies of FCL that several tests and benchmarks ask about: a volume as its geometry, a link, bumpy ground.
 #pragma once
 
 #include <fcl/geometry/bvh/BVH_model.h>
