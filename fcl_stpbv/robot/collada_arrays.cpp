@@ -25,6 +25,9 @@ constexpr Words kSemantics{"POSITION", "NORMAL",     "TEXCOORD", "COLOR",
 constexpr Words kPrimitives{"triangles", "lines",   "linestrips", "polygons",
                             "polylist",  "trifans", "tristrips"};
 
+// A misspelt one is a table read from elsewhere.
+constexpr Words kOfAccessor{"count", "offset", "source", "stride"};
+
 // The line of a place in a text, whose own line is that of its first word.
 int lineWithin(const tinyxml2::XMLText& text, std::size_t at) {
   const std::string_view value = text.Value();
@@ -122,6 +125,11 @@ class ColladaArrays {
   }
 
   Accessor readAccessor(const XMLElement& element) {
+    for (const tinyxml2::XMLAttribute* a = element.FirstAttribute(); a != nullptr; a = a->Next())
+      if (!holds(kOfAccessor, a->Name()))
+        refuseCollada(element,
+                      "has an attribute '" + std::string(a->Name()) + "' that COLLADA does not know there",
+                      name_);
     Accessor accessor;
     accessor.element = &element;
     accessor.array = colladaTarget(element, "source", name_);
@@ -153,11 +161,15 @@ class ColladaArrays {
 
   void checkPrimitives(const XMLElement& primitives, const std::vector<const XMLElement*>& vertexInputs) {
     std::vector<const XMLElement*> inputs;
+    std::vector<std::pair<const XMLElement*, std::size_t>> runs;  // of indices
     std::size_t indices = 0, counts = 0;
     for (const XMLElement* element : allBelow(primitives)) {
       const std::string_view kind = element->Name();
       if (kind == "input") inputs.push_back(element);
-      if (kind == "p") indices += countWords(*element, isMeshIndex, kIndex, name_);
+      if (kind == "p") {
+        runs.emplace_back(element, countWords(*element, isMeshIndex, kIndex, name_));
+        indices += runs.back().second;
+      }
       if (kind == "vcount") counts += countWords(*element, isMeshIndex, kIndex, name_);
     }
     if (indices == 0) return;
@@ -166,6 +178,7 @@ class ColladaArrays {
     if (counts == 0 && std::string_view(primitives.Name()) == "polylist")
       refuseCollada(primitives, "holds indices, but no <vcount> says of how many each polygon is made",
                     name_);
+    checkRuns(primitives, inputs, runs);
     const auto has = [](const char* semantic) {
       return
           [semantic](const XMLElement* input) { return input->Attribute("semantic", semantic) != nullptr; };
@@ -177,6 +190,26 @@ class ColladaArrays {
       refuseCollada(primitives, "must have one <input> with the semantic POSITION, by way of its <vertices>",
                     name_);
     for (const XMLElement* input : inputs) checkInput(*input);
+  }
+
+  // assimp leaves out the vertices of lines and strips that are not whole.
+  void checkRuns(const XMLElement& primitives, const std::vector<const XMLElement*>& inputs,
+                 const std::vector<std::pair<const XMLElement*, std::size_t>>& runs) const {
+    const std::string_view kind = primitives.Name();
+    const bool lines = kind == "lines", lineStrips = kind == "linestrips";
+    if (!lines && !lineStrips && kind != "tristrips" && kind != "trifans") return;
+    std::size_t each = 1;  // indices for a vertex
+    for (const XMLElement* input : inputs) each = std::max(each, 1 + numberOf(*input, "offset", 0, name_));
+    const std::size_t least = lines || lineStrips ? 2 : 3;
+    for (const auto& [run, count] : runs) {
+      const std::size_t vertices = count / each;
+      const bool whole = lines ? vertices == 2 * numberOf(primitives, "count", 0, name_) : vertices >= least;
+      if (count % each != 0 || !whole)
+        refuseCollada(*run,
+                      "holds " + std::to_string(count) + " indices, " + std::to_string(each) +
+                          " for a vertex, which make no whole <" + std::string(kind) + ">",
+                      name_);
+    }
   }
 
   void checkInput(const XMLElement& input) {

@@ -4,6 +4,7 @@
 
 #include <tinyxml2.h>
 
+#include <algorithm>
 #include <map>
 #include <set>
 
@@ -57,6 +58,8 @@ class OneUnit : public tinyxml2::XMLVisitor {
     isGiven_ = true;
     return true;
   }
+
+  double metres() const { return unit_; }
 
  private:
   const XMLElement& root_;
@@ -121,7 +124,8 @@ class ColladaNodes {
  public:
   ColladaNodes(const XMLElement& root, const std::string& name) : root_(root), name_(name) {}
 
-  void check() {
+  /// How far the transforms within a node above a shape go, in the document's unit.
+  double check() {
     checkKnown(root_, kInRoot, name_);
     for (const XMLElement* e = root_.FirstChildElement("asset"); e; e = e->NextSiblingElement("asset"))
       checkKnown(*e, kInAsset, name_);
@@ -130,6 +134,7 @@ class ColladaNodes {
     forEach("library_visual_scenes", "visual_scene", [this](const XMLElement& e) { addScene(e); });
     forEach("library_nodes", "node", [this](const XMLElement& e) { checkNode(e); });
     forEach("library_visual_scenes", "visual_scene", [this](const XMLElement& e) { checkNode(e); });
+    return far_;
   }
 
  private:
@@ -173,13 +178,18 @@ class ColladaNodes {
     }
   }
 
-  void checkNode(const XMLElement& node) const {
+  // Whether a shape is in it or below. `above`: the stretch of the nodes around it.
+  bool checkNode(const XMLElement& node, double above = 1) {
     checkKnown(node, kInNode, name_);
+    ColladaReach reach;
+    for (const XMLElement* e = node.FirstChildElement(); e != nullptr; e = e->NextSiblingElement())
+      addColladaTransform(*e, name_, reach);
+    bool holdsShape = false;
     for (const XMLElement* e = node.FirstChildElement(); e != nullptr; e = e->NextSiblingElement()) {
       const std::string_view kind = e->Name();
-      checkColladaTransform(*e, name_);
+      holdsShape |= kind == "instance_node" || kind == "instance_geometry";
       if (kind == "node") {
-        checkNode(*e);
+        holdsShape |= checkNode(*e, above * reach.stretch);
       } else if (kind == "instance_node") {
         const std::string target = colladaTarget(*e, "url", name_);
         if (nodes_.count(target) == 0)
@@ -195,6 +205,8 @@ class ColladaNodes {
                     "read; export the mesh with them applied");
       }
     }
+    if (holdsShape) far_ = std::max(far_, above * reach.far);
+    return holdsShape;
   }
 
   void checkShape(const XMLElement& instance) const {
@@ -203,22 +215,27 @@ class ColladaNodes {
     if (shape == shapes_.end())
       refuseCollada(instance, "names the geometry '#" + target + "', which does not exist", name_);
     checkKnown(*shape->second, kInGeometry, name_);
-    if (const XMLElement* mesh = shape->second->FirstChildElement("mesh")) checkKnown(*mesh, kInMesh, name_);
-    for (const char* kind : {"convex_mesh", "brep"}) {
+    for (const char* kind : {"convex_mesh", "brep", "spline"}) {
       if (const XMLElement* unread = shape->second->FirstChildElement(kind))
         throw Error(xmlPlace(*unread, name_) + "<" + kind + "> is not read; export the geometry as a <mesh>");
     }
+    const XMLElement* mesh = shape->second->FirstChildElement("mesh");
+    if (mesh == nullptr) refuseCollada(*shape->second, "is shown by a node, but holds no <mesh>", name_);
+    checkKnown(*mesh, kInMesh, name_);
+    if (const XMLElement* second = mesh->NextSiblingElement("mesh"))
+      refuseCollada(*second, "is the second one of its <geometry>, of which one is read", name_);
   }
 
   const XMLElement& root_;
   const std::string& name_;
   std::map<std::string, const XMLElement*> shapes_;  // geometries
   std::set<std::string> nodes_;                      // those that an <instance_node> may name
+  double far_ = 0;                                   // check()
 };
 
 }  // namespace
 
-void checkCollada(std::string_view text, const std::string& name) {
+double checkCollada(std::string_view text, const std::string& name) {
   tinyxml2::XMLDocument document;
   if (document.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {
     const bool deep = document.ErrorID() == tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED;
@@ -229,14 +246,14 @@ void checkCollada(std::string_view text, const std::string& name) {
                             "); give a whole file of COLLADA"));
   }
   const XMLElement* root = document.RootElement();
-  if (root == nullptr) return;  // assimp says so
+  if (root == nullptr) return 0;  // assimp says so
   if (const XMLElement* second = root->NextSiblingElement())
     throw Error(xmlPlace(*second, name) + "not XML (a second root, <" + second->Name() +
                 ">); give a whole file of COLLADA");
   OneUnit units(*root, name);
   root->Accept(&units);
   checkColladaGeometries(*root, name);
-  ColladaNodes(*root, name).check();
+  return units.metres() * ColladaNodes(*root, name).check();
 }
 
 }  // namespace fcl_stpbv::detail

@@ -7,7 +7,9 @@
 
 namespace fcl_stpbv::detail {
 
+/// @returns the largest number that the transforms within a node above a shape add up from (m): they may
+/// bring it back to where it was.
 /// @throws Error "name:line: ..." saying what is wrong.
-void checkCollada(std::string_view text, const std::string& name);
+double checkCollada(std::string_view text, const std::string& name);
 
 }  // namespace fcl_stpbv::detail

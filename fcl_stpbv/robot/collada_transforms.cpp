@@ -4,6 +4,7 @@
 #include "fcl_stpbv/robot/collada_transforms.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <string_view>
@@ -54,7 +55,7 @@ void checkMatrix(const XMLElement& element, const std::vector<double>& numbers, 
 
 }  // namespace
 
-void checkColladaTransform(const XMLElement& element, const std::string& name) {
+void addColladaTransform(const XMLElement& element, const std::string& name, ColladaReach& reach) {
   static const std::map<std::string_view, std::size_t> kTransforms{
       {"lookat", 9}, {"matrix", 16}, {"rotate", 4}, {"scale", 3}, {"translate", 3}};
   const std::string_view kind = element.Name();
@@ -71,6 +72,18 @@ void checkColladaTransform(const XMLElement& element, const std::string& name) {
   if (kind == "rotate") checkRotation(element, numbers, name);
   if (kind == "matrix") checkMatrix(element, numbers, name);
   if (kind == "lookat") checkView(element, numbers, name);
+  const bool matrix = kind == "matrix";
+  if (matrix)
+    reach.far += reach.stretch * Vector3d(numbers[3], numbers[7], numbers[11]).norm();
+  else if (kind == "translate" || kind == "lookat")
+    reach.far += reach.stretch * vectorAt(numbers, 0).norm();
+  if (kind == "scale") reach.stretch *= vectorAt(numbers, 0).cwiseAbs().maxCoeff();
+  if (matrix) {  // to within a factor of 1.8
+    double most = 0;
+    for (const std::size_t row : {std::size_t{0}, std::size_t{4}, std::size_t{8}})
+      most = std::max(most, vectorAt(numbers, row).norm());
+    reach.stretch *= most;
+  }
 }
 
 }  // namespace fcl_stpbv::detail

@@ -7,7 +7,14 @@
 
 namespace fcl_stpbv::detail {
 
-/// Checks an element of a node if it is a transform. @throws Error "name:line: <rotate> ..."
-void checkColladaTransform(const tinyxml2::XMLElement& element, const std::string& name);
+/// What the transforms within a node make of lengths: how far they may have moved a point on the way, and by
+/// how much they stretch what comes behind them.
+struct ColladaReach {
+  double far = 0, stretch = 1;
+};
+
+/// Checks an element of a node if it is a transform, and adds it to those before it. @throws Error
+/// "name:line: <rotate> ..."
+void addColladaTransform(const tinyxml2::XMLElement& element, const std::string& name, ColladaReach& reach);
 
 }  // namespace fcl_stpbv::detail

@@ -4,9 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <numeric>
-#include <utility>
 #include <vector>
 
 #include "fcl_stpbv/error.h"
@@ -42,9 +40,12 @@ class GltfCheck {
   void check() {
     checkVersion();
     checkExtensions();
+    checkKeys();
     for (const GltfItem& mesh : values_.list("meshes")) {
       checkWeights(mesh);
-      for (const GltfItem& primitive : values_.list(mesh, "primitives")) checkPrimitive(primitive);
+      const std::vector<GltfItem> primitives = values_.list(mesh, "primitives");
+      if (primitives.empty()) values_.damaged(mesh, "has no primitives, which are what a mesh is made of");
+      for (const GltfItem& primitive : primitives) checkPrimitive(primitive);
     }
     for (const GltfItem& node : values_.list("nodes")) checkNode(node);
     for (const GltfItem& scene : values_.list("scenes"))
@@ -129,18 +130,38 @@ class GltfCheck {
                                       ", which has " + std::to_string(vertices) + ", the first being 0");
   }
 
-  // A misspelt key is a body that is not there, or stands elsewhere.
-  void checkNodeKeys(const GltfItem& node) const {
-    static const std::string_view kKeys[] = {"camera", "children",    "extensions", "extras",
-                                             "matrix", "mesh",        "name",       "rotation",
-                                             "scale",  "translation", "skin",       "weights"};
-    for (const auto& [key, ignored] : node.value->items())
-      if (std::find(std::begin(kKeys), std::end(kKeys), key) == std::end(kKeys))
-        values_.refuse(node, "has '" + key + "', which is nothing that glTF knows of a node");
+  // A misspelt key is a body that is not there, stands elsewhere, or has the bytes of another one.
+  void checkKeys() const {
+    requireKeys({&root_, "the document"},
+                {"accessors", "animations", "asset", "buffers", "bufferViews", "cameras", "images",
+                 "materials", "meshes", "nodes", "samplers", "scene", "scenes", "skins", "textures",
+                 "extensionsUsed", "extensionsRequired"});
+    for (const GltfItem& scene : values_.list("scenes")) requireKeys(scene, {"nodes"});
+    for (const GltfItem& node : values_.list("nodes"))
+      requireKeys(node, {"camera", "children", "matrix", "mesh", "rotation", "scale", "translation", "skin",
+                         "weights"});
+    for (const GltfItem& mesh : values_.list("meshes")) {
+      requireKeys(mesh, {"primitives", "weights"});
+      for (const GltfItem& primitive : values_.list(mesh, "primitives"))
+        requireKeys(primitive, {"attributes", "indices", "material", "mode", "targets"});
+    }
+    for (const GltfItem& accessor : values_.list("accessors"))
+      requireKeys(accessor, {"bufferView", "byteOffset", "componentType", "normalized", "count", "type",
+                             "max", "min", "sparse"});
+    for (const GltfItem& view : values_.list("bufferViews"))
+      requireKeys(view, {"buffer", "byteOffset", "byteLength", "byteStride", "target"});
+    for (const GltfItem& buffer : values_.list("buffers")) requireKeys(buffer, {"byteLength", "uri"});
+  }
+
+  void requireKeys(const GltfItem& item, const Words& keys) const {
+    constexpr Words kAnywhere{"extensions", "extras", "name"};
+    if (!item.value->is_object()) return;  // its reader refuses it
+    for (const auto& [key, ignored] : item.value->items())
+      if (!holds(keys, key) && !holds(kAnywhere, key))
+        values_.refuse(item, "has '" + key + "', which is nothing that glTF knows there");
   }
 
   void checkNode(const GltfItem& node) const {
-    checkNodeKeys(node);
     refuseExtension(node, "EXT_mesh_gpu_instancing", "export a node for each instance");
     if (values_.find(node, "mesh") && values_.find(node, "skin"))
       values_.refuse(node,

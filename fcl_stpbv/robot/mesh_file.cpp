@@ -14,6 +14,7 @@
 #include <cstring>
 #include <filesystem>
 #include <optional>
+#include <string_view>
 #include <unordered_map>
 #include <utility>
 
@@ -49,17 +50,27 @@ void requireSize(const Eigen::AlignedBox3d& box, bool several, const std::string
 }
 
 // assimp holds coordinates in single precision: far from the origin they would be rounded to steps that are
-// seen in the body's shape. One point may have been a small body.
-void requireNear(const Eigen::AlignedBox3d& box, bool several, const std::string& path) {
+// seen in the body's shape. `far` is the largest number on the way through the nodes' transforms, which may
+// bring it back (m). One point may have been a small body.
+void requireNear(const Eigen::AlignedBox3d& box, double far, bool several, const std::string& path) {
   constexpr double kStep = 1.0 / (1 << 23);  // of a coordinate
   constexpr double kSeen = 1e-3;             // of the body's size
   constexpr double kSmall = 0.1;             // m
-  const double far = box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs()).maxCoeff();
   if (kStep * far > kSeen * (several ? box.sizes().maxCoeff() : kSmall))
-    throw Error(path +
-                ": lies thousands of its sizes away from its origin, where coordinates are read in steps of "
-                "over a thousandth of its size; move the mesh to its origin and give the way in the robot's "
-                "file");
+    throw Error(
+        path +
+        ": lies thousands of its sizes away from its origin, or from that of a node, where coordinates are "
+        "read in steps of over a thousandth of its size; move the mesh to its origin and give the way "
+        "in the robot's file");
+}
+
+// What a transform makes of lengths along each axis, summed: a bound on all that is added up on the way.
+Vector3d reachOf(const aiMatrix4x4& m, const Vector3d& from) {
+  const auto row = [&](float x, float y, float z, float at) {
+    const Vector3d linear(static_cast<double>(x), static_cast<double>(y), static_cast<double>(z));
+    return linear.cwiseAbs().dot(from) + std::abs(static_cast<double>(at));
+  };
+  return {row(m.a1, m.a2, m.a3, m.a4), row(m.b1, m.b2, m.b3, m.b4), row(m.c1, m.c2, m.c3, m.c4)};
 }
 
 // Gathers triangles, each distinct point once.
@@ -67,10 +78,16 @@ class Gatherer {
  public:
   Gatherer(const std::string& path, const Vector3d& scale) : path_(path), scale_(scale) {}
 
-  void add(const aiMesh& mesh, const aiMatrix4x4& transform) {
+  /// `way`: a bound on the numbers that its transforms were multiplied from.
+  void add(const aiMesh& mesh, const aiMatrix4x4& transform, const Vector3d& way) {
     std::vector<int> index;
     index.reserve(mesh.mNumVertices);
+    far_ = far_.cwiseMax(way);
     for (unsigned v = 0; v < mesh.mNumVertices; ++v) {
+      const aiVector3D& own = mesh.mVertices[v];
+      const Vector3d place(static_cast<double>(own.x), static_cast<double>(own.y),
+                           static_cast<double>(own.z));
+      far_ = far_.cwiseMax(reachOf(transform, place.cwiseAbs()));
       several_ = several_ || mesh.mVertices[v] != mesh.mVertices[0];
       const aiVector3D p = transform * mesh.mVertices[v];
       index.push_back(
@@ -89,11 +106,12 @@ class Gatherer {
     }
   }
 
-  TriangleMesh take() {
+  /// `far`: the largest number within the nodes' own transforms, before the scale.
+  TriangleMesh take(double far) {
     if (mesh_.vertices.empty()) return {};
     const Eigen::AlignedBox3d box = boxAround(mesh_.vertices);
     requireSize(box, several_, path_);
-    requireNear(box, several_, path_);
+    requireNear(box, far_.cwiseMax(far).cwiseProduct(scale_.cwiseAbs()).maxCoeff(), several_, path_);
     return std::move(mesh_);
   }
 
@@ -115,7 +133,8 @@ class Gatherer {
   Vector3d scale_;
   TriangleMesh mesh_;
   std::optional<Vector3d> first_;
-  bool several_ = false;  // distinct points before they are scaled, by a node or here
+  Vector3d far_{0, 0, 0};  // the largest numbers on the way, before the scale
+  bool several_ = false;   // distinct points before they are scaled, by a node or here
   std::unordered_map<Vector3d, int, VectorHash> index_;
 };
 
@@ -171,10 +190,11 @@ double outlinedArea(const aiScene& scene) {
   return sum;
 }
 
-const aiScene& read(Assimp::Importer& importer, ReadableFiles& files, const std::string& path) {
+// `far` gets the largest number within the nodes' transforms, where the format tells (m).
+const aiScene& read(Assimp::Importer& importer, ReadableFiles& files, const std::string& path, double& far) {
   const std::string text = readText(path), expected = expectedFormat(text, path);
   const auto check = [&](const std::string& format) {
-    checkMeshFormat(text, format, path, [&files](const std::string& part) { return files.part(part); });
+    far = checkMeshFormat(text, format, path, [&files](const std::string& part) { return files.part(part); });
   };
   check(expected);
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
@@ -221,17 +241,26 @@ TriangleMesh readMesh(const std::string& path, const Vector3d& scale, ChildLimit
   Assimp::Importer importer;
   auto* const files = new ReadableFiles(path, limits);
   importer.SetIOHandler(files);  // which deletes it
-  const aiScene& scene = read(importer, *files, path);
+  double far = 0;
+  const aiScene& scene = read(importer, *files, path, far);
   Gatherer gatherer(path, scale);
-  std::vector<std::pair<const aiNode*, aiMatrix4x4>> open{{scene.mRootNode, aiMatrix4x4()}};
+  struct Open {
+    const aiNode* node;
+    aiMatrix4x4 above;
+    Vector3d way;
+  };
+  std::vector<Open> open{{scene.mRootNode, aiMatrix4x4(), Vector3d::Zero()}};
   while (!open.empty()) {
-    const auto [node, above] = open.back();
+    const Open at = open.back();
     open.pop_back();
-    const aiMatrix4x4 transform = above * node->mTransformation;
-    for (unsigned m = 0; m < node->mNumMeshes; ++m) gatherer.add(*scene.mMeshes[node->mMeshes[m]], transform);
-    for (unsigned c = node->mNumChildren; c-- > 0;) open.push_back({node->mChildren[c], transform});
+    const aiMatrix4x4 &own = at.node->mTransformation, transform = at.above * own;
+    const Vector3d way = at.way.cwiseMax(reachOf(at.above, reachOf(own, Vector3d::Zero())));
+    for (unsigned m = 0; m < at.node->mNumMeshes; ++m)
+      gatherer.add(*scene.mMeshes[at.node->mMeshes[m]], transform, way);
+    for (unsigned c = at.node->mNumChildren; c-- > 0;)
+      open.push_back({at.node->mChildren[c], transform, way});
   }
-  TriangleMesh mesh = gatherer.take();
+  TriangleMesh mesh = gatherer.take(far);
   if (mesh.vertices.empty()) throw Error(path + ": holds no vertices; give a file with at least one mesh");
   return mesh;
 }
@@ -243,13 +272,18 @@ void append(std::string& bytes, const std::vector<T>& items) {
   if (count > 0) bytes.append(reinterpret_cast<const char*>(items.data()), count * sizeof(T));
 }
 
+// What append() wrote. The process that wrote it may have been damaged by its file: no count is believed.
 template <class T>
-std::vector<T> take(const char*& bytes) {
+std::vector<T> take(std::string_view& bytes, const std::string& path) {
   std::size_t count = 0;
-  std::memcpy(&count, bytes, sizeof count);
+  const bool counted = bytes.size() >= sizeof count;
+  if (counted) std::memcpy(&count, bytes.data(), sizeof count);
+  if (!counted || count > (bytes.size() - sizeof count) / sizeof(T))
+    throw Error(path + ": its reader fell over; the file is damaged, export it again");
   std::vector<T> items(count);
-  if (count > 0) std::memcpy(static_cast<void*>(items.data()), bytes + sizeof count, count * sizeof(T));
-  bytes += sizeof count + count * sizeof(T);
+  bytes.remove_prefix(sizeof count);
+  if (count > 0) std::memcpy(static_cast<void*>(items.data()), bytes.data(), count * sizeof(T));
+  bytes.remove_prefix(count * sizeof(T));
   return items;
 }
 
@@ -273,9 +307,13 @@ TriangleMesh loadMesh(const std::string& path, const Vector3d& scale) {
     append(all, read.triangles);
     return all;
   });
-  const char* at = bytes.data();
-  mesh.vertices = take<Vector3d>(at);
-  mesh.triangles = take<std::array<int, 3>>(at);
+  std::string_view rest = bytes;
+  mesh.vertices = take<Vector3d>(rest, path);
+  mesh.triangles = take<std::array<int, 3>>(rest, path);
+  const auto isCorner = [&](int i) { return i >= 0 && static_cast<std::size_t>(i) < mesh.vertices.size(); };
+  for (const std::array<int, 3>& t : mesh.triangles)
+    if (!std::all_of(t.begin(), t.end(), isCorner))
+      throw Error(path + ": its reader fell over; the file is damaged, export it again");
   return mesh;
 }
 

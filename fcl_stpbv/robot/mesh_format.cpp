@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <assimp/Importer.hpp>
-#include <set>
 
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/robot/file_ending.h"
@@ -54,8 +53,8 @@ std::string formatOf(const aiScene& scene, const Assimp::Importer& importer) {
   return "";
 }
 
-void checkMeshFormat(std::string_view text, const std::string& format, const std::string& path,
-                     const ReadPart& readPart) {
+double checkMeshFormat(std::string_view text, const std::string& format, const std::string& path,
+                       const ReadPart& readPart) {
   const bool inOwnUnit = format == ".x3d" && text.find("conversionFactor") != std::string_view::npos;
   if (holds(kWithUnit, format) || inOwnUnit)
     throw Error(path +
@@ -68,7 +67,8 @@ void checkMeshFormat(std::string_view text, const std::string& format, const std
   else if (format == ".gltf")
     checkGltf(text, path, readPart);
   else
-    checkTextMesh(text, format, path);
+    return checkTextMesh(text, format, path);
+  return 0;
 }
 
 }  // namespace fcl_stpbv::detail

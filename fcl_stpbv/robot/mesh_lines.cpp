@@ -13,6 +13,7 @@ namespace fcl_stpbv::detail {
 namespace {
 
 constexpr std::size_t kMostDigits = 18;
+constexpr std::size_t kMostDecimals = 15;
 constexpr long kMostIndex = 2147483647;
 
 bool isBreak(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
@@ -47,6 +48,10 @@ bool readMeshNumber(std::string_view word, double& value) {
   const auto result = std::from_chars(word.data(), word.data() + word.size(), value);
   if (result.ec != std::errc() || result.ptr != word.data() + word.size() || !std::isfinite(value))
     return false;
+  const std::size_t point = std::min(word.find('.'), word.size()), power = word.find_first_of("eE");
+  const std::size_t decimals = std::min(power, word.size()) - std::min(point, std::min(power, word.size()));
+  const bool enlarged = power != std::string_view::npos && word.find('-', power) == std::string_view::npos;
+  if (enlarged && decimals > 1 + kMostDecimals) return false;
   word.remove_prefix(std::min(word.find_first_not_of("-0"), word.size()));
   return std::min(word.find_first_not_of("0123456789"), word.size()) <= kMostDigits;
 }

@@ -2,6 +2,7 @@
 // header for the next vertex or face.
 #include "fcl_stpbv/robot/off_check.h"
 
+#include <algorithm>
 #include <cctype>
 
 #include "fcl_stpbv/robot/mesh_lines.h"
@@ -17,6 +18,7 @@ constexpr std::size_t kLongestLine = 4095;
 struct OffHeader {
   std::size_t coordinates = 3;  // of a vertex, its weight with them
   std::size_t numbers = 3;      // all that a vertex must have
+  bool colours = false;         // whose numbers may be more or fewer
   long vertices = 0, faces = 0;
 };
 
@@ -90,7 +92,9 @@ class OffLines {
       if (has) word.remove_prefix(prefix.size());
       return has;
     };
-    const std::size_t others = (takes("ST") ? 2u : 0u) + (takes("C") ? 4u : 0u) + (takes("N") ? 3u : 0u);
+    std::size_t others = takes("ST") ? 2 : 0;
+    header.colours = takes("C");
+    others += (header.colours ? 4u : 0u) + (takes("N") ? 3u : 0u);
     const std::size_t weight = takes("4") ? 1 : 0;
     const bool otherDimension = takes("n");
     if (word != "OFF") lines_.refuse("an OFF file must begin with the word OFF, before its numbers");
@@ -115,7 +119,9 @@ class OffLines {
   }
 
   void checkVertex(const OffHeader& header) {
-    bool good = words_.size() >= header.numbers;
+    // Without a word for them in the header a colour may follow, of three or four numbers.
+    const std::size_t more = words_.size() - std::min(words_.size(), header.numbers);
+    bool good = words_.size() >= header.numbers && (more == 0 || more == 3 || more == 4 || header.colours);
     for (std::size_t k = 0; good && k < header.coordinates; ++k) good = isMeshNumber(words_[k]);
     if (!good)
       lines_.damaged("a vertex must be " + std::to_string(header.numbers) + " finite numbers here, " +

@@ -279,15 +279,20 @@ std::string_view pastByteOrderMark(std::string_view text, const std::string& nam
 
 }  // namespace
 
-void checkTextMesh(std::string_view text, const std::string& extension, const std::string& name) {
+double checkTextMesh(std::string_view text, const std::string& extension, const std::string& name) {
   const bool obj = extension == ".obj", off = extension == ".off", dae = extension == ".dae";
   const bool stl = extension == ".stl" && !isBinaryStl(text);
+  if (stl && text.find('\0') != std::string_view::npos && text.find("facet") == std::string_view::npos)
+    throw Error(
+        name +
+        ": is a binary STL, by its NUL bytes, whose length does not fit its count of triangles; the file is "
+        "damaged, export it again");
   if (obj || off || dae || stl) refuseNul(text, name);
   const std::string_view behindMark = obj || off || stl ? pastByteOrderMark(text, name) : text;
   if (obj) checkObj(behindMark, name);
   if (stl) StlLines(text, name).check();
   if (off) checkOff(text, name);
-  if (dae) checkCollada(text, name);
+  return dae ? checkCollada(text, name) : 0;
 }
 
 }  // namespace fcl_stpbv::detail

@@ -7,7 +7,8 @@
 namespace fcl_stpbv::detail {
 
 /// Checks OBJ, text STL, OFF and COLLADA, told by `extension` (".obj", lower case); others pass.
+/// @returns what checkCollada() does, else 0.
 /// @throws Error "name:line: ..." saying what is wrong.
-void checkTextMesh(std::string_view text, const std::string& extension, const std::string& name);
+double checkTextMesh(std::string_view text, const std::string& extension, const std::string& name);
 
 }  // namespace fcl_stpbv::detail

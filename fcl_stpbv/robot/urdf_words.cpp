@@ -51,8 +51,11 @@ constexpr Known kInGeometry[] = {{"box", {"size"}},
                                  {"capsule", {"radius", "length"}},
                                  {"mesh", {"filename", "scale"}}};
 
-// Self filters have shapes of their own, to take a robot out of its sensors' point clouds.
-bool ofSelfFilter(std::string_view name) { return name == "self_filter"; }
+// Self filters have shapes of their own, to take a robot out of its sensors' point clouds; Drake's and
+// Gazebo's checks of a link name theirs.
+bool ofSelfFilter(std::string_view name) {
+  return name == "self_filter" || name == "self_collision_checking";
+}
 
 bool ofOtherTools(std::string_view name) { return name.find(':') != std::string_view::npos; }
 
@@ -141,6 +144,27 @@ bool isLost(const XMLElement& element) {
   const tinyxml2::XMLNode* holder = element.Parent();
   return known && saysMore(element) && !named(holder, "geometry") && !isShape(holder) &&
          !isShape(holder->Parent());
+}
+
+// Whether all around an element, up to the robot, is URDF's own: other tools' elements have words of their
+// own.
+bool isOwn(const XMLElement& holder, const XMLElement& robot) {
+  constexpr Words kOwn{"link",    "joint", "collision", "visual", "geometry", "box",   "sphere", "cylinder",
+                       "capsule", "mesh",  "origin",    "axis",   "parent",   "child", "limit",  "mimic"};
+  for (const tinyxml2::XMLNode* node = &holder; node != &robot; node = node->Parent())
+    if (!holds(kOwn, node->Value())) return false;
+  return true;
+}
+
+// Where an element that moves a body belongs, if it stands where it does nothing; null for one that is at
+// home, says nothing, or is another tool's.
+const char* homeOf(const XMLElement& element, const XMLElement& holder, const XMLElement& robot) {
+  const std::string_view name = element.Name(), around = holder.Name();
+  if (around == "joint" || !isOwn(holder, robot)) return nullptr;
+  if (name == "origin" && around != "collision" && around != "visual" && !isNowhere(element))
+    return "a <collision>, <visual> or <inertial> of a link, or into a <joint>";
+  const bool ofJoint = name == "axis" || name == "limit" || name == "mimic";
+  return ofJoint && element.FirstAttribute() ? "a <joint>" : nullptr;
 }
 
 // Letters to put in, to leave out or to change until one word is the other, capitals or not.
@@ -259,10 +283,9 @@ int checkPlaces(const XMLElement& robot, const std::string& path, LoadFaults& fa
         (around ? faults.shapes : faults.errors)
             .push_back(xmlPlace(*e, path) + misplaced(*e, at, link || &at == &robot));
       }
-      if (name == "origin" && link && !isNowhere(*e))
-        faults.errors.push_back(
-            xmlPlace(*e, path) + placeWithin("origin", "link") +
-            "it belongs into the link's <collision>, <visual> or <inertial>, or into a <joint>");
+      if (const char* home = homeOf(*e, at, robot))
+        faults.errors.push_back(xmlPlace(*e, path) + placeWithin(std::string(name), at.Name()) +
+                                "it belongs into " + home);
       collisions += name == "collision" && link;
       open.push_back(e);
     }

@@ -177,6 +177,57 @@ TEST_CASE("a COLLADA transform that would distort the body is refused") {
                 view("1 2 3 1 2 3 0 1 0"), view("0 0 0 0 0 -1 0 0 0"), view("0 0 0 0 0 -1 0 1 0.1")});
 }
 
+TEST_CASE("a COLLADA mesh that its transforms bring back from far away is refused") {
+  const std::string away = "<translate>0 0 1</translate>", node = "<node id=\"m\">";
+  const std::string message = "lies thousands of its sizes away";
+  checkRefused(
+      {{away, "<translate>0 0 1e5</translate><translate>0 0 -1e5</translate>", message},
+       {away, "<translate>1e6 0 0</translate><rotate>0 0 1 90</rotate><translate>-1e6 0 0</translate>",
+        message},
+       {away, "<matrix>1 0 0 1e5 0 1 0 0 0 0 1 0 0 0 0 1</matrix><translate>-1e5 0 0</translate>", message},
+       {away,
+        "<scale>1e4 1 1</scale><translate>10 0 0</translate><translate>-10 0 0</translate><scale>1e-4 1 "
+        "1</scale>",
+        message},
+       {"0 0 0 1 0 0 0 1 0", "1e5 0 0 100001 0 0 1e5 1 0", message}});
+  std::string text = changed(kSound, {away, "<translate>-1e5 0 0</translate>"});
+  text = changed(text, {"0 0 0 1 0 0 0 1 0", "1e5 0 0 100001 0 0 1e5 1 0"});
+  const TemporaryFolder folder;
+  put(folder / "t.dae", text);
+  CHECK_THAT(refusal([](const std::string& path) { loadPoints(path); }, folder / "t.dae"), Contains(message));
+  // A camera may be anywhere.
+  put(folder / "t.dae", changed(kSound, {node,
+                                         "<node id=\"c\"><translate>1e6 0 0</translate><translate>-1e6 0 "
+                                         "0</translate><instance_camera url=\"#c\"/></node>" +
+                                             node}));
+  CHECK(refusal([](const std::string& path) { loadPoints(path); }, folder / "t.dae") == "");
+}
+
+TEST_CASE(
+    "COLLADA lines and strips that are not whole, and geometries of which a part is not read, are refused") {
+  const std::string triangles = "<triangles count=\"1\">", close = "<p>0 0 1 1 2 2</p></triangles>";
+  const auto as = [&](const std::string& kind, const std::string& runs) {
+    const std::size_t begin = kSound.find(triangles), end = kSound.find(close);
+    return kSound.substr(0, begin) + "<" + kind + " count=\"1\">" +
+           kSound.substr(begin + triangles.size(), end - begin - triangles.size()) + runs + "</" + kind +
+           ">" + kSound.substr(end + close.size());
+  };
+  CHECK_THAT(loadedText(as("lines", "<p>0 0 1 1 2 2</p>")), Contains("which make no whole <lines>"));
+  CHECK_THAT(loadedText(as("linestrips", "<p>0 0 1 1 2 2</p><p>0 0</p>")), Contains("no whole <linestrips>"));
+  CHECK_THAT(loadedText(as("tristrips", "<p>0 0 1 1</p>")), Contains("no whole <tristrips>"));
+  CHECK_THAT(loadedText(as("trifans", "<p>0 0 1 1 2</p>")), Contains("no whole <trifans>"));
+  CHECK(loadedText(as("linestrips", "<p>0 0 1 1 2 2</p>")) == "");
+  CHECK(loadedText(as("tristrips", "<p>0 0 1 1 2 2</p>")) == "");
+  checkRefused({{"</mesh>", "</mesh><mesh/>", "<mesh> is the second one of its <geometry>"},
+                {"<accessor source=\"#pa\" count=\"3\"", "<accessor source=\"#pa\" ofset=\"1\" count=\"3\"",
+                 "<accessor> has an attribute 'ofset'"}});
+  const std::string shape = "<instance_geometry url=\"#g\"/>", last = "</library_geometries>";
+  for (const std::string geometry : {"<geometry id=\"e\"/>", "<geometry id=\"e\"><spline/></geometry>"})
+    CHECK_THAT(loadedText(changed(changed(kSound, {last, geometry + last}),
+                                  {shape, shape + "<instance_geometry url=\"#e\"/>"})),
+               Contains("<mesh>"));
+}
+
 TEST_CASE("sound COLLADA is read, whatever its writer's habits") {
   const Change wide{"stride=\"3\"", "stride=\"4\""};
   const Change reordered{"<param name=\"X\"/><param name=\"Y\"/>", "<param name=\"Y\"/><param name=\"X\"/>"};

@@ -105,7 +105,7 @@ TEST_CASE("glTF: vertices that are no floats and indices that are not unsigned a
         {{vertices, std::string("\"componentType\":") + type, "accessors[0] has the type \"VEC3\""},
          {vertices, std::string("\"normalized\":true,\"componentType\":") + type, "accessors[0] "}});
   checkGltfRefused(
-      {{vertices, "\"componenttype\":5126", "accessors[0] must have a number 'componentType'"},
+      {{vertices, "\"componenttype\":5126", "accessors[0] has 'componenttype'"},
        {vertices, "\"componentType\":\"5126\"", "accessors[0].componentType must be a whole"},
        {vertices, "\"componentType\":5126.0", "accessors[0].componentType must be a whole"},
        {"\"VEC3\"", "\"VEC2\"", "accessors[0] has the type \"VEC2\""},
@@ -115,6 +115,40 @@ TEST_CASE("glTF: vertices that are no floats and indices that are not unsigned a
        {indices, "\"componentType\":5122", "accessors[1] has the type"},
        {indices, "\"componentType\":5126", "accessors[1] has the type"},
        {"\"SCALAR\"", "\"VEC2\"", "accessors[1] has the type"}});
+}
+
+TEST_CASE("glTF: a misspelt key, which leads elsewhere or nowhere, is refused") {
+  checkGltfRefused({{"\"primitives\"", "\"primitves\"", "meshes[0] has 'primitves'"},
+                    {"\"indices\"", "\"indicies\"", "meshes[0].primitives[0] has 'indicies'"},
+                    {"\"byteOffset\"", "\"byteoffset\"", "bufferViews[1] has 'byteoffset'"},
+                    {"5126,", "5126,\"byteoffset\":0,", "accessors[0] has 'byteoffset'"},
+                    {"\"buffers\"", "\"Scene\":0,\"buffers\"", "the document has 'Scene'"},
+                    {"\"uri\"", "\"url\":\"\",\"uri\"", "buffers[0] has 'url'"}});
+  TriangleMesh mesh;
+  const std::size_t at = kTriangleGltf.find("\"primitives\":["), end = kTriangleGltf.find("}]", at);
+  REQUIRE(end != std::string::npos);
+  const std::string empty = kTriangleGltf.substr(0, at) + "\"primitives\":[" + kTriangleGltf.substr(end + 1);
+  CHECK_THAT(loadedGltf("t.gltf", empty, triangleBytes(), mesh), Contains("meshes[0] has no primitives"));
+}
+
+TEST_CASE("glTF: a mesh that its nodes bring back from far away is refused") {
+  const auto moved = [](const std::string& far, const std::string& back) {
+    const std::string node = "\"nodes\":[{\"mesh\":0";
+    REQUIRE(kTriangleGltf.find(node) != std::string::npos);
+    TriangleMesh mesh;
+    return loadedGltf("t.gltf",
+                      withChange(kTriangleGltf, {node,
+                                                 "\"nodes\":[{\"children\":[1],\"translation\":[" + far +
+                                                     ",0,0]},{\"mesh\":0,\"translation\":[" + back + ",0,0]",
+                                                 ""}),
+                      triangleBytes(), mesh);
+  };
+  CHECK(moved("100.03", "-100") == "");
+  for (const char* far : {"1e4", "1000000.03", "-1e7"})
+    CHECK_THAT(moved(far, far[0] == '-'   ? "1e7"
+                          : far[2] == '4' ? "-1e4"
+                                          : "-1000000"),
+               Contains("lies thousands of its sizes away"));
 }
 
 TEST_CASE("glTF: what reaches past an end is refused") {

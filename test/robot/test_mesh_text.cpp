@@ -46,6 +46,8 @@ TEST_CASE("OBJ: comments, joined lines and numbers that assimp takes for others"
   const std::string obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\n", face = "f 1 2 3\n";
   checkRefused("t.obj", {{obj + "v " + kBig, ":4: "},
                          {obj + "v .5 0 0\n", ":4: "},
+                         {obj + "v 0.0000000000000000009e18 0 0\n", ":4: "},
+                         {obj + "v 0 1.0000000000000009E+03 0\n", ":4: "},
                          {obj + "v 0 0 0 1 1\n", ":4: a vertex of 5 numbers"},
                          {obj + "v 0 0 0 2\n", ":4: a vertex has the weight 2,"},
                          {obj + "v 0 0 0 0\n", ":4: a vertex has the weight 0,"},
@@ -169,6 +171,8 @@ TEST_CASE("OFF: as many lines as the header says, and indices below its number o
                          {off, ":4: ends after 2 of the 3 vertices"},
                          {off + kBig + face, ":5: "},
                          {off + "0 nan 0\n" + face, ":5: "},
+                         {off + "0 1 4 0\n" + face, ":5: "},
+                         {off + "3 0 4 2\n" + face, ":5: "},
                          {off + "0 +-1 0\n" + face, ":5: "},
                          {off + "# the third\n" + last + face, ":5: a comment or blanks"},
                          {off + last + " \n" + face, ":6: a comment or blanks"},
@@ -178,7 +182,8 @@ TEST_CASE("OFF: as many lines as the header says, and indices below its number o
                          {"4 1 0\n", ":1: an OFF file must begin"},
                          {"OFF\n3 one 0\n", ":2: got 'one'"}});
   checkRead("t.off",
-            {off + last + face,
+            {off + last + face, "OFF\n3 1 3\n0 0 0 255 0 0\n1 0 0 255 0 0\n0 1 0 255 0 0\n" + face,
+             "OFF\n3 1 3\n0 0 0.00000000000000000001\n1 0 0\n0 1.00000000000000000001e-0 0\n" + face,
              "OFF # a\n\n# b\n3 1 0 # c\n\n 0 0 0 # d\n\n1 0 0\n0 1 0\n3 0 1 2 255 0 0\n\n # e\n",
              "OFF 3 1 0\r\n0 0 0\r\n1 0 0\r\n0 1 0\r\n3 0 1 2\r\n", "3 1 0 0 0 0\n1 0 0\n0 1 0\n3 0 1 2",
              "COFF 3 1 0\n0 0 0 1 0 0 1\n1 0 0 1 0 0 1\n0 1 0 1 0 0 1\n3 0 1 2\n",

@@ -114,6 +114,31 @@ TEST_CASE("words that look misspelt are refused, those of other tools are not") 
   CHECK(shapesIn(kBox + "<self_filter>" + box + "</self_filter><x:filter>" + box + "</x:filter>") == 1);
 }
 
+TEST_CASE("an element that would move a body, but stands where it does nothing, is refused") {
+  const std::string origin = "<origin xyz=\"0.1 0 0\"/>", axis = "<axis xyz=\"0 1 0\"/>",
+                    limit = "<limit lower=\"0\" upper=\"1\" effort=\"1\" velocity=\"1\"/>";
+  const auto shape = [](const std::string& inGeometry, const std::string& inBox = "") {
+    return robot("<link name=\"a\"><collision><geometry><box size=\"1 1 1\">" + inBox + "</box>" +
+                 inGeometry + "</geometry></collision></link>");
+  };
+  const auto joint = [](const std::string& inOrigin, const std::string& inChild, const std::string& inAxis) {
+    return robot(link("a") + link("b") + "<joint name=\"j\" type=\"continuous\"><origin xyz=\"0 0 1\">" +
+                 inOrigin + "</origin><parent link=\"a\"/><child link=\"b\">" + inChild +
+                 "</child><axis xyz=\"0 0 1\">" + inAxis + "</axis></joint>");
+  };
+  for (const std::string& text : {shape(origin), shape("", origin), shape(limit), joint(axis, "", ""),
+                                  joint("", origin, ""), joint("", "", origin), robot(link("a") + origin),
+                                  robot(link("a") + axis), robot(link("a") + limit)}) {
+    CAPTURE(text);
+    CHECK_THAT(refused(text), Contains("it belongs into a <"));
+  }
+  for (const std::string& text : {shape(""), joint("", "", ""), joint("<origin xyz=\"0 0 0\"/>", "", ""),
+                                  robot(link("a") + "<ros2_control><joint name=\"j\">" + limit + axis +
+                                        "</joint></ros2_control><transmission>" + "<joint name=\"j\">" +
+                                        limit + "</joint></transmission><sensor>" + origin + "</sensor>")})
+    CHECK(parseUrdf(text, "fine.urdf").links.size() >= 1);
+}
+
 TEST_CASE("an origin that moves nothing is let pass wherever it stands") {
   const auto jointWith = [](const std::string& element) {
     return robot(link("a") + link("b") +
