@@ -22,9 +22,9 @@ namespace fcl_stpbv {
 struct SmoothConstraint {
   std::string name;              ///< for messages and reports
   std::vector<int> coordinates;  ///< ascending
-  /// Value at q, positive where allowed; writes one derivative per coordinate unless
-  /// `gradient` is null. Called from one thread at a time for each constraint; must
-  /// neither throw nor allocate where those matter.
+  /// Value at q, positive where allowed; writes one derivative per coordinate unless `gradient` is null. A
+  /// velocity damper compares it with the distances of the pairs (m). Called from one thread at a time for
+  /// each constraint. Must not throw; must not allocate if evaluate() shall not.
   std::function<double(const Eigen::Ref<const Eigen::VectorXd>& q, double* gradient)> value;
   std::vector<std::pair<std::string, std::string>> replaces;  ///< pairs of links that are left out for it
 };
@@ -90,6 +90,9 @@ class CollisionConstraints {
   std::string name(int row) const;
   /// The most that a row's value can be: what it bends over to for `influence` or `handOver`, else infinite.
   double largestValue(int row) const;
+  /// Up to where a row's value is its distance (m): beyond it bends over, as above. For the row of whole
+  /// bodies this bounds what `influence` does to it.
+  double exactUpTo(int row) const;
 
   /// The entries of J that may differ from 0, row by row, columns ascending.
   int nonZeros() const { return static_cast<int>(column_.size()); }
@@ -248,7 +251,7 @@ class CollisionConstraints {
   std::vector<DistanceAnswer> answers_;  // of the other pairs
   std::vector<DistanceRate> moves_;      // of normal and points, at the last velocity
   bool moving_ = false;                  // whether the last evaluation had one
-  Eigen::VectorXd values_, change_, otherChange_, moved_;
+  Eigen::VectorXd values_, change_, otherChange_, moved_, axis_;
   std::vector<Kinematics::Rate> alongEach_;  // at a unit velocity of each coordinate, for hessian()
   SparseHessian structure_;                  // that hessian() fills, without values
   // Of one row's coordinates: what each does to both bodies, as DistanceHessian takes it; that matrix times

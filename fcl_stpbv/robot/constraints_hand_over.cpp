@@ -4,8 +4,6 @@
 // The parts lie in their whole bodies, so these are the nearest: while they are farther apart than the
 // hand-over no part can be nearer, and its row is constant without a query. Each row is a function of its own
 // distance alone, so nothing else is asked of its derivatives.
-#include <algorithm>
-#include <cmath>
 #include <limits>
 #include <map>
 #include <tuple>
@@ -62,6 +60,13 @@ double CollisionConstraints::largestValue(int row) const {
   if (at(row) >= pairs_.size()) return std::numeric_limits<double>::infinity();
   const Row& r = rows_[at(row)];
   return r.group >= 0 && !r.whole ? levelAt(r.start, r.end) : levelAt(options_.exactUpTo, options_.influence);
+}
+
+double CollisionConstraints::exactUpTo(int row) const {
+  requireRow(row);
+  if (at(row) >= pairs_.size()) return std::numeric_limits<double>::infinity();
+  const Row& r = rows_[at(row)];
+  return r.group >= 0 && !r.whole ? r.start : options_.exactUpTo;
 }
 
 // Puts a pair of whole bodies before the first of two or more pairs of their parts.

@@ -44,6 +44,7 @@ void CollisionConstraints::makeRoomForHessian() {
   twists_.resize(12, most);
   pushes_.resize(12, most);
   square_.resize(most, most);
+  axis_.resize(columns());
   structure_ = makeHessian();
 }
 
@@ -129,7 +130,9 @@ template <class Add>
 void CollisionConstraints::openHessians(const ConstVector& q, const Add& add) {
   if (std::find(open_.begin(), open_.end(), 1) == open_.end()) return;
   for (int j = 0; j < columns(); ++j) {
-    differences(q, Eigen::VectorXd::Unit(columns(), j));
+    axis_.setZero();
+    axis_[j] = 1;
+    differences(q, axis_);
     for (std::size_t row = 0; row < open_.size(); ++row) {
       if (!open_[row]) continue;
       const auto first = column_.begin() + rowStart_[row], last = column_.begin() + rowStart_[row + 1];

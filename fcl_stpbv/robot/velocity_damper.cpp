@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
 #include "fcl_stpbv/error.h"
@@ -35,14 +34,15 @@ void check(const Damper& damper, const std::string& of = "") {
     throw Error("VelocityDamper: influence" + of + " must be larger than security");
 }
 
-// No influence is beyond the largest value of its row. One that was written in decimals may be by rounding.
-void fitInfluence(double& influence, int row, double largest) {
-  if (influence > largest * (1 + 4 * std::numeric_limits<double>::epsilon()))
-    throw Error(formatted(
-        "VelocityDamper: influence %.9g m of row %d is beyond the most that its value can be, %.9g m; "
-        "give the constraints a larger influence or hand-over",
-        influence, row, largest));
-  influence = std::min(influence, largest);
+// A row that has begun to bend over has a gradient near 0, with which it would have to stop the pair. An
+// influence that was written in decimals may be beyond by rounding.
+void fitInfluence(double& influence, int row, double exact) {
+  if (influence > exact * (1 + 4 * std::numeric_limits<double>::epsilon()))
+    throw Error(
+        formatted("VelocityDamper: influence %.9g m of row %d is beyond %.9g m, up to where its value is the "
+                  "distance; give the constraints a larger influence, exactUpTo or hand-over",
+                  influence, row, exact));
+  influence = std::min(influence, exact);
 }
 
 }  // namespace
@@ -67,7 +67,7 @@ VelocityDamper::VelocityDamper(CollisionConstraints& constraints, DamperOptions 
     dampers_[at(row)] = damper;
   }
   for (int row = 0; row < constraints.rows(); ++row) {
-    fitInfluence(dampers_[at(row)].influence, row, constraints.largestValue(row));
+    fitInfluence(dampers_[at(row)].influence, row, constraints.exactUpTo(row));
     rest(row);
   }
   near_.reserve(at(constraints.rows()));
@@ -157,7 +157,7 @@ void VelocityDamper::update(const Eigen::Ref<const Eigen::VectorXd>& q,
   requireSize("VelocityDamper", "qd", qd.size(), constraints_.columns());
   bool known;
   if (options_.level == DamperLevel::velocity) {
-    known = constraints_.evaluate(q, rates_.d, jacobian_);
+    known = constraints_.evaluate(q, rates_.d, jacobian_) && qd.allFinite();
     rates_.speed.noalias() = jacobian_ * qd;
   } else {
     known = constraints_.evaluate(q, qd, rates_, jacobian_);

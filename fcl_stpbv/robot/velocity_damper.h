@@ -33,8 +33,9 @@ struct DamperOptions {
   /// A pair that enters faster than its row allows gets a larger xi until it leaves, at `barrier` a larger g
   /// too where xi is not enough. They allow what it does and as much again as it was too fast, at most this
   /// much (m/s). So no row acts on the tick on which it enters, but for a pair that enters at `security` or
-  /// beyond, or so fast that it would be there within a few periods: that one brakes at once. Negative:
-  /// never.
+  /// beyond, or so fast that it would be there within a few periods: that one brakes at once. At `barrier`
+  /// a row also holds back, from the tick on which it enters, what accelerates towards the other body by more
+  /// than the barrier allows. Negative: never.
   double headroom = 0.05;
   /// Of the controller (s), at every level: with gains above 1 / period, with accelerations above 1 / (3
   /// period), a pair could pass `security` between two ticks. Up to there a and g rise on entering. So a row
@@ -48,11 +49,11 @@ struct DamperOptions {
 class VelocityDamper {
  public:
   /// Keeps a reference to the constraints. @throws Error for lengths, speeds or rows that make no sense, and
-  /// for an influence beyond the largest value of its row, at which that row would act at any distance.
+  /// for an influence beyond CollisionConstraints::exactUpTo(), where that row bends over.
   VelocityDamper(CollisionConstraints& constraints, DamperOptions options);
 
-  /// Rows at q, while q moves with velocity qd. Of a q that is not finite nothing is known: all rows are
-  /// near, with A = 0 and b = infinity, which no x meets. A smooth constraint whose value is no number is
+  /// Rows at q, while q moves with velocity qd. Of a q or qd that is not finite nothing is known: all rows
+  /// are near, with A = 0 and b = infinity, which no x meets. A smooth constraint whose value is no number is
   /// near too, with b = infinity. @throws Error for a q or qd of another size.
   void update(const Eigen::Ref<const Eigen::VectorXd>& q, const Eigen::Ref<const Eigen::VectorXd>& qd);
 
@@ -93,14 +94,15 @@ class VelocityDamper {
   std::vector<int> near_;
 };
 
-/// What changes per second in a quadratic program `min x'Hx/2 - f'x, A x >= b`, of the rows that act.
+/// What changes per second, in the units of A, b and x, in a quadratic program `min x'Hx/2 - f'x, A x >= b`,
+/// of the rows that act.
 struct ProgramChange {
   double gradient = 0;    ///< most of |dA/dt|, the 2-norm over the acting rows (see gradientRateBound)
   double bound = 0;       ///< most of |db/dt|
   double multiplier = 0;  ///< norm of the acting rows' multipliers
   double solution = 0;    ///< |x|
 };
-/// Most of |dx/dt| that collision rows add to what the task alone asks for, in the norm x'Hx,
+/// Most of |dx/dt| that collision rows add to what the task alone asks for, in the norm sqrt(x'Hx),
 /// while the same rows act: `smallestH` is the smallest eigenvalue of H, `smallestG` that of A
 /// H^-1 A' of the acting rows (docs/control.md). 0 where nothing changes, as without acting rows; infinite
 /// where an eigenvalue is not above 0.

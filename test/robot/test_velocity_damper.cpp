@@ -219,12 +219,16 @@ TEST_CASE("a damper that makes no sense is refused with what would work") {
     options.rows = {{0, wrong}};
     CHECK_THROWS_WITH(VelocityDamper(*held.constraints, options), Catch::Contains("of row 0"));
   }
-  // Its rows would be 3.75 cm at any distance, and act there.
+  // Its rows bend over from 2.5 cm on, to 3.75 cm.
   Held small(0.01, 10, 0.2, 0.05);
   CHECK(small.constraints->largestValue(0) == Approx(0.0375).epsilon(1e-15));
+  CHECK(small.constraints->exactUpTo(0) == 0.025);
   options = {};
-  CHECK_THROWS_WITH(VelocityDamper(*small.constraints, options), Catch::Contains("0.0375"));
-  options.all.influence = small.constraints->largestValue(0);
+  for (const double bending : {0.05, 0.0375, 0.0251}) {
+    options.all.influence = bending;
+    CHECK_THROWS_WITH(VelocityDamper(*small.constraints, options), Catch::Contains("beyond 0.025 m"));
+  }
+  options.all.influence = small.constraints->exactUpTo(0);
   VelocityDamper damper(*small.constraints, options);
   damper.update(small.q, 0 * small.q);
   CHECK(damper.near().empty());
