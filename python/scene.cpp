@@ -67,9 +67,8 @@ SceneNeed PythonScene::toNeed(const Need& given, const std::string& name,
     throw Error(name + ": \"" + second + "\" is a link and an obstacle; give one of them another name");
   need.pair = link2 >= 0 ? LinkPair{link1, link2}
                          : LinkPair{link1, static_cast<int>(obstacle - obstacles.begin()), true};
-  const auto linkOf = [&](int body) { return geometry.bodies[static_cast<std::size_t>(body)].link; };
   const bool known = std::any_of(checked.begin(), checked.end(), [&](const CheckedPair& pair) {
-    const LinkPair links{linkOf(pair.body), pair.obstacle ? pair.other : linkOf(pair.other), pair.obstacle};
+    const LinkPair links = linksOf(pair, geometry);
     return !(links < need.pair) && !(need.pair < links);
   });
   if (!known)

@@ -59,8 +59,7 @@ class PythonPairSearch {
     const auto geometry = std::make_shared<const RobotGeometry>(loadGeometry(*model, options));
     std::set<std::pair<int, int>> known;
     for (const CheckedPair& pair : selfPairs(*model, *geometry, nullptr)) {
-      const LinkPair links{geometry->bodies[static_cast<std::size_t>(pair.body)].link,
-                           geometry->bodies[static_cast<std::size_t>(pair.other)].link};
+      const LinkPair links = fcl_stpbv::linksOf(pair, *geometry);
       if (known.emplace(links.link1, links.link2).second) pairs_.push_back(links);
     }
     std::vector<Obstacle> around;

@@ -1,7 +1,6 @@
 // See conversion.h.
 #include "tools/conversion.h"
 
-#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <filesystem>
@@ -11,6 +10,7 @@
 #include <vector>
 
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/error_place.h"
 #include "fcl_stpbv/formatted.h"
 #include "fcl_stpbv/io/text_scanner.h"
 #include "fcl_stpbv/io/volume_files.h"
@@ -50,22 +50,12 @@ StpBv::Ptr build(const std::string& input, const Points& points, const Conversio
   StpBvOptions radii;
   radii.r = options.r.value_or(radii.r);
   radii.R = options.R.value_or(radii.R);
-  try {
-    return StpBv::build(points, radii);
-  } catch (const Error& error) {
-    throw Error(input + ": " + error.what());
-  }
+  return detail::within(input, [&] { return StpBv::build(points, radii); });
 }
 
 // @throws Error where no radii keep both promises.
 RadiiAdvice advised(const std::string& input, const Points& points, const RadiiTask& task) {
-  const RadiiAdvice advice = [&] {
-    try {
-      return adviseRadii(points, task);
-    } catch (const Error& error) {
-      throw Error(input + ": " + error.what());
-    }
-  }();
+  const RadiiAdvice advice = detail::within(input, [&] { return adviseRadii(points, task); });
   if (advice.meetsBoth) return advice;
   throw Error(input + ": no r and R keep both promises. With acceleration=" + toDecimal(advice.acceleration) +
               " the clearance is enough, at r = " + toDecimal(advice.radii.r) +
@@ -149,12 +139,10 @@ Report convert(const std::string& input, const ConversionOptions& options) {
     report.buildSeconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   }
   report.points = points.size();
-  try {
+  detail::within(input, [&] {
     check(report, points, options);
     if (options.measure) measureExcess(report, content.mesh);
-  } catch (const Error& error) {
-    throw Error(input + ": " + error.what());
-  }
+  });
   return report;
 }
 

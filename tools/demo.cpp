@@ -5,8 +5,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <exception>
-#include <iostream>
 #include <random>
 
 #include "fcl_stpbv/adapter/polyhedral_witness.h"

@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/error_place.h"
 #include "fcl_stpbv/formatted.h"
 #include "fcl_stpbv/io/atomic_write.h"
 #include "fcl_stpbv/io/volume_files.h"
@@ -23,14 +23,7 @@ std::string millimetres(double metres) { return detail::formatted("%.3f mm", 1e3
 
 std::string fileText(const StpBv& volume, Format format, const std::string& name) {
   std::ostringstream text;
-  try {
-    if (format == Format::sch)
-      saveSch(text, volume);
-    else
-      saveStpBv(text, volume);
-  } catch (const Error& error) {
-    throw Error(name + ": " + error.what());
-  }
+  detail::within(name, [&] { format == Format::sch ? saveSch(text, volume) : saveStpBv(text, volume); });
   return text.str();
 }
 
@@ -61,7 +54,7 @@ PartsReport convertToParts(const std::string& input, const std::string& output,
   StpBvOptions radii;
   radii.r = options.r.value_or(radii.r);
   radii.R = options.R.value_or(radii.R);
-  try {
+  detail::within(input, [&] {
     report.parts = convexParts(content.mesh, *options.parts);
     for (const ConvexPart& part : report.parts.parts) {
       report.volumes.push_back(StpBv::build(part.points, radii));
@@ -71,9 +64,7 @@ PartsReport convertToParts(const std::string& input, const std::string& output,
       report.verified = report.verified && verification.ok;
       if (!verification.ok) report.verification = verification.message;
     }
-  } catch (const Error& error) {
-    throw Error(input + ": " + error.what());
-  }
+  });
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   for (std::size_t k = 0; k < report.volumes.size(); ++k) {
     report.outputs.push_back(nameOfPart(output, static_cast<int>(k)));

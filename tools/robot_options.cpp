@@ -46,14 +46,16 @@ void describeBodies(Program& app, RobotArguments& a) {
                  "a 200th of the link's radius; without it auto where r is, else 10")
           .type("LENGTH|auto")
           .number(0, kLargestR, false, "auto");
-  Option advise = app.option("--advise", a.advise,
-                             "Instead of -r and -R, of each link's meshes those that lose the least space "
-                             "and add at most this acceleration to a controller's rows: clearance [0.005 m], "
-                             "acceleration [1 m/s^2], speed [0.3 m/s], turning [1 rad/s], period [0.001 s], "
-                             "distance [0 m], others [flat]")
-                      .type("KEY=VALUE,...")
-                      .excludes(r)
-                      .excludes(R);
+  Option advise =
+      app.option("--advise", a.advise,
+                 "Instead of -r and -R, choose both for each link's meshes from a controller's task: "
+                 "clearance that the volume may take up [0.005 m], acceleration that its shape may "
+                 "add to a collision row [1 m/s^2], speed [0.3 m/s] and turning [1 rad/s] of the "
+                 "bodies at their witness points, control period [0.001 s], distance that is kept "
+                 "[0 m], others flat or round [flat]")
+          .type("KEY=VALUE,...")
+          .excludes(r)
+          .excludes(R);
   app.option("--primitives", a.primitives,
              "smooth: spheres, capsules, boxes and cylinders get smooth covers where a pair has no "
              "smooth body; flat: none")

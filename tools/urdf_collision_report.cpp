@@ -1,8 +1,6 @@
 // urdf_collision_report: which links of a robot come how close, and which pairs need no check.
-#include <algorithm>
 #include <filesystem>
 #include <functional>
-#include <memory>
 
 #include "fcl_stpbv/io/atomic_write.h"
 #include "fcl_stpbv/report/report_formats.h"

@@ -2,7 +2,6 @@
 #include "fcl_stpbv/adapter/continuous_collide.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <optional>
 
@@ -48,7 +47,8 @@ class Moving {
     body.pose = pose;
   }
   BodyVelocity velocity(const Vector3d& about) const {
-    return {velocity_ + motion_.angular.cross(about - pose.translation()), motion_.angular, acceleration_, true};
+    return {velocity_ + motion_.angular.cross(about - pose.translation()), motion_.angular, acceleration_,
+            true};
   }
   /// Most that any of its points moves in a unit of time (m).
   double speed() const { return motion_.linear.norm() + turning_; }

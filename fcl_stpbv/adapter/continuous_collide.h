@@ -13,8 +13,8 @@
 namespace fcl_stpbv {
 
 /// Over the time from 0 to 1 the body turns evenly about an axis that moves evenly: FCL's translations,
-/// interpolations and screws. The axis may be anywhere, so it is given by how fast the body's origin goes
-/// around it, which stays in the body's size where two poses differ by a turn of next to nothing.
+/// interpolations and screws. The axis is given by the velocity of the body's origin around it: that stays
+/// bounded for tiny rotations, whose axis may be anywhere.
 struct SteadyMotion {
   Eigen::Isometry3d begin = Eigen::Isometry3d::Identity();  ///< pose at the time 0
   Eigen::Vector3d linear{0, 0, 0};  ///< velocity of the axis (world, m per unit of time)
@@ -33,36 +33,40 @@ struct SteadyMotion {
 bool steadyMotion(const Eigen::Isometry3d& begin, const Eigen::Isometry3d& end, fcl::CCDMotionType type,
                   SteadyMotion& motion);
 
-/// What one of FCL's motion objects does, but for a screw that turns by less than 1e-10: FCL's then goes the
-/// way times its own length, this one to the end. False for splines and types of others, also those derived
-/// from FCL's, which may go another way. An `fcl::InterpMotion` that turns and was made without a reference
-/// point moves about whatever the memory held there (FCL 0.7 leaves it unset), and so does the answer; false
-/// where that is not within 1e6 m. Give one, or ask between two poses.
+/// What one of FCL's motion objects does. One exception: a screw that turns by less than 1e-10 goes to its
+/// end pose, while FCL's goes the way times its own length. False for splines and types of others, also those
+/// derived from FCL's, which may go another way. An `fcl::InterpMotion` that turns and was made without a
+/// reference point moves about whatever the memory held there (FCL 0.7 leaves it unset), and so does the
+/// answer; false where that is not within 1e6 m. Give one, or ask between two poses.
 bool steadyMotion(const fcl::MotionBased& motion, SteadyMotion& result);
 
 /// What became of a motion.
 enum class MotionVerdict {
   free,       ///< proven: at no time does a pair come within the margin
   contact,    ///< one does, first between `from` and `until`
-  undecided,  ///< free until `from`; behind it the distance is the margin to rounding, or it took too many
-              ///< queries: whether and when there is a contact is not known
+  undecided,  ///< free until `from`; after that the distance equals the margin to rounding, or it took too
+              ///< many queries: whether and when there is a contact is not known
 };
 
 /// What is asked about a motion.
 struct MotionRequest {
-  double margin = 0;  ///< a distance not above it is a contact (m); two meshes or trees have none below 0
-  double tolerance =
-      1e-4;  ///< of the time of contact, 1e-12 at least; 1 for any contact instead of the first
-  long mostQueries = 200000;  ///< or 1000 for each pair where these are more; then undecided
+  /// A distance not above it is a contact (m); two meshes or trees have none below 0.
+  double margin = 0;
+  /// Of the time of contact, as a share of the motion, at least 1e-12; 1 for any contact
+  /// instead of the first.
+  double tolerance = 1e-4;
+  /// Most distances asked for, or 1000 for each pair where that is more; the rest is undecided.
+  long mostQueries = 200000;
 };
 
 /// What becomes of pairs over the time from 0 to 1.
 struct MotionBracket {
   MotionVerdict verdict = MotionVerdict::free;  ///< of all pairs together
   double from = 1;                              ///< proven free before it
-  double until = 1;                             ///< in contact at it; 1 for a free motion
-  int pair = -1;                                ///< the one in contact, or not decided
-  long queries = 0;                             ///< distances asked for
+  double until = 1;  ///< in contact at it; 1 for a free motion; where nothing is decided the end of the time
+                     ///< that was looked at last
+  int pair = -1;     ///< the one in contact, or not decided
+  long queries = 0;  ///< distances asked for
   bool tooMany = false;  ///< not decided because these exceed MotionRequest::mostQueries
 };
 

@@ -5,7 +5,6 @@
 // Parts that stay apart for longer than two elements that are known are left out.
 #include "fcl_stpbv/adapter/element_cover.h"
 
-#include <cmath>
 #include <limits>
 
 namespace fcl_stpbv::detail {

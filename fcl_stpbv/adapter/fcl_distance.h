@@ -92,8 +92,8 @@ struct QueryContext {
   ProximityCounts* proximity = nullptr;  ///< gets what a question about a threshold took
   StartFrom start = StartFrom::centres;  ///< of queries without a last answer
   /// The caller knows that meshes are sound (hasFiniteCorners()). Each query looks at all of their corners
-  /// otherwise, which is most of its time where a large mesh is far away (docs/fcl.md). What is said of
-  /// a mesh of which it is not true is worth nothing.
+  /// otherwise, which is most of its time where a large mesh is far away (docs/fcl.md). If it is not true,
+  /// the answer is meaningless.
   bool finite = false;
 };
 

@@ -8,7 +8,6 @@
 #include "fcl_stpbv/adapter/feature_map.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "fcl_stpbv/distance/patch_pair.h"
 #include "fcl_stpbv/vectorized.h"

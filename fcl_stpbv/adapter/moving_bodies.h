@@ -13,7 +13,7 @@ namespace fcl_stpbv::detail {
 /// How a body moves now, per unit of time, in a frame that any plane between
 /// two bodies is fixed to; world axes.
 struct BodyVelocity {
-  Eigen::Vector3d linear{0, 0, 0};  ///< of the point `about` (plane_cover), as if the body carried it
+  Eigen::Vector3d linear{0, 0, 0};  ///< of the point `about` (planeCover), as if the body carried it
   Eigen::Vector3d angular{0, 0, 0};
   double acceleration = 0;  ///< no point of the body is ever accelerated by more
   bool steady = false;      ///< `angular` never changes its direction: all accelerations are across it

@@ -21,6 +21,11 @@ const std::vector<Vector3d>& verticesOf(const StpBv::Ptr& volume) {
   return volume->vertices();
 }
 
+const HullGraph& given(const std::shared_ptr<const HullGraph>& hull) {
+  if (!hull) throw Error("StpBvGeometry: the hull is null; leave it out, and it is made");
+  return *hull;
+}
+
 }  // namespace
 
 StpBvGeometry::StpBvGeometry(StpBv::Ptr volume)
@@ -29,7 +34,8 @@ StpBvGeometry::StpBvGeometry(StpBv::Ptr volume)
 // FCL's check of the mesh would throw on degenerate volumes, and everything
 // else it checks holds by construction.
 StpBvGeometry::StpBvGeometry(StpBv::Ptr volume, std::shared_ptr<const HullGraph> hull)
-    : fcl::Convexd(fclVertices(*hull, volume->vertices()), hull->faceCount(), fclFaces(*hull),
+    : fcl::Convexd(fclVertices(given(hull), verticesOf(volume)), given(hull).faceCount(),
+                   fclFaces(given(hull)),
                    /*throw_if_invalid=*/false),
       volume_(std::move(volume)),
       hull_(std::move(hull)) {

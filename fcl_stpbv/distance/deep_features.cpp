@@ -8,7 +8,6 @@
 //    (convex/local_maximum.h).
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <limits>
 #include <optional>
 

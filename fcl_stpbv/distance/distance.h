@@ -13,7 +13,8 @@ namespace fcl_stpbv {
 
 /// How good an answer is.
 enum class DistanceStatus {
-  exact,    ///< the signed distance to rounding: separated, touching, or penetrating by at most r1 + r2
+  exact,    ///< the signed distance to rounding: separated, touching, or penetrating by at most r1 + r2;
+            ///< beside half spaces and planes, and of two simple shapes, often deeper too
   local,    ///< deeper: a locally best separating translation; the true value lies in [lower, upper]
   bounded,  ///< not solved to rounding; the true value lies in [lower, upper]
   invalid,  ///< a pose is no rigid motion, each entry of its rotation to 1e-6, or is 1e150 m away; bounds

@@ -17,9 +17,9 @@ struct DistanceHessian {
   /// Along poses with origins `o + v t` and rotations `exp(w t) R`, the distance's second derivative is
   /// `twists^T matrix twists`; symmetric.
   Eigen::Matrix<double, 12, 12, Eigen::DontAlign> matrix;
-  /// Velocity of the normal.
+  /// Times the twists: the velocity of the normal (1/s).
   Eigen::Matrix<double, 3, 12, Eigen::DontAlign> normal;
-  /// Velocities of the witness points, which slide on their bodies.
+  /// Times the twists: the velocities of the witness points, which slide on their bodies (m/s).
   std::array<Eigen::Matrix<double, 3, 12, Eigen::DontAlign>, 2> point;
 };
 
@@ -29,9 +29,9 @@ struct DistanceHessian {
 bool hessian(const StpBv& a, const Eigen::Isometry3d& poseA, const StpBv& b, const Eigen::Isometry3d& poseB,
              const Distance& d, DistanceHessian& result);
 
-/// The same for a simple shape, in either order, where `d` is `exact`. Flat features keep
-/// the normal, edges and generators let it turn one way: what the bodies' motion alone does
-/// not settle is the maximum over those ways.
+/// The same for a simple shape, in either order, where `d` is `exact`. Next to a face the normal
+/// turns with the shape alone; next to an edge or a generator it is free to turn about that, and the distance
+/// is the maximum over those turns.
 bool hessian(const StpBv& volume, const Eigen::Isometry3d& poseVolume, const Shape& shape,
              const Eigen::Isometry3d& poseShape, const Distance& d, DistanceHessian& result);
 /// The same, the other way round.

@@ -10,7 +10,6 @@
 #include "fcl_stpbv/distance/overlap.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "fcl_stpbv/convex/epa.h"

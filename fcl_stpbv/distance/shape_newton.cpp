@@ -13,8 +13,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <utility>
 
 #include "fcl_stpbv/convex/onto_core.h"
 #include "fcl_stpbv/convex/support.h"

@@ -5,7 +5,6 @@
 // 2. Once it is near, the maximum on one feature of the shape (deep_features.cpp) has the answer's normal and
 //    points to rounding, and puts EPA's faces around it aside.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 

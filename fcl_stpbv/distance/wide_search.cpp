@@ -10,8 +10,6 @@
 //    the cores, a common point, or overlap.
 #include "fcl_stpbv/distance/wide_search.h"
 
-#include <algorithm>
-
 #include "fcl_stpbv/distance/overlap.h"
 #include "fcl_stpbv/distance/vertex_gjk.h"
 #include "fcl_stpbv/vectorized.h"

@@ -1,4 +1,4 @@
-// 1. a new folder beside the old one, named as temporary files are (atomic_write.h);
+// 1. a new folder beside the old one;
 // 2. all files into it, and on to the disk at once;
 // 3. the two folders change names in one step, where the file system can do that; the old one is removed.
 #include "fcl_stpbv/io/atomic_folder.h"
@@ -63,13 +63,15 @@ void takeName(const fs::path& made, const fs::path& name) {
   if (::chmod(made.c_str(), old.st_mode & 07777) != 0) refuse(name, errno);
   if (::renameat2(AT_FDCWD, made.c_str(), AT_FDCWD, name.c_str(), RENAME_EXCHANGE) == 0) return;
   if (errno != EINVAL && errno != ENOSYS) refuse(name, errno);
-  const Removed aside{made.string() + ".old"};
-  if (::rename(name.c_str(), aside.path.c_str()) != 0) refuse(name, errno);
+  const fs::path aside = made.string() + ".old";
+  if (::rename(name.c_str(), aside.c_str()) != 0) refuse(name, errno);
   if (::rename(made.c_str(), name.c_str()) != 0) {
     const int error = errno;
-    ::rename(aside.path.c_str(), name.c_str());
-    refuse(name, error);
+    if (::rename(aside.c_str(), name.c_str()) == 0) refuse(name, error);
+    throw Error(name.string() + ": another program has taken the name; the old folder is now " +
+                aside.string());
   }
+  const Removed replaced{aside};
 }
 
 // Without a slash at the end, and where a link leads to.

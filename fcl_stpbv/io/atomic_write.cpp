@@ -176,11 +176,11 @@ void atomicWriteAll(const std::vector<NamedText>& files) {
         throw Error(file.path + ": is a device or a pipe, which can hold nothing back; give a file's name");
       written.push_back(writeBeside(target(file.path), file.content, 0666, exists ? &old : nullptr));
     }
-  } catch (const Error&) {
+    for (const Whole& whole : written) putInPlace(whole);
+  } catch (...) {  // those in place have left their temporary names
     for (const Whole& whole : written) ::unlink(whole.temporary.c_str());
     throw;
   }
-  for (const Whole& whole : written) putInPlace(whole);
 }
 
 void atomicWriteOwn(const std::string& path, std::string_view content) {

@@ -21,7 +21,8 @@ struct NamedText {
 };
 
 /// The same for files that belong together: none gets its name before all are written. No devices or pipes.
-/// @throws Error as above; then all are as they were.
+/// @throws Error as above; then all are as they were, but for those that had got their names where another
+/// one's was refused only then, as in a folder that lets nobody replace files of others.
 void atomicWriteAll(const std::vector<NamedText>& files);
 
 /// The same for a file that nobody else may change: only its owner may write it, and whatever has its name, a

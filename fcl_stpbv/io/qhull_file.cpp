@@ -42,7 +42,8 @@ bool isWhole(std::string_view word) {
 std::size_t countsOnSecondLine(std::string_view text) {
   // qhull's input may carry a comment behind the dimension.
   const std::vector<std::string_view> first = takeLine(text);
-  const bool dimension = !first.empty() && isWhole(first[0]) && (first.size() == 1 || !isdigit(first[1][0]));
+  const bool dimension =
+      !first.empty() && isWhole(first[0]) && (first.size() == 1 || !isWhole(first[1].substr(0, 1)));
   const std::vector<std::string_view> second = takeLine(text);
   const bool counts = std::all_of(second.begin(), second.end(), isWhole);
   return dimension && counts && (second.size() == 1 || second.size() == 3) ? second.size() : 0;

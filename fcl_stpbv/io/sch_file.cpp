@@ -1,12 +1,13 @@
 // Volumes from and to sch-core's text format.
 // 1. Parse (sch_parse.cpp) and derive the tolerance from the digits in the file.
-// 2. Build a volume from the file's vertices and faces.
-// 3. Compare every redundant number of the file with that volume; refuse a contradiction with its line.
+// 2. Compare what the file says twice (sch_check.cpp); refuse a contradiction with its line.
+// 3. Build a volume from the file's vertices and faces, and compare the faces' reach with it.
 #include <cmath>
 #include <numeric>
 #include <ostream>
 #include <utility>
 
+#include "fcl_stpbv/error_place.h"
 #include "fcl_stpbv/io/atomic_write.h"
 #include "fcl_stpbv/io/sch_data.h"
 #include "fcl_stpbv/io/text_scanner.h"
@@ -19,8 +20,8 @@ using namespace detail;
 using Eigen::Vector3d;
 using Triangle = std::array<int, 3>;
 
-// A double's shortest exact form takes up to 17 digits; a file whose longest
-// number has this many was not rounded.
+// A file whose longest number has at least this many digits was not rounded: a double's shortest exact form
+// takes up to 17, and of many numbers one has 15.
 constexpr int kFullDigits = 15;
 
 // The k-gon behind a fan: sides between triangles that name each other fall away.
@@ -121,11 +122,7 @@ StpBv::Ptr volumeOfSch(const std::string& text, const std::string& name) {
       // Another writer may see four points on one ball where we see two triangles, or the other way round.
     }
   }
-  try {
-    if (!volume) volume = StpBv::build(vertices, options);
-  } catch (const Error& error) {
-    throw Error(name + ": " + error.what());
-  }
+  if (!volume) volume = within(name, [&] { return StpBv::build(vertices, options); });
   compare(file, *volume);
   return volume;
 }

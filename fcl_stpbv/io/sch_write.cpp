@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "fcl_stpbv/error_place.h"
 #include "fcl_stpbv/io/atomic_write.h"
 #include "fcl_stpbv/io/text_scanner.h"
 #include "fcl_stpbv/io/volume_files.h"
@@ -189,13 +190,7 @@ std::string schText(const StpBv& volume) {
 }  // namespace
 
 void saveSch(const std::string& path, const StpBv& volume) {
-  std::string text;
-  try {
-    text = schText(volume);
-  } catch (const Error& error) {
-    throw Error(path + ": " + error.what());
-  }
-  atomicWrite(path, text);
+  atomicWrite(path, within(path, [&] { return schText(volume); }));
 }
 
 void saveSch(std::ostream& out, const StpBv& volume) {

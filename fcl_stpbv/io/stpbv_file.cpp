@@ -1,6 +1,7 @@
 // The `.stpbv` format: a header, vertices, faces, `end`. Numbers are the shortest decimals that read back
 // exactly; on reading, edges and patches are rebuilt and the faces checked against their balls.
 
+#include "fcl_stpbv/error_place.h"
 #include "fcl_stpbv/io/atomic_write.h"
 #include "fcl_stpbv/io/text_scanner.h"
 #include "fcl_stpbv/io/volume_files.h"
@@ -73,11 +74,7 @@ StpBv::Ptr volumeOfStpbv(const std::string& text, const std::string& name) {
   in.keyword("end");
   in.end();
 
-  try {
-    return StpBv::assemble(std::move(vertices), std::move(faces), options);
-  } catch (const Error& error) {
-    throw Error(name + ": " + error.what());
-  }
+  return within(name, [&] { return StpBv::assemble(std::move(vertices), std::move(faces), options); });
 }
 
 }  // namespace

@@ -16,13 +16,13 @@ namespace fcl_stpbv {
 /// volume bit by bit. A failed or interrupted write leaves an old file as it was.
 /// @throws Error naming the file when it cannot be written.
 void saveStpBv(const std::string& path, const StpBv& volume);
-/// The same to a stream.
+/// The same to a stream. @throws Error when it cannot be written to.
 void saveStpBv(std::ostream& out, const StpBv& volume);
 
 /// Reads a `.stpbv`; the patches are rebuilt from the vertices and faces.
 /// @throws Error "file:line: got ..., expected ..." for a file that is damaged or no STP-BV.
 StpBv::Ptr loadStpBv(const std::string& path);
-/// The same from a stream; `name` stands for it in messages.
+/// The same from a stream; `name` stands for the file in messages. @throws Error as above.
 StpBv::Ptr loadStpBv(std::istream& in, const std::string& name = "stream");
 
 /// Whether a file that begins like this claims to be `.stpbv`.
@@ -45,7 +45,7 @@ bool looksLikeQhull(std::string_view text);
 /// @throws Error naming the file when it cannot be written, or saying what of this volume the format cannot
 /// hold: one or two vertices (no face), or an edge that turns by more than half a turn.
 void saveSch(const std::string& path, const StpBv& volume);
-/// The same to a stream.
+/// The same to a stream. @throws Error as above.
 void saveSch(std::ostream& out, const StpBv& volume);
 
 /// Reads a volume of sch-core's format. Everything the file says twice is compared within the digits it
@@ -54,7 +54,7 @@ void saveSch(std::ostream& out, const StpBv& volume);
 /// the volume is built anew from the vertices.
 /// @throws Error "file:line: what is wrong, what was expected".
 StpBv::Ptr loadSch(const std::string& path);
-/// The same from a stream; `name` stands for it in messages.
+/// The same from a stream; `name` stands for the file in messages. @throws Error as above.
 StpBv::Ptr loadSch(std::istream& in, const std::string& name = "stream");
 
 /// Whether a text begins like sch-core's files: a line with the two radii, then a count.

@@ -9,7 +9,6 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <numeric>
 
 #include "fcl_stpbv/numbers.h"
 

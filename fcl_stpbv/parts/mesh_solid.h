@@ -72,8 +72,8 @@ class MeshSolid {
   /// Of a point from one of the triangles (m).
   double distance(const Eigen::Vector3d& p, int triangle) const;
 
-  /// Calls `visit` with triangles until it says false: all whose boxes meet the box from `low` to `high`.
-  /// Whether it never did.
+  /// Calls `visit` with each triangle whose box meets the box from `low` to `high`, until it returns false.
+  /// @returns whether it never did.
   bool within(const Eigen::Vector3d& low, const Eigen::Vector3d& high,
               const std::function<bool(int)>& visit) const;
 
@@ -117,10 +117,13 @@ class MeshSolid {
 
 /// How close a bound is asked for, and when to end.
 struct ExcessOptions {
-  double absolute = 1e-5;  ///< the bound is within this (m)
-  double relative = 1e-3;  ///< plus this part of it, of the truth,
-  long queries = 1000000;  ///< unless that would take more distances than this
-  bool filled = true;      ///< points that the mesh encloses count 0; else all points from its triangles
+  /// The upper bound is above the truth by at most this (m),
+  double absolute = 1e-5;
+  /// and this share of it.
+  double relative = 1e-3;
+  /// Most distances that this may take; then the bound is wider.
+  long queries = 1000000;
+  bool filled = true;  ///< points that the mesh encloses count 0; else all points from its triangles
   double enough =
       std::numeric_limits<double>::infinity();  ///< stops as soon as the excess is proven larger (m)
   /// Known bound on the distance of the surface's corners from the mesh (m).
@@ -143,7 +146,8 @@ struct MeshExcess {
   Eigen::Vector3d where{0, 0, 0};  ///< a point of the surface (m)
 };
 
-/// Branch and bound over the surface's triangles. The distance from the mesh changes by no more than one
+/// How far the surface is from the mesh at most, within the options' limits. Branch and bound over the
+/// surface's triangles: the distance from the mesh changes by no more than one
 /// moves, and that from one convex set, as a triangle is, is largest at a corner; so a triangle's bound is
 /// the smaller of the distance at its middle plus its radius, and of its corners' distances from the mesh's
 /// triangle next to its middle.
@@ -156,7 +160,7 @@ MeshExcess hullExcess(const std::vector<Eigen::Vector3d>& points, const MeshSoli
                       const ExcessOptions& options = {});
 
 /// The triangles of the convex hull's surface; a flat hull has two sides, a segment
-/// and a point one triangle that is one.
+/// and a point give one triangle without area.
 /// @throws Error for an empty cloud or a coordinate that is not finite.
 std::vector<Triangle> hullTriangles(const std::vector<Eigen::Vector3d>& points);
 

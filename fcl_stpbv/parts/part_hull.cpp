@@ -4,7 +4,6 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
-#include <limits>
 
 #include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/volume/quickhull.h"

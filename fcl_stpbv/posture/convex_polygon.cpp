@@ -21,7 +21,7 @@ std::vector<Vector2d> convexPolygon(std::vector<Vector2d> points) {
         corners.pop_back();
       corners.push_back(p);
     }
-    corners.pop_back();
+    if (!corners.empty()) corners.pop_back();
     std::reverse(points.begin(), points.end());
   }
   return corners;

@@ -17,7 +17,7 @@ struct PostureOptions {
   int firstStart = 0;    ///< number of the first one to try; below 0 counts as 0
   std::uint64_t seed = 1;  ///< of the random ones
   int mends = 2;      ///< where no start leads to a posture, the best one is mended at most so many times
-  int anywhere = 20;  ///< and where that leads to none, so many more start anywhere within the limits
+  int anywhere = 20;  ///< where no mending leads to one either: starts anywhere within the limits
 };
 
 /// What was found.

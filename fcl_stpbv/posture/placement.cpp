@@ -1,7 +1,6 @@
 // A frame of a link at a target. Errors are the position in the target's axes and the rotation vector from
 // target to frame; with one free rotation, the rotation vector that tilts the axes together. Derivatives use
 // the inverse of the rotation vector's rate matrix.
-#include <algorithm>
 #include <cmath>
 
 #include "fcl_stpbv/cross_matrix.h"

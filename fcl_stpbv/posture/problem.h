@@ -78,7 +78,8 @@ class PostureProblem {
   PostureProblem(std::shared_ptr<const Kinematics> kinematics, PostureCost cost,
                  const Eigen::VectorXd& start);
 
-  /// Adds constraints, and `variables` that only they use, within [0, 1]. @return the first such variable.
+  /// Adds `count` variables within [0, 1], for constraints that come with their own. @return the index of the
+  /// first one.
   int addVariables(int count);
   /// Adds constraints.
   void add(std::shared_ptr<PostureRows> rows);

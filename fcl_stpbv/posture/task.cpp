@@ -161,9 +161,9 @@ PostureSetup setUp(const PostureTask& asked, const PostureScene& given, double i
   const std::shared_ptr<const Kinematics> kinematics = setup.problem->sharedKinematics();
   std::vector<CheckedPair> moving, still;
   for (const CheckedPair& pair : setup.pairs) {
-    const auto linkOf = [&](int body) { return scene.geometry->bodies[static_cast<std::size_t>(body)].link; };
-    const bool moves = !(pair.obstacle ? kinematics->dependence(linkOf(pair.body))
-                                       : kinematics->dependence(linkOf(pair.body), linkOf(pair.other)))
+    const LinkPair links = linksOf(pair, *scene.geometry);
+    const bool moves = !(pair.obstacle ? kinematics->dependence(links.link1)
+                                       : kinematics->dependence(links.link1, links.link2))
                             .empty();
     (moves ? moving : still).push_back(pair);
   }

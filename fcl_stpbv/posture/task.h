@@ -190,7 +190,8 @@ struct PostureTask {
   /// Concave links are split for the pairs that are in the way although their meshes are farther apart. For
   /// the program find_posture, or whoever makes the scene's bodies: setUp() takes these as they are.
   bool partsAuto = false;
-  int parts = 1;  ///< or all of them into so many convex parts at most
+  int parts = 1;              ///< or all of them into so many convex parts at most
+  bool seenFromBase = false;  ///< withBaseAtOrigin() has been here: the state's pose of the base is settled
 };
 
 /// @throws Error naming the file and the key, and what would work.
@@ -220,7 +221,8 @@ PostureSetup setUpWithoutCollisions(const PostureTask& task, const PostureScene&
 /// Asked for beyond a collision margin (m): more than a solver's tolerance, so that what it calls feasible
 /// keeps the margin itself.
 constexpr double kBeyondMargin = 2e-6;
-/// Pairs farther apart than `influence` (m) cost one test of their bounding spheres.
+/// The program of a task with its collision rows. Pairs farther apart than the margin, at least 0, plus
+/// `influence` (m) cost one test of their bounding spheres. @throws Error naming the task's key.
 PostureSetup setUp(const PostureTask& task, const PostureScene& scene, double influence = 0.2);
 
 }  // namespace fcl_stpbv

@@ -25,7 +25,7 @@ std::vector<int> coordinatesNamed(const std::string& name, const Kinematics& kin
 // A state that puts the base elsewhere does so in the axes of its parent_frame, which no task knows.
 void requireBasePose(const PostureTask& task, const PostureScene& scene) {
   const bool given = task.basePose.matrix() != Eigen::Matrix4d::Identity();
-  if (given || task.state.empty() || !scene.srdf) return;
+  if (given || task.seenFromBase || task.state.empty() || !scene.srdf) return;
   const std::string where = task.path + ": start.state";
   const Srdf::State state = detail::within(where, [&] { return scene.srdf->state(task.state); });
   if (scene.srdf->movesBase(state))
@@ -114,6 +114,7 @@ Eigen::VectorXd startOf(const PostureTask& task, const PostureScene& scene, cons
 
 std::pair<PostureTask, PostureScene> withBaseAtOrigin(PostureTask task, PostureScene scene) {
   requireBasePose(task, scene);
+  task.seenFromBase = true;
   Eigen::Isometry3d stands = Eigen::Isometry3d::Identity();
   if (task.base == BaseMotion::fixed) {
     stands = task.basePose;

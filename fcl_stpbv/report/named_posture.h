@@ -9,7 +9,7 @@
 namespace fcl_stpbv::report {
 
 /// The configuration that `name` stands for: a JSON file of joints, or coordinates such as `j/x`, and their
-/// values, of a list of all coordinates, or of an answer of find_posture; else a group_state of `srdf` (null
+/// values, or a list of all coordinates, or an answer of find_posture; else a group_state of `srdf` (null
 /// for none). Joints that it does not name are as in `rest`. `option` is the argument that asks for it. With
 /// `obstacles` the base has to stay where the URDF has it.
 /// @throws Error naming the file or the argument, and what would work.

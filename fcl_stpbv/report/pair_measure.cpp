@@ -16,13 +16,6 @@ using namespace detail;
 
 namespace {
 
-// Height of the supporting plane with the unit normal `n` over the geometry's origin (m).
-double supportOf(const fcl::CollisionGeometryd& geometry, const Eigen::Vector3d& n) {
-  if (const StpBvGeometry* smooth = asStpBv(&geometry)) return smooth->volume().support(n);
-  Shape shape;
-  return shapeOf(geometry, shape) ? n.dot(shape.support(n)) + shape.margin : 0;
-}
-
 // A body or an obstacle in its place, and what it covers: a primitive, or as a polyhedron the hull of all the
 // mesh's points, also under a reduced volume.
 struct Placed {
@@ -31,11 +24,12 @@ struct Placed {
   Eigen::Isometry3d pose;
 
   double cover(const Eigen::Vector3d& normal) const {
-    if (normal.isZero() || !asStpBv(body)) return 0;
+    const StpBvGeometry* smooth = asStpBv(body);
+    if (normal.isZero() || !smooth) return 0;
     const Eigen::Vector3d n = pose.linear().transpose() * normal;
     Shape covered;
     if (!shapeOf(*hull, covered)) return 0;
-    return std::max(0.0, supportOf(*body, n) - n.dot(covered.support(n)) - covered.margin);
+    return std::max(0.0, smooth->volume().support(n) - n.dot(covered.support(n)) - covered.margin);
   }
 };
 

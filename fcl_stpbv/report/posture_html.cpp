@@ -40,8 +40,7 @@ std::string toHtml(const PostureReport& report) {
   for (const CheckedPair& both : report.pairs) {
     PairReport pair;
     pair.link1 = nameOf(both.body);
-    const auto linkOf = [&](int body) { return page.geometry->bodies[static_cast<std::size_t>(body)].link; };
-    pair.links = {linkOf(both.body), both.obstacle ? both.other : linkOf(both.other), both.obstacle};
+    pair.links = linksOf(both, *page.geometry);
     pair.link2 =
         both.obstacle ? page.obstacles[static_cast<std::size_t>(both.other)].name : nameOf(both.other);
     pair.reason = both.obstacle ? "obstacle" : "self";
@@ -50,7 +49,8 @@ std::string toHtml(const PostureReport& report) {
     pair.minDistance = pair.answer.distance;
     page.minDistance = std::min(page.minDistance, pair.minDistance);
     ++page.checked;
-    pair.colliding = pair.minDistance < report.task.collisionMargin;
+    pair.colliding =
+        pair.answer.status == DistanceStatus::invalid || !(pair.minDistance > report.task.collisionMargin);
     page.colliding += pair.colliding;
     page.pairs.push_back(std::move(pair));
   }

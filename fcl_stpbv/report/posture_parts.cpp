@@ -10,11 +10,6 @@ namespace {
 // The solver leaves pairs that are in the way about at their margin; a millimetre is near enough to look.
 constexpr double kNear = 1e-3;
 
-LinkPair linksOf(const CheckedPair& pair, const RobotGeometry& geometry) {
-  const auto linkOf = [&](int body) { return geometry.bodies[static_cast<std::size_t>(body)].link; };
-  return {linkOf(pair.body), pair.obstacle ? pair.other : linkOf(pair.other), pair.obstacle};
-}
-
 }  // namespace
 
 PostureParts::PostureParts(const PostureTask& task, PostureScene& scene,

@@ -41,6 +41,7 @@ nlohmann::json trajectoryJson(const CollisionReport& report) {
                       {"timed", t.trajectory.timed},
                       {"verdict", verdicts[static_cast<int>(t.verdict)]},
                       {"free_until", t.undecided.empty() ? t.stop.from : t.undecided.front().from},
+                      {"followed_until", t.followedUntil},
                       {"closest_proven", t.closestProven},
                       {"closest_precision", TrajectoryReport::kPrecision},
                       {"steepest_approach", t.steepest},

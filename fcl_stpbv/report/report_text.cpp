@@ -47,7 +47,8 @@ std::string fits(const CollisionReport& report, std::size_t top) {
                      : formatted(" %8s %8s\n", "-", "-"));
   }
   return text + rest +
-         "hull, volume: at most so far are their surfaces from the mesh; ratio: the volume's to the mesh's\n";
+         "hull, volume: upper bound on how far their surfaces are from the mesh; ratio: the STP-BV's content "
+         "to the mesh's\n";
 }
 
 // The radii that --advise chose.
@@ -173,9 +174,11 @@ std::string trajectoryVerdict(const CollisionReport& report) {
     default:
       return "NOT DECIDED for " + report.trajectoryPair(t.stop.pair) +
              formatted(" at %.12g%s, free before: ", t.stop.from, unit) +
-             (t.undecided.empty()
-                  ? "the way is so long that a proof takes too many distances; give way points between"
-                  : "the distance is the margin to rounding");
+             (t.undecided.empty() ? "" : "the distance is the margin to rounding") +
+             (t.followedUntil < t.trajectory.time.back()
+                  ? (t.undecided.empty() ? "" : formatted("; from %.12g%s on ", t.followedUntil, unit)) +
+                        "the way is so long that a proof takes too many distances; give way points between"
+                  : "");
   }
 }
 

@@ -70,6 +70,7 @@ void findContact(MotionCheck& all, const std::shared_ptr<const RobotGeometry>& g
     MotionCheck others(kinematics, geometry, pairs, obstacles);
     stop = firstStop(others, margin, report.trajectory, stop.segment);
   }
+  report.followedUntil = stop.tooLong ? stop.at.from : report.trajectory.time.back();
   if (stop.verdict != MotionVerdict::contact && !report.undecided.empty()) {
     report.verdict = MotionVerdict::undecided;
     report.stop = report.undecided.front();

@@ -22,9 +22,10 @@ struct TrajectoryReport {
   MotionVerdict verdict = MotionVerdict::undecided;
   TrajectoryStop stop;  ///< the first contact; without one the first place where nothing is decided
   /// Pairs whose distance is the margin to rounding somewhere, each where that begins, in the order of time.
-  /// A contact is the first of all other pairs. Empty, and nothing decided, where a proof takes too many
-  /// distances.
+  /// A contact is the first of all other pairs.
   std::vector<TrajectoryStop> undecided;
+  /// Before the end where a proof takes too many distances: behind it nothing is decided for any pair.
+  double followedUntil = 0;
   std::vector<Approach> closest;  ///< of each pair of bodies, its time that of the trajectory
   /// Every `closest` is that of the whole trajectory to this (m); false where
   /// a pair was too deep in another one.

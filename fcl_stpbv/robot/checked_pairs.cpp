@@ -45,6 +45,13 @@ void requireBodies(const CheckedPair& pair, const RobotGeometry& geometry, std::
   if (!exists(pair.body, geometry.bodies.size()) ||
       !exists(pair.other, pair.obstacle ? obstacles : geometry.bodies.size()))
     throw Error(who + ": a pair names a body or an obstacle that does not exist");
+  if (!pair.obstacle && pair.body == pair.other)
+    throw Error(who + ": a pair names a body twice; nothing keeps it from itself");
+}
+
+LinkPair linksOf(const CheckedPair& pair, const RobotGeometry& geometry) {
+  const auto linkOf = [&](int body) { return geometry.bodies[static_cast<std::size_t>(body)].link; };
+  return {linkOf(pair.body), pair.obstacle ? pair.other : linkOf(pair.other), pair.obstacle};
 }
 
 PairedBodies detail::pairedBodies(const std::vector<CheckedPair>& pairs, const RobotGeometry& geometry) {

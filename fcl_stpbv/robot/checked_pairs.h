@@ -40,7 +40,7 @@ Obstacle obstacleOf(const fcl::CollisionObjectd& object, const std::string& name
 std::string nameOf(const CheckedPair& pair, const RobotGeometry& geometry,
                    const std::vector<Obstacle>& obstacles);
 
-/// @throws Error, as `who`, for a pair that names a body or an obstacle that does not exist.
+/// @throws Error, as `who`, for a pair that names a body or an obstacle that does not exist, or a body twice.
 void requireBodies(const CheckedPair& pair, const RobotGeometry& geometry, std::size_t obstacles,
                    const std::string& who);
 
@@ -50,6 +50,9 @@ std::vector<Obstacle> obstaclesOf(std::shared_ptr<const RobotModel> scene, const
 /// All pairs of bodies of different links, without those that `srdf` leaves out; without an SRDF (null),
 /// without those of adjacent and rigidly joined links (adjacency.h).
 std::vector<CheckedPair> selfPairs(const RobotModel& robot, const RobotGeometry& geometry, const Srdf* srdf);
+
+/// The links that a pair's bodies belong to, or the link and the obstacle.
+LinkPair linksOf(const CheckedPair& pair, const RobotGeometry& geometry);
 
 /// Every body of one link against every body of the other: their parts where the pair is taken by parts.
 std::vector<CheckedPair> pairsOfLinks(const RobotGeometry& geometry, int link1, int link2);

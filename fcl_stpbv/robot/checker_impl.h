@@ -3,7 +3,6 @@
 
 #include <Eigen/Geometry>
 #include <cstddef>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <string>

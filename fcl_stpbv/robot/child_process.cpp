@@ -4,6 +4,7 @@
 // 3. the parent turns a signal, a limit or a short answer into an Error that names the file.
 #include "fcl_stpbv/robot/child_process.h"
 
+#include <fcntl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -109,7 +110,7 @@ void ChildLimits::allow(std::size_t bytes) {
 
 std::string inChildProcess(const std::string& name, const std::function<std::string(ChildLimits&)>& work) {
   int ends[2];
-  if (::pipe(ends) != 0) throw Error(name + ": cannot be read: " + std::strerror(errno));
+  if (::pipe2(ends, O_CLOEXEC) != 0) throw Error(name + ": cannot be read: " + std::strerror(errno));
   const pid_t pid = ::fork();
   if (pid == 0) {
     ::close(ends[0]);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/robot/constraints.h"

@@ -3,7 +3,6 @@
 #include "fcl_stpbv/robot/fitted_radii.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "fcl_stpbv/adapter/fcl_distance.h"
 #include "fcl_stpbv/adapter/hull_geometry.h"

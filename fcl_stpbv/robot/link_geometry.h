@@ -27,8 +27,8 @@ std::string defaultCacheFolder();
 /// What volumes a robot's links get.
 struct GeometryOptions {
   StpBvOptions radii;  ///< of every link's volumes
-  bool fitr = false;   ///< an r that fits each body's size instead (docs/choosing_r_and_R.md)
-  bool fitR = false;   ///< an R that does
+  bool fitr = false;   ///< an r that fits each body's size, instead of radii.r (docs/choosing_r_and_R.md)
+  bool fitR = false;   ///< an R that fits each body's size, instead of radii.R
   /// Both radii of each mesh by adviseRadii() for this task, before all of the above. A warning counts the
   /// bodies that cannot keep both promises. Primitives have the radii above.
   std::optional<RadiiTask> advice;
@@ -37,10 +37,13 @@ struct GeometryOptions {
   /// vertices (reduce()) and a larger r to cover the others; R is doubled first until all vertices keep to
   /// the budget. The budget must be above r.
   double overCoverBudget = 0;
-  std::map<std::string, double> budgets;  ///< of single links, by name
-  bool flat = false;                      ///< the meshes of all links stay convex polyhedra, without STP-BVs:
-  std::set<std::string> flatLinks;  ///< or those of these links; enough where a pair's other body is smooth
-  bool visual = false;              ///< the visual shapes instead of the collision shapes
+  /// The same of single links, by name.
+  std::map<std::string, double> budgets;
+  /// The meshes of all links stay convex polyhedra, without STP-BVs. Enough where a pair's other body is
+  /// smooth.
+  bool flat = false;
+  std::set<std::string> flatLinks;                 ///< only the meshes of these links stay so
+  bool visual = false;                             ///< the visual shapes instead of the collision shapes
   std::vector<std::string> packagePath;            ///< folders for package:// names, before all others
   std::string cacheFolder = defaultCacheFolder();  ///< "" for no cache
   int threads = 1;                                 ///< that share the building; any number gives the same

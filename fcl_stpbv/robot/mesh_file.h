@@ -36,6 +36,7 @@ bool canSaveMesh(const std::string& path);
 void saveMesh(const std::string& path, const TriangleMesh& mesh);
 
 /// Writes several meshes as one, each in a colour of its own where the format has colours: .ply and .glb.
+/// @throws Error as saveMesh().
 void saveColoured(const std::string& path, const std::vector<TriangleMesh>& meshes);
 
 }  // namespace fcl_stpbv

@@ -6,7 +6,6 @@
 #include <array>
 #include <assimp/Exporter.hpp>
 #include <cmath>
-#include <filesystem>
 #include <limits>
 #include <memory>
 #include <string>

@@ -281,6 +281,10 @@ class Search {
   std::vector<Open> open_;
 };
 
+void requireSamples(const PairListOptions& options) {
+  if (options.samples < 1) throw Error("pairList: samples must be 1 or more");
+}
+
 }  // namespace
 
 namespace detail {
@@ -289,6 +293,7 @@ std::vector<PairEntry> pairListAgain(std::shared_ptr<const Kinematics> kinematic
                                      std::shared_ptr<const RobotGeometry> geometry, const Srdf* srdf,
                                      const PairListOptions& options, const std::vector<PairEntry>& before,
                                      const std::set<LinkPair>& changed) {
+  requireSamples(options);
   requireRoomForPairs(*kinematics, *geometry, options.obstacles.size());
   return Search(std::move(kinematics), std::move(geometry), options).run(srdf, &before, changed);
 }
@@ -298,7 +303,7 @@ std::vector<PairEntry> pairListAgain(std::shared_ptr<const Kinematics> kinematic
 std::vector<PairEntry> pairList(std::shared_ptr<const Kinematics> kinematics,
                                 std::shared_ptr<const RobotGeometry> geometry, const Srdf* srdf,
                                 const PairListOptions& options) {
-  if (options.samples < 1) throw Error("pairList: samples must be 1 or more");
+  requireSamples(options);
   requireRoomForPairs(*kinematics, *geometry, options.obstacles.size());
   return Search(std::move(kinematics), std::move(geometry), options).run(srdf);
 }

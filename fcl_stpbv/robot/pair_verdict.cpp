@@ -4,8 +4,6 @@
 //    the second body rises over it is bounded twice: by its sphere's radius times the turn, and by the ball
 //    of radius R that holds an STP-BV and touches it at the plane (docs/robot.md).
 // 3. Else the search of distance/threshold.h, or adapter/proximity.cpp's for bodies that are not convex.
-#include <algorithm>
-#include <cmath>
 
 #include "fcl_stpbv/adapter/fcl_distance.h"
 #include "fcl_stpbv/distance/threshold.h"

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
-#include <utility>
 
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/error_place.h"
 #include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/robot/capsule_fit.h"
 #include "fcl_stpbv/robot/followed_range.h"
@@ -72,16 +72,14 @@ ShapeModel toShape(const urdf::Geometry& geometry, const urdf::Pose& origin, boo
 }
 
 ShapeModel readShape(const XMLElement& element, const std::string& place) {
-  try {
+  return within(place, [&] {
     checkShapeWords(element);
     const urdf::CollisionSharedPtr read = readShapeElement(element);
     const bool capsule = element.FirstChildElement("geometry")->FirstChildElement("capsule") != nullptr;
     ShapeModel shape = toShape(*read->geometry, read->origin, capsule);
     shape.place = place;
     return shape;
-  } catch (const Error& error) {
-    throw Error(place + ": " + error.what());
-  }
+  });
 }
 
 // `use` is "collision" or "visual".
@@ -213,13 +211,7 @@ void readJoints(const UrdfTree& tree, RobotModel& robot, LoadFaults& faults) {
   std::vector<Follower> followers;
   std::vector<std::string> places;
   const auto gather = [&](const std::string& place, const auto& work) {
-    LoadFaults::gather(faults.errors, [&] {
-      try {
-        work();
-      } catch (const Error& error) {
-        throw Error(place + ": " + error.what());
-      }
-    });
+    LoadFaults::gather(faults.errors, [&] { within(place, work); });
   };
   for (const XMLElement* e : tree.joints) {
     const std::string place = xmlPlace(*e, robot.path) + "joint '" + e->Attribute("name") + "'";

@@ -106,12 +106,12 @@ class Reader {
 
 }  // namespace
 
-// Of the file's bytes; of glTF, which keeps its vertices in other files, of what these hold.
 Error namingFile(const std::string& file, const Error& error) {
   const std::string message = error.what();
   return Error(message.find(file) != std::string::npos ? message : file + ": " + message);
 }
 
+// Of the file's bytes; of glTF, which keeps its vertices in other files, of what these hold.
 std::string meshKey(const std::string& file, const Eigen::Vector3d& scale) {
   std::string key;
   appendVector(key, scale);

@@ -16,12 +16,15 @@ void shareOut(std::size_t count, int threads, const std::function<void(std::size
   std::exception_ptr failure;
   const auto take = [&] {
     const std::lock_guard<std::mutex> lock(mutex);
-    if (next < count && begun) begun(next);
     return next < count ? next++ : count;
   };
   auto work = [&](int) {
     for (std::size_t i; (i = take()) < count;) {
       try {
+        if (begun) {
+          const std::lock_guard<std::mutex> lock(mutex);
+          begun(i);
+        }
         each(i);
       } catch (...) {
         const std::lock_guard<std::mutex> lock(mutex);

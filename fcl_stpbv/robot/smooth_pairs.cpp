@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/error_place.h"
 #include "fcl_stpbv/robot/checked_pairs.h"
 #include "fcl_stpbv/robot/primitive_cover.h"
 
@@ -27,11 +28,8 @@ struct FlatBody {
 };
 
 PrimitiveCover coverOf(const Body& body) {
-  try {
-    return primitiveCover(*body.geometry, body.radii);
-  } catch (const Error& error) {
-    throw Error("the smooth cover of " + body.name + ": " + error.what());
-  }
+  return within("the smooth cover of " + body.name,
+                [&] { return primitiveCover(*body.geometry, body.radii); });
 }
 
 class Choice {

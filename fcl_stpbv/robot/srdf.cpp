@@ -22,7 +22,7 @@ namespace {
 using namespace detail;
 using tinyxml2::XMLElement;
 
-// Elements of SRDF that nothing here reads.
+// All elements of SRDF, of which take() reads some.
 constexpr Words kOthers{"group",
                         "end_effector",
                         "passive_joint",

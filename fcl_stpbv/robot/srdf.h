@@ -68,7 +68,8 @@ Srdf loadSrdf(const std::string& path, const RobotModel& robot, LoadFaults& faul
 
 /// The SRDF at `path` (a bare one where `path` is "") with its disable_collisions replaced by `pairs`.
 /// Entries of the reason "User" or of none and everything else stay as they are; pairs that the SRDF enables
-/// by name are left out of `pairs`. Each of `comments` goes before them.
+/// by name are left out of `pairs`. Each of `comments` goes before them. @throws Error as loadSrdf() for a
+/// file that is none.
 std::string withPairs(const std::string& path, const std::string& robotName,
                       const std::vector<Srdf::Pair>& pairs, const std::vector<std::string>& comments = {});
 /// The same of an SRDF as it was read, a bare one for null.

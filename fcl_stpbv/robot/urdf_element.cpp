@@ -7,10 +7,8 @@
 #include <urdf_parser/urdf_parser.h>
 
 #include <algorithm>
-#include <initializer_list>
 #include <mutex>
 #include <string>
-#include <string_view>
 
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/robot/xml_text.h"

@@ -13,7 +13,7 @@ namespace fcl_stpbv::detail {
 /// The height of a point p over the ball's surface, to first order, is `kappa |q|^2 / 2 + q.m`
 /// with `q = p - a`, `kappa` the curvature and `m` the unit outward normal at the first point a.
 /// It holds no large number for any radius. Its sign is decided in long double where that is
-/// certain and in quadruple precision otherwise.
+/// certain, else in quadruple precision, else in exact integers.
 class TouchingBall {
  public:
   TouchingBall(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c, double radius);
@@ -21,8 +21,7 @@ class TouchingBall {
   /// False where the points lie on a line or no ball of this radius can touch all three.
   bool valid() const { return valid_; }
 
-  /// First point touched, unit outward normal there, and a bound on that normal's error.
-  const Eigen::Vector3d& anchor() const { return anchor_; }
+  /// Unit outward normal at the first point touched, and a bound on its error.
   const Eigen::Vector3d& normal() const { return normal_; }
   double normalError() const { return normalError_; }
 

@@ -2,7 +2,6 @@
 #include "fcl_stpbv/volume/body_box.h"
 
 #include <Eigen/Geometry>
-#include <algorithm>
 #include <limits>
 
 namespace fcl_stpbv::detail {

@@ -162,7 +162,7 @@ double signedDistance(const StpBv& volume, const Vector3d& point) {
   // The largest value lies on the patch that owns its normal. Any normal gives a lower
   // bound with the support of its true owner, so one that rounding has put past a boundary,
   // as close to a vertex it may, does no harm.
-  constexpr double kNear = 1e-3;
+  constexpr double kNear = 1e-3;  // a sine; rounding moves no normal so far
   double best = -2 * volume.radii().R;
   for (int index = 0; index < volume.patchCount(); ++index) {
     if (!hasNormals(volume, index)) continue;

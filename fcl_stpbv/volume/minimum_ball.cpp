@@ -5,7 +5,6 @@
 #include "fcl_stpbv/volume/minimum_ball.h"
 
 #include <Eigen/Dense>
-#include <cmath>
 
 namespace fcl_stpbv::detail {
 namespace {

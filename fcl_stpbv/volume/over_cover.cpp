@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/volume/ball_faces.h"

@@ -23,7 +23,8 @@ constexpr double kDiametral = 1 + 1e-9;  // the edge's own ends must not fall ou
 double angleOf(const RollingCloud& cloud, const TouchingBall& ball, int a, int b, const Vector3d& across) {
   const Vector3d side = (cloud.at(b) - cloud.at(a)).normalized().cross(across);
   const double angle = std::atan2(ball.normal().dot(side), ball.normal().dot(across));
-  return angle < -1e-8 ? angle + kTwoPi : std::max(0.0, angle);
+  constexpr double kRounding = 1e-8;  // rad: so far below 0 an angle of 0 may come out
+  return angle < -kRounding ? angle + kTwoPi : std::max(0.0, angle);
 }
 
 // A point that the ball leaves before it has rolled by `rest` and that is back inside by then; -1 where there
@@ -33,16 +34,19 @@ int leftOnTheWay(const RollingCloud& cloud, int a, int b, const Vector3d& across
   const Vector3d edge = cloud.at(b) - cloud.at(a), u = edge.normalized(), side = u.cross(across);
   std::vector<int> aside;
   cloud.tree.within(cloud.at(a) + 0.5 * edge, 0.5 * edge.norm() * kDiametral, &aside);
-  const double sine = std::sin(rest), cosine = std::cos(rest), margin = 1e-9 * edge.norm();
+  const double sine = std::sin(rest), cosine = std::cos(rest),
+               margin = 1e-9 * edge.norm();  // far above rounding: what is in the wedge to rounding is asked
   int left = -1;
-  double first = rest - 1e-8;  // later ones are still outside at the end
+  double first = rest - 1e-8;  // rad, as in angleOf(); later ones are still outside at the end
   for (const int i : aside) {
     if (i == a || i == b) continue;
     // A point is highest over the ball when the normal points at it across the edge; most points do not lie
     // in the wedge that the normal sweeps.
     const Vector3d q = cloud.at(i) - cloud.at(a);
     const double x = q.dot(across), y = q.dot(side);
-    if (rest < 3 && (y < -margin || x * sine - y * cosine < -margin)) continue;
+    if (rest < 3 /* rad: a wedge below half a turn, with room */ &&
+        (y < -margin || x * sine - y * cosine < -margin))
+      continue;
     const double angle = leavingAngle(cloud, a, b, across, i);
     if (angle >= 0 && angle < first) left = i, first = angle;
   }

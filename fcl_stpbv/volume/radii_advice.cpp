@@ -5,8 +5,6 @@
 #include "fcl_stpbv/volume/radii_advice.h"
 
 #include <cmath>
-#include <cstdio>
-#include <limits>
 
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/formatted.h"

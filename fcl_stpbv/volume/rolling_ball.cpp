@@ -10,7 +10,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <utility>
 
 #include "fcl_stpbv/error.h"

@@ -1,5 +1,5 @@
 // The hull of a cloud under a ball: the vertices and faces that a ball rolled over it touches (paper IV.A,
-// Algorithm 1), and the convex hull, which a ball of infinite radius gives.
+// Algorithm 1), and the convex hull, by a ball that is flat to rounding.
 #pragma once
 
 #include <Eigen/Core>

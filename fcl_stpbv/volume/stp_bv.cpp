@@ -121,7 +121,17 @@ StpBv::Ptr StpBv::build(const std::vector<Vector3d>& points, const StpBvOptions&
     if (!quick.faces.empty()) volume = built(std::move(quick));
   } catch (const Error&) {  // its faces do not close: the cloud needs the roll
   }
-  if (found != Soundness::exact) volume = built(rollBall(points, rho));
+  if (found != Soundness::exact) {
+    const Ptr quick = volume;
+    const Soundness before = quick ? found : Soundness::broken;
+    try {
+      volume = built(rollBall(points, rho));
+    } catch (const Error&) {
+      if (before == Soundness::broken) throw;
+      found = Soundness::broken;
+    }
+    if (before < found) volume = quick, found = before;
+  }
   // Clusters of points that differ by a few roundings can defeat the roll: a
   // wrong volume must not leave the builder.
   if (found >= Soundness::off && points.size() <= kMostByDefinition) {

@@ -139,6 +139,7 @@ class StpBv {
   std::size_t memory() const;
 
   /// Smallest big radius for these points and this margin (m); build() takes any R above it.
+  /// @throws Error for points or a margin that build() refuses whatever the R.
   static double smallestR(const std::vector<Eigen::Vector3d>& points, double r);
 
   /// What this library's own queries read.

@@ -24,11 +24,13 @@ using Eigen::Vector3d;
 
 // An edge that turns by more is cut into parts: the boundaries of a region past half a turn do not intersect
 // in it, however little it is past. A flat plate's rim turns by nearly half a turn and stays whole.
-constexpr double kWidestPart = 0.5 * kTwoPi;
+constexpr double kWidestPart = kPi;
+constexpr double kPartTurn = 2.2;  // rad: well below half a turn, and at most three parts
 
 std::size_t partsOf(const StpBv::Edge& edge) {
-  return edge.face[0] < 0 || edge.turn <= kWidestPart ? 1
-                                                      : static_cast<std::size_t>(std::ceil(edge.turn / 2.2));
+  return edge.face[0] < 0 || edge.turn <= kWidestPart
+             ? 1
+             : static_cast<std::size_t>(std::ceil(edge.turn / kPartTurn));
 }
 
 /// An edge's patch with its two vertices past it. kappa = sqrt(rho^2 - l^2/4) (paper, Theorem 3.1), as a

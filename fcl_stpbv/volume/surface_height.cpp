@@ -82,7 +82,7 @@ Exit exitOf(const StpBv& volume, int index, const Vector3d& y, const Vector3d& d
 
 // From patch `index` on; its patch is -1 where that ends nowhere. Mostly one or two patches are enough.
 SurfaceHeight fromPatchToPatch(const StpBv& volume, const Vector3d& y, const Vector3d& d, int index) {
-  constexpr int kPatches = 60;
+  constexpr int kPatches = 60;  // a longer way is left to the search over the whole volume
   int before = -1, tried = 0;
   while (tried < kPatches) {
     ++tried;

@@ -14,8 +14,8 @@
 #include <catch2/catch.hpp>
 
 #include "fcl_stpbv/adapter/fcl_hessian.h"
-#include "test/reference/fcl_bodies.h"
 #include "test/adapter/element_kinds.h"
+#include "test/reference/fcl_bodies.h"
 #include "test/reference/reference.h"
 
 using namespace fcl_stpbv;

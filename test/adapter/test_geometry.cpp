@@ -173,6 +173,9 @@ TEST_CASE("only STP-BV geometries are recognised") {
 
 TEST_CASE("a geometry of no volume, or a hull of no cloud, is refused with a reason") {
   CHECK_THROWS_AS(StpBvGeometry(nullptr), Error);
+  const StpBvGeometry whole(StpBv::build(box(0.1, 0.2, 0.3)));
+  CHECK_THROWS_AS(StpBvGeometry(nullptr, std::make_shared<const HullGraph>(whole.hull())), Error);
+  CHECK_THROWS_AS(StpBvGeometry(StpBv::build(box(0.1, 0.2, 0.3)), nullptr), Error);
   CHECK_THROWS_AS(HullGraph(Cloud{}), Error);
   CHECK_THROWS_AS(HullGraph(Cloud{{0, std::nan(""), 0}}), Error);
 }

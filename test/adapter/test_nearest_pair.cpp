@@ -17,8 +17,8 @@
 #include "fcl_stpbv/adapter/nearest_pair.h"
 #include "fcl_stpbv/adapter/posed_geometry.h"
 #include "fcl_stpbv/convex/relative_pose.h"
-#include "test/reference/fcl_bodies.h"
 #include "test/adapter/element_kinds.h"
+#include "test/reference/fcl_bodies.h"
 #include "test/reference/trials.h"
 
 using namespace fcl_stpbv;

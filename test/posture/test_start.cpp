@@ -232,5 +232,9 @@ TEST_CASE(
     const PostureSetup setup =
         setUp(taskOf(task(base, R"("state": "away", "base": {"position": [5, 0, 1]})")), scene);
     CHECK(setup.start[setup.start.size() - 1] == 0.3);
+    // As find_posture does, which shows the scene as the base sees it.
+    const auto [moved, around] =
+        withBaseAtOrigin(taskOf(task(base, R"("state": "away", "base": {"position": [5, 0, 1]})")), scene);
+    CHECK(setUp(moved, around).start == setup.start);
   }
 }

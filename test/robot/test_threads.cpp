@@ -8,13 +8,16 @@
 #include <fcl/geometry/octree/octree.h>
 #endif
 
+#include <atomic>
 #include <catch2/catch.hpp>
 #include <thread>
 
 #include "fcl_stpbv/adapter/distance_callback.h"
 #include "fcl_stpbv/adapter/fcl_distance.h"
 #include "fcl_stpbv/adapter/hull_geometry.h"
+#include "fcl_stpbv/error.h"
 #include "fcl_stpbv/robot/batch.h"
+#include "fcl_stpbv/robot/share_out.h"
 #include "test/reference/robots.h"
 
 namespace fcl_stpbv::test {
@@ -65,6 +68,21 @@ std::vector<std::shared_ptr<fcl::CollisionGeometryd>> everyKind() {
 }
 
 }  // namespace
+
+TEST_CASE("what a caller's progress throws comes back to it, from any number of threads") {
+  for (const int threads : {1, 2, 4}) {
+    std::atomic<int> done = 0;
+    const auto work = [&] {
+      shareOut(
+          8, threads, [&](std::size_t) { ++done; },
+          [](std::size_t i) {
+            if (i == 3) throw Error("enough");
+          });
+    };
+    CHECK_THROWS_WITH(work(), "enough");
+    CHECK(done == 7);
+  }
+}
 
 TEST_CASE("eight threads that share a geometry of every kind get the answers of one thread") {
   const StpBvGeometry link(StpBv::build(geodesicSphere(0.1, 2)));

@@ -123,6 +123,26 @@ class Report(unittest.TestCase):
         self.assertIn("NOT DECIDED for table - ball at 0.99", done.stdout)
         self.assertIn("free before: the distance is the margin to rounding", done.stdout)
 
+    def test_a_pair_set_aside_does_not_hide_that_the_others_were_not_followed(self):
+        # A ball comes down onto a table; then an arm turns 100,000 times past a post, each time 1 mm off it.
+        slide = ('<joint name="z" type="prismatic"><parent link="table"/><child link="ball"/><origin xyz="0 0 0.1"/><axis xyz="0 0 1"/>'
+                 '<limit lower="-2" upper="2" effort="1" velocity="1"/></joint>')
+        spin = '<joint name="spin" type="continuous"><parent link="table"/><child link="arm"/><origin xyz="0 9 0"/><axis xyz="0 0 1"/></joint>'
+        arm = '<link name="arm"><collision><origin xyz="1 0 0"/><geometry><sphere radius="0.1"/></geometry></collision></link>'
+        box = '<link name="table"><collision><origin xyz="0 0 -0.05"/><geometry><box size="2 2 0.1"/></geometry></collision></link>'
+        robot = self.robot(box + link("ball", '<sphere radius="0.1"/>') + arm + link("post", '<sphere radius="0.1"/>') + slide + spin
+                           + joint("w", "table", "post", "fixed", "1.201 9 0"))
+        srdf = self.put("table.srdf", '<robot name="t"><disable_collisions link1="table" link2="post"/></robot>')
+        path = self.put("spin.csv", "time,z,spin\n0,0.2,0\n1,0,0\n2,0,628318.5\n")
+        arguments = [robot, "--primitives", "flat", "--srdf", srdf, "--trajectory", path]
+        done = self.run_tool(*arguments)
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertRegex(done.stdout, r"NOT DECIDED for table - ball at 0\.99\d* s, free before: the distance is the margin to rounding; "
+                                      r"from 1\.\d+ s on the way is so long that a proof takes too many distances")
+        report = json.loads(self.run_tool(*arguments, "--format", "json").stdout)["trajectory"]
+        self.assertEqual((report["verdict"], report["free_until"]), ("undecided", report["undecided"][0]["time"]))
+        self.assertTrue(1 <= report["followed_until"] < 2)
+
     def test_a_trajectory_that_keeps_clear_is_proven_free_and_drawn(self):
         text = "slide\n0\n0.5\n0.9\n0.2\n"
         done = self.follow("way.csv", text)

@@ -78,9 +78,8 @@ def work(name, options, files, digest, version, key, packed):
     if version != fcl_stpbv.__version__:
         raise RuntimeError(f"a worker has fcl_stpbv {fcl_stpbv.__version__} and not {version}; install the same everywhere")
     kind, known = KINDS[name], (name, digest, json.dumps(options, sort_keys=True))
-    if known in contexts:
-        context = contexts[known]
-    else:
+    context = contexts.get(known)  # at once: a worker may have several threads
+    if context is None:
         with Unpacked(pickle.loads(files)) as folder:
             context = kind.open(folder, options)
         contexts.clear()  # one robot at a time

@@ -109,8 +109,12 @@ class ResultFile:
     def __init__(self, path, header, kind):
         self.path, self.header, self.jobs = path, header, {}
         try:
-            self.file = os.open(path, os.O_RDWR | os.O_CREAT | os.O_APPEND, 0o666)
-            fcntl.flock(self.file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            self.file = None
+            while self.file is None or not os.path.samestat(os.fstat(self.file), os.stat(path)):  # a run that ends puts a new file there
+                if self.file is not None:
+                    os.close(self.file)
+                self.file = os.open(path, os.O_RDWR | os.O_CREAT | os.O_APPEND, 0o666)
+                fcntl.flock(self.file, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError:
             raise fcl_stpbv.Error(f"-o {path}: another run is writing to it; wait for it, or give another file") from None
         except OSError as error:
