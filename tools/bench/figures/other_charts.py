@@ -170,7 +170,7 @@ def clearance(height=440):
     draw("clearance", "Clearance buys calm joints: what each r and R costs", text + "unset multiplot\n", small_print, height)
 
 
-def success_map(name, scene, title, across, upward, panel, height, tics):
+def success_map(name, scene, where, across, upward, panel, height, tics):
     """Places of a grid with a posture: panels by the first axis, the second upwards, the last across. `across` and `upward`: their words."""
     data = measured("posture_grid")
     first, second, last = (axis["count"] for axis in data["about"]["axes"][scene])
@@ -182,7 +182,8 @@ def success_map(name, scene, title, across, upward, panel, height, tics):
              ".": (palette.GRID, "not found")}
     warm, cold = totals["neighbours"], totals["independent"]
     kinds = {mark: look for mark, look in kinds.items() if any(mark in row for row in rows)}
-    small_print = [f"{warm['places']} places: {warm['found']} with a posture from the neighbours', {cold['found']} independently; {data['about']['starts']} starts of its own each.",
+    title = f"Starts from the neighbours' postures reach {warm['found']} of {warm['places']} places, independent ones {cold['found']}"
+    small_print = [f"{where}; {data['about']['starts']} starts of its own for each place.",
                    f"{data['command']}: {data['machine']}"]
     text = panels(first, height, small_print, legend_rows=1, panel_titles=True, between=18) + legend([(c, 5, words) for c, words in kinds.values()], height, columns=4) + \
         f"unset grid\nset style fill solid noborder\nset xtics {tics}\nset xlabel {quoted(across)}\nset ylabel {quoted(upward)}\n" \
@@ -200,12 +201,12 @@ def success_map(name, scene, title, across, upward, panel, height, tics):
 
 
 def posture_grid_fridge(height=400):
-    success_map("posture_grid_fridge", "fridge", "Where the left hand can be around the can, by where the feet stand", "forward (m)", "upward (m)",
+    success_map("posture_grid_fridge", "fridge", "The left hand around the can, by where the feet stand", "forward (m)", "upward (m)",
                 lambda value: f"feet {-100 * value:.0f} cm back" if value else "feet in front", height, 0.3)
 
 
 def posture_grid_ladder(height=340):
-    success_map("posture_grid_ladder", "ladder", "Which rungs the hands can hold, by the left foot's rung", "hands to the left (m)", "rungs above the third",
+    success_map("posture_grid_ladder", "ladder", "The hands on the rungs, by the left foot's rung", "hands to the left (m)", "rungs above the third",
                 lambda value: f"left foot {value:.0f} rung{'s' * (value > 1)} up" if value else "feet on one rung", height, 0.2)
 
 
