@@ -132,8 +132,14 @@ class ColladaNodes {
     forEach("library_geometries", "geometry", [this](const XMLElement& e) { addGeometry(e); });
     forEach("library_nodes", "node", [this](const XMLElement& e) { addNode(e); });
     forEach("library_visual_scenes", "visual_scene", [this](const XMLElement& e) { addScene(e); });
-    forEach("library_nodes", "node", [this](const XMLElement& e) { checkNode(e); });
-    forEach("library_visual_scenes", "visual_scene", [this](const XMLElement& e) { checkNode(e); });
+    forEach("library_visual_scenes", "visual_scene", [this](const XMLElement& e) { checkNode(e, 1); });
+    constexpr int kRounds = 16;  // of nodes of the library that hold others of it
+    std::map<std::string, double> before;
+    for (int round = 0; round < kRounds && (round == 0 || before != instanced_); ++round) {
+      before = instanced_;
+      forEach("library_nodes", "node",
+              [this](const XMLElement& e) { checkNode(e, instanced_[attribute(e, "id")]); });
+    }
     return far_;
   }
 
@@ -179,7 +185,7 @@ class ColladaNodes {
   }
 
   // Whether a shape is in it or below. `above`: the stretch of the nodes around it.
-  bool checkNode(const XMLElement& node, double above = 1) {
+  bool checkNode(const XMLElement& node, double above) {
     checkKnown(node, kInNode, name_);
     ColladaReach reach;
     for (const XMLElement* e = node.FirstChildElement(); e != nullptr; e = e->NextSiblingElement())
@@ -192,6 +198,7 @@ class ColladaNodes {
         holdsShape |= checkNode(*e, above * reach.stretch);
       } else if (kind == "instance_node") {
         const std::string target = colladaTarget(*e, "url", name_);
+        instanced_[target] = std::max(instanced_[target], above * reach.stretch);
         if (nodes_.count(target) == 0)
           refuseCollada(*e,
                         "names the node '#" + target +
@@ -230,6 +237,7 @@ class ColladaNodes {
   const std::string& name_;
   std::map<std::string, const XMLElement*> shapes_;  // geometries
   std::set<std::string> nodes_;                      // those that an <instance_node> may name
+  std::map<std::string, double> instanced_;          // nodes, and the largest stretch around an instance
   double far_ = 0;                                   // check()
 };
 

@@ -16,6 +16,19 @@ constexpr std::size_t kMostDigits = 18;
 constexpr std::size_t kMostDecimals = 15;
 constexpr long kMostIndex = 2147483647;
 
+// Whether the decimals behind the 15th are more than a billionth of a number that a power of ten enlarges.
+bool losesDecimals(std::string_view number) {
+  const std::size_t power = std::min(number.find_first_of("eE"), number.size());
+  const std::size_t point = std::min(number.find('.'), power);
+  if (power - point <= 1 + kMostDecimals) return false;
+  constexpr double kLeast = 1e-6;  // a billion times the last decimal that counts
+  double digits = 0, ten = 0;
+  std::from_chars(number.data(), number.data() + power, digits);
+  const std::string_view exponent = withoutPlus(number.substr(std::min(power + 1, number.size())));
+  std::from_chars(exponent.data(), exponent.data() + exponent.size(), ten);
+  return ten > 0 && digits != 0 && std::abs(digits) < kLeast;
+}
+
 bool isBreak(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
 
 }  // namespace
@@ -48,10 +61,7 @@ bool readMeshNumber(std::string_view word, double& value) {
   const auto result = std::from_chars(word.data(), word.data() + word.size(), value);
   if (result.ec != std::errc() || result.ptr != word.data() + word.size() || !std::isfinite(value))
     return false;
-  const std::size_t point = std::min(word.find('.'), word.size()), power = word.find_first_of("eE");
-  const std::size_t decimals = std::min(power, word.size()) - std::min(point, std::min(power, word.size()));
-  const bool enlarged = power != std::string_view::npos && word.find('-', power) == std::string_view::npos;
-  if (enlarged && decimals > 1 + kMostDecimals) return false;
+  if (losesDecimals(word)) return false;
   word.remove_prefix(std::min(word.find_first_not_of("-0"), word.size()));
   return std::min(word.find_first_not_of("0123456789"), word.size()) <= kMostDigits;
 }

@@ -18,13 +18,13 @@ std::string inSmallLetters(std::string_view word);
 
 /// Whether a word is a finite decimal that assimp reads as what it says: it counts the digits before the
 /// point in an integer of 64 bits, and takes more of them for 0 or for any number; it leaves out decimals
-/// behind the 15th, which a power of ten may make large.
+/// behind the 15th, of which a power of ten may make much.
 bool readMeshNumber(std::string_view word, double& value);
 bool isMeshNumber(std::string_view word);
 
 /// Of a finite number that isMeshNumber() refuses, what it lacks.
 constexpr const char* kNumberForm =
-    "with a point for decimals, at most 18 digits before it, and 15 behind it where a power enlarges them";
+    "with a point for decimals, at most 18 digits before it, and no small one that a power enlarges";
 
 /// Whether a word is a whole number from 0 that fits assimp's integers of 32 bits.
 bool readMeshIndex(std::string_view word, long& value);

@@ -169,6 +169,7 @@ Cover MotionCheck::Impl::cover(int pair, const Distance& found, double margin, d
                      vb = chains_.velocityOf(chains_.pair(pair), 1, about);
   const double slack = chains_.slack() + 2 * (a.body.supportError() + b.body.supportError());
   if (!a.convex || !b.convex) {
+    if (margin < 0 && !a.convex && !b.convex) return {most, most};  // surfaces have no depth
     const double acceleration = va.acceleration + vb.acceleration;
     if (!std::isfinite(acceleration)) return {};
     // A half space has no ball; it does not turn here.

@@ -68,6 +68,7 @@ VelocityDamper::VelocityDamper(CollisionConstraints& constraints, DamperOptions 
   }
   for (int row = 0; row < constraints.rows(); ++row) {
     fitInfluence(dampers_[at(row)].influence, row, constraints.exactUpTo(row));
+    check(dampers_[at(row)], " of row " + std::to_string(row));
     rest(row);
   }
   near_.reserve(at(constraints.rows()));
@@ -158,6 +159,7 @@ void VelocityDamper::update(const Eigen::Ref<const Eigen::VectorXd>& q,
   bool known;
   if (options_.level == DamperLevel::velocity) {
     known = constraints_.evaluate(q, rates_.d, jacobian_) && qd.allFinite();
+    if (!known) Eigen::Map<Eigen::VectorXd>(jacobian_.valuePtr(), jacobian_.nonZeros()).setZero();
     rates_.speed.noalias() = jacobian_ * qd;
   } else {
     known = constraints_.evaluate(q, qd, rates_, jacobian_);

@@ -204,6 +204,7 @@ TEST_CASE("a tick without a velocity uses up no entry") {
     VelocityDamper damper(*rail.constraints, at(level));
     rail.update(damper, 0.039, std::nan(""));
     CHECK(std::isinf(damper.b()[0]));
+    CHECK(damper.A().norm() == 0);
     rail.update(damper, 0.039, 1.5);
     VelocityDamper fresh(*rail.constraints, at(level));
     rail.update(fresh, 0.039, 1.5);

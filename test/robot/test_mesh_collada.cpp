@@ -190,6 +190,16 @@ TEST_CASE("a COLLADA mesh that its transforms bring back from far away is refuse
         "1</scale>",
         message},
        {"0 0 0 1 0 0 0 1 0", "1e5 0 0 100001 0 0 1e5 1 0", message}});
+  std::string scaled =
+      changed(kSound, {node, node + "<translate>2e3 0 0</translate><translate>-2e3 0 0</translate>"});
+  scaled = changed(changed(scaled, {"0 0 0 1 0 0 0 1 0", "0 0 0 .001 0 0 0 .001 0"}),
+                   {away, "<scale>1000 1000 1000</scale>"});
+  CHECK_THAT(loadedText(scaled), Contains(message));
+  const std::string library = "<library_nodes>";
+  CHECK(
+      loadedText(changed(
+          kSound, {library, library + "<node id=\"unused\"><translate>1e6 0 0</translate><translate>-1e6 0 0"
+                                      "</translate><instance_geometry url=\"#g\"/></node>"})) == "");
   std::string text = changed(kSound, {away, "<translate>-1e5 0 0</translate>"});
   text = changed(text, {"0 0 0 1 0 0 0 1 0", "1e5 0 0 100001 0 0 1e5 1 0"});
   const TemporaryFolder folder;

@@ -47,7 +47,7 @@ TEST_CASE("OBJ: comments, joined lines and numbers that assimp takes for others"
   checkRefused("t.obj", {{obj + "v " + kBig, ":4: "},
                          {obj + "v .5 0 0\n", ":4: "},
                          {obj + "v 0.0000000000000000009e18 0 0\n", ":4: "},
-                         {obj + "v 0 1.0000000000000009E+03 0\n", ":4: "},
+                         {obj + "v 0 -0.0000001000000009E+07 0\n", ":4: "},
                          {obj + "v 0 0 0 1 1\n", ":4: a vertex of 5 numbers"},
                          {obj + "v 0 0 0 2\n", ":4: a vertex has the weight 2,"},
                          {obj + "v 0 0 0 0\n", ":4: a vertex has the weight 0,"},
@@ -69,6 +69,13 @@ TEST_CASE("OBJ: comments, joined lines and numbers that assimp takes for others"
              "# C:\\\n# a file\n" + obj + "# goes \\\non\n" + face + "# C:\\\n", obj + "f 1 \\\n2 3\n",
              obj + "f 1 2\\\r\n 3\r\n", "# C:\\ \n" + obj + face,
              "v 0 0 0 1\nv 1 0 0 1 1 1\nv 0 1e0 0\n" + face, "v 0 0 0\rv 1 0 0\rv 0 1 0\rf 1 2 3\r"});
+}
+
+TEST_CASE("numbers as printf and numpy write them in full are read") {
+  checkRead(
+      "t.obj",
+      {"v 0.0000000000000000e+00 0.000000000000000000e+00 0\n"
+       "v 1.0000000000000000e+00 0 0.10000000000000000555e+00\nv 0 1.234567890123456700E+02 0\nf 1 2 3\n"});
 }
 
 TEST_CASE("OBJ: statements that assimp would pass over") {

@@ -232,6 +232,25 @@ TEST_CASE("a link that slides over a flat mesh takes few looks, however near, an
   }
 }
 
+TEST_CASE("two surfaces that pass through each other have no depth to be searched for") {
+  const Scene scene = everyJoint(BaseMotion::fixed);
+  std::vector<CheckedPair> surfaces;
+  for (const CheckedPair& pair : scene.pairs)
+    if (pair.obstacle && pair.other == 0 &&
+        scene.geometry->bodies[static_cast<std::size_t>(pair.body)].geometry->getObjectType() == fcl::OT_BVH)
+      surfaces.push_back(pair);
+  REQUIRE(surfaces.size() == 1);
+  MotionCheck check(scene.kinematics, scene.geometry, surfaces, scene.obstacles);
+  Random random(5);
+  for (int i = 0; i < 20; ++i) {
+    const VectorXd q0 = randomConfiguration(*scene.kinematics, random),
+                   q1 = q0 + 2 * randomDirection(q0.size(), random);
+    const MotionBracket found = check.firstContact(q0, q1, {-1e-9, 1e-4});
+    CHECK(found.verdict == MotionVerdict::free);
+    CHECK(found.queries < 10);
+  }
+}
+
 TEST_CASE("what is not finite is not free, and pairs that do not exist are refused") {
   const Scene scene = everyJoint(BaseMotion::fixed);
   MotionCheck check(scene.kinematics, scene.geometry, scene.pairs, scene.obstacles);

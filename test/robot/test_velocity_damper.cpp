@@ -228,7 +228,9 @@ TEST_CASE("a damper that makes no sense is refused with what would work") {
     options.all.influence = bending;
     CHECK_THROWS_WITH(VelocityDamper(*small.constraints, options), Catch::Contains("beyond 0.025 m"));
   }
-  options.all.influence = small.constraints->exactUpTo(0);
+  options.all = {0.025 * (1 + 4e-16), 0.025, 0.5};
+  CHECK_THROWS_WITH(VelocityDamper(*small.constraints, options), Catch::Contains("larger than security"));
+  options.all = {small.constraints->exactUpTo(0), 0.01, 0.5};
   VelocityDamper damper(*small.constraints, options);
   damper.update(small.q, 0 * small.q);
   CHECK(damper.near().empty());
