@@ -15,10 +15,6 @@ using Part = PosedGeometry::Part;
 
 constexpr double kSettled = std::numeric_limits<double>::infinity();
 
-Cover longer(const Cover& p, const Cover& q) {
-  return {std::max(p.before, q.before), std::max(p.after, q.after)};
-}
-
 Cover shorter(const Cover& p, const Cover& q) {
   return {std::min(p.before, q.before), std::min(p.after, q.after)};
 }

@@ -32,6 +32,11 @@ struct Cover {
   double before = 0, after = 0;
 };
 
+/// Of two that both hold for the same bodies.
+inline Cover longer(const Cover& p, const Cover& q) {
+  return {std::max(p.before, q.before), std::max(p.after, q.after)};
+}
+
 /// The longest time up to `most` for which `gap + rate t - acceleration t^2 / 2`
 /// stays above 0 with the rate at most 0. Of what is no number: 0.
 inline double timeAbove(double gap, double rate, double acceleration, double most) {

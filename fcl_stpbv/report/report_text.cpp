@@ -172,14 +172,16 @@ std::string trajectoryVerdict(const CollisionReport& report) {
       return "CONTACT of " + report.trajectoryPair(t.stop.pair) +
              formatted(" between %.12g and %.12g%s", t.stop.from, t.stop.until, unit);
     default:
-      return "NOT DECIDED for " + report.trajectoryPair(t.stop.pair) +
-             formatted(" at %.12g%s, free before: ", t.stop.from, unit) +
-             (t.undecided.empty() ? "" : "the distance is the margin to rounding") +
-             (t.followedUntil < t.trajectory.time.back()
-                  ? (t.undecided.empty() ? "" : formatted("; from %.12g%s on ", t.followedUntil, unit)) +
-                        "the way is so long that a proof takes too many distances; give way points between"
-                  : "");
+      break;
   }
+  std::string why;
+  if (!t.undecided.empty()) why = "the distance is the margin to rounding";
+  if (t.followedUntil < t.trajectory.time.back()) {
+    if (!why.empty()) why += formatted("; from %.12g%s on ", t.followedUntil, unit);
+    why += "the way is so long that a proof takes too many distances; give way points between";
+  }
+  return "NOT DECIDED for " + report.trajectoryPair(t.stop.pair) +
+         formatted(" at %.12g%s, free before: ", t.stop.from, unit) + why;
 }
 
 std::string toText(const CollisionReport& report, std::size_t top) {

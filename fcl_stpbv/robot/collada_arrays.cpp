@@ -125,11 +125,7 @@ class ColladaArrays {
   }
 
   Accessor readAccessor(const XMLElement& element) {
-    for (const tinyxml2::XMLAttribute* a = element.FirstAttribute(); a != nullptr; a = a->Next())
-      if (!holds(kOfAccessor, a->Name()))
-        refuseCollada(element,
-                      "has an attribute '" + std::string(a->Name()) + "' that COLLADA does not know there",
-                      name_);
+    checkColladaAttributes(element, kOfAccessor, name_);
     Accessor accessor;
     accessor.element = &element;
     accessor.array = colladaTarget(element, "source", name_);
@@ -272,6 +268,16 @@ std::string colladaTarget(const XMLElement& element, const char* attribute, cons
                 "=\"#...\", an element of this file; other files are not read");
   }
   return target + 1;
+}
+
+void checkColladaAttributes(const XMLElement& element, const Words& known, const std::string& name) {
+  for (const tinyxml2::XMLAttribute* a = element.FirstAttribute(); a != nullptr; a = a->Next()) {
+    if (holds(known, a->Name())) continue;
+    std::string list;
+    for (const std::string_view word : known) list += (list.empty() ? "" : ", ") + std::string(word);
+    throw Error(xmlPlace(element, name) + "<" + element.Name() + "> has an attribute '" + a->Name() +
+                "' that COLLADA does not know there; it knows " + list);
+  }
 }
 
 std::size_t countNumbers(const XMLElement& element, const std::string& name) {

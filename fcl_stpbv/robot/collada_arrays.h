@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "fcl_stpbv/words.h"
+
 namespace fcl_stpbv::detail {
 
 /// Refuses the file at an element that only its writer can mend. @throws Error "name:line: <element> ..."
@@ -16,6 +18,9 @@ namespace fcl_stpbv::detail {
 /// The id that an attribute refers to as "#id". @throws Error where it has another form.
 std::string colladaTarget(const tinyxml2::XMLElement& element, const char* attribute,
                           const std::string& name);
+
+/// @throws Error for an attribute that is not among `known`.
+void checkColladaAttributes(const tinyxml2::XMLElement& element, const Words& known, const std::string& name);
 
 /// How many numbers the element's text has. @throws Error where one is no finite number, or where a comment
 /// or another element divides the text: assimp reads its first part only.

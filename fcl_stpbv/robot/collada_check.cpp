@@ -24,12 +24,7 @@ double metresOf(const XMLElement& unit, const std::string& name) {
   if (std::string_view(unit.Name()) != "unit")
     throw Error(xmlPlace(unit, name) + "<" + unit.Name() +
                 "> is no element of COLLADA; is it a misspelt <unit>?");
-  for (const tinyxml2::XMLAttribute* a = unit.FirstAttribute(); a != nullptr; a = a->Next()) {
-    const std::string_view word = a->Name();
-    if (word != "meter" && word != "name")
-      throw Error(xmlPlace(unit, name) + "<unit> has an attribute '" + a->Name() +
-                  "' that COLLADA does not know there; it knows meter, name");
-  }
+  checkColladaAttributes(unit, {"meter", "name"}, name);
   const char* metres = unit.Attribute("meter");
   double value = 1;
   if (metres != nullptr && !(readMeshNumber(metres, value) && value > 0))
@@ -133,12 +128,15 @@ class ColladaNodes {
     forEach("library_nodes", "node", [this](const XMLElement& e) { addNode(e); });
     forEach("library_visual_scenes", "visual_scene", [this](const XMLElement& e) { addScene(e); });
     forEach("library_visual_scenes", "visual_scene", [this](const XMLElement& e) { checkNode(e, 1); });
-    constexpr int kRounds = 16;  // of nodes of the library that hold others of it
+    // Again where nodes of the library hold others of it, which may have been checked before.
+    constexpr int kRounds = 16;
     std::map<std::string, double> before;
     for (int round = 0; round < kRounds && (round == 0 || before != instanced_); ++round) {
       before = instanced_;
-      forEach("library_nodes", "node",
-              [this](const XMLElement& e) { checkNode(e, instanced_[attribute(e, "id")]); });
+      forEach("library_nodes", "node", [this](const XMLElement& e) {
+        const auto around = instanced_.find(attribute(e, "id"));
+        checkNode(e, around == instanced_.end() ? 0 : around->second);
+      });
     }
     return far_;
   }

@@ -72,17 +72,14 @@ void addColladaTransform(const XMLElement& element, const std::string& name, Col
   if (kind == "rotate") checkRotation(element, numbers, name);
   if (kind == "matrix") checkMatrix(element, numbers, name);
   if (kind == "lookat") checkView(element, numbers, name);
-  const bool matrix = kind == "matrix";
-  if (matrix)
-    reach.far += reach.stretch * Vector3d(numbers[3], numbers[7], numbers[11]).norm();
-  else if (kind == "translate" || kind == "lookat")
+  if (kind == "translate" || kind == "lookat") {
     reach.far += reach.stretch * vectorAt(numbers, 0).norm();
-  if (kind == "scale") reach.stretch *= vectorAt(numbers, 0).cwiseAbs().maxCoeff();
-  if (matrix) {  // to within a factor of 1.8
-    double most = 0;
-    for (const std::size_t row : {std::size_t{0}, std::size_t{4}, std::size_t{8}})
-      most = std::max(most, vectorAt(numbers, row).norm());
-    reach.stretch *= most;
+  } else if (kind == "scale") {
+    reach.stretch *= vectorAt(numbers, 0).cwiseAbs().maxCoeff();
+  } else if (kind == "matrix") {
+    reach.far += reach.stretch * Vector3d(numbers[3], numbers[7], numbers[11]).norm();
+    const auto row = [&](std::size_t first) { return vectorAt(numbers, first).norm(); };
+    reach.stretch *= std::max({row(0), row(4), row(8)});  // to within a factor of 1.8
   }
 }
 

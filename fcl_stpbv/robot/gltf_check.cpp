@@ -42,14 +42,17 @@ class GltfCheck {
     checkExtensions();
     checkKeys();
     for (const GltfItem& mesh : values_.list("meshes")) {
+      requireKeys(mesh, {"primitives", "weights"});
       checkWeights(mesh);
       const std::vector<GltfItem> primitives = values_.list(mesh, "primitives");
       if (primitives.empty()) values_.damaged(mesh, "has no primitives, which are what a mesh is made of");
       for (const GltfItem& primitive : primitives) checkPrimitive(primitive);
     }
     for (const GltfItem& node : values_.list("nodes")) checkNode(node);
-    for (const GltfItem& scene : values_.list("scenes"))
+    for (const GltfItem& scene : values_.list("scenes")) {
+      requireKeys(scene, {"nodes"});
       for (const GltfItem& node : values_.list(scene, "nodes")) values_.whole(node);
+    }
   }
 
  private:
@@ -81,6 +84,7 @@ class GltfCheck {
   }
 
   void checkPrimitive(const GltfItem& primitive) {
+    requireKeys(primitive, {"attributes", "indices", "material", "mode", "targets"});
     refuseExtension(primitive, "KHR_draco_mesh_compression", "export the mesh without compression");
     const std::optional<GltfItem> attributes = values_.find(primitive, "attributes");
     if (!attributes || !attributes->value->is_object())
@@ -130,21 +134,12 @@ class GltfCheck {
                                       ", which has " + std::to_string(vertices) + ", the first being 0");
   }
 
-  // A misspelt key is a body that is not there, stands elsewhere, or has the bytes of another one.
+  // Of what the rest only looks up.
   void checkKeys() const {
     requireKeys({&root_, "the document"},
                 {"accessors", "animations", "asset", "buffers", "bufferViews", "cameras", "images",
                  "materials", "meshes", "nodes", "samplers", "scene", "scenes", "skins", "textures",
                  "extensionsUsed", "extensionsRequired"});
-    for (const GltfItem& scene : values_.list("scenes")) requireKeys(scene, {"nodes"});
-    for (const GltfItem& node : values_.list("nodes"))
-      requireKeys(node, {"camera", "children", "matrix", "mesh", "rotation", "scale", "translation", "skin",
-                         "weights"});
-    for (const GltfItem& mesh : values_.list("meshes")) {
-      requireKeys(mesh, {"primitives", "weights"});
-      for (const GltfItem& primitive : values_.list(mesh, "primitives"))
-        requireKeys(primitive, {"attributes", "indices", "material", "mode", "targets"});
-    }
     for (const GltfItem& accessor : values_.list("accessors"))
       requireKeys(accessor, {"bufferView", "byteOffset", "componentType", "normalized", "count", "type",
                              "max", "min", "sparse"});
@@ -153,6 +148,7 @@ class GltfCheck {
     for (const GltfItem& buffer : values_.list("buffers")) requireKeys(buffer, {"byteLength", "uri"});
   }
 
+  // A misspelt key is a body that is not there, stands elsewhere, or has the bytes of another one.
   void requireKeys(const GltfItem& item, const Words& keys) const {
     constexpr Words kAnywhere{"extensions", "extras", "name"};
     if (!item.value->is_object()) return;  // its reader refuses it
@@ -162,6 +158,8 @@ class GltfCheck {
   }
 
   void checkNode(const GltfItem& node) const {
+    requireKeys(node, {"camera", "children", "matrix", "mesh", "rotation", "scale", "translation", "skin",
+                       "weights"});
     refuseExtension(node, "EXT_mesh_gpu_instancing", "export a node for each instance");
     if (values_.find(node, "mesh") && values_.find(node, "skin"))
       values_.refuse(node,

@@ -25,10 +25,6 @@ namespace {
 using namespace detail;
 using Eigen::Vector3d;
 
-Cover longer(const Cover& a, const Cover& b) {
-  return {std::max(a.before, b.before), std::max(a.after, b.after)};
-}
-
 const std::vector<CheckedPair>& checked(const std::vector<CheckedPair>& pairs) {
   if (pairs.empty())
     throw Error("MotionCheck: no pairs are given, so that nothing could be said about motions");

@@ -14,17 +14,19 @@ void shareOut(std::size_t count, int threads, const std::function<void(std::size
   std::mutex mutex;
   std::size_t next = 0, firstFailed = count;
   std::exception_ptr failure;
-  const auto take = [&] {
+  // Tells of the piece under the same lock, so in order. `i` is taken even where that throws.
+  const auto take = [&](std::size_t& i) {
     const std::lock_guard<std::mutex> lock(mutex);
-    return next < count ? next++ : count;
+    i = next;
+    if (i == count) return false;
+    ++next;
+    if (begun) begun(i);
+    return true;
   };
   auto work = [&](int) {
-    for (std::size_t i; (i = take()) < count;) {
+    for (std::size_t i = 0; i < count;) {
       try {
-        if (begun) {
-          const std::lock_guard<std::mutex> lock(mutex);
-          begun(i);
-        }
+        if (!take(i)) return;
         each(i);
       } catch (...) {
         const std::lock_guard<std::mutex> lock(mutex);

@@ -8,9 +8,11 @@
 #include <fcl/geometry/octree/octree.h>
 #endif
 
+#include <algorithm>
 #include <atomic>
 #include <catch2/catch.hpp>
 #include <thread>
+#include <vector>
 
 #include "fcl_stpbv/adapter/distance_callback.h"
 #include "fcl_stpbv/adapter/fcl_distance.h"
@@ -81,6 +83,10 @@ TEST_CASE("what a caller's progress throws comes back to it, from any number of 
     };
     CHECK_THROWS_WITH(work(), "enough");
     CHECK(done == 7);
+    std::vector<std::size_t> told;
+    shareOut(
+        200, threads, [](std::size_t) {}, [&](std::size_t i) { told.push_back(i); });
+    CHECK((told.size() == 200 && std::is_sorted(told.begin(), told.end())));
   }
 }
 
