@@ -7,10 +7,10 @@
 //    in the core, so no other way out is shorter.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "fcl_stpbv/convex/shape_feature.h"
 #include "fcl_stpbv/distance/shape_pair.h"
+#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/vectorized.h"
 
 namespace fcl_stpbv::detail {
@@ -29,7 +29,7 @@ bool hasPlanes(const Shape& core) {
 
 /// From `x` in one of these, or next to its surface; `f` is what nearestFeature() says there.
 TouchingPlane nearestPlane(const Shape& core, const ShapeFeature& f, const Packed& x) {
-  TouchingPlane nearest{std::numeric_limits<double>::infinity(), {}};
+  TouchingPlane nearest{kInfinity, {}};
   const auto plane = [&](double away, const Packed& outward) {
     if (away < nearest.away) nearest = {away, outward};
   };
@@ -59,19 +59,14 @@ FCL_STPBV_VECTORIZED
 bool oppositeBall(const ShapePair& p, OppositePoints& found) {
   using Kind = ShapeFeature::Kind;
   if (p.a.kind != ShapeKind::point) return false;
+  found.onA.setZero();
+  if (p.b.kind == ShapeKind::point) return p.isNearest(p.pose.translation, found);
   const Packed x = p.pose.rotation.inverse(-p.pose.translation);
   const ShapeFeature f = nearestFeature(p.b, x);
   const bool isInside = f.kind == Kind::inside;
   if (f.kind == Kind::none || f.kind == Kind::whole || (isInside && !hasPlanes(p.b))) return false;
   const Packed d = isInside ? Packed{} : p.pose.rotation * -wayFrom(f, x);
-  const double length = std::sqrt(dot(d, d));
-  found.onA.setZero();
-  if (length > p.rounding) {
-    found.n = unpack(d / length);
-    found.toB = unpack(d);
-    found.gap = ShapePair::Difference(p.a, p.b, p.pose).support(found.n).gap;
-    return length - found.gap <= p.rounding;
-  }
+  if (dot(d, d) > p.rounding * p.rounding) return p.isNearest(d, found);
   // Inside, or but for rounding on the surface, where the way is too short to tell a normal.
   if (!hasPlanes(p.b)) return false;
   const TouchingPlane plane = nearestPlane(p.b, f, x);

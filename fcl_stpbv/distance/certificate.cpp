@@ -11,11 +11,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "fcl_stpbv/distance/box_axes.h"
 #include "fcl_stpbv/distance/vertex_gjk.h"
 #include "fcl_stpbv/four_vectors.h"
+#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/vectorized.h"
 
 namespace fcl_stpbv::detail {
@@ -80,7 +80,7 @@ Vertices verticesOf(const StpBv& body, int patch) {
 template <typename Point>
 Packed nearestOf(std::size_t count, const Point& point, const Packed& target) {
   Packed nearest = point(0);
-  double least = std::numeric_limits<double>::infinity();
+  double least = kInfinity;
   for (std::size_t i = 0; i < count; ++i) {
     const Packed p = point(i), d = p - target;
     if (dot(d, d) < least) least = dot(d, d), nearest = p;

@@ -11,10 +11,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "fcl_stpbv/convex/onto_core.h"
 #include "fcl_stpbv/distance/shape_query.h"
+#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/volume/patch_view.h"
 #include "fcl_stpbv/volume/point_depth.h"
 
@@ -197,9 +197,9 @@ class WaysOut {
   }
 
   ShapeQuery& q_;
-  double worth_ = std::numeric_limits<double>::infinity();  // a longer way is not the shortest
-  double bound_ = std::numeric_limits<double>::infinity();  // no way in the cones done with is shorter
-  WayOut best_{{0, 0, 0}, -1, {0, 0, 0}, std::numeric_limits<double>::infinity()};
+  double worth_ = kInfinity;  // a longer way is not the shortest
+  double bound_ = kInfinity;  // no way in the cones done with is shorter
+  WayOut best_{{0, 0, 0}, -1, {0, 0, 0}, kInfinity};
   ShapeCorners met_;  // what leaves last along it
 };
 

@@ -8,7 +8,6 @@
 //    (convex/local_maximum.h).
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <optional>
 
 #include "fcl_stpbv/convex/local_maximum.h"
@@ -17,6 +16,7 @@
 #include "fcl_stpbv/convex/shape_curvature.h"
 #include "fcl_stpbv/distance/patch_pair.h"
 #include "fcl_stpbv/distance/shape_query.h"
+#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/volume/patch_view.h"
 
 namespace fcl_stpbv::detail {
@@ -207,7 +207,7 @@ class DeepFeatures {
     if (met_.count == 3) {
       const Vector3d n = (p[1] - p[0]).cross(p[2] - p[0]);
       const auto inside = [&](const Vector3d& y) {
-        double least = std::numeric_limits<double>::infinity();
+        double least = kInfinity;
         for (std::size_t i = 0; i < 3; ++i) {
           const Vector3d side = p[(i + 1) % 3] - p[i];
           least = std::min(least, n.dot(side.cross(y - p[i])) / (n.norm() * side.norm()));

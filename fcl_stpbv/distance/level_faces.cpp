@@ -10,9 +10,9 @@
 #include <algorithm>
 #include <array>
 #include <initializer_list>
-#include <limits>
 
 #include "fcl_stpbv/distance/shape_pair.h"
+#include "fcl_stpbv/numbers.h"
 
 namespace fcl_stpbv::detail {
 
@@ -35,8 +35,8 @@ struct WidestTurn {
   std::array<LevelDifference, 4> difference;
   std::array<double, 4> weight{};
   int count = 0;
-  Vector2d turn{0, 0};                                    ///< tangent of the angle
-  double gap = -std::numeric_limits<double>::infinity();  ///< more than D there (m)
+  Vector2d turn{0, 0};      ///< tangent of the angle
+  double gap = -kInfinity;  ///< more than D there (m)
 
   void add(const LevelDifference& one) { difference[static_cast<std::size_t>(count++)] = one; }
   Vector3d weighted(Vector3d LevelDifference::*point) const {
@@ -46,7 +46,7 @@ struct WidestTurn {
     return sum;
   }
   double lowest(const Vector2d& at) const {
-    double least = std::numeric_limits<double>::infinity();
+    double least = kInfinity;
     for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i)
       least = std::min(least, difference[i].heightAt(at));
     return least;

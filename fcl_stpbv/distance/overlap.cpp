@@ -10,12 +10,12 @@
 #include "fcl_stpbv/distance/overlap.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "fcl_stpbv/convex/epa.h"
 #include "fcl_stpbv/distance/box_axes.h"
 #include "fcl_stpbv/distance/certificate.h"
 #include "fcl_stpbv/distance/vertex_gjk.h"
+#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/vectorized.h"
 
 namespace fcl_stpbv::detail {
@@ -114,9 +114,9 @@ class CoreEpa {
   Polytope polytope_;
   Sample& x_;
   SearchWork& work_;
-  Polytope::Index top_ = Polytope::kNone;                   // point of a maximum
-  LocalMaximum around_;                                     // what is known around it
-  double least_ = std::numeric_limits<double>::infinity();  // distance of the faces done with
+  Polytope::Index top_ = Polytope::kNone;  // point of a maximum
+  LocalMaximum around_;                    // what is known around it
+  double least_ = kInfinity;               // distance of the faces done with
 };
 
 /// The few best of many starts, apart from each other so that they do not all lead to the same maximum.

@@ -7,8 +7,8 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
-#include <limits>
 
+#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/vectorized.h"
 
 namespace fcl_stpbv::detail {
@@ -89,7 +89,7 @@ void turnToWidestOfEdges(const PosedPatch& a, const PosedPatch& b, Packed& n) {
   if (leanFromCommonNormal(a, b, middles, n)) return;
 
   Packed best = n, bestPull = n;
-  double bestGap = -std::numeric_limits<double>::infinity();
+  double bestGap = -kInfinity;
   constexpr double kUnknown = 1e-9;  // nothing to predict from: a first step of 1e-8 rad would do
   double lastStep2 = kUnknown;
   for (int i = 0; i < kIterations; ++i) {
@@ -97,7 +97,7 @@ void turnToWidestOfEdges(const PosedPatch& a, const PosedPatch& b, Packed& n) {
     const double core = dot(n, middles) - va.rise - vb.rise;
     if (core < bestGap && lastStep2 > 1e-14) {  // shorter steps differ by rounding only
       n = unnormalizedOr(bestPull, best).unit();
-      bestGap = -std::numeric_limits<double>::infinity();
+      bestGap = -kInfinity;
       lastStep2 = kUnknown;
       continue;
     }

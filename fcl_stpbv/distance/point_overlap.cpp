@@ -6,9 +6,9 @@
 // 3. No point of the shape leaves later that way: the shape is as deep as the point. Else go on with the
 //    one that does, until it goes to and fro.
 #include <algorithm>
-#include <limits>
 
 #include "fcl_stpbv/distance/shape_query.h"
+#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/volume/point_depth.h"
 
 namespace fcl_stpbv::detail {
@@ -20,7 +20,7 @@ std::optional<LeastOverlap> overlapOfPoint(ShapeQuery& q, const StartNormal& sta
   constexpr int kFree = 2;        // from then on
   constexpr double kSlow = 0.25;  // of the last round's step is too much: it goes to and fro
   Vector3d y = q.facing(start.n);
-  double step = std::numeric_limits<double>::infinity();
+  double step = kInfinity;
   for (int i = 0; i < kRounds; ++i) {
     const std::optional<PointDepth> way = pointDepth(q.body, y);
     ++q.pairs;

@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include "fcl_stpbv/convex/epa.h"
@@ -49,7 +48,7 @@ struct CornersAround {
   }
   Corner support(const Vector3d& m) {
     Corner best;
-    best.gap = std::numeric_limits<double>::infinity();
+    best.gap = kInfinity;
     for (const Corner& c : corner)
       if (m.dot(c.w) < best.gap) best = c, best.gap = m.dot(c.w);
     return best;

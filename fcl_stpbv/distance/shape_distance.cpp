@@ -13,7 +13,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <utility>
 
@@ -22,6 +21,7 @@
 #include "fcl_stpbv/convex/onto_core.h"
 #include "fcl_stpbv/convex/support.h"
 #include "fcl_stpbv/distance/shape_query.h"
+#include "fcl_stpbv/numbers.h"
 
 namespace fcl_stpbv {
 
@@ -146,7 +146,7 @@ bool seemToOverlap(ShapeQuery& q, const StartNormal& start) {
 }
 
 Solution solve(ShapeQuery& q, const StartNormal& start) {
-  constexpr double kNone = std::numeric_limits<double>::infinity();
+  constexpr double kNone = kInfinity;
   constexpr int kTries = 16;       // one to five are usual
   constexpr double kBeyond = 1e3;  // of rounding: less may be a touch
   const bool overlap = surelyOverlap(q);

@@ -3,7 +3,8 @@
 //
 // 1. Put the pair into one order, so that both orders of a call are the same query.
 // 2. Half spaces and planes: the gap along their normal is all there is to know.
-// 3. A ball and a shape of few features, and most boxes: closed form (ball_pair.cpp, box_pair.cpp).
+// 3. A ball and a shape of few features, two capsules, and most boxes: closed form (ball_pair.cpp,
+//    segment_pair.cpp, box_pair.cpp).
 // 4. GJK from two points that projections onto one body and the other have brought near to each other, with
 //    the duality gap as its stop. Its upper bound is the distance of two points of the bodies, its lower one
 //    the gap between the supporting planes of the answer's normal.
@@ -13,13 +14,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "fcl_stpbv/convex/onto_core.h"
 #include "fcl_stpbv/convex/vertex_cap.h"
 #include "fcl_stpbv/distance/shape_distance.h"
 #include "fcl_stpbv/distance/shape_newton.h"
+#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/vectorized.h"
 
 namespace fcl_stpbv {
@@ -40,10 +41,10 @@ Distance ShapePair::inWorld(const Vector3d& n, const Vector3d& onA, const Vector
 ShapePair::Corner ShapePair::nearCorner(int rounds) const {
   constexpr double kGain = 0.996;  // a round that shortens the way by less is the last one
   Corner near;
-  near.gap = -std::numeric_limits<double>::infinity();
+  near.gap = -kInfinity;
   near.onA = a.centre;
   Vector3d onB = pose.placed(b.centre);
-  double least2 = std::numeric_limits<double>::infinity();
+  double least2 = kInfinity;
   for (int i = 0; i < rounds; ++i) {
     if (!isHull(a)) near.onA = ontoCore(a, onB);
     if (!isHull(b)) onB = pose.placed(ontoCore(b, pose.inSecond(near.onA)));
@@ -181,11 +182,16 @@ Distance separatedAtTheEnd(const Pair& p, Gjk& found) {
   return separated(p, found, true);
 }
 
+/// Pairs that need no search.
+bool inClosedForm(const Pair& p, OppositePoints& at) {
+  return oppositeBall(p, at) || oppositeSegments(p, at) || oppositeBoxes(p, at);
+}
+
 Distance solve(const Pair& p) {
   if (!p.valid) return {};
   if (p.a.unbounded()) return besidePlane(p);
   OppositePoints at;
-  if (oppositeBall(p, at) || oppositeBoxes(p, at))
+  if (inClosedForm(p, at))
     return between(p, at.n, at.gap, at.onA, at.toB, at.gap < 0.0 ? at.gap : at.toB.norm());
   constexpr int kRounds = 6;
   Gjk found = p.search([&](double lower, double upper) { return p.curved() && isNear(p, lower, upper); },
@@ -200,7 +206,7 @@ bool isFarther(double x, const Pair& p, Vector3d& normal) {
   if (!p.valid) return false;
   if (p.a.unbounded()) return besidePlane(p).lower > x;
   OppositePoints at;
-  const bool known = oppositeBall(p, at) || oppositeBoxes(p, at);
+  const bool known = inClosedForm(p, at);
   const bool farther = at.gap - p.margins() - p.certificate > x;
   if (farther) normal = p.pose.normalInWorld(at.n);
   if (known || farther) return farther;

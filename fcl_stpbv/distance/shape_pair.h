@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cmath>
 #include <limits>
 #include <optional>
 
@@ -50,6 +51,18 @@ struct ShapePair {
     return s.kind == ShapeKind::triangle || s.kind == ShapeKind::polytope;
   }
 
+  /// Takes `way`, from the first core's point `found.onA` to one of the second core's, for the way between
+  /// the nearest ones. False where it is no longer than rounding, or the gap between the whole cores along it
+  /// is not as wide as it is long.
+  bool isNearest(const Packed& way, OppositePoints& found) const {
+    const double length = std::sqrt(dot(way, way));
+    if (!(length > rounding)) return false;
+    found.n = unpack(way / length);
+    found.toB = unpack(way);
+    found.gap = Difference(a, b, pose).support(found.n).gap;
+    return length - found.gap <= rounding;
+  }
+
   /// Points of both cores that are near to each other, as a corner of the difference: by projections onto one
   /// core and the other in turn (von Neumann 1950), `rounds` at most. Of corners' hulls the centres are
   /// taken.
@@ -80,6 +93,9 @@ struct ShapePair {
 /// A ball `a` beside or in the core of `b`: its centre and the core's point nearest to it. False for other
 /// pairs, and for what has no closed form. `found` may hold a gap along a normal then too.
 bool oppositeBall(const ShapePair& p, OppositePoints& found);
+
+/// The same of two capsules whose cores are apart.
+bool oppositeSegments(const ShapePair& p, OppositePoints& found);
 
 /// The same of two boxes, but for a corner that is nearest to a corner or an edge.
 bool oppositeBoxes(const ShapePair& p, OppositePoints& found);

@@ -2,9 +2,8 @@
 // climbing on both edge graphs side by side, from the vertices found last.
 #include "fcl_stpbv/distance/vertex_gjk.h"
 
-#include <limits>
-
 #include "fcl_stpbv/convex/gjk.h"
+#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/vectorized.h"
 
 namespace fcl_stpbv::detail {
@@ -69,9 +68,7 @@ VertexGjk vertexGjk(const BodyPair& pair, const Vector3d& n, double level) {
   // The support vertices along `n`, and of either body the one beside it that is next.
   VertexDifference difference(pair, n);
   const auto [i, j] = difference.vertex();
-  const auto corner = [&](int u, int v) {
-    return Corner{difference.difference({u, v}), -std::numeric_limits<double>::infinity()};
-  };
+  const auto corner = [&](int u, int v) { return Corner{difference.difference({u, v}), -kInfinity}; };
   Simplex<Corner> start;
   start.add(corner(i, j));
   start.add(corner(pair.tablesA().graph.beside(i, n.cast<float>(), 1.0f), j));

@@ -86,6 +86,8 @@ int main(int argc, char** argv) {
   };
   const std::vector<Named> bodies{{"STP-BV of 162", smooth(geodesicSphere(0.2, 2))},
                                   {"STP-BV of a box", smooth(box(0.2, 0.3, 0.4))},
+                                  {"ball", std::make_shared<fcl::Sphered>(0.15)},
+                                  {"capsule", std::make_shared<fcl::Capsuled>(0.1, 0.3)},
                                   {"box", std::make_shared<fcl::Boxd>(0.2, 0.3, 0.4)},
                                   {"cylinder", std::make_shared<fcl::Cylinderd>(0.1, 0.4)}};
   const std::vector<Named> shapes{

@@ -1,0 +1,28 @@
+// Two capsules: the points of two segments that are nearest to each other, in closed form (Lumelsky 1985;
+// Ericson, Real-Time Collision Detection, 5.1.9).
+//
+// 1. On the first segment the point nearest to the second one's line, or of parallel ones to its middle.
+// 2. From there onto the second segment, and back onto the first: at an end that a segment stops at, this is
+//    where the other one's point moves to.
+#include <algorithm>
+
+#include "fcl_stpbv/distance/shape_pair.h"
+#include "fcl_stpbv/vectorized.h"
+
+namespace fcl_stpbv::detail {
+
+FCL_STPBV_VECTORIZED
+bool oppositeSegments(const ShapePair& p, OppositePoints& found) {
+  if (p.a.kind != ShapeKind::segment || p.b.kind != ShapeKind::segment) return false;
+  const Packed axis = p.pose.rotation.axis(2), &middle = p.pose.translation, z{0, 0, 1, 0};
+  const auto within = [](double x, double half) { return std::min(std::max(x, -half), half); };
+  const double cosine = axis[2], sine2 = axis[0] * axis[0] + axis[1] * axis[1],
+               across = axis[0] * middle[0] + axis[1] * middle[1];
+  double s = within(sine2 > 0.0 ? middle[2] - cosine * across / sine2 : middle[2], p.a.half);
+  const double t = within(s * cosine - dot(axis, middle), p.b.half);
+  s = within(middle[2] + t * cosine, p.a.half);
+  found.onA = Eigen::Vector3d(0.0, 0.0, s);
+  return p.isNearest(middle + t * axis - s * z, found);
+}
+
+}  // namespace fcl_stpbv::detail
