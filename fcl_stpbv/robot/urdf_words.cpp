@@ -156,13 +156,14 @@ bool isOwn(const XMLElement& holder, const XMLElement& robot) {
   return true;
 }
 
-// Where an element that moves a body belongs, if it stands where it does nothing; null for one that is at
-// home, says nothing, or is another tool's.
+// Where an element that moves a body, or is one, belongs, if it stands where it does nothing; null for one
+// that is at home, says nothing, or is another tool's.
 const char* homeOf(const XMLElement& element, const XMLElement& holder, const XMLElement& robot) {
   const std::string_view name = element.Name(), around = holder.Name();
   if (around == "joint" || !isOwn(holder, robot)) return nullptr;
   if (name == "origin" && around != "collision" && around != "visual" && !isNowhere(element))
     return "a <collision>, <visual> or <inertial> of a link, or into a <joint>";
+  if (around == "link" && (name == "link" || name == "joint")) return "<robot>";
   const bool ofJoint = name == "axis" || name == "limit" || name == "mimic";
   return ofJoint && element.FirstAttribute() ? "a <joint>" : nullptr;
 }

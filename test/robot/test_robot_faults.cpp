@@ -139,6 +139,16 @@ TEST_CASE("an element that would move a body, but stands where it does nothing, 
     CHECK(parseUrdf(text, "fine.urdf").links.size() >= 1);
 }
 
+TEST_CASE("a link or a joint within a link is refused") {
+  const std::string joint =
+      "<joint name=\"j\" type=\"fixed\"><parent link=\"a\"/><child link=\"b\"/></joint>";
+  for (const std::string& inner : {link("b"), joint, std::string("<link name=\"b\"/>") + joint}) {
+    CAPTURE(inner);
+    CHECK_THAT(refused(robot("<link name=\"a\">" + kBox + inner + "</link>")),
+               Contains("it belongs into <robot>"));
+  }
+}
+
 TEST_CASE("an origin that moves nothing is let pass wherever it stands") {
   const auto jointWith = [](const std::string& element) {
     return robot(link("a") + link("b") +
