@@ -2,11 +2,11 @@
 #include "fcl_stpbv/adapter/collide.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "fcl_stpbv/adapter/distance_callback.h"
 #include "fcl_stpbv/adapter/fcl_distance.h"
 #include "fcl_stpbv/adapter/posed_geometry.h"
+#include "fcl_stpbv/numbers.h"
 
 namespace fcl_stpbv {
 namespace {
@@ -96,7 +96,7 @@ std::size_t collide(const CollisionGeometryd* geometry1, const Transform3d& pose
   Contactd unknown(geometry1, geometry2, Contactd::NONE, Contactd::NONE);
   unknown.normal.setZero();
   unknown.pos.setZero();
-  unknown.penetration_depth = request.enable_contact ? std::numeric_limits<double>::infinity() : 0;
+  unknown.penetration_depth = request.enable_contact ? kInfinity : 0;
   ConvexBody bodyA, bodyB;
   if (areBodies(*geometry1, pose1, *geometry2, pose2, bodyA, bodyB)) {
     contacts.add(bodyA, bodyB, unknown);

@@ -5,7 +5,7 @@
 // Parts that stay apart for longer than two elements that are known are left out.
 #include "fcl_stpbv/adapter/element_cover.h"
 
-#include <limits>
+#include "fcl_stpbv/numbers.h"
 
 namespace fcl_stpbv::detail {
 namespace {
@@ -13,7 +13,7 @@ namespace {
 using Eigen::Vector3d;
 using Part = PosedGeometry::Part;
 
-constexpr double kSettled = std::numeric_limits<double>::infinity();
+constexpr double kSettled = kInfinity;
 
 Cover shorter(const Cover& p, const Cover& q) {
   return {std::min(p.before, q.before), std::min(p.after, q.after)};

@@ -16,6 +16,7 @@
 
 #include "fcl_stpbv/adapter/mesh_boxes.h"
 #include "fcl_stpbv/convex/vertex_set.h"
+#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/packed.h"
 #include "fcl_stpbv/vectorized.h"
 
@@ -182,7 +183,7 @@ double ElementTree::reach(const Vector3d& n) const {
       [&](const auto& mesh) {
         return n.dot(mesh.vertices[furthestAlong(n, mesh.vertices, mesh.num_vertices)]);
       },
-      std::numeric_limits<double>::infinity());
+      kInfinity);
 }
 
 Node ElementTree::root() const {

@@ -13,6 +13,7 @@
 #include "fcl_stpbv/adapter/fcl_gjk.h"
 #include "fcl_stpbv/adapter/posed_hulls.h"
 #include "fcl_stpbv/convex/gjk.h"
+#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/vectorized.h"
 
 namespace fcl_stpbv::detail {
@@ -44,7 +45,7 @@ Simplex<HullCorner> runFclGjk(PosedHulls& pair) {
   for (int i = 0; i < ccdSimplexSize(&found); ++i) {
     const ccd_support_t* corner = ccdSimplexPoint(&found, i);
     const int va = pair.loggedVertexA(corner->v1), vb = pair.loggedVertexB(corner->v2);
-    simplex.add({pair.pointB(vb) - pair.pointA(va), -std::numeric_limits<double>::infinity(), va, vb});
+    simplex.add({pair.pointB(vb) - pair.pointA(va), -kInfinity, va, vb});
   }
   return simplex;
 }

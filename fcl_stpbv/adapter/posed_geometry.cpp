@@ -9,12 +9,12 @@
 #include "fcl_stpbv/adapter/posed_geometry.h"
 
 #include <cmath>
-#include <limits>
 
 #include "fcl_stpbv/adapter/fcl_shapes.h"
 #include "fcl_stpbv/adapter/stp_bv_geometry.h"
 #include "fcl_stpbv/convex/relative_pose.h"
 #include "fcl_stpbv/distance/shape_distance.h"
+#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/vectorized.h"
 
 namespace fcl_stpbv::detail {
@@ -84,7 +84,7 @@ double gapFromCell(const OrientedBox& body, const OrientedBox& cell, bool& insid
 FCL_STPBV_VECTORIZED
 double gapOfBoxes(const OrientedBox& a, const OrientedBox& b, double rounding, double enough,
                   const Vector3d& n) {
-  constexpr double kNone = -std::numeric_limits<double>::infinity();
+  constexpr double kNone = -kInfinity;
   const auto size = [](const Packed& v) { return larger(v, -v); };
   const Rotation axesA(a.axes), axesB(b.axes);
   const Packed halfA = pack(a.half), halfB = pack(b.half), d = pack(b.centre) - pack(a.centre);
@@ -219,11 +219,11 @@ double gapOf(const PosedPair& pair, const PosedGeometry::Part& a, const PosedGeo
   if (!a.body && !b.body) return gapOfBoxes(a.box, b.box, rounding, enough, n);
   const Vector3d d = b.box.centre - a.box.centre;
   const double length = d.norm();
-  if (!(length > 0.0)) return -std::numeric_limits<double>::infinity();
+  if (!(length > 0.0)) return -kInfinity;
   const auto along = [&](const Vector3d& axis) {
     return axis.dot(d) - a.reach(axis) - b.reach(-axis) - rounding;
   };
-  double most = -std::numeric_limits<double>::infinity();
+  double most = -kInfinity;
   const auto tryAxes = [&](const PosedGeometry::Part& of, const PosedGeometry::Part& other,
                            const Vector3d& to) {
     if (!(most > enough)) most = std::max(most, gapAlongAxes(of, other, to) - rounding);

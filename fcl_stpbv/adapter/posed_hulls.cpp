@@ -4,7 +4,8 @@
 #include "fcl_stpbv/adapter/posed_hulls.h"
 
 #include <cmath>
-#include <limits>
+
+#include "fcl_stpbv/numbers.h"
 
 namespace fcl_stpbv::detail {
 namespace {
@@ -55,7 +56,7 @@ void PosedHulls::ccdFirstDirection(const void* pair, const void*, ccd_vec3_t* di
 int PosedHulls::loggedVertexA(const ccd_vec3_t& point) const {
   const Vector3d p = fromCcd(point);
   int best = -1;
-  double nearest = std::numeric_limits<double>::infinity();
+  double nearest = kInfinity;
   for (int i = 0; i < std::min(logA_.count, kLog); ++i) {
     const int v = logA_.vertex[static_cast<std::size_t>(i)];
     const double d = (pointA(v) - p).squaredNorm();
@@ -67,7 +68,7 @@ int PosedHulls::loggedVertexA(const ccd_vec3_t& point) const {
 int PosedHulls::loggedVertexB(const ccd_vec3_t& point) const {
   const Vector3d p = fromCcd(point);
   int best = -1;
-  double nearest = std::numeric_limits<double>::infinity();
+  double nearest = kInfinity;
   for (int i = 0; i < std::min(logB_.count, kLog); ++i) {
     const int v = logB_.vertex[static_cast<std::size_t>(i)];
     const double d = (pointB(v) - p).squaredNorm();

@@ -10,7 +10,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 #include "fcl_stpbv/error.h"
@@ -180,7 +179,7 @@ int HullGraph::climb(const Eigen::Vector3d& direction, int from) const {
 FCL_STPBV_VECTORIZED
 int HullGraph::extremeVertex(const Eigen::Vector3d& direction, int from) const {
   if (!table_.empty()) return climb(direction, from >= 0 ? from : table_[direction]);
-  double height = -std::numeric_limits<double>::infinity();
+  double height = -kInfinity;
   int best = 0;
   higherIn(0, static_cast<std::int32_t>(chunks_.size()), direction, height, best);
   return best;

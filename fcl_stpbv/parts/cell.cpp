@@ -7,7 +7,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <utility>
 
@@ -87,7 +86,7 @@ Cell Cell::above(const CutPlane& plane, double slack, const MeshSolid* mesh) con
 }
 
 std::pair<double, double> Cell::reach(const CutPlane& plane) const {
-  double low = std::numeric_limits<double>::infinity(), high = -low;
+  double low = kInfinity, high = -low;
   for (const Corner& c : corners_) {
     low = std::min(low, plane.height(c.point));
     high = std::max(high, plane.height(c.point));

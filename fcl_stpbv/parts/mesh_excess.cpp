@@ -37,8 +37,7 @@ class Bound {
     for (const auto& [bound, t] : largestFirst(surface)) {
       if (bound <= best_.lower) break;  // nor can those that follow be farther
       add({bound, *t, -1});
-      if (best_.lower > options_.enough)
-        return {std::numeric_limits<double>::infinity(), best_.lower, best_.where};
+      if (best_.lower > options_.enough) return {kInfinity, best_.lower, best_.where};
     }
     while (!open_.empty() && queries_ < options_.queries && best_.lower <= options_.enough) {
       std::pop_heap(open_.begin(), open_.end());
@@ -164,7 +163,7 @@ class Bound {
     const Triangle& t = piece.corners;
     const Vector3d normal = (t[1] - t[0]).cross(t[2] - t[0]).normalized();
     const Vector3d middle = (t[0] + t[1] + t[2]) / 3;
-    double inner = std::numeric_limits<double>::infinity(), outer = 0;  // radii about the middle
+    double inner = kInfinity, outer = 0;  // radii about the middle
     for (std::size_t k = 0; k < 3; ++k) {
       inner = std::min(inner, normal.cross(t[(k + 1) % 3] - t[k]).normalized().dot(middle - t[k]));
       outer = std::max(outer, (t[k] - middle).norm());
@@ -202,7 +201,7 @@ class Bound {
     const Vector3d low = t[0].cwiseMin(t[1]).cwiseMin(t[2]) - margin;
     const Vector3d high = t[0].cwiseMax(t[1]).cwiseMax(t[2]) + margin;
     const auto reach = [&](const auto& points) {
-      double least = std::numeric_limits<double>::infinity(), most = -least;
+      double least = kInfinity, most = -least;
       for (const Vector3d& p : points) {
         least = std::min(least, normal.dot(p - middle));
         most = std::max(most, normal.dot(p - middle));

@@ -81,7 +81,7 @@ double MeshSolid::Foot::squaredDistance(const Vector3d& p) const {
   };
   const Vector3d w = p - a;
   const double beta = w.dot(alongU), gamma = w.dot(alongV), alpha = 1 - beta - gamma;
-  double least = std::numeric_limits<double>::infinity();
+  double least = detail::kInfinity;
   if (alpha >= 0 && beta >= 0 && gamma >= 0) least = (w - beta * u - gamma * v).squaredNorm();
   // Else the nearest point is on a side beyond which the foot is.
   if (isThin || gamma < 0) least = std::min(least, fromSegment(w, u));
@@ -104,8 +104,7 @@ MeshSolid::MeshSolid(const TriangleMesh& mesh) : pieces_(meshPieces(mesh)) {
 
 int MeshSolid::build(std::vector<int>::iterator begin, std::vector<int>::iterator end) {
   const int number = static_cast<int>(nodes_.size());
-  Node node{Vector3d::Constant(std::numeric_limits<double>::infinity()),
-            Vector3d::Constant(-std::numeric_limits<double>::infinity()), *begin};
+  Node node{Vector3d::Constant(detail::kInfinity), Vector3d::Constant(-detail::kInfinity), *begin};
   for (auto t = begin; t != end; ++t) {
     for (const Vector3d& p : triangles_[at(*t)]) {
       node.low = node.low.cwiseMin(p);
@@ -129,7 +128,7 @@ int MeshSolid::build(std::vector<int>::iterator begin, std::vector<int>::iterato
 }
 
 MeshSolid::Nearest MeshSolid::nearest(const Vector3d& p, int guess, double enough, long* tried) const {
-  double best = std::numeric_limits<double>::infinity();
+  double best = detail::kInfinity;
   const double near2 = enough > 0 ? enough * enough : 0;
   int found = guess;
   if (guess >= 0) best = feet_[at(guess)].squaredDistance(p);

@@ -11,10 +11,10 @@
 #include <chrono>
 #include <cmath>
 #include <initializer_list>
-#include <limits>
 #include <optional>
 
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/posture/approach.h"
 #include "fcl_stpbv/posture/starts.h"
 
@@ -27,7 +27,7 @@ using namespace detail;
 double total(const std::vector<Violation>& violations) {
   double sum = 0;
   for (const Violation& v : violations) sum += v.amount;
-  return std::isfinite(sum) ? sum : std::numeric_limits<double>::infinity();
+  return std::isfinite(sum) ? sum : kInfinity;
 }
 
 // What has next to no slack.

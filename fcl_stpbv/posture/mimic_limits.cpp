@@ -3,7 +3,6 @@
 #include "fcl_stpbv/posture/mimic_limits.h"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 #include "fcl_stpbv/error.h"
@@ -18,7 +17,7 @@ constexpr double kMeet = 1e-9;
 
 // What all that follow one coordinate allow, and which of them allows least.
 struct Followers {
-  double low = -std::numeric_limits<double>::infinity(), high = std::numeric_limits<double>::infinity();
+  double low = -kInfinity, high = kInfinity;
   std::string lowBy, highBy;
 };
 

@@ -7,11 +7,11 @@
 
 #include <algorithm>
 #include <chrono>
-#include <limits>
 #include <memory>
 #include <vector>
 
 #include "fcl_stpbv/number_check.h"
+#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/posture/independent_rows.h"
 
 namespace fcl_stpbv {
@@ -185,7 +185,7 @@ class Slsqp {
   std::vector<int> active_;
   std::vector<bool> chosen_;
   bool grown_ = false, stuck_ = false, stopped_ = false;
-  double leastMiss_ = std::numeric_limits<double>::infinity();  // of any iteration so far
+  double leastMiss_ = kInfinity;  // of any iteration so far
   int leastAt_ = 0;
   Eigen::VectorXd iterate_, grownAt_;
   SolverOutcome best_;

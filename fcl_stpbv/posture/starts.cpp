@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <vector>
 
+#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/posture/approach.h"
 
 namespace fcl_stpbv::detail {
@@ -60,7 +60,7 @@ VectorXd Starts::randomPosture(double way) {
 VectorXd Starts::anywhere() {
   constexpr int kDraws = 10;
   VectorXd nearest;
-  double least = std::numeric_limits<double>::infinity();
+  double least = kInfinity;
   for (int i = 0; i < kDraws; ++i) {
     const VectorXd x = problem_.variablesAt(randomPosture(kAnywhere));
     const double missed = halfSum(problem_.evaluate(x), {});

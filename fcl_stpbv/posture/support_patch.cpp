@@ -10,7 +10,6 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "fcl_stpbv/error.h"
@@ -95,7 +94,7 @@ void SupportPatch::choose() {
   for (;;) {
     const std::size_t n = left.size();
     std::size_t next = 0;
-    radius_ = std::numeric_limits<double>::infinity();
+    radius_ = kInfinity;
     for (std::size_t k = 0; k < n; ++k) {
       const Meeting from = meeting(left[(k + n - 1) % n], left[k]), to = meeting(left[k], left[(k + 1) % n]);
       const Vector2d& along = edges_[at(left[k])].along;

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <numeric>
 #include <set>
 
@@ -124,7 +123,7 @@ PairCause PairCauses::measured(const std::vector<CheckedPair>& bodies, const Eig
   std::vector<int> order(bodies.size());
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return d[a] < d[b]; });
-  PairCause found{std::numeric_limits<double>::infinity(), ""};
+  PairCause found{kInfinity, ""};
   bool hulls = false;
   const auto wholeOf = [&](int body) {
     const int whole = robot_->bodies[at(body)].partOf;

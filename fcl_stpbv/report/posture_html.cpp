@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "fcl_stpbv/formatted.h"
+#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/report/pair_measure.h"
 #include "fcl_stpbv/report/posture_formats.h"
 #include "fcl_stpbv/report/report_formats.h"
@@ -32,10 +33,13 @@ std::string toHtml(const PostureReport& report) {
   page.obstacles = report.scene.obstacles;
   page.pairsOfBodies = true;
   page.margin = report.task.collisionMargin;
-  page.pose = report.posture.feasible ? "feasible" : "not feasible";
+  const Posture& posture = report.posture;
+  page.pose = std::string(posture.feasible ? "feasible" : "not feasible") + " (" + posture.status +
+              formatted("), %d iterations, %.3g ms, cost %.4g", posture.iterations, posture.seconds * 1e3,
+                        posture.cost);
   page.warnings = report.warnings;
   page.skipped = report.skipped;
-  page.minDistance = std::numeric_limits<double>::infinity();
+  page.minDistance = kInfinity;
   const auto nameOf = [&](int body) { return page.geometry->bodies[static_cast<std::size_t>(body)].name; };
   for (const CheckedPair& both : report.pairs) {
     PairReport pair;

@@ -34,7 +34,7 @@ CollisionConstraints::CollisionConstraints(std::shared_ptr<const Kinematics> kin
       centre_(geometry_->bodies.size(), Eigen::Vector3d::Zero()) {
   if (!(options_.influence > 0)) throw Error("CollisionConstraints: influence must be larger than 0");
   if (std::isnan(options_.exactUpTo)) throw Error("CollisionConstraints: exactUpTo is not a number");
-  const bool always = options_.influence == std::numeric_limits<double>::infinity();
+  const bool always = options_.influence == detail::kInfinity;
   if (options_.exactUpTo < 0 || always) options_.exactUpTo = options_.influence / 2;
   if (!always && options_.exactUpTo >= options_.influence)
     throw Error(

@@ -57,14 +57,14 @@ double CollisionConstraints::bend(std::size_t row, double d, double& slope, doub
 
 double CollisionConstraints::largestValue(int row) const {
   requireRow(row);
-  if (at(row) >= pairs_.size()) return std::numeric_limits<double>::infinity();
+  if (at(row) >= pairs_.size()) return kInfinity;
   const Row& r = rows_[at(row)];
   return r.group >= 0 && !r.whole ? levelAt(r.start, r.end) : levelAt(options_.exactUpTo, options_.influence);
 }
 
 double CollisionConstraints::exactUpTo(int row) const {
   requireRow(row);
-  if (at(row) >= pairs_.size()) return std::numeric_limits<double>::infinity();
+  if (at(row) >= pairs_.size()) return kInfinity;
   const Row& r = rows_[at(row)];
   return r.group >= 0 && !r.whole ? r.start : options_.exactUpTo;
 }
@@ -72,7 +72,7 @@ double CollisionConstraints::exactUpTo(int row) const {
 // Puts a pair of whole bodies before the first of two or more pairs of their parts.
 void CollisionConstraints::addWholePairs() {
   groupOf_.assign(pairs_.size(), -1);
-  if (options_.handOver == std::numeric_limits<double>::infinity()) return;
+  if (options_.handOver == kInfinity) return;
   const std::vector<Body>& bodies = geometry_->bodies;
   const auto wholeOf = [&](int body) {
     return at(body) < bodies.size() && bodies[at(body)].partOf >= 0 ? bodies[at(body)].partOf : body;

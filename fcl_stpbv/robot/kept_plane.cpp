@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/vectorized.h"
 
 namespace fcl_stpbv::detail {
@@ -23,8 +23,7 @@ double gapAlong(const KeptPlane& plane, const Isometry3d& frameA, const Isometry
   const Packed u = turned(frameA, plane.outward[0]), w = turned(frameB, plane.outward[1]), t = u + w;
   const double turn2 = dot(t, t);
   double rise = radius * std::sqrt(turn2);
-  if (bend < std::numeric_limits<double>::infinity())
-    rise = std::min(rise, bend * turn2 - dot(turned(frameB, plane.touching), t));
+  if (bend < kInfinity) rise = std::min(rise, bend * turn2 - dot(turned(frameB, plane.touching), t));
   return dot(u, b.at - a.at) - plane.height - rise;
 }
 

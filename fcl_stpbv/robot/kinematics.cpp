@@ -100,8 +100,7 @@ Kinematics::Kinematics(std::shared_ptr<const RobotModel> robot, BaseMotion base)
     root.type = base == BaseMotion::planar ? JointType::planar : JointType::floating;
     root.child = 0;
     root.axis = Vector3d::UnitZ();
-    addCoordinates("base", root.type, -std::numeric_limits<double>::infinity(),
-                   std::numeric_limits<double>::infinity());
+    addCoordinates("base", root.type, -detail::kInfinity, detail::kInfinity);
     addStep(-1, root, 0, 1, 0);
   }
   for (std::size_t j = 0; j < robot_->joints.size(); ++j) {
@@ -124,7 +123,7 @@ Kinematics::Kinematics(std::shared_ptr<const RobotModel> robot, BaseMotion base)
 }
 
 void Kinematics::addCoordinates(const std::string& name, JointType type, double lower, double upper) {
-  const double infinity = std::numeric_limits<double>::infinity();
+  const double infinity = detail::kInfinity;
   const auto add = [&](const std::string& suffix, double low, double high) {
     names_.push_back(name + suffix);
     lower_.conservativeResize(size());

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <set>
 
 #include "fcl_stpbv/adapter/hull_geometry.h"
@@ -132,12 +131,7 @@ class VolumeMaker {
     };
     std::vector<double> kept = cache_.numbers(key.content, "advice 3", ask);
     if (kept.size() != 7) kept = ask();
-    return {{kept[0], kept[1]},
-            kept[2] != 0,
-            kept[3],
-            kept[4],
-            kept[5],
-            kept[6] < 0 ? std::numeric_limits<double>::infinity() : kept[6]};
+    return {{kept[0], kept[1]}, kept[2] != 0, kept[3], kept[4], kept[5], kept[6] < 0 ? kInfinity : kept[6]};
   }
 
   void reduceTo(double budget) {

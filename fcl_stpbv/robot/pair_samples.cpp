@@ -2,8 +2,8 @@
 #include "fcl_stpbv/robot/pair_samples.h"
 
 #include <algorithm>
-#include <limits>
 
+#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/robot/search_room.h"
 
 namespace fcl_stpbv::detail {
@@ -66,7 +66,7 @@ const Eigen::VectorXd& PairSampler::distances(const Eigen::VectorXd& q) {
 }
 
 const Eigen::VectorXd& PairSampler::leastOf(const Eigen::Ref<const Eigen::VectorXd>& rows) {
-  least_.setConstant(std::numeric_limits<double>::infinity());
+  least_.setConstant(kInfinity);
   for (Index row = 0; row < rows.size(); ++row) {
     double& value = least_[pairOf_[static_cast<std::size_t>(row)]];
     value = std::min(value, rows[row]);

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/robot/joint_freedoms.h"
@@ -70,8 +69,7 @@ void PairSearch::boundSlopes(int link1, double reach1, int link2, double reach2)
   lipschitz_.assign(coordinates_.size(), 0);
   for (const Kinematics::Motion& motion : kinematics_->motions())  // a moving base has no limits
     for (std::size_t k = 0; k < coordinates_.size(); ++k)
-      if (motion.joint < 0 && motion.coordinate == coordinates_[k])
-        lipschitz_[k] = std::numeric_limits<double>::infinity();
+      if (motion.joint < 0 && motion.coordinate == coordinates_[k]) lipschitz_[k] = kInfinity;
   double before = 0;  // from link1 to this part
   for (std::size_t i = 0; i < path.size(); ++i) {
     const bool on1 = i < joints.up;  // the joint's child is then on the side of link1
@@ -80,7 +78,7 @@ void PairSearch::boundSlopes(int link1, double reach1, int link2, double reach2)
     const double to2 = total - before - (on1 ? 0 : path[i].length) + reach2;
     before += path[i].length;
     if (joint.type == JointType::fixed) continue;
-    double slope = std::numeric_limits<double>::infinity();
+    double slope = kInfinity;
     if (joint.type == JointType::prismatic) slope = 1;
     if (joint.type == JointType::revolute || joint.type == JointType::continuous) slope = std::min(to1, to2);
     int coordinate = kinematics_->coordinate(joint.name);

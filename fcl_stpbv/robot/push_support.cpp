@@ -1,8 +1,8 @@
 // How far the joints push any point of a body: the largest height plus push of all its points. Points that
 // cannot reach it are skipped.
 #include <algorithm>
-#include <limits>
 
+#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/robot/push_bound.h"
 
 namespace fcl_stpbv::detail {
@@ -42,7 +42,7 @@ double PushBound::mostTurned(const BodySide& side) const {
 std::size_t PushBound::foremost(const Vector3d& n, const BodySide& side) const {
   const std::vector<Vector3d>& points = side.body->points;
   std::size_t found = 0;
-  double best = -std::numeric_limits<double>::infinity();
+  double best = -kInfinity;
   for (std::size_t v = 0; v < points.size(); ++v) {
     double reached = n.dot(points[v]);
     for (std::size_t i = 0; i < side.joints.size(); ++i)

@@ -8,6 +8,7 @@
 
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/error_place.h"
+#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/robot/checked_pairs.h"
 #include "fcl_stpbv/robot/primitive_cover.h"
 
@@ -74,7 +75,7 @@ class Choice {
 
   // The body whose cover costs least for each pair it settles; false when there is nothing left to do.
   bool coverNext() {
-    double least = std::numeric_limits<double>::infinity();
+    double least = kInfinity;
     FlatBody* best = nullptr;
     for (FlatBody& flat : flat_) {
       if (flat.covered || !flat.cover.volume || flat.open == 0) continue;

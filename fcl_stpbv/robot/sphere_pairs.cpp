@@ -1,8 +1,7 @@
 // Centres in the lanes of a register; what is near is written down without a branch.
 #include "fcl_stpbv/robot/sphere_pairs.h"
 
-#include <limits>
-
+#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/vectorized.h"
 
 namespace fcl_stpbv::detail {
@@ -34,8 +33,7 @@ void SpherePairs::compare(const std::vector<SphereCentre>& centre, double slack)
     const Packed apart2 = sums(squares[0], squares[1], squares[2], squares[3]), reach = four.reach + slack;
     for (std::size_t k = 0; k < kLanes; ++k, ++pair) {
       near_[nearCount_] = {pair, apart2[k]};
-      const bool clear =
-          apart2[k] > reach[k] * reach[k] && apart2[k] < std::numeric_limits<double>::infinity();
+      const bool clear = apart2[k] > reach[k] * reach[k] && apart2[k] < kInfinity;
       nearCount_ += !clear && pair < count;
     }
   }

@@ -2,7 +2,8 @@
 #include "fcl_stpbv/volume/body_box.h"
 
 #include <Eigen/Geometry>
-#include <limits>
+
+#include "fcl_stpbv/numbers.h"
 
 namespace fcl_stpbv::detail {
 
@@ -33,7 +34,7 @@ BodyBox boxAround(const std::vector<Vector3d>& vertices, const std::vector<std::
     axes << u, third.cross(u), third;
   }
 
-  Vector3d least = Vector3d::Constant(std::numeric_limits<double>::infinity()), most = -least;
+  Vector3d least = Vector3d::Constant(kInfinity), most = -least;
   for (const Vector3d& p : vertices) {
     least = least.cwiseMin(axes.transpose() * p);
     most = most.cwiseMax(axes.transpose() * p);

@@ -1,5 +1,6 @@
 // The bounds of docs/choosing_r_and_R.md. c falls as any radius of curvature grows: two balls of radii r
 // reach the most, a body 2 of radius R against a plane the least.
+#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/volume/radii_advice.h"
 
 namespace fcl_stpbv {
@@ -8,7 +9,7 @@ ContactAcceleration contactAcceleration(const Radii& body1, const Radii& body2, 
                                         double turning) {
   const double least = turning > 0 ? -body2.R * turning * turning : 0;
   const double sum = distance + body1.r + body2.r, rest = distance + body1.r;
-  if (!(sum > 0)) return {least, speed > 0 ? std::numeric_limits<double>::infinity() : 0};
+  if (!(sum > 0)) return {least, speed > 0 ? detail::kInfinity : 0};
   // The largest (speed + r y)^2 / sum - r y^2 of all y up to `turning`, without that difference: of a large r
   // it leaves rounding only.
   if (speed < turning * rest) return {least, speed * speed / rest};

@@ -8,8 +8,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
+#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/volume/patch_view.h"
 #include "fcl_stpbv/volume/regions.h"
 #include "fcl_stpbv/volume/verify.h"
@@ -155,7 +155,7 @@ double enclosedVolume(const StpBv& volume) {
 }
 
 double signedDistance(const StpBv& volume, const Vector3d& point) {
-  if (!point.allFinite()) return -std::numeric_limits<double>::infinity();
+  if (!point.allFinite()) return -kInfinity;
   // From so far away every volume is a point at the origin; farther on squares of lengths are infinite.
   constexpr double kFar = 1e100;  // m; points of volumes are within 1e75
   if (point.cwiseAbs().maxCoeff() > kFar) return point.stableNorm();

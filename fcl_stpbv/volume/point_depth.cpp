@@ -12,10 +12,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <limits>
 #include <type_traits>
 
 #include "fcl_stpbv/four_vectors.h"
+#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/vectorized.h"
 #include "fcl_stpbv/volume/patch_view.h"
 
@@ -93,7 +93,7 @@ inline PointDepth depthInBalls(const StpBv& body, const Vector3d& p, double belo
   const double about = far ? rho : 0.0, least = std::max(0.0, rho - below);  // of a way's length
   const Power power = largestPower(&patches.face(patches.firstFace()), patches.count() - patches.firstFace(),
                                    rho, about, pack(p), far ? -below * (rho + least) : least * least, ways);
-  if (power.face < 0) return {std::numeric_limits<double>::infinity(), Vector3d(0, 0, 0), -1};
+  if (power.face < 0) return {kInfinity, Vector3d(0, 0, 0), -1};
   const FaceRecord& face = patches.face(patches.firstFace() + power.face);
   const Vector3d way = p - face.anchor + rho * face.normal;  // from the ball's centre
   const double length = way.norm();
@@ -102,7 +102,7 @@ inline PointDepth depthInBalls(const StpBv& body, const Vector3d& p, double belo
 
 FCL_STPBV_VECTORIZED
 PointDepth leastDepth(const StpBv& body, const Vector3d& p) {
-  return depthInBalls(body, p, std::numeric_limits<double>::infinity(), AllWays{});
+  return depthInBalls(body, p, kInfinity, AllWays{});
 }
 
 FCL_STPBV_VECTORIZED
@@ -129,7 +129,7 @@ std::optional<PointDepth> pointDepthBetween(const StpBv& body, const Vector3d& p
 }
 
 double capHeight(const StpBv& body) {
-  constexpr double kNone = std::numeric_limits<double>::infinity(), kSafe = 1.0 + 1e-9;  // beyond rounding
+  constexpr double kNone = kInfinity, kSafe = 1.0 + 1e-9;  // beyond rounding
   const double rho = body.radii().rho;
   if (!(body.innerRadius() > 0.0)) return kNone;
   double edge = 0.0, face = 0.0;

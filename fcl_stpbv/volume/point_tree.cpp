@@ -12,6 +12,7 @@
 #include <limits>
 #include <numeric>
 
+#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/volume/minimum_ball.h"
 
 namespace fcl_stpbv::detail {
@@ -83,7 +84,7 @@ PointTree::Highest PointTree::highest(const Eigen::Vector3d& anchor, const Eigen
                                       double curvature, double tolerance, std::vector<int>* near) const {
   near->clear();
   Highest best;
-  best.height = -std::numeric_limits<double>::infinity();
+  best.height = -kInfinity;
   if (nodes_.empty()) return best;
 
   // In any three directions at right angles the height is a sum over the coordinates of convex functions, so
@@ -155,7 +156,7 @@ PointTree::Highest PointTree::highestBeside(int beside, const Eigen::Vector3d& a
   const int place = place_[static_cast<std::size_t>(beside)];
   const int begin = std::max(0, place - kReach),
             end = std::min(static_cast<int>(sorted_.size()), place + kReach);
-  Highest best{-1, -std::numeric_limits<double>::infinity()};
+  Highest best{-1, -kInfinity};
   for (int i = begin; i < end; ++i) {
     const Eigen::Vector3d q = sorted_[static_cast<std::size_t>(i)] - anchor;
     const double height = 0.5 * curvature * q.squaredNorm() + normal.dot(q);

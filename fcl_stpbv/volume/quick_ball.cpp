@@ -17,6 +17,7 @@
 #include <cmath>
 #include <limits>
 
+#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/volume/exact_sign.h"
 
 namespace fcl_stpbv::detail {
@@ -40,7 +41,7 @@ QuickBall::QuickBall(const Vector3d& a, const Vector3d& b, const Vector3d& c, do
   const double rest = 1 - o.squaredNorm(), sine = std::sqrt(n2 / (u2 * v2));
   constexpr double kThin = 1e-6, kSteep = 1e-4;  // below, the errors' squares would count
   if (!(sine > kThin && rest > kSteep)) {
-    error_ = std::numeric_limits<double>::infinity();
+    error_ = kInfinity;
     valid_ = exact().valid();
     return;
   }

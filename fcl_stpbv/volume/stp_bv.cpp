@@ -12,6 +12,7 @@
 #include <limits>
 
 #include "fcl_stpbv/formatted.h"
+#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/vectorized.h"
 #include "fcl_stpbv/volume/ball_faces.h"
 #include "fcl_stpbv/volume/minimum_ball.h"
@@ -33,7 +34,7 @@ std::string number(double value) { return formatted("%.9g", value); }
 // An R for a margin r and a smallest ball of this radius, in no more digits than it needs to work.
 std::string usableR(double r, double radius) {
   double least = r + radius * (1 + 1e-9);
-  while (least - r <= radius) least = std::nextafter(least, std::numeric_limits<double>::infinity());
+  while (least - r <= radius) least = std::nextafter(least, kInfinity);
   std::string text;
   for (int digits = 9; digits <= 17; ++digits) {
     text = formatted("%.*g", digits, least);
@@ -203,7 +204,7 @@ int StpBv::owner(const Vector3d& n, int hint) const {
   int current = hint >= 0 ? hint : tables_->patchNear[n];
   const PatchTable& patches = tables_->patches;
   int best = current;
-  double least = std::numeric_limits<double>::infinity();
+  double least = kInfinity;
   // The step over the worst boundary goes down the height n.C over the core's admissible centres C, so it
   // does not come back; the bound only stops a walk among regions narrower than rounding.
   for (int step = 0; step < 64 + patchCount(); ++step) {
@@ -228,7 +229,7 @@ double StpBv::outside(int patch, const Vector3d& n) const {
 double StpBv::support(const Vector3d& n, int hint) const {
   const int index = owner(n, hint);
   const double h = n.dot(patch(index).anchor) + supportAboveAnchor(*this, index, n);
-  return std::isfinite(h) ? h : std::numeric_limits<double>::infinity();
+  return std::isfinite(h) ? h : kInfinity;
 }
 
 Vector3d StpBv::surfacePoint(const Vector3d& n, int hint) const {

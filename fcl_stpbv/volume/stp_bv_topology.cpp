@@ -54,7 +54,7 @@ std::vector<int> shallowFaces(const PatchTable& patches, const Vector3d& centre)
   std::vector<int> shallow;
   while (shallow.size() < kMost) {
     int lowest = -1;
-    double least = std::numeric_limits<double>::infinity();
+    double least = kInfinity;
     for (int f = patches.firstFace(); f < patches.count(); ++f) {
       const Packed normal = pack(patches.face(f).normal);
       const double height = dot(normal, pack(patches.face(f).anchor) - pack(centre));
@@ -125,7 +125,7 @@ void StpBv::makeEdges() {
 void StpBv::makeInnerRadius() {
   constexpr double kRounding = 16 * std::numeric_limits<double>::epsilon();
   const auto at = [&](int i) -> const Vector3d& { return vertices_[static_cast<std::size_t>(i)]; };
-  double least = faces_.empty() ? 0.0 : std::numeric_limits<double>::infinity();
+  double least = faces_.empty() ? 0.0 : kInfinity;
   for (const Ring& ring : faces_) {
     const Vector3d& first = at(ring[0]);
     for (std::size_t k = 2; k < ring.size(); ++k) {

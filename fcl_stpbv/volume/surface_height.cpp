@@ -10,10 +10,10 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 #include <vector>
 
+#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/volume/patch_view.h"
 #include "fcl_stpbv/volume/query_tables.h"
 
@@ -157,7 +157,7 @@ SurfaceHeight lowestPlane(const StpBv& volume, const Vector3d& y, const Vector3d
   const Vector3d e = d.unitOrthogonal(), f = d.cross(e);
   const double reach = 2 * volume.enclosingRadius() + (y - volume.centre()).norm();
   constexpr double kWidest = 2e8;  // beyond it a ray grazes the surface
-  SurfaceHeight best{std::numeric_limits<double>::infinity(), index, 0};
+  SurfaceHeight best{kInfinity, index, 0};
   // What rounds a surface point: its own coordinates, and rho times the rounding of its normal.
   const double rounding = 1e-15 * (reach + volume.radii().R + y.norm());
   Vector2d a = Vector2d::Zero();
