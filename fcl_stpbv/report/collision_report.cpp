@@ -7,7 +7,6 @@
 #include "fcl_stpbv/report/collision_report.h"
 
 #include <algorithm>
-#include <limits>
 #include <map>
 #include <set>
 
@@ -136,7 +135,7 @@ void summarise(CollisionReport& report) {
   std::stable_sort(report.pairs.begin(), report.pairs.end(), [](const PairReport& a, const PairReport& b) {
     return a.checked != b.checked ? a.checked : a.answer.distance < b.answer.distance;
   });
-  report.minDistance = std::numeric_limits<double>::infinity();
+  report.minDistance = kInfinity;
   for (const PairReport& pair : report.pairs) {
     if (!pair.checked) continue;
     ++report.checked;
@@ -284,7 +283,7 @@ CollisionReport makeReport(const ReportRequest& request) {
     return tickCost(report.kinematics, geometry, rows, constraints,
                     postures.asked.value_or(report.kinematics->neutral()));
   };
-  constexpr double kNever = std::numeric_limits<double>::infinity();
+  constexpr double kNever = kInfinity;
   report.usPerTick = tick(report.geometry, closestBodies(report), kNever).usPerTick;
   report.nsPerPair = report.usPerTick * 1e3 / std::max(1, report.checked);
   if (split) {

@@ -156,6 +156,17 @@ void shorten(nlohmann::json& value) {
   }
 }
 
+// Whether the trajectory leaves open if the pair meets.
+bool isUndecided(const CollisionReport& report, const PairReport& pair) {
+  if (!report.trajectory || !pair.checked) return false;
+  const TrajectoryReport& t = *report.trajectory;
+  return t.followedUntil < t.trajectory.time.back() ||
+         std::any_of(t.undecided.begin(), t.undecided.end(), [&](const TrajectoryStop& stop) {
+           return report.trajectoryPairs[static_cast<std::size_t>(stop.pair)] ==
+                  std::make_pair(pair.link1, pair.link2);
+         });
+}
+
 nlohmann::json dataOf(const CollisionReport& report, const std::string& title,
                       const std::vector<std::string>& violated) {
   nlohmann::json data = nlohmann::json::parse(toJson(report));
@@ -180,6 +191,8 @@ nlohmann::json dataOf(const CollisionReport& report, const std::string& title,
     item["posture"] = indexOf(pair.configuration);
     item["cover"] = pair.overCover1 + pair.overCover2;
     item["colliding"] = pair.colliding;
+    item["undecided"] = isUndecided(report, pair);
+    if (std::isfinite(pair.time)) item["time_text"] = report.trajectory->timeText(pair.time);
     item["contradicts_srdf"] = pair.contradictsSrdf;
     item.erase("closest");
   }

@@ -121,7 +121,6 @@ std::string polyhedra(const CollisionReport& report, std::size_t top) {
 std::string trajectory(const CollisionReport& report) {
   if (!report.trajectory) return "";
   const TrajectoryReport& t = *report.trajectory;
-  const char* unit = t.trajectory.timed ? " s" : "";
   const char* speed = t.trajectory.timed ? "m/s" : "m a way point";
   std::string text = "Trajectory " + t.path + ", " + std::to_string(t.trajectory.points.size()) +
                      " way points: " + trajectoryVerdict(report);
@@ -134,10 +133,10 @@ std::string trajectory(const CollisionReport& report) {
   for (const TrajectoryStop& pair : t.undecided)
     if (t.verdict == MotionVerdict::contact || pair.pair != t.stop.pair)
       text += "not decided: " + report.trajectoryPair(pair.pair) +
-              formatted(", whose distance is the margin to rounding from %.12g%s on\n", pair.from, unit);
+              ", whose distance is the margin to rounding from " + t.timeText(pair.from, true) + " on\n";
   if (t.steepestPair >= 0)
     text += formatted("fastest approach of %zu samples %.4f %s, ", t.chartTime.size(), t.steepest, speed) +
-            report.trajectoryPair(t.steepestPair) + formatted(" at %.12g%s\n", t.steepestTime, unit);
+            report.trajectoryPair(t.steepestPair) + " at " + t.timeText(t.steepestTime) + "\n";
   if (!t.closestProven) text += "some closest approaches are those that were found, without a proof\n";
   return text;
 }
@@ -164,24 +163,19 @@ std::string contradictions(const CollisionReport& report, std::size_t top) {
 
 std::string trajectoryVerdict(const CollisionReport& report) {
   const TrajectoryReport& t = *report.trajectory;
-  const char* unit = t.trajectory.timed ? " s" : "";
-  switch (t.verdict) {
-    case MotionVerdict::free:
-      return "proven free";
-    case MotionVerdict::contact:
-      return "CONTACT of " + report.trajectoryPair(t.stop.pair) +
-             formatted(" between %.12g and %.12g%s", t.stop.from, t.stop.until, unit);
-    default:
-      break;
-  }
+  if (t.verdict == MotionVerdict::free) return "proven free";
+  const std::string pair = report.trajectoryPair(t.stop.pair);
+  const bool starts = t.timeText(t.stop.from) == t.timeText(t.trajectory.time.front());
+  if (t.verdict == MotionVerdict::contact)
+    return "CONTACT of " + pair + (starts ? " at the start" : " at " + t.timeText(t.stop.until));
   std::string why;
   if (!t.undecided.empty()) why = "the distance is the margin to rounding";
   if (t.followedUntil < t.trajectory.time.back()) {
-    if (!why.empty()) why += formatted("; from %.12g%s on ", t.followedUntil, unit);
+    if (!why.empty()) why += "; from " + t.timeText(t.followedUntil, true) + " on ";
     why += "the way is so long that a proof takes too many distances; give way points between";
   }
-  return "NOT DECIDED for " + report.trajectoryPair(t.stop.pair) +
-         formatted(" at %.12g%s, free before: ", t.stop.from, unit) + why;
+  return "NOT DECIDED for " + pair +
+         (starts ? " from the start on: " : " at " + t.timeText(t.stop.from, true) + ", free before: ") + why;
 }
 
 std::string toText(const CollisionReport& report, std::size_t top) {

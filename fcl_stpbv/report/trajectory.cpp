@@ -10,6 +10,7 @@
 #include <numeric>
 #include <utility>
 
+#include "fcl_stpbv/formatted.h"
 #include "fcl_stpbv/robot/constraints.h"
 
 namespace fcl_stpbv::report {
@@ -138,6 +139,16 @@ VectorXd TrajectoryReport::at(double time) const {
   const std::size_t i = segmentAt(trajectory, time);
   const double part = (time - trajectory.time[i]) / (trajectory.time[i + 1] - trajectory.time[i]);
   return trajectory.points[i] + part * (trajectory.points[i + 1] - trajectory.points[i]);
+}
+
+std::string TrajectoryReport::timeText(double time, bool down) const {
+  const double range = trajectory.time.back() - trajectory.time.front();
+  const int decimals = std::clamp(static_cast<int>(std::ceil(5 - std::log10(range))), 0, 12);
+  const double unit = std::pow(10.0, -decimals);
+  std::string text = detail::formatted("%.*f", decimals, down ? unit * std::floor(time / unit) : time);
+  if (decimals > 0) text.erase(std::max(text.find_last_not_of('0'), text.find('.') - 1) + 1);
+  if (text.back() == '.') text.pop_back();
+  return (text == "-0" ? "0" : text) + (trajectory.timed ? " s" : "");
 }
 
 TrajectoryReport follow(Trajectory trajectory, std::shared_ptr<const Kinematics> kinematics,

@@ -38,6 +38,8 @@ struct TrajectoryReport {
   std::vector<double> chartTime, chartDistance;
 
   Eigen::VectorXd at(double time) const;
+  /// A time to 1e-5 of the whole and with its unit, rounded down where all before it was checked.
+  std::string timeText(double time, bool down = false) const;
 };
 
 /// Straight lines through the way points. `pairs` are those of bodies to be

@@ -1,4 +1,5 @@
-// The least distance over time as an SVG: its levels, its line, and a red one at the first contact.
+// The least distance over time as an SVG: axes with round ticks, the margin, the closest approach, and where
+// the first contact is, or the first place at which nothing is decided.
 #include <algorithm>
 #include <cmath>
 
@@ -9,43 +10,116 @@ namespace fcl_stpbv::report {
 
 using detail::formatted;
 
-std::string chartOf(const TrajectoryReport& report, double margin) {
-  constexpr double kWidth = 1000, kHeight = 220, kBottom = 30;
-  constexpr double kLetter = 9, kLine = 16;  // as wide and as high as text of 13 pixels is at most
-  const double begin = report.chartTime.front(), end = report.chartTime.back();
-  const auto [least, most] = std::minmax_element(report.chartDistance.begin(), report.chartDistance.end());
-  const double low = std::min({0.0, margin, *least}), high = std::max({*most, margin, low + 1e-3});
-  const auto label = [](double level) { return formatted("%.1f mm", level * 1e3); };
-  const double left = 6 + kLetter * static_cast<double>(std::max(label(low).size(), label(high).size()));
-  const auto x = [&](double time) { return left + (kWidth - left) * (time - begin) / (end - begin); };
-  const auto y = [&](double d) { return (kHeight - kBottom) * (1 - (d - low) / (high - low)) + 10; };
-  std::string svg;
-  const auto add = [&svg](const char* pattern, auto... values) { svg += formatted(pattern, values...); };
-  add("<svg viewBox=\"0 0 %g %g\" role=\"img\" aria-label=\"Least distance over time\" font-size=\"13\" "
-      "fill=\"currentColor\">",
-      kWidth + 20, kHeight + 20);
-  std::vector<double> written;  // levels whose text no other one may lie over
-  for (const double level : {margin, low, high}) {
-    const auto over = [&](double other) { return std::abs(y(level) - y(other)) < kLine; };
-    if (std::any_of(written.begin(), written.end(), over)) continue;
-    written.push_back(level);
-    add("<line x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\" stroke=\"currentColor\" opacity=\"0.3\"/>",
-        left, y(level), kWidth, y(level));
-    add("<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"end\">%s</text>", left - 6, y(level) + 4,
-        label(level).c_str());
+namespace {
+
+/// What a range of values is divided by: 1, 2 or 5 times a power of ten, at most `most` times.
+struct Ticks {
+  double step;
+  int decimals = 0;
+
+  Ticks(double range, int most) {
+    const double least = range / most, power = std::pow(10.0, std::floor(std::log10(least)));
+    const double factor = least <= power ? 1 : least <= 2 * power ? 2 : least <= 5 * power ? 5 : 10;
+    step = factor * power;
+    if (std::isfinite(step))
+      decimals = std::clamp(static_cast<int>(-std::floor(std::log10(step) + 1e-9)), 0, 12);
   }
-  add("<text x=\"%.1f\" y=\"%.1f\">%.12g%s</text>", left, kHeight + 12, begin,
-      report.trajectory.timed ? " s" : "");
-  add("<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"end\">%.12g%s</text>", kWidth, kHeight + 12, end,
-      report.trajectory.timed ? " s" : "");
-  svg += "<polyline fill=\"none\" stroke=\"#2a7ae2\" stroke-width=\"2\" points=\"";
-  for (std::size_t i = 0; i < report.chartTime.size(); ++i)
-    add("%.2f,%.2f ", x(report.chartTime[i]), y(report.chartDistance[i]));
-  svg += "\"/>";
-  if (report.verdict != MotionVerdict::free)
-    add("<line x1=\"%.1f\" y1=\"10\" x2=\"%.1f\" y2=\"%.1f\" stroke=\"#c0392b\" stroke-width=\"2\"/>",
-        x(report.stop.until), x(report.stop.until), y(low));
-  return svg + "</svg>";
+  template <typename Draw>
+  void each(double from, double to, const Draw& draw) const {
+    const double first = step * std::ceil(from / step - 1e-9);
+    for (int i = 0; i < 20 && first + i * step <= to + 1e-9 * step; ++i) draw(first + i * step);
+  }
+  std::string label(double value) const {
+    return formatted("%.*f", decimals, step * std::round(value / step) + 0.0);
+  }
+};
+
+/// An SVG as it grows: lines and words in pixels.
+class Drawing {
+ public:
+  std::string svg;
+
+  template <typename... Values>
+  void add(const char* pattern, Values... values) {
+    svg += formatted(pattern, values...);
+  }
+  void line(double x1, double y1, double x2, double y2, const char* look) {
+    add("<line x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\" %s/>", x1, y1, x2, y2, look);
+  }
+  void text(double x, double y, const char* look, const std::string& words) {
+    add("<text x=\"%.1f\" y=\"%.1f\" %s>%s</text>", x, y, look, words.c_str());
+  }
+};
+
+}  // namespace
+
+std::string chartOf(const TrajectoryReport& report, double margin) {
+  constexpr double kWidth = 1200, kHeight = 270, kTop = 24, kBottom = 226, kRight = 1184;
+  constexpr double kLetter = 8, kRoom = 130;  // as wide as a letter of 13 pixels and a label are at most
+  constexpr const char* kGrid = "stroke=\"currentColor\" opacity=\"0.15\"";
+  constexpr const char* kMiddle = "text-anchor=\"middle\"";
+  const std::vector<double>&time = report.chartTime, &distance = report.chartDistance;
+  const double begin = time.front(), end = time.back();
+  const auto [least, most] = std::minmax_element(distance.begin(), distance.end());
+  const double scale = *most >= 10 ? 1 : 1e3;  // m or mm
+  const char* unit = *most >= 10 ? "m" : "mm";
+  const double lowest = scale * std::min({0.0, margin, *least}),
+               highest = scale * std::max({*most, margin, *least + 1e-6});
+  const Ticks levels(highest - lowest, 5), times(end - begin, 10);
+  const double low = levels.step * std::floor(lowest / levels.step + 1e-9),
+               high = levels.step * std::ceil(highest / levels.step - 1e-9);
+  const auto width = [&](double level) { return kLetter * static_cast<double>(levels.label(level).size()); };
+  const double left = 34 + std::max(width(low), width(high));
+  const auto x = [&](double t) { return left + (kRight - left) * (t - begin) / (end - begin); };
+  const auto y = [&](double level) { return kBottom - (kBottom - kTop) * (level - low) / (high - low); };
+  const auto beside = [&](double at) {
+    return at > kRight - kRoom ? "text-anchor=\"end\" dx=\"-7\"" : "dx=\"7\"";
+  };
+
+  Drawing d;
+  d.add(
+      "<svg viewBox=\"0 0 %g %g\" role=\"img\" aria-label=\"Least distance over time\" font-size=\"13\" "
+      "fill=\"currentColor\" data-begin=\"%.17g\" data-end=\"%.17g\" data-left=\"%g\" data-right=\"%g\">",
+      kWidth, kHeight, begin, end, left, kRight);
+  levels.each(low, high, [&](double level) {
+    const bool zero = std::abs(level) < 0.5 * levels.step;
+    d.line(left, y(level), kRight, y(level), zero ? "stroke=\"currentColor\"" : kGrid);
+    d.text(left - 7, y(level) + 4, "text-anchor=\"end\"", levels.label(level));
+  });
+  times.each(begin, end, [&](double at) {
+    d.line(x(at), kTop, x(at), kBottom, kGrid);
+    d.text(x(at), kBottom + 18, kMiddle, times.label(at));
+  });
+  d.text(0.5 * (left + kRight), kHeight - 6, kMiddle, report.trajectory.timed ? "time [s]" : "way point");
+  d.add("<text transform=\"translate(14 %g) rotate(-90)\" text-anchor=\"middle\">least distance [%s]</text>",
+        0.5 * (kTop + kBottom), unit);
+  if (margin != 0) {
+    d.line(left, y(scale * margin), kRight, y(scale * margin),
+           "stroke=\"currentColor\" stroke-dasharray=\"2 4\"");
+    d.text(kRight, y(scale * margin) - 5, "text-anchor=\"end\"",
+           formatted("margin %g %s", scale * margin, unit));
+  }
+  d.line(-9, kTop, -9, kBottom,
+         "id=\"chosen\" stroke=\"#2a7ae2\" opacity=\"0.6\"");  // of a page, once it is asked for
+  d.svg += "<polyline fill=\"none\" stroke=\"#2a7ae2\" stroke-width=\"2\" points=\"";
+  for (std::size_t i = 0; i < time.size(); ++i) d.add("%.2f,%.2f ", x(time[i]), y(scale * distance[i]));
+  d.svg += "\"/>";
+  const double nearest = time[static_cast<std::size_t>(least - distance.begin())];
+  d.add("<circle cx=\"%.1f\" cy=\"%.1f\" r=\"4\" fill=\"#2a7ae2\"/>", x(nearest), y(scale * *least));
+  const double dot = y(scale * *least), below = dot + 20 < kBottom ? 18 : -8;
+  const double shown = std::abs(*least) < 1e-9 ? 0 : scale * *least;
+  d.text(x(nearest), dot + below, beside(x(nearest)), formatted("closest: %.4g %s", shown, unit));
+  if (report.verdict != MotionVerdict::free) {
+    const bool contact = report.verdict == MotionVerdict::contact;
+    const double at = x(contact ? report.stop.until : report.stop.from);
+    const char* colour = contact ? "var(--hit, #c0392b)" : "var(--warn, #7a5200)";
+    d.line(at, kTop - 12, at, kBottom,
+           formatted("stroke=\"%s\" stroke-width=\"2\"%s", colour, contact ? "" : " stroke-dasharray=\"6 4\"")
+               .c_str());
+    d.text(at, kTop - 3, formatted("%s fill=\"%s\"", beside(at), colour).c_str(),
+           contact ? "first contact" : "not decided from here");
+  }
+  return d.svg + "</svg>";
 }
 
 }  // namespace fcl_stpbv::report

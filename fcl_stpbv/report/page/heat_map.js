@@ -2,7 +2,7 @@
 
 // Near is dark and warm, far is cool.
 const SCALE = [[0, [153, 36, 88]], [0.25, [226, 98, 72]], [0.5, [247, 173, 92]], [0.75, [222, 214, 160]], [1, [126, 172, 186]]];
-const TOUCHING = '#5b0f2e';
+const MOST_HIGH = 900;  // of the map, so that it is seen at a glance
 
 function scaleColour(t) {
   const upper = Math.max(1, SCALE.findIndex(([at]) => t <= at)), [low, from] = SCALE[upper - 1], [high, to] = SCALE[upper];
@@ -19,6 +19,7 @@ class HeatMap {
     this.selected = -1;
     this.canvas = byId('heat');
     this.names = [...new Set(pairs.flatMap(this.ends))].sort((a, b) => place.get(a) - place.get(b));
+    this.shorten = shortener(this.names);
     const number = new Map(this.names.map((name, i) => [name, i]));
     this.at = new Map();
     pairs.forEach((p, i) => {
@@ -29,16 +30,17 @@ class HeatMap {
     // The scale ends at a round number above most of the distances that matter.
     const apart = pairs.filter(p => p.checked && p.distance > 0).map(p => p.distance).sort((a, b) => a - b);
     const most = apart[Math.floor(0.6 * apart.length)] || 0.1;
-    this.far = [0.01, 0.02, 0.05, 0.1, 0.2, 0.3, 0.5, 1, 2, 5, 10].find(v => v >= most) || most;
-    this.makeLegend();
-    new ResizeObserver(() => this.draw()).observe(byId('mapbox'));
+    const power = 10 ** Math.floor(Math.log10(most));
+    this.far = Number((([1, 2, 3, 5].find(v => v * power >= most * (1 - 1e-9)) || 10) * power).toPrecision(1));
+    this.makeLegend(hitWord(report));
+    new ResizeObserver(() => requestAnimationFrame(() => this.draw())).observe(byId('mapbox'));
     this.canvas.onclick = e => { const i = this.under(e); if (i !== undefined) onSelect(i); };
     this.canvas.onmousemove = e => this.tell(e);
     this.canvas.onmouseleave = () => { byId('tip').hidden = true; };
     matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => this.draw());
   }
 
-  makeLegend() {
+  makeLegend(hit) {
     const swatch = colour => { const i = make('i'); i.style.background = colour; return i; };
     const bar = make('canvas');
     bar.width = 130;
@@ -47,21 +49,22 @@ class HeatMap {
       bar.getContext('2d').fillStyle = scaleColour(x / 129);
       bar.getContext('2d').fillRect(x, 0, 1, 1);
     }
-    byId('legend').replaceChildren(make('span', '', '', swatch(TOUCHING), 'in collision'),
-      make('span', '', '', '0', bar, `${mm(this.far, 0)} mm and more apart`), make('span', '', '', swatch('var(--off)'), 'not checked'));
+    byId('legend').replaceChildren(make('span', '', '', swatch('var(--touch)'), hit),
+      make('span', '', '', '0', bar, `${this.far < 10 ? `${brief(1e3 * this.far)} mm` : `${this.far} m`} and more apart`), make('span', '', '', swatch('var(--off)'), 'not checked'));
   }
 
   colour(pair) {
     if (!pair.checked) return this.style.getPropertyValue('--off');
-    return pair.colliding ? TOUCHING : scaleColour(Math.max(0, Math.min(1, pair.distance / this.far)));
+    return pair.colliding ? this.style.getPropertyValue('--touch') : scaleColour(Math.max(0, Math.min(1, pair.distance / this.far)));
   }
 
   draw() {
     this.style = getComputedStyle(document.documentElement);
     const g = this.canvas.getContext('2d'), sharp = window.devicePixelRatio, count = Math.max(1, this.names.length);
     g.font = '600 11px system-ui, "DejaVu Sans", sans-serif';
-    this.margin = Math.ceil(Math.min(150, Math.max(20, ...this.names.map(n => g.measureText(n).width)))) + 8;
-    this.cell = Math.max(9, Math.min(24, Math.floor((byId('mapbox').clientWidth - this.margin - 2) / count)));
+    this.margin = Math.ceil(Math.min(count > 40 ? 110 : 150, Math.max(20, ...this.names.map(n => g.measureText(n).width)))) + 8;
+    const room = Math.min(byId('mapbox').clientWidth, MOST_HIGH) - this.margin - 2;
+    this.cell = Math.max(7, Math.min(24, Math.floor(room / count)));
     const size = this.margin + this.cell * count + 2;
     this.canvas.width = this.canvas.height = size * sharp;
     this.canvas.style.width = this.canvas.style.height = size + 'px';
@@ -70,8 +73,7 @@ class HeatMap {
     this.names.forEach((name, i) => {
       g.font = `${picked.includes(name) ? 600 : 400} ${Math.min(11, this.cell)}px system-ui, "DejaVu Sans", sans-serif`;
       g.fillStyle = this.style.getPropertyValue(name === picked[0] ? '--first' : name === picked[1] ? '--second' : '--soft');
-      let short = name;
-      while (short.length > 2 && g.measureText(short).width > this.margin - 8) short = short.slice(0, -2) + '…';
+      const short = this.shorten(name, text => g.measureText(text).width <= this.margin - 8);
       g.textAlign = 'right';
       g.fillText(short, this.margin - 5, this.margin + (i + 0.78) * this.cell);
       g.save();

@@ -1,34 +1,43 @@
 // The table of pairs: columns that sort, a search and four filters. Filters that would have nothing to choose are not shown.
 const COLUMNS = [
-  { key: 'link1', label: 'Link 1', text: true },
-  { key: 'link2', label: 'Link 2', text: true },
+  { key: 'link1', label: 'Link 1', text: true, name: true },
+  { key: 'link2', label: 'Link 2', text: true, name: true },
   { key: 'distance', label: 'STP-BV mm', title: 'Distance of the two smooth volumes; negative: they overlap' },
   { key: 'hull_distance', label: 'Hulls mm', title: 'Distance of the convex hulls' },
   { key: 'mesh_distance', label: 'Meshes mm', title: 'Distance of the triangle meshes' },
   { key: 'cover', label: 'Cover mm', title: 'How much closer the volumes are than their hulls, along the normal' },
-  { key: 'cause', label: 'Cause', title: 'What meets: the meshes, only their hulls, or only the margins around them', text: true },
+  { key: 'cause', label: 'Cause', title: 'What meets, or is within the margin: the meshes, only their hulls, or only the covers around them', text: true },
   { key: 'reason', label: 'Reason', title: 'What the search for collisions says', text: true },
   { key: 'srdf_reason', label: 'SRDF', title: 'What the SRDF says', text: true }
 ];
 
-const CAUSE_REAL = 'meshes meet';  // the other causes are the covers' own
+const COVERS_ONLY = ['hull only', 'margin only'];  // causes that the meshes have no part in
 
 const STATES = {
   checked: ['checked', p => p.checked],
-  colliding: ['in collision', p => p.checked && p.colliding],
+  colliding: ['', p => p.checked && p.colliding],  // named as the report does
+  undecided: ['not decided', p => p.undecided],
   skipped: ['not checked', p => !p.checked],
   contradicts: ['contradicts the SRDF', p => p.contradicts_srdf],
   kinked: ['gradient may jump', p => p.checked && !p.continuous]
 };
+
+// What is said of a pair, and how it looks.
+function stateOf(pair, report) {
+  if (!pair.checked) return ['not checked', ''];
+  return pair.colliding ? [hitWord(report), 'hit'] : pair.undecided ? ['not decided', 'warn'] : ['clear', ''];
+}
 
 function cellText({ key, text }, pair) {
   return text ? pair[key] : mm(pair[key]);
 }
 
 class PairTable {
-  constructor(pairs, onSelect) {
-    this.pairs = pairs;
+  constructor(report, onSelect) {
+    const pairs = this.pairs = report.pairs;
+    STATES.colliding[0] = hitWord(report);
     this.onSelect = onSelect;
+    this.shorten = shortener([...new Set(pairs.flatMap(p => [p.link1, p.link2]))]);
     this.selected = -1;
     this.sort = { key: null, sign: 1 };
     const known = { hull_distance: 1, mesh_distance: 1, cause: 1, srdf_reason: 1 };
@@ -37,17 +46,20 @@ class PairTable {
     this.makeFilters();
     this.rows = pairs.map((pair, i) => this.makeRow(pair, i));
     byId('tablebox').onkeydown = e => this.step(e);
+    new ResizeObserver(() => requestAnimationFrame(() => this.fit())).observe(byId('tablebox'));
     this.fill();
   }
 
-  // As wide as the longest content of a column needs, in pixels, names up to a limit. A wider table shares out the rest.
+  // As wide as the longest content of a column needs, in pixels, names up to a limit. A wider table shares out the rest, in a
+  // narrower one names give way.
   widthOf(column) {
-    const most = 170, padding = 12, style = getComputedStyle(byId('table'));
+    const most = 190, padding = 12, style = getComputedStyle(byId('table'));
     const pen = document.createElement('canvas').getContext('2d');
     const widest = (weight, texts) => {
       pen.font = `${weight} ${style.fontSize} ${style.fontFamily}`;
       return [...texts].reduce((width, text) => Math.max(width, pen.measureText(text).width), 0);
     };
+    if (column.name) this.textWidth = text => widest('400', [text]);
     const cells = new Set(this.pairs.map(p => cellText(column, p)));
     const width = Math.max(widest('600', column.label.split(' ')), widest(column.key === 'distance' ? '650' : '400', cells));
     return Math.min(most, padding + Math.ceil(width));
@@ -55,8 +67,8 @@ class PairTable {
 
   makeHead() {
     for (const column of this.columns) {
-      const col = make('col');
-      col.style.width = `${this.widthOf(column)}px`;
+      const col = column.col = make('col');
+      column.width = this.widthOf(column);
       document.querySelector('#table colgroup').append(col);
       const head = make('th', column.text ? '' : 'n', column.label);
       head.title = column.title || '';
@@ -68,14 +80,35 @@ class PairTable {
     }
   }
 
+  fit() {
+    let over = this.columns.reduce((sum, column) => sum + column.width, 0) - byId('tablebox').clientWidth;
+    const widths = new Map(this.columns.map(column => [column, column.width]));
+    for (const [least, shrink] of [[0.5, c => c.text && !c.name && c.key !== 'cause'], [0.4, c => c.name]]) {
+      const columns = this.columns.filter(shrink), sum = columns.reduce((all, column) => all + column.width, 0);
+      const share = Math.min(1, Math.max(least, 1 - over / sum));
+      for (const column of columns) widths.set(column, Math.floor(share * column.width));
+      over -= (1 - share) * sum;
+    }
+    this.columns.forEach((column, k) => {
+      column.col.style.width = `${widths.get(column)}px`;
+      if (!column.name) return;
+      const short = new Map();
+      this.rows.forEach((row, i) => {
+        const name = this.pairs[i][column.key];
+        if (!short.has(name)) short.set(name, this.shorten(name, text => this.textWidth(text) <= widths.get(column) - 12));
+        row.children[k].textContent = short.get(name);
+      });
+    });
+  }
+
   makeRow(pair, i) {
-    const row = make('tr', pair.checked ? pair.colliding ? 'hit' : '' : 'off');
+    const row = make('tr', pair.checked ? pair.colliding ? 'hit' : pair.undecided ? 'undecided' : '' : 'off');
     row.dataset.pair = i;
     for (const column of this.columns) {
       const { key, text } = column;
       const cell = make('td', text ? '' : key === 'distance' ? 'n d' : 'n', cellText(column, pair));
       if (text) cell.title = pair[key];
-      if (key === 'cause' && pair.cause) cell.replaceChildren(make('b', `cause ${pair.cause === CAUSE_REAL ? 'hit' : ''}`, pair.cause));
+      if (key === 'cause' && pair.cause) cell.replaceChildren(make('b', `cause ${COVERS_ONLY.includes(pair.cause) ? '' : 'hit'}`, pair.cause));
       row.append(cell);
     }
     row.onclick = () => this.onSelect(i);
@@ -133,16 +166,20 @@ class PairTable {
       byId(id).classList.toggle('set', byId(id).value !== '');
       return byId(id).value !== '';
     });
+    const counted = this.pairs.length === 1 ? '1 pair' : `${this.pairs.length} pairs`;
     byId('clear').hidden = !set.length;
-    byId('count').textContent = set.length ? `${this.order.length} of ${this.pairs.length} pairs` : `${this.pairs.length} pairs`;
+    byId('count').textContent = set.length ? `${this.order.length} of ${counted}` : counted;
     byId('nothing').hidden = this.order.length > 0;
     byId('nothing').textContent = this.pairs.length ? 'No pair passes these filters.' : 'The report has no pairs.';
   }
 
   mark(i) {
-    if (this.rows[this.selected]) this.rows[this.selected].classList.remove('sel');
+    for (const [row, on] of [[this.rows[this.selected], false], [this.rows[i], true]]) {
+      if (!row) continue;
+      row.classList.toggle('sel', on);
+      row.setAttribute('aria-selected', on);
+    }
     this.selected = i;
-    this.rows[i].classList.add('sel');
   }
 
   // Up and down arrows walk through the rows.
@@ -158,5 +195,5 @@ class PairTable {
 }
 
 function causeTag(cause) {
-  return make('span', `tag ${cause === CAUSE_REAL ? 'hit' : 'warn'}`, cause);
+  return make('span', `tag ${COVERS_ONLY.includes(cause) ? 'warn' : 'hit'}`, cause);
 }
