@@ -1,28 +1,22 @@
 """Charts of the jump, the hard cases, proofs, postures and controllers."""
 import pathlib
 import statistics
+import xml.etree.ElementTree as xml
 
 from . import palette, stability_verdicts
-from .plot import UNLABEL, block, captured, draw, legend, measured, origin, panels, quoted, single
+from .plot import PROJECT, UNLABEL, block, captured, draw, legend, measured, origin, panels, quoted, single, ticks
 
 
-def jump(height=400):
-    """The README's picture: distance and derivative as a box rocks past parallel faces."""
+def jump(width=390, height=400):
+    """The README's picture, as wide as it is shown there: the derivative as a box rocks past parallel faces."""
     command, lines = captured("jump_sweep")
-    rows = [[float(x) for x in line.split(",")] for line in lines[1:]]
-    middle = min(rows, key=lambda row: abs(row[0]))
-    above, below = 1e3 * middle[1], 1e3 * middle[3]
-    small_print = [f"A 20 cm box rocks over a plate. r = 1 cm, R = 10 m on both. {command}"]
-    text = panels(2, height, small_print, legend_rows=1, panel_titles=True) + \
-        legend([(palette.FCL, 5, "polyhedra, by FCL"), (palette.SMOOTH, 5, "STP-BVs over them")], height) + \
-        block("$sweep", rows) + "set xlabel 'angle of the box to the plate (degrees)'\nset xrange [-2:2]\nset xtics 1\n" \
-        "set title 'distance' offset 0,-0.6\nset ylabel 'distance (mm)'\nset yrange [20:55]\n" \
-        f"set arrow 1 from 0,{below + 0.6:.1f} to 0,{above - 0.6:.1f} heads size screen 0.008,20 lc rgb '{palette.NEUTRAL}'\n" \
-        f"set label 1 \"{above - below:.0f} mm:\\nboth r, 20 mm,\\nand R's bulge\" at 0.1,42 font ',12' tc rgb '{palette.NEUTRAL}'\n" \
-        f"plot $sweep using 1:(1000*$2) with lines lw 2.5 lc rgb '{palette.FCL}', '' using 1:(1000*$4) with lines lw 2.5 lc rgb '{palette.SMOOTH}'\n" + \
-        UNLABEL + "unset arrow 1\nunset label 1\nset title 'its derivative'\nset ylabel 'derivative with the angle (m/rad)'\nset yrange [-0.12:0.12]\n" \
-        f"plot $sweep using 1:3 with points pt 7 ps 0.25 lc rgb '{palette.FCL}', '' using 1:5 with lines lw 2.5 lc rgb '{palette.SMOOTH}'\nunset multiplot\n"
-    draw("jump", "Two parallel faces: the polyhedra's derivative jumps, the STP-BVs' does not", text, small_print, height)
+    small_print = ["A 20 cm box rocks over a plate; r = 1 cm, R = 10 m on both.", command]
+    text = single(height, small_print, legend_rows=1, width=width) + \
+        legend([(palette.FCL, 5, "polyhedra, by FCL"), (palette.SMOOTH, 5, "STP-BVs over them")], height, columns=2, width=width) + \
+        block("$sweep", [map(float, line.split(",")) for line in lines[1:]]) + "set xlabel 'angle of the box to the plate (degrees)'\nset xrange [-2:2]\n" \
+        "set xtics 1\nset ylabel 'derivative with the angle (m/rad)'\nset yrange [-0.12:0.12]\n" \
+        f"plot $sweep using 1:3 with points pt 7 ps 0.3 lc rgb '{palette.FCL}', '' using 1:5 with lines lw 3 lc rgb '{palette.SMOOTH}'"
+    draw("jump", "The derivative jumps on polyhedra only", text, small_print, height, width)
 
 
 def stability():
@@ -30,8 +24,9 @@ def stability():
     data = measured("stability")
     methods = data["about"]["methods"]
     groups = stability_verdicts.groups(data)
+    failures = stability_verdicts.failures(data)
     row_height, top, bottom, left = 20, 176, 92, 270
-    height = top + bottom + row_height * len(groups)
+    height = top + bottom + row_height * (len(groups) + 1)
     cells, counts = [], []
     for y, (group, cases) in enumerate(groups.items()):
         for x in range(len(methods)):
@@ -39,14 +34,15 @@ def stability():
             cells.append((x, y, palette.VERDICTS[cell.shade][1]))
             if cell.failed:
                 counts.append((x, y, str(cell.failed), "#ffffff" if cell.shade >= 5 else "#222222"))
-    failures = stability_verdicts.failures(data)
+    counts += [(x, len(groups), str(failures[method["id"]]), "#222222") for x, method in enumerate(methods)]
     text = f"set lmargin at screen {left / 800:.4f}\nset rmargin at screen 0.935\nset bmargin at screen {bottom / height:.4f}\n" \
         f"set tmargin at screen {1 - top / height:.4f}\nunset grid\nset border 0\nset key off\n" \
-        f"set xrange [-0.5:{len(methods) - 0.5}]\nset yrange [{len(groups) - 0.5}:-0.5]\n" \
+        f"set xrange [-0.5:{len(methods) - 0.5}]\nset yrange [{len(groups) + 0.5}:-0.5]\n" \
         f"set x2range [-0.5:{len(methods) - 0.5}]\nunset xtics\nset style fill solid noborder\n"
     names = ", ".join(f"\"{m['title'].replace('STP-BV, paper', 'paper')}\" {x}" for x, m in enumerate(methods))
     text += f"set x2tics ({names}) rotate by 55 left font ',12' scale 0 offset -0.3,0.2\n"
-    text += "set ytics (" + ", ".join(f'"{group} ({len(cases)})" {y}' for y, (group, cases) in enumerate(groups.items())) + ") font ',12' scale 0\n"
+    text += "set ytics (" + ", ".join(f'"{group} ({len(cases)})" {y}' for y, (group, cases) in enumerate(groups.items())) + \
+        f", \"failures of {len(data['rows'])}\" {len(groups)}) font ',12' scale 0\n"
     for i, (words, colour) in enumerate(palette.VERDICTS):
         x, y = 24 + 258 * (i % 3), height - bottom + 26 + 20 * (i // 3)
         text += f"set object {i + 1} rectangle from screen {x / 800:.4f},{1 - (y - 6) / height:.4f} to screen {(x + 16) / 800:.4f},{1 - (y + 6) / height:.4f} " \
@@ -63,7 +59,7 @@ def stability():
             text += block(f"$counts{i}", mine)
             plots.append(f"$counts{i} using 1:2:3 with labels font ',11' tc rgb '{colour}'")
     ours = failures["stpbv_warm"]
-    draw("stability", f"{len(data['rows'])} hard cases: the STP-BV query fails {ours or 'none'}, FCL {failures['fcl_libccd_1e-6']}",
+    draw("stability", f"{len(data['rows'])} hard cases: the STP-BV query fails {ours or 'none'}, FCL's default {failures['fcl_libccd_1e-6']}",
          text + "plot " + ", ".join(plots),
          ["A cell: the worst verdict of a group of cases; its number: how many fail (a jump, or worse). The legend goes from best to worst."],
          height)
@@ -76,7 +72,8 @@ def proof_boxes(height=420):
                                 f"and {about['most_boxes_of_planes']:,} by planes."])
     text = single(height, small_print, legend_rows=1) + legend([(palette.SMOOTH, 5, "planes between the links"),
                                                                 (palette.SWEEPS[0], 5, "levers of the joints")], height) + \
-        "set logscale x\nset xrange [1:100000]\nset yrange [0:100]\nset xtics ('1' 1, '10' 10, '100' 100, '1,000' 1000, '10,000' 1e4, '100,000' 1e5)\n" \
+        "set logscale x\nset xrange [1:50000]\nset yrange [0:100]\n" \
+        f"set xtics {ticks(1, 10, 100, 1000, 10000)}\n" \
         "set xlabel 'boxes of joint values'\nset ylabel 'pairs proven (%)'\n"
     plots = []
     for i, (bound, colour) in enumerate((("levers", palette.SWEEPS[0]), ("planes", palette.SMOOTH))):
@@ -95,13 +92,13 @@ def radii(height=420):
     small_print = ["Pairs in the neutral posture, all but adjacent and rigid ones, R = 10 m. Lines: one r for all links; crosses: r fitted to each link (auto).",
                    "By their margins only: the volumes meet, the convex hulls do not. tools/bench/radii"]
     text = single(height, small_print, legend_rows=1) + legend([(palette.SWEEPS[i], 7, robot) for i, robot in enumerate(robots)], height) + \
-        f"set logscale x\nset xrange [20:700]\nset xtics (25, 50, 100, 200, 500)\nset yrange [0:{top:g}]\n" \
+        f"set logscale x\nset xrange [15:700]\nset xtics (25, 50, 100, 200, 500)\nset yrange [0:{top:g}]\n" \
         "set xlabel 'the normal turns by at most (rad/m), median of all pairs'\nset ylabel 'pairs that collide only by margins'\n"
     plots = []
     for i, robot in enumerate(robots):
-        rows = [(row["lipschitz"], row["margin only"], row["r"]) for row in data["rows"] if row["robot"] == robot]
+        rows = [(row["lipschitz"], row["margin only"], "r = " + row["r"]) for row in data["rows"] if row["robot"] == robot]
         colour = palette.SWEEPS[i]
-        text += block(f"$fixed{i}", [row for row in rows if row[2] != "auto"]) + block(f"$auto{i}", [row for row in rows if row[2] == "auto"])
+        text += block(f"$fixed{i}", [row for row in rows if row[2] != "r = auto"]) + block(f"$auto{i}", [row for row in rows if row[2] == "r = auto"])
         plots += [f"$fixed{i} using 1:2 with linespoints pt 7 ps 0.7 lw 2 lc rgb '{colour}'", f"$auto{i} using 1:2 with points pt 2 ps 1.6 lw 3 lc rgb '{colour}'"]
     plots.append(f"$fixed0 using 1:({0.93 * top:g}):3 with labels font ',12' tc rgb '{palette.NEUTRAL}'")
     draw("radii", "A smaller r avoids false collisions; the normal may then turn faster", text + "plot " + ", ".join(plots), small_print, height)
@@ -109,7 +106,7 @@ def radii(height=420):
 
 def posture_profile(height=400):
     data = measured("posture_study")
-    colours = {"STP-BV": palette.SMOOTH, "hulls, rounded, exact": palette.EXACT_HULL, "hulls, rounded, FCL": palette.FCL_OTHER, "hulls, plain FCL": palette.FCL}
+    colours = {"STP-BV": palette.SMOOTH, "hulls, rounded, exact": palette.ROUNDED_EXACT, "hulls, rounded, FCL": palette.ROUNDED_FCL, "hulls, plain FCL": palette.FCL}
     tasks = {}
     for row in data["rows"]:
         if row["feasible"]:
@@ -138,56 +135,70 @@ def control(height=440):
     """Peak joint acceleration in each scenario."""
     data = [measured("control"), measured("control_more")]
     rows = [row for one in data for row in one["rows"]]
-    colours = {"hull + r, r 10 mm": palette.FCL, "manifold, r 10 mm": palette.FCL_OTHER, "STP-BV, r 10 mm, R 10 m": palette.SMOOTH,
-               "STP-BV, r 10 mm, R 1 m": palette.SECOND}
+    hull, smooth = "hull + r, r 10 mm", "STP-BV, r 10 mm, R 10 m"
+    colours = {hull: palette.FCL, "manifold, r 10 mm": palette.MANIFOLD, smooth: palette.SMOOTH, "STP-BV, r 10 mm, R 1 m": palette.SECOND}
     scenarios = list(dict.fromkeys(row["scenario"] for row in rows))
     peak = {(row["scenario"], row["method"]): row["peak"] for row in rows}
-    small_print = [f"HRP-2-style robot at 1 kHz, medians of {data[0]['about']['runs']} runs a scenario, no noise.", *(one["command"] for one in data)]
+    missing = [(x, m) for x, s in enumerate(scenarios) for m in colours if (s, m) not in peak]
+    small_print = [f"HRP-2-style robot at 1 kHz, medians of {data[0]['about']['runs']} runs a scenario, no noise. -: not measured.", *(one["command"] for one in data)]
     text = single(height, small_print, legend_rows=2) + legend([(c, 5, name) for name, c in colours.items()], height, columns=2) + \
-        block("$peaks", [(s, *(peak.get((s, m), "NaN") for m in colours)) for s in scenarios]) + \
-        "set style data histograms\nset style histogram clustered gap 1\nset style fill solid noborder\nset logscale y\nset yrange [0.2:*]\n" \
-        "set ylabel 'peak joint acceleration (rad/s²)' offset 1.5\n"
+        block("$peaks", [(s, *(peak.get((s, m)) for m in colours)) for s in scenarios]) + \
+        block("$missing", [(x + (list(colours).index(m) - 1.5) / (len(colours) + 1), 0.25) for x, m in missing]) + \
+        f"set style data histograms\nset style histogram clustered gap 1\nset style fill solid noborder\nset logscale y\nset yrange [0.2:5000]\n" \
+        f"set ytics {ticks(1, 10, 100, 1000)}\nset xlabel 'scenario'\nset ylabel 'peak joint acceleration (rad/s²)' offset 1.5\n"
     plots = [f"$peaks using {i + 2}{':xtic(1)' if not i else ''} lc rgb '{c}'" for i, c in enumerate(colours.values())]
-    draw("control", "Controllers: hulls make the joints jerk, smooth volumes rarely do", text + "plot " + ", ".join(plots), small_print, height)
+    plots += ["$missing using 1:2:('-') with labels font ',14'"] if missing else []
+    times = [peak[s, hull] / peak[s, smooth] for s in scenarios]
+    draw("control", f"Controllers: on hulls the joints' peaks are {min(times):.2g} to {float(f'{max(times):.2g}'):,.0f} times those on STP-BVs with R = 10 m",
+         text + "plot " + ", ".join(plots), small_print, height)
 
 
 def clearance(height=440):
     """What r and R cost in clearance and save in accelerations, for a held box against flat things."""
     data = measured("control_radii")
     scenarios = list(dict.fromkeys(row["scenario"] for row in data["rows"]))
-    small_print = ["A held box of 14 x 10 x 6 cm, or two; r = 1, 5 and 10 mm, R = 1, 3 and 10 m. Lost: what the hulls keep beyond the 10 mm asked for.", data["command"]]
-    text = panels(2, height, small_print, legend_rows=1, panel_titles=True) + \
-        legend([(colour, 7, name) for colour, name in zip((*palette.SWEEPS, palette.SMOOTH), scenarios)], height, columns=4) + \
-        "set logscale xy\nset xrange [1:300]\nset yrange [0.5:100]\nset xlabel 'clearance lost (mm)'\nset ylabel 'peak joint acceleration (rad/s²)'\n"
+    marks = {"R 1 m": 7, "R 3 m": 5, "R 10 m": 8}
+    small_print = ["A held box of 14 x 10 x 6 cm, or two; r = 1, 5 and 10 mm. Lost: what the hulls keep beyond the 10 mm asked for.", data["command"]]
+    text = panels(2, height, small_print, legend_rows=2, panel_titles=True) + \
+        legend([*((colour, 7, name) for colour, name in zip(palette.SWEEPS, scenarios)),
+                *((palette.NEUTRAL, mark, radius.replace("R", "R =")) for radius, mark in marks.items())], height, columns=4) + \
+        f"set logscale xy\nset xrange [1:300]\nset xtics {ticks(1, 10, 100)}\nset yrange [0.5:50]\nset ytics {ticks(1, 10)}\n" \
+        "set xlabel 'clearance lost (mm)'\nset ylabel 'peak joint acceleration (rad/s²)'\n"
     for panel, (start, title) in enumerate((("STP-BV, ", "both bodies smooth"), ("STP-BV | flat, ", "the obstacle flat, with a margin r"))):
         plots = []
-        for i, (colour, scenario) in enumerate(zip((*palette.SWEEPS, palette.SMOOTH), scenarios)):
-            rows = [(1e3 * row["clearance"] - 10, row["peak"]) for row in data["rows"] if row["scenario"] == scenario and row["method"].startswith(start)]
-            if rows:
-                text += block(f"$points{panel}{i}", rows)
-                plots.append(f"$points{panel}{i} using 1:2 with points pt 7 ps 0.8 lc rgb '{colour}'")
-        text += f"set title '{title}' offset 0,-0.6\nplot " + ", ".join(plots) + "\n" + UNLABEL + "unset ylabel\n"
-    draw("clearance", "Clearance buys calm joints: what each r and R costs", text + "unset multiplot\n", small_print, height)
+        for colour, scenario in zip(palette.SWEEPS, scenarios):
+            for radius, mark in marks.items():
+                rows = [(1e3 * row["clearance"] - 10, row["peak"]) for row in data["rows"]
+                        if row["scenario"] == scenario and row["method"].startswith(start) and row["method"].endswith(radius)]
+                if rows:
+                    name = f"$points{panel}_{len(plots)}"
+                    text += block(name, rows)
+                    plots.append(f"{name} using 1:2 with points pt {mark} ps 0.9 lc rgb '{colour}'")
+        text += f"set title '{title}' offset 0,-0.6\nplot " + ", ".join(plots) + "\n" + UNLABEL
+    draw("clearance", "A small R calms the joints, and costs clearance only where the obstacle is smooth too", text + "unset multiplot\n", small_print, height)
 
 
-def success_map(name, scene, where, across, upward, panel, height, tics):
-    """Places of a grid with a posture: panels by the first axis, the second upwards, the last across. `across` and `upward`: their words."""
+def success_map(name, scene, where, across, upward, panel, height, tics, around=()):
+    """Places of a grid with a posture: panels by the first axis, the second upwards, the last across. `across` and `upward`: their words.
+    `around`: things drawn over them as (left, low, right, high)."""
     data = measured("posture_grid")
     first, second, last = (axis["count"] for axis in data["about"]["axes"][scene])
     axes, rows = data["about"]["axes"][scene], data["about"]["maps"][scene]
     at = lambda axis, i: axis["from"] + (axis["to"] - axis["from"]) * i / max(1, axis["count"] - 1)
     step = lambda axis: (axis["to"] - axis["from"]) / max(1, axis["count"] - 1)
     totals = {row["way"]: row for row in data["rows"] if row["scene"] == scene}
-    kinds = {"b": (palette.SMOOTH, "found both ways"), "n": (palette.EXACT_HULL, "only from the neighbours"), "i": (palette.FCL_OTHER, "only independently"),
+    kinds = {"b": (palette.SWEEPS[1], "found both ways"), "n": (palette.SWEEPS[0], "only from the neighbours"), "i": (palette.SWEEPS[2], "only independently"),
              ".": (palette.GRID, "not found")}
     warm, cold = totals["neighbours"], totals["independent"]
     kinds = {mark: look for mark, look in kinds.items() if any(mark in row for row in rows)}
-    title = f"Starts from the neighbours' postures reach {warm['found']} of {warm['places']} places, independent ones {cold['found']}"
+    title = f"Starts from the neighbours' postures reach {warm['found']:,} of {warm['places']:,} places, independent ones {cold['found']}"
     small_print = [f"{where}; {data['about']['starts']} starts of its own for each place.",
                    f"{data['command']}: {data['machine']}"]
-    text = panels(first, height, small_print, legend_rows=1, panel_titles=True, between=18) + legend([(c, 5, words) for c, words in kinds.values()], height, columns=4) + \
-        f"unset grid\nset style fill solid noborder\nset xtics {tics}\nset xlabel {quoted(across)}\nset ylabel {quoted(upward)}\n" \
+    text = panels(first, height, small_print, legend_rows=1, panel_titles=True, between=18) + legend([(c, 5, words) for c, words in kinds.values()], height) + \
+        f"unset grid\nset style fill solid noborder\nset xtics {tics} font ',12'\nset xlabel {quoted(across)}\nset ylabel {quoted(upward)}\n" \
         f"set xrange [{at(axes[2], -0.7):g}:{at(axes[2], last - 0.3):g}]\nset yrange [{at(axes[1], -0.7):g}:{at(axes[1], second - 0.3):g}]\n"
+    for i, (left, low, right, high) in enumerate(around):
+        text += f"set object {i + 1} rectangle from {left:.3f},{low:.3f} to {right:.3f},{high:.3f} front fs empty border lc rgb '#222222' lw 1.5\n"
     for i in range(first):
         plots = []
         for k, (mark, (colour, _)) in enumerate(kinds.items()):
@@ -200,9 +211,23 @@ def success_map(name, scene, where, across, upward, panel, height, tics):
     draw(name, title, text + "unset multiplot\n", small_print, height, crisp=True)
 
 
+def boxes_beside(urdf, place):
+    """The boxes of a scene that lie in the place's plane across y, as (left, low, right, high) from the place (m)."""
+    scene, found = xml.parse(urdf).getroot(), []
+    for joint in scene.iter("joint"):
+        box = scene.find(f"link[@name='{joint.find('child').get('link')}']/collision/geometry/box")
+        if box is not None:
+            x, y, z = (float(at) - mine for at, mine in zip(joint.find("origin").get("xyz").split(), place))
+            length, width, height = (float(size) / 2 for size in box.get("size").split())
+            found += [(x - length, z - height, x + length, z + height)] if abs(y) < width else []
+    return found
+
+
 def posture_grid_fridge(height=400):
-    success_map("posture_grid_fridge", "fridge", "The left hand around the can, by where the feet stand", "forward (m)", "upward (m)",
-                lambda value: f"feet {-100 * value:.0f} cm back" if value else "feet in front", height, 0.3)
+    can = (0.52, 0.17, 0.96)  # the hand's place around it in data/fridge/reach.json
+    success_map("posture_grid_fridge", "fridge", "The left hand around the can, by where the feet stand; outlined: the fridge where the hand moves", "forward (m)",
+                "upward (m)", lambda value: f"feet {-100 * value:.0f} cm back" if value else "feet in front", height, 0.2,
+                boxes_beside(PROJECT / "data/fridge/fridge.urdf", can))
 
 
 def posture_grid_ladder(height=340):
@@ -210,49 +235,56 @@ def posture_grid_ladder(height=340):
                 lambda value: f"left foot {value:.0f} rung{'s' * (value > 1)} up" if value else "feet on one rung", height, 0.2)
 
 
-def advice(height=440):
+def advice(height=460):
     """What advised radii promise and keep, and what clearance buys at the joints."""
     data = measured("control_advice")
-    colours = dict(zip(dict.fromkeys(row["scenario"] for row in data["rows"]), (*palette.SWEEPS, palette.SMOOTH)))
-    small_print = ["Radii advised for clearances of 0.5 to 32 mm and 4 m/s² that the shapes may add; what is held at 1 kHz, the obstacle flat (boxes: both round).",
-                   "Left: measured against the bound (dashed: equal); only runs that moved as stated.", data["command"]]
+    scenarios = dict(zip(dict.fromkeys(row["scenario"] for row in data["rows"]), palette.SWEEPS))
+    asked = min(row["at_most"] for row in data["rows"])
+    share = lambda row: row["added"] / row["at_most"] if row["as_stated"] else None
+    small_print = [f"Radii advised for a clearance and at most {asked:g} m/s² that the shapes may add; what is held moves at 1 kHz, the obstacle flat (boxes: both round).",
+                   f"Open: so little clearance that the advice says its bound is above {asked:g} m/s². Left: only runs that moved as stated.", data["command"]]
     text = panels(2, height, small_print, legend_rows=1, panel_titles=True) + \
-        legend([(colour, 7, scenario) for scenario, colour in colours.items()], height, columns=4) + "set logscale xy\n"
-    for panel, (title, axes) in enumerate((
-            ("added by the shapes", "set xrange [0.3:100]\nset yrange [0.001:100]\nset xlabel 'the advice\'\'s bound (m/s²)'\nset ylabel 'measured (m/s²)' offset 1.5\n"),
-            ("at the joints", "set xrange [0.3:100]\nset yrange [1:100]\nset xlabel 'clearance given (mm)'\nset ylabel 'peak joint acceleration (rad/s²)'\n"))):
-        plots = [f"x with lines lw 1.5 dt 2 lc rgb '{palette.NEUTRAL}'"] if not panel else []
-        for i, (scenario, colour) in enumerate(colours.items()):
-            rows = [row for row in data["rows"] if row["scenario"] == scenario]
-            points = [(1e3 * row["clearance"], row["peak"]) for row in rows] if panel else [(row["at_most"], row["added"]) for row in rows if row["as_stated"]]
-            text += block(f"$points{panel}{i}", points)
-            plots.append(f"$points{panel}{i} using 1:2 with linespoints pt 7 ps 0.8 lw 2 lc rgb '{colour}'")
-        text += axes + f"set title '{title}' offset 0,-0.6\nplot " + ", ".join(plots) + "\n" + UNLABEL
-    draw("advice", "Advised radii add less than their bound; clearance buys calm joints", text + "unset multiplot\n", small_print, height)
+        legend([(colour, 7, scenario) for scenario, colour in scenarios.items()], height, columns=4) + \
+        f"set logscale xy\nset xrange [0.35:45]\nset xtics (0.5, 1, 2, 4, 8, 16, 32)\nset xlabel 'clearance given (mm)'\n" \
+        f"set label 1 'the bound of the advice' at 45,1.6 right font ',12' tc rgb '{palette.NEUTRAL}'\n"
+    for panel, (title, value, axes) in enumerate((
+            ("added by the shapes", share, "set yrange [0.001:3]\nset ytics (0.001, 0.01, 0.1, 1)\nset ylabel 'measured, as a share of the bound' offset 0.5\n"),
+            ("at the joints", lambda row: row["peak"], "set yrange [1:100]\nset ytics (1, 2, 5, 10, 20, 50, 100)\nset ylabel 'peak joint acceleration (rad/s²)'\n"))):
+        plots = [] if panel else [f"1 with lines lw 1.5 dt 2 lc rgb '{palette.NEUTRAL}'"]
+        for i, (scenario, colour) in enumerate(scenarios.items()):
+            points = [(1e3 * row["clearance"], value(row), row["at_most"] > asked) for row in data["rows"] if row["scenario"] == scenario]
+            text += block(f"$points{panel}{i}", points) + block(f"$open{panel}{i}", [point[:2] for point in points if point[2]])
+            plots += [f"$points{panel}{i} using 1:2 with linespoints pt 7 ps 0.9 lw 2 lc rgb '{colour}'",
+                      f"$open{panel}{i} using 1:2 with points pt 7 ps 0.5 lc rgb '#ffffff'"]
+        text += axes + f"set title '{title}' offset 0,-0.6\nplot " + ", ".join(plots) + "\n" + UNLABEL + "unset label 1\n" \
+            f"set label 2 'R = 10 m' at 2.3,8.8 left font ',12' tc rgb '{scenarios['wall']}'\n"
+    most = max(filter(None, map(share, data["rows"])))
+    draw("advice", f"Advised radii add at most {100 * most:.0f} % of their bound; more clearance calms the rail and the boxes",
+         text + "unset multiplot\n", small_print, height)
 
 
 def parts(height=440):
     """How near convex parts are to their meshes, by their number and by what they cost a controller."""
     data = measured("parts")
-    rows, ticks, links = data["rows"], data["about"]["ticks"], data["about"]["concave_links"]
+    rows, costs, links = data["rows"], data["about"]["ticks"], data["about"]["concave_links"]
     hulls = {row["mesh"]: row["hull_excess"] for row in rows}
     mean = lambda values: 1e3 * statistics.mean(values)
     curves = {}
     for method in dict.fromkeys(row["method"] for row in rows):
-        curves[method] = [(1, mean(hulls.values()), ticks[0]["us_a_tick"])]
-        for tick in ticks:
+        curves[method] = [(1, mean(hulls.values()), costs[0]["us_a_tick"])]
+        for tick in costs:
             if tick["method"] == method:
                 of = [row["excess"] for row in rows if (row["method"], row["most"]) == (method, tick["most"])]
                 curves[method].append((tick["most"], mean(of), tick["us_a_tick"]))
     program, robot = data["command"].split()[0], pathlib.Path(data["command"].split()[2]).name
     small_print = [f"JVRC-1: the mean of its {links} concave links; excess: the most that a hull is from the mesh's solid. A tick: distances and Jacobian of all",
-                   f"pairs of all links' parts, {ticks[0]['rows']} to {max(tick['rows'] for tick in ticks):,} rows, without what leaves far rows out. Numbers: parts a link at most.",
+                   f"pairs of all links' parts, {costs[0]['rows']} to {max(tick['rows'] for tick in costs):,} rows, without what leaves far rows out. Numbers: parts a link at most.",
                    f"{program} --robot {robot}: {data['machine']}"]
     text = panels(2, height, small_print, legend_rows=1, panel_titles=True, between=72) + \
         legend([palette.PEERS[method] for method in curves], height) + \
         f"set logscale xy\nset yrange [{0.5 * min(y for curve in curves.values() for _, y, _ in curve):g}:{2 * mean(hulls.values()):g}]\nset ytics (0.5, 1, 2, 5, 10, 20, 50)\n"
     for panel, (column, words, axes) in enumerate(((1, "convex parts of a link, at most", "set xrange [0.9:9]\nset xtics (1, 2, 4, 8)\nset ylabel 'excess over the mesh (mm), mean'\n"),
-                                                   (3, "what all pairs cost, µs a tick", "set xrange [50:5000]\nset xtics (50, 100, 200, 500, 1000, 2000, 5000)\nunset ylabel\n"))):
+                                                   (3, "what all pairs cost, µs a tick", f"set xrange [50:5000]\nset xtics {ticks(50, 100, 200, 500, 1000, 2000, 5000)}\nunset ylabel\n"))):
         plots = []
         for i, (method, curve) in enumerate(curves.items()):
             colour, mark, _ = palette.PEERS[method]

@@ -3,15 +3,17 @@
 # name in the measurements: (colour, gnuplot's point type, name in a chart)
 METHODS = {
     "STP-BV warm": ("#1f4e96", 7, "STP-BV, from the last answer"),
-    "STP-BV through FCL": ("#4fb3d9", 13, "STP-BV, from FCL's witness"),
-    "FCL with gap stop": ("#55a868", 11, "FCL's GJK, duality-gap stop"),
+    "STP-BV through FCL": ("#3398c8", 13, "STP-BV, from FCL's witness"),
+    "FCL with gap stop": ("#3f9a58", 11, "FCL's GJK, duality-gap stop"),
     "FCL libccd": ("#c44e52", 7, "FCL libccd"),
-    "FCL indep": ("#dd8452", 5, "FCL indep"),
+    "FCL indep": ("#d2722f", 5, "FCL indep"),
     "Bullet GJK": ("#8172b3", 9, "Bullet GJK"),
 }
-SMOOTH, SECOND, EXACT_HULL, FCL, FCL_OTHER, OTHER = (METHODS[name][0] for name in METHODS)
-SWEEPS = ("#b0528f", "#2f7f86", "#8c613c")  # not methods: settings, robots
-PEERS = {"ours": (SMOOTH, 7, "these parts"), "HACD": (FCL, 5, "hulls of HACD's partition")}  # of convex parts
+# SMOOTH is this library, SECOND another way to use it; FCL stands for polyhedra as FCL users ask for them.
+SMOOTH, SECOND, _, FCL, _, OTHER = (METHODS[name][0] for name in METHODS)
+MANIFOLD, ROUNDED_EXACT, ROUNDED_FCL, HACD = "#b8860b", "#4d4d4d", "#8e1c5a", "#7f8f2a"  # other ways to use hulls
+SWEEPS = ("#b0528f", "#2f7f86", "#8c613c", "#333333")  # not methods: settings, robots, scenarios
+PEERS = {"ours": (SMOOTH, 7, "these parts"), "HACD": (HACD, 5, "hulls of HACD's partition")}  # of convex parts
 NEUTRAL, QUIET, GRID = "#555555", "#888888", "#dddddd"
 
 # Verdicts of the hard cases, from best to worst: (words, colour).

@@ -1,4 +1,5 @@
-"""A chart by gnuplot, 800 px wide: what all charts share, from the fonts to the line that says how it was measured."""
+"""A chart by gnuplot, 800 px wide where nothing else is said: what all charts share, from the fonts to the line that says how it was measured."""
+import html
 import json
 import pathlib
 import shutil
@@ -42,19 +43,24 @@ def quoted(words):
     return "'" + words.replace("'", "''") + "'"
 
 
+def ticks(*values):
+    """gnuplot's words for ticks at these values, thousands parted by commas."""
+    return "(" + ", ".join(f"'{value:,}' {value}" for value in values) + ")"
+
+
 def block(name, rows):
     """Data that later commands call `name`. None is a gap."""
     cell = lambda value: '"' + value + '"' if isinstance(value, str) else "NaN" if value is None else f"{value:g}"
     return f"{name} << EOD\n" + "\n".join(" ".join(map(cell, row)) for row in rows) + "\nEOD\n"
 
 
-def draw(name, title, commands, below=(), height=420, crisp=False):
+def draw(name, title, commands, below=(), height=420, width=WIDTH, crisp=False):
     """Writes NAME.svg whole or not at all. `below`: lines of small print. `crisp`: cells that touch leave no seam between them."""
     if not shutil.which("gnuplot"):
         sys.exit("the charts need gnuplot (Debian package gnuplot-nox)")
     IMAGES.mkdir(parents=True, exist_ok=True)
     part = IMAGES / f"{name}.part.svg"
-    script = [f"set terminal svg size {WIDTH},{height} font 'Helvetica,14' background '#ffffff'",
+    script = [f"set terminal svg size {width},{height} font 'Helvetica,14' background '#ffffff'",
               "set encoding utf8", f"set output {quoted(str(part))}", "set termoption noenhanced",
               f"set grid lc rgb '{palette.GRID}'", f"set border 3 lc rgb '{palette.QUIET}'", "set tics nomirror",
               f"set label 101 {quoted(title)} at screen 0.012,{1 - 20 / height:.4f} left font ',16'"]
@@ -65,15 +71,15 @@ def draw(name, title, commands, below=(), height=420, crisp=False):
     if done.returncode or not part.exists() or "line" in done.stderr:
         part.unlink(missing_ok=True)
         sys.exit(f"gnuplot could not draw {name}:\n{done.stderr[-800:]}")
-    if crisp:
-        part.write_text(part.read_text().replace("<svg", '<svg shape-rendering="crispEdges"', 1))
+    text = part.read_text().replace("<title>Gnuplot</title>", f"<title>{html.escape(title)}</title>", 1)
+    part.write_text(text.replace("<svg", '<svg shape-rendering="crispEdges"', 1) if crisp else text)
     part.rename(IMAGES / f"{name}.svg")
 
 
-def margins(height, small_print, legend_rows=0, panel_titles=False, left=92):
+def margins(height, small_print, legend_rows=0, panel_titles=False, left=92, width=WIDTH):
     """(left, right, bottom, top) edges of the plotting area, as shares of the picture."""
     top = 44 + 22 * legend_rows + (20 if panel_titles else 0)
-    return left / WIDTH, 1 - 30 / WIDTH, (66 + 16 * len(small_print)) / height, 1 - top / height
+    return left / width, 1 - 30 / width, (66 + 16 * len(small_print)) / height, 1 - top / height
 
 
 def single(*arguments, **options):
@@ -87,15 +93,15 @@ def panels(count, *arguments, between=92, **options):
     return f"set multiplot layout 1,{count} margins {edges} spacing {between / WIDTH:.4f}\n"
 
 
-def legend(entries, height, columns=3):
+def legend(entries, height, columns=3, width=WIDTH):
     """Rows of marks and words under the title. An entry: (colour, point type, words)."""
     text = "set key off\n"
     for i, (colour, mark, words) in enumerate(entries):
-        x, y = 24 + (i % columns) * (WIDTH - 30) / columns, 48 + 22 * (i // columns)
+        x, y = 24 + (i % columns) * (width - 30) / columns, 48 + 22 * (i // columns)
         level = y + {9: 1, 11: -1}.get(mark, 0)  # triangles are not drawn around their middle
-        at = f"at screen {x / WIDTH:.4f},{1 - level / height:.4f}"
+        at = f"at screen {x / width:.4f},{1 - level / height:.4f}"
         text += f"set label {120 + 2 * i} '' {at} point pt {mark} ps 1 lc rgb '{colour}'\n"
-        text += f"set label {121 + 2 * i} {quoted(words)} at screen {(x + 14) / WIDTH:.4f},{1 - y / height:.4f} left font ',13'\n"
+        text += f"set label {121 + 2 * i} {quoted(words)} at screen {(x + 14) / width:.4f},{1 - y / height:.4f} left font ',13'\n"
     return text
 
 
