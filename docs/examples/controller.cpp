@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "docs/examples/chart.h"
 #include "docs/examples/named.h"
 #include "docs/examples/reported.h"
 #include "fcl_stpbv/robot/srdf.h"
@@ -20,9 +21,10 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr double kPeriod = 1e-3, kDuration = 6;  // s
-constexpr double kr = 0.01, kR = 10;             // m
-const Vector3d kSize(0.12, 0.10, 0.16);          // of the boxes (m)
+constexpr double kPeriod = 1e-3;         // s
+constexpr int kDuration = 6;             // s
+constexpr double kr = 0.01, kR = 10;     // m
+const Vector3d kSize(0.12, 0.10, 0.16);  // of the boxes (m)
 
 struct Tick {
   double distance, fastest;  // of the boxes with their margins (m); of the joints' accelerations (rad/s^2)
@@ -116,15 +118,6 @@ for (double t = 0; t < kDuration; t += kPeriod) {
   return ticks;
 }
 
-/// A curve as a line of an SVG picture of 800 x 200, values from 0 to `most`.
-std::string curve(const std::vector<Tick>& ticks, double Tick::*value, double most, const char* colour) {
-  std::string points;
-  for (std::size_t i = 0; i < ticks.size(); ++i)
-    points += std::to_string(800.0 * static_cast<double>(i) / static_cast<double>(ticks.size())) + "," +
-              std::to_string(200 - 200 * std::min(1.0, ticks[i].*value / most)) + " ";
-  return std::string("<polyline fill='none' stroke='") + colour + "' points='" + points + "'/>";
-}
-
 /// Before the work, so that a folder that is not there is told at once.
 std::ofstream opened(const std::filesystem::path& path) {
   std::ofstream file(path);
@@ -144,15 +137,24 @@ bool show(const std::vector<Tick>& smooth, const std::vector<Tick>& flat, std::o
     peakFlat = std::max(peakFlat, flat[i].fastest);
     least = std::min(least, smooth[i].distance);
   }
-  const auto picture = [&](const char* title, double Tick::*value, double most) {
-    page << "<h3>" << title << " up to " << most << "</h3><svg viewBox='0 0 800 200' width='800'>"
-         << curve(flat, value, most, "#c44e52") << curve(smooth, value, most, "#1f4e96") << "</svg>";
+  char found[200];
+  std::snprintf(found, sizeof found, "On STP-BVs the joints reach %.1f rad/s², on boxes with a margin %.0f",
+                peak, peakFlat);
+  page << "<!doctype html><meta charset='utf-8'><meta name='viewport' content='width=device-width'><title>"
+       << found
+       << "</title><style>body{font:15px sans-serif;max-width:860px;margin:1em auto;padding:0 1em;overflow-x:"
+          "auto}svg{width:100%;min-width:600px;margin:1em 0}</style><h2>"
+       << found
+       << "</h2><p>Two arms move the boxes they hold past each other, kept apart by a velocity damper. The "
+          "peaks are those after 0.5 s: before, the arms start from rest.</p>";
+  const auto picture = [&](const char* title, double Tick::*value, double unit, int low, int high) {
+    Curve boxes{"the boxes with a margin", "#c44e52", {}}, volumes{"their STP-BVs", "#1f4e96", {}};
+    for (const Tick& tick : flat) boxes.values.push_back(tick.*value / unit);
+    for (const Tick& tick : smooth) volumes.values.push_back(tick.*value / unit);
+    page << chart(title, kDuration, low, high, {boxes, volumes});
   };
-  page
-      << "<!doctype html><meta charset='utf-8'><title>Two held boxes</title><p>Blue: STP-BVs. Red: the boxes "
-         "with a margin.</p>";
-  picture("Distance (m)", &Tick::distance, 0.1);
-  picture("Largest joint acceleration (rad/s²)", &Tick::fastest, 20);
+  picture("Largest joint acceleration (rad/s²)", &Tick::fastest, 1, -1, 3);
+  picture("Distance beyond the margins (mm)", &Tick::distance, 1e-3, 0, 3);
   std::printf("peak acceleration %.3g rad/s^2 on STP-BVs, %.3g on boxes; %.4f m kept\n", peak, peakFlat,
               least);
   if (!csv.flush() || !page.flush()) throw Error("controller.csv or controller.html could not be written");
