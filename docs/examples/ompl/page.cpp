@@ -14,7 +14,7 @@ using Eigen::Vector2d;
 namespace {
 
 constexpr double kScale = 400;  // pixels a metre
-constexpr int kWidth = 760, kHeight = 720;
+constexpr int kWidth = 580, kHeight = 655;
 
 std::string polygonOf(const fcl::CollisionGeometryd& geometry, const Eigen::Isometry3d& pose,
                       const std::string& style) {
@@ -45,25 +45,27 @@ std::string robotAt(const Scene& scene, const Eigen::VectorXd& q, const std::str
 }  // namespace
 
 std::string pageOf(const Scene& scene, const report::TrajectoryReport& followed, const std::string& figures) {
-  std::string picture = "<svg width=\"" + std::to_string(kWidth) + "\" height=\"" + std::to_string(kHeight) +
-                        "\" role=\"img\" aria-label=\"the robot along its way\">\n";
+  std::string picture = "<svg viewBox=\"0 0 " + std::to_string(kWidth) + " " + std::to_string(kHeight) +
+                        "\" style=\"max-width:" + std::to_string(kWidth) +
+                        "px\" role=\"img\" aria-label=\"the robot along its way\">\n";
   for (const Obstacle& obstacle : scene.obstacles)
     picture += polygonOf(*obstacle.geometry, obstacle.pose, "fill:#d9a441;fill-opacity:0.35;stroke:#8a6410");
   constexpr int kDrawn = 7;
   const double last = followed.trajectory.time.back();
   for (int i = 0; i < kDrawn; ++i) {
-    const bool end = i == 0 || i == kDrawn - 1;
     picture += robotAt(scene, followed.at(last * i / (kDrawn - 1)),
-                       end ? "fill:#3b6ea8;fill-opacity:0.25;stroke:#24476e"
-                           : "fill:none;stroke:#3b6ea8;stroke-opacity:0.35");
+                       i == 0            ? "fill:#b0528f;fill-opacity:0.25;stroke:#7a2e60"
+                       : i == kDrawn - 1 ? "fill:#3b6ea8;fill-opacity:0.25;stroke:#24476e"
+                                         : "fill:none;stroke:#3b6ea8;stroke-opacity:0.35");
   }
-  return "<!DOCTYPE html>\n<html lang=\"en\"><meta charset=\"utf-8\"><title>A planned way to the "
-         "can</title>\n"
-         "<style>body{font:15px sans-serif;max-width:60em;margin:2em auto}</style>\n<h1>A planned way to the "
-         "can</h1>\n<pre>" +
+  return "<!DOCTYPE html>\n<html lang=\"en\"><meta charset=\"utf-8\"><meta name=\"viewport\" "
+         "content=\"width=device-width\"><title>A planned way to the can</title>\n"
+         "<style>body{font:15px sans-serif;max-width:60em;margin:2em auto;padding:0 1em}svg{width:100%}"
+         "pre{white-space:pre-wrap}</style>\n<h1>A planned way to the can</h1>\n<pre>" +
          figures +
-         "</pre>\n<h2>From the side</h2>\n<p>Both ends filled, five times between them; the fridge in "
-         "yellow.</p>\n" +
+         "</pre>\n<h2>From the side</h2>\n<p>Magenta: the start. Blue: the end, with the hand around the "
+         "can. "
+         "Outlines: five times in between. Yellow: the fridge.</p>\n" +
          picture + "</svg>\n<h2>Least distance of all pairs along the way</h2>\n" +
          report::chartOf(followed, 0) + "</html>\n";
 }

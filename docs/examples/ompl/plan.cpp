@@ -131,6 +131,10 @@ std::string line(const char* format, Values... values) {
   return text;
 }
 
+std::string lengthText(double metres) {
+  return metres < 1e-4 ? line("%.3g µm", 1e6 * metres) : line("%.1f mm", 1e3 * metres);
+}
+
 /// What several runs of one way of planning came to.
 struct Sum {
   int found = 0, colliding = 0;
@@ -150,12 +154,11 @@ struct Sum {
   }
   std::string text(const char* name, int runs) const {
     const auto each = [](const Count& c) {
-      return c.asked ? 1e9 * c.seconds / static_cast<double>(c.asked) : 0.0;
+      const double mean = 1e6 * c.seconds / static_cast<double>(c.asked);
+      return c.asked ? line("%ld, %.3g µs a check", c.asked, mean) : std::string("-");
     };
-    return line(
-        "%-8s %d of %d planned, %.3f s each; %ld motions, %.0f ns a check; %ld states, %.0f ns a check\n",
-        name, found, runs, seconds / std::max(1, found), motions.asked, each(motions), states.asked,
-        each(states));
+    return line("%-8s %d of %d planned, %.3f s each; motions: %s; states: %s\n", name, found, runs,
+                seconds / std::max(1, found), each(motions).c_str(), each(states).c_str());
   }
 };
 
@@ -215,9 +218,9 @@ int run(const std::string& data, int runs, const std::string& page) {
   double clearance = std::numeric_limits<double>::infinity();
   for (const Approach& approach : followed.closest) clearance = std::min(clearance, approach.distance);
   const bool good = followed.verdict == MotionVerdict::free;
-  figures += line("path: %.3f rad, with gradients %.3f rad in %.3f s, clearance %.1f mm, %s\n",
-                  lengthOf(proofs.best), lengthOf(path), seconds, 1e3 * clearance,
-                  good ? "proven free" : "NOT proven free");
+  figures +=
+      line("path: %.3f rad, with gradients %.3f rad in %.3f s, clearance %s, %s\n", lengthOf(proofs.best),
+           lengthOf(path), seconds, lengthText(clearance).c_str(), good ? "proven free" : "NOT proven free");
   std::printf("%s", figures.c_str());
   if (!page.empty()) detail::writeOutput(page, pageOf(scene, followed, figures));
   return good ? 0 : 1;
