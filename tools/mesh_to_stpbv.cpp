@@ -177,7 +177,10 @@ std::size_t runAll(const std::vector<Job>& jobs, const Arguments& arguments) {
   std::atomic<std::size_t> next{0};
   std::size_t done = 0, told = 0, failed = 0;
   std::mutex telling;
-  bar.show(done, jobs.front().input);
+  const auto show = [&](const std::string& input) {
+    bar.show(done, std::filesystem::path(input).filename().string());  // the folder leaves it no room
+  };
+  show(jobs.front().input);
   auto work = [&](int) {
     for (std::size_t i; (i = next++) < jobs.size();) {
       Outcome outcome = runJob(jobs[i], arguments);
@@ -191,7 +194,7 @@ std::size_t runAll(const std::vector<Job>& jobs, const Arguments& arguments) {
         if (!outcomes[told]->good) ++failed;
         *outcomes[told] = {};
       }
-      if (told < jobs.size()) bar.show(done, jobs[told].input);
+      if (told < jobs.size()) show(jobs[told].input);
     }
   };
   const int useful = static_cast<int>(std::min<std::size_t>(jobs.size(), kMostJobs));

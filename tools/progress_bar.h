@@ -1,4 +1,4 @@
-// A progress bar on the terminal; silent where standard error is no terminal.
+// A progress bar on the terminal; silent where standard error is none, or one without escape codes.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +8,8 @@ namespace fcl_stpbv::tools {
 
 class ProgressBar {
  public:
-  /// Shows nothing for a single step, when not wanted, or when standard error is no terminal.
+  /// Shows nothing for a single step, when not wanted, or when standard error is no terminal that can
+  /// take a line back.
   ProgressBar(std::size_t steps, bool wanted);
   ~ProgressBar() { clear(); }
   ProgressBar(const ProgressBar&) = delete;

@@ -3,14 +3,18 @@
 
 usage: test_mesh_to_stpbv.py PROGRAM SOURCE_FOLDER
 """
+import fcntl
 import json
 import os
 import pty
+import re
 import resource
 import signal
+import struct
 import subprocess
 import sys
 import tempfile
+import termios
 import time
 import unittest
 
@@ -431,20 +435,37 @@ class MeshToStpbv(unittest.TestCase):
         self.assertEqual(done.stderr, "")
         self.assertNotIn("\033", done.stdout)
 
+    def on_a_terminal(self, *arguments, kind="xterm", columns=80):
+        """What the program shows on a terminal as its standard error."""
+        try:
+            ours, theirs = pty.openpty()
+        except OSError as error:
+            self.skipTest(f"skipped: this machine gives no terminals ({error})")
+        fcntl.ioctl(theirs, termios.TIOCSWINSZ, struct.pack("HHHH", 24, columns, 0, 0))
+        process = subprocess.run([PROGRAM, *arguments], stderr=theirs, stdout=subprocess.DEVNULL, cwd=self.folder.name, timeout=60,
+                                 env={**os.environ, "TERM": kind})
+        os.write(theirs, b"end")
+        shown = os.read(ours, 65536)
+        os.close(ours)
+        os.close(theirs)
+        self.assertEqual(process.returncode, 0)
+        return shown
+
     def test_a_bar_on_a_terminal(self):
-        for quiet, expected in (([], True), (["-q"], False)):
-            try:
-                ours, theirs = pty.openpty()
-            except OSError as error:
-                self.skipTest(f"skipped: this machine gives no terminals ({error})")
-            process = subprocess.run([PROGRAM, "cube.txt", "other.txt", "-o", "out", "--force", *quiet], stderr=theirs,
-                                     stdout=subprocess.DEVNULL, cwd=self.folder.name, timeout=60)
-            os.write(theirs, b"end")
-            shown = os.read(ours, 65536)
-            os.close(ours)
-            os.close(theirs)
-            self.assertEqual(process.returncode, 0)
-            self.assertEqual(b"1/2" in shown, expected)
+        arguments = ["cube.txt", "other.txt", "-o", "out", "--force"]
+        self.assertIn(b"1/2", self.on_a_terminal(*arguments))
+        self.assertEqual(self.on_a_terminal(*arguments, "-q"), b"end")
+        self.assertEqual(self.on_a_terminal(*arguments, kind="dumb"), b"end")  # it could not take a line back
+
+    def test_a_bar_keeps_to_its_line_and_cuts_no_character(self):
+        names = [letter * 60 + ".txt" for letter in ("\u53f3", "\u0434", "o\u0308")]  # two cells, one, and one of two characters
+        for name in names:
+            write(self.at(name), points_file(CUBE))
+        shown = self.on_a_terminal(*(self.at(name) for name in names), "-o", "out", "-j", "1", columns=40).decode()
+        bars = [line for line in re.split(r"\r\x1b\[K", shown) if line.startswith("[")]
+        self.assertEqual([bar.split()[1] for bar in bars], ["0/3", "1/3", "2/3"])
+        for bar, (letter, cells) in zip(bars, (("\u53f3", 2), ("\u0434", 1), ("o\u0308", 1))):
+            self.assertEqual(bar.split()[2], letter * (20 // cells))  # of 39 cells 19 are the bar and its count
 
     def test_an_interrupted_run_leaves_whole_files_only(self):
         inputs = []

@@ -1,0 +1,74 @@
+// Text in columns: how many cells of a terminal a text takes, whose names may be of any script.
+#pragma once
+
+#include <locale.h>
+
+#include <clocale>
+#include <cstddef>
+#include <cwchar>
+#include <string>
+
+namespace fcl_stpbv::detail {
+
+/// One character of a text: its bytes, 1 where they are no UTF-8, and its cells: 2 for a wide one, as of
+/// Chinese, 0 for a mark on the one before, below 0 where it cannot be shown.
+struct Glyph {
+  std::size_t bytes;
+  int cells;
+};
+
+/// Reads UTF-8 whatever the program's locale is, of this thread alone, while it lives.
+class Utf8Reader {
+ public:
+  Utf8Reader() : old_(::uselocale(utf8())) {}
+  ~Utf8Reader() { ::uselocale(old_); }
+  Utf8Reader(const Utf8Reader&) = delete;
+  Utf8Reader& operator=(const Utf8Reader&) = delete;
+
+  /// The character that begins at `i`, which is before the text's end.
+  Glyph glyph(const std::string& text, std::size_t i) const {
+    wchar_t character = 0;
+    std::mbstate_t state{};
+    const std::size_t bytes = std::mbrtowc(&character, text.data() + i, text.size() - i, &state);
+    if (bytes == 0 || bytes > text.size() - i) return {1, -1};
+    return {bytes, ::wcwidth(character)};
+  }
+
+ private:
+  // Where there is none, the program's own stays: then letters beyond ASCII count as what cannot be shown.
+  static locale_t utf8() {
+    static const locale_t locale = ::newlocale(LC_CTYPE_MASK, "C.UTF-8", nullptr);
+    return locale;
+  }
+
+  locale_t old_;
+};
+
+/// Cells that the text takes; what cannot be shown counts as one.
+inline std::size_t cellsOf(const std::string& text) {
+  const Utf8Reader reader;
+  std::size_t cells = 0;
+  for (std::size_t i = 0; i < text.size();) {
+    const Glyph glyph = reader.glyph(text, i);
+    cells += glyph.cells < 0 ? 1 : static_cast<std::size_t>(glyph.cells);
+    i += glyph.bytes;
+  }
+  return cells;
+}
+
+/// As much of the text as fits into so many cells, with '?' for what cannot be shown.
+inline std::string fittedInto(std::size_t most, const std::string& text) {
+  const Utf8Reader reader;
+  std::string fitted;
+  std::size_t cells = 0;
+  for (std::size_t i = 0; i < text.size();) {
+    const Glyph glyph = reader.glyph(text, i);
+    cells += glyph.cells < 0 ? 1 : static_cast<std::size_t>(glyph.cells);
+    if (cells > most) break;
+    fitted += glyph.cells < 0 ? "?" : text.substr(i, glyph.bytes);
+    i += glyph.bytes;
+  }
+  return fitted;
+}
+
+}  // namespace fcl_stpbv::detail
