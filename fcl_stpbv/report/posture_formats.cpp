@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "fcl_stpbv/formatted.h"
+#include "fcl_stpbv/report/text_table.h"
 
 namespace fcl_stpbv::report {
 namespace {
@@ -46,7 +47,8 @@ std::string toText(const PostureReport& report) {
   std::string text = posture.feasible ? "feasible" : "not feasible";
   text += " (" + posture.status + "): " + run(posture) + "\n";
   for (const std::string& shape : report.skipped) text += "LEFT OUT, NOT CHECKED: " + shape + "\n";
-  text += formatted("%zu pairs, %zu of them with obstacles\n", report.pairs.size(), obstacles);
+  text += formatted("%zu pair%s, %zu with obstacles\n", report.pairs.size(),
+                    report.pairs.size() == 1 ? "" : "s", obstacles);
   for (const auto& [body, count] : partsOf(report)) text += body + formatted(" in %d parts\n", count);
   if (report.withoutCollisions)
     text += std::string("without collisions ") +
@@ -60,11 +62,10 @@ std::string toText(const PostureReport& report) {
   }
   if (!posture.active.empty()) text += "active:\n";
   for (const std::string& name : posture.active) text += "  " + name + "\n";
-  text += "posture (rad, m):\n";
+  TextTable values("lr");
   for (int i = 0; i < report.kinematics->size(); ++i)
-    text += formatted("  %-24s %10.6f\n", report.kinematics->names()[static_cast<std::size_t>(i)].c_str(),
-                      posture.q[i]);
-  return text;
+    values.add({report.kinematics->names()[static_cast<std::size_t>(i)], detail::fixed(posture.q[i], 6)});
+  return text + "posture (rad, m):\n" + values.text(2);
 }
 
 std::string toJson(const PostureReport& report) {

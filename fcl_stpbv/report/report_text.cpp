@@ -6,11 +6,14 @@
 
 #include "fcl_stpbv/formatted.h"
 #include "fcl_stpbv/report/report_formats.h"
+#include "fcl_stpbv/report/text_table.h"
 
 namespace fcl_stpbv::report {
 namespace {
 
+using detail::fixed;
 using detail::formatted;
+using detail::signedFixed;
 
 constexpr double kMm = 1e3;
 
@@ -18,12 +21,35 @@ std::string steepest(const PairReport& pair) {
   const auto top =
       std::max_element(pair.gradient.begin(), pair.gradient.end(),
                        [](const auto& a, const auto& b) { return std::abs(a.second) < std::abs(b.second); });
-  return top == pair.gradient.end() ? "" : formatted("%+.3f ", top->second) + top->first;
+  return top == pair.gradient.end() ? "" : signedFixed(top->second, 3) + " " + top->first;
+}
+
+std::string millimetres(double metres) { return formatted("%.3f", metres * kMm); }
+
+// "1 pair", "2 pairs".
+std::string counted(std::size_t count, const std::string& thing) {
+  return std::to_string(count) + " " + thing + (count == 1 ? "" : "s");
 }
 
 // What a list cut after `top` lines ends with.
 std::string unshown(std::size_t all, std::size_t top) {
   return all > top ? "... and " + std::to_string(all - top) + " more (--top)\n" : "";
+}
+
+// The checked pairs, as the report has them: the closest first.
+std::string pairs(const CollisionReport& report, std::size_t top) {
+  TextTable table("lrrrll");
+  table.add({"", "STP-BV", "hulls", "cover", "", "steepest joint"});
+  table.add({"pair", "[mm]", "[mm]", "[mm]", "reason", "[m/rad or m/m]"});
+  std::size_t shown = 0;
+  for (const PairReport& pair : report.pairs) {
+    if (!pair.checked || shown++ >= top) break;
+    table.add({pair.link1 + " - " + pair.link2, millimetres(pair.answer.distance),
+               std::isfinite(pair.hullDistance) ? millimetres(pair.hullDistance) : "-",
+               millimetres(pair.overCover1 + pair.overCover2), pair.reason, steepest(pair)});
+  }
+  return "\n" + table.text() + unshown(static_cast<std::size_t>(report.checked), top) +
+         "\ncover: how much closer the two smooth surfaces are than their hulls, along the normal\n";
 }
 
 // How far hulls and volumes exceed meshes, worst first.
@@ -35,20 +61,20 @@ std::string fits(const CollisionReport& report, std::size_t top) {
   });
   const std::string rest = unshown(order.size(), top);
   if (order.size() > top) order.resize(top);
-  std::string text = formatted("\n%-44s %11s %13s %9s %8s %8s\n", "link", "hull [mm]", "volume [mm]", "ratio",
-                               "r [mm]", "R [m]");
+  TextTable table("lrrrrr");
+  table.add({"", "hull", "volume", "", "r", "R"});
+  table.add({"link", "[mm]", "[mm]", "ratio", "[mm]", "[m]"});
   for (const std::size_t i : order) {
     const MeshFit& fit = report.fits[i];
     const Body& body = report.geometry->bodies[i];
-    text +=
-        formatted("%-44s %11.3f %13.3f ", body.name.c_str(), fit.hullExcess * kMm, fit.volumeExcess * kMm) +
-        (std::isfinite(fit.volumeRatio) ? formatted("%9.3f", fit.volumeRatio) : formatted("%9s", "-")) +
-        (body.volume ? formatted(" %8.3f %8.3f\n", body.volume->radii().r * kMm, body.volume->radii().R)
-                     : formatted(" %8s %8s\n", "-", "-"));
+    table.add({body.name, millimetres(fit.hullExcess), millimetres(fit.volumeExcess),
+               std::isfinite(fit.volumeRatio) ? formatted("%.3f", fit.volumeRatio) : "-",
+               body.volume ? millimetres(body.volume->radii().r) : "-",
+               body.volume ? formatted("%.3f", body.volume->radii().R) : "-"});
   }
-  return text + rest +
-         "hull, volume: upper bound on how far their surfaces are from the mesh; ratio: the STP-BV's content "
-         "to the mesh's\n";
+  return "\n" + table.text() + rest +
+         "hull, volume: upper bound on how far their surfaces are from the mesh\n"
+         "ratio: the STP-BV's content to the mesh's\n";
 }
 
 // The radii that --advise chose.
@@ -85,10 +111,10 @@ std::string splits(const CollisionReport& report) {
       if (!own || !report.isByParts(pair)) continue;
       if (++count <= 3) text += (count > 1 ? ", " : " ") + pair.link1 + " - " + pair.link2;
     }
-    text += (count > 3 ? " and " + std::to_string(count - 3) + " more pairs\n" : "\n");
+    text += (count > 3 ? " and " + std::to_string(count - 3) + " more\n" : "\n");
   }
   const std::string cost = formatted(
-      "rows %d, %.1f us a tick with whole bodies; %d, %.1f us with parts; %d of %d not constant, "
+      "rows %d, %.1f us a tick with whole bodies;\n  %d, %.1f us with parts;\n  %d of %d not constant, "
       "%.1f us where whole bodies hand over to parts at %g m\n",
       report.wholeCost.rows, report.wholeCost.usPerTick, report.partsCost.rows, report.partsCost.usPerTick,
       report.handOverCost.live, report.handOverCost.rows, report.handOverCost.usPerTick, kHandOver);
@@ -105,15 +131,16 @@ std::string polyhedra(const CollisionReport& report, std::size_t top) {
   std::stable_sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) {
     return report.polyhedra[i].difference > report.polyhedra[j].difference;
   });
-  std::string text = formatted("\n%zu meshes have a published polyhedron\n%-44s %14s %11s %21s\n",
-                               order.size(), "link", "surfaces [um]", "vertices", "without a partner");
+  TextTable table("lrrr");
+  table.add({"", "surfaces", "", "without"});
+  table.add({"link", "[um]", "vertices", "a partner"});
   for (std::size_t k = 0; k < std::min(top, order.size()); ++k) {
-    const std::size_t i = order[k];
-    const PolyhedronReport& p = report.polyhedra[i];
-    text += formatted("%-44s %14.3f %5d, %4d %15d, %4d\n", report.geometry->bodies[i].name.c_str(),
-                      p.difference * 1e6, p.meshVertices, p.vertices, p.meshAlone, p.alone);
+    const PolyhedronReport& p = report.polyhedra[order[k]];
+    table.add({report.geometry->bodies[order[k]].name, formatted("%.3f", p.difference * 1e6),
+               formatted("%d, %4d", p.meshVertices, p.vertices), formatted("%d, %4d", p.meshAlone, p.alone)});
   }
-  return text + unshown(order.size(), top) +
+  return "\n" + (order.size() == 1 ? "1 mesh has" : std::to_string(order.size()) + " meshes have") +
+         " a published polyhedron\n" + table.text() + unshown(order.size(), top) +
          "two figures: the mesh's, the polyhedron's; surfaces: how far the two volumes are apart\n";
 }
 
@@ -121,13 +148,13 @@ std::string polyhedra(const CollisionReport& report, std::size_t top) {
 std::string trajectory(const CollisionReport& report) {
   if (!report.trajectory) return "";
   const TrajectoryReport& t = *report.trajectory;
-  const char* speed = t.trajectory.timed ? "m/s" : "m a way point";
+  const char* speed = t.trajectory.timed ? "m/s" : "m per way point";
   std::string text = "Trajectory " + t.path + ", " + std::to_string(t.trajectory.points.size()) +
                      " way points: " + trajectoryVerdict(report);
   if (t.verdict == MotionVerdict::contact) {
     text += ", at";
     for (const Eigen::Vector3d& p : t.stop.answer.points)
-      text += formatted(" (%.6f %.6f %.6f)", p.x(), p.y(), p.z());
+      text += " (" + fixed(p.x(), 6) + " " + fixed(p.y(), 6) + " " + fixed(p.z(), 6) + ")";
   }
   text += "\n";
   for (const TrajectoryStop& pair : t.undecided)
@@ -153,7 +180,7 @@ std::string contradictions(const CollisionReport& report, std::size_t top) {
     for (const auto& [joint, slope] : pair.gradient) {
       const auto& names = report.kinematics->names();
       const auto k = std::find(names.begin(), names.end(), joint) - names.begin();
-      text += " " + joint + formatted("=%.4f", pair.closest[k]);
+      text += " " + joint + "=" + fixed(pair.closest[k], 4);
     }
   }
   return count == 0 ? "" : text + "\n" + unshown(count, top);
@@ -185,7 +212,7 @@ std::string toText(const CollisionReport& report, std::size_t top) {
   for (const std::string& shape : report.skipped) text += "LEFT OUT, NOT CHECKED: " + shape + "\n";
   std::map<std::string, int> reasons;
   for (const PairReport& pair : report.pairs) ++reasons[pair.reason];
-  text += std::to_string(report.pairs.size()) + (report.pairs.size() == 1 ? " pair:" : " pairs:");
+  text += counted(report.pairs.size(), "pair") + ":";
   for (const auto& [reason, count] : reasons) text += " " + std::to_string(count) + " " + reason + ",";
   text.back() = '\n';
   text += std::to_string(report.checked) + " checked, " + std::to_string(report.colliding) +
@@ -195,25 +222,13 @@ std::string toText(const CollisionReport& report, std::size_t top) {
           : report.pose.empty() ? " in their closest configurations found\n"
                                 : " in the posture " + report.pose + "\n";
   text += trajectory(report) + advised(report);
-  for (const auto& [cause, count] : report.causes) text += "  " + std::to_string(count) + " " + cause + "\n";
+  for (const auto& [cause, count] : report.causes)
+    text += "  " + counted(static_cast<std::size_t>(count), "pair") + ": " + cause + "\n";
   if (report.checked > 0)
     text += formatted("%.1f us for all checked pairs with gradients, %.0f ns a pair\n", report.usPerTick,
                       report.nsPerPair);
   text += splits(report);
-  text += formatted("\n%-44s %11s %11s %11s %-26s %s\n", "pair", "STP-BV [mm]", "hulls [mm]", "cover [mm]",
-                    "reason", "steepest joint [m/rad]");
-  std::size_t shown = 0;
-  for (const PairReport& pair : report.pairs) {
-    if (!pair.checked || shown++ >= top) break;
-    const std::string hull =
-        std::isfinite(pair.hullDistance) ? formatted("%.3f", pair.hullDistance * kMm) : "-";
-    text += formatted("%-44s %11.3f %11s %11.3f %-26s ", (pair.link1 + " - " + pair.link2).c_str(),
-                      pair.answer.distance * kMm, hull.c_str(), (pair.overCover1 + pair.overCover2) * kMm,
-                      pair.reason.c_str()) +
-            steepest(pair) + "\n";
-  }
-  text += unshown(static_cast<std::size_t>(report.checked), top);
-  text += "\ncover: how much closer the two smooth surfaces are than their hulls, along the normal\n";
+  text += pairs(report, top);
   return text + fits(report, top) + polyhedra(report, top) + contradictions(report, top);
 }
 

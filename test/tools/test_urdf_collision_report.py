@@ -511,7 +511,7 @@ class Report(unittest.TestCase):
         self.assertNotIn("polyhedron", report["links"][1])
         self.assertNotIn("polyhedron", report["links"][2])
         text = self.run_tool(*arguments).stdout
-        self.assertIn("1 meshes have a published polyhedron", text)
+        self.assertIn("1 mesh has a published polyhedron", text)
         self.assertRegex(text, r"\na +999\.\d+ +8, +8 +4, +4\n")
 
     def boxes(self, name, side, *middles):
@@ -550,7 +550,7 @@ class Report(unittest.TestCase):
             if distance is not None:
                 self.assertAlmostEqual(pair["mesh_distance"], distance, delta=1e-6)  # the file's single precision
             text = self.run_tool(robot, "--srdf", srdf, "--pose", pose, "-r", "0.01", "--samples", "1").stdout
-            self.assertIn("1 " + cause if cause else "0 of them in collision", text)
+            self.assertIn("1 pair: " + cause if cause else "0 of them in collision", text)
         rows = list(csv.DictReader(io.StringIO(self.run_tool(robot, "--srdf", srdf, "--pose", pose, "--format", "csv").stdout)))
         self.assertLessEqual({"cause", "mesh_distance"}, set(rows[0]))
 

@@ -1,0 +1,31 @@
+// See text_table.h.
+#include "fcl_stpbv/report/text_table.h"
+
+#include <algorithm>
+
+#include "fcl_stpbv/text_cells.h"
+
+namespace fcl_stpbv::report {
+
+constexpr std::size_t kBetween = 2;  // spaces
+
+std::string TextTable::text(std::size_t indent) const {
+  std::vector<std::size_t> width(sides_.size(), 0);
+  for (const auto& line : lines_)
+    for (std::size_t k = 0; k < line.size(); ++k) width[k] = std::max(width[k], detail::cellsOf(line[k]));
+  std::string text;
+  for (const auto& line : lines_) {
+    std::size_t due = indent;  // spaces before the next text, written only where there is one
+    for (std::size_t k = 0; k < line.size(); ++k) {
+      const std::size_t room = width[k] - detail::cellsOf(line[k]);
+      const bool right = sides_[k] == 'r';
+      if (!line[k].empty()) text += std::string(due + (right ? room : 0), ' ') + line[k];
+      due = line[k].empty() ? due + width[k] : (right ? 0 : room);
+      due += kBetween;
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+}  // namespace fcl_stpbv::report
