@@ -56,7 +56,7 @@ void describe(Program& app, Arguments& a) {
       .whole(1, 100000)
       .shown();
   app.option("--seed", a.options.seed, "Of the random starts").whole().shown();
-  app.option("--format", a.format, "text, json or html").oneOf({"text", "json", "html"}).shown();
+  app.option("--format", a.format, "Format of the report").oneOf({"text", "json", "html"}).shown();
   app.option("-o,--output", a.output, "File to write instead of standard output").type("OUT");
   app.option(
       "--parts", a.parts,

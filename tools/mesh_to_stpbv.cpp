@@ -41,12 +41,15 @@ constexpr const char* kFooter =
 Examples:
   mesh_to_stpbv link.stl -o link.stpbv
   mesh_to_stpbv part_in_mm.stl --scale 0.001 -r 0.005 -R 5 -o part.stpbv --verify
-  mesh_to_stpbv meshes/*.dae -o volumes              one volume per mesh, in the folder volumes
   mesh_to_stpbv link.dae -o link.stpbv --preview link_stpbv.obj
   mesh_to_stpbv tool.stl -o tool.stpbv --advise clearance=0.004,acceleration=2,speed=0.1,turning=0.5
-  mesh_to_stpbv torso.dae --parts 8 -o torso.stpbv   torso_0.stpbv, torso_1.stpbv ...: eight parts at most
-  mesh_to_stpbv link.stpbv --format sch -o link.txt  the same volume for sch-core
+  # one volume per mesh, in the folder volumes
+  mesh_to_stpbv meshes/*.dae -o volumes
   mesh_to_stpbv meshes/*.dae -o volumes --json -q > report.jsonl
+  # torso_0.stpbv, torso_1.stpbv ...: eight parts at most
+  mesh_to_stpbv torso.dae --parts 8 -o torso.stpbv
+  # the same volume for sch-core
+  mesh_to_stpbv link.stpbv --format sch -o link.txt
 
 - as INPUT or OUT is standard input or output; where the volume goes to standard output the report goes to standard error.
 
@@ -87,28 +90,23 @@ void describe(Program& app, Arguments& arguments) {
   app.option("--scale", conversion.scale, "Factor on the input's coordinates, 0.001 for millimetres")
       .number(0, kLargest, false)
       .shown();
-  app.option("--format", arguments.format,
-             "Format to write: stpbv, this library's own, or sch, sch-core's text [stpbv]")
-      .oneOf({"stpbv", "sch"})
-      .type("");
+  app.option("--format", arguments.format, "Format to write: this library's own, or sch-core's text [stpbv]")
+      .oneOf({"stpbv", "sch"});
   app.option("--preview", conversion.preview, "Also write the surface as a mesh: .obj, .stl, .ply or .glb")
       .type("FILE");
   Option parts =
       app.option(
              "--parts", arguments.parts,
              "At most this many volumes that together cover a mesh that is not convex, each of a convex part")
-          .whole(1, kMostParts)
-          .type("K");
+          .whole(1, kMostParts);
   parts.excludes(advise);
   app.option("--excess", arguments.excess,
              "As few such volumes as keep the parts' hulls this close to the mesh; where none are found the "
              "report says so [m]")
       .number(0, kLargest, false)
-      .type("M")
       .excludes(advise);
   app.option("--effort", arguments.effort, "Search for the parts this many times as long as usual [1]")
-      .number(0.01, 1000)
-      .type("E");
+      .number(0.01, 1000);
   app.flag("--verify", conversion.verify,
            "Check each volume before it is written; one that fails is not written");
   app.flag("--json", arguments.json,

@@ -11,7 +11,10 @@
 #include <iostream>
 #include <new>
 #include <optional>
+#include <set>
+#include <utility>
 
+#include "tools/help_text.h"
 #include "tools/number_check.h"
 
 namespace fcl_stpbv::tools {
@@ -19,8 +22,49 @@ namespace {
 
 constexpr int kWrong = 2;  // a run that tested nothing must not look like one that found nothing
 
+constexpr std::size_t kLongWords = 32;  // longer ones are listed in what the help says, which can be wrapped
+
 constexpr const char* kEmpty =
     "the value is empty, as from a shell variable that is not set; give one, or leave the option out";
+
+// Help in the words of this project, in lines that fit the terminal.
+class HelpFormatter : public CLI::Formatter {
+ public:
+  std::string make_description(const CLI::App* app) const override {
+    return reflowed(app->get_description(), helpColumns());
+  }
+  std::string make_usage(const CLI::App* app, std::string name) const override {
+    return reflowed(CLI::Formatter::make_usage(app, std::move(name)), helpColumns());
+  }
+  std::string make_footer(const CLI::App* app) const override {
+    return reflowed(app->get_footer(), helpColumns());
+  }
+  std::string make_option(const CLI::Option* option, bool isPlace) const override {
+    return entry(make_option_name(option, isPlace) + make_option_opts(option), make_option_desc(option),
+                 helpColumns());
+  }
+  std::string make_option_opts(const CLI::Option* option) const override {
+    if (option->get_type_size() == 0) return "";
+    const bool several = option->get_expected_max() == CLI::detail::expected_max_vector_size;
+    return " " + option->get_type_name() + (several ? " ..." : "");
+  }
+  std::string make_option_desc(const CLI::Option* option) const override {
+    std::string text = option->get_description();
+    if (!option->get_default_str().empty()) text += " [" + option->get_default_str() + "]";
+    if (option->get_required() && option->nonpositional()) text += " (required)";
+    return text + listed(" (only with ", option->get_needs()) + listed(" (not with ", option->get_excludes());
+  }
+
+ private:
+  static std::string listed(const std::string& before, const std::set<CLI::Option*>& options) {
+    std::set<std::string> names;  // in an order that is always the same
+    for (const CLI::Option* option : options) {
+      const std::string all = option->get_name(false, true);
+      names.insert(all.substr(0, all.find(',')));
+    }
+    return names.empty() ? "" : before + CLI::detail::join(names, ", ") + ")";
+  }
+};
 
 }  // namespace
 
@@ -45,28 +89,35 @@ Option Option::shown() {
 }
 
 Option Option::number(double least, double most, bool orEqual, const std::string& orWord) {
+  option_->type_name(orWord.empty() ? "NUMBER" : "NUMBER|" + orWord);
   option_->check(
       [=](const std::string& text) {
         if (!orWord.empty() && text == orWord) return std::string();
         const std::string wrong = wrongNumber(text, least, most, orEqual);
         return wrong.empty() || orWord.empty() ? wrong : wrong + ", or " + orWord;
       },
-      "NUMBER");
+      "");
   return *this;
 }
 
 Option Option::whole(std::uint64_t least, std::uint64_t most) {
-  option_->check([=](const std::string& text) { return wrongWholeNumber(text, least, most); }, "NUMBER");
+  option_->type_name("NUMBER");
+  option_->check([=](const std::string& text) { return wrongWholeNumber(text, least, most); }, "");
   return *this;
 }
 
 Option Option::oneOf(const std::vector<std::string>& words) {
-  option_->check(CLI::IsMember(words));
+  const std::string list = CLI::detail::join(words, "|");
+  const bool isShort = list.size() <= kLongWords;
+  option_->type_name(isShort ? list : "WORD");
+  if (!isShort) option_->description(option_->get_description() + ": " + CLI::detail::join(words, ", "));
+  option_->check(CLI::IsMember(words).description(""));
   return *this;
 }
 
 Option Option::existingFile() {
-  option_->check(CLI::ExistingFile);
+  option_->type_name("FILE");
+  option_->check(CLI::Validator(CLI::ExistingFile).description(""));
   return *this;
 }
 
@@ -82,6 +133,7 @@ Option Option::excludes(Option other) {
 
 Program::Program(const std::string& description, const std::string& name)
     : name_(name), app_(std::make_unique<CLI::App>(description, name)) {
+  app_->formatter(std::make_shared<HelpFormatter>());
   app_->set_version_flag("--version", name + " " FCL_STPBV_VERSION);
 }
 

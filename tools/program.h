@@ -23,7 +23,7 @@ class Option {
   explicit Option(CLI::Option* option) : option_(option) {}
 
   Option required();
-  /// What the help calls the value.
+  /// What the help calls the value, where it is no number and none of some words.
   Option type(const std::string& name);
   /// Each time that it is given it takes one value; all count.
   Option repeated();
@@ -52,7 +52,7 @@ class Program {
   Program(const std::string& description, const std::string& name);
   ~Program();
 
-  /// Below the options in the help.
+  /// Below the options in the help. Lines that begin with a space stay as they are; others are wrapped anew.
   void footer(const std::string& text);
   /// `names` as in "-o,--output", or without dashes for a place on the command line. `value` is set when
   /// run() reads the command line, and keeps what it has where the option is not given. An empty value is

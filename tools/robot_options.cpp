@@ -37,14 +37,12 @@ void describeBodies(Program& app, RobotArguments& a) {
       app.option("-r,--r", a.r,
                  "Radius of the small spheres, the margin, or 'auto': a twentieth of each link's smallest "
                  "width or a 250th of its radius, 1 cm at most")
-          .type("LENGTH|auto")
           .number(0, kLargest, true, "auto")
           .shown();
   const Option R =
       app.option("-R,--R", a.R,
                  "Radius of the big spheres, or 'auto': so large that they add no more than r or "
                  "a 200th of the link's radius; without it auto where r is, else 10")
-          .type("LENGTH|auto")
           .number(0, kLargestR, false, "auto");
   Option advise =
       app.option("--advise", a.advise,

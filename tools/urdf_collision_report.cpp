@@ -60,7 +60,7 @@ void describe(Program& app, Arguments& a) {
          "Folder of polyhedra published for the meshes, MESH-ch.txt or MESH.otp: tells how far they differ")
       .type("FOLDER");
   app.option("--top", a.top, "Lines of each list in the text, and warnings shown").whole().shown();
-  app.option("--format", a.format, "text, json, csv, srdf or html")
+  app.option("--format", a.format, "Format of the report")
       .oneOf({"text", "json", "csv", "srdf", "html"})
       .shown();
   app.option("-o,--output", a.output, "File to write instead of standard output").type("OUT");

@@ -2,11 +2,15 @@
 
     test_program_doors.py BIN_FOLDER PROJECT
 """
+import fcntl
 import os
 import pathlib
+import pty
 import re
+import struct
 import subprocess
 import sys
+import termios
 import unittest
 
 BIN, PROJECT = (pathlib.Path(folder).resolve() for folder in sys.argv[1:3])
@@ -29,7 +33,8 @@ def run(program, *arguments, **options):
 
 
 def entries_of(program):
-    """(names, kind of value or "" where it takes none) of all options and places on the command line, from the help."""
+    """(names, kind of value or "" where it takes none) of all options and places on the command line, from the help. Numbers
+    have NUMBER as their kind, given words are the kind themselves, or WORD."""
     for line in run(program, "--help").stdout.splitlines():
         entry = re.match(r"  (\S+)(?: (\S+))?", line)
         if entry and not line.startswith("   "):
@@ -64,6 +69,32 @@ class Programs(unittest.TestCase):
                     self.assertEqual(done.returncode, 2)
                     self.assertIn("standard output cannot be written", done.stderr)
                 self.assertRegex(run(program, "--version").stdout, rf"^{program.name} \d+\.\d+\.\d+\n$")
+
+    def test_help_fits_the_terminal_or_else_80_columns(self):
+        def longest(text):
+            return max(len(line) for line in text.splitlines() if len(line.split()) > 1)  # a word is never split
+        for program in PROGRAMS:
+            with self.subTest(program=program.name):
+                text = run(program, "--help").stdout
+                self.assertLessEqual(longest(text), 80)
+                for internal in ("Excludes:", "Needs:", ":NUMBER", "REQUIRED", "{"):
+                    self.assertNotIn(internal, text)
+        for columns, least, most in ((50, 40, 50), (90, 80, 90), (200, 90, 100)):  # wider lines are hard to read
+            try:
+                ours, theirs = pty.openpty()
+            except OSError as error:
+                self.skipTest(f"skipped: this machine gives no terminals ({error})")
+            fcntl.ioctl(theirs, termios.TIOCSWINSZ, struct.pack("HHHH", 24, columns, 0, 0))
+            with subprocess.Popen([BIN / "mesh_to_stpbv", "--help"], stdout=theirs):
+                os.close(theirs)
+                shown = b""
+                try:
+                    while part := os.read(ours, 65536):
+                        shown += part
+                except OSError:
+                    pass  # the other end is closed
+            os.close(ours)
+            self.assertTrue(least < longest(shown.decode()) <= most, (columns, longest(shown.decode())))
 
     def test_an_option_that_there_is_not_is_refused(self):
         for program in PROGRAMS:
@@ -107,7 +138,7 @@ class Programs(unittest.TestCase):
         for program in PROGRAMS:
             for names, kind in entries_of(program):
                 option = names.split(",")[-1]
-                if kind in ("", "Needs:", "Excludes:") or option[0] != "-":
+                if kind == "" or option[0] != "-":
                     continue
                 for given in [option, ""], [option + "=", "1"]:
                     if given[1] and not option.startswith("--"):
@@ -122,7 +153,7 @@ class Programs(unittest.TestCase):
         for program in PROGRAMS:
             for names, kind in entries_of(program):
                 option = names.split(",")[-1]
-                if ":{" in kind and option[0] == "-":
+                if option[0] == "-" and (kind == "WORD" or "|" in kind and "NUMBER" not in kind):
                     with self.subTest(program=program.name, option=option):
                         tried.add((program.name, option))
                         self.refused(run(program, option, "nonsense"), option, "nonsense")
