@@ -84,7 +84,7 @@ std::string steepest(const PosedRobot& posed, const Kinematics& kinematics, int 
             [](const auto& a, const auto& b) { return std::abs(a.first) > std::abs(b.first); });
   std::string text;
   for (std::size_t i = 0; i < std::min<std::size_t>(2, slopes.size()); ++i) {
-    text += detail::formatted("%s%+.3f %s", i ? ", " : "", slopes[i].first, slopes[i].second.c_str());
+    text += (i ? ", " : "") + signedFixed(slopes[i].first, 3) + " " + slopes[i].second;
   }
   return text;
 }
@@ -124,18 +124,17 @@ void printPairs(const PosedRobot& posed, const Kinematics& kinematics, const Rob
     const bool off = std::abs(error) > kFclTolerance;
     wrong += off;
     const Eigen::Vector3d& n = row.answer.normal;
-    std::printf("%-26s %9.3f  (%+.3f, %+.3f, %+.3f) %9.3f %9s %7.2f  %s\n",
-                (first.name + " - " + second.name).c_str(), row.answer.distance * kMm, n.x(), n.y(), n.z(),
-                plain.distance * kMm, off ? millimetres(error).c_str() : "-", angle(n, plain.normal),
+    std::printf("%-26s %9.3f  (%s, %s, %s) %9.3f %9s %7.2f  %s\n", (first.name + " - " + second.name).c_str(),
+                row.answer.distance * kMm, signedFixed(n.x(), 3).c_str(), signedFixed(n.y(), 3).c_str(),
+                signedFixed(n.z(), 3).c_str(), plain.distance * kMm, off ? millimetres(error).c_str() : "-",
+                angle(n, plain.normal),
                 steepest(posed, kinematics, first.link, second.link, row.answer).c_str());
   }
   std::printf(
-      "\nThe STP-BV is 10 mm and its over-cover fatter on each side, so its distance is smaller than the "
-      "hull's.\n"
-      "\"its error\" is against the certified distance of the same hulls; %d of these %zu pairs are off by "
-      "more\n"
-      "than FCL's own tolerance of 1e-6 m. \"normal\" is the angle between FCL's normal and the smooth "
-      "one.\n",
+      "\nEach STP-BV lies outside its hull, by 10 mm at least and by its over-cover at most, so its distance "
+      "is\nsmaller than the hulls'. \"its error\" is against the certified distance of the same hulls; %d of "
+      "these\n%zu pairs are off by more than FCL's own tolerance of 1e-6 m. \"normal\" is the angle between "
+      "FCL's\nnormal and the smooth one.\n",
       wrong, rows.size());
 }
 
