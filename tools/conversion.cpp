@@ -161,17 +161,18 @@ void write(const Report& report, const ConversionOptions& options) {
 
 std::string toText(const Report& report) {
   const StpBv& body = *report.volume;
-  std::string text = report.input + ": " + std::to_string(report.points) + " points in -> " +
-                     std::to_string(body.vertexCount()) + " vertices used, " +
+  const auto millimetres = [](double metres) { return number(1e3 * metres) + " mm"; };
+  std::string text = report.input + " -> " + report.output + "\n  " + std::to_string(report.points) +
+                     " points in, " + std::to_string(body.vertexCount()) + " vertices, " +
                      std::to_string(body.edgeCount()) + " edges, " + std::to_string(body.faceCount()) +
-                     " faces; volume " + number(report.cubicMetres) + " m^3; over-cover max " +
-                     number(report.overCover.max) + " m, mean " + number(report.overCover.mean) +
-                     " m; built in " + number(report.buildSeconds) + " s";
-  if (report.advice)
-    text += "; advised r " + number(body.radii().r) + " m, R " + number(body.radii().R) + " m, at most " +
-            number(report.advice->acceleration) + " m/s^2";
+                     " faces; volume " + number(report.cubicMetres) + " m^3\n  over-cover max " +
+                     millimetres(report.overCover.max) + ", mean " + millimetres(report.overCover.mean);
+  if (report.buildSeconds > 0) text += detail::formatted("; built in %.3f s", report.buildSeconds);
   if (report.verified == true) text += "; verified";
-  return text + " -> " + report.output;
+  if (report.advice)
+    text += "\n  advised r " + millimetres(body.radii().r) + ", R " + number(body.radii().R) +
+            " m, at most " + number(report.advice->acceleration) + " m/s^2";
+  return text;
 }
 
 std::string toJson(const Report& report) {

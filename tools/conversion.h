@@ -35,7 +35,7 @@ struct Report {
   /// Most that the volume exceeds the mesh by: what it encloses, or its triangles
   /// alone (m); none for what has no triangles.
   std::optional<double> excessMax, openExcessMax;
-  double buildSeconds = 0;
+  double buildSeconds = 0;       ///< 0 for what is a volume already
   std::optional<bool> verified;  ///< set where it was asked for
   std::string verification;      ///< what is wrong with a volume that is not verified
 };
@@ -57,7 +57,7 @@ Report convert(const std::string& input, const ConversionOptions& options);
 /// Writes what convert() made: the volume and, if asked for, its preview.
 void write(const Report& report, const ConversionOptions& options);
 
-/// A line for people to read.
+/// Some lines for people to read.
 std::string toText(const Report& report);
 
 /// A line of JSON for programs to read.

@@ -88,17 +88,18 @@ void write(const PartsReport& report, const ConversionOptions& options) {
 
 std::string toText(const PartsReport& report) {
   const ConvexParts& parts = report.parts;
-  std::string text = report.input + ": " + std::to_string(parts.parts.size()) +
-                     (parts.parts.size() == 1 ? " part" : " parts") + "; hulls within " +
-                     millimetres(parts.excess) + " of the mesh's solid, " + millimetres(parts.openExcess) +
-                     " of its triangles; volumes within " + millimetres(report.excessMax()) + "; " +
-                     std::to_string(parts.closedPieces) + " of " + std::to_string(parts.pieces) +
-                     (parts.pieces == 1 ? " piece closed, " : " pieces closed, ") +
-                     (parts.closedPieces > 0 ? "their inside is covered" : "the triangles alone are covered");
+  const std::size_t count = parts.parts.size();
+  std::string text =
+      report.input + " -> " + report.outputs.front() + (count > 1 ? " ..." : "") + "\n  " +
+      std::to_string(count) + (count == 1 ? " part; " : " parts; ") + std::to_string(parts.closedPieces) +
+      " of " + std::to_string(parts.pieces) + (parts.pieces == 1 ? " piece closed, " : " pieces closed, ") +
+      (parts.closedPieces > 0 ? "their inside is covered" : "the triangles alone are covered") +
+      "\n  hulls within " + millimetres(parts.excess) + " of the mesh's solid, " +
+      millimetres(parts.openExcess) + " of its triangles\n  volumes within " +
+      millimetres(report.excessMax()) + detail::formatted("; %.2f s", report.seconds);
   if (!report.isReached())
-    text += "; NOT within the " + millimetres(report.asked) + " asked for: more --parts or --effort may be";
-  return text + detail::formatted("; %.2f s", report.seconds) + " -> " + report.outputs.front() +
-         (report.outputs.size() > 1 ? " ..." : "");
+    text += "\n  NOT within the " + millimetres(report.asked) + " asked for: more --parts or --effort may be";
+  return text;
 }
 
 std::string toJson(const PartsReport& report) {

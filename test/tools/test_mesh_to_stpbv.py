@@ -104,8 +104,9 @@ class MeshToStpbv(unittest.TestCase):
     def test_one_input_is_written_to_the_named_file(self):
         done = self.run_tool("cube.txt", "-o", "cube.stpbv")
         self.assertTrue(read(self.at("cube.stpbv")).startswith(b"stpbv 1\nr 0.01\nR 10\nvertices 8\n"))
-        for words in ("8 points in", "8 vertices", "12 edges", "6 faces", "volume", "over-cover max", "mean", " s"):
+        for words in ("8 points in", "8 vertices", "12 edges", "6 faces", "volume", "over-cover max", "mean", " mm", "built in", " s"):
             self.assertIn(words, done.stdout)
+        self.assertLessEqual(max(len(line) for line in done.stdout.splitlines()), 80)
         self.assertEqual(done.stderr, "")
 
     def test_the_same_input_gives_the_same_bytes(self):
@@ -116,7 +117,8 @@ class MeshToStpbv(unittest.TestCase):
     def test_several_inputs_go_into_a_folder(self):
         done = self.run_tool("cube.txt", "other.txt", "-o", "out/deep")
         self.assertEqual(self.names("out/deep"), ["cube.stpbv", "other.stpbv"])
-        self.assertEqual(len(done.stdout.splitlines()), 2)
+        self.assertEqual([line for line in done.stdout.splitlines() if line[0] != " "],
+                         [f"{name}.txt -> out/deep/{name}.stpbv" for name in ("cube", "other")])
         self.assertEqual(done.stderr, "")
 
     def test_one_input_goes_into_a_folder_that_exists(self):
@@ -356,6 +358,7 @@ class MeshToStpbv(unittest.TestCase):
         self.assertEqual(read(self.at("a.stpbv")), read(self.at("b.stpbv")))
         self.refused("a.stpbv", "-o", "c.stpbv", "-R", "20", says=["a.stpbv: is an STP-BV already", "R = 10"], code=1)
         self.run_tool("a.stpbv", "-o", "d.stpbv", "-R", "10", "-q")
+        self.assertNotIn("built in", self.run_tool("a.stpbv", "-o", "e.stpbv").stdout)
         for kind in ("stpbv", "sch"):  # a volume may have any name
             self.run_tool("a.stpbv", "-o", kind + ".bak", "--format", kind, "-q")
             self.run_tool(kind + ".bak", "-o", kind + "_back.stpbv", "-q")
