@@ -141,6 +141,13 @@ std::vector<std::string> meshesOf(const std::string& urdf, const std::vector<std
   return files;
 }
 
+// The file that a warning begins with, "" where it begins with none.
+std::string fileOf(const std::string& warning) {
+  const std::string file = warning.substr(0, warning.find(": "));
+  std::error_code ignored;
+  return fs::exists(file, ignored) ? file : "";
+}
+
 }  // namespace
 
 void describeRobot(Program& app, RobotArguments& arguments) {
@@ -214,10 +221,18 @@ report::RobotFiles filesOf(const RobotArguments& arguments) {
 void tellAll(const std::string& program, const std::vector<std::string>& skipped,
              const std::vector<std::string>& warnings, std::size_t top) {
   for (const std::string& shape : skipped) tell(program, "left out and not checked: " + shape);
-  for (std::size_t i = 0; i < std::min(top, warnings.size()); ++i) tell(program, warnings[i]);
-  if (warnings.size() > top)
-    tell(program,
-         "... and " + std::to_string(warnings.size() - top) + " more warnings (--top; the JSON has all)");
+  const std::size_t more = warnings.size() - std::min(top, warnings.size());
+  const auto end = warnings.end() - static_cast<std::ptrdiff_t>(more);
+  for (auto first = warnings.begin(), next = first; first != end; first = next) {
+    const std::string file = fileOf(*first);
+    next = std::find_if(first + 1, end, [&](const auto& w) { return file.empty() || fileOf(w) != file; });
+    std::string text = next == first + 1 ? *first : file + ":";
+    for (auto w = first; next != first + 1 && w != next; ++w) text += "\n  " + w->substr(file.size() + 2);
+    tell(program, text);
+  }
+  if (more > 0)
+    tell(program, "... and " + std::to_string(more) + (more == 1 ? " more warning" : " more warnings") +
+                      " (--top; the JSON has all)");
 }
 
 void checkOutput(const std::string& path, const report::RobotFiles& robot,

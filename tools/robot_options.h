@@ -48,7 +48,8 @@ report::ReportRequest requestOf(const RobotArguments& robot, const SearchArgumen
 /// The files that the arguments ask for. @throws Error naming the option and what would work.
 report::RobotFiles filesOf(const RobotArguments& arguments);
 
-/// Tells of the shapes that were left out, and of the warnings the first `top`.
+/// Tells of the shapes that were left out, and of the warnings the first `top`. Those of one file in a row
+/// stand below its name.
 void tellAll(const std::string& program, const std::vector<std::string>& skipped,
              const std::vector<std::string>& warnings,
              std::size_t top = std::numeric_limits<std::size_t>::max());

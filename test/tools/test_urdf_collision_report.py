@@ -211,6 +211,8 @@ class Report(unittest.TestCase):
         for margin, warned in (("0", False), ("-0.01", True)):
             said = self.run_tool(self.slider(), "--primitives", "flat", "--samples", "20", "--margin", margin).stderr
             self.assertEqual("the margin is negative: what overlaps by less than 0.01 m counts as clear" in said, warned, said)
+        # With the warning of the pairs without a smooth body it stands below the file's name, which is said once.
+        self.assertRegex(said, r"^urdf_collision_report: \S+robot\.urdf:\n  the margin is negative: .*\n  3 checked pairs have no smooth body")
 
     def test_an_arm_that_comes_no_nearer_has_no_time_of_its_fastest_approach(self):
         done = self.follow("way.csv", "time,slide\n6,0\n7,-1\n", "--format", "json")
