@@ -43,6 +43,9 @@ class HelpFormatter : public CLI::Formatter {
     return entry(make_option_name(option, isPlace) + make_option_opts(option), make_option_desc(option),
                  helpColumns());
   }
+  std::string make_option_name(const CLI::Option* option, bool isPlace) const override {
+    return CLI::detail::find_and_replace(CLI::Formatter::make_option_name(option, isPlace), "{false}", "");
+  }
   std::string make_option_opts(const CLI::Option* option) const override {
     if (option->get_type_size() == 0) return "";
     const bool several = option->get_expected_max() == CLI::detail::expected_max_vector_size;
