@@ -34,7 +34,7 @@ constexpr const char* kFooter =
 (docs/posture.md). Lengths are in metres, angles in radians.
 
 Examples:
-  find_posture hrp2_style.urdf pick_can.json --srdf hrp2_style.srdf --obstacles fridge.urdf
+  find_posture robot.urdf task.json --srdf robot.srdf --obstacles fridge.urdf
   find_posture robot.urdf task.json --starts 20 --format json -o posture.json
 
 Without an SRDF the robot's own pairs are found as urdf_collision_report does.

@@ -40,9 +40,9 @@ constexpr const char* kFooter =
 
 Examples:
   mesh_to_stpbv link.stl -o link.stpbv
-  mesh_to_stpbv part_in_mm.stl --scale 0.001 -r 0.005 -R 5 -o part.stpbv --verify
+  mesh_to_stpbv in_mm.stl --scale 0.001 -r 0.005 -R 5 -o part.stpbv --verify
   mesh_to_stpbv link.dae -o link.stpbv --preview link_stpbv.obj
-  mesh_to_stpbv tool.stl -o tool.stpbv --advise clearance=0.004,acceleration=2,speed=0.1,turning=0.5
+  mesh_to_stpbv tool.stl -o tool.stpbv --advise clearance=0.004,speed=0.1
   # one volume per mesh, in the folder volumes
   mesh_to_stpbv meshes/*.dae -o volumes
   mesh_to_stpbv meshes/*.dae -o volumes --json -q > report.jsonl

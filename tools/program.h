@@ -52,7 +52,8 @@ class Program {
   Program(const std::string& description, const std::string& name);
   ~Program();
 
-  /// Below the options in the help. Lines that begin with a space stay as they are; others are wrapped anew.
+  /// Below the options in the help. A line that begins with a space stays one where the terminal has room for
+  /// it; others are wrapped anew.
   void footer(const std::string& text);
   /// `names` as in "-o,--output", or without dashes for a place on the command line. `value` is set when
   /// run() reads the command line, and keeps what it has where the option is not given. An empty value is

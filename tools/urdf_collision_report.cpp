@@ -31,8 +31,9 @@ those found in collision everywhere, are not checked; their figures are reported
 
 Examples:
   urdf_collision_report robot.urdf --srdf robot.srdf --pose zero
-  urdf_collision_report robot.urdf --package-path ~/ws/src --samples 10000 --format srdf -o robot.srdf
-  urdf_collision_report robot.urdf --srdf robot.srdf --format html -o report.html
+  urdf_collision_report robot.urdf --package-path ~/ws/src --samples 10000
+  urdf_collision_report robot.urdf --format srdf -o robot.srdf
+  urdf_collision_report robot.urdf --srdf robot.srdf --format html -o out.html
   urdf_collision_report robot.urdf --srdf robot.srdf --trajectory path.csv
 
 Exit status: 0 no checked pair in collision; 1 a collision found, or a trajectory not proven free; 2 the command line or an input is wrong, or no

@@ -27,8 +27,9 @@ mesh has, the others come from the cache. The folder is written at once or not a
 
 Examples:
   urdf_to_stpbv robot.urdf -o robot_parts
-  urdf_to_stpbv robot.urdf --srdf robot.srdf --package-path ~/ws/src --parts auto -o robot_parts
-  urdf_to_stpbv robot.urdf -o my_robot/convex --mesh-prefix package://my_robot/convex/
+  urdf_to_stpbv robot.urdf --package-path ~/ws/src -o robot_parts
+  urdf_to_stpbv robot.urdf --srdf robot.srdf --parts auto -o robot_parts
+  urdf_to_stpbv robot.urdf -o convex --mesh-prefix package://my_robot/convex/
 
 Exit status: 0 the folder holds the robot; 2 the command line or an input is wrong, and the folder is as it was; 3 written,
 but --skip-invalid left shapes out.)";

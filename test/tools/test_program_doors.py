@@ -77,6 +77,7 @@ class Programs(unittest.TestCase):
             with self.subTest(program=program.name):
                 text = run(program, "--help").stdout
                 self.assertLessEqual(longest(text), 80)
+                self.assertNotRegex(text, r"Examples:\n(  .*\n)*   ")  # of a broken line help2man makes an option
                 for internal in ("Excludes:", "Needs:", ":NUMBER", "REQUIRED", "{"):
                     self.assertNotIn(internal, text)
         for columns, least, most in ((50, 40, 50), (90, 80, 90), (200, 90, 100)):  # wider lines are hard to read
