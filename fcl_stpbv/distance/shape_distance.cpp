@@ -128,7 +128,7 @@ struct Solution {
 
 /// A point of the shape in a ball that the volume's core holds.
 bool surelyOverlap(const ShapeQuery& q) {
-  return !q.shape.unbounded() && awayFromCentre(q, true).most < q.body.innerRadius() - q.rounding.across;
+  return awayFromCentre(q, true).most < q.body.innerRadius() - q.rounding.across;
 }
 
 /// Of cores that overlap.
@@ -149,18 +149,21 @@ Solution solve(ShapeQuery& q, const StartNormal& start) {
   constexpr double kNone = kInfinity;
   constexpr int kTries = 16;       // one to five are usual
   constexpr double kBeyond = 1e3;  // of rounding: less may be a touch
-  const bool overlap = surelyOverlap(q);
   Nearest found;
+  if (q.shape.unbounded()) {
+    found = nearestOnShape(q, start);
+    return {found, DistanceStatus::exact, found.gap};
+  }
+  const bool overlap = surelyOverlap(q);
   if (!overlap && walkShapeFeatures(q, start, kTries, found) == WalkEnd::nearest)
     return {found, DistanceStatus::exact, kNone};
-  if (overlap || (!q.shape.unbounded() && seemToOverlap(q, start))) {
+  if (overlap || seemToOverlap(q, start)) {
     if (const auto deep = overlapOfPoint(q, start)) return deepSolution(*deep);
     if (const auto deep = overlapOfCones(q)) return deepSolution(*deep);
     const LeastOverlap deep = leastOverlap(q, start);
     if (overlap || deep.at.gap < -kBeyond * q.rounding.across) return deepSolution(deep);
   }
   found = nearestOnShape(q, start);
-  if (q.shape.unbounded()) return {found, DistanceStatus::exact, found.gap};
   if (certified(q, found)) return {found, DistanceStatus::exact, kNone};
   const LeastOverlap cuts = widestGapByCuts(q, found.apart ? StartNormal{found.n, found.patch} : start);
   if (cuts.overlap) return deepSolution(leastOverlap(q, {cuts.at.n, cuts.at.patch}));

@@ -21,12 +21,12 @@ FCL_STPBV_VECTORIZED
 bool isFartherByBounds(double x, const StpBv& volume, const Isometry3d& poseVolume, const Shape& shape,
                        const Isometry3d& poseShape, const PairCache& cache) {
   const RelativePose pose(poseVolume, poseShape);
-  if (!shape.valid() || !pose.valid || shape.unbounded()) return false;
+  if (!shape.valid() || !pose.valid) return false;
   const ShapeQuery q(volume, shape, pose);
   if (awayFromCentre(q, false).least - volume.enclosingRadius() - shape.margin - q.rounding.certificate > x)
     return true;
   const Vector3d last = pose.toWorld.inverse(cache.direction());
-  if (last.isZero(0)) return false;
+  if (last.isZero(0) || shape.unbounded()) return false;
   int ignored = 0;
   const Vector3d n = last.normalized();
   const double gap = viewVolume(volume, n, -1, ignored).gap(q.facing(n));
@@ -45,12 +45,12 @@ bool isFartherThan(double x, const StpBv& volume, const Isometry3d& poseVolume, 
     if (cache) *cache = start;
     return found.lower > x;
   };
-  if (shape.unbounded()) return isDistanceFarther();
   ShapeQuery q(volume, shape, pose);
   const double margins = volume.radii().r + shape.margin, rounding = q.rounding.certificate;
   const Span away = awayFromCentre(q, true);
   if (away.least - volume.enclosingRadius() - shape.margin - rounding > x) return true;
   if (away.most - volume.innerRadius() - margins + rounding <= x) return false;
+  if (shape.unbounded()) return isDistanceFarther();
 
   const Vector3d last = pose.toWorld.inverse(start.direction()),
                  centres = q.posed(shape.centre) - volume.centre();

@@ -211,6 +211,12 @@ int startingPatch(const ShapeQuery& q, const StartNormal& start, KnownFeatures& 
 FCL_STPBV_VECTORIZED
 Span awayFromCentre(const ShapeQuery& q, bool looksAtCorners) {
   const Packed x = q.pose.rotation.inverse(pack(q.body.centre()) - q.pose.translation);
+  if (q.shape.unbounded()) {
+    const Packed n = pack(q.shape.normal);
+    const double height = dot(n, x - q.shape.offset * n) / std::sqrt(dot(n, n)),
+                 away = q.shape.kind == ShapeKind::plane ? std::abs(height) : height;
+    return {away, away};
+  }
   // A narrow triangle's normal is less certain than this has to be.
   const ShapeFeature f = q.shape.kind == ShapeKind::triangle ? ShapeFeature{} : nearestFeature(q.shape, x);
   if (f.kind == FeatureKind::inside) return {-q.shape.reach, 0.0};
