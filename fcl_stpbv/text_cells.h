@@ -71,4 +71,7 @@ inline std::string fittedInto(std::size_t most, const std::string& text) {
   return fitted;
 }
 
+/// A name on one line, with '?' for what cannot be shown: it moves no cursor and fakes no line.
+inline std::string printable(const std::string& name) { return fittedInto(std::string::npos, name); }
+
 }  // namespace fcl_stpbv::detail

@@ -156,11 +156,13 @@ void shorten(nlohmann::json& value) {
   }
 }
 
-// Whether the trajectory leaves open if the pair meets.
+// Whether the trajectory leaves open if the pair meets: behind a contact only its closest approach tells.
 bool isUndecided(const CollisionReport& report, const PairReport& pair) {
   if (!report.trajectory || !pair.checked) return false;
   const TrajectoryReport& t = *report.trajectory;
-  return t.followedUntil < t.trajectory.time.back() ||
+  if (t.verdict == MotionVerdict::free) return false;
+  const bool isFarther = pair.answer.distance - TrajectoryReport::kPrecision > report.margin;
+  return !(t.closestProven && isFarther) || t.followedUntil < t.trajectory.time.back() ||
          std::any_of(t.undecided.begin(), t.undecided.end(), [&](const TrajectoryStop& stop) {
            return report.trajectoryPairs[static_cast<std::size_t>(stop.pair)] ==
                   std::make_pair(pair.link1, pair.link2);
@@ -192,7 +194,11 @@ nlohmann::json dataOf(const CollisionReport& report, const std::string& title,
     item["cover"] = pair.overCover1 + pair.overCover2;
     item["colliding"] = pair.colliding;
     item["undecided"] = isUndecided(report, pair);
-    if (std::isfinite(pair.time)) item["time_text"] = report.trajectory->timeText(pair.time);
+    if (std::isfinite(pair.time)) {
+      const std::vector<double>& time = report.trajectory->trajectory.time;
+      item["time_text"] = report.trajectory->timeText(pair.time);
+      item["time_share"] = (pair.time - time.front()) / (time.back() - time.front());
+    }
     item["contradicts_srdf"] = pair.contradictsSrdf;
     item.erase("closest");
   }

@@ -7,6 +7,7 @@
 #include "fcl_stpbv/formatted.h"
 #include "fcl_stpbv/report/report_formats.h"
 #include "fcl_stpbv/report/text_table.h"
+#include "fcl_stpbv/text_cells.h"
 
 namespace fcl_stpbv::report {
 namespace {
@@ -102,14 +103,14 @@ std::string splits(const CollisionReport& report) {
     double excess = 0;
     for (const Body& body : bodies)
       if (body.partOf == static_cast<int>(i)) excess = std::max(excess, body.excess);
-    text += "  " + bodies[i].name +
+    text += "  " + printable(bodies[i].name) +
             formatted(" in %d parts, %.3f mm from the mesh at most, for", bodies[i].parts, excess * kMm);
     int count = 0;
     for (const PairReport& pair : report.pairs) {
       const LinkPair& links = pair.links;
       const bool own = links.link1 == bodies[i].link || (!links.obstacle && links.link2 == bodies[i].link);
       if (!own || !report.isByParts(pair)) continue;
-      if (++count <= 3) text += (count > 1 ? ", " : " ") + pair.link1 + " - " + pair.link2;
+      if (++count <= 3) text += (count > 1 ? ", " : " ") + printable(pair.link1 + " - " + pair.link2);
     }
     text += (count > 3 ? " and " + std::to_string(count - 3) + " more\n" : "\n");
   }
@@ -159,11 +160,11 @@ std::string trajectory(const CollisionReport& report) {
   text += "\n";
   for (const TrajectoryStop& pair : t.undecided)
     if (t.verdict == MotionVerdict::contact || pair.pair != t.stop.pair)
-      text += "not decided: " + report.trajectoryPair(pair.pair) +
+      text += "not decided: " + printable(report.trajectoryPair(pair.pair)) +
               ", whose distance is the margin to rounding from " + t.timeText(pair.from, true) + " on\n";
   if (t.steepestPair >= 0)
     text += formatted("fastest approach of %zu samples %.4f %s, ", t.chartTime.size(), t.steepest, speed) +
-            report.trajectoryPair(t.steepestPair) + " at " + t.timeText(t.steepestTime) + "\n";
+            printable(report.trajectoryPair(t.steepestPair)) + " at " + t.timeText(t.steepestTime) + "\n";
   if (!t.closestProven) text += "some closest approaches are those that were found, without a proof\n";
   return text;
 }
@@ -174,13 +175,13 @@ std::string contradictions(const CollisionReport& report, std::size_t top) {
   std::size_t count = 0;
   for (const PairReport& pair : report.pairs) {
     if (!pair.contradictsSrdf || count++ >= top) continue;
-    text += "\nThe SRDF leaves out " + pair.link1 + " - " + pair.link2 + " as " + pair.srdfReason +
-            "; found: " + pair.reason + (pair.cause.empty() ? "" : ", " + pair.cause) +
-            formatted(", %.3f mm at", pair.minDistance * kMm);
+    text += "\nThe SRDF leaves out " + printable(pair.link1 + " - " + pair.link2) + " as " +
+            printable(pair.srdfReason) + "; found: " + pair.reason +
+            (pair.cause.empty() ? "" : ", " + pair.cause) + formatted(", %.3f mm at", pair.minDistance * kMm);
     for (const auto& [joint, slope] : pair.gradient) {
       const auto& names = report.kinematics->names();
       const auto k = std::find(names.begin(), names.end(), joint) - names.begin();
-      text += " " + joint + "=" + fixed(pair.closest[k], 4);
+      text += " " + printable(joint) + "=" + fixed(pair.closest[k], 4);
     }
   }
   return count == 0 ? "" : text + "\n" + unshown(count, top);
@@ -191,8 +192,8 @@ std::string contradictions(const CollisionReport& report, std::size_t top) {
 std::string trajectoryVerdict(const CollisionReport& report) {
   const TrajectoryReport& t = *report.trajectory;
   if (t.verdict == MotionVerdict::free) return "proven free";
-  const std::string pair = report.trajectoryPair(t.stop.pair);
-  const bool starts = t.timeText(t.stop.from) == t.timeText(t.trajectory.time.front());
+  const std::string pair = printable(report.trajectoryPair(t.stop.pair));
+  const bool starts = t.stop.from <= t.trajectory.time.front();
   if (t.verdict == MotionVerdict::contact)
     return "CONTACT of " + pair + (starts ? " at the start" : " at " + t.timeText(t.stop.until));
   std::string why;
@@ -206,10 +207,10 @@ std::string trajectoryVerdict(const CollisionReport& report) {
 }
 
 std::string toText(const CollisionReport& report, std::size_t top) {
-  std::string text = report.robot->name + ": " + std::to_string(report.robot->links.size()) + " links, " +
-                     std::to_string(report.geometry->bodies.size()) + " bodies, " +
+  std::string text = printable(report.robot->name) + ": " + std::to_string(report.robot->links.size()) +
+                     " links, " + std::to_string(report.geometry->bodies.size()) + " bodies, " +
                      std::to_string(report.kinematics->size()) + " coordinates\n";
-  for (const std::string& shape : report.skipped) text += "LEFT OUT, NOT CHECKED: " + shape + "\n";
+  for (const std::string& shape : report.skipped) text += "LEFT OUT, NOT CHECKED: " + printable(shape) + "\n";
   std::map<std::string, int> reasons;
   for (const PairReport& pair : report.pairs) ++reasons[pair.reason];
   text += counted(report.pairs.size(), "pair") + ":";

@@ -9,6 +9,11 @@ namespace fcl_stpbv::report {
 
 constexpr std::size_t kBetween = 2;  // spaces
 
+void TextTable::add(std::vector<std::string> line) {
+  for (std::string& text : line) text = detail::printable(text);
+  lines_.push_back(std::move(line));
+}
+
 std::string TextTable::text(std::size_t indent) const {
   std::vector<std::size_t> width(sides_.size(), 0);
   for (const auto& line : lines_)

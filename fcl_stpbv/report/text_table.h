@@ -13,8 +13,8 @@ class TextTable {
   /// A letter a column: 'l' for one whose text begins, 'r' for one whose text ends at its edge.
   explicit TextTable(std::string sides) : sides_(std::move(sides)) {}
 
-  /// A line; it may have fewer texts than there are columns.
-  void add(std::vector<std::string> line) { lines_.push_back(std::move(line)); }
+  /// A line; it may have fewer texts than there are columns. What of them cannot be shown becomes '?'.
+  void add(std::vector<std::string> line);
 
   /// The lines, each after `indent` spaces, without spaces at their ends. The width of a text is what a
   /// terminal takes for it, in whatever script.

@@ -142,8 +142,8 @@ VectorXd TrajectoryReport::at(double time) const {
 }
 
 std::string TrajectoryReport::timeText(double time, bool down) const {
-  const double range = trajectory.time.back() - trajectory.time.front();
-  const int decimals = std::clamp(static_cast<int>(std::ceil(5 - std::log10(range))), 0, 12);
+  const double way = std::max(time - trajectory.time.front(), 1e-7);
+  const int decimals = std::clamp(static_cast<int>(std::ceil(5 - std::log10(way))), 0, 12);
   const double unit = std::pow(10.0, -decimals);
   std::string text = detail::formatted("%.*f", decimals, down ? unit * std::floor(time / unit) : time);
   if (decimals > 0) text.erase(std::max(text.find_last_not_of('0'), text.find('.') - 1) + 1);

@@ -38,7 +38,7 @@ struct TrajectoryReport {
   std::vector<double> chartTime, chartDistance;
 
   Eigen::VectorXd at(double time) const;
-  /// A time to 1e-5 of the whole and with its unit, rounded down where all before it was checked.
+  /// A time to 1e-5 of the way to it and with its unit, rounded down where all before it was checked.
   std::string timeText(double time, bool down = false) const;
 };
 

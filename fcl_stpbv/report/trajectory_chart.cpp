@@ -57,7 +57,7 @@ std::string chartOf(const TrajectoryReport& report, double margin) {
   constexpr double kWidth = 1200, kHeight = 270, kTop = 24, kBottom = 226, kRight = 1184;
   constexpr double kLetter = 8, kRoom = 130;  // as wide as a letter of 13 pixels and a label are at most
   constexpr const char* kGrid = "stroke=\"currentColor\" opacity=\"0.15\"";
-  constexpr const char* kMiddle = "text-anchor=\"middle\"";
+  constexpr const char *kMiddle = "text-anchor=\"middle\"", *kEnd = "text-anchor=\"end\"";
   const std::vector<double>&time = report.chartTime, &distance = report.chartDistance;
   const double begin = time.front(), end = time.back();
   const auto [least, most] = std::minmax_element(distance.begin(), distance.end());
@@ -79,8 +79,8 @@ std::string chartOf(const TrajectoryReport& report, double margin) {
   Drawing d;
   d.add(
       "<svg viewBox=\"0 0 %g %g\" role=\"img\" aria-label=\"Least distance over time\" font-size=\"13\" "
-      "fill=\"currentColor\" data-begin=\"%.17g\" data-end=\"%.17g\" data-left=\"%g\" data-right=\"%g\">",
-      kWidth, kHeight, begin, end, left, kRight);
+      "fill=\"currentColor\" data-left=\"%g\" data-right=\"%g\">",
+      kWidth, kHeight, left, kRight);
   levels.each(low, high, [&](double level) {
     const bool zero = std::abs(level) < 0.5 * levels.step;
     d.line(left, y(level), kRight, y(level), zero ? "stroke=\"currentColor\"" : kGrid);
@@ -88,15 +88,19 @@ std::string chartOf(const TrajectoryReport& report, double margin) {
   });
   times.each(begin, end, [&](double at) {
     d.line(x(at), kTop, x(at), kBottom, kGrid);
-    d.text(x(at), kBottom + 18, kMiddle, times.label(at));
+    const std::string label = times.label(at);
+    const bool atEdge = x(at) + 0.5 * kLetter * static_cast<double>(label.size()) > kWidth;
+    d.text(x(at), kBottom + 18, atEdge ? kEnd : kMiddle, label);
   });
   d.text(0.5 * (left + kRight), kHeight - 6, kMiddle, report.trajectory.timed ? "time [s]" : "way point");
   d.add("<text transform=\"translate(14 %g) rotate(-90)\" text-anchor=\"middle\">least distance [%s]</text>",
         0.5 * (kTop + kBottom), unit);
+  const double nearest = time[static_cast<std::size_t>(least - distance.begin())];
   if (margin != 0) {
     d.line(left, y(scale * margin), kRight, y(scale * margin),
            "stroke=\"currentColor\" stroke-dasharray=\"2 4\"");
-    d.text(kRight, y(scale * margin) - 5, "text-anchor=\"end\"",
+    const bool atLeft = x(nearest) > 0.5 * (left + kRight);  // not over what is said of the closest approach
+    d.text(atLeft ? left + 7 : kRight, y(scale * margin) - 5, atLeft ? "" : kEnd,
            formatted("margin %g %s", scale * margin, unit));
   }
   d.line(-9, kTop, -9, kBottom,
@@ -104,7 +108,6 @@ std::string chartOf(const TrajectoryReport& report, double margin) {
   d.svg += "<polyline fill=\"none\" stroke=\"#2a7ae2\" stroke-width=\"2\" points=\"";
   for (std::size_t i = 0; i < time.size(); ++i) d.add("%.2f,%.2f ", x(time[i]), y(scale * distance[i]));
   d.svg += "\"/>";
-  const double nearest = time[static_cast<std::size_t>(least - distance.begin())];
   d.add("<circle cx=\"%.1f\" cy=\"%.1f\" r=\"4\" fill=\"#2a7ae2\"/>", x(nearest), y(scale * *least));
   const double dot = y(scale * *least), below = dot + 20 < kBottom ? 18 : -8;
   const double shown = std::abs(*least) < 1e-9 ? 0 : scale * *least;

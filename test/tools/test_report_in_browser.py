@@ -339,13 +339,13 @@ class Page(Browser):
 
     def test_only_a_trajectory_that_is_free_is_shown_as_good(self):
         way = self.put("way.csv", "RARM_JOINT0\n0\n0.1\n")
-        for margin, verdict, good in (("0", "proven free", 1), ("0.9", "CONTACT", 0)):
+        for margin, verdict, good in (("0", "proven free", 2), ("0.9", "CONTACT", 0)):
             self.open(ROBOT + ".urdf", "--srdf", ROBOT + ".srdf", "--trajectory", way, "--margin", margin)
             self.assertIn(verdict, self.browser.find_element(By.ID, "subtitle").text)
             self.assertIn("others where it begins", self.browser.find_element(By.ID, "subtitle").text)
             self.assertRegex(self.browser.find_element(By.ID, "detail").text, r"Closest at way point\n\d")
             self.assertEqual(self.script("return document.querySelectorAll('.figure.good').length"), good)
-            self.assertEqual("within 900.00 mm" in self.browser.find_element(By.ID, "figures").text, not good)
+            self.assertEqual("within 900 mm" in self.browser.find_element(By.ID, "figures").text, not good)
             # The chart stands off the window's edge, and none of its text is cut off.
             self.assertTrue(self.script("""
               const box = document.getElementById('trajectory'), edge = box.getBoundingClientRect();
@@ -354,12 +354,67 @@ class Page(Browser):
         self.reopen(lambda data: data["trajectory"].update(verdict="NOT DECIDED") or data["summary"].update(colliding=0))
         self.assertEqual(self.script("return document.querySelectorAll('.figure.good').length"), 0)
 
+    def test_a_pair_that_is_not_decided_is_not_called_clear(self):
+        # A ball rolls on a floor, 0 away to rounding; a box above it stays clear.
+        slide = ('<joint name="{0}" type="prismatic"><parent link="{1}"/><child link="{2}"/><axis xyz="{3}"/>'
+                 '<limit lower="-1" upper="1" effort="1" velocity="1"/></joint>')
+        shape = '<link name="{}"><collision><origin xyz="0 0 {}"/><geometry>{}</geometry></collision></link>'
+        urdf = self.put("cart.urdf", '<robot name="cart"><link name="rail"/>' + shape.format("foot", 0.1, '<sphere radius="0.1"/>')
+                        + shape.format("arm", 0.5, '<box size="0.1 0.1 0.2"/>') + slide.format("x", "rail", "foot", "1 0 0")
+                        + slide.format("y", "foot", "arm", "0 1 0") + "</robot>")
+        floor = self.put("floor.urdf", '<robot name="ground">' + shape.format("floor", -0.05, '<box size="4 4 0.1"/>') + "</robot>")
+        way = self.put("way.csv", "time,x,y\n0,-0.5,0\n1,0.5,0\n2,0.5,0.4\n")
+        self.open(urdf, "--obstacles", floor, "--trajectory", way)
+        self.assertIn("not decided\ntrajectory", self.browser.find_element(By.ID, "figures").text)
+        self.assertIn("NOT DECIDED for foot - floor from the start on", self.browser.find_element(By.ID, "subtitle").text)
+        chart = self.script("return [...document.querySelectorAll('#trajectory text')].map(t => t.textContent)")
+        for words in ("not decided from here", "time [s]", "least distance [mm]", "closest: 0 mm"):
+            self.assertIn(words, chart)
+        states = self.script("""return [...document.querySelectorAll('#table tbody tr')].map(row => {
+          row.click(); return [row.cells[0].textContent, row.cells[1].textContent, document.querySelector('.tag').textContent]; })""")
+        self.assertEqual([state for state in states if "floor" in state], [["foot", "floor", "not decided"], ["arm", "floor", "clear"]])
+        # A contact of another pair ends the proof: of the ball nothing more is known.
+        wall = shape.format("wall", 0.6, '<box size="2 1 0.1"/>')
+        both = self.put("both.urdf", '<robot name="ground">' + shape.format("floor", -0.05, '<box size="4 4 0.1"/>') + wall
+                        + '<joint name="w" type="fixed"><parent link="floor"/><child link="wall"/></joint></robot>')
+        self.open(urdf, "--obstacles", both, "--trajectory", way)
+        self.assertIn("contact\ntrajectory", self.browser.find_element(By.ID, "figures").text)
+        states = self.script("""return [...document.querySelectorAll('#table tbody tr')].map(row => {
+          row.click(); return [row.cells[0].textContent, row.cells[1].textContent, document.querySelector('.tag').textContent]; })""")
+        self.assertIn(["arm", "wall", "in collision"], states)
+        self.assertIn(["foot", "floor", "not decided"], states)
+
+    def test_within_a_margin_is_not_called_a_collision(self):
+        self.humanoid("--margin", "0.9")
+        self.assertEqual(self.browser.find_element(By.CSS_SELECTOR, ".tag").text, "within 900 mm")
+        self.assertIn("within 900 mm", self.browser.find_element(By.ID, "legend").text)
+        self.assertNotIn("in collision", self.script("return document.body.innerText + document.getElementById('state').textContent"))
+
+    def test_names_are_shortened_where_they_are_alike(self):
+        self.humanoid()
+        self.assertEqual(self.script("""
+          const shorten = shortener(['left_arm_segment_1_of_the_hand', 'left_arm_segment_22_of_the_hand']);
+          const most = length => shorten('left_arm_segment_22_of_the_hand', text => text.length <= length);
+          return [40, 20, 10, 4].map(most);"""), ["left_arm_segment_22_of_the_hand", "…ment_22_of_the_hand", "…22_of_th…", "…22…"])
+
+    def test_an_address_changed_in_an_open_page_opens_that_view(self):
+        self.humanoid()
+        self.script("location.hash = '#pair=7&show=pair'")
+        WebDriverWait(self.browser, 20).until(lambda b: b.execute_script("return document.body.dataset.selected") == "7")
+        self.assertEqual(self.script("return scene.bodies.filter(m => m.visible).length"), 2)
+
+    def test_a_posture_is_copied_without_a_clipboard_too(self):
+        self.humanoid()
+        self.script("Object.defineProperty(navigator, 'clipboard', { value: undefined })")
+        self.click(".tags button")
+        WebDriverWait(self.browser, 20).until(lambda b: b.find_element(By.CSS_SELECTOR, ".tags button").text == "Copied")
+
     def test_a_pair_that_overlaps_by_less_than_a_negative_margin_allows_is_not_in_collision(self):
         self.open(ROBOT + ".urdf", "--srdf", ROBOT + ".srdf", "--margin", "-0.5")
         self.assertEqual(self.script("return document.querySelectorAll('.figure.bad').length"), 0)
         self.assertEqual(self.script("return scene.report.pairs.filter(p => p.checked && p.distance < 0).length > 0"), True)
         self.assertFalse(self.script("const map = new HeatMap(scene.report, () => {}); map.draw(); "
-                                     "return map.pairs.some(p => map.colour(p) === TOUCHING)"))
+                                     "return map.pairs.some(p => map.colour(p) === map.style.getPropertyValue('--touch'))"))
 
     def test_a_view_of_a_pair_that_is_not_there_shows_the_first(self):
         self.humanoid(view="#pair=9999&show=pair")

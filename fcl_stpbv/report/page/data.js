@@ -8,24 +8,25 @@ const mm = (value, digits = 2) => value === null || value === undefined ? '–' 
 const brief = value => String(Number(value.toPrecision(3)));
 
 // What is said of a checked pair whose distance is not above the report's margin.
-const hitWord = report => report.summary.margin ? `within ${brief(1e3 * report.summary.margin)} mm` : 'in collision';
+const hitWord = ({ summary: { margin } }) => margin ? `${margin > 0 ? 'within' : 'deeper than'} ${brief(1e3 * Math.abs(margin))} mm` : 'in collision';
 
 // How to shorten one of several names until it `fits`: by what all of them begin with, then by what all end with, then in the middle.
 function shortener(names) {
-  const same = at => { let k = 0; while (names.every(name => at(name, k) && at(name, k) === at(names[0], k))) ++k; return k; };
-  const few = k => names.length > 1 && k > 3 ? k : 0, begin = few(same((name, k) => name[k])), end = few(same((name, k) => name[name.length - 1 - k]));
+  const all = names.map(name => [...name]);  // letters, which may be two numbers long
+  const same = at => { let k = 0; while (all.length > 1 && all.every(name => at(name, k) && at(name, k) === at(all[0], k))) ++k; return k > 3 ? k : 0; };
+  const begin = same((name, k) => name[k]), end = same((name, k) => name[name.length - 1 - k]);
   return (name, fits) => {
     if (fits(name)) return name;
-    const part = (from, to) => `${from ? '…' : ''}${name.slice(from, name.length - to)}${to ? '…' : ''}`;
-    const last = Math.max(0, Math.min(end, name.length - begin - 1));
+    const letters = [...name], part = (from, to) => `${from ? '…' : ''}${letters.slice(from, letters.length - to).join('')}${to ? '…' : ''}`;
+    const last = Math.max(0, Math.min(end, letters.length - begin - 1));
     for (let k = 1; k <= begin; ++k) if (fits(part(k, 0))) return part(k, 0);
     for (let k = 1; k <= last; ++k) if (fits(part(begin, k))) return part(begin, k);
-    const letters = [...part(begin, last)];
-    for (let keep = letters.length - 1; keep > 2; --keep) {
-      const head = Math.ceil(0.4 * keep), text = `${letters.slice(0, head).join('')}…${letters.slice(head - keep).join('')}`;
+    const rest = [...part(begin, last)];
+    for (let keep = rest.length - 1; keep > 2; --keep) {
+      const head = Math.ceil(0.4 * keep), text = `${rest.slice(0, head).join('')}…${rest.slice(head - keep).join('')}`;
       if (fits(text)) return text;
     }
-    return letters[0];
+    return rest[0];
   };
 }
 

@@ -102,11 +102,11 @@ function describe(pair, report) {
   byId('detail').replaceChildren(namesOf(pair), tags, facts, slopes);
 }
 
-// Where on the trajectory's chart the chosen pair is closest.
-function markTime(time) {
+// Where on the trajectory's chart the chosen pair is closest: a share of the whole time, none of a pair that was not followed.
+function markTime(share) {
   const chart = document.querySelector('#trajectory svg'), line = chart && chart.querySelector('#chosen');
   if (!line) return;
-  const { begin, end, left, right } = chart.dataset, x = Number(left) + (right - left) * (time - begin) / (end - begin);
+  const { left, right } = chart.dataset, x = share === undefined ? -9 : Number(left) + share * (right - left);
   line.setAttribute('x1', x);
   line.setAttribute('x2', x);
 }
@@ -151,7 +151,7 @@ async function main() {
     table.mark(i);
     map.mark(i);
     describe(pairs[i], report);
-    markTime(pairs[i].time);
+    markTime(pairs[i].time_share);
     if (scene) scene.select(pairs[i], isolate);
     document.body.dataset.selected = i;
   };
