@@ -17,6 +17,7 @@
 #include "fcl_stpbv/parts/mesh_solid.h"
 #include "fcl_stpbv/robot/file_ending.h"
 #include "fcl_stpbv/robot/mesh_file.h"
+#include "fcl_stpbv/text_cells.h"
 #include "fcl_stpbv/volume/tessellate.h"
 #include "fcl_stpbv/volume/verify.h"
 
@@ -162,11 +163,12 @@ void write(const Report& report, const ConversionOptions& options) {
 std::string toText(const Report& report) {
   const StpBv& body = *report.volume;
   const auto millimetres = [](double metres) { return number(1e3 * metres) + " mm"; };
-  std::string text = report.input + " -> " + report.output + "\n  " + std::to_string(report.points) +
-                     " points in, " + std::to_string(body.vertexCount()) + " vertices, " +
-                     std::to_string(body.edgeCount()) + " edges, " + std::to_string(body.faceCount()) +
-                     " faces; volume " + number(report.cubicMetres) + " m^3\n  over-cover max " +
-                     millimetres(report.overCover.max) + ", mean " + millimetres(report.overCover.mean);
+  std::string text = detail::printable(report.input + " -> " + report.output) + "\n  " +
+                     std::to_string(report.points) + " points in, " + std::to_string(body.vertexCount()) +
+                     " vertices, " + std::to_string(body.edgeCount()) + " edges, " +
+                     std::to_string(body.faceCount()) + " faces; volume " + number(report.cubicMetres) +
+                     " m^3\n  over-cover max " + millimetres(report.overCover.max) + ", mean " +
+                     millimetres(report.overCover.mean);
   if (report.buildSeconds > 0) text += detail::formatted("; built in %.3f s", report.buildSeconds);
   if (report.verified == true) text += "; verified";
   if (report.advice)

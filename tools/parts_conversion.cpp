@@ -12,6 +12,7 @@
 #include "fcl_stpbv/io/atomic_write.h"
 #include "fcl_stpbv/io/volume_files.h"
 #include "fcl_stpbv/robot/mesh_file.h"
+#include "fcl_stpbv/text_cells.h"
 #include "fcl_stpbv/volume/tessellate.h"
 #include "fcl_stpbv/volume/verify.h"
 #include "tools/output_plan.h"
@@ -90,7 +91,7 @@ std::string toText(const PartsReport& report) {
   const ConvexParts& parts = report.parts;
   const std::size_t count = parts.parts.size();
   std::string text =
-      report.input + " -> " + report.outputs.front() + (count > 1 ? " ..." : "") + "\n  " +
+      detail::printable(report.input + " -> " + report.outputs.front()) + (count > 1 ? " ..." : "") + "\n  " +
       std::to_string(count) + (count == 1 ? " part; " : " parts; ") + std::to_string(parts.closedPieces) +
       " of " + std::to_string(parts.pieces) + (parts.pieces == 1 ? " piece closed, " : " pieces closed, ") +
       (parts.closedPieces > 0 ? "their inside is covered" : "the triangles alone are covered") +

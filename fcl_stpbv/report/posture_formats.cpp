@@ -6,6 +6,7 @@
 
 #include "fcl_stpbv/formatted.h"
 #include "fcl_stpbv/report/text_table.h"
+#include "fcl_stpbv/text_cells.h"
 
 namespace fcl_stpbv::report {
 namespace {
@@ -34,7 +35,8 @@ std::map<std::string, int> partsOf(const PostureReport& report) {
 
 std::string bulleted(const std::vector<Violation>& violations) {
   std::string text;
-  for (const Violation& v : violations) text += "  " + v.name + formatted(": %.3g", v.amount) + "\n";
+  for (const Violation& v : violations)
+    text += "  " + detail::printable(v.name) + formatted(": %.3g", v.amount) + "\n";
   return text;
 }
 
@@ -46,10 +48,12 @@ std::string toText(const PostureReport& report) {
   for (const CheckedPair& pair : report.pairs) obstacles += pair.obstacle;
   std::string text = posture.feasible ? "feasible" : "not feasible";
   text += " (" + posture.status + "): " + run(posture) + "\n";
-  for (const std::string& shape : report.skipped) text += "LEFT OUT, NOT CHECKED: " + shape + "\n";
+  for (const std::string& shape : report.skipped)
+    text += "LEFT OUT, NOT CHECKED: " + detail::printable(shape) + "\n";
   text += formatted("%zu pair%s, %zu with obstacles\n", report.pairs.size(),
                     report.pairs.size() == 1 ? "" : "s", obstacles);
-  for (const auto& [body, count] : partsOf(report)) text += body + formatted(" in %d parts\n", count);
+  for (const auto& [body, count] : partsOf(report))
+    text += detail::printable(body) + formatted(" in %d parts\n", count);
   if (report.withoutCollisions)
     text += std::string("without collisions ") +
             (report.withoutCollisions->feasible ? "feasible: " : "not feasible: ") +
@@ -58,10 +62,11 @@ std::string toText(const PostureReport& report) {
     text += "violated in the best posture found (m, rad):\n" + bulleted(posture.violations);
     text +=
         "cannot hold together, with what each misses where all miss least:\n" + bulleted(posture.conflict);
-    for (const std::string& limit : posture.conflictLimits) text += "  at its limit: " + limit + "\n";
+    for (const std::string& limit : posture.conflictLimits)
+      text += "  at its limit: " + detail::printable(limit) + "\n";
   }
   if (!posture.active.empty()) text += "active:\n";
-  for (const std::string& name : posture.active) text += "  " + name + "\n";
+  for (const std::string& name : posture.active) text += "  " + detail::printable(name) + "\n";
   TextTable values("lr");
   for (int i = 0; i < report.kinematics->size(); ++i)
     values.add({report.kinematics->names()[static_cast<std::size_t>(i)], detail::fixed(posture.q[i], 6)});
