@@ -1,6 +1,7 @@
 // Numbers and names as text, by printf's patterns.
 #pragma once
 
+#include <cstddef>
 #include <cstdio>
 #include <string>
 
@@ -26,6 +27,11 @@ inline std::string fixed(double value, int decimals) {
 inline std::string signedFixed(double value, int decimals) {
   const std::string text = fixed(value, decimals);
   return text.front() == '-' ? text : "+" + text;
+}
+
+/// "1 pair", "2 pairs".
+inline std::string counted(std::size_t count, const std::string& thing) {
+  return std::to_string(count) + " " + thing + (count == 1 ? "" : "s");
 }
 
 }  // namespace fcl_stpbv::detail

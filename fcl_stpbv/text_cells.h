@@ -15,6 +15,10 @@ namespace fcl_stpbv::detail {
 struct Glyph {
   std::size_t bytes;
   int cells;
+
+  bool shown() const { return cells >= 0; }
+  /// What cannot be shown counts as one cell.
+  std::size_t width() const { return shown() ? static_cast<std::size_t>(cells) : 1; }
 };
 
 /// Reads UTF-8 whatever the program's locale is, of this thread alone, while it lives.
@@ -44,13 +48,13 @@ class Utf8Reader {
   locale_t old_;
 };
 
-/// Cells that the text takes; what cannot be shown counts as one.
+/// Cells that the text takes.
 inline std::size_t cellsOf(const std::string& text) {
   const Utf8Reader reader;
   std::size_t cells = 0;
   for (std::size_t i = 0; i < text.size();) {
     const Glyph glyph = reader.glyph(text, i);
-    cells += glyph.cells < 0 ? 1 : static_cast<std::size_t>(glyph.cells);
+    cells += glyph.width();
     i += glyph.bytes;
   }
   return cells;
@@ -63,9 +67,9 @@ inline std::string fittedInto(std::size_t most, const std::string& text) {
   std::size_t cells = 0;
   for (std::size_t i = 0; i < text.size();) {
     const Glyph glyph = reader.glyph(text, i);
-    cells += glyph.cells < 0 ? 1 : static_cast<std::size_t>(glyph.cells);
+    cells += glyph.width();
     if (cells > most) break;
-    fitted += glyph.cells < 0 ? "?" : text.substr(i, glyph.bytes);
+    fitted += glyph.shown() ? text.substr(i, glyph.bytes) : "?";
     i += glyph.bytes;
   }
   return fitted;

@@ -92,8 +92,8 @@ std::string toText(const PartsReport& report) {
   const std::size_t count = parts.parts.size();
   std::string text =
       detail::printable(report.input + " -> " + report.outputs.front()) + (count > 1 ? " ..." : "") + "\n  " +
-      std::to_string(count) + (count == 1 ? " part; " : " parts; ") + std::to_string(parts.closedPieces) +
-      " of " + std::to_string(parts.pieces) + (parts.pieces == 1 ? " piece closed, " : " pieces closed, ") +
+      detail::counted(count, "part") + "; " + std::to_string(parts.closedPieces) + " of " +
+      detail::counted(static_cast<std::size_t>(parts.pieces), "piece") + " closed, " +
       (parts.closedPieces > 0 ? "their inside is covered" : "the triangles alone are covered") +
       "\n  hulls within " + millimetres(parts.excess) + " of the mesh's solid, " +
       millimetres(parts.openExcess) + " of its triangles\n  volumes within " +

@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/formatted.h"
 #include "fcl_stpbv/robot/package_path.h"
 #include "tools/number_check.h"
 #include "tools/output_plan.h"
@@ -231,8 +232,7 @@ void tellAll(const std::string& program, const std::vector<std::string>& skipped
     tell(program, text);
   }
   if (more > 0)
-    tell(program, "... and " + std::to_string(more) + (more == 1 ? " more warning" : " more warnings") +
-                      " (--top; the JSON has all)");
+    tell(program, "... and " + detail::counted(more, "more warning") + " (--top; the JSON has all)");
 }
 
 void checkOutput(const std::string& path, const report::RobotFiles& robot,

@@ -15,7 +15,7 @@ FCL_STPBV_VECTORIZED
 bool oppositeSegments(const ShapePair& p, OppositePoints& found) {
   if (p.a.kind != ShapeKind::segment || p.b.kind != ShapeKind::segment) return false;
   const Packed axis = p.pose.rotation.axis(2), &middle = p.pose.translation, z{0, 0, 1, 0};
-  const auto within = [](double x, double half) { return std::min(std::max(x, -half), half); };
+  const auto within = [](double x, double half) { return std::clamp(x, -half, half); };
   const double cosine = axis[2], sine2 = axis[0] * axis[0] + axis[1] * axis[1],
                across = axis[0] * middle[0] + axis[1] * middle[1];
   double s = within(sine2 > 0.0 ? middle[2] - cosine * across / sine2 : middle[2], p.a.half);

@@ -119,10 +119,7 @@ Nearest nearestOnTriangle(ShapeQuery& q, const Vector3d& a, const Vector3d& b, c
 bool certified(ShapeQuery& q, const Nearest& found) {
   if (!found.apart) return false;
   const SupportPoint view = viewVolume(q.body, found.n, found.patch, q.steps);
-  if (!q.shape.unbounded()) {
-    const Vector3d w = q.facing(found.n);
-    if (found.n.dot(found.y - w) > q.rounding.gap) return false;
-  }
+  if (found.n.dot(found.y - q.facing(found.n)) > q.rounding.gap) return false;
   const Vector3d difference = found.y - view.point;
   const double across = (difference - difference.dot(found.n) * found.n).norm();
   // Or the points' distance is the gap: where rounding moves a point along a rim, or a generator.

@@ -50,8 +50,7 @@ std::string toText(const PostureReport& report) {
   text += " (" + posture.status + "): " + run(posture) + "\n";
   for (const std::string& shape : report.skipped)
     text += "LEFT OUT, NOT CHECKED: " + detail::printable(shape) + "\n";
-  text += formatted("%zu pair%s, %zu with obstacles\n", report.pairs.size(),
-                    report.pairs.size() == 1 ? "" : "s", obstacles);
+  text += detail::counted(report.pairs.size(), "pair") + formatted(", %zu with obstacles\n", obstacles);
   for (const auto& [body, count] : partsOf(report))
     text += detail::printable(body) + formatted(" in %d parts\n", count);
   if (report.withoutCollisions)

@@ -12,6 +12,7 @@
 namespace fcl_stpbv::report {
 namespace {
 
+using detail::counted;
 using detail::fixed;
 using detail::formatted;
 using detail::signedFixed;
@@ -26,11 +27,6 @@ std::string steepest(const PairReport& pair) {
 }
 
 std::string millimetres(double metres) { return formatted("%.3f", metres * kMm); }
-
-// "1 pair", "2 pairs".
-std::string counted(std::size_t count, const std::string& thing) {
-  return std::to_string(count) + " " + thing + (count == 1 ? "" : "s");
-}
 
 // What a list cut after `top` lines ends with.
 std::string unshown(std::size_t all, std::size_t top) {

@@ -145,10 +145,10 @@ std::string TrajectoryReport::timeText(double time, bool down) const {
   const double way = std::max(time - trajectory.time.front(), 1e-7);
   const int decimals = std::clamp(static_cast<int>(std::ceil(5 - std::log10(way))), 0, 12);
   const double unit = std::pow(10.0, -decimals);
-  std::string text = detail::formatted("%.*f", decimals, down ? unit * std::floor(time / unit) : time);
+  std::string text = detail::fixed(down ? unit * std::floor(time / unit) : time, decimals);
   if (decimals > 0) text.erase(std::max(text.find_last_not_of('0'), text.find('.') - 1) + 1);
   if (text.back() == '.') text.pop_back();
-  return (text == "-0" ? "0" : text) + (trajectory.timed ? " s" : "");
+  return text + (trajectory.timed ? " s" : "");
 }
 
 TrajectoryReport follow(Trajectory trajectory, std::shared_ptr<const Kinematics> kinematics,

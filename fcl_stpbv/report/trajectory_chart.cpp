@@ -29,9 +29,7 @@ struct Ticks {
     const double first = step * std::ceil(from / step - 1e-9);
     for (int i = 0; i < 20 && first + i * step <= to + 1e-9 * step; ++i) draw(first + i * step);
   }
-  std::string label(double value) const {
-    return formatted("%.*f", decimals, step * std::round(value / step) + 0.0);
-  }
+  std::string label(double value) const { return detail::fixed(value, decimals); }
 };
 
 /// An SVG as it grows: lines and words in pixels.

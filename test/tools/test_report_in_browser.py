@@ -160,6 +160,11 @@ class Browser(unittest.TestCase):
         """The table's rows as they are shown, each a list of its cells' texts."""
         return self.script("return [...document.querySelectorAll('#table tbody tr')].map(r => [...r.cells].map(c => c.textContent))")
 
+    def states(self):
+        """Both names of each row and what is said of the pair once it is selected."""
+        return self.script("""return [...document.querySelectorAll('#table tbody tr')].map(row => {
+          row.click(); return [row.cells[0].textContent, row.cells[1].textContent, document.querySelector('.tag').textContent]; })""")
+
     def pixels(self):
         return self.browser.execute_async_script(COUNT_PIXELS)
 
@@ -370,8 +375,7 @@ class Page(Browser):
         chart = self.script("return [...document.querySelectorAll('#trajectory text')].map(t => t.textContent)")
         for words in ("not decided from here", "time [s]", "least distance [mm]", "closest: 0 mm"):
             self.assertIn(words, chart)
-        states = self.script("""return [...document.querySelectorAll('#table tbody tr')].map(row => {
-          row.click(); return [row.cells[0].textContent, row.cells[1].textContent, document.querySelector('.tag').textContent]; })""")
+        states = self.states()
         self.assertEqual([state for state in states if "floor" in state], [["foot", "floor", "not decided"], ["arm", "floor", "clear"]])
         # A contact of another pair ends the proof: of the ball nothing more is known.
         wall = shape.format("wall", 0.6, '<box size="2 1 0.1"/>')
@@ -379,8 +383,7 @@ class Page(Browser):
                         + '<joint name="w" type="fixed"><parent link="floor"/><child link="wall"/></joint></robot>')
         self.open(urdf, "--obstacles", both, "--trajectory", way)
         self.assertIn("contact\ntrajectory", self.browser.find_element(By.ID, "figures").text)
-        states = self.script("""return [...document.querySelectorAll('#table tbody tr')].map(row => {
-          row.click(); return [row.cells[0].textContent, row.cells[1].textContent, document.querySelector('.tag').textContent]; })""")
+        states = self.states()
         self.assertIn(["arm", "wall", "in collision"], states)
         self.assertIn(["foot", "floor", "not decided"], states)
 

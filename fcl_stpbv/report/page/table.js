@@ -13,6 +13,8 @@ const COLUMNS = [
 
 const COVERS_ONLY = ['hull only', 'margin only'];  // causes that the meshes have no part in
 
+const PADDING = 12;  // of a cell, both sides (pixels)
+
 const STATES = {
   checked: ['checked', p => p.checked],
   colliding: ['', p => p.checked && p.colliding],  // named as the report does
@@ -53,7 +55,7 @@ class PairTable {
   // As wide as the longest content of a column needs, in pixels, names up to a limit. A wider table shares out the rest, in a
   // narrower one names give way.
   widthOf(column) {
-    const most = 190, padding = 12, style = getComputedStyle(byId('table'));
+    const most = 190, style = getComputedStyle(byId('table'));
     const pen = document.createElement('canvas').getContext('2d');
     const widest = (weight, texts) => {
       pen.font = `${weight} ${style.fontSize} ${style.fontFamily}`;
@@ -62,7 +64,7 @@ class PairTable {
     if (column.name) this.textWidth = text => widest('400', [text]);
     const cells = new Set(this.pairs.map(p => cellText(column, p)));
     const width = Math.max(widest('600', column.label.split(' ')), widest(column.key === 'distance' ? '650' : '400', cells));
-    return Math.min(most, padding + Math.ceil(width));
+    return Math.min(most, PADDING + Math.ceil(width));
   }
 
   makeHead() {
@@ -80,6 +82,7 @@ class PairTable {
     }
   }
 
+  // Takes what is missing from the other words first, then from the names.
   fit() {
     let over = this.columns.reduce((sum, column) => sum + column.width, 0) - byId('tablebox').clientWidth;
     const widths = new Map(this.columns.map(column => [column, column.width]));
@@ -95,7 +98,7 @@ class PairTable {
       const short = new Map();
       this.rows.forEach((row, i) => {
         const name = this.pairs[i][column.key];
-        if (!short.has(name)) short.set(name, this.shorten(name, text => this.textWidth(text) <= widths.get(column) - 12));
+        if (!short.has(name)) short.set(name, this.shorten(name, text => this.textWidth(text) <= widths.get(column) - PADDING));
         row.children[k].textContent = short.get(name);
       });
     });
