@@ -58,7 +58,8 @@ RayHit rayHit(const Vector3d& a, const Vector3d& b, const Vector3d& c, const Vec
 // Solid angle of a triangle seen from the origin, signed (van Oosterom and Strackee 1983), in whole turns.
 double turnsAround(const Vector3d& a, const Vector3d& b, const Vector3d& c) {
   const double la = a.norm(), lb = b.norm(), lc = c.norm();
-  return std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb) / kTwoPi;
+  return std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb) /
+         detail::kTwoPi;
 }
 
 }  // namespace

@@ -15,6 +15,7 @@ namespace {
 using detail::counted;
 using detail::fixed;
 using detail::formatted;
+using detail::printable;
 using detail::signedFixed;
 
 constexpr double kMm = 1e3;
