@@ -41,8 +41,9 @@ bool shapeOf(const fcl::CollisionGeometryd& geometry, Shape& shape) {
       return true;
     }
     case fcl::GEOM_CONVEX: {
-      const auto& vertices = static_cast<const fcl::Convexd&>(geometry).getVertices();
-      shape = Shape::polytopeOf(vertices.data(), static_cast<int>(vertices.size()));
+      const auto& g = static_cast<const fcl::Convexd&>(geometry);
+      const auto& vertices = g.getVertices();
+      shape = Shape::polytopeOf(vertices.data(), static_cast<int>(vertices.size()), g.getInteriorPoint());
       return true;
     }
     case fcl::GEOM_HALFSPACE: {

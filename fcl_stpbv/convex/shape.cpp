@@ -58,14 +58,18 @@ Shape Shape::triangleOf(const Vector3d& a, const Vector3d& b, const Vector3d& c)
   return s;
 }
 
-Shape Shape::polytopeOf(const Vector3d* vertices, int count) {
+Shape Shape::polytopeOf(const Vector3d* vertices, int count, const Vector3d& middle) {
+  constexpr double kSame = 1e-12;  // of the reach: both are means, summed in different orders
   Shape s;
   s.kind = ShapeKind::polytope;
   s.vertices = vertices;
   s.vertexCount = count;
   if (count < 1) return s;
-  s.centre = detail::middleOf(vertices, count);
-  s.reach = detail::reachFrom(s.centre, vertices, count);
+  const detail::Spread all = detail::spreadAbout(middle, vertices, count);
+  const double off = (all.middle - middle).norm();
+  s.centre = all.middle;
+  const bool same = off < kSame * all.reach;  // never of infinite ones
+  s.reach = same ? all.reach + off : detail::spreadAbout(all.middle, vertices, count).reach;
   return s;
 }
 

@@ -50,8 +50,10 @@ struct Shape {
   static Shape boxOf(const Eigen::Vector3d& sides);
   /// A triangle by its corners.
   static Shape triangleOf(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c);
-  /// The convex hull of `count` points, at least one, which stay the caller's.
-  static Shape polytopeOf(const Eigen::Vector3d* vertices, int count);
+  /// The convex hull of `count` points, at least one, which stay the caller's. `middle`: their mean, where it
+  /// is known; that saves a second look at all of them.
+  static Shape polytopeOf(const Eigen::Vector3d* vertices, int count,
+                          const Eigen::Vector3d& middle = Eigen::Vector3d::Zero());
   /// A cylinder about the z axis, from -length/2 to length/2.
   static Shape cylinderOf(double radius, double length);
   /// A cone about the z axis: base at -length/2, apex at length/2.

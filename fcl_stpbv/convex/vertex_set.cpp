@@ -16,52 +16,45 @@ namespace {
 
 /// Coordinates of four vertices.
 struct Four {
+  using Two = double __attribute__((vector_size(16)));
   Packed x, y, z;
 
   explicit Four(const Vector3d* vertices) {
-    Packed a, b, c;
-    std::memcpy(&a, vertices[0].data(), sizeof a);
-    std::memcpy(&b, vertices[0].data() + 4, sizeof b);
-    std::memcpy(&c, vertices[0].data() + 8, sizeof c);
-    x = __builtin_shufflevector(__builtin_shufflevector(a, b, 0, 3, 6, 6), c, 0, 1, 2, 5);
-    y = __builtin_shufflevector(__builtin_shufflevector(a, b, 1, 4, 7, 7), c, 0, 1, 2, 6);
-    z = __builtin_shufflevector(__builtin_shufflevector(a, b, 2, 5, 5, 5), c, 0, 1, 4, 7);
+    // Loaded by twos, each number in the half of the register where it stays: no shuffle goes across.
+    const double* numbers = vertices[0].data();
+    const auto twos = [&](int i, int k) {
+      Two low, high;
+      std::memcpy(&low, numbers + i, sizeof low);
+      std::memcpy(&high, numbers + k, sizeof high);
+      return __builtin_shufflevector(low, high, 0, 1, 2, 3);
+    };
+    const Packed xy = twos(0, 6), zx = twos(2, 8), yz = twos(4, 10);
+    x = __builtin_shufflevector(xy, zx, 0, 5, 2, 7);
+    y = __builtin_shufflevector(xy, yz, 1, 4, 3, 6);
+    z = __builtin_shufflevector(zx, yz, 0, 5, 2, 7);
   }
   Packed along(const Vector3d& d) const { return d.x() * x + d.y() * y + d.z() * z; }
 };
 
 }  // namespace
 
-// Sums need no coordinate side by side with its like: of four vertices twelve numbers are added as they come.
 FCL_STPBV_VECTORIZED
-Vector3d middleOf(const Vector3d* vertices, int count) {
-  Packed a{}, b{}, c{};
-  int i = 0;
-  for (; i + 4 <= count; i += 4) {
-    const double* numbers = vertices[i].data();
-    Packed p, q, r;
-    std::memcpy(&p, numbers, sizeof p);
-    std::memcpy(&q, numbers + 4, sizeof q);
-    std::memcpy(&r, numbers + 8, sizeof r);
-    a += p, b += q, c += r;
-  }
-  Vector3d sum(a[0] + a[3] + b[2] + c[1], a[1] + b[0] + b[3] + c[2], a[2] + b[1] + c[0] + c[3]);
-  for (; i < count; ++i) sum += vertices[i];
-  return sum / count;
-}
-
-FCL_STPBV_VECTORIZED
-double reachFrom(const Vector3d& point, const Vector3d* vertices, int count) {
-  Packed most{};
+Spread spreadAbout(const Vector3d& point, const Vector3d* vertices, int count) {
+  Packed most{}, sumX{}, sumY{}, sumZ{};
   int i = 0;
   for (; i + 4 <= count; i += 4) {
     const Four four(vertices + i);
     const Packed x = four.x - point.x(), y = four.y - point.y(), z = four.z - point.z();
     most = larger(x * x + y * y + z * z, most);
+    sumX += four.x, sumY += four.y, sumZ += four.z;
   }
-  double reach2 = largest(most);
-  for (; i < count; ++i) reach2 = std::max(reach2, (vertices[i] - point).squaredNorm());
-  return std::sqrt(reach2);
+  const Packed sum = sums(sumX, sumY, sumZ, sumZ);
+  Spread all{unpack(sum), largest(most)};
+  for (; i < count; ++i) {
+    all.middle += vertices[i];
+    all.reach = std::max(all.reach, (vertices[i] - point).squaredNorm());
+  }
+  return {all.middle / count, std::sqrt(all.reach)};
 }
 
 FCL_STPBV_VECTORIZED
@@ -71,14 +64,19 @@ int furthestAlong(const Vector3d& d, const Vector3d* vertices, int count) {
   if (count >= 4) {
     Packed height = Four(vertices).along(d);
     PackedBits where{0, 1, 2, 3};
-    PackedBits at = where;
-    for (i = 4; i + 4 <= count; i += 4) {
-      const Packed next = Four(vertices + i).along(d);
-      at += 4;
+    const auto take = [&](const Packed& next, const PackedBits& at) {
       const PackedBits higher = next > height;
       where = higher ? at : where;
       height = higher ? next : height;
+    };
+    PackedBits at = where + 4;
+    // Twice four are compared among themselves first: that need not wait for those before them.
+    for (i = 4; i + 8 <= count; i += 8, at += 8) {
+      const Packed one = Four(vertices + i).along(d), other = Four(vertices + i + 4).along(d);
+      const PackedBits later = other > one;
+      take(later ? other : one, later ? at + 4 : at);
     }
+    for (; i + 4 <= count; i += 4, at += 4) take(Four(vertices + i).along(d), at);
     best = static_cast<int>(where[0]), most = height[0];
     for (int k = 1; k < 4; ++k)
       if (height[k] > most || (height[k] == most && where[k] < best))
@@ -119,14 +117,19 @@ int notBelow(const Vector3d& v, const Vector3d& n, double chord, const Vector3d*
   const auto take = [&](int which) {
     if (many++ < room) found[many - 1] = vertices[which];
   };
-  for (; i + 4 <= count; i += 4) {
-    Four w(vertices + i);
+  const auto signOf = [&](Four w) {
     w.x -= x, w.y -= y, w.z -= z;
-    const Packed height = nx * w.x + ny * w.y + nz * w.z,
-                 sign = height * larger(height, -height) + chord2 * (w.x * w.x + w.y * w.y + w.z * w.z);
-    if (largest(sign) < 0.0) continue;
+    const Packed height = nx * w.x + ny * w.y + nz * w.z, size = fromBits(bitsOf(height) & ~kSign);
+    return height * size + chord2 * (w.x * w.x + w.y * w.y + w.z * w.z);
+  };
+  const auto takeOf = [&](const Packed& sign, int first) {
     for (int k = 0; k < 4; ++k)
-      if (!(sign[k] < 0.0)) take(i + k);
+      if (!(sign[k] < 0.0)) take(first + k);
+  };
+  for (; i + 8 <= count; i += 8) {
+    const Packed one = signOf(Four(vertices + i)), other = signOf(Four(vertices + i + 4));
+    if (largest(larger(one, other)) < 0.0) continue;
+    takeOf(one, i), takeOf(other, i + 4);
   }
   for (; i < count; ++i) {
     const Vector3d w = vertices[i] - v;

@@ -5,11 +5,13 @@
 
 namespace fcl_stpbv::detail {
 
-/// Their middle, a point of their hull (m).
-Eigen::Vector3d middleOf(const Eigen::Vector3d* vertices, int count);
-
-/// How far the furthest of them is from `point` (m).
-double reachFrom(const Eigen::Vector3d& point, const Eigen::Vector3d* vertices, int count);
+/// The mean of the vertices, no number where one of theirs is none, and how far the furthest of them is from
+/// a given point.
+struct Spread {
+  Eigen::Vector3d middle;  ///< (m)
+  double reach;            ///< (m)
+};
+Spread spreadAbout(const Eigen::Vector3d& point, const Eigen::Vector3d* vertices, int count);
 
 /// The one furthest along `d` (any length), the first of several. At least one vertex.
 int furthestAlong(const Eigen::Vector3d& d, const Eigen::Vector3d* vertices, int count);

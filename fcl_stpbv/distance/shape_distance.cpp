@@ -128,7 +128,8 @@ struct Solution {
 
 /// A point of the shape in a ball that the volume's core holds.
 bool surelyOverlap(const ShapeQuery& q) {
-  return awayFromCentre(q, true).most < q.body.innerRadius() - q.rounding.across;
+  const double within = q.body.innerRadius() - q.rounding.across;
+  return awayFromCentre(q, within).most < within;
 }
 
 /// Of cores that overlap.

@@ -102,9 +102,9 @@ struct Span {
   double least, most;
 };
 
-/// The signed distance of the volume's centre from the shape's core, to rounding. Of a polytope the most is
-/// nearer after a look at all corners.
-Span awayFromCentre(const ShapeQuery& q, bool looksAtCorners);
+/// The signed distance of the volume's centre from the shape's core, to rounding. All corners of a polytope
+/// are looked at, which tells more of the most, if it may be less than `enough` (m).
+Span awayFromCentre(const ShapeQuery& q, double enough);
 
 /// Any feature that has a gradient, from a start.
 template <typename Feature>

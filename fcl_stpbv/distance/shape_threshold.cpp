@@ -10,6 +10,7 @@
 #include "fcl_stpbv/distance/shape_distance.h"
 #include "fcl_stpbv/distance/shape_query.h"
 #include "fcl_stpbv/distance/threshold.h"
+#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/vectorized.h"
 
 namespace fcl_stpbv::detail {
@@ -23,8 +24,8 @@ bool isFartherByBounds(double x, const StpBv& volume, const Isometry3d& poseVolu
   const RelativePose pose(poseVolume, poseShape);
   if (!shape.valid() || !pose.valid) return false;
   const ShapeQuery q(volume, shape, pose);
-  if (awayFromCentre(q, false).least - volume.enclosingRadius() - shape.margin - q.rounding.certificate > x)
-    return true;
+  const double around = volume.enclosingRadius() + shape.margin + q.rounding.certificate;
+  if (awayFromCentre(q, -kInfinity).least > x + around) return true;
   const Vector3d last = pose.toWorld.inverse(cache.direction());
   if (last.isZero(0) || shape.unbounded()) return false;
   int ignored = 0;
@@ -47,8 +48,9 @@ bool isFartherThan(double x, const StpBv& volume, const Isometry3d& poseVolume, 
   };
   ShapeQuery q(volume, shape, pose);
   const double margins = volume.radii().r + shape.margin, rounding = q.rounding.certificate;
-  const Span away = awayFromCentre(q, true);
-  if (away.least - volume.enclosingRadius() - shape.margin - rounding > x) return true;
+  const double beyond = x + volume.enclosingRadius() + shape.margin + rounding;
+  const Span away = awayFromCentre(q, beyond);
+  if (away.least > beyond) return true;
   if (away.most - volume.innerRadius() - margins + rounding <= x) return false;
   if (shape.unbounded()) return isDistanceFarther();
 

@@ -209,7 +209,7 @@ int startingPatch(const ShapeQuery& q, const StartNormal& start, KnownFeatures& 
 }  // namespace
 
 FCL_STPBV_VECTORIZED
-Span awayFromCentre(const ShapeQuery& q, bool looksAtCorners) {
+Span awayFromCentre(const ShapeQuery& q, double enough) {
   const Packed x = q.pose.rotation.inverse(pack(q.body.centre()) - q.pose.translation);
   if (q.shape.unbounded()) {
     const Packed n = pack(q.shape.normal);
@@ -224,8 +224,8 @@ Span awayFromCentre(const ShapeQuery& q, bool looksAtCorners) {
   const Packed d = few ? wayFrom(f, x) : x - pack(q.shape.centre);
   const double length = std::sqrt(dot(d, d));
   if (few) return {length, length};
-  if (looksAtCorners &&
-      q.shape.kind == ShapeKind::polytope) {  // from its centre to the corner that faces `x`
+  if (q.shape.kind == ShapeKind::polytope && length - q.shape.reach < enough) {
+    // From its centre to the corner that faces `x`.
     const Packed corner = pack(q.shape.support(unpack(d))), along = corner - pack(q.shape.centre);
     const double t = std::min(dot(d, along) / std::max(dot(along, along), 1e-300), 1.0);
     const Packed rest = d - t * along;

@@ -33,8 +33,9 @@ TEST_CASE("vertices four at a time: their middle, the furthest from a point and 
         most = std::max(most, d.dot(v));
       }
       CAPTURE(count, i);
-      CHECK((middleOf(vertices.data(), count) - sum / count).norm() <= 1e-15);
-      CHECK(reachFrom(point, vertices.data(), count) == Approx(reach).margin(1e-15).epsilon(0));
+      const Spread spread = spreadAbout(point, vertices.data(), count);
+      CHECK((spread.middle - sum / count).norm() <= 1e-15);
+      CHECK(spread.reach == Approx(reach).margin(1e-15).epsilon(0));
       const int best = furthestAlong(d, vertices.data(), count);
       REQUIRE((best >= 0 && best < count));
       CHECK(d.dot(vertices[static_cast<std::size_t>(best)]) >= most - 2e-16);
@@ -56,6 +57,40 @@ TEST_CASE("vertices four at a time: their middle, the furthest from a point and 
         const auto first = std::find_if(vertices.begin(), vertices.end(),
                                         [&](const Vector3d& v) { return d.dot(v) == most; });
         CHECK(best == first - vertices.begin());
+      }
+    }
+}
+
+TEST_CASE("what a polytope's mean is said to be changes neither its ball nor whether it is valid") {
+  constexpr double kInf = std::numeric_limits<double>::infinity(),
+                   kNaN = std::numeric_limits<double>::quiet_NaN();
+  Random random(3);
+  for (const int count : {1, 3, 4, 5, 8, 13, 162})
+    for (const double away : {0.0, 1e6}) {
+      Cloud vertices;
+      Vector3d mean(0, 0, 0);
+      for (int k = 0; k < count; ++k) {
+        vertices.push_back(random.direction() + Vector3d(away, 0, 0));
+        mean += vertices.back() / count;
+      }
+      const double rounding = 1e-15 * (count + 10) * (1 + away);
+      const Vector3d shift(1e-13, 0, 0), farther(1e-3, 0, 0);
+      for (const Vector3d& said : {mean, Vector3d(mean + shift), Vector3d(mean + farther), Vector3d(0, 0, 0),
+                                   Vector3d(1e300, 0, 0), Vector3d(kNaN, 0, 0), Vector3d(0, kInf, 0)}) {
+        const Shape shape = Shape::polytopeOf(vertices.data(), count, said);
+        CAPTURE(count, away, said.transpose());
+        CHECK(shape.valid());
+        CHECK((shape.centre - mean).norm() <= rounding);
+        double reach = 0;
+        for (const Vector3d& v : vertices) reach = std::max(reach, (v - shape.centre).norm());
+        CHECK(shape.reach >= reach - 1e-15 * (1 + reach));
+        CHECK(shape.reach <= reach + 1e-11);
+        for (int k = 0; k < count; k += 1 + count / 7)  // a vertex that is no number, wherever it is
+          for (const double wrong : {kNaN, kInf, -kInf}) {
+            Cloud broken = vertices;
+            broken[static_cast<std::size_t>(k)][k % 3] = wrong;
+            CHECK(!Shape::polytopeOf(broken.data(), count, said).valid());
+          }
       }
     }
 }
