@@ -237,7 +237,8 @@ MotionAnswer firstContact(const CollisionGeometryd& geometry1, const SteadyMotio
   const bool begins = pair.look(0, 0, ignored);
   result.answer = pair.answer;
   result.queries = 1;
-  if (pair.answer.status == DistanceStatus::invalid) return pair.hasNothing() ? kMeetsNothing : result;
+  if (pair.hasNothing()) return kMeetsNothing;
+  if (pair.answer.status == DistanceStatus::invalid) return result;
   if (begins) {
     result.verdict = MotionVerdict::contact;
     return result;

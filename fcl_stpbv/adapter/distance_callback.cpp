@@ -1,7 +1,8 @@
 // The callback for FCL's broadphase managers, for each pair that they offer
 // and the caller does not leave out:
 // 1. ask fcl_stpbv::distance, from the pair's cache if the caller keeps one;
-// 2. keep the answer if it is the closest, or deepest, so far;
+// 2. keep the answer if it is the closest, or deepest, so far, or if there is none: nothing is nearer than
+//    what was not checked;
 // 3. return a bound above 0, so that the manager goes on to overlapping pairs.
 #include "fcl_stpbv/adapter/distance_callback.h"
 
@@ -21,10 +22,8 @@ bool distanceCallback(fcl::CollisionObjectd* object1, fcl::CollisionObjectd* obj
     context.finite = query.finite;
     if (query.caches) context.cache = &query.caches->of(object1, object2);
     const DistanceAnswer answer = distance(*object1, *object2, context);
-    if (answer.status == DistanceStatus::invalid)
-      ++query.invalid;
-    else if (answer.distance < query.result.distance)
-      query.result = answer;
+    query.invalid += answer.status == DistanceStatus::invalid;
+    if (answer.distance < query.result.distance) query.result = answer;  // of no answer minus infinity
   }
   // Above 0, so that pairs of overlapping boxes are still asked (their distance is 0, and FCL
   // prunes by `<`). Below the largest double, at which the sweeping managers begin and which

@@ -44,8 +44,10 @@ class PairCaches {
 struct DistanceData {
   /// For code that shares FCL's callback data; nothing in it changes the answer.
   fcl::DistanceRequestd request = fcl::DistanceRequestd(true);
-  DistanceAnswer result;  ///< the closest pair so far; `distance` is the largest double before the first
-  bool done = false;      ///< set it to stop the search
+  /// The closest pair so far; `distance` is the largest double before the first. Once a pair has no answer
+  /// that pair, which `object` names: status `invalid`, distance minus infinity.
+  DistanceAnswer result;
+  bool done = false;  ///< set it to stop the search
   /// Stop at the first pair in contact, as FCL's own callback does; else the deepest pair is found.
   bool stopAtContact = false;
   PairCaches* caches = nullptr;          ///< optional: makes repeated queries of a slowly moving scene faster
@@ -57,7 +59,7 @@ struct DistanceData {
   std::function<bool(const fcl::CollisionObjectd*, const fcl::CollisionObjectd*)> leaveOut = nullptr;
   bool finite = false;      ///< as QueryContext's
   std::size_t pairs = 0;    ///< pairs asked
-  std::size_t invalid = 0;  ///< of these, pairs without an answer, left out of the result
+  std::size_t invalid = 0;  ///< of these, pairs without an answer
 
   /// Forgets everything found, keeps the settings, caches and counts.
   void clear() {

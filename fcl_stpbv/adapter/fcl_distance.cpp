@@ -11,6 +11,7 @@
 #include "fcl_stpbv/adapter/nearest_pair.h"
 #include "fcl_stpbv/adapter/polyhedral_witness.h"
 #include "fcl_stpbv/distance/shape_distance.h"
+#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/vectorized.h"
 
 namespace fcl_stpbv {
@@ -118,6 +119,7 @@ FCL_STPBV_VECTORIZED
 DistanceAnswer inFclTerms(const Distance& found, const Transform3d& pose1, const Transform3d& pose2) {
   DistanceAnswer answer;
   answer.status = found.status;
+  answer.distance = -kInfinity;  // of no answer: no comparison takes it for clear
   if (found.status == DistanceStatus::invalid) return answer;
   answer.distance = found.distance;
   answer.lower = found.lower;

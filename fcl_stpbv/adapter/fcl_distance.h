@@ -44,8 +44,11 @@ constexpr bool isDouble = std::is_same<S, double>::value;
 
 /// Answer about two FCL geometries. World frame, metres.
 struct DistanceAnswer {
-  DistanceStatus status = DistanceStatus::invalid;          ///< how good the answer is
-  double distance = std::numeric_limits<double>::max();     ///< signed; in [lower, upper]
+  DistanceStatus status = DistanceStatus::invalid;  ///< how good the answer is
+  /// Signed; in [lower, upper]. Minus infinity where the status is `invalid`, so that no comparison takes it
+  /// for clear; the largest double of a tree whose cells are all free, and before a pair was asked
+  /// (DistanceData).
+  double distance = std::numeric_limits<double>::max();
   double lower = -std::numeric_limits<double>::infinity();  ///< certified lower bound (m)
   double upper = std::numeric_limits<double>::infinity();   ///< certified upper bound (m)
   Eigen::Vector3d normal{0, 0, 0};  ///< unit, from geometry 1 to 2; zero where it is not known

@@ -55,7 +55,7 @@ template <class Ask>
 bool askBoth(const fcl::CollisionGeometryd& geometry1, const fcl::Transform3d& pose1,
              const fcl::CollisionGeometryd& geometry2, const fcl::Transform3d& pose2, const DistanceAnswer& d,
              const Ask& ask) {
-  if (d.status == DistanceStatus::invalid) return false;
+  if (d.status == DistanceStatus::invalid || d.normal.isZero(0)) return false;
   const StpBvGeometry* a = asStpBv(&geometry1);
   const StpBvGeometry* b = asStpBv(&geometry2);
   Distance found;

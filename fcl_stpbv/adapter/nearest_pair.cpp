@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 
 #include "fcl_stpbv/adapter/posed_geometry.h"
 #include "fcl_stpbv/convex/relative_pose.h"
@@ -49,6 +50,8 @@ class NearestElements {
   /// Whether there is a nearest pair, and its element of the first geometry.
   bool any() const { return result_.found.status != DistanceStatus::invalid; }
   const Part& first() const { return first_; }
+  /// Whether no element came up, once both hierarchies have been gone through: all cells are free.
+  bool foundNothing() const { return !any() && !unknown_; }
 
   double bound(const Part& a, const Part& b) {
     if (surfaces_) {
@@ -83,7 +86,7 @@ class NearestElements {
     ++result_.solved;
     if (found.status == DistanceStatus::invalid) {  // an element that is no body: nothing is known
       result_ = {};
-      return true;
+      return unknown_ = true;
     }
     Distance& best = result_.found;
     bounds(found);
@@ -201,8 +204,16 @@ class NearestElements {
   std::size_t planes_ = 0, oldest_ = 1;
   PairCache* cache_;
   long patience_ = 0;
-  bool noneNearer_ = false;
+  bool noneNearer_ = false, unknown_ = false;
 };
+
+/// As far as numbers go, and FCL's own value for this.
+ElementsDistance nothingThere() {
+  ElementsDistance answer;
+  answer.found.status = DistanceStatus::exact;
+  answer.found.distance = answer.found.lower = std::numeric_limits<double>::max();
+  return answer;
+}
 
 /// Both hierarchies from their roots, two surfaces after a start from near elements.
 void search(const PosedPair& pair, NearestElements& nearest) {
@@ -223,8 +234,9 @@ ElementsDistance nearestElements(const fcl::CollisionGeometryd& geometry1, const
                                  bool finite, const KnownTrees& trees, PairCache* cache) {
   const PosedPair pair(geometry1, pose1, geometry2, pose2, finite, trees);
   NearestElements nearest(pair, cache);
-  if (pair.valid && (finite || pair.finite())) search(pair, nearest);
-  return nearest.result();
+  if (!pair.valid || !(finite || pair.finite())) return {};
+  search(pair, nearest);
+  return nearest.foundNothing() ? nothingThere() : nearest.result();
 }
 
 }  // namespace fcl_stpbv::detail

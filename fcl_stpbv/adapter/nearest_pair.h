@@ -24,10 +24,10 @@ struct ElementsDistance {
 
 /// A mesh or a tree against an STP-BV or a shape: signed, the least over its elements. Two of them: 0 where
 /// they overlap, for surfaces have no depth, with the first two elements found to meet and a point of both;
-/// `bounded` where it is open whether needles meet. `invalid` where either has nothing in it or a corner that
-/// is no number, unless the caller knows that all are (`finite`), or a pose is not rigid. Allocates nothing
-/// but boxes in place of those that FCL has merged, unless `trees` has them. The cache serves pairs with an
-/// STP-BV.
+/// `bounded` where it is open whether needles meet. Of a tree whose cells are all free the largest double.
+/// `invalid` where either has nothing in it or a corner that is no number, unless the caller knows that all
+/// are (`finite`), or a pose is not rigid. Allocates nothing but boxes in place of those that FCL has merged,
+/// unless `trees` has them. The cache serves pairs with an STP-BV.
 ElementsDistance nearestElements(const fcl::CollisionGeometryd& geometry1, const Eigen::Isometry3d& pose1,
                                  const fcl::CollisionGeometryd& geometry2, const Eigen::Isometry3d& pose2,
                                  bool finite, const KnownTrees& trees = {}, PairCache* cache = nullptr);

@@ -64,10 +64,14 @@ void checkInput(const std::vector<Vector3d>& points, const StpBvOptions& options
 void checkRadius(const std::vector<Vector3d>& points, const StpBvOptions& options) {
   const Ball ball = minimumEnclosingBall(points);
   const double rho = options.R - options.r;
+  constexpr double kLink = 5.0;  // m: a larger link than any robot's is most likely in other units
   if (points.size() > 1 && rho <= ball.radius)
     throw Error("R = " + number(options.R) +
                 " m is too small: the smallest usable R for these points with r = " + number(options.r) +
-                " m is " + usableR(options.r, ball.radius) + " m");
+                " m is " + usableR(options.r, ball.radius) + " m" +
+                (ball.radius > kLink ? " (a ball around them has a radius of " + number(ball.radius) +
+                                           " m: are they in millimetres?)"
+                                     : ""));
   // A face of size s bulges by about s^2 / (8 R): past s / epsilon that is far below the rounding of its
   // points. The smallest of clouds, a few roundings wide, still takes what any robot does.
   constexpr double kAlways = 1e8;  // m

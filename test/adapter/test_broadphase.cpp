@@ -208,18 +208,37 @@ TEST_CASE("other geometries in the scene are answered by FCL and marked") {
   }
 }
 
-TEST_CASE("pairs without an answer are counted and left out") {
+TEST_CASE("a pair without an answer is the result, whatever else is near") {
   const auto cube = std::make_shared<StpBvGeometry>(StpBv::build(box(0.2, 0.2, 0.2)));
   fcl::CollisionObjectd a(cube), b(cube, pose(Eigen::Matrix3d::Identity(), {0.5, 0, 0})), broken(cube);
-  Eigen::Isometry3d nowhere = Eigen::Isometry3d::Identity();
+  Eigen::Isometry3d nowhere = Eigen::Isometry3d::Identity(), skew = nowhere;
   nowhere.translation()[1] = std::nan("");
-  broken.setTransform(nowhere);
-  DistanceData data;
-  double dist = std::numeric_limits<double>::max();
-  CHECK_FALSE(distanceCallback(&a, &broken, &data, dist));
-  CHECK(data.invalid == 1);
-  CHECK(dist < std::numeric_limits<double>::max());
-  CHECK_FALSE(distanceCallback(&a, &b, &data, dist));
-  CHECK(dist == data.result.distance);
-  CHECK(data.pairs == 2);
+  skew.linear() *= 1.0 + 1e-5;
+  skew.translation()[1] = 0.24;
+  for (const Eigen::Isometry3d& wrong : {nowhere, skew})
+    for (const bool first : {true, false}) {
+      broken.setTransform(wrong);
+      DistanceData data;
+      double dist = std::numeric_limits<double>::max();
+      const auto ask = [&](fcl::CollisionObjectd& other) {
+        CHECK_FALSE(distanceCallback(&a, &other, &data, dist));
+        CHECK((dist > 0 && dist < std::numeric_limits<double>::max()));
+      };
+      if (first) ask(broken);
+      ask(b);
+      if (first) CHECK(data.result.status == DistanceStatus::invalid);
+      if (!first) {
+        CHECK(dist == data.result.distance);
+        ask(broken);
+      }
+      CHECK(data.result.status == DistanceStatus::invalid);
+      CHECK(data.result.distance == -std::numeric_limits<double>::infinity());
+      CHECK(data.result.object[1] == &broken);
+      CHECK(data.invalid == 1);
+      CHECK(data.pairs == 2);
+      CHECK(toFclResult(data.result).min_distance == -1);
+      data.clear();
+      data.stopAtContact = true;
+      CHECK(distanceCallback(&a, &broken, &data, dist));
+    }
 }

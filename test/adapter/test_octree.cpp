@@ -14,6 +14,7 @@
 
 #include "fcl_stpbv/adapter/collide.h"
 #include "fcl_stpbv/adapter/continuous_collide.h"
+#include "fcl_stpbv/adapter/distance_callback.h"
 #include "fcl_stpbv/adapter/fcl_distance.h"
 #include "test/reference/fcl_bodies.h"
 #include "test/reference/trials.h"
@@ -113,7 +114,7 @@ TEST_CASE("distances, contacts and thresholds beside a map are those of its occu
   CHECK((hits > trials(100) && apart > trials(60)));
 }
 
-TEST_CASE("a tree of free cells alone has no distance to anything, and meets nothing") {
+TEST_CASE("a tree of free cells alone is nowhere near anything, and meets nothing") {
   const auto cells = std::make_shared<octomap::OcTree>(0.1);
   cells->updateNode(octomap::point3d(0.3F, 0.1F, 0.2F), false);
   cells->updateNode(octomap::point3d(1.3F, 0.1F, 0.2F), false);
@@ -121,12 +122,20 @@ TEST_CASE("a tree of free cells alone has no distance to anything, and meets not
   auto others = bodies();
   others.push_back(std::make_shared<fcl::OcTreed>(Map(Marks::current).cells));
   others.push_back(std::make_shared<fcl::OcTreed>(cells));
-  const Isometry3d here = at(0, 0, 0);
+  constexpr double kFar = std::numeric_limits<double>::max();
+  const Isometry3d here = at(0, 0, 0), nowhere = at(std::numeric_limits<double>::quiet_NaN(), 0, 0);
   SteadyMotion still, past;
   past.linear = {1, 0, 0};
   for (const auto& other : others) {
-    CHECK(distance(*other, here, tree, here).status == DistanceStatus::invalid);
-    CHECK(distance(tree, here, *other, here).status == DistanceStatus::invalid);
+    for (const bool first : {true, false}) {
+      const DistanceAnswer d =
+          first ? distance(tree, here, *other, here) : distance(*other, here, tree, here);
+      CHECK(d.status == DistanceStatus::exact);
+      CHECK((d.distance == kFar && d.lower == kFar && d.upper > kFar));
+      CHECK((d.normal.isZero(0) && d.gradient[0].isZero(0) && d.gradient[1].isZero(0)));
+      CHECK(toFclResult(d).min_distance == kFar);  // as FCL's own
+    }
+    CHECK(distance(tree, here, *other, nowhere).status == DistanceStatus::invalid);
     CHECK(isFartherThan(0.0, tree, here, *other, here));
     fcl::CollisionResultd none;
     CHECK(collide(&tree, here, other.get(), here, {1, true}, none) == 0);
@@ -152,5 +161,21 @@ TEST_CASE("space known to be free costs a query nothing") {
       CHECK(work(known) <= work(unknown) + 8);
       if (body->getNodeType() != fcl::BV_OBBRSS) CHECK(work(known) < 250);
     }
+}
+TEST_CASE("a scene's free map hides nothing else in it") {
+  const auto cells = std::make_shared<octomap::OcTree>(kCell);
+  cells->updateNode(octomap::point3d(0.1F, 0, 0), false);
+  const auto tree = std::make_shared<fcl::OcTreed>(cells);
+  fcl::CollisionObjectd map(tree), ball(std::make_shared<fcl::Sphered>(0.1)),
+      box(std::make_shared<fcl::Boxd>(0.2, 0.2, 0.2), at(1, 0, 0)),
+      none(std::make_shared<fcl::Sphered>(-1.0));
+  DistanceData data;
+  double dist = std::numeric_limits<double>::max();
+  distanceCallback(&map, &ball, &data, dist);
+  distanceCallback(&ball, &box, &data, dist);
+  CHECK(data.result.distance == Approx(0.8).margin(1e-15));
+  CHECK(data.invalid == 0);
+  distanceCallback(&map, &none, &data, dist);  // not even the map is clear of a body that is none
+  CHECK(data.result.distance == -std::numeric_limits<double>::infinity());
 }
 #endif

@@ -217,8 +217,13 @@ TEST_CASE("The builder says what is wrong with its input and what would work") {
   CHECK_THROWS_WITH(StpBv::build(good, {nan, 10}), Catch::Contains("small radius"));
   CHECK_THROWS_WITH(StpBv::build(good, {0.5, 0.5}), Catch::Contains("larger than r"));
   CHECK_THROWS_WITH(StpBv::build(good, {0.01, nan}), Catch::Contains("big radius"));
-  CHECK_THROWS_WITH(StpBv::build(good, {0.01, 0.3}),
-                    Catch::Contains("smallest usable R") && Catch::Contains("0.3841657"));
+  CHECK_THROWS_WITH(StpBv::build(good, {0.01, 0.3}), Catch::Contains("smallest usable R") &&
+                                                         Catch::Contains("0.3841657") &&
+                                                         !Catch::Contains("millimetres"));
+  const double side = 600;  // of a link in other units
+  CHECK_THROWS_WITH(StpBv::build({{0, 0, 0}, {side, 0, 0}, {0, side, 0}}),
+                    Catch::Contains("smallest usable R") && Catch::Contains("424.26") &&
+                        Catch::Contains("are they in millimetres?"));
 }
 
 TEST_CASE("The R that a refusal states works, however large r is beside the cloud") {
