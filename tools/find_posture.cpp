@@ -1,5 +1,6 @@
 // find_posture: joint values for a task, free of collisions, or which of
 // its constraints cannot hold together.
+#include <algorithm>
 #include <memory>
 #include <tuple>
 
@@ -31,7 +32,9 @@ constexpr const char* kDescription =
 
 constexpr const char* kFooter =
     R"(TASK is a JSON file: where to start, what to place where, contacts for static stability, pairs to keep apart
-(docs/posture.md). Lengths are in metres, angles in radians.
+(docs/posture.md). Lengths are in metres, angles in radians. The hand of an arm that is bolted down to a point, in any
+direction:
+  {"base": "fixed", "placements": [{"link": "hand", "target": {"position": [0.4, 0.2, 0.5]}, "free": ["rx", "ry", "rz"]}]}
 
 Examples:
   find_posture robot.urdf task.json --srdf robot.srdf --obstacles fridge.urdf
@@ -95,6 +98,10 @@ std::unique_ptr<PostureParts> load(const Arguments& a, PostureReport& report) {
   std::tie(report.task, scene) =
       withBaseAtOrigin(report.task, scene);  // all that follows takes it from there
   report.warnings = loader.warnings();
+  if (!report.task.saysBase)
+    report.warnings.push_back(a.task +
+                              ": it does not say how the robot's base moves, which is taken to be free: "
+                              "\"base\": \"fixed\" bolts it down, \"floating\" says that it is free");
   report.skipped = loader.skipped();
   const bool split = report.task.partsAuto || report.task.parts > 1;
   if (!a.quiet) tellAll(kProgram, report.skipped, report.warnings);
@@ -116,6 +123,12 @@ int run(Arguments& a) {
   report.kinematics = setup.problem->sharedKinematics();
   report.posture = parts && !a.careless ? parts->find(setup, a.options) : findPosture(setup, a.options);
   report.pairs = setup.pairs;
+  const std::vector<NamedDistance> distances =
+      distancesOf(report.pairs, report.scene, report.kinematics, report.posture.q);
+  const auto closest = std::min_element(
+      distances.begin(), distances.end(),
+      [](const NamedDistance& p, const NamedDistance& q) { return p.distance < q.distance; });
+  if (closest != distances.end()) report.closest = *closest;
   std::vector<std::string> more;
   if (a.careless) more = collisionsOf(report);
   if (const std::string beyond = limitWarning(a.task + ": start", {setup.start}, *report.kinematics,

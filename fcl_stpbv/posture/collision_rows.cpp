@@ -20,18 +20,26 @@ void CollisionRows::evaluate(const Point& at, Eigen::Ref<Eigen::VectorXd> values
   }
 }
 
-std::vector<Violation> nearerThan(double margin, const std::vector<CheckedPair>& pairs,
-                                  const PostureScene& scene, std::shared_ptr<const Kinematics> kinematics,
-                                  const Eigen::VectorXd& q) {
-  std::vector<Violation> found;
+std::vector<NamedDistance> distancesOf(const std::vector<CheckedPair>& pairs, const PostureScene& scene,
+                                       std::shared_ptr<const Kinematics> kinematics,
+                                       const Eigen::VectorXd& q) {
+  std::vector<NamedDistance> found;
   if (pairs.empty()) return found;
   ConstraintOptions options;
   options.obstacles = scene.obstacles;
   CollisionConstraints distances(std::move(kinematics), scene.geometry, pairs, std::move(options));
   Eigen::VectorXd d(distances.rows());
   distances.evaluate(q, d);
-  for (int row = 0; row < d.size(); ++row)
-    if (!(d[row] >= margin)) found.push_back({distances.name(row), margin - d[row]});
+  for (int row = 0; row < d.size(); ++row) found.push_back({distances.name(row), d[row]});
+  return found;
+}
+
+std::vector<Violation> nearerThan(double margin, const std::vector<CheckedPair>& pairs,
+                                  const PostureScene& scene, std::shared_ptr<const Kinematics> kinematics,
+                                  const Eigen::VectorXd& q) {
+  std::vector<Violation> found;
+  for (const NamedDistance& pair : distancesOf(pairs, scene, std::move(kinematics), q))
+    if (!(pair.distance >= margin)) found.push_back({pair.name, margin - pair.distance});
   return found;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "fcl_stpbv/posture/problem.h"
@@ -29,6 +30,17 @@ class CollisionRows : public PostureRows {
   Eigen::VectorXd entries_;
   long queries_ = 0;
 };
+
+/// A pair of bodies and how far it is apart.
+struct NamedDistance {
+  std::string name;
+  double distance;  ///< signed (m)
+};
+
+/// Of all pairs in a configuration, in their order.
+std::vector<NamedDistance> distancesOf(const std::vector<CheckedPair>& pairs, const PostureScene& scene,
+                                       std::shared_ptr<const Kinematics> kinematics,
+                                       const Eigen::VectorXd& q);
 
 /// The pairs of bodies that are nearer than the margin (m), in their order, and by how much.
 std::vector<Violation> nearerThan(double margin, const std::vector<CheckedPair>& pairs,

@@ -159,6 +159,7 @@ struct LinkObstacles {
 struct PostureTask {
   std::string path;                        ///< for messages
   BaseMotion base = BaseMotion::floating;  ///< how the base moves
+  bool saysBase = true;                    ///< whether the file says so, or it is the default
   std::string state;                       ///< SRDF state to start from; "" for the neutral configuration
   /// Of the root link, at the start; for good where the base is fixed. A planar one keeps its height, and
   /// has no roll or pitch.

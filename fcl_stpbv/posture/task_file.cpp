@@ -204,7 +204,8 @@ PostureTask parseTask(const std::string& text, const std::string& path) {
   root.object({"base", "start", "cost", "placements", "stability", "collisions"});
   PostureTask task;
   task.path = path;
-  if (root.has("base")) {
+  task.saysBase = root.has("base");
+  if (task.saysBase) {
     const std::string base = root["base"].oneOf({"floating", "planar", "fixed"});
     task.base = base == "floating" ? BaseMotion::floating
                 : base == "planar" ? BaseMotion::planar

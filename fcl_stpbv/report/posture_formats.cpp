@@ -1,6 +1,7 @@
 // A posture as text and as JSON.
 #include "fcl_stpbv/report/posture_formats.h"
 
+#include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -51,6 +52,10 @@ std::string toText(const PostureReport& report) {
   for (const std::string& shape : report.skipped)
     text += "LEFT OUT, NOT CHECKED: " + detail::printable(shape) + "\n";
   text += detail::counted(report.pairs.size(), "pair") + formatted(", %zu with obstacles\n", obstacles);
+  if (report.closest)
+    text += "closest: " + detail::printable(report.closest->name) +
+            formatted(", %.4g mm %s\n", 1e3 * std::abs(report.closest->distance),
+                      report.closest->distance < 0 ? "deep" : "apart");
   for (const auto& [body, count] : partsOf(report))
     text += detail::printable(body) + formatted(" in %d parts\n", count);
   if (report.withoutCollisions)
@@ -94,6 +99,9 @@ std::string toJson(const PostureReport& report) {
                           {"active", posture.active},
                           {"conflict", list(posture.conflict)},
                           {"conflict_limits", posture.conflictLimits}};
+  document["closest"] = nullptr;
+  if (report.closest)
+    document["closest"] = {{"pair", report.closest->name}, {"distance", report.closest->distance}};
   if (report.withoutCollisions)
     document["without_collisions"] = {{"feasible", report.withoutCollisions->feasible},
                                       {"seconds", report.withoutCollisions->seconds},

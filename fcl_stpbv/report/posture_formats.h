@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "fcl_stpbv/posture/collision_rows.h"
 #include "fcl_stpbv/posture/find_posture.h"
 
 namespace fcl_stpbv::report {
@@ -15,6 +16,7 @@ struct PostureReport {
   std::shared_ptr<const Kinematics> kinematics;
   std::vector<CheckedPair> pairs;
   Posture posture;
+  std::optional<detail::NamedDistance> closest;  ///< in the posture; nothing without pairs
   std::vector<std::string> warnings;
   std::vector<std::string> skipped;          ///< shapes left out as wrong, which nothing was checked against
   std::optional<Posture> withoutCollisions;  ///< the same task with no pair checked, where there are pairs

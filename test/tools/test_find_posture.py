@@ -295,6 +295,34 @@ class FindPosture(unittest.TestCase):
         flat = self.run_tool(ARM, REACH, "--format", "json", "--primitives", "flat")
         self.assertEqual(json.loads(flat.stdout)["pairs"], 14)
 
+    def test_an_answer_says_how_close_the_closest_pair_is(self):
+        run = self.run_tool(ARM, REACH, "--format", "json")
+        closest = json.loads(run.stdout)["closest"]
+        page = page_data(self.run_tool(ARM, REACH, "--format", "html").stdout)
+        pair = page["pairs"][0]  # the closest comes first
+        self.assertIn(closest["pair"], (f"{pair['link1']} - {pair['link2']}", f"{pair['link2']} - {pair['link1']}"))
+        self.assertAlmostEqual(closest["distance"], pair["min_distance"], 8)  # the page rounds
+        text = self.run_tool(ARM, REACH).stdout
+        self.assertRegex(text, f"closest: {closest['pair']}, {1e3 * abs(closest['distance']):.4g} mm (apart|deep)\n")
+        self.assertEqual(closest["distance"] < 0, " mm deep" in text)
+
+    def test_a_base_that_the_task_does_not_name_is_free_and_said_to_be(self):
+        with open(REACH, encoding="utf-8") as file:
+            task = json.load(file)
+        for base in (None, "floating", "fixed"):
+            task.pop("base", None)
+            if base:
+                task["base"] = base
+            path = os.path.join(self.folder.name, "base.json")
+            with open(path, "w", encoding="utf-8") as file:
+                json.dump(task, file)
+            run = self.run_tool(ARM, path, "--format", "json")
+            self.assertEqual(run.returncode, 0, run.stderr)
+            said = [w for w in json.loads(run.stdout)["warnings"] if "how the robot's base moves" in w]
+            self.assertEqual(len(said), 0 if base else 1)
+            self.assertEqual("how the robot's base moves" in run.stderr, not base)
+            self.assertEqual("base/x" in json.loads(run.stdout)["q"], base != "fixed")
+
     def test_every_pair_has_a_smooth_body_and_r_fits_the_link_as_in_the_report(self):
         def page(*arguments):
             run = self.run_tool(ARM, REACH, "--format", "html", *arguments)
