@@ -238,6 +238,8 @@ void addProof(py::module_& module) {
                        long boxes) {
              requireCount(boxes, 0, "boxes");
              PairProof proof{boxesOf(open), std::nullopt, boxes};
+             if (collision && !collision->value.allFinite())
+               throw Error("collision: a value is not a finite number");
              if (collision) proof.collision = collision->value;
              return proof;
            }),

@@ -41,7 +41,8 @@ void widenFollowed(std::vector<JointModel>& joints) {
       leader.upper = std::min(std::max(leader.upper, high), kLargestValue);
     } else {
       long& all = turns.emplace(follower.mimic->joint, 1).first->second;
-      all = std::lcm(all, static_cast<long>(turnsOf(ratio)));  // 0 stays 0
+      all = std::lcm(all, static_cast<long>(turnsOf(ratio)));       // 0 stays 0
+      if (kPi * static_cast<double>(all) > kLargestValue) all = 0;  // before the next would overflow
     }
   }
   for (const auto& [joint, all] : turns) {

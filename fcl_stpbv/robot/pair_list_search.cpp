@@ -203,8 +203,9 @@ class Search {
           std::max<double>(static_cast<double>(open.proof.open.front().lower.size()), movingJoints(entry));
       const double share = std::min(1.0, kUsual / joints);
       descents *= std::pow(share, 2);
-      if (advance(open, std::lround(static_cast<double>(options_.proofBoxes) * std::pow(share, 3))))
-        return std::nullopt;
+      constexpr double kUnlimited = 1e18;  // a whole number of any size is less than the largest long
+      const double boxes = static_cast<double>(options_.proofBoxes) * std::pow(share, 3);
+      if (advance(open, std::lround(std::min(boxes, kUnlimited)))) return std::nullopt;
     }
     // Each pair has its own random numbers, whatever became of those before it.
     std::mt19937_64 random(options_.seed +
@@ -246,7 +247,9 @@ class Search {
     constexpr long kBoxesAtOnce = 500;  // some 10 ms
     const auto end = Clock::now() + std::chrono::duration<double>(options_.proofSeconds);
     const std::size_t all = open_.size();
-    for (long round = kBoxesAtOnce; !open_.empty() && options_.proofSeconds > 0; round *= 2) {
+    bool looked = options_.proofSeconds > 0;  // at any box in the last round
+    for (long round = kBoxesAtOnce; !open_.empty() && looked; round *= 2) {
+      looked = false;
       const auto decided = [&](Open& open) {
         tell("proofs", all - open_.size(), all);
         for (long boxes = 0; boxes < round; boxes += kBoxesAtOnce) {
@@ -254,6 +257,7 @@ class Search {
           const long before = open.proof.boxes;
           if (advance(open, kBoxesAtOnce)) return true;
           if (open.proof.boxes == before) return false;  // nothing a box could cover
+          looked = true;
         }
         return false;
       };

@@ -35,6 +35,7 @@ using Eigen::Index;
 using Eigen::Vector3d;
 
 constexpr double kEps = std::numeric_limits<double>::epsilon();
+constexpr double kNotKnown = std::numeric_limits<double>::lowest();  // PairSearch's, of poses too far to tell
 
 void requirePair(const ProofScene& scene, const LinkPair& pair) {
   const auto hasBody = [&](int link) {
@@ -62,6 +63,9 @@ void requireSize(const JointBox& box, Index coordinates) {
         "a proof's box has a lower limit above the upper one or not a number, so that it holds no "
         "configuration");
 }
+
+// Of limits whose sum may overflow.
+Eigen::VectorXd middleOf(const JointBox& box) { return 0.5 * box.lower + 0.5 * box.upper; }
 
 bool bounded(const JointBox& box) { return box.lower.allFinite() && box.upper.allFinite(); }
 
@@ -100,6 +104,7 @@ class Prover {
 
   Verdict look(const JointBox& box) {
     ask(box);
+    if (!(distance_ > kNotKnown)) return Verdict::unclear;
     if (distance_ <= scene_.margin) return Verdict::collision;
     return bound(scene_.margin) > scene_.margin ? Verdict::clear : Verdict::unclear;
   }
@@ -112,7 +117,7 @@ class Prover {
  private:
   // The distances in the box's middle.
   void ask(const JointBox& box) {
-    const Eigen::VectorXd middle = (box.lower + box.upper) / 2;
+    const Eigen::VectorXd middle = middleOf(box);
     // Rounded up: the differences are off by half a unit in the last place of the limits.
     half_ = (box.upper - middle).cwiseMax(middle - box.lower) * (1 + 4 * kEps);
     for (Index k = 0; k < middle.size(); ++k)
@@ -285,7 +290,7 @@ PairProof provePair(const ProofScene& scene, const LinkPair& pair, std::vector<J
     }
     JointBox other = box;
     const int k = prover.widest();
-    box.upper[k] = other.lower[k] = (box.lower[k] + box.upper[k]) / 2;
+    box.upper[k] = other.lower[k] = middleOf(box)[k];
     proof.open.push_back(std::move(other));
     proof.open.push_back(std::move(box));
   }
@@ -300,7 +305,8 @@ double distanceBound(const ProofScene& scene, const LinkPair& pair, const JointB
 
 PairProof merge(PairProof one, PairProof other) {
   PairProof both;
-  both.boxes = one.boxes + other.boxes;
+  constexpr long kMost = std::numeric_limits<long>::max();
+  both.boxes = one.boxes > kMost - other.boxes ? kMost : one.boxes + other.boxes;
   if (one.collision && other.collision)
     both.collision = before(*one.collision, *other.collision) ? one.collision : other.collision;
   else

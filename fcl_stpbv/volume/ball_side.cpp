@@ -20,6 +20,7 @@ using Quad = long double;  // already 113 bits on the platforms without __float1
 #endif
 
 constexpr double kQuadEpsilon = 1e-33;  // 2^-112 = 1.9e-34, with room
+static_assert(std::numeric_limits<long double>::digits >= 64, "a long double must hold 64 bits or more");
 constexpr double kLongEpsilon =
     std::numeric_limits<long double>::epsilon() * 8;  // a dozen roundings a formula
 

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <chrono>
+#include <limits>
 #include <set>
 
 #include "fcl_stpbv/robot/neutral_posture.h"
@@ -75,6 +77,28 @@ TEST_CASE("a pair that cannot meet is proven never, one that can comes with the 
       CHECK(ends.minDistance < 0);
     }
   }
+}
+
+TEST_CASE("a proof without a limit of boxes is a proof, and one that no box can bring on ends at once") {
+  const Arm arm = bars(1.0);
+  PairListOptions options;
+  options.samples = 10;
+  options.proofBoxes = std::numeric_limits<long>::max();
+  CHECK(pairList(arm.kinematics, arm.geometry, nullptr, options)[1].reason == PairReason::neverProven);
+  // Nothing bounds bodies across a planar joint.
+  const std::string ball = "<sphere radius=\"0.1\"/>";
+  const auto model = std::make_shared<const RobotModel>(
+      parseUrdf(robot(link("a", ball) + link("m", ball) + link("b", ball) +
+                      joint("p", "planar", "a", "m", "<origin xyz=\"0 0 1\"/><axis xyz=\"0 0 1\"/>") +
+                      joint("j", "revolute", "m", "b", "<origin xyz=\"0 0 0.5\"/><axis xyz=\"0 0 1\"/>")),
+                "planar.urdf"));
+  const Arm planar = armFrom(model, loadGeometry(*model));
+  options.proofBoxes = 200;
+  options.proofSeconds = 60;
+  const auto begin = std::chrono::steady_clock::now();
+  const std::vector<PairEntry> list = pairList(planar.kinematics, planar.geometry, nullptr, options);
+  CHECK(std::chrono::steady_clock::now() - begin < std::chrono::seconds(30));
+  CHECK(list[1].reason == PairReason::neverSampled);
 }
 
 TEST_CASE("a descent finds the collision that few samples miss") {

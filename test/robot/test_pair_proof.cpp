@@ -289,6 +289,26 @@ TEST_CASE("limits that a box sets itself make no bound across planar and floatin
   CHECK_FALSE(provePair(moving, {1, 0, true}, {box}, 100).proven());
 }
 
+TEST_CASE(
+    "limits next to the largest double are halved, and where nothing can be measured nothing collides") {
+  const std::string ball = "<sphere radius=\"0.1\"/>";
+  const ProofScene scene = proofSceneOf(
+      robot(link("a", ball) + link("b", ball) +
+            joint("slide", "prismatic", "a", "b", "<origin xyz=\"0 2 0\"/><axis xyz=\"1 0 0\"/>")));
+  for (const double far : {1e149, 1e300, 1e308, 1.7e308}) {
+    const JointBox box{Eigen::VectorXd::Constant(1, 0.9 * far), Eigen::VectorXd::Constant(1, far)};
+    const PairProof proof = provePair(scene, {0, 1}, {box}, 50);
+    CHECK_FALSE(proof.collision);
+    const JointBox both{-box.upper, box.upper};
+    const PairProof around = provePair(scene, {0, 1}, {both}, 50);
+    CHECK_FALSE(around.collision);
+    for (const JointBox& open : around.open) CHECK((open.lower.allFinite() && open.upper.allFinite()));
+  }
+  PairProof many;
+  many.boxes = std::numeric_limits<long>::max();
+  CHECK(merge(many, many).boxes == many.boxes);
+}
+
 TEST_CASE("a box in which a joint slides beyond its limits is not proven by levers within them") {
   // The ball on the slide meets the other one 2.9 m beyond the slide's limits.
   const std::string ball = "<geometry><sphere radius=\"0.1\"/></geometry></collision></link>";

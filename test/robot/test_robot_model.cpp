@@ -483,4 +483,13 @@ TEST_CASE("what follows a continuous joint at another speed reaches all of its p
   // A rack of the limits -1 and 1 (urdf_texts.h).
   CHECK(leader("prismatic", "0.02") == std::pair(-50.0, 50.0));
   CHECK(leader("prismatic", "5") == std::pair(-M_PI, M_PI));
+  // Of many followers all turns at once: 2^6 and the primes to 61 have a product of 1e23.
+  std::string gears = link("a") + link("b") + joint("j", "continuous", "a", "b");
+  for (const int teeth : {64, 61, 59, 53, 47, 43, 41, 37, 31, 29, 23, 19, 17, 13, 11, 7, 5, 3}) {
+    const std::string name = "g" + std::to_string(teeth);
+    gears += link(name) + joint("m" + name, "continuous", "a", name,
+                                "<mimic joint=\"j\" multiplier=\"" + std::to_string(1.0 / teeth) + "\"/>");
+  }
+  const RobotModel model = parse(gears);
+  CHECK((model.joints[0].lower == -1e6 && model.joints[0].upper == 1e6));
 }
