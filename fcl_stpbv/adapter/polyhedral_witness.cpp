@@ -33,8 +33,8 @@ constexpr double kMinWeight = 1e-12;
 Simplex<HullCorner> runFclGjk(PosedHulls& pair) {
   ccd_t ccd;
   CCD_INIT(&ccd);
-  ccd.support1 = &PosedHulls::ccdSupportA;
-  ccd.support2 = &PosedHulls::ccdSupportB;
+  ccd.support1 = &PosedHulls::ccdSupport<0>;
+  ccd.support2 = &PosedHulls::ccdSupport<1>;
   ccd.first_dir = &PosedHulls::ccdFirstDirection;
   ccd.max_iterations = kMaxSteps / 2;
   ccd_simplex_t found;
@@ -44,20 +44,21 @@ Simplex<HullCorner> runFclGjk(PosedHulls& pair) {
   Simplex<HullCorner> simplex;
   for (int i = 0; i < ccdSimplexSize(&found); ++i) {
     const ccd_support_t* corner = ccdSimplexPoint(&found, i);
-    const int va = pair.loggedVertexA(corner->v1), vb = pair.loggedVertexB(corner->v2);
-    simplex.add({pair.pointB(vb) - pair.pointA(va), -kInfinity, va, vb});
+    const std::array<int, 2> v{pair.loggedVertex<0>(corner->v1), pair.loggedVertex<1>(corner->v2)};
+    simplex.add({pair.point(1, v[1]) - pair.point(0, v[0]), -kInfinity, v});
   }
   return simplex;
 }
 
-/// The distinct vertices of one body in the simplex, heaviest first; how many.
-int verticesOf(const Simplex<HullCorner>& s, int HullCorner::*vertex, std::array<int, 3>& out) {
+/// The distinct vertices of A (0) or B (1) in the simplex, heaviest first; how many.
+int verticesOf(const Simplex<HullCorner>& s, std::size_t body, std::array<int, 3>& out) {
   std::array<double, 3> weight{};
   int count = 0;
   for (std::size_t i = 0; i < static_cast<std::size_t>(s.size); ++i) {
+    const int v = s.corner[i].vertex[body];
     std::size_t k = 0;
-    while (static_cast<int>(k) < count && out[k] != s.corner[i].*vertex) ++k;
-    if (static_cast<int>(k) == count) out[k] = s.corner[i].*vertex, ++count;
+    while (static_cast<int>(k) < count && out[k] != v) ++k;
+    if (static_cast<int>(k) == count) out[k] = v, ++count;
     weight[k] += s.weight[i];
   }
   for (std::size_t i = 1; static_cast<int>(i) < count; ++i)
@@ -109,17 +110,15 @@ PolyhedralWitness polyhedralWitness(const HullGraph& a, const Eigen::Isometry3d&
                    : found.upper <= 1e-12 ? Verdict::overlapping  // touching to rounding
                                           : Verdict::failed;
   const Simplex<HullCorner>& answer = found.simplex;
-  Vector3d pa(0, 0, 0), pb(0, 0, 0);
-  for (std::size_t i = 0; i < static_cast<std::size_t>(answer.size); ++i) {
-    pa += answer.weight[i] * pair.pointA(answer.corner[i].vertexA);
-    pb += answer.weight[i] * pair.pointB(answer.corner[i].vertexB);
+  const std::array<const HullGraph*, 2> hull{&a, &b};
+  for (std::size_t body = 0; body < 2; ++body) {
+    Vector3d p(0, 0, 0);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(answer.size); ++i)
+      p += answer.weight[i] * pair.point(body, answer.corner[i].vertex[body]);
+    result.point[body] = poseA * a.centre() + poseA.linear() * (metres * p);
+    const int count = verticesOf(answer, body, result.vertices[body]);
+    result.feature[body] = hull[body]->featureOf(result.vertices[body].data(), count);
   }
-  const Vector3d centre = poseA * a.centre();
-  result.point = {centre + poseA.linear() * (metres * pa), centre + poseA.linear() * (metres * pb)};
-  const int countA = verticesOf(answer, &HullCorner::vertexA, result.vertices[0]);
-  const int countB = verticesOf(answer, &HullCorner::vertexB, result.vertices[1]);
-  result.feature = {a.featureOf(result.vertices[0].data(), countA),
-                    b.featureOf(result.vertices[1].data(), countB)};
   return result;
 }
 

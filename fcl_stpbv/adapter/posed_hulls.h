@@ -1,21 +1,26 @@
-// Two hulls brought to one frame and one scale, and their Minkowski difference as libccd wants it.
+// Two hulls for libccd's GJK: scales the pair by a power of two to size about 1, because libccd's tolerances
+// are absolute, brings both into one frame, and answers libccd's callbacks for support points. The vertices
+// behind the points are logged, so that a simplex can name them afterwards.
 #pragma once
 
 #include <ccd/ccd.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "fcl_stpbv/convex/hull_graph.h"
 #include "fcl_stpbv/convex/relative_pose.h"
+#include "fcl_stpbv/numbers.h"
 
 namespace fcl_stpbv::detail {
 
-/// A point of the difference B - A, and the vertices that it is made of.
+/// A point of the difference B - A, and the vertices of A and B that it is made of.
 struct HullCorner {
   Eigen::Vector3d w{0, 0, 0};
   double gap = 0;
-  int vertexA = -1, vertexB = -1;
+  std::array<int, 2> vertex{-1, -1};
 };
 
 /// A pair of hulls in A's frame, origin at A's centre, lengths divided by a
@@ -27,7 +32,7 @@ class PosedHulls {
  public:
   PosedHulls(const HullGraph& a, const Eigen::Isometry3d& poseA, const HullGraph& b,
              const Eigen::Isometry3d& poseB, const std::array<int, 2>& startVertices)
-      : a_(a), b_(b), pose_(poseA, poseB), lastA_(startVertices[0]), lastB_(startVertices[1]) {
+      : hull_{&a, &b}, pose_(poseA, poseB), last_(startVertices) {
     if (!pose_.valid) return;
     offset_ = pose_.placed(pack(b.centre())) - pack(a.centre());
     fit();
@@ -43,34 +48,74 @@ class PosedHulls {
   /// The difference's point farthest against `n`, scaled: B's farthest point along -n minus A's along n.
   HullCorner support(const Eigen::Vector3d& n) {
     ++supports_;
-    const int va = climbA(n), vb = climbB(n);
-    const Eigen::Vector3d w = pointB(vb) - pointA(va);
-    return {w, n.dot(w), va, vb};
+    const std::array<int, 2> v{climb(0, n), climb(1, n)};
+    const Eigen::Vector3d w = point(1, v[1]) - point(0, v[0]);
+    return {w, n.dot(w), v};
   }
 
-  Eigen::Vector3d pointA(int v) const { return scale_ * a_.point(v); }
-  Eigen::Vector3d pointB(int v) const {
-    return unpack(offset_ + scale_ * (pose_.rotation * pack(b_.point(v))));
+  /// A vertex of A (0) or B (1), scaled.
+  Eigen::Vector3d point(std::size_t body, int v) const {
+    const Eigen::Vector3d& p = hull_[body]->point(v);
+    return body == 0 ? Eigen::Vector3d(scale_ * p) : unpack(offset_ + scale_ * (pose_.rotation * pack(p)));
   }
 
-  /// The same as callbacks for libccd, which sees both objects as this struct.
-  static void ccdSupportA(const void* pair, const ccd_vec3_t* direction, ccd_vec3_t* point);
-  static void ccdSupportB(const void* pair, const ccd_vec3_t* direction, ccd_vec3_t* point);
-  static void ccdFirstDirection(const void* pair, const void*, ccd_vec3_t* direction);
+  /// The same as callbacks for libccd, which sees both objects as this struct, and as const; these are ours
+  /// and live on one query's stack.
+  template <std::size_t body>
+  static void ccdSupport(const void* pair, const ccd_vec3_t* direction, ccd_vec3_t* point) {
+    auto& self = *const_cast<PosedHulls*>(static_cast<const PosedHulls*>(pair));
+    self.supports_ += body == 0;  // both are asked in turn
+    const Eigen::Vector3d d = fromCcd(*direction);
+    const int v = self.climb(body, body == 0 ? d : Eigen::Vector3d(-d));
+    self.log_[body].add(v);
+    toCcd(self.point(body, v), point);
+  }
+  static void ccdFirstDirection(const void* pair, const void*, ccd_vec3_t* direction) {
+    toCcd(static_cast<const PosedHulls*>(pair)->first_, direction);
+  }
 
   /// Direction libccd's search begins with (any length).
   void setFirstDirection(const Eigen::Vector3d& n) { first_ = n; }
 
-  /// The vertices behind a support point that libccd holds: of those it was given, the nearest.
-  int loggedVertexA(const ccd_vec3_t& point) const;
-  int loggedVertexB(const ccd_vec3_t& point) const;
+  /// The vertex behind a support point that libccd holds: of those it was given, the nearest.
+  template <std::size_t body>
+  int loggedVertex(const ccd_vec3_t& given) const {
+    const Eigen::Vector3d p = fromCcd(given);
+    const Log& log = log_[body];
+    int best = -1;
+    double nearest = kInfinity;
+    for (int i = 0; i < std::min(log.count, kLog); ++i) {
+      const int v = log.vertex[static_cast<std::size_t>(i)];
+      const double d = (point(body, v) - p).squaredNorm();
+      if (d < nearest) nearest = d, best = v;
+    }
+    return best;
+  }
 
  private:
-  /// Chooses the scale.
-  void fit();
+  static Eigen::Vector3d fromCcd(const ccd_vec3_t& v) { return {v.v[0], v.v[1], v.v[2]}; }
+  static void toCcd(const Eigen::Vector3d& v, ccd_vec3_t* out) { ccdVec3Set(out, v[0], v[1], v[2]); }
 
-  int climbA(const Eigen::Vector3d& n) { return lastA_ = a_.extremeVertex(n, lastA_); }
-  int climbB(const Eigen::Vector3d& n) { return lastB_ = b_.extremeVertex(pose_.opposite(n), lastB_); }
+  /// Chooses the scale.
+  void fit() {
+    // A pair this many times farther apart than it is large is scaled by its distance instead, so that
+    // products of three coordinates stay far from overflow.
+    constexpr double kFar = 1e8;
+    const Eigen::Vector3d far = unpack(offset_);
+    double size = std::max(hull_[0]->radius() + hull_[1]->radius(), far.lpNorm<1>() / kFar);
+    if (!far.allFinite() || !std::isfinite(size)) return;  // nor is the offset where the rotation is not
+    if (!(size > 0)) size = 1;                             // two points on one spot
+    int exponent = 0;
+    std::frexp(size, &exponent);
+    scale_ = std::ldexp(1.0, -exponent);
+    offset_ *= scale_;
+    usable_ = std::isfinite(scale_) && scale_ > 0;
+  }
+
+  /// A's furthest vertex along `n`, or B's against it.
+  int climb(std::size_t body, const Eigen::Vector3d& n) {
+    return last_[body] = hull_[body]->extremeVertex(body == 0 ? n : pose_.opposite(n), last_[body]);
+  }
 
   // What libccd was given, a ring: its simplex holds only points of its last few steps.
   static constexpr int kLog = 64;
@@ -80,15 +125,15 @@ class PosedHulls {
     void add(int v) { vertex[static_cast<std::size_t>(count++ % kLog)] = v; }
   };
 
-  const HullGraph& a_;
-  const HullGraph& b_;
+  std::array<const HullGraph*, 2> hull_;
   RelativePose pose_;  // B's frame to A's
   Packed offset_{};
   Eigen::Vector3d first_{1, 0, 0};
   double scale_ = 1;
   bool usable_ = false;
-  int lastA_, lastB_, supports_ = 0;
-  Log logA_, logB_;
+  std::array<int, 2> last_;
+  int supports_ = 0;
+  std::array<Log, 2> log_;
 };
 
 }  // namespace fcl_stpbv::detail
