@@ -15,7 +15,7 @@
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/number_check.h"
 #include "fcl_stpbv/numbers.h"
-#include "fcl_stpbv/posture/convex_polygon.h"
+#include "fcl_stpbv/volume/convex_polygon.h"
 
 namespace fcl_stpbv::detail {
 namespace {
@@ -28,9 +28,10 @@ using Eigen::Vector3d;
 constexpr double kUpright = 0.05;
 
 // Without corners that stand out by less than a nanometre, whose edges are next to parallel.
-std::vector<Vector2d> plainHull(std::vector<Vector2d> points) {
+std::vector<Vector2d> plainHull(const std::vector<Vector2d>& points) {
   constexpr double kFlat = 1e-9;
-  std::vector<Vector2d> hull = convexPolygon(std::move(points));
+  std::vector<Vector2d> hull;
+  for (const int i : convexPolygon(points)) hull.push_back(points[at(i)]);
   for (std::size_t k = 0; hull.size() > 2 && k < hull.size();) {
     const std::size_t n = hull.size();
     const Vector2d &before = hull[(k + n - 1) % n], &after = hull[(k + 1) % n];

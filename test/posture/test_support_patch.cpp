@@ -2,8 +2,8 @@
 // any tilt against distances to their projected edges, derivatives against differences.
 #include <catch2/catch.hpp>
 
-#include "fcl_stpbv/posture/convex_polygon.h"
 #include "fcl_stpbv/posture/support_patch.h"
+#include "fcl_stpbv/volume/convex_polygon.h"
 #include "test/posture/arms.h"
 
 using namespace fcl_stpbv;
@@ -26,11 +26,17 @@ std::vector<Vector3d> randomPatch(Random& random) {
   return points;
 }
 
-// How far a point is inside the projection of some points; negative outside.
-double depth(const Vector2d& p, const std::vector<Vector3d>& points, const Eigen::Isometry3d& link) {
-  std::vector<Vector2d> seen;
+// The projection of some points, as a polygon.
+std::vector<Vector2d> projected(const std::vector<Vector3d>& points, const Eigen::Isometry3d& link) {
+  std::vector<Vector2d> seen, hull;
   for (const Vector3d& point : points) seen.push_back((link * point).head<2>());
-  const std::vector<Vector2d> hull = convexPolygon(seen);
+  for (const int i : convexPolygon(seen)) hull.push_back(seen[static_cast<std::size_t>(i)]);
+  return hull;
+}
+
+// How far a point is inside that projection; negative outside.
+double depth(const Vector2d& p, const std::vector<Vector3d>& points, const Eigen::Isometry3d& link) {
+  const std::vector<Vector2d> hull = projected(points, link);
   double least = 10;
   for (std::size_t i = 0; i < hull.size(); ++i)
     least = std::min(least, cross((hull[(i + 1) % hull.size()] - hull[i]).normalized(), p - hull[i]));
@@ -40,9 +46,7 @@ double depth(const Vector2d& p, const std::vector<Vector3d>& points, const Eigen
 // Radius of the largest circle in the projection of some points: that one which keeps farthest inside
 // of those that touch three of its edges.
 double largestCircle(const std::vector<Vector3d>& points, const Eigen::Isometry3d& link) {
-  std::vector<Vector2d> seen;
-  for (const Vector3d& point : points) seen.push_back((link * point).head<2>());
-  const std::vector<Vector2d> hull = convexPolygon(seen);
+  const std::vector<Vector2d> hull = projected(points, link);
   const auto edge = [&](std::size_t i) {
     const Vector2d along = (hull[(i + 1) % hull.size()] - hull[i]).normalized();
     return Vector3d(-along.y(), along.x(), -cross(along, hull[i]));  // of (p, 1): the distance of p

@@ -3,8 +3,8 @@
 
 #include <cstdio>
 
-#include "fcl_stpbv/posture/convex_polygon.h"
 #include "fcl_stpbv/report/outline.h"
+#include "fcl_stpbv/volume/convex_polygon.h"
 
 namespace example {
 
@@ -25,7 +25,8 @@ std::string polygonOf(const fcl::CollisionGeometryd& geometry, const Eigen::Isom
   }
   if (seen.size() < 3) return "";
   std::string text = "<polygon points=\"";
-  for (const Vector2d& p : detail::convexPolygon(seen)) {
+  for (const int corner : detail::convexPolygon(seen)) {
+    const Vector2d& p = seen[static_cast<std::size_t>(corner)];
     char point[40];
     std::snprintf(point, sizeof point, "%.1f,%.1f ", p.x(), p.y());
     text += point;

@@ -11,7 +11,8 @@ inline double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
-/// Corners of the convex hull, counter-clockwise, none on an edge.
-std::vector<Eigen::Vector2d> convexPolygon(std::vector<Eigen::Vector2d> points);
+/// Corners of the convex hull, counter-clockwise from the leftmost one, as indices into `points`; none on an
+/// edge, and none that stands out by no more than `tolerance` from the chord of those beside it.
+std::vector<int> convexPolygon(const std::vector<Eigen::Vector2d>& points, double tolerance = 0);
 
 }  // namespace fcl_stpbv::detail
