@@ -2,8 +2,6 @@
 // distance/shape_distance.h, meshes and trees by nearest_pair.h.
 #include "fcl_stpbv/adapter/fcl_distance.h"
 
-#include <utility>
-
 #include "fcl_stpbv/adapter/element_tree.h"
 #include "fcl_stpbv/adapter/fcl_shapes.h"
 #include "fcl_stpbv/adapter/feature_map.h"
@@ -73,9 +71,7 @@ DistanceAnswer mixedDistance(const StpBvGeometry* a, const CollisionGeometryd& g
           : nearestElements(geometry2, pose2, geometry1, pose1, context.finite, {trees[1], trees[0]}, &cache);
   if (!a) {
     cache = cache.mirrored();
-    other.found.normal = -other.found.normal;
-    std::swap(other.found.point[0], other.found.point[1]);
-    std::swap(other.found.patch[0], other.found.patch[1]);
+    other.found = other.found.mirrored();
   }
   if (context.cache) *context.cache = cache;
   DistanceAnswer answer = inFclTerms(other.found, pose1, pose2);

@@ -43,6 +43,14 @@ struct Distance {
   int patchPairs = 0;                                              ///< patch pairs solved, the work done
   int patchSteps = 0;  ///< region boundaries crossed on the two Gauss maps
 
+  /// The same answer for the pair in its other order.
+  Distance mirrored() const {
+    Distance other = *this;
+    other.normal = -normal;
+    other.point = {point[1], point[0]};
+    other.patch = {patch[1], patch[0]};
+    return other;
+  }
   /// Derivative of the distance with respect to the twist of body `which` (0 or 1) about `origin`, the
   /// position of that body's frame (paper eq. 2; docs/theory.md, 6).
   TwistGradient gradient(int which, const Eigen::Vector3d& origin) const {

@@ -14,7 +14,6 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <utility>
 
 #include "fcl_stpbv/convex/direction_cone.h"
 #include "fcl_stpbv/convex/gjk.h"
@@ -237,10 +236,8 @@ Distance distance(const Shape& shape, const Isometry3d& poseShape, const StpBv& 
   // The same query, and so the same answer, seen from the other side.
   PairCache mirrored;
   if (cache) mirrored = cache->mirrored();
-  Distance result = distance(volume, poseVolume, shape, poseShape, cache ? &mirrored : nullptr);
-  result.normal = -result.normal;
-  std::swap(result.point[0], result.point[1]);
-  std::swap(result.patch[0], result.patch[1]);
+  const Distance result =
+      distance(volume, poseVolume, shape, poseShape, cache ? &mirrored : nullptr).mirrored();
   if (cache) *cache = {result.normal, result.patch};
   return result;
 }

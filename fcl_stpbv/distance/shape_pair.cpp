@@ -14,7 +14,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "fcl_stpbv/convex/onto_core.h"
 #include "fcl_stpbv/convex/vertex_cap.h"
@@ -237,11 +236,8 @@ Distance distance(const Shape& shapeA, const Isometry3d& poseA, const Shape& sha
                   const Isometry3d& poseB) {
   const QueriedShape queriedA(shapeA), queriedB(shapeB);
   const Shape &a = queriedA.shape(), &b = queriedB.shape();
-  if (comesFirst(a, poseA, b, poseB)) return solve({a, poseA, b, poseB});
-  Distance result = solve({b, poseB, a, poseA});
-  result.normal = -result.normal;
-  std::swap(result.point[0], result.point[1]);
-  return result;
+  return comesFirst(a, poseA, b, poseB) ? solve({a, poseA, b, poseB})
+                                        : solve({b, poseB, a, poseA}).mirrored();
 }
 
 bool isFartherThan(double x, const Shape& shapeA, const Isometry3d& poseA, const Shape& shapeB,

@@ -249,10 +249,7 @@ TEST_CASE("The derivatives do not depend on the order of the bodies, whatever th
     const Distance far = distance(*a, poseA, *b, poseB);
     poseB.translation() += (0.02 - far.distance) * far.normal;
     const Distance d = distance(*a, poseA, *b, poseB);
-    Distance other = d;
-    other.normal = -d.normal;
-    std::swap(other.point[0], other.point[1]);
-    std::swap(other.patch[0], other.patch[1]);
+    const Distance other = d.mirrored();
     DistanceHessian h, g;
     REQUIRE(hessian(*a, poseA, *b, poseB, d, h));
     REQUIRE(hessian(*b, poseB, *a, poseA, other, g));
