@@ -128,6 +128,11 @@ DistanceAnswer inFclTerms(const Distance& found, const Transform3d& pose1, const
   return answer;
 }
 
+Distance inCoreTerms(const DistanceAnswer& answer) {
+  return {answer.status, answer.distance, answer.lower, answer.upper,
+          answer.normal, answer.points,   answer.patch};
+}
+
 bool hasFiniteCorners(const CollisionGeometryd& geometry) { return isSound(geometry); }
 
 DistanceAnswer distance(const CollisionGeometryd& geometry1, const Transform3d& pose1,

@@ -126,6 +126,9 @@ DistanceAnswer distance(const fcl::CollisionObjectd& object1, const fcl::Collisi
 DistanceAnswer inFclTerms(const Distance& found, const fcl::Transform3d& pose1,
                           const fcl::Transform3d& pose2);
 
+/// An answer as the core's queries give it, without their counts of work.
+Distance inCoreTerms(const DistanceAnswer& answer);
+
 /// In the shape of `fcl::distance`: returns the distance and fills `result`
 /// afresh, nearest points always included.
 ///

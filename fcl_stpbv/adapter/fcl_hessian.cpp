@@ -58,12 +58,7 @@ bool askBoth(const fcl::CollisionGeometryd& geometry1, const fcl::Transform3d& p
   if (d.status == DistanceStatus::invalid || d.normal.isZero(0)) return false;
   const StpBvGeometry* a = asStpBv(&geometry1);
   const StpBvGeometry* b = asStpBv(&geometry2);
-  Distance found;
-  found.status = d.status;
-  found.distance = d.distance;
-  found.normal = d.normal;
-  found.point = d.points;
-  found.patch = d.patch;
+  const Distance found = inCoreTerms(d);
   if (a && b) return ask(a->volume(), b->volume(), found);
   std::optional<OtherBody> first, second;
   if (!a) first.emplace(geometry1, pose1, d.element[0], d.points[0]);

@@ -132,16 +132,7 @@ DistanceAnswer MotionCheck::Impl::askFcl(int pair) {
 
 Distance MotionCheck::Impl::ask(int pair) {
   const Placed &a = body(pair, 0), &b = body(pair, 1);
-  if (a.convex && b.convex) return distance(a.body, b.body, &caches_[at(pair)]);
-  const DistanceAnswer answer = askFcl(pair);
-  Distance found;
-  found.status = answer.status;
-  found.distance = answer.distance;
-  found.lower = answer.lower;
-  found.upper = answer.upper;
-  found.normal = answer.normal;
-  found.point = answer.points;
-  return found;
+  return a.convex && b.convex ? distance(a.body, b.body, &caches_[at(pair)]) : inCoreTerms(askFcl(pair));
 }
 
 Cover MotionCheck::Impl::ballCover(int pair, double margin, double most) const {
