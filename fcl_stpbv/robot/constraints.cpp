@@ -203,27 +203,20 @@ CollisionConstraints::Witness CollisionConstraints::query(std::size_t row) {
   const Row& r = rows_[row];
   const double apart = (centre_[at(r.b)] - centre_[at(r.a)]).squaredNorm();
   const bool far = apart >= r.far * r.far && std::isfinite(apart);
-  if (r.first) {
-    Distance& found = found_[row];
-    found.status = DistanceStatus::invalid;
-    if (!far) found = distance(*r.first, pose_[at(r.a)], *r.second, pose_[at(r.b)], &caches_[row]);
-    if (found.status != DistanceStatus::invalid)
-      return {found.status, found.distance, found.normal, found.point};
-  } else {
-    DistanceAnswer& answer = answers_[row];
-    answer.status = DistanceStatus::invalid;
-    if (!far)
-      answer = distance(*geometry_->bodies[at(r.a)].geometry, pose_[at(r.a)], second(pairs_[row]),
-                        pose_[at(r.b)], {&caches_[row], nullptr, nullptr, StartFrom::centres, r.finite});
-    if (answer.status != DistanceStatus::invalid)
-      return {answer.status, answer.distance, answer.normal, answer.points};
-  }
-  const double most = far ? (r.whole ? options_.influence : r.end) : std::numeric_limits<double>::lowest();
-  (r.first ? found_[row].distance : answers_[row].distance) = most;
-  return {DistanceStatus::invalid, most, Eigen::Vector3d::Zero(), {}};
+  DistanceStatus& status = r.first ? found_[row].status : answers_[row].status;
+  double& value = r.first ? found_[row].distance : answers_[row].distance;
+  status = DistanceStatus::invalid;
+  if (!far && r.first)
+    found_[row] = distance(*r.first, pose_[at(r.a)], *r.second, pose_[at(r.b)], &caches_[row]);
+  else if (!far)
+    answers_[row] = distance(*geometry_->bodies[at(r.a)].geometry, pose_[at(r.a)], second(pairs_[row]),
+                             pose_[at(r.b)], {&caches_[row], nullptr, nullptr, StartFrom::centres, r.finite});
+  if (status == DistanceStatus::invalid)
+    value = !far ? std::numeric_limits<double>::lowest() : r.whole ? options_.influence : r.end;
+  return known(row);
 }
 
-// What the last query found.
+// What the last query found. Where its status is `invalid` only the distance says anything.
 CollisionConstraints::Witness CollisionConstraints::known(std::size_t row) const {
   if (!rows_[row].first) {
     const DistanceAnswer& answer = answers_[row];

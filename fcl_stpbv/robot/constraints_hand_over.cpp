@@ -123,7 +123,7 @@ CollisionConstraints::Witness CollisionConstraints::ask(std::size_t row) {
   if (!(whole_[at(r.group)].distance >= r.end)) return query(row);
   found_[row].status = answers_[row].status = DistanceStatus::invalid;
   found_[row].distance = answers_[row].distance = r.end;
-  return {DistanceStatus::invalid, r.end, Eigen::Vector3d::Zero(), {}};
+  return known(row);
 }
 
 }  // namespace fcl_stpbv
