@@ -31,16 +31,6 @@ namespace {
 
 using namespace detail;
 
-/// From the remembered normal, else from the volume's centre to the shape's.
-StartNormal startOf(const ShapeQuery& q, const Vector3d& remembered, int patch) {
-  const double length2 = remembered.squaredNorm();
-  if (PairCache::isDirection(length2) && patch < q.body.patchCount())
-    return {remembered / std::sqrt(length2), patch};
-  const Vector3d d = q.posed(q.shape.centre) - q.body.centre();
-  const double away = d.norm();
-  return {away > 0.0 ? Vector3d(d / away) : Vector3d::UnitX(), -1};
-}
-
 /// Half spaces and planes have one or two normals, and along them the gap is all there is to know.
 Nearest nearestOnHalfspace(ShapeQuery& q) {
   const Vector3d normal = (q.rotation * q.shape.normal).normalized();
@@ -201,8 +191,7 @@ Distance distance(const StpBv& volume, const Isometry3d& poseVolume, const Shape
   if (!shape.valid() || !pose.valid) return result;
 
   ShapeQuery q(volume, shape, pose);
-  const Vector3d remembered = cache ? pose.toWorld.inverse(cache->normal) : Vector3d(0, 0, 0);
-  Solution found = solve(q, startOf(q, remembered, cache ? cache->patch[0] : -1));
+  Solution found = solve(q, startOf(q, cache ? *cache : PairCache{}));
 
   Nearest& x = found.at;
   const double margins = volume.radii().r + shape.margin;

@@ -25,6 +25,16 @@ ShapeQuery::ShapeQuery(const StpBv& a, const Shape& s, const RelativePose& p)
   rounding.certificate = kGapRounding * (size + s.margin) + 1e-6 * rounding.across + a.tables().supportError;
 }
 
+StartNormal startOf(const ShapeQuery& q, const PairCache& last) {
+  const Vector3d n = q.pose.toWorld.inverse(last.normal);
+  const double length2 = n.squaredNorm();
+  if (PairCache::isDirection(length2) && last.patch[0] < q.body.patchCount())
+    return {n / std::sqrt(length2), last.patch[0]};
+  const Vector3d d = q.posed(q.shape.centre) - q.body.centre();
+  const double away = d.norm();
+  return {away > 0.0 ? Vector3d(d / away) : Vector3d::UnitX(), -1};
+}
+
 bool isNearer(const ShapeQuery& q, const Nearest& x, const Nearest& than, const Vector3d* points, int count) {
   if (std::abs(x.gap - than.gap) > q.rounding.gap) return x.gap < than.gap;
   const auto beyond = [&](const Nearest& found) {

@@ -8,6 +8,7 @@
 #include "fcl_stpbv/convex/local_maximum.h"
 #include "fcl_stpbv/convex/relative_pose.h"
 #include "fcl_stpbv/convex/shape.h"
+#include "fcl_stpbv/distance/distance.h"
 #include "fcl_stpbv/distance/shape_ascent.h"
 
 namespace fcl_stpbv::detail {
@@ -49,6 +50,9 @@ struct StartNormal {
   Eigen::Vector3d n;
   int patch;
 };
+
+/// From the pair's last answer, else from the volume's centre to the shape's.
+StartNormal startOf(const ShapeQuery& q, const PairCache& last);
 
 /// Which of two is the nearer one. Next to a boundary gaps differ by the square of how far their normals do,
 /// less than rounding: then that one which fewer of the shape's points, or less far, face the body more than.

@@ -54,17 +54,11 @@ bool isFartherThan(double x, const StpBv& volume, const Isometry3d& poseVolume, 
   if (away.most - volume.innerRadius() - margins + rounding <= x) return false;
   if (shape.unbounded()) return isDistanceFarther();
 
-  const Vector3d last = pose.toWorld.inverse(start.direction()),
-                 centres = q.posed(shape.centre) - volume.centre();
-  const bool isKnown = !last.isZero(0);
-  const Vector3d n = isKnown             ? last.normalized()
-                     : centres.isZero(0) ? Vector3d(1, 0, 0)
-                                         : centres.normalized();
+  const StartNormal from = startOf(q, start);
   constexpr int kTries = 5;  // of pairs that are apart most need no more
-  const int hint = isKnown && start.patch[0] < volume.patchCount() ? start.patch[0] : -1;
   Nearest nearest;
   const bool maybeApart = away.most > 0.5 * (volume.innerRadius() + volume.enclosingRadius());
-  const WalkEnd end = maybeApart ? walkShapeFeatures(q, {n, hint}, kTries, nearest) : WalkEnd::unknown;
+  const WalkEnd end = maybeApart ? walkShapeFeatures(q, from, kTries, nearest) : WalkEnd::unknown;
   if (end == WalkEnd::nearest) {
     if (cache) *cache = {pose.normalInWorld(nearest.n), {nearest.patch, -1}};
     return nearest.gap - margins - rounding > x;
@@ -73,12 +67,12 @@ bool isFartherThan(double x, const StpBv& volume, const Isometry3d& poseVolume, 
   if (!(level > unsure)) return isDistanceFarther();
   if (end == WalkEnd::meeting) return false;
   int ignored = 0;
-  StpBvCore core{volume, hint, ignored};
+  StpBvCore core{volume, from.patch, ignored};
   Difference difference(core, shape, pose);
   constexpr int kSteps = 40;
   const double above = level + rounding;
   const auto found = gjk<Difference::Corner>(
-      difference, {}, n, q.rounding.gap, kSteps,
+      difference, {}, from.n, q.rounding.gap, kSteps,
       [&](double lower, double upper) { return lower > above || upper + unsure <= level; });
   if (found.lower > above) {
     if (cache) *cache = {pose.normalInWorld(found.widest), {core.patch, -1}};
