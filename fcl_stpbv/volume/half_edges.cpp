@@ -16,87 +16,128 @@ namespace fcl_stpbv::detail {
 using Eigen::Vector3d;
 using Ring = std::vector<int>;
 
-std::vector<HalfEdge> pairHalfEdges(const std::vector<Vector3d>& points, const std::vector<Ring>& faces,
-                                    const std::vector<Vector3d>& normals, double radius) {
-  constexpr double kNothing = 1e-6;  // rad
-  const double curvature = std::isinf(radius) ? 0 : 1 / radius;
-  const auto at = [&](int i) -> const Vector3d& { return points[static_cast<std::size_t>(i)]; };
-  std::vector<HalfEdge> halfEdges;
-  std::size_t count = 0;
-  for (const Ring& ring : faces) count += ring.size();
-  halfEdges.reserve(count);
-  // Those that start from vertex v are leaving[begin[v]] to leaving[begin[v + 1]], with where they lead.
-  struct Leaving {
+namespace {
+
+/// The half-edges by the vertex that they leave; they are numbered face by face.
+class LeavingEdges {
+ public:
+  LeavingEdges(std::size_t vertices, const std::vector<Ring>& faces) : begin_(vertices + 1, 0) {
+    for (const Ring& ring : faces)
+      for (const int v : ring) ++begin_[at(v) + 1];
+    std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
+    ways_.resize(begin_.back());
+    std::vector<std::size_t> filled(begin_.begin(), begin_.end() - 1);
+    int half = 0;
+    for (const Ring& ring : faces)
+      for (std::size_t k = 0; k < ring.size(); ++k)
+        ways_[filled[at(ring[k])]++] = {ring[(k + 1) % ring.size()], half++};
+  }
+
+  std::size_t count() const { return ways_.size(); }
+
+  /// Calls `look` with each half-edge from one vertex to the other.
+  template <typename Look>
+  void between(int from, int to, const Look& look) const {
+    for (std::size_t i = begin_[at(from)]; i < begin_[at(from) + 1]; ++i)
+      if (ways_[i].to == to) look(ways_[i].half);
+  }
+
+  /// Whether there is one half-edge that way, and no second one.
+  bool isOne(int from, int to) const {
+    int found = 0;
+    between(from, to, [&](int) { ++found; });
+    return found == 1;
+  }
+
+ private:
+  struct Way {
     int to, half;
   };
-  std::vector<std::size_t> begin(points.size() + 1, 0);
+  std::vector<std::size_t> begin_;  // those from vertex v: ways_[begin_[v]] to ways_[begin_[v + 1]]
+  std::vector<Way> ways_;
+};
+
+/// The ball on its way over one edge of a face.
+class RollingBall {
+ public:
+  /// `normal`: of the face, at the edge's start.
+  RollingBall(const std::vector<Vector3d>& points, const Ring& ring, int start, int end,
+              const Vector3d& normal)
+      : points_(points),
+        ring_(ring),
+        start_(start),
+        end_(end),
+        along_((points[at(end)] - points[at(start)]).normalized()),
+        from_(across(normal)),
+        ahead_(along_.cross(from_)) {}
+
+  /// How far it rolls to a face that has this normal at the edge's start, [0, 2 pi).
+  double turnTo(const Vector3d& normal) const {
+    const Vector3d to = across(normal);
+    const double turn = std::atan2(to.dot(ahead_), to.dot(from_));
+    if (turn >= 0) return turn;
+    return turn > -kNothing && !isSpindle() ? 0 : turn + 2 * kPi;  // a turn of nothing, rounded
+  }
+
+ private:
+  static constexpr double kNothing = 1e-6;  // rad
+
+  Vector3d across(const Vector3d& v) const { return v - v.dot(along_) * along_; }
+
+  /// All but a whole turn is possible only where one of the face's other vertices hardly rises over the arc
+  /// that the ball rolls on, and is highest in what the turn lacks: straight ahead of its normal, seen along
+  /// the edge.
+  bool isSpindle() const {
+    return std::any_of(ring_.begin(), ring_.end(), [&](int i) {
+      const Vector3d q = across(points_[at(i)] - points_[at(start_)]);
+      return i != start_ && i != end_ && q.dot(from_) > 0 &&
+             q.cross(from_).norm() <= 2 * kNothing * q.norm() * from_.norm();
+    });
+  }
+
+  const std::vector<Vector3d>& points_;
+  const Ring& ring_;
+  int start_, end_;
+  Vector3d along_, from_, ahead_;  // the face's normal across the edge, and what that turns to
+};
+
+}  // namespace
+
+std::vector<HalfEdge> pairHalfEdges(const std::vector<Vector3d>& points, const std::vector<Ring>& faces,
+                                    const std::vector<Vector3d>& normals, double radius) {
+  const double curvature = std::isinf(radius) ? 0 : 1 / radius;
+  const LeavingEdges leaving(points.size(), faces);
+  std::vector<HalfEdge> halfEdges;
+  halfEdges.reserve(leaving.count());
   for (std::size_t f = 0; f < faces.size(); ++f)
-    for (std::size_t k = 0; k < faces[f].size(); ++k) {
+    for (std::size_t k = 0; k < faces[f].size(); ++k)
       halfEdges.push_back({static_cast<int>(f), static_cast<int>(k)});
-      ++begin[static_cast<std::size_t>(faces[f][k]) + 1];
-    }
-  std::partial_sum(begin.begin(), begin.end(), begin.begin());
-  std::vector<Leaving> leaving(count);
-  std::vector<std::size_t> filled(begin.begin(), begin.end() - 1);
-  int half = 0;
-  for (const Ring& ring : faces)
-    for (std::size_t k = 0; k < ring.size(); ++k)
-      leaving[filled[static_cast<std::size_t>(ring[k])]++] = {ring[(k + 1) % ring.size()], half++};
-  const auto only = [&](int from, int to) {  // half-edge; -1 where there are several or none
-    int found = -1;
-    for (std::size_t i = begin[static_cast<std::size_t>(from)]; i < begin[static_cast<std::size_t>(from) + 1];
-         ++i) {
-      if (leaving[i].to != to) continue;
-      if (found >= 0) return -1;
-      found = leaving[i].half;
-    }
-    return found;
-  };
 
   for (std::size_t h = 0; h < halfEdges.size(); ++h) {
     HalfEdge& edge = halfEdges[h];
     if (edge.twin >= 0) continue;
-    const Ring& ring = faces[static_cast<std::size_t>(edge.face)];
-    const std::size_t k = static_cast<std::size_t>(edge.corner);
-    const int a = ring[k], b = ring[(k + 1) % ring.size()];
-    const Vector3d u = (at(b) - at(a)).normalized();
-    const auto across = [&](int face) {
-      const int first = faces[static_cast<std::size_t>(face)][0];
-      const Vector3d m = normals[static_cast<std::size_t>(face)] + curvature * (at(a) - at(first));
-      return Vector3d(m - m.dot(u) * u);
+    const Ring& ring = faces[at(edge.face)];
+    const int a = ring[at(edge.corner)], b = ring[(at(edge.corner) + 1) % ring.size()];
+    const auto normalAt = [&](int face) -> Vector3d {  // at the vertex a
+      return normals[at(face)] + curvature * (points[at(a)] - points[at(faces[at(face)][0])]);
     };
-    const Vector3d from = across(edge.face), side = u.cross(from);
-    // All but a whole turn is possible only where one of the face's other vertices hardly rises over the arc
-    // that the ball rolls on, and is highest in what the turn lacks: straight ahead of its normal, seen along
-    // the edge.
-    const auto isSpindle = [&] {
-      return std::any_of(ring.begin(), ring.end(), [&](int i) {
-        const Vector3d q = (at(i) - at(a)) - (at(i) - at(a)).dot(u) * u;
-        return i != a && i != b && q.dot(from) > 0 &&
-               q.cross(from).norm() <= 2 * kNothing * q.norm() * from.norm();
-      });
-    };
-    for (std::size_t i = begin[static_cast<std::size_t>(b)]; i < begin[static_cast<std::size_t>(b) + 1];
-         ++i) {
-      if (leaving[i].to != a) continue;
-      const Vector3d to = across(halfEdges[static_cast<std::size_t>(leaving[i].half)].face);
-      double turn = std::atan2(to.dot(side), to.dot(from));
-      if (turn < 0)
-        turn = turn > -kNothing && !isSpindle() ? 0 : turn + 2 * kPi;  // a turn of nothing, rounded
-      if (edge.twin < 0 || turn < edge.turn) edge.twin = leaving[i].half, edge.turn = turn;
-    }
-    // As for nearly all edges: the ball rolls back by the same angle.
-    if (only(b, a) >= 0 && only(a, b) >= 0) {
-      HalfEdge& twin = halfEdges[static_cast<std::size_t>(edge.twin)];
-      twin.twin = static_cast<int>(h), twin.turn = edge.turn;
-    }
+    const RollingBall ball(points, ring, a, b, normalAt(edge.face));
+    leaving.between(b, a, [&](int twin) {
+      const double turn = ball.turnTo(normalAt(halfEdges[at(twin)].face));
+      if (edge.twin < 0 || turn < edge.turn) edge.twin = twin, edge.turn = turn;
+    });
     if (edge.twin < 0)
       throw Error("the faces do not close: the edge from vertex " + std::to_string(a) + " to vertex " +
                   std::to_string(b) + " of face " + std::to_string(edge.face) +
                   " has no face on its other side");
+    // As for nearly all edges: the ball rolls back by the same angle.
+    if (leaving.isOne(b, a) && leaving.isOne(a, b)) {
+      HalfEdge& twin = halfEdges[at(edge.twin)];
+      twin.twin = static_cast<int>(h), twin.turn = edge.turn;
+    }
   }
   for (std::size_t h = 0; h < halfEdges.size(); ++h)
-    if (halfEdges[static_cast<std::size_t>(halfEdges[h].twin)].twin != static_cast<int>(h))
+    if (halfEdges[at(halfEdges[h].twin)].twin != static_cast<int>(h))
       throw Error("the faces do not close: an edge of face " + std::to_string(halfEdges[h].face) +
                   " is shared by more than two");
   return halfEdges;
