@@ -2,7 +2,6 @@
 #include "fcl_stpbv/robot/srdf.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -170,10 +169,6 @@ class SrdfReader {
   Srdf srdf_;
 };
 
-std::pair<std::string, std::string> ascending(const std::string& link1, const std::string& link2) {
-  return link1 < link2 ? std::pair(link1, link2) : std::pair(link2, link1);
-}
-
 /// Takes over the joints of another state of the name. The first joint that the two differ in, or "".
 std::string takeJoints(Srdf::State& all, const Srdf::State& state) {
   for (const auto& [joint, values] : state.joints)
@@ -186,13 +181,13 @@ std::string takeJoints(Srdf::State& all, const Srdf::State& state) {
 SkipReasons::SkipReasons(const Srdf* srdf) {
   if (!srdf) return;
   off_.insert(srdf->defaultsOff.begin(), srdf->defaultsOff.end());
-  for (const Srdf::Pair& pair : srdf->enabled) named_.emplace(ascending(pair.link1, pair.link2), "");
+  for (const Srdf::Pair& pair : srdf->enabled) named_.emplace(std::minmax(pair.link1, pair.link2), "");
   for (const Srdf::Pair& pair : srdf->disabled)  // does not replace: the first entry counts
-    named_.emplace(ascending(pair.link1, pair.link2), pair.reason);
+    named_.emplace(std::minmax(pair.link1, pair.link2), pair.reason);
 }
 
 std::string SkipReasons::of(const std::string& link1, const std::string& link2) const {
-  const auto named = named_.find(ascending(link1, link2));
+  const auto named = named_.find(std::minmax(link1, link2));
   if (named != named_.end()) return named->second;
   return off_.count(link1) + off_.count(link2) > 0 ? "User" : "";
 }
@@ -247,89 +242,6 @@ Srdf loadSrdf(const std::string& path, const RobotModel& robot) {
   Srdf srdf = loadSrdf(path, robot, faults);
   faults.refuse();
   return srdf;
-}
-
-namespace {
-
-bool isUtf8(std::string_view text) {
-  for (std::size_t i = 0; i < text.size();) {
-    const auto byte = [&](std::size_t k) {
-      return static_cast<unsigned char>(k < text.size() ? text[k] : 0);
-    };
-    const int c = byte(i);
-    const std::size_t length = c < 0x80 ? 1 : c >= 0xc2 && c < 0xe0 ? 2 : c >= 0xe0 && c < 0xf0 ? 3 : 4;
-    if (length == 4 && (c < 0xf0 || c > 0xf4)) return false;
-    for (std::size_t k = 1; k < length; ++k)
-      if ((byte(i + k) & 0xc0) != 0x80) return false;
-    i += length;
-  }
-  return true;
-}
-
-// The document's text. Names in another encoding come from a URDF that has it. A file that says it is UTF-8,
-// or nothing, would be no XML with them to strict readers; in ISO-8859-1 each byte is a character.
-std::string printedInItsEncoding(tinyxml2::XMLDocument& document) {
-  std::string text = printed(document);
-  if (isUtf8(text)) return text;
-  tinyxml2::XMLNode* first = document.FirstChild();
-  tinyxml2::XMLDeclaration* said = first ? first->ToDeclaration() : nullptr;
-  std::string value = said ? said->Value() : "";
-  for (char& c : value) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  if (value.find("encoding") != std::string::npos && value.find("utf-8") == std::string::npos) return text;
-  if (said) document.DeleteChild(said);
-  document.InsertFirstChild(document.NewDeclaration("xml version=\"1.0\" encoding=\"ISO-8859-1\""));
-  return printed(document);
-}
-
-}  // namespace
-
-std::string withPairs(const std::string& path, const std::string& robotName,
-                      const std::vector<Srdf::Pair>& pairs, const std::vector<std::string>& comments) {
-  Srdf srdf;
-  srdf.path = path;
-  if (!path.empty()) srdf.text = readXml(path);
-  return withPairs(path.empty() ? nullptr : &srdf, robotName, pairs, comments);
-}
-
-std::string withPairs(const Srdf* srdf, const std::string& robotName, const std::vector<Srdf::Pair>& pairs,
-                      const std::vector<std::string>& comments) {
-  tinyxml2::XMLDocument document;
-  if (srdf) {
-    parseXml(srdf->text, srdf->path, document);
-  } else {
-    document.InsertEndChild(document.NewDeclaration());
-    XMLElement* root = document.NewElement("robot");
-    root->SetAttribute("name", robotName.c_str());
-    document.InsertEndChild(root);
-  }
-  XMLElement* root = document.RootElement();
-  for (XMLElement* e = root->FirstChildElement("disable_collisions"); e;) {
-    XMLElement* next = e->NextSiblingElement("disable_collisions");
-    const char* reason = e->Attribute("reason");
-    if (reason && *reason && std::string_view(reason) != "User") root->DeleteChild(e);
-    e = next;
-  }
-  // Other readers let a disabled pair win over an enabled one: those that the file enables stay so.
-  std::set<std::pair<std::string, std::string>> enabled;
-  for (const XMLElement* e = root->FirstChildElement("enable_collisions"); e;
-       e = e->NextSiblingElement("enable_collisions"))
-    if (e->Attribute("link1") && e->Attribute("link2"))
-      enabled.insert(ascending(e->Attribute("link1"), e->Attribute("link2")));
-  for (std::string comment : comments) {
-    comment = " " + comment + " ";
-    for (std::size_t at; (at = comment.find("--")) != std::string::npos;)
-      comment[at] = '~';  // ends a comment
-    root->InsertEndChild(document.NewComment(comment.c_str()));
-  }
-  for (const Srdf::Pair& pair : pairs) {
-    if (enabled.count(ascending(pair.link1, pair.link2))) continue;
-    XMLElement* e = document.NewElement("disable_collisions");
-    e->SetAttribute("link1", pair.link1.c_str());
-    e->SetAttribute("link2", pair.link2.c_str());
-    e->SetAttribute("reason", pair.reason.c_str());
-    root->InsertEndChild(e);
-  }
-  return printedInItsEncoding(document);
 }
 
 }  // namespace fcl_stpbv
