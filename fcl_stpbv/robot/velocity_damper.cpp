@@ -63,7 +63,6 @@ VelocityDamper::VelocityDamper(CollisionConstraints& constraints, DamperOptions 
   requireNumber("VelocityDamper: barrierGain", options_.barrierGain, kLeast, kLargest);
   for (const auto& [row, damper] : options_.rows) {
     requireRow(row);
-    check(damper, " of row " + std::to_string(row));
     dampers_[at(row)] = damper;
   }
   for (int row = 0; row < constraints.rows(); ++row) {
