@@ -2,16 +2,13 @@
 
     test_program_doors.py BIN_FOLDER PROJECT
 """
-import fcntl
-import os
 import pathlib
-import pty
 import re
-import struct
 import subprocess
 import sys
-import termios
 import unittest
+
+from terminal import shown_on_terminal
 
 BIN, PROJECT = (pathlib.Path(folder).resolve() for folder in sys.argv[1:3])
 PROGRAMS = [BIN / name for name in (
@@ -81,21 +78,8 @@ class Programs(unittest.TestCase):
                 for internal in ("Excludes:", "Needs:", ":NUMBER", "REQUIRED", "{"):
                     self.assertNotIn(internal, text)
         for columns, least, most in ((50, 40, 50), (90, 80, 90), (200, 90, 100)):  # wider lines are hard to read
-            try:
-                ours, theirs = pty.openpty()
-            except OSError as error:
-                self.skipTest(f"skipped: this machine gives no terminals ({error})")
-            fcntl.ioctl(theirs, termios.TIOCSWINSZ, struct.pack("HHHH", 24, columns, 0, 0))
-            with subprocess.Popen([BIN / "mesh_to_stpbv", "--help"], stdout=theirs):
-                os.close(theirs)
-                shown = b""
-                try:
-                    while part := os.read(ours, 65536):
-                        shown += part
-                except OSError:
-                    pass  # the other end is closed
-            os.close(ours)
-            self.assertTrue(least < longest(shown.decode()) <= most, (columns, longest(shown.decode())))
+            shown = shown_on_terminal(self, [BIN / "mesh_to_stpbv", "--help"], "stdout", columns)
+            self.assertTrue(least < longest(shown) <= most, (columns, longest(shown)))
 
     def test_an_option_that_there_is_not_is_refused(self):
         for program in PROGRAMS:
