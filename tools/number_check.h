@@ -4,12 +4,12 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
-#include <cstdio>
 #include <cstdlib>
 #include <limits>
 #include <string>
 #include <vector>
 
+#include "fcl_stpbv/formatted.h"
 #include "fcl_stpbv/number_check.h"
 
 namespace fcl_stpbv::tools {
@@ -27,10 +27,9 @@ inline std::string wrongNumber(const std::string& text, double least, double mos
   const bool isNumber = !text.empty() && decimal && end == text.c_str() + text.size() && std::isfinite(value);
   const bool lost = isNumber && value == 0 && text.find_first_of("123456789") < text.find_first_of("eE");
   if (isNumber && !lost && value <= most && (orEqual ? value >= least : value > least)) return "";
-  char range[64];
-  std::snprintf(range, sizeof range, "%g to %g", least, most);
   return "got " + (text.empty() ? "nothing" : text) + (lost ? ", too small for a double" : "") +
-         ", expected a number from " + range + (orEqual ? "" : ", the first excluded");
+         detail::formatted(", expected a number from %g to %g", least, most) +
+         (orEqual ? "" : ", the first excluded");
 }
 
 /// The same for a whole number.

@@ -5,25 +5,20 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/formatted.h"
 #include "fcl_stpbv/volume/measure.h"
 #include "fcl_stpbv/volume/verify.h"
 #include "test/reference/ball_hull_check.h"
 
 namespace fcl_stpbv::fuzz {
 
+using detail::formatted;
 using Eigen::Vector3d;
 
 namespace {
-
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
-  return text;
-}
 
 // Normals at random, of planes through three points, and next to those.
 std::vector<Vector3d> normalsFor(const test::Cloud& points, test::Random& random) {
@@ -67,15 +62,15 @@ std::string complaintAbout(const CloudCase& c, test::Random& random) {
   for (const Vector3d& n : normalsFor(c.points, random)) {
     const Vector3d x = volume->surfacePoint(n) - c.radii.r * n;
     const test::BallHullClaim claim = test::checkBallHull(c.points, rho, n, x);
-    if (!(claim.outside <= allowed)) return "a point is " + number(claim.outside) + " m outside the core";
-    if (!(claim.beyond <= allowed)) return "the core is " + number(claim.beyond) + " m too large";
+    if (!(claim.outside <= allowed)) return formatted("a point is %.3g m outside the core", claim.outside);
+    if (!(claim.beyond <= allowed)) return formatted("the core is %.3g m too large", claim.beyond);
     double hull = -std::numeric_limits<double>::infinity();
     for (const Vector3d& p : c.points) hull = std::max(hull, n.dot(p - x));
     if (!(c.radii.r - hull <= over.max + allowed))
-      return "the over-cover is " + number(c.radii.r - hull - over.max) + " m too small";
+      return formatted("the over-cover is %.3g m too small", c.radii.r - hull - over.max);
   }
   if (!(over.mean >= c.radii.r - allowed && over.mean <= over.max + allowed))
-    return "the mean over-cover is " + number(over.mean) + " m";
+    return formatted("the mean over-cover is %.3g m", over.mean);
   return {};
 }
 

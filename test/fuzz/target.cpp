@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "fcl_stpbv/distance/distance.h"
+#include "fcl_stpbv/formatted.h"
 #include "fcl_stpbv/io/volume_files.h"
 #include "fcl_stpbv/robot/mesh_file.h"
 #include "fcl_stpbv/robot/robot_model.h"
@@ -20,24 +21,19 @@
 
 namespace fcl_stpbv::fuzz {
 
+using detail::formatted;
 using Eigen::Vector3d;
 using test::Cloud;
 using test::Random;
 
 namespace {
 
-std::string number(double x) {
-  char text[40];
-  std::snprintf(text, sizeof text, "%.17g", x);
-  return text;
-}
-
 std::string lineOf(const char* word, const Vector3d& p) {
-  return std::string(word) + " " + number(p.x()) + " " + number(p.y()) + " " + number(p.z()) + "\n";
+  return formatted("%s %.17g %.17g %.17g\n", word, p.x(), p.y(), p.z());
 }
 
 std::string textOf(const CloudCase& c) {
-  std::string text = number(c.radii.r) + " " + number(c.radii.R) + "\n";
+  std::string text = formatted("%.17g %.17g\n", c.radii.r, c.radii.R);
   for (const Vector3d& p : c.points) text += lineOf("v", p);
   return text;
 }
@@ -85,7 +81,7 @@ std::string randomQuery(Random& random) {
         test::pose(random.rotation(), reach * std::pow(10.0, random.uniform(-2, 1)) * random.direction());
     if (random.below(4) == 0) pose.linear().setIdentity();
     if (random.below(20) == 0) pose.linear()(1, 1) = random.below(2) ? std::nan("") : 1e200;
-    for (int i = 0; i < 12; ++i) text += number(pose.matrix()(i / 4, i % 4)) + " ";
+    for (int i = 0; i < 12; ++i) text += formatted("%.17g ", pose.matrix()(i / 4, i % 4));
     text += "\n";
   }
   return text;
@@ -146,7 +142,7 @@ void checkFile(const std::string& text, const std::string&) {
 std::string randomQhull(Random& random) {
   const Cloud cloud = nastyCloud(random).points;
   std::string text = "3\n" + std::to_string(cloud.size()) + " 1 1\n";
-  for (const Vector3d& p : cloud) text += number(p.x()) + " " + number(p.y()) + " " + number(p.z()) + "\n";
+  for (const Vector3d& p : cloud) text += formatted("%.17g %.17g %.17g\n", p.x(), p.y(), p.z());
   return damaged(text + "3 0 1 2\n", random);
 }
 

@@ -10,6 +10,7 @@
 #include <fstream>
 
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/formatted.h"
 #include "fcl_stpbv/io/atomic_write.h"
 
 namespace fcl_stpbv::benchmark {
@@ -77,16 +78,10 @@ double percentile(std::vector<double>& values, double p) {
 double median(std::vector<double> values) { return percentile(values, 0.5); }
 
 double significant(double value, int digits) {
-  char text[64];
-  std::snprintf(text, sizeof text, "%.*g", digits, value);
-  return std::isfinite(value) ? std::stod(text) : value;
+  return std::isfinite(value) ? std::stod(formatted("%.*g", digits, value)) : value;
 }
 
-std::string shown(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%g", value);
-  return text;
-}
+std::string shown(double value) { return formatted("%g", value); }
 
 void requirePlace(const std::filesystem::path& folder, const std::string& name) {
   if (name.empty() || name.find('/') != std::string::npos)

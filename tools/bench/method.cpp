@@ -5,10 +5,9 @@
 
 #include <fcl/narrowphase/distance.h>
 
-#include <cstdio>
-
 #include "fcl_stpbv/adapter/fcl_distance.h"
 #include "fcl_stpbv/adapter/polyhedral_witness.h"
+#include "fcl_stpbv/formatted.h"
 
 namespace fcl_stpbv::benchmark {
 
@@ -19,16 +18,10 @@ using Eigen::Vector3d;
 
 namespace {
 
-std::string toleranceText(double tolerance) {
-  char text[32];
-  std::snprintf(text, sizeof text, "tolerance %.0e", tolerance);
-  return text;
-}
-
 class Fcl : public Method {
  public:
   Fcl(const Bodies& bodies, const char* itsName, fcl::GJKSolverType solver, double tolerance)
-      : Method(itsName, toleranceText(tolerance), false), bodies_(bodies), request_(true) {
+      : Method(itsName, formatted("tolerance %.0e", tolerance), false), bodies_(bodies), request_(true) {
     request_.gjk_solver_type = solver;
     request_.distance_tolerance = tolerance;
   }

@@ -64,11 +64,11 @@ void addThin(Maker& m) {
   for (const double ratio : {1e2, 1e3, 1e4, 1e5}) {
     const auto plate = makeBody(test::box(0.5, 0.4, 0.5 / ratio), usual);
     const auto needle = makeBody(test::box(0.5 / ratio, 0.5 / ratio, 0.5), usual);
-    m.add("plates and needles", named("plates %.0e:1", ratio), plate, plate);
-    m.add("plates and needles", named("needles %.0e:1", ratio), needle, needle);
-    m.add("plates and needles", named("plate and needle %.0e:1", ratio), plate, needle);
+    m.add("plates and needles", formatted("plates %.0e:1", ratio), plate, plate);
+    m.add("plates and needles", formatted("needles %.0e:1", ratio), needle, needle);
+    m.add("plates and needles", formatted("plate and needle %.0e:1", ratio), plate, needle);
     const double gap = 0.03;
-    m.add("plates and needles", named("plates %.0e:1, face to face", ratio), plate, plate,
+    m.add("plates and needles", formatted("plates %.0e:1, face to face", ratio), plate, plate,
           {{test::pose(Matrix3d::Identity(), {0, 0, 0}),
             test::pose(Matrix3d::Identity(), {0.02, 0.01, 0.5 / ratio + gap})},
            {test::pose(Matrix3d::Identity(), {0, 0, 0}),
@@ -83,9 +83,9 @@ void addScales(Maker& m, std::uint64_t seed) {
     const auto box = makeBody(scaled(test::box(1.5, 1, 0.7), scale), radii);
     const auto hull = makeBody(scaled(test::randomHull(40, {1, 0.7, 0.5}, seed), scale), radii);
     const auto drum = makeBody(scaled(test::cylinder(0.5, 1.2), scale), radii);
-    m.add("scales 1e-4 to 1e3 m", named("boxes of %.0e m", scale), box, box);
-    m.add("scales 1e-4 to 1e3 m", named("hulls of %.0e m", scale), hull, hull);
-    m.add("scales 1e-4 to 1e3 m", named("drum and box of %.0e m", scale), drum, box);
+    m.add("scales 1e-4 to 1e3 m", formatted("boxes of %.0e m", scale), box, box);
+    m.add("scales 1e-4 to 1e3 m", formatted("hulls of %.0e m", scale), hull, hull);
+    m.add("scales 1e-4 to 1e3 m", formatted("drum and box of %.0e m", scale), drum, box);
   }
 }
 
@@ -99,12 +99,13 @@ void addNearDegenerate(Maker& m) {
       for (const double z : {-0.1, 0.1}) sliver.emplace_back(x, noise * m.random.uniform(-1, 1), z);
     sliver.emplace_back(0.05, 0.1, 0.02);
     const auto twice = makeBody(doubled, usual), thin = makeBody(sliver, usual);
-    m.add("slivers and near-duplicates", named("vertices twice, %.0e m apart", noise), twice, twice);
-    m.add("slivers and near-duplicates", named("a face of slivers %.0e m high", noise), thin, thin);
+    m.add("slivers and near-duplicates", formatted("vertices twice, %.0e m apart", noise), twice, twice);
+    m.add("slivers and near-duplicates", formatted("a face of slivers %.0e m high", noise), thin, thin);
     const auto ball = makeBody(onSphere(m.random, 60, 0.2, noise), usual);
     const auto snug = makeBody(onSphere(m.random, 40, 0.2, noise), {0.0, 0.2 * (1 + 1e-3) + noise});
-    m.add("cospherical points", named("60 points, moved by %.0e m", noise), ball, ball);
-    m.add("cospherical points", named("40 points, moved by %.0e m, R near their radius", noise), snug, snug);
+    m.add("cospherical points", formatted("60 points, moved by %.0e m", noise), ball, ball);
+    m.add("cospherical points", formatted("40 points, moved by %.0e m, R near their radius", noise), snug,
+          snug);
   }
   // A face of many coplanar points, out of the plane by less than rounding: hill climbing stops early on it.
   for (const double noise : {1e-17, 1e-12}) {
@@ -114,12 +115,12 @@ void addNearDegenerate(Maker& m) {
         for (const double z : {-0.05, 0.05})
           grid.emplace_back(0.05 * i - 0.2, 0.05 * j - 0.2, z + noise * m.random.uniform(-1, 1));
     const auto tile = makeBody(grid, usual);
-    m.add("subdivided planar faces", named("9 x 9 points a face, %.0e m of noise", noise), tile, tile);
+    m.add("subdivided planar faces", formatted("9 x 9 points a face, %.0e m of noise", noise), tile, tile);
     std::vector<Placement> stacked;
     for (const double x : {0.0, 0.025, 0.05, 0.39})
       stacked.push_back(
           {test::pose(Matrix3d::Identity(), {0, 0, 0}), test::pose(Matrix3d::Identity(), {x, 0.01, 0.13})});
-    m.add("subdivided planar faces", named("9 x 9 points a face, %.0e m of noise, stacked", noise), tile,
+    m.add("subdivided planar faces", formatted("9 x 9 points a face, %.0e m of noise, stacked", noise), tile,
           tile, stacked);
   }
 }
@@ -137,8 +138,8 @@ void addRadii(Maker& m, std::uint64_t seed) {
       const std::string margin = r > 0 ? ", r = 1 cm" : ", r = 0";
       for (const double beyond : {1e-9, 1e-6, 1e-3}) {
         const auto body = makeBody(shape.cloud, {r, least * (1 + beyond)});
-        m.add("R near the smallest", shape.name + named(", R = smallest (1 + %.0e)", beyond) + margin, body,
-              body);
+        m.add("R near the smallest", shape.name + formatted(", R = smallest (1 + %.0e)", beyond) + margin,
+              body, body);
       }
       const auto flat = makeBody(shape.cloud, {r, 1e6});
       m.add("R = 1e6 m", shape.name + margin, flat, flat);
@@ -196,8 +197,8 @@ void addGrid(Maker& m) {
     const Vector3d steps[] = {{2, 0, 0}, {2, 2, 0}, {2, 2, 2}, {3, 1, 0}, {0, 4, 1}, {1, 1, 3}};
     const Placement at{test::pose(Matrix3d::Identity(), {0, 0, 0}),
                        test::pose(Matrix3d::Identity(), steps[i])};
-    m.add("boxes on a grid", named("unit boxes, neighbour %.0f", i + 1), unit, unit, {at});
-    m.add("boxes on a grid", named("box and slab, neighbour %.0f", i + 1), unit, slab, {at});
+    m.add("boxes on a grid", formatted("unit boxes, neighbour %.0f", i + 1), unit, unit, {at});
+    m.add("boxes on a grid", formatted("box and slab, neighbour %.0f", i + 1), unit, slab, {at});
   }
 }
 

@@ -1,7 +1,6 @@
 // What is parallel, and what touches: faces, edges and vertices over each other at gaps and depths from 1e-15
 // m to 1e-3 m; and slides and rocks through the same.
 #include <cmath>
-#include <cstdio>
 
 #include "test/reference/stability/situation.h"
 
@@ -71,12 +70,6 @@ Placement placed(const Arrangement& arrangement, double gap, const Matrix3d& wor
           test::pose(world * arrangement.turnAbove, world * up)};
 }
 
-std::string numbered(const char* format, double value) {
-  char buffer[96];
-  std::snprintf(buffer, sizeof buffer, format, value);
-  return buffer;
-}
-
 /// Group of the table for an arrangement: what is over what.
 std::string groupOf(const Arrangement& arrangement) {
   const std::string name = arrangement.name;
@@ -136,7 +129,7 @@ void addMotions(std::vector<Situation>& all, std::uint64_t seed) {
       const auto add = [&](const char* group, const std::string& name, const auto& move) {
         Situation s;
         s.group = group;
-        s.name = std::string(arrangement.name) + ", " + name + numbered(", steps of %.0e", step);
+        s.name = std::string(arrangement.name) + ", " + name + formatted(", steps of %.0e", step);
         s.a = a;
         s.b = b;
         s.isPath = true;

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
 namespace fcl_stpbv::stability {
@@ -207,14 +206,11 @@ const char* nameOf(Verdict verdict) {
 }
 
 std::string Judgement::text() const {
-  char buffer[64];
   switch (verdict) {
     case Verdict::wrong:
-      std::snprintf(buffer, sizeof buffer, "wrong by %.0e", amount);
-      return buffer;
+      return formatted("wrong by %.0e", amount);
     case Verdict::jump:
-      std::snprintf(buffer, sizeof buffer, "jump of %.0e", amount);
-      return buffer;
+      return formatted("jump of %.0e", amount);
     default:
       return nameOf(verdict);
   }

@@ -40,7 +40,7 @@ void addPoses(std::vector<Situation>& all, std::uint64_t seed) {
       return s;
     };
     for (const double away : {1e3, 1e6}) {
-      Situation s = blank("1e3 and 1e6 m from the origin", named(", %.0e m", away));
+      Situation s = blank("1e3 and 1e6 m from the origin", formatted(", %.0e m", away));
       for (int i = 0; i < 8; ++i) {
         const Vector3d offset = away * random.direction();
         const double apart = i < 4 ? 0.6 : 0.36;
@@ -55,7 +55,7 @@ void addPoses(std::vector<Situation>& all, std::uint64_t seed) {
                                 test::pose(random.rotation(), 1e6 * random.direction())});
     all.push_back(std::move(far));
     for (const double error : {1e-12, 1e-9, 1e-6}) {
-      Situation s = blank("rotation matrices off by 1e-12 to 1e-6", named(", %.0e", error));
+      Situation s = blank("rotation matrices off by 1e-12 to 1e-6", formatted(", %.0e", error));
       for (int i = 0; i < 6; ++i) {
         Placement at{test::pose(random.rotation(), {0, 0, 0}),
                      test::pose(random.rotation(), 0.6 * random.direction())};

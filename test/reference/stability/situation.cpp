@@ -3,7 +3,6 @@
 #include "test/reference/stability/situation.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <map>
 #include <set>
 #include <stdexcept>
@@ -40,12 +39,6 @@ double sizeOf(const Situation& situation, const Placement& at) {
   const double apart = (at.b.translation() - at.a.translation()).norm();
   const double size = extent(*situation.a) + extent(*situation.b) + apart;
   return std::isfinite(size) ? size : 1.0;
-}
-
-std::string named(const char* format, double value) {
-  char buffer[96];
-  std::snprintf(buffer, sizeof buffer, format, value);
-  return buffer;
 }
 
 std::vector<Situation> allSituations(std::uint64_t seed, const std::string& hardCases, bool large) {

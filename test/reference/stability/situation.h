@@ -9,10 +9,12 @@
 #include <vector>
 
 #include "fcl_stpbv/adapter/stp_bv_geometry.h"
+#include "fcl_stpbv/formatted.h"
 #include "test/reference/shapes.h"
 
 namespace fcl_stpbv::stability {
 
+using detail::formatted;
 using test::Cloud;
 
 /// One of the two bodies: what everybody is given, and what is made of it.
@@ -63,9 +65,6 @@ double sizeOf(const Situation& situation, const Placement& at);
 /// than a second to set up only if `large`.
 /// @throws std::runtime_error where the folder with the published cases is missing.
 std::vector<Situation> allSituations(std::uint64_t seed, const std::string& hardCases, bool large);
-
-/// A name with a number in it, as printf prints it.
-std::string named(const char* format, double value);
 
 // By kind; each adds to `all`.
 void addContacts(std::vector<Situation>& all, std::uint64_t seed);  ///< what is parallel or touches
