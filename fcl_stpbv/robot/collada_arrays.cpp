@@ -7,17 +7,13 @@
 #include <set>
 #include <vector>
 
-#include "fcl_stpbv/error.h"
-#include "fcl_stpbv/robot/mesh_lines.h"
-#include "fcl_stpbv/robot/xml_text.h"
+#include "fcl_stpbv/robot/collada_values.h"
 #include "fcl_stpbv/words.h"
 
 namespace fcl_stpbv::detail {
 namespace {
 
 using tinyxml2::XMLElement;
-
-constexpr const char* kIndex = "a whole number from 0";
 
 // The uses of a source that assimp knows. It passes over others.
 constexpr Words kSemantics{"POSITION", "NORMAL",     "TEXCOORD", "COLOR",
@@ -28,38 +24,6 @@ constexpr Words kPrimitives{"triangles", "lines",   "linestrips", "polygons",
 // A misspelt one is a table read from elsewhere.
 constexpr Words kOfAccessor{"count", "offset", "source", "stride"};
 
-// The line of a place in a text, whose own line is that of its first word.
-int lineWithin(const tinyxml2::XMLText& text, std::size_t at) {
-  const std::string_view value = text.Value();
-  const std::size_t start = std::min(value.find_first_not_of(" \t\r\n"), at);
-  return text.GetLineNum() +
-         static_cast<int>(std::count(value.begin() + static_cast<std::ptrdiff_t>(start),
-                                     value.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
-}
-
-std::size_t countWords(const XMLElement& element, bool (*good)(std::string_view), const std::string& expected,
-                       const std::string& name) {
-  const tinyxml2::XMLText* text = nullptr;
-  for (const tinyxml2::XMLNode* node = element.FirstChild(); node != nullptr; node = node->NextSibling()) {
-    if (node->ToText() == nullptr) continue;
-    if (text != nullptr)
-      throw Error(xmlPlace(element, name) + "<" + element.Name() +
-                  "> is read only up to the comment or element amid its text; remove that");
-    text = node->ToText();
-  }
-  if (text == nullptr) return 0;
-  std::size_t count = 0;
-  std::string_view rest = text->Value();
-  for (std::string_view word = takeWord(rest); !word.empty(); word = takeWord(rest), ++count) {
-    if (good(word)) continue;
-    const std::size_t at = static_cast<std::size_t>(word.data() - text->Value());
-    throw Error(name + ":" + std::to_string(lineWithin(*text, at)) + ": got '" + std::string(word) +
-                "' in <" + element.Name() + ">, expected " + expected +
-                "; the file is damaged, export it again");
-  }
-  return count;
-}
-
 struct Accessor {
   const XMLElement* element = nullptr;
   std::string array;
@@ -67,17 +31,6 @@ struct Accessor {
   std::size_t width = 1;  // values that one item reaches over
   bool hasPoint = false;  // values for x, y and z
 };
-
-std::size_t numberOf(const XMLElement& element, const char* attribute, std::size_t missing,
-                     const std::string& name) {
-  const char* text = element.Attribute(attribute);
-  if (text == nullptr) return missing;
-  long value = 0;
-  std::string_view rest(text);
-  if (!readMeshIndex(takeWord(rest), value) || !takeWord(rest).empty())
-    refuseCollada(element, std::string("has ") + attribute + "=\"" + text + "\", expected " + kIndex, name);
-  return static_cast<std::size_t>(value);
-}
 
 std::string idOf(const XMLElement& element) {
   const char* id = element.Attribute("id");
@@ -129,9 +82,9 @@ class ColladaArrays {
     Accessor accessor;
     accessor.element = &element;
     accessor.array = colladaTarget(element, "source", name_);
-    accessor.count = numberOf(element, "count", 0, name_);
-    accessor.offset = numberOf(element, "offset", 0, name_);
-    accessor.stride = numberOf(element, "stride", 1, name_);
+    accessor.count = colladaWhole(element, "count", 0, name_);
+    accessor.offset = colladaWhole(element, "offset", 0, name_);
+    accessor.stride = colladaWhole(element, "stride", 1, name_);
     // assimp tells coordinates, colours and texture coordinates by these names, and takes the first value for
     // those without one.
     static const std::map<std::string_view, std::size_t> kParts{{"X", 0}, {"R", 0}, {"S", 0}, {"U", 0},
@@ -163,13 +116,13 @@ class ColladaArrays {
       const std::string_view kind = element->Name();
       if (kind == "input") inputs.push_back(element);
       if (kind == "p") {
-        runs.emplace_back(element, countWords(*element, isMeshIndex, kIndex, name_));
+        runs.emplace_back(element, countIndices(*element, name_));
         indices += runs.back().second;
       }
-      if (kind == "vcount") counts += countWords(*element, isMeshIndex, kIndex, name_);
+      if (kind == "vcount") counts += countIndices(*element, name_);
     }
     if (indices == 0) return;
-    if (numberOf(primitives, "count", 0, name_) == 0)
+    if (colladaWhole(primitives, "count", 0, name_) == 0)
       refuseCollada(primitives, "holds indices, but its count is 0", name_);
     if (counts == 0 && std::string_view(primitives.Name()) == "polylist")
       refuseCollada(primitives, "holds indices, but no <vcount> says of how many each polygon is made",
@@ -195,11 +148,13 @@ class ColladaArrays {
     const bool lines = kind == "lines", lineStrips = kind == "linestrips";
     if (!lines && !lineStrips && kind != "tristrips" && kind != "trifans") return;
     std::size_t each = 1;  // indices for a vertex
-    for (const XMLElement* input : inputs) each = std::max(each, 1 + numberOf(*input, "offset", 0, name_));
+    for (const XMLElement* input : inputs)
+      each = std::max(each, 1 + colladaWhole(*input, "offset", 0, name_));
     const std::size_t least = lines || lineStrips ? 2 : 3;
     for (const auto& [run, count] : runs) {
       const std::size_t vertices = count / each;
-      const bool whole = lines ? vertices == 2 * numberOf(primitives, "count", 0, name_) : vertices >= least;
+      const bool whole =
+          lines ? vertices == 2 * colladaWhole(primitives, "count", 0, name_) : vertices >= least;
       if (count % each != 0 || !whole)
         refuseCollada(*run,
                       "holds " + std::to_string(count) + " indices, " + std::to_string(each) +
@@ -209,7 +164,7 @@ class ColladaArrays {
   }
 
   void checkInput(const XMLElement& input) {
-    numberOf(input, "offset", 0, name_);
+    colladaWhole(input, "offset", 0, name_);
     const char* semantic = input.Attribute("semantic");
     if (semantic == nullptr || !holds(kSemantics, semantic)) return;
     const std::string source = colladaTarget(input, "source", name_);
@@ -228,7 +183,7 @@ class ColladaArrays {
                     "names the <float_array> '#" + accessor.array + "', which does not exist before it",
                     name_);
     const XMLElement& array = *found->second;
-    const std::size_t held = numberOf(array, "count", 0, name_);
+    const std::size_t held = colladaWhole(array, "count", 0, name_);
     const std::size_t last =
         accessor.count == 0 ? 0 : accessor.offset + (accessor.count - 1) * accessor.stride + accessor.width;
     if (last > held)
@@ -255,43 +210,6 @@ class ColladaArrays {
 };
 
 }  // namespace
-
-void refuseCollada(const XMLElement& element, const std::string& message, const std::string& name) {
-  throw Error(xmlPlace(element, name) + "<" + element.Name() + "> " + message +
-              "; the file is damaged, export it again");
-}
-
-std::string colladaTarget(const XMLElement& element, const char* attribute, const std::string& name) {
-  const char* target = element.Attribute(attribute);
-  if (target == nullptr || *target != '#') {
-    throw Error(xmlPlace(element, name) + "<" + element.Name() + "> must have " + attribute +
-                "=\"#...\", an element of this file; other files are not read");
-  }
-  return target + 1;
-}
-
-void checkColladaAttributes(const XMLElement& element, const Words& known, const std::string& name) {
-  for (const tinyxml2::XMLAttribute* a = element.FirstAttribute(); a != nullptr; a = a->Next()) {
-    if (holds(known, a->Name())) continue;
-    std::string list;
-    for (const std::string_view word : known) list += (list.empty() ? "" : ", ") + std::string(word);
-    throw Error(xmlPlace(element, name) + "<" + element.Name() + "> has an attribute '" + a->Name() +
-                "' that COLLADA does not know there; it knows " + list);
-  }
-}
-
-std::size_t countNumbers(const XMLElement& element, const std::string& name) {
-  return countWords(element, isMeshNumber, std::string("a finite number, ") + kNumberForm, name);
-}
-
-std::vector<double> numbersOf(const XMLElement& element, const std::string& name) {
-  std::vector<double> numbers(countNumbers(element, name));
-  std::string_view rest;
-  for (const tinyxml2::XMLNode* node = element.FirstChild(); node != nullptr; node = node->NextSibling())
-    if (const tinyxml2::XMLText* text = node->ToText()) rest = text->Value();
-  for (double& number : numbers) readMeshNumber(takeWord(rest), number);
-  return numbers;
-}
 
 void checkColladaGeometries(const XMLElement& root, const std::string& name) {
   ColladaArrays arrays(name);

@@ -11,6 +11,7 @@
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/robot/collada_arrays.h"
 #include "fcl_stpbv/robot/collada_transforms.h"
+#include "fcl_stpbv/robot/collada_values.h"
 #include "fcl_stpbv/robot/mesh_lines.h"
 #include "fcl_stpbv/robot/xml_text.h"
 #include "fcl_stpbv/words.h"

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "fcl_stpbv/error.h"
-#include "fcl_stpbv/robot/collada_arrays.h"
+#include "fcl_stpbv/robot/collada_values.h"
 #include "fcl_stpbv/robot/xml_text.h"
 
 namespace fcl_stpbv::detail {

@@ -1,0 +1,39 @@
+// Attributes and texts of COLLADA's elements.
+#pragma once
+
+#include <tinyxml2.h>
+
+#include <string>
+#include <vector>
+
+#include "fcl_stpbv/words.h"
+
+namespace fcl_stpbv::detail {
+
+/// Refuses the file at an element that only its writer can mend. @throws Error "name:line: <element> ..."
+[[noreturn]] void refuseCollada(const tinyxml2::XMLElement& element, const std::string& message,
+                                const std::string& name);
+
+/// The id that an attribute refers to as "#id". @throws Error where it has another form.
+std::string colladaTarget(const tinyxml2::XMLElement& element, const char* attribute,
+                          const std::string& name);
+
+/// @throws Error for an attribute that is not among `known`.
+void checkColladaAttributes(const tinyxml2::XMLElement& element, const Words& known, const std::string& name);
+
+/// The whole number that an attribute states, `missing` where there is none. @throws Error for what is no
+/// whole number from 0.
+std::size_t colladaWhole(const tinyxml2::XMLElement& element, const char* attribute, std::size_t missing,
+                         const std::string& name);
+
+/// How many numbers the element's text has. @throws Error where one is no finite number, or where a comment
+/// or another element divides the text: assimp reads its first part only.
+std::size_t countNumbers(const tinyxml2::XMLElement& element, const std::string& name);
+
+/// The same of indices, whole numbers from 0.
+std::size_t countIndices(const tinyxml2::XMLElement& element, const std::string& name);
+
+/// The numbers that countNumbers() counts.
+std::vector<double> numbersOf(const tinyxml2::XMLElement& element, const std::string& name);
+
+}  // namespace fcl_stpbv::detail
