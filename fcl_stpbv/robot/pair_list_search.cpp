@@ -34,6 +34,8 @@ class Search {
   Search(std::shared_ptr<const Kinematics> kinematics, std::shared_ptr<const RobotGeometry> geometry,
          const PairListOptions& options)
       : kinematics_(std::move(kinematics)), geometry_(std::move(geometry)), options_(options) {
+    if (options.samples < 1) throw Error("pairList: samples must be 1 or more");
+    requireRoomForPairs(*kinematics_, *geometry_, options.obstacles.size());
     constexpr double kLargest = 1e9;  // m, s
     requireNumber("PairListOptions: margin", options.margin, -kLargest, kLargest);
     requireNumber("PairListOptions: proofSeconds", options.proofSeconds, 0, kLargest);
@@ -285,10 +287,6 @@ class Search {
   std::vector<Open> open_;
 };
 
-void requireSamples(const PairListOptions& options) {
-  if (options.samples < 1) throw Error("pairList: samples must be 1 or more");
-}
-
 }  // namespace
 
 namespace detail {
@@ -297,8 +295,6 @@ std::vector<PairEntry> pairListAgain(std::shared_ptr<const Kinematics> kinematic
                                      std::shared_ptr<const RobotGeometry> geometry, const Srdf* srdf,
                                      const PairListOptions& options, const std::vector<PairEntry>& before,
                                      const std::set<LinkPair>& changed) {
-  requireSamples(options);
-  requireRoomForPairs(*kinematics, *geometry, options.obstacles.size());
   return Search(std::move(kinematics), std::move(geometry), options).run(srdf, &before, changed);
 }
 
@@ -307,8 +303,6 @@ std::vector<PairEntry> pairListAgain(std::shared_ptr<const Kinematics> kinematic
 std::vector<PairEntry> pairList(std::shared_ptr<const Kinematics> kinematics,
                                 std::shared_ptr<const RobotGeometry> geometry, const Srdf* srdf,
                                 const PairListOptions& options) {
-  requireSamples(options);
-  requireRoomForPairs(*kinematics, *geometry, options.obstacles.size());
   return Search(std::move(kinematics), std::move(geometry), options).run(srdf);
 }
 
