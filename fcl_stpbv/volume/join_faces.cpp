@@ -11,6 +11,7 @@
 #include <numeric>
 #include <set>
 
+#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/volume/ball_faces.h"
 #include "fcl_stpbv/volume/half_edges.h"
 #include "fcl_stpbv/volume/rolling_ball.h"
@@ -19,40 +20,6 @@ namespace fcl_stpbv::detail {
 namespace {
 
 using Eigen::Vector3d;
-
-// The single loop around a group of faces; empty where there is none (a ring, a
-// pinch) and the group must stay apart.
-Ring boundary(const std::vector<Ring>& faces, const std::vector<HalfEdge>& halfEdges,
-              const std::vector<int>& first, const std::vector<int>& group,
-              const std::vector<std::size_t>& members) {
-  const int own = group[members[0]];
-  const auto next = [&](int h) {
-    const HalfEdge& e = halfEdges[static_cast<std::size_t>(h)];
-    const int corners = static_cast<int>(faces[static_cast<std::size_t>(e.face)].size());
-    return first[static_cast<std::size_t>(e.face)] + (e.corner + 1) % corners;
-  };
-  const auto isOuter = [&](int h) {
-    const int twin = halfEdges[static_cast<std::size_t>(h)].twin;
-    return group[static_cast<std::size_t>(halfEdges[static_cast<std::size_t>(twin)].face)] != own;
-  };
-  int start = -1, outer = 0;
-  for (const std::size_t f : members)
-    for (int k = 0; k < static_cast<int>(faces[f].size()); ++k)
-      if (isOuter(first[f] + k)) start = first[f] + k, ++outer;
-  if (start < 0) return {};
-  Ring ring;
-  int h = start;
-  do {
-    const HalfEdge& e = halfEdges[static_cast<std::size_t>(h)];
-    ring.push_back(faces[static_cast<std::size_t>(e.face)][static_cast<std::size_t>(e.corner)]);
-    h = next(h);
-    while (!isOuter(h)) h = next(halfEdges[static_cast<std::size_t>(h)].twin);
-  } while (h != start && static_cast<int>(ring.size()) <= outer);
-  const bool isLoop =
-      static_cast<int>(ring.size()) == outer && std::set<int>(ring.begin(), ring.end()).size() == ring.size();
-  if (!isLoop || ring.size() < 3) return {};
-  return ring;
-}
 
 // Whether the way from `a` over `b` to `c` turns left, or straight on to rounding, seen along the normal `n`.
 bool turnsLeft(const Vector3d& n, const Vector3d& a, const Vector3d& b, const Vector3d& c) {
@@ -65,17 +32,15 @@ bool turnsLeft(const Vector3d& n, const Vector3d& a, const Vector3d& b, const Ve
 // each side as they must be, and the face convex: where neighbours stay apart its boundary may turn in.
 bool isSound(const std::vector<Vector3d>& points, const Ring& ring, double radius, long double tolerance,
              double tilt) {
-  const auto at = [&](std::size_t k) -> const Vector3d& {
-    return points[static_cast<std::size_t>(ring[k % ring.size()])];
-  };
+  const auto corner = [&](std::size_t k) -> const Vector3d& { return points[at(ring[k % ring.size()])]; };
   const std::array<int, 3> t = wideTriangle(points, ring);
-  const TouchingBall ball(points[static_cast<std::size_t>(t[0])], points[static_cast<std::size_t>(t[1])],
-                          points[static_cast<std::size_t>(t[2])], radius);
+  const TouchingBall ball(points[at(t[0])], points[at(t[1])], points[at(t[2])], radius);
   if (!ball.valid()) return false;
   for (std::size_t k = 0; k < ring.size(); ++k) {
-    const long double here = ball.height(at(k)), next = ball.height(at(k + 1));
-    if (std::abs(here) > tolerance || std::abs(next - here) > tilt * (at(k + 1) - at(k)).norm() ||
-        !turnsLeft(ball.normalAt(at(k + 1)), at(k), at(k + 1), at(k + 2)))
+    const Vector3d &p = corner(k), &q = corner(k + 1);
+    const long double here = ball.height(p), next = ball.height(q);
+    if (std::abs(here) > tolerance || std::abs(next - here) > tilt * (q - p).norm() ||
+        !turnsLeft(ball.normalAt(q), p, q, corner(k + 2)))
       return false;
   }
   return true;
@@ -89,70 +54,123 @@ double mostTilt(const std::vector<Vector3d>& points, double radius) {
   return radius < plane ? std::min(kJoinTilt, kSeam * plane / radius) : kJoinTilt;
 }
 
+class FaceJoiner {
+ public:
+  FaceJoiner(const std::vector<Vector3d>& points, const std::vector<Ring>& faces, double radius)
+      : points_(points),
+        faces_(faces),
+        radius_(radius),
+        tolerance_(touchTolerance(points)),
+        tilt_(mostTilt(points, radius)),
+        group_(faces.size(), -1) {
+    int total = 0;
+    for (const Ring& ring : faces) {
+      const std::array<int, 3> t = wideTriangle(points, ring);
+      const Vector3d &a = point(t[0]), &b = point(t[1]), &c = point(t[2]);
+      balls_.emplace_back(a, b, c, radius);
+      normals_.push_back(balls_.back().normalAt(point(ring[0])));
+      area_.push_back((b - a).cross(c - a).squaredNorm());
+      first_.push_back(total);
+      total += static_cast<int>(ring.size());
+    }
+    halfEdges_ = pairHalfEdges(points, faces, normals_, radius);
+  }
+
+  std::vector<Ring> run() {
+    std::vector<std::size_t> order(faces_.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t i, std::size_t j) { return area_[i] > area_[j]; });
+    std::vector<std::vector<std::size_t>> groups;
+    for (const std::size_t seed : order)
+      if (group_[seed] < 0) groups.push_back(grown(seed));
+
+    std::vector<Ring> joined;
+    for (const std::vector<std::size_t>& members : groups) {
+      Ring ring = members.size() > 1 ? boundary(members) : Ring();
+      if (!ring.empty() && isSound(points_, ring, radius_, tolerance_, tilt_))
+        joined.push_back(std::move(ring));
+      else
+        for (const std::size_t f : members) joined.push_back(faces_[f]);
+    }
+    for (Ring& ring : joined)
+      std::rotate(ring.begin(), std::min_element(ring.begin(), ring.end()), ring.end());
+    std::sort(joined.begin(), joined.end());
+    return joined;
+  }
+
+ private:
+  const Vector3d& point(int i) const { return points_[at(i)]; }
+  const HalfEdge& half(int h) const { return halfEdges_[at(h)]; }
+  int acrossFrom(int h) const { return half(half(h).twin).face; }
+
+  // Height alone does not tell: near the smallest radius the balls of opposite faces nearly coincide.
+  bool isOnBallOf(std::size_t seed, std::size_t f) const {
+    const Vector3d tilt = balls_[seed].normalAt(point(faces_[f][0])) - normals_[f];
+    return tilt.norm() <= tilt_ && std::all_of(faces_[f].begin(), faces_[f].end(), [&](int i) {
+             return std::abs(balls_[seed].height(point(i))) <= tolerance_;
+           });
+  }
+
+  // A face and those around it on its ball, as far as no group has them.
+  std::vector<std::size_t> grown(std::size_t seed) {
+    std::vector<std::size_t> members{seed};
+    group_[seed] = static_cast<int>(seed);
+    for (std::size_t done = 0; done < members.size(); ++done) {
+      const std::size_t f = members[done];
+      for (int k = 0; k < static_cast<int>(faces_[f].size()); ++k) {
+        const std::size_t g = at(acrossFrom(first_[f] + k));
+        if (group_[g] >= 0 || !isOnBallOf(seed, g)) continue;
+        group_[g] = static_cast<int>(seed);
+        members.push_back(g);
+      }
+    }
+    return members;
+  }
+
+  // The single loop around a group; empty where there is none (a ring, a pinch) and its faces must stay
+  // apart.
+  Ring boundary(const std::vector<std::size_t>& members) const {
+    const auto next = [&](int h) {
+      const HalfEdge& e = half(h);
+      return first_[at(e.face)] + (e.corner + 1) % static_cast<int>(faces_[at(e.face)].size());
+    };
+    const auto isOuter = [&](int h) { return group_[at(acrossFrom(h))] != group_[members[0]]; };
+    int start = -1, outer = 0;
+    for (const std::size_t f : members)
+      for (int k = 0; k < static_cast<int>(faces_[f].size()); ++k)
+        if (isOuter(first_[f] + k)) start = first_[f] + k, ++outer;
+    if (start < 0) return {};
+    Ring ring;
+    int h = start;
+    do {
+      ring.push_back(faces_[at(half(h).face)][at(half(h).corner)]);
+      h = next(h);
+      while (!isOuter(h)) h = next(half(h).twin);
+    } while (h != start && static_cast<int>(ring.size()) <= outer);
+    const bool isLoop = static_cast<int>(ring.size()) == outer &&
+                        std::set<int>(ring.begin(), ring.end()).size() == ring.size();
+    if (!isLoop || ring.size() < 3) return {};
+    return ring;
+  }
+
+  const std::vector<Vector3d>& points_;
+  const std::vector<Ring>& faces_;
+  double radius_;
+  long double tolerance_;
+  double tilt_;
+  std::vector<TouchingBall> balls_;  // for each face, as what follows
+  std::vector<Vector3d> normals_;    // at its first vertex
+  std::vector<double> area_;         // squared, of its widest triangle
+  std::vector<int> first_, group_;   // of its half-edges; the face that its group grew from, -1 for none yet
+  std::vector<HalfEdge> halfEdges_;
+};
+
 }  // namespace
 
 std::vector<Ring> joinFaces(const std::vector<Vector3d>& points, std::vector<Ring> faces, double radius) {
   if (faces.size() < 3) return faces;
-  const auto at = [&](int i) -> const Vector3d& { return points[static_cast<std::size_t>(i)]; };
-  const long double tolerance = touchTolerance(points);
-  const double most = mostTilt(points, radius);
-  const std::size_t count = faces.size();
-
-  std::vector<TouchingBall> balls;
-  std::vector<Vector3d> normals;
-  std::vector<double> area;
-  std::vector<int> first;
-  int total = 0;
-  for (const Ring& ring : faces) {
-    const std::array<int, 3> t = wideTriangle(points, ring);
-    balls.emplace_back(at(t[0]), at(t[1]), at(t[2]), radius);
-    normals.push_back(balls.back().normalAt(at(ring[0])));
-    area.push_back((at(t[1]) - at(t[0])).cross(at(t[2]) - at(t[0])).squaredNorm());
-    first.push_back(total);
-    total += static_cast<int>(ring.size());
-  }
-  const std::vector<HalfEdge> halfEdges = pairHalfEdges(points, faces, normals, radius);
-
-  // Height alone does not tell: near the smallest radius the balls of opposite faces nearly coincide.
-  const auto onOneBall = [&](std::size_t seed, std::size_t f) {
-    const Vector3d tilt = balls[seed].normalAt(at(faces[f][0])) - normals[f];
-    return tilt.norm() <= most && std::all_of(faces[f].begin(), faces[f].end(), [&](int i) {
-             return std::abs(balls[seed].height(at(i))) <= tolerance;
-           });
-  };
-  std::vector<std::size_t> order(count);
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t i, std::size_t j) { return area[i] > area[j]; });
-  std::vector<int> group(count, -1);
-  std::vector<std::vector<std::size_t>> groups;
-  for (const std::size_t seed : order) {
-    if (group[seed] >= 0) continue;
-    std::vector<std::size_t> members{seed};
-    group[seed] = static_cast<int>(seed);
-    for (std::size_t done = 0; done < members.size(); ++done) {
-      const std::size_t f = members[done];
-      for (std::size_t k = 0; k < faces[f].size(); ++k) {
-        const int twin = halfEdges[static_cast<std::size_t>(first[f]) + k].twin;
-        const std::size_t g = static_cast<std::size_t>(halfEdges[static_cast<std::size_t>(twin)].face);
-        if (group[g] >= 0) continue;
-        if (onOneBall(seed, g)) group[g] = static_cast<int>(seed), members.push_back(g);
-      }
-    }
-    groups.push_back(std::move(members));
-  }
-
-  std::vector<Ring> joined;
-  for (const std::vector<std::size_t>& members : groups) {
-    Ring ring = members.size() > 1 ? boundary(faces, halfEdges, first, group, members) : Ring();
-    if (!ring.empty() && isSound(points, ring, radius, tolerance, most))
-      joined.push_back(std::move(ring));
-    else
-      for (const std::size_t f : members) joined.push_back(faces[f]);
-  }
-  for (Ring& ring : joined) std::rotate(ring.begin(), std::min_element(ring.begin(), ring.end()), ring.end());
-  std::sort(joined.begin(), joined.end());
-  return joined;
+  return FaceJoiner(points, faces, radius).run();
 }
 
 }  // namespace fcl_stpbv::detail
