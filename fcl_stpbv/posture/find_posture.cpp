@@ -111,6 +111,88 @@ SolverOutcome solve(PostureProblem& problem, const Eigen::VectorXd& start,
   return outcome;
 }
 
+// The best of all that was tried.
+class PostureSearch {
+ public:
+  PostureSearch(PostureProblem& problem, const PostureOptions& options)
+      : problem_(problem), options_(options), solver_(options.solver) {}
+
+  /// From one start after the other, the first of them at `start`, until one leads to a posture.
+  void fromStarts(const Eigen::VectorXd& start) {
+    // The cost pulls the constraints apart by about this times their multipliers: millimetres.
+    constexpr double kCostWeight = 1e-4;
+    // Soft obstacles first: a hand that would be caught before one passes through it and is pushed out
+    // behind.
+    constexpr double kSoft = 0.3, kFirm = 1;
+    const long long first = std::max(0, options_.firstStart), last = first + std::max(1, options_.starts);
+    Starts starts(problem_, start, options_.seed, first);
+    for (long long i = first; i < last && !best_.feasible; ++i) {
+      ++best_.starts;
+      consider(solve(problem_, problem_.variablesAt(starts.next()),
+                     {{kCostWeight, kSoft}, {kCostWeight, kFirm}}, solver_));
+      if (stopped()) return;
+    }
+    for (int i = 0; i < options_.mends && goesOn(); ++i) {
+      const std::optional<Eigen::VectorXd> x = starts.mended(x_, solver_);
+      if (!x) break;
+      const ApproachOptions firm;  // without the cost, which would pull the pairs into each other again
+      consider(solve(problem_, *x, {firm}, solver_));
+    }
+    for (int i = 0; i < options_.anywhere && goesOn(); ++i)
+      consider(solve(problem_, starts.anywhere(), {ApproachOptions{}}, solver_));
+  }
+
+  /// What is in conflict, where no start led to a posture.
+  void explain() {
+    // Steps to where the constraints hold best: next to singular postures they are many and short.
+    constexpr int kLongest = 150;
+    if (goesOn()) {
+      ApproachOptions toTheEnd;
+      toTheEnd.maxIterations = kLongest;
+      const NearPosture least = approached(problem_, x_, toTheEnd, solver_);
+      best_.conflict = problem_.missed(least.x, solver_.tolerance);
+      if (best_.conflict.empty())  // then they can hold together
+        consider(improve(problem_, least.x, solver_));
+      else
+        best_.conflictLimits = pushedLimits(problem_, least);
+    }
+    if (!best_.feasible && stopped()) {
+      best_.status = "stopped";
+      best_.conflict.clear();
+      best_.conflictLimits.clear();
+    }
+    if (!problem_.still().empty()) {  // whatever else holds
+      best_.feasible = false;
+      best_.status = "in collision where nothing moves";
+      best_.violations = problem_.violations(x_, solver_.tolerance);
+      best_.conflict.insert(best_.conflict.begin(), problem_.still().begin(), problem_.still().end());
+    }
+  }
+
+  Posture& best() { return best_; }
+  const Eigen::VectorXd& x() const { return x_; }
+
+ private:
+  bool stopped() const { return solver_.stop && solver_.stop(); }
+  bool goesOn() const { return !best_.feasible && !stopped(); }
+
+  void consider(const SolverOutcome& outcome) {
+    std::vector<Violation> violations = problem_.missed(outcome.x, solver_.tolerance);
+    best_.iterations += outcome.iterations;
+    if (x_.size() > 0 && !(total(violations) < total(best_.violations))) return;
+    best_.violations = std::move(violations);
+    best_.feasible = best_.violations.empty();
+    best_.status = !best_.feasible && outcome.status == "converged" ? "stuck" : outcome.status;
+    x_ = outcome.x;
+  }
+
+  PostureProblem& problem_;
+  const PostureOptions& options_;
+  const SolverOptions& solver_;
+  Posture best_;
+  Eigen::VectorXd x_;  // of the best
+};
+
 }  // namespace
 
 Posture findPosture(PostureSetup& setup, const PostureOptions& options) {
@@ -118,74 +200,23 @@ Posture findPosture(PostureSetup& setup, const PostureOptions& options) {
   const auto elapsed = [&] {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   };
-  // Steps to where the constraints hold best: next to singular postures they are many and short.
-  constexpr int kLongest = 150;
-  // The cost pulls the constraints apart by about this times their multipliers: millimetres.
-  constexpr double kCostWeight = 1e-4;
-  // Soft obstacles first: a hand that would be caught before one passes through it and is pushed out behind.
-  constexpr double kSoft = 0.3, kFirm = 1;
   PostureProblem& problem = *setup.problem;
-  if (setup.start.size() != problem.kinematics().size())
-    throw Error("findPosture: the start has " + std::to_string(setup.start.size()) +
-                " coordinates, the robot " + std::to_string(problem.kinematics().size()));
+  const Eigen::Index size = setup.start.size();
+  if (size != problem.kinematics().size())
+    throw Error("findPosture: the start has " + std::to_string(size) + " coordinates, the robot " +
+                std::to_string(problem.kinematics().size()));
   const long queriesBefore = problem.queries();
-  Posture best;
-  Eigen::VectorXd bestX;
-  const auto consider = [&](const SolverOutcome& outcome) {
-    std::vector<Violation> violations = problem.missed(outcome.x, options.solver.tolerance);
-    best.iterations += outcome.iterations;
-    if (bestX.size() > 0 && !(total(violations) < total(best.violations))) return;
-    best.violations = std::move(violations);
-    best.feasible = best.violations.empty();
-    best.status = !best.feasible && outcome.status == "converged" ? "stuck" : outcome.status;
-    bestX = outcome.x;
-  };
-  const long long first = std::max(0, options.firstStart), last = first + std::max(1, options.starts);
-  const auto stopped = [&] { return options.solver.stop && options.solver.stop(); };
+  PostureSearch search(problem, options);
   // The random starts are around one within the limits: around another all could end at the same limit.
-  const Eigen::VectorXd start = problem.variablesAt(setup.start).head(setup.start.size());
-  Starts starts(problem, start, options.seed, first);
-  for (long long i = first; i < last && !best.feasible; ++i) {
-    ++best.starts;
-    consider(solve(problem, problem.variablesAt(starts.next()), {{kCostWeight, kSoft}, {kCostWeight, kFirm}},
-                   options.solver));
-    if (stopped()) break;
-  }
-  for (int i = 0; i < options.mends && !best.feasible && !stopped(); ++i) {
-    const std::optional<Eigen::VectorXd> x = starts.mended(bestX, options.solver);
-    if (!x) break;
-    const ApproachOptions firm;  // without the cost, which would pull the pairs into each other again
-    consider(solve(problem, *x, {firm}, options.solver));
-  }
-  for (int i = 0; i < options.anywhere && !best.feasible && !stopped(); ++i)
-    consider(solve(problem, starts.anywhere(), {ApproachOptions{}}, options.solver));
-  if (!best.feasible && !stopped()) {
-    ApproachOptions toTheEnd;
-    toTheEnd.maxIterations = kLongest;
-    const NearPosture least = approached(problem, bestX, toTheEnd, options.solver);
-    best.conflict = problem.missed(least.x, options.solver.tolerance);
-    if (best.conflict.empty())  // then they can hold together
-      consider(improve(problem, least.x, options.solver));
-    else
-      best.conflictLimits = pushedLimits(problem, least);
-  }
-  if (!best.feasible && stopped()) {
-    best.status = "stopped";
-    best.conflict.clear();
-    best.conflictLimits.clear();
-  }
-  if (!problem.still().empty()) {  // whatever else holds
-    best.feasible = false;
-    best.status = "in collision where nothing moves";
-    best.violations = problem.violations(bestX, options.solver.tolerance);
-    best.conflict.insert(best.conflict.begin(), problem.still().begin(), problem.still().end());
-  }
+  search.fromStarts(problem.variablesAt(setup.start).head(size));
+  search.explain();
+  Posture& best = search.best();
   best.seconds = elapsed();
-  best.q = bestX.head(setup.start.size());
-  best.cost = problem.evaluate(bestX).cost;
-  best.active = activeAt(problem, bestX);
+  best.q = search.x().head(size);
+  best.cost = problem.evaluate(search.x()).cost;
+  best.active = activeAt(problem, search.x());
   best.distanceCalls = best.gradientCalls = problem.queries() - queriesBefore;
-  return best;
+  return std::move(best);
 }
 
 }  // namespace fcl_stpbv
