@@ -88,10 +88,8 @@ class CollisionConstraints {
   /// The two bodies of a row, or the smooth constraint's name. @throws Error for a row that does not exist,
   /// as all do that are asked for one, and as all below do for a q or a result of another size than theirs.
   std::string name(int row) const;
-  /// The most that a row's value can be: what it bends over to for `influence` or `handOver`, else infinite.
-  double largestValue(int row) const;
-  /// Up to where a row's value is its distance (m): beyond it bends over, as above. For the row of whole
-  /// bodies this bounds what `influence` does to it.
+  /// Up to where a row's value is its distance (m): beyond it bends over, for `influence` or `handOver`. For
+  /// the row of whole bodies this bounds what `influence` does to it.
   double exactUpTo(int row) const;
 
   /// The entries of J that may differ from 0, row by row, columns ascending.

@@ -55,13 +55,6 @@ double CollisionConstraints::bend(std::size_t row, double d, double& slope, doub
   return bent.value;
 }
 
-double CollisionConstraints::largestValue(int row) const {
-  requireRow(row);
-  if (at(row) >= pairs_.size()) return kInfinity;
-  const Row& r = rows_[at(row)];
-  return r.group >= 0 && !r.whole ? levelAt(r.start, r.end) : levelAt(options_.exactUpTo, options_.influence);
-}
-
 double CollisionConstraints::exactUpTo(int row) const {
   requireRow(row);
   if (at(row) >= pairs_.size()) return kInfinity;

@@ -99,6 +99,6 @@ TEST_CASE("the gradient of two polyhedra has no bound, and none is not a number"
       constraints.evaluate(VectorXd::Constant(1, x), VectorXd::Constant(1, speed), rates, jacobian);
       const double bound = constraints.gradientRateBound(0);
       CAPTURE(x, speed, rates.d, bound);
-      CHECK(bound == (rates.d[0] == constraints.largestValue(0) ? 0 : HUGE_VAL));
+      CHECK(bound == (rates.d[0] == 1.5 ? 0 : HUGE_VAL));  // the row is constant far away
     }
 }

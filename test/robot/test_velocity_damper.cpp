@@ -221,7 +221,6 @@ TEST_CASE("a damper that makes no sense is refused with what would work") {
   }
   // Its rows bend over from 2.5 cm on, to 3.75 cm.
   Held small(0.01, 10, 0.2, 0.05);
-  CHECK(small.constraints->largestValue(0) == Approx(0.0375).epsilon(1e-15));
   CHECK(small.constraints->exactUpTo(0) == 0.025);
   options = {};
   for (const double bending : {0.05, 0.0375, 0.0251}) {
