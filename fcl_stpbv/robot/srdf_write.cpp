@@ -1,10 +1,10 @@
 // Writes pairs into an SRDF, in which all else stays as it was.
 #include <algorithm>
-#include <cctype>
 #include <set>
 #include <string_view>
 #include <utility>
 
+#include "fcl_stpbv/robot/mesh_lines.h"
 #include "fcl_stpbv/robot/srdf.h"
 #include "fcl_stpbv/robot/xml_text.h"
 
@@ -36,8 +36,7 @@ std::string printedInItsEncoding(tinyxml2::XMLDocument& document) {
   if (isUtf8(text)) return text;
   tinyxml2::XMLNode* first = document.FirstChild();
   tinyxml2::XMLDeclaration* said = first ? first->ToDeclaration() : nullptr;
-  std::string value = said ? said->Value() : "";
-  for (char& c : value) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const std::string value = inSmallLetters(said ? said->Value() : "");
   if (value.find("encoding") != std::string::npos && value.find("utf-8") == std::string::npos) return text;
   if (said) document.DeleteChild(said);
   document.InsertFirstChild(document.NewDeclaration("xml version=\"1.0\" encoding=\"ISO-8859-1\""));
