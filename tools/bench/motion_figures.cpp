@@ -1,6 +1,5 @@
 // The figures of docs/motion.md: time of an edge between two free postures, and contacts that dense samples
 // see but the proof does not. Usage: motion_figures [EDGES [SAMPLES [SEED [ROBOT.urdf [ROBOT.srdf]]]]]
-#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <exception>
@@ -11,6 +10,7 @@
 #include "test/reference/arguments.h"
 #include "test/reference/shapes.h"
 #include "test/reference/source_folder.h"
+#include "tools/bench/measurement.h"
 
 using namespace fcl_stpbv;
 using namespace fcl_stpbv::detail;
@@ -58,15 +58,11 @@ VectorXd moved(const Robot& robot, const VectorXd& q, test::Random& random) {
   return next;
 }
 
-double percentile(std::vector<double> times, double part) {
-  std::sort(times.begin(), times.end());
-  return times[static_cast<std::size_t>(part * static_cast<double>(times.size() - 1))];
-}
-
-void report(const char* what, const std::vector<double>& times) {
+void report(const char* what, std::vector<double> times) {
   if (!times.empty())
     std::printf("%-34s %6zu edges, median %7.0f us, 99 %% %7.0f us, worst %7.0f us\n", what, times.size(),
-                percentile(times, 0.5), percentile(times, 0.99), percentile(times, 1));
+                benchmark::percentile(times, 0.5), benchmark::percentile(times, 0.99),
+                benchmark::percentile(times, 1));
 }
 
 int run(int edges, int samples, int seed, const Robot& robot) {

@@ -109,13 +109,6 @@ class Study {
   int searchStarts_;
 };
 
-double middle(std::vector<double> values) {
-  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2),
-                   values.end());
-  return values[values.size() / 2];
-}
-
 void printTable(const std::vector<Row>& rows, int starts) {
   const auto feasible = std::count_if(rows.begin(), rows.end(), [](const Row& row) { return row.feasible; });
   std::printf("%zu tasks, %d of them known to be feasible\n\n", rows.size(), static_cast<int>(feasible));
@@ -145,8 +138,8 @@ void printTable(const std::vector<Row>& rows, int starts) {
     }
     const double share = 100.0 / static_cast<double>(std::max<std::ptrdiff_t>(1, feasible));
     std::printf("| %s | %.1f %% | %.1f %% | %d | %.0f | %.0f | %.1f | %.1f %% |\n", kMethods[m].name,
-                first * share, within * share, hits, middle(iterations), middle(calls), 1e3 * middle(seconds),
-                100 * middle(costs));
+                first * share, within * share, hits, benchmark::median(iterations), benchmark::median(calls),
+                1e3 * benchmark::median(seconds), 100 * benchmark::median(costs));
   }
   std::map<std::string, std::array<int, kCount + 1>> families;
   for (const Row& row : rows) {

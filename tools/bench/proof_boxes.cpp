@@ -65,13 +65,6 @@ Taken byPlanes(const ProofScene& scene, const PairEntry& entry, long most) {
   return {proof.proven(), proof.collision.has_value(), proof.boxes, since(start)};
 }
 
-double median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2),
-                   values.end());
-  return values[values.size() / 2];
-}
-
 // What the random descents take of the whole list, beside the proofs that it starts with.
 void timeList(std::shared_ptr<const Kinematics> kinematics, std::shared_ptr<const RobotGeometry> geometry) {
   for (const int descents : {0, PairListOptions().randomDescents}) {
@@ -148,7 +141,8 @@ int run(const Arguments& a) {
       "both prove %zu: median %.0f times fewer boxes; the %zu that levers take 100 boxes or more for: median "
       "%.0f "
       "times fewer, %.0f times faster; %.0f us a box\n",
-      fewer.size(), median(fewer), fewerOfMany.size(), median(fewerOfMany), median(faster), median(perBox));
+      fewer.size(), benchmark::median(fewer), fewerOfMany.size(), benchmark::median(fewerOfMany),
+      benchmark::median(faster), benchmark::median(perBox));
   if (a.folder.empty()) return 0;
   benchmark::Measurement result;
   result.name = a.name;
@@ -159,10 +153,10 @@ int run(const Arguments& a) {
                   {"proven_by_levers", oldProven},
                   {"proven_by_planes", newProven},
                   {"hardest_proof", now.empty() ? 0 : *std::max_element(now.begin(), now.end())},
-                  {"fewer_boxes_median", std::round(median(fewerOfMany))},
+                  {"fewer_boxes_median", std::round(benchmark::median(fewerOfMany))},
                   {"fewer_boxes_pairs", fewerOfMany.size()},
-                  {"less_time_median", std::round(median(faster))},
-                  {"us_a_box", std::round(median(perBox))}};
+                  {"less_time_median", std::round(benchmark::median(faster))},
+                  {"us_a_box", std::round(benchmark::median(perBox))}};
   for (const long boxes : before) result.rows.push_back({{"bound", "levers"}, {"boxes", boxes}});
   for (const long boxes : now) result.rows.push_back({{"bound", "planes"}, {"boxes", boxes}});
   benchmark::write(result, a.command, a.folder);

@@ -13,6 +13,7 @@
 #include "fcl_stpbv/robot/velocity_damper.h"
 #include "tools/bench/control/manifold.h"
 #include "tools/bench/control/program.h"
+#include "tools/bench/measurement.h"
 
 namespace fcl_stpbv::benchmark {
 namespace {
@@ -208,8 +209,7 @@ class Controller {
     out_.switches = static_cast<double>(switches_) / seconds;
     out_.clearance = clearance_;
     out_.tracking = tracking_ / n;
-    std::nth_element(spent_.begin(), spent_.begin() + static_cast<long>(spent_.size() / 2), spent_.end());
-    out_.solve = spent_[spent_.size() / 2];
+    out_.solve = median(spent_);
     out_.failed = failed_;
     if (contacts_) out_.contact = contacts_->most();
     return out_;
