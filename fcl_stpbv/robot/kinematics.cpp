@@ -208,11 +208,10 @@ void Kinematics::place(const Step& step, const Eigen::Ref<const Eigen::VectorXd>
   } else if (step.type == JointType::prismatic) {
     compose(parent, frameOf(step.origin), link);
     const Vector3d axis = link.linear() * step.axis;
-    link.translation() += (step.multiplier * q[step.coordinate] + step.offset) * axis;
+    link.translation() += step.value(q) * axis;
     if (twist) *twist = sliding(step.multiplier * axis);
   } else {
-    const double angle = step.multiplier * q[step.coordinate] + step.offset;
-    const double sine = std::sin(angle), cosine = std::cos(angle);
+    const double angle = step.value(q), sine = std::sin(angle), cosine = std::cos(angle);
     Frame local{{{}, {}, {}, detail::column(step.origin, 3)}};
     for (Eigen::Index i = 0; i < 3; ++i) {
       detail::Packed part[3];

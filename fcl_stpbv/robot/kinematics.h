@@ -134,6 +134,11 @@ class Kinematics {
     Eigen::Matrix3d plane;  // turns z into the axis
     // The frame's columns in the parent's, of a joint that turns: along + cos(angle) even + sin(angle) odd.
     Eigen::Matrix<double, 4, 3, Eigen::DontAlign> along, even, odd;
+
+    /// Of a joint along or about one axis.
+    double value(const Eigen::Ref<const Eigen::VectorXd>& q) const {
+      return multiplier * q[coordinate] + offset;
+    }
   };
   void addCoordinates(const std::string& name, JointType type, double lower, double upper);
   void addStep(int joint, const JointModel& model, int coordinate, double multiplier, double offset);

@@ -38,9 +38,7 @@ Eigen::VectorXd Kinematics::configuration(const Srdf::State& state, Eigen::Vecto
   known([&](const std::string& where, const JointModel& model, int first, const std::vector<double>& values) {
     constexpr double kOff = 1e-3;  // what is written with few digits (rad or m)
     if (first >= 0) return;
-    const double own =
-        model.mimic ? model.mimic->multiplier * q[coordinateOf_[at(model.mimic->joint)]] + model.mimic->offset
-                    : 0.0;
+    const double own = model.mimic ? steps_[at(stepOf_[at(model.child)])].value(q) : 0.0;
     const bool turns = model.type == JointType::revolute || model.type == JointType::continuous;
     const double off = turns ? std::remainder(values[0] - own, kTwoPi) : values[0] - own;
     if (std::abs(off) <= kOff) return;
