@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "fcl_stpbv/formatted.h"
+#include "fcl_stpbv/report/pair_cause.h"
 #include "fcl_stpbv/report/report_formats.h"
 #include "fcl_stpbv/report/text_table.h"
 #include "fcl_stpbv/text_cells.h"
@@ -90,6 +91,27 @@ std::string advised(const CollisionReport& report) {
                    least.r * kMm, most.r * kMm, least.R, most.R, acceleration);
 }
 
+// "A - B, C - D and 2 more": the first three of some pairs.
+std::string named(const std::vector<const PairReport*>& pairs) {
+  constexpr std::size_t kNamed = 3;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(kNamed, pairs.size()); ++i)
+    text += (i > 0 ? ", " : "") + printable(pairs[i]->link1 + " - " + pairs[i]->link2);
+  return text + (pairs.size() > kNamed ? " and " + std::to_string(pairs.size() - kNamed) + " more" : "");
+}
+
+// What parts were made for, and did not help.
+std::string unsplit(const CollisionReport& report, bool anySplit) {
+  std::vector<const PairReport*> left;
+  for (const PairReport& pair : report.pairs)
+    if (pair.checked && pair.colliding && pair.cause == kHullOnly) left.push_back(&pair);
+  if (left.empty()) return anySplit ? "" : "No link needs to be split into parts\n";
+  return "No parts clear the " +
+         (left.size() == 1 ? "pair that collides by its hulls"
+                           : counted(left.size(), "pair") + " that collide by their hulls") +
+         " alone: " + named(left) + "\n";
+}
+
 // The links that are split, for which pairs, and what that costs.
 std::string splits(const CollisionReport& report) {
   if (report.partsCost.rows == 0) return "";
@@ -102,22 +124,20 @@ std::string splits(const CollisionReport& report) {
       if (body.partOf == static_cast<int>(i)) excess = std::max(excess, body.excess);
     text += "  " + printable(bodies[i].name) +
             formatted(" in %d parts, %.3f mm from the mesh at most, for", bodies[i].parts, excess * kMm);
-    int count = 0;
+    std::vector<const PairReport*> own;
     for (const PairReport& pair : report.pairs) {
       const LinkPair& links = pair.links;
-      const bool own = links.link1 == bodies[i].link || (!links.obstacle && links.link2 == bodies[i].link);
-      if (!own || !report.isByParts(pair)) continue;
-      if (++count <= 3) text += (count > 1 ? ", " : " ") + printable(pair.link1 + " - " + pair.link2);
+      const bool ofLink = links.link1 == bodies[i].link || (!links.obstacle && links.link2 == bodies[i].link);
+      if (ofLink && report.isByParts(pair)) own.push_back(&pair);
     }
-    text += (count > 3 ? " and " + std::to_string(count - 3) + " more\n" : "\n");
+    text += (own.empty() ? "" : " ") + named(own) + "\n";
   }
   const std::string cost = formatted(
-      "rows %d, %.1f us a tick with whole bodies;\n  %d, %.1f us with parts;\n  %d of %d not constant, "
-      "%.1f us where whole bodies hand over to parts at %g m\n",
+      "rows of a controller: %d with whole bodies, %.1f us a tick;\n  %d with parts, %.1f us;\n"
+      "  %d where whole bodies hand over to parts at %g m, %d of them more than a constant there, %.1f us\n",
       report.wholeCost.rows, report.wholeCost.usPerTick, report.partsCost.rows, report.partsCost.usPerTick,
-      report.handOverCost.live, report.handOverCost.rows, report.handOverCost.usPerTick, kHandOver);
-  return (text.empty() ? "No link needs to be split into parts\n" : "Split into convex parts:\n" + text) +
-         cost;
+      report.handOverCost.rows, kHandOver, report.handOverCost.live, report.handOverCost.usPerTick);
+  return (text.empty() ? "" : "Split into convex parts:\n" + text) + unsplit(report, !text.empty()) + cost;
 }
 
 // The meshes' volumes beside those of their published polyhedra, those that differ most first.

@@ -3,6 +3,7 @@
 // 3. the files (part_files.h), all at once.
 #include "fcl_stpbv/report/robot_conversion.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -121,10 +122,15 @@ ConversionResult convertRobot(const RobotConversion& conversion) {
   atomicWriteFolder(conversion.folder, files);
   result.warnings = report.warnings;
   result.skipped = report.skipped;
-  const std::string parts = output.parts() == 0
-                                ? "no meshes"
-                                : formatted("%d convex parts, their volumes within %.3f mm of the meshes",
-                                            output.parts(), output.excess() * 1e3);
+  const auto& bodies = report.geometry->bodies;
+  const bool split =
+      std::any_of(bodies.begin(), bodies.end(), [](const Body& body) { return body.partOf >= 0; });
+  const std::string parts =
+      output.parts() == 0
+          ? "no meshes"
+          : counted(static_cast<std::size_t>(output.parts()), "convex part") +
+                (split ? "" : ", no link was split") +
+                formatted(", their volumes within %.3f mm of the meshes", output.excess() * 1e3);
   result.summary = formatted("%s: %s; %d of %zu pairs checked -> %s", report.robot->name.c_str(),
                              parts.c_str(), report.checked, report.pairs.size(), conversion.folder.c_str());
   return result;

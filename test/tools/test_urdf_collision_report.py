@@ -676,6 +676,23 @@ class Report(unittest.TestCase):
         self.assertEqual(done.returncode, 1)
         self.assertIn("No link needs to be split", done.stdout)
 
+    def test_pairs_that_no_parts_clear_are_named(self):
+        # A bar of 6 mm through a ring around it: the parts' hulls still overlap the hole.
+        ring = [(math.cos(a), math.sin(a)) for a in (2 * math.pi * i / 48 for i in range(48))]
+        points = [(x * radius, y * radius, z) for radius in (0.0035, 0.1) for z in (-0.05, 0.05) for x, y in ring]
+        quads = [(a * 48 + i, a * 48 + (i + 1) % 48, b * 48 + (i + 1) % 48, b * 48 + i)
+                 for a, b in ((1, 0), (2, 3), (0, 2), (3, 1)) for i in range(48)]
+        tube = self.put("tube.obj", "".join("v %.9g %.9g %.9g\n" % p for p in points)
+                        + "".join("f %d %d %d %d\n" % tuple(v + 1 for v in quad) for quad in quads))
+        robot = self.robot(link("tube", f'<mesh filename="file://{tube}"/>') + link("far", self.boxes("far.obj", 0.01, (5, 0, 0)))
+                           + link("bar", self.boxes("bar.obj", 0.0023, (0, 0, 0))) + joint("j", "tube", "far") + joint("k", "far", "bar"))
+        done = self.run_tool(robot, "--srdf", self.put("none.srdf", '<robot name="small"/>'), "--pose",
+                             self.put("pose.json", "{}"), "-r", "0.0001", "-R", "5", "--samples", "1", "--parts", "auto")
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertIn("  1 pair: hull only\n", done.stdout)
+        self.assertIn("No parts clear the pair that collides by its hulls alone: tube - bar\n", done.stdout)
+        self.assertNotIn("No link needs to be split", done.stdout)
+
     def test_primitives_are_covered_where_a_pair_has_no_smooth_body(self):
         urdf = self.robot("".join(link("l%d" % i, shape) for i, shape in enumerate((
             '<box size="0.1 0.2 0.3"/>', '<capsule radius="0.05" length="0.2"/>', '<cylinder radius="0.05" length="0.2"/>',

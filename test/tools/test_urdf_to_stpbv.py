@@ -148,7 +148,7 @@ class Conversion(unittest.TestCase):
             self.assertAlmostEqual(entry["excess_max"], entry["hull_excess_max"]
                                    + max(part["over_cover_max"] for part in entry["parts"]), places=12)
         self.assertEqual(manifest["excess_max"], max(e.get("excess_max", 0) for e in manifest["links"]))
-        self.assertIn("gate: 6 convex parts", done.stdout)
+        self.assertIn("gate: 6 convex parts, their volumes", done.stdout)
 
     def test_the_report_says_the_same_of_the_output_as_of_the_robot_with_parts(self):
         urdf = self.gate()
@@ -356,7 +356,7 @@ class Conversion(unittest.TestCase):
         self.assertEqual(self.convert("--parts", "none").returncode, 0)
         (self.folder / "deep").mkdir()
         self.out = self.out.rename(self.folder / "deep" / "out")
-        self.assertIn("convex parts", self.convert("--parts", "none").stdout)
+        self.assertIn("convex parts, no link was split, their volumes", self.convert("--parts", "none").stdout)
         visual = re.search(r'<visual>\s*<geometry>\s*<mesh filename="([^"]*)"', (self.out / "gate.urdf").read_text())[1]
         self.assertTrue((self.out / visual).samefile(self.place / "gate.obj"), visual)
 
