@@ -86,7 +86,8 @@ int run(Arguments& a) {
     others.push_back(entry.path().string());
   checkOutput(a.output, read, others);
   Stages stages(!a.quiet);
-  const ReportRequest request = requestOf(a.robot, a.search, std::ref(stages));
+  ReportRequest request = requestOf(a.robot, a.search, std::ref(stages));
+  request.files.writesPairs = a.format == "srdf";
   if (!request.pose.empty() && !request.trajectory.empty())
     throw Error("--trajectory " + request.trajectory +
                 ": cannot be given with --pose; leave one of them out");

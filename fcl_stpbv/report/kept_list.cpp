@@ -186,7 +186,7 @@ NeutralPosture keptNeutral(const std::shared_ptr<const Kinematics>& kinematics,
   };
   const Question question(*kinematics, *geometry, srdf, options);
   if (!question.whole()) return judge();
-  std::string asked = question.text() + "neutral";
+  std::string asked = question.text() + "neutral, named";
   std::vector<std::string> states;
   for (const auto& [name, q] : namedPostures(*kinematics, srdf)) {
     states.push_back(name);
@@ -198,19 +198,29 @@ NeutralPosture keptNeutral(const std::shared_ptr<const Kinematics>& kinematics,
     const auto state = std::find(states.begin(), states.end(), found.state);
     std::vector<double> numbers{double(found.colliding), double(found.collidingThere),
                                 found.state.empty() ? -1.0 : double(state - states.begin())};
+    for (std::size_t i = 0; i < NeutralPosture::kNamed; ++i) {
+      const bool there = i < found.named.size();
+      numbers.push_back(there ? double(found.named[i].link1) : -1);
+      numbers.push_back(there ? double(found.named[i].link2) : -1);
+    }
     numbers.insert(numbers.end(), found.better.begin(), found.better.end());
     return numbers;
   };
   const std::vector<double> kept = cache.numbers(asked, "neutral", measure);
   const std::size_t coordinates = at(kinematics->size());
-  if (kept.size() != 3 && kept.size() != 3 + coordinates) return judge();
+  constexpr std::size_t kFirst = 3 + 2 * NeutralPosture::kNamed;
+  if (kept.size() != kFirst && kept.size() != kFirst + coordinates) return judge();
   NeutralPosture found;
   found.colliding = static_cast<int>(kept[0]);
   found.collidingThere = static_cast<int>(kept[1]);
   if (kept[2] >= 0 && kept[2] < static_cast<double>(states.size()))
     found.state = states[static_cast<std::size_t>(kept[2])];
-  found.better =
-      Eigen::Map<const Eigen::VectorXd>(kept.data() + 3, static_cast<Eigen::Index>(kept.size() - 3));
+  const auto links = static_cast<double>(kinematics->robot().links.size());
+  for (std::size_t i = 3; i < kFirst; i += 2)
+    if (kept[i] >= 0 && kept[i] < links && kept[i + 1] >= 0 && kept[i + 1] < links)
+      found.named.push_back({static_cast<int>(kept[i]), static_cast<int>(kept[i + 1]), false});
+  found.better = Eigen::Map<const Eigen::VectorXd>(kept.data() + kFirst,
+                                                   static_cast<Eigen::Index>(kept.size() - kFirst));
   return found;
 }
 

@@ -1,5 +1,6 @@
 // A posture from a group state of the SRDF, else from a JSON file: values by joint, all coordinates in a
-// list, or an answer of find_posture. Joints that it leaves out stay as they are.
+// list, an answer of find_posture, or the posture that a report proposes. Joints that it leaves out stay as
+// they are.
 #include "fcl_stpbv/report/named_posture.h"
 
 #include <algorithm>
@@ -36,6 +37,14 @@ nlohmann::json jointsOfAnswer(const std::string& path, const nlohmann::json& q, 
   return joints;
 }
 
+// The posture that a collision report proposes in its member `neutral`.
+nlohmann::json betterOfReport(const std::string& path, const nlohmann::json& neutral) {
+  if (!neutral.contains("better"))
+    throw Error(path +
+                ": is a collision report that proposes no neutral posture; give a file of joints' values");
+  return neutral["better"];
+}
+
 // A configuration from a JSON object of joints' or coordinates' values, or a list of all coordinates.
 Eigen::VectorXd poseFromJson(const std::string& path, const Kinematics& kinematics, Eigen::VectorXd rest,
                              bool obstacles) {
@@ -51,6 +60,8 @@ Eigen::VectorXd poseFromJson(const std::string& path, const Kinematics& kinemati
     nlohmann::json json = readJson(path);
     if (json.is_object() && json.contains("q") && json["q"].is_object())
       json = jointsOfAnswer(path, json["q"], kinematics, obstacles);
+    else if (json.is_object() && json.contains("neutral") && json["neutral"].is_object())
+      json = betterOfReport(path, json["neutral"]);
     if (json.is_array()) {
       const std::vector<double> all = values(json);
       if (static_cast<int>(all.size()) != kinematics.size())

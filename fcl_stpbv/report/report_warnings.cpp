@@ -4,9 +4,12 @@
 #include <algorithm>
 #include <cstddef>
 #include <set>
+#include <string>
+#include <vector>
 
 #include "fcl_stpbv/adapter/fcl_distance.h"
 #include "fcl_stpbv/formatted.h"
+#include "fcl_stpbv/numbers.h"
 
 namespace fcl_stpbv::report {
 
@@ -14,36 +17,53 @@ using namespace detail;
 
 namespace {
 
-std::string openMeshes(const CollisionReport& report) {
-  std::size_t open = 0;
-  for (std::size_t i = 0; i < report.fits.size(); ++i)
-    open += report.geometry->bodies[i].partOf < 0 && !report.fits[i].closed;
-  if (open == 0) return "";
-  return open == 1
-             ? "1 mesh is not closed. Its volume is not known, and whether another mesh lies inside it is "
-               "an estimate, by its winding number."
-             : std::to_string(open) +
-                   " meshes are not closed. Their volume is not known, and whether another mesh lies "
-                   "inside one of them is an estimate, by its winding number.";
+// "a, b and 3 more": the first three of `count` names.
+std::string listed(const std::vector<std::string>& first, std::size_t count) {
+  std::string text;
+  for (std::size_t i = 0; i < std::min<std::size_t>(3, first.size()); ++i)
+    text += (i > 0 ? ", " : "") + first[i];
+  return text + (count > 3 ? " and " + std::to_string(count - 3) + " more" : "");
 }
 
-std::string neutralCollisions(const NeutralPosture& found, const std::string& neutral) {
-  if (found.colliding == 0) return "";
-  std::string warning =
-      (found.colliding == 1
-           ? "1 pair of links that is not adjacent overlaps"
-           : std::to_string(found.colliding) + " pairs of links that are not adjacent overlap") +
-      " in the neutral posture (" +
-      (neutral.empty() ? "all joints at zero, or at the limit nearest to it" : neutral) + ")";
+std::string openMeshes(const CollisionReport& report) {
+  std::vector<std::string> open;
+  for (std::size_t i = 0; i < report.fits.size(); ++i) {
+    const Body& body = report.geometry->bodies[i];
+    if (body.partOf < 0 && !report.fits[i].closed) open.push_back("'" + body.name + "'");
+  }
+  if (open.empty()) return "";
+  const std::string names = listed(open, open.size());
+  return open.size() == 1
+             ? "1 mesh is not closed, that of " + names +
+                   ". Its volume is not known, and whether another mesh lies inside it is an estimate, by "
+                   "its winding number."
+             : std::to_string(open.size()) + " meshes are not closed, those of " + names +
+                   ". Their volume is not known, and whether another mesh lies inside one of them is an "
+                   "estimate, by its winding number.";
+}
+
+// Of the neutral posture nobody asks who gave a posture or a trajectory.
+std::string neutralCollisions(const CollisionReport& report, const std::string& neutral) {
+  const NeutralPosture& found = report.neutral;
+  if (found.colliding == 0 || report.trajectory || !report.pose.empty()) return "";
+  std::vector<std::string> pairs;
+  for (const LinkPair& pair : found.named)
+    pairs.push_back(report.robot->links[at(pair.link1)].name + " - " +
+                    report.robot->links[at(pair.link2)].name);
+  std::string warning = (found.colliding == 1 ? "1 pair of links that is not adjacent overlaps"
+                                              : std::to_string(found.colliding) +
+                                                    " pairs of links that are not adjacent overlap") +
+                        " in the neutral posture (" +
+                        (neutral.empty() ? "all joints at zero, or at the limit nearest to it" : neutral) +
+                        "): " + listed(pairs, at(found.colliding));
   if (found.better.size() > 0)
-    warning += "; in another posture " +
-               (found.collidingThere == 0   ? "none does"
-                : found.collidingThere == 1 ? "only 1 does"
-                                            : "only " + std::to_string(found.collidingThere) + " do") +
-               ": " +
-               (found.state.empty()
-                    ? "neutral.better in the JSON of urdf_collision_report, which --neutral takes from a file"
-                    : "give --neutral " + found.state);
+    warning +=
+        "; in another posture " +
+        (found.collidingThere == 0   ? "none does"
+         : found.collidingThere == 1 ? "only 1 does"
+                                     : "only " + std::to_string(found.collidingThere) + " do") +
+        ": give --neutral " +
+        (found.state.empty() ? "the file that urdf_collision_report --format json writes" : found.state);
   return warning + ".";
 }
 
@@ -98,7 +118,7 @@ std::string openParts(const RobotGeometry& geometry) {
 std::vector<std::string> reportWarnings(const CollisionReport& report, const std::string& neutral) {
   std::vector<std::string> warnings;
   for (const std::string& text :
-       {openMeshes(report), openParts(*report.geometry), neutralCollisions(report.neutral, neutral),
+       {openMeshes(report), openParts(*report.geometry), neutralCollisions(report, neutral),
         unmovedInObstacles(report), overlapsAllowed(report.margin), kinks(report)})
     if (!text.empty()) warnings.push_back(report.robot->path + ": " + text);
   return warnings;

@@ -2,8 +2,12 @@
 // with any of them into one message.
 #include "fcl_stpbv/report/robot_files.h"
 
+#include <set>
+
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/formatted.h"
+#include "fcl_stpbv/numbers.h"
+#include "fcl_stpbv/robot/adjacency.h"
 #include "fcl_stpbv/robot/checked_pairs.h"
 #include "fcl_stpbv/robot/pair_list.h"
 
@@ -54,6 +58,27 @@ std::vector<std::string> stillJoints(const RobotModel& robot, const Still& still
   if (count > kNamed) list += " and " + std::to_string(count - kNamed) + " more";
   return {robot.path + ": " + (count == 1 ? "the joint " : "the joints ") + list + " " +
           (count == 1 ? one : several) + "."};
+}
+
+// A warning where an SRDF leaves out no pair of links, as one that holds states alone: it is obeyed, and
+// neighbours that always touch count as collisions.
+std::vector<std::string> leavesOutNone(const RobotModel& robot, const RobotGeometry& geometry,
+                                       const Srdf& srdf) {
+  const Adjacency adjacency(robot, geometry);
+  const SkipReasons reasons(&srdf);
+  std::set<int> links;
+  for (const Body& body : geometry.bodies) links.insert(body.link);
+  std::size_t near = 0;
+  for (const int i : links) {
+    for (auto j = links.upper_bound(i); j != links.end(); ++j) {
+      if (!reasons.of(robot.links[at(i)].name, robot.links[at(*j)].name).empty()) return {};
+      near += adjacency.of(i, *j) != Joining::separate;
+    }
+  }
+  if (near == 0) return {};
+  return {srdf.path + ": leaves out no pair of links, so " + counted(near, "pair") +
+          " of adjacent or rigidly joined ones " + (near == 1 ? "is" : "are") +
+          " checked too; urdf_collision_report --format srdf writes one that leaves them out."};
 }
 
 // A warning where smooth covers of primitives have a larger R than the one that was given; none without.
@@ -133,6 +158,7 @@ std::vector<std::string> RobotLoader::meshFiles() const {
 std::vector<std::string> RobotLoader::warnings() const {
   std::vector<std::string> all = faults_.warnings;
   if (srdf_) append(all, srdf_->warnings);
+  if (srdf_ && !files_.writesPairs) append(all, leavesOutNone(*robot_, *geometry_, *srdf_));
   append(all, stillJoints(
                   *robot_,
                   [](const JointModel& joint) {

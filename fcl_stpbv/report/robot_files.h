@@ -20,6 +20,7 @@ struct RobotFiles {
   bool flatObstacles = false;         ///< the scene's meshes stay convex polyhedra
   bool flatPrimitives = false;  ///< primitives get no smooth cover where a pair needs one (checked_pairs.h)
   bool skipInvalid = false;     ///< go on without the shapes that are wrong
+  bool writesPairs = false;     ///< the SRDF's pairs are written anew: it need not leave out any yet
   BaseMotion base = BaseMotion::fixed;  ///< a base that moves makes pairs of all links and obstacles
 };
 

@@ -36,6 +36,9 @@ NeutralPosture judgeNeutral(std::shared_ptr<const Kinematics> kinematics,
   };
   NeutralPosture found;
   found.colliding = collidingAt(neutral);
+  const Eigen::VectorXd& distances = sampler.distances(neutral);
+  for (std::size_t i = 0; i < pairs.size() && found.named.size() < NeutralPosture::kNamed; ++i)
+    if (distances[static_cast<Eigen::Index>(i)] <= margin) found.named.push_back(pairs[i]);
   found.collidingThere = found.colliding;
   const auto consider = [&](const Eigen::VectorXd& q, const std::string& state) {
     if (found.collidingThere == 0) return;

@@ -13,8 +13,10 @@ namespace fcl_stpbv::detail {
 
 struct NeutralPosture {
   int colliding = 0;  ///< pairs of links whose bodies meet there, but for adjacent and rigidly joined ones
-  Eigen::VectorXd better;  ///< where fewer do; empty where nothing fewer was found
-  std::string state;       ///< the group_state that this is, "" for a random configuration
+  static constexpr std::size_t kNamed = 3;
+  std::vector<LinkPair> named;  ///< the first so many of them
+  Eigen::VectorXd better;       ///< where fewer do; empty where nothing fewer was found
+  std::string state;            ///< the group_state that this is, "" for a random configuration
   int collidingThere = 0;
 };
 

@@ -248,6 +248,7 @@ class Report(unittest.TestCase):
         done = self.run_tool(robot, "--obstacles", scene, "-r", "0.01", "-R", "1", "--pose", pose, "--format", "json")
         (pair,) = json.loads(done.stdout)["pairs"]
         self.assertAlmostEqual(pair["hull_distance"], 1e-3, delta=2e-5)  # 9 mm without the tip
+        self.assertIn("1 mesh is not closed, that of 'arm'. Its volume", done.stderr)
 
     def test_a_clear_posture_exits_with_0_and_states_every_figure(self):
         done = self.humanoid("--pose", "half_sitting", "--format", "json")
@@ -426,6 +427,22 @@ class Report(unittest.TestCase):
         reasons = {(p["link1"], p["link2"]): p["reason"] for p in report["pairs"]}
         self.assertEqual(reasons[("a", "d")], "default")
 
+    def test_an_srdf_that_leaves_out_no_pair_is_told(self):
+        urdf = self.folded()
+        states = self.put("states.srdf", '<robot name="small"><group name="all"/><group_state name="open" group="all">'
+                          '<joint name="j2" value="1"/></group_state></robot>')
+        told = f"{states}: leaves out no pair of links, so 2 pairs of adjacent or rigidly joined ones are checked too; "
+        self.assertIn(told, self.run_tool(urdf, "--srdf", states).stderr)
+        self.assertNotIn("leaves out no pair", self.run_tool(urdf).stderr)
+        made = self.run_tool(urdf, "--srdf", states, "--format", "srdf", "-o", states)  # this mends it
+        self.assertNotIn("leaves out no pair", made.stderr)
+        self.assertNotIn("leaves out no pair", self.run_tool(urdf, "--srdf", states).stderr)
+        # Two arms that no joint makes neighbours: an SRDF without a pair is as good as none.
+        ball = '<sphere radius="0.1"/>'
+        apart = self.robot(link("root") + link("a", ball) + link("b", ball) + joint("j", "root", "a") + joint("k", "root", "b", origin="9 0 0"))
+        none = self.put("none.srdf", '<robot name="small"/>')
+        self.assertNotIn("leaves out no pair", self.run_tool(apart, "--srdf", none).stderr)
+
     def test_nothing_checked_is_not_clear(self):
         ball = '<sphere radius="0.1"/>'
         urdf = self.robot(link("a", ball) + link("b", ball) + joint("j", "a", "b"))
@@ -462,11 +479,20 @@ class Report(unittest.TestCase):
         states = self.put("states.srdf", '<robot name="small"><group name="all"/><group_state name="open" group="all">'
                           '<joint name="j2" value="1"/></group_state></robot>')
         done = self.run_tool(urdf, "--srdf", states)
-        self.assertIn("give --neutral open", done.stderr)
+        self.assertIn("limit nearest to it): a - c; in another posture none does: give --neutral open.", done.stderr)
+        again = self.run_tool(urdf, "--srdf", states)  # from the cache
+        self.assertEqual(again.stderr, done.stderr)
+        self.assertNotIn("neutral", self.run_tool(urdf, "--srdf", states, "--pose", "open").stderr)
+        way = self.put("way.csv", "j2\n1\n0.9\n")
+        self.assertNotIn("neutral", self.run_tool(urdf, "--srdf", states, "--trajectory", way).stderr)
         again = self.run_tool(urdf, "--srdf", states, "--neutral", "open", "--format", "json")
         self.assertNotIn("neutral", again.stderr)
         self.assertEqual({p["reason"] for p in json.loads(again.stdout)["pairs"]}, {"adjacent", "sometimes"})
         bare = json.loads(self.run_tool(urdf, "--format", "json").stdout)
+        whole = self.put("report.json", json.dumps(bare))  # the report itself names the posture
+        mended = self.run_tool(urdf, "--neutral", whole, "--format", "json")
+        self.assertEqual(json.loads(mended.stdout)["neutral"], {"colliding": 0})
+        self.assertIn("proposes no neutral posture", self.run_tool(urdf, "--neutral", self.put("good.json", mended.stdout)).stderr)
         self.assertEqual((bare["neutral"]["colliding"], bare["neutral"]["better_colliding"]), (1, 0))
         better = self.put("better.json", json.dumps(bare["neutral"]["better"]))
         self.assertEqual(json.loads(self.run_tool(urdf, "--neutral", better, "--format", "json").stdout)["neutral"]["colliding"], 0)
