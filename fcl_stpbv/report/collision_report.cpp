@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <tuple>
 
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/numbers.h"
@@ -86,9 +87,9 @@ std::vector<std::size_t> followTrajectory(const ReportRequest& request, const Tr
 void placeOnTrajectory(const TrajectoryReport& trajectory, std::size_t first, std::size_t last,
                        PairReport& pair) {
   if (first == last) return;
-  const bool touches = trajectory.verdict == MotionVerdict::contact &&
-                       static_cast<std::size_t>(trajectory.stop.pair) >= first &&
-                       static_cast<std::size_t>(trajectory.stop.pair) < last;
+  pair.stopsTrajectory = trajectory.verdict != MotionVerdict::free && at(trajectory.stop.pair) >= first &&
+                         at(trajectory.stop.pair) < last;
+  const bool touches = pair.stopsTrajectory && trajectory.verdict == MotionVerdict::contact;
   const auto begin = trajectory.closest.begin();
   const auto nearest =
       std::min_element(begin + static_cast<std::ptrdiff_t>(first), begin + static_cast<std::ptrdiff_t>(last),
@@ -133,7 +134,8 @@ void explain(const std::vector<CheckedPair>& bodies, double margin, PairCauses& 
 
 void summarise(CollisionReport& report) {
   std::stable_sort(report.pairs.begin(), report.pairs.end(), [](const PairReport& a, const PairReport& b) {
-    return a.checked != b.checked ? a.checked : a.answer.distance < b.answer.distance;
+    return std::make_tuple(!a.checked, !a.stopsTrajectory, a.answer.distance) <
+           std::make_tuple(!b.checked, !b.stopsTrajectory, b.answer.distance);
   });
   report.minDistance = kInfinity;
   for (const PairReport& pair : report.pairs) {

@@ -66,6 +66,7 @@ struct PairReport {
       std::numeric_limits<double>::quiet_NaN();  ///< of `configuration` on the trajectory, NaN without one
   Eigen::VectorXd closest;                       ///< where minDistance was found
 
+  bool stopsTrajectory = false;  ///< has its first contact, or the first place where nothing is decided
   bool contradictsSrdf = false;  ///< which leaves the pair out as never or adjacent, and it collides
 };
 
@@ -89,9 +90,10 @@ struct CollisionReport {
   std::vector<MeshFit> fits;                ///< one a body
   std::vector<std::string> skipped;         ///< shapes left out as wrong, which nothing was checked against
   std::vector<PolyhedronReport> polyhedra;  ///< one a body, or none where none were asked for
-  std::vector<PairReport> pairs;            ///< checked ones first, closest first
-  bool pairsOfBodies = false;               ///< pairs name bodies, not links
-  std::vector<PairEntry> list;              ///< what the search found
+  /// Checked ones first: that which stops the trajectory, then the closest first.
+  std::vector<PairReport> pairs;
+  bool pairsOfBodies = false;   ///< pairs name bodies, not links
+  std::vector<PairEntry> list;  ///< what the search found
   detail::NeutralPosture neutral;
   std::string pose;                            ///< "" where each pair is in its own closest configuration
   std::optional<TrajectoryReport> trajectory;  ///< its pairs of bodies are `trajectoryPairs`

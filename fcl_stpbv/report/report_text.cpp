@@ -35,20 +35,64 @@ std::string unshown(std::size_t all, std::size_t top) {
   return all > top ? "... and " + std::to_string(all - top) + " more (--top)\n" : "";
 }
 
-// The checked pairs, as the report has them: the closest first.
-std::string pairs(const CollisionReport& report, std::size_t top) {
-  TextTable table("lrrrll");
-  table.add({"", "STP-BV", "hulls", "cover", "", "steepest joint"});
-  table.add({"pair", "[mm]", "[mm]", "[mm]", "reason", "[m/rad or m/m]"});
-  std::size_t shown = 0;
+// The checked pairs by what their collision comes from, those that do not collide last; within a group as the
+// report has them. Cut so that each group has its share of the lines: what only hulls or margins make collide
+// does not hide behind contacts.
+std::vector<const PairReport*> shownPairs(const CollisionReport& report, std::size_t top) {
+  constexpr std::size_t kGroups = 4;
+  const char* const causes[kGroups] = {kMeshesMeet, kHullOnly, kMarginOnly, ""};
+  std::vector<const PairReport*> groups[kGroups], shown;
   for (const PairReport& pair : report.pairs) {
-    if (!pair.checked || shown++ >= top) break;
-    table.add({pair.link1 + " - " + pair.link2, millimetres(pair.answer.distance),
-               std::isfinite(pair.hullDistance) ? millimetres(pair.hullDistance) : "-",
-               millimetres(pair.overCover1 + pair.overCover2), pair.reason, steepest(pair)});
+    if (!pair.checked) continue;
+    const bool first = pair.stopsTrajectory && shown.empty();
+    const auto group = std::find(causes, causes + kGroups - 1, pair.colliding ? pair.cause : "") - causes;
+    (first ? shown : groups[group]).push_back(&pair);
   }
+  std::size_t lines = top - std::min(top, shown.size());
+  std::size_t counts[kGroups] = {};
+  const auto colliding = static_cast<std::size_t>(
+      std::count_if(groups, groups + kGroups - 1, [](const auto& group) { return !group.empty(); }));
+  const std::size_t share = colliding == 0 ? 0 : lines / colliding;
+  for (std::size_t i = 0; i + 1 < kGroups; ++i) lines -= counts[i] = std::min(share, groups[i].size());
+  for (std::size_t i = 0; i < kGroups; ++i) {
+    const std::size_t more = std::min(lines, groups[i].size() - counts[i]);
+    lines -= more;
+    shown.insert(shown.end(), groups[i].begin(),
+                 groups[i].begin() + static_cast<std::ptrdiff_t>(counts[i] + more));
+  }
+  shown.resize(std::min(top, shown.size()));
+  return shown;
+}
+
+// Where pairs collide, the meshes and the cause tell more than the hulls and the search's reason.
+std::string pairs(const CollisionReport& report, std::size_t top) {
+  const std::vector<const PairReport*> shown = shownPairs(report, top);
+  const bool byCause = report.colliding > 0;
+  const bool timed = report.trajectory.has_value();
+  TextTable table(timed ? "lrrrlrl" : "lrrrll");
+  const auto add = [&](std::vector<std::string> line, const std::string& time, const std::string& last) {
+    if (timed) line.push_back(time);
+    line.push_back(last);
+    table.add(line);
+  };
+  add({"", "STP-BV", byCause ? "meshes" : "hulls", "cover", ""}, "closest", "steepest joint");
+  add({"pair", "[mm]", "[mm]", "[mm]", byCause ? "cause" : "reason"}, "at", "[m/rad or m/m]");
+  for (const PairReport* pair : shown) {
+    const double other = byCause ? pair->meshDistance : pair->hullDistance;
+    const std::string& why = byCause ? pair->cause : pair->reason;
+    add({pair->link1 + " - " + pair->link2, millimetres(pair->answer.distance),
+         std::isfinite(other) ? millimetres(other) : "-", millimetres(pair->overCover1 + pair->overCover2),
+         why.empty() ? "-" : why},
+        timed ? report.trajectory->timeText(pair->time) : "", steepest(*pair));
+  }
+  const bool gaps = std::any_of(shown.begin(), shown.end(), [](const PairReport* pair) {
+    return !std::isfinite(pair->meshDistance) || pair->cause.empty();
+  });
   return "\n" + table.text() + unshown(static_cast<std::size_t>(report.checked), top) +
-         "\ncover: how much closer the two smooth surfaces are than their hulls, along the normal\n";
+         "\ncover: how much closer the two smooth surfaces are than their hulls, along the normal\n" +
+         (!byCause ? ""
+                   : std::string("meshes: the distance of the meshes themselves, 0 where they meet\n") +
+                         (gaps ? "-: the volumes are far enough apart\n" : ""));
 }
 
 // How far hulls and volumes exceed meshes, worst first.

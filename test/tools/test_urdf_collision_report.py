@@ -92,6 +92,27 @@ class Report(unittest.TestCase):
             self.assertRegex(verdict, r"^CONTACT of \w+ - \w+ at 2\.8\d+ s$")
             self.assertIn(f" way points: {verdict}, at (", self.follow(name, text).stdout)
 
+    def test_the_pair_of_the_first_contact_comes_first_with_the_times_beside(self):
+        # A ball grazes one in its way after 0.4 m, 1 mm deep at 0.5 m, and runs into the middle of another one at 1 m.
+        ball = '<sphere radius="0.05"/>'
+        robot = self.robot(link("root") + link("grazed", ball) + link("hit", ball) + link("moving", ball)
+                           + joint("g", "root", "grazed", origin="0.5 0.099 0") + joint("h", "root", "hit", origin="1 0 0")
+                           + '<joint name="slide" type="prismatic"><parent link="root"/><child link="moving"/><axis xyz="1 0 0"/>'
+                             '<limit lower="0" upper="2" effort="1" velocity="1"/></joint>')
+        arguments = [robot, "--primitives", "flat", "--samples", "20", "--trajectory", self.put("way.csv", "time,slide\n0,0\n10,1\n")]
+        done = self.run_tool(*arguments)
+        self.assertRegex(done.stdout, r"CONTACT of grazed - moving at 4\.8\d* s, at")
+        lines = done.stdout.splitlines()
+        head = next(i for i, line in enumerate(lines) if line.startswith("pair "))
+        self.assertRegex(lines[head - 1] + "\n" + lines[head], r"closest +steepest joint\npair .* cause +at  \[m/rad")
+        self.assertRegex(lines[head + 1], r"^grazed - moving +-1\.000 +0\.000 +0\.000  meshes meet +[45]\.?\d* s  ")
+        self.assertRegex(lines[head + 2], r"^hit - moving +-\d+\.\d+ +0\.000 +0\.000  meshes meet +(10|9\.9\d*) s")
+        self.assertRegex(self.run_tool(*arguments, "--top", "1").stdout, r"\ngrazed - moving .*\n\.\.\. and 2 more \(--top\)\n")
+        pairs = [(p["link1"], p["link2"]) for p in json.loads(self.run_tool(*arguments, "--format", "json").stdout)["pairs"]]
+        self.assertEqual(pairs[:2], [("grazed", "moving"), ("hit", "moving")])
+        page = page_data(self.run_tool(*arguments, "--format", "html").stdout)["pairs"]
+        self.assertEqual((page[0]["link1"], page[0]["link2"]), ("grazed", "moving"))
+
     def test_a_touch_that_is_not_decided_hides_no_contact_of_another_pair(self):
         # A ball comes down onto a table, 0 away to rounding, and rolls along it against another ball: centres 0.3 m
         # apart, 0.1 m of it in height, where x = 0.8 - sqrt(0.08).
@@ -417,6 +438,25 @@ class Report(unittest.TestCase):
         self.assertIn(f"... and {said - 2} more (--top)", cut)
         self.assertNotIn("more (--top)", whole)
         self.assertLessEqual(len(cut.splitlines()), len(whole.splitlines()) - (said - 2))
+
+    def test_what_only_hulls_make_collide_does_not_hide_behind_contacts(self):
+        # Six boxes in another one's post, and one in the gap between the posts.
+        gate = self.boxes("gate.obj", 0.1, (-0.3, 0, 0), (0.3, 0, 0))
+        small = "".join(link(f"in{i}", self.boxes(f"in{i}.obj", 0.01, (0.3 + 0.025 * (i % 2), 0.025 * (i // 2), 0))) for i in range(6))
+        robot = self.robot(link("gate", gate) + link("turn") + small + link("gap", self.boxes("gap.obj", 0.05, (0, 0, 0)))
+                           + joint("j", "gate", "turn") + "".join(joint(f"j{name}", "turn", name) for name in (*(f"in{i}" for i in range(6)), "gap")))
+        arguments = [robot, "--srdf", self.put("none.srdf", '<robot name="small"/>'), "--pose", self.put("pose.json", "{}"), "-r", "0.001"]
+        whole, cut = (self.run_tool(*arguments, "--top", top).stdout for top in ("100", "4"))
+        for text, contacts in ((whole, 6), (cut, 3)):
+            self.assertEqual(text.count("meshes meet  "), contacts, text)
+            self.assertRegex(text, r"\n *STP-BV +meshes +cover\b.*\npair .* cause .*\n")
+            self.assertRegex(text, r"\ngate - gap +-\d+\.\d{3} +150\.000 +\d+\.\d{3}  hull only  ")
+            self.assertNotIn("sometimes  ", text)
+        self.assertIn("meshes: the distance of the meshes themselves, 0 where they meet\n-: the volumes are far enough apart\n", whole)
+        self.assertIn("\nmeshes: the distance", cut)
+        self.assertNotIn("\n-: ", cut)
+        clear = self.humanoid("--pose", "half_sitting").stdout  # nothing collides: hulls, and why pairs are checked
+        self.assertRegex(clear, r"\n *STP-BV +hulls +cover\b.*\npair .* reason .*\n")
 
     def test_overlapping_primitives_are_a_collision(self):
         box = '<box size="1 1 1"/>'
