@@ -7,6 +7,7 @@
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/posture/collision_rows.h"
 #include "fcl_stpbv/posture/task_start.h"
+#include "fcl_stpbv/robot/near_name.h"
 #include "fcl_stpbv/robot/pair_list.h"
 
 namespace fcl_stpbv {
@@ -16,8 +17,10 @@ using namespace detail;
 
 int linkNamed(const std::string& name, const PostureScene& scene, const std::string& where) {
   const int link = scene.robot->link(name);
-  if (link < 0) throw Error(where + ": the robot has no link '" + name + "'");
-  return link;
+  if (link >= 0) return link;
+  std::vector<std::string> known;
+  for (const LinkModel& each : scene.robot->links) known.push_back(each.name);
+  throw Error(where + ": the robot has no link '" + name + "'" + didYouMean(name, known));
 }
 
 // An obstacle of this link of the scene: the link's first shape has its name, others #2, #3 after it.

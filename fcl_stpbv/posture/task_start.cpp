@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "fcl_stpbv/numbers.h"
+#include "fcl_stpbv/robot/near_name.h"
 
 namespace fcl_stpbv {
 namespace {
@@ -61,8 +62,10 @@ void takeOffTurns(const Kinematics& kinematics, Eigen::VectorXd& q) {
   }
 }
 
-[[noreturn]] void refuseJoint(const std::string& where, const std::string& joint) {
-  throw Error(where + ": the robot has no joint '" + joint + "' of its own");
+[[noreturn]] void refuseJoint(const std::string& where, const std::string& joint,
+                              const Kinematics& kinematics) {
+  throw Error(where + ": the robot has no joint '" + joint + "' of its own" +
+              detail::didYouMean(joint, kinematics.names()));
 }
 
 }  // namespace
@@ -74,7 +77,7 @@ PostureCost detail::costOf(const PostureTask& task, const Kinematics& kinematics
   // In the order of the names: a coordinate comes after its joint, "p/y" after "p", and counts over it.
   for (const auto& [joint, weight] : task.weights) {
     const std::vector<int> named = coordinatesNamed(joint, kinematics);
-    if (named.empty()) refuseJoint(task.path + ": cost.weights", joint);
+    if (named.empty()) refuseJoint(task.path + ": cost.weights", joint, kinematics);
     for (const int i : named) cost.weights[i] = weight;
   }
   return cost;
@@ -99,7 +102,7 @@ Eigen::VectorXd startOf(const PostureTask& task, const PostureScene& scene, cons
   const std::string where = task.path + ": start.joints";
   for (const auto& [joint, value] : task.joints) {
     const std::vector<int> named = coordinatesNamed(joint, kinematics);
-    if (named.empty()) refuseJoint(where, joint);
+    if (named.empty()) refuseJoint(where, joint, kinematics);
     if (named.size() > 1) {
       std::string names;
       for (const int i : named)

@@ -12,6 +12,7 @@
 #include "fcl_stpbv/io/text_scanner.h"
 #include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/robot/json_text.h"
+#include "fcl_stpbv/robot/near_name.h"
 
 namespace fcl_stpbv::report {
 
@@ -78,7 +79,8 @@ Eigen::VectorXd poseFromJson(const std::string& path, const Kinematics& kinemati
         continue;
       }
       const auto own = std::find(coordinates.begin(), coordinates.end(), name);
-      if (own == coordinates.end()) throw Error(path + ": the robot has no joint '" + name + "'");
+      if (own == coordinates.end())
+        throw Error(path + ": the robot has no joint '" + name + "'" + didYouMean(name, coordinates));
       const std::string joint = name.substr(0, name.rfind('/'));
       if (json.contains(joint)) throw Error(path + ": names '" + joint + "' and '" + name + "'; give one");
       const std::vector<double> single = values(value);

@@ -11,6 +11,7 @@
 #include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/robot/joint_freedoms.h"
 #include "fcl_stpbv/robot/json_text.h"
+#include "fcl_stpbv/robot/near_name.h"
 
 namespace fcl_stpbv::report {
 
@@ -22,6 +23,8 @@ constexpr std::size_t kMostText = 256u << 20;
 // As of a posture: larger than any robot's, and past it a sine loses digits.
 constexpr double kMost = 1e6;
 constexpr const char* kJson = "{\"joints\": [names], \"points\": [[values], ...]}";
+constexpr const char* kMessage =
+    "{\"joint_names\": [names], \"points\": [{\"positions\": [values], \"time_from_start\": ...}, ...]}";
 
 struct Columns {
   std::vector<std::string> names;  // "time" is the time
@@ -44,6 +47,12 @@ std::vector<std::string> cellsOf(std::string_view line) {
   }
 }
 
+bool isNumber(const std::string& cell, double& value) {
+  const std::string_view digits = withoutPlus(cell);
+  const auto read = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  return read.ec == std::errc() && read.ptr == digits.data() + digits.size();
+}
+
 Columns fromCsv(const std::string& text, const std::string& path) {
   Columns columns;
   if (text.find('\n') == std::string::npos && text.find('\r') != std::string::npos)
@@ -58,6 +67,9 @@ Columns fromCsv(const std::string& text, const std::string& path) {
     const std::string place = path + ":" + std::to_string(number);
     const std::vector<std::string> cells = cellsOf(line);
     if (columns.names.empty()) {
+      double value = 0;
+      if (std::all_of(cells.begin(), cells.end(), [&](const auto& cell) { return isNumber(cell, value); }))
+        throw Error(place + ": got numbers; the first line must name joints");
       columns.names = cells;
       continue;
     }
@@ -67,9 +79,7 @@ Columns fromCsv(const std::string& text, const std::string& path) {
     std::vector<double> row;
     for (const std::string& cell : cells) {
       double value = 0;
-      const std::string_view digits = withoutPlus(cell);
-      const auto read = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-      if (read.ec != std::errc() || read.ptr != digits.data() + digits.size())
+      if (!isNumber(cell, value))
         throw Error(place + ": got " + detail::quoted(cell) + ", expected a number" +
                     (cell.find_first_of("; \t") == std::string::npos ? "" : "; commas stand between values"));
       row.push_back(value);
@@ -80,21 +90,71 @@ Columns fromCsv(const std::string& text, const std::string& path) {
   return columns;
 }
 
+void refuseOthers(const nlohmann::json& json, const std::set<std::string>& keys, const std::string& where) {
+  if (!json.is_object()) throw Error(where + ": is no object of JSON");
+  std::string list;
+  for (const std::string& key : keys) list += (list.empty() ? "\"" : ", \"") + key + "\"";
+  for (const auto& [key, value] : json.items())
+    if (keys.count(key) == 0) throw Error(where + ": \"" + key + "\" is none of " + list);
+}
+
+void requireValues(const Columns& columns, std::size_t i, const char* key) {
+  if (columns.rows[i].size() != columns.names.size())
+    throw Error(columns.places[i] + " has " + std::to_string(columns.rows[i].size()) + " values, \"" + key +
+                "\" names " + std::to_string(columns.names.size()));
+}
+
+// A duration of ROS: a number, or seconds and nanoseconds under ROS 1's names or ROS 2's.
+double secondsOf(const nlohmann::json& duration, const std::string& where) {
+  if (duration.is_number()) return duration.get<double>();
+  if (!duration.is_object()) throw Error(where + ": expected seconds, or \"sec\" and \"nanosec\"");
+  const bool old = duration.contains("secs");
+  const char* const seconds = old ? "secs" : "sec";
+  const char* const rest = old ? "nsecs" : "nanosec";
+  refuseOthers(duration, {seconds, rest}, where);
+  return duration.value(seconds, 0.0) + 1e-9 * duration.value(rest, 0.0);
+}
+
+// A trajectory_msgs/JointTrajectory. Planners that give no times leave all of them at 0.
+Columns fromMessage(const nlohmann::json& json, const std::string& path) {
+  Columns columns;
+  refuseOthers(json, {"header", "joint_names", "points"}, path);
+  columns.names = json.at("joint_names").get<std::vector<std::string>>();
+  if (std::count(columns.names.begin(), columns.names.end(), "time") > 0)
+    throw Error(path + ": \"joint_names\" names 'time', which is no joint here");
+  std::vector<double> times;
+  for (const nlohmann::json& point : json.at("points")) {
+    const std::size_t i = columns.rows.size();
+    columns.places.push_back(path + ": points[" + std::to_string(i) + "]");
+    refuseOthers(point, {"positions", "velocities", "accelerations", "effort", "time_from_start"},
+                 columns.places[i]);
+    columns.rows.push_back(point.at("positions").get<std::vector<double>>());
+    requireValues(columns, i, "joint_names");
+    if (point.contains("time_from_start"))
+      times.push_back(secondsOf(point["time_from_start"], columns.places[i] + ".time_from_start"));
+  }
+  if (!times.empty() && times.size() != columns.rows.size())
+    throw Error(path + ": " + std::to_string(times.size()) + " of " + std::to_string(columns.rows.size()) +
+                " points have a \"time_from_start\"; give all of them one, or none");
+  if (std::all_of(times.begin(), times.end(), [](double time) { return time == 0; })) return columns;
+  columns.names.emplace_back("time");
+  for (std::size_t i = 0; i < times.size(); ++i) columns.rows[i].push_back(times[i]);
+  return columns;
+}
+
 Columns fromJson(const std::string& text, const std::string& path) {
   const nlohmann::json json = parseJson(text, path);
   if (!json.is_object()) throw Error(path + ": is no object of JSON, expected " + kJson);
+  const bool message = json.contains("joint_names");
   Columns columns;
   try {
-    for (const auto& [key, value] : json.items())
-      if (key != "joints" && key != "points" && key != "time")
-        throw Error(path + ": \"" + key + "\" is none of \"joints\", \"points\" and \"time\"");
+    if (message) return fromMessage(json, path);
+    refuseOthers(json, {"joints", "points", "time"}, path);
     columns.names = json.at("joints").get<std::vector<std::string>>();
     columns.rows = json.at("points").get<std::vector<std::vector<double>>>();
     for (std::size_t i = 0; i < columns.rows.size(); ++i) {
       columns.places.push_back(path + ": points[" + std::to_string(i) + "]");
-      if (columns.rows[i].size() != columns.names.size())
-        throw Error(columns.places[i] + " has " + std::to_string(columns.rows[i].size()) +
-                    " values, \"joints\" names " + std::to_string(columns.names.size()));
+      requireValues(columns, i, "joints");
     }
     if (json.contains("time")) {
       const auto time = json.at("time").get<std::vector<double>>();
@@ -105,7 +165,7 @@ Columns fromJson(const std::string& text, const std::string& path) {
       for (std::size_t i = 0; i < time.size(); ++i) columns.rows[i].push_back(time[i]);
     }
   } catch (const nlohmann::json::exception& error) {
-    throw Error(path + ": expected " + kJson + " (" + error.what() + ")");
+    throw Error(path + ": expected " + (message ? kMessage : kJson) + " (" + error.what() + ")");
   }
   return columns;
 }
@@ -116,9 +176,13 @@ std::string whyNone(const std::string& name, const Kinematics& kinematics) {
   const auto joint =
       std::find_if(joints.begin(), joints.end(), [&](const JointModel& j) { return j.name == name; });
   const std::vector<std::string>& names = kinematics.names();
-  if (joint == joints.end() || joint->type == JointType::fixed)
+  if (joint == joints.end() || joint->type == JointType::fixed) {
+    const std::string near = didYouMean(name, names);
     return "the robot has no moving joint '" + name + "'" +
-           (names.empty() ? "" : "; its joints are " + names.front() + " ... " + names.back());
+           (!near.empty()   ? near
+            : names.empty() ? ""
+                            : "; its joints are " + names.front() + " ... " + names.back());
+  }
   if (joint->mimic)
     return "'" + name + "' follows '" + joints[at(joint->mimic->joint)].name + "'; leave its column out";
   return "'" + name + "' has several coordinates; name " + names[at(kinematics.coordinate(name))] +

@@ -19,6 +19,7 @@ struct Trajectory {
 
 /// CSV: a line with the names of coordinates (as `Kinematics::names()`), `time` among them or not, then one
 /// line a way point. JSON: `{"joints": [names], "points": [[values]], "time": [seconds]}`, `time` optional.
+/// Or a trajectory_msgs/JointTrajectory of ROS, of which positions and times are read.
 /// Coordinates that are not named stay what they are in `rest`. @throws Error naming the file, the line or
 /// key, and what would work.
 Trajectory readTrajectory(const std::string& path, const Kinematics& kinematics, const Eigen::VectorXd& rest);

@@ -44,6 +44,7 @@ TEST_CASE("a task file's mistakes are named with their key") {
           "one of x, y");
   refused(R"({"placements": [{"link": "BODY", "target": {}, "free": ["rx", "ry"]}]})", "placement 'BODY'",
           "two rotations");
+  refused(R"({"placements": []})", "task.json", "asks for nothing; give a placement");
   refused(R"({"placements": [], "base": "flying"})", "base", "one of floating, planar, fixed");
   refused(R"({"placements": [], "start": {"state": "NO"}})", "start.state", "NO");
   refused(R"({"placements": [], "start": {"joints": {"NO": 1}}})", "start.joints", "no joint 'NO'");
@@ -62,6 +63,10 @@ TEST_CASE("a task file's mistakes are named with their key") {
       "stability: contacts[0]", "smaller margin");
   refused(R"({"placements": [], "collisions": {"pairs": [{"links": ["NO"]}]}})", "collisions.pairs[0].links",
           "no link 'NO'");
+  refused(R"({"placements": [], "collisions": {"pairs": [{"links": ["CHEST_LNK0"]}]}})",
+          "collisions.pairs[0].links", "no link 'CHEST_LNK0'; did you mean 'CHEST_LINK0'?");
+  refused(R"({"placements": [], "start": {"joints": {"LLEG_JOINT33": 1}}})", "start.joints",
+          "'LLEG_JOINT33' of its own; did you mean 'LLEG_JOINT3'?");
   refused(R"({"placements": [], "collisions": {"ignore": [{"obstacles": ["NO"]}]}})",
           "collisions.ignore[0].obstacles", "no obstacle 'NO'");
   refused(R"({"placements": [], "collisions": {"margin": 2}})", "collisions.margin", "from -1 to 1");

@@ -257,7 +257,7 @@ class FindPosture(unittest.TestCase):
     def test_a_mistake_ends_with_2_and_one_line(self):
         task = self.pick_can()
         task["placements"][2]["link"] = "LARM_LINK9"
-        for run, words in ((self.run_task(task), ["task.json: placements[2].link", "LARM_LINK9"]),
+        for run, words in ((self.run_task(task), ["task.json: placements[2].link", "'LARM_LINK9'; did you mean 'LARM_LINK0'?"]),
                            (self.run_task("{"), ["task.json", "JSON"]),
                            (self.run_task(self.pick_can(), "-o", self.folder.name), ["is a folder"]),
                            (self.run_tool(f"{ROBOT}.urdf", f"{FRIDGE}/pick_can.json"), ["start.state", "--srdf"]),
@@ -269,6 +269,9 @@ class FindPosture(unittest.TestCase):
             self.assertEqual(run.stderr.count("\n"), 1, run.stderr)
             for word in words:
                 self.assertIn(word, run.stderr)
+        empty = self.run_task({"placements": []})
+        self.assertEqual((empty.returncode, empty.stdout), (2, ""))
+        self.assertIn("task.json: asks for nothing; give a placement", empty.stderr)
         task["placements"][2]["link"] = "\x1b[31mred\r"
         self.assertIn("the robot has no link '?[31mred?'", self.run_task(task).stderr)
         self.assertEqual(self.run_tool().returncode, 2)

@@ -74,7 +74,11 @@ class Report(unittest.TestCase):
     def test_a_trajectory_that_collides_between_its_way_points_names_time_and_pair(self):
         # The balls touch 0.08 m before the middle: 0.92 m of 2 m, in 4 s.
         for name, text in [("way.csv", "time,slide\n1,0\n5,2\n"),
-                           ("way.json", '{"joints": ["slide"], "points": [[0], [2]], "time": [1, 5]}')]:
+                           ("way.json", '{"joints": ["slide"], "points": [[0], [2]], "time": [1, 5]}'),
+                           ("ros2.json", '{"header": {"frame_id": ""}, "joint_names": ["slide"], "points": [{"positions": [0], "velocities": [], '
+                                         '"time_from_start": {"sec": 0, "nanosec": 1000000000}}, {"positions": [2], "time_from_start": {"sec": 5}}]}'),
+                           ("ros1.json", '{"joint_names": ["slide"], "points": [{"positions": [0], "time_from_start": {"secs": 1, "nsecs": 0}}, '
+                                         '{"positions": [2], "time_from_start": 5}]}')]:
             done = self.follow(name, text, "--format", "json")
             self.assertEqual(done.returncode, 1, done.stderr)
             report = json.loads(done.stdout)
@@ -225,13 +229,29 @@ class Report(unittest.TestCase):
             self.assertEqual((summary["margin"], summary["colliding"]), (float(margin), count))
             self.assertIn(said, self.run_tool(*arguments).stdout)
 
+    def test_a_message_whose_times_are_all_zero_has_none(self):
+        points = ",".join('{"positions": [%s], "time_from_start": {"sec": 0, "nanosec": 0}}' % x for x in (0, 2))
+        for text in (points, points.replace(', "time_from_start": {"sec": 0, "nanosec": 0}', "")):
+            done = self.follow("way.json", '{"joint_names": ["slide"], "points": [%s]}' % text, "--format", "json")
+            found = json.loads(done.stdout)["trajectory"]
+            self.assertEqual((found["verdict"], found["timed"]), ("contact", False))
+            self.assertAlmostEqual(found["contact"]["time"], 0.46, delta=1e-6)
+
     def test_a_trajectory_that_is_none_is_refused_with_its_place(self):
         for text, said in [("", "is empty"), ("slide\n0\n", "needs two"), ("slide\n0\nx\n", "way.csv:3: got 'x'"),
-                           ("slid\n0\n1\n", "no moving joint 'slid'"), ("slide,slide\n0,0\n1,1\n", "twice"),
+                           ("slid\n0\n1\n", "no moving joint 'slid'; did you mean 'slide'?"),
+                           ("elbow\n0\n1\n", "no moving joint 'elbow'; its joints are turn ... slide"), ("slide,slide\n0,0\n1,1\n", "twice"),
                            ("slide\n0\n1,2\n", "way.csv:3: has 2 values"), ("time\n0\n1\n", "names no joint"),
                            ("slide\n0\nnan\n", "must be from"), ("slide\n0\n1e7\n", "must be from"),
                            ("time,slide\n1,0\n1,1\n", "must grow"), ('{"joints": ["slide"]}', "expected"),
-                           ('[{"slide": 0}, {"slide": 1}]', "no object of JSON"),
+                           ('[{"slide": 0}, {"slide": 1}]', "no object of JSON"), ("0\n1\n2\n", "way.csv:1: got numbers; the first line must name joints"),
+                           ('{"joint_names": ["slide"], "points": [[0], [1]]}', 'points[0]: is no object of JSON'),
+                           ('{"joint_names": ["slide"]}', 'expected {"joint_names": [names]'),
+                           ('{"joint_names": ["slide"], "points": [{"positions": [0, 1]}]}', 'points[0] has 2 values, "joint_names" names 1'),
+                           ('{"joint_names": ["slide"], "points": [{"positions": [0]}, {"positions": [1], "time_from_start": 1}]}', "1 of 2 points have"),
+                           ('{"joint_names": ["slide"], "points": [{"positions": [0], "time_from_start": "0 s"}]}', "time_from_start: expected seconds"),
+                           ('{"joint_names": ["time"], "points": [{"positions": [0]}]}', "names 'time'"),
+                           ('{"joints": ["slide"], "point": []}', '"point" is none of "joints", "points", "time"'),
                            ('{"joints": ["slide"], "points": [[0], [1, 2]]}', "points[1]"),
                            ('{"joints": ["slide"], "points": [[0], [1]], "time": [0]}', '"time" has 1')]:
             done = self.follow("way.csv", text)
@@ -555,6 +575,11 @@ class Report(unittest.TestCase):
             self.assertIn(words, done.stderr)
             self.assertEqual(done.stdout, "")
             self.assertFalse(os.path.exists(output))
+        lost = self.run_tool(self.put("lost.urdf", '<robot name="x">' + "".join(
+            link(name, f'<mesh filename="package://{package}/{name}.stl"/>') for name, package in (("a", "nobody"), ("b", "nobody"), ("c", "other")))
+            + joint("j", "a", "b") + joint("k", "b", "c") + "</robot>"))
+        self.assertEqual([lost.stderr.count(words) for words in ("no such file; tried", "Give the folder that holds the package 'nobody'",
+                                                                 "Give the folder that holds the package 'other'")], [3, 1, 1])
         for wrong in (["--samples", "0"], ["--format", "pdf"], ["-r", "-1"], ["-o", "/nowhere/x"]):
             self.assertEqual(self.humanoid(*wrong).returncode, 2, wrong)
 
