@@ -36,8 +36,8 @@ Examples:
   urdf_collision_report robot.urdf --srdf robot.srdf --format html -o out.html
   urdf_collision_report robot.urdf --srdf robot.srdf --trajectory path.csv
 
-Exit status: 0 no checked pair in collision; 1 a collision found, or a trajectory not proven free; 2 the command line or an input is wrong, or no
-pair is checked; 3 no collision found, but --skip-invalid left shapes out.)";
+Exit status, whatever the format: 0 no checked pair in collision; 1 a collision found, or a trajectory not proven free, and the
+report is written all the same; 2 the command line or an input is wrong, or no pair is checked; 3 no collision found, but --skip-invalid left shapes out.)";
 
 struct Arguments {
   RobotArguments robot;
@@ -76,6 +76,17 @@ std::string written(const CollisionReport& report, const Arguments& a) {
   return toText(report, a.top);
 }
 
+// Of an SRDF that is written, as nothing of it is on the screen.
+std::string toldOf(const CollisionReport& report, const Arguments& a) {
+  const bool isFile = !a.output.empty() && a.output != "-";
+  return (isFile ? a.output + " is written: " : "") + srdfChange(report, a.search.disableDefault) +
+         (report.colliding == 0
+              ? ""
+              : "; exit status 1, as " + (report.colliding == 1
+                                              ? "1 checked pair collides"
+                                              : std::to_string(report.colliding) + " checked pairs collide"));
+}
+
 int run(Arguments& a) {
   const ReportRequest& asked = a.search.request;
   RobotFiles read = a.robot.files;
@@ -97,6 +108,7 @@ int run(Arguments& a) {
   const std::string text = written(report, a);
   requireNoInput("-o", a.output, report.meshFiles);  // of a robot from a pipe, too
   writeOutput(a.output, text);
+  if (a.format == "srdf" && !a.quiet) tell(kProgram, toldOf(report, a));
   const bool undecided = report.trajectory && report.trajectory->verdict != MotionVerdict::free;
   if (report.colliding > 0 || undecided) return kCollision;
   return report.skipped.empty() ? kClear : kPartly;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "fcl_stpbv/formatted.h"
 #include "fcl_stpbv/io/text_scanner.h"
 
 namespace fcl_stpbv::report {
@@ -18,6 +19,25 @@ std::string cellOf(const std::string& text) {
   std::string out = "\"";
   for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
   return out + "\"";
+}
+
+// Whether shapes of the robot itself are left out, not only of the scene.
+bool lacksShapes(const CollisionReport& report) {
+  return std::any_of(report.skipped.begin(), report.skipped.end(),
+                     [&](const std::string& shape) { return shape.find(report.robot->path) == 0; });
+}
+
+// The pairs that need no check. What did not collide without some of the shapes is not among them.
+std::vector<Srdf::Pair> leftOut(const CollisionReport& report, bool defaultToo) {
+  std::vector<PairEntry> list = report.list;
+  if (lacksShapes(report))
+    list.erase(std::remove_if(list.begin(), list.end(),
+                              [](const PairEntry& entry) {
+                                return entry.reason == PairReason::neverSampled ||
+                                       entry.reason == PairReason::neverProven;
+                              }),
+               list.end());
+  return toSrdf(*report.robot, list, defaultToo);
 }
 
 }  // namespace
@@ -51,18 +71,28 @@ std::string toSrdfText(const CollisionReport& report, bool defaultToo) {
   std::vector<std::string> comments;
   comments.reserve(report.skipped.size());
   for (const std::string& skipped : report.skipped) comments.push_back("Left out, not checked: " + skipped);
-  std::vector<PairEntry> list = report.list;
-  if (std::any_of(report.skipped.begin(), report.skipped.end(),
-                  [&](const std::string& shape) { return shape.find(report.robot->path) == 0; })) {
+  if (lacksShapes(report))
     comments.emplace_back("So pairs that did not collide without these shapes are left to be checked.");
-    list.erase(std::remove_if(list.begin(), list.end(),
-                              [](const PairEntry& entry) {
-                                return entry.reason == PairReason::neverSampled ||
-                                       entry.reason == PairReason::neverProven;
-                              }),
-               list.end());
+  return withPairs(report.srdf.get(), report.robot->name, leftOut(report, defaultToo), comments);
+}
+
+std::string srdfChange(const CollisionReport& report, bool defaultToo) {
+  Srdf after = report.srdf ? *report.srdf : Srdf{};
+  const auto isFound = [](const Srdf::Pair& pair) { return pair.reason != "User"; };
+  after.disabled.erase(std::remove_if(after.disabled.begin(), after.disabled.end(), isFound),
+                       after.disabled.end());
+  for (const Srdf::Pair& pair : leftOut(report, defaultToo)) after.disabled.push_back(pair);
+  const SkipReasons before(report.srdf.get()), now(&after);
+  std::size_t pairs = 0, leftOutBefore = 0, leftOutNow = 0;
+  for (const PairReport& pair : report.pairs) {
+    if (pair.links.obstacle) continue;
+    ++pairs;
+    leftOutBefore += !before.of(pair.link1, pair.link2).empty();
+    leftOutNow += !now.of(pair.link1, pair.link2).empty();
   }
-  return withPairs(report.srdf.get(), report.robot->name, toSrdf(*report.robot, list, defaultToo), comments);
+  return (report.srdf ? std::to_string(leftOutBefore) + " of " + counted(pairs, "pair") + " left out before, "
+                      : "") +
+         std::to_string(leftOutNow) + (report.srdf ? " now" : " of " + counted(pairs, "pair") + " left out");
 }
 
 }  // namespace fcl_stpbv::report

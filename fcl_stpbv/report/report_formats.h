@@ -16,6 +16,9 @@ std::string toCsv(const CollisionReport& report);
 /// The robot's SRDF with the pairs that need no check. Where shapes of the robot were left out, pairs that do
 /// not collide without them are not among these.
 std::string toSrdfText(const CollisionReport& report, bool defaultToo = false);
+/// What that changes, in a few words: of how many pairs of links it leaves out how many, and how many the
+/// SRDF that was read did.
+std::string srdfChange(const CollisionReport& report, bool defaultToo = false);
 /// One page with all it needs inside: table, heat map, and the robot in 3-D.
 /// The title follows the robot's name. `violated`: a line for each thing that keeps a posture from being
 /// feasible.

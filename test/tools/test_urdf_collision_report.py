@@ -496,6 +496,13 @@ class Report(unittest.TestCase):
         self.assertNotIn("leaves out no pair", self.run_tool(urdf).stderr)
         made = self.run_tool(urdf, "--srdf", states, "--format", "srdf", "-o", states)  # this mends it
         self.assertNotIn("leaves out no pair", made.stderr)
+        self.assertEqual(made.returncode, 1)
+        self.assertIn(f"urdf_collision_report: {states} is written: 0 of 3 pairs left out before, 2 now; "
+                      "exit status 1, as 3 checked pairs collide\n", made.stderr)
+        again = self.run_tool(urdf, "--srdf", states, "--format", "srdf", "--disable-default")
+        self.assertIn("urdf_collision_report: 2 of 3 pairs left out before, 3 now; exit status 1, as 1 checked pair collides\n", again.stderr)
+        self.assertIn("urdf_collision_report: 2 of 3 pairs left out; exit", self.run_tool(urdf, "--format", "srdf").stderr)
+        self.assertEqual(self.run_tool(urdf, "--format", "srdf", "-q").stderr, "")
         self.assertNotIn("leaves out no pair", self.run_tool(urdf, "--srdf", states).stderr)
         # Two arms that no joint makes neighbours: an SRDF without a pair is as good as none.
         ball = '<sphere radius="0.1"/>'
