@@ -1,17 +1,16 @@
 // The Python module: volumes, distance, robots and what is shared out of them, with NumPy arrays in and out.
 #include <algorithm>
-#include <cstring>
 #include <exception>
 
 #include "fcl_stpbv/error.h"
+#include "loading.h"
 #include "parts.h"
 
 namespace {
 
 namespace py = pybind11;
 
-// Messages name files as the bytes that they are, which need not be UTF-8: decoded as Python decodes names of
-// files. pybind11's own translation would leave the message out.
+// Messages may name files that are not UTF-8. pybind11's own translation would leave the message out.
 void addError(py::module_& module) {
   static const py::handle error =
       py::exception<fcl_stpbv::Error>(module, "Error", PyExc_RuntimeError).release();
@@ -19,10 +18,7 @@ void addError(py::module_& module) {
     try {
       if (thrown) std::rethrow_exception(thrown);
     } catch (const fcl_stpbv::Error& e) {
-      const auto size = static_cast<Py_ssize_t>(std::strlen(e.what()));
-      const auto text =
-          py::reinterpret_steal<py::object>(PyUnicode_DecodeUTF8(e.what(), size, "surrogateescape"));
-      if (text) PyErr_SetObject(error.ptr(), text.ptr());
+      PyErr_SetObject(error.ptr(), fcl_stpbv::decoded(e.what()).ptr());
     }
   });
 }

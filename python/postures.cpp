@@ -11,6 +11,7 @@
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/posture/find_posture.h"
 #include "interrupt.h"
+#include "loading.h"
 #include "made.h"
 #include "parts.h"
 
@@ -28,15 +29,22 @@ class PythonPostureSearch {
     GeometryOptions options;
     options.radii = {r, R};
     options.packagePath = toText(packagePath);
-    scene_.robot = std::make_shared<const RobotModel>(loadUrdf(urdf.string()));
-    if (srdf) scene_.srdf = std::make_shared<const Srdf>(loadSrdf(srdf->string(), *scene_.robot));
-    scene_.geometry = std::make_shared<const RobotGeometry>(loadGeometry(*scene_.robot, options));
+    scene_.robot = std::make_shared<const RobotModel>(loading_.robot(urdf));
+    if (srdf) scene_.srdf = std::make_shared<const Srdf>(loading_.srdf(*srdf, *scene_.robot));
+    scene_.geometry = std::make_shared<const RobotGeometry>(loading_.geometry(*scene_.robot, options));
     if (obstacles) {
-      const auto around = std::make_shared<const RobotModel>(loadUrdf(obstacles->string()));
-      scene_.obstacles = obstaclesOf(around, loadGeometry(*around, options));
+      const auto around = std::make_shared<const RobotModel>(loading_.robot(*obstacles));
+      scene_.obstacles = obstaclesOf(around, loading_.geometry(*around, options));
     }
-    if (!scene_.srdf) scene_.selfPairs = searchedPairs(scene_.robot, scene_.geometry);
+    if (scene_.srdf)
+      loading_.warnOfJoined(selfPairs(*scene_.robot, *scene_.geometry, scene_.srdf.get()), *scene_.robot,
+                            *scene_.geometry, *scene_.srdf);
+    else
+      scene_.selfPairs = searchedPairs(scene_.robot, scene_.geometry);
+    warn(warnings());
   }
+
+  const std::vector<std::string>& warnings() const { return loading_.warnings; }
 
   /// A problem of its own for each start: what others left in its caches would change the last bits.
   Posture solve(const std::string& task, const std::string& path, int start, std::uint64_t seed,
@@ -92,6 +100,7 @@ class PythonPostureSearch {
   }
 
   PostureScene scene_;
+  Loading loading_;
 };
 
 py::dict asDict(const Posture& posture) {
@@ -129,6 +138,9 @@ void addPostures(py::module_& module) {
            py::arg("urdf"), py::arg("srdf") = py::none(), py::arg("obstacles") = py::none(), py::kw_only(),
            py::arg("r") = 0.01, py::arg("R") = 10.0, py::arg("package_path") = std::vector<Path>{},
            "Without an SRDF the robot's own pairs are those that samples leave to be checked.")
+      .def_property_readonly(
+          "warnings", [](const PythonPostureSearch& search) { return decoded(search.warnings()); },
+          "What loading warned of, as Robot.warnings.")
       .def(
           "solve",
           [](const PythonPostureSearch& search, const std::string& task, const std::string& path, int start,

@@ -28,6 +28,9 @@ void addRobot(py::module_& module) {
            "(a Robot as fine as the needs ask for, places of the needs that no bodies meet).\n"
            "A need: (link, link or obstacle, q, clearance in m that their distance is to exceed at q).\n"
            "budgets: coarser volumes to start from may exceed the hulls by each of these (m, falling).")
+      .def_property_readonly(
+          "warnings", [](const PythonRobot& robot) { return decoded(robot.warnings()); },
+          "What loading warned of, which it also raised as UserWarnings: whole sentences.")
       .def_property_readonly("vertices", &PythonRobot::vertices, "of all volumes that its rows ask")
       .def_property_readonly(
           "names", [](const PythonRobot& robot) { return robot.kinematics().names(); }, "of the coordinates")

@@ -44,8 +44,8 @@ class PythonRobot {
     const auto scene = std::make_shared<PythonScene>();
     named(srdf, "srdf"), named(obstacles, "obstacles");
     requireLength(influence, "influence"), requireLength(handOver, "hand_over");
-    scene->robot = std::make_shared<const RobotModel>(loadUrdf(urdf.string()));
-    if (srdf) scene->srdf = loadSrdf(srdf->string(), *scene->robot);
+    scene->robot = std::make_shared<const RobotModel>(scene->loading.robot(urdf));
+    if (srdf) scene->srdf = scene->loading.srdf(*srdf, *scene->robot);
     scene->options.radii = {r, R};
     scene->options.packagePath = toText(packagePath);
     const auto geometry = scene->load(base, obstacles);
@@ -54,6 +54,7 @@ class PythonRobot {
     options_.handOver = handOver;
     options_.obstacles = scene->obstacles;
     use(geometry);
+    warn(warnings());
   }
 
   /// The same robot, as fine as the needs ask for, and the places of those that no bodies meet.
@@ -65,6 +66,7 @@ class PythonRobot {
     return {std::unique_ptr<PythonRobot>(new PythonRobot(*this, geometry)), std::move(unmet)};
   }
 
+  const std::vector<std::string>& warnings() const { return scene_->loading.warnings; }
   const Kinematics& kinematics() const { return *kinematics_; }
   int vertices() const {
     std::set<const StpBv*> volumes;

@@ -24,12 +24,13 @@ std::shared_ptr<const RobotGeometry> PythonScene::load(const std::string& base,
   const BaseMotion motion = baseMotion(base);
   kinematics = std::make_shared<const Kinematics>(robot, motion);
   baseMoves = motion != BaseMotion::fixed;
-  RobotGeometry bodies = loadGeometry(*robot, options), things;
+  RobotGeometry bodies = loading.geometry(*robot, options), things;
   if (obstaclesUrdf) {
-    around = std::make_shared<const RobotModel>(loadUrdf(obstaclesUrdf->string()));
-    things = loadGeometry(*around, options);
+    around = std::make_shared<const RobotModel>(loading.robot(*obstaclesUrdf));
+    things = loading.geometry(*around, options);
     obstacles = obstaclesOf(around, things);
   }
+  if (srdf) loading.warnOfJoined(selfPairs(*robot, bodies, &*srdf), *robot, bodies, *srdf);
   coverPrimitives(pairs(bodies), bodies, &things);
   if (around) obstacles = obstaclesOf(around, things);  // as they are covered
   return std::make_shared<const RobotGeometry>(std::move(bodies));

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "fcl_stpbv/robot/scene_model.h"
+#include "loading.h"
 #include "parts.h"
 
 namespace fcl_stpbv {
@@ -24,6 +25,7 @@ struct PythonScene {
   std::shared_ptr<const RobotModel> around;  ///< null without obstacles
   std::vector<Obstacle> obstacles;
   bool baseMoves = false;
+  Loading loading;
 
   /// Loads all and covers primitives. @return the robot's bodies @throws Error naming the file.
   std::shared_ptr<const RobotGeometry> load(const std::string& base,

@@ -18,6 +18,7 @@
 #include "fcl_stpbv/robot/pair_search.h"
 #include "fcl_stpbv/robot/search_room.h"
 #include "interrupt.h"
+#include "loading.h"
 #include "made.h"
 #include "parts.h"
 
@@ -52,11 +53,11 @@ class PythonPairSearch {
                    const std::vector<Path>& packagePath, double margin) {
     requireNumber("margin", margin, -1e6, 1e6);
     named(obstacles, "obstacles");
-    const auto model = std::make_shared<const RobotModel>(loadUrdf(urdf.string()));
+    const auto model = std::make_shared<const RobotModel>(loading_.robot(urdf));
     GeometryOptions options;
     options.radii = {r, R};
     options.packagePath = toText(packagePath);
-    const auto geometry = std::make_shared<const RobotGeometry>(loadGeometry(*model, options));
+    const auto geometry = std::make_shared<const RobotGeometry>(loading_.geometry(*model, options));
     std::set<std::pair<int, int>> known;
     for (const CheckedPair& pair : selfPairs(*model, *geometry, nullptr)) {
       const LinkPair links = fcl_stpbv::linksOf(pair, *geometry);
@@ -64,14 +65,17 @@ class PythonPairSearch {
     }
     std::vector<Obstacle> around;
     if (obstacles) {
-      const auto scene = std::make_shared<const RobotModel>(loadUrdf(obstacles->string()));
-      around = obstaclesOf(scene, loadGeometry(*scene, options));
+      const auto scene = std::make_shared<const RobotModel>(loading_.robot(*obstacles));
+      around = obstaclesOf(scene, loading_.geometry(*scene, options));
       for (std::size_t link = 0; link < model->links.size(); ++link)
         for (std::size_t o = 0; o < around.size(); ++o) addObstacle(*model, *geometry, link, o);
     }
     requirePairs(pairs_.size(), *model, "all links are adjacent, rigidly joined or without a body");
     scene_ = proofScene(std::make_shared<const Kinematics>(model), geometry, std::move(around), margin);
+    warn(warnings());
   }
+
+  const std::vector<std::string>& warnings() const { return loading_.warnings; }
 
   std::vector<std::pair<std::string, std::string>> pairs() const {
     const std::vector<LinkModel>& links = scene_.kinematics->robot().links;
@@ -203,6 +207,7 @@ class PythonPairSearch {
 
   ProofScene scene_;
   std::vector<LinkPair> pairs_;
+  Loading loading_;
 };
 
 std::vector<std::pair<std::string, std::string>> meshFiles(const Path& urdf,
@@ -273,6 +278,9 @@ void addShards(py::module_& module) {
            py::arg("R") = 10.0, py::arg("package_path") = std::vector<Path>{}, py::arg("margin") = 0.0,
            "obstacles: URDF of a scene that stands still, like the robot's root link.\n"
            "margin: a distance not above it is a collision (m).")
+      .def_property_readonly(
+          "warnings", [](const PythonPairSearch& search) { return decoded(search.warnings()); },
+          "What loading warned of, as Robot.warnings.")
       .def_property_readonly(
           "pairs", &PythonPairSearch::pairs,
           "Names of the links of each pair, but for adjacent and rigidly joined ones; then each moving link\n"

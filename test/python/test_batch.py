@@ -5,6 +5,7 @@ import json
 import os
 import pathlib
 import random
+import re
 import resource
 import shutil
 import socket
@@ -43,6 +44,19 @@ def proofs(tmp_path_factory):
     path = tmp_path_factory.mktemp("one") / "proofs.jsonl"
     batch(*PROVE, "--jobs", 1, "-o", path)
     return path
+
+
+def test_what_loading_warns_of_is_told_once_by_whoever_begins(tmp_path):
+    urdf = tmp_path / "arm.urdf"
+    ghost = "<link name='ghost'><visual><geometry><sphere radius='1'/></geometry></visual></link>"
+    joint = "<joint name='ghost_joint' type='fixed'><parent link='{}'/><child link='ghost'/></joint></robot>"
+    text = ARM.read_text()
+    urdf.write_text(text.replace("</robot>", ghost + joint.format(re.findall('<link name="([^"]*)"', text)[0])))
+    command = [sys.executable, "-B", "-m", "fcl_stpbv.batch", "sample", urdf, "--blocks", "4", "--count", "1", "--jobs"]
+    told = f'fcl_stpbv.batch: {urdf}: 1 link has visual shapes but no collision shape, so nothing checks it: "ghost".\n'
+    for more, expected in (["1"], told), (["2"], told), (["1", "-q"], ""):
+        done = subprocess.run([*command, *more, "-o", tmp_path / "-".join(more)], capture_output=True, text=True, timeout=120)
+        assert (done.returncode, done.stderr) == (0, expected)
 
 
 def bits(proof):

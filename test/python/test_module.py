@@ -10,6 +10,7 @@ import re
 import signal
 import threading
 import time
+import warnings
 from typing import Any, Callable
 
 import numpy as np
@@ -476,6 +477,57 @@ def test_a_robot_is_as_fine_as_its_needs_ask_for(hook):
         fcl_stpbv.Robot(*files, hand_over=-1)
     with pytest.raises(fcl_stpbv.Error, match="^influence: got -1.0, .* above 0"):
         fcl_stpbv.Robot(*files, influence=-1)
+
+
+OTHERS_SRDF = "<robot name='other'><disable_collisions link1='nowhere' link2='block' reason='Never'/></robot>"
+
+
+def test_what_loading_warns_of_is_raised_and_kept(hook):
+    (hook / "other.srdf").write_text(OTHERS_SRDF)
+    urdf = hook / "hook.urdf"
+    urdf.write_text(urdf.read_text().replace("</robot>", "<link name='seen'><visual><geometry><sphere radius='1'/></geometry></visual></link>"
+                                             "<joint name='j' type='fixed'><parent link='l'/><child link='seen'/></joint></robot>"))
+    (hook / "post.urdf").write_text((hook / "post.urdf").read_text().replace("collision>", "visual>"))
+    told = (r"^.*other.srdf.*'nowhere'", "^.*other.srdf.*'other'", r'^.*hook.urdf: 1 link has visual shapes but no collision shape, .*"seen"', "^.*post.urdf: .*visual")
+    loaders: list[tuple[Callable, tuple[int, ...]]] = [
+        (lambda: fcl_stpbv.Robot(urdf, hook / "other.srdf", hook / "post.urdf"), (0, 1, 2, 3)),
+        (lambda: fcl_stpbv.PostureSearch(urdf, hook / "other.srdf", hook / "post.urdf"), (0, 1, 2, 3)),
+        (lambda: fcl_stpbv.PairSearch(urdf, hook / "post.urdf"), (2, 3))]
+    for load, at in loaders:
+        with pytest.warns(UserWarning) as raised:
+            robot = load()
+        assert [str(warning.message) for warning in raised] == robot.warnings
+        assert {warning.filename for warning in raised} == {__file__}  # the line that made the robot
+        assert all(any(re.search(told[i], text) for text in robot.warnings) for i in at), robot.warnings
+        with warnings.catch_warnings(), pytest.raises(UserWarning):
+            warnings.simplefilter("error")
+            load()
+    # A model of it has what it is made of to tell, and raises nothing anew.
+    with warnings.catch_warnings(record=True):
+        robot = fcl_stpbv.Robot(urdf, hook / "other.srdf")
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert robot.model_for([])[0].warnings == robot.warnings != []
+        clean = fcl_stpbv.Robot(DATA / "hrp2_style/hrp2_style.urdf", DATA / "hrp2_style/hrp2_style.srdf")
+        assert clean.warnings == []
+
+
+def test_an_srdf_that_leaves_out_no_pair_is_told_where_joints_hold_some_together(hook):
+    arm = DATA / "hrp2_style/hrp2_style.urdf"
+    (hook / "nothing.srdf").write_text("<robot name='hrp2_style'/>")
+    loaders: list[Callable] = [fcl_stpbv.Robot, fcl_stpbv.PostureSearch]
+    for load in loaders:
+        with pytest.warns(UserWarning, match="nothing.srdf: leaves out no pair, so that [0-9]+ pairs of bodies that a joint holds together are checked too"):
+            load(arm, hook / "nothing.srdf")
+
+
+def test_a_warning_names_a_file_whatever_bytes_its_name_has(hook):
+    name = os.fsencode(hook) + b"/no\xff.srdf"  # no UTF-8
+    with open(name, "w") as file:
+        file.write(OTHERS_SRDF)
+    with pytest.warns(UserWarning, match=re.escape(os.fsdecode(name))):
+        robot = fcl_stpbv.Robot(hook / "hook.urdf", name)
+    assert all(text.startswith(os.fsdecode(name)) for text in robot.warnings)
 
 
 def test_velocities_and_weights_whose_products_overflow_raise():

@@ -4,6 +4,7 @@ import math
 import os
 import re
 import sys
+import warnings
 
 import fcl_stpbv
 from fcl_stpbv.batch import engine, places, results
@@ -56,7 +57,7 @@ def described():
                         help="begin with the results in these files; without --shard nothing is computed")
     common.add_argument("-r", type=LENGTH, default=0.01, help="radius of the small spheres, the margin (m) [0.01]")
     common.add_argument("-R", type=LENGTH, default=10.0, help="radius of the big spheres (m) [10]")
-    common.add_argument("-q", "--quiet", action="store_true", help="no progress and no summary")
+    common.add_argument("-q", "--quiet", action="store_true", help="no progress, no warnings and no summary")
     robot = argparse.ArgumentParser(add_help=False)
     robot.add_argument("robot", type=given, metavar="ROBOT", help="its URDF")
     robot.add_argument("--package-path", type=given, action="append", default=[], metavar="FOLDER", help="holds packages; may be given again")
@@ -121,6 +122,16 @@ def asked():
         raise unwritten(error) from None
 
 
+def loaded(kind, arguments):
+    """The batch of this kind; tells what the loading of its files warns of."""
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always", UserWarning)
+        batch = KINDS[kind](arguments)
+    for warning in told if not arguments.quiet else []:
+        print(f"fcl_stpbv.batch: {warning.message}", file=sys.stderr)
+    return batch
+
+
 def run(arguments):
     if arguments.shard and arguments.scheduler:
         raise fcl_stpbv.Error("--shard: is done in this process; leave out --scheduler")
@@ -129,7 +140,7 @@ def run(arguments):
         raise fcl_stpbv.Error("--independent: is about the places of a grid; give --grid")
     places.check(arguments)
     try:
-        kind = KINDS["grid" if grid else arguments.kind](arguments)
+        kind = loaded("grid" if grid else arguments.kind, arguments)
     except UnicodeDecodeError:  # of links and joints, which Python takes for UTF-8
         raise fcl_stpbv.Error(f"{arguments.robot}: a name in it or in its obstacles is not UTF-8; save the files in UTF-8") from None
     header = {"batch": kind.name, "version": fcl_stpbv.__version__, "bundle": digest_of(kind.files), **kind.options}

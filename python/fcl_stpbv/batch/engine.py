@@ -9,6 +9,7 @@ import os
 import pickle
 import sys
 import uuid
+import warnings
 
 import fcl_stpbv
 from fcl_stpbv.batch.bundle import Unpacked, digest_of
@@ -80,6 +81,8 @@ def work(name, options, files, digest, version, key, packed):
     kind, known = KINDS[name], (name, digest, json.dumps(options, sort_keys=True))
     context = contexts.get(known)  # at once: a worker may have several threads
     if context is None:
+        # What loading warns of was told where the batch began; adding a filter once more changes nothing.
+        warnings.filterwarnings("ignore", category=UserWarning, module=r"fcl_stpbv\.batch\.")
         with Unpacked(pickle.loads(files)) as folder:
             context = kind.open(folder, options)
         contexts.clear()  # one robot at a time

@@ -1,0 +1,73 @@
+// See loading.h.
+#include "loading.h"
+
+#include <algorithm>
+
+#include "fcl_stpbv/formatted.h"
+#include "fcl_stpbv/robot/adjacency.h"
+
+namespace py = pybind11;
+
+namespace fcl_stpbv {
+namespace {
+
+void append(std::vector<std::string>& all, const std::vector<std::string>& more) {
+  all.insert(all.end(), more.begin(), more.end());
+}
+
+}  // namespace
+
+RobotModel Loading::robot(const Path& urdf) {
+  LoadFaults faults;
+  RobotModel model = loadUrdf(urdf.string(), faults);
+  faults.refuse();
+  append(warnings, faults.warnings);
+  return model;
+}
+
+Srdf Loading::srdf(const Path& path, const RobotModel& robot) {
+  Srdf srdf = loadSrdf(path.string(), robot);
+  append(warnings, srdf.warnings);
+  return srdf;
+}
+
+RobotGeometry Loading::geometry(const RobotModel& robot, const GeometryOptions& options) {
+  RobotGeometry geometry = loadGeometry(robot, options);
+  append(warnings, geometry.warnings);
+  return geometry;
+}
+
+void Loading::warnOfJoined(const std::vector<CheckedPair>& selfPairs, const RobotModel& robot,
+                           const RobotGeometry& geometry, const Srdf& srdf) {
+  if (!srdf.disabled.empty() || !srdf.defaultsOff.empty()) return;
+  const detail::Adjacency adjacency(robot, geometry);
+  const auto joined = std::count_if(selfPairs.begin(), selfPairs.end(), [&](const CheckedPair& pair) {
+    const LinkPair links = linksOf(pair, geometry);
+    return adjacency.of(links.link1, links.link2) != detail::Joining::separate;
+  });
+  if (joined == 0) return;
+  warnings.push_back(srdf.path + ": leaves out no pair, so that " + detail::counted(joined, "pair") +
+                     " of bodies that a joint holds together " + (joined == 1 ? "is" : "are") +
+                     " checked too; without an SRDF these are left out.");
+}
+
+void warn(const std::vector<std::string>& warnings) {
+  const py::object warn = py::module_::import("warnings").attr("warn");
+  for (const std::string& warning : warnings)
+    warn(decoded(warning), py::reinterpret_borrow<py::object>(PyExc_UserWarning));
+}
+
+py::str decoded(const std::string& text) {
+  auto decoded = py::reinterpret_steal<py::str>(
+      PyUnicode_DecodeUTF8(text.data(), static_cast<Py_ssize_t>(text.size()), "surrogateescape"));
+  if (!decoded) throw py::error_already_set();
+  return decoded;
+}
+
+py::list decoded(const std::vector<std::string>& texts) {
+  py::list list;
+  for (const std::string& text : texts) list.append(decoded(text));
+  return list;
+}
+
+}  // namespace fcl_stpbv
