@@ -39,9 +39,10 @@ inline void requireCount(long count, long least, const char* name) {
                 " or more");
 }
 
-inline std::vector<std::string> toText(const std::vector<Path>& paths) {
-  return {paths.begin(), paths.end()};
-}
+/// Folders that hold packages: one in Python, or a list of them.
+struct Folders {
+  std::vector<std::string> names;
+};
 
 inline std::vector<Eigen::Vector3d> toPoints(const PointArray& array) {
   std::vector<Eigen::Vector3d> points;
@@ -57,3 +58,27 @@ inline PointArray toArray(const std::vector<Eigen::Vector3d>& points) {
 }
 
 }  // namespace fcl_stpbv
+
+template <>
+struct pybind11::detail::type_caster<fcl_stpbv::Folders> {
+  PYBIND11_TYPE_CASTER(fcl_stpbv::Folders, const_name("Union[os.PathLike, List[os.PathLike]]"));
+
+  bool load(handle source, bool convert) {
+    make_caster<fcl_stpbv::Path> one;
+    if (one.load(source, convert)) {
+      value.names = {cast_op<fcl_stpbv::Path&>(one).string()};
+      return true;
+    }
+    PyErr_Clear();
+    make_caster<std::vector<fcl_stpbv::Path>> several;
+    if (!several.load(source, convert)) return false;
+    for (const fcl_stpbv::Path& path : cast_op<std::vector<fcl_stpbv::Path>&>(several))
+      value.names.push_back(path.string());
+    return true;
+  }
+  static handle cast(const fcl_stpbv::Folders& folders, return_value_policy, handle) {
+    list names;
+    for (const std::string& name : folders.names) names.append(name);
+    return names.release();
+  }
+};

@@ -24,11 +24,11 @@ namespace {
 class PythonPostureSearch {
  public:
   PythonPostureSearch(const Path& urdf, const std::optional<Path>& srdf, const std::optional<Path>& obstacles,
-                      double r, double R, const std::vector<Path>& packagePath) {
+                      double r, double R, const Folders& packagePath) {
     named(srdf, "srdf"), named(obstacles, "obstacles");
     GeometryOptions options;
     options.radii = {r, R};
-    options.packagePath = toText(packagePath);
+    options.packagePath = packagePath.names;
     scene_.robot = std::make_shared<const RobotModel>(loading_.robot(urdf));
     if (srdf) scene_.srdf = std::make_shared<const Srdf>(loading_.srdf(*srdf, *scene_.robot));
     scene_.geometry = std::make_shared<const RobotGeometry>(loading_.geometry(*scene_.robot, options));
@@ -134,9 +134,9 @@ void addPostures(py::module_& module) {
   py::class_<PythonPostureSearch>(module, "PostureSearch",
                                   "Postures of a robot among obstacles, in pure pieces.")
       .def(py::init<const Path&, const std::optional<Path>&, const std::optional<Path>&, double, double,
-                    const std::vector<Path>&>(),
+                    const Folders&>(),
            py::arg("urdf"), py::arg("srdf") = py::none(), py::arg("obstacles") = py::none(), py::kw_only(),
-           py::arg("r") = 0.01, py::arg("R") = 10.0, py::arg("package_path") = std::vector<Path>{},
+           py::arg("r") = 0.01, py::arg("R") = 10.0, py::arg("package_path") = Folders{},
            "Without an SRDF the robot's own pairs are those that samples leave to be checked.")
       .def_property_readonly(
           "warnings", [](const PythonPostureSearch& search) { return decoded(search.warnings()); },

@@ -12,17 +12,20 @@ void addRobot(py::module_& module) {
   py::class_<PythonRobot> robotClass(module, "Robot",
                                      "Distances d(q) and Jacobian J(q) of a robot's pairs of bodies.");
   robotClass
-      .def(py::init<const Path&, const std::optional<Path>&, const std::optional<Path>&, double, double,
-                    const std::string&, const std::vector<Path>&, double, double>(),
-           py::arg("urdf"), py::arg("srdf") = py::none(), py::arg("obstacles") = py::none(), py::kw_only(),
-           py::arg("r") = 0.01, py::arg("R") = 10.0, py::arg("base") = "fixed",
-           py::arg("package_path") = std::vector<Path>{},
-           py::arg("influence") = std::numeric_limits<double>::infinity(),
-           py::arg("hand_over") = std::numeric_limits<double>::infinity(),
-           "Loads a URDF, and the bodies of another one as obstacles. Pairs that the SRDF disables (without\n"
-           "one, adjacent and rigid links) are left out. base: \"fixed\", \"planar\" or \"floating\".\n"
-           "influence: farther pairs are constant (m). hand_over: links farther apart than this (m) are one\n"
-           "row, nearer ones a row for each pair of their parts (model_for).")
+      .def(
+          py::init<const Path&, const std::optional<Path>&, const std::optional<Path>&, double, double,
+                   const std::string&, const Folders&, double, std::optional<double>, double>(),
+          py::arg("urdf"), py::arg("srdf") = py::none(), py::arg("obstacles") = py::none(), py::kw_only(),
+          py::arg("r") = 0.01, py::arg("R") = 10.0, py::arg("base") = "fixed",
+          py::arg("package_path") = Folders{}, py::arg("influence") = std::numeric_limits<double>::infinity(),
+          py::arg("exact_up_to") = py::none(), py::arg("hand_over") = std::numeric_limits<double>::infinity(),
+          "Loads a URDF, and the bodies of another one as obstacles. Pairs that the SRDF disables (without\n"
+          "one, adjacent and rigid links) are left out. base: \"fixed\", \"planar\" or \"floating\".\n"
+          "package_path: a folder, or several, in which package:// names are looked for. influence: farther\n"
+          "pairs are constant (m); a row is the distance up to exact_up_to (m), unless given half of it, "
+          "and\n"
+          "bends over beyond. hand_over: links farther apart than this (m) are one\n"
+          "row, nearer ones a row for each pair of their parts (model_for).")
       .def("model_for", &PythonRobot::modelFor, py::arg("needs"), py::kw_only(),
            py::arg("budgets") = std::vector<double>{}, py::arg("threads") = 1,
            "(a Robot as fine as the needs ask for, places of the needs that no bodies meet).\n"
@@ -35,6 +38,8 @@ void addRobot(py::module_& module) {
       .def_property_readonly(
           "names", [](const PythonRobot& robot) { return robot.kinematics().names(); }, "of the coordinates")
       .def_property_readonly("rows", &PythonRobot::rowNames, "names of the pairs, in the order of d")
+      .def_property_readonly("exact_up_to", &PythonRobot::exactUpTo,
+                             "Up to where each row is its distance (m): beyond, it bends over for influence.")
       .def_property_readonly(
           "lower", [](const PythonRobot& robot) { return robot.kinematics().lower(); },
           "Least coordinates (m or rad), in the order of names; -inf where there is no limit.")
@@ -67,6 +72,8 @@ void addRobot(py::module_& module) {
            "Sum over the rows of weight times (Hessian of d) times v.")
       .def("hessian", &PythonRobot::hessian, py::arg("q"), py::arg("weights"),
            "Sum over the rows of weight times Hessian of d, symmetric: a Lagrangian's part.");
+  robotClass.def("__repr__", &PythonRobot::described);
+  addDampers(module, robotClass);
   addMotions(module, robotClass);
 }
 

@@ -12,6 +12,8 @@
 #include <vector>
 
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/formatted.h"
+#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/robot/batch.h"
 #include "fcl_stpbv/robot/motion_check.h"
 #include "interrupt.h"
@@ -21,6 +23,12 @@
 namespace fcl_stpbv {
 
 namespace py = pybind11;
+
+/// @throws Error naming the argument, for what the rows' second derivatives take for no number.
+inline void requireUsable(const Eigen::VectorXd& numbers, const char* name) {
+  if (!(numbers.array().abs() <= 1e100).all())
+    throw Error(std::string(name) + ": holds a number above 1e100");
+}
 
 /// What becomes of a motion, as MotionBracket has it, of a row instead of a pair.
 struct PythonMotionBracket {
@@ -39,18 +47,20 @@ class PythonRobot {
   using Verdicts = Eigen::Array<bool, Eigen::Dynamic, 1>;
 
   PythonRobot(const Path& urdf, const std::optional<Path>& srdf, const std::optional<Path>& obstacles,
-              double r, double R, const std::string& base, const std::vector<Path>& packagePath,
-              double influence, double handOver) {
+              double r, double R, const std::string& base, const Folders& packagePath, double influence,
+              std::optional<double> exactUpTo, double handOver) {
     const auto scene = std::make_shared<PythonScene>();
     named(srdf, "srdf"), named(obstacles, "obstacles");
     requireLength(influence, "influence"), requireLength(handOver, "hand_over");
+    requireBend(influence, exactUpTo);
     scene->robot = std::make_shared<const RobotModel>(scene->loading.robot(urdf));
     if (srdf) scene->srdf = scene->loading.srdf(*srdf, *scene->robot);
     scene->options.radii = {r, R};
-    scene->options.packagePath = toText(packagePath);
+    scene->options.packagePath = packagePath.names;
     const auto geometry = scene->load(base, obstacles);
     scene_ = scene;
     options_.influence = influence;
+    options_.exactUpTo = exactUpTo.value_or(-1);
     options_.handOver = handOver;
     options_.obstacles = scene->obstacles;
     use(geometry);
@@ -66,6 +76,11 @@ class PythonRobot {
     return {std::unique_ptr<PythonRobot>(new PythonRobot(*this, geometry)), std::move(unmet)};
   }
 
+  py::str described() const {
+    const std::string size = detail::counted(detail::at(kinematics_->size()), "coordinate") + ", " +
+                             detail::counted(detail::at(rows()), "row");
+    return decoded("<Robot " + scene_->robot->name + ": " + size + ">");
+  }
   const std::vector<std::string>& warnings() const { return scene_->loading.warnings; }
   const Kinematics& kinematics() const { return *kinematics_; }
   int vertices() const {
@@ -87,6 +102,11 @@ class PythonRobot {
     std::vector<std::string> names;
     for (int row = 0; row < rows(); ++row) names.push_back(constraints_->name(row));
     return names;
+  }
+  Eigen::VectorXd exactUpTo() const {
+    Eigen::VectorXd exact(rows());
+    for (int row = 0; row < rows(); ++row) exact[row] = constraints_->exactUpTo(row);
+    return exact;
   }
   Eigen::VectorXd configuration(const std::string& state) const {
     if (!scene_->srdf) throw Error("configuration: group states stand in an SRDF; give the robot one");
@@ -157,6 +177,11 @@ class PythonRobot {
     return d;
   }
 
+  // Of controllers (damper.cpp).
+  const CollisionConstraints& constraints() const { return *constraints_; }
+  std::vector<RowAnswer> answers(const Given& givenQ, const std::optional<Given>& givenQd);
+  Eigen::VectorXd gradientRateBounds(const Given& givenQ, const Given& givenQd);
+
   // Of motions (motion.cpp).
   bool isMotionFree(const Given& givenQ0, const Given& givenQ1, double margin);
   std::optional<Eigen::Index> firstUnprovenMotion(GivenRows given, double margin);
@@ -214,16 +239,16 @@ class PythonRobot {
       throw Error(std::string(name) + ": got " + std::string(py::str(py::float_(length))) +
                   ", expected a length above 0 (m)");
   }
+  /// @throws Error naming the argument, likewise.
+  static void requireBend(double influence, const std::optional<double>& exactUpTo) {
+    if (exactUpTo && !(*exactUpTo >= 0 && *exactUpTo < influence))
+      throw Error("exact_up_to: got " + std::string(py::str(py::float_(*exactUpTo))) +
+                  ", expected a length of 0 or more and below influence (m)");
+  }
   /// @throws Error naming the argument.
   static const Eigen::VectorXd& checked(const Given& given, const char* name, int size) {
     requireNumbers(given.value, size, name);
     return given.value;
-  }
-
-  /// @throws Error naming the argument, for what the rows' second derivatives take for no number.
-  static void requireUsable(const Eigen::VectorXd& numbers, const char* name) {
-    if (!(numbers.array().abs() <= 1e100).all())
-      throw Error(std::string(name) + ": holds a number above 1e100");
   }
 
   const Rows& checkedRows(GivenRows& given) const {
@@ -302,6 +327,8 @@ struct pybind11::detail::type_caster<fcl_stpbv::PythonRobot> : fcl_stpbv::MadeCa
 
 namespace fcl_stpbv {
 
+/// Rows for controllers, and what was found for each.
+void addDampers(py::module_& module, py::class_<PythonRobot>& robotClass);
 /// The questions about motions, and what their answers are made of.
 void addMotions(py::module_& module, py::class_<PythonRobot>& robotClass);
 

@@ -50,13 +50,13 @@ std::vector<JointBox> boxesOf(const GivenBoxes& given) {
 class PythonPairSearch {
  public:
   PythonPairSearch(const Path& urdf, const std::optional<Path>& obstacles, double r, double R,
-                   const std::vector<Path>& packagePath, double margin) {
+                   const Folders& packagePath, double margin) {
     requireNumber("margin", margin, -1e6, 1e6);
     named(obstacles, "obstacles");
     const auto model = std::make_shared<const RobotModel>(loading_.robot(urdf));
     GeometryOptions options;
     options.radii = {r, R};
-    options.packagePath = toText(packagePath);
+    options.packagePath = packagePath.names;
     const auto geometry = std::make_shared<const RobotGeometry>(loading_.geometry(*model, options));
     std::set<std::pair<int, int>> known;
     for (const CheckedPair& pair : selfPairs(*model, *geometry, nullptr)) {
@@ -210,10 +210,9 @@ class PythonPairSearch {
   Loading loading_;
 };
 
-std::vector<std::pair<std::string, std::string>> meshFiles(const Path& urdf,
-                                                           const std::vector<Path>& packagePath) {
+std::vector<std::pair<std::string, std::string>> meshFiles(const Path& urdf, const Folders& packagePath) {
   const RobotModel robot = loadUrdf(urdf.string());
-  const PackagePath files(urdf.string(), toText(packagePath));
+  const PackagePath files(urdf.string(), packagePath.names);
   const auto none = [](const LinkModel& link) { return link.collision.empty(); };
   const bool visual = std::all_of(robot.links.begin(), robot.links.end(), none);
   std::vector<std::pair<std::string, std::string>> found;
@@ -272,10 +271,9 @@ void addShards(py::module_& module) {
   addProof(module);
   py::class_<PythonPairSearch>(module, "PairSearch",
                                "Proofs and samples of a robot's pairs of links, in pure pieces.")
-      .def(py::init<const Path&, const std::optional<Path>&, double, double, const std::vector<Path>&,
-                    double>(),
+      .def(py::init<const Path&, const std::optional<Path>&, double, double, const Folders&, double>(),
            py::arg("urdf"), py::arg("obstacles") = py::none(), py::kw_only(), py::arg("r") = 0.01,
-           py::arg("R") = 10.0, py::arg("package_path") = std::vector<Path>{}, py::arg("margin") = 0.0,
+           py::arg("R") = 10.0, py::arg("package_path") = Folders{}, py::arg("margin") = 0.0,
            "obstacles: URDF of a scene that stands still, like the robot's root link.\n"
            "margin: a distance not above it is a collision (m).")
       .def_property_readonly(
@@ -319,7 +317,7 @@ void addShards(py::module_& module) {
            "rigidly joined ones; pairs with obstacles have no place in it. It keeps all of the file `srdf` "
            "but\n"
            "pairs of other reasons than User.");
-  module.def("mesh_files", &meshFiles, py::arg("urdf"), py::arg("package_path") = std::vector<Path>{},
+  module.def("mesh_files", &meshFiles, py::arg("urdf"), py::arg("package_path") = Folders{},
              "The meshes that a robot's bodies are made of: as the URDF names them, and their paths.");
 }
 

@@ -1,5 +1,6 @@
 // Volumes and their distance in Python.
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <sstream>
@@ -7,6 +8,7 @@
 #include "fcl_stpbv/distance/distance.h"
 #include "fcl_stpbv/distance/shape_distance.h"
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/formatted.h"
 #include "fcl_stpbv/io/volume_files.h"
 #include "fcl_stpbv/robot/mesh_file.h"
 #include "fcl_stpbv/volume/measure.h"
@@ -16,6 +18,7 @@
 #include "fcl_stpbv/volume/verify.h"
 #include "made.h"
 #include "parts.h"
+#include "words.h"
 
 namespace py = pybind11;
 
@@ -90,6 +93,8 @@ Eigen::Vector3d direction(const Floats<Eigen::Vector3d>& given) {
   return scaled.normalized();
 }
 
+std::string described(double r, double R) { return detail::formatted("r = %.6g m, R = %.6g m", r, R); }
+
 void addStpBv(py::module_& module) {
   py::class_<StpBv, std::shared_ptr<StpBv>>(module, "StpBv", "A volume; immutable. Its own frame.")
       .def_static(
@@ -160,7 +165,8 @@ void addStpBv(py::module_& module) {
           }))
       .def("__repr__", [](const StpBv& volume) {
         return "<StpBv: " + std::to_string(volume.vertexCount()) + " vertices, " +
-               std::to_string(volume.faceCount()) + " faces>";
+               std::to_string(volume.faceCount()) + " faces, " +
+               described(volume.radii().r, volume.radii().R) + ">";
       });
 }
 
@@ -220,7 +226,15 @@ void addAdvice(py::module_& module) {
       .def_readonly("over_cover", &RadiiAdvice::overCover, "of the volume of these radii (m)")
       .def_readonly("per_period", &RadiiAdvice::perPeriod,
                     "most that d falls below a linear row in a period (m)")
-      .def_readonly("least_clearance", &RadiiAdvice::leastClearance, "for the stated acceleration (m)");
+      .def_readonly("least_clearance", &RadiiAdvice::leastClearance, "for the stated acceleration (m)")
+      .def("__repr__", [](const RadiiAdvice& advice) {
+        std::string kept = "meets both demands";
+        if (!advice.meetsBoth)
+          kept = detail::formatted("keeps the clearance, but may add %.4g m/s^2", advice.acceleration);
+        if (!advice.meetsBoth && std::isfinite(advice.leastClearance))
+          kept += detail::formatted("; that asked for needs %.4g m", advice.leastClearance);
+        return "<RadiiAdvice: " + described(advice.radii.r, advice.radii.R) + ", " + kept + ">";
+      });
   const RadiiTask usual;
   module.def(
       "advise_radii",
@@ -228,7 +242,9 @@ void addAdvice(py::module_& module) {
          double turning, double period, double distance, bool bothRound) {
         const std::vector<Eigen::Vector3d> list = toPoints(points.value);
         py::gil_scoped_release others;
-        return adviseRadii(list, {clearance, acceleration, speed, turning, period, distance, bothRound});
+        return inPythonsWords([&] {
+          return adviseRadii(list, {clearance, acceleration, speed, turning, period, distance, bothRound});
+        });
       },
       py::arg("points"), py::kw_only(), py::arg("clearance") = usual.clearance,
       py::arg("acceleration") = usual.acceleration, py::arg("speed") = usual.speed,

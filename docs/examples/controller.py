@@ -60,6 +60,7 @@ def wanted(start, at, t):
 def run(urdf, r, R, margin):
     """Distance of the boxes beyond their margin, and the largest joint acceleration, of each tick."""
     robot = fcl_stpbv.Robot(urdf, r=r, R=R)
+    damper = fcl_stpbv.VelocityDamper(robot, influence=INFLUENCE + margin, security=SECURITY + margin, damping=DAMPING, period=PERIOD)
     at = {name: i for i, name in enumerate(robot.names)}
     start = robot.neutral.copy()
     for arm, side in ARMS.items():
@@ -67,14 +68,10 @@ def run(urdf, r, R, margin):
             start[at[f"{arm}_JOINT{joint}"]] = angle * (side if joint == "1" else 1)
     q, qd, ticks = start.copy(), 0 * start, []
     for t in np.arange(0, DURATION, PERIOD):
-        task = 10 * (wanted(start, at, t) - q)
-        d, J = robot.evaluate(q)
-        row, distance = J[0], d[0] - margin
-        velocity = task
-        if distance < INFLUENCE:  # one row: the quadratic program is a projection
-            bound = -DAMPING * (distance - SECURITY) / (INFLUENCE - SECURITY)
-            velocity = task + row * max(0.0, bound - row @ task) / (row @ row)
-        ticks.append((distance, np.abs(velocity - qd).max() / PERIOD))
+        velocity = 10 * (wanted(start, at, t) - q)  # the task: proportional control
+        for row, bound in zip(*damper.update(q, qd)):  # one row at most: the quadratic program min |x - task|^2 is a projection
+            velocity += row * max(0.0, bound - row @ velocity) / (row @ row)
+        ticks.append((damper.d[0] - margin, np.abs(velocity - qd).max() / PERIOD))
         qd = velocity
         q = q + PERIOD * qd
     return np.array(ticks)

@@ -98,6 +98,43 @@ def test_files_keep_every_bit(tmp_path):
     assert again.verify() == "ok"
 
 
+def test_what_is_printed_says_what_it_is():
+    assert repr(box()) == "<StpBv: 8 vertices, 6 faces, r = 0.01 m, R = 10 m>"
+    good, tight = fcl_stpbv.advise_radii(BOX, acceleration=30.0), fcl_stpbv.advise_radii(BOX)
+    assert repr(good) == f"<RadiiAdvice: r = {good.r:.6g} m, R = {good.R:.6g} m, meets both demands>"
+    assert repr(tight) == (f"<RadiiAdvice: r = {tight.r:.6g} m, R = {tight.R:.6g} m, keeps the clearance, but may add {tight.acceleration:.4g} m/s^2; "
+                           f"that asked for needs {tight.least_clearance:.4g} m>")
+    folder = DATA / "hrp2_style"
+    robot = fcl_stpbv.Robot(folder / "hrp2_style.urdf", folder / "hrp2_style.srdf")
+    assert repr(robot) == f"<Robot hrp2_style: {len(robot.names)} coordinates, {len(robot.rows)} rows>"
+    assert repr(fcl_stpbv.VelocityDamper(robot)) == f"<VelocityDamper: {len(robot.rows)} rows>"
+    assert repr(robot.answers(robot.neutral)[0]).startswith("<RowAnswer: ")
+
+
+def test_errors_name_functions_as_python_does():
+    for clearance, period in ((-1.0, 1e-3), (0.01, -1.0), (1e-4, 1e-3)):
+        with pytest.raises(fcl_stpbv.Error, match="^advise_radii: "):
+            fcl_stpbv.advise_radii(BOX, clearance=clearance, period=period)
+
+
+def test_a_package_path_is_one_folder_or_several(tmp_path):
+    package = tmp_path / "some_robot"
+    package.mkdir()
+    (package / "l.obj").write_text(prism([(0, 0), (0.4, 0), (0.4, 0.1)], 0.1))
+    (package / "package.xml").write_text("<package><name>some_robot</name></package>")
+    other = tmp_path / "other"
+    other.mkdir()
+    urdf = other / "l.urdf"
+    urdf.write_text("<robot name='l'><link name='l'><collision><geometry><mesh filename='package://some_robot/l.obj'/></geometry></collision></link></robot>")
+    loaders: list[Callable] = [fcl_stpbv.Robot, fcl_stpbv.mesh_files, fcl_stpbv.PostureSearch]
+    for load in loaders:
+        for folder in (str(tmp_path), tmp_path, os.fsencode(tmp_path), [str(tmp_path)], (other, tmp_path)):
+            load(urdf, package_path=folder)
+        for wrong in (3, [3], None):
+            with pytest.raises(TypeError):
+                load(urdf, package_path=wrong)
+
+
 def test_errors_name_what_would_work(tmp_path):
     with pytest.raises(fcl_stpbv.Error, match="R"):
         fcl_stpbv.StpBv.build(BOX, R=0.1)
@@ -229,7 +266,7 @@ def test_a_file_with_an_empty_name_is_not_left_out(empty):
 
 def test_an_object_whose_constructor_has_not_run_is_no_argument():
     kinds: list[Any] = [fcl_stpbv.StpBv, fcl_stpbv.PairCache, fcl_stpbv.Distance, fcl_stpbv.RadiiAdvice, fcl_stpbv.Robot, fcl_stpbv.PairProof,
-                        fcl_stpbv.PairSearch, fcl_stpbv.PostureSearch, fcl_stpbv.MotionBracket]
+                        fcl_stpbv.PairSearch, fcl_stpbv.PostureSearch, fcl_stpbv.MotionBracket, fcl_stpbv.RowAnswer, fcl_stpbv.VelocityDamper]
     for kind in kinds:
         unmade = kind.__new__(kind)
         for name, member in vars(kind).items():
