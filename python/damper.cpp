@@ -161,8 +161,7 @@ void addDampers(py::module_& module, py::class_<PythonRobot>& robotClass) {
           py::arg("headroom") = usual.headroom, py::arg("period") = usual.period,
           py::arg("barrier_gain") = usual.barrierGain,
           "level: \"velocity\" (x = qd), \"acceleration\" or \"barrier\" (x = qdd). influence d_i, security\n"
-          "d_s (m), damping xi (m/s): dd/dt >= -xi (d - d_s) / (d_i - d_s) from d_i on. rows: (d_i, d_s, "
-          "xi)\n"
+          "d_s (m), damping xi (m/s): dd/dt >= -xi (d - d_s) / (d_i - d_s) from d_i on. rows: those three\n"
           "of single rows, by index. headroom (m/s): a pair that enters faster than its row allows gets a\n"
           "larger xi, so that the row does not act at once; negative: never. period: the controller's (s).\n"
           "barrier_gain: g (1/s).")

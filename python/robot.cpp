@@ -2,6 +2,7 @@
 #include "robot.h"
 
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,19 +14,29 @@ void addRobot(py::module_& module) {
                                      "Distances d(q) and Jacobian J(q) of a robot's pairs of bodies.");
   robotClass
       .def(
-          py::init<const Path&, const std::optional<Path>&, const std::optional<Path>&, double, double,
-                   const std::string&, const Folders&, double, std::optional<double>, double>(),
+          py::init([](const Path& urdf, const std::optional<Path>& srdf, const std::optional<Path>& obstacles,
+                      const BodyOptions::Length& r, const std::optional<BodyOptions::Length>& R,
+                      const BodyOptions::OfLinks& links, const BodyOptions::Names& flat,
+                      const std::string& base, const Folders& packagePath, double influence,
+                      std::optional<double> exactUpTo, double handOver) {
+            return std::make_unique<PythonRobot>(urdf, srdf, obstacles, BodyOptions{r, R, links, flat}, base,
+                                                 packagePath, influence, exactUpTo, handOver);
+          }),
           py::arg("urdf"), py::arg("srdf") = py::none(), py::arg("obstacles") = py::none(), py::kw_only(),
-          py::arg("r") = 0.01, py::arg("R") = 10.0, py::arg("base") = "fixed",
+          py::arg("r") = 0.01, py::arg("R") = py::none(), py::arg("links") = BodyOptions::OfLinks{},
+          py::arg("flat") = std::vector<std::string>{}, py::arg("base") = "fixed",
           py::arg("package_path") = Folders{}, py::arg("influence") = std::numeric_limits<double>::infinity(),
           py::arg("exact_up_to") = py::none(), py::arg("hand_over") = std::numeric_limits<double>::infinity(),
           "Loads a URDF, and the bodies of another one as obstacles. Pairs that the SRDF disables (without\n"
-          "one, adjacent and rigid links) are left out. base: \"fixed\", \"planar\" or \"floating\".\n"
-          "package_path: a folder, or several, in which package:// names are looked for. influence: farther\n"
-          "pairs are constant (m); a row is the distance up to exact_up_to (m), unless given half of it, "
-          "and\n"
-          "bends over beyond. hand_over: links farther apart than this (m) are one\n"
-          "row, nearer ones a row for each pair of their parts (model_for).")
+          "one, adjacent and rigid links) are left out. r, R: of all volumes (m), or \"auto\", by which "
+          "they\n"
+          "fit each link; R is 10 unless given, or auto where r is. links: (r, R) of single links by name, "
+          "or\n"
+          "(r, R, over-cover). flat: links whose meshes stay convex polyhedra, and \"obstacles\". base:\n"
+          "\"fixed\", \"planar\" or \"floating\". package_path: a folder, or several, for package:// names.\n"
+          "influence: farther pairs are constant (m); a row is its distance up to exact_up_to (m), half of\n"
+          "influence unless given, and bends over beyond. hand_over: links farther apart than this (m) are\n"
+          "one row, nearer ones a row for each pair of their parts (model_for).")
       .def("model_for", &PythonRobot::modelFor, py::arg("needs"), py::kw_only(),
            py::arg("budgets") = std::vector<double>{}, py::arg("threads") = 1,
            "(a Robot as fine as the needs ask for, places of the needs that no bodies meet).\n"

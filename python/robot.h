@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "bodies.h"
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/formatted.h"
 #include "fcl_stpbv/numbers.h"
@@ -47,16 +48,17 @@ class PythonRobot {
   using Verdicts = Eigen::Array<bool, Eigen::Dynamic, 1>;
 
   PythonRobot(const Path& urdf, const std::optional<Path>& srdf, const std::optional<Path>& obstacles,
-              double r, double R, const std::string& base, const Folders& packagePath, double influence,
-              std::optional<double> exactUpTo, double handOver) {
+              const BodyOptions& bodies, const std::string& base, const Folders& packagePath,
+              double influence, std::optional<double> exactUpTo, double handOver) {
     const auto scene = std::make_shared<PythonScene>();
     named(srdf, "srdf"), named(obstacles, "obstacles");
     requireLength(influence, "influence"), requireLength(handOver, "hand_over");
     requireBend(influence, exactUpTo);
+    scene->options = bodies.ofRobot(obstacles.has_value());
+    scene->aroundOptions = bodies.ofObstacles();
+    scene->options.packagePath = scene->aroundOptions.packagePath = packagePath.names;
     scene->robot = std::make_shared<const RobotModel>(scene->loading.robot(urdf));
     if (srdf) scene->srdf = scene->loading.srdf(*srdf, *scene->robot);
-    scene->options.radii = {r, R};
-    scene->options.packagePath = packagePath.names;
     const auto geometry = scene->load(base, obstacles);
     scene_ = scene;
     options_.influence = influence;

@@ -27,7 +27,7 @@ std::shared_ptr<const RobotGeometry> PythonScene::load(const std::string& base,
   RobotGeometry bodies = loading.geometry(*robot, options), things;
   if (obstaclesUrdf) {
     around = std::make_shared<const RobotModel>(loading.robot(*obstaclesUrdf));
-    things = loading.geometry(*around, options);
+    things = loading.geometry(*around, aroundOptions);
     obstacles = obstaclesOf(around, things);
   }
   if (srdf) loading.warnOfJoined(selfPairs(*robot, bodies, &*srdf), *robot, bodies, *srdf);
@@ -86,7 +86,7 @@ std::shared_ptr<const RobotGeometry> PythonScene::modelFor(const std::vector<Nee
                 std::to_string(kMostThreads));
   std::vector<std::shared_ptr<const RobotGeometry>> levels = loadLevels(*robot, options, budgets);
   const std::vector<CheckedPair> checked = pairs(*levels.back());
-  const RobotGeometry flat = around ? loadGeometry(*around, options) : RobotGeometry();
+  const RobotGeometry flat = around ? loadGeometry(*around, aroundOptions) : RobotGeometry();
   for (std::shared_ptr<const RobotGeometry>& level : levels) {
     RobotGeometry covered = *level, things = flat;
     coverPrimitives(checked, covered, &things);

@@ -21,7 +21,7 @@ struct PythonScene {
   std::shared_ptr<const RobotModel> robot;
   std::optional<Srdf> srdf;
   std::shared_ptr<const Kinematics> kinematics;
-  GeometryOptions options;
+  GeometryOptions options, aroundOptions;
   std::shared_ptr<const RobotModel> around;  ///< null without obstacles
   std::vector<Obstacle> obstacles;
   bool baseMoves = false;

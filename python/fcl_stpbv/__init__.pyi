@@ -133,7 +133,8 @@ class RowAnswer:
     def point_velocities(self) -> _Array: ...
 
 class Robot:
-    def __init__(self, urdf: _Path, srdf: _Path | None = ..., obstacles: _Path | None = ..., *, r: float = ..., R: float = ...,
+    def __init__(self, urdf: _Path, srdf: _Path | None = ..., obstacles: _Path | None = ..., *, r: float | str = ...,
+                 R: float | str | None = ..., links: Mapping[str, Sequence[float]] = ..., flat: str | Sequence[str] = ...,
                  base: str = ..., package_path: _Path | Sequence[_Path] = ..., influence: float = ..., exact_up_to: float | None = ...,
                  hand_over: float = ...) -> None: ...
     def model_for(self, needs: Sequence[tuple[str, str, _Floats, float]], *, budgets: Sequence[float] = ...,

@@ -1,0 +1,36 @@
+// What volumes a robot's links get, as Python names it: r, R, links and flat mean what -r, -R, --link and
+// --flat of the tools do.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "fcl_stpbv/robot/link_geometry.h"
+#include "parts.h"
+
+namespace fcl_stpbv {
+
+/// Of the robot, and of what stands around it.
+struct BodyOptions {
+  using Length = std::variant<double, std::string>;  ///< m, or "auto"
+  using OfLinks = std::map<std::string, std::vector<double>>;
+  using Names = std::variant<std::string, std::vector<std::string>>;  ///< one, or several
+
+  Length r;
+  std::optional<Length> R;  ///< none: fitted where r is, else that of GeometryOptions
+  OfLinks links;            ///< r, R and, if given, the over-cover's budget of single links (m)
+  Names flat;               ///< links whose meshes stay convex polyhedra, and "obstacles"
+
+  /// @throws Error naming the argument.
+  GeometryOptions ofRobot(bool obstacles) const;
+  GeometryOptions ofObstacles() const;
+
+ private:
+  GeometryOptions ofAll() const;
+  std::vector<std::string> flatNames() const;
+};
+
+}  // namespace fcl_stpbv
