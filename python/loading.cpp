@@ -5,6 +5,7 @@
 
 #include "fcl_stpbv/formatted.h"
 #include "fcl_stpbv/robot/adjacency.h"
+#include "fcl_stpbv/robot/load_warnings.h"
 
 namespace py = pybind11;
 
@@ -15,13 +16,25 @@ void append(std::vector<std::string>& all, const std::vector<std::string>& more)
   all.insert(all.end(), more.begin(), more.end());
 }
 
-}  // namespace
-
-RobotModel Loading::robot(const Path& urdf) {
+RobotModel loaded(const Path& urdf, std::vector<std::string>& warnings) {
   LoadFaults faults;
   RobotModel model = loadUrdf(urdf.string(), faults);
   faults.refuse();
   append(warnings, faults.warnings);
+  return model;
+}
+
+}  // namespace
+
+RobotModel Loading::robot(const Path& urdf) {
+  RobotModel model = loaded(urdf, warnings);
+  append(warnings, detail::stillJoints(model));
+  return model;
+}
+
+RobotModel Loading::obstacles(const Path& urdf) {
+  RobotModel model = loaded(urdf, warnings);
+  append(warnings, detail::stillObstacles(model));
   return model;
 }
 
@@ -37,6 +50,10 @@ RobotGeometry Loading::geometry(const RobotModel& robot, const GeometryOptions& 
   return geometry;
 }
 
+void Loading::warnOfR(const RobotModel& robot, const RobotGeometry& covered, const GeometryOptions& options) {
+  append(warnings, detail::raisedR(robot, covered, options, "give a larger R"));
+}
+
 void Loading::warnOfJoined(const std::vector<CheckedPair>& selfPairs, const RobotModel& robot,
                            const RobotGeometry& geometry, const Srdf& srdf) {
   if (!srdf.disabled.empty() || !srdf.defaultsOff.empty()) return;
@@ -49,6 +66,16 @@ void Loading::warnOfJoined(const std::vector<CheckedPair>& selfPairs, const Robo
   warnings.push_back(srdf.path + ": leaves out no pair, so that " + detail::counted(joined, "pair") +
                      " of bodies that a joint holds together " + (joined == 1 ? "is" : "are") +
                      " checked too; without an SRDF these are left out.");
+}
+
+std::vector<std::string> warningsOfModel(const RobotModel& robot, const RobotGeometry& geometry,
+                                         const std::vector<std::string>& known) {
+  std::vector<std::string> all = geometry.warnings, fresh;
+  const std::string open = detail::openParts(geometry);
+  if (!open.empty()) all.push_back(robot.path + ": " + open);
+  for (const std::string& warning : all)
+    if (std::find(known.begin(), known.end(), warning) == known.end()) fresh.push_back(warning);
+  return fresh;
 }
 
 void warn(const std::vector<std::string>& warnings) {

@@ -14,13 +14,21 @@ struct Loading {
   std::vector<std::string> warnings;  ///< whole sentences, of all that was loaded
 
   RobotModel robot(const Path& urdf);
+  RobotModel obstacles(const Path& urdf);
   Srdf srdf(const Path& path, const RobotModel& robot);
   RobotGeometry geometry(const RobotModel& robot, const GeometryOptions& options);
+
+  /// Where covers of primitives have a larger R than `options` ask for.
+  void warnOfR(const RobotModel& robot, const RobotGeometry& covered, const GeometryOptions& options);
 
   /// Of an SRDF that leaves out no pair: without one, those that the joints hold together would be.
   void warnOfJoined(const std::vector<CheckedPair>& selfPairs, const RobotModel& robot,
                     const RobotGeometry& geometry, const Srdf& srdf);
 };
+
+/// What bodies that are made for needs warn of beside what `known` has told.
+std::vector<std::string> warningsOfModel(const RobotModel& robot, const RobotGeometry& geometry,
+                                         const std::vector<std::string>& known);
 
 /// Each as a UserWarning of the Python code that called. @throws pybind11::error_already_set where it has
 /// made warnings errors.

@@ -33,7 +33,7 @@ class PythonPostureSearch {
     if (srdf) scene_.srdf = std::make_shared<const Srdf>(loading_.srdf(*srdf, *scene_.robot));
     scene_.geometry = std::make_shared<const RobotGeometry>(loading_.geometry(*scene_.robot, options));
     if (obstacles) {
-      const auto around = std::make_shared<const RobotModel>(loading_.robot(*obstacles));
+      const auto around = std::make_shared<const RobotModel>(loading_.obstacles(*obstacles));
       scene_.obstacles = obstaclesOf(around, loading_.geometry(*around, options));
     }
     if (scene_.srdf)

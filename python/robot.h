@@ -66,16 +66,23 @@ class PythonRobot {
     options_.handOver = handOver;
     options_.obstacles = scene->obstacles;
     use(geometry);
-    warn(warnings());
+    warnings_ = scene->loading.warnings;
+    warn(warnings_);
   }
 
   /// The same robot, as fine as the needs ask for, and the places of those that no bodies meet.
   std::pair<std::unique_ptr<PythonRobot>, std::vector<std::size_t>> modelFor(
       const std::vector<PythonScene::Need>& needs, const std::vector<double>& budgets, int threads) const {
     std::vector<std::size_t> unmet;
-    const py::gil_scoped_release others;
-    const auto geometry = scene_->modelFor(needs, budgets, threads, unmet);
-    return {std::unique_ptr<PythonRobot>(new PythonRobot(*this, geometry)), std::move(unmet)};
+    std::unique_ptr<PythonRobot> model;
+    {
+      const py::gil_scoped_release others;
+      model.reset(new PythonRobot(*this, scene_->modelFor(needs, budgets, threads, unmet)));
+    }
+    const std::vector<std::string> fresh = warningsOfModel(*scene_->robot, *model->geometry_, warnings_);
+    model->warnings_.insert(model->warnings_.end(), fresh.begin(), fresh.end());
+    warn(fresh);
+    return {std::move(model), std::move(unmet)};
   }
 
   py::str described() const {
@@ -83,7 +90,7 @@ class PythonRobot {
                              detail::counted(detail::at(rows()), "row");
     return decoded("<Robot " + scene_->robot->name + ": " + size + ">");
   }
-  const std::vector<std::string>& warnings() const { return scene_->loading.warnings; }
+  const std::vector<std::string>& warnings() const { return warnings_; }
   const Kinematics& kinematics() const { return *kinematics_; }
   int vertices() const {
     std::set<const StpBv*> volumes;
@@ -222,7 +229,7 @@ class PythonRobot {
 
  private:
   PythonRobot(const PythonRobot& coarse, const std::shared_ptr<const RobotGeometry>& geometry)
-      : scene_(coarse.scene_), options_(coarse.options_) {
+      : scene_(coarse.scene_), options_(coarse.options_), warnings_(coarse.warnings_) {
     use(geometry);
   }
 
@@ -314,6 +321,7 @@ class PythonRobot {
 
   std::shared_ptr<const PythonScene> scene_;
   ConstraintOptions options_;
+  std::vector<std::string> warnings_;
   std::shared_ptr<const RobotGeometry> geometry_;
   std::shared_ptr<const Kinematics> kinematics_;
   std::unique_ptr<CollisionConstraints> constraints_;

@@ -26,13 +26,17 @@ std::shared_ptr<const RobotGeometry> PythonScene::load(const std::string& base,
   baseMoves = motion != BaseMotion::fixed;
   RobotGeometry bodies = loading.geometry(*robot, options), things;
   if (obstaclesUrdf) {
-    around = std::make_shared<const RobotModel>(loading.robot(*obstaclesUrdf));
+    around = std::make_shared<const RobotModel>(loading.obstacles(*obstaclesUrdf));
     things = loading.geometry(*around, aroundOptions);
     obstacles = obstaclesOf(around, things);
   }
   if (srdf) loading.warnOfJoined(selfPairs(*robot, bodies, &*srdf), *robot, bodies, *srdf);
   coverPrimitives(pairs(bodies), bodies, &things);
-  if (around) obstacles = obstaclesOf(around, things);  // as they are covered
+  loading.warnOfR(*robot, bodies, options);
+  if (around) {
+    loading.warnOfR(*around, things, aroundOptions);
+    obstacles = obstaclesOf(around, things);  // as they are covered
+  }
   return std::make_shared<const RobotGeometry>(std::move(bodies));
 }
 

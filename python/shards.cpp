@@ -65,7 +65,7 @@ class PythonPairSearch {
     }
     std::vector<Obstacle> around;
     if (obstacles) {
-      const auto scene = std::make_shared<const RobotModel>(loading_.robot(*obstacles));
+      const auto scene = std::make_shared<const RobotModel>(loading_.obstacles(*obstacles));
       around = obstaclesOf(scene, loading_.geometry(*scene, options));
       for (std::size_t link = 0; link < model->links.size(); ++link)
         for (std::size_t o = 0; o < around.size(); ++o) addObstacle(*model, *geometry, link, o);

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -102,17 +101,6 @@ std::string kinks(const CollisionReport& report) {
 std::string overlapsAllowed(double margin) {
   if (margin >= 0) return "";
   return formatted("the margin is negative: what overlaps by less than %g m counts as clear.", -margin);
-}
-
-std::string openParts(const RobotGeometry& geometry) {
-  std::set<std::string> names;
-  for (const Body& body : geometry.bodies)
-    if (body.openPieces > 0) names.insert(geometry.bodies[static_cast<std::size_t>(body.partOf)].name);
-  if (names.empty()) return "";
-  const std::string others =
-      names.size() > 1 ? " and of " + std::to_string(names.size() - 1) + " more meshes" : "";
-  return "the convex parts of '" + *names.begin() + "'" + others +
-         " cover faces, but not the space inside: the mesh is not closed. Close it, or take the link whole.";
 }
 
 std::vector<std::string> reportWarnings(const CollisionReport& report, const std::string& neutral) {

@@ -4,11 +4,11 @@
 #include <string>
 
 #include "fcl_stpbv/report/collision_report.h"
+#include "fcl_stpbv/robot/load_warnings.h"
 
 namespace fcl_stpbv::report {
 
-/// A sentence on meshes that are split and not closed, whose parts cover their faces alone; "" without one.
-std::string openParts(const RobotGeometry& geometry);
+using detail::openParts;
 
 /// A sentence where a margin below 0 (m) lets bodies overlap; "" else.
 std::string overlapsAllowed(double margin);

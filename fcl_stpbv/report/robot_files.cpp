@@ -2,19 +2,17 @@
 // with any of them into one message.
 #include "fcl_stpbv/report/robot_files.h"
 
-#include <set>
-
 #include "fcl_stpbv/error.h"
-#include "fcl_stpbv/formatted.h"
-#include "fcl_stpbv/numbers.h"
-#include "fcl_stpbv/robot/adjacency.h"
 #include "fcl_stpbv/robot/checked_pairs.h"
+#include "fcl_stpbv/robot/load_warnings.h"
 #include "fcl_stpbv/robot/pair_list.h"
 
 namespace fcl_stpbv::report {
 namespace {
 
 using namespace detail;
+
+constexpr char kLargerR[] = "give a larger --R, or take the primitives as they are (--primitives flat)";
 
 // Nothing can be said about a robot of which nothing was loaded, least of all that it is clear.
 void requireBodies(const RobotModel& robot, const RobotGeometry& geometry, bool visual,
@@ -41,62 +39,6 @@ std::vector<CheckedPair> pairsToCover(const Kinematics& kinematics, const RobotG
       obstaclePairs(kinematics.robot(), bodies, obstacles, kinematics.baseMoves());
   pairs.insert(pairs.end(), around.begin(), around.end());
   return pairs;
-}
-
-// A warning that names the joints for which `still` holds; none where there are none.
-template <class Still>
-std::vector<std::string> stillJoints(const RobotModel& robot, const Still& still, const char* one,
-                                     const char* several) {
-  constexpr int kNamed = 5;
-  std::string list;
-  int count = 0;
-  for (const JointModel& joint : robot.joints) {
-    if (!still(joint)) continue;
-    if (++count <= kNamed) list += (count == 1 ? "'" : ", '") + joint.name + "'";
-  }
-  if (count == 0) return {};
-  if (count > kNamed) list += " and " + std::to_string(count - kNamed) + " more";
-  return {robot.path + ": " + (count == 1 ? "the joint " : "the joints ") + list + " " +
-          (count == 1 ? one : several) + "."};
-}
-
-// A warning where an SRDF leaves out no pair of links, as one that holds states alone: it is obeyed, and
-// neighbours that always touch count as collisions.
-std::vector<std::string> leavesOutNone(const RobotModel& robot, const RobotGeometry& geometry,
-                                       const Srdf& srdf) {
-  const Adjacency adjacency(robot, geometry);
-  const SkipReasons reasons(&srdf);
-  std::set<int> links;
-  for (const Body& body : geometry.bodies) links.insert(body.link);
-  std::size_t near = 0;
-  for (const int i : links) {
-    for (auto j = links.upper_bound(i); j != links.end(); ++j) {
-      if (!reasons.of(robot.links[at(i)].name, robot.links[at(*j)].name).empty()) return {};
-      near += adjacency.of(i, *j) != Joining::separate;
-    }
-  }
-  if (near == 0) return {};
-  return {srdf.path + ": leaves out no pair of links, so " + counted(near, "pair") +
-          " of adjacent or rigidly joined ones " + (near == 1 ? "is" : "are") +
-          " checked too; urdf_collision_report --format srdf writes one that leaves them out."};
-}
-
-// A warning where smooth covers of primitives have a larger R than the one that was given; none without.
-std::vector<std::string> raisedR(const RobotModel& robot, const RobotGeometry& geometry,
-                                 const GeometryOptions& options) {
-  const Body* most = nullptr;
-  for (const Body& body : geometry.bodies) {
-    const bool given =
-        !options.fitR || options.links.count(robot.links[static_cast<std::size_t>(body.link)].name) > 0;
-    if (!body.primitive || body.volume->vertexCount() < 2 || !given) continue;  // a ball is one for any R
-    if (body.volume->radii().R <= body.radii.R) continue;
-    if (!most || body.volume->radii().R > most->volume->radii().R) most = &body;
-  }
-  if (!most) return {};
-  return {
-      formatted("%s: R = %.4g m is too small for the smooth cover of '%s', which has R = %.4g m instead; "
-                "give a larger --R, or take the primitives as they are (--primitives flat).",
-                robot.path.c_str(), most->radii.R, most->name.c_str(), most->volume->radii().R)};
 }
 
 }  // namespace
@@ -159,22 +101,10 @@ std::vector<std::string> RobotLoader::warnings() const {
   std::vector<std::string> all = faults_.warnings;
   if (srdf_) append(all, srdf_->warnings);
   if (srdf_ && !files_.writesPairs) append(all, leavesOutNone(*robot_, *geometry_, *srdf_));
-  append(all, stillJoints(
-                  *robot_,
-                  [](const JointModel& joint) {
-                    const bool single =
-                        joint.type == JointType::revolute || joint.type == JointType::prismatic;
-                    return single && !joint.mimic && joint.lower == joint.upper;
-                  },
-                  "has no range between its limits, so it never moves",
-                  "have no range between their limits, so they never move"));
-  if (scene_)
-    append(all, stillJoints(
-                    *scene_, [](const JointModel& joint) { return joint.type != JointType::fixed; },
-                    "stands still in the neutral posture, as all obstacles do",
-                    "stand still in the neutral posture, as all obstacles do"));
-  append(all, raisedR(*robot_, *geometry_, files_.geometry));
-  if (scene_) append(all, raisedR(*scene_, *sceneGeometry_, sceneOptions_));
+  append(all, stillJoints(*robot_));
+  if (scene_) append(all, stillObstacles(*scene_));
+  append(all, raisedR(*robot_, *geometry_, files_.geometry, kLargerR));
+  if (scene_) append(all, raisedR(*scene_, *sceneGeometry_, sceneOptions_, kLargerR));
   append(all, geometry_->warnings);
   append(all, sceneGeometry_->warnings);
   return all;

@@ -558,6 +558,29 @@ def test_an_srdf_that_leaves_out_no_pair_is_told_where_joints_hold_some_together
             load(arm, hook / "nothing.srdf")
 
 
+def test_joints_that_stand_still_and_covers_of_a_larger_r_are_told(hook):
+    urdf = hook / "still.urdf"
+    urdf.write_text((hook / "hook.urdf").read_text().replace("lower='-1' upper='1'", "lower='0' upper='0'"))
+    with pytest.warns(UserWarning, match="still.urdf: the joint 'slide' has no range between its limits, so it never moves"):
+        fcl_stpbv.Robot(urdf, hook / "hook.srdf")
+    with pytest.warns(UserWarning, match="hook.urdf: the joint 'slide' stands still in the neutral posture, as all obstacles do"):
+        fcl_stpbv.Robot(hook / "post.urdf", None, hook / "hook.urdf", base="floating")
+    ball = "<link name='l{0}'><collision><geometry><box size='1 1 1'/></geometry></collision></link>"
+    (hook / "boxes.urdf").write_text("<robot name='boxes'>" + ball.format(1) + ball.format(2) + "<joint name='j' type='prismatic'><parent link='l1'/>"
+                                     "<child link='l2'/><limit lower='2' upper='3' effort='1' velocity='1'/></joint></robot>")
+    with pytest.warns(UserWarning, match=r"boxes.urdf: R = 0.5 m is too small for the smooth cover of 'l[12]', which has R = .* m instead; give a larger R\.$"):
+        fcl_stpbv.Robot(hook / "boxes.urdf", hook / "hook.srdf", R=0.5)
+
+
+def test_a_model_tells_that_the_parts_of_an_open_mesh_do_not_fill_it(hook):
+    lines = (hook / "l.obj").read_text().splitlines()
+    (hook / "l.obj").write_text("\n".join(lines[:-1]) + "\n")  # without its last triangle
+    robot = fcl_stpbv.Robot(hook / "hook.urdf", hook / "hook.srdf", r=0.001)
+    with pytest.warns(UserWarning, match="hook.urdf: the convex parts of 'l' cover faces, but not the space inside") as raised:
+        model, _ = robot.model_for([("l", "block", np.zeros(1), 0.04)])
+    assert model.warnings == robot.warnings + [str(warning.message) for warning in raised] and len(raised) == 1
+
+
 def test_a_warning_names_a_file_whatever_bytes_its_name_has(hook):
     name = os.fsencode(hook) + b"/no\xff.srdf"  # no UTF-8
     with open(name, "w") as file:
