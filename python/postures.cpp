@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/formatted.h"
 #include "fcl_stpbv/posture/find_posture.h"
 #include "interrupt.h"
 #include "loading.h"
@@ -44,6 +45,12 @@ class PythonPostureSearch {
     warn(warnings());
   }
 
+  py::str described() const {
+    const std::string around =
+        scene_.obstacles.empty() ? "" : " among " + detail::counted(scene_.obstacles.size(), "obstacle");
+    return decoded("<PostureSearch " + scene_.robot->name + ": " +
+                   std::to_string(scene_.geometry->bodies.size()) + " bodies" + around + ">");
+  }
   const std::vector<std::string>& warnings() const { return loading_.warnings; }
 
   /// A problem of its own for each start: what others left in its caches would change the last bits.
@@ -157,6 +164,7 @@ void addPostures(py::module_& module) {
           py::arg("start_from") = py::none(),
           "What one start of a task leads to: start 0 is the task's own, or `start_from`, the others are\n"
           "random. `task` is the text of a task file and `path` its name in messages.")
+      .def("__repr__", &PythonPostureSearch::described)
       .def("names", &PythonPostureSearch::names, py::arg("task"), py::arg("path") = "task",
            "Names of the coordinates of a task's postures; raises Error where the task does not fit.");
 }

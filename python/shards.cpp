@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/formatted.h"
 #include "fcl_stpbv/number_check.h"
 #include "fcl_stpbv/robot/adjacency.h"
 #include "fcl_stpbv/robot/package_path.h"
@@ -92,6 +93,11 @@ class PythonPairSearch {
         std::count_if(pairs_.begin(), pairs_.end(), [](const LinkPair& pair) { return !pair.obstacle; }));
   }
   const Kinematics& kinematics() const { return *scene_.kinematics; }
+  py::str described() const {
+    return decoded("<PairSearch " + kinematics().robot().name + ": " +
+                   counted(static_cast<std::size_t>(kinematics().size()), "coordinate") + ", " +
+                   counted(pairs_.size(), "pair") + ">");
+  }
 
   PairProof start(std::size_t pair) const { return unproven(scene_, linksOf(pair)); }
 
@@ -261,7 +267,14 @@ void addProof(py::module_& module) {
       .def_readonly("boxes", &PairProof::boxes, "looked at so far")
       .def_property_readonly("proven", &PairProof::proven)
       .def("merge", &merge, py::arg("other"),
-           "What two pieces of one pair's proof have found together; associative and commutative.");
+           "What two pieces of one pair's proof have found together; associative and commutative.")
+      .def("__repr__", [](const PairProof& proof) {
+        std::string found =
+            std::to_string(proof.open.size()) + (proof.open.size() == 1 ? " box open" : " boxes open");
+        if (proof.proven()) found = "proven";
+        if (proof.collision) found = "colliding";
+        return "<PairProof: " + found + ", " + std::to_string(proof.boxes) + " looked at>";
+      });
 }
 
 }  // namespace
@@ -288,6 +301,7 @@ void addShards(py::module_& module) {
       .def_property_readonly(
           "names", [](const PythonPairSearch& search) { return search.kinematics().names(); },
           "of the coordinates")
+      .def("__repr__", &PythonPairSearch::described)
       .def("unproven", &PythonPairSearch::start, py::arg("pair"), "The proof before its first step.")
       .def("prove", &PythonPairSearch::prove, py::arg("pair"), py::arg("boxes"), py::arg("max_boxes"), Free(),
            "Looks at up to so many boxes, starting with the last of these.")

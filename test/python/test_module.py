@@ -108,6 +108,11 @@ def test_what_is_printed_says_what_it_is():
     robot = fcl_stpbv.Robot(folder / "hrp2_style.urdf", folder / "hrp2_style.srdf")
     assert repr(robot) == f"<Robot hrp2_style: {len(robot.names)} coordinates, {len(robot.rows)} rows>"
     assert repr(fcl_stpbv.VelocityDamper(robot)) == f"<VelocityDamper: {len(robot.rows)} rows>"
+    search = fcl_stpbv.PairSearch(folder / "hrp2_style.urdf")
+    assert repr(search) == f"<PairSearch hrp2_style: {len(search.names)} coordinates, {len(search.pairs)} pairs>"
+    assert re.fullmatch("<PostureSearch hrp2_style: [0-9]+ bodies>", repr(fcl_stpbv.PostureSearch(folder / "hrp2_style.urdf", folder / "hrp2_style.srdf")))
+    proof = search.unproven(0)
+    assert repr(proof) == "<PairProof: 1 box open, 0 looked at>" and repr(fcl_stpbv.PairProof([], [0.0], 7)) == "<PairProof: colliding, 7 looked at>"
     assert repr(robot.answers(robot.neutral)[0]).startswith("<RowAnswer: ")
 
 
