@@ -102,6 +102,10 @@ class FindPosture(unittest.TestCase):
         self.gate_task(0, parts=4)
         self.assertEqual(self.gate_posture()[1]["parts"], {"gate": 2})
 
+    def test_an_srdf_that_leaves_out_no_pair_is_told(self):
+        self.gate_task(0.5)
+        self.assertIn("gate.srdf: leaves out no pair of links, so 2 pairs of adjacent or rigidly joined ones are checked too", self.gate_posture()[2])
+
     def test_no_link_is_split_where_none_is_in_the_way_or_the_meshes_are(self):
         self.gate_task(0.5, parts="auto")
         status, far, _ = self.gate_posture()
