@@ -176,12 +176,13 @@ std::string splits(const CollisionReport& report) {
     }
     text += (own.empty() ? "" : " ") + named(own) + "\n";
   }
+  if (text.empty()) return unsplit(report, false);
   const std::string cost = formatted(
       "rows of a controller: %d with whole bodies, %.1f us a tick;\n  %d with parts, %.1f us;\n"
       "  %d where whole bodies hand over to parts at %g m, %d of them more than a constant there, %.1f us\n",
       report.wholeCost.rows, report.wholeCost.usPerTick, report.partsCost.rows, report.partsCost.usPerTick,
       report.handOverCost.rows, kHandOver, report.handOverCost.live, report.handOverCost.usPerTick);
-  return (text.empty() ? "" : "Split into convex parts:\n" + text) + unsplit(report, !text.empty()) + cost;
+  return "Split into convex parts:\n" + text + unsplit(report, true) + cost;
 }
 
 // The meshes' volumes beside those of their published polyhedra, those that differ most first.

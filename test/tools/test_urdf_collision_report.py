@@ -792,6 +792,7 @@ class Report(unittest.TestCase):
         self.assertIn("  1 pair: hull only\n", done.stdout)
         self.assertIn("No parts clear the pair that collides by its hulls alone: tube - bar\n", done.stdout)
         self.assertNotIn("No link needs to be split", done.stdout)
+        self.assertNotIn("rows of a controller", done.stdout)  # parts cost nothing
 
     def test_primitives_are_covered_where_a_pair_has_no_smooth_body(self):
         urdf = self.robot("".join(link("l%d" % i, shape) for i, shape in enumerate((
