@@ -3,8 +3,6 @@
 
 #include <algorithm>
 
-#include "fcl_stpbv/formatted.h"
-#include "fcl_stpbv/robot/adjacency.h"
 #include "fcl_stpbv/robot/load_warnings.h"
 
 namespace py = pybind11;
@@ -54,18 +52,8 @@ void Loading::warnOfR(const RobotModel& robot, const RobotGeometry& covered, con
   append(warnings, detail::raisedR(robot, covered, options, "give a larger R"));
 }
 
-void Loading::warnOfJoined(const std::vector<CheckedPair>& selfPairs, const RobotModel& robot,
-                           const RobotGeometry& geometry, const Srdf& srdf) {
-  if (!srdf.disabled.empty() || !srdf.defaultsOff.empty()) return;
-  const detail::Adjacency adjacency(robot, geometry);
-  const auto joined = std::count_if(selfPairs.begin(), selfPairs.end(), [&](const CheckedPair& pair) {
-    const LinkPair links = linksOf(pair, geometry);
-    return adjacency.of(links.link1, links.link2) != detail::Joining::separate;
-  });
-  if (joined == 0) return;
-  warnings.push_back(srdf.path + ": leaves out no pair, so that " + detail::counted(joined, "pair") +
-                     " of bodies that a joint holds together " + (joined == 1 ? "is" : "are") +
-                     " checked too; without an SRDF these are left out.");
+void Loading::warnOfPairs(const RobotModel& robot, const RobotGeometry& geometry, const Srdf& srdf) {
+  append(warnings, detail::leavesOutNone(robot, geometry, srdf));
 }
 
 std::vector<std::string> warningsOfModel(const RobotModel& robot, const RobotGeometry& geometry,

@@ -21,9 +21,8 @@ struct Loading {
   /// Where covers of primitives have a larger R than `options` ask for.
   void warnOfR(const RobotModel& robot, const RobotGeometry& covered, const GeometryOptions& options);
 
-  /// Of an SRDF that leaves out no pair: without one, those that the joints hold together would be.
-  void warnOfJoined(const std::vector<CheckedPair>& selfPairs, const RobotModel& robot,
-                    const RobotGeometry& geometry, const Srdf& srdf);
+  /// Of an SRDF that leaves out no pair.
+  void warnOfPairs(const RobotModel& robot, const RobotGeometry& geometry, const Srdf& srdf);
 };
 
 /// What bodies that are made for needs warn of beside what `known` has told.

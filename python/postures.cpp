@@ -38,8 +38,7 @@ class PythonPostureSearch {
       scene_.obstacles = obstaclesOf(around, loading_.geometry(*around, options));
     }
     if (scene_.srdf)
-      loading_.warnOfJoined(selfPairs(*scene_.robot, *scene_.geometry, scene_.srdf.get()), *scene_.robot,
-                            *scene_.geometry, *scene_.srdf);
+      loading_.warnOfPairs(*scene_.robot, *scene_.geometry, *scene_.srdf);
     else
       scene_.selfPairs = searchedPairs(scene_.robot, scene_.geometry);
     warn(warnings());

@@ -30,7 +30,7 @@ std::shared_ptr<const RobotGeometry> PythonScene::load(const std::string& base,
     things = loading.geometry(*around, aroundOptions);
     obstacles = obstaclesOf(around, things);
   }
-  if (srdf) loading.warnOfJoined(selfPairs(*robot, bodies, &*srdf), *robot, bodies, *srdf);
+  if (srdf) loading.warnOfPairs(*robot, bodies, *srdf);
   coverPrimitives(pairs(bodies), bodies, &things);
   loading.warnOfR(*robot, bodies, options);
   if (around) {

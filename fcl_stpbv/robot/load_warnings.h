@@ -16,8 +16,8 @@ std::vector<std::string> stillJoints(const RobotModel& robot);
 /// Of all joints of a scene, which stands still.
 std::vector<std::string> stillObstacles(const RobotModel& scene);
 
-/// Where an SRDF leaves out no pair of links, as one that holds states alone: it is obeyed, and neighbours that
-/// always touch count as collisions.
+/// Where an SRDF leaves out no pair of links, as one that holds states alone: it is obeyed, and neighbours
+/// that always touch count as collisions.
 std::vector<std::string> leavesOutNone(const RobotModel& robot, const RobotGeometry& geometry,
                                        const Srdf& srdf);
 

@@ -559,7 +559,7 @@ def test_an_srdf_that_leaves_out_no_pair_is_told_where_joints_hold_some_together
     (hook / "nothing.srdf").write_text("<robot name='hrp2_style'/>")
     loaders: list[Callable] = [fcl_stpbv.Robot, fcl_stpbv.PostureSearch]
     for load in loaders:
-        with pytest.warns(UserWarning, match="nothing.srdf: leaves out no pair, so that [0-9]+ pairs of bodies that a joint holds together are checked too"):
+        with pytest.warns(UserWarning, match="nothing.srdf: leaves out no pair of links, so [0-9]+ pairs of adjacent or rigidly joined ones are checked too"):
             load(arm, hook / "nothing.srdf")
 
 

@@ -197,8 +197,8 @@ void addGrid(Maker& m) {
     const Vector3d steps[] = {{2, 0, 0}, {2, 2, 0}, {2, 2, 2}, {3, 1, 0}, {0, 4, 1}, {1, 1, 3}};
     const Placement at{test::pose(Matrix3d::Identity(), {0, 0, 0}),
                        test::pose(Matrix3d::Identity(), steps[i])};
-    m.add("boxes on a grid", formatted("unit boxes, neighbour %.0f", i + 1), unit, unit, {at});
-    m.add("boxes on a grid", formatted("box and slab, neighbour %.0f", i + 1), unit, slab, {at});
+    m.add("boxes on a grid", formatted("unit boxes, neighbour %d", i + 1), unit, unit, {at});
+    m.add("boxes on a grid", formatted("box and slab, neighbour %d", i + 1), unit, slab, {at});
   }
 }
 
