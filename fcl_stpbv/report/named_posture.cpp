@@ -43,6 +43,8 @@ nlohmann::json betterOfReport(const std::string& path, const nlohmann::json& neu
   if (!neutral.contains("better"))
     throw Error(path +
                 ": is a collision report that proposes no neutral posture; give a file of joints' values");
+  if (!neutral["better"].is_object() && !neutral["better"].is_array())
+    throw Error(path + ": neutral.better is neither an object of joints' values nor a list of all");
   return neutral["better"];
 }
 

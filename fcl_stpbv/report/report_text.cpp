@@ -52,8 +52,9 @@ std::vector<const PairReport*> shownPairs(const CollisionReport& report, std::si
   std::size_t counts[kGroups] = {};
   const auto colliding = static_cast<std::size_t>(
       std::count_if(groups, groups + kGroups - 1, [](const auto& group) { return !group.empty(); }));
-  const std::size_t share = colliding == 0 ? 0 : lines / colliding;
-  for (std::size_t i = 0; i + 1 < kGroups; ++i) lines -= counts[i] = std::min(share, groups[i].size());
+  const std::size_t share = colliding == 0 ? 0 : std::max<std::size_t>(1, lines / colliding);
+  for (std::size_t i = 0; i + 1 < kGroups; ++i)
+    lines -= counts[i] = std::min({share, lines, groups[i].size()});
   for (std::size_t i = 0; i < kGroups; ++i) {
     const std::size_t more = std::min(lines, groups[i].size() - counts[i]);
     lines -= more;

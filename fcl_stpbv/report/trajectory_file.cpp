@@ -108,7 +108,7 @@ void requireValues(const Columns& columns, std::size_t i, const char* key) {
 double secondsOf(const nlohmann::json& duration, const std::string& where) {
   if (duration.is_number()) return duration.get<double>();
   if (!duration.is_object()) throw Error(where + ": expected seconds, or \"sec\" and \"nanosec\"");
-  const bool old = duration.contains("secs");
+  const bool old = duration.contains("secs") || duration.contains("nsecs");
   const char* const seconds = old ? "secs" : "sec";
   const char* const rest = old ? "nsecs" : "nanosec";
   refuseOthers(duration, {seconds, rest}, where);
@@ -123,6 +123,7 @@ Columns fromMessage(const nlohmann::json& json, const std::string& path) {
   if (std::count(columns.names.begin(), columns.names.end(), "time") > 0)
     throw Error(path + ": \"joint_names\" names 'time', which is no joint here");
   std::vector<double> times;
+  if (!json.at("points").is_array()) throw Error(path + ": \"points\" is no list");
   for (const nlohmann::json& point : json.at("points")) {
     const std::size_t i = columns.rows.size();
     columns.places.push_back(path + ": points[" + std::to_string(i) + "]");

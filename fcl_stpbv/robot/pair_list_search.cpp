@@ -66,6 +66,8 @@ class Search {
     sample();
     prove();
     for (PairEntry* entry : fresh) propose(*entry);
+    for (std::size_t e = 0; e < list_.size(); ++e)
+      if (isFresh_[e] && isJoined_[e]) list_[e].reason = PairReason::adjacent;
     return std::move(list_);
   }
 
@@ -84,23 +86,28 @@ class Search {
     const Adjacency adjacency(robot, *geometry_);
     const int links = static_cast<int>(robot.links.size());
     const auto none = [&](int link) { return geometry_->of(link).first == geometry_->of(link).second; };
-    const auto add = [&](const LinkPair& pair, PairReason reason) {
+    const auto add = [&](const LinkPair& pair, PairReason reason, bool joined = false) {
       PairEntry entry;
       static_cast<LinkPair&>(entry) = pair;
       entry.reason = reason;
       entry.closest = neutral_;
       list_.push_back(entry);
+      isJoined_.push_back(joined);
     };
     const SkipReasons reasons(srdf);
     for (int i = 0; i < links; ++i) {
       for (int j = i + 1; j < links; ++j) {
         if (none(i) || none(j)) continue;
         const Joining joining = adjacency.of(i, j);
-        const bool user = reasons.of(robot.links[at(i)].name, robot.links[at(j)].name) == "User";
-        add({i, j}, user                           ? PairReason::user
-                    : joining == Joining::rigid    ? PairReason::rigid
-                    : joining == Joining::adjacent ? PairReason::adjacent
-                                                   : PairReason::sometimes);
+        const std::string skipped = reasons.of(robot.links[at(i)].name, robot.links[at(j)].name);
+        // An SRDF that does not leave out adjacent links has them checked: they are searched as others are.
+        const bool joined = srdf && skipped.empty() && joining == Joining::adjacent;
+        add({i, j},
+            skipped == "User"                         ? PairReason::user
+            : joining == Joining::rigid               ? PairReason::rigid
+            : joining == Joining::adjacent && !joined ? PairReason::adjacent
+                                                      : PairReason::sometimes,
+            joined);
       }
     }
     for (int i = 0; i < links; ++i)
@@ -282,7 +289,8 @@ class Search {
   double room_;  // searchRoom()
   Eigen::VectorXd neutral_;
   std::vector<PairEntry> list_;
-  std::vector<char> isFresh_;  // for each entry, whether it is searched
+  std::vector<char> isFresh_;   // for each entry, whether it is searched
+  std::vector<char> isJoined_;  // whether it is of adjacent links and searched all the same
   ProofScene scene_;
   std::vector<Open> open_;
 };

@@ -101,6 +101,31 @@ TEST_CASE("a proof without a limit of boxes is a proof, and one that no box can 
   CHECK(list[1].reason == PairReason::neverSampled);
 }
 
+TEST_CASE("adjacent links that an SRDF has checked are searched like all others") {
+  // Two boxes on either side of a joint, apart at zero; at -2 rad one is where the other is.
+  const std::string beside =
+      "<collision><origin xyz=\"0.3 0 0\"/><geometry><box size=\"0.4 0.1 0.1\"/>"
+      "</geometry></collision></link>";
+  const auto model = std::make_shared<const RobotModel>(
+      parseUrdf(robot("<link name=\"a\">" + beside + "<link name=\"b\">" + beside +
+                      joint("j", "revolute", "a", "b", "<origin rpy=\"0 0 2\"/><axis xyz=\"0 0 1\"/>", 3)),
+                "pair.urdf"));
+  const Arm arm = armFrom(model, loadGeometry(*model));
+  const auto searched = [&](const Srdf* srdf) {
+    return pairList(arm.kinematics, arm.geometry, srdf).front();
+  };
+  Srdf checked, leftOut;
+  leftOut.disabled.push_back({"a", "b", "Adjacent"});
+  CHECK(searched(&checked).reason == PairReason::adjacent);
+  CHECK(searched(&checked).minDistance < 0);
+  PairSearch search(arm.kinematics, arm.geometry, 0, 1);
+  CHECK(search.distance(searched(&checked).closest) == Approx(searched(&checked).minDistance).margin(1e-12));
+  for (const Srdf* srdf : {static_cast<const Srdf*>(nullptr), static_cast<const Srdf*>(&leftOut)}) {
+    CHECK(searched(srdf).reason == PairReason::adjacent);
+    CHECK(searched(srdf).minDistance > 0);  // in the neutral configuration, and nowhere else is looked
+  }
+}
+
 TEST_CASE("a descent finds the collision that few samples miss") {
   const Arm arm = bars(2.9);
   PairListOptions options;

@@ -247,6 +247,7 @@ class Report(unittest.TestCase):
                            ('[{"slide": 0}, {"slide": 1}]', "no object of JSON"), ("0\n1\n2\n", "way.csv:1: got numbers; the first line must name joints"),
                            ('{"joint_names": ["slide"], "points": [[0], [1]]}', 'points[0]: is no object of JSON'),
                            ('{"joint_names": ["slide"]}', 'expected {"joint_names": [names]'),
+                           ('{"joint_names": ["slide"], "points": {"b": {"positions": [0]}, "a": {"positions": [1]}}}', '"points" is no list'),
                            ('{"joint_names": ["slide"], "points": [{"positions": [0, 1]}]}', 'points[0] has 2 values, "joint_names" names 1'),
                            ('{"joint_names": ["slide"], "points": [{"positions": [0]}, {"positions": [1], "time_from_start": 1}]}', "1 of 2 points have"),
                            ('{"joint_names": ["slide"], "points": [{"positions": [0], "time_from_start": "0 s"}]}', "time_from_start: expected seconds"),
@@ -509,6 +510,17 @@ class Report(unittest.TestCase):
         apart = self.robot(link("root") + link("a", ball) + link("b", ball) + joint("j", "root", "a") + joint("k", "root", "b", origin="9 0 0"))
         none = self.put("none.srdf", '<robot name="small"/>')
         self.assertNotIn("leaves out no pair", self.run_tool(apart, "--srdf", none).stderr)
+
+    def test_neighbours_that_are_checked_are_searched_before_they_are_called_clear(self):
+        body = '<collision><origin xyz="0.3 0 0"/><geometry><box size="0.4 0.1 0.1"/></geometry></collision></link>'
+        urdf = self.robot(f'<link name="a">{body}<link name="b">{body}<joint name="j" type="revolute"><parent link="a"/><child link="b"/>'
+                          '<origin rpy="0 0 2"/><axis xyz="0 0 1"/><limit lower="-3" upper="3" velocity="1" effort="1"/></joint>')
+        none = self.put("none.srdf", '<robot name="small"/>')
+        run = self.run_tool(urdf, "--srdf", none, "--format", "json")
+        self.assertEqual(run.returncode, 1, run.stderr)
+        pair = json.loads(run.stdout)["pairs"][0]
+        self.assertEqual((pair["reason"], pair["checked"]), ("adjacent", True))
+        self.assertLess(pair["min_distance"], 0)
 
     def test_nothing_checked_is_not_clear(self):
         ball = '<sphere radius="0.1"/>'
