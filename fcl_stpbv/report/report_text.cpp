@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "fcl_stpbv/formatted.h"
+#include "fcl_stpbv/name_list.h"
 #include "fcl_stpbv/report/pair_cause.h"
 #include "fcl_stpbv/report/report_formats.h"
 #include "fcl_stpbv/report/text_table.h"
@@ -136,13 +137,11 @@ std::string advised(const CollisionReport& report) {
                    least.r * kMm, most.r * kMm, least.R, most.R, acceleration);
 }
 
-// "A - B, C - D and 2 more": the first three of some pairs.
+// The first three of some pairs.
 std::string named(const std::vector<const PairReport*>& pairs) {
-  constexpr std::size_t kNamed = 3;
-  std::string text;
-  for (std::size_t i = 0; i < std::min(kNamed, pairs.size()); ++i)
-    text += (i > 0 ? ", " : "") + printable(pairs[i]->link1 + " - " + pairs[i]->link2);
-  return text + (pairs.size() > kNamed ? " and " + std::to_string(pairs.size() - kNamed) + " more" : "");
+  std::vector<std::string> names;
+  for (const PairReport* pair : pairs) names.push_back(printable(pair->link1 + " - " + pair->link2));
+  return detail::listed(names, names.size());
 }
 
 // What parts were made for, and did not help.

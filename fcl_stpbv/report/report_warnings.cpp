@@ -8,6 +8,7 @@
 
 #include "fcl_stpbv/adapter/fcl_distance.h"
 #include "fcl_stpbv/formatted.h"
+#include "fcl_stpbv/name_list.h"
 #include "fcl_stpbv/numbers.h"
 
 namespace fcl_stpbv::report {
@@ -15,14 +16,6 @@ namespace fcl_stpbv::report {
 using namespace detail;
 
 namespace {
-
-// "a, b and 3 more": the first three of `count` names.
-std::string listed(const std::vector<std::string>& first, std::size_t count) {
-  std::string text;
-  for (std::size_t i = 0; i < std::min<std::size_t>(3, first.size()); ++i)
-    text += (i > 0 ? ", " : "") + first[i];
-  return text + (count > 3 ? " and " + std::to_string(count - 3) + " more" : "");
-}
 
 std::string openMeshes(const CollisionReport& report) {
   std::vector<std::string> open;

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "fcl_stpbv/formatted.h"
+#include "fcl_stpbv/name_list.h"
 #include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/robot/adjacency.h"
 
@@ -14,17 +15,13 @@ namespace {
 template <class Still>
 std::vector<std::string> warningOf(const RobotModel& robot, const Still& still, const char* one,
                                    const char* several) {
-  constexpr int kNamed = 5;
-  std::string list;
-  int count = 0;
-  for (const JointModel& joint : robot.joints) {
-    if (!still(joint)) continue;
-    if (++count <= kNamed) list += (count == 1 ? "'" : ", '") + joint.name + "'";
-  }
-  if (count == 0) return {};
-  if (count > kNamed) list += " and " + std::to_string(count - kNamed) + " more";
-  return {robot.path + ": " + (count == 1 ? "the joint " : "the joints ") + list + " " +
-          (count == 1 ? one : several) + "."};
+  constexpr std::size_t kNamed = 5;
+  std::vector<std::string> names;
+  for (const JointModel& joint : robot.joints)
+    if (still(joint)) names.push_back("'" + joint.name + "'");
+  if (names.empty()) return {};
+  return {robot.path + ": " + (names.size() == 1 ? "the joint " : "the joints ") +
+          listed(names, names.size(), kNamed) + " " + (names.size() == 1 ? one : several) + "."};
 }
 
 }  // namespace

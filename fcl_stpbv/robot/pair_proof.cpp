@@ -64,8 +64,8 @@ void requireSize(const JointBox& box, Index coordinates) {
         "configuration");
 }
 
-// Of limits whose sum may overflow.
-Eigen::VectorXd middleOf(const JointBox& box) { return 0.5 * box.lower + 0.5 * box.upper; }
+// Of limits whose sum may overflow. An expression: who asks for one coordinate gets that one computed.
+auto middleOf(const JointBox& box) { return 0.5 * box.lower + 0.5 * box.upper; }
 
 bool bounded(const JointBox& box) { return box.lower.allFinite() && box.upper.allFinite(); }
 
