@@ -37,13 +37,15 @@ bool checkedWithoutSrdf(PairReason reason);
 
 /// How thoroughly pairs are searched.
 struct PairListOptions {
-  int samples = 2000;        ///< random configurations
-  std::uint64_t seed = 1;    ///< of the random configurations
-  int descents = 3;          ///< from this many of a pair's closest samples
-  int randomDescents = 500;  ///< from this many random configurations, for a pair found clear so far and not
-                             ///< proven; with n > 24 coordinates between the two, (24/n)^2 of them, and in
-                             ///< a list of P pairs of a robot of N coordinates, P N > 100,000, 100,000/(P N)
-  long proofBoxes = 200;     ///< looked at for each pair found clear so far; likewise, (24/n)^3 of them
+  int samples = 2000;      ///< random configurations
+  std::uint64_t seed = 1;  ///< of the random configurations
+  int descents = 3;        ///< from this many of a pair's closest samples
+  int randomDescents =
+      500;                ///< from this many random configurations, for a pair found clear so far and not
+                          ///< proven; with n > 24 coordinates between the two, (24/n)^2 of them, and in
+                          ///< a list of P pairs of a robot of N coordinates, P N > 100,000, 100,000/(P N);
+                          ///< at most 50 for a pair that the first proof decides, to find how close it comes
+  long proofBoxes = 200;  ///< looked at for each pair found clear so far; likewise, (24/n)^3 of them
   double proofSeconds = 0;  ///< time for further proofs in all; a pair that is not decided then stays sampled
   double margin = 0;        ///< a pair collides if its distance is at most this (m)
   double alwaysFraction = 0.95;     ///< of at least 60 samples in collision, as MoveIt has it

@@ -29,7 +29,7 @@ namespace fs = std::filesystem;
 
 // Changes when the builder gives other volumes, a fit other radii, or the
 // search other parts, for the same mesh.
-constexpr std::string_view kVersion = "fcl_stpbv volume cache 17\n";
+constexpr std::string_view kVersion = "fcl_stpbv volume cache 18\n";
 
 // The name of an entry's file without its ending: the digest of what it was built from.
 std::string keyOf(const std::string& path) { return fs::path(path).stem().string(); }

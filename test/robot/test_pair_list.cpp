@@ -199,6 +199,30 @@ TEST_CASE("what is proven never stays apart in samples and descents of another s
   }
 }
 
+TEST_CASE("a proven pair has the closest configuration of all, not of one valley") {
+  // A wheel with two knobs at +-90 degrees passes a ball: the larger one comes nearer.
+  const auto knob = [](const std::string& at, const std::string& radius) {
+    return "<collision><origin xyz=\"" + at + "\"/><geometry><sphere radius=\"" + radius +
+           "\"/></geometry></collision>";
+  };
+  const auto model = std::make_shared<const RobotModel>(
+      parseUrdf(robot("<link name=\"ball\">" + knob("1.5 0 0", "0.1") + "</link>" +
+                      link("hub", "<sphere radius=\"0.1\"/>") + "<link name=\"wheel\">" +
+                      knob("0 1 0", "0.1") + knob("0 -1 0", "0.12") + "</link>" +
+                      joint("aim", "revolute", "ball", "hub", "<axis xyz=\"0 0 1\"/>") +
+                      joint("turn", "revolute", "hub", "wheel", "<axis xyz=\"0 0 1\"/>", 3)),
+                "wheel.urdf"));
+  const Arm arm = armFrom(model, loadGeometry(*model));
+  PairListOptions options;
+  options.samples = options.descents = 1;
+  for (options.seed = 1; options.seed <= 8; ++options.seed) {
+    const std::vector<PairEntry> list = pairList(arm.kinematics, arm.geometry, nullptr, options);
+    REQUIRE(list.size() == 3);
+    CHECK(list[1].reason == PairReason::neverProven);
+    CHECK(list[1].minDistance == Approx(0.28).margin(1e-6));
+  }
+}
+
 TEST_CASE("robots of many pairs and coordinates get fewer random descents for each pair") {
   const auto closestOf = [](int links, int randomDescents) {
     std::string parts = link("base");  // discs one above the other, which never meet
