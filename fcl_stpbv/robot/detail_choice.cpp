@@ -11,12 +11,9 @@
 
 #include "fcl_stpbv/adapter/fcl_distance.h"
 #include "fcl_stpbv/adapter/fcl_shapes.h"
-#include "fcl_stpbv/adapter/hull_geometry.h"
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/numbers.h"
-#include "fcl_stpbv/robot/mesh_file.h"
 #include "fcl_stpbv/robot/share_out.h"
-#include "fcl_stpbv/robot/triangle_tree.h"
 
 namespace fcl_stpbv::detail {
 namespace {
@@ -60,6 +57,7 @@ DetailChoice::DetailChoice(std::shared_ptr<const Kinematics> kinematics, Levels 
       levels_((requireSameShapes(levels), std::move(levels))),
       obstacles_(std::move(obstacles)),
       parts_(levels_.back(), options.cacheFolder),
+      ownShapes_(levels_.back()),
       options_(options) {
   for (Detail level = 1; level < this->levels(); ++level) ladder_.push_back(level);
   for (const int most : {2, 4, 8}) ladder_.push_back(inParts(most));
@@ -155,45 +153,6 @@ void DetailChoice::take(const LinkPair& pair, Details details) {
   if (!pair.obstacle) raise(pair.link2, details.second);
 }
 
-// What a body stands for: the mesh's triangles, or the primitive.
-const fcl::CollisionGeometryd& DetailChoice::exact(int body) {
-  std::shared_ptr<const fcl::CollisionGeometryd>& shape = exact_[body];
-  if (shape) return *shape;
-  const Body& whole = levels_.back()->bodies[at(body)];
-  shape = whole.primitive ? whole.primitive : whole.geometry;
-  if (whole.file.empty()) return *shape;
-  const TriangleMesh mesh = loadMesh(whole.file, whole.scale);
-  shape = mesh.triangles.empty() ? hullGeometry(mesh.vertices) : triangleTree(mesh.vertices, mesh.triangles);
-  return *shape;
-}
-
-// Whether the links are no farther apart than the need asks for: bodies, which contain them, are not either.
-bool DetailChoice::nearerThemselves(const SceneNeed& need) {
-  Kinematics::State state = kinematics_->makeState();
-  kinematics_->forward(need.q, state);
-  const RobotGeometry& level = *levels_.back();
-  const auto near = [&](int body, const fcl::CollisionGeometryd& other, const Eigen::Isometry3d& pose) {
-    const Body& a = level.bodies[at(body)];
-    const DistanceAnswer found =
-        fcl_stpbv::distance(exact(body), state.link[at(a.link)] * a.pose, other, pose);
-    return found.status != DistanceStatus::invalid && found.upper <= need.clearance;
-  };
-  const auto [first, last] = level.of(need.pair.link1);
-  for (int i = first; i < last; ++i) {
-    if (need.pair.obstacle) {
-      const Obstacle& obstacle = obstacles_[at(need.pair.link2)];
-      if (near(i, *obstacle.geometry, obstacle.pose)) return true;
-      continue;
-    }
-    const auto [begin, end] = level.of(need.pair.link2);
-    for (int j = begin; j < end; ++j) {
-      const Body& b = level.bodies[at(j)];
-      if (near(i, exact(j), state.link[at(b.link)] * b.pose)) return true;
-    }
-  }
-  return false;
-}
-
 // Makes the one link as fine as `detail` that meets the most needs so; false where none meets any.
 bool DetailChoice::refineOneLink(std::vector<OpenNeed>& open, Detail detail) {
   std::vector<std::pair<bool, bool>> met(open.size());
@@ -257,7 +216,7 @@ std::set<LinkPair> DetailChoice::refine(const std::vector<SceneNeed>& needs) {
       if (settled[i]) continue;
       OpenNeed need{needs[i], i, {{detailsOf(needs[i].pair), false}}};
       const Details finestWhole{levels() - 1, needs[i].pair.obstacle ? 0 : levels() - 1};
-      if (!meets(need, finestWhole) && nearerThemselves(needs[i]))
+      if (!meets(need, finestWhole) && ownShapes_.rulesOut(needs[i], *kinematics_, obstacles_))
         hopeless[i] = 1;
       else
         open.push_back(std::move(need));

@@ -11,6 +11,7 @@
 
 #include "fcl_stpbv/robot/kinematics.h"
 #include "fcl_stpbv/robot/link_geometry.h"
+#include "fcl_stpbv/robot/own_shapes.h"
 #include "fcl_stpbv/robot/scene_model.h"
 
 namespace fcl_stpbv::detail {
@@ -55,8 +56,6 @@ class DetailChoice {
   std::vector<const Body*> bodiesOf(int link, Detail detail);
   bool meets(const SceneNeed& need, Details details);
   bool meets(OpenNeed& open, Details details);
-  const fcl::CollisionGeometryd& exact(int body);
-  bool nearerThemselves(const SceneNeed& need);
   bool refineOneLink(std::vector<OpenNeed>& open, Detail detail);
   bool refineBothLinks(OpenNeed& open);
   void raise(int link, Detail detail);
@@ -66,12 +65,12 @@ class DetailChoice {
   Levels levels_;
   std::vector<Obstacle> obstacles_;
   LinkParts parts_;
+  OwnShapes ownShapes_;
   SceneModelOptions options_;
-  std::map<int, std::shared_ptr<const fcl::CollisionGeometryd>> exact_;  // by body of each level
-  std::map<int, Detail> detail_;                                         // by link, where above 0
-  std::set<LinkPair> byParts_;                                           // as RobotGeometry's
-  std::set<LinkPair> changed_;                                           // since refine() began
-  std::vector<Detail> ladder_;                                           // that refine() tries
+  std::map<int, Detail> detail_;  // by link, where above 0
+  std::set<LinkPair> byParts_;    // as RobotGeometry's
+  std::set<LinkPair> changed_;    // since refine() began
+  std::vector<Detail> ladder_;    // that refine() tries
 };
 
 }  // namespace fcl_stpbv::detail

@@ -15,7 +15,8 @@
 namespace fcl_stpbv {
 
 /// What a model is to show: two links, or a link and an obstacle, farther apart than this in one
-/// configuration. Where the links themselves are nearer no model shows it, and none gets finer for it.
+/// configuration. Where the links themselves are nearer than that and the margins r of both, no model shows
+/// it, and none gets finer for it.
 struct SceneNeed {
   LinkPair pair;         ///< the two
   Eigen::VectorXd q;     ///< the configuration (rad, m)

@@ -6,10 +6,12 @@
 #include <filesystem>
 #include <limits>
 
+#include "fcl_stpbv/adapter/fcl_distance.h"
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/robot/constraints.h"
 #include "fcl_stpbv/robot/mesh_file.h"
 #include "fcl_stpbv/robot/scene_model.h"
+#include "fcl_stpbv/robot/triangle_tree.h"
 #include "test/reference/solids.h"
 #include "test/reference/volume_files.h"
 #include "test/robot/urdf_texts.h"
@@ -72,6 +74,19 @@ struct Workshop {
     VectorXd d(rows.rows());
     rows.evaluate(q, d);
     return d.minCoeff();
+  }
+
+  /// Of the cup to the L.
+  double meshDistance(const VectorXd& q) const {
+    const auto tree = [](const TriangleMesh& mesh) {
+      return detail::triangleTree(mesh.vertices, mesh.triangles);
+    };
+    Kinematics::State state = kinematics->makeState();
+    kinematics->forward(q, state);
+    const auto poseOf = [&](int link) { return state.link[static_cast<std::size_t>(link)]; };
+    return fcl_stpbv::distance(*tree(lShape()), poseOf(cupAndL.link1), *tree(bowl(0.02, 6)),
+                               poseOf(cupAndL.link2))
+        .distance;
   }
 
   SceneModel model(const std::vector<SceneNeed>& needs) const {
@@ -182,6 +197,17 @@ TEST_CASE("a clearance that the meshes themselves do not have is told before par
   const SceneModel model = modelForScene(workshop.kinematics, workshop.levels, {}, needs, options);
   CHECK(model.unmet.size() == 2);
   CHECK_FALSE(std::filesystem::exists(options.cacheFolder));
+  // No surface is nearer to its mesh than r, which is 1 mm of each.
+  const VectorXd q = workshop.at(0.11, 0.11);
+  const double apart = workshop.meshDistance(q);
+  REQUIRE(apart > 0.002);
+  const SceneModel within = modelForScene(workshop.kinematics, workshop.levels, {},
+                                          {{workshop.cupAndL, q, apart - 0.0019}}, options);
+  CHECK(within.unmet.size() == 1);
+  CHECK_FALSE(std::filesystem::exists(options.cacheFolder));
+  const SceneModel beyond = modelForScene(workshop.kinematics, workshop.levels, {},
+                                          {{workshop.cupAndL, q, apart - 0.0021}}, options);
+  CHECK(std::filesystem::exists(options.cacheFolder));
 }
 
 TEST_CASE("obstacles make needs too; the order of needs and the number of threads change nothing") {

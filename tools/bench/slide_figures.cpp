@@ -1,4 +1,4 @@
-// The slides of docs/motion.md: what the proof of a motion near a mesh or a tree costs, down to 1 um of room.
+// The slides of docs/motion.md: what the proof of a motion near a mesh or a tree costs, down to 1 um of clearance.
 // Usage: slide_figures
 #include <fcl/config.h>
 #include <fcl/geometry/shape/box.h>
@@ -82,7 +82,7 @@ int main(int argc, char** argv) {
   const auto volume = std::make_shared<StpBvGeometry>(StpBv::build(box(0.1, 0.08, 0.06), {0.01, 10}));
   const std::vector<Body> bodies{{"box", std::make_shared<fcl::Boxd>(0.1, 0.08, 0.06), 0.03},
                                  {"STP-BV", volume, volume->volume().support(-Vector3d::UnitZ())}};
-  std::printf("| over | body | turn | 1 mm of room | 10 µm | 1 µm |\n|---|---|---|---|---|---|\n");
+  std::printf("| over | body | turn | 1 mm of clearance | 10 µm | 1 µm |\n|---|---|---|---|---|---|\n");
   for (const Surface& surface : surfaces)
     for (const Body& body : bodies)
       for (const double turn : {0.0, 1.0}) {
