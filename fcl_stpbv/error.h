@@ -1,4 +1,4 @@
-// The one exception type that building and loading may throw.
+// The only exception type that building and loading throw.
 #pragma once
 
 #include <stdexcept>

@@ -1,5 +1,5 @@
-// Everything a user of the drop-in needs: volumes and their files, exact
-// distance and derivatives, the FCL side.
+// Includes all public headers that an FCL user needs: volumes and their files, exact distances and
+// derivatives, and the replacements for FCL's functions.
 #pragma once
 
 #include "fcl_stpbv/adapter/collide.h"
@@ -19,6 +19,7 @@
 #include "fcl_stpbv/volume/tessellate.h"
 #include "fcl_stpbv/volume/verify.h"
 
-/// Exact signed distances with continuous gradients between STP-BVs and to FCL's geometries; with the robot
-/// component, whole robots. Names in `fcl_stpbv::detail` are this library's own and may change at any time.
+/// Exact signed distances with continuous gradients, between STP-BVs and from STP-BVs to FCL's geometries.
+/// The robot component handles whole robots. Names in `fcl_stpbv::detail` are internal and may change at any
+/// time.
 namespace fcl_stpbv {}

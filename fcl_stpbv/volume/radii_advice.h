@@ -1,5 +1,5 @@
-// r and R for a body from what its user can spare, clearance and acceleration; and what the shapes of two
-// bodies add to the second derivative of their distance.
+// Chooses r and R for a body from two budgets of the user: clearance and acceleration. Also bounds how much
+// the shapes of two bodies add to the second derivative of their distance.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,7 +15,7 @@ namespace fcl_stpbv {
 constexpr Radii kFlatRadii{0, std::numeric_limits<double>::infinity(),
                            std::numeric_limits<double>::infinity()};
 
-/// Bounds on the second derivative of the distance in time (m/s^2).
+/// Bounds on the shapes' part of the second derivative of the distance with respect to time (m/s^2).
 struct ContactAcceleration {
   double least;  ///< lower bound, not above 0
   double most;   ///< upper bound, not below 0
@@ -24,46 +24,50 @@ struct ContactAcceleration {
   double size() const { return std::max(most, -least); }  // in this order no -0
 };
 
-/// The distance d of two bodies has d'' = n . a + c. n is the normal, a the acceleration of body 2's material
-/// point at its witness point, both as body 1 sees them; c is left over because the normal turns and the
-/// witness points slide. These are bounds on c, derived in docs/choosing_r_and_R.md from the radii of
-/// curvature of both surfaces, which lie in [r, R]. They hold while, as body 1 sees it,
-/// - d is at least `distance` (m), which is above minus both r;
-/// - body 2 moves across the normal with at most `speed` at its witness point (m/s);
-/// - body 2 turns across the normal with at most `turning` (rad/s).
-/// Infinite where nothing bounds it.
+/// The distance d of two bodies has the second time derivative d'' = n . a + c. Here n is the normal, and a
+/// is the acceleration of the point that is fixed to body 2 and now at its witness point, both in the frame
+/// of body 1. The term c exists because the normal turns and the witness points slide. This function bounds
+/// c. docs/choosing_r_and_R.md derives the bounds from the radii of curvature of both surfaces, which lie in
+/// [r, R]. They hold while, in the frame of body 1,
+/// - d is at least `distance` (m), which must be above -(r1 + r2);
+/// - the velocity of body 2 at its witness point, perpendicular to the normal, is at most `speed` (m/s);
+/// - the angular velocity of body 2, perpendicular to the normal, is at most `turning` (rad/s).
+/// A bound is infinite if c is unbounded.
 ContactAcceleration contactAcceleration(const Radii& body1, const Radii& body2, double distance, double speed,
                                         double turning);
 
-/// What a body is to do near others, and what may be spent on it. Its motion is that of its contacts, as the
-/// other body sees it: contactAcceleration().
+/// How a body moves near others, and the two budgets. The velocities are relative to the other body, as in
+/// contactAcceleration().
 struct RadiiTask {
-  double clearance = 0.005;  ///< most that may be lost of the space around the body (m)
-  double acceleration = 1;   ///< most that the bodies' shapes may add to d'' (m/s^2)
-  double speed = 0.3;        ///< of the body across the normal (m/s)
-  double turning = 1;        ///< across the normal (rad/s)
-  double period = 1e-3;      ///< of the controller; its rows are linear for that long (s)
-  double distance = 0;       ///< that the volumes keep (m)
-  /// Whether all that the body meets is rounded by the same task: margins add up, so each may be smaller.
+  /// Largest loss of free space around the body: over-cover plus `perPeriod` of the result (m).
+  double clearance = 0.005;
+  double acceleration = 1;  ///< largest amount that the bodies' shapes may add to d'' (m/s^2)
+  double speed = 0.3;       ///< of the body's contact point, perpendicular to the normal (m/s)
+  double turning = 1;       ///< angular velocity perpendicular to the normal (rad/s)
+  double period = 1e-3;     ///< period of the controller, in which its constraints stay linear (s)
+  double distance = 0;      ///< distance that the volumes keep (m)
+  /// Whether all other bodies are STP-BVs made for the same task. The margins of both add up, so each may be
+  /// smaller.
   bool bothRound = false;
 };
 
-/// The radii and what they reach.
+/// The radii and their effect.
 struct RadiiAdvice {
   StpBvOptions radii;  ///< r and R (m)
-  /// Whether they keep both promises. Then r is the least that does. If not, r is the least for an
-  /// acceleration a fifth above the least of all radii that keep the clearance. In both cases R is the
-  /// smallest that the clearance takes.
+  /// Whether the radii keep both budgets, clearance and acceleration. If they do, r is the smallest one that
+  /// does. If not, r is the smallest one for an acceleration that is a fifth above the lowest acceleration
+  /// possible within the clearance. In both cases R is the smallest one that the clearance allows.
   bool meetsBoth;
-  double acceleration;    ///< most that the shapes add to d'' (m/s^2), whatever the other body is
-  double overCover;       ///< of the volume of these radii (m)
-  double perPeriod;       ///< how far d may fall below a linear row within a period (m)
-  double leastClearance;  ///< that allows the stated acceleration (m); infinite where no volume does
+  double acceleration;  ///< upper bound on what the shapes add to d'', for any other body (m/s^2)
+  double overCover;     ///< of the volume of these radii (m)
+  double perPeriod;     ///< how far d may fall below a linearised constraint within one period (m)
+  /// Smallest clearance that the task's acceleration needs (m); infinite if no volume does.
+  double leastClearance;
 };
 
-/// For a body given by its points, from docs/choosing_r_and_R.md. Builds some thirty
-/// volumes, up to a hundred for long periods. @throws Error for points without a volume, for
-/// numbers that make no sense, and for a clearance that no radii keep.
+/// Radii for the body around these points (m), by the method of docs/choosing_r_and_R.md. Builds about thirty
+/// volumes, up to a hundred for long periods. @throws Error for points that have no volume, for numbers out
+/// of range, and for a clearance that no radii can keep.
 RadiiAdvice adviseRadii(const std::vector<Eigen::Vector3d>& points, const RadiiTask& task);
 
 }  // namespace fcl_stpbv

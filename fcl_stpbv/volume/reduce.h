@@ -1,4 +1,4 @@
-// Fewer vertices for the same body, within a budget for the over-cover.
+// Makes a volume with fewer vertices around the same points, within a limit on the over-cover.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,15 +8,15 @@
 
 namespace fcl_stpbv {
 
-/// A volume of few vertices around `points`: all of them stay under its surface by at least `options.r`, and
-/// it exceeds their convex hull by at most `overCover` (m). Its big radius is `options.R`; its own r is
-/// larger than `options.r` by what the points left out stick out. A point or a segment (sphere, spindle)
-/// serves where it fits. Vertices are taken where the points stick out most, then dropped while the budget
-/// allows: few, not proven to be the fewest. `verify(volume, points, options.r)` proves the margin. The time
-/// grows with the square of the number of vertices and faster: 5 s for 500 all over a sphere, half a minute
-/// for 1000.
-/// @throws Error as StpBv::build() does, and where even the volume of all points exceeds the
-/// budget; the message states the over-cover it has.
+/// A volume with few vertices around `points` (m). Every point lies at least `options.r` below its surface,
+/// and the volume exceeds the points' convex hull by at most `overCover` (m). Its big radius is `options.R`.
+/// Its small radius is larger than `options.r`, so that it also covers the points that are no vertices. If a
+/// sphere or a spindle (one or two vertices) is enough, the result is one. Otherwise vertices are added where
+/// the points stick out most, then removed while the limit allows. The number of vertices is small, but not
+/// proven to be minimal. `verify(volume, points, options.r)` checks the margin. The time grows at least with
+/// the square of the number of vertices: 5 s for 500 vertices all over a sphere, half a minute for 1000.
+/// @throws Error as StpBv::build() does, and if the volume with all points as vertices already exceeds the
+/// limit. The message states its over-cover.
 StpBv::Ptr reduce(const std::vector<Eigen::Vector3d>& points, const StpBvOptions& options, double overCover);
 
 }  // namespace fcl_stpbv

@@ -1,4 +1,4 @@
-// The sphere-torus-patch bounding volume: what it is and what can be asked of it.
+// The sphere-torus-patch bounding volume (STP-BV): its data and its queries.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,23 +11,25 @@
 
 namespace fcl_stpbv {
 
-/// What a patch belongs to.
+/// The element of the volume that a patch belongs to.
 enum class PatchKind { vertex, edge, face };
 
-/// A piece of the surface, written as the offset of a point or of a circle (paper III; docs/theory.md, 2).
+/// A piece of the surface: the offset of a point or of a circle (paper III; docs/theory.md, 2).
 ///
-/// Every patch is the set `I - kappa w + c n` over its unit normals `n`, `w` the unit part of `n` across `u`.
-/// `R` is 10 m and more while answers are micrometres, so only the lengths near the body are stored: an
-/// anchor point among the vertices and, for a face, the unit normal there. Lengths in m, body frame.
+/// Every patch is the set of points `I - kappa w + c n`. Here `n` runs over the patch's unit normals, `w` is
+/// the part of `n` perpendicular to `u`, scaled to length 1, and `c` is r or R. `R` may be 10 m or more, but
+/// distances must be exact to micrometres. So only lengths near the body are stored: an anchor point at the
+/// vertices and, for a face, the unit normal there. Lengths in m, body frame.
 struct Patch {
-  Eigen::Vector3d anchor;  ///< vertex: p; edge: its middle I; face: one of its vertices
-  Eigen::Vector3d
-      axis;      ///< vertex: 0; edge: unit u from its first to its second vertex; face: (anchor - C)/rho
+  Eigen::Vector3d anchor;  ///< vertex: its position p; edge: its midpoint I; face: one of its vertices
+  /// Vertex: 0; edge: unit vector u from its first to its second vertex; face: (anchor - C)/rho, C the big
+  /// sphere's centre.
+  Eigen::Vector3d axis;
   double kappa;  ///< radius of the circle of centres, sqrt(rho^2 - l^2/4) for an edge, else 0
-  double sine;   ///< edge: l/2 over rho, how far normals lean along it at most, else 0
+  double sine;   ///< edge of length l: (l/2)/rho, the largest |n.u| of its normals; else 0
 };
 
-/// The radii all patches of one body share.
+/// The radii that all patches of one body share.
 struct Radii {
   double r;    ///< small radius, the margin (m)
   double R;    ///< big radius (m)
@@ -38,7 +40,7 @@ namespace detail {
 struct QueryTables;
 }
 
-/// Radii to build a volume with (paper III).
+/// Radii for building a volume (paper III).
 struct StpBvOptions {
   double r = 0.01;  ///< radius of the small spheres, the least margin around the points (m), >= 0
   double R = 10.0;  ///< radius of the big spheres (m); R - r must exceed the minimum enclosing ball's radius
@@ -48,32 +50,34 @@ struct StpBvOptions {
 /// each edge, a part of a big sphere on each face (paper III).
 ///
 /// Immutable; any number of threads may query one. All points, normals and directions are in the body's own
-/// frame, lengths in metres, normals unit and outward. Queries never throw and never allocate.
+/// frame. Lengths are in metres. Normals have unit length and point outward. Queries never throw and never
+/// allocate.
 class StpBv {
  public:
   using Ptr = std::shared_ptr<const StpBv>;  ///< shared, immutable
   using Ring = std::vector<int>;             ///< a face's vertices, counter-clockwise seen from outside
 
-  /// An edge's two vertices and the faces on its two sides; faces are -1 on a spindle (two vertices, one edge
-  /// patch all the way round). `face[0]` runs from `vertex[0]` to `vertex[1]`; `turn` is the angle about the
-  /// edge from its normals to those of `face[1]`, below 2 pi, and 2 pi on a spindle. Two vertices may be
-  /// joined by several edges.
+  /// An edge: its two vertices and the faces on its two sides. On a spindle (two vertices, one edge patch all
+  /// around) both faces are -1. The ring of `face[0]` contains the edge in the direction from `vertex[0]` to
+  /// `vertex[1]`. `turn` is the angle about the edge from the normals of `face[0]` to those of `face[1]`. It
+  /// is below 2 pi, and 2 pi on a spindle. Two vertices may be joined by several edges.
   struct Edge {
     std::array<int, 2> vertex;  ///< the ends, indices into vertices()
     std::array<int, 2> face;    ///< the faces beside it, -1: none
     double turn;                ///< angle between its faces' normals (rad)
   };
 
-  /// Its faces are those that a ball of radius `R - r` touches from inside as it rolls over the cloud (paper
-  /// IV.A, Algorithm 1). Points that it cannot touch are inside and drop out; cospherical ones share one
-  /// k-gon face.
-  /// @throws Error for an empty cloud, a coordinate that is not finite, r < 0, R <= r, R below the smallest
-  /// usable one, and R so large that faces are flat to rounding; the message states the usable one.
+  /// Builds the volume of a point cloud (m). A ball of radius `R - r` rolls over the cloud, with all points
+  /// inside it. Each position in which it touches three or more points gives a face (paper IV.A, Algorithm
+  /// 1). A point that the ball cannot touch lies inside the volume and is not a vertex. Cospherical points
+  /// share one k-gon face.
+  /// @throws Error for an empty cloud, a coordinate that is not finite, r < 0, R <= r, an R that is too
+  /// small, or an R so large that faces are flat to rounding. The message states a usable R.
   static Ptr build(const std::vector<Eigen::Vector3d>& points, const StpBvOptions& options = {});
 
-  /// Puts a volume together from its own vertices and faces, as a file holds them.
-  /// @throws Error where they are not an STP-BV's for these radii: an index out of range, vertices that
-  /// coincide, faces that do not close, or a vertex outside a face's ball.
+  /// Makes a volume from its vertices and faces, as they are stored in a file.
+  /// @throws Error if they do not describe an STP-BV with these radii: an index is out of range, two vertices
+  /// coincide, the faces do not form a closed surface, or a vertex lies outside a face's ball.
   static Ptr assemble(std::vector<Eigen::Vector3d> vertices, std::vector<Ring> faces,
                       const StpBvOptions& options);
 
@@ -81,12 +85,13 @@ class StpBv {
   const Radii& radii() const { return radii_; }
   /// The centres of the small spheres (m).
   const std::vector<Eigen::Vector3d>& vertices() const { return vertices_; }
-  /// The torus parts' edges.
+  /// The edges; each carries a torus patch.
   const std::vector<Edge>& edges() const { return edges_; }
-  /// The vertices of each big sphere's face.
+  /// The faces, each as a ring of vertex indices; each carries a patch of a big sphere.
   const std::vector<Ring>& faces() const { return faces_; }
 
-  /// Unit outward normal of a face's big sphere at one of the face's vertices: a corner where regions meet.
+  /// Unit outward normal of a face's big sphere at one of the face's vertices (`vertex` is an index into
+  /// vertices()). On the Gauss sphere it is a corner where regions of normals meet.
   Eigen::Vector3d corner(int face, int vertex) const;
 
   /// Number of vertices.
@@ -96,26 +101,28 @@ class StpBv {
   /// Number of faces.
   int faceCount() const { return static_cast<int>(faces_.size()); }
 
-  /// Patches are numbered vertices first, then edges, then the further parts of edges that turn by more than
-  /// half a turn, then faces: each patch's region of normals is the intersection of its boundaries' sides.
+  /// Number of patches. They are numbered in this order: vertices, edges, further parts of edges, faces. An
+  /// edge whose normals turn by more than half a turn is split into several parts, so that each patch's
+  /// region of normals is an intersection of half spaces.
   int patchCount() const { return firstFace_ + faceCount(); }
   /// The patch of an edge, the first one where it has several parts.
   int edgePatch(int edge) const { return vertexCount() + edge; }
   /// The patch of a face. A vertex's patch has the vertex's number.
   int facePatch(int face) const { return firstFace_ + face; }
-  /// What a patch is part of.
+  /// The kind of element that a patch belongs to.
   PatchKind kind(int patch) const {
     return patch < vertexCount() ? PatchKind::vertex : patch < firstFace_ ? PatchKind::edge : PatchKind::face;
   }
   /// A patch by its number, 0 to patchCount() - 1.
   Patch patch(int index) const;
 
-  /// How far the unit normal `n` lies outside the patch's region, <= 0 inside: the largest of what its
-  /// boundaries give, a sine for the plane to a face and a difference of sines along an edge.
+  /// How far the unit normal `n` lies outside the patch's region of normals; <= 0 inside. It is the largest
+  /// value over the region's boundaries. A plane between an edge and a face gives a sine; the end of an edge
+  /// gives a difference of sines.
   double outside(int patch, const Eigen::Vector3d& n) const;
 
-  /// The patch whose region holds the unit normal `n`, found by walking over the boundaries from `hint` (any
-  /// patch), or from a direction table when `hint` is negative.
+  /// The patch whose region contains the unit normal `n`. The search walks from patch to patch over their
+  /// boundaries. It starts at the patch `hint`, or, if `hint` is negative, at a patch from a direction table.
   int owner(const Eigen::Vector3d& n, int hint = -1) const;
 
   /// Support function h(n) = max over the body of x.n, for unit `n` (m); infinite where `n` is not finite.
@@ -124,25 +131,26 @@ class StpBv {
   /// The surface point whose outward normal is the unit vector `n` (m); the centre where `n` is not finite.
   Eigen::Vector3d surfacePoint(const Eigen::Vector3d& n, int hint = -1) const;
 
-  /// A point well inside: the centre of the vertices' minimum enclosing ball (m).
+  /// A point well inside the body: the centre of the vertices' minimum enclosing ball (m).
   const Eigen::Vector3d& centre() const { return centre_; }
-  /// Radius of a ball about centre() that holds the body: that of the vertices' ball, and r (m).
+  /// Radius of a ball about centre() that contains the body: the radius of the vertices' minimum enclosing
+  /// ball plus r (m).
   double enclosingRadius() const { return enclosingRadius_; }
 
-  /// Radius of a ball about `centre()` inside the vertices' hull, 0 where there is none (m).
+  /// Radius of a ball about `centre()` that lies inside the vertices' convex hull (m); 0 if there is none.
   double innerRadius() const { return innerRadius_; }
 
-  /// A bound on the coordinates of surface points, for bounds on rounding (m).
+  /// Upper bound on the absolute coordinates of surface points (m). Bounds on rounding errors use it.
   double extent() const { return extent_; }
 
-  /// Memory this volume holds, in bytes.
+  /// Memory that this volume uses, in bytes.
   std::size_t memory() const;
 
-  /// Smallest big radius for these points and this margin (m); build() takes any R above it.
-  /// @throws Error for points or a margin that build() refuses whatever the R.
+  /// Limit of the big radius for these points and the margin r (m): build() accepts an R above it. @throws
+  /// Error for points or a margin that build() refuses for every R.
   static double smallestR(const std::vector<Eigen::Vector3d>& points, double r);
 
-  /// What this library's own queries read.
+  /// Tables for this library's own queries; not for users.
   const detail::QueryTables& tables() const { return *tables_; }
 
  private:

@@ -1,4 +1,4 @@
-// A built volume checks itself.
+// Checks a finished volume.
 #pragma once
 
 #include <string>
@@ -11,23 +11,25 @@ namespace fcl_stpbv {
 /// What verify() found. Lengths in m.
 struct Verification {
   bool ok = false;  ///< whether nothing is off by more than rounding
-  double containment =
-      0;  ///< largest height of a point over the surface pulled in by the margin; at most
-          ///< rounding. Infinite where a point or the margin is not finite: `ok` is false then
+  /// Largest distance by which a point is less than `margin` below the surface; at most rounding error in a
+  /// correct volume. Infinite, and `ok` false, if a point or the margin is not finite.
+  double containment = 0;
   double solidAngleError = 0;  ///< sum of the regions' solid angles minus 4 pi (sr)
-  double boundaryGap = 0;      ///< largest distance between two patches' core points at a common normal
-  std::string message;         ///< "ok", or what is wrong
+  /// Largest distance between the core points of two neighbouring patches at a normal on their common
+  /// boundary.
+  double boundaryGap = 0;
+  std::string message;  ///< "ok", or what is wrong
 };
 
-/// Checks that all vertices lie inside all big balls and `points`, if given, under the surface by at least
-/// `margin` (m, the volume's r where it is left out); that the regions of normals tile the sphere; and that
-/// neighbouring patches meet (paper III.C: the surface is C1).
+/// Checks three things. All vertices lie inside all big balls, and `points`, if given, lie at least the
+/// volume's r below the surface. The regions of normals tile the unit sphere. Neighbouring patches meet
+/// (paper III.C: the surface is C1).
 Verification verify(const StpBv& volume, const std::vector<Eigen::Vector3d>& points = {});
-/// The same with another margin than the volume's r.
+/// The same, but `points` must lie at least `margin` (m) below the surface, instead of r.
 Verification verify(const StpBv& volume, const std::vector<Eigen::Vector3d>& points, double margin);
 
-/// Solid angle of each patch's region of normals (sr), by spherical excess; an
-/// edge's further parts count with their edge.
+/// Solid angle of each patch's region of normals (sr), by spherical excess. The further parts of a split edge
+/// are added to the edge's first patch.
 std::vector<double> solidAngles(const StpBv& volume);
 
 }  // namespace fcl_stpbv
