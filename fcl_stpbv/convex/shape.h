@@ -1,4 +1,5 @@
-// The simple convex bodies that an STP-BV may meet: a flat or round core and a ball around it.
+// Simple convex shapes for distance queries, against an STP-BV or each other. Each is a core (box, cylinder,
+// ...) plus a margin, that is, its Minkowski sum with a ball.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,10 +11,10 @@ namespace detail {
 class VertexCap;
 }
 
-/// What a simple shape is.
+/// The kind of a simple shape.
 enum class ShapeKind {
-  point,      ///< a ball, by its margin
-  segment,    ///< a capsule, by its margin
+  point,      ///< a point; with a margin a ball
+  segment,    ///< a segment along z; with a margin a capsule
   box,        ///< axis-aligned in its own frame
   triangle,   ///< flat, two-sided
   polytope,   ///< convex hull of the caller's vertices
@@ -24,13 +25,13 @@ enum class ShapeKind {
   plane,      ///< thin, two-sided
 };
 
-/// A convex body in its own frame, centred as FCL's shapes are. Lengths in m. One struct for all kinds: a
-/// query makes one on its stack. What it points to must outlive it.
+/// A convex body in its own frame, centred in the same way as FCL's shapes. Lengths in m. One struct serves
+/// all kinds, so that a query can make one on the stack. The data that its pointers refer to must outlive it.
 struct Shape {
-  ShapeKind kind = ShapeKind::point;  ///< which of the fields below count
-  double margin = 0;                  ///< radius of the ball around the core
-  double radius = 0;                  ///< of a cylinder's or cone's rim
-  double half = 0;                    ///< half length along z
+  ShapeKind kind = ShapeKind::point;  ///< the kind, which decides which of the fields below are used
+  double margin = 0;                  ///< radius of the ball that is added to the core
+  double radius = 0;                  ///< radius of a cylinder or of a cone's base
+  double half = 0;                    ///< half length along z, of a segment, cylinder or cone
   Eigen::Vector3d size{0, 0, 0};      ///< box: half sides; ellipsoid: semi-axes
   Eigen::Vector3d normal{0, 0, 1};    ///< half space, plane: unit
   double offset = 0;                  ///< half space, plane: normal.x = offset on its surface
@@ -38,20 +39,20 @@ struct Shape {
                                         Eigen::Vector3d(0, 0, 0)};  ///< triangle
   const Eigen::Vector3d* vertices = nullptr;                        ///< polytope, at least one
   int vertexCount = 0;                                              ///< how many `vertices` points to
-  detail::VertexCap* cap = nullptr;                                 ///< polytope: set by a query, for itself
+  detail::VertexCap* cap = nullptr;                                 ///< polytope: internal, set by a query
   Eigen::Vector3d centre{0, 0, 0};                                  ///< some point of the core
-  double reach = 0;  ///< every point of the core is within this of `centre`
+  double reach = 0;  ///< every point of the core is within this distance of `centre`
 
   /// A ball about the origin.
   static Shape sphere(double radius);
-  /// A ball moved along z from -length/2 to length/2.
+  /// A capsule: the ball swept along z from -length/2 to length/2.
   static Shape capsule(double radius, double length);
-  /// A box about the origin, of these whole sides.
+  /// A box about the origin; `sides` are its full side lengths.
   static Shape boxOf(const Eigen::Vector3d& sides);
   /// A triangle by its corners.
   static Shape triangleOf(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c);
-  /// The convex hull of `count` points, at least one, which stay the caller's. `middle`: their mean, where it
-  /// is known; that saves a second look at all of them.
+  /// The convex hull of `count` points, at least one. They are not copied: the caller keeps them alive.
+  /// `middle`: their mean, if it is known; this saves a second pass over all points.
   static Shape polytopeOf(const Eigen::Vector3d* vertices, int count,
                           const Eigen::Vector3d& middle = Eigen::Vector3d::Zero());
   /// A cylinder about the z axis, from -length/2 to length/2.
@@ -65,15 +66,15 @@ struct Shape {
   /// All x with normal.x = offset; `normal` is unit.
   static Shape planeOf(const Eigen::Vector3d& normal, double offset);
 
-  /// Whether all lengths are finite and none is negative, and there is a vertex
-  /// and a unit normal where one is needed.
+  /// Whether all lengths are finite and not negative, a polytope has a vertex, and a half space or plane has
+  /// a unit normal.
   bool valid() const;
 
-  /// The core's point furthest along `d` (any length), one of them where
-  /// there are several. Bounded kinds only.
+  /// The point of the core furthest along `d` (any length), or one of them if there are several. Only for
+  /// bounded kinds.
   Eigen::Vector3d support(const Eigen::Vector3d& d) const;
 
-  /// A half space or a plane.
+  /// Whether it is a half space or a plane.
   bool unbounded() const { return kind == ShapeKind::halfspace || kind == ShapeKind::plane; }
 };
 

@@ -1,5 +1,6 @@
-// Files of volumes and of points (docs/file_formats.md): the library's own `.stpbv`, a short text that holds
-// vertices, faces and radii exactly; sch-core's; and qhull's.
+// Reads and writes volume files and reads point files (docs/file_formats.md). There are three formats: the
+// library's own `.stpbv`, a short text that stores vertices, faces and radii exactly; sch-core's; and
+// qhull's.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,10 +14,10 @@
 namespace fcl_stpbv {
 
 /// Writes the volume as `.stpbv`. The same volume gives the same bytes, and reading them back gives the same
-/// volume bit by bit. A failed or interrupted write leaves an old file as it was.
+/// volume bit by bit. If the write fails or is interrupted, an existing file stays unchanged.
 /// @throws Error naming the file when it cannot be written.
 void saveStpBv(const std::string& path, const StpBv& volume);
-/// The same to a stream. @throws Error when it cannot be written to.
+/// The same to a stream. @throws Error when the stream cannot be written.
 void saveStpBv(std::ostream& out, const StpBv& volume);
 
 /// Reads a `.stpbv`; the patches are rebuilt from the vertices and faces.
@@ -25,39 +26,40 @@ StpBv::Ptr loadStpBv(const std::string& path);
 /// The same from a stream; `name` stands for the file in messages. @throws Error as above.
 StpBv::Ptr loadStpBv(std::istream& in, const std::string& name = "stream");
 
-/// Whether a file that begins like this claims to be `.stpbv`.
+/// Whether a file that begins with this text claims to be `.stpbv`.
 bool looksLikeStpBv(std::string_view text);
 
-/// Reads the points of a file that qhull printed with `o f` (dimension, `points facets ridges`, points,
-/// facets) or that it takes as input (dimension, number of points, points). Facets are checked, then left
-/// aside: the volume is built from the points. What follows the facets is qhull's report and is not read.
+/// Reads the points (as in the file, usually m) of a qhull file. Two forms are known: the output of `o f`
+/// (dimension, `points facets ridges`, points, facets) and qhull's input (dimension, number of points,
+/// points). Facets are checked but not returned, since a volume is built from points. The text after the
+/// facets is qhull's report and is not read.
 /// @throws Error "file:line: got ..., expected ..." for a damaged file or another dimension than 3.
 std::vector<Eigen::Vector3d> loadQhullPoints(const std::string& path);
 
 /// The same from a text in memory; `name` stands for it in messages.
 std::vector<Eigen::Vector3d> parseQhullPoints(std::string_view text, const std::string& name);
 
-/// Whether a text begins like such a file: a line with the dimension, a line with one or three counts.
+/// Whether a text begins like a qhull file: a line with the dimension, then a line with one or three counts.
 bool looksLikeQhull(std::string_view text);
 
 /// Writes the volume so that sch-core can load it. A k-gon face becomes a fan of triangles whose inner edges
 /// are marked degenerate. The same volume gives the same bytes; numbers read back exactly.
-/// @throws Error naming the file when it cannot be written, or saying what of this volume the format cannot
-/// hold: one or two vertices (no face), or an edge that turns by more than half a turn.
+/// @throws Error naming the file when it cannot be written; also for a volume that the format cannot store:
+/// one or two vertices (no face), or an edge whose normals turn by more than half a turn.
 void saveSch(const std::string& path, const StpBv& volume);
 /// The same to a stream. @throws Error as above.
 void saveSch(std::ostream& out, const StpBv& volume);
 
-/// Reads a volume of sch-core's format. Everything the file says twice is compared within the digits it
-/// carries (old files have six), and a file that disagrees with itself is refused. A file with a double's
-/// full digits gives back its own faces; from one with fewer, where vertices no longer lie on their balls,
-/// the volume is built anew from the vertices.
+/// Reads a volume in sch-core's format. The file states some facts twice. They are compared to within the
+/// printed digits (old files have six), and a contradiction is an error. If the file has all digits of a
+/// double, its faces are kept. If it has fewer, so that vertices no longer lie on their balls, the volume is
+/// built anew from the vertices.
 /// @throws Error "file:line: what is wrong, what was expected".
 StpBv::Ptr loadSch(const std::string& path);
 /// The same from a stream; `name` stands for the file in messages. @throws Error as above.
 StpBv::Ptr loadSch(std::istream& in, const std::string& name = "stream");
 
-/// Whether a text begins like sch-core's files: a line with the two radii, then a count.
+/// Whether a text begins like a file of sch-core: a line with the two radii, then a line with a count.
 bool looksLikeSch(std::string_view text);
 
 }  // namespace fcl_stpbv
