@@ -1,4 +1,4 @@
-// The drop-ins for fcl::collide and its broadphase callback: contacts of the smooth bodies.
+// Replacements for fcl::collide and for its broadphase callback. They report contacts of the smooth bodies.
 #pragma once
 
 #include <fcl/narrowphase/collision_object.h>
@@ -12,18 +12,20 @@
 
 namespace fcl_stpbv {
 
-/// In the shape of `fcl::collide`: adds the contacts of the pair to `result`, up to
-/// `request.num_max_contacts` in all, and returns how many it then holds. Never throws.
+/// Same signature as `fcl::collide`: adds the contacts of the pair to `result`, up to
+/// `request.num_max_contacts` in total, and returns the number of contacts in `result`. Never throws.
 ///
-/// Two convex bodies have one contact, a mesh or a tree one for each element that meets the other geometry,
-/// `b1` and `b2` as FCL numbers them. With `enable_contact`: `penetration_depth` is that of `distance()`,
-/// whose bounds a contact has no place for, not below 0, `normal` that of the smooth surface, from geometry 1
-/// to 2 in the order of the call, `pos` half way between the deepest points (world, m). Without, each pair of
-/// elements costs no more than `isFartherThan`. Touching is a contact. A pair without an answer (a pose that
-/// is not rigid, an invalid shape, a corner that is no number, two planes) counts as one too, of infinite
-/// depth and without a normal: nobody has found it clear. A geometry that FCL's marks call free or unknown
-/// (`cost_density` below `threshold_occupied`; not a tree, whose cells tell) meets nothing, as in FCL. Cost
-/// sources are not made; the other fields of the request change nothing. `finite`: as QueryContext's.
+/// Two convex bodies have one contact. A mesh or an octree has one contact for each of its elements
+/// (triangles, cells) that meets the other geometry; `b1` and `b2` are FCL's numbers of the elements. With
+/// `enable_contact`, a contact has these fields: `penetration_depth`, minus the result of `distance()` but
+/// not below 0 (m); `normal`, of the smooth surface, from geometry 1 to geometry 2 in the order of the call;
+/// `pos`, half way between the deepest points (world, m). Without `enable_contact`, each pair of elements
+/// costs no more than `isFartherThan`. Touching is a contact.
+/// A pair without an answer (a pose that is not rigid, an invalid shape, a vertex that is not finite, two
+/// planes) also counts as a contact, because it is not known to be clear. With `enable_contact` its depth is
+/// infinite; its normal is zero. A geometry that FCL marks as free or unknown (`cost_density` below
+/// `threshold_occupied`) has no contacts, as in FCL; in an octree each cell has its own mark. Cost sources
+/// are not made, and the other fields of the request have no effect. `finite`: see QueryContext.
 std::size_t collide(const fcl::CollisionObjectd* object1, const fcl::CollisionObjectd* object2,
                     const fcl::CollisionRequestd& request, fcl::CollisionResultd& result,
                     PairCache* cache = nullptr, bool finite = false);
@@ -33,8 +35,8 @@ std::size_t collide(const fcl::CollisionGeometryd* geometry1, const fcl::Transfo
                     const fcl::CollisionRequestd& request, fcl::CollisionResultd& result,
                     PairCache* cache = nullptr, bool finite = false);
 
-/// FCL's other scalar is refused here, with the reason. `collide<double>(...)`, as generic code names it, is
-/// the function above.
+/// For generic code that calls `collide<double>(...)`: the same as the function above. `float` is a compile
+/// error with an explanation.
 template <typename S>
 std::size_t collide(const fcl::CollisionObject<S>* object1, const fcl::CollisionObject<S>* object2,
                     const fcl::CollisionRequest<S>& request, fcl::CollisionResult<S>& result) {
@@ -45,14 +47,15 @@ std::size_t collide(const fcl::CollisionObject<S>* object1, const fcl::Collision
 
 class PairCaches;
 
-/// What `collisionCallback` reads and writes; pass its address to a manager's `collide`. The result
-/// accumulates: give each query fresh data.
+/// Input and output of `collisionCallback`; pass its address to a manager's `collide`. Contacts accumulate in
+/// `result`: use a new object for each query.
 struct CollisionData {
   fcl::CollisionRequestd request;  ///< as collide() reads it
   fcl::CollisionResultd result;    ///< contacts of all pairs so far
-  bool done = false;               ///< set it to stop; set where the result holds all the contacts asked for
-  PairCaches* caches = nullptr;    ///< optional: makes repeated queries of a slowly moving scene faster
-  /// Optional: pairs that are not asked, as DistanceData's.
+  /// Set it to stop the search; also set when `result` has reached the requested number of contacts.
+  bool done = false;
+  PairCaches* caches = nullptr;  ///< optional: makes repeated queries of a slowly moving scene faster
+  /// Optional: returns true for pairs to skip; see DistanceData.
   std::function<bool(const fcl::CollisionObjectd*, const fcl::CollisionObjectd*)> leaveOut = nullptr;
   bool finite = false;  ///< as QueryContext's
 };

@@ -1,4 +1,4 @@
-// Callback for FCL's broadphase managers: the closest, or the deepest, pair of a scene.
+// Callback for FCL's broadphase managers: finds the closest, or the most deeply overlapping, pair of a scene.
 #pragma once
 
 #include <fcl/narrowphase/collision_object.h>
@@ -13,17 +13,17 @@
 
 namespace fcl_stpbv {
 
-/// What each pair of objects remembers between queries. Allocates when it sees a pair for the first time. One
-/// thread at a time may use it.
+/// The warm-start caches of all pairs of objects. Allocates when a pair is used for the first time. Not
+/// thread-safe: only one thread at a time may use it.
 class PairCaches {
  public:
-  /// The memory of a pair, in this order of the objects; made when first asked for.
+  /// The cache of a pair, in this order of the objects; created on first use.
   PairCache& of(const fcl::CollisionObjectd* object1, const fcl::CollisionObjectd* object2) {
     return caches_[{object1, object2}];
   }
-  /// Number of pairs remembered.
+  /// Number of pairs with a cache.
   std::size_t size() const { return caches_.size(); }
-  /// To be called when objects go away: their addresses may come back as others'.
+  /// Removes all caches. Call it when objects are destroyed: new objects may get the same addresses.
   void clear() { caches_.clear(); }
 
  private:
@@ -37,31 +37,34 @@ class PairCaches {
   std::unordered_map<Key, PairCache, Hash> caches_;
 };
 
-/// What `distanceCallback` reads and writes; pass its address to a manager's `distance`.
+/// Input and output of `distanceCallback`; pass its address to a manager's `distance`.
 ///
-/// The result accumulates over calls, as FCL's own callback data does: give
-/// each query fresh data, or `clear()` it.
+/// The result accumulates over calls, as in FCL's own callback data: use a new object for each query, or call
+/// `clear()`.
 struct DistanceData {
-  /// For code that shares FCL's callback data; nothing in it changes the answer.
+  /// Only for compatibility with FCL's callback data; it has no effect.
   fcl::DistanceRequestd request = fcl::DistanceRequestd(true);
-  /// The closest pair so far; `distance` is the largest double before the first. Once a pair has no answer
-  /// that pair, which `object` names: status `invalid`, distance minus infinity.
+  /// The closest pair so far. Before the first pair, `distance` is the largest double. If a pair has no
+  /// answer, that pair is the result: status `invalid`, distance minus infinity; `object` names the pair.
   DistanceAnswer result;
   bool done = false;  ///< set it to stop the search
-  /// Stop at the first pair in contact, as FCL's own callback does; else the deepest pair is found.
+  /// Whether to stop at the first pair in contact, as FCL's own callback does. Otherwise the deepest pair is
+  /// found.
   bool stopAtContact = false;
-  PairCaches* caches = nullptr;          ///< optional: makes repeated queries of a slowly moving scene faster
-  MappingCounts* mapping = nullptr;      ///< optional: gets how good FCL's features were as starts; slower
-  StartFrom start = StartFrom::centres;  ///< of pairs without a last answer
-  /// Optional: pairs that are not asked, as two parts of one body, which FCL's managers offer like any others
-  /// (docs/fcl.md). Takes the objects in the manager's order; an octree's side is a box without marks unless
-  /// the manager takes trees whole.
+  PairCaches* caches = nullptr;  ///< optional: makes repeated queries of a slowly moving scene faster
+  /// Optional: counts how good FCL's features were as starting points; makes queries slower.
+  MappingCounts* mapping = nullptr;
+  StartFrom start = StartFrom::centres;  ///< starting point for pairs without a cached answer
+  /// Optional: returns true for pairs to skip, such as two parts of one body, which FCL's managers offer like
+  /// any other pair (docs/fcl.md). It gets the objects in the manager's order. FCL's dynamic AABB trees pass
+  /// an octree's cells as temporary boxes without user data, unless `octree_as_geometry_distance` is set (for
+  /// contacts `octree_as_geometry_collide`).
   std::function<bool(const fcl::CollisionObjectd*, const fcl::CollisionObjectd*)> leaveOut = nullptr;
   bool finite = false;      ///< as QueryContext's
-  std::size_t pairs = 0;    ///< pairs asked
-  std::size_t invalid = 0;  ///< of these, pairs without an answer
+  std::size_t pairs = 0;    ///< number of pairs queried
+  std::size_t invalid = 0;  ///< number of these pairs that have no answer
 
-  /// Forgets everything found, keeps the settings, caches and counts.
+  /// Resets the result, `done`, `pairs` and `invalid`; keeps the settings, the caches and the mapping counts.
   void clear() {
     result = {};
     done = false;
@@ -71,8 +74,8 @@ struct DistanceData {
 
 /// For `manager.distance(&data, fcl_stpbv::distanceCallback)` with `data` a DistanceData.
 ///
-/// FCL's managers prune by the distance of bounding boxes, which is 0 at overlap, against `dist`. So that
-/// pruning does not hide a deeper pair behind the first contact, `dist` stays above 0.
+/// FCL's managers skip a pair if the distance of its bounding boxes is not below `dist`. That distance is 0
+/// for boxes that overlap. So `dist` stays above 0, and a deeper pair is still found after the first contact.
 bool distanceCallback(fcl::CollisionObjectd* object1, fcl::CollisionObjectd* object2, void* data,
                       double& dist);
 

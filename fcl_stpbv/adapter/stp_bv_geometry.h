@@ -1,4 +1,4 @@
-// An STP-BV as an FCL geometry: a convex polyhedron to FCL, a smooth body to this library.
+// An STP-BV as an FCL geometry. FCL sees a convex polyhedron, this library a smooth body.
 #pragma once
 
 #include <fcl/geometry/shape/convex.h>
@@ -15,32 +15,32 @@ class HullGraph;
 struct HullFeature;
 }  // namespace detail
 
-/// The convex hull of an STP-BV's vertices, as FCL knows it, together with the volume itself.
+/// An FCL Convex, the convex hull of an STP-BV's vertices, together with the STP-BV itself.
 ///
-/// Any FCL code takes it: plain `fcl::distance` and `fcl::collide` see the polyhedron, broadphase sees a
-/// bounding box that holds the smooth surface, and `fcl_stpbv::distance` finds the volume again by its type.
-/// `user_data` stays the caller's. The volume may be degenerate (a point, a segment, a flat polygon): FCL
-/// then holds a mesh without volume, on which its distance works and its mass properties are NaN.
+/// Any FCL code accepts it. `fcl::distance` and `fcl::collide` use the polyhedron. The broadphase uses a
+/// bounding box that contains the smooth surface. `fcl_stpbv::distance` recognises the type and uses the
+/// STP-BV. `user_data` is free for the caller. The STP-BV may be degenerate (a point, a segment, a flat
+/// polygon). FCL's mesh then encloses no volume: FCL's distance works on it, but its mass properties are NaN.
 class StpBvGeometry : public fcl::Convexd {
  public:
-  /// Takes the hull and the correspondence of its features to the volume's patches. O(n log n).
+  /// Computes the hull, and which patch of the volume belongs to which feature of the hull. O(n log n).
   explicit StpBvGeometry(StpBv::Ptr volume);
 
-  /// The same where the hull of the volume's vertices is known.
+  /// The same, for a hull of the volume's vertices that is already known.
   StpBvGeometry(StpBv::Ptr volume, std::shared_ptr<const detail::HullGraph> hull);
 
   /// The smooth body.
   const StpBv& volume() const { return *volume_; }
 
-  /// The polyhedron, with vertex `v` of FCL's `getVertices()` as its vertex `v`.
+  /// The polyhedron. Its vertex numbers are those of FCL's `getVertices()`.
   const detail::HullGraph& hull() const { return *hull_; }
 
-  /// The patch of the same name as a feature of the hull: the small sphere of a vertex, the torus part of an
-  /// edge, the big sphere of a face. Where the volume has none of that name, the patch that owns the normal
-  /// in the feature's middle.
+  /// The patch that corresponds to a feature of the hull: the small sphere of a vertex, the torus patch of an
+  /// edge, the big sphere of a face. If the volume has no patch with the same vertices, the patch whose
+  /// region contains the normal at the middle of the feature.
   int patchOf(const detail::HullFeature& feature) const;
 
-  /// Exact bounds of the smooth surface along the frame's axes, and a sphere that holds it.
+  /// Sets the exact axis-aligned bounding box of the smooth surface, and a sphere that contains it.
   void computeLocalAABB() override;
 
  private:
@@ -52,7 +52,7 @@ class StpBvGeometry : public fcl::Convexd {
   std::vector<int> edgePatch_, facePatch_;
 };
 
-/// The STP-BV behind an FCL geometry; null for any other one.
+/// The geometry as a StpBvGeometry, or null if it is another type.
 const StpBvGeometry* asStpBv(const fcl::CollisionGeometryd* geometry);
 
 }  // namespace fcl_stpbv
