@@ -1,4 +1,4 @@
-// A triangle mesh as a few convex point sets that together cover it.
+// Convex decomposition: covers a triangle mesh by a few convex parts.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,34 +9,35 @@
 
 namespace fcl_stpbv {
 
-/// How many parts, or how good ones.
+/// How many parts to make, and how close they must be to the mesh.
 struct PartsOptions {
-  int most = 8;       ///< no more parts than this
-  double excess = 0;  ///< with a value: as few parts as reach it (m), still no more than `most`
-  double effort = 1;  ///< of the search; 1 is the usual one
+  int most = 8;       ///< largest number of parts
+  double excess = 0;  ///< if above 0: as few parts as keep their excess within it (m), but at most `most`
+  double effort = 1;  ///< effort of the search; 1 is the default
 };
 
 /// One convex part of a mesh.
 struct ConvexPart {
-  std::vector<Eigen::Vector3d> points;  ///< the corners of its hull (m)
-  MeshExcess excess;                    ///< of the hull over the mesh's solid
-  MeshExcess openExcess;                ///< over its triangles alone
+  std::vector<Eigen::Vector3d> points;  ///< the corners of its hull, in the mesh's frame (m)
+  MeshExcess excess;                    ///< excess of the hull over the mesh as a solid
+  MeshExcess openExcess;                ///< excess of the hull over the mesh's triangles alone
 };
 
-/// All parts of a mesh.
+/// Result of a convex decomposition.
 struct ConvexParts {
   std::vector<ConvexPart> parts;  ///< at least one
-  double excess = 0;              ///< largest upper bound of the parts'
+  double excess = 0;              ///< largest upper bound on a part's excess (m)
   double openExcess = 0;          ///< the same over the triangles alone (m)
-  int pieces = 0;                 ///< of the mesh: all is covered
-  int closedPieces = 0;           ///< of these, whose inside is covered too
-  /// Convex hulls cover to this length, for rounding of the cuts; a volume's r covers more (m).
+  int pieces = 0;                 ///< number of connected pieces of the mesh; all are covered
+  int closedPieces = 0;           ///< number of closed pieces, whose inside is covered too
+  /// The hulls cover the mesh up to this length, because cuts are rounded (m). The r of an STP-BV is larger
+  /// and covers it.
   double slack = 0;
 };
 
-/// Parts cover every triangle, whole, and what closed pieces enclose, by construction: the mesh is cut by
-/// planes into cells, and a part is the hull of all that some cells hold (docs/parts.md). The answer depends
-/// on the mesh and the options alone.
+/// Splits a mesh (m) into convex parts. By construction the parts cover every point of every triangle, and
+/// the inside of closed pieces: planes cut the mesh into cells, and each part is the convex hull of the mesh
+/// in some of the cells (docs/parts.md). The result depends only on the mesh and the options.
 /// @throws Error as meshPieces() does.
 ConvexParts convexParts(const TriangleMesh& mesh, const PartsOptions& options = {});
 

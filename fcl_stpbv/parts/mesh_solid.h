@@ -1,5 +1,5 @@
-// A triangle mesh as a solid: its pieces, the distance of a point from it, whether it encloses the point, and
-// how far a surface around it is from it at most.
+// A triangle mesh as a solid: its connected pieces, the distance of a point from it, whether it encloses a
+// point, and the largest distance of a surface around it.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,16 +12,17 @@
 
 namespace fcl_stpbv {
 
-/// A mesh taken apart into pieces whose triangles share edges. A piece is closed where each of its edges is
-/// run through as often one way as the other, after triangles were turned to agree with their neighbours: its
-/// winding number about a point then is a whole number, and where that is not 0 the piece encloses the point.
-/// Copies of a triangle, in either direction, count once, and not at all in a wall between two bodies or in a
-/// sheet with two sides, which has no inside. Flipped faces, nested shells and holes are the rule in robots'
-/// meshes, so none of them is an error.
+/// A mesh split into connected pieces: triangles that share edges. First the triangles are oriented like
+/// their neighbours. A piece is closed if each of its edges is then traversed equally often in both
+/// directions. Its winding number about a point is then an integer, and the piece encloses the point if that
+/// number is not 0. Copies of a triangle, in either orientation, count once. They do not count at all in a
+/// wall between two bodies or in a two-sided sheet, which has no inside. Flipped faces, nested shells and
+/// holes are common in robots' meshes, so they are no errors.
 struct MeshPieces {
   std::vector<Eigen::Vector3d> vertices;  ///< each point once (m)
-  /// Turned; without copies and without lines that are an edge of another. Sheets have both sides. A point of
-  /// no triangle is one of three equal corners.
+  /// Triangles after orientation, as indices into `vertices`. Copies are removed, and so are degenerate
+  /// triangles that are just an edge of another one. Sheets keep both sides. A vertex that no triangle used
+  /// becomes a triangle with three equal corners.
   std::vector<std::array<int, 3>> triangles;
   std::vector<int> piece;    ///< of each triangle
   std::vector<char> closed;  ///< of each piece
@@ -34,11 +35,12 @@ struct MeshPieces {
 /// @throws Error for a mesh without triangles, an index out of range or a coordinate that is not finite.
 MeshPieces meshPieces(const TriangleMesh& mesh);
 
-/// The three corners (m).
+/// A triangle by its three corners (m).
 using Triangle = std::array<Eigen::Vector3d, 3>;
 
-/// A mesh as a solid: its triangles and all that its closed pieces enclose. The solid's boundary lies in the
-/// triangles, so bodies that stay outside each other are as far apart as their triangles are.
+/// A mesh as a solid: its triangles and the space that its closed pieces enclose. The boundary of the solid
+/// consists of triangles, so the distance of two solids that do not overlap is the distance of their
+/// triangles.
 class MeshSolid {
  public:
   /// Where a point is.
@@ -49,7 +51,7 @@ class MeshSolid {
 
   /// All triangles (m).
   const std::vector<Triangle>& triangles() const { return triangles_; }
-  /// Which triangles hang together.
+  /// The connected pieces of the mesh.
   const MeshPieces& pieces() const { return pieces_; }
   /// Whether every piece is closed, so that the mesh has an inside everywhere.
   bool closed() const { return pieces_.closedPieces() == pieces_.pieces(); }
@@ -65,25 +67,25 @@ class MeshSolid {
     double distance;  ///< from the surface (m)
     int triangle;     ///< index into triangles()
   };
-  /// `guess` is a triangle that is probably near, or -1. Any triangle within `enough` (m) will do. The
-  /// triangles looked at are added to `tried`.
+  /// The triangle nearest to `p` (m). `guess` is a triangle that is probably near, or -1. The search may stop
+  /// at any triangle within `enough` (m). The number of triangles tested is added to `tried`.
   Nearest nearest(const Eigen::Vector3d& p, int guess = -1, double enough = 0, long* tried = nullptr) const;
 
-  /// Of a point from one of the triangles (m).
+  /// Distance of a point from one triangle (m).
   double distance(const Eigen::Vector3d& p, int triangle) const;
 
-  /// Calls `visit` with each triangle whose box meets the box from `low` to `high`, until it returns false.
-  /// @returns whether it never did.
+  /// Calls `visit` with each triangle whose box meets the box from `low` to `high` (m). Stops when `visit`
+  /// returns false. @returns whether `visit` never returned false.
   bool within(const Eigen::Vector3d& low, const Eigen::Vector3d& high,
               const std::function<bool(int)>& visit) const;
 
-  /// Which side of the closed pieces a point is on, by crossings of a ray. `unsure` is for points on the
-  /// surface to rounding, and where every ray tried touches an edge.
+  /// Whether the closed pieces enclose a point, by counting the crossings of a ray. `unsure` for points on
+  /// the surface up to rounding, and if every ray tried touches an edge.
   Side side(const Eigen::Vector3d& p) const;
 
-  /// Whether the mesh has the point inside: certain where a closed piece has it (side()); by pieces that are
-  /// not closed, and where side() is unsure, a judgement: triangles go round it at least half a time
-  /// (generalized winding number, Jacobson et al. 2013).
+  /// Whether the point is inside the mesh. This is certain for a point inside a closed piece (see side()).
+  /// For pieces that are not closed, and if side() is `unsure`, it is an estimate: the generalized winding
+  /// number (Jacobson et al. 2013) is at least one half.
   bool holds(const Eigen::Vector3d& p) const;
 
  private:
@@ -115,22 +117,23 @@ class MeshSolid {
   std::vector<Node> nodes_;
 };
 
-/// How close a bound is asked for, and when to end.
+/// Accuracy of the bounds on an excess, and limits of the search.
 struct ExcessOptions {
-  /// The upper bound is above the truth by at most this (m),
+  /// The upper bound exceeds the true value by at most this length (m) ...
   double absolute = 1e-5;
-  /// and this share of it.
+  /// ... plus this fraction of it.
   double relative = 1e-3;
-  /// Most distances that this may take; then the bound is wider.
+  /// Limit on the number of distance queries. When it is reached, the bounds are wider.
   long queries = 1000000;
-  bool filled = true;  ///< points that the mesh encloses count 0; else all points from its triangles
-  double enough =
-      std::numeric_limits<double>::infinity();  ///< stops as soon as the excess is proven larger (m)
-  /// Known bound on the distance of the surface's corners from the mesh (m).
+  /// True: points inside the mesh have distance 0; false: all distances are from the triangles.
+  bool filled = true;
+  /// Stops as soon as the excess is proven to be larger than this (m).
+  double enough = std::numeric_limits<double>::infinity();
+  /// Upper bound on the distance of the surface's corners from the mesh, if one is known (m).
   double corners = std::numeric_limits<double>::infinity();
 };
 
-/// For a figure to read rather than a proof: a tenth of a second, within 2 % and 0.1 mm as a rule.
+/// Options for an estimate to display: takes a tenth of a second, and is usually within 2 % and 0.1 mm.
 inline ExcessOptions quickExcess(bool filled) {
   ExcessOptions options;
   options.relative = 0.02;
@@ -139,28 +142,28 @@ inline ExcessOptions quickExcess(bool filled) {
   return options;
 }
 
-/// Largest distance of a surface's points from a mesh: lower <= truth <= upper. Lengths in m.
+/// Bounds on the largest distance of a surface's points from a mesh: lower <= true value <= upper.
 struct MeshExcess {
   double upper = 0;                ///< certified upper bound (m)
-  double lower = 0;                ///< found at `where` (m)
+  double lower = 0;                ///< certified lower bound: the distance of the point `where` (m)
   Eigen::Vector3d where{0, 0, 0};  ///< a point of the surface (m)
 };
 
-/// How far the surface is from the mesh at most, within the options' limits. Branch and bound over the
-/// surface's triangles: the distance from the mesh changes by no more than one
-/// moves, and that from one convex set, as a triangle is, is largest at a corner; so a triangle's bound is
-/// the smaller of the distance at its middle plus its radius, and of its corners' distances from the mesh's
-/// triangle next to its middle.
+/// Bounds the largest distance of the surface from the mesh, by branch and bound over the surface's
+/// triangles. A triangle has two upper bounds, and the smaller one is used. First: the distance at its centre
+/// plus its radius, because the distance is 1-Lipschitz. Second: the largest distance of its corners from the
+/// mesh triangle that is nearest to its centre, because the distance from a convex set is largest at a
+/// corner.
 MeshExcess excessOf(const std::vector<Triangle>& surface, const MeshSolid& mesh,
                     const ExcessOptions& options = {});
 
-/// The same of the surface of the convex hull of a cloud.
+/// The same for the surface of the convex hull of a cloud (m).
 /// @throws Error as hullTriangles() does.
 MeshExcess hullExcess(const std::vector<Eigen::Vector3d>& points, const MeshSolid& mesh,
                       const ExcessOptions& options = {});
 
-/// The triangles of the convex hull's surface; a flat hull has two sides, a segment
-/// and a point give one triangle without area.
+/// The triangles of the convex hull of a cloud. A flat hull has two sides. A segment or a point gives one
+/// triangle without area.
 /// @throws Error for an empty cloud or a coordinate that is not finite.
 std::vector<Triangle> hullTriangles(const std::vector<Eigen::Vector3d>& points);
 
