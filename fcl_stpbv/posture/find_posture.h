@@ -1,4 +1,4 @@
-// The posture generator: from a task to joint values, or to the constraints that cannot hold together.
+// The posture generator: finds joint values that fulfil a task, or else names the constraints that conflict.
 #pragma once
 
 #include <cstdint>
@@ -10,38 +10,44 @@
 
 namespace fcl_stpbv {
 
-/// How long to search.
+/// Limits of the search.
 struct PostureOptions {
   SolverOptions solver;  ///< for each start
-  int starts = 5;        ///< at most; number 0 is the task's own, the others random ones near it; 1 at least
-  int firstStart = 0;    ///< number of the first one to try; below 0 counts as 0
-  std::uint64_t seed = 1;  ///< of the random ones
-  int mends = 2;      ///< where no start leads to a posture, the best one is mended at most so many times
-  int anywhere = 20;  ///< where no mending leads to one either: starts anywhere within the limits
+  /// Largest number of starts, at least 1; start 0 is the task's own, the others are random ones near it.
+  int starts = 5;
+  int firstStart = 0;      ///< number of the first start to try; below 0 counts as 0
+  std::uint64_t seed = 1;  ///< seed of the random starts
+  /// If no start gives a feasible posture: how often to redraw the joints that the best posture's violated
+  /// constraints depend on, and to solve again from there.
+  int mends = 2;
+  int anywhere = 20;  ///< if that fails too: number of starts anywhere within the joint limits
 };
 
-/// What was found.
+/// Result of findPosture().
 struct Posture {
   bool feasible = false;              ///< all constraints hold within the solver's tolerance
-  Eigen::VectorXd q;                  ///< the best found
-  double cost = 0;                    ///< of `q`
-  double seconds = 0;                 ///< the search took
-  int starts = 0;                     ///< tried
-  int iterations = 0;                 ///< of all starts together
+  Eigen::VectorXd q;                  ///< the best configuration found (rad, m)
+  double cost = 0;                    ///< cost of `q`
+  double seconds = 0;                 ///< duration of the search (s)
+  int starts = 0;                     ///< number of starts tried
+  int iterations = 0;                 ///< iterations of all starts together
   long distanceCalls = 0;             ///< distances computed
   long gradientCalls = 0;             ///< gradients of distances computed
   std::string status;                 ///< why the search ended, for people
-  std::vector<Violation> violations;  ///< at q, worst first
-  std::vector<std::string> active;    ///< collision rows and joint limits that hold q where it is
-  /// Where nothing was feasible: the constraints that pull against each other where their violations are
-  /// least in sum of squares, each with what it misses there, and the joint limits that they push against.
-  /// Empty where, and only where, `feasible`, or where the search was stopped.
+  std::vector<Violation> violations;  ///< violations at q, worst first
+  /// Names of the collision constraints and joint limits that are active at q.
+  std::vector<std::string> active;
+  /// If no feasible posture was found: the constraints in conflict. They are those still violated at the
+  /// configuration with the least sum of squared violations; each amount is its violation there. Empty if and
+  /// only if `feasible` or the search was stopped.
   std::vector<Violation> conflict;
-  std::vector<std::string> conflictLimits;  ///< names of the joint limits in the way of `conflict`
+  /// Names of the joint limits that the constraints in `conflict` push against.
+  std::vector<std::string> conflictLimits;
 };
 
-/// Deterministic for a seed, but for a solver that runs out of time.
-/// @throws Error for a start of another size than the robot's, as one of another base; else never.
+/// Searches for a posture. Deterministic for a given seed, unless a solver runs out of time. @throws Error if
+/// the start has another size than the robot's coordinates, for example that of another base motion; never
+/// otherwise.
 Posture findPosture(PostureSetup& setup, const PostureOptions& options = {});
 
 }  // namespace fcl_stpbv

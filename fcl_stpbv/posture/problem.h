@@ -1,4 +1,5 @@
-// A posture as a constrained optimisation problem: variables, bounds, cost, constraints; and its solver.
+// The search for a posture as a constrained optimisation problem: variables, bounds, cost, constraints; and
+// its solver.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,30 +12,31 @@
 
 namespace fcl_stpbv {
 
-/// One constraint after the other.
+/// Row-major matrix: one constraint per row.
 using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// A few rows g(x), all of which are to be 0 or all of which are not to be negative. The variables x are the
-/// robot's coordinates q (Kinematics) and, after them, what a constraint brings along (StaticStability).
+/// A group of constraints g(x), one per row: either all g = 0 or all g >= 0. The variables x are the robot's
+/// coordinates q (Kinematics), followed by the additional variables of constraints (such as StaticStability).
 class PostureRows {
  public:
-  /// What is asked of the rows.
+  /// The kind of constraint: g = 0 or g >= 0.
   enum class Kind { equal, atLeast };
 
-  /// A vector of variables and where it puts the links.
+  /// A vector of variables and the poses of the links there.
   struct Point {
     Eigen::Ref<const Eigen::VectorXd> x;  ///< the variables
-    const Kinematics::State& state;       ///< of the coordinates in x
+    const Kinematics::State& state;       ///< poses and motions of the links for the coordinates in x
   };
 
   virtual ~PostureRows() = default;
-  /// The same for all rows.
+  /// Kind of all rows.
   virtual Kind kind() const = 0;
   /// Number of rows.
   virtual int size() const = 0;
-  /// What a row is about, for messages.
+  /// A row's name, for messages.
   virtual std::string name(int row) const = 0;
-  /// Writes g and its Jacobian, size() x variables, which comes zeroed. Lengths in m, angles in rad.
+  /// Writes g and its Jacobian (size() x variables). The caller has set the Jacobian to zero. Lengths in m,
+  /// angles in rad.
   virtual void evaluate(const Point& at, Eigen::Ref<Eigen::VectorXd> values,
                         Eigen::Ref<RowMatrix> jacobian) = 0;
   /// Distances computed so far, each with its gradient.
@@ -43,15 +45,15 @@ class PostureRows {
 
 /// Sum of weight_i (q_i - reference_i)^2.
 struct PostureCost {
-  Eigen::VectorXd weights;    ///< one entry per coordinate, 0 or more
+  Eigen::VectorXd weights;    ///< one entry per coordinate, not negative
   Eigen::VectorXd reference;  ///< one entry per coordinate (rad or m)
 };
 
-/// The paper's eq. 3: all joints weigh 1, a moving base 0; reference (min + max) / 4, half way from 0 to the
-/// middle of the joint's limits.
+/// The cost of the paper's eq. 3. All joints have the weight 1 and a moving base 0. The reference is (min +
+/// max) / 4, half way from 0 to the middle of the joint's limits.
 PostureCost quarterCost(const Kinematics& kinematics);
 
-/// Everything that a solver asks for at one x.
+/// All values and derivatives that a solver needs at one x.
 struct PostureValues {
   Eigen::VectorXd x;             ///< the variables
   double cost = 0;               ///< PostureCost at x
@@ -68,61 +70,66 @@ struct Violation {
   double amount;     ///< how far it is from holding (m, rad, or a smooth constraint's own unit)
 };
 
-/// A cost and constraints over the robot's coordinates and the constraints' own variables.
+/// Cost and constraints as functions of the robot's coordinates and the constraints' additional variables.
 class PostureProblem {
  public:
-  /// The joints keep to their limits, and to those of the joints that mimic them. A moving base's rotation
-  /// vector keeps within a quarter turn, axis by axis, of that at `start`: then it stays away from the full
-  /// turn, where it is singular, wherever the start faces. @throws Error naming the joints where mimic ones
-  /// leave a joint no value, and, as all below do, for vectors of another size.
+  /// Sets the bounds of the variables. Joints keep to their limits and to those of the joints that mimic
+  /// them. Each component of a moving base's rotation vector stays within a quarter turn of that at `start`.
+  /// So the vector stays away from the full turn, where it is singular, for any orientation of the start.
+  /// @throws Error naming the joints, if the limits of mimic joints leave no value for a joint. This and all
+  /// functions below throw Error for vectors of a wrong size.
   PostureProblem(std::shared_ptr<const Kinematics> kinematics, PostureCost cost,
                  const Eigen::VectorXd& start);
 
-  /// Adds `count` variables within [0, 1], for constraints that come with their own. @return the index of the
-  /// first one.
+  /// Adds `count` variables with bounds [0, 1], for constraints that have additional variables. @return the
+  /// index of the first one.
   int addVariables(int count);
-  /// Adds constraints.
+  /// Adds a group of constraints.
   void add(std::shared_ptr<PostureRows> rows);
 
   /// The robot.
   const Kinematics& kinematics() const { return *kinematics_; }
-  /// The robot, for whoever keeps it longer.
+  /// The robot, as a shared pointer.
   const std::shared_ptr<const Kinematics>& sharedKinematics() const { return kinematics_; }
-  /// Number of variables: the coordinates, then the constraints' own.
+  /// Number of variables: the coordinates, then the constraints' additional ones.
   int variables() const { return static_cast<int>(lower_.size()); }
-  /// Number of rows to be 0.
+  /// Number of equality constraints (g = 0).
   int equalities() const { return equalities_; }
-  /// Number of rows not to be negative.
+  /// Number of inequality constraints (g >= 0).
   int inequalities() const { return inequalities_; }
-  /// Least values of the variables.
+  /// Lower bounds of the variables.
   const Eigen::VectorXd& lower() const { return lower_; }
-  /// Largest values of the variables.
+  /// Upper bounds of the variables.
   const Eigen::VectorXd& upper() const { return upper_; }
-  /// What a row to be 0 is about.
+  /// Name of an equality constraint.
   std::string equalityName(int row) const { return name(PostureRows::Kind::equal, row); }
-  /// What a row not to be negative is about.
+  /// Name of an inequality constraint.
   std::string inequalityName(int row) const { return name(PostureRows::Kind::atLeast, row); }
-  /// A joint's name, or whose weight the variable is.
+  /// Name of a variable: the coordinate's name, or "contact weight" for an additional variable.
   std::string variableName(int i) const;
-  /// A variable's name and which of its limits it is; of a joint that mimics it, that one's name too.
+  /// Name of a variable's lower or upper limit. If the limit comes from a joint that mimics it, that joint's
+  /// name is included.
   std::string limitName(int i, bool upper) const;
 
-  /// What does not hold and what no variable changes: it is among the violations everywhere.
+  /// Adds violations that do not depend on the variables, such as a collision of two bodies that cannot move.
+  /// violations() lists them for every x.
   void addStill(const std::vector<Violation>& violations) {
     still_.insert(still_.end(), violations.begin(), violations.end());
   }
-  /// All that was added so.
+  /// All violations that were added by addStill().
   const std::vector<Violation>& still() const { return still_; }
 
-  /// q within the bounds, and own variables that share out evenly.
+  /// The variables for the coordinates q: q clamped to the bounds, and the same value for all additional
+  /// variables that were added together, with sum 1.
   Eigen::VectorXd variablesAt(const Eigen::VectorXd& q) const;
-  /// Second derivatives of the cost: it has no others.
+  /// Second derivatives of the cost: the diagonal of its Hessian, which has no other entries.
   Eigen::VectorXd costCurvature() const;
-  /// Computed anew only where x differs from the last one. Valid until the next call.
+  /// Values and derivatives at x. Recomputed only if x differs from the last call. The reference is valid
+  /// until the next call.
   const PostureValues& evaluate(const Eigen::Ref<const Eigen::VectorXd>& x);
   /// Distances computed so far, each with its gradient.
   long queries() const;
-  /// What is farther than `tolerance` from holding, worst first; bounds included.
+  /// The constraints and bounds that are violated by more than `tolerance` at x, worst first.
   std::vector<Violation> violations(const Eigen::Ref<const Eigen::VectorXd>& x, double tolerance);
   /// The same without still().
   std::vector<Violation> missed(const Eigen::Ref<const Eigen::VectorXd>& x, double tolerance);
@@ -143,23 +150,24 @@ class PostureProblem {
   bool known_ = false;
 };
 
-/// When a solver ends.
+/// Stopping criteria and settings of a solver.
 struct SolverOptions {
-  int maxIterations = 300;      ///< models built at most
+  int maxIterations = 300;      ///< largest number of iterations, each with one quadratic model
   double maxSeconds = 10;       ///< s
-  double tolerance = 1e-6;      ///< a constraint holds within this (m, rad)
-  double costTolerance = 1e-8;  ///< relative change of the cost in one iteration at which it ends
-  /// Inequalities with more slack than this are left out of an iteration's model until they have less.
+  double tolerance = 1e-6;      ///< tolerance within which a constraint holds (m, rad)
+  double costTolerance = 1e-8;  ///< stops when the relative change of the cost in one iteration is below this
+  /// An inequality is left out of the model until its value is below this (m, rad).
   double activation = 0.1;
-  /// Asked at every model: true, which it stays, ends the search. Null: nothing does.
+  /// Called in every iteration; returning true stops the search. It must then keep returning true. May be
+  /// null.
   std::function<bool()> stop;
 };
 
-/// Where a solver ended.
+/// Result of a solver.
 struct SolverOutcome {
-  Eigen::VectorXd x;   ///< best found: the constraints hold, or are least violated
-  int iterations = 0;  ///< models built, each from one evaluation of all derivatives
-  std::string status;  ///< why it ended, for people
+  Eigen::VectorXd x;   ///< best point found: the constraints hold, or are least violated
+  int iterations = 0;  ///< iterations, each with one evaluation of all derivatives
+  std::string status;  ///< why the solver stopped, as text
 };
 
 /// Sequential quadratic programming by NLopt's SLSQP. @throws Error for a start of another size.

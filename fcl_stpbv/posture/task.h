@@ -1,5 +1,5 @@
-// What a robot is asked to do: placements of its links, static stability, its task file, and the optimisation
-// problem made of it.
+// A task for a robot: placements of its links and static stability. Reads task files and makes the
+// optimisation problem of a task.
 #pragma once
 
 #include <array>
@@ -15,16 +15,16 @@
 
 namespace fcl_stpbv {
 
-/// Mass and centre of mass of a robot's links, and how the coordinates move it.
+/// Mass and centre of mass of a robot, and the Jacobian of the centre of mass.
 class CentreOfMass {
  public:
   /// @throws Error for a robot without mass.
   explicit CentreOfMass(const Kinematics& kinematics);
 
-  /// Of all links (kg).
+  /// Mass of all links (kg).
   double mass() const { return mass_; }
-  /// World frame. `jacobian` (3 x coordinates) is overwritten. @throws Error for another size, or the state
-  /// of another robot.
+  /// Centre of mass in the world frame (m). `jacobian` (3 x coordinates) is overwritten. @throws Error if it
+  /// has another size, or for the state of another robot.
   Eigen::Vector3d evaluate(const Kinematics::State& state, Eigen::Ref<Eigen::Matrix3Xd> jacobian);
 
  private:
@@ -45,31 +45,33 @@ class CentreOfMass {
   std::vector<Eigen::Vector3d> momentBelow_;  // their masses times positions
 };
 
-/// Points of one link that touch the ground: the corners of a convex patch, or any points of it.
+/// Contact of one link with the ground: the corners of a convex patch, or any points of the link.
 struct Contact {
   int link = 0;                         ///< index into RobotModel::links
   std::vector<Eigen::Vector3d> points;  ///< in the link's frame (m)
 };
 
-/// The corners of a flat convex patch moved inwards so that each edge moves by `margin` (m). One or two
-/// points have no inside: they stay where they are with a margin of 0. @throws Error where nothing is left,
-/// and for a margin that is below 0 or no number.
+/// The corners of a flat convex patch after each edge has moved inwards by `margin` (m). One or two points
+/// have no inside, so they need a margin of 0 and stay unchanged. @throws Error if nothing is left of the
+/// patch, and for a margin that is negative or not a number.
 std::vector<Eigen::Vector3d> shrunk(const std::vector<Eigen::Vector3d>& points, double margin);
 
-/// Rows: the centre of mass, seen along z, is the sum of w_k times contact point k, with w_k >= 0 of sum 1.
-/// The weights are variables of their own, from x[firstWeight] on, so that contacts may move with the posture
-/// and nothing jumps as they do. Each contact, as it is seen along z, is shrunk by the margin, so the
-/// centre of mass keeps at least that far from the support polygon's edges however the contacts are tilted.
+/// Static stability as constraints. The projection of the centre of mass along z is the sum of w_k times
+/// contact point k, with w_k >= 0 and sum 1. The weights are additional variables, starting at
+/// x[firstWeight]. So contacts may move with the posture, and the constraints stay smooth. The projection of
+/// each contact along z is shrunk by the margin. So the centre of mass keeps that distance from the support
+/// polygon's edges, even if contacts are tilted.
 class StaticStability : public PostureRows {
  public:
-  /// Keeps a reference to `kinematics`. `margin` in m; with one, room() belongs to the problem as well.
-  /// `world` turns the axes that `kinematics` has for the world's into those with z upwards.
-  /// @throws Error where a contact has nothing left, and for a link that does not exist.
+  /// Keeps a reference to `kinematics`. `margin` in m; if it is above 0, add room() to the problem too.
+  /// `world` rotates the world axes of `kinematics` into axes with z upwards. @throws Error if the margin
+  /// leaves nothing of a contact, and for a link that does not exist.
   StaticStability(const Kinematics& kinematics, const std::vector<Contact>& contacts, double margin,
                   int firstWeight, const Eigen::Matrix3d& world = Eigen::Matrix3d::Identity());
 
-  /// Rows, not to be negative, that keep each contact wide enough for the margin as it is seen along z, and 3
-  /// degrees from upright. Null without a margin. They refer to `kinematics` too.
+  /// Inequality constraints that keep the projection of each contact along z wide enough for the margin, and
+  /// each contact at least 3 degrees from upright. Null if the margin is 0. They too keep a reference to
+  /// `kinematics`.
   std::shared_ptr<PostureRows> room() const;
   /// Number of weights, one per contact point.
   int weights() const { return weights_; }
@@ -90,20 +92,22 @@ class StaticStability : public PostureRows {
   Eigen::Matrix3Xd centreJacobian_;
 };
 
-/// A frame of a link and where it is to be.
+/// A frame of a link and its target pose.
 struct Placement {
   std::string name;                                          ///< for messages
   int link = 0;                                              ///< index into RobotModel::links
   Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();   ///< in the link's frame
   Eigen::Isometry3d target = Eigen::Isometry3d::Identity();  ///< in the world
-  /// Along and about the target's axes: x, y, z, rx, ry, rz. Of the rotations none, one or all are free; with
-  /// one, the frame's axis of that name points as the target's.
+  /// Which directions are free, along and about the target's axes: x, y, z, rx, ry, rz. None, one or all
+  /// three of the rotations may be free. If one is free, the frame's axis of that name must point in the same
+  /// direction as the target's.
   std::array<bool, 6> free{};
 };
 
-/// Rows that vanish where the link is placed: the frame's position in the target's axes, then the rotation
-/// vector from target to frame, or with a free axis the rotation vector that tilts the target's axis into the
-/// frame's. Neither vanishes anywhere else; both have a singularity at half a turn only.
+/// A placement as equality constraints. First the frame's position relative to the target, in the target's
+/// axes; then the rotation vector from target to frame. If one rotation is free, it is the rotation vector
+/// that tilts the target's axis into the frame's axis. The rows are zero only if the link is placed. The
+/// rotations have a singularity only at half a turn.
 class PlacementRows : public PostureRows {
  public:
   /// @throws Error for two free rotations, and for a link that does not exist.
@@ -128,56 +132,58 @@ class PlacementRows : public PostureRows {
   std::vector<Carrier> carriers_;
 };
 
-/// A robot and what stands around it, loaded once for any number of tasks.
+/// A robot and its obstacles, loaded once for any number of tasks.
 struct PostureScene {
   std::shared_ptr<const RobotModel> robot;        ///< never null
   std::shared_ptr<const RobotGeometry> geometry;  ///< never null
   std::shared_ptr<const Srdf> srdf;               ///< null without one
-  std::vector<Obstacle> obstacles;                ///< that stand still
-  /// The robot's own pairs that are checked, such as searchedPairs(); none: those that the SRDF leaves, or
-  /// without one searched for anew by each task.
+  std::vector<Obstacle> obstacles;                ///< static obstacles
+  /// The robot's own pairs to check, for example from searchedPairs(). Without a value: the pairs that the
+  /// SRDF leaves, or, without an SRDF, a new search for each task.
   std::optional<std::vector<CheckedPair>> selfPairs = std::nullopt;
 };
 
-/// The robot's own pairs to be checked where there is no SRDF: all but those that the tree of joints or the
-/// samples of pairList() leave out. Takes a second or so for a humanoid.
+/// The robot's own pairs to check if there is no SRDF: all pairs except those that pairList() leaves out
+/// because of the joint tree or its samples. Takes about a second for a humanoid.
 std::vector<CheckedPair> searchedPairs(std::shared_ptr<const RobotModel> robot,
                                        std::shared_ptr<const RobotGeometry> geometry);
 
-/// All pairs of some links with some obstacles, or where `self` is given with some other links of the robot;
-/// both where both are. An empty list stands for all of its kind.
+/// All pairs of some links with some obstacles, or, if `self` is given, with some other links of the robot,
+/// or with both if both are given. An empty list means all of its kind.
 struct LinkObstacles {
   std::vector<std::string> links;                ///< names; none: all
   std::vector<std::string> obstacles;            ///< names; none: all
   std::optional<std::vector<std::string>> self;  ///< other links, by name
 
-  /// Whether obstacles are meant at all.
+  /// Whether pairs with obstacles are included.
   bool withObstacles() const { return !self || !obstacles.empty(); }
 };
 
-/// A task as its file says it (docs/posture.md). Lengths in m, angles in rad.
+/// A task, with the contents of its file (docs/posture.md). Lengths in m, angles in rad.
 struct PostureTask {
   std::string path;                        ///< for messages
   BaseMotion base = BaseMotion::floating;  ///< how the base moves
-  bool saysBase = true;                    ///< whether the file says so, or it is the default
+  bool saysBase = true;                    ///< whether the file states `base`; otherwise it is the default
   std::string state;                       ///< SRDF state to start from; "" for the neutral configuration
-  /// Of the root link, at the start; for good where the base is fixed. A planar one keeps its height, and
-  /// has no roll or pitch.
+  /// Pose of the root link at the start. A fixed base keeps it. A planar base keeps its height, and has no
+  /// roll or pitch.
   Eigen::Isometry3d basePose = Eigen::Isometry3d::Identity();
-  /// At the start, over those of the state and of the base's pose. Names of coordinates
-  /// (Kinematics::names()).
+  /// Values at the start by coordinate (Kinematics::names()). They override the values of `state` and
+  /// `basePose`.
   std::map<std::string, double> joints;
-  bool towardsStart = false;              ///< the cost's reference is the start instead of eq. 3's
-  std::map<std::string, double> weights;  ///< of joints or coordinates in the cost, over those of eq. 3
-  /// Turns the axes in which all is given into those with z upwards: withBaseAtOrigin().
+  /// The cost's reference is the start, instead of the reference of eq. 3.
+  bool towardsStart = false;
+  /// Weights of joints or coordinates in the cost; they override those of eq. 3.
+  std::map<std::string, double> weights;
+  /// Rotates the axes in which the task is given into axes with z upwards; set by withBaseAtOrigin().
   Eigen::Matrix3d toWorld = Eigen::Matrix3d::Identity();
-  /// A link and where it is to be.
+  /// A placement, with the link's name.
   struct Place {
     std::string link;     ///< by name
-    Placement placement;  ///< its link is found by name
+    Placement placement;  ///< its `link` index is set later, by name
   };
-  std::vector<Place> placements;  ///< frames that are asked for
-  /// A link that stands on something.
+  std::vector<Place> placements;  ///< frames that must reach their targets
+  /// A link in contact with the ground.
   struct Touch {
     std::string link;                     ///< by name
     std::vector<Eigen::Vector3d> points;  ///< in the link's frame (m)
@@ -185,45 +191,50 @@ struct PostureTask {
   std::vector<Touch> contacts;        ///< none: no static stability
   double stabilityMargin = 0;         ///< m
   double collisionMargin = 0;         ///< m
-  bool selfCollisions = true;         ///< whether the robot is kept from itself
-  std::vector<LinkObstacles> pairs;   ///< checked; none: every body against every obstacle
-  std::vector<LinkObstacles> ignore;  ///< left out all the same
-  /// Concave links are split for the pairs that are in the way although their meshes are farther apart. For
-  /// the program find_posture, or whoever makes the scene's bodies: setUp() takes these as they are.
+  bool selfCollisions = true;         ///< whether to check the robot's own pairs
+  std::vector<LinkObstacles> pairs;   ///< pairs to check; empty: every body against every obstacle
+  std::vector<LinkObstacles> ignore;  ///< pairs to leave out, of `pairs` and of the robot's own
+  /// Whether to split concave links into convex parts, for pairs that prevent a posture although their meshes
+  /// are farther apart. Only the code that makes the scene's bodies uses this, such as the program
+  /// find_posture. setUp() takes the bodies as they are.
   bool partsAuto = false;
-  int parts = 1;              ///< or all of them into so many convex parts at most
-  bool seenFromBase = false;  ///< withBaseAtOrigin() has been here: the state's pose of the base is settled
+  /// If above 1: split all of them into at most this many convex parts each; used like `partsAuto`.
+  int parts = 1;
+  /// Set by withBaseAtOrigin(): the base's pose of the state is already taken into account.
+  bool seenFromBase = false;
 };
 
-/// @throws Error naming the file and the key, and what would work.
+/// Reads a task file. @throws Error naming the file and the key, and what would work.
 PostureTask loadTask(const std::string& path);
 /// The same from a text; `path` stands for it in messages.
 PostureTask parseTask(const std::string& text, const std::string& path);
 
-/// The problem of a task and where to start.
+/// The optimisation problem of a task, and its start.
 struct PostureSetup {
   std::shared_ptr<PostureProblem> problem;  ///< never null
   Eigen::VectorXd start;                    ///< q
-  /// Kept apart, or where nothing moves one body against the other, checked: PostureProblem::still().
+  /// The pairs that the problem keeps apart. Pairs whose bodies cannot move relative to each other are only
+  /// checked; if they collide they are in PostureProblem::still().
   std::vector<CheckedPair> pairs;
 };
 
 /// The coordinates of the task's start. @throws Error naming the task's key.
 Eigen::VectorXd startOf(const PostureTask& task, const PostureScene& scene, const Kinematics& kinematics);
-/// The pairs that the task asks to keep apart. @throws Error naming the task's key.
+/// The pairs that the task must keep apart. @throws Error naming the task's key.
 std::vector<CheckedPair> pairsOf(const PostureTask& task, const PostureScene& scene);
-/// The same task as seen from a fixed base, whose root link then stands at the origin, and from the height of
-/// a planar one: Kinematics has them there. Obstacles and targets are moved the other way. setUp() does so by
-/// itself; this is for whoever shows a posture among obstacles. @throws Error for a planar base that is
-/// tilted, and for a state that moves the base where basePose does not.
+/// Transforms a task and its scene to the frame in which Kinematics places the base. For a fixed base the
+/// root link is then at the origin; for a planar base it is at height 0. Obstacles and targets are moved by
+/// the inverse. setUp() does this itself; call it to show a posture among obstacles. @throws Error for a
+/// planar base that is tilted, and for a state that moves the base if `basePose` does not.
 std::pair<PostureTask, PostureScene> withBaseAtOrigin(PostureTask task, PostureScene scene);
-/// All but the collisions. @throws Error naming the task's key.
+/// The problem of a task without its collision constraints. @throws Error naming the task's key.
 PostureSetup setUpWithoutCollisions(const PostureTask& task, const PostureScene& scene);
-/// Asked for beyond a collision margin (m): more than a solver's tolerance, so that what it calls feasible
-/// keeps the margin itself.
+/// Added to a collision margin in the constraints (m). It is larger than the solver's tolerance, so that a
+/// feasible posture keeps the margin itself.
 constexpr double kBeyondMargin = 2e-6;
-/// The program of a task with its collision rows. Pairs farther apart than the margin, at least 0, plus
-/// `influence` (m) cost one test of their bounding spheres. @throws Error naming the task's key.
+/// The problem of a task with its collision constraints. A pair costs only one test of bounding spheres if it
+/// is farther apart than the margin (or 0 if the margin is negative) plus `influence` (m). @throws Error
+/// naming the task's key.
 PostureSetup setUp(const PostureTask& task, const PostureScene& scene, double influence = 0.2);
 
 }  // namespace fcl_stpbv
