@@ -1,4 +1,4 @@
-// Many configurations in one call, shared out among threads.
+// Distances or collision checks of many configurations in one call, on several threads.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,34 +10,36 @@
 
 namespace fcl_stpbv {
 
-/// What the columns of a batch have to do with each other. It changes the time only, as far as rounding goes.
+/// How the columns of a batch are related. This changes only the time, and the results by no more than
+/// rounding.
 enum class Sequence {
-  independent,  ///< nothing, as samples: each starts from nothing
-  path,         ///< small steps along one path: each starts from the one before
+  independent,  ///< unrelated, such as random samples: each query starts without a cache
+  path,         ///< small steps along one path: each query starts from the previous answer
 };
 
-/// Columns of one piece of a batch. Each piece begins without a memory, so a batch that is cut between pieces
-/// gives the same answers.
+/// Number of columns that one thread takes at a time. Each such piece starts without a cache. So a batch
+/// gives the same results if it is split at a multiple of this number.
 constexpr Eigen::Index kBatchPiece = 64;
 
-/// d(q) and J(q) of many configurations. Each thread has its own copy of the constraints. The answers are the
-/// same for any number of threads, least distances to rounding. One thread at a time may use one.
+/// d(q) and J(q) of many configurations. Each worker thread has its own copy of the constraints. The results
+/// are the same for any number of threads; least distances (CheckerBatch) are the same up to rounding. Not
+/// thread-safe: only one thread at a time may call it.
 class ConstraintsBatch {
  public:
   using Configurations = Eigen::Ref<const Eigen::MatrixXd>;  ///< one a column
-  using Matrix = Eigen::Ref<Eigen::MatrixXd>;                ///< room for results
+  using Matrix = Eigen::Ref<Eigen::MatrixXd>;                ///< output matrix
 
   /// @throws Error unless `threads` is from 1 to 256.
   ConstraintsBatch(const CollisionConstraints& constraints, int threads);
-  /// Takes over all that the other one has; the other one may only be destroyed.
+  /// Moves the contents of another object, which may only be destroyed afterwards.
   ConstraintsBatch(ConstraintsBatch&&) noexcept;
   ~ConstraintsBatch();
 
-  /// Distances, a column for each configuration: `d` is rows() x N. A column of q that is not finite gets
-  /// what CollisionConstraints::evaluate gives it.
-  /// @returns whether all were finite. @throws Error for matrices of another size.
+  /// Distances (m): `q` has one configuration per column, and `d` (rows() x N) gets one column for each. For
+  /// a column of q that is not finite, see CollisionConstraints::evaluate. @returns whether all of q was
+  /// finite. @throws Error for matrices of a wrong size.
   bool evaluate(const Configurations& q, Sequence sequence, Matrix d);
-  /// With the entries of J: `values` is nonZeros() x N, in the structure of makeJacobian().
+  /// The same with the non-zero entries of J: `values` is nonZeros() x N, in the structure of makeJacobian().
   bool evaluateValues(const Configurations& q, Sequence sequence, Matrix d, Matrix values);
 
  private:
@@ -46,22 +48,22 @@ class ConstraintsBatch {
   std::unique_ptr<Impl> impl_;
 };
 
-/// The verdicts of a CollisionChecker on many configurations, in the same way.
+/// The results of a CollisionChecker for many configurations, computed in the same way.
 class CheckerBatch {
  public:
   using Configurations = Eigen::Ref<const Eigen::MatrixXd>;            ///< one a column
-  using Verdicts = Eigen::Ref<Eigen::Array<bool, Eigen::Dynamic, 1>>;  ///< one a configuration
+  using Verdicts = Eigen::Ref<Eigen::Array<bool, Eigen::Dynamic, 1>>;  ///< one entry per configuration
 
   /// @throws Error unless `threads` is from 1 to 256.
   CheckerBatch(const CollisionChecker& checker, int threads);
-  /// Takes over all that the other one has; the other one may only be destroyed.
+  /// Moves the contents of another object, which may only be destroyed afterwards.
   CheckerBatch(CheckerBatch&&) noexcept;
   ~CheckerBatch();
 
-  /// Whether any pair is not known to be clear, as CollisionChecker::collides says.
+  /// For each configuration, whether it collides; see CollisionChecker::collides.
   /// @throws Error for a matrix or a vector of another size.
   void collides(const Configurations& q, Sequence sequence, Verdicts hit);
-  /// The least distance of all pairs (m), as CollisionChecker::minDistance says.
+  /// For each configuration, the least distance of all pairs (m); see CollisionChecker::minDistance.
   void minDistance(const Configurations& q, Sequence sequence, Eigen::Ref<Eigen::VectorXd> least);
 
  private:

@@ -1,4 +1,4 @@
-// Which bodies of a robot are to be kept apart: from each other, and from obstacles.
+// The pairs to check: pairs of a robot's bodies, and pairs of a body and an obstacle.
 #pragma once
 
 #include <fcl/narrowphase/collision_object.h>
@@ -12,39 +12,40 @@
 
 namespace fcl_stpbv {
 
-/// A body of the robot against another one, or against an obstacle.
+/// A pair to check: a body of the robot and another body or an obstacle.
 struct CheckedPair {
   int body;               ///< index into RobotGeometry::bodies
-  int other;              ///< body, or index among the obstacles
+  int other;              ///< index of the other body, or of the obstacle
   bool obstacle = false;  ///< whether `other` is an obstacle
 };
 
-/// Something that stands still in the world. Its geometry must not change once a checker, constraints or a
-/// motion check has it: they look at its corners and boxes once.
+/// A static obstacle. Do not change its geometry after it was given to a checker, to constraints or to a
+/// motion check: they check its vertices and boxes only once.
 struct Obstacle {
   std::string name;                                         ///< for messages and reports
-  std::shared_ptr<const fcl::CollisionGeometryd> geometry;  ///< what queries get
+  std::shared_ptr<const fcl::CollisionGeometryd> geometry;  ///< the geometry that queries use
   Eigen::Isometry3d pose;                                   ///< in the world; a rotation to rounding
-  Eigen::Vector3d centre;                                   ///< of a sphere that holds it, in the world (m)
+  Eigen::Vector3d centre;                                   ///< centre of a bounding sphere, in the world (m)
   double radius = 0;                                        ///< of that sphere (m)
   std::shared_ptr<const fcl::CollisionGeometryd>
       primitive;                                        ///< the primitive under its smooth cover, else null
-  std::shared_ptr<const fcl::CollisionGeometryd> full;  ///< of a body of a scene, its Body::full
+  std::shared_ptr<const fcl::CollisionGeometryd> full;  ///< Body::full, if the obstacle is a body of a scene
 };
 
-/// An FCL object as an obstacle, where it stands now; a rotation that is off by up to 1e-6 becomes the
-/// nearest one.
+/// Makes an obstacle of an FCL object at its current pose. A rotation that is off by up to 1e-6 is replaced
+/// by the nearest exact one.
 Obstacle obstacleOf(const fcl::CollisionObjectd& object, const std::string& name);
 
 /// The names of a pair's bodies. @throws Error as requireBodies() does.
 std::string nameOf(const CheckedPair& pair, const RobotGeometry& geometry,
                    const std::vector<Obstacle>& obstacles);
 
-/// @throws Error, as `who`, for a pair that names a body or an obstacle that does not exist, or a body twice.
+/// Checks the indices of a pair. @throws Error for a body or an obstacle that does not exist, or for a body
+/// paired with itself; the message starts with `who`.
 void requireBodies(const CheckedPair& pair, const RobotGeometry& geometry, std::size_t obstacles,
                    const std::string& who);
 
-/// The bodies of a scene's URDF, its joints at their neutral values.
+/// The bodies of a scene's URDF as obstacles, with its joints at their neutral values.
 std::vector<Obstacle> obstaclesOf(std::shared_ptr<const RobotModel> scene, const RobotGeometry& geometry);
 
 /// All pairs of bodies of different links, without those that `srdf` leaves out; without an SRDF (null),
@@ -54,18 +55,19 @@ std::vector<CheckedPair> selfPairs(const RobotModel& robot, const RobotGeometry&
 /// The links that a pair's bodies belong to, or the link and the obstacle.
 LinkPair linksOf(const CheckedPair& pair, const RobotGeometry& geometry);
 
-/// Every body of one link against every body of the other: their parts where the pair is taken by parts.
+/// Every body of one link against every body of the other. If the pair is in RobotGeometry::byParts, their
+/// convex parts instead of the whole bodies.
 std::vector<CheckedPair> pairsOfLinks(const RobotGeometry& geometry, int link1, int link2);
 
 /// Every body of a link against one obstacle.
 std::vector<CheckedPair> pairsWithObstacle(const RobotGeometry& geometry, int link, int obstacle);
 
-/// The bodies behind a pair of links, or of a link and an obstacle.
+/// The pairs of bodies of two links, or of a link and an obstacle.
 std::vector<CheckedPair> bodiesOf(const RobotGeometry& geometry, const LinkPair& pair);
 
 namespace detail {
 
-/// What some pairs are of. Each index once, ascending.
+/// The bodies, links and obstacles that occur in some pairs. Each index once, ascending.
 struct PairedBodies {
   std::vector<int> bodies;     ///< into RobotGeometry::bodies
   std::vector<int> links;      ///< into RobotModel::links, of these bodies
@@ -76,28 +78,29 @@ PairedBodies pairedBodies(const std::vector<CheckedPair>& pairs, const RobotGeom
 
 }  // namespace detail
 
-/// Refuses to go on without any pair to check: nothing checked is not clear.
-/// `why` says what became of all pairs.
+/// Makes sure that there is a pair to check, because a robot that was not checked is not proven clear. `why`
+/// explains in the message why no pair is left.
 /// @throws Error naming the robot's file and what would work, unless `checked` is above 0.
 void requirePairs(std::size_t checked, const RobotModel& robot, const std::string& why);
 
 /// Whether a joint, or the base, moves the link. @throws Error for a link that does not exist.
 bool moves(const RobotModel& robot, int link, bool baseMoves = false);
 
-/// Every body against every obstacle, but for bodies that no joint moves.
+/// Every body against every obstacle, except bodies that neither a joint nor the base moves.
 std::vector<CheckedPair> obstaclePairs(const RobotModel& robot, const RobotGeometry& geometry,
                                        std::size_t obstacles, bool baseMoves = false);
 
-/// Replaces primitives by their smooth covers (primitive_cover.h) until every pair has an STP-BV, which makes
-/// its distance C1 (docs/theory.md, 5). A flat capsule is not enough: two of them jump where they turn
-/// through parallel, as a capsule does along a box. Bodies that are smooth already are not touched, nor
-/// meshes that were asked to stay flat: a pair of two of those stays without.
+/// Replaces primitives by their smooth covers (STP-BVs around them), until every pair has an STP-BV. Then
+/// every distance is C1 (docs/theory.md, 5). A plain capsule is not smooth enough: when two of them, or a
+/// capsule and a box, turn through a parallel position, the gradient jumps. The function does not change
+/// bodies that are STP-BVs already. Nor does it change meshes that shall stay flat, so a pair of two such
+/// meshes gets no STP-BV.
 ///
-/// Chosen per body: those first whose cover exceeds the primitive least for each pair it settles,
-/// then those are taken back, the largest excess first, that the others have made needless.
-/// Deterministic; a few more covers than the fewest are possible. `scene` holds the bodies that
-/// `pairs` name as obstacles, in their order; null without any. @throws Error for a pair of bodies
-/// that do not exist, or a cover that cannot be built.
+/// It is a greedy choice. First it covers the bodies with the smallest over-cover per pair that they make
+/// smooth. Then it removes covers that are no longer needed, the largest over-cover first. The result is
+/// deterministic, but may have a few more covers than necessary. `scene` contains the bodies that `pairs`
+/// name as obstacles, in their order; null without obstacles. @throws Error for a pair of bodies that do not
+/// exist, or a cover that cannot be built.
 void coverPrimitives(const std::vector<CheckedPair>& pairs, RobotGeometry& robot,
                      RobotGeometry* scene = nullptr);
 

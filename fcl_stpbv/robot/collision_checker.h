@@ -1,4 +1,5 @@
-// Does a robot collide at q? For planners, which ask this far more often than for distances.
+// Collision check of a robot at a configuration q: a fast yes-or-no answer for planners, which rarely need
+// distances.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,39 +16,41 @@ namespace fcl_stpbv {
 
 /// A pair that is not known to be clear.
 struct Hit {
-  int pair = -1;  ///< among pairs(); -1 where q is no configuration, so that nothing is clear
-  CheckedPair bodies{-1, -1, false};  ///< the pair's
+  int pair = -1;  ///< index into pairs(); -1 if q is not a valid configuration, so that no pair is clear
+  CheckedPair bodies{-1, -1, false};  ///< the bodies of the pair
 };
 
-/// What verdicts took: counts of work, which unlike times are the same on any machine.
+/// Work of all checks so far, as counts. Unlike times they are the same on any machine.
 struct CheckerWork {
-  long configurations = 0;  ///< asked about
-  long near = 0;            ///< pairs that their spheres did not clear, and that were looked at
-  long searched = 0;        ///< of these, pairs that neither balls nor a plane decided
+  long configurations = 0;  ///< number of configurations checked
+  long near = 0;            ///< pairs whose bounding spheres did not prove them clear, and that were examined
+  long searched = 0;        ///< of these, pairs that neither balls nor a separating plane decided
 };
 
-/// Decides for a robot's fixed pairs whether any comes within a margin. Clear means proven: a q that is not
-/// finite or has another size, and a pair that cannot be measured, as with links 1e160 m away, are not clear.
+/// Decides whether any pair of a fixed list comes within a margin. A pair is called clear only if that is
+/// proven. So nothing is clear at a q that is not finite or has a wrong size, and a pair without a distance
+/// (for example with links 1e160 m away) is not clear.
 ///
-/// Bounding spheres leave few pairs; of these the plane that kept the two bodies apart last time clears most,
-/// and a search that stops as soon as its bounds tell decides the others, those first that hit last. What is
-/// remembered changes the time only; within rounding of the margin itself it may change the verdict. One
-/// thread at a time may use one; copies share the robot and nothing else. No allocation after construction
-/// where all bodies are convex.
+/// Bounding spheres leave few pairs. The separating plane of the last check clears most of these. A search
+/// decides the rest and stops as soon as its bounds suffice; pairs that collided most recently come first.
+/// The cache changes only the time, except for distances within rounding of the margin, where it may change
+/// the verdict. Not thread-safe: only one thread at a time may use a checker; copies share only the robot. No
+/// allocation after construction if all bodies are convex.
 class CollisionChecker {
  public:
   using ConstVector = Eigen::Ref<const Eigen::VectorXd>;  ///< a configuration
 
-  /// A pair is clear if its distance is above `margin` (m; negative: less deep in each other).
+  /// A pair is clear if its signed distance is above `margin` (m). A negative margin allows that depth of
+  /// overlap.
   /// @throws Error for no pairs, a pair that names a body or an obstacle that does not exist, and a margin
   /// that is not a number.
   CollisionChecker(std::shared_ptr<const Kinematics> kinematics,
                    std::shared_ptr<const RobotGeometry> geometry, std::vector<CheckedPair> pairs,
                    std::vector<Obstacle> obstacles = {}, double margin = 0);
-  /// Remembers what the other one does.
+  /// Copies the caches too.
   CollisionChecker(const CollisionChecker& other);
   CollisionChecker& operator=(const CollisionChecker&) = delete;
-  /// Takes over all that the other one has; the other one may only be destroyed.
+  /// Moves the contents of another object, which may only be destroyed afterwards.
   CollisionChecker(CollisionChecker&&) noexcept;
   ~CollisionChecker();
 
@@ -55,7 +58,8 @@ class CollisionChecker {
   const std::vector<CheckedPair>& pairs() const;
   /// The robot.
   const Kinematics& kinematics() const;
-  /// The names of a pair's bodies. @throws Error for a pair that does not exist, as that of a q that is none.
+  /// The names of a pair's bodies. @throws Error for an index that does not exist, such as the -1 of a Hit
+  /// without a pair.
   std::string name(int pair) const;
 
   /// The margin (m).
@@ -65,17 +69,18 @@ class CollisionChecker {
 
   /// Whether any pair is not known to be clear.
   bool collides(const ConstVector& q);
-  /// Such a pair, the first one found; nothing where all are clear.
+  /// A pair that is not known to be clear: the first one found. No value if all pairs are clear.
   std::optional<Hit> firstHit(const ConstVector& q);
-  /// All such pairs, ascending; one Hit without a pair where q is no configuration.
+  /// All such pairs, in ascending order. A single Hit with pair -1 if q is not a valid configuration.
   const std::vector<Hit>& allHits(const ConstVector& q);
-  /// The least distance of all pairs (m), as CollisionConstraints measures them: signed, at deep overlap a
-  /// lower bound. The lowest of all doubles where q is no configuration or a pair cannot be measured.
+  /// The least signed distance of all pairs (m), as in CollisionConstraints; for deep overlap it is a lower
+  /// bound. The lowest double if q is not a valid configuration or a pair has no distance.
   double minDistance(const ConstVector& q);
 
-  /// What all verdicts so far took.
+  /// The work of all checks so far.
   const CheckerWork& work() const;
-  /// Forgets all pairs' planes: the next configuration has nothing to do with the last one.
+  /// Drops the separating planes of all pairs. Call it if the next configuration is unrelated to the last
+  /// one.
   void forget();
 
  private:

@@ -1,4 +1,4 @@
-// All distances of a robot and their Jacobian, as an optimiser or a controller asks for them.
+// All distances of a robot and their Jacobian, for an optimiser or a controller.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,59 +17,65 @@
 
 namespace fcl_stpbv {
 
-/// A smooth function of some coordinates that stands for pairs whose hulls would be too fat, as around a hip
-/// or a shoulder (paper VI: 8 of its 117 constraints).
+/// A smooth function of some coordinates that replaces pairs of links whose convex hulls would be too large,
+/// such as around a hip or a shoulder (paper VI: 8 of its 117 constraints).
 struct SmoothConstraint {
   std::string name;              ///< for messages and reports
   std::vector<int> coordinates;  ///< ascending
-  /// Value at q, positive where allowed; writes one derivative per coordinate unless `gradient` is null. A
-  /// velocity damper compares it with the distances of the pairs (m). Called from one thread at a time for
-  /// each constraint. Must not throw; must not allocate if evaluate() shall not.
+  /// Returns the value at q, positive for allowed configurations. Writes one derivative per entry of
+  /// `coordinates`, unless `gradient` is null. A velocity damper treats the value like a distance (m). It is
+  /// called from one thread at a time for each constraint. It must not throw. It must not allocate if
+  /// evaluate() shall not allocate.
   std::function<double(const Eigen::Ref<const Eigen::VectorXd>& q, double* gradient)> value;
-  std::vector<std::pair<std::string, std::string>> replaces;  ///< pairs of links that are left out for it
+  /// Names of the pairs of links that it replaces.
+  std::vector<std::pair<std::string, std::string>> replaces;
 };
 
-/// Which rows there are beside those of the pairs, and how far they reach.
+/// Additional rows, and the distances up to which rows are active.
 struct ConstraintOptions {
-  /// Pairs farther apart than this (m) cost one test of their bounding spheres. Their rows are constant:
-  /// beyond `exactUpTo` a row leaves the distance d and bends over, twice continuously differentiable, to
-  /// (influence + exactUpTo) / 2.
+  /// Pairs farther apart than this (m) cost only one test of their bounding spheres. Their rows have the
+  /// constant value (influence + exactUpTo) / 2. Up to `exactUpTo` a row is the distance d. In between it
+  /// goes over to the constant, with continuous second derivatives.
   double influence = std::numeric_limits<double>::infinity();
-  double exactUpTo = -1;  ///< less than the influence (m); negative: half of it
-  /// Two bodies whose convex parts are among the pairs (RobotGeometry::byParts) get one more row, that of the
-  /// whole bodies, before the first of their parts'. Where the whole ones are farther apart than this (m), no
-  /// part is asked and the parts' rows are constant at 3/4 of it, or less with `exactUpTo`; from half of it
-  /// down the new row is constant there and the parts' are exact; between, every row bends as above.
-  /// Infinite: no such rows.
+  double exactUpTo = -1;  ///< must be less than the influence (m); negative: half the influence
+  /// For two bodies whose convex parts are among the pairs (RobotGeometry::byParts): adds a row for the whole
+  /// bodies, before the first row of their parts. If the whole bodies are farther apart than `handOver` (m),
+  /// no part is queried, and the rows of the parts have the constant value 3/4 handOver, or less with
+  /// `exactUpTo`. If they are nearer than handOver / 2, the added row has that constant value and the rows of
+  /// the parts are exact. In between every row goes over smoothly, as above. Infinite: no such rows.
   double handOver = std::numeric_limits<double>::infinity();
-  std::vector<Obstacle> obstacles;       ///< that pairs may name
+  std::vector<Obstacle> obstacles;       ///< the obstacles that pairs refer to
   std::vector<SmoothConstraint> smooth;  ///< rows after those of the pairs
 };
 
-/// What a controller asks for at every tick, row by row.
+/// Values and rates of all rows, for a controller.
 struct RowRates {
   Eigen::VectorXd d;      ///< (m)
   Eigen::VectorXd speed;  ///< dd/dt = J qd (m/s)
-  /// qd' H qd, H the Hessian of d: dJ/dt qd, the second derivative of d while qd stays what it is (m/s^2).
+  /// qd' H qd = dJ/dt qd, where H is the Hessian of d: the second time derivative of d at constant qd
+  /// (m/s^2).
   Eigen::VectorXd drift;
 };
 
-/// An answer that moves: after evaluate(q, qd) with the velocities at qd, else with zeros.
+/// An answer with the velocities of its normal and points. They are those at qd after evaluate(q, qd),
+/// otherwise zero.
 struct RowAnswer : DistanceAnswer {
   Eigen::Vector3d normalVelocity{0, 0, 0};  ///< (1/s), world axes
-  /// Of the witness points, which slide on their bodies (m/s), world axes.
+  /// Velocities of the witness points, which slide on their bodies (m/s), world axes.
   std::array<Eigen::Vector3d, 2> pointVelocity{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
 };
 
-/// d(q) and J(q): one row per pair of bodies, then one per smooth constraint. Each row starts its query from
-/// its last answer. One thread at a time may use one; no allocation after construction where every pair is of
-/// STP-BVs. ConstraintsBatch (batch.h) has threads, and a copy shares the robot and nothing else.
+/// Distances d(q) and Jacobian J(q): one row per pair of bodies, then one per smooth constraint. Each row's
+/// query starts from its last answer. Not thread-safe: only one thread at a time may use an object; copies
+/// share only the robot, and ConstraintsBatch (batch.h) uses several threads. No allocation after
+/// construction if every pair consists of two STP-BVs.
 ///
-/// J is the paper's eq. 2 with the velocities of the witness points taken as fixed to their bodies; the
-/// motions of Kinematics are its pre-gradient matrices, put together once per configuration for all pairs.
+/// J follows the paper's eq. 2, with the velocities of the points that are fixed to the bodies at the witness
+/// points. The paper's pre-gradient matrices are the motions of Kinematics. They are computed once per
+/// configuration for all pairs.
 class CollisionConstraints {
  public:
-  using Vector = Eigen::Ref<Eigen::VectorXd>;             ///< room for results
+  using Vector = Eigen::Ref<Eigen::VectorXd>;             ///< output vector
   using ConstVector = Eigen::Ref<const Eigen::VectorXd>;  ///< a configuration, or one number per row
   using SparseJacobian = Eigen::SparseMatrix<double, Eigen::RowMajor>;  ///< rows() x columns()
   using SparseHessian = Eigen::SparseMatrix<double>;                    ///< columns() x columns()
@@ -82,45 +88,45 @@ class CollisionConstraints {
   int rows() const { return static_cast<int>(rowStart_.size()) - 1; }
   /// Number of coordinates.
   int columns() const { return kinematics_->size(); }
-  /// The pairs of the first rows: without those that smooth constraints replace, with those of whole bodies
-  /// that hand over to their parts.
+  /// The pairs of the first rows. Pairs that smooth constraints replace are missing; pairs of whole bodies
+  /// from `handOver` are added.
   const std::vector<CheckedPair>& pairs() const { return pairs_; }
-  /// The two bodies of a row, or the smooth constraint's name. @throws Error for a row that does not exist,
-  /// as all do that are asked for one, and as all below do for a q or a result of another size than theirs.
+  /// Name of a row: its two bodies, or the smooth constraint's name. @throws Error for a row that does not
+  /// exist. All functions below throw Error for such a row, and for a q or an output of a wrong size.
   std::string name(int row) const;
-  /// Up to where a row's value is its distance (m): beyond it bends over, for `influence` or `handOver`. For
-  /// the row of whole bodies this bounds what `influence` does to it.
+  /// The distance up to which a row's value is its distance (m). Beyond it the row goes over to a constant,
+  /// because of `influence` or `handOver`. For the row of whole bodies it is the limit that comes from
+  /// `influence`.
   double exactUpTo(int row) const;
 
-  /// The entries of J that may differ from 0, row by row, columns ascending.
+  /// Number of entries of J that may differ from 0. They are ordered by row, then by column.
   int nonZeros() const { return static_cast<int>(column_.size()); }
-  /// Where each row begins among the entries, and one past the last.
+  /// Index of each row's first entry, and one past the last entry (as in compressed sparse row format).
   const std::vector<int>& rowStart() const { return rowStart_; }
   /// The column of each entry.
   const std::vector<int>& columnIndices() const { return column_; }
-  /// A matrix of that structure, for evaluate() to fill.
+  /// A sparse matrix of this structure, to be filled by evaluate().
   SparseJacobian makeJacobian() const;
 
-  /// Distances, and with `jacobian` their derivatives. Where a coordinate of q is not finite nothing is
-  /// known: each d is the lowest of all doubles, which no optimiser takes for clear, each derivative 0, each
-  /// answer() `invalid`. So is, of a q that is finite, the row of a pair that cannot be measured, as with
-  /// links 1e160 m away.
-  /// @returns whether q was finite.
+  /// Distances (m), and with `jacobian` their derivatives. If a coordinate of q is not finite, nothing is
+  /// known: each d is the lowest double, which no optimiser takes for clear, each derivative is 0, and each
+  /// answer() is `invalid`. For a finite q, the same holds for the row of a pair without a distance, for
+  /// example with links 1e160 m away. @returns whether q was finite.
   bool evaluate(const ConstVector& q, Vector d);
-  /// With the nonZeros() entries of J.
+  /// The same with the nonZeros() entries of J.
   bool evaluateValues(const ConstVector& q, Vector d, Vector values);
-  /// With J in the structure of makeJacobian().
+  /// The same with J in the structure of makeJacobian().
   bool evaluate(const ConstVector& q, Vector d, SparseJacobian& jacobian);
-  /// With J as a dense matrix, rows() x columns().
+  /// The same with J as a dense matrix, rows() x columns().
   bool evaluate(const ConstVector& q, Vector d, Eigen::Ref<Eigen::MatrixXd> jacobian);
 
-  /// Room for one row's numbers each.
+  /// Vectors of the right size for evaluate(q, qd).
   RowRates makeRates() const;
-  /// d and J at q and how they change as q moves with the velocity qd. Closed form (docs/robot.md), on a
-  /// region boundary that of one side, for a mesh or a tree that of its nearest triangle or cell; central
-  /// differences for the drift of smooth constraints and of the few answers that have no second derivative. A
-  /// q or qd that is not finite, or a qd above 1e100, whose square may overflow, gives what it gives above,
-  /// and rates of 0.
+  /// d and J at q, and their rates while q moves with velocity qd. The rates are in closed form
+  /// (docs/robot.md). On a region boundary they are those of one side; for a mesh or an octree they are those
+  /// of its nearest triangle or cell. The drift is from central differences for smooth constraints and for
+  /// the few answers without a second derivative. If q or qd is not finite, or qd is above 1e100 so that its
+  /// square may overflow, d and J are as for a q that is not finite, and the rates are 0.
   bool evaluateValues(const ConstVector& q, const ConstVector& qd, RowRates& rates, Vector values);
   /// The same with J in the structure of makeJacobian().
   bool evaluate(const ConstVector& q, const ConstVector& qd, RowRates& rates, SparseJacobian& jacobian);
@@ -128,36 +134,37 @@ class CollisionConstraints {
   bool evaluate(const ConstVector& q, const ConstVector& qd, RowRates& rates,
                 Eigen::Ref<Eigen::MatrixXd> jacobian);
 
-  /// Most that |dJ/dt| of a row may be at the last evaluate(q, qd), in the 2-norm, whatever the patches: from
-  /// both bodies' r and R, their distance and their velocities (docs/control.md). Infinite without a
-  /// velocity, for bodies that are neither STP-BVs nor polyhedra, for smooth constraints, and where nothing
-  /// bounds it.
+  /// Upper bound on the 2-norm of a row's dJ/dt at the last evaluate(q, qd). It uses both bodies' r and R,
+  /// their distance and their velocities (docs/control.md), and holds for any patches. Infinite after an
+  /// evaluation without velocity, for bodies that are neither STP-BVs nor polyhedra, for smooth constraints,
+  /// and if there is no bound.
   double gradientRateBound(int row) const;
 
-  /// Sum over the rows of weight times (Hessian of d) times v: the change of J as q moves along v. Closed
-  /// form and differences as above. Rows of weight 0 count for nothing, whatever they are. Where one of these
-  /// numbers is not finite, or one of the weights or of v above 1e100, 0. @returns whether all were.
+  /// Sum over the rows of weight * (Hessian of d) * v: the weighted change of J as q moves along v. Closed
+  /// form or central differences, as above. Rows with weight 0 are ignored. If an input is not finite, or a
+  /// weight or an entry of v is above 1e100, `out` is 0. @returns whether all inputs were usable.
   bool hessianVector(const ConstVector& q, const ConstVector& weights, const ConstVector& v, Vector out);
 
-  /// The lower triangle that a weighted sum of the rows' Hessians may fill, for hessian() to fill: columns
-  /// one after the other, rows ascending; the structure never changes.
+  /// A sparse matrix for hessian() to fill: the lower triangle of a weighted sum of the rows' Hessians, in
+  /// column order with ascending rows. The structure never changes.
   SparseHessian makeHessian() const;
-  /// Sum over the rows of weight times Hessian of d: the constraints' part of a Lagrangian's Hessian, as
-  /// IPOPT asks for it. The first call makes room for what it needs. Numbers that are not finite as above.
+  /// Sum over the rows of weight * Hessian of d: the constraints' part of the Hessian of a Lagrangian, as
+  /// IPOPT needs it. The first call allocates memory. Inputs that are not finite are handled as above.
   /// @throws Error for a matrix of another structure than makeHessian()'s.
   bool hessian(const ConstVector& q, const ConstVector& weights, SparseHessian& lower);
-  /// The Hessian of one row, columns() x columns(), symmetric. Numbers that are not finite as above.
+  /// The Hessian of one row, columns() x columns(), symmetric. Inputs that are not finite are handled as
+  /// above.
   /// @throws Error for a matrix of another size.
   bool hessian(const ConstVector& q, int row, Eigen::Ref<Eigen::MatrixXd> full);
 
-  /// What the last evaluation found for a pair; status `invalid` where its spheres were enough, and for the
-  /// row of a smooth constraint, which has no points. hessian() asks only the rows that it is given weights
-  /// for: after it evaluate anew.
+  /// The answer of a row's pair at the last evaluation. The status is `invalid` if the bounding spheres were
+  /// enough, and for the row of a smooth constraint, which has no points. hessian() queries only rows whose
+  /// weight is not 0, so call evaluate() again before answer().
   RowAnswer answer(int row) const;
-  /// Where the links were at the last evaluation: those of the rows' bodies and all that carry them. The
-  /// others are not placed.
+  /// The poses of the links at the last evaluation. Only the links of the rows' bodies and their ancestors
+  /// are up to date.
   const Kinematics::State& state() const { return state_; }
-  /// Makes the next evaluation start as the first one did.
+  /// Drops all cached answers: the next evaluation starts like the first one.
   void forget();
 
  private:

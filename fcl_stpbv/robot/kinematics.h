@@ -1,4 +1,4 @@
-// Where a robot's links are at a configuration, and how each coordinate moves them.
+// Forward kinematics: the poses of a robot's links at a configuration, and how each coordinate moves them.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,114 +12,120 @@
 
 namespace fcl_stpbv {
 
-/// How the root link moves in the world.
+/// How the root link can move in the world.
 enum class BaseMotion { fixed, planar, floating };
 
-/// Velocity of a rigid body per unit of one coordinate: that of the world's origin as if carried by the body,
-/// and the angular one. World axes.
+/// Velocity of a rigid body per unit of one coordinate. `linear` is the velocity of the body-fixed point that
+/// is at the world's origin (spatial velocity). World axes.
 struct Twist {
   Eigen::Vector3d linear{0, 0, 0};   ///< m/s, or m per unit
   Eigen::Vector3d angular{0, 0, 0};  ///< rad/s, or rad per unit
 };
 
-/// Coordinates q of a robot: joints in the order of the URDF, the moving base before them. One per revolute,
-/// continuous or prismatic joint (rad, m); x, y and angle for a planar one; position and rotation vector
-/// (axis times angle, in the joint's frame, best kept below pi) for a floating one; none for a mimic joint.
+/// The coordinates q of a robot: first those of a moving base, then those of the joints in the order of the
+/// URDF. A revolute, continuous or prismatic joint has one (rad or m). A planar joint has x, y and angle. A
+/// floating joint has a position and a rotation vector (axis times angle, in the joint's frame; keep the
+/// angle below pi). A mimic joint has none.
 class Kinematics {
  public:
-  /// One degree of freedom of one joint. A mimic joint's belongs to the coordinate it follows.
+  /// One degree of freedom of one joint. For a mimic joint the coordinate is that of the joint it follows.
   struct Motion {
-    int joint;          ///< -1 for the base
+    int joint;          ///< index of the joint; -1 for the base
     int coordinate;     ///< in q
     double multiplier;  ///< how far the joint moves per unit of the coordinate
   };
 
-  /// What the pair of two links depends on: `sign` is +1 where the motion carries the second link and not the
-  /// first, -1 where it is the other way round. Motions of both cancel and are left out.
+  /// A motion that changes the pose of two links relative to each other. `sign` is +1 if it moves the second
+  /// link but not the first, -1 if it moves the first but not the second. A motion that moves both cancels
+  /// and is left out.
   struct Dependence {
     int motion;   ///< index into motions()
     double sign;  ///< +1 or -1
   };
 
-  /// Room for one configuration, to be used again and again.
+  /// Poses and motions at one configuration. Make it once with makeState() and reuse it.
   struct State {
     std::vector<Eigen::Isometry3d> link;  ///< pose of each link in the world
-    std::vector<Twist> motion;            ///< of the links below each motion, multiplier included
+    /// Velocity of the links below each motion, per unit of its coordinate (the multiplier is included).
+    std::vector<Twist> motion;
   };
 
-  /// How a State changes as q moves.
+  /// Time derivatives of a State while q moves.
   struct Rate {
     std::vector<Twist> link;    ///< velocity of each link
-    std::vector<Twist> motion;  ///< change of each motion's twist
-    std::vector<Twist> drift;   ///< change of each link's velocity while that of q stays what it is
+    std::vector<Twist> motion;  ///< time derivative of each motion's twist
+    std::vector<Twist> drift;   ///< time derivative of each link's velocity at constant velocity of q
   };
 
-  /// Some links and all that carry them, down from the root: what has to be placed to place them.
+  /// Some links and all their ancestors: the links that must be computed to place them.
   class Subtree {
     friend class Kinematics;
     std::vector<int> steps_;  // parents first
   };
 
-  /// Coordinates for a robot whose base moves like that. @throws Error naming the robot's file where two
-  /// coordinates have one name, as those of a planar joint `p` and of a joint `p/x`.
+  /// Makes the coordinates for a robot with this base motion. @throws Error naming the robot's file if two
+  /// coordinates have the same name, such as those of a planar joint `p` and a joint `p/x`.
   explicit Kinematics(std::shared_ptr<const RobotModel> robot, BaseMotion base = BaseMotion::fixed);
 
   /// The model given.
   const RobotModel& robot() const { return *robot_; }
   /// Number of coordinates.
   int size() const { return static_cast<int>(names_.size()); }
-  /// A joint's name, with `/x`, `/y`, `/angle`, `/z`, `/rx`, `/ry`, `/rz` after it where it has several.
+  /// Name of each coordinate: the joint's name, followed by `/x`, `/y`, `/angle`, `/z`, `/rx`, `/ry` or `/rz`
+  /// if the joint has several coordinates.
   const std::vector<std::string>& names() const { return names_; }
-  /// Least values of the coordinates (rad or m), -infinity where nothing limits them.
+  /// Lower limits of the coordinates (rad or m), -infinity for those without a limit.
   const Eigen::VectorXd& lower() const { return lower_; }
-  /// Largest values.
+  /// Upper limits of the coordinates (rad or m), infinity for those without a limit.
   const Eigen::VectorXd& upper() const { return upper_; }
   /// All degrees of freedom, parents first.
   const std::vector<Motion>& motions() const { return motions_; }
   /// Whether the base has coordinates of its own.
   bool baseMoves() const { return !motions_.empty() && motions_.front().joint < 0; }
 
-  /// All zero, clamped into the limits.
+  /// The neutral configuration: all coordinates zero, clamped to the limits.
   const Eigen::VectorXd& neutral() const { return neutral_; }
-  /// The neutral configuration with what a group_state says. Joints that the robot does not have count for
-  /// nothing (loadSrdf() warns of them), and so does a virtual joint.
-  /// @throws Error naming state and joint: where the number of values is wrong, or a joint that is fixed or
-  /// mimics another one would have another value than it takes.
+  /// The neutral configuration with the values of an SRDF group_state. Joints that the robot does not have
+  /// are ignored (loadSrdf() warns of them), and so is a virtual joint. @throws Error naming state and joint,
+  /// if the number of values is wrong, or if the state gives a fixed or mimic joint a value that it cannot
+  /// have.
   Eigen::VectorXd configuration(const Srdf::State& state) const { return configuration(state, neutral_); }
   /// The same with `rest`, of size() entries, in place of the neutral configuration.
   Eigen::VectorXd configuration(const Srdf::State& state, Eigen::VectorXd rest) const;
   /// First coordinate of a joint by name, -1 for fixed, mimic and unknown ones.
   int coordinate(const std::string& joint) const;
 
-  /// Room for forward().
+  /// A State of the right size for forward().
   State makeState() const;
   /// These links and their ancestors. @throws Error for a link that does not exist.
   Subtree subtree(const std::vector<int>& links) const;
   /// Fills the state. Never throws or allocates; `q` has size() entries.
   void forward(const Eigen::Ref<const Eigen::VectorXd>& q, State& state) const { forward(q, state, whole_); }
-  /// Fills what a part of the robot has in the state, as it is in forward(); the rest stays.
+  /// The same for a part of the robot. The rest of the state is not changed.
   void forward(const Eigen::Ref<const Eigen::VectorXd>& q, State& state, const Subtree& only) const;
-  /// Fills the links' poses alone, as they are in forward(): all that a collision check needs.
+  /// Fills only the links' poses, with the same values as forward(). A collision check needs no more.
   void forwardPoses(const Eigen::Ref<const Eigen::VectorXd>& q, State& state) const {
     forwardPoses(q, state, whole_);
   }
   /// The same of a part of the robot.
   void forwardPoses(const Eigen::Ref<const Eigen::VectorXd>& q, State& state, const Subtree& only) const;
 
-  /// Room for differentiate().
+  /// A Rate of the right size for differentiate().
   Rate makeRate() const;
-  /// Fills the rate of `state`, which is that of q, as q moves with velocity v. Never throws or allocates.
+  /// Fills the rate of `state` while q moves with velocity v. `state` must be that of q. Never throws or
+  /// allocates.
   void differentiate(const Eigen::Ref<const Eigen::VectorXd>& q, const Eigen::Ref<const Eigen::VectorXd>& v,
                      const State& state, Rate& rate) const {
     differentiate(q, v, state, rate, whole_);
   }
-  /// The same of a part of the robot that forward() has placed.
+  /// The same for a part of the robot that forward() has computed.
   void differentiate(const Eigen::Ref<const Eigen::VectorXd>& q, const Eigen::Ref<const Eigen::VectorXd>& v,
                      const State& state, Rate& rate, const Subtree& only) const;
 
-  /// The motions that change where one link is to the other. @throws Error for a link that does not exist.
+  /// The motions that change the pose of link1 relative to link2. @throws Error for a link that does not
+  /// exist.
   std::vector<Dependence> dependence(int link1, int link2) const;
-  /// The motions that carry a link. @throws Error for one that does not exist.
+  /// The motions that move a link in the world. @throws Error for a link that does not exist.
   std::vector<Dependence> dependence(int link) const;
 
  private:

@@ -1,4 +1,4 @@
-// The collision bodies of a robot's links: STP-BVs of meshes, and primitives as they are.
+// The collision bodies of a robot's links: STP-BVs around meshes, and primitives.
 #pragma once
 
 #include <fcl/geometry/collision_geometry.h>
@@ -20,121 +20,132 @@
 
 namespace fcl_stpbv {
 
-/// The usual place of built volumes: $XDG_CACHE_HOME/fcl_stpbv, else
-/// ~/.cache/fcl_stpbv; "" where neither is known.
+/// The default folder of the cache of volumes: $XDG_CACHE_HOME/fcl_stpbv, else ~/.cache/fcl_stpbv; "" if
+/// neither is known.
 std::string defaultCacheFolder();
 
-/// What volumes a robot's links get.
+/// Options of loadGeometry().
 struct GeometryOptions {
-  StpBvOptions radii;  ///< of every link's volumes
-  bool fitr = false;   ///< an r that fits each body's size, instead of radii.r (docs/choosing_r_and_R.md)
-  bool fitR = false;   ///< an R that fits each body's size, instead of radii.R
-  /// Both radii of each mesh by adviseRadii() for this task, before all of the above. A warning counts the
-  /// bodies that cannot keep both promises. Primitives have the radii above.
+  StpBvOptions radii;  ///< r and R for the volumes of every link
+  /// Whether to choose r by each body's size, instead of radii.r (docs/choosing_r_and_R.md).
+  bool fitr = false;
+  bool fitR = false;  ///< whether to choose R by each body's size, instead of radii.R
+  /// If set, adviseRadii() chooses both radii of each mesh for this task; this overrides the members above. A
+  /// warning counts the bodies that cannot keep both budgets. Primitives keep the radii above.
   std::optional<RadiiTask> advice;
-  std::map<std::string, StpBvOptions> links;  ///< of single links, by name: these win
-  /// Most that a volume may exceed the hull of its mesh by (m), 0 for any. With one a volume gets few
-  /// vertices (reduce()) and a larger r to cover the others; R is doubled first until all vertices keep to
-  /// the budget. The budget must be above r.
+  /// Radii of single links, by name; they override all of the above.
+  std::map<std::string, StpBvOptions> links;
+  /// Limit on a volume's over-cover over the hull of its mesh (m); 0 for no limit. With a limit, a volume
+  /// gets few vertices (reduce()) and a larger r that covers the others. Before that, R is doubled until the
+  /// volume with all vertices keeps the limit. The limit must be above r.
   double overCoverBudget = 0;
-  /// The same of single links, by name.
+  /// The same for single links, by name.
   std::map<std::string, double> budgets;
-  /// The meshes of all links stay convex polyhedra, without STP-BVs. Enough where a pair's other body is
-  /// smooth.
+  /// Whether the meshes of all links stay convex polyhedra, without STP-BVs. That is enough if the other body
+  /// of each pair is an STP-BV.
   bool flat = false;
-  std::set<std::string> flatLinks;                 ///< only the meshes of these links stay so
-  bool visual = false;                             ///< the visual shapes instead of the collision shapes
-  std::vector<std::string> packagePath;            ///< folders for package:// names, before all others
+  std::set<std::string> flatLinks;  ///< links whose meshes stay convex polyhedra
+  /// Whether to use the visual shapes instead of the collision shapes.
+  bool visual = false;
+  std::vector<std::string> packagePath;            ///< folders to search first for package:// names
   std::string cacheFolder = defaultCacheFolder();  ///< "" for no cache
-  int threads = 1;                                 ///< that share the building; any number gives the same
-  /// Called before each shape with its index and the number of all, by one thread at a time.
+  /// Number of threads that build; the result does not depend on it.
+  int threads = 1;
+  /// Called before each shape with its index, the number of all shapes and a text; by one thread at a time.
   std::function<void(std::size_t, std::size_t, const std::string&)> progress;
 };
 
 /// One shape of one link.
 struct Body {
-  int link = -1;                                      ///< index into RobotModel::links
-  std::string name;                                   ///< the link's, with #2, #3 ... for its further shapes
+  int link = -1;  ///< index into RobotModel::links
+  /// The link's name, with #2, #3 ... for its second, third ... shape.
+  std::string name;
   Eigen::Isometry3d pose;                             ///< in the link's frame; a rotation to rounding
   std::shared_ptr<fcl::CollisionGeometryd> geometry;  ///< what queries get
-  StpBvOptions radii;  ///< those asked for, or fitted; of a flat primitive those that its cover would have
-  StpBv::Ptr volume;   ///< null for a flat primitive and for a flat mesh
-  std::optional<RadiiAdvice> advice;  ///< where GeometryOptions::advice asked for it
-  /// The volume of all the mesh's points where `volume` is a reduced one, or so round that corners of the
-  /// hull lie inside; else null.
+  /// The radii from the options, or fitted; for a flat primitive those that its cover would get.
+  StpBvOptions radii;
+  StpBv::Ptr volume;                  ///< null for a flat primitive and for a flat mesh
+  std::optional<RadiiAdvice> advice;  ///< set if GeometryOptions::advice was used
+  /// The volume of all points of the mesh, if `volume` is a reduced one, or if its R is so small that corners
+  /// of the hull lie inside it; else null.
   std::shared_ptr<const StpBvGeometry> full;
   std::shared_ptr<fcl::CollisionGeometryd> primitive;  ///< the primitive under its smooth cover, else null
   std::string file;                                    ///< "" for a primitive
-  std::string meshKey;                                 ///< of the file and the scale, for caches; else ""
-  Eigen::Vector3d scale{1, 1, 1};                      ///< of the mesh
-  Eigen::Vector3d centre;  ///< of a sphere that holds the body, in the link's frame
-  double radius = 0;       ///< of that sphere (m)
-  OverCover cover{0, 0};   ///< what the volume exceeds the mesh's hull or the primitive by (m)
-  int partOf = -1;        ///< index of the body that this is a convex part of (LinkParts), -1 for a whole one
-  int parts = 0;          ///< of a whole body: how many parts stand for it in pairs taken by parts
-  double excess = 0;      ///< of a part: most that its hull exceeds the mesh's solid by (m)
+  /// Identifies the file's content and scale in caches; "" for a primitive.
+  std::string meshKey;
+  Eigen::Vector3d scale{1, 1, 1};  ///< of the mesh
+  Eigen::Vector3d centre;          ///< centre of a bounding sphere, in the link's frame (m)
+  double radius = 0;               ///< of that sphere (m)
+  OverCover cover{0, 0};           ///< over-cover of the volume over the mesh's hull or the primitive (m)
+  int partOf = -1;  ///< for a convex part (LinkParts): index of its whole body; -1 for a whole body
+  /// For a whole body: number of its convex parts, which replace it in pairs of `byParts`.
+  int parts = 0;
+  double excess = 0;      ///< for a part: upper bound on the excess of its hull over the mesh as a solid (m)
   double openExcess = 0;  ///< the same over the mesh's triangles alone (m)
-  int openPieces = 0;     ///< of a part: pieces of the mesh that are not closed, whose inside no part covers
-  std::vector<Eigen::Vector3d> hull;  ///< of a part: the corners of its hull, in the body's frame (m)
+  /// For a part: number of pieces of the mesh that are not closed, so that no part covers their inside.
+  int openPieces = 0;
+  std::vector<Eigen::Vector3d> hull;  ///< for a part: the corners of its hull, in the body's frame (m)
 
-  /// Whether `volume` has fewer vertices than its r and R leave, and a larger r instead.
+  /// Whether `volume` was reduced: it has fewer vertices, and a larger r instead.
   bool isReduced() const { return full && volume->radii().r > full->volume().radii().r; }
 };
 
 /// Two links, or a link and an obstacle.
 struct LinkPair {
   int link1;              ///< index into RobotModel::links
-  int link2;              ///< link, or index among the obstacles
+  int link2;              ///< index of a link, or of an obstacle
   bool obstacle = false;  ///< whether `link2` is an obstacle
 };
-/// Two links are the same pair in either order.
+/// Ordering of pairs. Two links are the same pair in either order.
 bool operator<(const LinkPair& a, const LinkPair& b);
 
 /// The bodies of all links.
 struct RobotGeometry {
   std::vector<Body> bodies;           ///< in the order of the links
-  std::vector<std::string> warnings;  ///< whole sentences, to be told to the user
-  int fromCache = 0;                  ///< volumes that needed no building
-  std::set<LinkPair> byParts;         ///< pairs that are taken by their bodies' parts, not whole
-  std::set<int> incomplete;           ///< links that a shape was left out of, as it could not be read
+  std::vector<std::string> warnings;  ///< whole sentences for the user
+  int fromCache = 0;                  ///< number of volumes that came from the cache
+  /// Pairs that use the convex parts of their bodies, not the whole bodies.
+  std::set<LinkPair> byParts;
+  std::set<int> incomplete;  ///< links of which a shape is missing, because it could not be read
 
-  /// Whether this body stands for its link where the pair is, or is not, taken by parts.
+  /// Whether this body is used in a pair: `inParts` states whether the pair is in `byParts`.
   bool counts(int body, bool inParts) const;
   /// Bodies of a link: first index and one past the last.
   std::pair<int, int> of(int link) const;
 };
 
-/// Reads the meshes and builds the volumes; primitives stay as they are until coverPrimitives()
-/// (checked_pairs.h). A link without collision shapes has no body; where the whole robot has none, its visual
-/// shapes are taken with a warning.
-/// @throws Error listing all that is wrong, each naming the URDF, the link, the file and what would work;
-/// what can be told before a volume is built is told before.
+/// Reads the meshes and builds the volumes. Primitives are kept; coverPrimitives() (checked_pairs.h) can
+/// replace them. A link without collision shapes has no body. If the whole robot has no collision shapes, its
+/// visual shapes are used, with a warning.
+/// @throws Error listing everything that is wrong. Each entry names the URDF, the link, the file and what
+/// would work. Faults that do not need a volume are reported before any volume is built.
 RobotGeometry loadGeometry(const RobotModel& robot, const GeometryOptions& options = {});
 
-/// A robot's bodies and their convex parts. Each mesh is read at most once, and split once for each number of
-/// parts, by any number of threads that ask; what was found is kept in the cache for the next run.
+/// A robot's bodies and their convex parts. Each mesh is read at most once, and split at most once for each
+/// number of parts, even if several threads use it. The results are stored in the cache for the next run.
 class LinkParts {
  public:
-  /// `whole` has no parts yet. `cacheFolder`: as GeometryOptions::cacheFolder, "" for no cache.
+  /// `whole` must not have parts yet. `cacheFolder`: see GeometryOptions::cacheFolder; "" for no cache.
   explicit LinkParts(std::shared_ptr<const RobotGeometry> whole,
                      const std::string& cacheFolder = defaultCacheFolder());
   ~LinkParts();
 
-  /// The bodies that stand for one whole body when it is split into `most` parts: with its radii, or flat as
-  /// it is; `partOf` is `body`. One alone is the mesh's hull: of a convex mesh, or where `most` is 1. None
-  /// for a primitive and for points without triangles.
+  /// The parts of one whole body, split into at most `most` parts. They have the radii of the body, or are
+  /// flat if it is flat; `partOf` is `body`. A convex mesh, or `most` = 1, gives a single part, the mesh's
+  /// hull. A primitive, or points without triangles, gives none.
   /// @throws Error naming the mesh, and for a body that does not exist.
   const std::vector<Body>& of(int body, int most);
 
-  /// Makes by several threads what geometry(most, ...) would have to make; `progress` as GeometryOptions'.
+  /// Computes in advance, on several threads, the parts that geometry(most, ...) needs. `progress`: see
+  /// GeometryOptions.
   void prepare(const std::map<int, int>& most, int threads,
                const std::function<void(std::size_t, std::size_t, const std::string&)>& progress = nullptr);
 
-  /// The whole bodies, and beside them the parts of those links that have an
-  /// entry in `most`; `byParts` as given.
+  /// The whole bodies and, for each link in `most`, its parts (at most that many). `byParts` becomes
+  /// RobotGeometry::byParts.
   RobotGeometry geometry(const std::map<int, int>& most, const std::set<LinkPair>& byParts);
 
-  /// The bodies as they were given.
+  /// The whole bodies, as given to the constructor.
   const RobotGeometry& whole() const { return *whole_; }
 
  private:

@@ -1,4 +1,5 @@
-// Reads triangle meshes and point clouds from the files that robots ship; writes meshes for viewing.
+// Reads triangle meshes and point clouds from the mesh files of robot descriptions; writes meshes for
+// viewing.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,33 +10,33 @@
 
 namespace fcl_stpbv {
 
-/// Reads all meshes of a file (STL, OBJ, COLLADA, PLY, glTF, OFF and what else assimp knows) as one, with the
-/// transforms of its nodes applied, then `scale` along each axis. Vertices with equal coordinates become one.
+/// Reads all meshes of a file as one mesh (m). The formats are STL, OBJ, COLLADA, PLY, glTF, OFF and most
+/// others of assimp. The transforms of the file's nodes are applied, then `scale` along each axis. Vertices
+/// with equal coordinates are merged.
 ///
-/// COLLADA's `unit` is applied, so lengths are in metres. Its `up_axis` is not, as in rviz and MoveIt, for
-/// which robot descriptions are made: a point's x stays x. Coordinates in other formats are taken as metres;
-/// 3MF, AMF, DXF, FBX and OpenGEX, which state a unit that is not read, are refused, and X3D where it states
-/// one. assimp stores single precision: a
-/// coordinate of 1 m is good to 0.06 um.
+/// COLLADA's `unit` is applied, so lengths are in metres. Its `up_axis` is ignored, as in rviz and MoveIt,
+/// for which robot descriptions are made: a point's x stays x. In other formats coordinates are taken as
+/// metres. 3MF, AMF, DXF, FBX and OpenGEX state a unit that cannot be read, so they are an error; so is X3D
+/// if it states a unit. assimp stores single precision: a coordinate of 1 m is accurate to 0.06 um.
 ///
-/// Of a qhull polyhedron or point file (`*-ch.txt`, `*.otp`, told by their content; double precision and as
-/// many points as the file holds) the points alone, without triangles.
+/// A qhull polyhedron or point file (`*-ch.txt`, `*.otp`, recognised by its content) gives its points without
+/// triangles, in double precision and without merging.
 /// @throws Error naming the file and what would work.
 TriangleMesh loadMesh(const std::string& path, const Eigen::Vector3d& scale = {1, 1, 1});
 
-/// The points of such a file.
+/// Reads only the points of such a file (m).
 /// @throws Error naming the file and what would work.
 std::vector<Eigen::Vector3d> loadPoints(const std::string& path, const Eigen::Vector3d& scale = {1, 1, 1});
 
-/// Whether saveMesh() knows a format for this name: it ends in .obj, .stl, .ply or .glb.
+/// Whether saveMesh() knows a format for this name: whether it ends in .obj, .stl, .ply or .glb.
 bool canSaveMesh(const std::string& path);
 
-/// Writes a mesh in the format its name ends in, coordinates as they are, in single precision. A failed or
-/// interrupted write leaves an old file as it was.
+/// Writes a mesh in the format of the name's ending. Coordinates are written unchanged, in single precision.
+/// If the write fails or is interrupted, an existing file stays unchanged.
 /// @throws Error naming the file and what would work.
 void saveMesh(const std::string& path, const TriangleMesh& mesh);
 
-/// Writes several meshes as one, each in a colour of its own where the format has colours: .ply and .glb.
+/// Writes several meshes into one file. Each has its own colour if the format has colours (.ply and .glb).
 /// @throws Error as saveMesh().
 void saveColoured(const std::string& path, const std::vector<TriangleMesh>& meshes);
 

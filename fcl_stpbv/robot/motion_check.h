@@ -1,4 +1,5 @@
-// Straight motions of a robot proven free: from one configuration to another no pair comes within a margin.
+// Continuous collision check of a robot: proves that no pair comes within a margin on a straight motion from
+// one configuration to another.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,27 +15,27 @@
 
 namespace fcl_stpbv {
 
-/// The least distance of a pair over a motion, as far as is known.
+/// The least distance of a pair that was found on a motion.
 struct Approach {
   double distance = std::numeric_limits<double>::infinity();  ///< found at `time` (m)
   double time = 0;                                            ///< from 0 to 1
 };
 
-/// What checks the motions of one robot among obstacles; remembers each pair's normal from one check to the
-/// next. One thread at a time may use one.
+/// Checks motions of one robot among obstacles. It caches each pair's normal from one check to the next. Not
+/// thread-safe: only one thread at a time may use it.
 ///
-/// Between two exact distances a bound on how far the bodies' points move along the normal decides
-/// (moving_bodies.h; docs/motion.md): a pair's plane is fixed to the last link that carries both bodies. A
-/// motion is a straight line from q0 to q1 over the time from 0 to 1.
+/// A motion is a straight line from q0 to q1 over the time from 0 to 1. Exact distances are computed at some
+/// times. Between them, a bound on how far the bodies' points move along the normal proves that the pair is
+/// clear (docs/motion.md). A pair's separating plane is fixed to the last link that carries both bodies.
 class MotionCheck {
  public:
   using ConstVector = Eigen::Ref<const Eigen::VectorXd>;  ///< a configuration
 
-  /// @throws Error for no pairs, since nothing checked is not free, and for a pair that names a body or an
-  /// obstacle that does not exist.
+  /// @throws Error for an empty list of pairs, because then nothing would be proven, and for a pair that
+  /// names a body or an obstacle that does not exist.
   MotionCheck(std::shared_ptr<const Kinematics> kinematics, std::shared_ptr<const RobotGeometry> geometry,
               std::vector<CheckedPair> pairs, std::vector<Obstacle> obstacles = {});
-  /// Takes over all that the other one has; the other one may only be destroyed.
+  /// Moves the contents of another object, which may only be destroyed afterwards.
   MotionCheck(MotionCheck&&) noexcept;
   ~MotionCheck();
 
@@ -43,25 +44,27 @@ class MotionCheck {
   /// The robot.
   const Kinematics& kinematics() const;
 
-  /// Whether no pair is within `margin` (m) at q; ends at the first that is.
-  /// False for a q that is not finite or has another size, as all below are not free for one.
+  /// Whether no pair is within `margin` (m) at q. Stops at the first pair that is. False for a q that is not
+  /// finite or has a wrong size; the functions below do not call such a motion free either.
   bool isFree(const ConstVector& q, double margin = 0);
 
-  /// Whether all along the way no pair comes within `margin` (m): a proof, not samples. What cannot be
-  /// decided is not free, such as a half space or plane of the robot that turns against the other body.
+  /// Whether no pair comes within `margin` (m) on the whole motion. This is a proof, not a test of samples.
+  /// False if it cannot be decided, for example for a half space or plane of the robot that rotates relative
+  /// to the other body.
   bool isMotionFree(const ConstVector& q0, const ConstVector& q1, double margin = 0);
 
-  /// The same with the first contact, bracketed to the request's tolerance, and its pair. Undecided for a q
-  /// that is not finite or has another size.
+  /// The same, but also finds the pair of the first contact, and brackets its time to the request's
+  /// tolerance. Undecided for a q that is not finite or has a wrong size.
   MotionBracket firstContact(const ConstVector& q0, const ConstVector& q1, const MotionRequest& request = {});
 
-  /// Lowers each pair's `best` to what it comes to between q0 and q1, to within `precision`
-  /// (m): nowhere is a pair nearer than its best less that. Times are those of the way plus
-  /// `offset`. False where that could not be proven.
+  /// Updates each pair's least distance in `best` with the motion from q0 to q1. Afterwards no pair is proven
+  /// to come nearer than its `best` minus `precision` (m). Times are those of the motion plus `offset`.
+  /// Returns false if this could not be proven.
   bool closest(const ConstVector& q0, const ConstVector& q1, double precision, double offset,
                std::vector<Approach>& best);
 
-  /// Distance of a pair at q, with points and normal (world). @throws Error for a pair that does not exist.
+  /// Distance of a pair at q, with witness points and normal (world, m). @throws Error for a pair that does
+  /// not exist.
   DistanceAnswer answer(int pair, const ConstVector& q);
 
  private:

@@ -1,6 +1,6 @@
-// Proofs that two links never meet, by branch and bound over the joints' ranges, in pieces
-// that can be shared out: each is a pure function of its boxes, and what pieces find is
-// put together in any order (docs/proofs.md).
+// Proofs that two links never collide, by branch and bound over the ranges of the joints (docs/proofs.md). A
+// proof can be split into pieces for several machines: the result of a piece depends only on its boxes, and
+// results can be merged in any order.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,57 +18,61 @@ namespace detail {
 struct ProofBodies;
 }
 
-/// What proofs need of a robot, made once for all its pairs.
+/// The data of a robot for proofs, made once for all its pairs.
 struct ProofScene {
-  std::shared_ptr<const Kinematics> kinematics;       ///< never null
-  std::shared_ptr<const RobotGeometry> geometry;      ///< never null
-  std::vector<Obstacle> obstacles;                    ///< that links are proven clear of
-  double margin = 0;                                  ///< a distance not above it is a collision (m)
-  std::shared_ptr<const detail::ProofBodies> bodies;  ///< of both, as points with balls around them
+  std::shared_ptr<const Kinematics> kinematics;   ///< never null
+  std::shared_ptr<const RobotGeometry> geometry;  ///< never null
+  std::vector<Obstacle> obstacles;                ///< the obstacles that pairs refer to
+  double margin = 0;                              ///< a distance at or below it is a collision (m)
+  /// The bodies of robot and obstacles as points with balls; internal.
+  std::shared_ptr<const detail::ProofBodies> bodies;
 };
 
-/// @throws Error where a body's over-cover cannot be measured.
+/// Prepares the data for proofs. @throws Error if the over-cover of a body cannot be measured.
 ProofScene proofScene(std::shared_ptr<const Kinematics> kinematics,
                       std::shared_ptr<const RobotGeometry> geometry, std::vector<Obstacle> obstacles,
                       double margin);
 
-/// Ranges of the coordinates that the pair's distance depends on, in the
-/// order of proofCoordinates() (rad or m).
+/// A box in configuration space: ranges of the coordinates that the pair's distance depends on, in the order
+/// of proofCoordinates() (rad or m).
 struct JointBox {
-  Eigen::VectorXd lower;  ///< of each coordinate in turn
-  Eigen::VectorXd upper;  ///< not below `lower`
+  Eigen::VectorXd lower;  ///< lower end of each range
+  Eigen::VectorXd upper;  ///< upper end of each range, not below `lower`
 };
 
-/// How far a proof has come.
+/// State of a proof.
 struct PairProof {
-  std::vector<JointBox> open;                ///< what remains to be looked at
+  std::vector<JointBox> open;                ///< boxes that are not examined yet
   std::optional<Eigen::VectorXd> collision;  ///< a configuration (all coordinates) in which the pair collides
-  long boxes = 0;                            ///< looked at so far
+  long boxes = 0;                            ///< number of boxes examined so far
 
-  /// Whether nothing is left to look at and nothing collided.
+  /// Whether the proof is complete: no box is left, and there is no collision.
   bool proven() const { return open.empty() && !collision; }
 };
 
-/// The coordinates that a pair's distance depends on, as indices into q, ascending. @throws Error, as all
-/// below do, for a link without bodies or a link or an obstacle that does not exist, and for a box of other
-/// coordinates.
+/// The coordinates that a pair's distance depends on, as indices into q, ascending. This and all functions
+/// below throw for wrong arguments. @throws Error for a link without bodies, a link or an obstacle that does
+/// not exist, and a box with a wrong number of coordinates.
 std::vector<int> proofCoordinates(const ProofScene& scene, const LinkPair& pair);
 
-/// The proof before its first step: one box of all the coordinates' limits.
+/// A proof before its first step: a single box with the limits of all coordinates.
 PairProof unproven(const ProofScene& scene, const LinkPair& pair);
 
-/// Looks at up to `maxBoxes` boxes, starting with the last of these, cutting those that a bound does not
-/// clear; stops at a collision. What a box gives depends on the box alone, so that the same boxes and budget
-/// always give the same result, and a proof that goes on from `open` ends as if it had not been interrupted.
-/// Boxes without limits stay open, and so do all across planar and floating joints and a moving base.
+/// Examines up to `maxBoxes` boxes, starting with the last of `boxes`. A box that the bound does not prove
+/// clear is cut in two. Stops at a collision. The result for a box depends only on that box. So the same
+/// arguments always give the same result, and a proof that continues from `open` ends as if it had not been
+/// interrupted. Infinite boxes stay open; so do all boxes if a planar or floating joint or a moving base lies
+/// between the two.
 PairProof provePair(const ProofScene& scene, const LinkPair& pair, std::vector<JointBox> boxes,
                     long maxBoxes);
 
-/// The bound that proofs rest on: in this box the pair's distance is nowhere below it (m).
+/// Lower bound on the pair's distance in the whole box (m); -infinity if there is none. Proofs are based on
+/// it.
 double distanceBound(const ProofScene& scene, const LinkPair& pair, const JointBox& box);
 
-/// What two pieces of one pair's proof have found together. Associative and commutative: open boxes are
-/// sorted, of several collisions the first in lexical order is kept, and a collision needs no open boxes.
+/// Merges the results of two pieces of one pair's proof. It is associative and commutative: open boxes are
+/// sorted, and of several collisions the lexicographically first one is kept. With a collision the open boxes
+/// are dropped.
 PairProof merge(PairProof one, PairProof other);
 
 }  // namespace fcl_stpbv

@@ -1,5 +1,6 @@
-// As few vertices and rows as a scene needs: coarse volumes where they do, finer ones and convex parts where
-// a pair asks for them.
+// Chooses the level of detail of a robot's bodies for a scene: coarse volumes where they are enough, finer
+// volumes and convex parts where a pair needs them. This keeps the numbers of vertices and of constraints
+// small.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,44 +15,47 @@
 
 namespace fcl_stpbv {
 
-/// What a model is to show: two links, or a link and an obstacle, farther apart than this in one
-/// configuration. Where the links themselves are nearer than that and the margins r of both, no model shows
-/// it, and none gets finer for it.
+/// A requirement on the model: in one configuration, two links, or a link and an obstacle, must be farther
+/// apart than `clearance`. If the exact shapes are nearer than that and the r of both volumes, no model
+/// can meet it, and none is refined for it.
 struct SceneNeed {
   LinkPair pair;         ///< the two
   Eigen::VectorXd q;     ///< the configuration (rad, m)
-  double clearance = 0;  ///< that their distance is to exceed (m)
+  double clearance = 0;  ///< distance that the pair must exceed (m)
 };
 
-/// How the work is done; what comes out does not depend on it.
+/// Technical options of modelForScene(). The result does not depend on them.
 struct SceneModelOptions {
-  std::string cacheFolder = defaultCacheFolder();  ///< of convex parts, "" for no cache
-  int threads = 1;                                 ///< that share the work; any number gives the same
-  /// Called now and then: steps done, of how many, at what.
+  std::string cacheFolder = defaultCacheFolder();  ///< cache for convex parts, "" for no cache
+  int threads = 1;                                 ///< number of threads
+  /// Called from time to time with the steps done, the number of all steps, and a text.
   std::function<void(std::size_t, std::size_t, const std::string&)> progress;
 };
 
-/// A robot as fine as its needs ask for.
+/// A robot with the detail that its needs require.
 struct SceneModel {
-  std::shared_ptr<const RobotGeometry> geometry;  ///< its `byParts`: the pairs that are taken by parts
-  std::vector<SceneNeed> unmet;                   ///< needs that the finest bodies do not show either
+  /// The bodies; its `byParts` lists the pairs that use convex parts.
+  std::shared_ptr<const RobotGeometry> geometry;
+  std::vector<SceneNeed> unmet;  ///< needs that even the finest bodies do not meet
 };
 
-/// Whole bodies, coarse to fine: volumes that may exceed their hulls by each of `budgets` (m, falling, all
-/// above r), which have few vertices and a large r (GeometryOptions::overCoverBudget); then those of
-/// `options` as they are. @throws Error as loadGeometry() does, and for budgets that do not fall.
+/// Loads whole bodies at several levels, from coarse to fine. There is one level for each of `budgets`, the
+/// limits on the over-cover (m, descending, all above r): its volumes have few vertices and a large r
+/// (GeometryOptions::overCoverBudget). The last level has the volumes of `options`. @throws Error as
+/// loadGeometry() does, and for budgets that do not descend.
 std::vector<std::shared_ptr<const RobotGeometry>> loadLevels(const RobotModel& robot,
                                                              const GeometryOptions& options,
                                                              const std::vector<double>& budgets);
 
-/// Every link starts at the first of `levels`. The cheapest step that meets a need is taken first: a finer
-/// level of one link before parts, 2 parts before 4 and 8; of equal steps, that of the link that meets the
-/// most needs; two links at once where no single one helps. Only pairs with a need are taken by parts, all
-/// others keep the whole bodies. It ends when all needs are met that can be. `needs`: pairs that matter in
-/// configurations that do, as start and goal of a task, the closest configuration of each pair, samples;
-/// those that the first level shows cost one distance each.
-/// @throws Error where the levels' bodies differ, for needs of pairs that do not exist, and naming a mesh
-/// that cannot be split.
+/// Refines links until all needs are met that can be met. Every link starts at the first of `levels`. In each
+/// round the cheapest step that meets a need is taken: first a finer level of one link, then 2 parts, then 4,
+/// then 8. Of equally cheap steps, the one that meets most needs is taken. If no single link helps, two links
+/// are refined together. Only pairs with a need use convex parts; all others keep the whole bodies.
+/// Good `needs` are the pairs that matter, in configurations that matter: start and goal of a task, the
+/// closest configuration of each pair, samples. A need that the first level already meets costs only one
+/// distance query.
+/// @throws Error if the levels have different bodies, for a need with a pair that does not exist, and, naming
+/// the mesh, for a mesh that cannot be split.
 SceneModel modelForScene(std::shared_ptr<const Kinematics> kinematics,
                          const std::vector<std::shared_ptr<const RobotGeometry>>& levels,
                          const std::vector<Obstacle>& obstacles, const std::vector<SceneNeed>& needs,

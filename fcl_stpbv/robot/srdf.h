@@ -1,4 +1,4 @@
-// What an SRDF adds to a URDF: pairs not to check, named postures, how the base moves.
+// Reads and writes SRDF files: pairs that are not checked, named postures, and how the base moves.
 #pragma once
 
 #include <map>
@@ -13,7 +13,7 @@ namespace fcl_stpbv {
 
 /// An SRDF's contents.
 struct Srdf {
-  /// Two links and what the file says of them.
+  /// A pair of links and the reason that the file gives.
   struct Pair {
     std::string link1;   ///< by name
     std::string link2;   ///< by name
@@ -23,37 +23,41 @@ struct Srdf {
   struct State {
     std::string name;                                   ///< of the state
     std::string group;                                  ///< of joints
-    std::map<std::string, std::vector<double>> joints;  ///< values by joint (rad or m)
+    std::map<std::string, std::vector<double>> joints;  ///< values of each joint, by name (rad or m)
   };
-  std::string path;                      ///< of the file
-  std::string text;                      ///< all of it as it was read; a pipe can be read only once
-  std::vector<Pair> disabled;            ///< disable_collisions
-  std::vector<Pair> enabled;             ///< enable_collisions; these win
-  std::vector<std::string> defaultsOff;  ///< disable_default_collisions: links checked only where enabled
-  std::vector<State> states;             ///< group_state
-  std::string baseJoint;                 ///< the virtual_joint that carries the root link, "" without one
-  std::string baseType;                  ///< its type
-  /// Whole sentences, to be told to the user: entries for links that the robot does not have, which count for
-  /// nothing as in MoveIt; elements that SRDF does not know; the name of another robot.
+  std::string path;  ///< of the file
+  /// The whole file as it was read (kept because a pipe can be read only once).
+  std::string text;
+  std::vector<Pair> disabled;  ///< disable_collisions
+  std::vector<Pair> enabled;   ///< enable_collisions; these override `disabled`
+  /// disable_default_collisions: links that are checked only in enabled pairs.
+  std::vector<std::string> defaultsOff;
+  std::vector<State> states;  ///< group_state
+  std::string baseJoint;      ///< name of the virtual_joint of the root link, "" without one
+  std::string baseType;       ///< its type
+  /// Whole sentences for the user. They are about entries for links that the robot does not have (ignored, as
+  /// in MoveIt), about unknown elements, and about a robot name that does not match.
   std::vector<std::string> warnings;
 
-  /// The posture of this name; of several groups together, where each has a state of the name.
-  /// @throws Error naming the states there are, or a joint in which states of the name differ.
+  /// The posture of this name. If several groups have a state of this name, they are combined. @throws Error
+  /// listing the existing states, if there is none of this name; or naming a joint for which the combined
+  /// states differ.
   State state(const std::string& name) const;
-  /// Those of all names, in the order that the file first has them; without names whose states differ.
+  /// The postures of all names, in the order of the file. Names whose states contradict each other are left
+  /// out.
   std::vector<State> allStates() const;
-  /// Whether the state puts the root link elsewhere, by other values of the virtual joint than those of no
-  /// motion.
+  /// Whether the state moves the root link: it gives the virtual joint values that are not zero motion.
   bool movesBase(const State& state) const;
 };
 
-/// What an SRDF says of any two links, as it was when this was made. Finds one pair among many at once.
+/// Fast lookup of the reason why an SRDF leaves out a pair of links. It keeps the SRDF's contents at
+/// construction.
 class SkipReasons {
  public:
-  /// O(n log n) for n entries; null for no SRDF, which leaves nothing out.
+  /// Takes O(n log n) for n entries. `srdf` may be null; then no pair is left out.
   explicit SkipReasons(const Srdf* srdf);
 
-  /// Why the pair is to be left out; "" where it is to be checked. The order of the links is no matter.
+  /// The reason why the pair is left out; "" if it must be checked. The order of the links does not matter.
   std::string of(const std::string& link1, const std::string& link2) const;
 
  private:
@@ -61,18 +65,18 @@ class SkipReasons {
   std::set<std::string> off_;
 };
 
-/// Reads an SRDF for `robot`. @throws Error listing all that is wrong, each with its line.
+/// Reads an SRDF for `robot`. @throws Error listing everything that is wrong, with line numbers.
 Srdf loadSrdf(const std::string& path, const RobotModel& robot);
-/// The same, but what is wrong is added to `faults` for the caller to refuse.
+/// The same, but faults are added to `faults`, and the caller decides.
 Srdf loadSrdf(const std::string& path, const RobotModel& robot, LoadFaults& faults);
 
-/// The SRDF at `path` (a bare one where `path` is "") with its disable_collisions replaced by `pairs`.
-/// Entries of the reason "User" or of none and everything else stay as they are; pairs that the SRDF enables
-/// by name are left out of `pairs`. Each of `comments` goes before them. @throws Error as loadSrdf() for a
-/// file that is none.
+/// The text of the SRDF at `path` (of an empty one if `path` is ""), with its disable_collisions entries
+/// replaced by `pairs`. Entries with the reason "User" or without a reason stay, and so does everything else.
+/// Entries of `pairs` that the SRDF enables by name are left out. `comments` are written before the new
+/// entries. @throws Error as loadSrdf() does, for a file that is not an SRDF.
 std::string withPairs(const std::string& path, const std::string& robotName,
                       const std::vector<Srdf::Pair>& pairs, const std::vector<std::string>& comments = {});
-/// The same of an SRDF as it was read, a bare one for null.
+/// The same for an SRDF that was read already; null for an empty one.
 std::string withPairs(const Srdf* srdf, const std::string& robotName, const std::vector<Srdf::Pair>& pairs,
                       const std::vector<std::string>& comments = {});
 

@@ -1,4 +1,4 @@
-// Collision rows for a controller's quadratic program: velocity dampers and control barriers.
+// Collision constraints for a controller's quadratic program: velocity dampers and control barrier functions.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,70 +9,74 @@
 
 namespace fcl_stpbv {
 
-/// Brakes a pair that comes closer (Faverjon and Tournassoud, 1987): `dd/dt >= -damping (d - security) /
-/// (influence - security)` from `influence` on.
+/// Velocity damper (Faverjon and Tournassoud, 1987): limits how fast a pair approaches. If d < influence,
+/// then `dd/dt >= -damping (d - security) / (influence - security)`.
 struct Damper {
   double influence = 0.05;  ///< d_i (m)
-  double security = 0.01;   ///< d_s, where the pair may not come closer (m)
+  double security = 0.01;   ///< d_s, the distance below which the pair may not come closer (m)
   double damping = 0.5;     ///< xi, the speed allowed at `influence` (m/s)
 };
 
-/// What the program's variable is, and so what the rows say of it.
+/// The variable of the quadratic program, and the form of the constraints.
 enum class DamperLevel {
   velocity,      ///< qd: J qd >= b, the damper itself
-  acceleration,  ///< qdd: the damper's inequality for the velocity one period later
+  acceleration,  ///< qdd: the damper's inequality, for the velocity one period later
   barrier        ///< qdd: with h = d - security, h'' + (a + g) h' + a g h >= 0, a = damping / (influence -
                  ///< security)
 };
 
-/// What the rows brake, and when.
+/// Options of VelocityDamper.
 struct DamperOptions {
-  DamperLevel level = DamperLevel::velocity;  ///< what the program's variable is
-  Damper all;                                 ///< of all rows but those in `rows`
-  std::map<int, Damper> rows;                 ///< of single rows
-  /// A pair that enters faster than its row allows gets a larger xi until it leaves, at `barrier` a larger g
-  /// too where xi is not enough. They allow what it does and as much again as it was too fast, at most this
-  /// much (m/s). So no row acts on the tick on which it enters, but for a pair that enters at `security` or
-  /// beyond, or so fast that it would be there within a few periods: that one brakes at once. At `barrier`
-  /// a row also holds back, from the tick on which it enters, what accelerates towards the other body by more
-  /// than the barrier allows. Negative: never.
+  DamperLevel level = DamperLevel::velocity;  ///< variable and form of the constraints
+  Damper all;                                 ///< parameters of all rows that are not in `rows`
+  std::map<int, Damper> rows;                 ///< parameters of single rows, by index
+  /// For a pair that comes within `influence` faster than its row allows. Such a pair gets a larger xi until
+  /// it leaves the influence; at level `barrier` also a larger g, if xi is not enough. The larger gain allows
+  /// the present speed plus the excess over the allowed speed, but at most `headroom` more than the present
+  /// speed (m/s). So a row does not act in the period in which its pair enters. Exceptions: a pair that
+  /// enters at `security` or nearer, or so fast that it would be there within a few periods, is braked at
+  /// once. At level `barrier`, a row also limits at once an acceleration towards the other body that exceeds
+  /// what the barrier allows. Negative: gains are never raised.
   double headroom = 0.05;
-  /// Of the controller (s), at every level: with gains above 1 / period, with accelerations above 1 / (3
-  /// period), a pair could pass `security` between two ticks. Up to there a and g rise on entering. So a row
-  /// acts at once where `security` is 1 period away, with accelerations 3, at `barrier` 6.
+  /// Period of the controller (s), used at every level. It limits the gains a and g that are raised when a
+  /// pair enters: to 1 / period, or to 1 / (3 period) with accelerations. With larger gains a pair could pass
+  /// `security` between two periods. So a row acts at once if the pair would reach `security` within 1 period
+  /// (with accelerations 3, at level `barrier` 6).
   double period = 1e-3;
   double barrierGain = 50;  ///< g (1/s), for `barrier`
 };
 
-/// Rows `A x >= b` of all pairs, one for each row of the constraints, in a structure that never changes. Rows
-/// beyond their influence have b = -infinity. No allocation in update().
+/// Constraints `A x >= b`, one for each row of CollisionConstraints, with a sparsity structure that never
+/// changes. Rows beyond their influence have b = -infinity. No allocation in update().
 class VelocityDamper {
  public:
-  /// Keeps a reference to the constraints. @throws Error for lengths, speeds or rows that make no sense, and
-  /// for an influence beyond CollisionConstraints::exactUpTo(), where that row bends over.
+  /// Keeps a reference to the constraints. @throws Error for lengths, speeds or row numbers out of range, and
+  /// for an influence above CollisionConstraints::exactUpTo() of the row, because beyond it the row's value
+  /// is not the distance.
   VelocityDamper(CollisionConstraints& constraints, DamperOptions options);
 
-  /// Rows at q, while q moves with velocity qd. Of a q or qd that is not finite nothing is known: all rows
-  /// are near, with A = 0 and b = infinity, which no x meets. A smooth constraint whose value is no number is
-  /// near too, with b = infinity. @throws Error for a q or qd of another size.
+  /// Computes A and b at q, for the velocity qd. If q or qd is not finite, nothing is known: all rows are
+  /// near(), with A = 0 and b = infinity, which no x can fulfil. A smooth constraint whose value is NaN is
+  /// near() too, with b = infinity. @throws Error for a q or qd of a wrong size.
   void update(const Eigen::Ref<const Eigen::VectorXd>& q, const Eigen::Ref<const Eigen::VectorXd>& qd);
 
-  /// The rows' left side, rows() x columns() of the constraints.
+  /// The matrix A, rows() x columns() of the constraints.
   const CollisionConstraints::SparseJacobian& A() const { return jacobian_; }
-  /// The rows' right side (m/s, or m/s^2 with accelerations).
+  /// The right side b (m/s, or m/s^2 with accelerations).
   const Eigen::VectorXd& b() const { return b_; }
   /// The distances at the last update (m).
   const Eigen::VectorXd& d() const { return rates_.d; }
   /// Rows within their influence, ascending.
   const std::vector<int>& near() const { return near_; }
-  /// Writes those rows one below the other and returns how many: for solvers of dense programs. @throws
-  /// Error unless `A` has columns() columns, and both have room for near().size() rows.
+  /// For solvers with dense matrices: writes the rows of near() into `A` and `b` and returns their number.
+  /// @throws Error unless `A` has columns() columns and both have at least near().size() rows.
   int dense(Eigen::Ref<Eigen::MatrixXd> A, Eigen::Ref<Eigen::VectorXd> b) const;
 
-  /// xi of a row: its own, or what it got on entering, until it leaves (m/s). @throws Error for a row that
-  /// does not exist.
+  /// The current xi of a row (m/s): that of its Damper, or the raised one while its pair is within the
+  /// influence. @throws Error for a row that does not exist.
   double damping(int row) const;
-  /// g of a row: that of the options, or what it got on entering (1/s). @throws Error likewise.
+  /// The current g of a row (1/s): that of the options, or the raised one while its pair is within the
+  /// influence. @throws Error for a row that does not exist.
   double barrierGain(int row) const;
 
  private:
@@ -94,18 +98,18 @@ class VelocityDamper {
   std::vector<int> near_;
 };
 
-/// What changes per second, in the units of A, b and x, in a quadratic program `min x'Hx/2 - f'x, A x >= b`,
-/// of the rows that act.
+/// Rates of the active rows of a quadratic program `min x'Hx/2 - f'x, A x >= b`, and the size of its
+/// solution, in the units of A, b and x, per second.
 struct ProgramChange {
-  double gradient = 0;    ///< most of |dA/dt|, the 2-norm over the acting rows (see gradientRateBound)
-  double bound = 0;       ///< most of |db/dt|
-  double multiplier = 0;  ///< norm of the acting rows' multipliers
+  double gradient = 0;    ///< upper bound on the 2-norm of dA/dt of the active rows (see gradientRateBound)
+  double bound = 0;       ///< upper bound on |db/dt|
+  double multiplier = 0;  ///< norm of the active rows' multipliers
   double solution = 0;    ///< |x|
 };
-/// Most of |dx/dt| that collision rows add to what the task alone asks for, in the norm sqrt(x'Hx),
-/// while the same rows act: `smallestH` is the smallest eigenvalue of H, `smallestG` that of A
-/// H^-1 A' of the acting rows (docs/control.md). 0 where nothing changes, as without acting rows; infinite
-/// where an eigenvalue is not above 0.
+/// Upper bound on the part of dx/dt that the collision constraints add to the task's own, in the norm
+/// sqrt(x'Hx), while the same rows stay active. `smallestH` is the smallest eigenvalue of H, and `smallestG`
+/// that of A H^-1 A' for the active rows (docs/control.md). 0 if nothing changes, for example without active
+/// rows. Infinite if an eigenvalue is not above 0.
 double collisionAccelerationBound(const ProgramChange& change, double smallestH, double smallestG);
 
 }  // namespace fcl_stpbv
