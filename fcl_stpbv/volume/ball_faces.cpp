@@ -1,5 +1,5 @@
-// Faces of a ball hull from exact signs alone (ball_side.h): the order of a ring, the check of neighbours,
-// and all faces by their definition: every three points whose ball holds all others.
+// Faces of a ball hull, from exact signs only (ball_side.h): orders a ring, checks neighbours, and lists all
+// faces by their definition (every three points whose ball contains all others).
 #include "fcl_stpbv/volume/ball_faces.h"
 
 #include <Eigen/Geometry>

@@ -1,5 +1,5 @@
-// Faces of a ball hull: rings of points on one ball that holds all others;
-// ordered, and listed by their definition.
+// Faces of a ball hull. A face is a ring of points on a ball that contains all other points. Functions to
+// order a ring, and to list all faces directly from this definition.
 #pragma once
 
 #include <Eigen/Core>
@@ -26,12 +26,13 @@ std::array<int, 3> wideTriangle(const std::vector<Eigen::Vector3d>& points, cons
 Ring ringOf(const std::vector<Eigen::Vector3d>& points, const TouchingBall& ball, int from, int to,
             std::vector<int> touched);
 
-/// Most points for facesByDefinition(), whose time grows with the number of triples: well below a second.
+/// Largest number of points for facesByDefinition(). Its time grows with the number of triples of points; for
+/// this number it is well below a second.
 constexpr std::size_t kMostByDefinition = 128;
 
-/// All faces of the ball hull by their definition: three points whose ball holds all others.
-/// Sides are decided exactly, so the faces close whatever the cloud. Points within
-/// touchTolerance() of an earlier one are left out.
+/// All faces of the ball hull, directly from the definition: three points whose ball contains all others. The
+/// sides of points are decided exactly, so the faces form a closed surface for any cloud. Points within
+/// touchTolerance() of an earlier point are left out.
 std::vector<Ring> facesByDefinition(const std::vector<Eigen::Vector3d>& points, double radius);
 
 }  // namespace fcl_stpbv::detail

@@ -1,7 +1,9 @@
-// Quickhull (quickhull.h) with balls in place of planes. In the space of the balls' centres a point that
-// enters cuts a ball around it out of a convex body. What it cuts off is one disc, and the rim a single loop,
-// unless it takes the middle of an arc and leaves both ends, or the other way round: such clouds are left to
-// the rolling ball. Sides are decided exactly, in double where that is certain (quick_ball.h).
+// Quickhull (quickhull.h) with balls of radius rho in place of planes.
+// Why it works: the possible centres of the balls form a convex body, the intersection of the balls around
+// all points. A new point intersects this body with one more ball. Usually the part of the surface that is
+// cut off is one disc, with a single loop as its rim. This fails if the cut removes the middle of an arc and
+// leaves both ends, or the reverse. Then the cloud is left to the rolling ball. Sides are decided exactly, in
+// double precision where that is certain (quick_ball.h).
 #include "fcl_stpbv/volume/ball_quickhull.h"
 
 #include <algorithm>
@@ -15,8 +17,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Whether each face's ball holds its neighbours' corners, and no two corners are closer together than `same`
-// (m). `mayJoin` becomes true where neighbours may lie on one ball to rounding.
+// Whether each face's ball contains its neighbours' corners, and no two corners are closer together than
+// `same` (m). Sets `mayJoin` if neighbours may lie on one ball up to rounding.
 bool isSound(Quickhull<QuickBall>& hull, double same, bool& mayJoin) {
   const double joined =
       same + 1e-9 * same;  // heights of joined faces, which are computed with other roundings

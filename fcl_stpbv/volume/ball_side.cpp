@@ -1,7 +1,8 @@
-// On which side of the ball through three points is a fourth? The sign of its height over the ball, |q|^2 /
-// (2 rho) + q.m with q from one of the points and m the ball's normal there:
+// Decides whether a point is inside or outside of the ball through three other points. It computes the sign
+// of the point's height over the ball, |q|^2 / (2 rho) + q.m. Here q is the vector to the point from one of
+// the three, and m is the ball's normal there. The sign is computed
 // 1. in long double, if above its error bound;
-// 2. in quadruple precision, if above that one's;
+// 2. in quadruple precision, if above the error bound of that;
 // 3. exactly, in integers (exact_sign.h).
 #include "fcl_stpbv/volume/ball_side.h"
 

@@ -1,4 +1,5 @@
-// The one predicate of the builder: on which side of the ball through three points does a fourth lie?
+// The geometric predicate of the builder: is a point inside or outside of the ball through three other
+// points?
 #pragma once
 
 #include <Eigen/Core>
@@ -12,13 +13,13 @@ namespace fcl_stpbv::detail {
 ///
 /// The height of a point p over the ball's surface, to first order, is `kappa |q|^2 / 2 + q.m`
 /// with `q = p - a`, `kappa` the curvature and `m` the unit outward normal at the first point a.
-/// It holds no large number for any radius. Its sign is decided in long double where that is
-/// certain, else in quadruple precision, else in exact integers.
+/// This form contains no large number for any radius. Its sign is computed in long double if that is certain,
+/// else in quadruple precision, else in exact integers.
 class TouchingBall {
  public:
   TouchingBall(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c, double radius);
 
-  /// False where the points lie on a line or no ball of this radius can touch all three.
+  /// False if the points lie on a line, or if no ball of this radius can touch all three.
   bool valid() const { return valid_; }
 
   /// Unit outward normal at the first point touched, and a bound on its error.

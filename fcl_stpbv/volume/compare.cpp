@@ -1,5 +1,5 @@
-// How far two volumes that should be equal are apart: the difference of their support functions over normals
-// of both, and the vertices of one without a partner in the other.
+// The difference of two volumes that should be equal: of their support functions, over normals of both
+// volumes, and of their vertices.
 #include <algorithm>
 #include <cmath>
 

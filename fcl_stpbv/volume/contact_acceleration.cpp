@@ -1,5 +1,5 @@
-// The bounds of docs/choosing_r_and_R.md. c falls as any radius of curvature grows: two balls of radii r
-// reach the most, a body 2 of radius R against a plane the least.
+// The bounds on c of docs/choosing_r_and_R.md. c falls as any radius of curvature grows. So it is largest for
+// two balls with the radii r, and smallest for a body 2 of radius R against a plane.
 #include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/volume/radii_advice.h"
 

@@ -1,5 +1,5 @@
-// Andrew's monotone chain (1979): the points from left to right give the
-// lower side, back again the upper one.
+// Andrew's monotone chain (1979): a pass over the points from left to right gives the lower side, a pass back
+// gives the upper side.
 #include "fcl_stpbv/volume/convex_polygon.h"
 
 #include <algorithm>

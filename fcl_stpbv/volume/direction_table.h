@@ -1,4 +1,5 @@
-// A table over all directions: what was found for the middle of each of its cells, as a start for a search.
+// A lookup table over all directions. It stores a search result for the middle of each cell, as a starting
+// point for later searches.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,8 +16,8 @@ class DirectionTable {
  public:
   DirectionTable() = default;
 
-  /// Asks `find` for the number of each cell's middle, a unit vector, row by
-  /// row: each is near the one before.
+  /// Calls `find` with the middle of each cell, a unit vector, and stores the number that it returns. It goes
+  /// row by row, so each direction is near the one before.
   template <typename Find>
   DirectionTable(int side, const Find& find) : side_(side) {
     entries_.reserve(static_cast<std::size_t>(side) * static_cast<std::size_t>(side));
@@ -29,7 +30,8 @@ class DirectionTable {
       }
   }
 
-  /// The entry of the cell that holds `n`, of any length; of some cell where `n` is zero.
+  /// The entry of the cell that contains the direction `n` (any length). For a zero vector, the entry of some
+  /// cell.
   int operator[](const Eigen::Vector3d& n) const { return entries_[cell(n)]; }
 
   int side() const { return side_; }

@@ -4,8 +4,9 @@
 //     sqrt(D) N - T with the integers T = |u|^2 v x N + |v|^2 N x u and D = 4 |N|^2 rho^2 - |u|^2 |v|^2 |u -
 //     v|^2 (docs/theory.md, 2). So both predicates have the form A + B sqrt(D).
 //  3. Where A and B differ in sign, A^2 against B^2 D decides.
-// Corners of flat faces are asked most: there B = 0, and A is small enough for integers of a fixed size.
-// D < 0, a ball too small by rounding, counts as 0: the ball around the three points' own circle.
+// The most frequent case are corners of flat faces. There B = 0, and A is small enough for integers of a
+// fixed size. If D < 0, the ball is too small, by rounding. D then counts as 0, which is the ball with the
+// three points on a great circle.
 #include "fcl_stpbv/volume/exact_sign.h"
 
 #include <algorithm>
@@ -141,7 +142,8 @@ Scale scaleOf(const BallPoints& ball, std::initializer_list<Eigen::Vector3d> oth
 std::optional<int> coplanarSide(const BallPoints& points, const Eigen::Vector3d& p) {
   Scale scale;
   for (const Eigen::Vector3d& x : {points.a, points.b, points.c, p}) scale.include(x);
-  // A has products of six differences, each of one bit more than a coordinate; fewer than 128 of them.
+  // A is a sum of fewer than 128 products of six differences. Each difference has one bit more than a
+  // coordinate.
   if (6 * (scale.bits() + 1) + 7 > kFixedBits) return std::nullopt;
   const Circle<FixedInteger> circle(points, scale);
   const IntegerVector<FixedInteger> q = scale.of<FixedInteger>(p) - circle.a;

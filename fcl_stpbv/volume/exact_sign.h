@@ -1,4 +1,4 @@
-// Signs of the builder's two predicates in integers, where floating point cannot tell.
+// Exact signs of the builder's two predicates, in integers, for cases that floating point cannot decide.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,8 +15,9 @@ struct BallPoints {
 /// 1 where p lies outside the ball, 0 on it, -1 inside. No rounding: the coordinates as they are.
 int exactSide(const BallPoints& ball, const Eigen::Vector3d& p);
 
-/// The same where all four points lie exactly in one plane, as corners of a flat face do: quick, and for any
-/// radius the same. None where they do not, or their coordinates differ too much in size.
+/// The same for four points that lie exactly in one plane, such as corners of a flat face. It is fast, and
+/// the result is the same for any radius. No value if they are not coplanar, or if their coordinates differ
+/// too much in size.
 std::optional<int> coplanarSide(const BallPoints& ball, const Eigen::Vector3d& p);
 
 /// 1 where p, q, s on the ball turn counter-clockwise seen from outside, 0 on one great circle, -1 otherwise.

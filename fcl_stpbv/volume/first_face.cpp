@@ -1,4 +1,5 @@
-// Lets the ball come to rest on one point, tilts it onto a second one, and rolls it over both onto a third.
+// Finds the first face: moves the ball until a first point stops it, tilts it about this point until it
+// touches a second point, and rolls it over both points until it touches a third.
 #include "fcl_stpbv/volume/first_face.h"
 
 #include <Eigen/Geometry>
@@ -16,10 +17,10 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Moves the ball, holding all points, against `direction` from around them until one stops it; `normal`
-// becomes the ball's normal there. With q = p - centre, split into q.d along the direction d and a vector t
-// across it, the point p stops it at depth q.d + kappa t^2 / (1 + sqrt(1 - kappa^2 t^2)) below the farthest
-// place: no large number in it.
+// Starts with a ball that contains all points and moves it against `direction` until its surface touches a
+// point. `normal` becomes the ball's normal there. Let d be the direction and q = p - centre, split into q.d
+// and a vector t perpendicular to d. Then p stops the ball at the depth q.d + kappa t^2 / (1 + sqrt(1 -
+// kappa^2 t^2)) below the farthest position. This formula contains no large number.
 int touchFirst(const RollingCloud& cloud, const Vector3d& direction, Vector3d* normal) {
   const Vector3d centre = minimumEnclosingBall(cloud.points).centre;
   int best = -1;
@@ -72,8 +73,9 @@ int touchThird(const RollingCloud& cloud, int a, int b, const Vector3d& across) 
 }  // namespace
 
 FirstFace firstFace(RollingCloud& cloud) {
-  // Points nearer to each other than rounding can tell may be touched in the wrong order: then come from
-  // elsewhere, along a spiral that has no special relation to any cloud made by hand.
+  // Points that are very close to each other may be touched in the wrong order because of rounding. Then
+  // start from another direction. The directions form a spiral, so that they are unlikely to coincide with an
+  // axis of a hand-made cloud.
   constexpr int kTries = 64;
   constexpr double kGolden = 2.399963229728653;  // rad, from one to the next
   for (int k = 0; k < kTries; ++k) {

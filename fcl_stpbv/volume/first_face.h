@@ -7,14 +7,15 @@
 
 namespace fcl_stpbv::detail {
 
-/// A first face, or the one or two points that carry none: of one point, two points, or collinear ones.
+/// A first face. A cloud without a face (one point, two points, or collinear points) gives one or two points
+/// instead.
 struct FirstFace {
   Ring ring;
   std::vector<int> lone;
 };
 
 /// Lets the ball touch a first, a second and a third point.
-/// @throws Error where rounding defeats it from all sides.
+/// @throws Error if it fails because of rounding from all starting directions.
 FirstFace firstFace(RollingCloud& cloud);
 
 }  // namespace fcl_stpbv::detail

@@ -1,4 +1,4 @@
-// The convex polygon in the plane of the points, each within rounding of a side left out.
+// The convex polygon around points in a plane. Points within rounding of a side are no corners.
 #include "fcl_stpbv/volume/flat_outline.h"
 
 #include <Eigen/Geometry>

@@ -1,5 +1,5 @@
-// Pairs half-edges by their ends; where two vertices are joined by several edges, by the nearest twin ahead
-// of the ball that rolls over them.
+// Pairs half-edges by their two ends. If two vertices are joined by several edges, the twin of a half-edge is
+// the first one that the rolling ball reaches.
 #include "fcl_stpbv/volume/half_edges.h"
 
 #include <Eigen/Geometry>
@@ -84,9 +84,9 @@ class RollingBall {
 
   Vector3d across(const Vector3d& v) const { return v - v.dot(along_) * along_; }
 
-  /// All but a whole turn is possible only where one of the face's other vertices hardly rises over the arc
-  /// that the ball rolls on, and is highest in what the turn lacks: straight ahead of its normal, seen along
-  /// the edge.
+  /// A turn of almost 2 pi is possible only if one of the face's other vertices rises very little over the
+  /// arc on which the ball rolls, and is highest in the small angle that is missing to 2 pi, that is,
+  /// straight ahead of the normal as seen along the edge.
   bool isSpindle() const {
     return std::any_of(ring_.begin(), ring_.end(), [&](int i) {
       const Vector3d q = across(points_[at(i)] - points_[at(start_)]);

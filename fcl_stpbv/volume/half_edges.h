@@ -1,4 +1,5 @@
-// The half-edges of a closed surface of faces, each with its twin and the angle the ball rolls between them.
+// The half-edges of a closed surface, each with its twin and the angle by which the ball rolls from one face
+// to the other.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,9 +14,9 @@ struct HalfEdge {
   double turn = 0;   ///< angle by which the ball rolls from this face to the twin's, [0, 2 pi)
 };
 
-/// Half-edges of `faces` in order, paired with their twins. Two vertices may be joined by
-/// several edges; the ball rolls from each half-edge to the nearest twin ahead. `normals[f]` is
-/// the unit outward normal at the face's first vertex.
+/// Half-edges of `faces` in order, paired with their twins. Two vertices may be joined by several edges. Then
+/// the twin of a half-edge is the one that the rolling ball reaches first. `normals[f]` is the unit outward
+/// normal at the face's first vertex.
 /// @throws Error where the faces do not form a closed surface.
 std::vector<HalfEdge> pairHalfEdges(const std::vector<Eigen::Vector3d>& points,
                                     const std::vector<std::vector<int>>& faces,

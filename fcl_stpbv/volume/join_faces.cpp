@@ -1,7 +1,9 @@
 // Joins triangles on one ball to rounding into k-gons:
-// 1. grow groups of neighbours from the largest face, while all corners are within 32 units in the last place
-//    of its ball and normals agree to 1e-12 rad, and to less where R is 1e8 times their extent and more;
-// 2. replace a group by its boundary, if that is a single loop and sound; else keep its faces.
+// 1. grow groups of neighbours, each from the largest face that is left. A neighbour joins if all its corners
+//    are within 32 units in the last place of the first face's ball, and its normals agree to 1e-12 rad (to
+//    less if R is 1e8 times the extent or more);
+// 2. replace a group by its boundary if that is a single loop and passes the checks of isSound(); otherwise
+//    keep its faces.
 #include "fcl_stpbv/volume/join_faces.h"
 
 #include <Eigen/Geometry>
@@ -28,8 +30,9 @@ bool turnsLeft(const Vector3d& n, const Vector3d& a, const Vector3d& b, const Ve
   return n.dot(arrive.cross(leave)) >= -kStraight * arrive.norm() * leave.norm();
 }
 
-// Whether one ball will do for all corners of a joined face: each within `tolerance` of it, its normals along
-// each side as they must be, and the face convex: where neighbours stay apart its boundary may turn in.
+// Whether one ball fits all corners of a joined face: each corner is within `tolerance` of the ball, the
+// heights of a side's two corners differ by at most `tilt` times its length, and the face is convex. It may
+// be concave if some neighbours did not join.
 bool isSound(const std::vector<Vector3d>& points, const Ring& ring, double radius, long double tolerance,
              double tilt) {
   const auto corner = [&](std::size_t k) -> const Vector3d& { return points[at(ring[k % ring.size()])]; };
@@ -46,7 +49,7 @@ bool isSound(const std::vector<Vector3d>& points, const Ring& ring, double radiu
   return true;
 }
 
-// The tilt times the radius is what a joined face's patches may part by: that must be little of the cloud's
+// Patches of a joined face may have gaps of the tilt times the radius. That must be small against the cloud's
 // size. A ball that stands for a plane has no patches.
 double mostTilt(const std::vector<Vector3d>& points, double radius) {
   constexpr double kSeam = 1e-19;  // of a radius that makes a plane: 1e-4 of the cloud's extent
@@ -104,7 +107,7 @@ class FaceJoiner {
   const HalfEdge& half(int h) const { return halfEdges_[at(h)]; }
   int acrossFrom(int h) const { return half(half(h).twin).face; }
 
-  // Height alone does not tell: near the smallest radius the balls of opposite faces nearly coincide.
+  // The height alone is not enough: near the smallest radius the balls of opposite faces nearly coincide.
   bool isOnBallOf(std::size_t seed, std::size_t f) const {
     const Vector3d tilt = balls_[seed].normalAt(point(faces_[f][0])) - normals_[f];
     return tilt.norm() <= tilt_ && std::all_of(faces_[f].begin(), faces_[f].end(), [&](int i) {

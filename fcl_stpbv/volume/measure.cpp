@@ -1,7 +1,8 @@
 // Measures of a volume.
-// 1. Content: the divergence theorem patch by patch, over regions of normals, by Gauss-Legendre quadrature.
-// 2. Signed distance of a point: on each patch the normal towards the point from the farthest centre; the
-//    largest value over those that the patch owns.
+// 1. Enclosed volume: the divergence theorem, patch by patch over the regions of normals, with Gauss-Legendre
+//    quadrature.
+// 2. Signed distance of a point: for each patch, the normal from the patch's farthest centre to the point.
+//    The result is the largest value over the patches whose region contains that normal.
 #include "fcl_stpbv/volume/measure.h"
 
 #include <Eigen/Geometry>
@@ -96,8 +97,8 @@ Vector3d acrossEdge(const StpBv& volume, int patch) {
   return last.norm() > 0 ? Vector3d(last.cross(u)) : Vector3d(u.unitOrthogonal());
 }
 
-// Whether a patch has normals of its own. An edge between two faces on one ball has none, and its boundaries
-// do not tell its side from the opposite one.
+// Whether a patch has a region of normals that is not empty. An edge between two faces on one ball has an
+// empty one, and then its boundaries do not distinguish its side from the opposite side.
 bool hasNormals(const StpBv& volume, int patch) {
   constexpr double kTurn = 1e-12;  // rad
   const int edge = patch - volume.vertexCount();
@@ -156,12 +157,13 @@ double enclosedVolume(const StpBv& volume) {
 
 double signedDistance(const StpBv& volume, const Vector3d& point) {
   if (!point.allFinite()) return -kInfinity;
-  // From so far away every volume is a point at the origin; farther on squares of lengths are infinite.
+  // From such a distance every volume looks like a point at the origin. At still larger distances squares of
+  // lengths overflow.
   constexpr double kFar = 1e100;  // m; points of volumes are within 1e75
   if (point.cwiseAbs().maxCoeff() > kFar) return point.stableNorm();
-  // The largest value lies on the patch that owns its normal. Any normal gives a lower
-  // bound with the support of its true owner, so one that rounding has put past a boundary,
-  // as close to a vertex it may, does no harm.
+  // The largest value belongs to the patch that owns its normal. Any normal gives a valid lower bound if the
+  // support of its true owner is used. So it does no harm if rounding moves a normal across a boundary, as
+  // may happen close to a vertex.
   constexpr double kNear = 1e-3;  // a sine; rounding moves no normal so far
   double best = -2 * volume.radii().R;
   for (int index = 0; index < volume.patchCount(); ++index) {

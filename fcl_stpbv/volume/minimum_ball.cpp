@@ -41,7 +41,8 @@ Ball minimumEnclosingBall(const std::vector<Eigen::Vector3d>& points) {
   const Eigen::Vector3d& origin = points.front();
   std::vector<LongVector> held{LongVector::Zero()};
   Candidate ball = ballThrough(held);
-  // Each round the radius grows; a few rounds do for any cloud, the bound only stops rounding from cycling.
+  // The radius grows in each round, and a few rounds are enough for any cloud. The limit only prevents an
+  // endless loop caused by rounding.
   for (int round = 0; round < 1000; ++round) {
     const Eigen::Vector3d centre = origin + ball.centre.cast<double>();
     std::size_t farthest = 0;

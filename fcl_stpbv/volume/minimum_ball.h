@@ -1,4 +1,4 @@
-// The smallest ball around a cloud: its radius is the least `R - r` an STP-BV can have.
+// The smallest ball around a cloud. `R - r` of an STP-BV must be larger than its radius.
 #pragma once
 
 #include <Eigen/Core>

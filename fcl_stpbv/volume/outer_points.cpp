@@ -1,7 +1,8 @@
-// Leaves out points that are well inside, in one pass:
-// 1. the convex hull of some points, a body inside that of all;
-// 2. a grid of cells: one whose corners are all in that body is in it, and so are its points. The hull's own
-//    corners are in none of these cells and stay, so that what holds the points that stay holds all.
+// Removes points that are well inside the cloud, in one pass:
+// 1. make the convex hull of some points; it lies inside the hull of all points;
+// 2. lay a grid of cells over the cloud. If all corners of a cell are inside that hull, the cell and its
+//    points are. These points are removed. The hull's own corners are in none of these cells and stay, so any
+//    convex body that contains the remaining points contains all.
 #include "fcl_stpbv/volume/outer_points.h"
 
 #include <Eigen/Geometry>
@@ -20,9 +21,10 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Smaller clouds are built sooner than they are sorted out.
+// For smaller clouds this would take longer than it saves.
 constexpr std::size_t kFew = 10000;
-// Points whose hull is made. That of 3000 spread through a body lacks a few hundredths of its volume.
+// Number of points for the hull. The hull of 3000 points spread through a body lacks a few percent of its
+// volume.
 constexpr std::size_t kSome = 3000;
 
 struct Plane {

@@ -6,9 +6,10 @@
 
 namespace fcl_stpbv::detail {
 
-/// Indices, ascending, of all points but those that are inside the others' convex hull by more than a
-/// millionth of the largest coordinate: of a million points spread through a box an eighth is left. All of a
-/// small cloud, and of one that is a surface.
+/// Ascending indices of the points that remain after removing points well inside: a point may be removed only
+/// if it is inside the others' convex hull by more than a millionth of the largest coordinate. Of a million
+/// points spread through a box an eighth is left. Small clouds, and clouds that are a surface, keep all
+/// points.
 std::vector<int> outerPoints(const std::vector<Eigen::Vector3d>& points);
 
 }  // namespace fcl_stpbv::detail

@@ -1,6 +1,6 @@
 // How far the surface exceeds a convex hull.
-// 1. Largest: the difference of both support functions over each hull edge's normals and at each face normal;
-//    stationary points by bisection.
+// 1. Largest: the largest difference of the two support functions, at each face normal of the hull and over
+//    the normals of each hull edge, where stationary points are found by bisection.
 // 2. Mean: quadrature over the hull's triangles of the height of the surface above them.
 #include <Eigen/Geometry>
 #include <algorithm>

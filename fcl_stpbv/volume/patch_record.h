@@ -1,4 +1,4 @@
-// What a query reads of a vertex, an edge and a face, each in one or two lines of memory.
+// The data of a vertex, an edge and a face that queries read, each in one or two cache lines.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,9 +17,10 @@ struct Wall {
                                      ///< and of the first, the second wall's past the two walls
 };
 
-/// An edge's patch (stp_bv.h) with the four boundaries around it; a spindle has no walls, and the vertices
-/// twice. All boundaries of a volume are edges': vertices and faces name their sides. An edge has two, each
-/// one of its ends and one of its walls; a side's number is where that wall lies among all records, in bytes.
+/// An edge's patch (stp_bv.h) with the four boundaries of its region. A spindle has no walls, and its
+/// vertices twice. All boundaries of a volume are stored with the edges; vertices and faces refer to them as
+/// sides. An edge has two sides, each with one of its ends and one of its walls. The number of a side is the
+/// byte offset of that wall among all records.
 struct alignas(64) EdgeRecord {
   Packed middle;  ///< fourth: kappa
   Packed axis;    ///< fourth: sine

@@ -1,5 +1,5 @@
-// A volume's patches and region boundaries in arrays for queries. Each boundary is stored once, with its
-// edge; the sides of a patch are indices in blocks of four, tested together.
+// Arrays of a volume's patches and region boundaries, for queries. Each boundary is stored once, with its
+// edge. The sides of a patch are indices in blocks of four, which are tested together.
 #include "fcl_stpbv/volume/patch_table.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// A patch as its formula needs it, and what its core shows along a normal: the one place where an STP-BV's
-// support points come from.
+// A patch in the form that its formula needs, and its support point and height for a normal. All support
+// points of an STP-BV are computed here.
 #pragma once
 
 #include <Eigen/Core>
@@ -46,7 +46,7 @@ inline double sag(const Patch& edge, const Radii& radii) {
   return half * half / (radii.rho + edge.kappa);
 }
 
-/// An edge's core seen along a normal that leans by `v = n.u` along the edge.
+/// The core at an edge, for a normal `n` with the component `v = n.u` along the edge.
 struct EdgeView {
   double c;       // sqrt(1 - v^2)
   double around;  // radius of curvature around the edge, rho - kappa / c
@@ -54,9 +54,9 @@ struct EdgeView {
   Packed offset;  // core point, from the edge's middle
 };
 
-/// The lengths of docs/theory.md, 2 without their cancellation: `rho c - kappa` is a centimetre against tens
-/// of metres, so it is written with the edge's sine s, rho^2 - kappa^2 = rho^2 s^2. Near the smallest R
-/// kappa is small, and that form would divide by little.
+/// The lengths of docs/theory.md, 2, without cancellation. `rho c - kappa` is a difference of tens of metres
+/// that is about a centimetre, so it is rewritten with the edge's sine s: rho^2 - kappa^2 = rho^2 s^2. Near
+/// the smallest R kappa is small, and the rewritten form would divide by a small number.
 inline EdgeView viewEdge(const PosedPatch& edge, const Packed& n) {
   const double rho = edge.radii->rho, kappa = edge.kappa, s = edge.sine;
   const double v = dot(n, edge.axis), rho2 = rho * rho;
@@ -71,7 +71,8 @@ inline EdgeView viewEdge(const PosedPatch& edge, const Packed& n) {
   return e;
 }
 
-/// Height of the core's supporting plane above the patch's anchor, and its point from there.
+/// Height of the core's supporting plane above the patch's anchor, and the support point relative to the
+/// anchor.
 struct CoreView {
   double rise = 0.0;
   Packed offset{};
@@ -89,8 +90,8 @@ inline CoreView viewCore(const PosedPatch& p, const Packed& n) {
   return {};
 }
 
-/// Height of the supporting plane with unit normal `n` above the patch's anchor, margin included, the patch
-/// continued over the whole sphere (m). Body frame, as below.
+/// Height of the supporting plane with unit normal `n` above the patch's anchor, including the margin r (m).
+/// The patch's formula is used even if `n` is not in its region. Body frame, also below.
 inline double supportAboveAnchor(const StpBv& body, int patch, const Eigen::Vector3d& n) {
   return body.radii().r + viewCore(posedPatch(body, patch), pack(n)).rise;
 }

@@ -1,6 +1,9 @@
-// Pivots the ball over an edge: guesses a point where it may come to rest, and asks a tree (point_tree.h) for
-// the point highest over the ball that rests there, until there is none. Sides are decided exactly
-// (ball_side.h); angles only order the points to try, but are rounded.
+// Pivots the ball over an edge:
+// 1. guess a point on which the ball may come to rest;
+// 2. find the point that is highest over that ball, with a tree (point_tree.h);
+// 3. if it is outside the ball, try again with this point; otherwise the ball rests.
+// Sides are decided exactly (ball_side.h). Angles are rounded, but they only decide the order in which points
+// are tried.
 #include "fcl_stpbv/volume/pivot.h"
 
 #include <Eigen/Geometry>
@@ -27,9 +30,9 @@ double angleOf(const RollingCloud& cloud, const TouchingBall& ball, int a, int b
   return angle < -kRounding ? angle + kTwoPi : std::max(0.0, angle);
 }
 
-// A point that the ball leaves before it has rolled by `rest` and that is back inside by then; -1 where there
-// is none. Such a point is out for less than the whole roll: if for less than half a turn it is one of those
-// `aside` of the edge, else it is out in the middle of the roll.
+// A point that the ball leaves before it has rolled by `rest` and that is inside again by then; -1 if there
+// is none. Such a point is outside for only a part of the roll. If that part is less than half a turn, the
+// point is one of those `aside` of the edge; otherwise it is outside in the middle of the roll.
 int leftOnTheWay(const RollingCloud& cloud, int a, int b, const Vector3d& across, double rest) {
   const Vector3d edge = cloud.at(b) - cloud.at(a), u = edge.normalized(), side = u.cross(across);
   std::vector<int> aside;
@@ -117,8 +120,8 @@ Ring pivot(RollingCloud& cloud, int a, int b, const Vector3d& across, int candid
     if (outside < 0 && !lone) {
       const double rest = leavingAngle(cloud, a, b, across, candidate);
       outside = leftOnTheWay(cloud, a, b, across, rest >= 0 ? rest : angleOf(cloud, ball, a, b, across));
-      // The side of a ball is decided exactly, an angle is not: among near-duplicates it may send the ball
-      // back and forth. Where it has been sent once and has not stayed there is no rest.
+      // Sides of the ball are exact, but angles are not: among near-duplicate points the ball may jump back
+      // and forth. If it has been at a point once and did not stay, it does not rest there.
       if (std::find(sent.begin(), sent.end(), outside) != sent.end()) outside = -1;
       sent.push_back(outside);
     }

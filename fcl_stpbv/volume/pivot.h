@@ -7,19 +7,19 @@
 
 namespace fcl_stpbv::detail {
 
-/// Whether no point but its ends lies in the ball over the edge as diameter. Only such points can leave the
-/// rolling ball and come back into it within half a turn, and only where there is one can two vertices be
-/// joined by two edges.
+/// Whether the ball that has the edge as its diameter contains no other point. Only a point in it can leave
+/// the rolling ball and enter it again within half a turn, and only then can two vertices be joined by two
+/// edges.
 bool isLone(const RollingCloud& cloud, int a, int b);
 
-/// Angle by which the ball, resting on a and b with its normal turned towards `across`, rolls until it leaves
-/// p; negative where it never does.
+/// The ball rests on a and b, with its normal turned towards `across`. Returns the angle by which it rolls
+/// until p is outside (rad); negative if p never is.
 double leavingAngle(const RollingCloud& cloud, int a, int b, const Eigen::Vector3d& across, int p);
 
-/// Rolls over the edge a -> b away from the face on its left and returns the face where the ball comes to
-/// rest. `across` is the unit part of the ball's normal across the edge, `candidate` any point it may come to
-/// rest on; `lone` is isLone(a, b).
-/// @throws Error where rounding leaves it no rest.
+/// Rolls the ball over the edge a -> b, away from the face on its left, and returns the face on which it
+/// comes to rest. `across` is the part of the ball's normal perpendicular to the edge, of unit length.
+/// `candidate` is any point on which the ball may come to rest. `lone` is isLone(a, b).
+/// @throws Error if rounding errors prevent that it comes to rest.
 Ring pivot(RollingCloud& cloud, int a, int b, const Eigen::Vector3d& across, int candidate, bool lone);
 
 }  // namespace fcl_stpbv::detail

@@ -1,4 +1,4 @@
-// The check of points that callers give to what builds and measures.
+// Checks the points that callers pass to functions that build or measure volumes.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,12 +1,13 @@
 // How deep a point is inside an STP-BV's core (docs/theory.md, 5, "A point").
 //
-// The core lies in the ball of each face, so no way out is longer than out of one of these balls. And a point
-// deep enough leaves the core through a face: along an edge or a vertex the surface bends too much to be a
-// shortest way. So the depth is the least of the depths in the balls.
-// 1. Of each ball take the power of the point, |p - c|^2 - rho^2. From a point a on the ball and the normal u
-//    there it is (p - a) . (p - a + 2 rho u), which does not cancel where the centre c is far away. Where it
-//    is near, |p - c|^2 itself keeps more digits.
-// 2. The ball with the largest power is the one that the point leaves soonest.
+// The core lies in the ball of each face, so the shortest way out of the core is at most the way out of one
+// of these balls. For a point that is deep enough, the shortest way out leads through a face, because the
+// surface at an edge or a vertex is curved too strongly. So the depth is the smallest of the depths in the
+// balls.
+// 1. For each ball compute the power of the point, |p - c|^2 - rho^2. With a point a on the ball and the
+//    normal u there, it is (p - a) . (p - a + 2 rho u), which has no cancellation if the centre c is far
+//    away. If the centre is near, |p - c|^2 itself is more accurate.
+// 2. The ball with the largest power gives the shortest way out.
 #include "fcl_stpbv/volume/point_depth.h"
 
 #include <algorithm>

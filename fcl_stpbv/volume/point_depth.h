@@ -20,15 +20,15 @@ struct PointDepth {
 /// than `QueryTables::capHeight`.
 std::optional<PointDepth> pointDepth(const StpBv& body, const Eigen::Vector3d& p);
 
-/// The same, but only of ways `n` with `n . side >= 0` for each of `count` unit vectors, and only one shorter
-/// than `below` (m): the least of the depths in the balls whose way is one of these. For a corner of another
-/// body and its edges, how deep that body is there, if anywhere it is deeper than `capHeight`
-/// (docs/theory.md, 5).
+/// The same, but restricted to directions `n` with `n . side >= 0` for each of the `count` unit vectors, and
+/// to depths below `below` (m). It is the smallest depth over the balls whose direction is allowed. With a
+/// corner of another body and its edges as sides, it is the depth of that body at the corner, if the corner
+/// is deeper than `capHeight` anywhere (docs/theory.md, 5).
 std::optional<PointDepth> pointDepthBetween(const StpBv& body, const Eigen::Vector3d& p,
                                             const Eigen::Vector3d* side, int count, double below);
 
-/// A point of the core that is deeper than this in all faces' balls leaves the core soonest through a face
-/// (docs/theory.md, 5, "A point"). Infinite where the centre is not as deep.
+/// For a point of the core that is deeper than this in all faces' balls, the shortest way out leads through a
+/// face (docs/theory.md, 5, "A point"). Infinite if not even the centre is that deep (m).
 double capHeight(const StpBv& body);
 
 }  // namespace fcl_stpbv::detail

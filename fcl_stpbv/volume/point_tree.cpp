@@ -1,8 +1,8 @@
-// A tree of boxes over a cloud, each along its points' principal axes (as in Gottschalk, Lin,
-// Manocha, OBBTree, 1996), split at the median of the longest one. The highest point over a ball
-// is found by branch and bound: a box's bound is the sum of the largest values of each coordinate,
-// or the bound by the sphere around the cloud's centre if that is lower. Points on a surface have
-// thin boxes, which is what makes the bound close.
+// A tree of oriented boxes over a cloud. Each box has the principal axes of its points (as in Gottschalk,
+// Lin, Manocha, OBBTree, 1996), and is split at the median along its longest axis. The highest point over a
+// ball is found by branch and bound. The bound of a box is the sum of the largest values for each coordinate,
+// or the bound by the sphere around the cloud's centre if that is lower. Points on a surface have thin boxes,
+// so the bound is tight.
 #include "fcl_stpbv/volume/point_tree.h"
 
 #include <Eigen/Eigenvalues>
@@ -102,9 +102,9 @@ PointTree::Highest PointTree::highest(const Eigen::Vector3d& anchor, const Eigen
     }
     return sum;
   };
-  // Over a box of points on a sphere that bound is as much too high as the sphere bulges in the box, and no
-  // box falls out when the ball is nearly that sphere. From the sphere's centre o on, the height is linear in
-  // p and |p - o|^2 together, of which each node knows the largest.
+  // For a box of points on a sphere, that bound is too high by the bulge of the sphere in the box. So no box
+  // would be pruned if the ball is nearly that sphere. Measured from the sphere's centre o, the height is a
+  // linear function of p and |p - o|^2, and each node stores the largest |p - o|^2.
   const Eigen::Vector3d o = -from, slope = curvature * o + normal;
   const double level = 0.5 * curvature * o.squaredNorm() + normal.dot(o);
   const double rounding = 32 * std::numeric_limits<double>::epsilon() *

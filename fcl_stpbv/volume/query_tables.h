@@ -1,4 +1,4 @@
-// What a query reads of a volume: made once, when the volume is built.
+// The tables of a volume that queries read. They are made once, when the volume is built.
 #pragma once
 
 #include <limits>
@@ -12,12 +12,13 @@
 namespace fcl_stpbv::detail {
 
 struct QueryTables {
-  /// A bound on how far the support function is off the points' own, beyond its rounding: surface_check.h
-  /// (m). Set by the builder once it has looked at what it made, before anyone else sees it.
+  /// Upper bound on the error of the support function beyond its rounding (m), because the faces' balls fit
+  /// the points only approximately (surface_check.h). The builder sets it after its check of the volume,
+  /// before it hands the volume out.
   mutable double supportError = 0;
   PatchTable patches;  ///< with the boundaries of their regions of normals
-  /// Faces near the centre, nearest first, each the nearest of those about its direction: along their normals
-  /// the body is likely to be left soonest.
+  /// Some faces near the centre, nearest first, in different directions; each is the nearest one around its
+  /// direction. The shortest way out of the body is likely along one of their normals.
   std::vector<int> shallowFaces;
   double capHeight = std::numeric_limits<double>::infinity();  ///< point_depth.h (m)
   BodyBox box;

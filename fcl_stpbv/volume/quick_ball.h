@@ -1,4 +1,4 @@
-// The ball through three points in double precision, with the exact one behind it.
+// The ball through three points in double precision, with the exact predicate as a fallback.
 #pragma once
 
 #include <Eigen/Core>

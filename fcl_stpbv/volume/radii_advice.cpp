@@ -1,7 +1,10 @@
-// An allowed acceleration gives the least r and the largest R, and these the smallest volume that keeps it.
-// Its over-cover falls as the acceleration grows, so the least acceleration for a clearance is a bisection.
-// What is left of the clearance, or what a fifth more of that least acceleration saves, makes R smaller. So
-// does a long period, whose rows miss in proportion to R.
+// Chooses r and R:
+// 1. An allowed acceleration gives the smallest r and the largest R. Together they give the smallest volume
+//    within that acceleration.
+// 2. The over-cover of this volume falls as the allowed acceleration grows. So if it exceeds the clearance,
+//    bisection finds the lowest acceleration within the clearance, and a fifth more is allowed.
+// 3. The clearance that is left is used for a smaller R.
+// 4. A long period also asks for a smaller R, because the error of linear constraints is proportional to R.
 #include "fcl_stpbv/volume/radii_advice.h"
 
 #include <cmath>
@@ -30,7 +33,7 @@ void check(const RadiiTask& task) {
   requireNumber("adviseRadii: distance", task.distance, 0, kGreatest);
 }
 
-/// The last number on the way from `good` to `bad` that is good, to rounding.
+/// The last good number between `good` and `bad`, up to rounding, by bisection.
 template <class IsGood>
 double lastGood(double good, double bad, const IsGood& isGood) {
   if (isGood(bad)) return bad;
@@ -76,8 +79,9 @@ class Adviser {
   }
 
  private:
-  /// What may be above the least acceleration. The last bit of clearance lowers it by little, but R by a lot:
-  /// with all of it in r, R is tens of metres, and a controller's joints follow every tilt.
+  /// Factor on the lowest acceleration. The last bit of clearance changes the acceleration only a little, but
+  /// R a lot: if all clearance is used for r, R is tens of metres, and a controlled robot's joints have to
+  /// follow every tilt.
   static constexpr double kSpare = 1.2;
   // The first step that keeps the clearance is found, then the place between it and the last to a thousandth.
   static constexpr double kStep = 2;
@@ -99,7 +103,7 @@ class Adviser {
     return high;
   }
 
-  /// Of the clearance, with what a period's rows miss (m).
+  /// The part of the clearance that is used, including the error of linear constraints within a period (m).
   static double lost(const RadiiAdvice& advice) { return advice.overCover + advice.perPeriod; }
   bool keeps(const RadiiAdvice& advice) const { return lost(advice) <= task_.clearance; }
 
@@ -125,9 +129,9 @@ class Adviser {
     return best;
   }
 
-  /// The radii with at most this acceleration that lose the least. Over r the body bulges by about
-  /// b^2 / (2 R), b read off the volume, and the rows miss `missed_` times R: least together where both are
-  /// equal.
+  /// The radii with at most this acceleration that use the least clearance. The body bulges beyond r by about
+  /// b^2 / (2 R), where b is derived from the volume. The linear constraints are off by `missed_` times R.
+  /// The sum is smallest if both are equal.
   RadiiAdvice with(double acceleration) const {
     RadiiAdvice best = withRadii(radiiFor(task_, acceleration));
     const double r = best.radii.r, widest = best.radii.R;

@@ -1,8 +1,8 @@
-// Fewer vertices within a budget of over-cover:
+// Makes a volume with few vertices, within a limit on the over-cover:
 // 1. try a sphere, then a spindle along the long axis;
-// 2. else add the points that stick out most, a sixteenth at a time, and add what still sticks out to r,
-//    until the budget is kept;
-// 3. then drop each vertex that the budget can spare.
+// 2. else add the points that stick out most as vertices, a sixteenth more at a time. Enlarge r by what still
+//    sticks out. Repeat until the limit is kept;
+// 3. then remove each vertex that is not needed within the limit.
 #include "fcl_stpbv/volume/reduce.h"
 
 #include <Eigen/Eigenvalues>

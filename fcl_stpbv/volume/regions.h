@@ -20,8 +20,7 @@ struct Arc {
   Eigen::Vector3d at(double part) const;  ///< part in [0, 1]
 };
 
-/// A region with its boundary, counter-clockwise, and a normal inside it from
-/// which all of the boundary is in sight.
+/// A region with its counter-clockwise boundary, and a centre from which the region is star-shaped.
 struct Region {
   int patch;
   Eigen::Vector3d centre;
@@ -37,8 +36,9 @@ Eigen::Vector3d vectorArea(const Region& region);
 /// Regions of all vertices, then of all faces (paper III.D). A single point's sphere comes as two halves.
 std::vector<Region> regions(const StpBv& volume);
 
-/// The least of all edges' kappa / rho: near the smallest R an edge's normals lie close to its line, and
-/// rounding moves them by one over this cosine as much. 1 without edges.
+/// The smallest kappa / rho of all edges, the cosine of the largest lean of a normal; 1 without edges. Near
+/// the smallest R some normals of an edge are almost parallel to the edge, and rounding errors are then
+/// larger by the inverse of this cosine.
 double leastCosine(const StpBv& volume);
 
 /// The arc of an edge's normals halfway between its ends, from its first face to

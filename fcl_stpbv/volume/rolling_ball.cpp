@@ -2,9 +2,9 @@
 // 1. let the ball touch a first, a second and a third point: the first face (first_face.h);
 // 2. over each open edge pivot the ball to the point it meets next (pivot.h);
 // 3. stop when no edge is open; join faces on one ball (join_faces.h).
-// Sides are decided by one exact predicate (ball_side.h), so that faces found from different edges agree.
-// Where rounded angles defeat the roll a small cloud's faces are listed by their definition (ball_faces.h);
-// the convex hull of a cloud in one plane is its outline (flat_outline.h).
+// Sides are decided by one exact predicate (ball_side.h), so that faces found from different edges agree. If
+// the roll fails because of rounded angles, the faces of a small cloud are found by their definition
+// (ball_faces.h). The convex hull of a cloud in one plane is its outline (flat_outline.h).
 #include "fcl_stpbv/volume/rolling_ball.h"
 
 #include <Eigen/Geometry>
@@ -140,8 +140,8 @@ RolledHull hullOf(const std::vector<Vector3d>& points, std::vector<Ring> faces, 
   return hull;
 }
 
-/// The ends of points that are on one line to rounding: no direction across it tells them apart, and a face
-/// that rounding made there would leave out an end. Nothing if some point is off the line.
+/// The two end points of a cloud whose points are on one line up to rounding. A face that rounding makes
+/// there could miss an end point. Empty if some point is off the line.
 std::vector<int> needleEnds(const std::vector<Vector3d>& points) {
   constexpr double kRounding = 3e-14;  // of the length
   const auto farthestFrom = [&](int from) {
@@ -184,8 +184,8 @@ RolledHull convexHull(const std::vector<Vector3d>& points) {
 
 RolledHull flatHull(const std::vector<Vector3d>& points) {
   const double radius = flatRadius(points);
-  // So large a ball leaves no point on its way from one face to the next that both of them hold: what
-  // quickhull finds is the hull without a further check.
+  // When such a large ball rolls from one face to the next, no point inside both balls gets outside in
+  // between. So the result of quickhull is the hull without a further check.
   try {
     RolledHull quick = quickBallHull(points, radius);
     if (!quick.faces.empty()) return quick;

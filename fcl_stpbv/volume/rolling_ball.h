@@ -26,22 +26,22 @@ RolledHull rollBall(const std::vector<Eigen::Vector3d>& points, double radius);
 /// @throws Error likewise.
 RolledHull convexHull(const std::vector<Eigen::Vector3d>& points);
 
-/// The same, but with faces also where rounding alone keeps the points off one line.
+/// The same, but it makes faces even if the points are off a common line only by rounding.
 /// @throws Error likewise.
 RolledHull flatHull(const std::vector<Eigen::Vector3d>& points);
 
-/// What rollBall() finds, by the definition of its faces, slow and sure: for at most kMostByDefinition points
-/// (ball_faces.h) and a finite radius. Empty for a sphere or a spindle, which
-/// have no face.
+/// The same hull as rollBall(), but directly from the definition of faces: slow and reliable. For at most
+/// kMostByDefinition points (ball_faces.h) and a finite radius. Empty for a sphere or a spindle, which have
+/// no face.
 RolledHull hullByDefinition(const std::vector<Eigen::Vector3d>& points, double radius);
 
 /// The same by quickhull (ball_quickhull.h), much faster; without faces where that does not suit the
 /// cloud. The caller has to check what comes back (surface_check.h).
 RolledHull quickBallHull(const std::vector<Eigen::Vector3d>& points, double radius);
 
-/// Radius of a ball that bulges over the cloud by less than its coordinates' rounding: what flatHull() takes
-/// in place of a plane. Unlike a plane it has no point on a side of one of its triangles but the two ends, so
-/// no vertex of the convex hull lies inside a side or a flat face.
+/// Radius of a ball so large that its bulge over the cloud is below the rounding of the coordinates.
+/// flatHull() uses it in place of a plane. Unlike a plane, such a ball touches a side of a triangle only at
+/// the two ends. So no vertex of the resulting convex hull lies inside a side or a flat face.
 double flatRadius(const std::vector<Eigen::Vector3d>& points);
 
 }  // namespace fcl_stpbv::detail

@@ -1,4 +1,4 @@
-// What the roll keeps of its cloud, and how points vanish into their neighbours.
+// The state of a cloud during the roll, and the merging of points that are close together.
 #include "fcl_stpbv/volume/rolling_cloud.h"
 
 namespace fcl_stpbv::detail {

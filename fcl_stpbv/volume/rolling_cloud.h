@@ -1,4 +1,4 @@
-// A cloud while a ball rolls over it: its points, how large it is, and which of them have become vertices.
+// A point cloud during the roll: its points, its size, and which points have become vertices.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,7 +13,7 @@ namespace fcl_stpbv::detail {
 /// Diagonal of the bounding box of a cloud that is not empty (m).
 double extentOf(const std::vector<Eigen::Vector3d>& points);
 
-/// Points that lie closer than rounding to a vertex vanish into it: the tree does not see them any more.
+/// Points that are closer to a vertex than rounding are merged into it: the tree no longer contains them.
 class RollingCloud {
  public:
   RollingCloud(const std::vector<Eigen::Vector3d>& points, double radius);

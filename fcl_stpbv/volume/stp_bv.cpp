@@ -1,8 +1,8 @@
-// Building a volume and its simple queries.
-// 1. Check points and radii; the smallest ball decides whether R is large enough.
-// 2. Find the faces that a ball of radius R - r can touch from inside: by quickhull, where that fails the
-//    check of the surface by rolling the ball, and of few points by the faces' definition (rolling_ball.h).
-//    Make patches of them (stp_bv_topology.cpp).
+// Builds a volume; and its simple queries.
+// 1. Check points and radii. The smallest enclosing ball decides whether R is large enough.
+// 2. Find the faces that a ball of radius R - r can touch from inside: by quickhull. If the result fails the
+//    check of the surface, roll the ball instead, and if that fails too and the points are few, use the
+//    faces' definition (rolling_ball.h). Make patches of the faces (stp_bv_topology.cpp).
 // 3. Queries walk from a hint to the patch that owns the normal and use its closed form.
 #include "fcl_stpbv/volume/stp_bv.h"
 
@@ -209,8 +209,9 @@ int StpBv::owner(const Vector3d& n, int hint) const {
   const PatchTable& patches = tables_->patches;
   int best = current;
   double least = kInfinity;
-  // The step over the worst boundary goes down the height n.C over the core's admissible centres C, so it
-  // does not come back; the bound only stops a walk among regions narrower than rounding.
+  // Each step crosses the boundary that `n` violates most. It lowers the height n.C over the core's
+  // admissible centres C, so the walk never returns to a patch. The limit only stops a walk among regions
+  // that are narrower than rounding.
   for (int step = 0; step < 64 + patchCount(); ++step) {
     const Crossing over = patches.crossing(current, along);
     if (over.past <= kBoundaryRounding) return current;

@@ -1,6 +1,6 @@
-// From vertices and faces to the whole volume (paper, III.A, III.B, III.D): pairs half
-// edges, makes the patches with the planes and cones between them, an inscribed ball,
-// and the table from directions to patches.
+// Makes the whole volume from its vertices and faces (paper, III.A, III.B, III.D): pairs half-edges, makes
+// the patches with the planes and cones between them, an inscribed ball, and the table from directions to
+// patches.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -22,8 +22,9 @@ namespace {
 using namespace detail;
 using Eigen::Vector3d;
 
-// An edge that turns by more is cut into parts: the boundaries of a region past half a turn do not intersect
-// in it, however little it is past. A flat plate's rim turns by nearly half a turn and stays whole.
+// An edge whose normals turn by more than this is split into parts, because a region of more than half a turn
+// is not an intersection of half spaces. The rim of a flat plate turns by nearly half a turn and is not
+// split.
 constexpr double kWidestPart = kPi;
 constexpr double kPartTurn = 2.2;  // rad: well below half a turn, and at most three parts
 
@@ -158,8 +159,9 @@ void StpBv::makePatches(QueryTables& tables) {
     for (std::size_t k = 0; k < parts.size(); ++k) recordOf(k) = whole;
     if (edge.face[0] < 0) continue;
 
-    // Between faces in one plane an edge hardly turns: its two planes would hold the opposite normals too.
-    // Each leans outwards by the rounding of a few dot products, which tells the two sides apart.
+    // Between two faces in one plane an edge turns by almost nothing. Its two planes would then also contain
+    // the opposite normals. So each plane is tilted outwards by the rounding of a few dot products, which
+    // separates the two sides.
     constexpr double kThinnest = 16 * std::numeric_limits<double>::epsilon();  // rad
     const double lean = edge.turn < kThinnest ? kThinnest : 0.0;
     const auto setWall = [&](std::size_t part, std::size_t k, const Vector3d& normal, std::int32_t past) {
@@ -193,8 +195,9 @@ void StpBv::makeDirectionTables(QueryTables& tables) const {
   for (const Edge& edge : edges_) ends.push_back(edge.vertex);
   tables.graph = VertexGraph(vertices_, ends);
   tables.box = boxAround(vertices_, ends);
-  // Three cells a patch: the vertex of a direction's cell is nearly always the furthest along it. But one of
-  // a large volume, where the table would be read from far away; up to millions.
+  // About three cells per patch: then the vertex stored for a cell is nearly always the furthest one along a
+  // direction in the cell. Large volumes have about one cell per patch, because a larger table would no
+  // longer fit into the cache; at most a million.
   const double count = std::min(3.0 * patchCount(), patchCount() + 2000.0);
   const int side = std::clamp(static_cast<int>(std::sqrt(count)), 2, 1000);
   int last = 0;

@@ -1,15 +1,17 @@
-// Local tests that prove the whole. A volume's patches lie over regions of normals that are glued along their
-// boundaries, an edge's region between two faces' and two vertices'. Let
-//   (a) each region be bounded by a loop that turns left at its corners and along its arcs, by 2 pi less the
+// Local tests that together prove that the volume is the ball hull of its vertices. The patches lie over
+// regions of normals, which are glued along their boundaries: an edge's region lies between the regions of
+// two faces and two vertices. The tests are (a) each region be bounded by a loop that turns left at its
+// corners and along its arcs, by 2 pi less the
 //       region's area in all, and that area not be negative;
 //   (b) neighbours lie on different sides of their boundary, and the angles around a corner add up to 2 pi;
 //   (c) vertices - edges + faces be 2.
 // By (a) a region is mapped one to one to the sphere of normals: a loop that turns left everywhere winds
 // round its inside once, or its turns would add up to 2 pi more and the area come out negative, unless it
 // bounded a quarter of the sphere twice over. With (b) the map is one to one near every normal, so the glued
-// surface covers the sphere evenly, and by (c) once. The patches then are the surface of a convex body with
-// normals all around, whose radii of curvature are at most R. By Blaschke's theorem any ball of radius R that
-// touches it from around holds it: it is the ball hull of its vertices.
+// surface covers the sphere evenly, and by (c) once. So the patches are the surface of a convex body that has
+// every normal once, with radii of curvature of at most R. By Blaschke's theorem, any ball of radius R that
+// touches the body, with the body on its inner side, contains it. So the body is the ball hull of its
+// vertices.
 //
 // For (b): where a face turns left at a corner, its angle and the vertex's there make pi, and the two of the
 // edges make the rest. An edge is on both of its faces' balls, if these touch its ends, and between their
@@ -33,7 +35,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
-// Two normals of an edge that are tried are that far apart (rad).
+// Angle between two normals of an edge that are tested (rad).
 constexpr double kWide = 0.3;
 
 // Height of a vertex over the ball of a face (m), as the face's patch has it.
@@ -54,7 +56,7 @@ double height(const StpBv& volume, int face, int vertex) {
   return ball.valid() ? static_cast<double>(ball.height(at(volume, vertex))) : rounded;
 }
 
-// The most that a point is outside of the ball that rolls over an edge, in between its ends (m).
+// Largest height of a point over the ball that rolls over an edge, between the two ends of the roll (m).
 double heightOnTheWay(const StpBv& volume, int edge, const Arc& arc, const Vector3d& p) {
   const StpBv::Edge& e = volume.edges()[static_cast<std::size_t>(edge)];
   const Vector3d &from = at(volume, e.vertex[0]), along = at(volume, e.vertex[1]) - from, q = p - from;
@@ -78,10 +80,10 @@ double farthestOut(const StpBv& volume, const std::vector<Vector3d>& points) {
     const FaceRecord& face = volume.tables().patches.face(volume.facePatch(f));
     out = std::max(out, tree.highest(face.anchor, face.normal, curvature, 0, &near).height);
   }
-  // A point that leaves the rolling ball and meets it again within half a turn is in the ball
-  // over the edge as diameter, nearer to either end than its length l. Its height changes with
-  // the roll as a sinusoid of at most that amplitude: where it is out by an angle x from where
-  // it is asked, it is at least -l x^2 / 2 high.
+  // A point that leaves the rolling ball and enters it again within half a turn is in the ball that has the
+  // edge as its diameter. So it is nearer to both ends than the edge's length l. During the roll its height
+  // is a sinusoid of at most that amplitude. If it is outside at an angle x from the tested angle, its height
+  // at the tested angle is at least -l x^2 / 2.
   for (int e = 0; e < volume.edgeCount(); ++e) {
     const StpBv::Edge& edge = volume.edges()[static_cast<std::size_t>(e)];
     const Vector3d &from = at(volume, edge.vertex[0]), &to = at(volume, edge.vertex[1]);
@@ -140,8 +142,9 @@ double vertexHeight(const StpBv& volume, const CornerHeights& corners) {
   return worst;
 }
 
-// The largest distance between patches that should meet. Those of an edge part by as much as its ends are off
-// its faces' balls, so that only wide turns, which may be none, are measured.
+// The largest gap between patches that should meet. The gap of an edge equals the distance of its ends from
+// its faces' balls, which is tested elsewhere. So only edges with wide turns are measured, since these may be
+// wrong.
 double largestGap(const StpBv& volume) {
   double gap = 0;
   for (int f = 0; f < volume.faceCount(); ++f)
@@ -252,10 +255,12 @@ Soundness soundnessOf(const StpBv& volume, const std::vector<Vector3d>& points,
   return left <= 16 * kEpsilon * size ? Soundness::exact : Soundness::sound;
 }
 
-// A centre C is at `rho` from its patch's vertices to `off`, and from no point further than that. Moved
-// towards the smallest ball's centre, which is at that ball's radius from all, it has all within `rho`; and
-// no centre that has is much lower along a normal between the vertices' own. Either way n.C changes by `off`
-// times rho / sqrt(rho^2 - radius^2) at most, by less where `off` is all that there is above the smallest R.
+// The centre C of a patch is at the distance `rho` from the patch's vertices, with an error of at most `off`,
+// and no point is further away than `rho + off`. Move C towards the centre of the smallest ball, which has
+// all points within that ball's radius: then all points are within `rho`. In the other direction, no centre
+// that has all points within `rho` is much lower along one of the patch's normals. In both cases n.C changes
+// by at most `off` times rho / sqrt(rho^2 - radius^2), or by less if R is so close to the smallest R that
+// `off` is all the space there is.
 double supportErrorOf(const StpBv& volume, double off) {
   if (!(off > 0)) return 0;
   const double rho = volume.radii().rho, radius = volume.enclosingRadius() - volume.radii().r;

@@ -1,4 +1,4 @@
-// Whether what the builder made is the ball hull of its points.
+// Checks whether a volume is the ball hull of its points.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,19 +11,20 @@
 
 namespace fcl_stpbv::detail {
 
-/// What was built holds its points to rounding, the other points even to that of their height alone; is off
-/// by more than that; or is no ball hull at all.
+/// Result of the check. `exact` and `sound`: the volume contains its points up to rounding; for `exact` the
+/// other points up to the rounding of their height alone. `off`: it misses points by more than that.
+/// `broken`: it is no ball hull at all.
 enum class Soundness { exact, sound, off, broken };
 
-/// By local tests, in a time that grows with the number of patches: no walks and no search but for `others`,
-/// the points that are no vertices. `points` are all of them.
+/// Uses only local tests, so the time is linear in the number of patches; only points that are no vertices
+/// need a search. `points` are all points of the cloud.
 /// `off`, where asked for, is the most that a point is outside a face's or an edge's ball, or a face's corner
 /// off its own (m).
 Soundness soundnessOf(const StpBv& volume, const std::vector<Eigen::Vector3d>& points,
                       const std::vector<Eigen::Vector3d>& others, double* off = nullptr);
 
-/// A bound on how far the support function is off the points' own, beyond its rounding, where their heights
-/// are off by that (m).
+/// Upper bound on the error of the support function beyond its rounding, if the heights of points are off by
+/// `off` (m).
 double supportErrorOf(const StpBv& volume, double off);
 
 /// Solid angles of the patches' regions of normals, by Gauss and Bonnet, an edge's further parts with their
@@ -34,10 +35,10 @@ struct RegionAngles {
 };
 RegionAngles regionAngles(const StpBv& volume);
 
-/// Largest height of a vertex over the ball of its own face or of one beside it (m). That decides for all
-/// vertices and all balls where the regions of normals tile the sphere once: the patches are then one closed
-/// convex surface whose radii of curvature are at most R, and any ball of radius R that touches such a
-/// surface from around holds it (Blaschke).
+/// Largest height of a vertex over the ball of its own face or of a neighbouring face (m). If the regions of
+/// normals tile the sphere once, this test decides for all vertices and all balls: the patches then form one
+/// closed convex surface whose radii of curvature are at most R, and any ball of radius R that touches such a
+/// surface, with the surface on its inner side, contains it (Blaschke's theorem).
 double vertexHeight(const StpBv& volume);
 
 /// Largest distances between two patches' core points at a common normal, on the

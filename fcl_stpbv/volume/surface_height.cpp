@@ -1,10 +1,11 @@
-// Where a ray from inside leaves a volume.
-// 1. From patch to patch: solve the exit of one in closed form. Where its normal is the patch's own the ray
-//    leaves there, else go on at the neighbour over the boundary that it is furthest beyond.
-// 2. Where that ends nowhere, a convex minimisation over the normals: of all supporting planes that the ray
-//    meets, the first one touches the surface. Each plane rules out half of the normals; done where none that
-//    is left can be lower by more than rounding. Next is the normal of the patch's exit, or the centroid of
-//    what is left.
+// Finds the point where a ray from inside leaves a volume.
+// 1. Walk from patch to patch: compute the exit of the ray through one patch in closed form. If the normal at
+//    the exit is in the patch's region, the ray leaves there. Otherwise continue with the neighbour over the
+//    boundary that the normal violates most.
+// 2. If that walk finds no exit, minimise a convex function over the normals: the ray leaves the surface at
+//    the first supporting plane that it meets. Each plane excludes half of the normals. The search ends if no
+//    remaining normal can give a lower plane by more than rounding. The next normal to try is that of the
+//    patch's exit, or the centroid of the remaining normals.
 #include "fcl_stpbv/volume/surface_height.h"
 
 #include <Eigen/Geometry>
@@ -80,7 +81,8 @@ Exit exitOf(const StpBv& volume, int index, const Vector3d& y, const Vector3d& d
   return exit;
 }
 
-// From patch `index` on; its patch is -1 where that ends nowhere. Mostly one or two patches are enough.
+// Step 1, from patch `index` on. The result's patch is -1 if the walk finds no exit. Usually one or two
+// patches are enough.
 SurfaceHeight fromPatchToPatch(const StpBv& volume, const Vector3d& y, const Vector3d& d, int index) {
   constexpr int kPatches = 60;  // a longer way is left to the search over the whole volume
   int before = -1, tried = 0;
@@ -148,7 +150,7 @@ class Fence {
   std::vector<Vector2d> corners_, kept_;
 };
 
-// By supporting planes, from patch `index` on.
+// Step 2, by supporting planes, from patch `index` on.
 SurfaceHeight lowestPlane(const StpBv& volume, const Vector3d& y, const Vector3d& d, int index) {
   // Of all supporting planes that the ray can meet, normals along d + a with a across d, the one met first is
   // the surface's. With H the support function of length one along d, the height is H(d + a) - (d + a).y:

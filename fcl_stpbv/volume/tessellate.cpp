@@ -1,5 +1,6 @@
-// Triangles of the surface for viewing: a grid over each patch's region of normals. Neighbours share the
-// points along their boundary by what these belong to, however close they lie, so the mesh is closed.
+// Makes triangles of the surface for viewing, with a grid over each patch's region of normals. Points on a
+// common boundary are identified by the vertex, edge or face they belong to, not by their coordinates. So
+// neighbours share them even if points are very close together, and the mesh is closed.
 #include "fcl_stpbv/volume/tessellate.h"
 
 #include <Eigen/Geometry>

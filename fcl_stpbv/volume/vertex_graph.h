@@ -1,4 +1,4 @@
-// The way from a volume's vertex to its neighbours, packed for climbing.
+// The edge graph of a volume's vertices, packed for fast hill climbing.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,8 +10,8 @@
 
 namespace fcl_stpbv::detail {
 
-/// Unit directions of up to eight edges away from a vertex, single precision, unused ones zero. A vertex with
-/// more has another star, which `next` names.
+/// Unit directions of up to eight edges that leave a vertex, in single precision; unused ones are zero. A
+/// vertex with more edges has a further star, with the index `next`.
 struct VertexStar {
   static constexpr int kSize = 8;
   using Floats = float __attribute__((vector_size(16)));
@@ -28,8 +28,9 @@ struct VertexStar {
     neighbour[slot] = to;
   }
 
-  /// How steeply the steepest edge rises along `d`, as the bits of a float with the edge's slot in place of
-  /// the three least ones: as integers they compare as positive floats do. No branches, four edges at once.
+  /// The slope of the edge that is steepest along `d`, as the bits of a float whose three lowest bits are
+  /// replaced by the edge's slot. As integers these values compare like positive floats. Branch-free, four
+  /// edges at a time.
   std::int32_t steepest(const Eigen::Vector3f& d, float lift = 0.0f) const {
     constexpr std::array<Integers, 2> slots{Integers{0, 1, 2, 3}, Integers{4, 5, 6, 7}};
     const auto rises = [&](std::size_t half) {
