@@ -1,4 +1,5 @@
-// The directions that may still hold the widest gap: a convex cone, cut down plane by plane.
+// The set of directions that may still give the widest gap: a convex cone, which planes cut smaller and
+// smaller.
 #pragma once
 
 #include <Eigen/Core>
@@ -7,8 +8,8 @@
 
 namespace fcl_stpbv::detail {
 
-/// A convex cone of directions, kept as its corner rays in order. Every cut through its middle takes about
-/// half of it, so a search that cuts at each trial ends whatever the bodies look like.
+/// A convex cone of directions, stored as its corner rays in order. Every cut through its middle removes
+/// about half of it. So a search that cuts at each trial always ends, for any bodies.
 class DirectionCone {
  public:
   static constexpr int kMaxCuts = 200;  ///< halving a hemisphere down to rounding takes about 110
@@ -32,8 +33,8 @@ class DirectionCone {
   std::size_t count_ = 0;  // none: still the hemisphere
 };
 
-/// One direction tried: the gap of the cores along it, and the difference of the two points that tell it,
-/// second body's less first's.
+/// One direction that was tried: the gap of the cores along it, and the second body's support point minus the
+/// first body's.
 struct DirectionTrial {
   Eigen::Vector3d n;  ///< unit, from the first body to the second
   double gap;         ///< between the supporting planes, `n.difference` (m)
@@ -43,17 +44,18 @@ struct DirectionTrial {
   Eigen::Vector3d across() const { return difference - difference.dot(n) * n; }
 };
 
-/// Looks for the widest gap between two convex cores by bisection of the directions left.
+/// Searches the widest gap between two convex cores by bisection of the remaining directions.
 ///
-/// 1. The points of a trial bound the gap everywhere: along `m` it is at most `m.difference`.
-///    So where a trial has no gap, all directions with one lie in the half space of its
-///    difference, and the trial itself does not.
-/// 2. Where it has a gap, the wider ones lie where its gradient points
+/// 1. The support points of a trial bound the gap along all directions: along `m` it is at most
+///    `m.difference`. So if a trial has no gap, every direction with a gap lies in the half space
+///    `m.difference > 0`, and the trial's own direction does not.
+/// 2. If a trial has a gap, the directions with wider gaps lie on the side to which its gradient points
 ///    (docs/theory.md, 5: the set is convex).
-/// 3. Either way a plane cuts the cone in two, and the next trial is the middle of what is left.
+/// 3. In both cases a plane cuts the cone in two. The next trial is the middle of the remaining part.
 ///
-/// `trial(n)` looks along `n`, and `done(t)` ends the search. True where it did; false where no direction is
-/// left, or where the plane to cut by is shorter than `flat` (m), rounding.
+/// `trial(n)` evaluates the direction `n`. `done(t)` returns true to end the search; the result is then true.
+/// The result is false if no direction is left, or if the normal of the cutting plane is shorter than `flat`
+/// (m), so that it is only rounding.
 template <typename Trial, typename Done>
 bool bisectDirections(const DirectionTrial& first, double flat, Trial&& trial, Done&& done) {
   DirectionTrial t = first;

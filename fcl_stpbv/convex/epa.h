@@ -1,16 +1,17 @@
 // EPA: how deep the origin is inside a convex set (van den Bergen 2001, "expanding polytope").
 //
-// The set is the difference B - A of two bodies' cores that overlap, known by its support points alone:
+// The set is the Minkowski difference B - A of two overlapping cores. Only its support points are used:
 // 1. Begin with four points of the difference that span a volume. The origin need not be inside yet.
-// 2. Take the polytope's face nearest to the origin. The polytope lies inside the difference, so once the
-//    origin is inside it no direction leads out sooner than that face is far: a lower bound of the depth.
-//    Where A's core is round, its surface is further out than the face by what its curvature says.
-// 3. The support point along the face's normal gives an upper one: a translation along that normal separates.
-// 4. Once they nearly do, the caller may know the maximum there, and how far around it none is deeper
-//    (local_maximum.h): faces that hide nothing else are put aside.
-// 5. Stop where both agree. Else expand the polytope over the point and go to 2.
-// Rounding may spoil a polytope, of slivers along edges and generators: another
-// first tetrahedron makes other faces.
+// 2. Take the polytope's face nearest to the origin. The polytope lies inside the difference. So once the
+//    origin is inside the polytope, the distance of that face is a lower bound on the depth. If A's core is
+//    round, the curvature gives a better bound, because the surface lies beyond the face.
+// 3. The support point along the face's normal gives an upper bound: a translation along that normal
+//    separates the bodies.
+// 4. When the bounds are close, the caller may compute the local maximum of the gap exactly, and a region
+//    around it without a wider gap (local_maximum.h). Faces within that region are removed from the search.
+// 5. Stop if both bounds agree. Otherwise add the support point to the polytope and go to 2.
+// Rounding may spoil a polytope, because of slivers along edges and generators. Then the search starts again
+// from another tetrahedron.
 #pragma once
 
 #include <Eigen/Core>
@@ -28,8 +29,8 @@
 
 namespace fcl_stpbv::detail {
 
-/// Expands `polytope` at its nearest face until `visit(face)` returns false or rounding stops it: `visit`
-/// expands it or puts the face aside.
+/// Calls `visit` with the polytope's nearest face, until `visit` returns false or rounding stops it. `visit`
+/// must either expand the polytope or put the face aside.
 template <typename AnyPolytope, typename Visit>
 void expandAtNearest(AnyPolytope& polytope, Visit&& visit) {
   while (polytope.sound() && visit(polytope.nearest())) {
@@ -45,8 +46,9 @@ inline std::array<Eigen::Vector3d, 4> normalsAround(const Eigen::Vector3d& n) {
 }
 
 /// Four points of a convex set that span a volume. `furthest(m)` is the set's furthest along the unit vector
-/// `m`, and `place(point)` where that is (m). Directions are looked along in a frame turned by `turn`. False
-/// where the set is flat to `rounding` (m); it has then been looked at along both normals of the flat.
+/// `m`, and `place(point)` where that is (m). The directions are those of a frame rotated by `turn`. False if
+/// the set is flat up to `rounding` (m); its support points along both normals of the flat set have then been
+/// evaluated.
 template <typename Point, typename Furthest, typename Place>
 bool spanVolume(const Eigen::Matrix3d& turn, double rounding, const Furthest& furthest, const Place& place,
                 Point* c) {
@@ -79,8 +81,8 @@ bool spanVolume(const Eigen::Matrix3d& turn, double rounding, const Furthest& fu
   return fromPlane(place(c[3])) > rounding;
 }
 
-/// The least overlap of two cores. `Difference` is a ConvexDifference, or
-/// has the same `Corner` and `support`.
+/// Finds the penetration depth of two cores. `Difference` is a ConvexDifference, or a type with the same
+/// `Corner` and `support`.
 template <typename Difference>
 class Epa {
  public:
@@ -90,10 +92,10 @@ class Epa {
   Epa(Difference& difference, double rounding, double rho = std::numeric_limits<double>::infinity())
       : difference_(difference), rounding_(rounding), rho_(rho) {}
 
-  double gap = -std::numeric_limits<double>::infinity();  ///< the widest seen: minus the least overlap (m)
+  double gap = -std::numeric_limits<double>::infinity();  ///< widest gap found so far: minus the depth (m)
   Eigen::Vector3d n{0, 0, 1};                             ///< its normal, unit, from A to B
   Eigen::Vector3d onA{0, 0, 0};                           ///< A's point there; B's is `gap` along `n` from it
-  /// No normal has a wider gap (m). To begin with as the caller knows it: cores that overlap have no gap.
+  /// Upper bound on the gap along every normal (m). It starts with 0, since cores that overlap have no gap.
   double bound = 0;
   std::array<Corner, 3> met;  ///< corners of the difference that `onA` is of
   int metCount = 0;
@@ -109,8 +111,8 @@ class Epa {
     return c;
   }
 
-  /// A point of A and the way from there to one of B: kept, and true, where it comes nearer
-  /// to the answer's than what is known.
+  /// Offers a point of A and the vector from it to a point of B. Keeps them, and returns true, if they are
+  /// closer to the answer's points than the known ones.
   bool offer(const Eigen::Vector3d& pointOfA, const Eigen::Vector3d& toB) {
     if (!(off(toB) < off())) return false;
     onA = pointOfA;
@@ -119,9 +121,9 @@ class Epa {
     return true;
   }
 
-  /// B's point there, to what EPA knows.
+  /// B's point of the answer, as accurately as it is known.
   Eigen::Vector3d onB() const { return onA + toB_; }
-  /// How far that one is from where the answer has it, opposite `onA` (m).
+  /// Error of onB(): its distance from the point opposite `onA` at the known depth (m).
   double off() const { return off(toB_); }
 
   /// Whether both bounds agree, to 1e-6 of the depth or to rounding.
@@ -132,8 +134,8 @@ class Epa {
   bool run() {
     return run([](Epa&) { return std::optional<LocalMaximum>(); });
   }
-  /// `maximum(epa)` is asked once the bounds are near each other: it takes the search on to the maximum next
-  /// to `n` and tells what is known around it, or nothing.
+  /// Calls `maximum(epa)` once the bounds are close. It moves the search to the maximum next to `n`, and
+  /// returns the LocalMaximum there, or nothing.
   template <typename FindMaximum>
   bool run(const FindMaximum& maximum) {
     constexpr int kAttempts = 4;

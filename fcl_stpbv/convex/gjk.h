@@ -1,14 +1,15 @@
 // GJK: the point of a convex set nearest to the origin (Gilbert, Johnson, Keerthi 1988).
 //
-// The set is the difference B - A of two bodies' cores, known by its support points alone:
+// The set is the Minkowski difference B - A of two bodies' cores. Only its support points are used:
 // 1. Begin with a few points of the difference, or with the one that is furthest against the first normal.
-// 2. Find the point v of their simplex nearest to the origin, and drop the corners that do not hold it. A
-//    tetrahedron around the origin proves that the bodies overlap.
-// 3. |v| is an upper bound of the distance, as the distance of two points. The unit normal n along v gives a
-//    lower one, n.w with w the difference's point furthest against n, as the gap of two supporting planes.
-// 4. Stop where the two bounds agree (the duality gap), where the caller stops it, or where rounding allows
-//    no improvement. Else take w into the simplex and go to 2.
-// The duality gap is a proof. FCL's own stop, two norms that agree, is none (docs/fcl.md).
+// 2. Find the point v of their simplex nearest to the origin, and drop the corners that do not contribute to
+//    v. A tetrahedron around the origin proves that the bodies overlap.
+// 3. |v| is an upper bound on the distance, because it is the distance of two points. The unit normal n along
+//    v gives a lower bound n.w, where w is the support point of the difference along -n. It is the gap of two
+//    supporting planes.
+// 4. Stop if the two bounds agree (duality gap), if the caller stops the search, or if rounding allows no
+//    improvement. Otherwise add w to the simplex and go to 2.
+// The duality gap proves the result. FCL's own criterion, two norms that agree, does not (docs/fcl.md).
 #pragma once
 
 #include <Eigen/Core>
@@ -39,9 +40,10 @@ struct GjkResult {
 
 /// Runs GJK from the corners in `start` (none to four) and the unit normal `n`.
 ///
-/// `difference.support(n)` gives the corner furthest against `n`: its point `w`, and `gap`, n.w as accurate
-/// as the bodies know it; a corner found in another way has a gap of minus infinity. `enough(lower, upper)`
-/// ends the search. Overlap within `rounding` (m) counts as overlap.
+/// `difference.support(n)` returns the support corner along -n: its point `w`, and `gap`, which is n.w as
+/// accurately as the bodies can compute it. A corner that was found in another way has the gap minus
+/// infinity. `enough(lower, upper)` returns true to end the search. Cores within `rounding` (m) of overlap
+/// count as overlapping.
 template <typename Corner, typename Difference, typename Enough>
 GjkResult<Corner> gjk(Difference& difference, const Simplex<Corner>& start, const Eigen::Vector3d& n,
                       double rounding, int steps, const Enough& enough) {

@@ -1,7 +1,7 @@
-// A convex hull's features and how to climb its edges.
+// Makes a convex hull's edges and faces, and finds support vertices by hill climbing.
 //
-// 1. Facets by quickhull, or where rounding defeats that by rolling a ball of nearly infinite radius around
-//    the points (volume/rolling_ball.h).
+// 1. Make the facets by quickhull, or, if that fails because of rounding, by rolling a ball of nearly
+//    infinite radius around the points (volume/rolling_ball.h).
 // 2. Name its edges and the faces around each vertex.
 // 3. Support: hill climbing from the last vertex (as FCL's), eight neighbours at
 //    once; a table of directions names a start.

@@ -1,4 +1,4 @@
-// The convex hull of a volume's vertices as a graph to climb: the polyhedron that FCL sees.
+// The convex hull of a volume's vertices as a graph for hill climbing. It is the polyhedron that FCL gets.
 #pragma once
 
 #include <Eigen/Core>
@@ -20,9 +20,9 @@ struct HullFeature {
 
 /// Convex hull of a cloud: strictly extreme vertices only, coplanar faces merged. Immutable.
 ///
-/// Hill climbing needs exactly that: from a vertex inside a face that is flat to rounding
-/// it can stop at the minimum. Points are kept relative to `centre()`, so that a cloud far
-/// from its frame's origin loses no digits.
+/// Hill climbing needs a hull of this kind: with a vertex inside a flat face it could stop at the wrong
+/// vertex. Points are stored relative to `centre()`, so that a cloud far from the origin of its frame keeps
+/// its accuracy.
 class HullGraph {
  public:
   using Ring = std::vector<int>;
@@ -59,12 +59,12 @@ class HullGraph {
     return neighbours_.data() + start_[static_cast<std::size_t>(v) + 1];
   }
 
-  /// The vertex farthest along `direction` (any length), climbing from `from`, or from a table of directions
-  /// where `from` is negative. Allocates nothing.
+  /// The vertex farthest along `direction` (any length). Climbs from the vertex `from`, or, if `from` is
+  /// negative, from a vertex of a direction table. Does not allocate.
   int extremeVertex(const Eigen::Vector3d& direction, int from) const;
 
-  /// The smallest feature that holds all the given vertices (one to three,
-  /// distinct); a vertex alone if none does.
+  /// The smallest feature that contains all the given vertices (one to three, distinct); a single vertex if
+  /// there is no such feature.
   HullFeature featureOf(const int* vertices, int count) const;
 
  private:

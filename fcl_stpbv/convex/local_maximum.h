@@ -1,14 +1,16 @@
-// How far around a maximum of the gap between overlapping cores no normal has a wider one.
+// Proves, for a local maximum of the gap between overlapping cores, that no normal within some angle of it
+// has a wider gap.
 //
-// The maximum has the normal n, the depth D, and D n for the difference's point furthest along n. Next to
-// that point the difference holds arcs, segments and caps of balls. Along a normal at the angle t from n:
-// 1. The point alone is D cos(t) from the origin, less than D by D (1 - cos(t)).
-// 2. An arc of radius k through it, seen at the sine x along the arc, is further out than the point by
-//    k x^2 / 2 at least, or by half the way to its end times x where it ends before that. A segment is so by
-//    its length to the end times x.
-// 3. Where the sum of these is at least what the point alone lacks, the cores overlap by D or more.
-// For all normals within an angle that is a test of one quadratic form across n (docs/theory.md, 5, "Next to
-// a maximum").
+// The maximum has the normal n and the depth D, and the support point of the difference along n is D n. The
+// difference contains arcs, segments and caps of balls through that point. Consider a normal at the angle t
+// from n:
+// 1. The height of the point alone is D cos(t), which is less than D by D (1 - cos(t)).
+// 2. Let x be the normal's component along an arc of radius k through the point. The arc reaches higher than
+//    the point by at least k x^2 / 2, or, if it ends before, by x times half the distance to its end. A
+//    segment reaches higher by x times the distance to its end.
+// 3. If the sum of these is at least D (1 - cos(t)), the cores overlap by D or more along that normal.
+// For all normals within an angle this is a test of one quadratic form in the plane perpendicular to n
+// (docs/theory.md, 5, "Next to a maximum").
 #pragma once
 
 #include <Eigen/Core>
@@ -20,7 +22,8 @@
 
 namespace fcl_stpbv::detail {
 
-/// A maximum of the gap, and what the difference of the cores holds around its point there.
+/// A maximum of the gap, and the arcs, segments and caps of the difference of the cores around its support
+/// point.
 class LocalMaximum {
  public:
   static constexpr double kEndless = std::numeric_limits<double>::infinity();
@@ -48,7 +51,7 @@ class LocalMaximum {
   void addCap(double radius, double reach) { add({1.0, 0.0, 1.0, radius, reach}); }
   void addDisc(double length) { addCap(kEndless, 2.0 * length); }
 
-  /// Whether along no normal within an angle from `n` do the cores overlap by less.
+  /// Whether the cores overlap by at least the depth along every normal within an angle from `n`.
   bool holdsWithin(double sine, double cosine) const {
     if (!(cosine > kLeast)) return false;
     double a = 0.0, b = 0.0, c = 0.0;  // [a b; b c]: the sum of radii, times the sine, as a form across n
@@ -61,8 +64,8 @@ class LocalMaximum {
     return a > needed && (a - needed) * (c - needed) >= b * b;
   }
 
-  /// Whether none of the difference's points that are beyond a plane, at `distance` from the origin (m) with
-  /// the unit outward normal `m`, ends a shorter way out than this maximum's.
+  /// For the part of the difference beyond the plane with the unit outward normal `m` at `distance` from the
+  /// origin (m): whether no way out through that part is shorter than this maximum's depth.
   bool holdsBeyond(const Eigen::Vector3d& m, double distance) const {
     const double c1 = -n_.dot(m), c2 = distance / depth_;
     if (!(c1 > kLeast && c2 > kLeast)) return false;

@@ -1,5 +1,5 @@
-// Overlap of two bodies of revolution with parallel axes. The shortest way out lies in a plane along the
-// axes, so the 3-D problem becomes a planar one: this file finds that plane.
+// Penetration depth of two bodies of revolution with parallel axes. The shortest separating translation lies
+// in a plane along the axes, so the problem becomes two-dimensional. This file finds that plane.
 #include "fcl_stpbv/convex/meridian.h"
 
 #include <optional>

@@ -1,4 +1,5 @@
-// Overlap of bodies of revolution on parallel axes, reduced to a problem in a plane along the axes.
+// Penetration depth of bodies of revolution with parallel axes, reduced to a problem in a plane along the
+// axes.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -11,15 +12,17 @@
 
 namespace fcl_stpbv::detail {
 
-/// A plane through the origin in which the difference B - A of two cores has its boundary's nearest point.
+/// A plane through the origin that contains the point of the boundary of the difference B - A nearest to the
+/// origin.
 struct Meridian {
   Eigen::Vector3d along, across;  ///< unit and orthogonal, in A's frame
   Eigen::Vector3d outA, outB;     ///< unit normals of the planes through each body's own axis
-  double slack;                   ///< the cores are within this of two that have it exactly (m)
+  /// The cores differ by at most this from two cores with exactly parallel axes (m).
+  double slack;
 };
 
-/// The meridian plane of two cores of revolution, as if on parallel axes, or of a point, A, and one. False
-/// for any other pair, or axes that are not nearly parallel.
+/// The meridian plane of two cores of revolution, with their axes taken as parallel, or of a point (A) and a
+/// core of revolution. False for any other pair, and if the axes are not nearly parallel.
 bool commonMeridian(const Shape& a, const Shape& b, const RelativePose& pose, Meridian& plane);
 
 /// Where a polygon inside the difference comes nearest to the origin.
@@ -30,8 +33,9 @@ struct MeridianDepth {
   Eigen::Vector3d toB{0, 0, 0};  ///< from there to B's part (m)
 };
 
-/// Grows a polygon in the meridian plane where it is nearest to the origin, until it reaches the boundary
-/// there. `furthest(m)` is the difference's furthest point along `m`: `.w`, and A's part of it, `.onA`.
+/// Two-dimensional EPA: grows a polygon in the meridian plane at its side nearest to the origin, until it
+/// reaches the boundary there. `furthest(m)` returns the support point of the difference along `m`: `.w`, and
+/// A's part of it, `.onA`.
 template <typename Furthest>
 MeridianDepth meridianDepth(const Meridian& plane, double rounding, Furthest&& furthest) {
   constexpr std::size_t kPoints = 200;  // each halves the arc it comes to lie on: enough for rounding

@@ -1,4 +1,4 @@
-// Onto the core of a simple shape, where rounding or a search left a point beside it.
+// Projects a point onto the core of a simple shape, to correct errors of rounding or of a search.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,4 +1,4 @@
-// The two steps of a growing polytope that a search repeats, compiled for wider instructions.
+// The two inner steps of a growing polytope, compiled also for wider vector instructions (vectorized.h).
 #include "fcl_stpbv/convex/polytope.h"
 
 #include "fcl_stpbv/vectorized.h"

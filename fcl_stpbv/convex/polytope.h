@@ -1,4 +1,5 @@
-// A convex polytope that grows over points outside it, for searches of the nearest point of its surface.
+// A convex polytope that grows by adding points outside it. Used to find the point of a convex set's surface
+// nearest to the origin (EPA).
 #pragma once
 
 #include <Eigen/Core>
@@ -29,11 +30,12 @@ class Polytope {
     bool has(Index point) const { return corner[0] == point || corner[1] == point || corner[2] == point; }
   };
 
-  /// Whether the origin must be inside from the start; rounding that puts it outside then ends the search.
+  /// Whether the origin must be inside from the start. If it must, the search ends when rounding puts the
+  /// origin outside.
   enum class Origin { inside, anywhere };
 
-  /// `rho`: the set is an intersection of balls of this radius (m), or the set of which the points' parts
-  /// `part` are, where those are given.
+  /// `rho`: the set is an intersection of balls of this radius (m). If `part` is given, this is true of the
+  /// set of these parts of the points instead.
   explicit Polytope(const std::array<Eigen::Vector3d, 4>& corner, Origin origin = Origin::inside,
                     double rho = std::numeric_limits<double>::infinity(),
                     const std::array<Eigen::Vector3d, 4>* part = nullptr)
@@ -56,7 +58,8 @@ class Polytope {
   /// False once a face could not be made: too flat, or no room.
   bool sound() const { return sound_; }
 
-  /// The face that may be nearest to the origin of those not put aside; infinitely far if all are.
+  /// The face that may be nearest to the origin, among those that are not put aside. Infinitely far if all
+  /// are put aside.
   Face nearest() {
     Packed least = rank_[0];
     PackedBits four{};  // which four each is of
@@ -76,7 +79,8 @@ class Polytope {
   /// Takes the face that nearest() gave out of the search.
   void putAside() { setRank(nearest_, kNowhere); }
 
-  /// No point of a face is nearer to the origin along the face's normal (m): rounding may tilt a sliver's.
+  /// Lower bound on the height of the face's points along its normal (m). It allows for the tilt of a
+  /// sliver's normal by rounding.
   double leastAlong(const Face& f) const {
     const Packed n = pack(f.normal);
     return std::min({dot(n, point(f.corner[0])), dot(n, point(f.corner[1])), dot(n, point(f.corner[2]))});

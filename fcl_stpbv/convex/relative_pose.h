@@ -1,4 +1,4 @@
-// Two poses checked, and the second body's place in the frame of the first one.
+// Checks two poses and computes the pose of the second body in the frame of the first one.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,8 +9,8 @@
 
 namespace fcl_stpbv::detail {
 
-/// A 3x3 matrix, its columns and its rows: `m v` and `m^T v` are then sums of three multiples without a sum
-/// across, which would cost more than the multiplications.
+/// A 3x3 matrix stored by its columns and its rows. So `m v` and `m^T v` are both sums of three scaled
+/// vectors. That needs no horizontal sum, which would cost more than the multiplications.
 class Rotation {
  public:
   Rotation() : Rotation(Packed{1, 0, 0, 0}, Packed{0, 1, 0, 0}, Packed{0, 0, 1, 0}) {}
@@ -37,9 +37,9 @@ class Rotation {
     return {inverse(x), inverse(y), inverse(z)};
   }
 
-  /// Whether each of three columns is the cross product of the other two, to the rounding of a
-  /// product of two rotations. True for no mirror and no number that is none. At most `kFine`
-  /// from the nearest rotation then (Frobenius).
+  /// Whether each of the three columns is the cross product of the other two, up to the rounding of a product
+  /// of two rotations. False for mirrored matrices and for NaN. If true, the distance to the nearest rotation
+  /// is at most `kFine` (Frobenius norm).
   static bool isFine(const Packed& x, const Packed& y, const Packed& z) {
     const Packed offX = cross(y, z) - x, offY = cross(z, x) - y, offZ = cross(x, y) - z,
                  squares = offX * offX + offY * offY + offZ * offZ;
@@ -70,16 +70,16 @@ class Rotation {
   Vectors columns_, rows_;
 };
 
-/// Turns a matrix that is within 1e-6 of a rotation, in every entry, into the nearest rotation, to rounding.
-/// False for any other one: stretched, sheared, mirrored or not finite.
+/// Replaces a matrix by the nearest rotation, up to rounding, if every entry is within 1e-6 of it. False for
+/// any other matrix: stretched, sheared, mirrored or not finite.
 bool makeRotation(Rotation& rotation);
 
-/// Rounds a fresh pose's rotation as `makeRotation` does where it is off by more than rounding. False for a
-/// pose that is no rigid motion.
+/// Corrects a pose's rotation by `makeRotation` if it is off by more than rounding. False for a pose that is
+/// not a rigid motion.
 bool makeRigid(Eigen::Isometry3d& pose);
 
-/// Bound on what rounding does to a gap between two cores in the first one's frame, as a part of `size`, the
-/// bodies' coordinates and the second one's origin there, summed (docs/theory.md, 5).
+/// Bound on the rounding error of a gap between two cores, computed in the first one's frame. It is relative
+/// to the sum of the bodies' coordinates and of the second body's origin in that frame (docs/theory.md, 5).
 constexpr double kGapRounding = 40.0 * std::numeric_limits<double>::epsilon();
 
 /// A pair of bodies in the first one's frame: however far the pair is from the world's origin, only the

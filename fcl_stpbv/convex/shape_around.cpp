@@ -1,4 +1,4 @@
-// What a simple shape holds around one of its points.
+// The segments, arcs and discs that a simple shape contains around one of its points, by kind:
 //
 // 1. A box: a segment along each axis that is across the normal.
 // 2. A cylinder and a cone: of a flat end its disc, of a rim its circle, of a side the generator and the

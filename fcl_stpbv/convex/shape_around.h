@@ -1,4 +1,5 @@
-// What a simple shape holds around one of its points, for the proof of a depth (local_maximum.h).
+// The segments, arcs and discs that a simple shape contains around one of its points, for the proof of a
+// depth (local_maximum.h).
 #pragma once
 
 #include <Eigen/Core>
@@ -8,7 +9,7 @@
 
 namespace fcl_stpbv::detail {
 
-/// Whether that is known: not of a triangle or a polytope, whose features have no names.
+/// Whether this is known for the shape: not for a triangle or a polytope, since their features have no names.
 inline bool hasAround(const Shape& shape) {
   return shape.kind != ShapeKind::triangle && shape.kind != ShapeKind::polytope;
 }

@@ -1,5 +1,5 @@
-// Which feature of a simple shape is nearest to a point outside: a corner, an edge, a face, a rim or a side.
-// In Voronoi's words, whose region the point is in (Mirtich 1998; Ericson, Real-Time Collision
+// Finds the feature of a simple shape nearest to a point outside: a corner, an edge, a face, a rim or a side.
+// In other words, in which feature's Voronoi region the point is (Mirtich 1998; Ericson, Real-Time Collision
 // Detection, 5.1).
 #pragma once
 
@@ -190,8 +190,8 @@ inline ShapeFeature nearestFeature(const Shape& shape, const Packed& x) {
   return {};
 }
 
-/// From the core's point nearest to `x`, which is on the feature that nearestFeature() has found there, to
-/// `x`; not of an ellipsoid. Right to rounding of its own length too, where that is next to nothing.
+/// The vector to `x` from the core's nearest point, which is on the feature `f` found by nearestFeature().
+/// Not for an ellipsoid. Its relative accuracy is full even if the vector is very short.
 inline Packed wayFrom(const ShapeFeature& f, const Packed& x) {
   using Kind = ShapeFeature::Kind;
   const Packed from = x - (f.kind == Kind::side ? f.apex : f.point);

@@ -1,4 +1,5 @@
-// The point of a small simplex nearest to the origin, and which of its corners hold it.
+// Finds the point of a simplex with up to four corners nearest to the origin, and the corners whose hull
+// contains it.
 //
 // 1. One corner: the corner itself. Two: the foot on the segment, clamped to its ends.
 // 2. Three: the foot on the triangle's plane by its barycentric coordinates, which are areas seen along the
@@ -46,8 +47,8 @@ struct NearestPoint {
   /// The corners' weighted sum: a point of the simplex to the rounding of
   /// coordinates, however thin the simplex is.
   Eigen::Vector3d point;
-  /// The way there, any length. Of a triangle near the origin its normal, which
-  /// keeps its digits however near that is.
+  /// The direction from the origin to the point, of any length. For a triangle near the origin it is the
+  /// triangle's normal, which stays accurate however near the triangle is.
   Eigen::Vector3d direction;
   bool inside;  ///< the origin is inside a tetrahedron, or on the simplex to rounding
 };

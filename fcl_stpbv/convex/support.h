@@ -1,4 +1,4 @@
-// What a convex body shows along a normal: the one thing that GJK, EPA and the direction cone ask of it.
+// Support points of convex bodies: all that GJK, EPA and the direction cone need to know about a body.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,7 +9,7 @@
 
 namespace fcl_stpbv::detail {
 
-/// A convex core along an outward unit normal, in the body's frame.
+/// The support point of a convex core along an outward unit normal, in the body's frame.
 struct SupportPoint {
   Eigen::Vector3d n;       ///< the normal
   int patch;               ///< patch of an STP-BV that owns it; -1 for any other body

@@ -1,6 +1,6 @@
-// Let b be a polytope's vertex furthest along the unit vector d. Another one, v, is no further than b along a
-// unit vector e where (v - b).d + |v - b| |e - d| <= 0. So one pass over all vertices finds those that any
-// direction within a given chord of d can show: of a round body a fortieth.
+// Let b be a polytope's vertex furthest along the unit vector d. Another vertex v is not further than b along
+// a unit vector e if (v - b).d + |v - b| |e - d| <= 0. So one pass over all vertices finds the candidates for
+// all directions within a given chord of d. For a round body that is one vertex in forty.
 #include "fcl_stpbv/convex/vertex_cap.h"
 
 #include "fcl_stpbv/convex/vertex_set.h"

@@ -1,5 +1,6 @@
-// The vertices of a large polytope that normals next to each other can show. A query asks for a dozen support
-// points, most of them along normals near the answer's.
+// A cache that makes support points of polytopes with many vertices faster. A query needs about a dozen
+// support points, most of them along similar normals. The cache keeps the few vertices that can be support
+// points along such normals.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,7 +11,7 @@
 
 namespace fcl_stpbv::detail {
 
-/// What one query has learnt about a polytope's vertices. Asking changes it, so no two threads share one.
+/// The cache of one query for one polytope. Each call changes it, so threads must not share one.
 class VertexCap {
  public:
   /// The vertex furthest along `d` (any length), but for rounding. Always the same polytope's.
@@ -27,7 +28,7 @@ class VertexCap {
   std::array<Eigen::Vector3d, kRoom> near_;
 };
 
-/// A shape as one query sees it: a polytope of many vertices with a cap.
+/// A copy of a shape for one query; a polytope with many vertices gets a VertexCap.
 class QueriedShape {
  public:
   explicit QueriedShape(const Shape& shape) : shape_(shape) {

@@ -1,5 +1,5 @@
-// The loops over a polytope's vertices that each query takes: four vertices side by side in three registers,
-// one for each coordinate.
+// The loops over a polytope's vertices that every query runs. Four vertices are processed at a time, in three
+// registers, one for each coordinate.
 #include "fcl_stpbv/convex/vertex_set.h"
 
 #include <cmath>

@@ -1,12 +1,12 @@
-// The vertices of a polytope, four at a time.
+// Loops over the vertices of a polytope, four vertices at a time (SIMD).
 #pragma once
 
 #include <Eigen/Core>
 
 namespace fcl_stpbv::detail {
 
-/// The mean of the vertices, no number where one of theirs is none, and how far the furthest of them is from
-/// a given point.
+/// The mean of the vertices (NaN if a coordinate is NaN), and the distance of the vertex furthest from a
+/// given point.
 struct Spread {
   Eigen::Vector3d middle;  ///< (m)
   double reach;            ///< (m)
@@ -21,8 +21,8 @@ int furthestAlong(const Eigen::Vector3d& d, const Eigen::Vector3d* vertices, int
 int fromHeight(double least, const Eigen::Vector3d& d, const Eigen::Vector3d* vertices, int count, int* found,
                int room);
 
-/// How many of them some unit vector within `chord` of the unit vector `n` may have as high as `v` or higher;
-/// the first `room` of these are put into `found`.
+/// The number of vertices that may be as high as `v` or higher along some unit vector within the distance
+/// `chord` of the unit vector `n`. The first `room` of them are written to `found`.
 int notBelow(const Eigen::Vector3d& v, const Eigen::Vector3d& n, double chord,
              const Eigen::Vector3d* vertices, int count, Eigen::Vector3d* found, int room);
 
