@@ -2,10 +2,10 @@
 //
 // 1. Solve the pair of patches that own the normal. If its widest normal is
 //    in both regions, that is a maximum.
-// 2. Else go towards it along a great circle as far as the gap grows, to where
-//    its slope is about zero, and again.
-// 3. Where the gap grows by less than its rounding, try the patches across the region boundaries on the way,
-//    and last the bisection of the directions left, which cannot fail (convex/direction_cone.h).
+// 2. Otherwise move towards it along a great circle as long as the gap grows, to where its slope is about
+//    zero. Repeat.
+// 3. If the gap grows by less than its rounding, try the patches beyond the region boundaries on the way.
+//    Last, bisect the remaining directions, which cannot fail (convex/direction_cone.h).
 #include "fcl_stpbv/distance/ascent.h"
 
 #include <cmath>

@@ -13,8 +13,7 @@
 
 namespace fcl_stpbv::detail {
 
-/// What the two bodies look like along one normal: the exact gap there and its
-/// gradient. Frame of the first body.
+/// Evaluation of the gap along one normal: the exact gap and its gradient. Frame of the first body.
 struct Sample {
   Eigen::Vector3d n;         ///< unit, from the first body to the second
   std::array<int, 2> patch;  ///< patches owning `n` and `-n`
@@ -32,8 +31,8 @@ struct Sample {
   }
 };
 
-/// Both bodies in the first one's frame: however far the pair is from the world's origin, only the bodies'
-/// own coordinates and their mutual distance enter.
+/// Two bodies in the frame of the first one. So rounding errors depend only on the bodies' own coordinates
+/// and their mutual distance, not on their distance from the world's origin.
 class BodyPair {
  public:
   /// `pose` is valid, and outlives the pair.
@@ -105,20 +104,21 @@ class BodyPair {
   /// Rounding of a gap: coordinates up to the bodies' extents and mutual distance, a dozen operations (m).
   double gapRounding() const { return gapRounding_; }
 
-  /// Bound on the rounding of a gap, of the poses that lead to it too: what a certificate is rounded outward
-  /// by (m). The part of `acrossRounding` is what twice that across adds to the distance of core points more
-  /// than `touching` apart: (2 a)^2 / (2 touching), of which `upper` adds two.
+  /// Bound on the rounding error of a gap, including that of the poses; certificates are rounded outward by
+  /// it (m). One part comes from `acrossRounding` a: an offset of 2 a perpendicular to the normal adds (2
+  /// a)^2 / (2 touching) to the distance of core points that are more than `touching` apart. `upper` adds two
+  /// of these.
   double certificateRounding() const { return certificateRounding_; }
 
-  /// How far a core point may lie beside the point that its normal touches (m).
+  /// Largest error of a core point perpendicular to its normal, caused by the rounding of the normal (m).
   double acrossRounding() const { return acrossRounding_; }
 
-  /// Cores nearer than this all but touch: a patch reaches past its boundary by the rounding of a normal,
-  /// `rho` times that in metres, which is a part of the gap and turns the normal by as much. What starts from
-  /// the vertices, which do not reach past theirs, is safe from it (m).
+  /// Cores nearer than this almost touch (m). A patch may extend past its boundary by `rho` times the
+  /// rounding of a normal. For cores this near, that is a significant part of the gap and turns the normal. A
+  /// search that starts from the vertices does not have this problem.
   double touching() const { return kTouching * acrossRounding_; }
 
-  /// Whether the gap is as wide as it gets near the sample's normal: its gradient is rounding.
+  /// Whether the gap is at a local maximum at the sample's normal, because its gradient is only rounding.
   bool isStationary(const Sample& s) const {
     return s.across.squaredNorm() <= acrossRounding_ * acrossRounding_;
   }

@@ -1,4 +1,4 @@
-// The axes along which two boxes may overlap least: separating axes (Gottschalk, Lin, Manocha 1996).
+// Separating axes of two boxes (Gottschalk, Lin, Manocha 1996), for their penetration depth.
 #pragma once
 
 #include <algorithm>
@@ -11,8 +11,9 @@
 
 namespace fcl_stpbv::detail {
 
-/// How far two boxes overlap along the normals of either's sides and the cross products of their edges: the
-/// difference of two boxes has no other sides. Frame of the first body; the boxes must outlive this.
+/// The overlaps of two boxes along the normals of their sides and the cross products of their edges. The
+/// Minkowski difference of two boxes has no other sides. Frame of the first body; the boxes must outlive this
+/// object.
 class BoxAxes {
  public:
   /// One axis: of the first box's sides, of the second one's, or of an edge of the first one, by its place
@@ -35,12 +36,12 @@ class BoxAxes {
     return overlap_[axis.kind][axis.which] / std::sqrt(length2_[axis.kind][axis.which]);
   }
 
-  /// How far the boxes would have to go the other way along it to part (m).
+  /// The translation in the opposite direction along it that separates the boxes (m).
   double opposite(const Axis& axis) const {
     return overlap(axis) + 2.0 * std::abs(dot(pack(normal(axis)), between_));
   }
 
-  /// Whether the overlap is at least `depth` (m, positive) along all others. False where two edges are so
+  /// Whether the overlap is at least `depth` (m, positive) along all other axes. False if two edges are so
   /// nearly parallel that their cross product is uncertain.
   bool othersBeyond(const Axis& axis, double depth) const;
 

@@ -1,10 +1,12 @@
-// Two boxes by separating axes: how deep they overlap, and where a side of one or two edges are nearest, how
-// far apart they are.
+// Two boxes by separating axes: the penetration depth, and the distance if a side and a corner, or two edges,
+// are nearest.
 //
-// 1. Their difference has a side along each of fifteen axes and its opposite, and no others (box_axes.h). The
-//    least overlap along these is the depth, and no gap along one is more than the distance.
-// 2. Points opposite each other: of a box's side the other one's corner, put onto both in turns where edges
-//    or sides are level with it; of two edges where their lines cross.
+// 1. The Minkowski difference of two boxes has sides along fifteen axes, in both directions, and no others
+//    (box_axes.h). The least overlap along these axes is the depth. A gap along any of them is a lower bound
+//    on the distance.
+// 2. Find two points opposite each other. For a side of one box, that is a corner of the other; if edges or
+//    sides are parallel to it, the point is projected onto both boxes in turn. For two edges, it is where
+//    their lines cross.
 #include "fcl_stpbv/convex/onto_core.h"
 #include "fcl_stpbv/distance/box_axes.h"
 #include "fcl_stpbv/distance/shape_pair.h"

@@ -1,11 +1,11 @@
 // The optimality certificate of a maximum between overlapping cores (docs/theory.md, 5, "Deeper").
 //
-// 1. A side: triangles from the maximum's own point to the corners of the feature that it is on. They are as
-//    far from the origin as the maximum is deep, but for a part that leaves no room for a wider gap.
-// 2. From the sides of that feature a closed surface over a ball inside both cores, or where the
-//    ball is too small over the other sides of the difference of two boxes.
-// 3. All of it lies in the difference of the cores, which is convex. So if every plane of it is as far from
-//    the origin as the maximum is deep, no direction leads out sooner.
+// 1. Make triangles from the maximum's own point to the corners of its feature. Their distance from the
+//    origin equals the depth of the maximum, except for a small part that leaves no space for a wider gap.
+// 2. From the sides of that feature, close the surface over a ball inside both cores, or, if the ball is too
+//    small, over the other sides of the difference of two boxes.
+// 3. The surface lies in the difference of the cores, which is convex. So if every plane of it is at least as
+//    far from the origin as the maximum is deep, no direction has a smaller depth.
 #include "fcl_stpbv/distance/certificate.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Whether a maximum of the gap between overlapping cores is the widest one: an optimality certificate.
+// Optimality certificate: proves that a local maximum of the gap between overlapping cores is the global one.
 #pragma once
 
 #include <cstddef>
@@ -15,36 +15,39 @@ struct FeatureCorners {
   std::size_t count = 0;
 };
 
-/// The corners, counter-clockwise from outside, of the difference's feature that a maximum is on: of a face
-/// against a vertex, or of two edges that cross. Of a face against more than a vertex those against the
-/// vertex nearest to the maximum. None of other features, which are rarely one.
+/// The corners of the feature of the Minkowski difference that contains a maximum, counter-clockwise from
+/// outside. The feature is a face against a vertex, or two edges that cross. For a face against more than a
+/// vertex, the vertex nearest to the maximum is used. No corners for other features, which rarely contain the
+/// global maximum.
 FeatureCorners cornersAround(const BodyPair& pair, const Sample& top);
 
-/// The maximum `top`, and what the two cores hold around its points.
+/// The maximum `top`, with the arcs and caps of the two cores around its points.
 LocalMaximum localMaximum(const BodyPair& pair, const Sample& top);
 
-/// Whether a maximum is the widest gap, and what a search needs that goes on from it.
+/// Result of the proof, and the data for a search that continues from the maximum.
 struct WidestProof {
   FeatureCorners corners;  ///< cornersAround
   LocalMaximum around;     ///< localMaximum
-  bool proven = false;     ///< along no normal is the gap of the cores more than `bound` (m, negative)
+  /// The maximum is the global one: no normal has a gap of the cores above `bound` (m, negative).
+  bool proven = false;
   double bound = 0;
 };
 
-/// Closes a surface around the origin: from the maximum to the corners of its feature, and from
-/// there over a ball inside, or over the other sides of two boxes' difference.
-/// All of it lies in the difference of the cores, which is convex, so no direction leads out of it sooner
-/// than through the nearest plane. Proven where that is one at the top and hides no wider gap.
+/// Constructs a closed surface around the origin: from the maximum to the corners of its feature, and from
+/// there over a ball inside the difference, or over the other sides of the difference of two boxes. The
+/// surface lies in the difference of the cores, which is convex. So the depth is at least the distance of the
+/// nearest plane of the surface. The maximum is proven if that plane is at the maximum and no wider gap is
+/// possible beyond it.
 ///
 /// The points only have to put the origin on the inner side of every triangle: then
 /// each ray from the origin meets the surface.
 WidestProof proveWidest(const BodyPair& pair, const Sample& top);
 
-/// Closes a surface around the origin from the corners of a maximum's feature over a ball that the difference
-/// holds: from each side of the feature along the plane that touches the ball, from each corner along the
-/// cone that does, and over the ball behind. True where every plane of it is at least `depth` from the
-/// origin; what is missing then is the feature alone. Round bodies, however many vertices they have, need no
-/// more, and none of their vertices is looked at (docs/theory.md, 5).
+/// Closes a surface around the origin with the corners of a maximum's feature and a ball inside the
+/// difference. It consists of the planes through each side of the feature that touch the ball, the cones from
+/// each corner that touch the ball, and the ball itself behind them. True if every plane of it is at least
+/// `depth` from the origin; then only the feature itself is left to check. For round bodies this is enough,
+/// and it does not visit their vertices (docs/theory.md, 5).
 ///
 /// `centre` and `corners`, counter-clockwise from outside, are relative to the origin, `n` is the maximum's
 /// normal, away from which the feature lies (m).

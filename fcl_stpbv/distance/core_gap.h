@@ -12,8 +12,8 @@ struct CoreGap {
   Packed across;  ///< gradient over the sphere of normals: the points' difference across the normal (m)
 };
 
-/// The gap along the unit normal `n` from `a` to `b`, the patches continued over the
-/// whole sphere of normals (docs/theory.md, 5).
+/// The gap along the unit normal `n` from `a` to `b`. The formulas of the patches are used for any normal,
+/// also outside of their regions (docs/theory.md, 5).
 inline CoreGap coreGap(const PosedPatch& a, const PosedPatch& b, const Packed& n) {
   const CoreView viewA = viewCore(a, n), viewB = viewCore(b, -n);
   const Packed anchors = b.anchor - a.anchor, difference = anchors + viewB.offset - viewA.offset;

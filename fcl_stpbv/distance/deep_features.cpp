@@ -1,10 +1,10 @@
-// The features of a simple shape that the least overlap with an STP-BV may be on.
+// Finds the feature of a simple shape that determines its penetration depth into an STP-BV.
 //
-// 1. From next to the answer Newton's method on one feature gives the normal and both points to rounding; of
-//    a flat face the normal is given. The flatter features come first.
-// 2. What it gives is taken if it is the whole shape's answer: on the shape, with nothing of the shape
-//    nearer, and no deeper than what is known.
-// 3. The feature, and the volume's patch there, tell how far around no normal has a wider gap
+// 1. Start near the answer. Newton's method on one feature gives the normal and both points up to rounding;
+//    for a flat face the normal is known. Flatter features are tried first.
+// 2. The result is accepted if it is the answer for the whole shape: the point is on the shape, no other
+//    point of the shape is nearer along the normal, and the depth is not larger than the known one.
+// 3. The curvature of the feature and of the volume's patch gives a region of normals without a wider gap
 //    (convex/local_maximum.h).
 #include <algorithm>
 #include <array>

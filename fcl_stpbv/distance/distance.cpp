@@ -8,11 +8,10 @@
 // 3. If that normal is in both normal cones, it is the answer while the cores are
 //    apart: any maximum is the only one.
 // 4. Else cross the one region boundary, on either body, that it passes furthest, and go to 2.
-// 5. A pair that holds no maximum on this side of the sphere leads nowhere: go
-//    uphill to the first boundary in the way.
-// 6. After a dozen pairs, or between cores that overlap, the whole search takes over (wide_search.h).
-// This path is apart from GJK and EPA for speed: it evaluates one closed form
-// per step, and no support function.
+// 5. If the pair has no maximum on this side of the sphere, go uphill to the first boundary on the way.
+// 6. After a dozen pairs, or if the cores overlap, the full search takes over (wide_search.h).
+// This walk is separate from GJK and EPA for speed: each step evaluates one closed form and no support
+// function.
 #include "fcl_stpbv/distance/distance.h"
 
 #include <algorithm>
@@ -40,9 +39,9 @@ Packed renormalized(const Packed& n) {
   return n * (std::abs(length2 - 1.0) < 1e-8 ? 1.5 - 0.5 * length2 : 1.0 / std::sqrt(length2));
 }
 
-/// A start for bodies near each other, where the line of centres is a poor one: of two long or flat ones
-/// whose enclosing balls meet from the boxes around them, of others deep in each other, as balls inside them
-/// tell, from the flattest way out.
+/// A start for bodies near each other, for which the line of centres is a poor start. For two long or flat
+/// bodies whose enclosing balls meet, it comes from their bounding boxes. For other bodies that overlap
+/// deeply (their inner balls overlap), it comes from the faces near their centres.
 [[gnu::noinline]] bool startNear(const BodyPair& pair, const Packed& between, Sample& start) {
   const double between2 = dot(between, between), inside = pair.a().innerRadius() + pair.b().innerRadius(),
                around = pair.a().enclosingRadius() + pair.b().enclosingRadius();
@@ -55,8 +54,8 @@ Packed renormalized(const Packed& n) {
   return true;
 }
 
-/// The first guess when nothing near is remembered: mostly from centre to centre. The tables take a direction
-/// that is not normalised, because the lookup's latency exceeds the square root's.
+/// The first guess without a cache: usually the line of centres. The tables take a direction that is not
+/// normalised, so that the lookup need not wait for the square root.
 SearchStart fromCentres(const BodyPair& pair) {
   const Packed between = pair.centreDifference();
   const double inside = pair.a().innerRadius() + pair.b().innerRadius();
@@ -68,8 +67,9 @@ SearchStart fromCentres(const BodyPair& pair) {
   return {unpack(h.unit()), pair.near(unpack(h.d)), false};
 }
 
-/// A patch near the one that owns the unit normal `now`, from the one that owned `then`: itself, or after a
-/// turn wider than a patch the one past the boundary passed furthest. -1 after a large turn.
+/// A patch near the owner of the unit normal `now`, given the owner of the normal `then`. It is that patch
+/// itself, or, if the normal has turned by more than a patch, the neighbour over the boundary that `now`
+/// violates most. -1 after a large turn.
 int nearby(const StpBv& body, int patch, const Packed& now, const Eigen::Vector3f& then) {
   constexpr double kLarge = 0.1;  // rad
   constexpr double kWide = 3.0;   // squares of as wide a turn, over all patches: a quarter of the sphere
@@ -130,9 +130,9 @@ struct SearchState {
   }
 };
 
-/// Settles on a patch pair near the given one: over the region boundary that the widest normal passes
-/// furthest, on either body, to the next pair, without evaluating the gap. Between cores apart, a maximum
-/// that it finds is the only one. If it finds none, that proves nothing.
+/// The feature walk: from the given patch pair, it crosses the region boundary that the widest normal
+/// violates most, on either body, to the next pair, without evaluating the gap. For cores that are apart, a
+/// maximum that it finds is the only one. If it finds none, nothing is proven.
 bool walkFeatures(const BodyPair& pair, const SearchStart& start, WidestGap& found, SearchWork& work) {
   constexpr int kTries = 12;    // one to three are usual
   constexpr double kFar = 0.3;  // cosine of the turn after which the boundary passed furthest says little
@@ -166,9 +166,9 @@ bool walkFeatures(const BodyPair& pair, const SearchStart& start, WidestGap& fou
   return false;
 }
 
-/// No gap of the cores is wider than this (m): the distance of the two core points, or what the search of
-/// overlapping cores has proven. A normal is good to an ulp, so a core point may lie beside its body, along
-/// the surface, by as much as `acrossRounding`.
+/// Upper bound on the gap of the cores (m): the distance of the two core points, or, for overlapping cores,
+/// the bound that the search has proven. A normal is accurate only to an ulp, so a core point may be
+/// displaced along the surface by up to `acrossRounding`.
 [[gnu::noinline]] double mostGap(const BodyPair& pair, const WidestGap& found) {
   const Sample& at = found.at;
   const double beside = pair.acrossRounding();

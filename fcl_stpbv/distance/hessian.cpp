@@ -1,7 +1,7 @@
 // Second derivatives of the distance (docs/theory.md, 6).
 //
-// 1. The normal is carried by body 2 and turns in it by what maximises the gap; flat features keep it,
-//    edges let it turn one way (turning.h).
+// 1. The normal moves with body 2 and turns relative to it so that the gap is maximal. Flat features fix it;
+//    edges let it turn in one direction (turning.h).
 // 2. The distance is a maximum over these turns, so its second derivative is s_qq - s_qn s_nn^-1 s_nq.
 // 3. Normal and witness points follow from the turn.
 #include "fcl_stpbv/distance/hessian.h"

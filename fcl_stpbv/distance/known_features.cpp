@@ -1,4 +1,4 @@
-// A polytope's features as a walk comes to know them, corner by corner.
+// The features of a polytope during a walk: corners are added one by one.
 #include "fcl_stpbv/distance/known_features.h"
 
 #include <algorithm>

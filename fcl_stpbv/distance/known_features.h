@@ -1,4 +1,4 @@
-// The features of a shape that a walk goes over.
+// The features of a shape, for a feature walk.
 #pragma once
 
 #include <array>
@@ -8,8 +8,9 @@
 
 namespace fcl_stpbv::detail {
 
-/// The shape's own features, or of a polytope those of the hull of up to four of its corners: the ones that
-/// the walk has met, but for those that the nearest point is not of (GJK's simplex). In the volume's frame.
+/// The features that the walk uses, in the volume's frame. For a polytope they are those of the hull of up to
+/// four of its corners, as in GJK: corners are added during the walk, and dropped if the nearest point does
+/// not depend on them.
 class KnownFeatures {
  public:
   /// A polytope's first corner is the one that faces the volume along the unit vector `n`; of one with few

@@ -1,12 +1,12 @@
-// Two bodies apart, whose faces, ends or edges are level but for a hair: the last digits of normal and
-// points.
+// Computes the last digits of normal and points for two bodies apart whose nearest faces, ends or edges are
+// nearly parallel.
 //
-// Where GJK's bounds agree to rounding its normal is good to the root of that only, and beside the bodies'
-// size the heights by which corners differ are rounding. So:
-// 1. Along GJK's normal n turned by t the gap is D + min(h + p.t) - D |t|^2 / 2: D is the gap along n, and
-//    each difference of two support points is higher than that by h, and p to the side.
-// 2. Of up to three differences the t where that is most has a closed form. The difference that is lowest
-//    there joins them, until none is lower. Their weights make the two points.
+// When GJK's bounds agree up to rounding, its normal is only accurate to the square root of that, and the
+// differences of the corners' heights are as small as the rounding of the bodies' size. So:
+// 1. Turn GJK's normal n by t. The gap is then D + min(h + p.t) - D |t|^2 / 2. Here D is the gap along n, and
+//    each difference of two support points has the height D + h along n and the offset p perpendicular to n.
+// 2. For up to three differences, the t with the largest gap has a closed form. The difference that is lowest
+//    at that t is added, until none is lower. The weights of the differences give the two points.
 #include <algorithm>
 #include <array>
 #include <initializer_list>

@@ -1,12 +1,14 @@
 // Depth of overlapping cores: EPA (convex/epa.h) on the difference of two
 // STP-BVs, and a search from many starts.
 //
-// 1. A maximum that carries its own certificate needs no more (certificate.h).
-// 2. Else a polytope grows from points around it. Far from the surface, vertices that the tables of
-//    directions name will do; near it, the smooth surface's own point, and the maximum of the patches there.
-// 3. A face at the maximum that hides no wider gap is put aside. The rest of the polytope bounds the depth,
-//    with what the cores' curvature says of the surface beyond each face.
-// 4. Where rounding stops that, the best of the maxima from a fixed set of normals stands, without a bound.
+// 1. If the certificate proves a maximum to be the global one, nothing else is needed (certificate.h).
+// 2. Otherwise a polytope grows from points around it (EPA). Far from the surface, vertices from the
+//    direction tables are added. Near it, the support points of the smooth surface and the maxima of the
+//    patches there are added.
+// 3. A face at the maximum that cannot have a wider gap beyond it is removed from the search. The rest of the
+//    polytope bounds the depth, using the curvature of the cores beyond each face.
+// 4. If rounding stops the polytope, the result is the best of the maxima from a fixed set of normals,
+//    without a bound.
 #include "fcl_stpbv/distance/overlap.h"
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 // The widest normal of two edges' patches, two tori (docs/theory.md, 5).
 //
-// 1. Axes that cross: two equations for how far the normal leans along each edge, solved by Newton's
-//    method from the axes' common normal. Two passes are usual.
-// 2. Axes nearly parallel, or wide bands: Newton's method on the sphere of normals.
+// 1. If the axes cross: two equations for the normal's components along the two edges, solved by Newton's
+//    method from the axes' common normal. Two iterations are usual.
+// 2. If the axes are nearly parallel, or the regions are wide: Newton's method on the sphere of normals.
 #include "fcl_stpbv/distance/patch_pair.h"
 
 #include <Eigen/Geometry>

@@ -10,16 +10,17 @@
 
 namespace fcl_stpbv::detail {
 
-/// Turns `n` to the widest normal of two edges' patches: two tori, in closed form but for a few passes where
-/// their axes cross, else by Newton on the sphere (docs/theory.md, 5).
+/// Changes `n` to the widest normal of the patches of two edges, which are tori. If their axes cross, it is a
+/// closed form with a few iterations; otherwise Newton's method on the sphere (docs/theory.md, 5).
 void turnToWidestOfEdges(const PosedPatch& a, const PosedPatch& b, Packed& n);
 
 /// Radii of curvature of the patch's core at its outward normal `n`, as a matrix on the tangent plane: the
 /// second derivative of its support function (m).
 Eigen::Matrix3d coreCurvature(const PosedPatch& p, const Eigen::Vector3d& n);
 
-/// What a patch's core holds around its point with the normal `n`, along which a gap is widest: of a face its
-/// ball's cap, of an edge its arc. `inside()` tells how far a face's normal is inside its region (a sine).
+/// Adds to `around` the part of a patch's core around its point with the normal `n`, at a maximum of the gap:
+/// the cap of a face's ball, or the arc of an edge. `inside()` returns how far a face's normal is inside its
+/// region (a sine).
 template <typename Inside>
 void addPatch(const PosedPatch& patch, const Eigen::Vector3d& n, const Inside& inside, LocalMaximum& around) {
   const double rho = patch.radii->rho;
@@ -31,8 +32,8 @@ void addPatch(const PosedPatch& patch, const Eigen::Vector3d& n, const Inside& i
   around.addArc((u - lean * n) / std::sqrt(1.0 - lean * lean), rho, rho * (patch.sine - std::abs(lean)));
 }
 
-/// A direction not yet made a unit vector: what is asked of it first, on which side of boundaries it lies,
-/// does not wait for the division.
+/// A direction that is not normalised yet. The first tests on it, on which side of boundaries it lies, need
+/// not wait for the division.
 struct UnnormalizedNormal {
   Packed d;
   double length;  ///< of `d`, positive
@@ -73,9 +74,9 @@ inline UnnormalizedNormal circlePoint(const PosedPatch& circle, const Packed& d,
   return unnormalizedOr(distance * along * circle.axis + (distance + circle.kappa) * across, n);
 }
 
-/// The normal at which the gap is widest, the patches continued over the whole sphere of normals, seen from
-/// the unit vector `n`: closed form for spheres and one torus (docs/theory.md, 5). Where every normal is as
-/// good (coincident centres), `n` itself.
+/// The normal with the widest gap of two patches, whether or not it is in their regions. A closed form for
+/// spheres and one torus; for two tori an iteration from the unit vector `n` (docs/theory.md, 5). If all
+/// normals are equally good (coincident centres), the result is `n` itself.
 inline UnnormalizedNormal widestNormal(const PosedPatch& a, const PosedPatch& b, const Packed& n) {
   const bool circleA = a.kind == PatchKind::edge, circleB = b.kind == PatchKind::edge;
   if (circleA && circleB) {

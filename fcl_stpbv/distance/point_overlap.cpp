@@ -1,10 +1,10 @@
-// An STP-BV and a simple shape whose cores overlap: as deep as a point of the shape alone.
-// The proof is in docs/theory.md, 5.
+// Depth of an STP-BV and a simple shape whose cores overlap, if it equals the depth of a single point of the
+// shape. The proof is in docs/theory.md, 5.
 //
 // 1. Take the shape's point that faces the volume along the start's normal.
-// 2. Its way out of the volume is in closed form (volume/point_depth.h).
-// 3. No point of the shape leaves later that way: the shape is as deep as the point. Else go on with the
-//    one that does, until it goes to and fro.
+// 2. Compute its shortest way out of the volume in closed form (volume/point_depth.h).
+// 3. If no other point of the shape needs a longer way along that direction, the depth of the shape is that
+//    of the point. Otherwise continue with the point that does, until the search alternates between points.
 #include <algorithm>
 
 #include "fcl_stpbv/distance/shape_query.h"

@@ -1,9 +1,10 @@
 // Two capsules: the points of two segments that are nearest to each other, in closed form (Lumelsky 1985;
 // Ericson, Real-Time Collision Detection, 5.1.9).
 //
-// 1. On the first segment the point nearest to the second one's line, or of parallel ones to its middle.
-// 2. From there onto the second segment, and back onto the first: at an end that a segment stops at, this is
-//    where the other one's point moves to.
+// 1. Take the point of the first segment that is nearest to the line of the second, or, for parallel
+//    segments, to the middle of the second.
+// 2. Project it onto the second segment, and the result back onto the first. This corrects the points if a
+//    segment ends before.
 #include <algorithm>
 
 #include "fcl_stpbv/distance/shape_pair.h"

@@ -1,9 +1,9 @@
 // Monotone Newton ascent of the gap between an STP-BV's core and one smooth feature of another body.
 //
-// 1. From a normal without a gap, find one with a gap by bisection of the directions left.
-// 2. Newton's step on the sphere; one that does not raise the gap is cut back along its great circle to
-//    where the slope is about zero, by a bracketed secant.
-// 3. Stop where the gradient is rounding.
+// 1. If the start has no gap, find a normal with a gap by bisection of the remaining directions.
+// 2. Take Newton's step on the sphere. If it does not raise the gap, shorten it along its great circle to
+//    where the slope is about zero, by a bracketed secant method.
+// 3. Stop when the gradient is only rounding.
 #pragma once
 
 #include <Eigen/Core>
@@ -19,16 +19,15 @@
 
 namespace fcl_stpbv::detail {
 
-/// Looks at one patch along the unit normal `n`, its formula continued past
-/// its own region of normals. Body frame.
+/// Support point of one patch along the unit normal `n`, even if `n` is outside of its region. Body frame.
 inline SupportPoint viewPatch(const StpBv& body, const Eigen::Vector3d& n, int index) {
   const PosedPatch patch = posedPatch(body, index);
   const CoreView view = viewCore(patch, pack(n));
   return {n, index, unpack(patch.anchor), view.rise, unpack(patch.anchor + view.offset)};
 }
 
-/// Looks at the volume along `n`; the owner is sought from the patch `hint`
-/// (-1: anywhere). Counts patches changed.
+/// Support point of the volume along `n`. The search for the owner starts at the patch `hint` (-1: anywhere).
+/// Adds the number of patches changed to `steps`.
 inline SupportPoint viewVolume(const StpBv& body, const Eigen::Vector3d& n, int hint, int& steps) {
   const int index = body.owner(n, hint);
   steps += index != hint;
@@ -61,8 +60,9 @@ struct Rounding {
   double across;  ///< of a difference of core points across the normal: a face's moves rho per ulp of it (m)
 };
 
-/// What a feature of the other body shows along the opposite normal. Each also tells what rounding of a unit
-/// normal does to its point, `wobble` (m), beyond that of the coordinates.
+/// Support point of a feature of the other body along the opposite normal. Each feature also has `wobble`
+/// (m): the error of its point that the rounding of a unit normal causes, in addition to that of the
+/// coordinates.
 struct FeatureView {
   Eigen::Vector3d point;
   Eigen::Matrix3d curvature;  ///< derivative of `point` with its own outward normal (m)
@@ -156,8 +156,8 @@ AscentPoint ascentPoint(const StpBv& body, const Feature& feature, const Eigen::
   return ascentPoint(viewVolume(body, n, hint, steps), feature);
 }
 
-/// A normal with a gap, by halving what directions are left (docs/theory.md, 5: points of a trial that fails
-/// rule out half of all directions). False when there is none.
+/// Finds a normal with a gap by bisection of the remaining directions (docs/theory.md, 5: the points of a
+/// failed trial exclude half of all directions). False if there is none.
 template <typename Feature>
 bool findGap(const StpBv& body, const Feature& feature, AscentPoint& x, double touch, int& steps) {
   const auto difference = [&](const AscentPoint& y) -> Eigen::Vector3d {

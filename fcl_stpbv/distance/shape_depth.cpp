@@ -1,13 +1,13 @@
-// How deep two simple shapes are in each other.
+// Penetration depth of two simple shapes.
 //
-// 1. Bodies of revolution on parallel axes are as deep towards all generators as towards one, more than EPA
-//    has room for; a polygon in the plane of their axes tells their depth.
-// 2. EPA (convex/epa.h) on the difference of the cores. Once it is near, Newton's method on the features
-//    there (shape_newton.h) gives the maximum to rounding, and of shapes whose features are known what they
-//    hold around it puts EPA's faces there aside.
-// 3. Points of both bodies opposite each other: the answer's, those where cores cross without a volume in
-//    common, those of the features around, and of faces side by side.
-// 4. Newton's method gives the last digits of normal and points where that was not done yet.
+// 1. Bodies of revolution with parallel axes have the same depth towards all generators. EPA would need too
+//    many faces for that. A polygon in the plane of their axes gives their depth instead (convex/meridian.h).
+// 2. Otherwise EPA (convex/epa.h) on the difference of the cores. When it is near the answer, Newton's method
+//    on the features there (shape_newton.h) gives the maximum up to rounding. For shapes with known features,
+//    a region around the maximum is proven, and EPA's faces there are removed from the search.
+// 3. Candidates for the two points opposite each other are those of the answer, points where cores cross
+//    without a common volume, and points of the features around and of parallel faces.
+// 4. Newton's method gives the last digits of normal and points, if step 2 did not.
 #include <algorithm>
 #include <array>
 #include <cmath>

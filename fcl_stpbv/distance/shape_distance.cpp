@@ -1,14 +1,14 @@
 // An STP-BV against a simple shape.
 //
-// 1. Search the shape's nearest feature, kind by kind (shape_query.h), from the
-//    remembered normal or the line of centres.
+// 1. Search the shape's nearest feature, with a method for each kind of shape (shape_query.h), starting from
+//    the cached normal or the line of centres.
 // 2. Test the answer against the whole shape. If it holds, it is exact.
-// 3. Else bisect the directions left with support points of the two whole bodies
-//    (convex/direction_cone.h): slow, sure. From the normal found, a feature
-//    search again proves the last digits.
-// 4. Cores that overlap, as a ball in the volume may tell at once, else GJK: a point's way out through a face
-//    (point_overlap.cpp), the cones of a flat shape's normals (cone_overlap.cpp), else EPA
-//    (shape_overlap.cpp).
+// 3. Otherwise bisect the remaining directions with support points of the two whole bodies
+//    (convex/direction_cone.h), which is slow but reliable. From the normal found, a second feature search
+//    proves the last digits.
+// 4. For cores that overlap (detected by a ball inside the volume, or by GJK), three methods in turn: a
+//    single point's way out through a face (point_overlap.cpp), the normal cones of a flat shape
+//    (cone_overlap.cpp), and EPA (shape_overlap.cpp).
 #include "fcl_stpbv/distance/shape_distance.h"
 
 #include <algorithm>

@@ -1,13 +1,14 @@
-// Two shapes whose distance is known to some digits, the last ones by Newton's method. GJK approaches curved
-// surfaces by chords: its bounds agree to rounding where its normal is good to the root of that.
+// Improves an approximate distance of two shapes to full accuracy, by Newton's method. GJK approximates
+// curved surfaces by chords. So when its bounds agree up to rounding, its normal is only accurate to the
+// square root of that.
 //
-// 1. The features that lie within what the normal may be off by are tried first, the flattest ones; then
-//    those at the normal itself.
+// 1. Try the features within the possible error of the normal, the flattest ones first; then those at the
+//    normal itself.
 // 2. Flat faces and edges fix the normal, or let it turn one way. Two edges fix it between them. Else
 //    Newton's step with both radii of curvature (turning.h).
 // 3. The point is that of the more strongly curved feature, the other one's is opposite it.
-// 4. Both are brought onto their bodies, and taken where they still are opposite each other, and as far apart
-//    as the supporting planes.
+// 4. Both points are projected onto their bodies. They are accepted if they are still opposite each other and
+//    their distance equals that of the supporting planes.
 // Of a polytope the few vertices that normals next to `n` can show are asked, and all of them at the end.
 #include "fcl_stpbv/distance/shape_newton.h"
 

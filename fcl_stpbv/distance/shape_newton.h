@@ -1,4 +1,4 @@
-// The normal of two shapes' distance to rounding, by Newton's method on the features that face each other.
+// Computes the normal of two shapes' distance up to rounding, by Newton's method on the two nearest features.
 #pragma once
 
 #include <Eigen/Core>
@@ -19,10 +19,10 @@ struct OppositePoints {
   Eigen::Vector3d toB{0, 0, 0};  ///< from there to the second core's, `gap` along `n` to rounding
 };
 
-/// Where the gap of two bounded shapes' cores is widest, the nearest points of cores that are apart, from
-/// what a search ended with: a normal `n` not further than `angle` (rad) from the answer's, its gap, and a
-/// point `onA` of the first core next to the answer's. What is within `rounding` (m) counts as equal. Nothing
-/// where the features next to `n` do not hold an answer of at least that gap.
+/// The widest gap between the cores of two bounded shapes, with the two points; for cores apart these are the
+/// nearest points. The input is the result of a search: a normal `n` within `angle` (rad) of the answer's
+/// normal, its gap, and a point `onA` of the first core near the answer's. Lengths within `rounding` (m)
+/// count as equal. No value if the features near `n` do not contain an answer with at least that gap.
 std::optional<OppositePoints> nearestOnFeatures(const Shape& a, const Shape& b, const RelativePose& pose,
                                                 const Eigen::Vector3d& n, double gap,
                                                 const Eigen::Vector3d& onA, double angle, double rounding);

@@ -1,9 +1,9 @@
-// An STP-BV and a simple shape whose cores overlap: how deep they are in each other, where neither a point of
-// the shape alone (point_overlap.cpp) nor the cones of its normals (cone_overlap.cpp) tell it.
+// Penetration depth of an STP-BV and a simple shape, for cases in which neither a single point of the shape
+// (point_overlap.cpp) nor its normal cones (cone_overlap.cpp) give the depth.
 //
 // 1. EPA (convex/epa.h) on the difference of the two cores bounds the depth.
-// 2. Once it is near, the maximum on one feature of the shape (deep_features.cpp) has the answer's normal and
-//    points to rounding, and puts EPA's faces around it aside.
+// 2. When EPA is near the answer, the maximum on one feature of the shape (deep_features.cpp) gives the
+//    normal and points up to rounding. EPA's faces around it are then removed from the search.
 #include <algorithm>
 #include <cmath>
 #include <optional>

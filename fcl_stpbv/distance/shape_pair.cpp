@@ -1,15 +1,15 @@
 // Two simple shapes: GJK between their cores where these are apart, EPA where
 // they overlap (convex/gjk.h, epa.h).
 //
-// 1. Put the pair into one order, so that both orders of a call are the same query.
-// 2. Half spaces and planes: the gap along their normal is all there is to know.
+// 1. Put the pair into a canonical order, so that both orders of the arguments are the same query.
+// 2. Half spaces and planes: the distance is the gap along their normal.
 // 3. A ball and a shape of few features, two capsules, and most boxes: closed form (ball_pair.cpp,
 //    segment_pair.cpp, box_pair.cpp).
-// 4. GJK from two points that projections onto one body and the other have brought near to each other, with
-//    the duality gap as its stop. Its upper bound is the distance of two points of the bodies, its lower one
-//    the gap between the supporting planes of the answer's normal.
-// 5. Newton's method on the features there gives the last digits (shape_newton.h), where faces are level what
-//    heights along the normal say (level_faces.cpp). Overlap: shape_depth.cpp.
+// 4. Otherwise GJK. Its two starting points come from alternating projections onto both bodies. It stops by
+//    the duality gap: the upper bound is the distance of two points of the bodies, the lower bound is the gap
+//    between the two supporting planes of the normal.
+// 5. Newton's method on the features gives the last digits (shape_newton.h), or, for nearly parallel faces,
+//    level_faces.cpp. For overlap see shape_depth.cpp.
 #include "fcl_stpbv/distance/shape_pair.h"
 
 #include <algorithm>
@@ -65,7 +65,7 @@ using Pair = ShapePair;
 using Corner = Pair::Corner;
 using Gjk = Pair::Gjk;
 
-/// Whether a pair comes first in the one order of both: by kind, then size, then place.
+/// Whether (a, b) is the canonical order of the pair: by kind, then size, then position.
 bool comesFirst(const Shape& a, const Isometry3d& poseA, const Shape& b, const Isometry3d& poseB) {
   if (a.unbounded() != b.unbounded()) return a.unbounded();
   if (a.kind != b.kind) return a.kind < b.kind;

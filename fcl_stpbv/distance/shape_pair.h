@@ -1,4 +1,4 @@
-// Two simple shapes as their searches share them (shape_pair.cpp, shape_depth.cpp).
+// A pair of simple shapes: data and functions that its searches share (shape_pair.cpp, shape_depth.cpp).
 #pragma once
 
 #include <Eigen/Geometry>
@@ -13,7 +13,7 @@
 
 namespace fcl_stpbv::detail {
 
-/// A pair in its one order, the first one's frame.
+/// A pair of shapes in canonical order, in the frame of the first one.
 struct ShapePair {
   using Difference = ConvexDifference<const Shape, const Shape>;
   using Corner = Difference::Corner;
@@ -51,9 +51,9 @@ struct ShapePair {
     return s.kind == ShapeKind::triangle || s.kind == ShapeKind::polytope;
   }
 
-  /// Takes `way`, from the first core's point `found.onA` to one of the second core's, for the way between
-  /// the nearest ones. False where it is no longer than rounding, or the gap between the whole cores along it
-  /// is not as wide as it is long.
+  /// Tests whether `way`, from the first core's point `found.onA` to a point of the second core, connects the
+  /// nearest points, and completes `found`. False if it is no longer than rounding, or if the gap between the
+  /// whole cores along it is smaller than its length.
   bool isNearest(const Packed& way, OppositePoints& found) const {
     const double length = std::sqrt(dot(way, way));
     if (!(length > rounding)) return false;
@@ -68,9 +68,9 @@ struct ShapePair {
   /// taken.
   Corner nearCorner(int rounds) const;
 
-  /// GJK from two points of the cores, until both bounds agree or `told(lower, upper)` says that it has heard
-  /// enough. From the line of the centres where `from` has no points, the points are the centres, or they are
-  /// so near to each other that tetrahedra with their corner are too flat to tell an overlap.
+  /// GJK from two points of the cores, until both bounds agree or `told(lower, upper)` returns true. It
+  /// starts from the line of the centres instead if `from` has no points, if the points are the centres, or
+  /// if they are so near to each other that tetrahedra with their corner are too flat to detect an overlap.
   template <typename Told>
   Gjk search(const Told& told, const Corner& from) const {
     constexpr double kApart = 1e8;  // of rounding
@@ -85,8 +85,8 @@ struct ShapePair {
         [&](double lower, double upper) { return upper - lower <= 0.5 * rounding || told(lower, upper); });
   }
 
-  /// What a search found, in the world: `n` from A to B, `onA` a point of A's
-  /// core, `toB` from there to B's core.
+  /// Converts the result of a search to the world frame: `n` is the normal from A to B, `onA` a point of A's
+  /// core, `toB` the vector from there to a point of B's core.
   Distance inWorld(const Eigen::Vector3d& n, const Eigen::Vector3d& onA, const Eigen::Vector3d& toB) const;
 };
 

@@ -1,9 +1,9 @@
-// The nearest point of a plane, a segment, a triangle and a polytope to an
-// STP-BV's core, and the test that it is one.
+// The point of a plane, a segment, a triangle or a polytope nearest to an STP-BV's core, and a test that
+// proves it.
 //
-// A polytope's is found by GJK with a smooth body (Gilbert, Johnson, Keerthi 1988; Wolfe
-// 1976): up to four corners, the nearest point of their hull, and the corner that faces the
-// body most, until none does more than that point.
+// For a polytope this is GJK against a smooth body (Gilbert, Johnson, Keerthi 1988; Wolfe 1976). It keeps up
+// to four corners and the nearest point of their hull, and adds the polytope's support corner towards the
+// body, until no corner is nearer along the normal than that point.
 #include "fcl_stpbv/distance/shape_query.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// One STP-BV, one simple body posed in its frame, and what a search between them finds.
+// A pair of an STP-BV and a simple shape, and the searches between them.
 #pragma once
 
 #include <algorithm>
@@ -13,8 +13,8 @@
 
 namespace fcl_stpbv::detail {
 
-/// The pair in the STP-BV's frame: however far it is from the world's origin, only the bodies' own
-/// coordinates and their mutual distance enter.
+/// The pair in the frame of the STP-BV. So rounding errors depend only on the bodies' own coordinates and
+/// their mutual distance.
 struct ShapeQuery {
   const StpBv& body;
   const Shape& shape;
@@ -34,7 +34,7 @@ struct ShapeQuery {
   Eigen::Vector3d posed(const Eigen::Vector3d& p) const { return pose.placed(p); }
 };
 
-/// Where the cores are nearest to each other, as far as a search knows.
+/// The nearest points of the cores, as a search found them.
 struct Nearest {
   Eigen::Vector3d n{0, 0, 0};  ///< unit, from the body to the shape
   int patch = -1;
@@ -45,7 +45,7 @@ struct Nearest {
   std::array<int, 3> corner{0, 1, 2};
 };
 
-/// What a warm or guessed normal gives a search to begin with.
+/// The start of a search: a cached or guessed normal.
 struct StartNormal {
   Eigen::Vector3d n;
   int patch;
@@ -54,8 +54,9 @@ struct StartNormal {
 /// From the pair's last answer, else from the volume's centre to the shape's.
 StartNormal startOf(const ShapeQuery& q, const PairCache& last);
 
-/// Which of two is the nearer one. Next to a boundary gaps differ by the square of how far their normals do,
-/// less than rounding: then that one which fewer of the shape's points, or less far, face the body more than.
+/// Whether `x` is nearer than `than`. Near a boundary, gaps differ only by the square of the difference of
+/// their normals, which may be below rounding. Then the better one is that for which fewer of the shape's
+/// points lie nearer to the body than its own point, or lie nearer by less.
 bool isNearer(const ShapeQuery& q, const Nearest& x, const Nearest& than, const Eigen::Vector3d* points,
               int count);
 
@@ -155,13 +156,13 @@ Nearest nearestOnEllipsoid(ShapeQuery& q, const StartNormal& start);
 /// How far `y`, on a supporting plane of the ellipsoid, is from it to first order (m).
 double besideEllipsoid(const ShapeQuery& q, const Eigen::Vector3d& y);
 
-/// On the flat side of a thin ellipsoid an ulp of the normal moves its point a long way: takes the point
-/// opposite the body's instead, if it is the ellipsoid's.
+/// On the flat side of a thin ellipsoid, a change of the normal by one ulp moves its point a long way. So
+/// this uses the point opposite the body's point instead, if it is on the ellipsoid.
 void placeOppositeOnEllipsoid(ShapeQuery& q, Nearest& found);
 
-/// The answer of overlapping cores where a point of the shape proves it: the one that leaves last through the
-/// volume's face through which that point alone would leave soonest. Nothing where the shape has no such
-/// point.
+/// The depth of overlapping cores, if a single point of the shape proves it. That is a point whose own
+/// shortest way out leads through some face of the volume, while no other point of the shape needs a longer
+/// way along that direction. No value if the shape has no such point.
 std::optional<LeastOverlap> overlapOfPoint(ShapeQuery& q, const StartNormal& start);
 
 /// Up to three corners of a polytope: of a face, of an edge, or one alone.
@@ -202,8 +203,9 @@ std::optional<DeepFeature> touchingFeature(ShapeQuery& q, const Nearest& near);
 /// checked. `apart` where the core is above.
 Nearest nearestOnPlane(ShapeQuery& q, const Eigen::Vector3d& onPlane, const Eigen::Vector3d& n, int hint);
 
-/// Whether nothing of the whole shape faces the body more than `found.y`, and the two points face each other:
-/// then the gap is the distance of the cores, whatever the search did (docs/theory.md, 5).
+/// Whether no point of the whole shape is nearer to the body along the normal than `found.y`, and the two
+/// points are opposite each other. Then the gap is the distance of the cores, independent of how the search
+/// found it (docs/theory.md, 5).
 bool certified(ShapeQuery& q, const Nearest& found);
 
 }  // namespace fcl_stpbv::detail

@@ -1,10 +1,10 @@
-// Is an STP-BV farther from a simple shape than a threshold? Bounds from both sides, the cheapest first:
+// Threshold test of an STP-BV and a simple shape. It uses lower and upper bounds, the cheapest first:
 // 1. How far the shape is from the centre of the balls around and inside the volume.
 // 2. A feature walk of a few steps to the distance (shape_walk.cpp).
 // 3. GJK on the cores, until a plane is far enough from both, two points of theirs are near enough, or the
 //    cores turn out to overlap.
-// 4. The exact distance, from the best plane: next to the threshold, and where the bodies have to be deep in
-//    each other.
+// 4. The exact distance, from the best plane: if the distance is close to the threshold, or if the threshold
+//    is a depth.
 #include "fcl_stpbv/convex/gjk.h"
 #include "fcl_stpbv/convex/support.h"
 #include "fcl_stpbv/distance/shape_distance.h"

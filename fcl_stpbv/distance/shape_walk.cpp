@@ -6,9 +6,9 @@
 // 2. Solve the pair of patch and feature: the normal of its widest gap, in closed form, or by Newton's method
 //    where an edge of the volume meets an edge, a rim or a cone's side.
 // 3. If that normal is past the patch's boundaries, cross the one that it passes furthest, and go to 2.
-// 4. If the patch's point there is nearest to another feature of the shape, take that one, and go to 2.
-// 5. Test what is left against the whole shape. Where it fails, or after some pairs, the searches of
-//    shape_query.h take over.
+// 4. If the nearest feature to the patch's point is another feature of the shape, take that one and go to 2.
+// 5. Test the result against the whole shape. If it fails, or after some pairs, the searches of shape_query.h
+//    take over.
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -1,10 +1,10 @@
-// Are two STP-BVs farther apart than a threshold? Bounds from both sides, the cheapest first:
-// 1. Balls around the volumes apart, or balls inside them near each other.
-// 2. Where the pair's last plane is known and the bodies have hardly turned: the distance, a step or two
-//    away, unless the cores overlap along that plane.
-// 3. The plane across the line of centres between the volumes.
-// 4. GJK on the vertices, until two points of the cores are near enough, which proves that the volumes are,
-//    or a plane is between the hulls.
+// Threshold test of two STP-BVs. It uses lower and upper bounds, the cheapest first:
+// 1. The distance of balls around the volumes, and of balls inside them.
+// 2. If the last separating plane is cached and the bodies have hardly turned: the exact distance, which
+//    takes only a step or two from there, unless the cores overlap along that plane.
+// 3. A plane perpendicular to the line of centres.
+// 4. GJK on the vertices, until two points of the cores are so near that the volumes must be within the
+//    threshold, or until a plane separates the hulls.
 // 5. The exact distance, from that plane's normal.
 #include "fcl_stpbv/distance/threshold.h"
 

@@ -1,5 +1,5 @@
-// Is an STP-BV farther from another, or from a simple shape, than a threshold? For less than a distance
-// takes.
+// Threshold tests: whether an STP-BV is farther from another one, or from a simple shape, than a given
+// length. Cheaper than a distance query.
 #pragma once
 
 #include "fcl_stpbv/convex/shape.h"
@@ -7,9 +7,9 @@
 
 namespace fcl_stpbv::detail {
 
-/// Whether the volumes are certainly farther apart than `x` (m; negative: whether they are less deep in each
-/// other). Balls in and around both, a plane, GJK on the vertices, and only then the distance are asked.
-/// False for a pose that is not rigid. Never throws or allocates.
+/// Whether the volumes are certainly farther apart than `x` (m). A negative `x` tests whether they overlap by
+/// less than `-x`. It tries balls in and around both, a plane, GJK on the vertices, and only then the
+/// distance. False for a pose that is not rigid. Never throws or allocates.
 bool isFartherThan(double x, const StpBv& a, const Eigen::Isometry3d& poseA, const StpBv& b,
                    const Eigen::Isometry3d& poseB, PairCache* cache = nullptr);
 

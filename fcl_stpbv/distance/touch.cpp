@@ -1,4 +1,4 @@
-// Which features face each other at an answer, and how the normal between them may turn.
+// Finds the features that face each other at an answer, and how the normal between them can turn.
 #include "fcl_stpbv/distance/touch.h"
 
 #include <cmath>
@@ -18,7 +18,7 @@ namespace {
 
 double placeRounding(double size) { return 32.0 * std::numeric_limits<double>::epsilon() * size; }
 
-// What is asked of either kind of body. A shape's margin rounds the distance; a volume's patch is known.
+// The functions that both kinds of bodies need.
 double sizeOf(const StpBv& body) { return body.centre().norm() + body.enclosingRadius(); }
 double sizeOf(const Shape& shape) { return shape.centre.norm() + shape.reach; }
 double marginOf(const StpBv&) { return 0.0; }

@@ -1,4 +1,4 @@
-// Two bodies at an answer: what a small motion of both does to the normal between their features.
+// Two bodies at an answer: how a small motion of both turns the normal between their features.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -8,8 +8,8 @@
 
 namespace fcl_stpbv::detail {
 
-/// Two bodies at an answer. The normal is carried by body 2 and turns in it by `tau`, the maximum of s over
-/// the ways it may:
+/// Two bodies at an answer. The normal moves with body 2 and turns relative to it by `tau`, which maximises s
+/// over the possible turns:
 ///
 ///     n = exp(w_B) (n0 + tau),   s = n.(o_B - o_A) - h_B(body 2's normal) - h_A(n seen from body 1)
 struct Touch {

@@ -1,15 +1,16 @@
-// Let W be a surface's radii of curvature in a plane across its normal: turn the normal, and its point moves
-// by W times the turn. With A = W of body 1 and D = W of body 2 plus the distance,
+// Let the 2x2 matrix W be the radii of curvature of a surface in the plane perpendicular to its normal: if
+// the normal turns, its point moves by W times the turn. With A = W of body 1 and D = W of body 2 plus the
+// distance,
 //
 //     turning = (A + D)^-1,   sliding = A (A + D)^-1,   rolling = A (A + D)^-1 D.
 //
 // 1. W is infinite along an edge and on a face, so it is kept as a fraction, radii / unit.
-// 2. For two by two matrices adj(A + D) = adj A + adj D: the inverse is a fraction of such terms, in which no
-//    large radius is subtracted from another. Faces and edges are no special cases.
-// 3. The plane's frame is along the first body's own radii where it has two. There its largest one does not
-//    hide the smallest.
-// 4. Of two features that curve both ways, one of them round, A + D is all but diagonal in that frame. An
-//    overlap may leave little of that sum, which squares of radii would hide.
+// 2. For 2x2 matrices adj(A + D) = adj A + adj D. So the inverse is a fraction of such terms, and no large
+//    radius is subtracted from another. Faces and edges need no special cases.
+// 3. The axes of the plane's frame are the first body's principal directions if it has two. Then its largest
+//    radius does not hide the smallest one by rounding.
+// 4. For two features that are curved in both directions, one of them round, A + D is almost diagonal in that
+//    frame. With an overlap the sum may be small; squares of radii would hide it by rounding.
 #include "fcl_stpbv/distance/turning.h"
 
 #include <Eigen/Geometry>

@@ -1,5 +1,5 @@
-// How the normal between two features turns and their points slide as the bodies move: what Newton's method
-// on the normal and second derivatives of the distance share (docs/theory.md, 6).
+// How the normal between two features turns, and how their points slide, when the bodies move. Newton's
+// method on the normal and the second derivatives of the distance both use this (docs/theory.md, 6).
 #pragma once
 
 #include <Eigen/Core>
@@ -8,8 +8,9 @@
 
 namespace fcl_stpbv::detail {
 
-/// Two features that face each other. With `apart`, the motion of the second one's point against the first
-/// one's (m), and `carried`, what body 2 turns the normal against body 1 (rad), both in `frame`,
+/// Two features that face each other. The inputs are, both in `frame`: `apart`, the motion of the second
+/// feature's point relative to the first one's (m), and `carried`, the rotation of the normal that body 2
+/// causes relative to body 1 (rad). The results are
 ///
 ///     turning * apart - sliding^T * carried    is what the normal turns in body 2 besides (rad),
 ///     sliding * apart + rolling * carried      what body 1's point slides on it (m).

@@ -1,4 +1,4 @@
-// A normal near the answer's, from the bodies' vertices alone: GJK on the two point sets.
+// GJK on the vertices of two bodies: gives a normal near the answer's.
 #pragma once
 
 #include <limits>
@@ -12,13 +12,14 @@ struct VertexGjk {
   bool apart = false;       ///< a gap, widest along `n`
   bool surrounded = false;  ///< four points of the difference, second set minus first, with the origin inside
   Eigen::Vector3d n{0, 0, 0};
-  double nearest = 0;                     ///< at least as near are two points of the sets' hulls (m)
+  /// Upper bound on the distance of the two hulls: the distance of two of their points (m).
+  double nearest = 0;
   std::array<int, 2> vertex{0, 0};        ///< last support vertices
   std::array<Eigen::Vector3d, 4> corner;  ///< set where `surrounded`
 };
 
 /// Unit normal of the widest gap between the two point sets: the paper's first step (IV.B), by GJK
-/// (convex/gjk.h). Starts from the normal `n`. A hint only: it may be off where the STP-BV's own
+/// (convex/gjk.h). Starts from the normal `n`. It is only a hint: it may be wrong if the STP-BV's own
 /// triangulation is not convex. Stops as soon as the gap is known to be above `level` (m) or not above it.
 ///
 /// The normal of a polyhedral witness falls into the region of the smooth patch of the same name: an edge's

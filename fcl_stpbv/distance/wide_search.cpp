@@ -1,13 +1,12 @@
-// The whole search for the widest gap of two STP-BVs, for the few pairs where
-// the feature walk does not get there.
+// The full search for the widest gap of two STP-BVs, for the few pairs in which the feature walk fails.
 //
 // 1. A maximum between cores that overlap: prove that it is the widest, or find the one that is (overlap.h).
 // 2. GJK on the vertices gives the polyhedra's closest features, whose patches
 //    are a start (paper IV.B). Solve there.
 // 3. Else ascend from there (ascent.h).
-// 4. Where the vertices' difference surrounds the origin, the cores overlap: step 1 from there.
-// 5. Where rounding defeats both, bisect the directions left: a plane between
-//    the cores, a common point, or overlap.
+// 4. If the origin is inside the difference of the vertex sets, the cores overlap: go to step 1 from there.
+// 5. If both fail because of rounding, bisect the remaining directions. The result is a plane between the
+//    cores, a common point, or overlap.
 #include "fcl_stpbv/distance/wide_search.h"
 
 #include "fcl_stpbv/distance/overlap.h"

@@ -1,4 +1,4 @@
-// The whole search for the widest gap, for pairs where the feature walk does not get there.
+// The full search for the widest gap, for pairs in which the feature walk does not find it.
 #pragma once
 
 #include "fcl_stpbv/distance/ascent.h"
@@ -20,9 +20,9 @@ struct SearchStart {
   bool near;                 ///< whether the answer is likely to be near
 };
 
-/// Searches from the polyhedra's closest features, from corners around the origin where the cores overlap,
-/// or, where rounding defeats both, by cutting the normals left. `settled` says that `found.at` is a maximum
-/// between cores that overlap; others may be wider.
+/// Searches from the polyhedra's closest features, or, if the cores overlap, from corners around the origin.
+/// If both fail because of rounding, it bisects the remaining normals. `settled`: `found.at` is already a
+/// maximum between overlapping cores, but maybe not the global one.
 void searchWidely(const BodyPair& pair, const SearchStart& start, bool settled, WidestGap& found,
                   SearchWork& work);
 
