@@ -1,4 +1,5 @@
-// Down both hierarchies; each pair of elements that is not certainly apart is a contact.
+// Descends through both hierarchies (posed_geometry.h). Each pair of elements that is not certainly apart is
+// a contact.
 #include "fcl_stpbv/adapter/collide.h"
 
 #include <algorithm>

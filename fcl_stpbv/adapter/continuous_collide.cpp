@@ -1,4 +1,4 @@
-// One pair of moving geometries as a scene for the search (motion_search.h).
+// Continuous collision of one pair: the two moving geometries are the scene of the search in motion_search.h.
 #include "fcl_stpbv/adapter/continuous_collide.h"
 
 #include <algorithm>
@@ -52,12 +52,13 @@ class Moving {
   }
   /// Most that any of its points moves in a unit of time (m).
   double speed() const { return motion_.linear.norm() + turning_; }
-  /// The same seen from the other body. What is common to both does not bring them nearer.
+  /// The same seen from the other body. A velocity that both have does not bring them nearer.
   double speedBeside(const Moving& other) const {
     return (motion_.linear - other.motion_.linear).norm() + turning_ + other.turning_;
   }
   bool turns() const { return !motion_.angular.isZero(0); }
-  /// For what has no bounds: only where `other` comes does its speed matter, seen from the axis, which moves.
+  /// For an unbounded geometry: its speed matters only in the region that `other` can reach, relative to the
+  /// moving axis.
   void reachTo(const Moving& other) {
     around(other.motion_.begin * other.centre, other.radius + other.speed() + motion_.linear.norm());
   }
@@ -84,8 +85,9 @@ class Moving {
   double radius = 0;
 
  private:
-  // Within `reach` of a place that turns with the body no point goes around the axis faster: an axis of
-  // constant direction, from which no point changes its distance.
+  // Bounds the speed around the axis of all points within `reach` of a point that rotates with the body. It
+  // holds for the whole motion, because the axis has a constant direction and no point changes its distance
+  // from the axis.
   void around(const Vector3d& place, double reach) {
     const Vector3d &w = motion_.angular,
                    there = motion_.turning + w.cross(place - motion_.begin.translation());

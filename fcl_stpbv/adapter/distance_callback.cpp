@@ -1,9 +1,8 @@
-// The callback for FCL's broadphase managers, for each pair that they offer
-// and the caller does not leave out:
-// 1. ask fcl_stpbv::distance, from the pair's cache if the caller keeps one;
-// 2. keep the answer if it is the closest, or deepest, so far, or if there is none: nothing is nearer than
-//    what was not checked;
-// 3. return a bound above 0, so that the manager goes on to overlapping pairs.
+// The callback for FCL's broadphase managers. For each pair that the caller does not skip:
+// 1. compute fcl_stpbv::distance, with the pair's cache if there is one;
+// 2. keep the answer if its distance is the least so far. A pair without an answer has the distance minus
+//    infinity, so it is kept;
+// 3. set `dist` above 0, so that the manager goes on to overlapping pairs.
 #include "fcl_stpbv/adapter/distance_callback.h"
 
 #include <algorithm>

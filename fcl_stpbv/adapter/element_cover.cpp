@@ -1,8 +1,10 @@
-// Branch and bound over both hierarchies, for the two elements that may meet first. Two parts stay apart
-// 1. for as long as they need to come near, however they move;
-// 2. for as long as the plane of the distance now stays between them: a floor, with all that lies flat in it;
-// 3. two elements also for as long as the plane of their own distance does: a wall beside the floor.
-// Parts that stay apart for longer than two elements that are known are left out.
+// Branch and bound over both hierarchies, to find the two elements that may meet first. Two parts stay apart
+// 1. at least for the time that they need to approach each other at their largest speed;
+// 2. as long as the plane of the present distance stays between them (for example a floor and everything on
+//    it);
+// 3. for two elements, also as long as the plane of their own distance stays between them (for example a wall
+//    beside the floor).
+// Parts that stay apart longer than two elements already found are skipped.
 #include "fcl_stpbv/adapter/element_cover.h"
 
 #include "fcl_stpbv/numbers.h"

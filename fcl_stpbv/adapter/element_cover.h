@@ -1,5 +1,5 @@
-// How long a moving mesh or tree certainly stays apart from another geometry: of all its elements those near
-// enough to matter, each with a plane of its own between it and the other body.
+// A lower bound on how long a moving mesh or octree stays apart from another geometry. It examines the
+// elements that are near enough, each with its own separating plane.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -10,22 +10,23 @@
 
 namespace fcl_stpbv::detail {
 
-/// Two geometries on their way, at one time. A geometry without bounds does not turn.
+/// Two moving geometries at one time. An unbounded geometry must not rotate.
 struct MovingNow {
   const PosedPair& pair;
   Eigen::Isometry3d pose;                ///< of the first one
   Eigen::Vector3d normal;                ///< of the distance now: unit, from the first to the second
   std::array<Eigen::Vector3d, 2> point;  ///< its witness points
-  Eigen::Vector3d about;                 ///< between these: what the velocities are of
+  Eigen::Vector3d about;                 ///< a point between these, to which the velocities refer
   std::array<BodyVelocity, 2> velocity;
-  double speed;         ///< most at which any two of their points come nearer now (m)
-  double acceleration;  ///< most by which that speed grows in a unit of time (m)
+  /// Upper bound on the speed at which any two of their points approach now (m per unit of time).
+  double speed;
+  double acceleration;  ///< upper bound on the growth of that speed per unit of time
   double margin;
-  double slack;  ///< for rounding, of a gap (m)
+  double slack;  ///< allowance for rounding in a gap (m)
 };
 
-/// For how long, up to `most`, planes between their elements keep them apart: no shorter than `known`, which
-/// any two of them are.
+/// The time, up to `most`, for which planes between their elements keep the geometries apart. At least
+/// `known`, a time that is already known to hold for any two elements.
 Cover elementCover(const MovingNow& now, double most, const Cover& known);
 
 }  // namespace fcl_stpbv::detail

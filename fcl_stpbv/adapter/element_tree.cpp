@@ -1,7 +1,8 @@
-// One view of FCL's hierarchies: bounding volume trees of meshes, whatever their boxes, and octrees.
+// A common view of FCL's hierarchies: bounding volume trees of meshes, with any type of bounding volume, and
+// octrees.
 // 1. A node's box becomes an oriented box that also covers the rounding of FCL's fitting.
-// 2. Inner boxes that FCL has merged from those below may leave elements out: boxes along the axes take their
-//    place, fitted from the leaves up.
+// 2. Inner boxes that FCL has merged from their children may miss elements. They are replaced by axis-aligned
+//    boxes, fitted from the leaves up.
 // 3. Children and elements (triangle, point, cell) are read from FCL's own nodes.
 #include "fcl_stpbv/adapter/element_tree.h"
 
@@ -119,9 +120,8 @@ int treeChildren(const fcl::OcTreed& tree, const Node& node, std::array<Node, 8>
 }
 #endif
 
-/// Whether all corners are numbers, and nearer than any pose may be. Brought to the end of the range, a
-/// corner farther away is infinite; nought times what is infinite or no number is no number, and so is every
-/// sum with it.
+/// Whether all vertices are finite and below 1e150 m. Each coordinate is scaled so that a larger one
+/// overflows to infinity. Zero times infinity or NaN is NaN, and so is every sum with it.
 FCL_STPBV_VECTORIZED
 bool areNumbers(const Vector3d* corner, int count) {
   constexpr double kToEnd = std::numeric_limits<double>::max() / kHuge;

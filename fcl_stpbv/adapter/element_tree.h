@@ -1,4 +1,5 @@
-// The triangles of a mesh, the points of a cloud or the cells of a tree, through FCL's own hierarchy.
+// Access to the triangles of a mesh, the points of a cloud or the cells of an octree, through FCL's own
+// hierarchy.
 #pragma once
 
 #include <fcl/geometry/collision_geometry.h>
@@ -14,7 +15,7 @@
 
 namespace fcl_stpbv::detail {
 
-/// A box anywhere in the frame of a mesh or a tree, as every FCL bounding volume has one around it.
+/// An oriented box in the frame of a mesh or an octree. Every FCL bounding volume is converted to one.
 struct OrientedBox {
   Eigen::Vector3d centre;
   Eigen::Matrix3d axes;  ///< columns
@@ -24,14 +25,16 @@ struct OrientedBox {
   double reach(const Eigen::Vector3d& n) const { return half.dot((axes.transpose() * n).cwiseAbs()); }
 };
 
-/// What a place's coordinates may be off after a pose (m): three products of a row and their sum with the
-/// translation, and as much again for a pose that was made rigid. Nought for the origin, which nothing moves.
+/// Bound on the rounding error of a point's coordinates after a pose was applied (m): three products and
+/// their sum with the translation, and the same again for a pose that was made rigid. 0 for the origin, which
+/// needs no rotation.
 inline double placeRounding(const Eigen::Isometry3d& pose, const Eigen::Vector3d& place) {
   constexpr double kRounding = 8 * std::numeric_limits<double>::epsilon();
   return place.isZero(0) ? 0.0 : kRounding * (place.lpNorm<1>() + pose.translation().lpNorm<1>());
 }
 
-/// Whether nothing has to be looked at in a mesh again: ElementTree's finite(), and not merged().
+/// Whether a mesh needs no further checks: its vertices are finite, and its boxes are not merged
+/// (ElementTree::finite() and merged()).
 bool isSound(const fcl::CollisionGeometryd& geometry);
 
 /// A view of a BVHModel of any bounding volume or of an OcTree; the geometry
@@ -50,16 +53,18 @@ class ElementTree {
 
   /// Whether the geometry is a mesh or a tree with anything in it.
   bool any() const { return any_; }
-  /// Whether all its corners are numbers, below 1e150 m: FCL's boxes hide those that are not. Looks at each
-  /// of them, whether a triangle has it or not.
+  /// Whether all vertices are finite and below 1e150 m. FCL's boxes hide vertices that are not. Checks each
+  /// vertex, even if no triangle uses it.
   bool finite() const;
   /// How many corners a mesh has, and how far any of them reaches along `n` (geometry's frame, m), looking at
   /// each; nothing is known of a tree.
   int corners() const;
   double reach(const Eigen::Vector3d& n) const;
-  /// Whether FCL has merged its inner boxes. All boxes were then fitted anew, to the corners as they are now.
+  /// Whether FCL has merged the inner boxes from their children. All boxes were then replaced by new ones,
+  /// fitted to the present vertices.
   bool merged() const { return fitted_ != nullptr; }
-  /// Whether inner boxes tell little of where the elements are, as an octree's, which is kilometres across.
+  /// Whether inner boxes bound the elements only loosely, as those of an octree, whose root box is kilometres
+  /// wide.
   bool loose() const { return geometry_.getNodeType() == fcl::GEOM_OCTREE; }
   Node root() const;
   /// Whether there is an element below: a tree's cells may all be free. Looks at cells until it finds one.
@@ -68,7 +73,7 @@ class ElementTree {
   int children(const Node& node, std::array<Node, 8>& child) const;
   /// A leaf as a shape, placed in the geometry's frame. False for a cell that is free.
   bool element(const Node& leaf, Shape& shape, Eigen::Vector3d& place) const;
-  /// The element with this id, at or within `off` (m) of `x` (geometry's frame).
+  /// Finds the element with this id that is within `off` (m) of `x` (geometry's frame).
   bool find(std::intptr_t id, const Eigen::Vector3d& x, double off, Shape& shape,
             Eigen::Vector3d& place) const;
 

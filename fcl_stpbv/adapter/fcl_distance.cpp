@@ -1,5 +1,5 @@
-// The drop-in distance: two STP-BVs by the core's query, a simple shape beside another or an STP-BV by
-// distance/shape_distance.h, meshes and trees by nearest_pair.h.
+// The distance of two FCL geometries, by type: two STP-BVs by distance/distance.h; a simple shape and another
+// shape or an STP-BV by distance/shape_distance.h; meshes and octrees by nearest_pair.h.
 #include "fcl_stpbv/adapter/fcl_distance.h"
 
 #include "fcl_stpbv/adapter/element_tree.h"
@@ -19,8 +19,8 @@ using namespace detail;
 using fcl::CollisionGeometryd;
 using fcl::Transform3d;
 
-/// A start from FCL's polyhedral witness (paper IV.B), which the feature walk goes on from: cheaper than
-/// the last of GJK's steps and than the choice of neighbours, so both are left out.
+/// A start from FCL's polyhedral witness (paper IV.B). The feature walk continues from it. The walk is
+/// cheaper than GJK's last steps and than the choice of neighbours, so both are omitted.
 PairCache startFromFcl(const StpBvGeometry& a, const Transform3d& poseA, const StpBvGeometry& b,
                        const Transform3d& poseB) {
   constexpr double kGap = 0.9;  // of the distance: any plane well between the two

@@ -1,8 +1,8 @@
 // FCL's GJK (fcl::detail::libccd_extension) without its assertions.
 //
-// They test rounding against absolute bounds and end the process where a touching pair
-// exceeds one; the caller checks the simplex itself. What the header pulls in is included
-// first, so that only its own functions lose them.
+// The assertions compare rounding errors with absolute bounds, and would abort the process for some touching
+// pairs. The caller checks the simplex itself. The other headers that FCL's header includes are included
+// first, so that only FCL's own functions lose their assertions.
 #pragma once
 
 #include <fcl/geometry/shape/box.h>

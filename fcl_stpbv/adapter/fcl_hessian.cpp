@@ -1,5 +1,5 @@
-// Second derivatives for FCL geometries: finds the body that an answer is about, a simple shape or one
-// element of a mesh or tree, and asks distance/hessian.h about it in closed form.
+// Second derivatives for FCL geometries: finds the body of an answer (a simple shape, or one element of a
+// mesh or octree), and calls distance/hessian.h for it.
 #include "fcl_stpbv/adapter/fcl_hessian.h"
 
 #include <array>

@@ -1,4 +1,4 @@
-// FCL's simple geometries as the shapes that the distance to an STP-BV is solved for.
+// Converts FCL's simple geometries to this library's shapes.
 #pragma once
 
 #include <fcl/geometry/collision_geometry.h>

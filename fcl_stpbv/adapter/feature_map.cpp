@@ -1,10 +1,10 @@
-// The paper's map from polyhedral features to smooth patches (IV.B to IV.D),
-// and a count of how often it is right.
+// The paper's map from polyhedral features to smooth patches (IV.B to IV.D), and statistics of how often it
+// is right.
 //
-// 1. Each feature of the hulls names the patch of the same name.
-// 2. Where the other body's witness point lies outside that patch's Voronoi
-//    region, take the neighbour on that side.
-// 3. The same once more with the smooth points that these patches give.
+// 1. For each feature of the hulls take the patch of the same vertices.
+// 2. If the other body's witness point lies outside that patch's Voronoi region, take the neighbour on that
+//    side.
+// 3. Repeat step 2 with the smooth points of these patches.
 #include "fcl_stpbv/adapter/feature_map.h"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
-// From the polyhedral witness to the patches the smooth witness is looked for on (paper IV.B to IV.D).
+// Maps the features at the polyhedral witness points to the patches on which the search for the smooth
+// witness points starts (paper IV.B to IV.D).
 #pragma once
 
 #include <Eigen/Geometry>
@@ -11,9 +12,10 @@
 
 namespace fcl_stpbv::detail {
 
-/// The patches of two bodies a polyhedral witness points at: those named like its features, then where the
-/// other body's witness point lies outside such a patch's Voronoi region, the neighbour on that side (paper
-/// IV.B); tested first with the polyhedral witness points, then with smooth ones. -1: none.
+/// The patches of two bodies for a polyhedral witness; -1: none. First the patches that correspond to the
+/// witness's features. If the other body's witness point lies outside the Voronoi region of such a patch, the
+/// neighbour on that side is taken (paper IV.B). This test is done first with the polyhedral witness points,
+/// then with smooth ones.
 std::array<int, 2> mapFeatures(const StpBvGeometry& a, const Eigen::Isometry3d& poseA, const StpBvGeometry& b,
                                const Eigen::Isometry3d& poseB, const PolyhedralWitness& witness);
 

@@ -1,4 +1,4 @@
-// A convex hull as FCL knows it.
+// Converts a convex hull to FCL's types.
 #pragma once
 
 #include <fcl/geometry/shape/convex.h>

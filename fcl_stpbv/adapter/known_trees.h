@@ -6,8 +6,8 @@
 
 namespace fcl_stpbv::detail {
 
-/// As the public distance(), but what `trees` has found of the geometries is not looked for again: boxes in
-/// place of those that FCL has merged. `context.finite` then tells only that corners are numbers.
+/// Like the public distance(), but reuses `trees`, which already contain the boxes that replace merged ones.
+/// `context.finite` then only states that all vertices are finite.
 DistanceAnswer distance(const fcl::CollisionGeometryd& geometry1, const fcl::Transform3d& pose1,
                         const fcl::CollisionGeometryd& geometry2, const fcl::Transform3d& pose2,
                         const QueryContext& context, const KnownTrees& trees);

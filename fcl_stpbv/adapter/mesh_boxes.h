@@ -1,5 +1,5 @@
-// The boxes of FCL's meshes: one kind for all bounding volumes, which of them may leave triangles out, and
-// boxes fitted in their place.
+// The bounding boxes of FCL's meshes: converts all types of bounding volumes to oriented boxes, detects boxes
+// that may miss triangles, and fits replacements.
 #pragma once
 
 #include <fcl/geometry/bvh/BVH_model.h>
@@ -40,10 +40,10 @@ inline const fcl::OBBd& boxed(const fcl::kIOSd& bv) { return bv.obb; }
 
 constexpr double kSameBox = 1e-9;  // of the size
 
-/// Whether FCL may have merged a bounding volume from two, in a way that may leave parts of them out (FCL
-/// 0.7, RSS-inl.h, OBB-inl.h): something that all of these have and few others. OBB: the upper end of its
-/// first side is that of the two, the lower one may be lost. RSS: the third axis is across two of the first
-/// part's.
+/// Whether FCL may have merged a bounding volume from two others, in a way that may leave parts of them out
+/// (FCL 0.7, RSS-inl.h, OBB-inl.h). It tests a property that all such volumes have and few others do. OBB:
+/// the upper end along its first axis is that of the two boxes, while the lower one may be lost. RSS: the
+/// third axis is perpendicular to two axes of the first part.
 inline bool mayBeMerged(const fcl::OBBd& both, const fcl::OBBd& first, const fcl::OBBd& second) {
   const Eigen::Vector3d n = both.axis.col(0);
   const auto top = [&](const fcl::OBBd& bv) {
@@ -60,8 +60,8 @@ bool mayBeMerged(const BV&, const BV&, const BV&) {
   return false;  // AABB and KDOP merge well
 }
 
-/// Whether its axes are those of a box. FCL's fit to a triangle whose corners lie on a line, which it makes
-/// where vertices have moved, leaves axes out or leans them, and puts its box somewhere else.
+/// Whether its axes are orthonormal. For a triangle whose corners lie on a line, FCL's fit (after vertices
+/// have moved) makes zero or skew axes, and a box at a wrong place.
 inline bool hasAxes(const OrientedBox& box) {
   return (box.axes.transpose() * box.axes - Eigen::Matrix3d::Identity()).lpNorm<1>() <= kSameBox;
 }
@@ -101,9 +101,9 @@ bool isMerged(const BV& both, const BV& first, const BV& second) {
          (own.axes - made.axes).lpNorm<1>() <= kSameBox;
 }
 
-/// Whether all boxes down one way look merged from their parts', for some fitted box may do so by chance. One
-/// without axes tells at once. Of a single element its own box, which FCL merges from those before and after
-/// an update.
+/// Whether all boxes on one path down look merged from their parts; a single fitted box may do so by chance.
+/// A box without proper axes decides at once. For a single element its own box is tested, because FCL merges
+/// the box before and the box after an update.
 template <typename BV, typename LooksMerged>
 bool lookMerged(const fcl::BVHModel<BV>& mesh, const LooksMerged& looksMerged) {
   for (int index = 0;; index = mesh.getBV(index).leftChild()) {
@@ -116,8 +116,8 @@ bool lookMerged(const fcl::BVHModel<BV>& mesh, const LooksMerged& looksMerged) {
   }
 }
 
-/// Whether FCL has fitted boxes to triangles that are not there: where a cloud has an array of none, it reads
-/// what the memory behind it holds. AABB and KDOP go by the points.
+/// Whether FCL has fitted boxes to triangles that do not exist: for a cloud with an empty array of triangles,
+/// FCL reads beyond the array. AABB and KDOP are fitted to the points instead.
 template <typename BV>
 bool hasStrayBoxes(const fcl::BVHModel<BV>& mesh) {
   using Boxed = std::decay_t<decltype(boxed(std::declval<const BV&>()))>;

@@ -1,5 +1,5 @@
-// The first contact of moving pairs, or the proof that there is none:
-// halving of the time, earlier half first.
+// Finds the first contact of moving pairs, or proves that there is none, by bisection of the time, earlier
+// half first.
 #pragma once
 
 #include <algorithm>
@@ -12,12 +12,13 @@
 
 namespace fcl_stpbv::detail {
 
-/// `scene.place(t)` puts all bodies where they are at the time t; then `scene.look(pair, most, cover)` tells
-/// whether the pair is in contact, else fills the cover, no longer than `most` to either side.
+/// `scene.place(t)` moves all bodies to their poses at time t. Then `scene.look(pair, most, cover)` returns
+/// whether the pair is in contact. If not, it fills `cover`: the times before and after t, each at most
+/// `most`, for which the pair is proven clear.
 ///
-/// At the middle of a time each pair that is open there is looked at. What its cover leaves goes into the
-/// earlier or the later rest. Whatever lies before the time at hand is proven for all pairs, so the first
-/// contact that is bracketed closely enough is the first of all.
+/// For each interval, every pair that is undecided there is examined at the middle. The parts that its cover
+/// leaves open are examined in the earlier and the later half. All times before the current interval are
+/// already proven for all pairs. So the first contact that is bracketed to the tolerance is the first of all.
 template <class Scene>
 class MotionSearch {
  public:
@@ -76,8 +77,8 @@ class MotionSearch {
     }
     lists_.insert(lists_.end(), later_.begin(), later_.end());
     const std::size_t end = lists_.size();
-    // Only what was looked at is given up: two covers may leave as short a time as this between them, and it
-    // may be free.
+    // Only an interval that was examined is called undecided: two covers may leave an interval as short as
+    // this between them that is free.
     if (end > early && b - a <= kFinest) return finishSoonAfter(a, b, early, end);
     bool over = late > early && visit(a, middle - least.before, early, late);
     if (!over && end > late) over = visit(middle + least.after, b, late, end);

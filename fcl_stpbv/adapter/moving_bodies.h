@@ -1,5 +1,4 @@
-// How long two moving bodies certainly stay apart: the one bound under every
-// proof about a motion (docs/motion.md).
+// A lower bound on how long two moving bodies stay apart. All proofs about motions use it (docs/motion.md).
 #pragma once
 
 #include <Eigen/Core>
@@ -10,15 +9,16 @@
 
 namespace fcl_stpbv::detail {
 
-/// How a body moves now, per unit of time, in a frame that any plane between
-/// two bodies is fixed to; world axes.
+/// The present velocity of a body, per unit of time, relative to the frame to which separating planes are
+/// fixed; world axes.
 struct BodyVelocity {
   Eigen::Vector3d linear{0, 0, 0};  ///< of the point `about` (planeCover), as if the body carried it
   Eigen::Vector3d angular{0, 0, 0};
-  double acceleration = 0;  ///< no point of the body is ever accelerated by more
-  bool steady = false;      ///< `angular` never changes its direction: all accelerations are across it
+  double acceleration = 0;  ///< upper bound on the acceleration of any point of the body, at any time
+  /// `angular` never changes its direction, so all accelerations are perpendicular to it.
+  bool steady = false;
 
-  /// No point of the body is ever accelerated by more along the unit vector `n`.
+  /// Upper bound on the acceleration of any point of the body along the unit vector `n`.
   double accelerationAlong(const Eigen::Vector3d& n) const {
     const double turn = angular.norm();
     if (!steady || !(turn > 0)) return acceleration;
@@ -32,7 +32,7 @@ struct Cover {
   double before = 0, after = 0;
 };
 
-/// Of two that both hold for the same bodies.
+/// The longer times of two covers that both hold for the same bodies.
 inline Cover longer(const Cover& p, const Cover& q) {
   return {std::max(p.before, q.before), std::max(p.after, q.after)};
 }
@@ -47,12 +47,13 @@ inline double timeAbove(double gap, double rate, double acceleration, double mos
   return std::min(most, 2 * gap / (root - k));  // the positive root, without cancellation
 }
 
-/// From the plane of unit normal `n` (from a to b) between two convex bodies.
+/// The cover that a separating plane of two convex bodies gives; its unit normal `n` points from a to b.
 ///
 /// `supportA(d)` is the largest d.(x - about) over the body, `d` of any length; `gap` is the bodies' gap
-/// along `n` less the margin, all bounds less `slack` for rounding. A point x moves along n by t n.v(x) to
-/// within acceleration t^2/2, and n.v(x) is linear in x: the least over a body of n.x + t n.v(x) is a support
-/// value, concave in t, so that both ends of a time bound all between.
+/// along `n` less the margin, all bounds less `slack` for rounding. Within the time t, a point x moves along
+/// n by t n.v(x), with an error of at most acceleration t^2/2. Since n.v(x) is linear in x, the minimum of
+/// n.x + t n.v(x) over a body is a support value. It is concave in t, so its values at both ends of an
+/// interval bound it in between.
 template <class SupportA, class SupportB>
 Cover planeCover(const Eigen::Vector3d& n, double gap, const SupportA& supportA, const BodyVelocity& a,
                  const SupportB& supportB, const BodyVelocity& b, double most, double slack) {
@@ -78,8 +79,8 @@ Cover planeCover(const Eigen::Vector3d& n, double gap, const SupportA& supportA,
   return {cover(-1), cover(1)};
 }
 
-/// Of any two bodies within balls around points that move so: from their speed alone, `gap` a bound on the
-/// distance less the margin.
+/// The cover from a bound on the speed of approach alone. `gap` is a lower bound on the distance minus the
+/// margin.
 inline Cover speedCover(double gap, double speed, double acceleration, double most, double slack) {
   const double time = timeAbove(gap - slack, -speed, acceleration, most);
   return {time, time};

@@ -2,11 +2,12 @@
 // (Larsen, Gottschalk, Lin, Manocha 1999):
 // 1. bound two parts from below by their gap along the normals of elements solved before, then by their boxes
 //    and the body's support points (posed_geometry.h);
-// 2. skip what cannot hold one of the nearest two;
-// 3. solve two elements exactly, keep the two least.
-// Apart, one normal tells most. In an overlap each side of a body has its own. Where two meshes take many
-// looks, all their corners are tried on the nearest elements' planes: level faces of many triangles are all
-// as near, and FCL's boxes, which are wider, cannot tell that none is nearer.
+// 2. skip parts that cannot contain one of the nearest two pairs;
+// 3. compute the distance of two elements exactly, and keep the two smallest.
+// If the geometries are apart, one normal is usually enough for most bounds. If they overlap, each side of a
+// body needs its own normal. If the search over two meshes takes many steps, all their vertices are compared
+// with the planes of the nearest elements. This helps for parallel faces of many triangles: all of them are
+// equally near, and FCL's boxes, which are larger, cannot prove that none is nearer.
 #include "fcl_stpbv/adapter/nearest_pair.h"
 
 #include <algorithm>

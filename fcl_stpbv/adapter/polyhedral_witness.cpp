@@ -1,4 +1,4 @@
-// FCL's witness with a stop that proves convergence.
+// FCL's witness points with a stopping criterion that proves convergence.
 //
 // 1. A first supporting plane from the start's direction. If it separates the
 //    hulls, FCL's test would end there too.

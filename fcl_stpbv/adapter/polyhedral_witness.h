@@ -1,4 +1,4 @@
-// Closest features of two convex hulls by FCL's GJK, with a stop that proves convergence.
+// Closest features of two convex hulls by FCL's GJK, with a stopping criterion that proves convergence.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -8,7 +8,7 @@
 
 namespace fcl_stpbv::detail {
 
-/// Where to begin: what an earlier witness of the same pair returned, or nothing.
+/// Warm start: the result of an earlier call for the same pair, or nothing.
 struct WitnessStart {
   Eigen::Vector3d direction{0, 0, 0};  ///< from A to B, world frame; zero: centre to centre
   std::array<int, 2> vertex{-1, -1};   ///< hull vertices to climb from; -1: from the table of directions
@@ -35,10 +35,10 @@ struct PolyhedralWitness {
 
 /// Closest points of hull `a` at `poseA` and `b` at `poseB`. Never throws, never allocates.
 ///
-/// The intersection test is FCL's own GJK, on a support function that climbs from the last vertex, in
-/// coordinates relative to A and scaled to about 1 because libccd's tolerances are absolute. Its distance
-/// loop is replaced: FCL stops where two norms agree, which is no proof of convergence (docs/fcl.md); here
-/// the duality gap decides. It stops once that is at most `gap` times the distance; 0 is to rounding.
+/// The intersection test is FCL's own GJK. The support function climbs from the last vertex. Coordinates are
+/// relative to A and scaled to about 1, because libccd's tolerances are absolute. FCL's distance loop is
+/// replaced: FCL stops when two norms agree, which does not prove convergence (docs/fcl.md). This function
+/// stops when the duality gap is at most `gap` times the distance; with 0, when it is only rounding.
 PolyhedralWitness polyhedralWitness(const HullGraph& a, const Eigen::Isometry3d& poseA, const HullGraph& b,
                                     const Eigen::Isometry3d& poseB, const WitnessStart& start = {},
                                     double gap = 0.0);

@@ -1,11 +1,11 @@
-// Geometries as hierarchies of boxes, for the walk in posed_geometry.h.
+// Geometries as hierarchies of boxes, for the descent in posed_geometry.h.
 // 1. An STP-BV or a shape is one part, with the box of its own axes and its support points. Meshes and trees
 //    give the boxes of FCL's hierarchies (element_tree.h).
-// 2. Two parts are at least as far apart as their projections on any axis (separating axis test:
-//    Gottschalk, Lin, Manocha 1996), and as one box and the other's extents along its three axes, at right
-//    angles, are. Tried are a normal that the caller knows, the line of the centres and both boxes' axes.
-//    Axes that are cross products of edges are left out: a looser bound, never a wrong one. A half space or a
-//    plane has one axis, its normal.
+// 2. Two parts are at least as far apart as their projections on any axis (separating axis test: Gottschalk,
+//    Lin, Manocha 1996). They are also at least as far apart as one box and the box of the same axes around
+//    the other. The axes tested are a normal that the caller provides, the line of the centres and both
+//    boxes' axes. Cross products of edges are omitted; the bound is then looser, but never wrong. A half
+//    space or a plane has only one axis, its normal.
 #include "fcl_stpbv/adapter/posed_geometry.h"
 
 #include <cmath>

@@ -1,5 +1,5 @@
-// Any FCL geometry as convex bodies below boxes, and the walk down two of them that every question about a
-// pair takes: distance of meshes, contacts, farther than a threshold.
+// A view of any FCL geometry as a hierarchy of boxes with convex bodies as leaves, and the descent through
+// two such hierarchies. Distances of meshes, contacts and threshold tests all use it.
 #pragma once
 
 #include <algorithm>
@@ -22,7 +22,7 @@ struct ConvexBody {
   const StpBv* volume = nullptr;
   Shape shape;
   Eigen::Isometry3d pose;
-  double rounding = 0;  ///< of its place (m): a cell's, which a pose has moved with its tree
+  double rounding = 0;  ///< rounding error of its position (m), for a cell of an octree at a pose
 
   bool unbounded() const { return !volume && shape.unbounded(); }
   /// Height of the supporting plane with the world's unit normal `n` above the body's origin (m). An STP-BV
@@ -30,8 +30,8 @@ struct ConvexBody {
   double support(const Eigen::Vector3d& n, int hint = -1) const {
     return localSupport(pose.linear().transpose() * n, hint);
   }
-  /// How far it reaches from the point `about` along `d`, of any length (world, m). What has no bounds is
-  /// looked at along its own normal alone: it shows the plane through `point`.
+  /// Largest d.(x - about) over the body, for `d` of any length (world, m). For an unbounded body only its
+  /// own normal is allowed as `d`; its plane goes through `point`.
   double reach(const Eigen::Vector3d& d, const Eigen::Vector3d& about, const Eigen::Vector3d& point,
                int hint = -1) const {
     if (unbounded()) return d.dot(point - about);
@@ -50,8 +50,9 @@ struct ConvexBody {
   }
 };
 
-/// Whether FCL's marks let a geometry meet others. The dynamic AABB trees may hand over cells of an octree
-/// that nobody has seen yet, as boxes whose marks tell so. A tree's own cells tell for themselves.
+/// Whether a geometry can have contacts: false if FCL marks it as free or unknown. FCL's dynamic AABB trees
+/// may pass unknown cells of an octree as boxes with such marks. For an octree itself each cell has its own
+/// mark.
 bool isOccupied(const fcl::CollisionGeometryd& geometry);
 
 /// Whether the geometry is one valid convex body, and if so that body, without a pose.
@@ -60,12 +61,12 @@ bool isConvex(const fcl::CollisionGeometryd& geometry, ConvexBody& body);
 /// Signed distance of two bodies; the cache serves pairs with an STP-BV, and keeps the normal of any.
 Distance distance(const ConvexBody& a, const ConvexBody& b, PairCache* cache = nullptr);
 
-/// Whether two bodies are certainly farther apart than `x` (m): first by what isFartherByBounds() looks at,
-/// then by a search. Poses are rigid; with an STP-BV they may be any, and tell nothing if they are not.
+/// Whether two bodies are certainly farther apart than `x` (m): first by isFartherByBounds(), then by a
+/// search. Poses must be rigid; with an STP-BV they need not be, and the result is then false.
 bool isFartherThan(double x, const ConvexBody& a, const ConvexBody& b, PairCache* cache,
                    ProximityCounts* counts = nullptr);
-/// By the plane of the cache's normal alone, whose gap is a lower bound like that along any other normal
-/// (docs/theory.md, 5), and by the ball around an STP-BV, as no boxes were compared.
+/// The cheap part of the test: the supporting planes along the cache's normal, since the gap along any normal
+/// is a lower bound (docs/theory.md, 5), and the balls around STP-BVs, because their boxes were not compared.
 bool isFartherByBounds(double x, const ConvexBody& a, const ConvexBody& b, const PairCache& cache);
 
 /// Two convex bodies at their poses, which need no boxes around them: with an STP-BV at any poses, else
@@ -158,19 +159,19 @@ struct PosedPair {
   std::optional<OrientedBox> besideTree;
 };
 
-/// No more than the distance of two parts (m): the widest gap along `n` (unit or zero, frame of the first
-/// geometry), the line of their centres and their axes, or the first that is above `enough`; of a half space
-/// or a plane along its normal.
+/// Lower bound on the distance of two parts (m): the widest gap along `n` (unit or zero, frame of the first
+/// geometry), the line of their centres and the axes of their boxes; stops at the first gap above `enough`.
+/// For a half space or a plane, the gap along its normal.
 double gapOf(const PosedPair& pair, const PosedGeometry::Part& a, const PosedGeometry::Part& b, double enough,
              const Eigen::Vector3d& n = {0, 0, 0});
 
 /// What a gap between two parts may be off by rounding, and by their support functions (m).
 double boxRounding(const PosedGeometry::Part& a, const PosedGeometry::Part& b);
 
-/// Goes down both hierarchies, the bigger part first and near children first. `visitor.bound(a, b)` is a
-/// lower bound of two parts' distance, `visitor.skip(bound)` tells whether nothing below matters, asked again
-/// before the way down; `visitor.leaves(a, b)` ends the walk by true.
-/// @returns whether it ended so.
+/// Descends through both hierarchies, the bigger part first and near children first. `visitor.bound(a, b)`
+/// returns a lower bound on the distance of two parts. `visitor.skip(bound)` returns whether the pair can be
+/// skipped; it is called again before the descent into the pair. `visitor.leaves(a, b)` handles two leaves,
+/// and returns true to end the descent. @returns whether it ended so.
 template <class Visitor>
 bool descend(const PosedPair& pair, const PosedGeometry::Part& a, const PosedGeometry::Part& b,
              Visitor& visitor) {

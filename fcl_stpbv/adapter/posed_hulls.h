@@ -1,6 +1,6 @@
-// Two hulls for libccd's GJK: scales the pair by a power of two to size about 1, because libccd's tolerances
-// are absolute, brings both into one frame, and answers libccd's callbacks for support points. The vertices
-// behind the points are logged, so that a simplex can name them afterwards.
+// Two hulls for libccd's GJK. Scales the pair by a power of two to a size of about 1, because libccd's
+// tolerances are absolute. Transforms both hulls into one frame, and provides libccd's callbacks for support
+// points. Logs the vertices of the support points, so that the vertices of a simplex are known afterwards.
 #pragma once
 
 #include <ccd/ccd.h>

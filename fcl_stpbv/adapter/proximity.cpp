@@ -1,9 +1,9 @@
-// Farther than a threshold?
+// Threshold test of two geometries: are they farther apart than x?
 //
-// 1. Boxes around both geometries, or around two convex bodies their balls.
-// 2. Down both hierarchies, near children first.
-// 3. Of two bodies the gap along the remembered normal, and the balls in them.
-// 4. A search that ends as soon as its bounds tell.
+// 1. Compare the boxes around both geometries, or, for two convex bodies, the balls around them.
+// 2. Descend through both hierarchies, near children first.
+// 3. For two bodies, compute the gap along the cached normal, and compare the balls inside them.
+// 4. Last, a search that stops as soon as its bounds decide.
 #include <algorithm>
 #include <cmath>
 
@@ -62,7 +62,7 @@ double ballInside(const Shape& shape) {
   }
 }
 
-/// What is known of two bounded shapes without a search.
+/// Bounds on the distance of two bounded shapes without a search.
 class ShapeBounds {
  public:
   ShapeBounds(const ConvexBody& a, const ConvexBody& b)

@@ -1,13 +1,13 @@
-// Motions as FCL makes them, from two poses or from FCL's own objects.
-// 1. The rotation from the first pose to the second, as axis and angle, is the angular velocity. Next to
-//    half a turn it goes FCL's way round, which the last digits of the given matrices tell.
+// Computes FCL's motions, from two poses or from FCL's own objects.
+// 1. The rotation from the first pose to the second, as axis times angle, is the angular velocity. Near half
+//    a turn its direction is the one that FCL takes, which depends on the last digits of the given matrices.
 // 2. CCDM_LINEAR: the body's origin moves on a straight line. CCDM_TRANS: the same without the rotation.
-// 3. CCDM_SCREW: Chasles' theorem. Some axis moves along itself only. Across it the origin goes along an arc
-//    whose chord is the way across: at first with the velocity
-//    turning = angle / 2 (across / tan(angle / 2) - axis x across).
-// 4. The axis itself is never needed: as the angle goes to 0 it goes away to infinity, and this velocity to
-//    that on the straight line.
-// 5. FCL's objects are read by their type, and go the same way.
+// 3. CCDM_SCREW: Chasles' theorem: there is an axis that moves only along itself. Perpendicular to it the
+//    origin moves on an arc, whose chord is the perpendicular part of the translation. Its initial velocity
+//    is turning = angle / 2 (across / tan(angle / 2) - axis x across).
+// 4. The axis itself is never computed. As the angle goes to 0, the axis moves to infinity, but this velocity
+//    converges to that of the straight line.
+// 5. FCL's motion objects are identified by their type and converted in the same way.
 #include <fcl/math/motion/interp_motion.h>
 #include <fcl/math/motion/screw_motion.h>
 #include <fcl/math/motion/translation_motion.h>
@@ -25,8 +25,9 @@ using namespace detail;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-/// FCL keeps both ends of a motion to itself, and what it makes of them is wrong for a screw without a turn
-/// (the way times its own length) and unset for an interpolation about a given point.
+/// Gives access to FCL's protected members with both ends of a motion. FCL's own derived data cannot be used:
+/// they are wrong for a screw without rotation (the translation is scaled by its own length), and unset for
+/// an interpolation about a given point.
 struct ScrewEnds : fcl::ScrewMotion<double> {
   using fcl::ScrewMotion<double>::tf1;
   using fcl::ScrewMotion<double>::tf2;
@@ -82,8 +83,8 @@ SteadyMotion screw(const Ends& ends) {
 
 }  // namespace
 
-// With the half angle's sine nothing cancels where the angle is small: the turning goes on for
-// sin(angle t) / angle = chord cos(half), and bends inwards by (1 - cos(angle t)) / angle^2 = chord^2 / 2.
+// With the sine of the half angle nothing cancels for small angles: the factor of `turning` is sin(angle t) /
+// angle = chord cos(half), and that of the inward part is (1 - cos(angle t)) / angle^2 = chord^2 / 2.
 Isometry3d SteadyMotion::at(double t, Vector3d* velocity) const {
   const double angle = angular.norm(), half = 0.5 * t * angle, s = std::sin(half), c = std::cos(half);
   const double chord = half == 0 ? t : t * (s / half);

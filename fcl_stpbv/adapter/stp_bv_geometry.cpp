@@ -1,5 +1,5 @@
-// An STP-BV as an FCL convex polyhedron. Hull features get the numbers of the volume's patches: faces by
-// their vertices, edges by their ends. The bounding box is that of the smooth surface.
+// An STP-BV as an FCL convex polyhedron. Each feature of the hull is matched with a patch of the volume:
+// faces by their vertices, edges by their ends. The bounding box is that of the smooth surface.
 #include "fcl_stpbv/adapter/stp_bv_geometry.h"
 
 #include <algorithm>
