@@ -1,4 +1,4 @@
-// The convex cell of space that plane cuts leave to a part, and its corners inside the mesh's solid.
+// The convex cell of space that remains for a part after plane cuts, and its corners inside the mesh's solid.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,17 +10,17 @@
 
 namespace fcl_stpbv::detail {
 
-/// A box cut by planes. Why its corners matter: an extreme point of the solid within the cell lies on the
-/// solid's surface, or it is a corner of the cell inside the solid. So the hull of the surface's triangles
-/// within the cell and of those corners holds all of the solid within the cell.
+/// A box cut by planes. Its corners matter for this reason: an extreme point of the solid within the cell
+/// lies either on the solid's surface, or it is a corner of the cell inside the solid. So the convex hull of
+/// the surface's triangles within the cell and of those corners contains all of the solid within the cell.
 class Cell {
  public:
   Cell() = default;  ///< none: for meshes that enclose nothing
   /// The box around the mesh, a little larger.
   explicit Cell(const MeshSolid& mesh);
 
-  /// What the plane leaves on the side its normal points to. The new corners are looked up in the mesh, if
-  /// one is given. Corners within `slack` (m) of the plane count as on it.
+  /// The part of the cell on the side to which the plane's normal points. If a mesh is given, each new corner
+  /// is tested for being inside it. Corners within `slack` (m) of the plane count as on it.
   Cell above(const CutPlane& plane, double slack, const MeshSolid* mesh = nullptr) const;
 
   /// Least and largest height of its corners over a plane (m).

@@ -1,4 +1,4 @@
-// Planes worth trying to cut a part with.
+// Candidate planes for cutting a part.
 #pragma once
 
 #include <vector>
@@ -10,8 +10,9 @@ namespace fcl_stpbv::detail {
 /// The planes of the mesh's flat parts, and for each triangle which of them it belongs to.
 std::vector<CutPlane> flatParts(const MeshSolid& mesh, double slack, std::vector<int>& facetOf);
 
-/// Across the axes and the part's own principal axes in even steps, through the point that is farthest from
-/// the mesh, and along the largest flat parts: of a designed body, those that make it concave.
+/// The planes are perpendicular to the coordinate axes and the part's principal axes, in even steps; through
+/// the point that is farthest from the mesh; and along the largest flat parts of the mesh, which often are
+/// the faces that make a designed body concave.
 std::vector<CutPlane> cutPlanes(const Part& part, const PartSpace& space);
 
 }  // namespace fcl_stpbv::detail

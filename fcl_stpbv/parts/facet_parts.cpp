@@ -1,11 +1,11 @@
 // Agglomerative joining, as in hierarchical approximate convex decomposition (HACD; Mamou and Ghorbel, ICIP
 // 2009), with the excess of the joined hull over the mesh as its cost:
-// 1. triangles of one plane that share edges are one facet, and each facet is a part; of a facet that is not
-//    convex, as an L's or a ring's, each triangle is one;
-// 2. of all parts that share an edge, the two whose hull is nearest to the mesh are joined; among those that
-//    are near enough, the two whose hull has the least surface;
-// 3. until no join is near enough and no more are left than asked for. What was joined last may be better
-//    apart, and others joined instead; so each set on the way, from a few too many, is an answer.
+// 1. triangles of one plane that share edges form a facet, and each facet is a part. If a facet is not convex
+//    (an L or a ring), each of its triangles is a part;
+// 2. of all pairs of parts that share an edge, join the pair whose hull has the least excess; of pairs within
+//    the bound, the one whose hull has the smallest surface;
+// 3. repeat until no join is within the bound and few enough parts are left. The last joins may not be the
+//    best ones. So the sets of parts before them, with a few more parts, are results too.
 #include "fcl_stpbv/parts/facet_parts.h"
 
 #include <Eigen/Geometry>

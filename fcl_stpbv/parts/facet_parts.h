@@ -1,4 +1,4 @@
-// Parts from below: the mesh's flat parts, joined with their neighbours.
+// Bottom-up convex decomposition: joins the mesh's facets (flat parts) with their neighbours.
 #pragma once
 
 #include <vector>
@@ -7,10 +7,10 @@
 
 namespace fcl_stpbv::detail {
 
-/// Flat parts of the mesh, each in one piece, joined with neighbours while their common hull is within
-/// `bound` (m) of the mesh, and on until `most` are left: the sets of parts passed on the way, each a little
-/// coarser than the one before. Each set holds all triangles; what the mesh encloses is for the caller to
-/// prove. None where the mesh has too many flat parts, or loose pieces, for that.
+/// Joins connected facets with neighbours as long as the common hull is within `bound` (m) of the mesh, and
+/// further until `most` parts are left. Returns the sets of parts on the way, each a little coarser than the
+/// one before. Each set contains all triangles. The caller must prove that it also covers the inside of the
+/// mesh. Empty if the mesh has too many facets or loose pieces.
 std::vector<PartSearch::Parts> facetParts(const std::vector<TriangleSoup>& groups, const PartSpace& space,
                                           int most, double bound);
 

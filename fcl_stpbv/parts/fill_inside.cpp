@@ -1,6 +1,7 @@
-// What hulls of a surface leave open of the inside is a union of convex pieces (inside_proof.h), all of it in
-// the solid. The largest pieces first, each goes to the part that stays nearest to the mesh with it, or is
-// one more part. A part that has grown holds other pieces too, so what is left open is found anew after some.
+// The part of the inside that the hulls do not cover is a union of convex pieces (inside_proof.h). Starting
+// with the largest piece, each is added to the part whose excess stays smallest with it, or becomes a new
+// part. A part that has grown may cover other pieces too, so the uncovered pieces are computed again after a
+// few steps.
 #include "fcl_stpbv/parts/fill_inside.h"
 
 #include <algorithm>

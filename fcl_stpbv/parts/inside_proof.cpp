@@ -1,10 +1,10 @@
-// A convex cell without some convex hulls:
-// 1. a hull's planes cut the cell one after the other; what is outside a plane is one piece that the hull
-//    does not hold, what is left at the end it holds;
+// Subtracts convex hulls from a convex cell:
+// 1. the planes of a hull cut the cell one after the other. The part outside of a plane is a piece that the
+//    hull does not contain. The part that is left at the end is inside the hull;
 // 2. the pieces are cut by the next hull in the same way;
 // 3. a flat hull holds nothing, but its plane cuts the pieces in two;
-// 4. the triangles are all in hulls, so a piece that is left is inside the solid or
-//    outside as a whole, and one point of it tells.
+// 4. since all triangles are in hulls, each remaining piece is completely inside or completely outside of the
+//    solid. Testing one point decides.
 #include "fcl_stpbv/parts/inside_proof.h"
 
 #include <Eigen/Geometry>

@@ -1,4 +1,4 @@
-// Whether parts cover the inside of a mesh also where they hold no corners of their cells.
+// Proves that parts cover the inside of a mesh, even if they do not contain the corners of their cells.
 #pragma once
 
 #include <optional>
@@ -18,14 +18,15 @@ inline bool isFlat(const HullPlanes& hull) { return hull.size() < 4; }
 /// The planes of a cloud's hull, moved outwards by `cover` (m) where it is not flat.
 HullPlanes hullPlanes(const std::vector<Eigen::Vector3d>& points, double cover);
 
-/// What the solid has in `cell` outside all of the hulls, which together hold the mesh's triangles: convex
-/// pieces, thinner ones than `slack` (m) let go. Nothing where it took too many pieces to tell.
+/// The part of the solid in `cell` that is outside of all hulls, as convex pieces. The hulls together must
+/// contain the mesh's triangles. Pieces thinner than `slack` (m) are ignored. No value if too many pieces
+/// would be needed.
 std::optional<std::vector<Cell>> uncoveredInside(const Cell& cell, const std::vector<HullPlanes>& hulls,
                                                  const MeshSolid& mesh, double slack);
 
-/// True where every point of the solid in `cell` is in one of the hulls, which together
-/// hold the mesh's triangles. False may also mean that it took too many pieces to tell.
-/// Pieces thinner than `slack` (m) are let go.
+/// Whether every point of the solid in `cell` is in one of the hulls. The hulls together must contain the
+/// mesh's triangles. False may also mean that too many pieces would be needed. Pieces thinner than `slack`
+/// (m) are ignored.
 bool isInsideCovered(const Cell& cell, const std::vector<HullPlanes>& hulls, const MeshSolid& mesh,
                      double slack);
 

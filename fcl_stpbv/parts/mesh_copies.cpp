@@ -1,7 +1,7 @@
 // 1. Sort the triangles by their corners to find the copies; keep the first of each.
-// 2. Follow copies over edges that just two triangles share: a region.
-// 3. Where every edge of a region has an even number of triangles, it is a part of a surface and stays as it
-//    is. Else it is a sheet, and each triangle gets another in the opposite direction.
+// 2. Collect copies that are connected by edges of exactly two triangles: a region.
+// 3. If every edge of a region has an even number of triangles, the region is a part of a surface and stays
+//    as it is. Otherwise it is a sheet, and each triangle gets a second one with the opposite orientation.
 #include "fcl_stpbv/parts/mesh_copies.h"
 
 #include <algorithm>

@@ -1,13 +1,12 @@
-// How far a surface is from a mesh at most, by branch and bound over the surface's triangles:
-// 1. a triangle's bound: the distance of its middle plus its radius, or that of its corners to one mesh
-//    triangle (the distance to a convex set is convex);
-// 2. the middle's own distance is a lower bound of the whole;
+// Largest distance of a surface from a mesh, by branch and bound over the surface's triangles:
+// 1. the upper bound of a triangle is the distance of its centre plus its radius, or the largest distance of
+//    its corners from one mesh triangle (the distance from a convex set is convex);
+// 2. the distance of the centre is a lower bound for the whole surface;
 // 3. split the triangle with the largest bound until both bounds agree:
-//    - what lies over one mesh triangle, and near enough to it, is cut off and done with;
-//    - where few mesh triangles cross it, it is cut along one of them;
-//    - where none does, it is inside or outside as a whole;
-//    - else across its longest edge. Halves alone take ten times as many triangles for each digit where a
-//      hull's face ends on a border of a flat part, or where it leaves the solid.
+// - a part over one mesh triangle and near enough to it is cut off and finished; - if a few mesh triangles
+//   cross it, it is cut along one of them; - if none does, it is completely inside or completely outside; -
+//   otherwise it is halved across its longest edge. Halving alone would need ten times as many triangles for
+//   each digit, if a hull's face ends at the border of a flat part or leaves the solid.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>

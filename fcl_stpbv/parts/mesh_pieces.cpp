@@ -1,8 +1,9 @@
 // Connected pieces of a mesh, and which of them enclose a space:
 // 1. weld vertices with equal coordinates;
-// 2. take triangles with the same corners for one, or for a sheet without an inside;
-// 3. turn triangles to agree with their neighbours, over edges that just two share;
-// 4. a piece is closed if every edge is run through equally often both ways, and not all of it is sheets.
+// 2. merge triangles with the same corners, into one or into a sheet without an inside (mesh_copies.h);
+// 3. orient triangles like their neighbours, across edges with exactly two triangles;
+// 4. a piece is closed if every edge is traversed equally often in both directions, and it does not consist
+//    of sheets only.
 #include <algorithm>
 #include <numeric>
 #include <tuple>

@@ -1,9 +1,9 @@
 // Distance to a mesh, and whether a point is inside.
 // 1. A tree of boxes, down to single triangles, split at the median along the longest axis.
-// 2. Nearest triangle: branch and bound down the tree. Over a triangle or not is told by two dot products
-//    with vectors that are computed once; only sides beyond which a point is are looked at.
-// 3. Inside: crossings of a ray, counted with their sign for closed pieces; a crossing that rounding leaves
-//    unclear takes the next of eight directions.
+// 2. Nearest triangle: branch and bound in the tree. Two dot products with precomputed vectors decide whether
+//    a point projects into a triangle. If not, only the sides that it is beyond are examined.
+// 3. Inside: count the signed crossings of a ray with closed pieces. If rounding makes a crossing uncertain,
+//    try the next of eight directions.
 #include "fcl_stpbv/parts/mesh_solid.h"
 
 #include <Eigen/Geometry>

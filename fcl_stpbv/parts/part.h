@@ -1,5 +1,5 @@
-// A part of a mesh while the parts are searched for: what it holds, its hull
-// and how far that is from the mesh.
+// A part of a mesh during the search: its contents, its convex hull, and the excess of the hull over the
+// mesh.
 #pragma once
 
 #include <memory>
@@ -53,8 +53,8 @@ struct Part {
 
 using PartPtr = std::shared_ptr<Part>;
 
-/// How well to know a part's excess: to `resolution`, no better where it is above `enough` (m), and no better
-/// than `queries` distances tell, and two for each triangle of its surface.
+/// How accurately to measure a part's excess: to `resolution`, but less accurately if it is above `enough`
+/// (m), and with at most `queries` distances plus two for each triangle of its surface.
 struct Measure {
   double resolution;
   double enough = std::numeric_limits<double>::infinity();
@@ -74,8 +74,8 @@ Part makePart(BspLeaves leaves, PartHull hull, const PartSpace& space, const Mea
 /// The hull of two parts together.
 Part joined(const Part& a, const Part& b, const PartSpace& space, const Measure& measure);
 
-/// A part's leaves on the side the plane's normal points to, and on the other. A leaf with triangles on one
-/// side only stays whole, so each point of the mesh stays in a leaf.
+/// Splits a part's leaves by a plane: first those on the side to which its normal points, then the others. A
+/// leaf with triangles on one side only is not split, so each point of the mesh stays in a leaf.
 std::pair<BspLeaves, BspLeaves> cut(const Part& part, const CutPlane& plane, const PartSpace& space);
 
 /// The hulls of the triangles that cut() would leave on either side, without making the leaves.

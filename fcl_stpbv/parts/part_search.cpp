@@ -1,14 +1,15 @@
 // Search for few convex parts with small excess, by cuts:
-// 1. Beam search. The worst part is cut in four ways: two of the least volume, two of the best score of
-//    excess and volume. Of all sets so reached, two of the least excess and two of the least volume go on.
-//    Past the number asked for, the two parts whose common hull is nearest to the mesh are joined.
+// 1. Beam search. The worst part is cut in four ways: the two with the least volume and the two with the best
+//    score of excess and volume. Of all resulting sets, the two with the least excess and the two with the
+//    least volume continue. If there are more parts than requested, the two whose common hull has the least
+//    excess are joined.
 // 2. Local search: cut and join again while that makes the worst parts better.
-// 3. Where that is not near enough, local search from two other starts: the best cut each time until there
-//    are many parts, joined again; and the uncut mesh, for half as many parts first. The best answer counts.
-//    The work given bounds all of it.
-// 4. More than eight parts are made from eight: the worst is cut the best way each time, and what comes of it
-//    goes through the local search; likewise for twice as many, until as many as asked for. So they are not
-//    farther from the mesh than eight. Each round has the work given.
+// 3. If the excess is still too large, local search from two other starts: many parts by greedy cuts, joined
+//    again; and the uncut mesh, first with half as many parts. The best result is used. `work` limits all of
+//    this.
+// 4. More than eight parts: start from eight, cut the worst part in the best way each time, and improve by
+//    local search. Repeat for twice as many, up to the number requested. So the excess is never larger than
+//    with eight. Each round may use `work`.
 #include "fcl_stpbv/parts/part_search.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// The search for few parts that keep close to the mesh.
+// The search for a few convex parts with small excess over the mesh.
 #pragma once
 
 #include <algorithm>
@@ -11,10 +11,10 @@
 
 namespace fcl_stpbv::detail {
 
-/// Cuts the worst part again and again, in several lines of cuts at once, since those that lower
-/// the excess most are rarely those that look best at first; cuts into more parts than asked for
-/// and joins those whose common hull is least far from the mesh; then cuts and joins on while it
-/// helps. What was measured once is remembered.
+/// It repeatedly cuts the worst part, and follows several sequences of cuts at once (beam search), because
+/// the cut that lowers the excess most at first is rarely the best in the end. It cuts into more parts than
+/// requested, and joins those whose common hull has the least excess. Then it cuts and joins again as long as
+/// that helps (local search). All measurements are cached.
 class PartSearch {
  public:
   using Parts = std::vector<PartPtr>;
@@ -22,8 +22,8 @@ class PartSearch {
   /// For at most `most` parts.
   PartSearch(const PartSpace& space, int most) : space_(space), most_(most) {}
 
-  /// As few as found once they are within `bound` (m) of the mesh, from now on. What was measured stays
-  /// known.
+  /// Sets the goal: as few parts as possible with an excess within `bound` (m). The cached measurements stay
+  /// valid.
   void aim(double bound) { bound_ = std::max(bound, space_.fine); }
 
   /// From parts that cover all, found by cutting them; `work` is the number of hulls to spend, and as many
@@ -37,8 +37,8 @@ class PartSearch {
   static double worstExcess(const Parts& parts);
   /// Whether the search would end with these.
   bool isEnough(const Parts& parts) const;
-  /// By the worst part by 1 % of it, then by the second worst and so on: where two parts are equally bad, a
-  /// step mends only one of them.
+  /// Compares the worst parts, with a tolerance of 1 %, then the second worst and so on. This is needed
+  /// because a step can improve only one of two equally bad parts.
   static bool isBetter(const Parts& a, const Parts& b);
 
  private:

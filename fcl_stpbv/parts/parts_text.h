@@ -1,4 +1,4 @@
-// Convex parts as text that reads back exactly, to be kept.
+// Convex parts as text for the cache; reading gives exactly the same numbers.
 #pragma once
 
 #include <string>

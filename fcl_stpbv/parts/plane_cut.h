@@ -22,8 +22,9 @@ struct TriangleSoup {
 };
 
 /// The part of the soup on the side that the normal points to. Corners within `slack` (m) of the plane count
-/// as on it. A triangle on the plane belongs to the side its normal points away from, where a solid would be;
-/// a line or a point there to one of both. What both sides hold together is the whole soup.
+/// as on it. A triangle in the plane belongs to the side from which its normal points away, where a solid
+/// would be. A degenerate triangle there belongs to one of the two sides. Both sides together contain the
+/// whole soup.
 TriangleSoup above(const TriangleSoup& soup, const CutPlane& plane, double slack);
 
 /// The points of above() alone, in less time.

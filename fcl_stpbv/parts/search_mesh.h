@@ -1,4 +1,4 @@
-// What the search for convex parts sees of a mesh.
+// The mesh as the search for convex parts uses it: grouped, and coarser if it is large.
 #pragma once
 
 #include <vector>
