@@ -1,6 +1,7 @@
-// Adjacency of links. Links joined by fixed joints are one part. Along the joints between two links at most
-// one moves, or several that turn about coinciding origins with no body between them (a compound joint); any
-// other body on the way makes the two links separate, and so does a planar or floating joint.
+// Adjacency of links. Links joined by fixed joints are one part. Two links are adjacent if at most one of the
+// joints between them moves, or several that rotate about the same origin with no body between them (a
+// compound joint). Any other body in between makes the two links separate, and so does a planar or floating
+// joint.
 #include "fcl_stpbv/robot/adjacency.h"
 
 #include "fcl_stpbv/numbers.h"

@@ -1,5 +1,5 @@
-// Which links are so near each other in the kinematic tree that their distance says nothing: rigidly joined
-// ones, and those on either side of one joint that holds them.
+// Finds pairs of links that are so close in the kinematic tree that their distance is meaningless: rigidly
+// joined links, and the two links of one joint.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -12,16 +12,17 @@ namespace fcl_stpbv::detail {
 
 enum class Joining {
   separate,  ///< to be checked
-  adjacent,  ///< on either side of one joint, or of one compound joint
-  rigid,     ///< no joint can change where they are to each other
+  adjacent,  ///< connected by one joint, or by one compound joint
+  rigid,     ///< no joint moves one relative to the other
 };
 
 /// How pairs of links are joined (docs/robot.md, "Adjacent links").
 ///
-/// Two links are rigid where only fixed joints lie between them. They are adjacent where one joint that turns
-/// or slides lies between them, neither planar nor floating, or several turning joints whose origins coincide
-/// (a compound joint, such as the three axes of a ball joint), and no link on the way, nor any fixed to it,
-/// has a body, be it one that was left out.
+/// Two links are rigid if only fixed joints lie between them. They are adjacent if exactly one moving joint
+/// lies between them (revolute, continuous or prismatic, but not planar or floating), or several rotating
+/// joints with the same origin (a compound joint, such as the three axes of a ball joint). In addition, no
+/// link between them, nor any link fixed to one of those, may have a body, not even one that could not be
+/// read.
 class Adjacency {
  public:
   Adjacency(const RobotModel& robot, const RobotGeometry& geometry);

@@ -1,6 +1,6 @@
-// A mesh file as assimp reads it:
+// Reads a mesh file by assimp:
 // 1. check the file's contents, by its format (mesh_format.h), then its faces;
-// 2. split faces into triangles, and see that none is lost;
+// 2. split faces into triangles, and check that none is lost;
 // 3. gather all meshes with the transforms of their nodes.
 #include "fcl_stpbv/robot/assimp_mesh.h"
 
@@ -35,9 +35,9 @@ Eigen::AlignedBox3d boxAround(const std::vector<Vector3d>& points) {
   return box;
 }
 
-// assimp holds coordinates in single precision: far from the origin they would be rounded to steps that are
-// seen in the body's shape. `far` is the largest number on the way through the nodes' transforms, which may
-// bring it back (m). One point may have been a small body.
+// assimp stores coordinates in single precision. Far from the origin, rounding would change the body's shape
+// noticeably. `far` is the largest intermediate coordinate in the nodes' transforms, which may cancel (m). A
+// single point may have been a small body before rounding.
 void requireNear(const Eigen::AlignedBox3d& box, double far, bool several, const std::string& path) {
   constexpr double kStep = 1.0 / (1 << 23);  // of a coordinate
   constexpr double kSeen = 1e-3;             // of the body's size

@@ -1,4 +1,4 @@
-// Reading a mesh file by assimp, within this process.
+// Reads a mesh file by assimp, in the calling process.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,12 +10,13 @@
 
 namespace fcl_stpbv::detail {
 
-/// loadMesh() of a mesh. assimp trusts what it reads: counts that fill the memory, loops, depths that
-/// overflow the stack. So this is for a child process, which `limits` are of.
+/// loadMesh() of a mesh. assimp does not check its input: a file may have counts that fill the memory, loops,
+/// or a nesting that overflows the stack. So call this only in a child process; `limits` are the limits of
+/// that process.
 TriangleMesh readByAssimp(const std::string& path, const Eigen::Vector3d& scale, ChildLimits& limits);
 
-/// A body that has collapsed would count as a point and be told to be clear. `several`: the points were
-/// distinct before they were scaled. @throws Error naming the file.
+/// Checks that a body has not collapsed to a point by scaling; it would wrongly be reported as clear.
+/// `several`: the points were distinct before scaling. @throws Error naming the file.
 void requireSize(const std::vector<Eigen::Vector3d>& points, bool several, const std::string& path);
 
 }  // namespace fcl_stpbv::detail

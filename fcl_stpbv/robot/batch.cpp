@@ -1,5 +1,5 @@
-// Threads take pieces of a batch, a few columns each, until none is left. A piece begins without a memory,
-// wherever the thread was before, so that the answers do not depend on who computes it.
+// Threads take pieces of a batch, some columns each, until none is left. A piece always starts without a
+// cache, so the results do not depend on the thread that computes it.
 #include "fcl_stpbv/robot/batch.h"
 
 #include <algorithm>

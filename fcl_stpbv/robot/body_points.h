@@ -1,5 +1,5 @@
-// A body as points with a ball around each: their convex hull holds it, so
-// that what clears these clears the body.
+// A body approximated by points with a ball around each. Their convex hull contains the body, so a proof that
+// the hull is clear holds for the body.
 #pragma once
 
 #include <fcl/geometry/collision_geometry.h>
@@ -23,8 +23,9 @@ struct BodyPoints {
 /// trees and what is unbounded. In the frame that `pose` leads to.
 std::optional<BodyPoints> bodyPoints(const fcl::CollisionGeometryd& geometry, const Eigen::Isometry3d& pose);
 
-/// Most that two such bodies can be in each other, wherever they are (m): along a unit n the gap one way and
-/// the gap the other way add up to both widths, so one of them is at least minus half of that sum.
+/// Upper bound on the penetration depth of two such bodies at any poses (m). Reason: along a unit vector n,
+/// the gaps in the two directions add up to minus the sum of both widths. So one of them is at least minus
+/// half of that sum.
 double mostDepth(const BodyPoints& a, const BodyPoints& b);
 
 }  // namespace fcl_stpbv::detail

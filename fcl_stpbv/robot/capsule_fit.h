@@ -1,4 +1,4 @@
-// Capsules, written in URDF as a cylinder with a sphere at either end.
+// Recognises capsules, which URDF files write as a cylinder with a sphere at each end.
 #pragma once
 
 #include <vector>

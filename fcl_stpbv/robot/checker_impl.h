@@ -1,4 +1,5 @@
-// What a CollisionChecker keeps: where the bodies and their spheres are, and of each pair the plane between.
+// The data of a CollisionChecker: the poses of the bodies and their spheres, and the separating plane of each
+// pair.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -21,7 +22,7 @@ namespace detail {
 /// `v`, with 0 as the fourth number: of use in sums over all four.
 inline Packed pack3(const Eigen::Vector3d& v) { return Packed{v.x(), v.y(), v.z(), 0.0}; }
 
-/// A body of the robot or an obstacle. The world stands behind the links as a frame of its own.
+/// A body of the robot or an obstacle. The world is an additional frame after those of the links.
 struct PlacedBody {
   std::size_t frame;
   const fcl::CollisionGeometryd* geometry;
@@ -34,7 +35,7 @@ struct PlacedBody {
   ConvexBody body;  ///< where it is convex; posed at the last query
 };
 
-/// A pair of bodies and what keeps it apart.
+/// A pair of bodies and its separating plane.
 struct KeptPair {
   std::size_t a, b;     ///< among the bodies
   double bend;          ///< half the second body's R; infinite where it is no STP-BV (m)

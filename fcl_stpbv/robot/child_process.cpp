@@ -1,7 +1,8 @@
 // Runs work on an untrusted file in a child process:
 // 1. fork with limits on memory and processor time that grow with the files opened;
 // 2. the child writes outcome, size and text to a pipe;
-// 3. the parent turns a signal, a limit or a short answer into an Error that names the file.
+// 3. if the child ended by a signal or a limit, or its answer is incomplete, the parent throws an Error that
+//    names the file.
 #include "fcl_stpbv/robot/child_process.h"
 
 #include <fcntl.h>
@@ -46,7 +47,8 @@ void writeAll(int to, const char* data, std::size_t size) {
   }
 }
 
-/// Outcome, size of the text, text: a child that ends in the middle is found out.
+/// Writes the outcome, the size of the text, and the text. So the parent notices a child that ended in
+/// between.
 [[noreturn]] void answer(int to, Outcome outcome, const std::string& text) {
   const std::size_t size = text.size();
   writeAll(to, reinterpret_cast<const char*>(&outcome), 1);

@@ -1,5 +1,5 @@
-// Work on a file that may be hostile, done by a foreign library: in a child
-// process, so that only the child can crash.
+// Runs a third-party library on a file that may be malicious, in a child process, so that only the child can
+// crash.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@ namespace fcl_stpbv::detail {
 /// Memory and processor time that a child process may still take, in proportion to the bytes it reads.
 class ChildLimits {
  public:
-  /// Some to begin with: what any file may cost.
+  /// The initial limits: a base amount for any file.
   ChildLimits();
   /// More, for a file of this many bytes.
   void allow(std::size_t bytes);
@@ -22,8 +22,8 @@ class ChildLimits {
 };
 
 /// Runs `work` in a child process and returns what it returns. `name` stands for the file in messages.
-/// @throws Error what `work` throws; or that the file is damaged, where the
-/// child fell over or went past its limits.
+/// @throws Error what `work` throws; or that the file is damaged, if the child crashed or exceeded its
+/// limits.
 std::string inChildProcess(const std::string& name, const std::function<std::string(ChildLimits&)>& work);
 
 }  // namespace fcl_stpbv::detail

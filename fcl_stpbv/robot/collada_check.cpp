@@ -1,5 +1,5 @@
-// Checks a COLLADA document for what assimp passes over: another unit, shapes and nodes that do not exist,
-// transforms that it does not know.
+// Checks a COLLADA document for errors that assimp ignores: a second unit, shapes and nodes that do not
+// exist, and transforms that assimp does not know.
 #include "fcl_stpbv/robot/collada_check.h"
 
 #include <tinyxml2.h>

@@ -1,5 +1,5 @@
-// Damage in COLLADA that assimp reads over: references that lead nowhere, arrays shorter than their readers
-// take them to be, numbers that are none.
+// Finds errors in COLLADA files that assimp silently ignores: invalid references, arrays that are too short,
+// and invalid numbers.
 #pragma once
 
 #include <string>
@@ -7,8 +7,8 @@
 
 namespace fcl_stpbv::detail {
 
-/// @returns the largest number that the transforms within a node above a shape add up from (m): they may
-/// bring it back to where it was.
+/// @returns the largest intermediate coordinate in the transforms within a node above a shape (m). It may be
+/// much larger than the result, because transforms may cancel.
 /// @throws Error "name:line: ..." saying what is wrong.
 double checkCollada(std::string_view text, const std::string& name);
 

@@ -1,4 +1,4 @@
-// The transforms of COLLADA's nodes that assimp applies otherwise than they are meant.
+// Checks transforms of COLLADA's nodes that assimp applies wrongly.
 #pragma once
 
 #include <tinyxml2.h>
@@ -7,8 +7,8 @@
 
 namespace fcl_stpbv::detail {
 
-/// What the transforms within a node make of lengths: how far they may have moved a point on the way, and by
-/// how much they stretch what comes behind them.
+/// Bounds for the transforms within a node: how far they may move a point in between, and by how much they
+/// stretch the content below.
 struct ColladaReach {
   double far = 0, stretch = 1;
 };

@@ -10,7 +10,8 @@
 
 namespace fcl_stpbv::detail {
 
-/// Refuses the file at an element that only its writer can mend. @throws Error "name:line: <element> ..."
+/// Throws for an element with a fault that only the author of the file can correct. @throws Error "name:line:
+/// <element> ..."
 [[noreturn]] void refuseCollada(const tinyxml2::XMLElement& element, const std::string& message,
                                 const std::string& name);
 

@@ -1,6 +1,6 @@
-// Does any pair come within the margin?
+// Checks whether any pair comes within the margin:
 // 1. Place the links and their bounding spheres; compare the spheres of four pairs at a time.
-// 2. Of the pairs left, the one that hit last comes first (pair_verdict.cpp).
+// 2. Check the remaining pairs one by one, those that collided most recently first (pair_verdict.cpp).
 #include "fcl_stpbv/robot/collision_checker.h"
 
 #include <algorithm>

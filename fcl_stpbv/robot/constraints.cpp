@@ -1,9 +1,10 @@
 // All distances of a robot and their Jacobian at q:
-// 1. place the links that rows ask for and find each joint's twist, once for all rows;
-// 2. per row: skip a pair that bounding spheres put beyond the influence, else
-//    ask the distance from its last answer;
+// 1. compute the poses of the links that rows need and each joint's twist, once for all rows;
+// 2. for each row: skip the pair if its bounding spheres prove that it is beyond the influence; otherwise
+//    compute the distance, starting from its last answer;
 // 3. the row of J is the gradient's product with the twists of the joints that move the pair (paper, eq. 2);
-// 4. bend d to a constant near the influence, twice continuously differentiable.
+// 4. let the row go over from d to a constant before the influence distance, with continuous second
+//    derivatives.
 #include "fcl_stpbv/robot/constraints.h"
 
 #include <algorithm>

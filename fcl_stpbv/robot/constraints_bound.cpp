@@ -1,5 +1,5 @@
-// How fast a row's gradient may change, from r, R and the distance alone: the bound of docs/control.md,
-// evaluated with each body's least and largest radius of curvature.
+// Upper bound on the change of a row's gradient, from r, R and the distance only (docs/control.md). It uses
+// each body's least and largest radius of curvature.
 #include <algorithm>
 #include <array>
 #include <cmath>

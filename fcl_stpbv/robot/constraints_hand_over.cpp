@@ -1,9 +1,9 @@
-// How rows leave the distance for a constant: all of them far away, and those of whole bodies and of their
-// convex parts where one hands over to the other.
+// The transition of rows from the distance to a constant: for all rows far away, and for the hand-over
+// between rows of whole bodies and rows of their convex parts.
 //
-// The parts lie in their whole bodies, so these are the nearest: while they are farther apart than the
-// hand-over no part can be nearer, and its row is constant without a query. Each row is a function of its own
-// distance alone, so nothing else is asked of its derivatives.
+// Parts lie inside their whole bodies, so their distance is never smaller. While the whole bodies are farther
+// apart than the hand-over distance, the row of each part is constant and needs no query. Each row is a
+// function of its own distance only, so its derivatives follow by the chain rule.
 #include <limits>
 #include <map>
 #include <tuple>
@@ -34,8 +34,9 @@ Bent levelOff(double d, double start, double end) {
 
 }  // namespace
 
-// What is left of the distance once the parts' own rise is taken off it: constant where their rows are exact,
-// the distance where they are constant.
+// For a row of whole bodies: the distance minus the transition function of its parts' rows, plus that
+// function's final value. So it is constant where the parts' rows are exact, and equals the distance where
+// they are constant.
 double CollisionConstraints::bend(std::size_t row, double d, double& slope, double& curvature) const {
   const Row& r = rows_[row];
   const bool unknown = d == std::numeric_limits<double>::lowest();

@@ -1,5 +1,6 @@
-// Full Hessians of rows and their weighted sum in a fixed sparse structure, as IPOPT asks: the pair's 12 x 12
-// Hessian between the twists of the joints, plus the change of the twists with each joint above.
+// Full Hessians of rows and their weighted sum in a fixed sparse structure, as IPOPT needs them: the pair's
+// 12 x 12 Hessian multiplied by the twists of the joints from both sides, plus the change of these twists
+// with each joint further up.
 #include <algorithm>
 
 #include "fcl_stpbv/error.h"

@@ -1,4 +1,4 @@
-// Coarse to fine, greedily.
+// A greedy choice from coarse to fine.
 // 1. Details in turn, coarse first: finer levels, then 2, 4 and 8 parts. The first with
 //    which one finer link alone meets some need is given to the link that meets the most
 //    needs so. Again, until no link helps alone.

@@ -1,5 +1,5 @@
-// How fine each link is modelled: the coarsest whole bodies, or the fewest
-// convex parts, that show what pairs need.
+// Chooses the level of detail of each link: the coarsest whole bodies, or the fewest convex parts, that meet
+// the needs of the pairs.
 #pragma once
 
 #include <algorithm>
@@ -16,18 +16,19 @@
 
 namespace fcl_stpbv::detail {
 
-/// Coarse to fine: every link starts whole, at the first level. refine() makes links finer, never coarser.
+/// Works from coarse to fine: every link starts as a whole body at the first level. refine() makes links
+/// finer, never coarser.
 class DetailChoice {
  public:
   using Levels = std::vector<std::shared_ptr<const RobotGeometry>>;
 
-  /// `levels`: whole bodies, coarse to fine; parts get the radii of the last. `everyPair`: a link that is
-  /// split is so for all its pairs. @throws Error where the levels' bodies are not of the same shapes.
+  /// `levels`: whole bodies, from coarse to fine; parts get the radii of the last level. `everyPair`: a split
+  /// link is split for all its pairs. @throws Error if the levels do not have the same shapes.
   DetailChoice(std::shared_ptr<const Kinematics> kinematics, Levels levels, std::vector<Obstacle> obstacles,
                const SceneModelOptions& options, bool everyPair);
 
-  /// Makes links as fine as it takes to meet these needs. Those that the finest bodies do not meet change
-  /// nothing. @return the pairs whose bodies are others now
+  /// Refines links until these needs are met. Needs that even the finest bodies do not meet have no
+  /// effect. @return the pairs whose bodies have changed
   std::set<LinkPair> refine(const std::vector<SceneNeed>& needs);
 
   /// Splits every concave link into at most `most` parts.

@@ -1,5 +1,5 @@
-// r and R that fit a body: r from its smallest width, which is the depth of its hull in itself, R from its
-// smallest ball and the bulge that r allows (docs/choosing_r_and_R.md).
+// Chooses r and R for a body: r from its smallest width, which is the penetration depth of its hull and an
+// identical copy, R from its smallest enclosing ball and the bulge that r allows (docs/choosing_r_and_R.md).
 #include "fcl_stpbv/robot/fitted_radii.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// The range of continuous joints that others follow.
+// The range of continuous joints that other joints mimic.
 #pragma once
 
 #include <vector>
@@ -7,13 +7,14 @@
 
 namespace fcl_stpbv::detail {
 
-/// Larger than any robot (m, rad): beyond it are slips of units and exponents, which would put links where no
-/// distance can be computed.
+/// Limit on values (m, rad), larger than those of any robot. Larger values are errors of units or exponents,
+/// and would move links so far away that no distance can be computed.
 constexpr double kLargestValue = 1e6;
 
-/// Widens a continuous joint's limits to all that its followers do. Half a turn either way is all of itself,
-/// but not of what follows it at another speed: a wheel at half of it takes two turns, a rack as many as its
-/// limits leave room for.
+/// Widens the limits of a continuous joint to the whole range of the joints that mimic it. Half a turn in
+/// both directions is the full range of the joint itself, but not of a joint that follows with another
+/// multiplier. A wheel with multiplier 1/2 needs two turns of the leader; a prismatic joint needs as many as
+/// its limits allow.
 void widenFollowed(std::vector<JointModel>& joints);
 
 }  // namespace fcl_stpbv::detail

@@ -6,8 +6,8 @@
 
 namespace fcl_stpbv::detail {
 
-/// loadGeometry() in two steps, for callers with several robots to load or with shapes to leave out: what is
-/// wrong is added to `faults` for the caller to refuse, and shapes that are wrong are left out.
+/// loadGeometry() in two steps, for callers that load several robots or that leave out faulty shapes. Faults
+/// are added to `faults`, and the caller decides; faulty shapes are left out.
 ShapeSources readGeometry(const RobotModel& robot, const GeometryOptions& options, LoadFaults& faults);
 RobotGeometry buildGeometry(const RobotModel& robot, const GeometryOptions& options,
                             const ShapeSources& sources, LoadFaults& faults);

@@ -1,5 +1,5 @@
-// What assimp reads over in glTF: vertices that are no floats, indices and ranges past the end, extensions
-// and deformations that move vertices.
+// Finds errors in glTF files that assimp silently ignores: vertices that are not floats, indices and ranges
+// beyond the end, and extensions and deformations that move vertices.
 #pragma once
 
 #include <string>

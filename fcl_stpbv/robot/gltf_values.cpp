@@ -1,4 +1,5 @@
-// Reads values of a glTF document strictly: where assimp silently takes a default, the file is refused.
+// Reads values of a glTF document strictly: a value for which assimp would silently use a default is an
+// error.
 #include "fcl_stpbv/robot/gltf_values.h"
 
 #include <algorithm>

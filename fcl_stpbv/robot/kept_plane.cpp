@@ -1,4 +1,5 @@
-// Both bodies' directions turn with them; what they differ by now bounds how much the gap has shrunk.
+// The stored directions turn with the bodies. Their difference from opposite directions now bounds how much
+// the gap has shrunk.
 #include "fcl_stpbv/robot/kept_plane.h"
 
 #include <algorithm>

@@ -1,6 +1,7 @@
-// Forward kinematics in the order of the tree: pose of each link from its parent's, joint by joint
-// (exponential map for floating joints), and the world's twist of each coordinate. A joint that turns is
-// three constant matrices in its angle's sine and cosine, times the parent's pose, one column a register.
+// Forward kinematics in the order of the tree: computes the pose of each link from its parent's, joint by
+// joint (exponential map for floating joints), and the twist of each coordinate in world axes. The transform
+// of a rotating joint is a sum of three constant matrices, with the factors 1, cos and sin of its angle. It
+// is multiplied by the parent's pose, with one column per vector register.
 #include "fcl_stpbv/robot/kinematics.h"
 
 #include <algorithm>

@@ -1,5 +1,6 @@
-// Derivatives along a velocity of q: each link's twist adds up down the tree, and a joint's own twist changes
-// as the links above carry it; for a floating joint also by the rate matrix of its rotation vector.
+// Time derivatives along a velocity of q. The twist of each link is the sum of the joints' twists from the
+// root. A joint's own twist changes because the links above move it; that of a floating joint also because of
+// the rate matrix of its rotation vector.
 #include <cmath>
 
 #include "fcl_stpbv/cross_matrix.h"

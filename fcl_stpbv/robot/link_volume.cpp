@@ -1,5 +1,5 @@
-// The volume of a link's mesh: from the cache, else built with the link's r and R, fitted if asked. With an
-// over-cover budget R is doubled until the volume keeps to it, then reduce() drops vertices.
+// Makes the volume of a link's mesh: from the cache, or built with the link's r and R (or fitted ones). With
+// a limit on the over-cover, R is doubled until the volume keeps it; then reduce() removes vertices.
 #include "fcl_stpbv/robot/link_volume.h"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
-// The STP-BV of a link's mesh: its radii, the budget for its over-cover, and the cache; or its flat hull.
+// Makes the STP-BV of a link's mesh, with its radii, its limit on the over-cover, and the cache; or its flat
+// convex hull.
 #pragma once
 
 #include "fcl_stpbv/robot/fitted_radii.h"
@@ -8,8 +9,8 @@
 
 namespace fcl_stpbv::detail {
 
-/// What the cache knows a link's volume by: where r or R follow the body's size they are found in the entry,
-/// and neither they nor the size need the mesh again.
+/// The key of a link's volume in the cache. If r or R depend on the body's size, the entry contains them, so
+/// that the mesh need not be read again.
 struct VolumeKey {
   std::string content;
   StpBvOptions radii;  ///< those asked for, whether or not they are fitted instead

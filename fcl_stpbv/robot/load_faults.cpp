@@ -1,4 +1,4 @@
-// Gathers what is wrong with a robot's files and throws it as one Error.
+// Collects all faults of a robot's files and throws them as one Error.
 #include <set>
 #include <string>
 #include <string_view>
@@ -8,7 +8,7 @@
 namespace fcl_stpbv {
 namespace {
 
-// A file that is wrong everywhere says so without filling the screen.
+// Largest number of faults in a message, so that it does not fill the screen.
 constexpr std::size_t kMostShown = 100;
 constexpr std::string_view kHint = "\nGive ";
 

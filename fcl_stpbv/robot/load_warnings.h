@@ -1,5 +1,5 @@
-// What a loaded robot is to be warned of that no single file shows: whole sentences, as the reports and
-// Python tell them.
+// Warnings about a loaded robot that do not come from a single file. They are whole sentences, used by the
+// reports and by Python.
 #pragma once
 
 #include <string>
@@ -10,23 +10,24 @@
 
 namespace fcl_stpbv::detail {
 
-/// Of joints without a range between their limits; none where there are none.
+/// Warns of joints whose limits leave no range. Empty if there are none.
 std::vector<std::string> stillJoints(const RobotModel& robot);
 
-/// Of all joints of a scene, which stands still.
+/// Warns of the joints of a scene, because a scene is static.
 std::vector<std::string> stillObstacles(const RobotModel& scene);
 
-/// Where an SRDF leaves out no pair of links, as one that holds states alone: it is obeyed, and neighbours
-/// that always touch count as collisions.
+/// Warns if an SRDF leaves out no pair of links, such as one with states only. Then links that always touch
+/// their neighbours count as collisions.
 std::vector<std::string> leavesOutNone(const RobotModel& robot, const RobotGeometry& geometry,
                                        const Srdf& srdf);
 
-/// Where smooth covers of primitives have a larger R than the one that was given, and what would help, in the
-/// words of who asked; none without.
+/// Warns if smooth covers of primitives have a larger R than the given one, and says what would help, with
+/// the option names of the caller. Empty if there are none.
 std::vector<std::string> raisedR(const RobotModel& robot, const RobotGeometry& geometry,
                                  const GeometryOptions& options, const std::string& remedy);
 
-/// Of meshes that are split and not closed, whose parts cover their faces alone; "" without one.
+/// Warns of meshes that are split and not closed, because their parts cover only their faces. "" if there are
+/// none.
 std::string openParts(const RobotGeometry& geometry);
 
 }  // namespace fcl_stpbv::detail

@@ -1,5 +1,5 @@
-// Tells a mesh file's format by assimp's own rules: the name's ending where one reader knows it, else the
-// content.
+// Finds a mesh file's format by assimp's own rules: by the name's extension if exactly one reader knows it,
+// otherwise by the content.
 #include "fcl_stpbv/robot/mesh_format.h"
 
 #include <assimp/commonMetaData.h>

@@ -1,4 +1,4 @@
-// The format of a mesh file, as assimp takes it, and the checks that each format needs.
+// Finds the format in which assimp reads a mesh file, and runs the checks of that format.
 #pragma once
 
 #include <string>
@@ -13,8 +13,8 @@ class Importer;
 
 namespace fcl_stpbv::detail {
 
-/// The ending, such as ".obj", of the format that assimp will read a file as, where the file's name or its
-/// first bytes settle that; "" otherwise. Checked before, a fault is told better than by assimp.
+/// The extension, such as ".obj", of the format in which assimp will read a file, if the file's name or its
+/// first bytes decide that; "" otherwise. A check before assimp gives better error messages.
 std::string expectedFormat(std::string_view text, const std::string& path);
 
 /// The same of the format that assimp has read a file as: a file's name may promise another one.

@@ -1,4 +1,4 @@
-// Splits a mesh as text into lines and words, and tells the numbers that assimp reads right.
+// Splits a mesh in text form into lines and words, and detects numbers that assimp would read wrongly.
 #include "fcl_stpbv/robot/mesh_lines.h"
 
 #include <algorithm>

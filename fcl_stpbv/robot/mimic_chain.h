@@ -1,4 +1,4 @@
-// Mimic joints that follow joints which follow others.
+// Resolves chains of mimic joints.
 #pragma once
 
 #include <string>

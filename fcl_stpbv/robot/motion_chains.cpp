@@ -1,8 +1,8 @@
-// Bodies along a straight line between two configurations.
+// Motion of the bodies along a straight line between two configurations:
 // 1. Once for a robot: the joints from the link where a pair's chains meet out to each of its bodies.
-// 2. Once for a motion: the joints' speeds and the lengths behind them, and from these a
-//    bound on the acceleration of every point of a body: each joint's own centripetal one,
-//    and Coriolis' from the joints further in.
+// 2. Once for a motion: the joints' speeds and the lengths beyond them. They give a bound on the acceleration
+//    of every point of a body: the centripetal acceleration of each joint, and the Coriolis acceleration from
+//    the joints nearer to the root.
 // 3. At a time: poses and velocities of all links from the kinematics.
 #include "fcl_stpbv/robot/motion_chains.h"
 

@@ -11,9 +11,9 @@
 
 namespace fcl_stpbv::detail {
 
-/// The bodies of all pairs, where they are at a time of the motion and how fast, and for
-/// each pair a bound on the acceleration of every point of both, seen from the link where
-/// their chains meet. Time runs from 0 to 1.
+/// The poses and velocities of the bodies of all pairs at a time of the motion. Also, for each pair, a bound
+/// on the acceleration of every point of both bodies, relative to the link where their chains meet. Time runs
+/// from 0 to 1.
 class MotionChains {
  public:
   using ConstVector = Eigen::Ref<const Eigen::VectorXd>;

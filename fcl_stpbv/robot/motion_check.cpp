@@ -1,12 +1,12 @@
-// Conservative advancement (Mirtich and Canny 1995) over the straight line between two configurations, with
-// a plane in place of a distance (docs/motion.md).
-// 1. robot/motion_chains.h says how the bodies move, and how much each can accelerate at most.
+// Conservative advancement (Mirtich and Canny 1995) on the straight line between two configurations, with
+// separating planes in place of distances (docs/motion.md).
+// 1. robot/motion_chains.h computes the bodies' velocities and bounds on their accelerations.
 // 2. At each time looked at: how long before and after it a plane keeps the bodies apart
 //    (planeCover), from their velocities. First the plane between their bounding balls; where that
 //    does not cover enough, the plane of the exact distance's normal. Beside meshes and trees the bound
 //    on the bodies' speed, and a plane for each element (elementCover).
-// 3. adapter/motion_search.h chooses the times until the covers hold the whole motion, or a contact is found.
-//    For the closest approach the margin is the smallest distance so far.
+// 3. adapter/motion_search.h chooses the times, until the covers contain the whole motion or a contact is
+//    found. For the closest approach the margin is the smallest distance so far.
 #include "fcl_stpbv/robot/motion_check.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// From a named posture to a configuration: the values that it gives, and whether they fit the joints that
-// have none of their own.
+// Converts a named posture to a configuration: takes its values, and checks that they fit the joints without
+// coordinates (fixed and mimic joints).
 #include <algorithm>
 #include <cmath>
 

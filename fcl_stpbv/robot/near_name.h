@@ -1,4 +1,4 @@
-// What a misspelt name may stand for: the known one that fewest letters have to be changed for.
+// Suggestions for misspelt names: the known name with the smallest edit distance.
 #pragma once
 
 #include <algorithm>

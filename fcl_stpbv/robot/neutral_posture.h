@@ -1,5 +1,4 @@
-// Whether the neutral configuration is free of collisions, and which posture
-// would serve better where it is not.
+// Checks whether the neutral configuration has collisions, and suggests a better posture if it has.
 #pragma once
 
 #include <memory>
@@ -12,16 +11,17 @@
 namespace fcl_stpbv::detail {
 
 struct NeutralPosture {
-  int colliding = 0;  ///< pairs of links whose bodies meet there, but for adjacent and rigidly joined ones
+  /// Number of pairs of links that collide there, without adjacent and rigidly joined ones.
+  int colliding = 0;
   static constexpr std::size_t kNamed = 3;
   std::vector<LinkPair> named;  ///< the first so many of them
-  Eigen::VectorXd better;       ///< where fewer do; empty where nothing fewer was found
+  Eigen::VectorXd better;       ///< a configuration with fewer collisions; empty if none was found
   std::string state;            ///< the group_state that this is, "" for a random configuration
   int collidingThere = 0;
 };
 
-/// The SRDF's postures by name (null for none), each whole, as whoever asks for one gets it. What is no
-/// posture, such as a joint with too many values, is not among them: that is told to whoever asks for it.
+/// All postures of the SRDF (null for none) by name, as complete configurations. Invalid ones, such as a
+/// state with too many values for a joint, are left out; they are reported when they are used.
 std::vector<std::pair<std::string, Eigen::VectorXd>> namedPostures(const Kinematics& kinematics,
                                                                    const Srdf* srdf);
 

@@ -1,5 +1,5 @@
-// Checks OFF text against its own header. assimp takes a wrong index for another one, and each line after the
-// header for the next vertex or face.
+// Checks OFF text against its header. Without this check, assimp replaces a wrong index by another one, and
+// reads each line after the header as the next vertex or face.
 #include "fcl_stpbv/robot/off_check.h"
 
 #include <algorithm>

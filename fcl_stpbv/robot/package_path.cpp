@@ -1,6 +1,4 @@
-// Where package://, file:// and relative names lead: the given folders, ROS_PACKAGE_PATH, AMENT_PREFIX_PATH,
-// the package around the URDF and those beside it, in this order; then the given ones by the end of a
-// name, and folders near the URDF; at last what lies deeper in ROS_PACKAGE_PATH.
+// Finds the files of package://, file:// and relative names, in the order that package_path.h lists.
 #include "fcl_stpbv/robot/package_path.h"
 
 #include <algorithm>
@@ -51,7 +49,7 @@ std::string packageIn(const fs::path& folder) {
   }
 }
 
-// What a name's kind is where it is one of another, such as "http:/"; else "".
+// The scheme of a name if it is one that is not supported, such as "http:/"; else "".
 std::string otherKind(const std::string& uri) {
   const std::size_t colon = uri.find(":/");
   if (colon == std::string::npos || colon < 2 || startsWith(uri, kPackage) || filePathIn(uri)) return "";
@@ -74,8 +72,9 @@ std::pair<std::string, std::string> partsOf(const std::string& uri) {
   return {inside.substr(0, slash), fs::path(inside.substr(start)).lexically_normal().string()};
 }
 
-// The packages of a name below a folder where rospack finds them: at any depth, but not within another
-// package, nor in folders that are hidden or marked. Each folder of `seen` is looked into once.
+// The packages of a name below a folder, by rospack's rules: at any depth, but not inside another package,
+// and not in hidden folders or folders marked to be ignored. Each folder is visited once; `seen` lists the
+// visited ones.
 void findBelow(const fs::path& folder, const std::string& package, std::set<fs::path>& seen,
                std::vector<std::string>& found) {
   constexpr std::size_t kMost = 100000;  // where somebody names a whole disk
@@ -102,7 +101,7 @@ PackagePath::PackagePath(const std::string& urdf, std::vector<std::string> folde
       prefixes_(splitAtColons(std::getenv("AMENT_PREFIX_PATH"))) {
   folders_.insert(folders_.end(), rosFolders_.begin(), rosFolders_.end());
   std::error_code error;
-  // What comes through a pipe has no folder of its own; its relative names are of the working folder.
+  // A URDF from a pipe has no folder; its relative names are relative to the working folder.
   const bool pipe = fs::exists(urdf, error) && !fs::is_regular_file(urdf, error);
   const fs::path named = fs::absolute(pipe ? "-" : urdf, error).lexically_normal();
   std::vector<fs::path> places = {named};
@@ -137,7 +136,7 @@ std::vector<std::string> PackagePath::candidates(const std::string& uri) const {
       if (isPackage(folder, package)) add(fs::path(folder) / rest);
       if (!packageIn(folder).empty()) add(fs::path(folder).parent_path() / package / rest);
     }
-    // A package inside another one, as in a checkout of a part of it: its own folder is the last that counts.
+    // A package inside another one, as in a partial checkout: only its own folder name is used.
     for (const std::string& folder : folders_)
       for (std::size_t next = rest.find('/');
            next != std::string::npos && rest.find('/', next + 1) != std::string::npos;

@@ -1,4 +1,4 @@
-// Where the files are that a URDF names: package://, file://, absolute and relative names.
+// Finds the files that a URDF refers to: package://, file://, absolute and relative names.
 #pragma once
 
 #include <map>
@@ -9,14 +9,17 @@ namespace fcl_stpbv::detail {
 
 /// Turns the file names of one URDF into paths.
 ///
-/// `package://name/rest` is looked for in each given folder (as `folder/name/rest`, or
-/// `folder/rest` where the folder is that package itself), then in ROS_PACKAGE_PATH, in `share` of
-/// AMENT_PREFIX_PATH, in the package that encloses the URDF, and beside that package; then in the
-/// first two by the last folders of `rest`, for a package inside another; at last deeper in ROS_PACKAGE_PATH,
-/// as a workspace has its packages in repositories. Paths that are not absolute are
-/// the URDF's folder's, after file:// too. Where the URDF is a link, the folders around the file behind it
-/// come after those around the link. After :// a %20 stands for a space where no file is named so. One thread
-/// at a time may use one.
+/// `package://name/rest` is searched in this order:
+/// 1. in each given folder, as `folder/name/rest`, or `folder/rest` if the folder is that package itself;
+/// 2. in ROS_PACKAGE_PATH, in the same way;
+/// 3. in `share` of AMENT_PREFIX_PATH;
+/// 4. in the package that contains the URDF, and beside that package;
+/// 5. again in the places of 1 and 2, by the last folders of `rest`, for a package inside another one;
+/// 6. in the URDF's folder and the two folders above it, as `folder/name/rest`;
+/// 7. in deeper folders of ROS_PACKAGE_PATH, for workspaces with packages inside repositories.
+/// Paths that are not absolute, also after file://, are relative to the URDF's folder. If the URDF is a
+/// symbolic link, the folders around its target come after those around the link. After ://, %20 is read as a
+/// space if no file has the literal name. Not thread-safe: one thread at a time may use an object.
 class PackagePath {
  public:
   /// `urdf` is the file that names will come from; `folders` go before everything else.

@@ -1,4 +1,4 @@
-// What follows from a pair list: the pairs to check, their counts, entries for an SRDF.
+// Results derived from a pair list: the pairs to check, their counts, and entries for an SRDF.
 #include "fcl_stpbv/robot/pair_list.h"
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace {
 
 using detail::at;
 
-// In MoveIt's words. What no joint can change is said by how it is: "Always" or "Never" in collision.
+// The reason in MoveIt's terms. A rigid pair is "Always" or "Never" in collision.
 const char* srdfReason(const PairEntry& entry) {
   switch (entry.reason) {
     case PairReason::adjacent:

@@ -1,4 +1,4 @@
-// The pair list of a robot some of whose bodies were replaced.
+// Updates the pair list of a robot after some of its bodies were replaced.
 #pragma once
 
 #include <memory>
@@ -9,9 +9,9 @@
 
 namespace fcl_stpbv::detail {
 
-/// As pairList(), but only the pairs of `changed` are searched. All others keep their entries of `before`, a
-/// list of the same robot with the same SRDF and options: theirs would come out the same, but for proofs that
-/// ran out of time.
+/// As pairList(), but only the pairs of `changed` are searched. All others keep their entries of `before`,
+/// which must be a list of the same robot with the same SRDF and options. A new search would give the same
+/// entries, except for proofs that ran out of time.
 std::vector<PairEntry> pairListAgain(std::shared_ptr<const Kinematics> kinematics,
                                      std::shared_ptr<const RobotGeometry> geometry, const Srdf* srdf,
                                      const PairListOptions& options, const std::vector<PairEntry>& before,

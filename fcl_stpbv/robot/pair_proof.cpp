@@ -1,7 +1,7 @@
-// Proofs that two links never meet, by branch and bound over their joints' values (docs/proofs.md):
-// 1. the distance in the box's middle less what the joints' levers can change it;
-// 2. else the gap along a plane fixed to a link between the two, less how far the joints push each body;
-// 3. else cut the box where that gains most. Each box's result depends on the box alone.
+// Proves that two links never collide, by branch and bound over boxes of joint values (docs/proofs.md):
+// 1. the distance at the box's middle, minus the largest change that the joints' levers allow;
+// 2. else the gap along a plane fixed to a link between the two, minus how far the joints push each body;
+// 3. else cut the box where that gains most. The result for a box depends only on that box.
 #include "fcl_stpbv/robot/pair_proof.h"
 
 #include <algorithm>
@@ -19,7 +19,7 @@ namespace fcl_stpbv {
 
 namespace detail {
 
-/// Nothing for bodies that cannot be such points.
+/// No value for bodies that cannot be such points.
 struct ProofBodies {
   std::vector<std::optional<BodyPoints>> robot;      ///< in the links' frames
   std::vector<std::optional<BodyPoints>> obstacles;  ///< in the world
@@ -64,7 +64,7 @@ void requireSize(const JointBox& box, Index coordinates) {
         "configuration");
 }
 
-// Of limits whose sum may overflow. An expression: who asks for one coordinate gets that one computed.
+// Avoids the sum of the limits, which may overflow. A lazy expression: one coordinate can be computed alone.
 auto middleOf(const JointBox& box) { return 0.5 * box.lower + 0.5 * box.upper; }
 
 bool bounded(const JointBox& box) { return box.lower.allFinite() && box.upper.allFinite(); }
@@ -97,7 +97,7 @@ class Prover {
   }
 
   Index coordinates() const { return static_cast<Index>(search_.coordinates().size()); }
-  /// Whether anything bounds the pair: nothing does across planar and floating joints or a moving base.
+  /// Whether the pair has a bound: none across planar and floating joints or a moving base.
   bool hasBound() const { return lipschitz_.allFinite(); }
   const Eigen::VectorXd& middle() const { return q_; }
   int widest() const { return widest_; }

@@ -1,4 +1,4 @@
-// What the neutral configuration and random ones say about pairs of links.
+// Distances of pairs of links in the neutral configuration and in random ones.
 #pragma once
 
 #include <Eigen/Core>

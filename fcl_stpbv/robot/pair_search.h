@@ -1,5 +1,5 @@
 // The distance of one pair of links, or of a link and an obstacle, as a function of the joints between them:
-// where it is least and largest nearby, and how fast it can change.
+// local minima and maxima, and Lipschitz constants.
 #pragma once
 
 #include <Eigen/Core>
@@ -22,8 +22,8 @@ class PairSearch {
   /// Least distance over the bodies at q.
   double distance(const Eigen::VectorXd& q);
 
-  /// Projected gradient descent from q within the limits, until the distance is at most `margin` or falls no
-  /// more. Gives the distance reached; q becomes where.
+  /// Projected gradient descent from q within the limits, until the distance is at most `margin` or no longer
+  /// falls. Returns the distance reached; q becomes that configuration.
   double descend(Eigen::VectorXd& q, double margin);
 
   /// The same uphill, until the distance exceeds `margin` or grows no more.

@@ -1,9 +1,10 @@
-// Is one pair clear?
+// Decides whether one pair is clear:
 // 1. Balls inside two bodies may prove a hit.
-// 2. The plane that kept a pair apart last time is kept in both bodies' frames. When they have turned, what
-//    the second body rises over it is bounded twice: by its sphere's radius times the turn, and by the ball
-//    of radius R that holds an STP-BV and touches it at the plane (docs/robot.md).
-// 3. Else the search of distance/threshold.h, or adapter/proximity.cpp's for bodies that are not convex.
+// 2. The separating plane of the last check is stored in both bodies' frames. After the bodies have turned,
+//    the height of the second body over the plane has two bounds: its sphere's radius times the turn, and the
+//    ball of radius R that contains an STP-BV and touches it at the plane (docs/robot.md).
+// 3. Otherwise the search of distance/threshold.h, or that of adapter/proximity.cpp for bodies that are not
+//    convex.
 
 #include "fcl_stpbv/adapter/fcl_distance.h"
 #include "fcl_stpbv/distance/threshold.h"

@@ -1,7 +1,7 @@
-// The gap between two bodies over a box of joint values (docs/proofs.md): fixes the plane to the links that
-// lose least at the nearest points, starts from the normal of the distance in the middle, and turns it as GJK
-// does, towards the shortest difference of points that the bodies can reach. How far the joints push a body
-// towards the plane is bounded in push_bound.h.
+// The gap between two bodies over a box of joint values (docs/proofs.md): tries planes fixed to the links for
+// which the bound at the nearest points is best, starts from the normal of the distance at the middle, and
+// turns it as GJK does, towards the shortest difference of points that the bodies can reach. push_bound.h
+// bounds how far the joints move a body towards the plane.
 #include "fcl_stpbv/robot/plane_bound.h"
 
 #include <algorithm>

@@ -17,14 +17,15 @@ class PlaneBound {
   /// The joints in order, and the bodies in the world at the middle of the box; these are kept by reference.
   void set(const std::vector<BoxJoint>& joints, const BodyPoints& first, const BodyPoints& second);
 
-  /// Lower bound on the gap (m) wherever the joints are in the box. Starts from the unit normal from the
-  /// first body to the second and their nearest points at the middle, improves it, and stops at the first
-  /// bound above `enough`. `shares`, of the size of the box, gets what each coordinate takes from the gap.
+  /// Lower bound on the gap (m) wherever the joints are in the box. Starts from the unit normal (from the
+  /// first body to the second) and the nearest points at the middle of the box, improves the normal, and
+  /// stops at the first bound above `enough`. `shares`, of the size of the box, receives how much each
+  /// coordinate reduces the gap.
   double gap(const Eigen::Vector3d& normal, const std::array<Eigen::Vector3d, 2>& nearest, double enough,
              Eigen::VectorXd& shares);
 
-  /// The bound for one plane: fixed to the link after the first `reference`
-  /// joints, of unit normal n in the middle.
+  /// The bound for one plane. It is fixed to the link after the first `reference` joints, and has the unit
+  /// normal n at the middle of the box.
   double gapAlong(const Eigen::Vector3d& n, std::size_t reference, Eigen::VectorXd& shares);
 
  private:

@@ -1,5 +1,5 @@
-// The STP-BV that covers a primitive: a ball itself, a spindle for a capsule, the corners of a box, two
-// polygons around a cylinder's ends, wide enough that the rim is inside.
+// Makes the STP-BV that covers a primitive: the ball itself, a spindle for a capsule, the corners of a box,
+// or two polygons around a cylinder's ends, which contain the circles.
 #include "fcl_stpbv/robot/primitive_cover.h"
 
 #include <fcl/geometry/shape/box.h>

@@ -16,11 +16,14 @@ struct PrimitiveCover {
 
 /// A volume that contains a sphere, capsule, box, cylinder or cone, in the primitive's own frame.
 ///
-/// A sphere is the volume of its centre with its own radius, exactly; a capsule lies in the spindle of its
-/// two ends with its radius. A box keeps `radii.r` around its corners. So do a cylinder and a cone around a
-/// prism or pyramid whose base is a regular polygon around the circle, by a quarter of r at the corners or by
-/// 1/800 of the radius where 64 corners are not enough; their `mean` is taken over that prism or pyramid. A
-/// primitive too large for `radii.R` gets a larger one.
+/// By type:
+/// - A sphere is exactly the volume of its centre, with its own radius as r.
+/// - A capsule lies in the spindle of its two end points, with its radius as r.
+/// - A box is the volume of its corners, with `radii.r`.
+/// - A cylinder or cone is covered by the volume of a prism or pyramid, with `radii.r`. The base is a regular
+///   polygon around the circle. Its corners exceed the circle by a quarter of r, or by 1/800 of the radius if
+///   64 corners are not enough for that. The `mean` of the excess is over that prism or pyramid.
+/// A primitive that is too large for `radii.R` gets a larger R.
 PrimitiveCover primitiveCover(const fcl::CollisionGeometryd& primitive, const StpBvOptions& radii);
 
 }  // namespace fcl_stpbv::detail

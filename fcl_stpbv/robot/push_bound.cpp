@@ -1,4 +1,5 @@
-// How far the joints push one point, by interval bounds on products of exponentials (docs/proofs.md).
+// Bounds how far the joints push one point along a normal, with interval bounds on products of exponentials
+// (docs/proofs.md).
 // 1. With the plane's link at rest, a point x of a body goes to E_1 E_2 ... E_m x, E_i the motion about
 //    joint i's axis in the middle of the box, the outermost one m applied first: all axes and the normal n
 //    stay those of the middle.
@@ -17,8 +18,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Of what a joint pushes, the part that is linear in its range counts half when a coordinate is chosen to be
-// cut: that part halves, the others fall to a quarter.
+// Weight of the linear part of a push when the coordinate to cut is chosen: a cut halves that part, while the
+// other parts fall to a quarter.
 constexpr double kLinearShare = 0.5;
 
 // Joints whose direction is tried both ways where it is not plain which pushes most: 2^8 corners at most.

@@ -1,5 +1,5 @@
-// How far the joints out to a body can push it along a direction, over a
-// box of joint values (docs/proofs.md).
+// Bounds how far joints can move a body along a direction, for all joint values in a box (docs/proofs.md).
+// This movement is called push.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -45,8 +45,8 @@ class PushBound {
   /// Most that the joints push the point x along n (m).
   double push(const Eigen::Vector3d& n, const BodySide& side, const Eigen::Vector3d& x);
 
-  /// Bound on the support function of the body along n (m). Adds to `shares`, by coordinate, what each joint
-  /// pushes the point that decides.
+  /// Upper bound on the support function of the body along n (m). Adds to `shares`, by coordinate, the push
+  /// of each joint on the point that determines the bound.
   double support(const Eigen::Vector3d& n, const BodySide& side, Eigen::VectorXd& shares);
 
  private:

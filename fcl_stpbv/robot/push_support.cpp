@@ -1,5 +1,5 @@
-// How far the joints push any point of a body: the largest height plus push of all its points. Points that
-// cannot reach it are skipped.
+// Upper bound on the support function of a body that joints push: the largest sum of height and push over all
+// its points. Points that cannot be the largest are skipped.
 #include <algorithm>
 
 #include "fcl_stpbv/numbers.h"

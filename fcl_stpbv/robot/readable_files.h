@@ -1,4 +1,4 @@
-// What the reading of a mesh may open.
+// The files that reading a mesh may open.
 #pragma once
 
 #include <assimp/DefaultIOSystem.h>
@@ -15,8 +15,9 @@
 
 namespace fcl_stpbv::detail {
 
-/// Opens the mesh and, for glTF, the whole files beside or below it that hold its vertices: nothing elsewhere
-/// that a mesh may name, no materials, no pipes or devices. Lets reading take in proportion to their sizes.
+/// Opens only the mesh and, for glTF, the regular files with its vertices, beside the mesh or in folders
+/// below. No other files that a mesh may refer to, no materials, no pipes or devices. Raises the limits of
+/// the child process in proportion to the files' sizes.
 class ReadableFiles : public Assimp::DefaultIOSystem {
  public:
   ReadableFiles(const std::string& mesh, ChildLimits& limits) : mesh_(mesh), limits_(limits) {}

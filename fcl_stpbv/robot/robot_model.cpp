@@ -1,5 +1,5 @@
-// From a URDF's text to a RobotModel: check the XML's words and tree, read each element alone by urdfdom,
-// resolve mimics and limits, and make sure that every <collision> became a body.
+// Makes a RobotModel from a URDF's text: checks the XML's names and tree, reads each element separately by
+// urdfdom, resolves mimic joints and limits, and makes sure that every <collision> became a shape.
 #include "fcl_stpbv/robot/robot_model.h"
 
 #include <algorithm>

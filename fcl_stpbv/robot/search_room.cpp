@@ -1,4 +1,4 @@
-// Reaches are added up along the tree of joints: a bound for every configuration, from the lengths alone.
+// Adds up lengths along the tree of joints. This bounds the size of the robot in every configuration.
 #include "fcl_stpbv/robot/search_room.h"
 
 #include <algorithm>

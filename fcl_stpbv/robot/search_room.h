@@ -1,4 +1,5 @@
-// How far a robot and what is around it reach, and so how far coordinates without limits are searched.
+// The size of a robot and its obstacles, and from it the range in which coordinates without limits are
+// searched.
 #pragma once
 
 #include <vector>
@@ -14,9 +15,9 @@ double reachOf(const RobotGeometry& geometry, int link);
 /// joint, which has none, where it stands at zero.
 double lengthOf(const RobotModel& robot, int joint);
 
-/// Slides without limits, those of planar and floating joints and of a moving base, are searched so far
-/// either way (m): where two bodies can meet at all they do within it, with all other joints where they are.
-/// At least 1 m.
+/// Coordinates that translate without limits (of planar and floating joints and of a moving base) are
+/// searched up to this distance in both directions (m). If two bodies can meet at all, they meet within it,
+/// without changes of the other joints. At least 1 m.
 double searchRoom(const RobotModel& robot, const RobotGeometry& geometry,
                   const std::vector<Obstacle>& obstacles);
 

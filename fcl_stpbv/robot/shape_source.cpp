@@ -1,4 +1,4 @@
-// A robot's shapes before anything is built: which count, and their mesh files found and read once each.
+// The shapes of a robot before volumes are built: selects them, and finds and reads each mesh file once.
 #include "fcl_stpbv/robot/shape_source.h"
 
 #include <strings.h>

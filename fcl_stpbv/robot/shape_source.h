@@ -1,4 +1,4 @@
-// The shapes of a robot before anything is built from them: which count, and their files found and read.
+// The shapes of a robot before volumes are built: selects them, finds their files and reads them.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,7 +16,7 @@ namespace fcl_stpbv::detail {
 /// The error, with the file's name before what it says unless that names it.
 Error namingFile(const std::string& file, const Error& error);
 
-/// What the cache (volume_cache.h) knows a mesh by: a digest of the file and of the scale.
+/// The key of a mesh in the cache (volume_cache.h): a digest of the file's content and of the scale.
 /// @throws Error naming the file.
 std::string meshKey(const std::string& file, const Eigen::Vector3d& scale);
 

@@ -1,4 +1,4 @@
-// Pieces of work that do not depend on each other, shared by threads.
+// A parallel loop over independent pieces of work.
 #pragma once
 
 #include <cstddef>

@@ -1,7 +1,7 @@
 // Which primitives get a smooth cover, so that every pair has a smooth body: greedy
 // weighted vertex cover (Chvatal 1979).
 // 1. Cover the body with the least excess for each open pair it settles, until none is open.
-// 2. Take back covers, largest excess first, that the others make needless.
+// 2. Remove covers that are no longer needed, the largest excess first.
 #include <algorithm>
 #include <limits>
 #include <numeric>

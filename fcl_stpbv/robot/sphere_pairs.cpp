@@ -1,4 +1,4 @@
-// Centres in the lanes of a register; what is near is written down without a branch.
+// Compares four pairs at a time in the lanes of a register, and appends the near ones without a branch.
 #include "fcl_stpbv/robot/sphere_pairs.h"
 
 #include "fcl_stpbv/numbers.h"

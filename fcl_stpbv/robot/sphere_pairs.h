@@ -1,4 +1,5 @@
-// Which pairs of bodies do their bounding spheres not keep apart? One array, compared four pairs at a time.
+// Finds the pairs of bodies whose bounding spheres do not prove them clear. One array, four pairs at a time
+// (SIMD).
 #pragma once
 
 #include <cstddef>

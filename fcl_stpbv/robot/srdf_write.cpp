@@ -1,4 +1,4 @@
-// Writes pairs into an SRDF, in which all else stays as it was.
+// Writes pairs into an SRDF and leaves everything else unchanged.
 #include <algorithm>
 #include <set>
 #include <string_view>

@@ -1,4 +1,4 @@
-// Checks OBJ and STL text line by line for damage that assimp reads over.
+// Checks OBJ and STL text line by line for errors that assimp ignores.
 #include "fcl_stpbv/robot/text_mesh_check.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Compares the elements and attributes of a URDF with those that count, so that a misspelt name is refused.
+// Compares the elements and attributes of a URDF with the known ones, so that a misspelt name is an error.
 #include "fcl_stpbv/robot/urdf_words.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// What the names of files that others wrote may mean: %20 and the like, and the backslashes of Windows.
+// Interprets file names and URIs: percent encoding such as %20, and the backslashes of Windows.
 #pragma once
 
 #include <algorithm>

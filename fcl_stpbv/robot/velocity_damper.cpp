@@ -16,13 +16,14 @@ namespace {
 
 using namespace detail;
 
-// Beyond these in m, m/s, s and 1/s is a mistake; a gain or a period is never 0.
+// Values outside this range (m, m/s, s, 1/s) are taken for mistakes. A gain or a period is never 0.
 constexpr double kLeast = 1e-9, kLargest = 1e9;
 
-// The most that a gain gets on entering, times the period. Of sampled velocities a gain of 1 ends at the
-// security distance in one tick. Sampled accelerations, integrated as v += p u, d += p v or exactly, come
-// there without passing it if all roots of the closed loop are real and not negative: for one gain up to
-// 0.34, for two whose sum is at most 1.
+// Largest gain times period that a row gets when its pair enters. With sampled velocities, a value of 1
+// reaches the security distance in one period. With sampled accelerations, integrated as v += p u, d += p v
+// or exactly, the pair reaches the security distance without passing it if all roots of the closed loop are
+// real and not negative. That is true for one gain with a value of up to 0.34, and for two gains whose values
+// add up to at most 1.
 constexpr double kMostGain = 1, kMostGainOfAccelerations = 1.0 / 3;
 
 // `of` is "" or names the row.
@@ -34,8 +35,8 @@ void check(const Damper& damper, const std::string& of = "") {
     throw Error("VelocityDamper: influence" + of + " must be larger than security");
 }
 
-// A row that has begun to bend over has a gradient near 0, with which it would have to stop the pair. An
-// influence that was written in decimals may be beyond by rounding.
+// Beyond `exact` the row's value goes over to a constant and its gradient to 0, so it could not stop the
+// pair. An influence that was written in decimals may exceed `exact` by rounding.
 void fitInfluence(double& influence, int row, double exact) {
   if (influence > exact * (1 + 4 * std::numeric_limits<double>::epsilon()))
     throw Error(
@@ -101,7 +102,7 @@ void VelocityDamper::enter(int row) {
     raise(row, room);
 }
 
-// The row asks for a * room >= speed, the speed towards the other body that the pair has if nothing is done.
+// The row requires a * room >= speed, where `speed` is the present speed towards the other body.
 void VelocityDamper::raise(int row, double room) {
   const Damper& damper = dampers_[at(row)];
   const double reach = damper.influence - damper.security, own = damper.damping / reach;
@@ -115,9 +116,9 @@ void VelocityDamper::raise(int row, double room) {
   damping_[at(row)] = std::min(most, (speed + std::min(options_.headroom, excess)) / room) * reach;
 }
 
-// The row asks for a g room >= (a + g) speed + fall: first the smaller gain rises up to the larger one, then
-// both. A drift that brakes is left out: then the row holds only where h' + a h >= 0, from where no pair
-// comes to h = 0.
+// The row requires a g room >= (a + g) speed + fall. First the smaller gain is raised, up to the larger one;
+// then both. A drift that brakes is ignored. Then the row holds only if h' + a h >= 0, and from such a state
+// a pair never reaches h = 0.
 void VelocityDamper::raiseBoth(int row, double room) {
   const Damper& damper = dampers_[at(row)];
   const double reach = damper.influence - damper.security;

@@ -1,6 +1,6 @@
-// Entries on disk: the file's name is a digest of the mesh's content and of the options;
-// its first line a digest of name and entry. An entry that another user could have
-// written, or that does not match, is built anew.
+// The format of entries: the file's name is a digest of the mesh's content and of the options. Its first line
+// is a digest of the name and the entry. An entry that another user could have written, or whose digest does
+// not match, is built anew.
 #include "fcl_stpbv/robot/volume_cache.h"
 
 #include <fcntl.h>
@@ -27,14 +27,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Changes when the builder gives other volumes, a fit other radii, or the
-// search other parts, for the same mesh.
+// Change it when the same mesh gives other volumes, radii, parts or pair lists than before.
 constexpr std::string_view kVersion = "fcl_stpbv volume cache 18\n";
 
 // The name of an entry's file without its ending: the digest of what it was built from.
 std::string keyOf(const std::string& path) { return fs::path(path).stem().string(); }
 
-// An open entry, or -1: of a link, a pipe or a device, and of a file that somebody else may have written.
+// Opens an entry. -1 for a link, a pipe or a device, and for a file that somebody else may have written.
 int openEntry(const std::string& path) {
   const int file = ::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
   struct stat about {};

@@ -1,5 +1,5 @@
-// Volumes, the convex parts and hulls of meshes, and what was measured of them, kept on disk between runs,
-// found by the content they were built from.
+// A disk cache for volumes, convex parts and hulls of meshes, and measurements of them. The key is a digest
+// of the content from which an entry was built.
 #pragma once
 
 #include <atomic>
@@ -15,16 +15,16 @@
 
 namespace fcl_stpbv::detail {
 
-/// 32 characters that tell contents apart: 128 bits mixed against accidents, not against somebody who makes
-/// two alike.
+/// A digest of 32 characters (128 bits). It is not cryptographic: it avoids accidental collisions, but not
+/// deliberate ones.
 std::string digestOf(std::string_view content);
 
-/// A folder of what was built. Any number of processes and threads may share it. Whatever goes wrong with it,
-/// a missing or read-only folder, a damaged entry, is cured by building anew and never reported.
+/// A cache folder. Any number of processes and threads may share it. If anything is wrong with it (a missing
+/// or read-only folder, a damaged entry), the data are built anew, without an error.
 ///
-/// Entries are believed where they carry the digest of what they were built from and of
-/// themselves, belong to the user or to root, and can be written by nobody else: only who
-/// may already act as the user can forge one.
+/// An entry is used only if it contains the digests of its source and of itself, belongs to the user or to
+/// root, and is not writable by anybody else. So only somebody who can already act as the user could forge
+/// one.
 class VolumeCache {
  public:
   /// `folder` is made when the first entry is kept; "" keeps nothing.

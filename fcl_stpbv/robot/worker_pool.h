@@ -1,4 +1,4 @@
-// Threads that wait for work and share it, without allocating while they do.
+// A pool of waiting threads that share work, without allocation during the work.
 #pragma once
 
 #include <condition_variable>
