@@ -1,5 +1,6 @@
 // Damped Gauss-Newton steps (Levenberg 1944, Marquardt 1963) on the sum of squared violations and a little of
-// the cost. A variable at its bound that would leave it is held; damping follows Nielsen's rule (1999).
+// the cost. A variable that is at its bound and would leave it is held. The damping follows Nielsen's rule
+// (1999).
 #include "fcl_stpbv/posture/approach.h"
 
 #include <Eigen/Cholesky>
@@ -70,8 +71,8 @@ NearPosture approach(PostureProblem& problem, const Eigen::VectorXd& start, cons
     const double expected = foretold(moved - result.x);
     const double reduction = model.value - halfSum(problem.evaluate(moved), options);
     if (!(reduction > 0)) {
-      // A step that a bound cuts short may lead up where a shorter one leads down. Beside the cost that is
-      // near enough; without it only the least sum is.
+      // A step that a bound shortens may increase the sum although a shorter step would lower it. With the
+      // cost, such a point is good enough; without it, only the minimum is.
       const double hoped = options.costWeight > 0 ? expected : foretold(whole);
       if (!(hoped > options.relativeChange * model.value)) break;
       damping *= growth;

@@ -1,4 +1,5 @@
-// From anywhere to where the constraints hold as well as they can, by damped Gauss-Newton steps.
+// Minimises the violations of the constraints from any start, by damped Gauss-Newton steps
+// (Levenberg-Marquardt).
 #pragma once
 
 #include "fcl_stpbv/posture/problem.h"
@@ -6,26 +7,26 @@
 namespace fcl_stpbv::detail {
 
 struct ApproachOptions {
-  double costWeight = 0;     ///< of the cost beside the squared violations
-  double atLeastWeight = 1;  ///< of squared violations of inequalities beside those of equalities
+  double costWeight = 0;     ///< weight of the cost relative to the squared violations
+  double atLeastWeight = 1;  ///< weight of squared violations of inequalities relative to those of equalities
   int maxIterations = 50;
-  double relativeChange = 1e-9;  ///< of the sum in one step, at which it is least
+  double relativeChange = 1e-9;  ///< stops when the sum changes by less than this fraction in one step
   std::function<bool()> stop{};  ///< SolverOptions::stop
 };
 
 struct NearPosture {
   Eigen::VectorXd x;
-  Eigen::VectorXd slope;  ///< of the sum at x; 0 where no bound holds x back
+  Eigen::VectorXd slope;  ///< gradient of the sum at x; 0 for variables that no bound holds
   int iterations = 0;
 };
 
-/// Half the sum that approach() minimises.
+/// Half of the sum that approach() minimises.
 double halfSum(const PostureValues& values, const ApproachOptions& options);
 
-/// Minimises costWeight * cost + the weighted sum of all squared violations within the bounds (Levenberg and
-/// Marquardt; steps end at bounds, variables that would leave them are held). Unlike a step of sequential
-/// quadratic programming its steps stay short where the constraints' Jacobian is singular, as it is for a
-/// robot that stands with straight knees.
+/// Minimises costWeight * cost + the weighted sum of all squared violations, within the bounds
+/// (Levenberg-Marquardt). Steps end at bounds, and variables that would leave their bounds are held. Unlike
+/// steps of sequential quadratic programming, its steps stay short if the constraints' Jacobian is singular,
+/// for example for a robot with straight knees.
 NearPosture approach(PostureProblem& problem, const Eigen::VectorXd& start, const ApproachOptions& options);
 
 }  // namespace fcl_stpbv::detail

@@ -1,4 +1,4 @@
-// The centre of mass of all links and, by the mass below each joint, how the coordinates move it.
+// The centre of mass of all links, and its Jacobian from the mass below each joint.
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/number_check.h"
 #include "fcl_stpbv/numbers.h"

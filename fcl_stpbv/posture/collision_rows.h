@@ -1,4 +1,4 @@
-// The distances of a robot as rows: d(q) - margin, not to be negative.
+// The distances of a robot as inequality constraints: d(q) - margin >= 0.
 #pragma once
 
 #include <memory>
@@ -21,7 +21,7 @@ class CollisionRows : public PostureRows {
   std::string name(int row) const override { return constraints_.name(row); }
   void evaluate(const Point& at, Eigen::Ref<Eigen::VectorXd> values, Eigen::Ref<RowMatrix> jacobian) override;
 
-  /// What the bounding spheres settled is not among them.
+  /// Does not count pairs for which the bounding spheres were enough.
   long queries() const override { return queries_; }
 
  private:
@@ -31,13 +31,13 @@ class CollisionRows : public PostureRows {
   long queries_ = 0;
 };
 
-/// A pair of bodies and how far it is apart.
+/// A pair of bodies and its distance.
 struct NamedDistance {
   std::string name;
   double distance;  ///< signed (m)
 };
 
-/// Of all pairs in a configuration, in their order.
+/// The distances of all pairs in a configuration, in their order.
 std::vector<NamedDistance> distancesOf(const std::vector<CheckedPair>& pairs, const PostureScene& scene,
                                        std::shared_ptr<const Kinematics> kinematics,
                                        const Eigen::VectorXd& q);
@@ -47,7 +47,7 @@ std::vector<Violation> nearerThan(double margin, const std::vector<CheckedPair>&
                                   const PostureScene& scene, std::shared_ptr<const Kinematics> kinematics,
                                   const Eigen::VectorXd& q);
 
-/// A smooth function of the coordinates, not to be negative.
+/// A smooth function of the coordinates as an inequality constraint (>= 0).
 class SmoothRow : public PostureRows {
  public:
   explicit SmoothRow(SmoothConstraint constraint)

@@ -1,10 +1,11 @@
 // The posture generator, for each start:
-// 1. approach the constraints (approach.h), first with light obstacles, then in full;
+// 1. minimise the violations (approach.h), first with a low weight of collisions, then with the full weight;
 // 2. solve by SLSQP from there (slsqp.cpp);
 // 3. stop at the first feasible posture.
-// Without one, the joints of what is violated in the best posture are drawn anew, and the search goes on from
-// there; then from postures anywhere. Then the least sum of squared violations names the constraints in
-// conflict and the limits they push against. Where it leaves none, it is a feasible posture itself.
+// If no start gives one, the joints of the violated constraints in the best posture are redrawn, and the
+// search continues from there; after that from random postures. If that fails too, the minimum of the sum of
+// squared violations gives the constraints in conflict and the limits that they push against. If no violation
+// is left there, it is a feasible posture itself.
 #include "fcl_stpbv/posture/find_posture.h"
 
 #include <algorithm>
@@ -30,7 +31,7 @@ double total(const std::vector<Violation>& violations) {
   return std::isfinite(sum) ? sum : kInfinity;
 }
 
-// What has next to no slack.
+// The names of constraints and limits with almost no slack.
 std::vector<std::string> activeAt(PostureProblem& problem, const Eigen::VectorXd& x) {
   constexpr double kSlack = 1e-4;  // m, rad
   const PostureValues& values = problem.evaluate(x);
@@ -44,7 +45,7 @@ std::vector<std::string> activeAt(PostureProblem& problem, const Eigen::VectorXd
   return names;
 }
 
-// Variables that the violated constraints push against a bound.
+// The limits of variables that the violated constraints push against a bound.
 std::vector<std::string> pushedLimits(const PostureProblem& problem, const NearPosture& least) {
   const double push = 0.05 * least.slope.lpNorm<Eigen::Infinity>();  // less is what the descent left
   std::vector<std::string> names;
@@ -62,7 +63,7 @@ NearPosture approached(PostureProblem& problem, const Eigen::VectorXd& from, App
   return approach(problem, from, how);
 }
 
-// SLSQP from x. Where it ends at more violations or, with none, at more cost, x stands.
+// SLSQP from x. If the result has larger violations or, without violations, a higher cost, x is kept.
 SolverOutcome improve(PostureProblem& problem, const Eigen::VectorXd& x, const SolverOptions& options) {
   const auto rank = [&](const Eigen::VectorXd& at) {
     const double violated = total(problem.missed(at, options.tolerance));
@@ -76,14 +77,15 @@ SolverOutcome improve(PostureProblem& problem, const Eigen::VectorXd& x, const S
 }
 
 // From one start:
-// 1. near to the posture by damped steps;
-// 2. to it by sequential quadratic programming;
-// 3. where that ends close by, to where the constraints hold best, and if they hold on from there.
+// 1. damped steps, to a point near the posture;
+// 2. sequential quadratic programming;
+// 3. if that ends close to feasible, minimise the violations again, and, if the constraints hold then,
+//    continue from there.
 SolverOutcome solve(PostureProblem& problem, const Eigen::VectorXd& start,
                     std::initializer_list<ApproachOptions> approaches, const SolverOptions& options) {
-  // Farther away than this (m, rad) where the damped steps end, the start leads into a dead end.
+  // If the damped steps end with a larger violation than this (m, rad), the start is given up.
   constexpr double kNear = 0.1;
-  // Farther away than this where the programming ends, more steps seldom get there.
+  // If the programming ends with a larger violation than this, more steps rarely help.
   constexpr double kClose = 1e-3;
   const auto worst = [&](const Eigen::VectorXd& x) {
     const std::vector<Violation> list = problem.missed(x, options.tolerance);
@@ -121,8 +123,8 @@ class PostureSearch {
   void fromStarts(const Eigen::VectorXd& start) {
     // The cost pulls the constraints apart by about this times their multipliers: millimetres.
     constexpr double kCostWeight = 1e-4;
-    // Soft obstacles first: a hand that would be caught before one passes through it and is pushed out
-    // behind.
+    // Low weight of collisions first: a hand that would get stuck in front of an obstacle passes through it
+    // and is pushed out behind it.
     constexpr double kSoft = 0.3, kFirm = 1;
     const long long first = std::max(0, options_.firstStart), last = first + std::max(1, options_.starts);
     Starts starts(problem_, start, options_.seed, first);

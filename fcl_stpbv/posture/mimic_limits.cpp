@@ -1,5 +1,6 @@
-// A joint that follows another one at multiplier m and offset b keeps its limits [l, u] where the other one
-// keeps (l - b) / m and (u - b) / m. Chains of mimic joints come resolved to the joint that moves (Mimic).
+// A joint that follows another one with multiplier m and offset b keeps its limits [l, u] if the other one
+// stays between (l - b) / m and (u - b) / m. Chains of mimic joints are already resolved to the joint that
+// moves (Mimic).
 #include "fcl_stpbv/posture/mimic_limits.h"
 
 #include <algorithm>

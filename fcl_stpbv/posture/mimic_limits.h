@@ -1,4 +1,4 @@
-// The limits of joints that mimic others, as limits of the joints that they follow.
+// Converts the limits of mimic joints to limits of the joints that they follow.
 #pragma once
 
 #include <string>
@@ -8,14 +8,15 @@
 
 namespace fcl_stpbv::detail {
 
-/// Limits of the coordinates, and for each the mimic joint that sets it, "" where it is the joint's own.
+/// Limits of the coordinates, and for each the name of the mimic joint that determines it; "" if it is the
+/// joint's own limit.
 struct NamedLimits {
   Eigen::VectorXd& values;
   std::vector<std::string>& by;
 };
 
-/// Narrows the limits of coordinates so that the joints which follow them keep to theirs. A continuous
-/// joint's turn is moved to where its followers allow it.
+/// Narrows the limits of coordinates so that the joints which follow them keep their own limits. For a
+/// continuous joint, the range of one turn is shifted to where its followers allow it.
 /// @throws Error naming the joints where nothing is left.
 void keepMimicLimits(const Kinematics& kinematics, NamedLimits lower, NamedLimits upper);
 

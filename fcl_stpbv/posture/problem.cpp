@@ -1,5 +1,5 @@
-// A posture as an optimisation problem: gathers the rows, variables, bounds and
-// cost, and evaluates all at once per x.
+// The optimisation problem of a posture: collects the constraints, variables, bounds and cost, and evaluates
+// all of them together for an x.
 #include "fcl_stpbv/posture/problem.h"
 
 #include <algorithm>

@@ -1,8 +1,9 @@
-// NLopt's SLSQP (Kraft 1988) behind problem.h, with few rows in its model:
-// 1. begin with the inequalities that have little slack;
-// 2. and with the equalities' independent combinations, as dependent ones make SLSQP's matrix singular;
-// 3. when an iterate violates a row outside the model, begin again there with the row included;
-// 4. stop a search that gets no nearer to feasible.
+// Solves the problem by NLopt's SLSQP (Kraft 1988), with a small active set of rows:
+// 1. start with the inequalities that have little slack,
+// 2. and with independent combinations of the equalities, because dependent ones make SLSQP's matrix
+//    singular;
+// 3. if an iterate violates a row that is not included, restart from there with the row;
+// 4. stop a search whose violations no longer fall.
 #include <nlopt.h>
 
 #include <algorithm>
@@ -81,8 +82,9 @@ class Slsqp {
     }
   }
 
-  // Takes in the equalities that move independently around x. One that moves by less than its tolerance per
-  // unit of every variable, or with fixed variables only, cannot be steered. It is checked at the end.
+  // Adds the independent combinations of the equalities at x. One that changes by less than its tolerance per
+  // unit of every variable, or only with fixed variables, cannot be controlled. It is only checked at the
+  // end.
   void combine(const Eigen::VectorXd& x) {
     if (problem_.equalities() == 0) return;
     RowMatrix jacobian = problem_.evaluate(x).equalJacobian;
@@ -132,7 +134,7 @@ class Slsqp {
     return values.cost / 2;
   }
 
-  // Stops a search that gets no nearer, which SLSQP goes on with for hundreds of iterations.
+  // Stops a search whose violations no longer fall; SLSQP would continue for hundreds of iterations.
   void watch(const PostureValues& values) {
     constexpr double kFar = 1e-3;  // nearer than this (m, rad) it may well alternate between two sides
     constexpr int kPatience = 15;
@@ -147,7 +149,7 @@ class Slsqp {
     if (stopped_ || stuck_ || best_.iterations >= options_.maxIterations) nlopt_force_stop(opt_);
   }
 
-  // Stops, to begin again with a larger model, where a row is violated that it lacks.
+  // Stops the solver for a restart with more rows, if a row is violated that is not included.
   void grow(const PostureValues& values) {
     if (stuck_ || best_.iterations >= options_.maxIterations) return;
     for (int i = 0; i < problem_.inequalities(); ++i) {

@@ -1,6 +1,7 @@
-// Static stability: the centre of mass, seen from above, is a convex combination of the contacts' corners at
-// the margin from their edges (support_patch.h). As long as a disc of the margin around each corner is within
-// its contact, so is one around each combination of them within the support polygon.
+// Static stability: in the projection along z, the centre of mass is a convex combination of the contacts'
+// corners, which are moved inwards by the margin (support_patch.h). A disc with the margin as its radius
+// around each such corner lies in its contact. So a disc around each convex combination of them lies in the
+// support polygon.
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/posture/support_patch.h"
@@ -15,7 +16,7 @@ using namespace detail;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-// Contacts that are wide enough for the margin as they are seen from above.
+// Constraints that keep the projections of the contacts wide enough for the margin.
 class ContactRoom : public PostureRows {
  public:
   ContactRoom(const Kinematics& kinematics, const std::vector<int>& links, std::vector<SupportPatch> patches,

@@ -1,5 +1,5 @@
-// Random postures take a fixed count of random numbers each, those of a start after those of the starts
-// before it. At each hundred thousandth they begin anew, so that none is a long way off.
+// Each random posture uses a fixed number of random numbers, and each start continues after the one before.
+// The generator is reseeded every 100,000 starts, so that any start can be reached quickly.
 #include "fcl_stpbv/posture/starts.h"
 
 #include <algorithm>

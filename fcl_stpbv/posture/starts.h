@@ -1,4 +1,5 @@
-// Where searches for a posture start: at random ones near the task's, and at the best so far, mended.
+// The starts of a posture search: the task's own, random ones near it, and repaired versions of the best
+// posture so far.
 #pragma once
 
 #include <cstdint>
@@ -20,14 +21,13 @@ class Starts {
   /// or rad.
   Eigen::VectorXd next();
 
-  /// The variables x, mended: for each inequality that they violate, the coordinates on which that one
-  /// depends are drawn anywhere within their limits, some hundred times for all, until it holds and all
-  /// inequalities together miss less. So pairs that have little to do with each other are freed one after the
-  /// other, where a random posture would have to free all of them at once. Nothing where x violates no
-  /// inequality.
+  /// Repairs the variables x. For each violated inequality, the coordinates on which it depends are redrawn
+  /// at random within their limits, until it holds and the sum of all violations is smaller. There are some
+  /// hundred draws in total. So collisions of unrelated pairs are removed one after the other, while a random
+  /// posture would have to remove all of them at once. No value if x violates no inequality.
   std::optional<Eigen::VectorXd> mended(const Eigen::VectorXd& x, const SolverOptions& options);
 
-  /// Variables of a posture anywhere within the limits: of ten random ones that which misses least.
+  /// A random posture within the limits: the one with the smallest violations of ten.
   Eigen::VectorXd anywhere();
 
  private:

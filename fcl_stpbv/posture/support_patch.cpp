@@ -1,10 +1,12 @@
-// Corners of a tilted patch at a margin from its edges, as seen from above.
-// 1. Two lines along a and b, both moved inwards by m, meet m (|a| b - |b| a) / |a x b| from where they met.
-//    Seen from above, |a x b| is the sine between the edges times that of the patch's slope.
-// 2. So each edge's length falls in proportion to m, and the edges vanish one after the other. Those beside
-//    one that has vanished meet. When none is left to vanish, m is the radius of the largest circle.
-// 3. As long as that is not below the margin the corners are right whatever the tilt, and they move on
-//    steadily where an edge vanishes.
+// Corners of a tilted patch at a margin from its edges, in the projection along z:
+// 1. Move two lines along a and b inwards by m. Their intersection then moves by m (|a| b - |b| a) / |a x b|.
+//    In the projection, |a x b| is the sine of the angle between the edges times the cosine of the patch's
+//    tilt.
+// 2. So the length of each edge falls linearly with m, and the edges vanish one after the other. The
+//    neighbours of an edge that has vanished then meet. When no more edge can vanish, m is the radius of the
+//    largest circle.
+// 3. As long as that radius is at least the margin, the corners are correct for any tilt, and they move
+//    continuously when an edge vanishes.
 #include "fcl_stpbv/posture/support_patch.h"
 
 #include <Eigen/Eigenvalues>
@@ -23,8 +25,8 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-// A patch that is nearer to upright than 3 degrees bears nothing: its margin would be more than 20 times as
-// wide along it.
+// A patch within 3 degrees of upright is not allowed: along the patch its margin would be more than 20 times
+// as wide.
 constexpr double kUpright = 0.05;
 
 // Without corners that stand out by less than a nanometre, whose edges are next to parallel.

@@ -1,4 +1,4 @@
-// A contact seen from above: the corners of its projection, moved inwards by a margin.
+// The projection of a contact along z: its corners, moved inwards by a margin.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,26 +10,30 @@
 
 namespace fcl_stpbv::detail {
 
-/// A flat convex patch of a link, or any points of it where the margin is 0. A patch that is tilted is
-/// narrower seen from above: its edges move inwards there, and how far they do along the patch depends on the
-/// tilt. So do the edges that are left: where one has no length any more, those beside it meet.
+/// A flat convex patch of a link, or any points of it if the margin is 0. The margin is measured in the
+/// projection, in which a tilted patch is narrower. So the distance by which edges move along the patch
+/// depends on the tilt. Which edges remain depends on it too: when an edge has no length any more, its two
+/// neighbours meet.
 class SupportPatch {
  public:
-  /// `margin` in m; what the points are off their plane is added to it. @throws Error where nothing is left.
+  /// `margin` in m; the distance of the points from their plane is added to it. @throws Error if nothing is
+  /// left of the patch.
   SupportPatch(const std::vector<Eigen::Vector3d>& points, double margin);
 
-  /// The same for any tilt; some are at one place where edges have no length.
+  /// Number of corners, the same for any tilt; corners coincide if the edge between them has no length.
   int corners() const { return static_cast<int>(points_.size()); }
-  /// As the patch lies flat, in the link's frame, each once.
+  /// The distinct corners for the untilted patch, in the link's frame (m).
   std::vector<Eigen::Vector3d> flatCorners() const;
-  /// Where the link is. `world` turns the axes of the link's pose and of twists into those of the world.
+  /// Sets the pose of the link. `world` rotates the axes of the link's pose and of twists into the world's
+  /// axes.
   void place(const Eigen::Isometry3d& link, const Eigen::Matrix3d& world);
-  /// A corner seen from above, and its change as the link moves.
+  /// A corner in the projection (m), and its velocity while the link moves.
   Eigen::Vector2d corner(int i) const;
   Eigen::Vector2d cornerRate(int i, const Twist& twist) const;
 
-  /// Rows that are negative where the corners do not keep the margin: the largest circle in the patch, seen
-  /// from above, has a smaller radius (m), or the patch is nearly upright. None without a margin.
+  /// Number of inequality constraints that keep the corners valid; none if the margin is 0. The first is
+  /// negative if the radius of the largest circle in the projected patch is below the margin (m), the second
+  /// if the patch is nearly upright.
   int rooms() const { return edges_.empty() ? 0 : 2; }
   double room(int row) const;
   double roomRate(int row, const Twist& twist) const;

@@ -1,5 +1,5 @@
-// From a task and a scene to an optimisation problem: resolves names, chooses the pairs, the start, the cost,
-// and adds the rows of placements, stability and collisions.
+// Makes the optimisation problem of a task in a scene: resolves names, chooses the pairs, the start and the
+// cost, and adds the constraints of placements, stability and collisions.
 #include "fcl_stpbv/posture/task.h"
 
 #include <algorithm>
@@ -172,7 +172,8 @@ PostureSetup setUp(const PostureTask& asked, const PostureScene& given, double i
   }
   setup.problem->addStill(nearerThan(task.collisionMargin, still, scene, kinematics, setup.start));
   if (moving.empty()) return setup;
-  // Rows are distances from the margin on, or from 0, as far beyond as they would be without one.
+  // Beyond the margin (or beyond 0, if it is negative), rows equal the distance over the same length as
+  // without a margin.
   const double from = std::max(0.0, task.collisionMargin);
   ConstraintOptions options;
   options.influence = from + influence;

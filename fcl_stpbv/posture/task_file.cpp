@@ -1,5 +1,5 @@
-// Reads the task's JSON (docs/posture.md) field by field; an unknown key or a wrong
-// type is an Error that names its path.
+// Reads the JSON of a task (docs/posture.md) field by field. An unknown key or a wrong type is an Error that
+// names the path of the field.
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <set>

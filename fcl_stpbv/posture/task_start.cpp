@@ -1,5 +1,5 @@
-// The start and the cost of a task: finds the coordinates that it names, and puts a base that does not move
-// where the task says by moving all else the other way.
+// The start and the cost of a task: finds the coordinates that it names. The pose of a base that does not
+// move is taken into account by moving everything else by the inverse.
 #include "fcl_stpbv/posture/task_start.h"
 
 #include <algorithm>
@@ -23,7 +23,8 @@ std::vector<int> coordinatesNamed(const std::string& name, const Kinematics& kin
   return found;
 }
 
-// A state that puts the base elsewhere does so in the axes of its parent_frame, which no task knows.
+// Checks the base's pose. A state gives the base's pose relative to its parent_frame, which a task does not
+// know.
 void requireBasePose(const PostureTask& task, const PostureScene& scene) {
   const bool given = task.basePose.matrix() != Eigen::Matrix4d::Identity();
   if (given || task.seenFromBase || task.state.empty() || !scene.srdf) return;
@@ -40,8 +41,8 @@ bool endsWith(const std::string& name, const std::string& end) {
   return name.size() > end.size() && name.compare(name.size() - end.size(), end.size(), end) == 0;
 }
 
-// Full turns are taken off where they make no difference to the posture: from rotations, and from continuous
-// joints that no other one follows. The search looks for them within half a turn.
+// Removes full turns that make no difference to the posture: from rotations, and from continuous joints that
+// no other joint follows. The search keeps these coordinates within half a turn.
 void takeOffTurns(const Kinematics& kinematics, Eigen::VectorXd& q) {
   const std::vector<JointModel>& joints = kinematics.robot().joints;
   const auto isFollowed = [&](int leader) {

@@ -1,4 +1,4 @@
-// Where a task starts and what its cost is, by the names in its file.
+// The start and the cost of a task, from the names in its file.
 #pragma once
 
 #include "fcl_stpbv/error_place.h"
