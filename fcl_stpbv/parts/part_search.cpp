@@ -5,8 +5,7 @@
 //    excess are joined.
 // 2. Local search: cut and join again while that makes the worst parts better.
 // 3. If the excess is still too large, local search from two other starts: many parts by greedy cuts, joined
-//    again; and the uncut mesh, first with half as many parts. The best result is used. `work` limits all of
-//    this.
+//    again; and the uncut mesh, first with half as many parts. The best result counts; `work` limits it all.
 // 4. More than eight parts: start from eight, cut the worst part in the best way each time, and improve by
 //    local search. Repeat for twice as many, up to the number requested. So the excess is never larger than
 //    with eight. Each round may use `work`.
