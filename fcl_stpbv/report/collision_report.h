@@ -1,4 +1,4 @@
-// What urdf_collision_report finds out about a robot, apart from how it is written down.
+// The contents of a collision report (urdf_collision_report), independent of the output format.
 #pragma once
 
 #include <Eigen/Core>
@@ -46,14 +46,14 @@ struct PairReport {
   std::map<std::string, double> gradient;
   double overCover1 = 0, overCover2 = 0;  ///< of the two surfaces over their hulls along the normal (m)
   double hullDistance = 0;                ///< of the two hulls or primitives, NaN where they overlap (m)
-  /// Most that the normal turns by a metre of relative translation, from contact on: 1/(r1 + r2), infinite
-  /// where neither body has an r (docs/theory.md, 6).
+  /// Lipschitz constant of the normal: its largest change per metre of relative translation, for bodies in
+  /// contact or apart: 1/(r1 + r2) (1/m). Infinite if neither body has an r (docs/theory.md, 6).
   double lipschitz = std::numeric_limits<double>::infinity();
-  /// Of the meshes and primitives themselves, 0 where they meet (m); NaN where it was not measured, the
-  /// volumes being farther apart than they exceed the hulls.
+  /// Distance of the meshes or primitives themselves (m); 0 if they meet. NaN if it was not measured, because
+  /// the volumes are farther apart than they exceed the hulls.
   double meshDistance = std::numeric_limits<double>::quiet_NaN();
-  /// Most that it can be where the volumes are apart, wherever it was measured or not: their distance and
-  /// what each exceeds its mesh by (m); NaN where they meet.
+  /// Upper bound on `meshDistance`, measured or not: the distance of the volumes plus the excess of each over
+  /// its mesh (m). NaN if the volumes meet.
   double meshDistanceMost = std::numeric_limits<double>::quiet_NaN();
   /// "meshes meet", "hull only" or "margin only" (pair_cause.h): what the collision comes from, or the one
   /// that contradicts the SRDF, in `closest`; "" without one.
@@ -70,7 +70,7 @@ struct PairReport {
   bool contradictsSrdf = false;  ///< which leaves the pair out as never or adjacent, and it collides
 };
 
-/// What parts cost: the rows of a controller that keeps all checked pairs of bodies apart.
+/// The cost of convex parts: rows and time of a controller that keeps all checked pairs of bodies apart.
 struct RowCost {
   int rows = 0;
   int live = 0;          ///< of these, how many are not constant
@@ -103,11 +103,10 @@ struct CollisionReport {
   std::map<std::string, int> causes;    ///< of the checked pairs in collision, how many of each
   double minDistance = 0;               ///< of the checked pairs (m)
   double nsPerPair = 0, usPerTick = 0;  ///< of all checked pairs with their Jacobian, in small steps
-  /// Of whole bodies, of those parts that are taken, and of these where whole bodies hand over to them at
-  /// kHandOver; 0 without parts.
+  /// The costs with whole bodies, with parts, and with parts and a hand-over at kHandOver; 0 without parts.
   RowCost wholeCost, partsCost, handOverCost;
 
-  /// Whether the pair is taken by its links' parts.
+  /// Whether the pair uses the convex parts of its links.
   bool isByParts(const PairReport& pair) const { return geometry->byParts.count(pair.links) > 0; }
   /// "link1 - link2" of one of `trajectoryPairs`.
   std::string trajectoryPair(int pair) const {

@@ -1,4 +1,4 @@
-// The shape that a body of a robot stands for: the triangles of its mesh, or its primitive, as it is.
+// The exact shape of a robot's body: the triangles of its mesh, or its primitive.
 #pragma once
 
 #include <fcl/geometry/collision_geometry.h>
@@ -11,8 +11,8 @@
 
 namespace fcl_stpbv::report {
 
-/// In the body's frame, lengths in m. A file of points without triangles, as a published polyhedron, stands
-/// for its convex hull.
+/// In the body's frame, lengths in m. For a file of points without triangles, such as a published polyhedron,
+/// it is their convex hull.
 class ExactBody {
  public:
   /// Reads the mesh file again. @throws Error naming it.

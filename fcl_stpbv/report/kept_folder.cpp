@@ -14,7 +14,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// What a conversion's manifest says, or an Error: this folder is somebody else's.
+// The manifest of a conversion. Error if the folder has none, because then it is not the output of a
+// conversion.
 nlohmann::json manifestOf(const fs::path& folder) {
   const fs::path path = folder / kManifest;
   std::error_code ignored;

@@ -1,4 +1,4 @@
-// The folder that a conversion wrote before, and whether it may be replaced.
+// Checks whether the output folder of an earlier conversion may be replaced.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -11,8 +11,8 @@ namespace fcl_stpbv::report {
 
 inline constexpr const char* kManifest = "manifest.json";
 
-/// Looks at a folder before anything is computed: one that holds what a conversion did not write, or what
-/// was changed since, is refused, so that nothing of the user's is lost.
+/// Checks a folder before the work starts. A folder with files that a conversion did not write, or that were
+/// changed since, is an error, so that no file of the user is lost.
 /// @param inputs files that the conversion reads, none of which may lie in the folder
 /// @param force files that a conversion wrote may have been changed since
 /// @return the key that the folder's manifest names, "" unless all its files are as they were written.

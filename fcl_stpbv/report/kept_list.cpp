@@ -1,5 +1,6 @@
-// The cache knows a list by all that the search reads, written out: the tree of joints, each body with its
-// place, the SRDF's reasons, the obstacles, the options. A list is kept as the numbers of its entries.
+// The key of a list in the cache is the text of all inputs of the search: the tree of joints, each body with
+// its pose, the SRDF's reasons, the obstacles and the options. A list is stored as the numbers of its
+// entries.
 #include "fcl_stpbv/report/kept_list.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// The pair list of a robot and what is said of its neutral posture, kept on disk between runs.
+// A disk cache for a robot's pair list and for the check of its neutral posture.
 #pragma once
 
 #include <memory>
@@ -10,8 +10,8 @@
 
 namespace fcl_stpbv::report {
 
-/// As pairList(). A list that the cache holds for the same robot, bodies, obstacles, SRDF and options is not
-/// searched for again; one that was cut short by `proofSeconds`, or would be too long, is not kept.
+/// As pairList(). A list in the cache is used if robot, bodies, obstacles, SRDF and options are the same. A
+/// list whose proofs were interrupted by `proofSeconds`, or which is too long, is not stored.
 std::vector<PairEntry> keptPairList(const std::shared_ptr<const Kinematics>& kinematics,
                                     const std::shared_ptr<const RobotGeometry>& geometry, const Srdf* srdf,
                                     const PairListOptions& options, detail::VolumeCache& cache);

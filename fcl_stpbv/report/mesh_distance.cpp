@@ -1,7 +1,7 @@
 // Distance of two meshes or primitives to 1e-7 m:
 // 1. 0 where they meet or one is inside the other;
 // 2. start from FCL's own distance, if isFartherThan() confirms it;
-// 3. else go up in growing steps and bisect, each step one question to isFartherThan().
+// 3. otherwise increase the distance in growing steps, then bisect. Each step is one call of isFartherThan().
 #include "fcl_stpbv/report/mesh_distance.h"
 
 #include <fcl/narrowphase/distance.h>

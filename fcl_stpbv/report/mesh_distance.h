@@ -1,5 +1,4 @@
-// Distance of the shapes that two bodies stand for, triangle meshes and
-// primitives, to a tenth of a micrometre.
+// Distance of the exact shapes of two bodies, triangle meshes or primitives, to a tenth of a micrometre.
 #pragma once
 
 #include "fcl_stpbv/report/exact_body.h"
@@ -14,10 +13,10 @@ struct MeshDistance {
 /// Distance of two bodies (m). They meet where their surfaces have a common point, or where a part of one
 /// lies inside the other (MeshSolid::holds; certain where the outer one is closed, a hollow in it included).
 ///
-/// FCL's distance of two meshes is a guess that two walks down both hierarchies confirm
-/// (adapter/fcl_distance.h); where they do not, and for a mesh and a primitive, for which FCL's GJK may stop
-/// early (docs/fcl.md), bisection takes over. `atLeast` is a lower bound that is known already, as
-/// from volumes around the bodies; it saves time.
+/// For two meshes, FCL's distance is a first guess, and two threshold tests verify it (isFartherThan() in
+/// adapter/fcl_distance.h). If they fail, and for a mesh and a primitive (FCL's GJK may stop early,
+/// docs/fcl.md), the distance is found by bisection with such tests. `atLeast` is a lower bound that is
+/// already known, for example from volumes around the bodies; it saves time.
 MeshDistance meshDistance(const ExactBody& a, const Eigen::Isometry3d& poseA, const ExactBody& b,
                           const Eigen::Isometry3d& poseB, double atLeast = 0);
 

@@ -1,4 +1,4 @@
-// How far a link's convex hull and its volume exceed its mesh.
+// Excess of a link's convex hull and of its volume over the mesh.
 #pragma once
 
 #include <functional>
@@ -25,7 +25,7 @@ struct MeshFit {
 /// All that a mesh's body is made of: its volume, the mesh file and, of a part, the hull.
 std::string contentOf(const Body& body);
 
-/// What was measured before is taken from the cache. `exact`, the body's, is only asked for where it was not.
+/// Uses the cache. `exact`, which returns the body's exact shape, is only called if the cache has no entry.
 MeshFit meshFit(const Body& body, const std::function<const ExactBody&()>& exact, detail::VolumeCache& cache);
 
 }  // namespace fcl_stpbv::report

@@ -1,4 +1,4 @@
-// A posture that the user names: a state of the SRDF, or a file of joint values.
+// Reads a posture that the user names: a state of the SRDF, or a file of joint values.
 #pragma once
 
 #include <string>

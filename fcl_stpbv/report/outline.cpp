@@ -1,7 +1,6 @@
-// The "sandwich" approximation of a convex body: take the convex hull of some surface points; ask the body
-// for its furthest point along each face's normal; where that lies out of the face by more than the
-// tolerance, add it; repeat. Only a support function is needed, so that volumes, primitives and hulls are all
-// drawn by the same few lines.
+// The "sandwich" approximation of a convex body. Take the convex hull of some surface points. Compute the
+// body's support point along each face's normal, and add it if it is outside of the face by more than the
+// tolerance. Repeat. Only a support function is needed, so the same code draws volumes, primitives and hulls.
 #include "fcl_stpbv/report/outline.h"
 
 #include <Eigen/Geometry>

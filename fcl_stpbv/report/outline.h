@@ -1,4 +1,4 @@
-// Few triangles that look like a convex body.
+// Approximates a convex body by a few triangles, for drawing.
 #pragma once
 
 #include <fcl/geometry/collision_geometry.h>

@@ -1,6 +1,6 @@
-// What a collision comes from: the meshes meet; else the hulls do; else only the volumes. Body by body,
-// nearest first, so that the mesh distance of far ones need not be found. Exact bodies are made once and
-// kept. The cache knows an answer by the meshes, the volumes and where they are.
+// The cause of a collision: the meshes meet; otherwise the hulls meet; otherwise only the volumes. Pairs of
+// bodies are tested nearest first, so that distant meshes need no distance. Exact bodies are made once and
+// kept. The key of a result in the cache is made of the meshes, the volumes and their poses.
 #include "fcl_stpbv/report/pair_cause.h"
 
 #include <algorithm>

@@ -1,5 +1,4 @@
-// What a collision of two links comes from: their meshes, hulls fatter than
-// the meshes, or the margins r and R.
+// The cause of a collision of two links: their meshes, their convex hulls, or the margins r and R.
 #pragma once
 
 #include <map>

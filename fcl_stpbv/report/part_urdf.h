@@ -1,4 +1,4 @@
-// A URDF with the parts of its collision meshes in their places.
+// Writes a URDF in which each collision mesh is replaced by its convex parts.
 #pragma once
 
 #include <map>

@@ -1,4 +1,4 @@
-// A posture that was looked for, written down.
+// Output formats for the result of find_posture.
 #pragma once
 
 #include <optional>

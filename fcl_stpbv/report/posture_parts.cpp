@@ -1,5 +1,6 @@
-// Where no posture was found, the pairs at their margin in the best one hold it back. Those of them whose
-// meshes are farther apart, and which parts put farther apart, get parts, and the search starts again.
+// If no posture was found, the pairs at their margin in the best posture prevent one. Of these, the pairs
+// whose meshes are farther apart, and whose distance increases with convex parts, get parts, and the search
+// starts again.
 #include "fcl_stpbv/report/posture_parts.h"
 
 #include <set>

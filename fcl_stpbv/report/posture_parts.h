@@ -1,4 +1,4 @@
-// A posture's links split into convex parts, as far as its task needs.
+// Splits links into convex parts for a posture search, as far as its task needs it.
 #pragma once
 
 #include <optional>

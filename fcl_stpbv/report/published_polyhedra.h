@@ -1,4 +1,4 @@
-// A robot's volumes beside those of polyhedra that were published for the same meshes.
+// Compares a robot's volumes with those of polyhedra that were published for the same meshes.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// A collision report written down.
+// Output formats of a collision report.
 #pragma once
 
 #include <string>

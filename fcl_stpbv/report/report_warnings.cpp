@@ -1,4 +1,4 @@
-// One function a warning; each gives a whole sentence, or nothing.
+// One function per warning. Each returns a whole sentence, or "".
 #include "fcl_stpbv/report/report_warnings.h"
 
 #include <algorithm>
@@ -34,7 +34,7 @@ std::string openMeshes(const CollisionReport& report) {
                    "estimate, by its winding number.";
 }
 
-// Of the neutral posture nobody asks who gave a posture or a trajectory.
+// There is no warning about the neutral posture if a posture or a trajectory was given.
 std::string neutralCollisions(const CollisionReport& report, const std::string& neutral) {
   const NeutralPosture& found = report.neutral;
   if (found.colliding == 0 || report.trajectory || !report.pose.empty()) return "";
@@ -59,7 +59,8 @@ std::string neutralCollisions(const CollisionReport& report, const std::string& 
   return warning + ".";
 }
 
-// The pair list has no pair of an obstacle and a body that no joint moves: nothing else says that they meet.
+// The pair list has no pairs of an obstacle and a body that no joint moves, so their collisions are only
+// reported here.
 std::string unmovedInObstacles(const CollisionReport& report) {
   Kinematics::State state = report.kinematics->makeState();
   report.kinematics->forwardPoses(report.kinematics->neutral(), state);

@@ -1,4 +1,4 @@
-// What a report warns of, beside what the loading did.
+// Warnings of a report, in addition to those of loading.
 #pragma once
 
 #include <string>

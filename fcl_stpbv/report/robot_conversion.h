@@ -1,5 +1,5 @@
-// What urdf_to_stpbv does: a robot into a folder of convex parts, their
-// volumes, and what is certain about them.
+// The work of urdf_to_stpbv: converts a robot to a folder with its convex parts, their volumes and the
+// certified bounds.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
-// The files of a robot and of the scene around it, loaded for a tool: what is wrong with any of them is said
-// in one message, before a volume is built, and every pair that may be checked gets a smooth body.
+// Loads the files of a robot and of its scene, for a tool. All faults are reported in one message, before any
+// volume is built. Every pair that may be checked gets an STP-BV.
 #pragma once
 
 #include <memory>

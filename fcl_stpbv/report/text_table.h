@@ -1,4 +1,4 @@
-// A table in a text for people: columns as wide as what stands in them.
+// A plain-text table whose columns are as wide as their contents.
 #pragma once
 
 #include <cstddef>

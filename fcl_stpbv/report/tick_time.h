@@ -1,4 +1,4 @@
-// How long a controller would take for the checked pairs of a report.
+// Measures the time per control period for the checked pairs of a report.
 #pragma once
 
 #include "fcl_stpbv/report/collision_report.h"

@@ -1,4 +1,4 @@
-// A robot along a trajectory, segment by segment.
+// Checks a robot along a trajectory, segment by segment:
 // 1. The first contact: bracketed in time, or proven absent (robot/motion_check.h).
 // 2. Each pair's closest approach, proven likewise.
 // 3. Even samples, the contact and the closest approach, for the chart and the steepest approach: distances
@@ -52,8 +52,8 @@ FirstStop firstStop(MotionCheck& check, double margin, const Trajectory& t, std:
   return none;
 }
 
-// A pair whose distance is the margin to rounding must not hide a contact of another one: it is set aside,
-// and the search goes on with the others from where it was.
+// A pair whose distance equals the margin up to rounding must not hide a contact of another pair. It is
+// removed from the search, which continues from there with the others.
 void findContact(MotionCheck& all, const std::shared_ptr<const RobotGeometry>& geometry,
                  const std::shared_ptr<const Kinematics>& kinematics, const std::vector<Obstacle>& obstacles,
                  double margin, TrajectoryReport& report) {

@@ -1,4 +1,5 @@
-// What becomes of a robot along a trajectory: proven free or the first contact, closest approaches, speeds.
+// Checks a robot along a trajectory: a proof that it is free, or the first contact; closest approaches and
+// speeds.
 #pragma once
 
 #include <string>
@@ -9,7 +10,7 @@
 
 namespace fcl_stpbv::report {
 
-/// Where the search for a contact ended: all pairs that it followed are proven free before `from`.
+/// The end of the search for a contact. All pairs in the search are proven free before `from`.
 struct TrajectoryStop {
   double from = 0, until = 0;  ///< of the trajectory's time
   int pair = -1;               ///< among the pairs of bodies; -1 where the trajectory is free
@@ -21,10 +22,11 @@ struct TrajectoryReport {
   Trajectory trajectory;
   MotionVerdict verdict = MotionVerdict::undecided;
   TrajectoryStop stop;  ///< the first contact; without one the first place where nothing is decided
-  /// Pairs whose distance is the margin to rounding somewhere, each where that begins, in the order of time.
-  /// A contact is the first of all other pairs.
+  /// Pairs whose distance equals the margin up to rounding at some time, each with the start of that time, in
+  /// order of time. The contact in `stop` is the first one of all other pairs.
   std::vector<TrajectoryStop> undecided;
-  /// Before the end where a proof takes too many distances: behind it nothing is decided for any pair.
+  /// Time up to which the trajectory was checked. It is before the end if a proof needs too many distances;
+  /// after it nothing is decided for any pair.
   double followedUntil = 0;
   std::vector<Approach> closest;  ///< of each pair of bodies, its time that of the trajectory
   /// Every `closest` is that of the whole trajectory to this (m); false where

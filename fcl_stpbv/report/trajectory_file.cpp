@@ -1,4 +1,4 @@
-// A trajectory from CSV or JSON: both become columns of numbers under names, which are then checked once.
+// Reads a trajectory from CSV or JSON: both become named columns of numbers, which are then checked.
 #include "fcl_stpbv/report/trajectory_file.h"
 
 #include <algorithm>
