@@ -1,4 +1,4 @@
-// Writes a folder of files whole or not at all.
+// Writes a folder of files atomically: completely or not at all.
 #pragma once
 
 #include <map>
@@ -9,13 +9,13 @@ namespace fcl_stpbv::detail {
 /// Contents by name; a name may have folders, as in "meshes/arm.obj".
 using FolderFiles = std::map<std::string, std::string>;
 
-/// Makes `folder` hold exactly these files. They are written into a new folder beside it, which then takes
-/// its name; what was there before is removed after that, so whoever calls makes sure that nothing is lost.
-/// Its parent must be there. Signals that would end the process wait meanwhile.
-/// @throws Error naming the folder and the reason; the old one is as it was then.
+/// Makes `folder` hold exactly these files. They are written into a new folder beside it, which is then
+/// renamed. The old folder is removed, so the caller must make sure that nothing is lost. The parent folder
+/// must exist. Signals that would end the process are delayed meanwhile.
+/// @throws Error naming the folder and the reason; the old folder is then unchanged.
 void atomicWriteFolder(const std::string& folder, const FolderFiles& files);
 
-/// Tries whether a folder can be made there, for who will write it after long work.
+/// Tests whether the folder can be created; call it before long work whose result is written there.
 /// @throws Error as atomicWriteFolder() does.
 void requireFolderPlace(const std::string& folder);
 

@@ -1,4 +1,4 @@
-// Writes a file whole or not at all: a failed or interrupted run leaves the old file as it was.
+// Writes files atomically: if a write fails or is interrupted, the old file stays unchanged.
 #pragma once
 
 #include <iosfwd>
@@ -20,24 +20,25 @@ struct NamedText {
   std::string path, content;
 };
 
-/// The same for files that belong together: none gets its name before all are written. No devices or pipes.
-/// @throws Error as above; then all are as they were, but for those that had got their names where another
-/// one's was refused only then, as in a folder that lets nobody replace files of others.
+/// The same for files that belong together: all are written before the first one is renamed to its name. No
+/// devices or pipes. @throws Error as above. All files are then unchanged, unless the rename of a later file
+/// fails (for example in a folder in which files of other users cannot be replaced); the files renamed before
+/// it are new then.
 void atomicWriteAll(const std::vector<NamedText>& files);
 
-/// The same for a file that nobody else may change: only its owner may write it, and whatever has its name, a
-/// link or a pipe, is replaced rather than written to.
+/// The same for a file that nobody else may change: only its owner has write permission. If the path is a
+/// link or a pipe, that is replaced, not written to.
 /// @throws Error as above.
 void atomicWriteOwn(const std::string& path, std::string_view content);
 
 /// Removes temporary files that killed processes left in `folder` more than an hour ago.
 void sweepTemporaries(const std::string& folder);
 
-/// Where a tool's result goes: to standard output for "" and "-", else to the file.
+/// Writes a tool's result: to standard output for "" and "-", else to the file.
 /// @throws Error also where standard output cannot be written.
 void writeOutput(const std::string& path, std::string_view content);
 
-/// Puts `content` into a caller's stream, all of it at once, so that one which is full tells.
+/// Writes `content` into a caller's stream and flushes it, so that errors such as a full disk are detected.
 /// @throws Error naming what the stream is for.
 void writeStream(std::ostream& out, std::string_view content, const std::string& what);
 

@@ -1,8 +1,8 @@
-// Compares what a file in sch-core's format says twice; see sch_data.h.
+// Checks the redundant data of a file in sch-core's format for consistency; see sch_data.h.
 //
-// Tolerances come from the file's own digits: a number x is off by up to `rounding() |x|`, and each check
-// below adds up what that makes of the lengths it is computed from. kSlack covers the few such errors that a
-// formula sums and the looser arithmetic of other writers.
+// Tolerances follow from the number of digits in the file: a number x has an error of up to `rounding() |x|`.
+// Each check below propagates these errors to the length that it compares. kSlack covers sums of a few such
+// errors and the less accurate arithmetic of other writers.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-// What a file in sch-core's format says, field by field, before anything of it is believed.
+// The contents of a file in sch-core's format, field by field, before any check.
 #pragma once
 
 #include <Eigen/Core>
@@ -58,8 +58,8 @@ struct File {
 
 File parse(std::string_view text, const std::string& name);
 
-/// Compares everything that the file says twice. Returns the vertices of each triangle.
-/// @throws Error at the first disagreement.
+/// Checks the consistency of all redundant data in the file. Returns the vertices of each triangle. @throws
+/// Error at the first contradiction.
 std::vector<std::array<int, 3>> check(const File& file);
 
 }  // namespace fcl_stpbv::detail::sch

@@ -1,6 +1,6 @@
-// Volumes from and to sch-core's text format.
+// Reads and writes volumes in sch-core's text format.
 // 1. Parse (sch_parse.cpp) and derive the tolerance from the digits in the file.
-// 2. Compare what the file says twice (sch_check.cpp); refuse a contradiction with its line.
+// 2. Check the redundant data (sch_check.cpp); a contradiction is an error with its line.
 // 3. Build a volume from the file's vertices and faces, and compare the faces' reach with it.
 #include <cmath>
 #include <numeric>
@@ -89,8 +89,8 @@ class Fans {
   std::vector<int> next_;  // along the ring at hand
 };
 
-// A rebuilt volume must reach as far as each face of the file says, within the file's digits: no less, or a
-// vertex lies outside one of the file's balls, and no more, or it lies inside.
+// Compares the support function of a rebuilt volume with the file's, for each face, within the file's digits.
+// If it is smaller, a vertex lies outside of one of the file's balls; if it is larger, inside.
 void compare(const sch::File& file, const StpBv& volume) {
   for (const sch::Face& face : file.faces) {
     const Vector3d middle = (face.corner[0] + face.corner[1] + face.corner[2]) / 3;

@@ -1,12 +1,12 @@
-// Holds signals back while files are being replaced.
+// Delays signals while files are being replaced.
 #pragma once
 
 #include <csignal>
 
 namespace fcl_stpbv::detail {
 
-/// Blocks the signals that come with an error of write(), SIGPIPE and SIGXFSZ, in the calling thread while it
-/// lives, and takes those that came: the caller reports the error.
+/// Blocks SIGPIPE and SIGXFSZ, which accompany errors of write(), in the calling thread during its lifetime,
+/// and discards them. The caller reports the error of write() instead.
 class WriteSignalsHeld {
  public:
   WriteSignalsHeld();
@@ -18,9 +18,10 @@ class WriteSignalsHeld {
   sigset_t before_;
 };
 
-/// And puts off the end of the process by SIGINT, SIGTERM, SIGHUP, SIGQUIT or SIGXCPU, whichever thread they
-/// arrive in, until no thread holds one any more. The first one gives these signals a handler, which stays;
-/// those that the application handles or ignores are left to it. A thread holds one at a time.
+/// Delays the end of the process by SIGINT, SIGTERM, SIGHUP, SIGQUIT or SIGXCPU, in whatever thread they
+/// arrive, until no object of this class exists in any thread. The first object installs a handler for these
+/// signals, which stays installed. Signals that the application handles or ignores are not changed. A thread
+/// may have only one object at a time.
 class EndPutOff {
  public:
   EndPutOff();

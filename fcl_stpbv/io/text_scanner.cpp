@@ -1,5 +1,5 @@
-// A tokeniser that knows the line it is on, for readers that name the place of an error; numbers by
-// std::from_chars and std::to_chars, so the locale does not matter.
+// A tokeniser that knows the current line, for error messages. Numbers use std::from_chars and std::to_chars,
+// so the locale does not matter.
 #include "fcl_stpbv/io/text_scanner.h"
 
 #include <unistd.h>

@@ -1,5 +1,5 @@
-// Reads a text file token by token and remembers the line, so that a damaged file is refused with the place
-// and the field that is wrong. Independent of the locale.
+// Reads a text file token by token and keeps track of the line, so that errors name the line and the field.
+// Independent of the locale.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,7 +10,7 @@
 
 namespace fcl_stpbv::detail {
 
-/// Far more than any mesh or volume takes: 100 million vertices as text.
+/// Largest size of a file, far more than any mesh or volume needs: 100 million vertices as text.
 constexpr std::size_t kMostBytes = std::size_t(8) << 30;
 
 /// The whole text of a file, of standard input for "-", or of a pipe up to where its writer closes it. A file
@@ -49,8 +49,8 @@ class TextScanner {
   Eigen::Vector3d vector(std::string_view what);
   /// A whole number within [least, most].
   long integer(std::string_view what, long least, long most);
-  /// The number of items that follow, each taking at least `bytesEach` bytes. A count that the rest of the
-  /// file cannot hold is refused here, before anything is allocated for it.
+  /// The number of items that follow, each of which needs at least `bytesEach` bytes. A count that is too
+  /// large for the rest of the file is an error, before any memory is allocated for it.
   int count(std::string_view what, int least, std::size_t bytesEach);
   /// A fixed word.
   void keyword(std::string_view word);
