@@ -1,4 +1,4 @@
-// A cross product as a matrix.
+// The cross product with a fixed vector as a matrix (skew-symmetric).
 #pragma once
 
 #include <Eigen/Core>

@@ -1,4 +1,4 @@
-// Errors that get a place before them, as they pass through what knows it.
+// Adds a place, such as a file or a key, to the messages of errors that pass through.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace fcl_stpbv::detail {
 
-/// What `make` returns; its errors get the place before them, such as a file or a key.
+/// Returns the result of `make`. If it throws an Error, the place is put before its message.
 template <class Make>
 auto within(const std::string& where, const Make& make) {
   try {

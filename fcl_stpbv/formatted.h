@@ -1,4 +1,4 @@
-// Numbers and names as text, by printf's patterns.
+// Formats numbers and names as text, with printf's format strings.
 #pragma once
 
 #include <cstddef>
@@ -7,7 +7,7 @@
 
 namespace fcl_stpbv::detail {
 
-/// As long as it comes out: names from a user's file have no greatest length.
+/// The length of the result is not limited, because names from a user's file may be long.
 template <class... Values>
 std::string formatted(const char* pattern, Values... values) {
   const int size = std::snprintf(nullptr, 0, pattern, values...);

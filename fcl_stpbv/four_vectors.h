@@ -1,4 +1,4 @@
-// Four vectors at a time: their x in one register, their y and their z in two more.
+// Four vectors at a time (structure of arrays): their x in one register, their y and z in two more.
 #pragma once
 
 #include <cmath>

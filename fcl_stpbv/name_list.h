@@ -1,4 +1,4 @@
-// Names in a row for people, cut where they get many.
+// A list of names for messages, shortened if it is long.
 #pragma once
 
 #include <algorithm>

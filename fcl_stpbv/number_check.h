@@ -1,5 +1,5 @@
-// The check of numbers that callers give as options to what builds and loads: each is in its range or is
-// refused by name. NaN is in no range.
+// Range checks of numbers that callers pass as options. A number out of its range gives an Error with its
+// name; so does NaN.
 #pragma once
 
 #include <string>
@@ -9,7 +9,8 @@
 
 namespace fcl_stpbv::detail {
 
-/// Beyond it a big sphere's surface is flat to the rounding of a body's coordinates (m).
+/// Largest R that is useful (m): beyond it the surface of a big sphere is flat up to the rounding of a body's
+/// coordinates.
 constexpr double kLargestR = 1e8;
 
 /// @throws Error naming the number and the range that would work unless `least <= value <= most`.

@@ -1,4 +1,4 @@
-// What many files need of numbers: some constants, and int as an index.
+// Constants, and the conversion of int to an index, that many files need.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// Vectors of three in one register, for the functions that make up a query.
+// Vectors of three numbers in one SIMD register, for the inner functions of queries.
 #pragma once
 
 #include <Eigen/Core>
@@ -7,8 +7,8 @@
 #include <cstring>
 #include <limits>
 
-// Without the processor's wider registers GCC remarks on how such a vector is passed: it never is, only
-// functions compiled into their callers take or return one by value.
+// Without AVX, GCC warns about the calling convention for such a vector. It does not matter here: only
+// inlined functions take or return one by value.
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wpsabi"
 

@@ -1,4 +1,4 @@
-// Text in columns: how many cells of a terminal a text takes, whose names may be of any script.
+// The width of a text in terminal cells, for names in any script.
 #pragma once
 
 #include <locale.h>
@@ -21,7 +21,8 @@ struct Glyph {
   std::size_t width() const { return shown() ? static_cast<std::size_t>(cells) : 1; }
 };
 
-/// Reads UTF-8 whatever the program's locale is, of this thread alone, while it lives.
+/// Sets a UTF-8 locale for this thread during its lifetime, so that UTF-8 is decoded independently of the
+/// program's locale.
 class Utf8Reader {
  public:
   Utf8Reader() : old_(::uselocale(utf8())) {}
@@ -39,7 +40,8 @@ class Utf8Reader {
   }
 
  private:
-  // Where there is none, the program's own stays: then letters beyond ASCII count as what cannot be shown.
+  // If there is no UTF-8 locale, the program's own stays. Characters beyond ASCII then count as not
+  // printable.
   static locale_t utf8() {
     static const locale_t locale = ::newlocale(LC_CTYPE_MASK, "C.UTF-8", nullptr);
     return locale;

@@ -1,12 +1,12 @@
-// Functions compiled twice, with and without the processor's wider
-// instructions, chosen when the program starts.
+// Functions that are compiled twice, with and without AVX2 and FMA instructions; the version is chosen when
+// the program starts.
 #pragma once
 
 /// Put before the definition of a function that makes up a query. The choice is per function: whole
 /// translation units with wider instructions would change Eigen's alignment and with it FCL's binary
-/// interface. What the function calls is compiled into it where the compiler sees it. Sanitizers cannot
-/// follow the choice and clang 14 does not know it; unoptimised, a call would stay one and its two sides pass
-/// vectors differently. FCL_STPBV_PORTABLE leaves it out.
+/// interface. Functions that it calls are inlined into it if the compiler sees their definition. Sanitizers
+/// cannot follow the choice and clang 14 does not know it; unoptimised, a call would stay one and its two
+/// sides pass vectors differently. FCL_STPBV_PORTABLE leaves it out.
 #if defined(__x86_64__) && defined(__linux__) && defined(__GNUC__) && defined(__OPTIMIZE__) && \
     !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) &&  \
     !defined(FCL_STPBV_PORTABLE)

@@ -1,4 +1,5 @@
-// Lists of words that are there before the program starts: robots may be read while it starts.
+// Constant lists of words that need no initialisation at run time. So robots can be read during static
+// initialisation.
 #pragma once
 
 #include <algorithm>
