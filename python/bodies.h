@@ -1,5 +1,5 @@
-// What volumes a robot's links get, as Python names it: r, R, links and flat mean what -r, -R, --link and
-// --flat of the tools do.
+// Python's options for the volumes of a robot's links: r, R, links and flat. They mean the same
+// as -r, -R, --link and --flat of the tools.
 #pragma once
 
 #include <map>

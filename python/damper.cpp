@@ -22,8 +22,8 @@ DamperLevel levelOf(const std::string& name) {
   throw Error("level: got \"" + name + R"(", expected "velocity", "acceleration" or "barrier")");
 }
 
-/// Rows of a robot's pairs. It has the robot's constraints for itself, so that what else the robot is asked
-/// does not change where its queries start.
+/// VelocityDamper for Python. It has its own copy of the robot's constraints, so that other calls on the
+/// robot do not change its caches.
 class PythonDamper {
  public:
   using Matrix = PythonRobot::Rows;

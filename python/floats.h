@@ -1,5 +1,6 @@
-// Arrays that come in from Python: of floats, or lists of numbers. NumPy would turn strings, booleans and
-// complex numbers into floats without a word, and most arrays of integers are meant for something else.
+// Array arguments from Python: arrays of floats, or lists of numbers. Other types are refused, because NumPy
+// would silently convert strings, booleans and complex numbers to floats, and an array of integers is usually
+// a mistake.
 #pragma once
 
 #include <pybind11/eigen.h>
@@ -62,7 +63,7 @@ struct type_caster<fcl_stpbv::Floats<Matrix>> {
                        ", expected an array of floats or a list of numbers");
     }
     if constexpr (Matrix::RowsAtCompileTime == Eigen::Dynamic && Matrix::ColsAtCompileTime > 1)
-      if (!given && numbers.size() == 0) {  // a list without rows: no array knows how long they would be
+      if (!given && numbers.size() == 0) {  // an empty list: the length of its rows is not known
         value.value.resize(0, Matrix::ColsAtCompileTime);
         return true;
       }

@@ -1,4 +1,4 @@
-// Long work without Python's lock, which Ctrl-C ends all the same.
+// Lets Ctrl-C interrupt long work that runs without Python's global lock (GIL).
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -7,7 +7,7 @@
 
 namespace fcl_stpbv {
 
-/// Called between two pieces of such work: now and then it looks whether Ctrl-C was pressed.
+/// Call it between two pieces of such work. From time to time it checks whether Ctrl-C was pressed.
 class Interrupt {
  public:
   /// @throws pybind11::error_already_set after Ctrl-C.

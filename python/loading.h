@@ -1,4 +1,4 @@
-// Files that Python names, loaded, and what the loading warns of, told through Python's own warnings.
+// Loads files for Python, and raises the warnings of loading as Python warnings.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace fcl_stpbv {
 
-/// Loads a robot's files, one after the other, and keeps what each warns of.
+/// Loads a robot's files one after the other, and collects their warnings.
 struct Loading {
   std::vector<std::string> warnings;  ///< whole sentences, of all that was loaded
 
@@ -18,14 +18,14 @@ struct Loading {
   Srdf srdf(const Path& path, const RobotModel& robot);
   RobotGeometry geometry(const RobotModel& robot, const GeometryOptions& options);
 
-  /// Where covers of primitives have a larger R than `options` ask for.
+  /// Warns if covers of primitives have a larger R than `options` state.
   void warnOfR(const RobotModel& robot, const RobotGeometry& covered, const GeometryOptions& options);
 
-  /// Of an SRDF that leaves out no pair.
+  /// Warns of an SRDF that leaves out no pair.
   void warnOfPairs(const RobotModel& robot, const RobotGeometry& geometry, const Srdf& srdf);
 };
 
-/// What bodies that are made for needs warn of beside what `known` has told.
+/// Warnings about bodies that modelFor() made, without those in `known`.
 std::vector<std::string> warningsOfModel(const RobotModel& robot, const RobotGeometry& geometry,
                                          const std::vector<std::string>& known);
 
@@ -33,8 +33,8 @@ std::vector<std::string> warningsOfModel(const RobotModel& robot, const RobotGeo
 /// made warnings errors.
 void warn(const std::vector<std::string>& warnings);
 
-/// Texts that may name files as the bytes that they are, which need not be UTF-8: decoded as Python decodes
-/// names of files.
+/// A text that may contain file names, which need not be UTF-8. It is decoded in the same way as Python
+/// decodes file names.
 pybind11::str decoded(const std::string& text);
 pybind11::list decoded(const std::vector<std::string>& texts);
 

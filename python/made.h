@@ -1,5 +1,5 @@
-// Only objects whose constructor has run are arguments. Python makes one without by `Robot.__new__(Robot)`,
-// and pybind11 would hand out memory that nothing has filled.
+// Refuses arguments whose constructor has not run. `Robot.__new__(Robot)` makes such an object, and pybind11
+// would pass a pointer to uninitialised memory.
 #pragma once
 
 #include <pybind11/pybind11.h>

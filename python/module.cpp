@@ -1,4 +1,4 @@
-// The Python module: volumes, distance, robots and what is shared out of them, with NumPy arrays in and out.
+// The Python module: volumes, distances, robots and batch work, with NumPy arrays as inputs and outputs.
 #include <algorithm>
 #include <exception>
 

@@ -1,4 +1,4 @@
-// A robot's motions in Python: proven free, or with their first contact.
+// Motions of a robot in Python: proofs that they are free, or their first contact.
 #include <cmath>
 #include <limits>
 #include <memory>

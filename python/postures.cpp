@@ -1,4 +1,4 @@
-// Postures from tasks, a start at a time, so that they can be shared out.
+// Posture search in Python, one start per call, so that the starts can run in parallel.
 #include <cmath>
 #include <exception>
 #include <limits>

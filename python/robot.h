@@ -31,7 +31,7 @@ inline void requireUsable(const Eigen::VectorXd& numbers, const char* name) {
     throw Error(std::string(name) + ": holds a number above 1e100");
 }
 
-/// What becomes of a motion, as MotionBracket has it, of a row instead of a pair.
+/// MotionBracket for Python, with a row in place of a pair.
 struct PythonMotionBracket {
   MotionVerdict verdict = MotionVerdict::undecided;
   double freeUntil = 0;
@@ -70,7 +70,7 @@ class PythonRobot {
     warn(warnings_);
   }
 
-  /// The same robot, as fine as the needs ask for, and the places of those that no bodies meet.
+  /// The same robot, refined for the needs, and the indices of needs that no bodies meet.
   std::pair<std::unique_ptr<PythonRobot>, std::vector<std::size_t>> modelFor(
       const std::vector<PythonScene::Need>& needs, const std::vector<double>& budgets, int threads) const {
     std::vector<std::size_t> unmet;
@@ -339,7 +339,7 @@ namespace fcl_stpbv {
 
 /// Rows for controllers, and what was found for each.
 void addDampers(py::module_& module, py::class_<PythonRobot>& robotClass);
-/// The questions about motions, and what their answers are made of.
+/// Adds the methods about motions, and the classes of their results.
 void addMotions(py::module_& module, py::class_<PythonRobot>& robotClass);
 
 }  // namespace fcl_stpbv

@@ -1,4 +1,4 @@
-// A robot and what stands around it, loaded for Python, and its pairs of bodies.
+// A robot with its obstacles, loaded for Python, and its pairs of bodies.
 #pragma once
 
 #include <memory>
@@ -13,7 +13,7 @@
 
 namespace fcl_stpbv {
 
-/// What does not depend on how fine the links are modelled.
+/// The data that do not depend on the level of detail of the links.
 struct PythonScene {
   /// First link, second link or obstacle, configuration, clearance (m).
   using Need = std::tuple<std::string, std::string, Floats<Eigen::VectorXd>, double>;

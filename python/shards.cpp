@@ -1,5 +1,5 @@
-// Work on robots in pieces that can be shared out: each call is a pure function of its arguments, to the last
-// bit, whatever was asked before.
+// Work on robots in pieces for parallel runs. The result of each call depends only on its arguments, to the
+// last bit, never on earlier calls.
 #include <algorithm>
 #include <memory>
 #include <optional>

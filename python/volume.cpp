@@ -32,8 +32,8 @@ struct PlacedDistance : Distance {
   std::array<Eigen::Vector3d, 2> origins;
 };
 
-/// What a volume exceeds the hull of points by means nothing where one of them is outside. @throws Error for
-/// it.
+/// The over-cover over the hull of points is meaningless if a point is outside of the volume. @throws Error
+/// for such a point.
 void requireInside(const StpBv& volume, const std::vector<Eigen::Vector3d>& points) {
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Distance found = distance(volume, Eigen::Isometry3d::Identity(), points[i]);

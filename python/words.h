@@ -1,4 +1,4 @@
-// Messages of the library in the words of Python, whose arguments and functions have other names.
+// Translates messages of the library to the argument and function names of Python.
 #pragma once
 
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace fcl_stpbv {
 
-/// What `work()` returns. @throws Error as it does, with those names. For what reads no file, whose name
-/// might have such a word in it.
+/// Returns the result of `work()`. @throws Error as `work()` does, with Python's names. Not for functions
+/// that read files, since a file name might contain such a word.
 template <class Work>
 auto inPythonsWords(const Work& work) {
   static const std::pair<const char*, const char*> kWords[] = {
