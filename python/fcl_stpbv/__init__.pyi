@@ -1,4 +1,4 @@
-"""Types of the module fcl_stpbv, for mypy and editors. What each call does is in the module's own help."""
+"""Types of the module fcl_stpbv, for mypy and editors. The functions are documented in the module itself: help(fcl_stpbv)."""
 import os
 from typing import Any, Mapping, Sequence, Union
 

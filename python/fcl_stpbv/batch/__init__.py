@@ -1,1 +1,1 @@
-"""Proofs, samples, postures and conversions by the thousand, on all cores, a Dask cluster or a job array (docs/scale.md)."""
+"""Runs thousands of proofs, samples, postures or conversions, on all cores, a Dask cluster or a job array (docs/scale.md)."""

@@ -16,7 +16,7 @@ wrong, or Dask is missing or cannot start its processes; 130 interrupted. A run 
 
 
 def number(kind, least, most, unit=""):
-    """A reader of finite numbers between two others, these included."""
+    """Returns a parser for argparse that accepts finite numbers from `least` to `most`, both included."""
     def read(text):
         try:
             value = kind(text)
@@ -30,7 +30,7 @@ def number(kind, least, most, unit=""):
 
 
 def given(text):
-    """A name of a file, a folder or an address."""
+    """Parser for argparse: the name of a file or a folder, or an address; not empty."""
     if not text:
         raise argparse.ArgumentTypeError("the value is empty, as from a shell variable that is not set; give one, or leave the option out")
     return text
@@ -123,7 +123,7 @@ def asked():
 
 
 def loaded(kind, arguments):
-    """The batch of this kind; tells what the loading of its files warns of."""
+    """Makes the batch of this kind; prints the warnings of loading its files."""
     with warnings.catch_warnings(record=True) as told:
         warnings.simplefilter("always", UserWarning)
         batch = KINDS[kind](arguments)
@@ -169,8 +169,8 @@ def run(arguments):
 
 
 def open_streams():
-    """Fills the places of streams that are closed, so that no file of results takes their numbers. What is written to a standard output that
-    was closed fails, as it should."""
+    """Opens /dev/null for standard streams that are closed, so that no file of results gets their file descriptors. Writing to a standard
+    output that was closed fails, as it should."""
     for name, mode, access in (("stdin", "r", os.O_RDONLY), ("stdout", "w", os.O_RDONLY), ("stderr", "w", os.O_WRONLY)):
         if getattr(sys, name) is None:
             setattr(sys, name, open(os.open(os.devnull, access), mode))

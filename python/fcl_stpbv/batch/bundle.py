@@ -1,4 +1,4 @@
-"""All files that jobs need, in one dictionary from name to content, known by its digest: what travels to the workers."""
+"""The bundle that is sent to the workers: a dictionary from name to content of all files that jobs need, identified by its digest."""
 import hashlib
 import html
 import json
@@ -14,13 +14,13 @@ FILENAME = re.compile(rb"""<!--.*?-->|(filename\s*=\s*)("[^"]*"|'[^']*')""", re.
 
 
 def require_file(path, name=None):
-    """Refuses folders, pipes and devices under this name; what does not exist may become a file."""
+    """Raises fcl_stpbv.Error if the path is a folder, a pipe or a device. A path that does not exist is accepted."""
     if os.path.exists(path) and not os.path.isfile(path):
         raise fcl_stpbv.Error(f"{name or path}: is a folder, a pipe or a device, expected a file")
 
 
 def read(path, pipe=False):
-    """The content of a file; raises fcl_stpbv.Error naming it. What is read once may come from a pipe."""
+    """The content of a file; raises fcl_stpbv.Error naming it. With `pipe`, for files that are read only once, it may be a pipe."""
     if not pipe:
         require_file(path)
     try:
@@ -30,7 +30,7 @@ def read(path, pipe=False):
 
 
 def buffer_uris(path):
-    """Where a glTF file says that its buffers are; none where it cannot be read, which the reader of meshes tells."""
+    """The URIs of a glTF file's buffers. Empty if the file cannot be read; the mesh reader reports that error."""
     try:
         buffers = json.loads(path.read_bytes().decode("utf-8-sig", "surrogateescape"))["buffers"]
         uris = [buffer.get("uri") for buffer in (buffers.values() if isinstance(buffers, dict) else buffers)]  # a dict in glTF 1.0
@@ -40,8 +40,8 @@ def buffer_uris(path):
 
 
 def mesh_parts(path):
-    """{name: path} of a mesh, the mesh first, and of a glTF file's buffers, which are beside it or below. The reader of meshes takes a
-    buffer's name as it stands, so that one with a percent sign keeps it, whatever the file is called."""
+    """{name: path} of a mesh and, for a glTF file, its buffers, which are beside it or in folders below; the mesh comes first. The mesh reader
+    uses a buffer's name literally. So the name keeps a percent sign, even if the file's name is the decoded one."""
     path = pathlib.Path(path)
     parts = {path.name: path}
     if path.suffix.lower() != ".gltf" or not path.is_file():
@@ -62,7 +62,7 @@ def mesh_entries(path):
 
 
 def robot_meshes(urdf, package_path):
-    """The meshes of a robot: as the URDF names them, and their paths."""
+    """The meshes of a robot: their names in the URDF, and their paths."""
     try:
         return fcl_stpbv.mesh_files(str(urdf), [str(folder) for folder in package_path])
     except UnicodeDecodeError:
@@ -70,7 +70,7 @@ def robot_meshes(urdf, package_path):
 
 
 def robot_files(role, urdf, package_path):
-    """The files of one robot, its meshes named by their content so that they are found anywhere."""
+    """The files of one robot. Its meshes are renamed by their content, so that they are found on any machine."""
     files, places = {}, {}
     for uri, path in robot_meshes(urdf, package_path):
         entries = mesh_entries(path)
@@ -98,7 +98,7 @@ def digest_of(files):
 
 
 class Unpacked:
-    """The files in a folder of their own, as long as the `with` lasts."""
+    """Context manager: writes the files into a temporary folder, which is removed at the end of the `with` block."""
 
     def __init__(self, files):
         self.files = files

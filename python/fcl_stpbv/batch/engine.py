@@ -1,4 +1,4 @@
-"""Runs the jobs of a batch: one after the other here, or on a Dask cluster. What comes out is the same."""
+"""Runs the jobs of a batch, one after the other in this process, or on a Dask cluster. The results are the same."""
 import asyncio
 import collections
 import concurrent.futures
@@ -20,11 +20,11 @@ PATIENCE = 15  # s that a scheduler may take to answer
 
 
 class Stopped(Exception):
-    """The run ended early; what is done is kept."""
+    """The run ended early; the results so far are kept."""
 
 
 class Schedule:
-    """Which job comes next. The jobs that follow in a group are known when those before are done."""
+    """The queue of jobs. The next jobs of a group are known only when its previous jobs are done."""
 
     def __init__(self, kind, results, share):
         self.kind, self.results = kind, results
@@ -32,7 +32,7 @@ class Schedule:
         part, parts = share
         self.ready = collections.deque(ready[part::parts])
         self.running = collections.Counter(group for group, *_ in self.ready)
-        # Where other shards have jobs of a group's round, what follows is not known here.
+        # If other shards have jobs of a group's round, the next round is not known here.
         self.shared = {group for i, (group, *_) in enumerate(ready) if i % parts != part}
 
     def finish(self, group, key, record, content):
@@ -47,7 +47,7 @@ class Schedule:
 
 
 def outcome(kind, context, options, key, given):
-    """The record of one job, and the bytes of the file it makes or None; a job that fails says why."""
+    """Runs one job. Returns its record, and the bytes of the file that it makes, or None. The record of a job that fails has the reason."""
     try:
         return kind.run(context, options, key, given)
     except fcl_stpbv.Error as error:
@@ -55,7 +55,7 @@ def outcome(kind, context, options, key, given):
 
 
 def content_of(given):
-    """What a job is given, which may be large: then the schedule has a function that reads it, for the time when it is handed out."""
+    """The input of a job. If it is large, the schedule has a function in its place, which reads it when the job is started."""
     return given() if callable(given) else given
 
 
@@ -75,7 +75,7 @@ contexts = {}  # of this worker, by what they were made from
 
 
 def work(name, options, files, digest, version, key, packed):
-    """A job on a worker, which loads the bundle for its first one."""
+    """Runs a job on a worker. The worker loads the bundle for its first job."""
     if version != fcl_stpbv.__version__:
         raise RuntimeError(f"a worker has fcl_stpbv {fcl_stpbv.__version__} and not {version}; install the same everywhere")
     kind, known = KINDS[name], (name, digest, json.dumps(options, sort_keys=True))
@@ -95,7 +95,7 @@ def same(files):
 
 
 async def greet(address):
-    """Connects once: a Client that is refused would go on waiting, for half a minute."""
+    """Tests the connection once, because a Client that is refused would keep trying for half a minute."""
     import distributed
 
     line = await distributed.comm.connect(address, timeout=PATIENCE, **distributed.Security().get_connection_args("client"))
@@ -103,8 +103,8 @@ async def greet(address):
 
 
 def local_cluster(workers):
-    """Dask's cluster on this machine. Where a process does not start, by limits of the machine or because it is killed, Dask raises what
-    comes of it, after a while."""
+    """A Dask cluster on this machine. If a process does not start, because of limits of the machine or because it is killed, Dask raises
+    an exception after a while."""
     import distributed
 
     # Without a dashboard the scheduler would still listen on Dask's usual port, and warn where that is taken.
@@ -122,7 +122,7 @@ def local_cluster(workers):
 
 @contextlib.contextmanager
 def connected(scheduler, workers):
-    """A Dask client: of the cluster at this address, or of one on this machine."""
+    """A Dask client: for the cluster at this address, or for a new one on this machine."""
     try:
         import dask
         import distributed
@@ -152,7 +152,7 @@ def connected(scheduler, workers):
 
 @contextlib.contextmanager
 def answering():
-    """Around a call that asks the scheduler: one that is gone may show as a connection that cannot be made again."""
+    """Context manager for calls to the scheduler. If the scheduler is gone, the error may be that a connection cannot be made again."""
     try:
         yield
     except OSError:
@@ -160,7 +160,7 @@ def answering():
 
 
 def run_on(client, schedule, show):
-    """Every job to any worker. One whose worker dies runs again elsewhere; results that nobody has are computed anew."""
+    """Runs every job on any worker. A job whose worker dies runs again elsewhere, and results that were lost are computed again."""
     import distributed
 
     kind, run = schedule.kind, uuid.uuid4().hex
@@ -199,7 +199,7 @@ def run_on(client, schedule, show):
 
 
 def progress(quiet):
-    """A line on the terminal that says how far it is."""
+    """Returns a function that shows the progress as one line on the terminal."""
     wanted = not quiet and sys.stderr.isatty()
 
     def show(done, left):

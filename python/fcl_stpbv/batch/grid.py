@@ -1,5 +1,5 @@
-"""Postures for a grid of placements: one task whose targets are moved along axes. A job is a row of the grid. Within it a posture that was
-found is where its neighbour's search starts, so that a row depends on nothing but itself."""
+"""Postures for a grid of placements: one task whose targets are moved along axes. A job is a row of the grid. Within a row, the search for
+a place starts from the posture of its neighbour. So the result of a row depends only on that row."""
 import json
 import math
 
@@ -43,7 +43,7 @@ def direction(where, value):
 
 
 class Axis:
-    """Where the targets go: `values` times the directions of the placements that move, in m."""
+    """One axis of the grid. The targets move by `values` (m) times the directions of the placements that move."""
 
     def __init__(self, given, where, names):
         if not isinstance(given, dict):
@@ -69,7 +69,7 @@ class Axis:
 
 
 class Placements:
-    """A task at every place of a grid. The last axis goes along a row."""
+    """A task at every place of a grid. The last axis is along a row."""
 
     def __init__(self, task, grid, path):
         self.task = loaded(task, "the task")
@@ -88,7 +88,7 @@ class Placements:
             raise fcl_stpbv.Error(f"{path}: has {self.rows * self.columns} places, expected at most {MOST_CELLS}")
 
     def values(self, row, column):
-        """How far along each axis a place is (m)."""
+        """The position of a place along each axis (m)."""
         at, left = [column], row
         for axis in reversed(self.axes[:-1]):
             left, i = divmod(left, len(axis.values))
@@ -111,7 +111,7 @@ class Placements:
 
 
 class Place:
-    """The best posture at one place so far, and what it took to find it."""
+    """The best posture at one place so far, and the work to find it."""
 
     def __init__(self):
         self.best, self.iterations, self.distances = None, 0, 0
@@ -133,8 +133,8 @@ class Place:
 
 
 class Grid(Postures):
-    """A row's places from left to right: from the left neighbour's posture first, then from the task's own starts. Then back from right to
-    left, for those that are still without one beside a right neighbour that has one."""
+    """Solves the places of a row from left to right: from the left neighbour's posture first, then from the task's own starts. Then it goes
+    back from right to left, for places without a posture whose right neighbour has one."""
     name, key = "grid", [int]
 
     def __init__(self, arguments):

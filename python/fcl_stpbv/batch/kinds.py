@@ -1,8 +1,8 @@
-"""The kinds of batches: which jobs there are, what one job does, what all of them say together.
+"""The kinds of batches: which jobs there are, what one job does, and the summary of all.
 
-A kind is made by the process that hands out the jobs. Its class is what workers know: `open` makes what jobs need from the bundle's
-files, once a worker, and `run` is a pure function of that, the options and the job. `key` has the types of what a job is known by, and
-`fits` says whether a record holds what is read of it.
+The process that distributes the jobs makes an object of the kind. Workers only use its class: `open` makes the context for jobs from the
+bundle's files, once per worker, and `run` is a pure function of the context, the options and the job. `key` has the types of a job's key,
+and `fits` returns whether a record has all that is read from it.
 """
 import functools
 import hashlib
@@ -16,7 +16,7 @@ from fcl_stpbv.batch.postures import Postures
 
 
 class Convert:
-    """Volumes of meshes. A job is one mesh, which travels with it; a bad one fails alone."""
+    """Volumes of meshes. A job is one mesh, which is sent with the job. If a mesh is faulty, only its job fails."""
     name, key = "convert", [str]
     context = None
 
@@ -41,7 +41,7 @@ class Convert:
 
     @staticmethod
     def given(mesh):
-        """The mesh's files, or what is wrong with them."""
+        """The mesh's files, or an error message."""
         try:
             return bundle.mesh_entries(mesh)
         except fcl_stpbv.Error as error:
@@ -49,12 +49,12 @@ class Convert:
 
     @staticmethod
     def digest(mesh, given):
-        """Of a mesh's path and its files, or of what is wrong with them."""
+        """The digest of a mesh's path and its files, or of the error message."""
         wrong, files = (given, []) if isinstance(given, str) else ("", given)
         return bundle.digest_of({"": repr((mesh, wrong)).encode(), **dict(files)})
 
     def later(self, mesh):
-        """What `given` gives, when the mesh's turn comes: all of them together may be more than memory holds."""
+        """The result of `given`, read when the mesh's job starts, because all meshes together may not fit into memory."""
         given = self.given(mesh)
         if self.digest(mesh, given) != self.known[mesh]:
             raise fcl_stpbv.Error(f"{mesh}: has changed while the batch ran; start it anew, with another -o")
@@ -86,7 +86,7 @@ class Convert:
         return record, content
 
     def keep(self, record, content):
-        """Puts a volume where it belongs, before its job counts as done. Nothing is replaced: what is there already must be the same."""
+        """Writes a volume to its file, before its job counts as done. An existing file is not replaced; it must be the same."""
         path = self.folder / record["volume"]
         if not path.exists():
             results.write(path, "--volumes", [content])

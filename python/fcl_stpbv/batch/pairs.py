@@ -1,4 +1,4 @@
-"""What holds for a robot's pairs of links, and of links and obstacles: proofs and samples, two kinds of batches (kinds.py)."""
+"""Two kinds of batches (kinds.py) for a robot's pairs of links, and of links and obstacles: proofs and samples."""
 import itertools
 import math
 
@@ -8,7 +8,7 @@ from fcl_stpbv.batch.results import are_numbers, is_whole
 
 
 def opened(arguments):
-    """(the pairs of the robot and the obstacles that the command line names, the files that they are made from)."""
+    """(the PairSearch of the robot and the obstacles on the command line, the files that it is made from)."""
     path = arguments.package_path
     search = fcl_stpbv.PairSearch(arguments.robot, arguments.obstacles, r=arguments.r, R=arguments.R, package_path=path, margin=arguments.margin)
     if len(set(search.pairs)) < len(search.pairs):
@@ -31,8 +31,8 @@ def counted(verdicts):
 
 
 class Prove:
-    """Proofs that pairs of links never meet. A job looks at some boxes of one pair; what it leaves open is shared out anew among
-    twice as many jobs in the pair's next round."""
+    """Proofs that pairs of links never collide. A job examines some boxes of one pair. The boxes that it leaves open are distributed to twice
+    as many jobs in the pair's next round."""
     name, key = "prove", [str, str, int, int]  # the pair, the round, which job of it
 
     def __init__(self, arguments):
@@ -72,7 +72,7 @@ class Prove:
                 and all(are_numbers(lower, dimension) and are_numbers(upper, dimension) for lower, upper in boxes))
 
     def follow(self, pair, done):
-        """(jobs of the pair's first round that is not done, the verdict so far)."""
+        """(the jobs of the pair's first round that is not complete, the verdict so far)."""
         names, boxes, chunks = self.context.pairs[pair], 0, [None]
         for number in itertools.count():
             jobs = [((*names, number, i), (pair, chunk)) for i, chunk in enumerate(chunks)]
@@ -108,7 +108,7 @@ class Prove:
         return [self.follow(pair, done)[1] for pair in self.groups]
 
     def write_srdf(self, path, done):
-        """An SRDF whose every Never is proven, and which says so."""
+        """Writes an SRDF in which every Never is proven, with a comment that says so."""
         verdicts, links, header = self.verdicts(done), self.context.link_pairs, self.options
         proven = [pair for pair, verdict in enumerate(verdicts) if verdict == "proven"]
         comments = [f"Each Never is proven: for all joint values within their limits the links' volumes (r = {header['r']:g} m, R = {header['R']:g} m) "

@@ -1,4 +1,4 @@
-"""Where a batch reads and writes: no output replaces an input or another output, which is told before any work."""
+"""Checks the input and output files of a batch before any work: no output may replace an input or another output."""
 import os
 import pathlib
 
@@ -11,7 +11,7 @@ def volume_name(mesh):
 
 
 def inputs(arguments):
-    """All files that a command line reads, but those of --merge."""
+    """All files that a command line reads, except those of --merge."""
     given = vars(arguments)
     urdfs = [given[key] for key in ("robot", "obstacles") if given.get(key)]
     others = [given[key] for key in ("srdf", "grid") if given.get(key)] + given.get("tasks", [])
@@ -20,14 +20,14 @@ def inputs(arguments):
 
 
 def outputs(arguments):
-    """(option, path) of all files that it writes."""
+    """(option, path) of all files that a command line writes."""
     given = vars(arguments)
     srdf = [("--write-srdf", given["write_srdf"])] if given.get("write_srdf") else []
     return [("-o", arguments.output), *srdf, *(("--volumes", pathlib.Path(arguments.volumes, volume_name(mesh))) for mesh in given.get("meshes", []))]
 
 
 def identity(path):
-    """One for all names of a file, links too."""
+    """An identity of a file, the same for all its names and links."""
     try:
         found = os.stat(path)
         return found.st_dev, found.st_ino
@@ -36,7 +36,7 @@ def identity(path):
 
 
 def check(arguments):
-    """Refuses outputs that are no files, that are inputs, or that are one file."""
+    """Raises fcl_stpbv.Error for outputs that are not regular files, that are inputs, or that are the same file."""
     read, merged = ({identity(path) for path in paths} for paths in (inputs(arguments), arguments.merge))
     taken = {}
     for option, path in dict.fromkeys(outputs(arguments)):

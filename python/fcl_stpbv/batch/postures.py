@@ -1,4 +1,4 @@
-"""Postures for tasks, each from several starts: a kind of batch (kinds.py)."""
+"""A kind of batch (kinds.py): postures for tasks, each from several starts."""
 import fcl_stpbv
 from fcl_stpbv.batch import bundle
 

@@ -1,7 +1,7 @@
-"""The results of a batch: a file of JSON lines. The first says what was asked for, each other one is a job that is done.
+"""The results of a batch: a file of JSON lines. The first line is the header with the options; each other line is a job that is done.
 
-Lines are added whole as jobs end, in any order; a run that goes on drops a line that was cut off, and of two lines of one job the
-later counts. At the end they are sorted, so that the same batch gives the same bytes wherever and however often it ran.
+Lines are appended as jobs end, in any order. A run that is continued drops an incomplete last line. If a job has two lines, the later
+one counts. At the end the lines are sorted, so the same batch always gives the same bytes, wherever and however often it ran.
 """
 import fcntl
 import json
@@ -12,7 +12,7 @@ import uuid
 
 import fcl_stpbv
 
-# What reading a line may raise where it holds something else than it should.
+# The exceptions that reading an invalid line may raise.
 DAMAGED = (ValueError, TypeError, LookupError, AttributeError, RecursionError)
 
 
@@ -30,7 +30,7 @@ def are_numbers(values, count):
 
 
 def parsed(text, kind):
-    """The job and the record in a line, with all that the kind of batch reads in it; raises one of DAMAGED where it holds none."""
+    """The job and the record in a line, checked for all that the kind of batch reads from it; raises one of DAMAGED if it is not valid."""
     record = json.loads(text)
     line(record)  # what is read can be written
     job = record["job"]
@@ -65,14 +65,15 @@ def read(path, header, kind):
 
 
 def require_same(header, other, path):
-    """Results belong together only where all that decides them is the same."""
+    """Raises fcl_stpbv.Error if two headers differ: results belong together only if all their inputs are the same."""
     different = sorted(key for key in {*header, *other} if header.get(key) != other.get(key))
     if different:
         raise fcl_stpbv.Error(f"{path}: holds results of another batch, with a different {', '.join(different)}; give another file")
 
 
 def write(path, option, parts):
-    """The whole file or nothing; `option` gave its path. A link stays one, and a file that is replaced leaves its permissions."""
+    """Writes a file completely or not at all; `option` is the argument with its path. A link stays a link; an existing file's permissions are
+    kept."""
     place = os.path.realpath(path)
     beside = os.path.join(os.path.dirname(place), f".fcl_stpbv-{os.getpid()}-{uuid.uuid4().hex}.tmp")
     try:
