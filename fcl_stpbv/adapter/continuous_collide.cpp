@@ -94,7 +94,7 @@ class Moving {
     turning_ = there.norm() + w.norm() * reach;
   }
 
-  // Where a tree is its cells tell.
+  // The extent of an octree comes from its occupied cells.
   void addCells(const PosedGeometry& still, const PosedGeometry::Part& part, Eigen::AlignedBox3d& box) const {
     if (part.leaf || !still.loose()) {
       const Vector3d half = part.box.axes.cwiseAbs() * part.box.half;
@@ -187,7 +187,7 @@ class MovingPair {
   PairCache cache_;
 };
 
-/// The bounds between two looks take its rotation as it is: to rounding.
+/// Makes the rotation exact up to rounding, because the bounds between two times rely on it.
 bool makeSteady(SteadyMotion& motion) {
   return makeRigid(motion.begin) && motion.linear.allFinite() && motion.turning.allFinite() &&
          motion.angular.allFinite();

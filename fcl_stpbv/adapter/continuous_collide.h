@@ -73,7 +73,7 @@ struct MotionBracket {
   /// that was examined last.
   double until = 1;
   int pair = -1;         ///< index of the pair in contact, or of the undecided pair
-  long queries = 0;      ///< distances asked for
+  long queries = 0;      ///< number of distance queries
   bool tooMany = false;  ///< undecided because the search reached MotionRequest::mostQueries
 };
 
@@ -85,7 +85,7 @@ struct MotionAnswer {
   /// For an undecided motion, the end of the interval that was examined last.
   double until = 0;
   DistanceAnswer answer;  ///< the distance at the time `until`; for a free motion that is the end
-  long queries = 0;       ///< distances asked for
+  long queries = 0;       ///< number of distance queries
 };
 
 /// Whether two moving bodies stay apart (docs/motion.md). It computes exact distances at some times. Between

@@ -45,7 +45,7 @@ class ElementTree {
     std::intptr_t id;  ///< of an element as FCL's `b1`, `b2` name it; else of the inner node
     bool leaf;
     const void* handle;  ///< a tree's node
-    OrientedBox box;     ///< holds all that is below, in the geometry's frame
+    OrientedBox box;     ///< contains everything below the node, in the geometry's frame
   };
 
   /// `known`: the caller knows that it is sound (isSound()).

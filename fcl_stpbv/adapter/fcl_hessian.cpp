@@ -49,8 +49,8 @@ class OtherBody {
   std::array<Vector3d, 8> corner_;
 };
 
-/// Calls `ask` with both bodies as the core of the library knows them, in
-/// their order; false where it does not.
+/// Calls `ask` with both bodies as types of the core library, in their order. False if a body has no such
+/// type.
 template <class Ask>
 bool askBoth(const fcl::CollisionGeometryd& geometry1, const fcl::Transform3d& pose1,
              const fcl::CollisionGeometryd& geometry2, const fcl::Transform3d& pose2, const DistanceAnswer& d,

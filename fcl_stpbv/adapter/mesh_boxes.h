@@ -66,7 +66,8 @@ inline bool hasAxes(const OrientedBox& box) {
   return (box.axes.transpose() * box.axes - Eigen::Matrix3d::Identity()).lpNorm<1>() <= kSameBox;
 }
 
-/// Whether its elements are points. A cloud that was begun with room for triangles has an array of none.
+/// Whether its elements are points. A cloud that was begun with space for triangles has an empty array of
+/// triangles.
 template <typename BV>
 bool isCloud(const fcl::BVHModel<BV>& mesh) {
   return mesh.num_tris == 0;
@@ -125,9 +126,9 @@ bool hasStrayBoxes(const fcl::BVHModel<BV>& mesh) {
   return byArray && isCloud(mesh) && mesh.tri_indices;
 }
 
-/// Whether the inner boxes were merged from their children's, as `endReplaceModel()` and `endUpdateModel()`
-/// do unless told otherwise, or are stray, and not fitted to what is below. Merging them again takes long, so
-/// a cheap look comes first, which settles almost all meshes.
+/// Whether the inner boxes were merged from their children's boxes (the default of `endReplaceModel()` and
+/// `endUpdateModel()`), or are stray, instead of fitted to the elements below. A full test, which merges them
+/// again, takes long. So a cheap test comes first, which decides for almost all meshes.
 template <typename BV>
 bool hasMergedBoxes(const fcl::BVHModel<BV>& mesh) {
   const auto maybe = [](const BV& both, const BV& first, const BV& second) {

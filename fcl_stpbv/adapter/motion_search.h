@@ -33,7 +33,7 @@ class MotionSearch {
     hit_ = std::numeric_limits<double>::infinity();
     lists_.resize(static_cast<std::size_t>(pairs));
     for (std::size_t i = 0; i < lists_.size(); ++i) lists_[i] = static_cast<int>(i);
-    // A contact that was seen stands, whatever the covers around it say.
+    // A contact that was found is final, even if covers of times around it include it.
     if (pairs > 0 && !visit(0, 1, 0, lists_.size()) && hit_ <= 1)
       finish(MotionVerdict::contact, hit_, hit_, hitPair_);
     return result_;
@@ -42,7 +42,7 @@ class MotionSearch {
  private:
   // Below it a time is not cut: bodies move by rounding.
   static constexpr double kFinest = 1e-12;
-  // From here on the end of a time is looked at too: a contact may begin there.
+  // From this time on, the end of an interval is examined too, because a contact may begin there.
   static constexpr double kEnd = 1e-6;
 
   // The pairs lists_[first, last) between `a` and `b`. True where the search is over.

@@ -34,7 +34,8 @@ Isometry3d between(const Isometry3d& pose1, const Isometry3d& pose2) {
 
 constexpr double kBoxRounding = 1e-14;  // of the size: of a gap between two parts
 
-/// No box holds a half space or a plane, but its normal gives the gap: `place` has its place and its axes.
+/// The gap of a half space or a plane, which has no box, from its normal. `place` has its position and its
+/// axes.
 double gapOfFlat(const Shape& flat, const OrientedBox& place, const PosedGeometry::Part& part) {
   const Vector3d n = place.axes * flat.normal;
   const double height = n.dot(part.box.centre - place.centre);
@@ -80,7 +81,7 @@ double gapFromCell(const OrientedBox& body, const OrientedBox& cell, bool& insid
   return apartBy(off - body.half);
 }
 
-/// gapOf() of two boxes. Each reaches along the other's axes as the matrix between them tells.
+/// gapOf() for two boxes. The relative rotation matrix gives the extent of each box along the other's axes.
 FCL_STPBV_VECTORIZED
 double gapOfBoxes(const OrientedBox& a, const OrientedBox& b, double rounding, double enough,
                   const Vector3d& n) {
@@ -188,7 +189,7 @@ PosedGeometry::Part PosedGeometry::part(const ElementTree::Node& node, const Con
   return part;
 }
 
-// A pose that is not rigid goes on as it is, and what it gives is never looked at.
+// A pose that is not rigid is kept, but the results from it are never used.
 PosedPair::PosedPair(const fcl::CollisionGeometryd& geometry1, Isometry3d pose1,
                      const fcl::CollisionGeometryd& geometry2, Isometry3d pose2, bool known,
                      const KnownTrees& trees)

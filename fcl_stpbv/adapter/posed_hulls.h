@@ -77,7 +77,7 @@ class PosedHulls {
   /// Direction libccd's search begins with (any length).
   void setFirstDirection(const Eigen::Vector3d& n) { first_ = n; }
 
-  /// The vertex behind a support point that libccd holds: of those it was given, the nearest.
+  /// The vertex of a support point of libccd: the nearest of the points that it was given.
   template <std::size_t body>
   int loggedVertex(const ccd_vec3_t& given) const {
     const Eigen::Vector3d p = fromCcd(given);

@@ -148,7 +148,7 @@ bool isFartherThan(double x, const fcl::CollisionGeometryd& geometry1, const fcl
     return isFartherThan(x, bodyA, bodyB, context.cache, context.proximity);
   const PosedPair pair(geometry1, pose1, geometry2, pose2, context.finite);
   if (!pair.valid) return false;
-  // The corners are looked at last: what is within reach is not farther, whatever they are.
+  // The vertices are checked last: a pair that is within x needs no check.
   return areElementsFarther(x, pair, context) && (context.finite || pair.finite());
 }
 

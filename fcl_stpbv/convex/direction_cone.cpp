@@ -55,7 +55,8 @@ bool DirectionCone::cut(const Vector3d& g) {
     }
   }
   if (keptCount < 3 || !(deepest > 0.0)) return false;
-  // The new side may be nearly half a circle, whose ends do not tell where it runs: it gets its middle.
+  // The new side may be nearly half a circle, which its ends do not determine. So its middle is added as a
+  // corner.
   count_ = 0;
   for (std::size_t i = 0; i < keptCount; ++i) {
     const Vector3d &from = kept[i], &to = kept[i + 1 < keptCount ? i + 1 : 0];

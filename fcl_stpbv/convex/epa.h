@@ -160,8 +160,8 @@ class Epa {
   static constexpr double kNearer = 0.03;  // of that, from where it is tried again
   using Tetrahedron = std::array<Corner, 4>;
 
-  /// Room for the corners of all of a polytope's points. It is not cleared: that would take as long as
-  /// several steps of the search.
+  /// Storage for the corners of all points of a polytope. It is not initialised, because that would take as
+  /// long as several steps of the search.
   class Corners {
    public:
     explicit Corners(const Tetrahedron& first) {

@@ -55,7 +55,7 @@ class Polytope {
 
   Polytope(const Polytope&) = delete;
 
-  /// False once a face could not be made: too flat, or no room.
+  /// False after a face could not be made, because it was too flat or the arrays were full.
   bool sound() const { return sound_; }
 
   /// The face that may be nearest to the origin, among those that are not put aside. Infinitely far if all
@@ -89,8 +89,8 @@ class Polytope {
   /// The point taken in last.
   Index lastPoint() const { return static_cast<Index>(points_ - 1); }
 
-  /// Takes a point into the hull, with its part for the roundness. False where it is inside already, or in a
-  /// face's plane to rounding, or without room.
+  /// Adds a point to the hull, with its part for the roundness. False if it is inside already, if it is in a
+  /// face's plane up to rounding, or if the arrays are full.
   bool expand(const Eigen::Vector3d& outside, const Eigen::Vector3d& part) {
     if (points_ < kMaxPoints) part_[at(points_)] = pack(part);
     return expand(outside);

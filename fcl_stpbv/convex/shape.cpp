@@ -14,7 +14,8 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// What is taken for the unit normal of a plane. FCL normalizes its planes; anything else is none.
+/// Whether a vector is accepted as the unit normal of a plane. FCL normalises its planes; other lengths are
+/// invalid.
 bool isUnitNormal(const Vector3d& normal) { return std::abs(normal.squaredNorm() - 1.0) < 1e-6; }
 
 /// How far `d` goes across the z axis: in a fraction of the time of std::hypot(), unless squares would vanish
@@ -99,7 +100,8 @@ Shape Shape::ellipsoidOf(const Vector3d& semiAxes) {
 Shape Shape::halfspaceOf(const Vector3d& normal, double offset) {
   Shape s;
   s.kind = ShapeKind::halfspace;
-  // A normal that is unit but for 1e-6 moves the plane by that part of the offset unless both are divided.
+  // The normal's length may be off by 1e-6. Without this division the plane would move by that fraction of
+  // the offset.
   const double length = isUnitNormal(normal) ? normal.norm() : 1.0;
   s.normal = normal / length;
   s.offset = offset / length;

@@ -14,8 +14,8 @@ namespace {
 
 const Vector3d kNone(0, 0, 0);
 
-/// Normals across the line along `t`, of a surface that curves by `radius` around it. None, zero, where the
-/// line runs along `m`.
+/// The normals perpendicular to a line along `t`, of a surface with the radius of curvature `radius` around
+/// it. Zero if the line is parallel to `m`.
 NormalCone aroundLine(const Vector3d& m, const Vector3d& t, double radius) {
   constexpr double kAlong = 1e-3;
   const Vector3d across = m - m.dot(t) * t;
@@ -23,7 +23,7 @@ NormalCone aroundLine(const Vector3d& m, const Vector3d& t, double radius) {
   return {1, across.normalized(), {t.cross(m).normalized(), kNone}, {radius, 0.0}, 0.0};
 }
 
-/// A flat face's, on the side that `m` looks to.
+/// The cone of a flat face, on the side to which `m` points.
 NormalCone noWay(const Vector3d& m, const Vector3d& face) {
   return {0, m.dot(face) < 0.0 ? Vector3d(-face) : face, {kNone, kNone}, {0.0, 0.0}, 0.0};
 }
@@ -76,8 +76,8 @@ NormalCone ofBox(const Vector3d& half, const Vector3d& m, double rounding) {
   return count == 1 ? aroundLine(m, Vector3d::Unit(along), 0.0) : noWay(m, Vector3d::Unit(steepest));
 }
 
-/// A disc's rim: a circle of this radius around z. Near the axis the normal says little about the place on
-/// the rim, so the point `x` tells it.
+/// A disc's rim: a circle of this radius around z. If the normal is near the axis, it does not determine the
+/// position on the rim, so the point `x` is used.
 NormalCone ofRim(const Vector3d& m, const Vector3d& x, double radius, double across) {
   const Vector3d out(x.x(), x.y(), 0.0);
   Vector3d around = Vector3d::UnitZ().cross(out.norm() > 0.0 ? out : m);

@@ -11,7 +11,7 @@
 
 namespace fcl_stpbv::detail {
 
-/// A feature of a shape's core, and its point nearest to the point asked about. Frame of the shape.
+/// A feature of a shape's core, and its point nearest to the given point. Frame of the shape.
 struct ShapeFeature {
   enum class Kind {
     none,    ///< not known: of a shape with many features, or one that is flat or a point

@@ -22,9 +22,10 @@ class VertexCap {
 
   bool isNearAxis(const Eigen::Vector3d& d) const;
 
-  Eigen::Vector3d axis_{0, 0, 0}, furthest_;  // the last direction that all were asked for, and its vertex
-  int count_ = 0;                             // of `near_`; 0 until a second direction is near the first
-  bool full_ = false;                         // more are near than there is room for
+  // The last direction for which all vertices were searched, and its vertex.
+  Eigen::Vector3d axis_{0, 0, 0}, furthest_;
+  int count_ = 0;      // of `near_`; 0 until a second direction is near the first
+  bool full_ = false;  // there are more near vertices than the array can store
   std::array<Eigen::Vector3d, kRoom> near_;
 };
 
@@ -41,7 +42,7 @@ class QueriedShape {
   const Shape& shape() const { return capped_ ? *capped_ : shape_; }
 
  private:
-  static constexpr int kMany = 128;  // all of fewer are looked at in no more time
+  static constexpr int kMany = 128;  // for fewer vertices a search of all is as fast
   const Shape& shape_;
   std::optional<Shape> capped_;
   VertexCap cap_;

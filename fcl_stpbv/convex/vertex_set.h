@@ -16,8 +16,8 @@ Spread spreadAbout(const Eigen::Vector3d& point, const Eigen::Vector3d* vertices
 /// The one furthest along `d` (any length), the first of several. At least one vertex.
 int furthestAlong(const Eigen::Vector3d& d, const Eigen::Vector3d* vertices, int count);
 
-/// How many of them have a height of `least` or more along `d`; the first `room` of these are put into
-/// `found`.
+/// The number of vertices with a height of at least `least` along `d`. The first `room` of them are written
+/// to `found`.
 int fromHeight(double least, const Eigen::Vector3d& d, const Eigen::Vector3d* vertices, int count, int* found,
                int room);
 

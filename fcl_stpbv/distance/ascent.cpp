@@ -20,7 +20,7 @@ using Eigen::Vector3d;
 namespace {
 
 constexpr int kMaxPairs =
-    40;  // two to four are usual; see docs/theory.md, 5 for what follows when they do not do
+    40;  // two to four are usual; docs/theory.md, 5 describes what follows if they are not enough
 
 /// Slope of the gap at `m` along the great circle with this pole.
 double slopeAlong(const Sample& m, const Vector3d& pole) { return m.across.dot(pole.cross(m.n)); }
@@ -189,8 +189,8 @@ bool bisectToWidest(const BodyPair& pair, Sample& x, SearchWork& work) {
     x = trial;
     return true;
   }
-  // The gap is flat at its top, so its gradient tells the better normal where
-  // the values are equal to rounding.
+  // The gap is flat at its maximum. So if two values are equal up to rounding, the gradient decides which
+  // normal is better.
   if (flattest.core >= x.core - pair.gapRounding()) x = flattest;
   return pair.isStationary(x);
 }

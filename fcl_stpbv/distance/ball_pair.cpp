@@ -67,7 +67,7 @@ bool oppositeBall(const ShapePair& p, OppositePoints& found) {
   if (f.kind == Kind::none || f.kind == Kind::whole || (isInside && !hasPlanes(p.b))) return false;
   const Packed d = isInside ? Packed{} : p.pose.rotation * -wayFrom(f, x);
   if (dot(d, d) > p.rounding * p.rounding) return p.isNearest(d, found);
-  // Inside, or but for rounding on the surface, where the way is too short to tell a normal.
+  // Inside, or on the surface up to rounding, where the vector is too short to give a normal.
   if (!hasPlanes(p.b)) return false;
   const TouchingPlane plane = nearestPlane(p.b, f, x);
   const Packed n = p.pose.rotation * -plane.outward;

@@ -58,7 +58,7 @@ class BoxAxes {
   Axis of(const BodyPair& pair, const Sample& top) const;
 
  private:
-  /// Squared sine between two edges below which their cross product is not looked at.
+  /// Squared sine of the angle between two edges below which their cross product is not used.
   static constexpr double kParallel2 = 1e-6;
 
   static Packed magnitude(const Packed& v) { return v < 0.0 ? -v : v; }

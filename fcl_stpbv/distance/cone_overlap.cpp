@@ -24,8 +24,8 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// What the volume shows along a normal, and how far one point or edge of the shape leaves along it (m).
-/// Not initialised: arcs have room for many.
+/// The volume's support point along a normal, and the depth of one point or edge of the shape along it (m).
+/// Not initialised, because arcs store many.
 struct WayOut {
   Vector3d n;
   int patch;
@@ -217,7 +217,7 @@ bool leaveSegment(const ShapeQuery& q, WaysOut& ways) {
 }
 
 bool leaveTriangle(const ShapeQuery& q, WaysOut& ways) {
-  constexpr double kSliver = 1e-3;  // of a height to a side: less tells the normal too poorly
+  constexpr double kSliver = 1e-3;  // of a height to a side: if it is less, the normal is too inaccurate
   std::array<Vector3d, 3> p, t;
   for (std::size_t i = 0; i < 3; ++i) p[i] = q.posed(q.shape.corner[i]);
   double longest = 0.0;

@@ -16,9 +16,10 @@ namespace fcl_stpbv::detail {
 using Eigen::Vector3d;
 
 std::optional<LeastOverlap> overlapOfPoint(ShapeQuery& q, const StartNormal& start) {
-  constexpr int kRounds = 8;      // one or two for corners, a few for round shapes
-  constexpr int kFree = 2;        // from then on
-  constexpr double kSlow = 0.25;  // of the last round's step is too much: it goes to and fro
+  constexpr int kRounds = 8;  // one or two for corners, a few for round shapes
+  constexpr int kFree = 2;    // from then on
+  // Of the last round's step; a larger step means that the search alternates between points.
+  constexpr double kSlow = 0.25;
   Vector3d y = q.facing(start.n);
   double step = kInfinity;
   for (int i = 0; i < kRounds; ++i) {

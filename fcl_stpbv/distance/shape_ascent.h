@@ -107,7 +107,8 @@ struct RimFeature {
   }
 
  private:
-  static constexpr double kFloor = 1e-6;  // a too small radius still climbs, an infinite one stands still
+  // With a too small radius the climb still moves, with an infinite one it does not.
+  static constexpr double kFloor = 1e-6;
 };
 
 /// A whole ellipsoid in the frame of the climb: the image of the unit ball. Sums of squares alone, so that
@@ -244,8 +245,8 @@ bool ascendFeature(const StpBv& body, const Feature& feature, AscentPoint& x, co
     if (!accepted) {
       if (flat <= rounded) return true;
       if (y.view.patch != x.view.patch) {
-        // The step went over a boundary, past which the gap bends otherwise: as
-        // the patch there tells it from here.
+        // The step crossed a boundary, beyond which the gap has another curvature. So take the step from here
+        // again, with the formula of the patch there.
         const AscentPoint there = ascentPoint(viewPatch(body, x.view.n, y.view.patch), feature);
         const AscentPoint z =
             ascentPoint(body, feature, newtonTarget(body, there, feature.direction()), y.view.patch, steps);

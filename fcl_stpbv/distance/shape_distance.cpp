@@ -31,7 +31,7 @@ namespace {
 
 using namespace detail;
 
-/// Half spaces and planes have one or two normals, and along them the gap is all there is to know.
+/// Half spaces and planes have one or two normals. The distance is the gap along one of them.
 Nearest nearestOnHalfspace(ShapeQuery& q) {
   const Vector3d normal = (q.rotation * q.shape.normal).normalized();
   const Vector3d onPlane = q.posed(q.shape.offset * q.shape.normal);
@@ -68,7 +68,7 @@ Nearest nearestOnShape(ShapeQuery& q, const StartNormal& start) {
   return nearestOnHalfspace(q);
 }
 
-/// The gap along one normal between the two whole cores, and the difference of the points that tell it.
+/// The gap along one normal between the two whole cores, and the difference of their support points.
 struct Trial {
   Nearest at;
   Vector3d difference;
@@ -169,9 +169,9 @@ Solution solve(ShapeQuery& q, const StartNormal& start) {
   return {found, proven ? DistanceStatus::exact : DistanceStatus::bounded, upper + q.rounding.across};
 }
 
-/// How far the shape's point is beside the one opposite the volume's (m). Of a face, a generator or an axis,
-/// or where an ulp of the normal moves the point a long way, a search may know another point than that one:
-/// then it takes the shape's nearest.
+/// Distance of the shape's point from the point opposite the volume's point (m). For a face, a generator or
+/// an axis, and if an ulp of the normal moves the point a long way, the search may have found another point
+/// of the feature. Then this takes the shape's nearest point instead.
 double placeOpposite(const ShapeQuery& q, const Vector3d& point, Nearest& found) {
   const Vector3d opposite = point + found.gap * found.n;
   const double beside = (found.y - opposite).norm();

@@ -9,7 +9,8 @@
 // 3. The point is that of the more strongly curved feature, the other one's is opposite it.
 // 4. Both points are projected onto their bodies. They are accepted if they are still opposite each other and
 //    their distance equals that of the supporting planes.
-// Of a polytope the few vertices that normals next to `n` can show are asked, and all of them at the end.
+// For a polytope only the few vertices that can be support points for normals near `n` are used, and all of
+// them for the final test.
 #include "fcl_stpbv/distance/shape_newton.h"
 
 #include <algorithm>
@@ -26,8 +27,9 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// A shape for normals within `angle` (rad) of `n`: a polytope has only the vertices that one of them shows,
-/// or that are as near to it as twice that angle and `rounding` (m). It is whole where these are many.
+/// A copy of a shape for normals within `angle` (rad) of `n`. A polytope keeps only the vertices that can be
+/// support points for such normals, within a tolerance of twice that angle and `rounding` (m). It keeps all
+/// vertices if these are too many.
 class ShapeNear {
  public:
   ShapeNear(const Shape& shape, const Vector3d& n, double angle, double rounding) : whole_(shape) {
@@ -159,7 +161,7 @@ std::optional<OppositePoints> onFeaturesOf(Facing facing, Vector3d onA, double r
     step = (facing.n - before).norm();
     if (step <= (facing.isOnGenerator() ? kLastOnGenerator : kLast)) break;
   }
-  if (!(step <= kAtRest)) return {};  // to and fro between features
+  if (!(step <= kAtRest)) return {};  // alternates between features
   const RelativePose& pose = facing.pose;
   const Vector3d across = facing.gap * facing.n;
   OppositePoints found{facing.n, facing.gap, {}, {}};

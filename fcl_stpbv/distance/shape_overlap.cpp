@@ -32,7 +32,8 @@ class ShapeDifference {
 
   explicit ShapeDifference(ShapeQuery& q) : q_(q) {}
 
-  /// EPA's normals go to and fro: the patch is sought from a table, not from the last one.
+  /// EPA's normals jump back and forth, so the search for the patch starts from a table, not from the last
+  /// patch.
   Corner support(const Vector3d& n) {
     const SupportPoint p = viewVolume(q_.body, n, -1, q_.steps);
     const Vector3d y = q_.facing(n);

@@ -83,13 +83,14 @@ bool comesFirst(const Shape& a, const Isometry3d& poseA, const Shape& b, const I
   return std::lexicographical_compare(x, x + 16, y, y + 16);
 }
 
-/// From the line of the centres: next to the answer a search sees few normals.
+/// Starts from the line of the centres, because a search that starts near the answer evaluates only a few
+/// normals.
 Gjk searchToTheEnd(const Pair& p) {
   return p.search([](double, double) { return false; }, {});
 }
 
-/// Whether the bounds are near enough for Newton's method on the features there: those of round bodies are
-/// few, a polytope's are told apart by the last digits.
+/// Whether the bounds are close enough for Newton's method on the features: round bodies have few features,
+/// but a polytope's features differ only in the last digits.
 bool isNear(const Pair& p, double lower, double upper) {
   const double part = p.curved(p.a) && p.curved(p.b) ? 1e-2 : 1e-5;
   return upper - lower <= part * upper;
@@ -126,9 +127,10 @@ Distance asFound(const Pair& p, const Gjk& found, const SeenGap& widest) {
                  std::max(found.upper, widest.gap));
 }
 
-/// Cores apart: as found, or with the last digits of normal and points by Newton's method, where chords of a
-/// round surface or the rounding of points that all but touch left them open; where it has no success and the
-/// search `isLast`, by what is level. `invalid` where the cores overlap, or no gap between them was found.
+/// Answer for cores that are apart. It is the result of the search if that is accurate. Otherwise Newton's
+/// method computes the last digits of normal and points, which chords of a round surface, or rounding of
+/// points that almost touch, leave open. If that fails and the search `isLast`, level_faces.cpp is used. The
+/// status is `invalid` if the cores overlap or no gap was found.
 Distance separated(const Pair& p, const Gjk& found, bool isLast) {
   if (found.verdict == Gjk::Verdict::overlap) return {};
   const SeenGap widest(p, found);
@@ -200,7 +202,7 @@ Distance solve(const Pair& p) {
   return result.status == DistanceStatus::invalid ? overlapping(p, found) : result;
 }
 
-/// `normal` is that of a plane which tells so, if one does (world).
+/// Sets `normal` to that of a separating plane, if one decides (world).
 bool isFarther(double x, const Pair& p, Vector3d& normal) {
   if (!p.valid) return false;
   if (p.a.unbounded()) return besidePlane(p).lower > x;

@@ -104,7 +104,7 @@ bool oppositeBoxes(const ShapePair& p, OppositePoints& found);
 /// opposite each other. Nothing where rounding leaves none.
 std::optional<OppositePoints> oppositeLevel(const ShapePair& p, Eigen::Vector3d n);
 
-/// Cores with a common point, as far as GJK could tell: the shortest translation that separates them.
+/// Cores with a common point according to GJK: the shortest translation that separates them.
 Distance overlapping(const ShapePair& p, const ShapePair::Gjk& found);
 
 }  // namespace fcl_stpbv::detail

@@ -107,8 +107,9 @@ struct Span {
   double least, most;
 };
 
-/// The signed distance of the volume's centre from the shape's core, to rounding. All corners of a polytope
-/// are looked at, which tells more of the most, if it may be less than `enough` (m).
+/// Lower and upper bounds on the signed distance of the volume's centre from the shape's core, up to
+/// rounding. For a polytope all corners are visited, which improves the upper bound, if the distance may be
+/// less than `enough` (m).
 Span awayFromCentre(const ShapeQuery& q, double enough);
 
 /// Any feature that has a gradient, from a start.
@@ -195,8 +196,8 @@ std::optional<LeastOverlap> overlapOfCones(ShapeQuery& q);
 /// best normal seen, `bound` holds for every normal.
 LeastOverlap leastOverlap(ShapeQuery& q, const StartNormal& start);
 
-/// From next to the answer of cores that touch, or all but: the answer of the feature there, as deep as
-/// `near` to rounding. Nothing where none holds one.
+/// For cores that touch or almost touch: starting near the answer, finds the answer on a feature of the
+/// shape, with the same depth as `near` up to rounding. No value if no feature has one.
 std::optional<DeepFeature> touchingFeature(ShapeQuery& q, const Nearest& near);
 
 /// The plane of a flat end: its normal is fixed, only the position is to be

@@ -30,8 +30,8 @@ struct Side {
   int patch;
 };
 
-/// The rotation of a pose, mended as it was for the answer where it is off by more than the rounding that
-/// features are told with. False for none.
+/// The rotation of a pose. It is corrected, as it was for the answer, if it is off by more than the rounding
+/// with which features are distinguished. False if it is no rotation.
 bool rotationOf(const Isometry3d& pose, Matrix3d& rotation) {
   constexpr double kMost = 1e-14;
   rotation = pose.linear();
@@ -97,7 +97,7 @@ bool touchOf(const A& a, const Isometry3d& poseA, const B& b, const Isometry3d& 
       placeRounding((poseB.translation() - poseA.translation()).norm() + sizeOf(a) + sizeOf(b));
   const double margins = marginOf(a) + marginOf(b);
   double angle = 0.0;
-  if (kShapes) {  // the normal of cores that all but touch is known to rounding over their distance
+  if (kShapes) {  // the error of the normal of cores that almost touch is rounding divided by their distance
     constexpr double kMost = 1e-3;  // rad
     const double core = std::abs(d.distance + margins);
     angle = placed < kMost * core ? placed / core : kMost;

@@ -18,9 +18,9 @@ struct Turning {
   Eigen::Matrix<double, 3, 2> frame;  ///< two unit vectors across the normal
   Eigen::Matrix2d turning, sliding, rolling;
 
-  /// The features' cones in one frame, and how far they are apart (m). False where nothing tells how the
-  /// normal turns: between a face and a face or an edge, parallel edges, and where `rounding` (m) of the
-  /// distance is all that is left of the radii of curvature.
+  /// The features' cones in one frame, and how far they are apart (m). False if the turn of the normal is
+  /// undetermined: between a face and a face or an edge, for parallel edges, and if the sum of the radii of
+  /// curvature is only `rounding` (m).
   bool set(const NormalCone& a, const NormalCone& b, double distance, double rounding);
 };
 

@@ -83,7 +83,7 @@ std::vector<Ring> facesByDefinition(const std::vector<Vector3d>& points, double 
     touched.clear();
     for (std::size_t k = 0; k < order.size(); ++k) {
       const int side = ball.side(at(order[k]));
-      if (side > 0) {  // what is outside one ball is outside many: it is asked sooner
+      if (side > 0) {  // a point outside one ball is outside many, so it is tested earlier
         std::swap(order[k], order[k / 2]);
         return false;
       }

@@ -57,8 +57,9 @@ Quad squareRoot(Quad x) {
 #endif
 
 // Outward normal at a of the ball through a, a+u, a+v; `condition` tells how much it magnifies rounding.
-// With N = u x v and O the circumcentre relative to a: m = -kappa O + sqrt(1 - kappa^2 O^2) N/|N|.
-// `leastSine` tells points in a row from a thin triangle: below it the cross product is rounding.
+// With N = u x v and O the circumcentre relative to a: m = -kappa O + sqrt(1 - kappa^2 O^2) N/|N|. Points are
+// taken for collinear if the sine of the triangle's angle is below `leastSine`, since the cross product is
+// then only rounding.
 template <class T>
 bool ballNormal(const Vec<T>& u, const Vec<T>& v, T kappa, double leastSine, Vec<T>* m, double* condition) {
   const Vec<T> n = cross(u, v);

@@ -46,7 +46,7 @@ class DirectionTable {
     const double folded = n.z() < 0.0 ? 1.0 : 0.0;  // as a factor: the branch would be mispredicted
     const double u = x + folded * (std::copysign(half - std::abs(y), x) - x);
     const double v = y + folded * (std::copysign(half - std::abs(x), y) - y);
-    // In this order a number that is none, of a zero `n`, becomes 0.
+    // In this order NaN, from a zero `n`, becomes 0.
     const auto slot = [&](double along) {
       return static_cast<int>(std::min(std::max(0.0, along + half), side_ - 1.0));
     };

@@ -75,7 +75,7 @@ class PatchTable {
   }
 
   /// The boundary of the patch that the way from the unit normal `n` along the tangent `h` meets first:
-  /// `past` is the inverse of how far off it is, next to nothing or less where there is none.
+  /// `past` is the inverse of its distance; about 0 or less if there is none.
   Crossing ahead(int patch, const Packed& n, const Packed& h) const {
     constexpr double kAtOnce = 1e-12;  // rad; `n` may be past the boundary already
     const Packed at = withFourth(n, 1.0), to = withFourth(h, 0.0), least = Packed{} + kAtOnce;

@@ -144,7 +144,7 @@ PointTree::Highest PointTree::highest(const Eigen::Vector3d& anchor, const Eigen
     Waiting a{bound(nodes_[static_cast<std::size_t>(top.node) + 1]), top.node + 1};
     Waiting b{bound(nodes_[static_cast<std::size_t>(node.right)]), node.right};
     if (a.bound > b.bound) std::swap(a, b);
-    stack[static_cast<std::size_t>(waiting++)] = a;  // the higher one is looked at first
+    stack[static_cast<std::size_t>(waiting++)] = a;  // the higher one is visited first
     stack[static_cast<std::size_t>(waiting++)] = b;
   }
   return best;

@@ -1,9 +1,10 @@
 // Quickhull (Barber, Dobkin, Huhdanpaa 1996) with any kind of surface through three points in place of
 // planes:
 // 1. four points far apart make the first faces; each lists points outside its surface;
-// 2. a face's farthest point enters: the faces whose surfaces do not hold it give way to new ones that
-//    join it to their rim, and the points in their lists go to the new faces or, inside all, nowhere;
-// 3. done when all lists are empty.
+// 2. add the farthest point of a face: all faces that it is outside of are replaced by new ones, which
+//    connect it to their rim. The points in their lists are moved to the new faces, or dropped if they are
+//    inside all;
+// 3. stop when all lists are empty.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -30,8 +31,8 @@ class Quickhull {
     int first = kNone;     // of the points outside that it lists
     int farthest = kNone;  // among them
     double height = 0;     // of that one
-    int round = 0;         // the last round in which it was asked whether it sees a point
-    bool sees = false;     // what it said
+    int round = 0;         // the last round in which its side of a point was tested
+    bool sees = false;     // the result: the point is outside
     bool isGone = false;
   };
 
@@ -43,7 +44,7 @@ class Quickhull {
     newFrom_.assign(points_.size(), kNone);
   }
 
-  /// False where the points are flat or a rim is no loop: another way has to be taken.
+  /// False if the points are coplanar or a rim is not a single loop; another method is then needed.
   bool make();
 
   /// Those that are not gone are the hull's, once made.
@@ -52,7 +53,7 @@ class Quickhull {
   /// A corner's point, and its index in the cloud.
   const Eigen::Vector3d& at(int corner) const { return points_[static_cast<std::size_t>(corner)]; }
   int original(int corner) const { return order_[static_cast<std::size_t>(corner)]; }
-  /// How many times the side of a point was asked: the work done.
+  /// Number of point-side tests, a measure of the work.
   long asked() const { return asked_; }
 
  private:
@@ -102,8 +103,8 @@ int Quickhull<Surface>::addFace(int a, int b, int c) {
   return f;
 }
 
-// Puts a point that no face lists into the list of the first one that it is outside of; to the front with
-// that one, for the next point is likely near.
+// Puts a point into the list of the first face that it is outside of. That face moves to the front of the
+// order, because the next point is likely near.
 template <class Surface>
 void Quickhull<Surface>::list(int point, std::vector<int>& among) {
   for (std::size_t k = 0; k < among.size(); ++k) {
@@ -158,7 +159,7 @@ bool Quickhull<Surface>::start() {
   return true;
 }
 
-// The faces whose surfaces do not hold p, from f on, and the rim around them.
+// Finds all faces that p is outside of, starting with f, and the rim around them.
 template <class Surface>
 bool Quickhull<Surface>::findRim(int p, int f) {
   ++round_;

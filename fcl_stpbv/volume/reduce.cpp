@@ -64,8 +64,8 @@ class Reducer {
     return heights;
   }
 
-  // The volume on some of the points; null where it cannot be built, as next to the smallest R. The volume of
-  // all points, which could be, serves then.
+  // The volume of some of the points; null if it cannot be built, for example near the smallest R. Then the
+  // volume of all points is used.
   static StpBv::Ptr tried(const Cloud& vertices, const StpBvOptions& options) {
     try {
       return StpBv::build(vertices, options);
@@ -74,9 +74,9 @@ class Reducer {
     }
   }
 
-  // The volume on these vertices with r grown until it covers all points with the margin; null where it
-  // cannot, exceeds the budget, or needs an r over `most`. What sticks out at the point `first` is looked at
-  // before the others.
+  // The volume with these vertices, with r enlarged until it covers all points with the margin. Null if that
+  // is impossible, exceeds the limit, or needs an r above `most`. The point `first` is tested before the
+  // others.
   StpBv::Ptr cover(const Cloud& vertices, double most = kInfinity, const Vector3d* first = nullptr) const {
     StpBvOptions grown = options_;
     // A larger r makes rho smaller and the core rounder, so the first growth is at most a little too much.
@@ -92,15 +92,16 @@ class Reducer {
     return nullptr;
   }
 
-  // The same on some of the points. The over-cover is r or more there, so no r over the budget is tried.
-  // Most that fail do so at the point that was just dropped, if there is one.
+  // The same for some of the points. The over-cover is at least r, so no r above the limit is tried. Most
+  // failures are at the point that was just removed, if there is one.
   StpBv::Ptr coverFrom(const Cloud& points, const Vector3d* dropped = nullptr) const {
     return cover(points, budget_, dropped);
   }
 
   Cloud sphere() const { return {minimumEnclosingBall(hull_).centre}; }
 
-  // The segment along the cloud's long axis, its ends drawn in where that covers tighter.
+  // The segment along the cloud's long axis; its ends are moved inwards if that covers the cloud more
+  // tightly.
   Cloud spindle() const {
     Vector3d mean = Vector3d::Zero();
     for (const Vector3d& p : hull_) mean += p / static_cast<double>(hull_.size());
@@ -123,8 +124,8 @@ class Reducer {
     return best;
   }
 
-  // Adds the points that stick out most, a sixteenth more at a time, until the budget is kept; null where
-  // that takes as many as the full volume has, or where their volume cannot be built.
+  // Adds the points that stick out most, a sixteenth more at a time, until the limit is kept. Null if that
+  // needs as many vertices as the full volume has, or if the volume cannot be built.
   StpBv::Ptr grow() const {
     Cloud chosen = {hull_[0]};
     while (static_cast<int>(chosen.size()) < full_->vertexCount()) {

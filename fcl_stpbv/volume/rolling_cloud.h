@@ -21,10 +21,10 @@ class RollingCloud {
   const Eigen::Vector3d& at(int i) const { return points[static_cast<std::size_t>(i)]; }
   int count() const { return static_cast<int>(points.size()); }
 
-  /// Points closer to i than rounding vanish into it.
+  /// Merges the points that are closer to i than rounding into it.
   void removeTwins(int i);
 
-  /// Makes the ring's points vertices. False where one of them has vanished into another.
+  /// Makes the ring's points vertices. False if one of them was merged into another point.
   bool claim(const Ring& ring);
 
   const std::vector<Eigen::Vector3d>& points;

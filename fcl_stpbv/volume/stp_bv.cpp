@@ -60,7 +60,8 @@ void checkInput(const std::vector<Vector3d>& points, const StpBvOptions& options
                 ": the big radius must be a finite number of metres, larger than r");
 }
 
-// A ball of radius R - r must hold all points with room to move, or it touches no three of them from inside.
+// A ball of radius R - r must contain all points and still be able to move; otherwise it cannot touch three
+// of them from inside.
 void checkRadius(const std::vector<Vector3d>& points, const StpBvOptions& options) {
   const Ball ball = minimumEnclosingBall(points);
   const double rho = options.R - options.r;
@@ -137,8 +138,8 @@ StpBv::Ptr StpBv::build(const std::vector<Vector3d>& points, const StpBvOptions&
     }
     if (before < found) volume = quick, found = before;
   }
-  // Clusters of points that differ by a few roundings can defeat the roll: a
-  // wrong volume must not leave the builder.
+  // Clusters of points that differ only by a few roundings can make the roll fail. A wrong volume must not be
+  // returned.
   if (found >= Soundness::off && points.size() <= kMostByDefinition) {
     RolledHull sure = hullByDefinition(points, rho);
     if (!sure.faces.empty()) volume = built(std::move(sure));

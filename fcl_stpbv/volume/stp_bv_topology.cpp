@@ -81,8 +81,8 @@ StpBv::Ptr StpBv::make(std::vector<Vector3d> vertices, std::vector<Ring> faces, 
   volume->faces_.shrink_to_fit();
   const Ball ball = minimumEnclosingBall(volume->vertices_);
   volume->centre_ = ball.centre;
-  // A ball smaller than rho is itself an intersection of balls of radius rho, so
-  // it holds the core with the vertices.
+  // A ball smaller than rho is itself an intersection of balls of radius rho. So if it contains the vertices,
+  // it contains the core.
   volume->enclosingRadius_ = ball.radius + options.r;
   volume->extent_ = ball.centre.lpNorm<1>() + volume->enclosingRadius_;
   volume->makeEdges();

@@ -94,7 +94,7 @@ SurfaceHeight fromPatchToPatch(const StpBv& volume, const Vector3d& y, const Vec
       if (!exit.isThere || !(exit.normal.dot(d) > 0)) break;
       return {exit.height, index, tried};
     }
-    if (over.neighbour == before) break;  // to and fro
+    if (over.neighbour == before) break;  // back and forth between two patches
     before = std::exchange(index, over.neighbour);
   }
   return {0, -1, tried};

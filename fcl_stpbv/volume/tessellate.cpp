@@ -37,7 +37,7 @@ class Tessellator {
   }
 
  private:
-  // What a point belongs to: a kind, and what tells it among those of its kind.
+  // Identifies a point by its kind and by indices within that kind.
   enum Kind { atVertex, atCorner, besideVertex, besideFace, within, onRing };
   using Place = std::array<int, 4>;
 
@@ -133,7 +133,8 @@ class Tessellator {
     return besideEnd(arc.edge, end, end == 1 ? i : count - i, count);
   }
 
-  // Rings about the region's centre; points on a ring are told by those on the boundary that they lie before.
+  // Rings about the region's centre. A point on a ring is identified by the boundary point that it
+  // corresponds to.
   void addRegion(const Region& region, int number) {
     double widest = 0;
     for (const Arc& arc : region.boundary)

@@ -1,4 +1,4 @@
-// A built volume checks itself:
+// Checks of a finished volume:
 // 1. no vertex above the ball of its own or a neighbouring face (which decides for all, by Blaschke's
 //    theorem), no given point above the surface;
 // 2. the solid angles of all regions, by Gauss-Bonnet, sum to 4 pi;
@@ -101,8 +101,8 @@ Verification verify(const StpBv& volume, const std::vector<Vector3d>& points, do
   result.boundaryGap = boundaries.largest;
   // Angles: each corner is rounded by a few units, and an edge's turn by one over the cosine as much.
   const double angle = 1e-13 * (16 + volume.edgeCount()) + 4 * kEpsilon / cosine;
-  // A point may have vanished into a vertex next to it, and the vertex may be as
-  // much outside a face that was joined.
+  // A point may have been merged into a vertex next to it, and that vertex may be outside a joined face by
+  // the same length.
   if (!(result.containment <= length + touchTolerance(all)))
     result.message = "a point lies " + brief(result.containment) + " m nearer to the surface than the margin";
   else if (!(std::abs(result.solidAngleError) <= angle) || !(least >= -angle))

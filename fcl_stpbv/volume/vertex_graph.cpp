@@ -32,7 +32,7 @@ VertexGraph::VertexGraph(const std::vector<Eigen::Vector3d>& vertices,
 
 int VertexGraph::climb(int vertex, const Eigen::Vector3f& d) const {
   const float level = kLevel * d.lpNorm<1>();
-  // Each step leads higher, but for rounding: the bound ends a walk around a level ring.
+  // Each step goes higher, except for rounding. The limit ends a walk around a ring of equal heights.
   std::size_t step = stars_.size();
   for (int over; step > 0 && (over = uphill(vertex, d, level)) != vertex; --step) vertex = over;
   return vertex;
