@@ -214,7 +214,8 @@ class Checker {
                 ", expected l / (2 rho) = " + toDecimal(cosine));
   }
 
-  // Side k of a face runs from its corner k to the next; it and what it names must name each other.
+  // Side k of a face runs from its corner k to the next. The side and the torus or face that it names must
+  // refer to each other.
   void checkSides(Size f) const {
     const Face& face = file_.faces[f];
     const int id = file_.firstFace() + static_cast<int>(f);

@@ -1,5 +1,5 @@
 // Writes a volume in sch-core's text format: vertices, faces as fans of triangles, tori with their cones and
-// planes. Bodies that the format cannot hold are refused first.
+// planes. Bodies that the format cannot represent are an error, before anything is written.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>

@@ -53,7 +53,7 @@ struct PartPoints {
   std::vector<Vector3d> needed;  // corners of its cells that the inside needs besides
 };
 
-// What the parts hold, as found.
+// The points of the parts as the search found them.
 std::vector<PartPoints> pointsOf(const PartSearch::Parts& parts, const std::vector<TriangleSoup>& groups,
                                  const PartSpace& space) {
   std::vector<PartPoints> points;
@@ -67,8 +67,8 @@ std::vector<PartPoints> pointsOf(const PartSearch::Parts& parts, const std::vect
   return points;
 }
 
-// Where the hulls do not hold what the mesh encloses in a leaf's cell, as they hold its triangles, the cell's
-// corners make them.
+// If the hulls do not cover the inside of the mesh in a leaf's cell, adds the cell's corners, so that they
+// do.
 void coverInside(const PartSearch::Parts& parts, const std::vector<TriangleSoup>& groups,
                  const PartSpace& space, std::vector<PartPoints>& points) {
   std::vector<HullPlanes> hulls;
@@ -208,7 +208,7 @@ ConvexParts Searches::within(double excess, long work) {
   Certified found = byCells(cuts);
   ConvexParts& best = found.parts;
   if (!found.asFound) {
-    // The search's coarser mesh does not tell where the triangles are.
+    // Not for the search's coarser mesh, which does not show where the triangles are.
     if (auto grown = space_.isWhole ? byGrowing(cuts, best.excess) : std::nullopt;
         grown && grown->excess < best.excess)
       best = *std::move(grown);
@@ -219,8 +219,8 @@ ConvexParts Searches::within(double excess, long work) {
   return std::move(best);
 }
 
-// Hulls to spend on a search. Beyond kSearched triangles it sees a coarser mesh, of which it need not get the
-// last bit. And two or three parts are found sooner.
+// Number of hulls for a search. With more than kSearched triangles it works on a coarser mesh, so it need not
+// be as accurate. Two or three parts need fewer hulls.
 long workFor(const PartSpace& space, const PartsOptions& options) {
   const double triangles = static_cast<double>(space.mesh.triangles().size());
   const double share =
@@ -246,8 +246,8 @@ ConvexParts convexParts(const TriangleMesh& input, const PartsOptions& options) 
   Searches searches(space, soups, options.most);
   const long work = workFor(space, options);
   ConvexParts out = searches.within(options.excess, work);
-  // The search sees a coarser mesh, and parts get corners behind it: a near miss is searched for again, a
-  // little closer.
+  // The search uses a coarser mesh, and parts get corners after it. If the result misses the goal by a
+  // little, search again with a slightly smaller goal.
   const auto isNearMiss = [&] { return out.excess > options.excess && out.excess < 1.15 * options.excess; };
   double closer = options.excess;
   for (int again = 0; again < 2 && isNearMiss(); ++again) {

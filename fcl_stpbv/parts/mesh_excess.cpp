@@ -153,10 +153,10 @@ class Bound {
     return true;
   }
 
-  // What the mesh's surface does not cross is inside the solid as a whole where one point is.
-  // Looked at is the piece a little smaller, and a little aside of mesh triangles that touch it
-  // from one side; so all of it is as near to the inside as that. Where a mesh triangle crosses the
-  // piece, it is cut there. False where neither helps.
+  // If the mesh's surface does not cross the piece, the whole piece is inside the solid if one point is. The
+  // test uses a slightly smaller piece, moved slightly away from mesh triangles that touch it from one side;
+  // so the whole piece is within that length of the inside. If a mesh triangle crosses the piece, the piece
+  // is cut there. False if neither helps.
   bool settleInside(const Open& piece) {
     ++queries_;
     const Triangle& t = piece.corners;

@@ -15,8 +15,9 @@ using Eigen::Vector3d;
 
 namespace {
 
-// Triangles looked at for one distance, in those of a usual mesh (20 to 60). Large triangles that cross each
-// other, or a fan about one edge, leave the mesh's tree of boxes little to rule out.
+// The cost of one distance: triangles visited, relative to a usual mesh (20 to 60). It is high for large
+// triangles that cross each other or a fan about one edge, because the mesh's tree of boxes can then exclude
+// only little.
 double costOf(const MeshSolid& mesh) {
   constexpr double kUsual = 60;
   constexpr std::size_t kTries = 200;

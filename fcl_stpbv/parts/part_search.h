@@ -46,7 +46,7 @@ class PartSearch {
     double score;
     PartPtr up, down;
   };
-  /// Parts that together cover all, and what tells good ones.
+  /// A set of parts that together cover the mesh, and measures of its quality.
   struct Line {
     Parts parts;
     double worst = 0, volume = 0;
@@ -72,7 +72,7 @@ class PartSearch {
   long work_ = 0, spent_ = 0;
   std::map<const Part*, std::vector<Split>> splits_;
   std::map<std::pair<const Part*, const Part*>, PartPtr> joins_;
-  Parts kept_;  // all that were looked at, so that no two ever share an address
+  Parts kept_;  // all parts ever made; they are kept so that addresses stay unique
 };
 
 }  // namespace fcl_stpbv::detail

@@ -24,7 +24,7 @@ namespace {
 
 using namespace detail;
 
-// Infinite where one is no number, so that nothing is worse.
+// The sum of the violations; infinite if one is NaN, so that nothing is worse.
 double total(const std::vector<Violation>& violations) {
   double sum = 0;
   for (const Violation& v : violations) sum += v.amount;

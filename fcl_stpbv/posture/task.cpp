@@ -38,7 +38,7 @@ std::vector<int> linksNamed(const std::vector<std::string>& names, const Posture
   return links;
 }
 
-// An empty list holds all.
+// An empty list means all links.
 bool holds(const std::vector<int>& links, int link) {
   return links.empty() || std::find(links.begin(), links.end(), link) != links.end();
 }
@@ -117,7 +117,7 @@ std::vector<CheckedPair> pairsOf(const PostureTask& task, const PostureScene& sc
 
 namespace {
 
-// Of a task whose base stands at the origin, all but the collisions.
+// The problem without collisions, for a task whose base is at the origin.
 PostureSetup placed(const PostureTask& task, const PostureScene& scene) {
   const auto kinematics = std::make_shared<const Kinematics>(scene.robot, task.base);
   PostureSetup setup;

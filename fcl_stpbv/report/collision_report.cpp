@@ -147,8 +147,8 @@ void summarise(CollisionReport& report) {
   }
 }
 
-// The pair list, and every pair in its configuration, with the bodies that report.geometry holds. Where the
-// report holds all that already, only what the bodies of `changed` pairs change is found anew.
+// Computes the pair list, and every pair in its configuration, with the bodies in report.geometry. If the
+// report already has them, only the `changed` pairs are computed again.
 void examine(const ReportRequest& request, const PairListOptions& search, const AskedPostures& postures,
              const Srdf* srdf, PairCauses& causes, const std::set<LinkPair>& changed, VolumeCache& cache,
              CollisionReport& report) {

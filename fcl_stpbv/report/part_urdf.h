@@ -19,8 +19,9 @@ struct PartUrdf {
   std::string folder;  ///< where the URDF will be: relative names of other meshes are changed to lead there
 };
 
-/// The robot's file with one `<collision>` a part: name, origin and what else it holds as the mesh's were, no
-/// scale, since the parts have it. Everything else stays. @throws Error naming the file.
+/// The robot's URDF with one `<collision>` per part. Name, origin and other contents are copied from the
+/// mesh's element, without the scale, which is already applied to the parts. Everything else stays. @throws
+/// Error naming the file.
 std::string urdfWithParts(const PartUrdf& parts);
 
 }  // namespace fcl_stpbv::report

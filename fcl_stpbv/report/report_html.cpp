@@ -156,7 +156,8 @@ void shorten(nlohmann::json& value) {
   }
 }
 
-// Whether the trajectory leaves open if the pair meets: behind a contact only its closest approach tells.
+// Whether it is undecided if the pair collides on the trajectory. After a contact only the closest approach
+// decides.
 bool isUndecided(const CollisionReport& report, const PairReport& pair) {
   if (!report.trajectory || !pair.checked) return false;
   const TrajectoryReport& t = *report.trajectory;

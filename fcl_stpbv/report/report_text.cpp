@@ -66,7 +66,8 @@ std::vector<const PairReport*> shownPairs(const CollisionReport& report, std::si
   return shown;
 }
 
-// Where pairs collide, the meshes and the cause tell more than the hulls and the search's reason.
+// If any pair collides, the table shows the meshes' distance and the cause, instead of the hulls' distance
+// and the search's reason.
 std::string pairs(const CollisionReport& report, std::size_t top) {
   const std::vector<const PairReport*> shown = shownPairs(report, top);
   const bool byCause = report.colliding > 0;

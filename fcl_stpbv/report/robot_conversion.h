@@ -12,7 +12,7 @@ namespace fcl_stpbv::report {
 struct RobotConversion {
   ReportRequest report;  ///< the robot, its parts, and how pairs are searched; no posture, no trajectory
   std::string folder;    ///< to make, or to bring up to date
-  /// Before the names of the parts' meshes in the URDF, such as "package://my_robot/"; "" leaves them
+  /// Prefix of the parts' mesh names in the URDF, such as "package://my_robot/"; with "" the names are
   /// relative to the URDF.
   std::string meshPrefix;
   bool disableDefault = false;  ///< as toSrdfText()

@@ -28,8 +28,8 @@ class RobotLoader {
  public:
   explicit RobotLoader(RobotFiles files);
 
-  /// Reads everything. What is wrong is in faults(), to which the caller may add; only robot(), srdf() and,
-  /// without an error, kinematics() can be asked for, and they may be incomplete.
+  /// Reads everything. Faults are in faults(), to which the caller may add. After it only robot(), srdf()
+  /// and, if there is no error, kinematics() are available, and they may be incomplete.
   /// @throws Error where a file cannot be read at all.
   void read();
   /// Builds the volumes, and the covers of primitives that pairs need. @throws Error listing all faults, and

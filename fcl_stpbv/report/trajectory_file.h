@@ -24,10 +24,10 @@ struct Trajectory {
 /// key, and what would work.
 Trajectory readTrajectory(const std::string& path, const Kinematics& kinematics, const Eigen::VectorXd& rest);
 
-/// A warning where a continuous, planar or floating joint turns by more than half a turn from one way point
-/// to the next, as angles do that were wrapped to -pi ... pi, and rotation vectors kept within pi: many
-/// robots go the short way then, which is not the one looked at. Else "". `name` is the argument that gave
-/// the trajectory.
+/// A warning if a continuous, planar or floating joint rotates by more than half a turn from one way point to
+/// the next; else "". That happens with angles that were wrapped to -pi ... pi, and with rotation vectors
+/// kept within pi. Many robots then take the shorter way, which is not the motion that is checked. `name` is
+/// the argument that gave the trajectory.
 std::string turnWarning(const std::string& name, const Trajectory& trajectory, const Kinematics& kinematics);
 
 }  // namespace fcl_stpbv::report

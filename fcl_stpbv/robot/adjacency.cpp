@@ -19,7 +19,7 @@ bool turns(const JointModel& joint) {
   return joint.type == JointType::revolute || joint.type == JointType::continuous;
 }
 
-// Such a joint holds its links nowhere near each other.
+// Such a joint does not keep its two links near each other.
 bool leavesFree(const JointModel& joint) {
   return joint.type == JointType::planar || joint.type == JointType::floating;
 }

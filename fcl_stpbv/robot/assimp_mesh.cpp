@@ -124,8 +124,8 @@ class Gatherer {
   std::unordered_map<Vector3d, int, VectorHash> index_;
 };
 
-// assimp's readers let faces without vertices and with wrong ones through, and its triangulation ends the
-// process over them, so this stands between the two.
+// Must run between assimp's reader and its triangulation: the reader accepts faces without vertices or with
+// wrong indices, and the triangulation crashes on them.
 void checkFaces(const aiScene& scene, const std::string& path) {
   for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
     const aiMesh& mesh = *scene.mMeshes[m];
@@ -141,8 +141,8 @@ void checkFaces(const aiScene& scene, const std::string& path) {
   }
 }
 
-// Twice the area of all faces, of each that of its outline seen along its normal (m^2): whatever way a face
-// is split, its triangles have as much in all, or more where it is not flat.
+// Twice the sum of the projected areas of all faces along their normals (m^2). For any triangulation of a
+// face, its triangles have the same total area, or more if the face is not flat.
 double outlinedArea(const aiScene& scene) {
   double sum = 0;
   for (unsigned m = 0; m < scene.mNumMeshes; ++m) {

@@ -29,8 +29,9 @@ struct PlacedBody {
   Eigen::Isometry3d inFrame;
   Eigen::Vector3d centre;  ///< of a sphere that holds it, in its frame (m)
   double radius;           ///< of that sphere (m)
-  double inner;  ///< of a ball about the same centre that it holds (m); -inf where the centre may be outside
-  bool finite;   ///< its corners are numbers, if it is a mesh
+  /// Radius of a ball about the same centre inside the body (m); -inf if the centre may be outside.
+  double inner;
+  bool finite;  ///< its corners are numbers, if it is a mesh
   bool convex;
   ConvexBody body;  ///< where it is convex; posed at the last query
 };
@@ -42,7 +43,7 @@ struct KeptPair {
   double rounding;      ///< of their gap along a kept plane, but for the poses' (m)
   long lastHit = 0;     ///< the configuration's number
   bool kept = false;    ///< whether there is a plane, by its directions
-  bool lifted = false;  ///< whether its height is known: it is looked for when it is asked for
+  bool lifted = false;  ///< whether its height is known; it is computed when it is first needed
   KeptPlane plane{};
   PairCache cache;
 };

@@ -21,7 +21,7 @@ constexpr Words kSemantics{"POSITION", "NORMAL",     "TEXCOORD", "COLOR",
 constexpr Words kPrimitives{"triangles", "lines",   "linestrips", "polygons",
                             "polylist",  "trifans", "tristrips"};
 
-// A misspelt one is a table read from elsewhere.
+// With a misspelt attribute assimp would read a table from a wrong place.
 constexpr Words kOfAccessor{"count", "offset", "source", "stride"};
 
 struct Accessor {

@@ -7,8 +7,8 @@
 
 namespace fcl_stpbv::detail {
 
-/// Checks the geometries of a document: each array holds what its readers take from it, positions have x, y
-/// and z, no index is below 0.
+/// Checks the geometries of a document: arrays are large enough for all accesses, positions have x, y and z,
+/// and no index is negative.
 void checkColladaGeometries(const tinyxml2::XMLElement& root, const std::string& name);
 
 }  // namespace fcl_stpbv::detail

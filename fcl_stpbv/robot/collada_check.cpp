@@ -64,7 +64,7 @@ class OneUnit : public tinyxml2::XMLVisitor {
   bool isGiven_ = false;
 };
 
-// assimp passes over elements that it does not know, and with them a shape or a way to it.
+// assimp ignores elements that it does not know, and so may lose a shape or a reference to one.
 void checkKnown(const XMLElement& element, const Words& inside, const std::string& name) {
   for (const XMLElement* e = element.FirstChildElement(); e != nullptr; e = e->NextSiblingElement())
     if (!holds(inside, e->Name()))

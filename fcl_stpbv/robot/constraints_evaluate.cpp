@@ -1,4 +1,4 @@
-// Distances and Jacobian of all rows at q: sizes checked, links placed, each row asked and written.
+// Distances and Jacobian of all rows at q: checks sizes, computes the links' poses, and evaluates each row.
 #include <algorithm>
 #include <limits>
 

@@ -74,7 +74,7 @@ void CollisionConstraints::addWholePairs() {
   const auto keyOf = [&](const CheckedPair& pair) {
     return std::tuple(wholeOf(pair.body), pair.obstacle ? pair.other : wholeOf(pair.other), pair.obstacle);
   };
-  // A volume with fewer vertices than its mesh need not hold the volumes of the mesh's parts.
+  // A reduced volume may not contain the volumes of the mesh's parts.
   const auto holdsItsParts = [&](int body) {
     return at(body) < bodies.size() && !bodies[at(body)].isReduced();
   };

@@ -4,7 +4,7 @@
 //    needs so. Again, until no link helps alone.
 // 2. The first need that two finer links meet together gets them, with the fewest rows. On with 1.
 // 3. What is left is not met by the finest bodies.
-// A pair is taken by parts only if a need of its own asks for them.
+// A pair uses convex parts only if a need of that pair requires them.
 #include "fcl_stpbv/robot/detail_choice.h"
 
 #include <limits>
@@ -202,8 +202,8 @@ bool DetailChoice::refineBothLinks(OpenNeed& open) {
   return true;
 }
 
-// A finer body need not lie within the coarse one, so all needs are asked again at the end. The links' own
-// shapes are asked only where whole bodies meet: bodies take a tenth of the time.
+// A finer body need not lie within the coarse one, so all needs are checked again at the end. The exact
+// shapes are used only if whole bodies meet, because bodies take a tenth of the time.
 std::set<LinkPair> DetailChoice::refine(const std::vector<SceneNeed>& needs) {
   changed_.clear();
   std::vector<char> hopeless(needs.size());

@@ -1,4 +1,4 @@
-// The ending of a file's name, which tells formats apart.
+// The extension of a file's name, which identifies the format.
 #pragma once
 
 #include <filesystem>
@@ -8,7 +8,7 @@
 
 namespace fcl_stpbv::detail {
 
-/// The ending with its point, such as ".gltf", in small letters; "" for none.
+/// The extension with its dot, such as ".gltf", in lower case; "" if there is none.
 inline std::string lowerExtension(const std::string& path) {
   return inSmallLetters(std::filesystem::path(path).extension().string());
 }

@@ -148,7 +148,7 @@ class GltfCheck {
     for (const GltfItem& buffer : values_.list("buffers")) requireKeys(buffer, {"byteLength", "uri"});
   }
 
-  // A misspelt key is a body that is not there, stands elsewhere, or has the bytes of another one.
+  // With a misspelt key, a body would be missing, be at a wrong place, or have the data of another one.
   void requireKeys(const GltfItem& item, const Words& keys) const {
     constexpr Words kAnywhere{"extensions", "extras", "name"};
     if (!item.value->is_object()) return;  // its reader refuses it

@@ -11,7 +11,7 @@
 
 namespace fcl_stpbv::detail {
 
-/// A value of the document and where it stands, such as "accessors[3]".
+/// A value of the document and its place, such as "accessors[3]".
 struct GltfItem {
   const nlohmann::json* value;
   std::string place;
@@ -34,7 +34,7 @@ class GltfValues {
 
   [[noreturn]] void refuse(const GltfItem& item, const std::string& message) const;
 
-  /// The same of a file that only its writer can mend.
+  /// The same, for a fault that only the author of the file can correct.
   [[noreturn]] void damaged(const GltfItem& item, const std::string& message) const;
 
   /// A list of the document, none where it is missing, and one of its items.
@@ -47,7 +47,7 @@ class GltfValues {
   /// A member, or nothing.
   std::optional<GltfItem> find(const GltfItem& item, const char* key) const;
 
-  /// A whole number from 0: assimp takes any other value for a missing one.
+  /// A non-negative integer; assimp treats any other value as missing.
   std::size_t whole(const GltfItem& item) const;
   std::size_t whole(const GltfItem& item, const char* key) const;
   std::size_t whole(const GltfItem& item, const char* key, std::size_t missing) const;

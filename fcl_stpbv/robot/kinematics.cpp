@@ -82,7 +82,7 @@ inline void compose(const Frame& parent, const Frame& local, Isometry3d& pose) {
 Twist turning(const Vector3d& axis, const Vector3d& origin) { return {origin.cross(axis), axis}; }
 Twist sliding(const Vector3d& axis) { return {axis, Vector3d::Zero()}; }
 
-// Files and answers tell coordinates by their names.
+// Files and results refer to coordinates by name, so the names must be distinct.
 void requireDistinct(const std::vector<std::string>& names, const std::string& path) {
   std::set<std::string> known;
   for (const std::string& name : names)

@@ -98,7 +98,8 @@ class Builder {
     return robot_.links[static_cast<std::size_t>(source.link)].name;
   }
 
-  // Flat bodies and budgets are of meshes: where a link has none they would say nothing without a word.
+  // Options for flat bodies and limits apply only to meshes. Warns if a link has no mesh, because they would
+  // silently have no effect.
   void warnWithoutMesh() {
     std::set<std::string> asked = options_.flatLinks;
     for (const auto& [name, budget] : options_.budgets) asked.insert(name);
@@ -115,8 +116,8 @@ class Builder {
       geometry_.warnings.push_back(robot_.path + ": there is no mesh that could have an over-cover budget");
   }
 
-  // What the advice does not say: how many primitives there are, which it is not for, how many meshes cannot
-  // keep both promises, and which is furthest from it.
+  // Warns of the limits of the advice: the number of primitives, to which it does not apply, the number of
+  // meshes that cannot keep both budgets, and the mesh that is furthest from it.
   void warnOfAdvice() {
     if (!options_.advice) return;
     const auto isPrimitive = [](const Body& body) { return body.file.empty(); };

@@ -13,12 +13,12 @@ namespace fcl_stpbv::detail {
 /// that the mesh need not be read again.
 struct VolumeKey {
   std::string content;
-  StpBvOptions radii;  ///< those asked for, whether or not they are fitted instead
+  StpBvOptions radii;  ///< the radii in the options, even if fitted ones are used instead
 };
 VolumeKey volumeKey(const GeometryOptions& options, const std::string& link, const std::string& meshKey);
 
 /// r and R of a link's bodies: the link's own, those for all links, or what fits the body (GeometryOptions).
-/// `size` is only asked where they are fitted. Without GeometryOptions::advice, which is for meshes.
+/// `size` is only called if they are fitted. Ignores GeometryOptions::advice, which is for meshes.
 StpBvOptions radiiFor(const GeometryOptions& options, const std::string& link,
                       const std::function<BodySize()>& size);
 

@@ -16,13 +16,13 @@ MeshWords wordsOf(std::string_view text);
 
 std::string inSmallLetters(std::string_view word);
 
-/// Whether a word is a finite decimal that assimp reads as what it says: it counts the digits before the
-/// point in an integer of 64 bits, and takes more of them for 0 or for any number; it leaves out decimals
-/// behind the 15th, of which a power of ten may make much.
+/// Whether a word is a finite decimal that assimp reads correctly. assimp reads the digits before the decimal
+/// point into a 64-bit integer, so more digits give 0 or an arbitrary number. It ignores decimals after the
+/// 15th, which a large exponent could make significant.
 bool readMeshNumber(std::string_view word, double& value);
 bool isMeshNumber(std::string_view word);
 
-/// Of a finite number that isMeshNumber() refuses, what it lacks.
+/// For error messages: the form that a finite number must have for readMeshNumber().
 constexpr const char* kNumberForm =
     "with a point for decimals, at most 18 digits before it, and no small one that a power enlarges";
 

@@ -182,7 +182,7 @@ void MotionChains::place(double t) {
       body.where = link * body.centre;
       spin = std::max(spin, twist_[at(body.link)].angular.norm());
     }
-    // A half space has no ball; what is asked of it is at the other body.
+    // A half space has no ball; it is evaluated at the other body.
     const double reach = body.where.lpNorm<1>() + body.radius;
     length = std::max(length, std::isfinite(reach) ? reach : body.body.pose.translation().lpNorm<1>());
   }

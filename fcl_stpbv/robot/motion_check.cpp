@@ -1,10 +1,10 @@
 // Conservative advancement (Mirtich and Canny 1995) on the straight line between two configurations, with
 // separating planes in place of distances (docs/motion.md).
 // 1. robot/motion_chains.h computes the bodies' velocities and bounds on their accelerations.
-// 2. At each time looked at: how long before and after it a plane keeps the bodies apart
-//    (planeCover), from their velocities. First the plane between their bounding balls; where that
-//    does not cover enough, the plane of the exact distance's normal. Beside meshes and trees the bound
-//    on the bodies' speed, and a plane for each element (elementCover).
+// 2. For each time examined, the velocities give the times before and after it for which a plane keeps the
+//    bodies apart (planeCover). First the plane between their bounding balls; where that does not cover
+//    enough, the plane of the exact distance's normal. Beside meshes and trees the bound on the bodies'
+//    speed, and a plane for each element (elementCover).
 // 3. adapter/motion_search.h chooses the times, until the covers contain the whole motion or a contact is
 //    found. For the closest approach the margin is the smallest distance so far.
 #include "fcl_stpbv/robot/motion_check.h"

@@ -25,8 +25,8 @@ inline std::size_t lettersApart(const std::string& a, const std::string& b) {
   return row.back();
 }
 
-/// "; did you mean 'ee_link'?" where one of `known` differs from `name` by a third of its letters or fewer,
-/// or holds it; else "". For messages that end a program: all of them are looked at.
+/// "; did you mean 'ee_link'?" if a name in `known` differs from `name` by at most a third of its letters, or
+/// contains it; else "". It compares all names, so it is slow; use it only for messages that end a program.
 inline std::string didYouMean(const std::string& name, const std::vector<std::string>& known) {
   constexpr std::size_t kLongest = 100;  // longer names are no slips of the hand
   const std::string* best = nullptr;

@@ -1,4 +1,4 @@
-// Whether an OFF file holds what its header says, in lines that assimp reads right.
+// Checks that an OFF file matches its header, and that assimp reads its lines correctly.
 #pragma once
 
 #include <string>

@@ -1,10 +1,9 @@
 // Finds the reasons for pairs by samples, as MoveIt's setup assistant does, and then by descents and proofs.
 // Each stage handles the pairs that are still undecided.
 // 1. The tree of joints: pairs that are adjacent, rigidly joined, or left out by the user's SRDF.
-// 2. Random samples: a pair collides in the neutral configuration, in (nearly) all samples, in some, or in
-//    none.
-// 3. For pairs with no collision: descents of the distance from the closest samples, then a short proof by
-//    boxes of joint values (pair_proof.h), then descents from random configurations.
+// 2. Random samples: a collision in the neutral configuration, in (nearly) all samples, in some, or in none.
+// 3. Without a collision: descents of the distance from the closest samples, then a short proof by boxes of
+//    joint values (pair_proof.h), then descents from random configurations.
 // 4. Longer proofs, with twice the boxes in each round, until the seconds allowed are spent.
 #include <algorithm>
 #include <chrono>

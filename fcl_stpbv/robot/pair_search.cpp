@@ -109,9 +109,9 @@ double PairSearch::distanceAndGradient(const Eigen::VectorXd& q) {
   return least;
 }
 
-// Projected steps along the gradient, `sign` -1 downhill and 1 uphill. A step counts in units of each
-// coordinate: where nothing limits it, the room that is searched, so that it gets as far as the robot is
-// large.
+// Projected steps along the gradient, `sign` -1 downhill and 1 uphill. A step is measured in a unit for each
+// coordinate: 1, or for coordinates without limits the range that is searched, so that a step is as large as
+// the robot.
 template <class Arrived>
 double PairSearch::follow(Eigen::VectorXd& q, double sign, Arrived arrived) {
   constexpr int kSteps = 200;

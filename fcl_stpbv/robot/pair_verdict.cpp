@@ -16,8 +16,8 @@ using namespace detail;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-// After more of a turn the plane tells little, and a search from the centres
-// takes fewer steps than one from there.
+// After a larger turn the plane is no longer useful, and a search from the centres takes fewer steps than one
+// from the plane.
 bool CollisionChecker::Impl::isRecent(const KeptPair& pair) const {
   constexpr double kTurn2 = 0.01;  // (0.1 rad)^2
   return pair.kept && turnSince(pair.plane, state_.link[bodies_[pair.a].frame],

@@ -75,7 +75,7 @@ double PlaneBound::gapAlong(const Vector3d& n, std::size_t reference, Eigen::Vec
   return -push_.support(-n, second_, shares) - push_.support(n, first_, shares);
 }
 
-// The links that the plane is best fixed to, as the nearest points alone tell.
+// Ranks the links to which the plane can be fixed, by the bound at the nearest points only.
 void PlaneBound::rank(const Vector3d& n, const std::array<Vector3d, 2>& nearest) {
   const auto firstOrder = [&](const OutwardJoint& o, const Vector3d& x) {
     return (o.joint.slides ? o.joint.half : o.sine) * std::abs(n.dot(motion(o.joint, x)));

@@ -193,7 +193,7 @@ bool isWhole(std::string_view word, const PlyType& type) {
          value <= type.most;
 }
 
-/// The elements of a PLY as text. assimp takes each line for one of them, whatever it holds.
+/// The elements of a text PLY. assimp reads each line as one element, even if it is invalid.
 class PlyLines {
  public:
   explicit PlyLines(MeshLines& lines) : lines_(lines) {}

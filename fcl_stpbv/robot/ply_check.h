@@ -1,5 +1,5 @@
-// Whether a PLY file holds what its header promises. assimp's reader trusts the header and reads past the end
-// of a damaged file, which ends the process.
+// Checks that a PLY file matches its header. assimp's reader trusts the header and reads beyond the end of a
+// damaged file, which crashes the process.
 #pragma once
 
 #include <string>

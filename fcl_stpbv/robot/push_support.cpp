@@ -30,7 +30,7 @@ double PushBound::mostPush(const BodySide& side) const {
   return sum;
 }
 
-// Most that the turns change the normal as the body sees it: the chord of each, outwards.
+// Upper bound on the change of the normal relative to the body by the turns: the sum of their chords.
 double PushBound::mostTurned(const BodySide& side) const {
   double turned = 0;
   for (std::size_t i = 0; i < side.joints.size(); ++i)
@@ -55,7 +55,8 @@ std::size_t PushBound::foremost(const Vector3d& n, const BodySide& side) const {
   return found;
 }
 
-// A point gets no farther than another one does, plus their way along n and what the turns make of it.
+// The bound for a point is at most that of another point, plus the distance of the two along n and its change
+// by the turns.
 double PushBound::support(const Vector3d& n, const BodySide& side, Eigen::VectorXd& shares) {
   prepare(n, side);
   const std::vector<Vector3d>& points = side.body->points;

@@ -129,7 +129,7 @@ RobotModel loadUrdf(const std::string& path);
 RobotModel loadUrdf(const std::string& path, LoadFaults& faults);
 /// The same from a text; `path` stands for it in messages.
 RobotModel parseUrdf(const std::string& text, const std::string& path);
-/// The same, but what is wrong is added to `faults` for the caller to refuse.
+/// The same, but faults are added to `faults`, and the caller decides.
 RobotModel parseUrdf(const std::string& text, const std::string& path, LoadFaults& faults);
 
 }  // namespace fcl_stpbv

@@ -49,7 +49,7 @@ class Reader {
   Shapes choose(bool visual) {
     const std::size_t collision = linksWith(robot_, &LinkModel::collision);
     const std::size_t visuals = linksWith(robot_, &LinkModel::visual);
-    // A robot whose collision shapes are all wrong is no robot without.
+    // A robot whose collision shapes are all faulty does not count as a robot without collision shapes.
     const bool instead = !visual && collision == 0 && faults_.shapes.empty() && visuals > 0;
     if (instead)
       warn("no link has a collision shape; the visual shapes of " + std::to_string(visuals) +
@@ -65,7 +65,7 @@ class Reader {
     return used;
   }
 
-  // A link can be seen on a picture of the robot and yet have nothing that is checked.
+  // Warns of links that have visual shapes but no collision shapes, since they are drawn but not checked.
   void warnOfOthers(Shapes used, Shapes other) {
     constexpr std::size_t kNamed = 5;
     std::vector<std::string> names;
@@ -111,7 +111,8 @@ Error namingFile(const std::string& file, const Error& error) {
   return Error(message.find(file) != std::string::npos ? message : file + ": " + message);
 }
 
-// Of the file's bytes; of glTF, which keeps its vertices in other files, of what these hold.
+// The digest of the file's bytes; for glTF, which may store its vertices in other files, of the mesh's
+// vertices and triangles.
 std::string meshKey(const std::string& file, const Eigen::Vector3d& scale) {
   std::string key;
   appendVector(key, scale);

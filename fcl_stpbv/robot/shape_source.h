@@ -13,7 +13,7 @@
 
 namespace fcl_stpbv::detail {
 
-/// The error, with the file's name before what it says unless that names it.
+/// The error with the file's name before its message, unless the message contains the name.
 Error namingFile(const std::string& file, const Error& error);
 
 /// The key of a mesh in the cache (volume_cache.h): a digest of the file's content and of the scale.

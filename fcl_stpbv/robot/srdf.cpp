@@ -80,7 +80,7 @@ class SrdfReader {
     srdf_.warnings.push_back(xmlPlace(e, path_) + message);
   }
 
-  // A state may be of a variant of the robot, as one with a gripper.
+  // Only a warning: a state may belong to a variant of the robot, for example one with a gripper.
   void warnOfUnknown(const Srdf::State& state) {
     std::string list;
     for (const auto& [joint, values] : state.joints)
@@ -226,7 +226,7 @@ std::vector<Srdf::State> Srdf::allStates() const {
 bool Srdf::movesBase(const State& state) const {
   const auto base = state.joints.find(baseJoint);
   if (base == state.joints.end()) return false;
-  // x, y and angle, or x, y, z and a quaternion, whose w tells nothing more.
+  // x, y and angle, or x, y, z and a quaternion, whose w gives no additional information.
   const std::vector<double>& values = base->second;
   const auto counts = static_cast<std::ptrdiff_t>(values.size() == 7 ? 6 : values.size());
   return std::any_of(values.begin(), values.begin() + counts,

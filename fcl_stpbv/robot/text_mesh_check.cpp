@@ -93,8 +93,8 @@ long vertexOf(std::string_view word, const MeshLines& lines) {
   return index;
 }
 
-/// Which lines for textures and normals assimp has met so far. While it knows normals only, it takes the
-/// second number of "7/1/3" for a normal, and drops the rest of the face over the third.
+/// Which lines for textures and normals assimp has read so far. While it has only normals, it reads the
+/// second number of "7/1/3" as a normal, and at the third it drops the rest of the face.
 class ObjReferences {
  public:
   void note(std::string_view line) {
@@ -119,7 +119,7 @@ class ObjReferences {
   bool textures_ = false, normals_ = false;
 };
 
-// assimp passes over statements that it does not know: a vertex that is lost shifts all indices after it.
+// assimp ignores unknown statements. A misspelt vertex would be lost and shift all later indices.
 void checkObjStatement(std::string_view keyword, const MeshLines& lines) {
   static const std::set<std::string_view> kKnown{
       "v",      "vt",    "vn",       "vp",       "f",   "fo",         "l",         "p",      "o",

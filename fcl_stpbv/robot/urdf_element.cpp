@@ -1,5 +1,5 @@
-// Reads one shape, inertial or joint by urdfdom: wraps it in a small robot of
-// its own, so a fault costs no other.
+// Reads one shape, inertial or joint by urdfdom: wraps it in a small robot of its own, so that a fault does
+// not affect other elements.
 #include "fcl_stpbv/robot/urdf_element.h"
 
 #include <console_bridge/console.h>
@@ -18,7 +18,7 @@ namespace {
 
 using tinyxml2::XMLElement;
 
-// urdfdom says what is wrong on the console only. This keeps it for the exception's message.
+// urdfdom reports errors only on the console. This captures them for the exception's message.
 class Listener : public console_bridge::OutputHandler {
  public:
   Listener() : guard_(mutex()) { console_bridge::useOutputHandler(this); }
@@ -37,7 +37,7 @@ class Listener : public console_bridge::OutputHandler {
   std::string heard_;  // the first thing said: what follows are its consequences
 };
 
-// In attributes XML takes tabs and line ends for spaces, which are all that urdfdom knows between numbers.
+// XML treats tabs and line ends in attributes as spaces, but urdfdom accepts only spaces between numbers.
 void spaceOut(XMLElement& element) {
   for (const char* vector : {"xyz", "rpy", "size", "scale"}) {
     const char* numbers = element.Attribute(vector);
@@ -93,7 +93,7 @@ class SmallRobot {
   throw Error(reason.empty() ? "urdfdom cannot read it" : reason);
 }
 
-// urdfdom wants an effort and a velocity, which nothing here needs.
+// urdfdom requires an effort and a velocity, which are not used here.
 void copyLimit(SmallRobot& robot, XMLElement& joint, const XMLElement* limit) {
   XMLElement* copy = robot.copy(joint, limit);
   if (!copy) return;
@@ -121,7 +121,7 @@ urdf::InertialSharedPtr readInertialElement(const XMLElement& inertial) {
   SmallRobot robot;
   XMLElement* copy = robot.add(*robot.add("link", "l"), "inertial");
   for (const char* part : {"origin", "mass"}) robot.copy(*copy, inertial.FirstChildElement(part));
-  XMLElement* inertia = robot.add(*copy, "inertia");  // urdfdom wants one, which nothing here needs
+  XMLElement* inertia = robot.add(*copy, "inertia");  // urdfdom requires one, which is not used here
   for (const char* entry : {"ixx", "ixy", "ixz", "iyy", "iyz", "izz"}) inertia->SetAttribute(entry, "0");
   std::string reason;
   const urdf::ModelInterfaceSharedPtr model = robot.parse(reason);

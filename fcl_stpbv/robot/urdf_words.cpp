@@ -79,7 +79,8 @@ void checkAttributes(const XMLElement& element, const Known& known) {
   }
 }
 
-// Three zeros: of an origin that moves nothing, wherever it stands and whatever it is called.
+// Whether an attribute is three zeros, as of an origin that has no effect; it is harmless in any place and
+// under any name.
 bool isNowhere(std::string_view attribute, std::string_view numbers) {
   return (attribute == "xyz" || attribute == "rpy") &&
          numbers.find_first_not_of("0.+- \t\r\n") == std::string_view::npos;
@@ -136,8 +137,8 @@ bool isNowhere(const XMLElement& origin) {
   return true;
 }
 
-// A box or the like that says something, and that no <geometry> holds and no shape misses: of a link's shape
-// whose own words are misspelt.
+// Whether it is a shape such as <box> with content, outside of any <geometry>, <collision> or <visual>. It
+// may belong to a link's shape whose own name is misspelt.
 bool isLost(const XMLElement& element) {
   const bool known = std::any_of(std::begin(kInGeometry), std::end(kInGeometry),
                                  [&](const Known& one) { return named(&element, one.element); });
@@ -156,8 +157,8 @@ bool isOwn(const XMLElement& holder, const XMLElement& robot) {
   return true;
 }
 
-// Where an element that moves a body, or is one, belongs, if it stands where it does nothing; null for one
-// that is at home, says nothing, or is another tool's.
+// For an element that moves a body or is one, and that has no effect in its place: the place where it
+// belongs. Null if its place is right, if it has no content, or if it belongs to another tool.
 const char* homeOf(const XMLElement& element, const XMLElement& holder, const XMLElement& robot) {
   const std::string_view name = element.Name(), around = holder.Name();
   if (around == "joint" || !isOwn(holder, robot)) return nullptr;
@@ -185,7 +186,7 @@ std::size_t editsBetween(std::string_view a, std::string_view b) {
 }
 
 // The word that a name in a link misspells by up to one letter in four, "" if none: such an element would
-// lose a body even where nothing in it tells, as an empty one or one with further misspelt words.
+// lose a body, even if its content does not show that, because it is empty or has more misspelt words.
 std::string_view misspeltShape(std::string_view name) {
   for (const std::string_view word : {"collision", "visual"})
     if (name != word && editsBetween(name, word) <= word.size() / 4) return word;

@@ -19,17 +19,17 @@ void checkShapeWords(const tinyxml2::XMLElement& shape);
 /// Checks a `<joint>` in the same way.
 void checkJointWords(const tinyxml2::XMLElement& joint);
 
-/// A link's `<inertial>`, or an element of an unknown name that holds what one does; null without.
+/// A link's `<inertial>`, or an element with an unknown name but the contents of one; null if there is none.
 const tinyxml2::XMLElement* inertialOf(const tinyxml2::XMLElement& link);
 
 /// Checks what inertialOf() found in the same way as a joint.
 void checkInertialWords(const tinyxml2::XMLElement& inertial);
 
-/// Finds `<collision>` and `<geometry>` where no robot has them, and boxes and the like outside of any
-/// geometry, and an `<origin>` right in a link, but for those in `<gazebo>`, whose content is the
-/// simulator's, and `<self_filter>`. Finds names in a link that are nearly `<collision>` or `<visual>`,
-/// whatever they hold. A geometry, a box or such a name in a link is an entry of `faults.shapes`, all else of
-/// `faults.errors`; `incomplete` gets the links of the former, where it may be a shape of theirs.
+/// Finds elements in the wrong place: `<collision>` and `<geometry>` where they have no effect, shapes such
+/// as `<box>` outside of a geometry, and an `<origin>` directly in a link. The contents of `<gazebo>` (for
+/// the simulator) and `<self_filter>` are ignored. Also finds names in a link that are similar to
+/// `<collision>` or `<visual>`. A geometry, a shape or such a name in a link is added to `faults.shapes`,
+/// everything else to `faults.errors`. `incomplete` receives the links of the former that may lack a shape.
 /// @returns the number of `<collision>` elements of links.
 int checkPlaces(const tinyxml2::XMLElement& robot, const std::string& path, LoadFaults& faults,
                 std::set<const tinyxml2::XMLElement*>& incomplete);

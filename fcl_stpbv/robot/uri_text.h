@@ -9,8 +9,8 @@
 
 namespace fcl_stpbv::detail {
 
-/// The text with each %XX as the byte that it stands for; as it is where one stands for none that a name may
-/// hold.
+/// The text with each %XX replaced by its byte. The text is unchanged if one of them gives a byte that is not
+/// allowed in a name.
 inline std::string percentDecoded(const std::string& text) {
   std::string decoded;
   for (std::size_t i = 0; i < text.size(); ++i) {

@@ -171,7 +171,7 @@ void VelocityDamper::update(const Eigen::Ref<const Eigen::VectorXd>& q,
     return;
   }
   for (int row = 0; row < constraints_.rows(); ++row) {
-    // A value that is no number is not far.
+    // A NaN value counts as inside.
     const bool inside = !(rates_.d[row] >= dampers_[at(row)].influence);
     if (inside && !inside_[at(row)]) enter(row);
     if (!inside && inside_[at(row)]) rest(row);

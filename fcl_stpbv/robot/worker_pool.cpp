@@ -9,7 +9,7 @@ WorkerPool::WorkerPool(int threads) {
   try {
     for (int k = 1; k < threads; ++k) workers_.emplace_back([this, k] { serve(k); });
   } catch (const std::exception&) {
-    // No room for more threads: those that started share the work.
+    // The system cannot start more threads; those that started share the work.
   }
 }
 

@@ -10,8 +10,8 @@ namespace fcl_stpbv::detail {
 
 class WorkerPool {
  public:
-  /// `threads` in all, the caller's own among them; 1 starts none. Fewer where the system has no room for
-  /// them.
+  /// `threads` in total, including the caller's own; with 1, no thread is started. Fewer if the system cannot
+  /// start them.
   explicit WorkerPool(int threads);
   ~WorkerPool();
   WorkerPool(const WorkerPool&) = delete;

@@ -8,9 +8,9 @@
 
 namespace fcl_stpbv::detail {
 
-/// Parses `text` into `document`. Refused: more than 64 MB, NUL bytes, a document type (nothing in URDF needs
-/// entities of its own), elements nested too deep, and xacro that was not expanded: elements of its
-/// namespace, and `${...}` or `$(...)` in an attribute, but within `<gazebo>`, which nothing here reads.
+/// Parses `text` into `document`. Not accepted are more than 64 MB, NUL bytes, a document type (URDF needs no
+/// entities), elements nested too deeply, and xacro that was not expanded (elements of its namespace, and
+/// `${...}` or `$(...)` in an attribute, except within `<gazebo>`, which is not used here).
 /// @throws Error "name:line: ..." saying what is wrong.
 void parseXml(std::string_view text, const std::string& name, tinyxml2::XMLDocument& document);
 
@@ -23,8 +23,8 @@ std::string readXml(const std::string& path);
 /// Reads a file and parses it. @throws Error naming the file.
 void loadXml(const std::string& path, tinyxml2::XMLDocument& document);
 
-/// The document's text, with line ends and tabs in attributes as references: bare ones are spaces to other
-/// readers.
+/// The document's text. Line ends and tabs in attributes are written as character references, because other
+/// readers replace the literal characters by spaces.
 std::string printed(const tinyxml2::XMLDocument& document);
 
 /// An attribute that must be there. @throws Error naming file, line, element and attribute.
