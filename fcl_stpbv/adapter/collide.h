@@ -12,7 +12,7 @@
 
 namespace fcl_stpbv {
 
-/// Same signature as `fcl::collide`: adds the contacts of the pair to `result`, up to
+/// Replaces `fcl::collide`, with the same first arguments: adds the contacts of the pair to `result`, up to
 /// `request.num_max_contacts` in total, and returns the number of contacts in `result`. Never throws.
 ///
 /// Two convex bodies have one contact. A mesh or an octree has one contact for each of its elements
@@ -57,7 +57,7 @@ struct CollisionData {
   PairCaches* caches = nullptr;  ///< optional: makes repeated queries of a slowly moving scene faster
   /// Optional: returns true for pairs to skip; see DistanceData.
   std::function<bool(const fcl::CollisionObjectd*, const fcl::CollisionObjectd*)> leaveOut = nullptr;
-  bool finite = false;  ///< as QueryContext's
+  bool finite = false;  ///< see QueryContext::finite
 };
 
 /// For `manager.collide(&data, fcl_stpbv::collisionCallback)` with `data` a CollisionData.

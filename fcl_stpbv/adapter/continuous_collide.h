@@ -96,8 +96,8 @@ MotionAnswer firstContact(const fcl::CollisionGeometryd& geometry1, const Steady
                           const fcl::CollisionGeometryd& geometry2, const SteadyMotion& motion2,
                           const MotionRequest& request = {});
 
-/// Same signature as `fcl::continuousCollide`: returns the time of contact, from 0 to 1, and fills `result`.
-/// Returns 1 if there is no contact.
+/// Replaces `fcl::continuousCollide`, with the same arguments: returns the time of contact, from 0 to 1, and
+/// fills `result`. Returns 1 if there is no contact.
 ///
 /// From the request it uses `toc_err` as the tolerance and `ccd_motion_type` as the type of motion, and
 /// nothing else. `is_collide` is false only if the motion is proven free. With a contact, `time_of_contact`

@@ -60,7 +60,7 @@ struct DistanceData {
   /// an octree's cells as temporary boxes without user data, unless `octree_as_geometry_distance` is set (for
   /// contacts `octree_as_geometry_collide`).
   std::function<bool(const fcl::CollisionObjectd*, const fcl::CollisionObjectd*)> leaveOut = nullptr;
-  bool finite = false;      ///< as QueryContext's
+  bool finite = false;      ///< see QueryContext::finite
   std::size_t pairs = 0;    ///< number of pairs queried
   std::size_t invalid = 0;  ///< number of these pairs that have no answer
 

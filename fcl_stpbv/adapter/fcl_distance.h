@@ -118,6 +118,7 @@ bool hasFiniteCorners(const fcl::CollisionGeometryd& geometry);
 ///   (distance/shape_distance.h); `continuous` is false.
 /// - A mesh or an octree: the distance of the nearest elements; `continuous` is false. Two of them that
 ///   overlap have the distance 0, with the elements that meet.
+///
 /// The status is `invalid` for a mesh with a vertex that is not finite.
 DistanceAnswer distance(const fcl::CollisionGeometryd& geometry1, const fcl::Transform3d& pose1,
                         const fcl::CollisionGeometryd& geometry2, const fcl::Transform3d& pose2,
@@ -134,8 +135,8 @@ DistanceAnswer inFclTerms(const Distance& found, const fcl::Transform3d& pose1,
 /// Converts a DistanceAnswer to a Distance, without the counts of work.
 Distance inCoreTerms(const DistanceAnswer& answer);
 
-/// Same signature as `fcl::distance`: returns the distance (m) and overwrites `result`, always with the
-/// nearest points.
+/// Replaces `fcl::distance`, with the same arguments: returns the distance (m) and overwrites `result`,
+/// always with the nearest points.
 ///
 /// Differences from FCL (docs/fcl.md): `result` describes this pair only, never an earlier one; the distance
 /// is always signed if one body is convex; no field is left uninitialised. Without an answer the result

@@ -184,10 +184,10 @@ class CollisionConstraints {
     int a = 0, b = 0;                                 // places among pose_ and centre_
     int firstTerm = 0, lastTerm = 0;
     double far = 0;             // centres farther apart than this need no query
-    double start = 0, end = 0;  // where the row leaves the distance, and where it is constant
-    int group = -1;             // of the whole bodies that hand over to it, -1 for none
+    double start = 0, end = 0;  // distances at which the row leaves the distance and becomes constant
+    int group = -1;             // index of its whole bodies' group, -1 for none
     bool whole = false;         // hands over to the parts
-    bool finite = false;        // the corners of both are numbers, if they are meshes
+    bool finite = false;        // the vertices of both are finite, if they are meshes
     int firstCommon = 0, lastCommon = 0;
   };
   struct Witness {

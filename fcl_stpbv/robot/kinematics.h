@@ -161,7 +161,7 @@ class Kinematics {
   Eigen::VectorXd lower_, upper_, neutral_;
   std::vector<Motion> motions_;
   std::vector<Step> steps_;  // parents before children
-  std::vector<int> stepOf_;  // the step that places each link, -1 for a root that stands still
+  std::vector<int> stepOf_;  // the step that places each link, -1 for a fixed root
   Subtree whole_;            // all steps
 };
 

@@ -28,7 +28,7 @@ TriangleMesh loadMesh(const std::string& path, const Eigen::Vector3d& scale = {1
 /// @throws Error naming the file and what would work.
 std::vector<Eigen::Vector3d> loadPoints(const std::string& path, const Eigen::Vector3d& scale = {1, 1, 1});
 
-/// Whether saveMesh() knows a format for this name: whether it ends in .obj, .stl, .ply or .glb.
+/// Whether saveMesh() knows a format for this name, that is, the name ends in .obj, .stl, .ply or .glb.
 bool canSaveMesh(const std::string& path);
 
 /// Writes a mesh in the format of the name's ending. Coordinates are written unchanged, in single precision.

@@ -32,6 +32,7 @@ struct ContactAcceleration {
 /// - d is at least `distance` (m), which must be above -(r1 + r2);
 /// - the velocity of body 2 at its witness point, perpendicular to the normal, is at most `speed` (m/s);
 /// - the angular velocity of body 2, perpendicular to the normal, is at most `turning` (rad/s).
+///
 /// A bound is infinite if c is unbounded.
 ContactAcceleration contactAcceleration(const Radii& body1, const Radii& body2, double distance, double speed,
                                         double turning);
