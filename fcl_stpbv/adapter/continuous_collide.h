@@ -67,7 +67,7 @@ struct MotionRequest {
 
 /// Result for several pairs over the time from 0 to 1.
 struct MotionBracket {
-  MotionVerdict verdict = MotionVerdict::free;  ///< of all pairs together
+  MotionVerdict verdict = MotionVerdict::free;  ///< verdict on all pairs together
   double from = 1;                              ///< proven free before it
   /// A pair is in contact at this time. 1 for a free motion. For an undecided motion, the end of the interval
   /// that was examined last.

@@ -24,8 +24,8 @@ struct MeshPieces {
   /// triangles that are just an edge of another one. Sheets keep both sides. A vertex that no triangle used
   /// becomes a triangle with three equal corners.
   std::vector<std::array<int, 3>> triangles;
-  std::vector<int> piece;    ///< of each triangle
-  std::vector<char> closed;  ///< of each piece
+  std::vector<int> piece;    ///< index of the piece of each triangle
+  std::vector<char> closed;  ///< whether each piece is closed
   /// Number of pieces.
   int pieces() const { return static_cast<int>(closed.size()); }
   /// Number of closed pieces.

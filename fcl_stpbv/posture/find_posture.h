@@ -12,7 +12,7 @@ namespace fcl_stpbv {
 
 /// Limits of the search.
 struct PostureOptions {
-  SolverOptions solver;  ///< for each start
+  SolverOptions solver;  ///< settings of the solver for each start
   /// Largest number of starts, at least 1; start 0 is the task's own, the others are random ones near it.
   int starts = 5;
   int firstStart = 0;      ///< number of the first start to try; below 0 counts as 0

@@ -66,7 +66,7 @@ struct PostureValues {
 
 /// A constraint that does not hold.
 struct Violation {
-  std::string name;  ///< of the constraint
+  std::string name;  ///< name of the constraint
   double amount;     ///< how far it is from holding (m, rad, or a smooth constraint's own unit)
 };
 

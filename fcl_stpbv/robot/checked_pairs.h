@@ -24,9 +24,10 @@ struct CheckedPair {
 struct Obstacle {
   std::string name;                                         ///< for messages and reports
   std::shared_ptr<const fcl::CollisionGeometryd> geometry;  ///< the geometry that queries use
-  Eigen::Isometry3d pose;                                   ///< in the world; a rotation to rounding
-  Eigen::Vector3d centre;                                   ///< centre of a bounding sphere, in the world (m)
-  double radius = 0;                                        ///< of that sphere (m)
+  /// Pose in the world; its rotation is exact up to rounding.
+  Eigen::Isometry3d pose;
+  Eigen::Vector3d centre;  ///< centre of a bounding sphere, in the world (m)
+  double radius = 0;       ///< of that sphere (m)
   std::shared_ptr<const fcl::CollisionGeometryd>
       primitive;                                        ///< the primitive under its smooth cover, else null
   std::shared_ptr<const fcl::CollisionGeometryd> full;  ///< Body::full, if the obstacle is a body of a scene

@@ -141,7 +141,7 @@ class Kinematics {
     // The frame's columns in the parent's, of a joint that turns: along + cos(angle) even + sin(angle) odd.
     Eigen::Matrix<double, 4, 3, Eigen::DontAlign> along, even, odd;
 
-    /// Of a joint along or about one axis.
+    /// The value of a joint with one axis (rad or m).
     double value(const Eigen::Ref<const Eigen::VectorXd>& q) const {
       return multiplier * q[coordinate] + offset;
     }

@@ -60,8 +60,9 @@ struct Body {
   int link = -1;  ///< index into RobotModel::links
   /// The link's name, with #2, #3 ... for its second, third ... shape.
   std::string name;
-  Eigen::Isometry3d pose;                             ///< in the link's frame; a rotation to rounding
-  std::shared_ptr<fcl::CollisionGeometryd> geometry;  ///< what queries get
+  /// Pose in the link's frame; its rotation is exact up to rounding.
+  Eigen::Isometry3d pose;
+  std::shared_ptr<fcl::CollisionGeometryd> geometry;  ///< the geometry that queries use
   /// The radii from the options, or fitted; for a flat primitive those that its cover would get.
   StpBvOptions radii;
   StpBv::Ptr volume;                  ///< null for a flat primitive and for a flat mesh

@@ -40,7 +40,7 @@ bool checkedWithoutSrdf(PairReason reason);
 /// Options of pairList(): how thoroughly it searches.
 struct PairListOptions {
   int samples = 2000;      ///< random configurations
-  std::uint64_t seed = 1;  ///< of the random configurations
+  std::uint64_t seed = 1;  ///< seed of the random configurations
   int descents = 3;        ///< number of descents per pair, from its closest samples
   /// Number of descents from random configurations, for a pair that is clear so far but not proven clear. The
   /// number is reduced for large problems: by the factor (24/n)^2 if the pair depends on n > 24 coordinates,
@@ -56,7 +56,7 @@ struct PairListOptions {
   /// Fraction of samples in collision for the reason `always`, as in MoveIt; needs at least 60 samples.
   double alwaysFraction = 0.95;
   Eigen::VectorXd neutral;          ///< the neutral configuration; empty for Kinematics::neutral()
-  int threads = 1;                  ///< that share the work
+  int threads = 1;                  ///< number of threads
   std::vector<Obstacle> obstacles;  ///< each makes a pair with each link that joints or the base move
   std::function<void(std::size_t, std::size_t, const std::string&)>
       progress;  ///< called from time to time with the steps done, the number of all steps, and a text

@@ -104,8 +104,8 @@ struct LinkModel {
 
 /// A robot as its URDF describes it: a tree of links.
 struct RobotModel {
-  std::string name;                ///< of the robot
-  std::string path;                ///< of the URDF
+  std::string name;                ///< name of the robot
+  std::string path;                ///< path of the URDF
   std::vector<LinkModel> links;    ///< parents before their children; the root first
   std::vector<JointModel> joints;  ///< in the order of the file
   /// Faults of visual shapes that cannot be read; an error only when visual shapes are used.

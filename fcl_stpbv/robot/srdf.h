@@ -21,11 +21,11 @@ struct Srdf {
   };
   /// A named posture of a group of joints.
   struct State {
-    std::string name;                                   ///< of the state
-    std::string group;                                  ///< of joints
+    std::string name;                                   ///< name of the state
+    std::string group;                                  ///< name of the group of joints
     std::map<std::string, std::vector<double>> joints;  ///< values of each joint, by name (rad or m)
   };
-  std::string path;  ///< of the file
+  std::string path;  ///< path of the file
   /// The whole file as it was read (kept because a pipe can be read only once).
   std::string text;
   std::vector<Pair> disabled;  ///< disable_collisions

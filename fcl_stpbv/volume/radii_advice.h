@@ -43,7 +43,7 @@ struct RadiiTask {
   /// Largest loss of free space around the body: over-cover plus `perPeriod` of the result (m).
   double clearance = 0.005;
   double acceleration = 1;  ///< largest amount that the bodies' shapes may add to d'' (m/s^2)
-  double speed = 0.3;       ///< of the body's contact point, perpendicular to the normal (m/s)
+  double speed = 0.3;       ///< speed of the body's contact point, perpendicular to the normal (m/s)
   double turning = 1;       ///< angular velocity perpendicular to the normal (rad/s)
   double period = 1e-3;     ///< period of the controller, in which its constraints stay linear (s)
   double distance = 0;      ///< distance that the volumes keep (m)
@@ -60,7 +60,7 @@ struct RadiiAdvice {
   /// possible within the clearance. In both cases R is the smallest one that the clearance allows.
   bool meetsBoth;
   double acceleration;  ///< upper bound on what the shapes add to d'', for any other body (m/s^2)
-  double overCover;     ///< of the volume of these radii (m)
+  double overCover;     ///< over-cover of the volume with these radii (m)
   double perPeriod;     ///< how far d may fall below a linearised constraint within one period (m)
   /// Smallest clearance that the task's acceleration needs (m); infinite if no volume does.
   double leastClearance;

@@ -8,7 +8,7 @@
 
 namespace fcl_stpbv {
 
-/// What verify() found. Lengths in m.
+/// Result of verify(). Lengths in m.
 struct Verification {
   bool ok = false;  ///< whether nothing is off by more than rounding
   /// Largest distance by which a point is less than `margin` below the surface; at most rounding error in a
