@@ -1,5 +1,5 @@
-// The slides of docs/motion.md: what the proof of a motion near a mesh or a tree costs, down to 1 um of clearance.
-// Usage: slide_figures
+// The slides of docs/motion.md: what the proof of a motion near a mesh or a tree costs, down to 1 um of
+// clearance. Usage: slide_figures
 #include <fcl/config.h>
 #include <fcl/geometry/shape/box.h>
 #if FCL_HAVE_OCTOMAP
