@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <functional>
 
+#include "fcl_stpbv/formatted.h"
 #include "fcl_stpbv/io/atomic_write.h"
 #include "fcl_stpbv/report/report_formats.h"
 #include "tools/number_check.h"
@@ -76,15 +77,26 @@ std::string written(const CollisionReport& report, const Arguments& a) {
   return toText(report, a.top);
 }
 
+int statusOf(const CollisionReport& report) {
+  const bool undecided = report.trajectory && report.trajectory->verdict != MotionVerdict::free;
+  if (report.colliding > 0 || undecided) return kCollision;
+  return report.skipped.empty() ? kClear : kPartly;
+}
+
+// Why the exit status is not 0.
+std::string reasonOf(const CollisionReport& report, int status) {
+  if (status == kPartly) return "--skip-invalid left " + counted(report.skipped.size(), "shape") + " out";
+  if (report.colliding == 0) return "the trajectory is not proven free: " + trajectoryVerdict(report);
+  return counted(static_cast<std::size_t>(report.colliding), "checked pair") +
+         (report.colliding == 1 ? " collides" : " collide");
+}
+
 // Of an SRDF that is written, as nothing of it is on the screen.
-std::string toldOf(const CollisionReport& report, const Arguments& a) {
+std::string toldOf(const CollisionReport& report, const Arguments& a, int status) {
   const bool isFile = !a.output.empty() && a.output != "-";
   return (isFile ? a.output + " is written: " : "") + srdfChange(report, a.search.disableDefault) +
-         (report.colliding == 0
-              ? ""
-              : "; exit status 1, as " + (report.colliding == 1
-                                              ? "1 checked pair collides"
-                                              : std::to_string(report.colliding) + " checked pairs collide"));
+         (status == kClear ? ""
+                           : "; exit status " + std::to_string(status) + ", as " + reasonOf(report, status));
 }
 
 int run(Arguments& a) {
@@ -108,10 +120,9 @@ int run(Arguments& a) {
   const std::string text = written(report, a);
   requireNoInput("-o", a.output, report.meshFiles);  // of a robot from a pipe, too
   writeOutput(a.output, text);
-  if (a.format == "srdf" && !a.quiet) tell(kProgram, toldOf(report, a));
-  const bool undecided = report.trajectory && report.trajectory->verdict != MotionVerdict::free;
-  if (report.colliding > 0 || undecided) return kCollision;
-  return report.skipped.empty() ? kClear : kPartly;
+  const int status = statusOf(report);
+  if (a.format == "srdf" && !a.quiet) tell(kProgram, toldOf(report, a, status));
+  return status;
 }
 
 }  // namespace

@@ -88,6 +88,7 @@ class Doors(unittest.TestCase):
             if form == "srdf":
                 self.assertIn('link1="a" link2="b"', done.stdout)
                 self.assertNotIn('reason="Never"', done.stdout)
+                self.assertIn("left out; exit status 3, as --skip-invalid left 2 shapes out\n", done.stderr)
         for form in ("text", "json", "html"):
             done = self.run_tool(POSTURE, self.bad, self.task, "--skip-invalid", "--format", form)
             self.assertEqual(done.returncode, 3, done.stderr)

@@ -147,6 +147,10 @@ class Report(unittest.TestCase):
         self.assertEqual(done.returncode, 1)
         self.assertIn("NOT DECIDED for table - ball at 0.99", done.stdout)
         self.assertIn("free before: the distance is the margin to rounding", done.stdout)
+        made = self.run_tool(table, "--primitives", "flat", "--srdf", srdf, "--trajectory", alone, "--format", "srdf")
+        self.assertEqual(made.returncode, 1)
+        self.assertRegex(made.stderr, r"1 now; exit status 1, as the trajectory is not proven free: NOT DECIDED for table - ball at 0\.99\d* s, free "
+                                      r"before: the distance is the margin to rounding\n$")
 
     def test_a_pair_set_aside_does_not_hide_that_the_others_were_not_followed(self):
         # A ball comes down onto a table; then an arm turns 100,000 times past a post, each time 1 mm off it.
