@@ -216,7 +216,9 @@ PostureTask parseTask(const std::string& text, const std::string& path) {
   for (const Field& item : root["placements"].list("placements"))
     task.placements.push_back(readPlacement(item));
   if (document.size() == 1 && task.placements.empty())  // a form that was not filled in
-    throw Error(path + ": asks for nothing; give a placement, a contact, or a start to stay near");
+    throw Error(path +
+                ": asks for nothing; give a placement, contacts in \"stability\", or a \"start\" with "
+                "\"cost\": {\"towards\": \"start\"} to stay near it");
   if (root.has("stability")) readStability(root["stability"], task);
   if (root.has("collisions")) readCollisions(root["collisions"], task);
   return task;

@@ -44,7 +44,11 @@ TEST_CASE("a task file's mistakes are named with their key") {
           "one of x, y");
   refused(R"({"placements": [{"link": "BODY", "target": {}, "free": ["rx", "ry"]}]})", "placement 'BODY'",
           "two rotations");
-  refused(R"({"placements": []})", "task.json", "asks for nothing; give a placement");
+  const std::string near = R"("cost": {"towards": "start"})";  // what the message says works
+  refused(R"({"placements": []})", "task.json",
+          R"(asks for nothing; give a placement, contacts in "stability", or a "start" with )" + near);
+  CHECK(parseTask(R"({"placements": [], "start": {"joints": {"LLEG_JOINT3": 1}}, )" + near + "}", "task.json")
+            .towardsStart);
   refused(R"({"placements": [], "base": "flying"})", "base", "one of floating, planar, fixed");
   refused(R"({"placements": [], "start": {"state": "NO"}})", "start.state", "NO");
   refused(R"({"placements": [], "start": {"joints": {"NO": 1}}})", "start.joints", "no joint 'NO'");
