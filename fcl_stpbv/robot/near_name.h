@@ -9,15 +9,19 @@
 
 namespace fcl_stpbv::detail {
 
-/// Letters to add, leave out or replace until `a` is `b`; upper and lower case are the same.
+inline std::string lowerCase(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
+
+/// Letters to add, leave out or replace until `a` is `b`.
 inline std::size_t lettersApart(const std::string& a, const std::string& b) {
-  const auto lower = [](char c) { return std::tolower(static_cast<unsigned char>(c)); };
   std::vector<std::size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});
   for (std::size_t i = 0; i < a.size(); ++i) {
     std::size_t diagonal = row[0]++;
     for (std::size_t j = 0; j < b.size(); ++j) {
-      const std::size_t replaced = diagonal + (lower(a[i]) != lower(b[j]));
+      const std::size_t replaced = diagonal + (a[i] != b[j]);
       diagonal = row[j + 1];
       row[j + 1] = std::min({replaced, row[j] + 1, diagonal + 1});
     }
@@ -25,22 +29,41 @@ inline std::size_t lettersApart(const std::string& a, const std::string& b) {
   return row.back();
 }
 
-/// "; did you mean 'ee_link'?" if a name in `known` differs from `name` by at most a third of its letters, or
-/// contains it; else "". It compares all names, so it is slow; use it only for messages that end a program.
-inline std::string didYouMean(const std::string& name, const std::vector<std::string>& known) {
+/// The one of `known` that differs from `name` by fewest letters, a third of them at most, or that holds it
+/// or is held by it; "" without one. Upper and lower case are the same. It looks at all of them, which takes
+/// about a microsecond each.
+inline std::string nearName(const std::string& name, const std::vector<std::string>& known) {
   constexpr std::size_t kLongest = 100;  // longer names are no slips of the hand
-  const std::string* best = nullptr;
+  constexpr std::size_t kLeast = 3;      // letters that a longer name holds not by chance
+  const std::string wanted = lowerCase(name);
+  const std::size_t most = wanted.size() < 2 ? 0 : std::max<std::size_t>(1, wanted.size() / 3);
+  std::string best;
   std::size_t least = 0;
-  for (const std::string& other : known) {
-    if (name.empty() || std::max(name.size(), other.size()) > kLongest) continue;
-    const std::size_t apart = lettersApart(name, other);
-    const bool near = apart <= std::max<std::size_t>(1, name.size() / 3) ||
-                      (name.size() > 1 && other.find(name) != std::string::npos);
-    if (!near || (best && apart >= least)) continue;
-    best = &other;
+  for (const std::string& each : known) {
+    if (name.empty() || each.empty() || std::max(name.size(), each.size()) > kLongest) continue;
+    const std::string other = lowerCase(each);
+    const std::size_t apart = lettersApart(wanted, other);
+    const bool near = apart <= most || (wanted.size() > 1 && other.find(wanted) != std::string::npos) ||
+                      (other.size() >= kLeast && wanted.find(other) != std::string::npos);
+    if (!near || (!best.empty() && apart >= least)) continue;
+    best = each;
     least = apart;
   }
-  return best ? "; did you mean '" + *best + "'?" : "";
+  return best;
+}
+
+/// "; did you mean 'ee_link'?" of the nearest name, else "". For messages.
+inline std::string didYouMean(const std::string& name, const std::vector<std::string>& known) {
+  const std::string near = nearName(name, known);
+  return near.empty() ? "" : "; did you mean '" + near + "'?";
+}
+
+/// The names of links, of joints or of states.
+template <class Named>
+std::vector<std::string> namesOf(const std::vector<Named>& all) {
+  std::vector<std::string> names;
+  for (const Named& each : all) names.push_back(each.name);
+  return names;
 }
 
 }  // namespace fcl_stpbv::detail

@@ -1,0 +1,23 @@
+// Which known name a misspelt one is taken for.
+#include <catch2/catch.hpp>
+
+#include "fcl_stpbv/robot/near_name.h"
+
+using namespace fcl_stpbv::detail;
+
+TEST_CASE("a misspelt name is near the one that fewest letters have to be changed for") {
+  const std::vector<std::string> known{"base", "ELBOW_JOINT", "elbow_link", "ee", "q"};
+  CHECK(nearName("elbow_lnk", known) == "elbow_link");
+  CHECK(nearName("Elbow_Joint", known) == "ELBOW_JOINT");  // upper and lower case are the same
+  CHECK(nearName("link", known) == "elbow_link");          // a part of it
+  CHECK(nearName("JOINT", known) == "ELBOW_JOINT");        // a part, too
+  CHECK(nearName("panda_base", known) == "base");          // it is a part
+  CHECK(nearName("left/elbow_joint", known) == "ELBOW_JOINT");
+  CHECK(nearName("knee", known).empty());  // holds "ee" by chance
+  CHECK(nearName("r", known).empty());     // another letter is another name
+  CHECK(nearName("Q", known) == "q");
+  CHECK(nearName("", known).empty());
+  CHECK(nearName("base", {"", std::string(200, 'b')}).empty());
+  CHECK(didYouMean("bse", known) == "; did you mean 'base'?");
+  CHECK(didYouMean("shoulder", known).empty());
+}
