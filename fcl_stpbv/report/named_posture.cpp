@@ -24,6 +24,28 @@ constexpr const char* kBaseStays =
     "but the obstacles are seen from the robot's root link; give obstacles placed so that the base stays at "
     "the origin, and ";
 
+/// The keys that a report's and an answer's JSON have (report_json.cpp, posture_formats.cpp).
+const std::vector<std::string> kOfReport{"robot",   "pose",  "neutral", "trajectory", "warnings",
+                                         "skipped", "links", "pairs",   "summary"};
+const std::vector<std::string> kOfNeutral{"colliding", "better", "better_state", "better_colliding"};
+const std::vector<std::string> kOfAnswer{
+    "feasible",          "status",  "seconds",    "iterations", "starts",   "distance_calls",
+    "gradient_calls",    "pairs",   "parts",      "cost",       "q",        "closest",
+    "warnings",          "skipped", "violations", "active",     "conflict", "conflict_limits",
+    "without_collisions"};
+
+/// A joint's value beside the posture would count for nothing.
+void refuseBeside(const std::string& where, const nlohmann::json& json, const std::vector<std::string>& keys,
+                  const std::string& whose) {
+  for (const auto& [key, value] : json.items()) {
+    (void)value;
+    if (std::find(keys.begin(), keys.end(), key) != keys.end()) continue;
+    const std::string near = didYouMean(key, keys);
+    throw Error(where + ": '" + key + "' is no key of " + whose +
+                (near.empty() ? "; remove it, or give a file of joints' values alone" : near));
+  }
+}
+
 /// The joints of an answer of find_posture, its member `q`. Where it has the base matters to obstacles alone.
 nlohmann::json jointsOfAnswer(const std::string& path, const nlohmann::json& q, const Kinematics& kinematics,
                               bool obstacles) {
@@ -40,6 +62,7 @@ nlohmann::json jointsOfAnswer(const std::string& path, const nlohmann::json& q, 
 
 // The posture that a collision report proposes in its member `neutral`.
 nlohmann::json betterOfReport(const std::string& path, const nlohmann::json& neutral) {
+  refuseBeside(path + ": neutral", neutral, kOfNeutral, "what a collision report says of it");
   if (!neutral.contains("better"))
     throw Error(path +
                 ": is a collision report that proposes no neutral posture; give a file of joints' values");
@@ -61,10 +84,16 @@ Eigen::VectorXd poseFromJson(const std::string& path, const Kinematics& kinemati
   };
   try {
     nlohmann::json json = readJson(path);
-    if (json.is_object() && json.contains("q") && json["q"].is_object())
+    const auto holds = [&](const char* key) {
+      return json.is_object() && json.contains(key) && json[key].is_object();
+    };
+    if (holds("q")) {
+      refuseBeside(path, json, kOfAnswer, "an answer of find_posture");
       json = jointsOfAnswer(path, json["q"], kinematics, obstacles);
-    else if (json.is_object() && json.contains("neutral") && json["neutral"].is_object())
+    } else if (holds("neutral")) {
+      refuseBeside(path, json, kOfReport, "a collision report");
       json = betterOfReport(path, json["neutral"]);
+    }
     if (json.is_array()) {
       const std::vector<double> all = values(json);
       if (static_cast<int>(all.size()) != kinematics.size())

@@ -132,6 +132,11 @@ class Postures(unittest.TestCase):
         self.colliding("--pose", fixed, "--obstacles", scene)
         self.assertIn("places the base", self.report("--pose", moving, "--obstacles", scene, status=2))
         self.assertIn("no joint 'x'", self.report("--pose", self.put("other.json", '{"q": {"x": 1}}'), status=2))
+        for text, told in (('{"q": {"l": 0.5}, "r": -0.5}', "'r' is no key of an answer of find_posture; remove it, or give a file of joints' values alone"),
+                           ('{"q": {"l": 0.5}, "feasable": true}', "'feasable' is no key of an answer of find_posture; did you mean 'feasible'?"),
+                           ('{"neutral": {"better": {"l": 0.5}}, "r": 0}', "'r' is no key of a collision report; remove it"),
+                           ('{"neutral": {"beter": {"l": 0.5}}}', ": neutral: 'beter' is no key of what a collision report says of it; did you mean 'better'?")):
+            self.assertIn(told, self.report("--pose", self.put("beside.json", text), status=2))
         self.urdf = self.put("q.urdf", ROBOT.replace('"l"', '"q"'))  # a joint of that name
         self.colliding("--pose", self.put("own.json", '{"q": 0.5, "r": -0.5}'))
 

@@ -273,6 +273,13 @@ class Doors(unittest.TestCase):
             self.assertIn(part, done.stderr)
             self.assertTrue(any(part in warning for warning in json.loads(done.stdout)["warnings"]))
 
+    def test_what_either_tool_writes_is_a_posture(self):
+        for command in ([REPORT, self.good, "--samples", "20"], [POSTURE, self.good, self.task]):
+            written = self.put("written.json", self.run_tool(*command, "--format", "json").stdout)
+            done = self.run_tool(REPORT, self.good, "--samples", "20", "--pose", written)
+            self.assertEqual("proposes no neutral posture" in done.stderr, command[0] == REPORT, done.stderr)
+            self.assertEqual(done.returncode, 2 if command[0] == REPORT else 0, done.stderr)
+
     def test_output_goes_to_files_pipes_and_descriptors_and_a_failed_write_is_a_failure(self):
         run = f"{REPORT} {self.good} --samples 20 --format csv -q"
         whole = self.shell(run).stdout
