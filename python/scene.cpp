@@ -5,6 +5,7 @@
 
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/robot/checked_pairs.h"
+#include "fcl_stpbv/robot/near_name.h"
 #include "interrupt.h"
 
 namespace fcl_stpbv {
@@ -64,7 +65,11 @@ SceneNeed PythonScene::toNeed(const Need& given, const std::string& name,
                                   : "; that is a body of the link \"" +
                                         robot->links[static_cast<std::size_t>(body->link)].name +
                                         "\", and a need names links";
-    return Error(name + ": " + missing + " \"" + wanted + "\"" + other);
+    std::vector<std::string> known = detail::namesOf(robot->links);
+    if (wanted == second)
+      for (const Obstacle& each : obstacles) known.push_back(each.name);
+    return Error(name + ": " + missing + " \"" + wanted + "\"" +
+                 (other.empty() ? detail::didYouMean(wanted, known) : other));
   };
   if (link1 < 0) throw unknown("the robot has no link", first);
   if (link2 < 0 && obstacle == obstacles.end()) throw unknown("there is no link or obstacle", second);

@@ -18,9 +18,8 @@ using namespace detail;
 int linkNamed(const std::string& name, const PostureScene& scene, const std::string& where) {
   const int link = scene.robot->link(name);
   if (link >= 0) return link;
-  std::vector<std::string> known;
-  for (const LinkModel& each : scene.robot->links) known.push_back(each.name);
-  throw Error(where + ": the robot has no link '" + name + "'" + didYouMean(name, known));
+  throw Error(where + ": the robot has no link '" + name + "'" +
+              didYouMean(name, namesOf(scene.robot->links)));
 }
 
 // An obstacle of this link of the scene: the link's first shape has its name, others #2, #3 after it.
@@ -74,8 +73,9 @@ std::vector<bool> named(const std::vector<LinkObstacles>& lists, const std::vect
     for (const std::string& name : lists[i].obstacles) {
       if (std::none_of(scene.obstacles.begin(), scene.obstacles.end(),
                        [&](const Obstacle& o) { return isOf(o, name); }))
-        throw Error(here + ".obstacles: there is no obstacle '" + name + "'" +
-                    (scene.obstacles.empty() ? "; give --obstacles" : ""));
+        throw Error(
+            here + ".obstacles: there is no obstacle '" + name + "'" +
+            (scene.obstacles.empty() ? "; give --obstacles" : didYouMean(name, namesOf(scene.obstacles))));
     }
     for (std::size_t p = 0; p < pairs.size(); ++p) {
       const int link = scene.geometry->bodies[static_cast<std::size_t>(pairs[p].body)].link;

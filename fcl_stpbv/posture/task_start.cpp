@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "fcl_stpbv/numbers.h"
+#include "fcl_stpbv/robot/joint_names.h"
 #include "fcl_stpbv/robot/near_name.h"
 
 namespace fcl_stpbv {
@@ -65,8 +66,15 @@ void takeOffTurns(const Kinematics& kinematics, Eigen::VectorXd& q) {
 
 [[noreturn]] void refuseJoint(const std::string& where, const std::string& joint,
                               const Kinematics& kinematics) {
+  const RobotModel& robot = kinematics.robot();
+  const int known = robot.joint(joint);
+  if (known >= 0 && robot.joints[static_cast<std::size_t>(known)].mimic) {
+    const int leader = robot.joints[static_cast<std::size_t>(known)].mimic->joint;
+    throw Error(where + ": '" + joint + "' follows '" + robot.joints[static_cast<std::size_t>(leader)].name +
+                "'; give that joint's value");
+  }
   throw Error(where + ": the robot has no joint '" + joint + "' of its own" +
-              detail::didYouMean(joint, kinematics.names()));
+              detail::didYouMean(joint, detail::valueNames(kinematics)));
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/io/text_scanner.h"
 #include "fcl_stpbv/numbers.h"
+#include "fcl_stpbv/robot/joint_names.h"
 #include "fcl_stpbv/robot/json_text.h"
 #include "fcl_stpbv/robot/near_name.h"
 
@@ -110,8 +111,11 @@ Eigen::VectorXd poseFromJson(const std::string& path, const Kinematics& kinemati
         continue;
       }
       const auto own = std::find(coordinates.begin(), coordinates.end(), name);
-      if (own == coordinates.end())
-        throw Error(path + ": the robot has no joint '" + name + "'" + didYouMean(name, coordinates));
+      if (own == coordinates.end()) {
+        std::vector<std::string> known = valueNames(kinematics);
+        if (value.is_object()) known.insert(known.end(), {"q", "neutral"});
+        throw Error(path + ": the robot has no joint '" + name + "'" + didYouMean(name, known));
+      }
       const std::string joint = name.substr(0, name.rfind('/'));
       if (json.contains(joint)) throw Error(path + ": names '" + joint + "' and '" + name + "'; give one");
       const std::vector<double> single = values(value);

@@ -10,6 +10,7 @@
 #include "fcl_stpbv/io/text_scanner.h"
 #include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/robot/joint_freedoms.h"
+#include "fcl_stpbv/robot/joint_names.h"
 #include "fcl_stpbv/robot/json_text.h"
 #include "fcl_stpbv/robot/near_name.h"
 
@@ -178,7 +179,7 @@ std::string whyNone(const std::string& name, const Kinematics& kinematics) {
       std::find_if(joints.begin(), joints.end(), [&](const JointModel& j) { return j.name == name; });
   const std::vector<std::string>& names = kinematics.names();
   if (joint == joints.end() || joint->type == JointType::fixed) {
-    const std::string near = didYouMean(name, names);
+    const std::string near = didYouMean(name, valueNames(kinematics));
     return "the robot has no moving joint '" + name + "'" +
            (!near.empty()   ? near
             : names.empty() ? ""

@@ -21,6 +21,7 @@
 #include "fcl_stpbv/robot/geometry_steps.h"
 #include "fcl_stpbv/robot/link_volume.h"
 #include "fcl_stpbv/robot/mesh_file.h"
+#include "fcl_stpbv/robot/near_name.h"
 #include "fcl_stpbv/robot/share_out.h"
 #include "fcl_stpbv/robot/volume_cache.h"
 
@@ -37,9 +38,11 @@ void checkNames(const RobotModel& robot, const GeometryOptions& options, LoadFau
   std::set<std::string> names = options.flatLinks;
   for (const auto& entry : options.links) names.insert(entry.first);
   for (const auto& entry : options.budgets) names.insert(entry.first);
+  FirstProposals proposals;
   for (const std::string& name : names) {
     if (robot.link(name) < 0)
-      faults.errors.push_back(robot.path + ": options were given for a link '" + name + "' it does not have");
+      faults.errors.push_back(robot.path + ": options were given for a link '" + name + "' it does not have" +
+                              proposals.of(name, [&] { return namesOf(robot.links); }));
   }
 }
 

@@ -44,7 +44,14 @@ Mimic MimicChains::end(std::size_t joint) {
   follow(joint);
   if (state_[joint] != State::done) throw Error("mimics itself through others; break the loop");
   const Follower& last = joints_[at(end_[joint].joint)];
-  if (!last.mimics.empty()) throw Error("mimics '" + last.mimics + "', which does not exist");
+  if (!last.mimics.empty()) {
+    const auto known = [&] {
+      std::vector<std::string> names;
+      for (const Follower& each : joints_) names.push_back(each.joint);
+      return names;
+    };
+    throw Error("mimics '" + last.mimics + "', which does not exist" + proposals_.of(last.mimics, known));
+  }
   return end_[joint];
 }
 

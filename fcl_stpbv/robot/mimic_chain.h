@@ -5,6 +5,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "fcl_stpbv/robot/near_name.h"
 #include "fcl_stpbv/robot/robot_model.h"
 
 namespace fcl_stpbv::detail {
@@ -36,6 +37,7 @@ class MimicChains {
   std::vector<int> next_;  // -1 for none
   std::vector<Mimic> end_;
   std::vector<State> state_;
+  FirstProposals proposals_;
 };
 
 }  // namespace fcl_stpbv::detail

@@ -52,11 +52,34 @@ inline std::string nearName(const std::string& name, const std::vector<std::stri
   return best;
 }
 
-/// "; did you mean 'ee_link'?" of the nearest name, else "". For messages.
-inline std::string didYouMean(const std::string& name, const std::vector<std::string>& known) {
-  const std::string near = nearName(name, known);
+/// "; did you mean 'ee_link'?", and "" of "".
+inline std::string proposed(const std::string& near) {
   return near.empty() ? "" : "; did you mean '" + near + "'?";
 }
+
+/// That of the nearest name. For messages.
+inline std::string didYouMean(const std::string& name, const std::vector<std::string>& known) {
+  return proposed(nearName(name, known));
+}
+
+/// Proposals for the first few of many misspelt names: each looks at all that are known.
+class FirstProposals {
+ public:
+  /// nearName() of the names that `known()` returns, or "".
+  template <class Known>
+  std::string near(const std::string& name, const Known& known) {
+    constexpr int kMost = 5;
+    return asked_++ < kMost ? nearName(name, known()) : "";
+  }
+  /// The same as didYouMean() says it.
+  template <class Known>
+  std::string of(const std::string& name, const Known& known) {
+    return proposed(near(name, known));
+  }
+
+ private:
+  int asked_ = 0;
+};
 
 /// The names of links, of joints or of states.
 template <class Named>

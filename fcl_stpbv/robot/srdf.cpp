@@ -12,6 +12,7 @@
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/robot/mesh_lines.h"
+#include "fcl_stpbv/robot/near_name.h"
 #include "fcl_stpbv/robot/xml_text.h"
 #include "fcl_stpbv/words.h"
 
@@ -83,9 +84,12 @@ class SrdfReader {
   // Only a warning: a state may belong to a variant of the robot, for example one with a gripper.
   void warnOfUnknown(const Srdf::State& state) {
     std::string list;
-    for (const auto& [joint, values] : state.joints)
-      if (robot_.joint(joint) < 0 && virtual_.count(joint) == 0)
-        list += (list.empty() ? "'" : ", '") + joint + "'";
+    for (const auto& [joint, values] : state.joints) {
+      if (robot_.joint(joint) >= 0 || virtual_.count(joint) > 0) continue;
+      const std::string near = proposals_.near(joint, [&] { return namesOf(robot_.joints); });
+      list += (list.empty() ? "'" : ", '") + joint + "'" +
+              (near.empty() ? "" : " (did you mean '" + near + "'?)");
+    }
     if (list.empty()) return;
     srdf_.warnings.push_back(path_ + ": the group_state '" + state.name +
                              "' counts without joints that the robot does not have: " + list + ".");
@@ -94,7 +98,8 @@ class SrdfReader {
   bool known(const XMLElement& e, const char* attribute) {
     const std::string name = requiredAttribute(e, attribute, path_);
     if (links_.count(name)) return true;
-    warn(e, "<" + std::string(e.Name()) + "> counts for nothing, as the robot has no link '" + name + "'");
+    warn(e, "<" + std::string(e.Name()) + "> counts for nothing, as the robot has no link '" + name + "'" +
+                proposals_.of(name, [&] { return namesOf(robot_.links); }));
     return false;
   }
 
@@ -166,6 +171,7 @@ class SrdfReader {
   LoadFaults& faults_;
   std::unordered_set<std::string> links_;
   std::set<std::string> virtual_;
+  FirstProposals proposals_;
   Srdf srdf_;
 };
 
@@ -205,7 +211,7 @@ Srdf::State Srdf::state(const std::string& name) const {
   std::string known;
   for (const State& state : states) known += (known.empty() ? "" : ", ") + state.name;
   throw Error(path + ": no group_state is named '" + name + "'; " +
-              (known.empty() ? "it has none" : "there are: " + known));
+              (known.empty() ? "it has none" : "there are: " + known) + didYouMean(name, namesOf(states)));
 }
 
 std::vector<Srdf::State> Srdf::allStates() const {

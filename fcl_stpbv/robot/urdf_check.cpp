@@ -3,6 +3,7 @@
 
 #include <unordered_set>
 
+#include "fcl_stpbv/robot/near_name.h"
 #include "fcl_stpbv/robot/xml_text.h"
 
 namespace fcl_stpbv::detail {
@@ -21,6 +22,7 @@ struct Tree {
   std::vector<const XMLElement*> joints;
   std::unordered_map<std::string, std::string> jointOf, parentOf;        // of a child link
   std::unordered_map<std::string, std::vector<std::string>> childrenOf;  // in the order of the file
+  FirstProposals proposals;
 };
 
 void addLink(Tree& tree, const XMLElement& element, const std::string& path) {
@@ -45,7 +47,8 @@ void addJoint(Tree& tree, const XMLElement& element, const std::string& path) {
   const std::string parent = linkOf(element, "parent", where), child = linkOf(element, "child", where);
   for (const std::string& link : {parent, child}) {
     if (!tree.known.count(link))
-      throw Error(where + ": there is no link '" + link + "'; add it or correct the name");
+      throw Error(where + ": there is no link '" + link + "'; add it or correct the name" +
+                  tree.proposals.of(link, [&] { return tree.links; }));
   }
   const auto [other, isNew] = tree.jointOf.emplace(child, joint);
   if (!isNew) {

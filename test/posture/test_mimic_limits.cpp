@@ -95,3 +95,15 @@ TEST_CASE("a posture that a mimic joint cannot follow is told with both joints")
   place = wholePose("l", poseOf(scene, Eigen::VectorXd::Constant(1, 0.4), "l"));
   CHECK(found(scene, {place}).feasible);
 }
+
+TEST_CASE("a joint that follows another one has no value of its own in a task") {
+  const PostureScene scene = followed("revolute", {limits(-1, 1) + mimics("j", 1, 0)});
+  const auto refused = [&](const std::string& joint) {
+    PostureTask task;
+    task.path = "task.json";
+    task.joints = {{joint, 0.5}};
+    startOf(task, scene, Kinematics(scene.robot, task.base));
+  };
+  CHECK_THROWS_WITH(refused("m0"), "task.json: start.joints: 'm0' follows 'j'; give that joint's value");
+  CHECK_THROWS_WITH(refused("m00"), Catch::Contains("no joint 'm00' of its own; did you mean 'm0'?"));
+}

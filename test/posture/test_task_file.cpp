@@ -73,6 +73,8 @@ TEST_CASE("a task file's mistakes are named with their key") {
           "'LLEG_JOINT33' of its own; did you mean 'LLEG_JOINT3'?");
   refused(R"({"placements": [], "collisions": {"ignore": [{"obstacles": ["NO"]}]}})",
           "collisions.ignore[0].obstacles", "no obstacle 'NO'");
+  refused(R"({"placements": [], "collisions": {"ignore": [{"obstacles": ["cam"]}]}})",
+          "collisions.ignore[0].obstacles", "no obstacle 'cam'; did you mean 'can'?");
   refused(R"({"placements": [], "collisions": {"margin": 2}})", "collisions.margin", "from -1 to 1");
 }
 

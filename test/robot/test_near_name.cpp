@@ -21,3 +21,13 @@ TEST_CASE("a misspelt name is near the one that fewest letters have to be change
   CHECK(didYouMean("bse", known) == "; did you mean 'base'?");
   CHECK(didYouMean("shoulder", known).empty());
 }
+
+TEST_CASE("only the first few of many misspelt names are looked for") {
+  FirstProposals proposals;
+  int asked = 0;
+  const auto known = [&] { return ++asked, std::vector<std::string>{"base"}; };
+  CHECK(proposals.of("bse", known) == "; did you mean 'base'?");
+  for (int i = 0; i < 1000; ++i) proposals.near("bas", known);
+  CHECK(asked == 5);
+  CHECK(proposals.of("bse", known).empty());
+}

@@ -130,6 +130,11 @@ TEST_CASE("what cannot be a robot is refused with a reason") {
   CHECK_THAT(refused(robot(ab + joint("j", "revolute", "a", "b") + joint("k", "revolute", "a", "b"))),
              Contains("child of two joints"));
   CHECK_THAT(refused(robot(ab + joint("j", "revolute", "a", "z"))), Contains("no link 'z'"));
+  const std::string arm = link("base") + link("arm");
+  CHECK_THAT(refused(robot(arm + joint("j", "revolute", "base", "arn"))),
+             Contains("no link 'arn'; add it or correct the name; did you mean 'arm'?"));
+  CHECK_THAT(refused(robot(arm + joint("elbow", "revolute", "base", "arm", "<mimic joint=\"elbo\"/>"))),
+             Contains("mimics 'elbo', which does not exist; did you mean 'elbow'?"));
   CHECK_THAT(refused(robot(ab + link("a"))), Contains("two links are named"));
   CHECK_THAT(refused(robot(ab + joint("j", "bendy", "a", "b"))), Contains("'bendy'; URDF knows fixed"));
   CHECK_THAT(refused(robot(link("a", "<plane normal=\"0 0 1\"/>"))),
@@ -373,6 +378,21 @@ TEST_CASE("the virtual joint of the root link moves the base, others are told to
   CHECK_THAT(srdf.warnings[1], Contains("'too'") && Contains("'of_a' carries the root link"));
   for (const char* moved : {"away", "turned"}) CHECK(srdf.movesBase(srdf.state(moved)));
   for (const char* still : {"home", "other"}) CHECK_FALSE(srdf.movesBase(srdf.state(still)));
+}
+
+TEST_CASE("what an SRDF misspells is told with the near name") {
+  const TemporaryFolder folder;
+  put(folder / "small.urdf", robot(link("base") + link("arm") + joint("elbow", "revolute", "base", "arm")));
+  const RobotModel model = loadUrdf(folder / "small.urdf");
+  put(folder / "s.srdf",
+      "<robot name=\"small\"><disable_collisions link1=\"bas\" link2=\"arm\"/>"
+      "<group_state name=\"folded\" group=\"g\"><joint name=\"elbow_jnt\" value=\"1\"/>"
+      "<joint name=\"wrist\" value=\"1\"/></group_state></robot>");
+  const Srdf srdf = loadSrdf(folder / "s.srdf", model);
+  REQUIRE(srdf.warnings.size() == 2);
+  CHECK_THAT(srdf.warnings[0], Contains("no link 'bas'; did you mean 'base'?"));
+  CHECK_THAT(srdf.warnings[1], Contains("'elbow_jnt' (did you mean 'elbow'?), 'wrist'."));
+  CHECK_THROWS_WITH(srdf.state("foldet"), Contains("'foldet'; there are: folded; did you mean 'folded'?"));
 }
 
 TEST_CASE("new pairs replace old ones in an SRDF and leave the user's own alone") {

@@ -123,6 +123,14 @@ class Postures(unittest.TestCase):
                            ('{"l/w": 1}', "no joint 'l/w'"), ('{"r/x": 1}', "no joint 'r/x'")):
             self.assertIn(told, self.report("--pose", self.put("pose.json", text), status=2))
 
+    def test_a_misspelt_joint_is_told_with_the_near_one(self):
+        self.urdf = self.put("grip.urdf", ROBOT.replace('name="r" type="prismatic">', 'name="finger2" type="prismatic"><mimic joint="l"/>'))
+        for name, told in (("pose.json", '{"fingr2": 0}'), ("motion.csv", "fingr2\n0\n0.1\n")):
+            option = "--pose" if name == "pose.json" else "--trajectory"
+            self.assertIn("joint 'fingr2'; did you mean 'finger2'?", self.report(option, self.put(name, told), status=2))
+        told = self.report("--neutral", self.put("neutral.json", '{"Neutral": {"better": {"l": 0}}}'), status=2)
+        self.assertIn("no joint 'Neutral'; did you mean 'neutral'?", told)
+
     def test_an_answer_of_find_posture_is_a_posture(self):
         fixed = self.put("fixed.json", '{"feasible": true, "q": {"l": 0.5, "r": -0.5}, "pairs": 1}')
         moving = self.put("moving.json", '{"q": {"base/x": 1, "base/rz": 2, "l": 0.5, "r": -0.5}}')
@@ -135,7 +143,7 @@ class Postures(unittest.TestCase):
         for text, told in (('{"q": {"l": 0.5}, "r": -0.5}', "'r' is no key of an answer of find_posture; remove it, or give a file of joints' values alone"),
                            ('{"q": {"l": 0.5}, "feasable": true}', "'feasable' is no key of an answer of find_posture; did you mean 'feasible'?"),
                            ('{"neutral": {"better": {"l": 0.5}}, "r": 0}', "'r' is no key of a collision report; remove it"),
-                           ('{"neutral": {"beter": {"l": 0.5}}}', ": neutral: 'beter' is no key of what a collision report says of it; did you mean 'better'?")):
+                           ('{"neutral": {"beter": {"l": 0.5}}}', "neutral: 'beter' is no key of what a collision report says of it; did you mean 'better'?")):
             self.assertIn(told, self.report("--pose", self.put("beside.json", text), status=2))
         self.urdf = self.put("q.urdf", ROBOT.replace('"l"', '"q"'))  # a joint of that name
         self.colliding("--pose", self.put("own.json", '{"q": 0.5, "r": -0.5}'))
