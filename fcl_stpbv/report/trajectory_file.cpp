@@ -9,7 +9,6 @@
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/io/text_scanner.h"
 #include "fcl_stpbv/numbers.h"
-#include "fcl_stpbv/robot/joint_freedoms.h"
 #include "fcl_stpbv/robot/joint_names.h"
 #include "fcl_stpbv/robot/json_text.h"
 #include "fcl_stpbv/robot/near_name.h"
@@ -28,7 +27,9 @@ constexpr const char* kMessage =
     "{\"joint_names\": [names], \"points\": [{\"positions\": [values], \"time_from_start\": ...}, ...]}";
 
 struct Columns {
-  std::vector<std::string> names;  // "time" is the time
+  std::vector<std::string> names;
+  std::ptrdiff_t time =
+      -1;  // the time's place among them, named "" where it has no name in the file; or none
   std::vector<std::vector<double>> rows;
   std::vector<std::string> places;  // of each row, for messages
 };
@@ -72,6 +73,8 @@ Columns fromCsv(const std::string& text, const std::string& path) {
       if (std::all_of(cells.begin(), cells.end(), [&](const auto& cell) { return isNumber(cell, value); }))
         throw Error(place + ": got numbers; the first line must name joints");
       columns.names = cells;
+      const auto time = std::find(cells.begin(), cells.end(), "time");
+      if (time != cells.end()) columns.time = time - cells.begin();
       continue;
     }
     if (cells.size() != columns.names.size())
@@ -99,6 +102,12 @@ void refuseOthers(const nlohmann::json& json, const std::set<std::string>& keys,
     if (keys.count(key) == 0) throw Error(where + ": \"" + key + "\" is none of " + list);
 }
 
+void addTimes(const std::vector<double>& times, Columns& columns) {
+  columns.time = static_cast<std::ptrdiff_t>(columns.names.size());
+  columns.names.emplace_back();
+  for (std::size_t i = 0; i < times.size(); ++i) columns.rows[i].push_back(times[i]);
+}
+
 void requireValues(const Columns& columns, std::size_t i, const char* key) {
   if (columns.rows[i].size() != columns.names.size())
     throw Error(columns.places[i] + " has " + std::to_string(columns.rows[i].size()) + " values, \"" + key +
@@ -121,8 +130,6 @@ Columns fromMessage(const nlohmann::json& json, const std::string& path) {
   Columns columns;
   refuseOthers(json, {"header", "joint_names", "points"}, path);
   columns.names = json.at("joint_names").get<std::vector<std::string>>();
-  if (std::count(columns.names.begin(), columns.names.end(), "time") > 0)
-    throw Error(path + ": \"joint_names\" names 'time', which is no joint here");
   std::vector<double> times;
   if (!json.at("points").is_array()) throw Error(path + ": \"points\" is no list");
   for (const nlohmann::json& point : json.at("points")) {
@@ -138,9 +145,8 @@ Columns fromMessage(const nlohmann::json& json, const std::string& path) {
   if (!times.empty() && times.size() != columns.rows.size())
     throw Error(path + ": " + std::to_string(times.size()) + " of " + std::to_string(columns.rows.size()) +
                 " points have a \"time_from_start\"; give all of them one, or none");
-  if (std::all_of(times.begin(), times.end(), [](double time) { return time == 0; })) return columns;
-  columns.names.emplace_back("time");
-  for (std::size_t i = 0; i < times.size(); ++i) columns.rows[i].push_back(times[i]);
+  if (std::any_of(times.begin(), times.end(), [](double time) { return time != 0; }))
+    addTimes(times, columns);
   return columns;
 }
 
@@ -163,8 +169,7 @@ Columns fromJson(const std::string& text, const std::string& path) {
       if (time.size() != columns.rows.size())
         throw Error(path + ": \"time\" has " + std::to_string(time.size()) + " values, \"points\" has " +
                     std::to_string(columns.rows.size()));
-      columns.names.emplace_back("time");
-      for (std::size_t i = 0; i < time.size(); ++i) columns.rows[i].push_back(time[i]);
+      addTimes(time, columns);
     }
   } catch (const nlohmann::json::exception& error) {
     throw Error(path + ": expected " + (message ? kMessage : kJson) + " (" + error.what() + ")");
@@ -179,7 +184,9 @@ std::string whyNone(const std::string& name, const Kinematics& kinematics) {
       std::find_if(joints.begin(), joints.end(), [&](const JointModel& j) { return j.name == name; });
   const std::vector<std::string>& names = kinematics.names();
   if (joint == joints.end() || joint->type == JointType::fixed) {
-    const std::string near = didYouMean(name, valueNames(kinematics));
+    std::vector<std::string> known = valueNames(kinematics);
+    if (name != "time") known.emplace_back("time");
+    const std::string near = didYouMean(name, known);
     return "the robot has no moving joint '" + name + "'" +
            (!near.empty()   ? near
             : names.empty() ? ""
@@ -197,43 +204,21 @@ std::vector<int> coordinatesOf(const Columns& columns, const std::string& path,
   std::vector<int> coordinates;
   std::set<std::string> seen;
   for (const std::string& name : columns.names) {
+    const bool isTime = static_cast<std::ptrdiff_t>(coordinates.size()) == columns.time;
     const auto& names = kinematics.names();
     const auto found = std::find(names.begin(), names.end(), name);
-    if (name == "time" && found != names.end())
-      throw Error(path + ": 'time' is a joint of the robot, and the time of way points; rename the joint");
-    if (name != "time" && found == names.end()) throw Error(path + ": " + whyNone(name, kinematics));
+    if (isTime && found != names.end())
+      throw Error(
+          path +
+          ": 'time' is a joint of the robot, and the time of way points; give JSON, which has a place "
+          "of its own for the times, or rename the joint");
     if (!seen.insert(name).second) throw Error(path + ": names '" + name + "' twice");
-    coordinates.push_back(name == "time" ? -1 : static_cast<int>(found - names.begin()));
+    if (!isTime && found == names.end()) throw Error(path + ": " + whyNone(name, kinematics));
+    coordinates.push_back(isTime ? -1 : static_cast<int>(found - names.begin()));
   }
-  if (seen.size() == seen.count("time")) throw Error(path + ": names no joint");
+  if (static_cast<int>(coordinates.size()) == (columns.time >= 0 ? 1 : 0))
+    throw Error(path + ": names no joint");
   return coordinates;
-}
-
-// How many of a joint's coordinates, its last ones, are angles that a whole turn brings back: one, or the
-// rotation vector of a floating joint.
-int anglesOf(JointType type) {
-  switch (type) {
-    case JointType::continuous:
-    case JointType::planar:
-      return 1;
-    case JointType::floating:
-      return 3;
-    default:
-      return 0;
-  }
-}
-
-// Of the angles that turn a body as `to` does, those nearest to `from`: whole turns about the same axis.
-Eigen::VectorXd nearestTurn(const Eigen::VectorXd& to, const Eigen::VectorXd& from) {
-  const double angle = to.norm();
-  const Eigen::VectorXd axis = (angle > 0 ? to : from).normalized();
-  return to + kTwoPi * std::round((from.dot(axis) - angle) / (kTwoPi)) * axis;
-}
-
-std::string joined(const Eigen::VectorXd& values) {
-  std::string text;
-  for (const double value : values) text += (text.empty() ? "" : ", ") + toDecimal(value);
-  return text;
 }
 
 }  // namespace
@@ -275,27 +260,6 @@ Trajectory readTrajectory(const std::string& path, const Kinematics& kinematics,
     trajectory.time.push_back(time);
   }
   return trajectory;
-}
-
-std::string turnWarning(const std::string& name, const Trajectory& trajectory, const Kinematics& kinematics) {
-  for (std::size_t i = 1; i < trajectory.points.size(); ++i) {
-    for (const JointModel& joint : kinematics.robot().joints) {
-      const int angles = anglesOf(joint.type);
-      if (joint.mimic || angles == 0) continue;
-      const int k = kinematics.coordinate(joint.name) + freedoms(joint.type) - angles;
-      const Eigen::VectorXd last = trajectory.points[i - 1].segment(k, angles),
-                            to = trajectory.points[i].segment(k, angles), nearest = nearestTurn(to, last);
-      constexpr double kOff = 1e-6;  // of half a turn in few digits (rad)
-      const double turn = (to - last).norm();
-      if (turn <= (nearest - last).norm() + kOff) continue;
-      const std::string what = angles == 1 ? kinematics.names()[at(k)] : joint.name;
-      return name + ": way point " + std::to_string(i) + " (from 0): '" + what + "' turns by " +
-             toDecimal(angles == 1 ? to[0] - last[0] : turn) +
-             " rad, more than half a turn; this way is looked at, not the short one, which would end at " +
-             joined(nearest) + " rad.";
-    }
-  }
-  return "";
 }
 
 }  // namespace fcl_stpbv::report

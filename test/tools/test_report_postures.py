@@ -39,10 +39,13 @@ class Postures(unittest.TestCase):
         self.urdf = self.put("robot.urdf", ROBOT)
 
     def put(self, name, text):
-        path = os.path.join(self.folder, name)
+        path = self.path(name)
         with open(path, "w", encoding="utf-8") as file:
             file.write(text)
         return path
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
 
     def report(self, *arguments, status):
         done = subprocess.run([PROGRAM, self.urdf, "--no-cache", "--samples", "100", "--format", "json", *arguments],
@@ -167,6 +170,17 @@ class Postures(unittest.TestCase):
         self.urdf = self.put("timed.urdf", ROBOT.replace('"r"', '"time"'))
         said = self.report("--trajectory", self.put("motion.csv", "time,l\n0,0\n0.5,0\n"), status=2)
         self.assertIn("'time' is a joint", said)
+        # JSON has a place of its own for the times.
+        points = [[0, 0], [-0.5, 0.5]]
+        for text in ({"joints": ["time", "l"], "points": points, "time": [0, 2]},
+                     {"joint_names": ["time", "l"], "points": [{"positions": q, "time_from_start": 2.0 * k} for k, q in enumerate(points)]}):
+            found = self.colliding("--trajectory", self.put("motion.json", json.dumps(text)))["trajectory"]
+            self.assertTrue(found["timed"])
+            self.assertAlmostEqual(found["contact"]["time"], 1.6, delta=1e-5)  # both have gone 0.4 m
+        self.urdf = self.put("robot.urdf", ROBOT)
+        for name, text in (("motion.json", '{"joints": ["time", "l"], "points": [[0, 0], [1, 0.1]]}'), ("motion.csv", "Time,l\n0,0\n1,0.1\n")):
+            self.assertRegex(self.report("--trajectory", self.put(name, text), status=2), "no moving joint '[Tt]ime'")
+        self.assertIn("did you mean 'time'?", self.report("--trajectory", self.path("motion.csv"), status=2))
 
     def test_stamps_of_a_clock_count_from_the_first(self):
         rows = [(0, 0, 0), (0.5, 0.2, -0.1), (2, 0.6, -0.4)]

@@ -255,7 +255,7 @@ class Report(unittest.TestCase):
                            ('{"joint_names": ["slide"], "points": [{"positions": [0, 1]}]}', 'points[0] has 2 values, "joint_names" names 1'),
                            ('{"joint_names": ["slide"], "points": [{"positions": [0]}, {"positions": [1], "time_from_start": 1}]}', "1 of 2 points have"),
                            ('{"joint_names": ["slide"], "points": [{"positions": [0], "time_from_start": "0 s"}]}', "time_from_start: expected seconds"),
-                           ('{"joint_names": ["time"], "points": [{"positions": [0]}]}', "names 'time'"),
+                           ('{"joint_names": ["time"], "points": [{"positions": [0]}]}', "no moving joint 'time'"),
                            ('{"joints": ["slide"], "point": []}', '"point" is none of "joints", "points", "time"'),
                            ('{"joints": ["slide"], "points": [[0], [1, 2]]}', "points[1]"),
                            ('{"joints": ["slide"], "points": [[0], [1]], "time": [0]}', '"time" has 1')]:
