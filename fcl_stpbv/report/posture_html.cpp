@@ -60,7 +60,8 @@ std::string toHtml(const PostureReport& report) {
   }
   std::stable_sort(page.pairs.begin(), page.pairs.end(),
                    [](const PairReport& a, const PairReport& b) { return a.minDistance < b.minDistance; });
-  return toHtml(page, "posture for " + report.task.path, violated(report.posture));
+  return toHtml(page, "posture for " + report.task.path, violated(report.posture),
+                marksOf(report.task, *report.kinematics, report.posture.q));
 }
 
 }  // namespace fcl_stpbv::report

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "fcl_stpbv/report/collision_report.h"
+#include "fcl_stpbv/report/task_marks.h"
 
 namespace fcl_stpbv::report {
 
@@ -21,8 +22,8 @@ std::string toSrdfText(const CollisionReport& report, bool defaultToo = false);
 std::string srdfChange(const CollisionReport& report, bool defaultToo = false);
 /// One page with all it needs inside: table, heat map, and the robot in 3-D.
 /// The title follows the robot's name. `violated`: a line for each thing that keeps a posture from being
-/// feasible.
+/// feasible; `marks`: what its task asks for.
 std::string toHtml(const CollisionReport& report, const std::string& title = "self-collision report",
-                   const std::vector<std::string>& violated = {});
+                   const std::vector<std::string>& violated = {}, const TaskMarks& marks = {});
 
 }  // namespace fcl_stpbv::report

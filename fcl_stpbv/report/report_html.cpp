@@ -170,11 +170,29 @@ bool isUndecided(const CollisionReport& report, const PairReport& pair) {
          });
 }
 
+// What a task asks for: targets with their frames, and contacts.
+void addMarks(const TaskMarks& marks, nlohmann::json& data) {
+  data["targets"] = data["contacts"] = nlohmann::json::array();
+  for (const TargetMark& mark : marks.targets)
+    data["targets"].push_back({{"name", mark.name},
+                               {"target", rowsOf(mark.target)},
+                               {"frame", rowsOf(mark.frame)},
+                               {"turns", mark.turns},
+                               {"off", mark.off},
+                               {"turned", mark.turned}});
+  for (const ContactMark& mark : marks.contacts) {
+    nlohmann::json points = nlohmann::json::array();
+    for (const Eigen::Vector3d& point : mark.points) points.push_back({point.x(), point.y(), point.z()});
+    data["contacts"].push_back({{"link", mark.link}, {"points", std::move(points)}});
+  }
+}
+
 nlohmann::json dataOf(const CollisionReport& report, const std::string& title,
-                      const std::vector<std::string>& violated) {
+                      const std::vector<std::string>& violated, const TaskMarks& marks) {
   nlohmann::json data = nlohmann::json::parse(toJson(report));
   data["title"] = title;
   data["violated"] = violated;
+  addMarks(marks, data);
   data["trajectory"] = nlohmann::json();
   if (report.trajectory)
     data["trajectory"] = {{"file", report.trajectory->path},
@@ -238,9 +256,9 @@ static std::string trajectorySection(const CollisionReport& report) {
 }
 
 std::string toHtml(const CollisionReport& report, const std::string& title,
-                   const std::vector<std::string>& violated) {
+                   const std::vector<std::string>& violated, const TaskMarks& marks) {
   const std::string data =
-      dataOf(report, title, violated).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+      dataOf(report, title, violated, marks).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   return filled(kPageHtml, {{"TRAJECTORY", trajectorySection(report)},
                             {"STYLE", std::string(kPageStyle)},
                             {"SCRIPT", std::string(kPageScript)},

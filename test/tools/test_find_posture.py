@@ -186,6 +186,20 @@ class FindPosture(unittest.TestCase):
         self.assertEqual(len(data["configurations"]), 1)
         self.assertIn("lower_door", [pair["link2"] for pair in data["pairs"] if pair["obstacle"]])
         self.assertIn("upper_door", [body["name"] for body in data["bodies"] if body["obstacle"]])
+        asked = self.pick_can()
+        self.assertEqual([t["name"] for t in data["targets"]], [p.get("name", p["link"]) for p in asked["placements"]])
+        for target, placement in zip(data["targets"], asked["placements"]):
+            place = placement["target"].get("position", [0, 0, 0])
+            for k in range(3):
+                self.assertAlmostEqual(target["target"][4 * k + 3], place[k], delta=1e-6)
+                if not placement.get("free"):
+                    self.assertAlmostEqual(target["frame"][4 * k + 3], place[k], delta=1e-4)
+            self.assertLess(max(target["off"], target["turned"]), 1e-5)
+        contacts = asked["stability"]["contacts"]
+        self.assertEqual([(c["link"], len(c["points"])) for c in data["contacts"]], [(c["link"], len(c["points"])) for c in contacts])
+        for contact in data["contacts"]:
+            for point in contact["points"]:
+                self.assertAlmostEqual(point[2], 0, delta=1e-4)  # on the floor
         careless = self.run_task(self.pick_can(), "--format", "html", "--ignore-collisions", "-r", "0.01")
         self.assertEqual(page_data(careless.stdout)["summary"]["colliding"], 7)
 

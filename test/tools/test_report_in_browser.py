@@ -387,6 +387,38 @@ class Page(Browser):
         self.assertIn(["arm", "wall", "in collision"], states)
         self.assertIn(["foot", "floor", "not decided"], states)
 
+    def test_the_page_of_a_posture_shows_what_its_task_asks_for(self):
+        ball = '<link name="{}"><inertial><mass value="1"/></inertial><collision><geometry><sphere radius="0.05"/></geometry></collision></link>'
+        slide = ('<joint name="{0}" type="prismatic"><parent link="{1}"/><child link="{2}"/><origin xyz="{3} 0 0"/><axis xyz="0 0 1"/>'
+                 '<limit lower="-1" upper="1" effort="1" velocity="1"/></joint>')
+        urdf = self.put("two.urdf", '<robot name="two">' + ball.format("base") + ball.format("m") + ball.format("hand") + slide.format("a", "base", "m", 0.5)
+                        + slide.format("b", "m", "hand", 0.5) + "</robot>")
+        task = self.put("task.json", '{"base": "fixed", "placements": [{"name": "high", "link": "hand", "target": {"position": [1.01, 0, 0.5]}},'
+                                     '{"link": "m", "target": {"position": [0.5, 0, 0.2]}, "free": ["rx", "ry", "rz"]}]}')
+        find_posture = os.path.join(os.path.dirname(PROGRAM), "find_posture")
+        done = subprocess.run([find_posture, urdf, task, "--no-cache", "--format", "html", "-o", self.path("report.html")], capture_output=True, text=True)
+        self.assertEqual(done.returncode, 1, done.stderr)  # 1 cm beside what the joints reach
+        self.show()
+        rows = self.script("return [...document.querySelectorAll('#tasktable tbody tr')].map(r => [...r.children].map(c => c.textContent))")
+        self.assertEqual(rows, [["high", "10.000", "0.0000"], ["m", "0.000", "free"]])
+        self.assertIn("target", self.browser.find_element(By.ID, "marks").text)
+        self.assertEqual(self.script("return scene.marks.children.length"), 2 + 2 + 2)  # axes of one, dots of both
+        pixels = self.script("""
+          scene.draw();
+          const from = scene.canvas, to = document.createElement('canvas');
+          to.width = from.width; to.height = from.height;
+          const g = to.getContext('2d');
+          g.drawImage(from, 0, 0);
+          const d = g.getImageData(0, 0, to.width, to.height).data;
+          let count = 0;
+          for (let i = 0; i < d.length; i += 4) count += d[i] > 130 && d[i + 1] < 90 && d[i + 2] > 120;
+          return count;""")
+        self.assertGreater(pixels, 20)  # of the targets' colour
+        self.click("#show [data-value=pair]")
+        self.assertFalse(self.script("return scene.marks.visible"))
+        self.open(urdf)
+        self.assertFalse(self.browser.find_element(By.ID, "task").is_displayed())
+
     def test_within_a_margin_is_not_called_a_collision(self):
         self.humanoid("--margin", "0.9")
         self.assertEqual(self.browser.find_element(By.CSS_SELECTOR, ".tag").text, "within 900 mm")

@@ -140,6 +140,7 @@ async function main() {
   showList('violated', report.violated);  // what keeps a posture from being feasible
   showWarnings(report.warnings);
   showLinks(report.links);
+  showTask(report);
   const scene = openScene(report), table = new PairTable(report, i => choose(i, true)), map = new HeatMap(report, i => choose(i, true));
   const show = what => {
     if (scene) scene.showOnly(what);

@@ -86,6 +86,7 @@ class Scene {
     this.controls.addEventListener('change', () => this.redraw());
     new ResizeObserver(() => this.resize()).observe(canvas.parentElement);
     this.place(0);
+    this.addMarks();
     this.look(0.8, 0.3);
     this.addFloor();
   }
@@ -104,6 +105,13 @@ class Scene {
       }
     }
     this.world.add(this.witness);
+  }
+
+  // Targets may lie beyond all bodies.
+  addMarks() {
+    this.marks = makeMarks(this.report, 0.15 * this.extent.radius);
+    this.world.add(this.marks);
+    this.place(0);
   }
 
   addFloor() {
@@ -127,7 +135,7 @@ class Scene {
       this.bodies[i].matrix.copy(at);
       this.bodies[i].updateMatrixWorld(true);
     });
-    this.extent = this.bounds(this.bodies).getBoundingSphere(new THREE.Sphere());
+    this.extent = this.bounds(this.marks ? [...this.bodies, this.marks] : this.bodies).getBoundingSphere(new THREE.Sphere());
   }
 
   // The two links of a pair, in their posture; `fly` brings them into the middle.
@@ -156,6 +164,7 @@ class Scene {
     // Two links that overlap are drawn clear: one may be inside the other.
     const overlap = !!this.pair && this.pair.distance < 0, clear = { transparent: overlap, depthWrite: !overlap, opacity: overlap ? 0.6 : 1 };
     for (const kind of ['first', 'second']) Object.assign(this.material[kind], clear);
+    this.marks.visible = this.show !== 'pair';
     this.report.bodies.forEach((body, i) => {
       const side = this.side(body), mesh = this.bodies[i];
       mesh.visible = !body.split && (side >= 0 || this.show !== 'pair' || !this.pair);  // its parts are drawn
@@ -175,7 +184,7 @@ class Scene {
   frame(zoom = 1) {
     const isolated = this.pair && this.show !== 'all';
     const meshes = this.bodies.filter((_, i) => isolated ? this.side(this.report.bodies[i]) >= 0 : !this.report.bodies[i].obstacle);
-    const sphere = this.bounds(meshes.length ? meshes : this.bodies).getBoundingSphere(new THREE.Sphere());
+    const sphere = this.bounds(!meshes.length ? this.bodies : isolated ? meshes : [...meshes, this.marks]).getBoundingSphere(new THREE.Sphere());
     const half = Math.min(1, this.camera.aspect) * Math.tan(this.camera.fov * Math.PI / 360);
     const way = this.camera.position.clone().sub(this.controls.target).normalize();
     this.controls.target.copy(sphere.center);
