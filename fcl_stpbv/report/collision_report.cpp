@@ -90,10 +90,12 @@ void placeOnTrajectory(const TrajectoryReport& trajectory, std::size_t first, st
   pair.stopsTrajectory = trajectory.verdict != MotionVerdict::free && at(trajectory.stop.pair) >= first &&
                          at(trajectory.stop.pair) < last;
   const bool touches = pair.stopsTrajectory && trajectory.verdict == MotionVerdict::contact;
+  const auto from = static_cast<std::ptrdiff_t>(first), to = static_cast<std::ptrdiff_t>(last);
+  pair.freeAlong = std::all_of(trajectory.free.begin() + from, trajectory.free.begin() + to,
+                               [](bool free) { return free; });
   const auto begin = trajectory.closest.begin();
-  const auto nearest =
-      std::min_element(begin + static_cast<std::ptrdiff_t>(first), begin + static_cast<std::ptrdiff_t>(last),
-                       [](const Approach& a, const Approach& b) { return a.distance < b.distance; });
+  const auto nearest = std::min_element(
+      begin + from, begin + to, [](const Approach& a, const Approach& b) { return a.distance < b.distance; });
   pair.time = touches && !(nearest->distance < trajectory.stop.answer.distance) ? trajectory.stop.until
                                                                                 : nearest->time;
   pair.configuration = trajectory.at(pair.time);

@@ -66,6 +66,7 @@ struct PairReport {
       std::numeric_limits<double>::quiet_NaN();  ///< of `configuration` on the trajectory, NaN without one
   Eigen::VectorXd closest;                       ///< where minDistance was found
 
+  bool freeAlong = false;        ///< proven free all along the trajectory
   bool stopsTrajectory = false;  ///< has its first contact, or the first place where nothing is decided
   bool contradictsSrdf = false;  ///< which leaves the pair out as never or adjacent, and it collides
 };

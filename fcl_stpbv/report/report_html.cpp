@@ -156,12 +156,11 @@ void shorten(nlohmann::json& value) {
   }
 }
 
-// Whether it is undecided if the pair collides on the trajectory. After a contact only the closest approach
-// decides.
+// Whether the trajectory leaves open if the pair meets: neither a proof of its own nor its closest approach
+// tells.
 bool isUndecided(const CollisionReport& report, const PairReport& pair) {
-  if (!report.trajectory || !pair.checked) return false;
+  if (!report.trajectory || !pair.checked || pair.freeAlong) return false;
   const TrajectoryReport& t = *report.trajectory;
-  if (t.verdict == MotionVerdict::free) return false;
   const bool isFarther = pair.answer.distance - TrajectoryReport::kPrecision > report.margin;
   return !(t.closestProven && isFarther) || t.followedUntil < t.trajectory.time.back() ||
          std::any_of(t.undecided.begin(), t.undecided.end(), [&](const TrajectoryStop& stop) {

@@ -1,7 +1,8 @@
 // Checks a robot along a trajectory, segment by segment:
 // 1. The first contact: bracketed in time, or proven absent (robot/motion_check.h).
 // 2. Each pair's closest approach, proven likewise.
-// 3. Even samples, the contact and the closest approach, for the chart and the steepest approach: distances
+// 3. Where it is not free for all pairs, for which it is all the same.
+// 4. Even samples, the contact and the closest approach, for the chart and the steepest approach: distances
 //    and, by the Jacobian, how fast they change.
 #include "fcl_stpbv/report/trajectory.h"
 
@@ -52,34 +53,70 @@ FirstStop firstStop(MotionCheck& check, double margin, const Trajectory& t, std:
   return none;
 }
 
-// A pair whose distance equals the margin up to rounding must not hide a contact of another pair. It is
-// removed from the search, which continues from there with the others.
-void findContact(MotionCheck& all, const std::shared_ptr<const RobotGeometry>& geometry,
-                 const std::shared_ptr<const Kinematics>& kinematics, const std::vector<Obstacle>& obstacles,
-                 double margin, TrajectoryReport& report) {
-  std::vector<CheckedPair> pairs = all.pairs();
-  std::vector<int> number(pairs.size());  // of each pair that is left
-  std::iota(number.begin(), number.end(), 0);
-  FirstStop stop = firstStop(all, margin, report.trajectory, 0);
+/// Who is followed, and by what pairs of bodies.
+struct Followed {
+  std::shared_ptr<const Kinematics> kinematics;
+  std::shared_ptr<const RobotGeometry> geometry;
+  const std::vector<Obstacle>& obstacles;
+  double margin;
+  std::vector<CheckedPair> pairs;  // that are left
+  std::vector<int> number;         // of each of them among all
+  std::size_t segment = 0;         // before which they are free
+
+  void markFree(TrajectoryReport& report) const {
+    for (const int pair : number) report.free[static_cast<std::size_t>(pair)] = true;
+  }
+  void setAside(std::ptrdiff_t pair) {
+    number.erase(number.begin() + pair);
+    pairs.erase(pairs.begin() + pair);
+  }
+  FirstStop next(const Trajectory& trajectory) {
+    MotionCheck check(kinematics, geometry, pairs, obstacles);
+    const FirstStop stop = firstStop(check, margin, trajectory, segment);
+    segment = stop.segment;
+    return stop;
+  }
+};
+
+// A pair whose distance is the margin to rounding must not hide a contact of another one: it is set aside,
+// and the search goes on with the others from where it was. @return whether all that are left are free.
+bool findContact(Followed& left, TrajectoryReport& report) {
+  FirstStop stop = left.next(report.trajectory);
   while (stop.verdict == MotionVerdict::undecided && !stop.tooLong) {
-    const std::ptrdiff_t left = stop.at.pair;
-    stop.at.pair = number[static_cast<std::size_t>(left)];
+    const std::ptrdiff_t pair = stop.at.pair;
+    stop.at.pair = left.number[static_cast<std::size_t>(pair)];
     report.undecided.push_back(stop.at);
-    number.erase(number.begin() + left);
-    pairs.erase(pairs.begin() + left);
-    if (pairs.empty()) break;
-    MotionCheck others(kinematics, geometry, pairs, obstacles);
-    stop = firstStop(others, margin, report.trajectory, stop.segment);
+    left.setAside(pair);
+    if (left.pairs.empty()) break;
+    stop = left.next(report.trajectory);
   }
   report.followedUntil = stop.tooLong ? stop.at.from : report.trajectory.time.back();
   if (stop.verdict != MotionVerdict::contact && !report.undecided.empty()) {
     report.verdict = MotionVerdict::undecided;
     report.stop = report.undecided.front();
-    return;
+  } else {
+    report.verdict = stop.verdict;
+    report.stop = stop.at;
+    if (stop.at.pair >= 0) report.stop.pair = left.number[static_cast<std::size_t>(stop.at.pair)];
   }
-  report.verdict = stop.verdict;
-  report.stop = stop.at;
-  if (stop.at.pair >= 0) report.stop.pair = number[static_cast<std::size_t>(stop.at.pair)];
+  return stop.verdict == MotionVerdict::free;
+}
+
+// Which of the pairs that are left are free all the way, each by a proof of its own: the search goes on
+// without those that touch, found by their closest approaches or by the search itself, and without a few that
+// take too many distances.
+void findFree(Followed left, TrajectoryReport& report) {
+  for (auto i = static_cast<std::ptrdiff_t>(left.number.size()) - 1; i >= 0; --i) {
+    const auto pair = static_cast<std::size_t>(left.number[static_cast<std::size_t>(i)]);
+    if (!(report.closest[pair].distance > left.margin)) left.setAside(i);
+  }
+  constexpr int kMostLong = 5;  // each takes some tenths of a second
+  for (int tooLong = 0; !left.pairs.empty() && tooLong <= kMostLong;) {
+    const FirstStop stop = left.next(report.trajectory);
+    if (stop.verdict == MotionVerdict::free) return left.markFree(report);
+    tooLong += stop.tooLong;
+    left.setAside(stop.at.pair);
+  }
 }
 
 void findClosest(MotionCheck& check, TrajectoryReport& report) {
@@ -156,9 +193,16 @@ TrajectoryReport follow(Trajectory trajectory, std::shared_ptr<const Kinematics>
                         const std::vector<Obstacle>& obstacles, double margin) {
   TrajectoryReport report;
   report.trajectory = std::move(trajectory);
+  report.free.assign(pairs.size(), false);
+  Followed left{kinematics, geometry, obstacles, margin, pairs, std::vector<int>(pairs.size())};
+  std::iota(left.number.begin(), left.number.end(), 0);
+  const bool allLeft = findContact(left, report);
   MotionCheck check(kinematics, geometry, pairs, obstacles);
-  findContact(check, geometry, kinematics, obstacles, margin, report);
   findClosest(check, report);
+  if (allLeft)
+    left.markFree(report);
+  else
+    findFree(std::move(left), report);
   ConstraintOptions options;
   options.obstacles = obstacles;
   CollisionConstraints rows(kinematics, geometry, pairs, options);

@@ -28,6 +28,8 @@ struct TrajectoryReport {
   /// Time up to which the trajectory was checked. It is before the end if a proof needs too many distances;
   /// after it nothing is decided for any pair.
   double followedUntil = 0;
+  /// Of each pair of bodies, whether it is proven free all the way, whatever becomes of the others.
+  std::vector<bool> free;
   std::vector<Approach> closest;  ///< of each pair of bodies, its time that of the trajectory
   /// Every `closest` is that of the whole trajectory to this (m); false where
   /// a pair was too deep in another one.

@@ -171,6 +171,15 @@ class Report(unittest.TestCase):
         report = json.loads(self.run_tool(*arguments, "--format", "json").stdout)["trajectory"]
         self.assertEqual((report["verdict"], report["free_until"]), ("undecided", report["undecided"][0]["time"]))
         self.assertTrue(1 <= report["followed_until"] < 2)
+        # Each pair has a verdict of its own, in front of a contact of another one and behind it.
+        for z, collides in ((0, False), (-0.05, True)):
+            self.put("spin.csv", f"time,z,spin\n0,0.2,0\n1,{z},0\n2,{z},314159.3\n")
+            page = page_data(self.run_tool(*arguments, "--format", "html").stdout)
+            open_pairs = [{p["link1"], p["link2"]} for p in page["pairs"] if p["undecided"] and not p["colliding"]]
+            self.assertEqual([{p["link1"], p["link2"]} for p in page["pairs"] if p["colliding"]], [{"table", "ball"}] * collides)
+            self.assertEqual(len(open_pairs), 2 - collides, page["pairs"])
+            self.assertIn({"arm", "post"}, open_pairs)
+            self.assertEqual(sum(p["checked"] and not p["undecided"] and not p["colliding"] for p in page["pairs"]), 3)
 
     def test_a_trajectory_that_keeps_clear_is_proven_free_and_drawn(self):
         text = "slide\n0\n0.5\n0.9\n0.2\n"
