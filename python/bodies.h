@@ -21,8 +21,8 @@ struct BodyOptions {
 
   Length r;
   std::optional<Length> R;  ///< none: fitted where r is, else that of GeometryOptions
-  OfLinks links;            ///< r, R and, if given, the over-cover's budget of single links (m)
-  Names flat;               ///< links whose meshes stay convex polyhedra, and "obstacles"
+  OfLinks links = {};       ///< r, R and, if given, the over-cover's budget of single links (m)
+  Names flat = std::vector<std::string>{};  ///< links whose meshes stay convex polyhedra, and "obstacles"
 
   /// @throws Error naming the argument.
   GeometryOptions ofRobot(bool obstacles) const;

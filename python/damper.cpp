@@ -118,6 +118,33 @@ PointArray both(const std::array<Eigen::Vector3d, 2>& vectors) {
   return toArray({vectors.begin(), vectors.end()});
 }
 
+double accelerationBound(const ProgramChange& change, double smallestH, double smallestG) {
+  const std::pair<const char*, double> given[] = {{"gradient", change.gradient},
+                                                  {"bound", change.bound},
+                                                  {"multiplier", change.multiplier},
+                                                  {"solution", change.solution}};
+  for (const auto& [name, value] : given)
+    if (!(value >= 0))
+      throw Error(std::string(name) + ": got " + std::string(py::str(py::float_(value))) +
+                  ", expected 0 or more");
+  return collisionAccelerationBound(change, smallestH, smallestG);
+}
+
+void addAccelerationBound(py::module_& module) {
+  module.def(
+      "collision_acceleration_bound",
+      [](double smallestH, double smallestG, double gradient, double bound, double multiplier,
+         double solution) {
+        return accelerationBound({gradient, bound, multiplier, solution}, smallestH, smallestG);
+      },
+      py::kw_only(), py::arg("smallest_h"), py::arg("smallest_g"), py::arg("gradient") = 0.0,
+      py::arg("bound") = 0.0, py::arg("multiplier") = 0.0, py::arg("solution") = 0.0,
+      "Most of |dx/dt| that collision rows add in min x'Hx/2 - f'x, A x >= b while the same rows act, in\n"
+      "the norm sqrt(x'Hx). smallest_h, smallest_g: smallest eigenvalues of H and of A H^-1 A' of these\n"
+      "rows. gradient: most of |dA/dt|, bound: of |db/dt|, multiplier: norm of the rows' multipliers,\n"
+      "solution: |x|. inf where an eigenvalue is not above 0, 0 where nothing changes.");
+}
+
 void addAnswer(py::module_& module) {
   py::class_<RowAnswer>(module, "RowAnswer", "What was found for a row's pair. World frame.")
       .def_readonly("status", &RowAnswer::status,
@@ -144,6 +171,7 @@ void addAnswer(py::module_& module) {
 
 void addDampers(py::module_& module, py::class_<PythonRobot>& robotClass) {
   addAnswer(module);
+  addAccelerationBound(module);
   robotClass
       .def("answers", &PythonRobot::answers, py::arg("q"), py::arg("qd") = py::none(),
            "A RowAnswer for each row at q, while q moves with velocity qd where it is given: points, normal.")

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "fcl_stpbv/error.h"
@@ -42,6 +43,15 @@ inline void requireCount(long count, long least, const char* name) {
 /// Folders that hold packages: one in Python, or a list of them.
 struct Folders {
   std::vector<std::string> names;
+
+  /// The names. @throws Error for one that is no folder.
+  const std::vector<std::string>& existing() const {
+    std::error_code ignored;
+    for (const std::string& name : names)
+      if (!std::filesystem::is_directory(name, ignored))
+        throw Error("package_path: '" + name + "' is no folder; give one that holds packages");
+    return names;
+  }
 };
 
 inline std::vector<Eigen::Vector3d> toPoints(const PointArray& array) {

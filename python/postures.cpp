@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "bodies.h"
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/formatted.h"
 #include "fcl_stpbv/posture/find_posture.h"
@@ -25,11 +26,10 @@ namespace {
 class PythonPostureSearch {
  public:
   PythonPostureSearch(const Path& urdf, const std::optional<Path>& srdf, const std::optional<Path>& obstacles,
-                      double r, double R, const Folders& packagePath) {
+                      const BodyOptions& bodies, const Folders& packagePath) {
     named(srdf, "srdf"), named(obstacles, "obstacles");
-    GeometryOptions options;
-    options.radii = {r, R};
-    options.packagePath = packagePath.names;
+    GeometryOptions options = bodies.ofRobot(obstacles.has_value());
+    options.packagePath = packagePath.existing();
     scene_.robot = std::make_shared<const RobotModel>(loading_.robot(urdf));
     if (srdf) scene_.srdf = std::make_shared<const Srdf>(loading_.srdf(*srdf, *scene_.robot));
     scene_.geometry = std::make_shared<const RobotGeometry>(loading_.geometry(*scene_.robot, options));
@@ -139,11 +139,16 @@ namespace fcl_stpbv {
 void addPostures(py::module_& module) {
   py::class_<PythonPostureSearch>(module, "PostureSearch",
                                   "Postures of a robot among obstacles, in pure pieces.")
-      .def(py::init<const Path&, const std::optional<Path>&, const std::optional<Path>&, double, double,
-                    const Folders&>(),
+      .def(py::init([](const Path& urdf, const std::optional<Path>& srdf,
+                       const std::optional<Path>& obstacles, const BodyOptions::Length& r,
+                       const std::optional<BodyOptions::Length>& R, const Folders& packagePath) {
+             return std::make_unique<PythonPostureSearch>(urdf, srdf, obstacles, BodyOptions{r, R},
+                                                          packagePath);
+           }),
            py::arg("urdf"), py::arg("srdf") = py::none(), py::arg("obstacles") = py::none(), py::kw_only(),
-           py::arg("r") = 0.01, py::arg("R") = 10.0, py::arg("package_path") = Folders{},
-           "Without an SRDF the robot's own pairs are those that samples leave to be checked.")
+           py::arg("r") = 0.01, py::arg("R") = py::none(), py::arg("package_path") = Folders{},
+           "Without an SRDF the robot's own pairs are those that samples leave to be checked. r, R: as of "
+           "Robot.")
       .def_property_readonly(
           "warnings", [](const PythonPostureSearch& search) { return decoded(search.warnings()); },
           "What loading warned of, as Robot.warnings.")

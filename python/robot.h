@@ -56,7 +56,7 @@ class PythonRobot {
     requireBend(influence, exactUpTo);
     scene->options = bodies.ofRobot(obstacles.has_value());
     scene->aroundOptions = bodies.ofObstacles();
-    scene->options.packagePath = scene->aroundOptions.packagePath = packagePath.names;
+    scene->options.packagePath = scene->aroundOptions.packagePath = packagePath.existing();
     scene->robot = std::make_shared<const RobotModel>(scene->loading.robot(urdf));
     if (srdf) scene->srdf = scene->loading.srdf(*srdf, *scene->robot);
     const auto geometry = scene->load(base, obstacles);

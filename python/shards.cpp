@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "bodies.h"
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/formatted.h"
 #include "fcl_stpbv/number_check.h"
@@ -50,14 +51,13 @@ std::vector<JointBox> boxesOf(const GivenBoxes& given) {
 /// A robot and the pairs of its links that joints move against each other.
 class PythonPairSearch {
  public:
-  PythonPairSearch(const Path& urdf, const std::optional<Path>& obstacles, double r, double R,
-                   const Folders& packagePath, double margin) {
+  PythonPairSearch(const Path& urdf, const std::optional<Path>& obstacles, const BodyOptions::Length& r,
+                   const std::optional<BodyOptions::Length>& R, const Folders& packagePath, double margin) {
     requireNumber("margin", margin, -1e6, 1e6);
     named(obstacles, "obstacles");
+    GeometryOptions options = BodyOptions{r, R}.ofRobot(obstacles.has_value());
+    options.packagePath = packagePath.existing();
     const auto model = std::make_shared<const RobotModel>(loading_.robot(urdf));
-    GeometryOptions options;
-    options.radii = {r, R};
-    options.packagePath = packagePath.names;
     const auto geometry = std::make_shared<const RobotGeometry>(loading_.geometry(*model, options));
     std::set<std::pair<int, int>> known;
     for (const CheckedPair& pair : selfPairs(*model, *geometry, nullptr)) {
@@ -218,7 +218,7 @@ class PythonPairSearch {
 
 std::vector<std::pair<std::string, std::string>> meshFiles(const Path& urdf, const Folders& packagePath) {
   const RobotModel robot = loadUrdf(urdf.string());
-  const PackagePath files(urdf.string(), packagePath.names);
+  const PackagePath files(urdf.string(), packagePath.existing());
   const auto none = [](const LinkModel& link) { return link.collision.empty(); };
   const bool visual = std::all_of(robot.links.begin(), robot.links.end(), none);
   std::vector<std::pair<std::string, std::string>> found;
@@ -284,10 +284,11 @@ void addShards(py::module_& module) {
   addProof(module);
   py::class_<PythonPairSearch>(module, "PairSearch",
                                "Proofs and samples of a robot's pairs of links, in pure pieces.")
-      .def(py::init<const Path&, const std::optional<Path>&, double, double, const Folders&, double>(),
+      .def(py::init<const Path&, const std::optional<Path>&, const BodyOptions::Length&,
+                    const std::optional<BodyOptions::Length>&, const Folders&, double>(),
            py::arg("urdf"), py::arg("obstacles") = py::none(), py::kw_only(), py::arg("r") = 0.01,
-           py::arg("R") = 10.0, py::arg("package_path") = Folders{}, py::arg("margin") = 0.0,
-           "obstacles: URDF of a scene that stands still, like the robot's root link.\n"
+           py::arg("R") = py::none(), py::arg("package_path") = Folders{}, py::arg("margin") = 0.0,
+           "obstacles: URDF of a scene that stands still, like the robot's root link. r, R: as of Robot.\n"
            "margin: a distance not above it is a collision (m).")
       .def_property_readonly(
           "warnings", [](const PythonPairSearch& search) { return decoded(search.warnings()); },

@@ -214,3 +214,14 @@ def test_a_row_is_the_distance_up_to_exact_up_to_and_bends_over_beyond(robot):
     for wrong in (0.2, 0.3, -1.0, math.nan, math.inf):
         with pytest.raises(fcl_stpbv.Error, match="^exact_up_to: got .* below influence"):
             fcl_stpbv.Robot(*FILES, influence=0.2, exact_up_to=wrong)
+
+
+def test_the_bound_on_the_acceleration_is_the_formula_of_the_page():
+    bound = fcl_stpbv.collision_acceleration_bound
+    assert bound(smallest_h=4, smallest_g=25, gradient=3, bound=2, multiplier=4, solution=1) == 3 * 4 / 2 + (2 + 3 * 1) / 5
+    assert bound(smallest_h=1, smallest_g=0) == 0
+    assert bound(smallest_h=1, smallest_g=0, bound=1) == math.inf
+    for name in ("gradient", "bound", "multiplier", "solution"):
+        for wrong in (-1.0, math.nan):
+            with pytest.raises(fcl_stpbv.Error, match=f"^{name}: got {wrong}, expected 0 or more"):
+                bound(smallest_h=1, smallest_g=1, **{name: wrong})

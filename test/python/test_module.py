@@ -138,6 +138,9 @@ def test_a_package_path_is_one_folder_or_several(tmp_path):
         for wrong in (3, [3], None):
             with pytest.raises(TypeError):
                 load(urdf, package_path=wrong)
+        for missing in (tmp_path / "nowhere", [tmp_path, urdf], ""):
+            with pytest.raises(fcl_stpbv.Error, match=r"^package_path: '.*' is no folder; give one that holds packages"):
+                load(urdf, package_path=missing)
 
 
 def test_errors_name_what_would_work(tmp_path):
@@ -479,8 +482,10 @@ def test_a_robot_is_as_fine_as_its_needs_ask_for(hook):
     # The post's row is as far as it should be: 0.55 - 0.25, but for r and what R adds.
     assert hulls.distances(q)[1] == pytest.approx(0.3, abs=0.004)
     needs = [("l", "block", q, 0.01), ("post_unknown", "block", q, 0.0)]
-    with pytest.raises(fcl_stpbv.Error, match=r'needs\[1\]: .*"post_unknown"'):
+    with pytest.raises(fcl_stpbv.Error, match=r'needs\[1\]: .*"post_unknown"$'):
         hulls.model_for(needs)
+    with pytest.raises(fcl_stpbv.Error, match=r'needs\[0\]: there is no link or obstacle "pst"; did you mean \'post\'\?'):
+        hulls.model_for([("l", "pst", q, 0.0)])
     with pytest.raises(fcl_stpbv.Error, match=r'needs\[0\]: .*"l" and "post".*no pair'):
         hulls.model_for([("l", hulls.rows[1].split()[-1], q, 0.0)])
     (hook / "two.urdf").write_text(files[0].read_text().replace("<link name='block'>", "<link name='block'><collision><geometry><sphere radius='0.01'/></geometry></collision>"))
