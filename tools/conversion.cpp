@@ -16,6 +16,7 @@
 #include "fcl_stpbv/io/volume_files.h"
 #include "fcl_stpbv/parts/mesh_solid.h"
 #include "fcl_stpbv/robot/file_ending.h"
+#include "fcl_stpbv/robot/fitted_radii.h"
 #include "fcl_stpbv/robot/mesh_file.h"
 #include "fcl_stpbv/text_cells.h"
 #include "fcl_stpbv/volume/tessellate.h"
@@ -40,18 +41,12 @@ bool holdsVolume(const std::string& path) {
 void checkSameRadii(const std::string& input, const Radii& radii, const ConversionOptions& options) {
   if (options.advise)
     throw Error(input + ": is an STP-BV already; give the mesh it was made from, or leave out --advise");
-  const bool same = options.r.value_or(radii.r) == radii.r && options.R.value_or(radii.R) == radii.R;
+  const bool same = !options.fitr && !options.fitR && options.r.value_or(radii.r) == radii.r &&
+                    options.R.value_or(radii.R) == radii.R;
   if (same && options.scale == 1) return;
   throw Error(input + ": is an STP-BV already, made with r = " + toDecimal(radii.r) +
               " and R = " + toDecimal(radii.R) +
               "; leave out -r, -R and --scale to convert its format, or give the mesh it was made from");
-}
-
-StpBv::Ptr build(const std::string& input, const Points& points, const ConversionOptions& options) {
-  StpBvOptions radii;
-  radii.r = options.r.value_or(radii.r);
-  radii.R = options.R.value_or(radii.R);
-  return detail::within(input, [&] { return StpBv::build(points, radii); });
 }
 
 // @throws Error where no radii keep both promises.
@@ -119,6 +114,17 @@ Content readInput(const std::string& path, double factor) {
   return content;
 }
 
+StpBvOptions radiiFor(const Points& points, const ConversionOptions& options) {
+  StpBvOptions radii;
+  radii.r = options.r.value_or(radii.r);
+  radii.R = options.R.value_or(radii.R);
+  if (!options.fitr && !options.fitR) return radii;
+  const BodySize size = sizeOf(points);
+  if (options.fitr) radii.r = fittedRadii(size).r;
+  if (options.fitR) radii.R = fittedR(size.ball, radii.r);
+  return radii;
+}
+
 Report convert(const std::string& input, const ConversionOptions& options) {
   Report report;
   report.input = input;
@@ -129,14 +135,12 @@ Report convert(const std::string& input, const ConversionOptions& options) {
     checkSameRadii(input, report.volume->radii(), options);
     points = report.volume->vertices();
   } else {
-    ConversionOptions radii = options;
-    if (options.advise) {
-      report.advice = advised(input, points, *options.advise);
-      radii.r = report.advice->radii.r;
-      radii.R = report.advice->radii.R;
-    }
+    if (options.advise) report.advice = advised(input, points, *options.advise);
+    report.fitted = options.fitr || options.fitR;
     const auto start = std::chrono::steady_clock::now();
-    report.volume = build(input, points, radii);
+    report.volume = detail::within(input, [&] {
+      return StpBv::build(points, report.advice ? report.advice->radii : radiiFor(points, options));
+    });
     report.buildSeconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   }
   report.points = points.size();
@@ -171,6 +175,8 @@ std::string toText(const Report& report) {
                      millimetres(report.overCover.mean);
   if (report.buildSeconds > 0) text += detail::formatted("; built in %.3f s", report.buildSeconds);
   if (report.verified == true) text += "; verified";
+  if (report.fitted)
+    text += "\n  fitted r " + millimetres(body.radii().r) + ", R " + number(body.radii().R) + " m";
   if (report.advice)
     text += "\n  advised r " + millimetres(body.radii().r) + ", R " + number(body.radii().R) +
             " m, at most " + number(report.advice->acceleration) + " m/s^2";

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "fcl_stpbv/parts/convex_parts.h"
 #include "fcl_stpbv/volume/measure.h"
@@ -15,6 +16,7 @@ enum class Format { stpbv, sch };
 
 struct ConversionOptions {
   std::optional<double> r, R;       ///< StpBvOptions' values where not given
+  bool fitr = false, fitR = false;  ///< an r and R that fit the input's size (docs/choosing_r_and_R.md)
   std::optional<RadiiTask> advise;  ///< the radii that it leads to, instead
   double scale = 1;
   Format format = Format::stpbv;
@@ -30,6 +32,7 @@ struct Report {
   std::size_t points = 0;  ///< read from the input
   StpBv::Ptr volume;
   std::optional<RadiiAdvice> advice;  ///< where it was asked for
+  bool fitted = false;                ///< r or R fits the input's size
   OverCover overCover{};
   double cubicMetres = 0;
   /// Most that the volume exceeds the mesh by: what it encloses, or its triangles
@@ -49,6 +52,9 @@ struct Content {
 /// Reads a mesh, a cloud of points or a volume, told by its content; `scale` does not count for a volume.
 /// @throws Error naming the input and what would work.
 Content readInput(const std::string& path, double scale);
+
+/// The r and R that the options say for these points, but for what `advise` leads to.
+StpBvOptions radiiFor(const std::vector<Eigen::Vector3d>& points, const ConversionOptions& options);
 
 /// The same, made into an STP-BV. Writes nothing.
 /// @throws Error naming the input and what would work.

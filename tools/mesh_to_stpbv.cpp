@@ -59,7 +59,7 @@ or the report cannot be written.)";
 struct Arguments {
   std::vector<std::string> inputs;
   std::string output, format = "stpbv";
-  std::optional<std::string> advise;
+  std::optional<std::string> r, R, advise;
   std::optional<int> parts;
   std::optional<double> excess, effort;
   ConversionOptions conversion;
@@ -74,10 +74,15 @@ void describe(Program& app, Arguments& arguments) {
       .required()
       .type("OUT");
   const Option r =
-      app.option("-r", conversion.r, "Radius of the small spheres, the margin around the points [0.01 m]")
-          .number(0, kLargest);
+      app.option("-r", arguments.r,
+                 "Radius of the small spheres, the margin around the points, or 'auto': a "
+                 "twentieth of the smallest width or a 250th of the radius, 1 cm at most [0.01 m]")
+          .number(0, kLargest, true, "auto");
   const Option R =
-      app.option("-R", conversion.R, "Radius of the big spheres [10 m]").number(0, kLargestR, false);
+      app.option("-R", arguments.R,
+                 "Radius of the big spheres, or 'auto': so large that they add no more than r or "
+                 "a 200th of the radius; without it auto where r is, else 10 [m]")
+          .number(0, kLargestR, false, "auto");
   Option advise = app.option("--advise", arguments.advise,
                              "The r and R that lose the least space and add at most this acceleration to a "
                              "controller's rows: "
@@ -223,7 +228,16 @@ std::vector<std::filesystem::path> missingFolders(std::filesystem::path folder) 
   return missing;
 }
 
+// Lengths or "auto"; R follows r where it is not given.
+void setRadii(const Arguments& arguments, ConversionOptions& conversion) {
+  conversion.fitr = arguments.r == "auto";
+  conversion.fitR = arguments.R ? *arguments.R == "auto" : conversion.fitr;
+  if (arguments.r && !conversion.fitr) conversion.r = std::stod(*arguments.r);
+  if (arguments.R && !conversion.fitR) conversion.R = std::stod(*arguments.R);
+}
+
 int run(Arguments& arguments) {
+  setRadii(arguments, arguments.conversion);
   arguments.conversion.measure = arguments.json || !arguments.quiet;
   arguments.conversion.format = arguments.format == "sch" ? Format::sch : Format::stpbv;
   arguments.conversion.parts = partsOf(arguments);

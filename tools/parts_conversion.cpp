@@ -52,10 +52,8 @@ PartsReport convertToParts(const std::string& input, const std::string& output,
   if (content.mesh.triangles.empty())
     throw Error(input + ": has no triangles, which parts are made of; give a mesh, which must be a file");
   const auto start = std::chrono::steady_clock::now();
-  StpBvOptions radii;
-  radii.r = options.r.value_or(radii.r);
-  radii.R = options.R.value_or(radii.R);
   detail::within(input, [&] {
+    const StpBvOptions radii = radiiFor(content.mesh.vertices, options);  // of the whole mesh, as of a link
     report.parts = convexParts(content.mesh, *options.parts);
     for (const ConvexPart& part : report.parts.parts) {
       report.volumes.push_back(StpBv::build(part.points, radii));

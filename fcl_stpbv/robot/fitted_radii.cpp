@@ -16,7 +16,7 @@ BodySize sizeOf(const std::vector<Eigen::Vector3d>& points) {
   const auto hull = hullGeometry(points);
   const DistanceAnswer self =
       distance(*hull, fcl::Transform3d::Identity(), *hull, fcl::Transform3d::Identity());
-  size.width = std::clamp(-self.upper, 0.0, 2 * size.ball);
+  size.width = std::min(std::max(0.0, -self.upper), 2 * size.ball);  // 0 without a sign, of one point
   return size;
 }
 

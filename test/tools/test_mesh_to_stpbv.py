@@ -4,6 +4,7 @@
 usage: test_mesh_to_stpbv.py PROGRAM SOURCE_FOLDER
 """
 import json
+import math
 import os
 import re
 import resource
@@ -84,6 +85,27 @@ class MeshToStpbv(unittest.TestCase):
         self.assertGreater(far["hull_excess_max"], 0.3)
         self.assertIn("NOT within the 300.000 mm asked for", made("--excess", "0.3", "--parts", "2"))
         self.assertNotIn("NOT", made("--excess", "0.3"))
+
+    def test_radii_that_fit_the_mesh_are_those_of_the_robot_tools(self):
+        # A cube of 1 cm: r is a twentieth of its side, and so is the bulge that R adds. Of one of 1 m it is beyond 1 cm.
+        def radii(*arguments):
+            report = json.loads(self.run_tool("cube.txt", "-o", "a.stpbv", "--json", "--force", *arguments).stdout)
+            return report["r"], report["R"]
+
+        ball, r = math.sqrt(3) / 2 * 0.01, 0.0005
+        fitting = r + (ball ** 2 + r ** 2) / (2 * r)
+        for arguments, expected in ((["-r", "auto"], (r, fitting)), (["-r", "auto", "-R", "auto"], (r, fitting)), (["-r", "auto", "-R", "5"], (r, 5))):
+            for found, wanted in zip(radii("--scale", "0.01", *arguments), expected):
+                self.assertAlmostEqual(found, wanted, delta=1e-6 * wanted)
+        self.assertEqual(radii("-r", "auto")[0], 0.01)
+        self.assertEqual(radii("-r", "0.003", "-R", "auto")[0], 0.003)
+        self.assertNotEqual(radii("-r", "0.003", "-R", "auto")[1], 10)
+        write(self.at("one.txt"), points_file([(1, 2, 3)]))
+        self.assertIn("fitted r 0 mm, R 10 m", self.run_tool("one.txt", "-o", "one.stpbv", "-r", "auto").stdout)
+        self.assertIn("fitted r 10 mm, R ", self.run_tool("cube.txt", "-o", "a.stpbv", "-r", "auto", "--force").stdout)
+        self.refused("cube.txt", "-o", "new.stpbv", "-r", "fit", says=["-r: got fit, expected a number from 0 to 1e+06, or auto"])
+        self.run_tool("cube.txt", "-o", "cube.stpbv")
+        self.refused("cube.stpbv", "-o", "new.stpbv", "-r", "auto", code=1, says=["cube.stpbv: is an STP-BV already", "leave out -r"])
 
     def test_advised_radii_keep_what_is_asked_for_or_nothing_is_written(self):
         task = "clearance=0.6,acceleration=1,speed=0.3,turning=1,distance=0.01,others=round"
