@@ -4,7 +4,7 @@
 //     sqrt(D) N - T with the integers T = |u|^2 v x N + |v|^2 N x u and D = 4 |N|^2 rho^2 - |u|^2 |v|^2 |u -
 //     v|^2 (docs/theory.md, 2). So both predicates have the form A + B sqrt(D).
 //  3. Where A and B differ in sign, A^2 against B^2 D decides.
-// The most frequent case are corners of flat faces. There B = 0, and A is small enough for integers of a
+// The most frequent case is corners of flat faces. There B = 0, and A is small enough for integers of a
 // fixed size. If D < 0, the ball is too small, by rounding. D then counts as 0, which is the ball with the
 // three points on a great circle.
 #include "fcl_stpbv/volume/exact_sign.h"

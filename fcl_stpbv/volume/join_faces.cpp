@@ -31,8 +31,8 @@ bool turnsLeft(const Vector3d& n, const Vector3d& a, const Vector3d& b, const Ve
 }
 
 // Whether one ball fits all corners of a joined face: each corner is within `tolerance` of the ball, the
-// heights of a side's two corners differ by at most `tilt` times its length, and the face is convex. It may
-// be concave if some neighbours did not join.
+// heights of a side's two corners differ by at most `tilt` times its length, and the face is convex (a joined
+// face can be concave if some neighbours did not join).
 bool isSound(const std::vector<Vector3d>& points, const Ring& ring, double radius, long double tolerance,
              double tilt) {
   const auto corner = [&](std::size_t k) -> const Vector3d& { return points[at(ring[k % ring.size()])]; };

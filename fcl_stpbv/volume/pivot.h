@@ -19,7 +19,7 @@ double leavingAngle(const RollingCloud& cloud, int a, int b, const Eigen::Vector
 /// Rolls the ball over the edge a -> b, away from the face on its left, and returns the face on which it
 /// comes to rest. `across` is the part of the ball's normal perpendicular to the edge, of unit length.
 /// `candidate` is any point on which the ball may come to rest. `lone` is isLone(a, b).
-/// @throws Error if rounding errors prevent that it comes to rest.
+/// @throws Error if rounding errors prevent it from coming to rest.
 Ring pivot(RollingCloud& cloud, int a, int b, const Eigen::Vector3d& across, int candidate, bool lone);
 
 }  // namespace fcl_stpbv::detail

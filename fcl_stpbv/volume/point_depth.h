@@ -22,8 +22,9 @@ std::optional<PointDepth> pointDepth(const StpBv& body, const Eigen::Vector3d& p
 
 /// The same, but restricted to directions `n` with `n . side >= 0` for each of the `count` unit vectors, and
 /// to depths below `below` (m). It is the smallest depth over the balls whose direction is allowed. With a
-/// corner of another body and its edges as sides, it is the depth of that body at the corner, if the corner
-/// is deeper than `capHeight` anywhere (docs/theory.md, 5).
+/// corner of another body as `p` and its edges as `side`, it is the depth of that body if the shortest way
+/// out is one of the corner's normals and any point of that body is deeper than `capHeight` (docs/theory.md,
+/// 5).
 std::optional<PointDepth> pointDepthBetween(const StpBv& body, const Eigen::Vector3d& p,
                                             const Eigen::Vector3d* side, int count, double below);
 

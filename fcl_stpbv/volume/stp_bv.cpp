@@ -1,4 +1,4 @@
-// Builds a volume; and its simple queries.
+// Builds a volume, and answers its simple queries.
 // 1. Check points and radii. The smallest enclosing ball decides whether R is large enough.
 // 2. Find the faces that a ball of radius R - r can touch from inside: by quickhull. If the result fails the
 //    check of the surface, roll the ball instead, and if that fails too and the points are few, use the

@@ -1,10 +1,10 @@
 // Local tests that together prove that the volume is the ball hull of its vertices. The patches lie over
 // regions of normals, which are glued along their boundaries: an edge's region lies between the regions of
-// two faces and two vertices. The tests are (a) each region be bounded by a loop that turns left at its
-// corners and along its arcs, by 2 pi less the
-//       region's area in all, and that area not be negative;
+// two faces and two vertices. The tests are that
+//   (a) each region is bounded by a loop that turns left at its corners and along its arcs, by 2 pi less the
+//       region's area in all, and that area is not negative;
 //   (b) neighbours lie on different sides of their boundary, and the angles around a corner add up to 2 pi;
-//   (c) vertices - edges + faces be 2.
+//   (c) vertices - edges + faces is 2.
 // By (a) a region is mapped one to one to the sphere of normals: a loop that turns left everywhere winds
 // round its inside once, or its turns would add up to 2 pi more and the area come out negative, unless it
 // bounded a quarter of the sphere twice over. With (b) the map is one to one near every normal, so the glued
@@ -142,9 +142,9 @@ double vertexHeight(const StpBv& volume, const CornerHeights& corners) {
   return worst;
 }
 
-// The largest gap between patches that should meet. The gap of an edge equals the distance of its ends from
-// its faces' balls, which is tested elsewhere. So only edges with wide turns are measured, since these may be
-// wrong.
+// The largest gap between patches that should meet. The gap at an edge is as large as the distance of its
+// ends from its faces' balls, which the first loop measures. Apart from that, only edges with wide turns are
+// measured, because a concave edge would seem to turn by nearly 2 pi.
 double largestGap(const StpBv& volume) {
   double gap = 0;
   for (int f = 0; f < volume.faceCount(); ++f)
