@@ -20,7 +20,7 @@ enum class DistanceStatus {
   /// [lower, upper].
   local,
   bounded,  ///< not solved up to rounding; the true value lies in [lower, upper]
-  /// a pose is not a rigid motion (an entry of its rotation is off by more than 1e-6) or is 1e150 m away. The
+  /// A pose is not a rigid motion (an entry of its rotation is off by more than 1e-6) or is 1e150 m away. The
   /// bounds are infinite, everything else is zero.
   invalid,
 };

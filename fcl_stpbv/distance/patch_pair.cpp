@@ -37,7 +37,7 @@ bool leanFromCommonNormal(const PosedPatch& a, const PosedPatch& b, const Packed
   constexpr double kCrossing2 = 0.01;   // squared sine between the axes
   constexpr int kPasses = 5;            // two are usual
   constexpr double kConverged = 2e-16;  // predicted next change of a lean: the rounding of a unit vector
-  // Rad: a second call starts from the first answer, which had too much rounding.
+  // Rad. A smaller turn means that `n` was already this function's own answer, with too much rounding.
   constexpr double kAgain = 1e-8;
   const Packed &p = a.axis, &q = b.axis;
   Packed m = cross(p, q);

@@ -83,7 +83,7 @@ bool comesFirst(const Shape& a, const Isometry3d& poseA, const Shape& b, const I
   return std::lexicographical_compare(x, x + 16, y, y + 16);
 }
 
-/// Starts from the line of the centres, because a search that starts near the answer evaluates only a few
+/// Starts from the line of the centres, because a search that starts near the answer evaluates too few
 /// normals.
 Gjk searchToTheEnd(const Pair& p) {
   return p.search([](double, double) { return false; }, {});

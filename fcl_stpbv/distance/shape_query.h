@@ -55,8 +55,8 @@ struct StartNormal {
 StartNormal startOf(const ShapeQuery& q, const PairCache& last);
 
 /// Whether `x` is nearer than `than`. Near a boundary, gaps differ only by the square of the difference of
-/// their normals, which may be below rounding. Then the better one is that for which fewer of the shape's
-/// points lie nearer to the body than its own point, or lie nearer by less.
+/// their normals, which may be below rounding. Then the better one is that whose point `y` the shape's other
+/// points exceed by less: the largest length by which one of them is nearer to the body, along the normal.
 bool isNearer(const ShapeQuery& q, const Nearest& x, const Nearest& than, const Eigen::Vector3d* points,
               int count);
 

@@ -4,7 +4,7 @@
 // 3. GJK on the cores, until a plane is far enough from both, two points of theirs are near enough, or the
 //    cores turn out to overlap.
 // 4. The exact distance, from the best plane: if the distance is close to the threshold, or if the threshold
-//    is a depth.
+//    is so deep that the cores touch or overlap there.
 #include "fcl_stpbv/convex/gjk.h"
 #include "fcl_stpbv/convex/support.h"
 #include "fcl_stpbv/distance/shape_distance.h"

@@ -7,10 +7,12 @@
 // 1. W is infinite along an edge and on a face, so it is kept as a fraction, radii / unit.
 // 2. For 2x2 matrices adj(A + D) = adj A + adj D. So the inverse is a fraction of such terms, and no large
 //    radius is subtracted from another. Faces and edges need no special cases.
-// 3. The axes of the plane's frame are the first body's principal directions if it has two. Then its largest
+// 3. The plane's frame is that in which the radii of the first body are given, or those of the second one if
+//    the first is flat or round. Except for an ellipsoid its axes are principal directions. Then the largest
 //    radius does not hide the smallest one by rounding.
-// 4. For two features that are curved in both directions, one of them round, A + D is almost diagonal in that
-//    frame. With an overlap the sum may be small; squares of radii would hide it by rounding.
+// 4. For two features that are curved in both directions, one of them round, A + D is almost diagonal in such
+//    a frame, and is inverted directly. With an overlap the sum may be small; squares of radii would hide it
+//    by rounding.
 #include "fcl_stpbv/distance/turning.h"
 
 #include <Eigen/Geometry>
