@@ -1,9 +1,9 @@
 // Proves, for a local maximum of the gap between overlapping cores, that no normal within some angle of it
 // has a wider gap.
 //
-// The maximum has the normal n and the depth D, and the support point of the difference along n is D n. The
-// difference contains arcs, segments and caps of balls through that point. Consider a normal at the angle t
-// from n:
+// The maximum has the normal n and the depth D, and the support point of the difference A - B along n is D n.
+// The difference contains arcs, segments and caps of balls through that point. Consider a normal at the angle
+// t from n:
 // 1. The height of the point alone is D cos(t), which is less than D by D (1 - cos(t)).
 // 2. Let x be the normal's component along an arc of radius k through the point. The arc reaches higher than
 //    the point by at least k x^2 / 2, or, if it ends before, by x times half the distance to its end. A
@@ -64,8 +64,9 @@ class LocalMaximum {
     return a > needed && (a - needed) * (c - needed) >= b * b;
   }
 
-  /// For the part of the difference beyond the plane with the unit outward normal `m` at `distance` from the
-  /// origin (m): whether no way out through that part is shorter than this maximum's depth.
+  /// For the part of the difference B - A beyond the plane with the unit outward normal `m`, near -n, at
+  /// `distance` from the origin (m): whether no way out through that part is shorter than this maximum's
+  /// depth.
   bool holdsBeyond(const Eigen::Vector3d& m, double distance) const {
     const double c1 = -n_.dot(m), c2 = distance / depth_;
     if (!(c1 > kLeast && c2 > kLeast)) return false;
