@@ -40,8 +40,8 @@ bool steadyMotion(const Eigen::Isometry3d& begin, const Eigen::Isometry3d& end, 
 /// ends at its end pose here, while FCL scales its translation by the translation's own length. Returns false
 /// for splines and for types that are not FCL's, also for types derived from FCL's. Note on
 /// `fcl::InterpMotion`: if it rotates and was made without a reference point, FCL 0.7 leaves that point
-/// uninitialised, so both FCL's motion and this one are arbitrary. Returns false if the point is more than
-/// 1e6 m away. Set a reference point, or use the overload for two poses.
+/// uninitialised, so both FCL's motion and this one are arbitrary. Returns false if the point is not
+/// within 1e6 m. Set a reference point, or use the overload for two poses.
 bool steadyMotion(const fcl::MotionBased& motion, SteadyMotion& result);
 
 /// The verdict on a motion.
@@ -55,7 +55,8 @@ enum class MotionVerdict {
 
 /// Parameters of a motion check.
 struct MotionRequest {
-  /// A distance at or below it is a contact (m). Two meshes or octrees have no distance below 0.
+  /// A distance at or below it is a contact (m). Two meshes or octrees have no distance below 0, so with a
+  /// negative margin they have no contact.
   double margin = 0;
   /// Tolerance of the time of contact, as a fraction of the motion; at least 1e-12. With 1 any contact will
   /// do, not only the first.
@@ -74,7 +75,7 @@ struct MotionBracket {
   double until = 1;
   int pair = -1;         ///< index of the pair in contact, or of the undecided pair
   long queries = 0;      ///< number of distance queries
-  bool tooMany = false;  ///< undecided because the search reached MotionRequest::mostQueries
+  bool tooMany = false;  ///< undecided because the search exceeded MotionRequest::mostQueries
 };
 
 /// Result for one pair over the time from 0 to 1.
