@@ -1,5 +1,5 @@
-// Upper bound on the change of a row's gradient, from r, R and the distance only (docs/control.md). It uses
-// each body's least and largest radius of curvature.
+// Upper bound on how fast a row's gradient may change (docs/control.md), from each body's least and largest
+// radius of curvature, the distance and the velocities.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -59,7 +59,7 @@ std::unique_ptr<aiMesh> toAssimp(const TriangleMesh& mesh) {
   return out;
 }
 
-// assimp checks neither, and reads beyond the mesh's memory for an invalid index.
+// assimp checks neither indices nor coordinates, and reads beyond the mesh's memory for an invalid index.
 void requireSound(const TriangleMesh& mesh, const std::string& path) {
   const auto exists = [&](int i) { return i >= 0 && static_cast<std::size_t>(i) < mesh.vertices.size(); };
   for (const std::array<int, 3>& triangle : mesh.triangles)

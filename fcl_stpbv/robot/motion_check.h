@@ -57,9 +57,9 @@ class MotionCheck {
   /// tolerance. Undecided for a q that is not finite or has a wrong size.
   MotionBracket firstContact(const ConstVector& q0, const ConstVector& q1, const MotionRequest& request = {});
 
-  /// Updates each pair's least distance in `best` with the motion from q0 to q1. Afterwards no pair is proven
-  /// to come nearer than its `best` minus `precision` (m). Times are those of the motion plus `offset`.
-  /// Returns false if this could not be proven.
+  /// Updates each pair's least distance in `best` with the motion from q0 to q1. Afterwards it is proven that
+  /// no pair comes nearer than its `best` minus `precision` (m) on this motion. Times are those of the motion
+  /// plus `offset`. Returns false if this could not be proven.
   bool closest(const ConstVector& q0, const ConstVector& q1, double precision, double offset,
                std::vector<Approach>& best);
 

@@ -43,12 +43,13 @@ struct PairListOptions {
   std::uint64_t seed = 1;  ///< seed of the random configurations
   int descents = 3;        ///< number of descents per pair, from its closest samples
   /// Number of descents from random configurations, for a pair that is clear so far but not proven clear. The
-  /// number is reduced for large problems: by the factor (24/n)^2 if the pair depends on n > 24 coordinates,
-  /// and by 100,000/(P N) if P N > 100,000, for a list of P pairs and a robot of N coordinates. A pair that
-  /// the first proof proves clear gets at most 50, to find how close it comes.
+  /// number is reduced for large problems: by the factor (24/n)^2 if n > 24, where n is the number of
+  /// coordinates on which the pair depends, or of moving joints between its links if that is larger; and by
+  /// the factor 100,000/(P N) if P N > 100,000, for a list of P pairs and a robot of N coordinates. A pair
+  /// that the first proof proves clear gets at most 50, to find how close it comes.
   int randomDescents = 500;
-  /// Limit on the boxes of a proof, for each pair that is clear so far; reduced in the same way, but by
-  /// (24/n)^3.
+  /// Limit on the boxes of the first proof, for each pair that is clear so far; reduced by the factor
+  /// (24/n)^3 if n > 24.
   long proofBoxes = 200;
   /// Total time for further proofs (s); a pair that is undecided after it stays neverSampled.
   double proofSeconds = 0;
@@ -77,7 +78,7 @@ struct PairEntry : LinkPair {  ///< a pair with an obstacle is never left out as
   double influence = 0;        ///< proposed distance below which the pair becomes active, for the same (m)
 
   /// Upper bound on the probability that a random configuration collides, with 95 % confidence: 3/n if none
-  /// of n samples collided (rule of three); 1 if one did.
+  /// of n samples collided (rule of three); 1 if one did, or if nothing was sampled.
   double probabilityBound() const { return collisions > 0 || samples == 0 ? 1 : 3.0 / samples; }
 };
 

@@ -16,8 +16,8 @@
 namespace fcl_stpbv {
 
 /// A requirement on the model: in one configuration, two links, or a link and an obstacle, must be farther
-/// apart than `clearance`. If the exact shapes are nearer than that and the r of both volumes, no model
-/// can meet it, and none is refined for it.
+/// apart than `clearance`. If the distance of the exact shapes is at most `clearance` plus the r of both
+/// volumes, no model can meet it, and none is refined for it.
 struct SceneNeed {
   LinkPair pair;         ///< the two
   Eigen::VectorXd q;     ///< the configuration (rad, m)

@@ -13,7 +13,7 @@ namespace fcl_stpbv {
 /// then `dd/dt >= -damping (d - security) / (influence - security)`.
 struct Damper {
   double influence = 0.05;  ///< d_i (m)
-  double security = 0.01;   ///< d_s, the distance below which the pair may not come closer (m)
+  double security = 0.01;   ///< d_s, the smallest distance that the pair may reach (m)
   double damping = 0.5;     ///< xi, the speed allowed at `influence` (m/s)
 };
 
@@ -30,8 +30,8 @@ struct DamperOptions {
   DamperLevel level = DamperLevel::velocity;  ///< variable and form of the constraints
   Damper all;                                 ///< parameters of all rows that are not in `rows`
   std::map<int, Damper> rows;                 ///< parameters of single rows, by index
-  /// For a pair that comes within `influence` faster than its row allows. Such a pair gets a larger xi until
-  /// it leaves the influence; at level `barrier` also a larger g, if xi is not enough. The larger gain allows
+  /// Used for a pair that comes within `influence` faster than its row allows. It gets a larger xi until it
+  /// leaves the influence; at level `barrier` also a larger g, if xi is not enough. The larger gain allows
   /// the present speed plus the excess over the allowed speed, but at most `headroom` more than the present
   /// speed (m/s). So a row does not act in the period in which its pair enters. Exceptions: a pair that
   /// enters at `security` or nearer, or so fast that it would be there within a few periods, is braked at
