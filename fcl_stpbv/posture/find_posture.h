@@ -17,8 +17,8 @@ struct PostureOptions {
   int starts = 5;
   int firstStart = 0;      ///< number of the first start to try; below 0 counts as 0
   std::uint64_t seed = 1;  ///< seed of the random starts
-  /// If no start gives a feasible posture: how often to redraw the joints that the best posture's violated
-  /// constraints depend on, and to solve again from there.
+  /// If no start gives a feasible posture: largest number of times that the joints on which the best
+  /// posture's violated inequalities depend are redrawn, and the problem is solved again from there.
   int mends = 2;
   int anywhere = 20;  ///< if that fails too: number of starts anywhere within the joint limits
 };

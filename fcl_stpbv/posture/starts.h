@@ -22,9 +22,9 @@ class Starts {
   Eigen::VectorXd next();
 
   /// Repairs the variables x. For each violated inequality, the coordinates on which it depends are redrawn
-  /// at random within their limits, until it holds and the sum of all violations is smaller. There are some
-  /// hundred draws in total. So collisions of unrelated pairs are removed one after the other, while a random
-  /// posture would have to remove all of them at once. No value if x violates no inequality.
+  /// at random within their limits, until it holds and the inequalities' violations have a smaller sum. There
+  /// are some hundred draws in total. So collisions of unrelated pairs are removed one after the other, while
+  /// a random posture would have to remove all of them at once. No value if x violates no inequality.
   std::optional<Eigen::VectorXd> mended(const Eigen::VectorXd& x, const SolverOptions& options);
 
   /// A random posture within the limits: the one with the smallest violations of ten.
