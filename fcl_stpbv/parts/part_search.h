@@ -11,10 +11,10 @@
 
 namespace fcl_stpbv::detail {
 
-/// It repeatedly cuts the worst part, and follows several sequences of cuts at once (beam search), because
-/// the cut that lowers the excess most at first is rarely the best in the end. It cuts into more parts than
-/// requested, and joins those whose common hull has the least excess. Then it cuts and joins again as long as
-/// that helps (local search). All measurements are cached.
+/// Repeatedly cuts the worst part, and follows several sequences of cuts at once (beam search), because the
+/// cuts that lower the excess most in the end are rarely those that look best at first. Cuts into more parts
+/// than requested, and joins those whose common hull has the least excess. Then cuts and joins again as long
+/// as that helps (local search). All measurements are cached.
 class PartSearch {
  public:
   using Parts = std::vector<PartPtr>;
