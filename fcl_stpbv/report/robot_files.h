@@ -28,7 +28,7 @@ class RobotLoader {
  public:
   explicit RobotLoader(RobotFiles files);
 
-  /// Reads everything. Faults are in faults(), to which the caller may add. After it only robot(), srdf()
+  /// Reads everything. Faults are in faults(), to which the caller may add. Afterwards only robot(), srdf()
   /// and, if there is no error, kinematics() are available, and they may be incomplete.
   /// @throws Error where a file cannot be read at all.
   void read();
