@@ -16,7 +16,7 @@ struct ApproachOptions {
 
 struct NearPosture {
   Eigen::VectorXd x;
-  Eigen::VectorXd slope;  ///< gradient of the sum at x; 0 for variables that no bound holds
+  Eigen::VectorXd slope;  ///< gradient of half the sum at x; at a minimum 0 for variables that no bound holds
   int iterations = 0;
 };
 

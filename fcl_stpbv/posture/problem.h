@@ -156,7 +156,8 @@ struct SolverOptions {
   double maxSeconds = 10;       ///< s
   double tolerance = 1e-6;      ///< tolerance within which a constraint holds (m, rad)
   double costTolerance = 1e-8;  ///< stops when the relative change of the cost in one iteration is below this
-  /// An inequality is left out of the model until its value is below this (m, rad).
+  /// An inequality enters the model if its value is below this when the solver starts or restarts, or when it
+  /// is violated (m, rad).
   double activation = 0.1;
   /// Called in every iteration; returning true stops the search. It must then keep returning true. May be
   /// null.
