@@ -81,7 +81,8 @@ PrimitiveCover primitiveCover(const fcl::CollisionGeometryd& primitive, const St
   if (skeleton.points.empty()) return {};
   StpBvOptions own{skeleton.margin > 0 ? skeleton.margin : radii.r, radii.R};
   const double ball = StpBv::smallestR(skeleton.points, 0);
-  // At least twice the smallest R: near the smallest R the surface is almost a ball, for any primitive.
+  // Below twice the smallest R another R is fitted: near the smallest R the surface is almost a ball, for any
+  // primitive.
   if (own.R < 2 * (own.r + ball)) own.R = std::max(2 * own.r, fittedR(ball, own.r));
   PrimitiveCover cover;
   cover.volume = StpBv::build(skeleton.points, own);
