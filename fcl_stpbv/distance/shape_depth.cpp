@@ -31,28 +31,39 @@ using Pair = ShapePair;
 using Corner = Pair::Corner;
 using DepthSearch = Epa<Pair::Difference>;
 
-/// Corners of the difference along normals next to the answer's, less the answer: where the supporting faces
-/// are generators or discs, their ends, on all sides.
-struct CornersAround {
-  std::array<Corner, 24> corner;
-
-  CornersAround(DepthSearch& epa) {
+/// Points of both cores along the answer's normal and along normals next to it: where the supporting faces
+/// are generators, discs or polygons, their ends on all sides. Each of A's may be opposite any of B's.
+class CornersAround {
+ public:
+  CornersAround(DepthSearch& epa) : answer_(epa.gap * epa.n) {
     const Vector3d n = epa.n, e = n.unitOrthogonal(), f = n.cross(e);
-    std::size_t i = 0;
-    for (const double tilt : {1e-3, 1e-5, 1e-7})  // rad; the narrower ones for curved sides
+    add(epa.look(n));
+    // Narrower ones for curved sides, and for faces that are parallel but for such an angle (rad).
+    for (const double tilt : {1e-3, 1e-5, 1e-7, 1e-9, 1e-11})
       for (int k = 0; k < 8; ++k) {
         const double angle = kPi / 4 * k;
-        corner[i++] = epa.look((n + tilt * (std::cos(angle) * e + std::sin(angle) * f)).normalized());
+        add(epa.look((n + tilt * (std::cos(angle) * e + std::sin(angle) * f)).normalized()));
       }
-    for (Corner& c : corner) c.w -= epa.gap * epa.n;
   }
-  Corner support(const Vector3d& m) {
-    Corner best;
-    best.gap = kInfinity;
-    for (const Corner& c : corner)
-      if (m.dot(c.w) < best.gap) best = c, best.gap = m.dot(c.w);
-    return best;
+  /// Of the difference less the answer.
+  Corner support(const Vector3d& m) const {
+    const auto lower = [&](const Vector3d& x, const Vector3d& y) { return m.dot(x) < m.dot(y); };
+    Corner corner;
+    corner.onA = *std::max_element(onA_.begin(), onA_.end(), lower);
+    corner.w = *std::min_element(onB_.begin(), onB_.end(), lower) - corner.onA - answer_;
+    corner.gap = m.dot(corner.w);
+    return corner;
   }
+
+ private:
+  void add(const Corner& corner) {
+    onA_[count_] = corner.onA;
+    onB_[count_++] = corner.onA + corner.w;
+  }
+
+  Vector3d answer_;
+  std::array<Vector3d, 41> onA_, onB_;
+  std::size_t count_ = 0;
 };
 
 /// Points of both bodies that are opposite each other, out of those corners.

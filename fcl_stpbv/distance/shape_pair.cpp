@@ -202,6 +202,25 @@ Distance solve(const Pair& p) {
   return result.status == DistanceStatus::invalid ? overlapping(p, found) : result;
 }
 
+/// Whether a search ended with corners so far around the origin that the cores overlap whatever rounding did.
+/// A tetrahedron that is flat, or has the origin next to a face, proves nothing.
+bool overlapForSure(const Gjk& found, double rounding) {
+  if (found.verdict != Gjk::Verdict::overlap || found.simplex.size < 4) return false;
+  const auto corner = [&](std::size_t i) -> const Vector3d& { return found.simplex.corner[i % 4].w; };
+  double longest = 0.0;
+  for (std::size_t i = 0; i < 4; ++i)
+    for (std::size_t j = 0; j < i; ++j) longest = std::max(longest, (corner(i) - corner(j)).squaredNorm());
+  const double error = 4.0 * rounding * longest;  // of a face's normal times a corner
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Vector3d normal = (corner(i + 1) - corner(i)).cross(corner(i + 2) - corner(i));
+    const double plane = normal.dot(corner(i)), opposite = normal.dot(corner(i + 3));
+    if (!(plane > 0.0 ? plane > error && opposite < plane - error
+                      : plane < -error && opposite > plane + error))
+      return false;
+  }
+  return true;
+}
+
 /// Sets `normal` to that of a separating plane, if one decides (world).
 bool isFarther(double x, const Pair& p, Vector3d& normal) {
   if (!p.valid) return false;
@@ -229,7 +248,10 @@ bool isFarther(double x, const Pair& p, Vector3d& normal) {
     if (answer.lower > x) normal = answer.normal;
     return answer.lower > x;
   }
-  return core < 0.0 && overlapping(p, found).lower > x;
+  if (core >= 0.0 && overlapForSure(found, p.rounding)) return false;
+  answer = overlapping(p, found);
+  if (answer.lower > x) normal = answer.normal;
+  return answer.lower > x;
 }
 
 }  // namespace

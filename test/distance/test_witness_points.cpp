@@ -302,3 +302,59 @@ TEST_CASE("where Newton's method goes to and fro between a needle's corners the 
   CHECK((poseB * onSurface - d.point[1]).norm() < 1e-12);
   CHECK((d.point[1] - d.point[0] - d.distance * d.normal).norm() < 1e-13);
 }
+
+TEST_CASE("faces all but parallel, deep in each other: both witness points are on their surfaces") {
+  const Cloud cube = box(0.2, 0.2, 0.2), plate = box(0.4, 0.1, 0.01);
+  const std::vector<Shape> shapes{Shape::boxOf({0.2, 0.2, 0.2}), Shape::polytopeOf(cube.data(), 8),
+                                  Shape::polytopeOf(plate.data(), 8), Shape::cylinderOf(0.1, 0.2)};
+  Random random(12);
+  int deep = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const Shape &a = shapes[static_cast<std::size_t>(i % 4)],
+                &b = shapes[static_cast<std::size_t>(i / 4 % 4)];
+    const Vector3d shift(random.below(5) - 2, random.below(5) - 2, random.below(5) - 2);
+    const Isometry3d there = pose(random.rotation(i % 3 ? 1e-7 : 1e-8), 0.05 * shift);
+    const Distance d = distance(a, at(0, 0, 0), b, there);
+    if (d.status != DistanceStatus::exact || d.distance >= 0) continue;
+    ++deep;
+    CAPTURE(i, d.distance);
+    const Vector3d turned = there.linear().transpose() * d.normal;
+    CHECK(std::abs(d.normal.dot(a.support(d.normal) - d.point[0])) <= 1e-14);
+    CHECK(std::abs(turned.dot(b.support(-turned) - there.inverse() * d.point[1])) <= 1e-14);
+  }
+  CHECK(deep > 2000);
+}
+
+TEST_CASE("shapes that the distance proves apart are farther than 0, however near they are") {
+  const Cloud corners = box(0.2, 0.2, 0.2), thread = box(0.2, 1e-7, 1e-7);
+  const Vector3d triangle[] = {{0, 0, 0}, {0.1, 0, 0}, {0, 0.1, 0}};
+  Isometry3d beside = at(-0.17648421873796241, -0.010000000000000004, -0.10000000000308093);
+  beside.linear() << 0.76484218728448838, -0.64421768723769113, 0, 0.64421768723769113, 0.76484218728448838,
+      0, 0, 0, 1;
+  const Shape cube = Shape::polytopeOf(corners.data(), 8);
+  const Shape flat = Shape::triangleOf(triangle[0], triangle[1], triangle[2]);
+  CHECK(distance(cube, at(0, 0, 0), flat, beside).lower > 9e-12);
+  CHECK(isFartherThan(0, cube, at(0, 0, 0), flat, beside));
+  const std::vector<Shape> shapes{cube,
+                                  flat,
+                                  Shape::polytopeOf(thread.data(), 8),
+                                  Shape::boxOf({0.1, 0.2, 0.3}),
+                                  Shape::cylinderOf(0.1, 0.2),
+                                  Shape::coneOf(0.1, 0.2)};
+  Random random(13);
+  int apart = 0;
+  for (int i = 0; i < 6000; ++i) {
+    const Shape &a = shapes[static_cast<std::size_t>(i % 6)],
+                &b = shapes[static_cast<std::size_t>(i / 6 % 6)];
+    Isometry3d there = pose(random.rotation(), random.direction());
+    const Distance before = distance(a, at(0, 0, 0), b, there);
+    const double gap = std::pow(10.0, -8 - random.below(6));
+    there.translation() += (gap - before.distance) * before.normal;
+    const Distance d = distance(a, at(0, 0, 0), b, there);
+    if (d.lower < 1e-14) continue;  // rounding of such sizes hides less
+    ++apart;
+    CAPTURE(i, d.lower);
+    CHECK(isFartherThan(0, a, at(0, 0, 0), b, there));
+  }
+  CHECK(apart > 3000);
+}
