@@ -127,10 +127,10 @@ class PythonPairSearch {
     requireCount(starts, 0, "starts");
     PairSearch search = searchOf(links);
     std::mt19937_64 random = numbered(seed, pair);
-    const double room = searchRoom(scene_.kinematics->robot(), *scene_.geometry, scene_.obstacles);
+    const SearchRoom room = searchRoom(*scene_.kinematics, *scene_.geometry, scene_.obstacles);
     Interrupt interrupt;
     for (int i = 0; i < starts; ++i, interrupt()) {
-      Eigen::VectorXd q = randomConfiguration(*scene_.kinematics, random, room);
+      Eigen::VectorXd q = randomConfiguration(*scene_.kinematics, room, random);
       search.forget();
       if (search.descend(q, scene_.margin) <= scene_.margin) return q;
     }

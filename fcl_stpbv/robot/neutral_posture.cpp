@@ -2,6 +2,7 @@
 // group_state, then 200 random configurations.
 #include "fcl_stpbv/robot/neutral_posture.h"
 
+#include <cmath>
 #include <random>
 
 #include "fcl_stpbv/error.h"
@@ -50,7 +51,12 @@ NeutralPosture judgeNeutral(std::shared_ptr<const Kinematics> kinematics,
   };
   for (const auto& [name, q] : namedPostures(*kinematics, srdf)) consider(q, name);
   std::mt19937_64 random(1);
-  for (int i = 0; i < kRandom; ++i) consider(randomConfiguration(*kinematics, random), "");
+  SearchRoom room = searchRoom(*kinematics, *geometry, {});
+  for (Eigen::Index i = 0; i < room.lower.size(); ++i) {
+    if (!std::isfinite(kinematics->lower()[i])) room.lower[i] = -1;
+    if (!std::isfinite(kinematics->upper()[i])) room.upper[i] = 1;
+  }
+  for (int i = 0; i < kRandom; ++i) consider(randomConfiguration(*kinematics, room, random), "");
   return found;
 }
 

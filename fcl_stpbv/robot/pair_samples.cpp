@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "fcl_stpbv/numbers.h"
-#include "fcl_stpbv/robot/search_room.h"
 
 namespace fcl_stpbv::detail {
 namespace {
@@ -36,22 +35,11 @@ void note(double distance, const Eigen::VectorXd& q, std::size_t keep, PairSampl
 
 }  // namespace
 
-Eigen::VectorXd randomConfiguration(const Kinematics& kinematics, std::mt19937_64& random, double room) {
-  Eigen::VectorXd q(kinematics.size());
-  for (Index i = 0; i < q.size(); ++i) {
-    const double low = std::isfinite(kinematics.lower()[i]) ? kinematics.lower()[i] : -room;
-    const double high = std::isfinite(kinematics.upper()[i]) ? kinematics.upper()[i] : room;
-    // Without the standard library's distributions, which differ from one to another.
-    q[i] = low + static_cast<double>(random() >> 11) * 0x1p-53 * (high - low);
-  }
-  return q;
-}
-
 PairSampler::PairSampler(std::shared_ptr<const Kinematics> kinematics,
                          std::shared_ptr<const RobotGeometry> geometry, const std::vector<LinkPair>& pairs,
                          const std::vector<Obstacle>& obstacles, int threads)
     : kinematics_(kinematics),
-      room_(searchRoom(kinematics->robot(), *geometry, obstacles)),
+      room_(searchRoom(*kinematics, *geometry, obstacles)),
       constraints_(kinematics, geometry, allBodies(*geometry, pairs), optionsOf(obstacles)),
       batch_(constraints_, std::max(1, threads)),
       rows_(constraints_.rows()),
@@ -83,7 +71,7 @@ std::vector<PairSamples> PairSampler::sample(int count, std::uint64_t seed, doub
   for (int done = 0; done < count && !found.empty(); done += kBlock) {
     progress(done);
     const Index block = std::min(kBlock, count - done);
-    for (Index s = 0; s < block; ++s) q.col(s) = randomConfiguration(*kinematics_, random, room_);
+    for (Index s = 0; s < block; ++s) q.col(s) = randomConfiguration(*kinematics_, room_, random);
     batch_.evaluate(q.leftCols(block), Sequence::path, rows.leftCols(block));
     for (Index s = 0; s < block; ++s) {
       leastOf(rows.col(s));

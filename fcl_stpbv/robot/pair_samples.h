@@ -4,17 +4,13 @@
 #include <Eigen/Core>
 #include <functional>
 #include <memory>
-#include <random>
 #include <utility>
 #include <vector>
 
 #include "fcl_stpbv/robot/batch.h"
+#include "fcl_stpbv/robot/search_room.h"
 
 namespace fcl_stpbv::detail {
-
-/// Uniform within the limits; coordinates without limits up to `room` (m) either way. The same with every
-/// compiler.
-Eigen::VectorXd randomConfiguration(const Kinematics& kinematics, std::mt19937_64& random, double room = 1);
 
 /// What the samples said about one pair.
 struct PairSamples {
@@ -43,7 +39,7 @@ class PairSampler {
   const Eigen::VectorXd& leastOf(const Eigen::Ref<const Eigen::VectorXd>& rows);
 
   std::shared_ptr<const Kinematics> kinematics_;
-  double room_;                       // searchRoom()
+  SearchRoom room_;
   std::vector<Eigen::Index> pairOf_;  // of each row
   CollisionConstraints constraints_;
   ConstraintsBatch batch_;

@@ -43,10 +43,7 @@ PairSearch::PairSearch(std::shared_ptr<const Kinematics> kinematics,
       d_(constraints_.rows()),
       values_(constraints_.nonZeros()),
       gradient_(kinematics_->size()),
-      unit_(Eigen::VectorXd::Ones(kinematics_->size())) {
-  const double room = searchRoom(kinematics_->robot(), *geometry_, options.obstacles);
-  for (Eigen::Index i = 0; i < unit_.size(); ++i)
-    if (!std::isfinite(kinematics_->upper()[i])) unit_[i] = room;
+      unit_(searchRoom(*kinematics_, *geometry_, options.obstacles).unit) {
   const std::vector<int>& rows = constraints_.rowStart();  // all rows have the same columns
   coordinates_.assign(constraints_.columnIndices().begin(), constraints_.columnIndices().begin() + rows[1]);
 }
@@ -110,8 +107,7 @@ double PairSearch::distanceAndGradient(const Eigen::VectorXd& q) {
 }
 
 // Projected steps along the gradient, `sign` -1 downhill and 1 uphill. A step is measured in a unit for each
-// coordinate: 1, or for coordinates without limits the range that is searched, so that a step is as large as
-// the robot.
+// coordinate (SearchRoom), so that a step is as large as the robot.
 template <class Arrived>
 double PairSearch::follow(Eigen::VectorXd& q, double sign, Arrived arrived) {
   constexpr int kSteps = 200;

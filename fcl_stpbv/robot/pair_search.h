@@ -53,7 +53,7 @@ class PairSearch {
   std::vector<int> coordinates_;
   std::vector<double> lipschitz_;
   Eigen::VectorXd d_, values_, gradient_;
-  Eigen::VectorXd unit_;  // of a step: 1 (rad or m), or the room where a coordinate has no limits (m)
+  Eigen::VectorXd unit_;  // of a step: SearchRoom's
 };
 
 }  // namespace fcl_stpbv::detail

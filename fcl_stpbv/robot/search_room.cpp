@@ -1,4 +1,5 @@
-// Adds up lengths along the tree of joints. This bounds the size of the robot in every configuration.
+// Adds up lengths along the tree of joints. This bounds the size of the robot in every configuration, except
+// for joints that slide much farther than that size: they stand still where it is added up.
 #include "fcl_stpbv/robot/search_room.h"
 
 #include <algorithm>
@@ -7,6 +8,67 @@
 #include "fcl_stpbv/numbers.h"
 
 namespace fcl_stpbv::detail {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+constexpr double kFar = 100;  // times the room: what slides farther is searched within the room
+
+// Of a joint that slides, where the coordinate that it follows is up to `most` from zero.
+double slideOf(const JointModel& joint, double most) {
+  if (joint.type != JointType::prismatic) return 0;
+  return joint.mimic ? std::abs(joint.mimic->offset) + std::abs(joint.mimic->multiplier) * most : most;
+}
+
+struct Moved {          // by one coordinate
+  double slides = 0;    // m per unit, of the joint that slides most
+  bool turns = false;   // whether any joint turns
+  double most = 0;      // how far it is from zero in the size of the robot
+  bool stands = false;  // where that size is added up
+};
+
+std::vector<Moved> movedBy(const Kinematics& kinematics) {
+  std::vector<Moved> all(at(kinematics.size()));
+  for (const Kinematics::Motion& motion : kinematics.motions()) {
+    if (motion.joint < 0) continue;
+    Moved& moved = all[at(motion.coordinate)];
+    const JointType type = kinematics.robot().joints[at(motion.joint)].type;
+    if (type == JointType::prismatic) moved.slides = std::max(moved.slides, std::abs(motion.multiplier));
+    moved.turns |= type == JointType::revolute || type == JointType::continuous;
+  }
+  for (int i = 0; i < kinematics.size(); ++i) {
+    all[at(i)].stands = all[at(i)].slides > 0;
+    all[at(i)].most = std::abs(kinematics.neutral()[i]);
+  }
+  return all;
+}
+
+// Each of two bodies is at most the largest reach from the root's origin while what has no limits is at zero,
+// so they are at most two reaches apart.
+double roomOf(const Kinematics& kinematics, const RobotGeometry& geometry,
+              const std::vector<Obstacle>& obstacles, const std::vector<Moved>& moved) {
+  const RobotModel& robot = kinematics.robot();
+  std::vector<double> most(robot.joints.size(), 0);
+  for (const Kinematics::Motion& motion : kinematics.motions())
+    if (motion.joint >= 0) most[at(motion.joint)] = moved[at(motion.coordinate)].most;
+  double reach = 0;
+  std::vector<double> way(robot.links.size(), 0);         // from the root's origin
+  for (std::size_t l = 0; l < robot.links.size(); ++l) {  // parents first
+    const int j = robot.links[l].parentJoint;
+    if (j >= 0) {
+      const JointModel& joint = robot.joints[at(j)];
+      way[l] = way[at(joint.parent)] + joint.origin.translation().norm() + slideOf(joint, most[at(j)]);
+    }
+    const auto [first, last] = geometry.of(static_cast<int>(l));
+    if (first < last) reach = std::max(reach, way[l] + reachOf(geometry, static_cast<int>(l)));
+  }
+  for (const Obstacle& obstacle : obstacles)
+    reach = std::max(reach, obstacle.centre.norm() + obstacle.radius);
+  return std::max(1.0, 2 * reach);
+}
+
+}  // namespace
 
 double reachOf(const RobotGeometry& geometry, int link) {
   double reach = 0;
@@ -18,31 +80,60 @@ double reachOf(const RobotGeometry& geometry, int link) {
 
 double lengthOf(const RobotModel& robot, int joint) {
   const JointModel& model = robot.joints[at(joint)];
-  double slide =
-      model.type == JointType::prismatic ? std::max(std::abs(model.lower), std::abs(model.upper)) : 0;
-  if (model.mimic && model.type == JointType::prismatic) {
-    const JointModel& leader = robot.joints[at(model.mimic->joint)];
-    slide = std::abs(model.mimic->offset) +
-            std::abs(model.mimic->multiplier) * std::max(std::abs(leader.lower), std::abs(leader.upper));
-  }
-  return model.origin.translation().norm() + slide;
+  const JointModel& leader = model.mimic ? robot.joints[at(model.mimic->joint)] : model;
+  return model.origin.translation().norm() +
+         slideOf(model, std::max(std::abs(leader.lower), std::abs(leader.upper)));
 }
 
-// Each of two bodies is at most the largest reach from the root's origin while what has no limits is at zero,
-// so they are at most two reaches apart.
-double searchRoom(const RobotModel& robot, const RobotGeometry& geometry,
-                  const std::vector<Obstacle>& obstacles) {
-  double reach = 0;
-  std::vector<double> way(robot.links.size(), 0);         // from the root's origin
-  for (std::size_t l = 0; l < robot.links.size(); ++l) {  // parents first
-    const int joint = robot.links[l].parentJoint;
-    if (joint >= 0) way[l] = way[at(robot.joints[at(joint)].parent)] + lengthOf(robot, joint);
-    const auto [first, last] = geometry.of(static_cast<int>(l));
-    if (first < last) reach = std::max(reach, way[l] + reachOf(geometry, static_cast<int>(l)));
+SearchRoom searchRoom(const Kinematics& kinematics, const RobotGeometry& geometry,
+                      const std::vector<Obstacle>& obstacles) {
+  const VectorXd &lower = kinematics.lower(), &upper = kinematics.upper();
+  SearchRoom found{lower, upper, VectorXd::Ones(lower.size()), {}, 0};
+  std::vector<Moved> moved = movedBy(kinematics);
+  double room = roomOf(kinematics, geometry, obstacles, moved);
+  for (bool grows = true; grows;) {  // with each joint that is short for the room, which may be others then
+    grows = false;
+    for (Index i = 0; i < lower.size(); ++i) {
+      Moved& m = moved[static_cast<std::size_t>(i)];
+      if (!m.stands || m.slides * (upper[i] - lower[i]) > kFar * room) continue;
+      m.stands = false;
+      m.most = std::max(std::abs(lower[i]), std::abs(upper[i]));
+      grows = true;
+    }
+    if (grows) room = roomOf(kinematics, geometry, obstacles, moved);
   }
-  for (const Obstacle& obstacle : obstacles)
-    reach = std::max(reach, obstacle.centre.norm() + obstacle.radius);
-  return std::max(1.0, 2 * reach);
+  for (Index i = 0; i < lower.size(); ++i) {
+    constexpr double kSteps = 200;  // of a descent, which lead through the whole range
+    const Moved& m = moved[static_cast<std::size_t>(i)];
+    if (!std::isfinite(lower[i])) found.lower[i] = -room;
+    if (!std::isfinite(upper[i])) found.upper[i] = found.unit[i] = room;
+    if (m.slides > 0 && !m.turns) found.unit[i] = std::max(1.0, (upper[i] - lower[i]) / kSteps);
+    if (!m.stands) continue;
+    const double half = m.turns ? std::max(kPi, room / m.slides) : room / m.slides;
+    if (!m.turns) found.unit[i] = half;
+    found.lower[i] = std::max(lower[i], kinematics.neutral()[i] - half);
+    found.upper[i] = std::min(upper[i], kinematics.neutral()[i] + half);
+    found.narrowed.push_back(i);
+    found.doublings = std::max(found.doublings, std::ilogb((upper[i] - lower[i]) / half));
+  }
+  return found;
+}
+
+VectorXd randomConfiguration(const Kinematics& kinematics, const SearchRoom& room, std::mt19937_64& random) {
+  VectorXd lower = room.lower, upper = room.upper, q(kinematics.size());
+  if (!room.narrowed.empty() && random() % 4 == 0) {
+    const double factor =
+        std::ldexp(1.0, 1 + static_cast<int>(random() % static_cast<unsigned>(room.doublings + 1)));
+    for (Index i : room.narrowed) {
+      const double middle = kinematics.neutral()[i];
+      lower[i] = std::max(kinematics.lower()[i], middle + factor * (lower[i] - middle));
+      upper[i] = std::min(kinematics.upper()[i], middle + factor * (upper[i] - middle));
+    }
+  }
+  // Without the standard library's distributions, which differ from one to another.
+  for (Index i = 0; i < q.size(); ++i)
+    q[i] = lower[i] + static_cast<double>(random() >> 11) * 0x1p-53 * (upper[i] - lower[i]);
+  return q;
 }
 
 }  // namespace fcl_stpbv::detail

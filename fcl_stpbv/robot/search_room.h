@@ -1,10 +1,13 @@
-// The size of a robot and its obstacles, and from it the range in which coordinates without limits are
-// searched.
+// The size of a robot and its obstacles, and from it the range in which coordinates without limits, or with
+// limits far beyond that size, are searched.
 #pragma once
 
+#include <Eigen/Core>
+#include <random>
 #include <vector>
 
 #include "fcl_stpbv/robot/checked_pairs.h"
+#include "fcl_stpbv/robot/kinematics.h"
 
 namespace fcl_stpbv::detail {
 
@@ -15,10 +18,27 @@ double reachOf(const RobotGeometry& geometry, int link);
 /// joint, which has none, where it stands at zero.
 double lengthOf(const RobotModel& robot, int joint);
 
-/// Coordinates that translate without limits (of planar and floating joints and of a moving base) are
-/// searched up to this distance in both directions (m). If two bodies can meet at all, they meet within it,
-/// without changes of the other joints. At least 1 m.
-double searchRoom(const RobotModel& robot, const RobotGeometry& geometry,
-                  const std::vector<Obstacle>& obstacles);
+/// Where each coordinate is searched, and in which steps.
+struct SearchRoom {
+  /// Within the limits. Coordinates that translate without limits (of planar and floating joints and of a
+  /// moving base) end at twice as far as the robot and the obstacles reach, at least 1 m.
+  /// If two bodies can meet at all, they meet within it, without changes of the other joints. Joints
+  /// that slide more than a hundred times as far, such as between limits of 1e16 m, end there, too.
+  Eigen::VectorXd lower, upper;
+  /// Of a step: 1 (rad or m), the size of the room where a coordinate has no limits, and more where a joint
+  /// slides by hundreds of metres.
+  Eigen::VectorXd unit;
+  /// Coordinates whose limits are wider than `lower` and `upper`, and how many times those may be doubled.
+  std::vector<Eigen::Index> narrowed;
+  int doublings = 0;
+};
+
+SearchRoom searchRoom(const Kinematics& kinematics, const RobotGeometry& geometry,
+                      const std::vector<Obstacle>& obstacles);
+
+/// Uniform within the room. Where limits are wider, one in four configurations is from a room that is larger
+/// by a random power of 2. The same with every compiler.
+Eigen::VectorXd randomConfiguration(const Kinematics& kinematics, const SearchRoom& room,
+                                    std::mt19937_64& random);
 
 }  // namespace fcl_stpbv::detail

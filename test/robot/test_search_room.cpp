@@ -1,0 +1,115 @@
+// Where coordinates are searched whose limits are far beyond the size of the robot.
+#include <fcl/geometry/shape/cylinder.h>
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+
+#include "fcl_stpbv/robot/pair_list.h"
+#include "fcl_stpbv/robot/pair_search.h"
+#include "fcl_stpbv/robot/search_room.h"
+#include "test/reference/shapes.h"
+#include "test/robot/urdf_texts.h"
+
+using namespace fcl_stpbv;
+using namespace fcl_stpbv::detail;
+using namespace fcl_stpbv::test;
+
+namespace {
+
+struct Loaded {
+  std::shared_ptr<const Kinematics> kinematics;
+  std::shared_ptr<const RobotGeometry> geometry;
+};
+
+Loaded loaded(const std::string& body, const StpBvOptions& radii, BaseMotion base = BaseMotion::fixed) {
+  const auto model = std::make_shared<const RobotModel>(parseUrdf(robot(body), "small.urdf"));
+  GeometryOptions options;
+  options.cacheFolder.clear();
+  options.radii = radii;
+  return {std::make_shared<const Kinematics>(model, base),
+          std::make_shared<const RobotGeometry>(loadGeometry(*model, options))};
+}
+
+const StpBvOptions kRounding{0.01, 1000};
+
+std::string rail(const std::string& name, const std::string& parent, const std::string& child,
+                 const std::string& axis, const std::string& lower, const std::string& upper) {
+  return "<joint name=\"" + name + "\" type=\"prismatic\"><parent link=\"" + parent + "\"/><child link=\"" +
+         child + "\"/><axis xyz=\"" + axis + "\"/><limit lower=\"" + lower + "\" upper=\"" + upper +
+         "\" effort=\"1\" velocity=\"1\"/></joint>";
+}
+
+// A cart 1 m from a post, and an arm on it.
+std::string cart(const std::string& post, const std::string& lower, const std::string& upper) {
+  return link("post", post) + link("x") + link("y") + link("cart") +
+         link("arm", "<box size=\"0.6 0.06 0.06\"/>") + rail("px", "post", "x", "1 0 0", lower, upper) +
+         rail("py", "x", "y", "0 1 0", lower, upper) +
+         joint("yaw", "continuous", "y", "cart", "<origin xyz=\"1 0 0.1\"/><axis xyz=\"0 0 1\"/>") +
+         joint("lift", "revolute", "cart", "arm", "<origin xyz=\"0.2 0 0.2\"/><axis xyz=\"0 1 0\"/>");
+}
+
+PairReason searched(const Loaded& arm, const std::vector<Obstacle>& obstacles = {}) {
+  PairListOptions options;
+  options.obstacles = obstacles;
+  const std::vector<PairEntry> list = pairList(arm.kinematics, arm.geometry, nullptr, options);
+  const auto entry = std::find_if(list.begin(), list.end(),
+                                  [&](const PairEntry& e) { return e.obstacle == !obstacles.empty(); });
+  REQUIRE(entry != list.end());
+  CAPTURE(entry->minDistance);
+  CHECK(entry->closest.cwiseAbs().maxCoeff() < 1e4);
+  return entry->reason;
+}
+
+Obstacle pillarAt(double x) {
+  const auto shape = std::make_shared<fcl::Cylinderd>(0.1, 1);
+  const fcl::CollisionObjectd object(shape, Eigen::Isometry3d(Eigen::Translation3d(x, 0, 0.5)));
+  return obstacleOf(object, "pillar");
+}
+
+}  // namespace
+
+TEST_CASE("joints with limits that stand for none are searched where bodies can meet") {
+  const std::string post = "<cylinder radius=\"0.1\" length=\"1\"/>";
+  for (const auto& [lower, upper] :
+       {std::pair("-1e4", "1e4"), std::pair("-1e6", "1e6"), std::pair("-1e16", "1e16"),
+        std::pair("-1e16", "0"), std::pair("-1e16", "2"), std::pair("-3", "1e16")}) {
+    CAPTURE(lower, upper);
+    CHECK(searched(loaded(cart(post, lower, upper), kRounding)) == PairReason::sometimes);
+    const Loaded alone = loaded(cart("", lower, upper), kRounding);
+    CHECK(searched(alone, {pillarAt(0)}) == PairReason::sometimes);
+    const bool reached = std::string(lower) != "-3";
+    CHECK((searched(alone, {pillarAt(-2000)}) == PairReason::sometimes) == reached);
+  }
+}
+
+TEST_CASE("a joint without an end does not make the room of the others larger") {
+  const std::string text = link("base") + link("arm", "<box size=\"0.2 0.2 0.2\"/>") +
+                           rail("lift", "base", "arm", "0 0 1", "-1e16", "1e16");
+  const Loaded floating = loaded(text, kRounding, BaseMotion::floating);
+  const SearchRoom room = searchRoom(*floating.kinematics, *floating.geometry, {pillarAt(3)});
+  CHECK((room.upper.array() < 8).all());
+  CHECK((room.lower.array() > -8).all());
+  CHECK(searched(floating, {pillarAt(3)}) == PairReason::sometimes);
+}
+
+TEST_CASE("rails of the usual lengths are searched from end to end") {
+  for (const char* length : {"1", "20", "100"}) {
+    const Loaded arm = loaded(cart("<sphere radius=\"0.1\"/>", "-0.5", length), kRounding);
+    const SearchRoom room = searchRoom(*arm.kinematics, *arm.geometry, {});
+    CHECK(room.lower == arm.kinematics->lower());
+    CHECK(room.upper == arm.kinematics->upper());
+    CHECK(room.unit == Eigen::VectorXd::Ones(room.unit.size()));
+    CHECK(room.narrowed.empty());
+  }
+  // All of a long one is searched, too, if seldom, and never beyond its limits.
+  const Loaded arm = loaded(cart("<sphere radius=\"0.1\"/>", "-2", "1e16"), kRounding);
+  const SearchRoom room = searchRoom(*arm.kinematics, *arm.geometry, {});
+  std::mt19937_64 random(1);
+  double farthest = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const Eigen::VectorXd q = randomConfiguration(*arm.kinematics, room, random);
+    CHECK(((q - arm.kinematics->lower()).array() >= 0 && (arm.kinematics->upper() - q).array() >= 0).all());
+    farthest = std::max(farthest, q.maxCoeff());
+  }
+  CHECK(farthest > 1e5);
+}
