@@ -1,6 +1,6 @@
 // A continuous joint that others mimic: its range is as many turns as bring all followers back to where they
-// were, the least common multiple of each one's, and where a prismatic joint follows, what that one's limits
-// allow.
+// were, the least common multiple of each one's, and where prismatic joints follow, what the limits of all of
+// these allow.
 #include "fcl_stpbv/robot/followed_range.h"
 
 #include <algorithm>
@@ -28,28 +28,37 @@ int turnsOf(double ratio) {
 }  // namespace
 
 void widenFollowed(std::vector<JointModel>& joints) {
-  std::map<int, long> turns;  // by leader; 0 for any number
+  struct Leader {
+    long turns = 1;  // 0 for any number
+    bool slides = false;
+    double low = -kInfinity, high = kInfinity;  // of what all allow that slide
+  };
+  std::map<int, Leader> leaders;
   for (const JointModel& follower : joints) {
     if (!follower.mimic || follower.mimic->multiplier == 0) continue;
-    JointModel& leader = joints[static_cast<std::size_t>(follower.mimic->joint)];
-    if (leader.type != JointType::continuous) continue;
+    if (joints[at(follower.mimic->joint)].type != JointType::continuous) continue;
+    Leader& leader = leaders[follower.mimic->joint];
     const auto [ratio, offset] = std::pair(follower.mimic->multiplier, follower.mimic->offset);
     if (follower.type == JointType::prismatic) {
+      if (follower.lower == follower.upper) continue;  // left out, or not known
       const auto [low, high] =
           std::minmax({(follower.lower - offset) / ratio, (follower.upper - offset) / ratio});
-      leader.lower = std::max(std::min(leader.lower, low), -kLargestValue);
-      leader.upper = std::min(std::max(leader.upper, high), kLargestValue);
+      leader.slides = true;
+      leader.low = std::max(leader.low, low);
+      leader.high = std::min(leader.high, high);
     } else {
-      long& all = turns.emplace(follower.mimic->joint, 1).first->second;
-      all = std::lcm(all, static_cast<long>(turnsOf(ratio)));       // 0 stays 0
-      if (kPi * static_cast<double>(all) > kLargestValue) all = 0;  // before the next would overflow
+      leader.turns = std::lcm(leader.turns, static_cast<long>(turnsOf(ratio)));       // 0 stays 0
+      if (kPi * static_cast<double>(leader.turns) > kLargestValue) leader.turns = 0;  // before it overflows
     }
   }
-  for (const auto& [joint, all] : turns) {
-    JointModel& leader = joints[static_cast<std::size_t>(joint)];
-    const double reach = all > 0 ? std::min(kPi * static_cast<double>(all), kLargestValue) : kLargestValue;
-    leader.lower = std::min(leader.lower, -reach);
-    leader.upper = std::max(leader.upper, reach);
+  for (auto& [index, leader] : leaders) {
+    if (!leader.slides || leader.low > leader.high) {
+      leader.high = leader.turns > 0 ? kPi * static_cast<double>(leader.turns) : kLargestValue;
+      leader.low = -leader.high;
+    }
+    JointModel& joint = joints[at(index)];
+    joint.lower = std::max(std::min(joint.lower, leader.low), -kLargestValue);
+    joint.upper = std::min(std::max(joint.upper, leader.high), kLargestValue);
   }
 }
 

@@ -503,6 +503,25 @@ TEST_CASE("what follows a continuous joint at another speed reaches all of its p
   // A rack of the limits -1 and 1 (urdf_texts.h).
   CHECK(leader("prismatic", "0.02") == std::pair(-50.0, 50.0));
   CHECK(leader("prismatic", "5") == std::pair(-M_PI, M_PI));
+  // Two of them, and a wheel that never comes back: as far as all allow, at least half a turn either way.
+  const auto rack = [](const std::string& name, const std::string& lower, const std::string& upper,
+                       const std::string& ratio) {
+    return "<joint name=\"" + name + "\" type=\"prismatic\"><parent link=\"a\"/><child link=\"" + name +
+           "\"/><limit lower=\"" + lower + "\" upper=\"" + upper +
+           "\" effort=\"1\" velocity=\"1\"/><mimic joint=\"j\" multiplier=\"" + ratio + "\"/></joint>" +
+           link(name);
+  };
+  const auto range = [&](const std::string& racks) {
+    const RobotModel screw =
+        parse(link("a") + link("b") + link("c") + joint("j", "continuous", "a", "b") +
+              joint("w", "continuous", "a", "c", "<mimic joint=\"j\" multiplier=\"0.314159265\"/>") + racks);
+    return std::pair(screw.joints[0].lower, screw.joints[0].upper);
+  };
+  CHECK(range(rack("r", "0", "0.5", "0.03125")) == std::pair(-M_PI, 16.0));
+  CHECK(range(rack("r", "-1", "0.5", "0.03125") + rack("s", "-0.25", "10", "-0.5")) ==
+        std::pair(-20.0, M_PI));
+  CHECK(range(rack("r", "-1", "0.5", "0.03125") + rack("s", "0", "0", "0.5")) == std::pair(-32.0, 16.0));
+  CHECK(range(rack("r", "-1e16", "1e16", "0.01")) == std::pair(-1e6, 1e6));
   // Of many followers all turns at once: 2^6 and the primes to 61 have a product of 1e23.
   std::string gears = link("a") + link("b") + joint("j", "continuous", "a", "b");
   for (const int teeth : {64, 61, 59, 53, 47, 43, 41, 37, 31, 29, 23, 19, 17, 13, 11, 7, 5, 3}) {

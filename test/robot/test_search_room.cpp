@@ -113,3 +113,28 @@ TEST_CASE("rails of the usual lengths are searched from end to end") {
   }
   CHECK(farthest > 1e5);
 }
+
+TEST_CASE("a screw is searched as far as its nut goes, whatever else it turns") {
+  const auto ball = [](const std::string& at) {
+    return "<collision><origin xyz=\"" + at + "\"/><geometry><sphere radius=\"0.1\"/></geometry></collision>";
+  };
+  for (const char* limits : {"lower=\"0\" upper=\"0.6\"", "lower=\"-1e16\" upper=\"1e16\""}) {
+    CAPTURE(limits);
+    const Loaded arm =
+        loaded("<link name=\"base\">" + ball("-0.2 -1.0 -0.8") + "</link>" + link("motor") + link("gear") +
+                   link("arm") + "<link name=\"slide\">" + ball("0 0 0") + "</link>" +
+                   joint("m", "continuous", "base", "motor", "<axis xyz=\"0 0 1\"/>") +
+                   joint("g", "continuous", "base", "gear",
+                         "<axis xyz=\"0 0 1\"/><mimic joint=\"m\" multiplier=\"1.2391\"/>") +
+                   "<joint name=\"a\" type=\"revolute\"><parent link=\"motor\"/><child link=\"arm\"/>"
+                   "<origin xyz=\"-0.1 -0.1 -0.3\"/><axis xyz=\"0 1 0\"/>"
+                   "<limit lower=\"-1.5\" upper=\"1.5\" effort=\"1\" velocity=\"1\"/></joint>"
+                   "<joint name=\"s\" type=\"prismatic\"><parent link=\"arm\"/><child link=\"slide\"/>"
+                   "<origin xyz=\"0 -0.2 -0.9\"/><axis xyz=\"1 0 0\"/><limit " +
+                   limits +
+                   " effort=\"1\" velocity=\"1\"/>"
+                   "<mimic joint=\"m\" multiplier=\"0.05\"/></joint>",
+               kRounding);
+    CHECK(searched(arm) == PairReason::sometimes);
+  }
+}
