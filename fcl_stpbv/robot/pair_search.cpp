@@ -42,8 +42,10 @@ PairSearch::PairSearch(std::shared_ptr<const Kinematics> kinematics,
       constraints_(kinematics_, geometry_, std::move(pairs), options),
       d_(constraints_.rows()),
       values_(constraints_.nonZeros()),
-      gradient_(kinematics_->size()),
-      unit_(searchRoom(*kinematics_, *geometry_, options.obstacles).unit) {
+      gradient_(kinematics_->size()) {
+  const SearchRoom room = searchRoom(*kinematics_, *geometry_, options.obstacles);
+  unit_ = room.unit;
+  scale_ = room.scale;
   const std::vector<int>& rows = constraints_.rowStart();  // all rows have the same columns
   coordinates_.assign(constraints_.columnIndices().begin(), constraints_.columnIndices().begin() + rows[1]);
 }
@@ -111,11 +113,11 @@ double PairSearch::distanceAndGradient(const Eigen::VectorXd& q) {
 template <class Arrived>
 double PairSearch::follow(Eigen::VectorXd& q, double sign, Arrived arrived) {
   constexpr int kSteps = 200;
-  constexpr double kEnough = 1e-6;  // m; steps that gain less than this have arrived
+  const double enough = 1e-6 * scale_;  // m; steps that gain less than this have arrived
   double step = 0.1, d = distanceAndGradient(q);
   for (int i = 0; i < kSteps && !arrived(d); ++i) {
     const Eigen::VectorXd slope = sign * gradient_.cwiseProduct(unit_);
-    if (!(slope.norm() > 1e-12)) break;
+    if (!(slope.norm() > 1e-12 * scale_)) break;
     bool better = false;
     for (int half = 0; half < 30 && !better; ++half) {
       const Eigen::VectorXd next = (q + step / slope.norm() * slope.cwiseProduct(unit_))
@@ -130,7 +132,7 @@ double PairSearch::follow(Eigen::VectorXd& q, double sign, Arrived arrived) {
         q = next;
         d = there;
         step = std::min(1.0, step * 2);
-        if (gain < kEnough) return d;
+        if (gain < enough) return d;
       } else {
         step /= 2;
       }

@@ -53,7 +53,8 @@ class PairSearch {
   std::vector<int> coordinates_;
   std::vector<double> lipschitz_;
   Eigen::VectorXd d_, values_, gradient_;
-  Eigen::VectorXd unit_;  // of a step: SearchRoom's
+  Eigen::VectorXd unit_;  // of a step, and the scale of distances: SearchRoom's
+  double scale_ = 1;
 };
 
 }  // namespace fcl_stpbv::detail

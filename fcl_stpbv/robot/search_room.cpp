@@ -47,7 +47,7 @@ std::vector<Moved> movedBy(const Kinematics& kinematics) {
 // Each of two bodies is at most the largest reach from the root's origin while what has no limits is at zero,
 // so they are at most two reaches apart.
 double roomOf(const Kinematics& kinematics, const RobotGeometry& geometry,
-              const std::vector<Obstacle>& obstacles, const std::vector<Moved>& moved) {
+              const std::vector<Obstacle>& obstacles, const std::vector<Moved>& moved, double scale) {
   const RobotModel& robot = kinematics.robot();
   std::vector<double> most(robot.joints.size(), 0);
   for (const Kinematics::Motion& motion : kinematics.motions())
@@ -65,7 +65,14 @@ double roomOf(const Kinematics& kinematics, const RobotGeometry& geometry,
   }
   for (const Obstacle& obstacle : obstacles)
     reach = std::max(reach, obstacle.centre.norm() + obstacle.radius);
-  return std::max(1.0, 2 * reach);
+  return std::max(scale, 2 * reach);
+}
+
+double scaleOf(const RobotGeometry& geometry) {
+  constexpr double kUsual = 0.1;  // m
+  double largest = 0;
+  for (const Body& body : geometry.bodies) largest = std::max(largest, body.radius);
+  return largest > 0 ? std::min(1.0, largest / kUsual) : 1;
 }
 
 }  // namespace
@@ -88,9 +95,9 @@ double lengthOf(const RobotModel& robot, int joint) {
 SearchRoom searchRoom(const Kinematics& kinematics, const RobotGeometry& geometry,
                       const std::vector<Obstacle>& obstacles) {
   const VectorXd &lower = kinematics.lower(), &upper = kinematics.upper();
-  SearchRoom found{lower, upper, VectorXd::Ones(lower.size()), {}, 0};
+  SearchRoom found{lower, upper, VectorXd::Ones(lower.size()), scaleOf(geometry), {}, 0};
   std::vector<Moved> moved = movedBy(kinematics);
-  double room = roomOf(kinematics, geometry, obstacles, moved);
+  double room = roomOf(kinematics, geometry, obstacles, moved, found.scale);
   for (bool grows = true; grows;) {  // with each joint that is short for the room, which may be others then
     grows = false;
     for (Index i = 0; i < lower.size(); ++i) {
@@ -100,14 +107,14 @@ SearchRoom searchRoom(const Kinematics& kinematics, const RobotGeometry& geometr
       m.most = std::max(std::abs(lower[i]), std::abs(upper[i]));
       grows = true;
     }
-    if (grows) room = roomOf(kinematics, geometry, obstacles, moved);
+    if (grows) room = roomOf(kinematics, geometry, obstacles, moved, found.scale);
   }
   for (Index i = 0; i < lower.size(); ++i) {
     constexpr double kSteps = 200;  // of a descent, which lead through the whole range
     const Moved& m = moved[static_cast<std::size_t>(i)];
     if (!std::isfinite(lower[i])) found.lower[i] = -room;
     if (!std::isfinite(upper[i])) found.upper[i] = found.unit[i] = room;
-    if (m.slides > 0 && !m.turns) found.unit[i] = std::max(1.0, (upper[i] - lower[i]) / kSteps);
+    if (m.slides > 0 && !m.turns) found.unit[i] = std::max(found.scale, (upper[i] - lower[i]) / kSteps);
     if (!m.stands) continue;
     const double half = m.turns ? std::max(kPi, room / m.slides) : room / m.slides;
     if (!m.turns) found.unit[i] = half;

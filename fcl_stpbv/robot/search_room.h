@@ -21,13 +21,14 @@ double lengthOf(const RobotModel& robot, int joint);
 /// Where each coordinate is searched, and in which steps.
 struct SearchRoom {
   /// Within the limits. Coordinates that translate without limits (of planar and floating joints and of a
-  /// moving base) end at twice as far as the robot and the obstacles reach, at least 1 m.
-  /// If two bodies can meet at all, they meet within it, without changes of the other joints. Joints
+  /// moving base) end at twice as far as the robot and the obstacles reach, at least 1 m, less for tiny
+  /// bodies. If two bodies can meet at all, they meet within it, without changes of the other joints. Joints
   /// that slide more than a hundred times as far, such as between limits of 1e16 m, end there, too.
   Eigen::VectorXd lower, upper;
-  /// Of a step: 1 (rad or m), the size of the room where a coordinate has no limits, and more where a joint
-  /// slides by hundreds of metres.
+  /// Of a step: 1 (rad or m), less where joints of tiny bodies slide, the size of the room where a coordinate
+  /// has no limits, and more where a joint slides by hundreds of metres.
   Eigen::VectorXd unit;
+  double scale = 1;  ///< of all distances: 1, less where even the largest body is smaller than 0.1 m
   /// Coordinates whose limits are wider than `lower` and `upper`, and how many times those may be doubled.
   std::vector<Eigen::Index> narrowed;
   int doublings = 0;

@@ -1,8 +1,11 @@
-// Where coordinates are searched whose limits are far beyond the size of the robot.
+// Where coordinates are searched whose limits are far beyond the size of the robot, and descents of tiny
+// ones.
 #include <fcl/geometry/shape/cylinder.h>
 
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <iomanip>
+#include <sstream>
 
 #include "fcl_stpbv/robot/pair_list.h"
 #include "fcl_stpbv/robot/pair_search.h"
@@ -99,7 +102,7 @@ TEST_CASE("rails of the usual lengths are searched from end to end") {
     CHECK(room.lower == arm.kinematics->lower());
     CHECK(room.upper == arm.kinematics->upper());
     CHECK(room.unit == Eigen::VectorXd::Ones(room.unit.size()));
-    CHECK(room.narrowed.empty());
+    CHECK((room.scale == 1 && room.narrowed.empty()));
   }
   // All of a long one is searched, too, if seldom, and never beyond its limits.
   const Loaded arm = loaded(cart("<sphere radius=\"0.1\"/>", "-2", "1e16"), kRounding);
@@ -136,5 +139,49 @@ TEST_CASE("a screw is searched as far as its nut goes, whatever else it turns") 
                    "<mimic joint=\"m\" multiplier=\"0.05\"/></joint>",
                kRounding);
     CHECK(searched(arm) == PairReason::sometimes);
+  }
+}
+
+TEST_CASE("descents of a robot and of the same one a thousandth as large reach the same") {
+  // A block on an arm beside one on a rail, `metre` m for a metre.
+  const auto small = [](double metre) {
+    const auto length = [&](double x) {
+      std::ostringstream text;
+      text << std::setprecision(17) << x * metre;
+      return text.str();
+    };
+    const auto three = [&](double x, double y, double z) {
+      return length(x) + " " + length(y) + " " + length(z);
+    };
+    const auto turn = [&](const std::string& name, const std::string& parent, const std::string& child,
+                          const std::string& axis, const std::string& origin) {
+      return joint(name, "revolute", parent, child,
+                   "<origin xyz=\"" + origin + "\"/><axis xyz=\"" + axis + "\"/>", 2);
+    };
+    return loaded(
+        link("base") + link("upper") + link("hand", "<box size=\"" + three(0.1, 0.02, 0.05) + "\"/>") +
+            link("block", "<box size=\"" + three(0.05, 0.04, 0.08) + "\"/>") +
+            turn("j1", "base", "upper", "0.3 0.2 1", three(0.05, 0.1, 0)) +
+            turn("j2", "upper", "hand", "1 0.5 0", three(0.2, 0.1, 0.05)) +
+            "<joint name=\"rail\" type=\"prismatic\"><parent link=\"base\"/><child link=\"block\"/>"
+            "<origin xyz=\"" +
+            three(-0.1, -0.2, 0.3) +
+            "\" rpy=\"0.4 0.3 0.2\"/><axis xyz=\"1 0 0\"/>"
+            "<limit lower=\"" +
+            length(-0.1) + "\" upper=\"" + length(0.15) + "\" effort=\"1\" velocity=\"1\"/></joint>",
+        {0.005 * metre, 2 * metre});
+  };
+  const Loaded usual = small(1), tiny = small(1.0 / 1024);
+  const int hand = usual.kinematics->robot().link("hand"), block = usual.kinematics->robot().link("block");
+  PairSearch one(usual.kinematics, usual.geometry, hand, block),
+      other(tiny.kinematics, tiny.geometry, hand, block);
+  const SearchRoom room = searchRoom(*usual.kinematics, *usual.geometry, {});
+  std::mt19937_64 random(1);
+  for (int i = 0; i < 50; ++i) {
+    Eigen::VectorXd q = randomConfiguration(*usual.kinematics, room, random), p = q;
+    p[usual.kinematics->coordinate("rail")] /= 1024;
+    const bool down = i % 2 == 0;
+    const double reached = down ? one.descend(q, -1) : one.climb(q, 1);
+    CHECK(1024 * (down ? other.descend(p, -1) : other.climb(p, 1)) == Approx(reached).margin(1e-5));
   }
 }
