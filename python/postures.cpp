@@ -1,7 +1,6 @@
 // Posture search in Python, one start per call, so that the starts can run in parallel.
 #include <cmath>
 #include <exception>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -66,7 +65,6 @@ class PythonPostureSearch {
     options.starts = 1;
     options.mends = options.anywhere = 0;
     options.seed = seed;
-    options.solver.maxSeconds = std::numeric_limits<double>::infinity();  // the clock must not decide
     Interrupt interrupt;
     std::exception_ptr pressed;  // no exception passes through the solver, which is written in C
     options.solver.stop = [&] {

@@ -45,8 +45,8 @@ struct Posture {
   std::vector<std::string> conflictLimits;
 };
 
-/// Searches for a posture. Deterministic for a given seed, unless a solver runs out of time. @throws Error if
-/// the start has another size than the robot's coordinates, for example that of another base motion; never
+/// Searches for a posture. Deterministic for a given seed, unless `solver.maxSeconds` is set. @throws Error
+/// if the start has another size than the robot's coordinates, for example that of another base motion; never
 /// otherwise.
 Posture findPosture(PostureSetup& setup, const PostureOptions& options = {});
 

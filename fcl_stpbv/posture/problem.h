@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -152,8 +153,9 @@ class PostureProblem {
 
 /// Stopping criteria and settings of a solver.
 struct SolverOptions {
-  int maxIterations = 300;      ///< largest number of iterations, each with one quadratic model
-  double maxSeconds = 10;       ///< s
+  int maxIterations = 300;  ///< largest number of iterations, each with one quadratic model
+  /// s. A search that ends because of this ends elsewhere on another machine.
+  double maxSeconds = std::numeric_limits<double>::infinity();
   double tolerance = 1e-6;      ///< tolerance within which a constraint holds (m, rad)
   double costTolerance = 1e-8;  ///< stops when the relative change of the cost in one iteration is below this
   /// An inequality enters the model if its value is below this when the solver starts or restarts, or when it

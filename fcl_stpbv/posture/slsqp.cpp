@@ -3,7 +3,7 @@
 // 2. and with independent combinations of the equalities, because dependent ones make SLSQP's matrix
 //    singular;
 // 3. if an iterate violates a row that is not included, restart from there with the row;
-// 4. stop a search whose violations no longer fall.
+// 4. stop a search whose violations no longer fall, or whose line search does not end.
 #include <nlopt.h>
 
 #include <algorithm>
@@ -128,7 +128,10 @@ class Slsqp {
       Map(gradient, n) = values.costGradient / 2;
       s.iterate_ = values.x;
       ++s.best_.iterations;
+      s.line_ = 0;
       s.watch(values);
+    } else {
+      s.watchLine();
     }
     s.grow(values);
     return values.cost / 2;
@@ -147,6 +150,14 @@ class Slsqp {
     stuck_ = leastMiss_ > kFar && best_.iterations > leastAt_ + kPatience;
     stopped_ = options_.stop && options_.stop();
     if (stopped_ || stuck_ || best_.iterations >= options_.maxIterations) nlopt_force_stop(opt_);
+  }
+
+  // Stops a line search that does not end. NLopt's takes at most 11 points, but where the merit is infinite
+  // or NaN, as with rows that contradict each other, it makes its step shorter for ever.
+  void watchLine() {
+    constexpr int kLongest = 30;
+    stuck_ = ++line_ > kLongest;
+    if (stuck_) nlopt_force_stop(opt_);
   }
 
   // Stops the solver for a restart with more rows, if a row is violated that is not included.
@@ -189,6 +200,7 @@ class Slsqp {
   bool grown_ = false, stuck_ = false, stopped_ = false;
   double leastMiss_ = kInfinity;  // of any iteration so far
   int leastAt_ = 0;
+  int line_ = 0;  // points without a gradient since the last iterate
   Eigen::VectorXd iterate_, grownAt_;
   SolverOutcome best_;
 };

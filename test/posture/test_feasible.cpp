@@ -68,6 +68,30 @@ Posture amongPockets(double room, std::uint64_t seed) {
   return findPosture(setup, options);
 }
 
+// Two or three joints between small balls, most of them at a limit before they reach far.
+PostureScene smallArm(Random& random, int joints, double size) {
+  const auto three = [&](double most) {
+    std::string text;
+    for (int i = 0; i < 3; ++i) text += std::to_string(random.uniform(-most, most)) + " ";
+    return text;
+  };
+  const char* const axes[] = {"1 0 0", "0 1 0", "0 0 1"};
+  std::string links = ball("l0");
+  for (int i = 0; i < joints; ++i) {
+    const bool slides = random.uniform(0, 3) < 1;
+    const double unit = slides ? size : 1, lower = random.uniform(-0.6, 0.1) * unit;
+    const double upper = lower + random.uniform(0.3, 2) * unit;
+    const std::string parent = std::to_string(i), child = std::to_string(i + 1);
+    links +=
+        ball("l" + child) +
+        joint("j" + parent, slides ? "prismatic" : "revolute", "l" + parent, "l" + child,
+              "<origin xyz='" + three(size / 2) + "' rpy='" + three(3) + "'/><axis xyz='" +
+                  axes[static_cast<int>(random.uniform(0, 3))] + "'/><limit lower='" + std::to_string(lower) +
+                  "' upper='" + std::to_string(upper) + "' effort='1' velocity='1'/>");
+  }
+  return bodiesOf(links);
+}
+
 }  // namespace
 
 TEST_CASE("a point off a planar arm's plane is told by its row across the plane") {
@@ -114,6 +138,28 @@ TEST_CASE("a point out of reach is told") {
   const Posture posture = found(planarArm(), {position("tip", {0, 0, 1.31})});
   CHECK_FALSE(posture.feasible);
   CHECK(amountOf(posture.conflict, "tip z") == Approx(0.01).epsilon(1e-3));
+}
+
+TEST_CASE("the search ends by itself, also where the solver's line search would not") {
+  Random random(3);
+  PostureOptions options;
+  options.starts = 1;
+  options.mends = options.anywhere = 0;
+  options.solver.maxSeconds = 2;  // of which it takes a thousandth
+  int missed = 0;
+  for (int trial = 0; trial < 100; ++trial) {
+    const int joints = 2 + trial % 2;
+    const double size = trial % 3 ? 0.05 : 1;
+    const PostureScene scene = smallArm(random, joints, size);
+    const Eigen::Vector3d target =
+        0.6 * size * Eigen::Vector3d(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+    const Posture posture = found(scene, {position("l" + std::to_string(joints), target)}, options);
+    CAPTURE(trial);
+    CHECK(posture.status != "out of time");
+    CHECK(posture.seconds < options.solver.maxSeconds);
+    missed += !posture.feasible;
+  }
+  CHECK(missed > 20);
 }
 
 TEST_CASE("where the arm is stretched its Jacobian is singular, and the point reached all the same") {
