@@ -3,6 +3,7 @@
 
 #include <locale.h>
 
+#include <algorithm>
 #include <clocale>
 #include <cstddef>
 #include <cwchar>
@@ -79,5 +80,16 @@ inline std::string fittedInto(std::size_t most, const std::string& text) {
 
 /// A name on one line, with '?' for what cannot be shown: it moves no cursor and fakes no line.
 inline std::string printable(const std::string& name) { return fittedInto(std::string::npos, name); }
+
+/// A message of several lines: those after the first are indented, so that they fake no line either.
+inline std::string printableLines(const std::string& message) {
+  std::string text;
+  for (std::size_t begin = 0, end; begin <= message.size(); begin = end + 1) {
+    end = std::min(message.find('\n', begin), message.size());
+    const std::size_t first = begin == 0 ? 0 : std::min(message.find_first_not_of(' ', begin), end);
+    text += (begin == 0 ? "" : "\n  ") + printable(message.substr(first, end - first));
+  }
+  return text;
+}
 
 }  // namespace fcl_stpbv::detail

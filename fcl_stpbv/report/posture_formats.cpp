@@ -50,7 +50,7 @@ std::string toText(const PostureReport& report) {
   std::string text = posture.feasible ? "feasible" : "not feasible";
   text += " (" + posture.status + "): " + run(posture) + "\n";
   for (const std::string& shape : report.skipped)
-    text += "LEFT OUT, NOT CHECKED: " + detail::printable(shape) + "\n";
+    text += "LEFT OUT, NOT CHECKED: " + detail::printableLines(shape) + "\n";
   text += detail::counted(report.pairs.size(), "pair") + formatted(", %zu with obstacles\n", obstacles);
   if (report.closest)
     text += "closest: " + detail::printable(report.closest->name) +

@@ -273,7 +273,8 @@ std::string toText(const CollisionReport& report, std::size_t top) {
   std::string text = printable(report.robot->name) + ": " + std::to_string(report.robot->links.size()) +
                      " links, " + std::to_string(report.geometry->bodies.size()) + " bodies, " +
                      std::to_string(report.kinematics->size()) + " coordinates\n";
-  for (const std::string& shape : report.skipped) text += "LEFT OUT, NOT CHECKED: " + printable(shape) + "\n";
+  for (const std::string& shape : report.skipped)
+    text += "LEFT OUT, NOT CHECKED: " + detail::printableLines(shape) + "\n";
   std::map<std::string, int> reasons;
   for (const PairReport& pair : report.pairs) ++reasons[pair.reason];
   text += counted(report.pairs.size(), "pair") + ":";

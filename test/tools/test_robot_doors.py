@@ -96,6 +96,11 @@ class Doors(unittest.TestCase):
         self.assertEqual(self.run_tool(REPORT, self.good, "--skip-invalid", "--samples", "20").returncode, 0)
         self.assertIn('reason="Never"', self.run_tool(REPORT, self.good, "--samples", "20", "--format", "srdf").stdout)
 
+    def test_a_shape_that_was_left_out_is_told_on_lines_of_its_own(self):
+        for command in ([REPORT], [POSTURE, self.task]):
+            done = self.run_tool(command[0], self.bad, *command[1:], "--skip-invalid")
+            self.assertRegex(done.stdout, r"\nLEFT OUT, NOT CHECKED: .*missing\.stl: no such file; tried\n  /.*missing\.stl\n")
+
     def test_a_robot_without_bodies_is_not_clear(self):
         empty = self.put("empty.urdf", '<robot name="r"><link name="a"/></robot>')
         broken = self.put("broken.urdf", '<robot name="r">' + link("a", *BAD) + "</robot>")
