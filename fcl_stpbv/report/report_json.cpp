@@ -70,6 +70,10 @@ nlohmann::json trajectoryJson(const CollisionReport& report) {
 nlohmann::json linkJson(const CollisionReport& report, std::size_t i) {
   const Body& body = report.geometry->bodies[i];
   nlohmann::json link{{"name", body.name}, {"file", body.file}};
+  for (const char* unknown :
+       {"vertices", "vertices_unreduced", "r", "R", "advised_acceleration", "advised_least_clearance",
+        "over_cover_max", "over_cover_mean", "hull_excess", "volume_excess", "volume_ratio", "polyhedron"})
+    link[unknown] = nullptr;
   if (body.volume) {
     link["vertices"] = body.volume->vertexCount();
     link["vertices_unreduced"] = (body.isReduced() ? body.full->volume() : *body.volume).vertexCount();

@@ -351,12 +351,12 @@ class FindPosture(unittest.TestCase):
             return page_data(run.stdout)
         fitted = page()
         self.assertTrue(all(pair["continuous"] for pair in fitted["pairs"]))
-        covers = {link["name"]: link["r"] for link in fitted["links"] if "r" in link}
+        covers = {link["name"]: link["r"] for link in fitted["links"] if link["r"] is not None}
         self.assertTrue(covers)
         self.assertFalse(any(pair["continuous"] for pair in page("--primitives", "flat")["pairs"]))
-        fixed = {link["name"]: link["r"] for link in page("-r", "0.002")["links"] if "r" in link}
+        fixed = {link["name"]: link["r"] for link in page("-r", "0.002")["links"] if link["r"] is not None}
         self.assertNotEqual(fixed, covers)
-        self.assertEqual({link["name"]: link["r"] for link in page("-r", "auto")["links"] if "r" in link}, covers)
+        self.assertEqual({link["name"]: link["r"] for link in page("-r", "auto")["links"] if link["r"] is not None}, covers)
 
     def test_a_task_ignores_pairs_of_links(self):
         def pairs(ignore):
