@@ -168,6 +168,10 @@ struct ReadJoint {
 
 ReadJoint readJoint(const XMLElement& element, const UrdfTree& tree) {
   checkJointWords(element);
+  const std::string type = element.Attribute("type");
+  if ((type == "revolute" || type == "prismatic") && !element.FirstChildElement("limit"))
+    throw Error("is " + type + " and needs a <limit> with lower and upper" +
+                (type == "revolute" ? "; give it one, or make it continuous" : ""));
   const urdf::JointSharedPtr read = readJointElement(element);
   ReadJoint joint;
   JointModel& model = joint.model;

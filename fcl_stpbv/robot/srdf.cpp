@@ -13,6 +13,7 @@
 #include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/robot/mesh_lines.h"
 #include "fcl_stpbv/robot/near_name.h"
+#include "fcl_stpbv/robot/srdf_reason.h"
 #include "fcl_stpbv/robot/xml_text.h"
 #include "fcl_stpbv/words.h"
 
@@ -34,6 +35,10 @@ constexpr Words kOthers{"group",
                         "disable_default_collisions",
                         "enable_collisions",
                         "disable_collisions"};
+
+// Those that take() reads.
+constexpr Words kRead{"group_state", "virtual_joint", "disable_default_collisions", "enable_collisions",
+                      "disable_collisions"};
 
 class SrdfReader {
  public:
@@ -70,10 +75,26 @@ class SrdfReader {
       srdf_.defaultsOff.push_back(e.Attribute("link"));
     if (name == "group_state") srdf_.states.push_back(state(e));
     if (name == "virtual_joint") addVirtualJoint(e);
-    if (!holds(kOthers, name) && name.find(':') == std::string_view::npos) {
-      const bool pair = e.Attribute("link1") || e.Attribute("link2");
-      warn(e, "<" + std::string(name) + "> is no element of SRDF and counts for nothing" +
-                  (pair ? "; is it a misspelt <disable_collisions>?" : ""));
+    if (!holds(kOthers, name) && name.find(':') == std::string_view::npos) warnOfOther(e, namesPair(e));
+    warnOfInner(e);
+  }
+
+  static bool namesPair(const XMLElement& e) { return e.Attribute("link1") || e.Attribute("link2"); }
+
+  void warnOfOther(const XMLElement& e, bool pair) {
+    warn(e, "<" + std::string(e.Name()) + "> is no element of SRDF and counts for nothing" +
+                (pair ? "; is it a misspelt <disable_collisions>?" : ""));
+  }
+
+  // Of what take() would read, or may be meant to, but not within another element.
+  void warnOfInner(const XMLElement& around) {
+    for (const XMLElement* e = around.FirstChildElement(); e; e = e->NextSiblingElement()) {
+      if (holds(kRead, e->Name()))
+        warn(*e, "<" + std::string(e->Name()) + "> within <" + around.Name() +
+                     "> counts for nothing; it belongs directly into <robot>");
+      else if (namesPair(*e))
+        warnOfOther(*e, true);
+      warnOfInner(*e);
     }
   }
 
@@ -107,7 +128,7 @@ class SrdfReader {
     const bool first = known(e, "link1"), second = known(e, "link2");
     const char* reason = e.Attribute("reason");
     if (first && second)
-      pairs.push_back({e.Attribute("link1"), e.Attribute("link2"), reason && *reason ? reason : "User"});
+      pairs.push_back({e.Attribute("link1"), e.Attribute("link2"), usualReason(reason ? reason : "")});
   }
 
   // Whether the link is the root, or rigidly joined to it.
@@ -175,6 +196,8 @@ class SrdfReader {
   Srdf srdf_;
 };
 
+bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
+
 /// Takes over the joints of another state of the name. The first joint that the two differ in, or "".
 std::string takeJoints(Srdf::State& all, const Srdf::State& state) {
   for (const auto& [joint, values] : state.joints)
@@ -183,6 +206,16 @@ std::string takeJoints(Srdf::State& all, const Srdf::State& state) {
 }
 
 }  // namespace
+
+std::string detail::usualReason(std::string_view reason) {
+  while (!reason.empty() && isBlank(reason.front())) reason.remove_prefix(1);
+  while (!reason.empty() && isBlank(reason.back())) reason.remove_suffix(1);
+  if (reason.empty()) return "User";
+  const std::string small = inSmallLetters(reason);
+  for (const char* usual : {"User", "Never", "Adjacent", "Always", "Default"})
+    if (small == inSmallLetters(usual)) return usual;
+  return std::string(reason);
+}
 
 SkipReasons::SkipReasons(const Srdf* srdf) {
   if (!srdf) return;

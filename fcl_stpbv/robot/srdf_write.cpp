@@ -6,6 +6,7 @@
 
 #include "fcl_stpbv/robot/mesh_lines.h"
 #include "fcl_stpbv/robot/srdf.h"
+#include "fcl_stpbv/robot/srdf_reason.h"
 #include "fcl_stpbv/robot/xml_text.h"
 
 namespace fcl_stpbv {
@@ -68,7 +69,7 @@ std::string withPairs(const Srdf* srdf, const std::string& robotName, const std:
   for (XMLElement* e = root->FirstChildElement("disable_collisions"); e;) {
     XMLElement* next = e->NextSiblingElement("disable_collisions");
     const char* reason = e->Attribute("reason");
-    if (reason && *reason && std::string_view(reason) != "User") root->DeleteChild(e);
+    if (reason && usualReason(reason) != "User") root->DeleteChild(e);
     e = next;
   }
   // Other readers let a disabled pair win over an enabled one: those that the file enables stay so.

@@ -301,6 +301,48 @@ TEST_CASE("all that is wrong with a robot is told at once, before a volume is bu
     CHECK_THAT(message, Contains(part));
 }
 
+TEST_CASE("a joint that needs limits and has none is told so by its name") {
+  const auto told = [](const std::string& type) {
+    return refused(robot(link("a") + link("b") + "\n<joint name=\"turn\" type=\"" + type +
+                         "\"><parent link=\"a\"/><child link=\"b\"/></joint>"));
+  };
+  CHECK_THAT(told("revolute"), Contains("small.urdf:3") &&
+                                   Contains("joint 'turn': is revolute and needs a <limit>") &&
+                                   Contains("make it continuous") && !Contains("REVOLUTE"));
+  CHECK_THAT(told("prismatic"), Contains("small.urdf:3") &&
+                                    Contains("joint 'turn': is prismatic and needs a <limit>") &&
+                                    !Contains("continuous"));
+  CHECK(told("continuous").empty());
+}
+
+TEST_CASE("what an SRDF holds within another element counts for nothing, and is a warning") {
+  const TemporaryFolder folder;
+  const RobotModel model =
+      parseUrdf(robot(link("a") + link("b") + joint("j", "revolute", "a", "b")), "small.urdf");
+  const std::string pair = " link1=\"a\" link2=\"b\"";
+  const auto read = [&](const std::string& entries) {
+    put(folder / "s.srdf", "<robot name=\"small\">\n" + entries + "</robot>");
+    return loadSrdf(folder / "s.srdf", model);
+  };
+  for (const std::string inner : {"disable_collisions", "enable_collisions"})
+    for (const std::string& around :
+         {std::string("group"), "disable_collisions" + pair, "enable_collisions" + pair}) {
+      const std::string name = around.substr(0, around.find(' '));
+      const Srdf srdf = read("<" + around + ">\n<" + inner + pair + "/></" + name + ">");
+      CAPTURE(inner, around);
+      REQUIRE(srdf.warnings.size() == 1);
+      CHECK_THAT(srdf.warnings[0], Contains("s.srdf:3") &&
+                                       Contains("<" + inner + "> within <" + name + "> counts for nothing"));
+      CHECK(srdf.disabled.size() == (name == "disable_collisions"));
+      CHECK(srdf.enabled.size() == (name == "enable_collisions"));
+    }
+  CHECK_THAT(read("<group name=\"g\"><disable_colisions" + pair + "/></group>").warnings.at(0),
+             Contains("misspelt"));
+  CHECK(read("<group name=\"g\"><group name=\"h\"/><joint name=\"j\"/><chain base_link=\"a\" "
+             "tip_link=\"b\"/></group>")
+            .warnings.empty());
+}
+
 TEST_CASE("each value of a joint in a group_state must be a number to its end") {
   const TemporaryFolder folder;
   const RobotModel model =

@@ -336,6 +336,27 @@ TEST_CASE("an SRDF's enabled pairs win, then its disabled ones, then its links w
   CHECK(of("c", "e") == "User");
 }
 
+TEST_CASE("an SRDF's reasons count in any case and with blanks around them") {
+  TemporaryFolder folder;
+  const RobotModel model = parse(link("a") + link("b") + joint("j", "revolute", "a", "b"));
+  const auto entry = [](const std::string& reason) {
+    return "<robot name=\"small\"><disable_collisions link1=\"a\" link2=\"b\" reason=\"" + reason +
+           "\"/></robot>";
+  };
+  const std::pair<const char*, const char*> reasons[] = {
+      {"never", "Never"},      {"NEVER", "Never"}, {"Never ", "Never"}, {"\tadjacent", "Adjacent"},
+      {"ALWAYS", "Always"},    {"user ", "User"},  {"", "User"},        {"  ", "User"},
+      {"too near", "too near"}};
+  for (const auto& [written, counts] : reasons) {
+    put(folder / "s.srdf", entry(written));
+    const Srdf srdf = loadSrdf(folder / "s.srdf", model);
+    CHECK(SkipReasons(&srdf).of("a", "b") == counts);
+    // What the user left out stays.
+    const bool stays = withPairs(folder / "s.srdf", "small", {}).find("link1") != std::string::npos;
+    CHECK(stays == (counts == std::string("User")));
+  }
+}
+
 TEST_CASE("an SRDF gives pairs, states and the way the base moves") {
   TemporaryFolder folder;
   const RobotModel model = parse(link("a") + link("b") + joint("j", "revolute", "a", "b"));

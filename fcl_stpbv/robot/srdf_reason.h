@@ -1,0 +1,13 @@
+// The reasons of disable_collisions, as people write them.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace fcl_stpbv::detail {
+
+/// MoveIt's word for a reason in any case and with blanks around it; "User" for nothing but blanks. Other
+/// reasons stay as they are.
+std::string usualReason(std::string_view reason);
+
+}  // namespace fcl_stpbv::detail
