@@ -31,16 +31,22 @@ using Eigen::Vector3d;
 
 std::string number(double value) { return formatted("%.9g", value); }
 
-// An R for a margin r and a smallest ball of this radius, in no more digits than it needs to work.
+// A number for which `holds`, in no more digits than it still holds with as it is read again; at least nine.
+template <typename Holds>
+std::string number(double value, const Holds& holds) {
+  std::string text;
+  for (int digits = 9; digits <= 17; ++digits) {
+    text = formatted("%.*g", digits, value);
+    if (holds(std::strtod(text.c_str(), nullptr))) break;
+  }
+  return text;
+}
+
+// An R for a margin r and a smallest ball of this radius that works as it is printed.
 std::string usableR(double r, double radius) {
   double least = r + radius * (1 + 1e-9);
   while (least - r <= radius) least = std::nextafter(least, kInfinity);
-  std::string text;
-  for (int digits = 9; digits <= 17; ++digits) {
-    text = formatted("%.*g", digits, least);
-    if (std::strtod(text.c_str(), nullptr) >= least) break;
-  }
-  return text;
+  return number(least, [&](double R) { return R >= least; });
 }
 
 void checkInput(const std::vector<Vector3d>& points, const StpBvOptions& options) {
@@ -64,10 +70,10 @@ void checkInput(const std::vector<Vector3d>& points, const StpBvOptions& options
 // of them from inside.
 void checkRadius(const std::vector<Vector3d>& points, const StpBvOptions& options) {
   const Ball ball = minimumEnclosingBall(points);
-  const double rho = options.R - options.r;
   constexpr double kLink = 5.0;  // m: a larger link than any robot's is most likely in other units
-  if (points.size() > 1 && rho <= ball.radius)
-    throw Error("R = " + number(options.R) +
+  const auto tooSmall = [&](double R) { return R - options.r <= ball.radius; };
+  if (points.size() > 1 && tooSmall(options.R))
+    throw Error("R = " + number(options.R, tooSmall) +
                 " m is too small: the smallest usable R for these points with r = " + number(options.r) +
                 " m is " + usableR(options.r, ball.radius) + " m" +
                 (ball.radius > kLink ? " (a ball around them has a radius of " + number(ball.radius) +
@@ -78,9 +84,10 @@ void checkRadius(const std::vector<Vector3d>& points, const StpBvOptions& option
   constexpr double kAlways = 1e8;  // m
   const double largest =
       std::max(kAlways, (ball.radius + options.r) / std::numeric_limits<double>::epsilon());
-  if (points.size() > 1 && rho > largest)
+  const auto tooLarge = [&](double R) { return R - options.r > largest; };
+  if (points.size() > 1 && tooLarge(options.R))
     throw Error(
-        "R = " + number(options.R) +
+        "R = " + number(options.R, tooLarge) +
         " m is too large: such faces are flat to rounding; the largest usable R for these points with r = " +
         number(options.r) + " m is just below " + number(largest) + " m");
 }

@@ -243,6 +243,40 @@ TEST_CASE("The R that a refusal states works, however large r is beside the clou
     }
 }
 
+TEST_CASE("The R that a refusal names is too small as it is printed, and the one that it states works") {
+  const auto after = [](const std::string& text, const std::string& words) {
+    REQUIRE(text.rfind(words) != std::string::npos);
+    return std::stod(text.substr(text.rfind(words) + words.size()));
+  };
+  std::vector<Named> clouds = smallClouds();
+  clouds.push_back({"cube", box(0.2, 0.2, 0.2)});
+  for (const Named& cloud : clouds)
+    for (const double r : {0.0, 0.01, 1.0}) {
+      if (cloud.points.size() < 2) continue;
+      const double smallest = StpBv::smallestR(cloud.points, r);
+      for (const double R :
+           {smallest, smallest * (1 - 1e-13), smallest * (1 - 1e-10), smallest * (1 - 1e-6)}) {
+        std::string said;
+        try {
+          StpBv::build(cloud.points, {r, R});
+        } catch (const Error& error) {
+          said = error.what();
+        }
+        INFO(cloud.name << ", r = " << r << ", R is " << smallest - R << " below the smallest: " << said);
+        if (R == smallest && said.empty()) continue;  // r + radius was rounded up
+        const double named = after(said, "R = "), stated = after(said, " m is ");
+        CHECK(named < stated);
+        CHECK(named == Approx(R).epsilon(1e-8));
+        CHECK(stated < smallest * (1 + 1e-8));
+        CHECK_THROWS_AS(StpBv::build(cloud.points, {r, named}), Error);
+        CHECK_NOTHROW(StpBv::build(cloud.points, {r, stated}));
+      }
+    }
+  const Cloud cube = box(0.2, 0.2, 0.2);
+  CHECK_THROWS_WITH(StpBv::build(cube, {0, StpBv::smallestR(cube, 0)}),
+                    Catch::Contains("R = 0.1732050807568877") && Catch::Contains("is 0.173205081 m"));
+}
+
 TEST_CASE("The smallest usable radius is the minimum enclosing ball's and the one stated works") {
   for (const Named& cloud : smallClouds()) {
     if (cloud.points.size() < 2) continue;
