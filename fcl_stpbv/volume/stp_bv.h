@@ -29,11 +29,13 @@ struct Patch {
   double sine;   ///< edge of length l: (l/2)/rho, the largest |n.u| of its normals; else 0
 };
 
-/// The radii that all patches of one body share.
+/// The radii that all patches of one body share. The volume is defined by `r` and by `rho` as it was rounded
+/// to a double, so its big radius is `R` to rounding only. Next to the smallest R (1 + 1e-12 times it) that
+/// matters: the volume of the exact R - r would have its surface up to 4e-12 m elsewhere.
 struct Radii {
   double r;    ///< small radius, the margin (m)
   double R;    ///< big radius (m)
-  double rho;  ///< R - r, radius of the balls whose intersection is the core (m)
+  double rho;  ///< R - r, rounded: radius of the balls whose intersection is the core (m)
 };
 
 namespace detail {
