@@ -40,8 +40,10 @@ bool steadyMotion(const Eigen::Isometry3d& begin, const Eigen::Isometry3d& end, 
 /// ends at its end pose here, while FCL scales its translation by the translation's own length. Returns false
 /// for splines and for types that are not FCL's, also for types derived from FCL's. Note on
 /// `fcl::InterpMotion`: if it rotates and was made without a reference point, FCL 0.7 leaves that point
-/// uninitialised, so both FCL's motion and this one are arbitrary. Returns false if the point is not
-/// within 1e6 m. Set a reference point, or use the overload for two poses.
+/// uninitialised, so both FCL's motion and this one are arbitrary. Returns false if the point is not within
+/// 1e6 m. Give a reference point by the constructor `InterpMotion(R1, T1, R2, T2, O)`, or use the
+/// overload for two poses. FCL's constructor `InterpMotion(tf1, tf2, O)` never computes the velocities: FCL's
+/// object then moves by uninitialised numbers, while this motion goes from `tf1` to `tf2` about `O`.
 bool steadyMotion(const fcl::MotionBased& motion, SteadyMotion& result);
 
 /// The verdict on a motion.

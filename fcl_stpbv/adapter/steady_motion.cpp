@@ -27,7 +27,7 @@ using Eigen::Vector3d;
 
 /// Gives access to FCL's protected members with both ends of a motion. FCL's own derived data cannot be used:
 /// they are wrong for a screw without rotation (the translation is scaled by its own length), and unset for
-/// an interpolation about a given point.
+/// an interpolation made by InterpMotion(tf1, tf2, O).
 struct ScrewEnds : fcl::ScrewMotion<double> {
   using fcl::ScrewMotion<double>::tf1;
   using fcl::ScrewMotion<double>::tf2;

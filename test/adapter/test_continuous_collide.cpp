@@ -311,6 +311,26 @@ TEST_CASE("a motion derived from FCL's, which may go another way, has no answer"
   CHECK(result.is_collide);
 }
 
+TEST_CASE(
+    "an interpolation of two transforms about a point is followed, though FCL leaves its velocities unset") {
+  Random random(5);
+  for (int i = 0; i < 50; ++i) {
+    const Isometry3d begin = pose(random.rotation(), random.direction()),
+                     end = pose(random.rotation(), random.direction());
+    const Vector3d point = random.direction();
+    const fcl::InterpMotion<double> unset(begin, end, point),
+        right(Eigen::Matrix3d(begin.linear()), begin.translation(), Eigen::Matrix3d(end.linear()),
+              end.translation(), point);
+    SteadyMotion motion, same;
+    REQUIRE(steadyMotion(unset, motion));
+    REQUIRE(steadyMotion(right, same));
+    for (const double t : {0.0, 0.3, 1.0}) {
+      CHECK(motion.at(t).matrix() == same.at(t).matrix());
+      CHECK((motion.at(t).matrix() - posed(right, t).matrix()).norm() <= 1e-12);
+    }
+  }
+}
+
 TEST_CASE("a motion ends at its end pose, by whatever turn the two poses differ") {
   Random random(7);
   for (const double angle :
