@@ -136,7 +136,7 @@ namespace fcl_stpbv {
 
 void addPostures(py::module_& module) {
   py::class_<PythonPostureSearch>(module, "PostureSearch",
-                                  "Postures of a robot among obstacles, in pure pieces.")
+                                  "Postures of a robot among obstacles, in independent pieces.")
       .def(py::init([](const Path& urdf, const std::optional<Path>& srdf,
                        const std::optional<Path>& obstacles, const BodyOptions::Length& r,
                        const std::optional<BodyOptions::Length>& R, const Folders& packagePath) {

@@ -35,11 +35,11 @@ void addRobot(py::module_& module) {
           "(r, R, over-cover). flat: links whose meshes stay convex polyhedra, and \"obstacles\". base:\n"
           "\"fixed\", \"planar\" or \"floating\". package_path: a folder, or several, for package:// names.\n"
           "influence: farther pairs are constant (m); a row is its distance up to exact_up_to (m), half of\n"
-          "influence unless given, and bends over beyond. hand_over: links farther apart than this (m) are\n"
-          "one row, nearer ones a row for each pair of their parts (model_for).")
+          "influence unless given, and then goes over smoothly to a constant. hand_over: links farther\n"
+          "apart than this (m) are one row, nearer ones a row for each pair of their parts (model_for).")
       .def("model_for", &PythonRobot::modelFor, py::arg("needs"), py::kw_only(),
            py::arg("budgets") = std::vector<double>{}, py::arg("threads") = 1,
-           "(a Robot as fine as the needs ask for, places of the needs that no bodies meet).\n"
+           "(a Robot as fine as the needs ask for, indices of the needs that no bodies meet).\n"
            "A need: (link, link or obstacle, q, clearance in m that their distance is to exceed at q).\n"
            "budgets: coarser volumes to start from may exceed the hulls by each of these (m, falling).")
       .def_property_readonly(
@@ -49,8 +49,9 @@ void addRobot(py::module_& module) {
       .def_property_readonly(
           "names", [](const PythonRobot& robot) { return robot.kinematics().names(); }, "of the coordinates")
       .def_property_readonly("rows", &PythonRobot::rowNames, "names of the pairs, in the order of d")
-      .def_property_readonly("exact_up_to", &PythonRobot::exactUpTo,
-                             "Up to where each row is its distance (m): beyond, it bends over for influence.")
+      .def_property_readonly(
+          "exact_up_to", &PythonRobot::exactUpTo,
+          "Up to where each row is its distance (m); then it goes over smoothly to a constant.")
       .def_property_readonly(
           "lower", [](const PythonRobot& robot) { return robot.kinematics().lower(); },
           "Least coordinates (m or rad), in the order of names; -inf where there is no limit.")

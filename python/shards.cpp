@@ -261,7 +261,7 @@ void addProof(py::module_& module) {
             for (const JointBox& box : proof.open) open.emplace_back(box.lower, box.upper);
             return open;
           },
-          "Boxes that remain to be looked at: lower and upper limits (rad or m).")
+          "Boxes not examined yet: lower and upper limits (rad or m).")
       .def_readonly("collision", &PairProof::collision,
                     "A configuration in which the pair collides, or None.")
       .def_readonly("boxes", &PairProof::boxes, "looked at so far")
@@ -283,7 +283,7 @@ void addShards(py::module_& module) {
   using Free = py::call_guard<py::gil_scoped_release>;
   addProof(module);
   py::class_<PythonPairSearch>(module, "PairSearch",
-                               "Proofs and samples of a robot's pairs of links, in pure pieces.")
+                               "Proofs and samples of a robot's pairs of links, in independent pieces.")
       .def(py::init<const Path&, const std::optional<Path>&, const BodyOptions::Length&,
                     const std::optional<BodyOptions::Length>&, const Folders&, double>(),
            py::arg("urdf"), py::arg("obstacles") = py::none(), py::kw_only(), py::arg("r") = 0.01,

@@ -116,7 +116,7 @@ void describe(Program& app, Arguments& arguments) {
            "Check each volume before it is written; one that fails is not written");
   app.flag("--json", arguments.json,
            "Report on standard output as JSON, one object a line for each input done");
-  app.option("-j,--jobs", arguments.jobs, "Inputs to do at once; any number gives the same")
+  app.option("-j,--jobs", arguments.jobs, "Inputs to do at once; the results do not depend on it")
       .whole(1, kMostJobs)
       .shown();
   app.flag("--force", arguments.force, "Replace files that exist");

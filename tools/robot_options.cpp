@@ -30,7 +30,9 @@ void describeFiles(Program& app, RobotArguments& a) {
   app.flag("--skip-invalid", files.skipInvalid,
            "Go on without the shapes that are wrong; exit status 3, not 0");
   app.flag("--no-cache", a.noCache, "Build and search everything anew, keep nothing in the cache folder");
-  app.option("-j,--jobs", a.jobs, "Threads; any number gives the same").whole(1, kMostJobs).shown();
+  app.option("-j,--jobs", a.jobs, "Threads; the result does not depend on their number")
+      .whole(1, kMostJobs)
+      .shown();
 }
 
 void describeBodies(Program& app, RobotArguments& a) {
@@ -172,7 +174,7 @@ void describeSearch(Program& app, SearchArguments& a) {
   app.option("--margin", search.margin, "A distance not above it counts as a collision")
       .number(-kLargest, kLargest)
       .shown();
-  app.option("--prove", search.proofSeconds, "Seconds to spend on proofs that pairs never meet")
+  app.option("--prove", search.proofSeconds, "Seconds to spend on proofs that pairs never collide")
       .number(0, kLargest)
       .shown();
   app.flag("--disable-default", a.disableDefault,

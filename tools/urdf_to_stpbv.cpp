@@ -50,7 +50,8 @@ void describe(Program& app, Arguments& a) {
       .type("FOLDER");
   app.option(
          "--mesh-prefix", a.conversion.meshPrefix,
-         "Before the meshes' names in the URDF, such as package://my_robot/; relative to the URDF without")
+         "Prefix of the mesh names in the URDF, such as package://my_robot/; without it they are relative to "
+         "the URDF")
       .type("PREFIX");
   app.flag("--force", a.conversion.force, "Do all again, and replace files of the folder that were changed");
   app.flag("-q,--quiet", a.quiet, "No progress bar, no warnings and no summary");

@@ -89,7 +89,7 @@ class Checker {
     for (int v = 0; v < vertexCount(); ++v) {
       // Adding zero makes -0 a 0, so that both have one hash.
       const bool isNew = index.emplace(vertex(v) + Vector3d::Zero(), v).second;
-      require(isNew, file_.vertices[static_cast<Size>(v)].line, "the vertex stands in the file twice");
+      require(isNew, file_.vertices[static_cast<Size>(v)].line, "the vertex is in the file twice");
     }
     for (const Face& face : file_.faces) {
       Triangle triangle{};

@@ -89,7 +89,7 @@ File parse(std::string_view text, const std::string& name) {
   file.name = name;
   file.r = in.number("the small radius r");
   file.R = in.number("the big radius R");
-  if (file.r < 0 || file.R <= file.r) in.fail("radii r and R that are no STP-BV's, expected 0 <= r < R");
+  if (file.r < 0 || file.R <= file.r) in.fail("invalid radii r and R, expected 0 <= r < R");
   file.vertices.resize(static_cast<std::size_t>(in.count("number of vertices", 1, kVertexBytes)));
   for (Vertex& vertex : file.vertices) vertex = readVertex(in);
   file.faces.resize(static_cast<std::size_t>(in.count("number of faces", 0, kFaceBytes)));

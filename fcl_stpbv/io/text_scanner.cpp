@@ -152,7 +152,7 @@ int TextScanner::count(std::string_view what, int least, std::size_t bytesEach) 
   const std::size_t fits = (text_.size() - at_ + 1) / bytesEach;
   if (static_cast<std::size_t>(value) > fits) {
     fail("says " + std::to_string(value) + " as " + std::string(what) +
-         ", but the rest of the file has room for " + std::to_string(fits) + " at most");
+         ", but the rest of the file can contain " + std::to_string(fits) + " at most");
   }
   return static_cast<int>(value);
 }

@@ -165,7 +165,7 @@ class PostureSearch {
     }
     if (!problem_.still().empty()) {  // whatever else holds
       best_.feasible = false;
-      best_.status = "in collision where nothing moves";
+      best_.status = "bodies that no joint can move apart collide";
       best_.violations = problem_.violations(x_, solver_.tolerance);
       best_.conflict.insert(best_.conflict.begin(), problem_.still().begin(), problem_.still().end());
     }

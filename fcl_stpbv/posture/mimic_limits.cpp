@@ -70,7 +70,7 @@ void keepMimicLimits(const Kinematics& kinematics, NamedLimits lower, NamedLimit
     if (low > high + kMeet) {
       std::string message = robot.path + ": joint " +
                             limitsOf(leader.name, lower.values[i], upper.values[i]) +
-                            ", but what mimics it leaves it no value: ";
+                            ", but the joints that mimic it leave no allowed value: ";
       if (!all.lowBy.empty()) message += "'" + all.lowBy + "' needs " + toDecimal(all.low) + " or more, ";
       if (!all.highBy.empty()) message += "'" + all.highBy + "' needs " + toDecimal(all.high) + " or less, ";
       throw Error(message + "by their own limits; change limits, multiplier or offset");

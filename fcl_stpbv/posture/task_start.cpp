@@ -34,7 +34,7 @@ void requireBasePose(const PostureTask& task, const PostureScene& scene) {
   if (scene.srdf->movesBase(state))
     throw Error(where + ": '" + task.state + "' places the base by the virtual joint '" +
                 scene.srdf->baseJoint +
-                "', and start.base leaves it at the origin; say in start.base where it stands, or name a "
+                "', and start.base leaves it at the origin; give the base's pose in start.base, or name a "
                 "state without that joint");
 }
 

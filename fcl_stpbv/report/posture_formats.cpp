@@ -64,8 +64,8 @@ std::string toText(const PostureReport& report) {
             run(*report.withoutCollisions) + "\n";
   if (!posture.feasible) {
     text += "violated in the best posture found (m, rad):\n" + bulleted(posture.violations);
-    text +=
-        "cannot hold together, with what each misses where all miss least:\n" + bulleted(posture.conflict);
+    text += "in conflict; each with its violation at the least-squares compromise:\n" +
+            bulleted(posture.conflict);
     for (const std::string& limit : posture.conflictLimits)
       text += "  at its limit: " + detail::printable(limit) + "\n";
   }

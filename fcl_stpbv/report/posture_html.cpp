@@ -11,16 +11,15 @@ namespace fcl_stpbv::report {
 
 using namespace detail;
 
-// A line for each constraint that the posture violates, and for each of those that cannot hold together.
+// A line for each constraint that the posture violates, and for each of those in conflict.
 static std::vector<std::string> violated(const Posture& posture) {
   std::vector<std::string> lines;
   if (posture.feasible) return lines;
   for (const Violation& v : posture.violations)
     lines.push_back(v.name + formatted(": violated by %.3g", v.amount));
   for (const Violation& v : posture.conflict)
-    lines.push_back(
-        v.name +
-        formatted(": cannot hold together with the others, misses %.3g where all miss least", v.amount));
+    lines.push_back(v.name +
+                    formatted(": in conflict, violated by %.3g at the least-squares compromise", v.amount));
   for (const std::string& limit : posture.conflictLimits) lines.push_back(limit + ": at its limit there");
   return lines;
 }

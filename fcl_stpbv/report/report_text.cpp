@@ -180,7 +180,7 @@ std::string splits(const CollisionReport& report) {
   if (text.empty()) return unsplit(report, false);
   const std::string cost = formatted(
       "rows of a controller: %d with whole bodies, %.1f us a tick;\n  %d with parts, %.1f us;\n"
-      "  %d where whole bodies hand over to parts at %g m, %d of them more than a constant there, %.1f us\n",
+      "  %d with hand-over to parts below %g m, %d of these rows not constant there, %.1f us\n",
       report.wholeCost.rows, report.wholeCost.usPerTick, report.partsCost.rows, report.partsCost.usPerTick,
       report.handOverCost.rows, kHandOver, report.handOverCost.live, report.handOverCost.usPerTick);
   return "Split into convex parts:\n" + text + unsplit(report, true) + cost;

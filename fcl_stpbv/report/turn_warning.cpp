@@ -55,7 +55,8 @@ std::string turnWarning(const std::string& name, const Trajectory& trajectory, c
       const std::string what = angles == 1 ? kinematics.names()[at(k)] : joint.name;
       return name + ": way point " + std::to_string(i) + " (from 0): '" + what + "' turns by " +
              toDecimal(angles == 1 ? to[0] - last[0] : turn) +
-             " rad, more than half a turn; this way is looked at, not the short one, which would end at " +
+             " rad, more than half a turn; this longer rotation is checked, not the short one, which would "
+             "end at " +
              joined(nearest) + " rad.";
     }
   }

@@ -45,9 +45,8 @@ void requireNear(const Eigen::AlignedBox3d& box, double far, bool several, const
   if (kStep * far > kSeen * (several ? box.sizes().maxCoeff() : kSmall))
     throw Error(
         path +
-        ": lies thousands of its sizes away from its origin, or from that of a node, where coordinates are "
-        "read in steps of over a thousandth of its size; move the mesh to its origin and give the way "
-        "in the robot's file");
+        ": is too far from its origin, or from a node's: single precision would round it to steps of "
+        "over 0.1 % of its size; move the mesh to its origin and give the offset in the robot's file");
 }
 
 Vector3d vectorOf(const aiVector3D& v) {

@@ -28,7 +28,7 @@ void requireNeeds(const std::vector<SceneNeed>& needs, const Kinematics& kinemat
     if (!need.pair.obstacle && need.pair.link1 == need.pair.link2)
       refuse("is of a link and itself; give two links");
     if (need.q.size() != kinematics.size() || !need.q.allFinite())
-      refuse("wants a configuration of " + std::to_string(kinematics.size()) + " finite numbers");
+      refuse("must have a configuration of " + std::to_string(kinematics.size()) + " finite numbers");
     if (!std::isfinite(need.clearance)) refuse("has a clearance that is not finite");
   }
 }

@@ -82,7 +82,7 @@ class SrdfReader {
   static bool namesPair(const XMLElement& e) { return e.Attribute("link1") || e.Attribute("link2"); }
 
   void warnOfOther(const XMLElement& e, bool pair) {
-    warn(e, "<" + std::string(e.Name()) + "> is no element of SRDF and counts for nothing" +
+    warn(e, "<" + std::string(e.Name()) + "> is no element of SRDF and is ignored" +
                 (pair ? "; is it a misspelt <disable_collisions>?" : ""));
   }
 
@@ -91,7 +91,7 @@ class SrdfReader {
     for (const XMLElement* e = around.FirstChildElement(); e; e = e->NextSiblingElement()) {
       if (holds(kRead, e->Name()))
         warn(*e, "<" + std::string(e->Name()) + "> within <" + around.Name() +
-                     "> counts for nothing; it belongs directly into <robot>");
+                     "> is ignored; it belongs directly into <robot>");
       else if (namesPair(*e))
         warnOfOther(*e, true);
       warnOfInner(*e);
@@ -119,7 +119,7 @@ class SrdfReader {
   bool known(const XMLElement& e, const char* attribute) {
     const std::string name = requiredAttribute(e, attribute, path_);
     if (links_.count(name)) return true;
-    warn(e, "<" + std::string(e.Name()) + "> counts for nothing, as the robot has no link '" + name + "'" +
+    warn(e, "<" + std::string(e.Name()) + "> is ignored, as the robot has no link '" + name + "'" +
                 proposals_.of(name, [&] { return namesOf(robot_.links); }));
     return false;
   }
@@ -151,11 +151,11 @@ class SrdfReader {
       throw Error(xmlPlace(e, path_) + "the virtual_joint '" + name + "' is of type '" + type +
                   "'; SRDF knows fixed, planar, floating");
     if (child && !ofRoot(child)) {
-      warn(e, "the virtual_joint '" + name + "' counts for nothing, as its child_link '" + child +
+      warn(e, "the virtual_joint '" + name + "' is ignored, as its child_link '" + child +
                   "' is not the root link '" + robot_.links.front().name + "' nor fixed to it");
     } else if (!srdf_.baseJoint.empty()) {
-      warn(e, "the virtual_joint '" + name + "' counts for nothing, as '" + srdf_.baseJoint +
-                  "' carries the root link");
+      warn(e,
+           "the virtual_joint '" + name + "' is ignored, as '" + srdf_.baseJoint + "' carries the root link");
     } else {
       srdf_.baseJoint = name;
       srdf_.baseType = type;
@@ -168,7 +168,7 @@ class SrdfReader {
     if (const char* group = e.Attribute("group")) state.group = group;
     for (const XMLElement* j = e.FirstChildElement(); j; j = j->NextSiblingElement()) {
       if (std::string_view(j->Name()) != "joint") {
-        warn(*j, "<" + std::string(j->Name()) + "> counts for nothing in a <group_state>, expected <joint>");
+        warn(*j, "<" + std::string(j->Name()) + "> is ignored in a <group_state>, expected <joint>");
         continue;
       }
       const std::string value = requiredAttribute(*j, "value", path_);

@@ -224,8 +224,7 @@ class StlLines {
     else if (stray_ == 0)
       stray_ = lines_.line();
     if (keyword == "facet" || keyword == "vertex")
-      lines_.damaged(stray_,
-                     "a line in no solid and none that begins one, so that nothing is read from here on");
+      lines_.damaged(stray_, "a line outside of any solid; assimp ignores the file from here on");
   }
 
   void within(const std::string& keyword, const MeshWords& words) {

@@ -48,11 +48,11 @@ TEST_CASE("damaged qhull files are refused with the line") {
     CHECK(message.find(expected) != std::string::npos);
   };
   check("2\n4\n0 0\n1 0\n0 1\n1 1\n", "file:1:", "expected 3");
-  check("3\n1000000000\n0 0 0\n", "file:2:", "room for");
+  check("3\n1000000000\n0 0 0\n", "file:2:", "can contain");
   check("3\n0\n", "file:2:", "from 1");
   check("3\n1\n0 nan 0\n", "file:3:", "finite");
   check("3\n1\n0 +-1 0\n", "file:3:", "finite");
-  check("3\n2 1000000000 1\n0 0 0\n1 1 1\n", "file:2:", "room for");
+  check("3\n2 1000000000 1\n0 0 0\n1 1 1\n", "file:2:", "can contain");
   check("3\n3 1 3\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n", "file:6:", "from 0 to 2");
   check("3\n1\n0 0 0\n1 1 1\n", "file:4:", "end of the file");
   check("0.2 300\n8\n", "file:1:", "dimension");

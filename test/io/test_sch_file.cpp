@@ -227,7 +227,7 @@ TEST_CASE("damaged fields of sch-core's format are refused with their line") {
     CHECK(message.find(expected) != std::string::npos);
   };
   check(0, "-1", "file:1:", "0 <= r < R");
-  check(2, "1000000000", "file:2:", "room for");
+  check(2, "1000000000", "file:2:", "can contain");
   check(3, "0.02", "file:3:", "radius");
   check(7, "4", "file:", "");
   check(8, "7", "file:3:", "no torus");

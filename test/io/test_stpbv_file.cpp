@@ -131,13 +131,13 @@ TEST_CASE("a damaged field is refused with its line and what was expected") {
   check(replaced(text, "r 0.01", "r 0,01"), "file:2:", "finite");
   check(replaced(text, "r 0.01", "r -0.01"), "file:", "r = -0.01");
   check(replaced(text, "R 10", "R 0.02"), "file:", "smallest usable R");
-  check(replaced(text, "vertices 8", "vertices 1000000000"), "file:4:", "room for");
+  check(replaced(text, "vertices 8", "vertices 1000000000"), "file:4:", "can contain");
   check(replaced(text, "vertices 8", "vertices 99999999999999999999"), "file:4:", "whole number");
   check(replaced(text, "vertices 8", "vertices -8"), "file:4:", "whole number");
   check(replaced(text, "vertices 8", "vertices 9"), "file:13:", "vertex coordinate");
-  check(replaced(text, "faces 6", "faces 1000000000"), "file:13:", "room for");
+  check(replaced(text, "faces 6", "faces 1000000000"), "file:13:", "can contain");
   check(replaced(text, "faces 6", "faces 5"), "file:19:", "expected the word 'end'");
-  check(replaced(text, "\n4 ", "\n1000000000 "), "file:14:", "room for");
+  check(replaced(text, "\n4 ", "\n1000000000 "), "file:14:", "can contain");
   check(replaced(text, "\n4 ", "\n2 "), "file:14:", "from 3");
   check(text + "more", "file:21:", "end of the file");
 }

@@ -76,7 +76,8 @@ TEST_CASE("a continuous joint takes the turn that what mimics it allows") {
 TEST_CASE("limits that leave a joint no value are told with their joints") {
   const std::string none = refusal(followed("revolute", {limits(3, 4) + mimics("j", 1, 0)}));
   CHECK(none.find("r.urdf: joint 'j' keeps within -2 and 2") == 0);
-  CHECK(none.find("'m0' needs 3 or more") != std::string::npos);
+  CHECK(none.find("the joints that mimic it leave no allowed value: 'm0' needs 3 or more, ") !=
+        std::string::npos);
   const std::string against =
       refusal(followed("continuous", {limits(1, 2) + mimics("j", 1, 0), limits(-2, -1) + mimics("j", 1, 0)}));
   CHECK(against.find("'m0' needs 1 or more, 'm1' needs -1 or less") != std::string::npos);

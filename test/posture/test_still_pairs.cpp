@@ -44,7 +44,7 @@ TEST_CASE("a link that nothing moves is checked against obstacles") {
     CHECK(posture.conflict.front().name == "base - post");
     CHECK(posture.conflict.front().amount == Approx(0.08));
     CHECK(posture.violations.size() == 1);
-    CHECK(posture.status == "in collision where nothing moves");
+    CHECK(posture.status == "bodies that no joint can move apart collide");
     CHECK(posture.q[0] == Approx(1));  // what can be done is
   }
   CHECK(stays(inside, 1, R"({"ignore": [{"links": ["base"]}]})").feasible);

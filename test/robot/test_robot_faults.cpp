@@ -367,7 +367,7 @@ TEST_CASE("each value of a joint in a group_state must be a number to its end") 
              Contains("s.srdf:2") && Contains("'s'") && Contains("names the joint 'j' twice"));
 }
 
-TEST_CASE("entries of an SRDF for links that the robot does not have are warnings, and count for nothing") {
+TEST_CASE("entries of an SRDF for links that the robot does not have are ignored with a warning") {
   const TemporaryFolder folder;
   const RobotModel model =
       parseUrdf(robot(link("a") + link("b") + joint("j", "revolute", "a", "b")), "small.urdf");
@@ -378,9 +378,9 @@ TEST_CASE("entries of an SRDF for links that the robot does not have are warning
   CHECK(srdf.disabled.empty());
   REQUIRE(srdf.warnings.size() == 3);
   CHECK_THAT(srdf.warnings[0], Contains("s.srdf:1") && Contains("'large'") && Contains("'small'"));
-  CHECK_THAT(srdf.warnings[1], Contains("s.srdf:2") && Contains("'z'"));
+  CHECK_THAT(srdf.warnings[1], Contains("s.srdf:2") && Contains("is ignored") && Contains("'z'"));
   CHECK_THAT(srdf.warnings[2], Contains("s.srdf:3") && Contains("<disable_collision>") &&
-                                   Contains("misspelt <disable_collisions>"));
+                                   Contains("is ignored") && Contains("misspelt <disable_collisions>"));
 }
 
 TEST_CASE("visual shapes that are wrong matter only where they are used") {

@@ -375,7 +375,7 @@ TEST_CASE("an SRDF gives pairs, states and the way the base moves") {
                     Contains("'floatin'; SRDF knows fixed, planar, floating"));
 }
 
-TEST_CASE("the virtual joint of the root link moves the base, others are told to count for nothing") {
+TEST_CASE("the virtual joint of the root link moves the base, others are ignored with a warning") {
   TemporaryFolder folder;
   const RobotModel model = parse(link("root") + link("a") + link("b") + joint("f", "fixed", "root", "a") +
                                  joint("j", "revolute", "a", "b"));

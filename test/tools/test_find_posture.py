@@ -265,9 +265,9 @@ class FindPosture(unittest.TestCase):
         self.assertIn("left hand x", [v["constraint"] for v in answer["conflict"]])
         text = self.run_task(task, "--starts", "2").stdout
         self.assertTrue(text.startswith("not feasible"))
-        self.assertIn("cannot hold together", text)
+        self.assertIn("in conflict; each with its violation at the least-squares compromise:", text)
         violated = page_data(self.run_task(task, "--starts", "2", "--format", "html").stdout)["violated"]
-        for kind, said in (("violations", "violated by"), ("conflict", "cannot hold together")):
+        for kind, said in (("violations", ": violated by"), ("conflict", ": in conflict, violated by")):
             self.assertTrue(answer[kind])
             for missed in answer[kind]:
                 self.assertIn((missed["constraint"], True), [(line.split(":")[0], said in line) for line in violated])

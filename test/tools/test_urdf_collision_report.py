@@ -733,7 +733,7 @@ class Report(unittest.TestCase):
         text = self.run_tool(*robot, "--parts", "auto").stdout
         self.assertIn("gate in 2 parts", text)
         self.assertRegex(text, r"\nrows of a controller: 3 with whole bodies, \d+\.\d us a tick;\n  4 with parts, \d+\.\d us;\n"
-                               r"  5 where whole bodies hand over to parts at 0\.1 m, \d of them more than a constant there, \d+\.\d us\n")
+                               r"  5 with hand-over to parts below 0\.1 m, \d of these rows not constant there, \d+\.\d us\n")
         # Everything in parts says the same of this pair, at more rows.
         every = json.loads(self.run_tool(*robot, "--parts", "2", "--format", "json").stdout)
         same = next(p for p in every["pairs"] if {p["link1"], p["link2"]} == {"gate", "box"})
