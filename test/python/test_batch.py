@@ -59,6 +59,46 @@ def test_what_loading_warns_of_is_told_once_by_whoever_begins(tmp_path):
         assert (done.returncode, done.stderr) == (0, expected)
 
 
+def test_radii_that_fit_each_link_are_those_of_the_python_searches(tmp_path):
+    robot = tmp_path / "bodies.urdf"
+    link = f"<link name='{{}}'><collision><geometry><mesh filename='{HRP2}/meshes/{{}}'/></geometry></collision></link>"
+    joint = ("<joint name='to_{1}' type='prismatic'><parent link='{0}'/><child link='{1}'/><origin xyz='1 0 0'/><axis xyz='0 0 1'/>"
+             "<limit lower='-1' upper='1' effort='1' velocity='1'/></joint>")
+    robot.write_text("<robot name='bodies'>" + link.format("a", "LARM_LINK6.stl") + link.format("b", "BODY.dae") + link.format("c", "LARM_LINK6.stl")
+                     + joint.format("a", "b") + joint.format("b", "c") + "</robot>")
+    sample = ["sample", robot, "--blocks", 2, "--count", 5, "--jobs", 1]
+
+    def least(name, *more):
+        batch(*sample, "-o", tmp_path / name, *more)
+        header, *blocks = map(json.loads, (tmp_path / name).read_text().splitlines())
+        return (header["r"], header["R"]), [block["least"] for block in blocks]
+
+    def expected(**radii):
+        search = fcl_stpbv.PairSearch(robot, **radii)
+        assert search.pairs == [("a", "c")]
+        return [[pair[1] for pair in search.sample(1, block, 5)] for block in range(2)]
+
+    all_radii = [expected(r="auto"), expected(r="auto", R=10.0), expected(R="auto"), expected()]
+    assert len({str(distances) for distances in all_radii}) == 4
+    assert least("r", "-r", "auto") == (("auto", "auto"), all_radii[0])
+    least("both", "-r", "auto", "-R", "auto")
+    assert (tmp_path / "r").read_bytes() == (tmp_path / "both").read_bytes()
+    assert least("far", "-r", "auto", "-R", 10) == (("auto", 10.0), all_radii[1])
+    assert least("near", "-R", "auto") == ((0.01, "auto"), all_radii[2])
+    assert least("usual") == ((0.01, 10.0), all_radii[3])
+    assert "a different R" in batch(*sample, "-r", "auto", "-R", 10, "-o", tmp_path / "r", status=2)
+    batch("prove", robot, "-r", "auto", "--jobs", 1, "-o", tmp_path / "proofs", "--write-srdf", tmp_path / "proven.srdf")
+    assert "(r = auto, R = auto)" in (tmp_path / "proven.srdf").read_text()
+    batch("postures", ARM, TOOLS / "reach.json", "-r", "auto", "--starts", 1, "--jobs", 1, "-o", tmp_path / "postures")
+    job = json.loads((tmp_path / "postures").read_text().splitlines()[1])
+    alone = fcl_stpbv.PostureSearch(ARM, r="auto").solve((TOOLS / "reach.json").read_text(), start=0, seed=1)
+    assert (job["q"], job["cost"]) == (alone["q"], alone["cost"])
+    for mistake, what in ((["-r", "Auto"], "got Auto, expected a number from 0 to 1000000.0 m or 'auto'"), (["-R", "-1"], "or 'auto'")):
+        assert what in batch(*sample, *mistake, "-o", tmp_path / "none", status=2)
+    convert = ["convert", HRP2 / "meshes/BODY.dae", "--volumes", tmp_path, "-o", tmp_path / "none"]
+    assert "got auto, expected a number" in batch(*convert, "-r", "auto", status=2)
+
+
 def bits(proof):
     return [[limits.tolist() for limits in box] for box in proof.open], None if proof.collision is None else proof.collision.tolist(), proof.boxes
 

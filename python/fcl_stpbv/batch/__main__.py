@@ -15,16 +15,18 @@ FOOTER = """Exit status: 0 all jobs are done; 1 some failed or are missing, the 
 wrong, or Dask is missing or cannot start its processes; 130 interrupted. A run that ended early goes on where it was when it is started again."""
 
 
-def number(kind, least, most, unit=""):
-    """Returns a parser for argparse that accepts finite numbers from `least` to `most`, both included."""
+def number(kind, least, most, unit="", word=None):
+    """Returns a parser for argparse that accepts finite numbers from `least` to `most`, both included, and the word if there is one."""
     def read(text):
+        if word and text == word:
+            return word
         try:
             value = kind(text)
         except ValueError:
             value = math.nan
         if not least <= value <= most:
             what = "a whole number" if kind is int else "a number"
-            raise argparse.ArgumentTypeError(f"got {text}, expected {what} from {least} to {most}{unit}")
+            raise argparse.ArgumentTypeError(f"got {text}, expected {what} from {least} to {most}{unit}" + (f" or '{word}'" if word else ""))
         return value
     return read
 
@@ -43,6 +45,7 @@ def share(text):
     return int(found[1]), int(found[2])
 
 
+FITTED = number(float, 0, 1e6, " m", "auto")
 LENGTH, MARGIN, SCALE = number(float, 0, 1e6, " m"), number(float, -1e6, 1e6, " m"), number(float, 1e-9, 1e9)
 COUNT, WHOLE = number(int, 1, 2**31 - 1), number(int, 0, 2**31 - 1)  # what an int holds in C++
 
@@ -55,12 +58,12 @@ def described():
     common.add_argument("--shard", type=share, metavar="I/N", help="do only part I of N, in this process")
     common.add_argument("--merge", type=given, nargs="+", metavar="FILE", default=[],
                         help="begin with the results in these files; without --shard nothing is computed")
-    common.add_argument("-r", type=LENGTH, default=0.01, help="radius of the small spheres, the margin (m) [0.01]")
-    common.add_argument("-R", type=LENGTH, default=10.0, help="radius of the big spheres (m) [10]")
     common.add_argument("-q", "--quiet", action="store_true", help="no progress, no warnings and no summary")
     robot = argparse.ArgumentParser(add_help=False)
     robot.add_argument("robot", type=given, metavar="ROBOT", help="its URDF")
     robot.add_argument("--package-path", type=given, action="append", default=[], metavar="FOLDER", help="holds packages; may be given again")
+    robot.add_argument("-r", type=FITTED, default=0.01, help="radius of the small spheres, the margin (m); 'auto' fits each link [0.01]")
+    robot.add_argument("-R", type=FITTED, help="radius of the big spheres (m); 'auto' fits each link [10, or auto where r is]")
     robot.add_argument("--seed", type=WHOLE, default=1, help="of the random numbers [1]")
     pairs = argparse.ArgumentParser(add_help=False)
     pairs.add_argument("--obstacles", type=given, metavar="FILE", help="URDF of a scene: each moving link and obstacle is a pair too")
@@ -88,6 +91,8 @@ def described():
     convert = kinds.add_parser("convert", parents=[common], help="meshes to volumes")
     convert.add_argument("meshes", type=given, nargs="+", metavar="MESH")
     convert.add_argument("--volumes", type=given, required=True, metavar="FOLDER", help="where MESH.stpbv goes, replacing nothing; made if missing")
+    convert.add_argument("-r", type=LENGTH, default=0.01, help="radius of the small spheres, the margin (m) [0.01]")
+    convert.add_argument("-R", type=LENGTH, default=10.0, help="radius of the big spheres (m) [10]")
     convert.add_argument("--scale", type=SCALE, default=1.0, help="factor on the coordinates, 0.001 for millimetres [1]")
     return parser
 
@@ -133,6 +138,8 @@ def loaded(kind, arguments):
 
 
 def run(arguments):
+    if arguments.R is None:
+        arguments.R = "auto" if arguments.r == "auto" else 10.0
     if arguments.shard and arguments.scheduler:
         raise fcl_stpbv.Error("--shard: is done in this process; leave out --scheduler")
     grid = arguments.kind == "postures" and arguments.grid

@@ -26,6 +26,11 @@ def search_in(folder, options):
                                 margin=options["margin"])
 
 
+def length(value):
+    """A length (m) as a text, or the word for lengths that fit each link."""
+    return value if isinstance(value, str) else f"{value:g} m"
+
+
 def counted(verdicts):
     return ", ".join(f"{verdicts.count(verdict)} {verdict}" for verdict in sorted(set(verdicts)))
 
@@ -111,7 +116,7 @@ class Prove:
         """Writes an SRDF in which every Never is proven, with a comment that says so."""
         verdicts, links, header = self.verdicts(done), self.context.link_pairs, self.options
         proven = [pair for pair, verdict in enumerate(verdicts) if verdict == "proven"]
-        comments = [f"Each Never is proven: for all joint values within their limits the links' volumes (r = {header['r']:g} m, R = {header['R']:g} m) "
+        comments = [f"Each Never is proven: for all joint values within their limits the links' volumes (r = {length(header['r'])}, R = {length(header['R'])}) "
                     f"are more than {header['margin']:g} m apart. fcl_stpbv {fcl_stpbv.__version__}, for files with the SHA-256 {bundle.digest_of(self.files)}",
                     f"Of the pairs that are neither adjacent nor rigidly joined: {counted(verdicts[:links])}; all but the proven ones are left to be checked"]
         if links < len(verdicts):
