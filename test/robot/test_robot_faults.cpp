@@ -315,7 +315,7 @@ TEST_CASE("a joint that needs limits and has none is told so by its name") {
   CHECK(told("continuous").empty());
 }
 
-TEST_CASE("what an SRDF holds within another element counts for nothing, and is a warning") {
+TEST_CASE("what an SRDF holds within another element is ignored, with a warning") {
   const TemporaryFolder folder;
   const RobotModel model =
       parseUrdf(robot(link("a") + link("b") + joint("j", "revolute", "a", "b")), "small.urdf");
@@ -331,8 +331,8 @@ TEST_CASE("what an SRDF holds within another element counts for nothing, and is 
       const Srdf srdf = read("<" + around + ">\n<" + inner + pair + "/></" + name + ">");
       CAPTURE(inner, around);
       REQUIRE(srdf.warnings.size() == 1);
-      CHECK_THAT(srdf.warnings[0], Contains("s.srdf:3") &&
-                                       Contains("<" + inner + "> within <" + name + "> counts for nothing"));
+      CHECK_THAT(srdf.warnings[0],
+                 Contains("s.srdf:3") && Contains("<" + inner + "> within <" + name + "> is ignored"));
       CHECK(srdf.disabled.size() == (name == "disable_collisions"));
       CHECK(srdf.enabled.size() == (name == "enable_collisions"));
     }
