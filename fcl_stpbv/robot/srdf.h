@@ -17,7 +17,7 @@ struct Srdf {
   struct Pair {
     std::string link1;   ///< by name
     std::string link2;   ///< by name
-    std::string reason;  ///< "" without one
+    std::string reason;  ///< in MoveIt's spelling if it is one of its words; "User" without one
   };
   /// A named posture of a group of joints.
   struct State {
