@@ -13,7 +13,7 @@
 #include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/report/tick_time.h"
 #include "fcl_stpbv/robot/detail_choice.h"
-#include "fcl_stpbv/robot/pair_samples.h"
+#include "fcl_stpbv/robot/search_room.h"
 #include "tools/bench/measurement.h"
 #include "tools/program.h"
 
@@ -38,11 +38,12 @@ struct Scene {
   std::vector<Eigen::VectorXd> configurations;
 };
 
-std::vector<Eigen::VectorXd> randomConfigurations(const Kinematics& kinematics, int count,
-                                                  std::uint64_t seed) {
+std::vector<Eigen::VectorXd> randomConfigurations(const Kinematics& kinematics, const RobotGeometry& bodies,
+                                                  int count, std::uint64_t seed) {
   std::mt19937_64 random(seed);
+  const SearchRoom room = searchRoom(kinematics, bodies, {});
   std::vector<Eigen::VectorXd> all;
-  for (int i = 0; i < count; ++i) all.push_back(randomConfiguration(kinematics, random));
+  for (int i = 0; i < count; ++i) all.push_back(randomConfiguration(kinematics, room, random));
   return all;
 }
 
@@ -55,7 +56,7 @@ Scene makeScene(const Arguments& arguments, const std::shared_ptr<const RobotMod
   for (const CheckedPair& pair : selfPairs(*robot, bodies, srdf ? &*srdf : nullptr))
     links.insert({bodies.bodies[at(pair.body)].link, bodies.bodies[at(pair.other)].link});
   scene.pairs.assign(links.begin(), links.end());
-  scene.configurations = randomConfigurations(*scene.kinematics, arguments.samples, 1);
+  scene.configurations = randomConfigurations(*scene.kinematics, bodies, arguments.samples, 1);
   scene.configurations.insert(scene.configurations.begin(), scene.kinematics->neutral());
   return scene;
 }
@@ -172,7 +173,8 @@ benchmark::Measurement measure(const Arguments& arguments) {
   const Scene scene = makeScene(arguments, robot, *levels.back());
   const SceneModelOptions sceneOptions{options.cacheFolder, options.threads, nullptr};
   LinkParts parts(levels.back(), options.cacheFolder);
-  const std::vector<Eigen::VectorXd> others = randomConfigurations(*scene.kinematics, arguments.samples, 2);
+  const std::vector<Eigen::VectorXd> others =
+      randomConfigurations(*scene.kinematics, *levels.back(), arguments.samples, 2);
 
   benchmark::Measurement result;
   result.name = arguments.name;
