@@ -119,10 +119,7 @@ StpBvOptions radiiFor(const Points& points, const ConversionOptions& options) {
   radii.r = options.r.value_or(radii.r);
   radii.R = options.R.value_or(radii.R);
   if (!options.fitr && !options.fitR) return radii;
-  const BodySize size = sizeOf(points);
-  if (options.fitr) radii.r = fittedRadii(size).r;
-  if (options.fitR) radii.R = fittedR(size.ball, radii.r);
-  return radii;
+  return withFitted(radii, options.fitr, options.fitR, sizeOf(points));
 }
 
 Report convert(const std::string& input, const ConversionOptions& options) {

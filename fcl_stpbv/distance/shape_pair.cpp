@@ -214,9 +214,8 @@ bool overlapForSure(const Gjk& found, double rounding) {
   for (std::size_t i = 0; i < 4; ++i) {
     const Vector3d normal = (corner(i + 1) - corner(i)).cross(corner(i + 2) - corner(i));
     const double plane = normal.dot(corner(i)), opposite = normal.dot(corner(i + 3));
-    if (!(plane > 0.0 ? plane > error && opposite < plane - error
-                      : plane < -error && opposite > plane + error))
-      return false;
+    const double side = std::copysign(1.0, plane);  // of the origin, seen from the face
+    if (!(side * plane > error && side * opposite < side * plane - error)) return false;
   }
   return true;
 }

@@ -72,6 +72,9 @@ struct Followed {
   }
   FirstStop next(const Trajectory& trajectory) {
     MotionCheck check(kinematics, geometry, pairs, obstacles);
+    return next(check, trajectory);
+  }
+  FirstStop next(MotionCheck& check, const Trajectory& trajectory) {
     const FirstStop stop = firstStop(check, margin, trajectory, segment);
     segment = stop.segment;
     return stop;
@@ -80,8 +83,8 @@ struct Followed {
 
 // A pair whose distance is the margin to rounding must not hide a contact of another one: it is set aside,
 // and the search goes on with the others from where it was. @return whether all that are left are free.
-bool findContact(Followed& left, TrajectoryReport& report) {
-  FirstStop stop = left.next(report.trajectory);
+bool findContact(MotionCheck& all, Followed& left, TrajectoryReport& report) {
+  FirstStop stop = left.next(all, report.trajectory);
   while (stop.verdict == MotionVerdict::undecided && !stop.tooLong) {
     const std::ptrdiff_t pair = stop.at.pair;
     stop.at.pair = left.number[static_cast<std::size_t>(pair)];
@@ -196,8 +199,8 @@ TrajectoryReport follow(Trajectory trajectory, std::shared_ptr<const Kinematics>
   report.free.assign(pairs.size(), false);
   Followed left{kinematics, geometry, obstacles, margin, pairs, std::vector<int>(pairs.size())};
   std::iota(left.number.begin(), left.number.end(), 0);
-  const bool allLeft = findContact(left, report);
   MotionCheck check(kinematics, geometry, pairs, obstacles);
+  const bool allLeft = findContact(check, left, report);
   findClosest(check, report);
   if (allLeft)
     left.markFree(report);

@@ -34,4 +34,9 @@ double fittedR(double ball, double r) {
   return bulge > 0 ? r + (ball * ball + bulge * bulge) / (2 * bulge) : StpBvOptions().R;
 }
 
+StpBvOptions withFitted(const StpBvOptions& given, bool fitr, bool fitR, const BodySize& size) {
+  const double r = fitr ? fittedRadii(size).r : given.r;
+  return {r, fitR ? fittedR(size.ball, r) : given.R};
+}
+
 }  // namespace fcl_stpbv::detail

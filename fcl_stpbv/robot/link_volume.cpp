@@ -174,9 +174,7 @@ StpBvOptions radiiFor(const GeometryOptions& options, const std::string& link,
   const auto own = options.links.find(link);
   if (own != options.links.end()) return own->second;
   if (!options.fitr && !options.fitR) return options.radii;
-  const BodySize known = size();
-  const double r = options.fitr ? fittedRadii(known).r : options.radii.r;
-  return {r, options.fitR ? fittedR(known.ball, r) : options.radii.R};
+  return withFitted(options.radii, options.fitr, options.fitR, size());
 }
 
 void makeVolume(const GeometryOptions& options, const std::string& link, const ShapeSource& source,

@@ -2,17 +2,13 @@
 #pragma once
 
 #include <algorithm>
-#include <cctype>
 #include <numeric>
 #include <string>
 #include <vector>
 
-namespace fcl_stpbv::detail {
+#include "fcl_stpbv/robot/mesh_lines.h"
 
-inline std::string lowerCase(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return text;
-}
+namespace fcl_stpbv::detail {
 
 /// Letters to add, leave out or replace until `a` is `b`.
 inline std::size_t lettersApart(const std::string& a, const std::string& b) {
@@ -35,13 +31,13 @@ inline std::size_t lettersApart(const std::string& a, const std::string& b) {
 inline std::string nearName(const std::string& name, const std::vector<std::string>& known) {
   constexpr std::size_t kLongest = 100;  // longer names are no slips of the hand
   constexpr std::size_t kLeast = 3;      // letters that a longer name holds not by chance
-  const std::string wanted = lowerCase(name);
+  const std::string wanted = inSmallLetters(name);
   const std::size_t most = wanted.size() < 2 ? 0 : std::max<std::size_t>(1, wanted.size() / 3);
   std::string best;
   std::size_t least = 0;
   for (const std::string& each : known) {
     if (name.empty() || each.empty() || std::max(name.size(), each.size()) > kLongest) continue;
-    const std::string other = lowerCase(each);
+    const std::string other = inSmallLetters(each);
     const std::size_t apart = lettersApart(wanted, other);
     const bool near = apart <= most || (wanted.size() > 1 && other.find(wanted) != std::string::npos) ||
                       (other.size() >= kLeast && wanted.find(other) != std::string::npos);

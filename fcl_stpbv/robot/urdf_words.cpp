@@ -2,13 +2,12 @@
 #include "fcl_stpbv/robot/urdf_words.h"
 
 #include <algorithm>
-#include <cctype>
 #include <iterator>
-#include <numeric>
 #include <set>
 #include <string_view>
 #include <vector>
 
+#include "fcl_stpbv/robot/near_name.h"
 #include "fcl_stpbv/robot/xml_text.h"
 #include "fcl_stpbv/words.h"
 
@@ -169,27 +168,12 @@ const char* homeOf(const XMLElement& element, const XMLElement& holder, const XM
   return ofJoint && element.FirstAttribute() ? "a <joint>" : nullptr;
 }
 
-// Letters to put in, to leave out or to change until one word is the other, capitals or not.
-std::size_t editsBetween(std::string_view a, std::string_view b) {
-  const auto lower = [](char c) { return std::tolower(static_cast<unsigned char>(c)); };
-  std::vector<std::size_t> edits(b.size() + 1);  // from what of `a` was looked at to each beginning of `b`
-  std::iota(edits.begin(), edits.end(), std::size_t{0});
-  for (const char c : a) {
-    std::size_t before = edits[0]++;
-    for (std::size_t j = 0; j < b.size(); ++j) {
-      const std::size_t changed = before + (lower(c) != lower(b[j]));
-      before = edits[j + 1];
-      edits[j + 1] = std::min({changed, before + 1, edits[j] + 1});
-    }
-  }
-  return edits.back();
-}
-
 // The word that a name in a link misspells by up to one letter in four, "" if none: such an element would
 // lose a body, even if its content does not show that, because it is empty or has more misspelt words.
 std::string_view misspeltShape(std::string_view name) {
-  for (const std::string_view word : {"collision", "visual"})
-    if (name != word && editsBetween(name, word) <= word.size() / 4) return word;
+  const std::string small = inSmallLetters(name);
+  for (const char* word : {"collision", "visual"})
+    if (name != word && lettersApart(small, word) <= std::string_view(word).size() / 4) return word;
   return "";
 }
 

@@ -14,6 +14,7 @@
 #include "test/reference/robots.h"
 #include "test/reference/shapes.h"
 #include "test/reference/volume_files.h"
+#include "test/robot/arm.h"
 #include "test/robot/urdf_texts.h"
 
 using namespace fcl_stpbv;
@@ -21,16 +22,6 @@ using namespace fcl_stpbv::detail;
 using namespace fcl_stpbv::test;
 
 namespace {
-
-struct Arm {
-  std::shared_ptr<const Kinematics> kinematics;
-  std::shared_ptr<const RobotGeometry> geometry;
-};
-
-Arm armFrom(std::shared_ptr<const RobotModel> model, RobotGeometry geometry) {
-  return {std::make_shared<const Kinematics>(std::move(model)),
-          std::make_shared<const RobotGeometry>(std::move(geometry))};
-}
 
 // Three bars of 0.2 m in a row on z axes 0.25 m apart; each joint turns by 1 rad either way, so that the
 // third one comes near the first but cannot touch it.

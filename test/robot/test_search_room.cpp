@@ -11,6 +11,7 @@
 #include "fcl_stpbv/robot/pair_search.h"
 #include "fcl_stpbv/robot/search_room.h"
 #include "test/reference/shapes.h"
+#include "test/robot/arm.h"
 #include "test/robot/urdf_texts.h"
 
 using namespace fcl_stpbv;
@@ -19,18 +20,12 @@ using namespace fcl_stpbv::test;
 
 namespace {
 
-struct Loaded {
-  std::shared_ptr<const Kinematics> kinematics;
-  std::shared_ptr<const RobotGeometry> geometry;
-};
-
-Loaded loaded(const std::string& body, const StpBvOptions& radii, BaseMotion base = BaseMotion::fixed) {
+Arm loaded(const std::string& body, const StpBvOptions& radii, BaseMotion base = BaseMotion::fixed) {
   const auto model = std::make_shared<const RobotModel>(parseUrdf(robot(body), "small.urdf"));
   GeometryOptions options;
   options.cacheFolder.clear();
   options.radii = radii;
-  return {std::make_shared<const Kinematics>(model, base),
-          std::make_shared<const RobotGeometry>(loadGeometry(*model, options))};
+  return armFrom(model, loadGeometry(*model, options), base);
 }
 
 const StpBvOptions kRounding{0.01, 1000};
@@ -51,7 +46,7 @@ std::string cart(const std::string& post, const std::string& lower, const std::s
          joint("lift", "revolute", "cart", "arm", "<origin xyz=\"0.2 0 0.2\"/><axis xyz=\"0 1 0\"/>");
 }
 
-PairReason searched(const Loaded& arm, const std::vector<Obstacle>& obstacles = {}) {
+PairReason searched(const Arm& arm, const std::vector<Obstacle>& obstacles = {}) {
   PairListOptions options;
   options.obstacles = obstacles;
   const std::vector<PairEntry> list = pairList(arm.kinematics, arm.geometry, nullptr, options);
@@ -78,7 +73,7 @@ TEST_CASE("joints with limits that stand for none are searched where bodies can 
         std::pair("-1e16", "0"), std::pair("-1e16", "2"), std::pair("-3", "1e16")}) {
     CAPTURE(lower, upper);
     CHECK(searched(loaded(cart(post, lower, upper), kRounding)) == PairReason::sometimes);
-    const Loaded alone = loaded(cart("", lower, upper), kRounding);
+    const Arm alone = loaded(cart("", lower, upper), kRounding);
     CHECK(searched(alone, {pillarAt(0)}) == PairReason::sometimes);
     const bool reached = std::string(lower) != "-3";
     CHECK((searched(alone, {pillarAt(-2000)}) == PairReason::sometimes) == reached);
@@ -88,7 +83,7 @@ TEST_CASE("joints with limits that stand for none are searched where bodies can 
 TEST_CASE("a joint without an end does not make the room of the others larger") {
   const std::string text = link("base") + link("arm", "<box size=\"0.2 0.2 0.2\"/>") +
                            rail("lift", "base", "arm", "0 0 1", "-1e16", "1e16");
-  const Loaded floating = loaded(text, kRounding, BaseMotion::floating);
+  const Arm floating = loaded(text, kRounding, BaseMotion::floating);
   const SearchRoom room = searchRoom(*floating.kinematics, *floating.geometry, {pillarAt(3)});
   CHECK((room.upper.array() < 8).all());
   CHECK((room.lower.array() > -8).all());
@@ -97,7 +92,7 @@ TEST_CASE("a joint without an end does not make the room of the others larger") 
 
 TEST_CASE("rails of the usual lengths are searched from end to end") {
   for (const char* length : {"1", "20", "100"}) {
-    const Loaded arm = loaded(cart("<sphere radius=\"0.1\"/>", "-0.5", length), kRounding);
+    const Arm arm = loaded(cart("<sphere radius=\"0.1\"/>", "-0.5", length), kRounding);
     const SearchRoom room = searchRoom(*arm.kinematics, *arm.geometry, {});
     CHECK(room.lower == arm.kinematics->lower());
     CHECK(room.upper == arm.kinematics->upper());
@@ -105,7 +100,7 @@ TEST_CASE("rails of the usual lengths are searched from end to end") {
     CHECK((room.scale == 1 && room.narrowed.empty()));
   }
   // All of a long one is searched, too, if seldom, and never beyond its limits.
-  const Loaded arm = loaded(cart("<sphere radius=\"0.1\"/>", "-2", "1e16"), kRounding);
+  const Arm arm = loaded(cart("<sphere radius=\"0.1\"/>", "-2", "1e16"), kRounding);
   const SearchRoom room = searchRoom(*arm.kinematics, *arm.geometry, {});
   std::mt19937_64 random(1);
   double farthest = 0;
@@ -123,7 +118,7 @@ TEST_CASE("a screw is searched as far as its nut goes, whatever else it turns") 
   };
   for (const char* limits : {"lower=\"0\" upper=\"0.6\"", "lower=\"-1e16\" upper=\"1e16\""}) {
     CAPTURE(limits);
-    const Loaded arm =
+    const Arm arm =
         loaded("<link name=\"base\">" + ball("-0.2 -1.0 -0.8") + "</link>" + link("motor") + link("gear") +
                    link("arm") + "<link name=\"slide\">" + ball("0 0 0") + "</link>" +
                    joint("m", "continuous", "base", "motor", "<axis xyz=\"0 0 1\"/>") +
@@ -171,7 +166,7 @@ TEST_CASE("descents of a robot and of the same one a thousandth as large reach t
             length(-0.1) + "\" upper=\"" + length(0.15) + "\" effort=\"1\" velocity=\"1\"/></joint>",
         {0.005 * metre, 2 * metre});
   };
-  const Loaded usual = small(1), tiny = small(1.0 / 1024);
+  const Arm usual = small(1), tiny = small(1.0 / 1024);
   const int hand = usual.kinematics->robot().link("hand"), block = usual.kinematics->robot().link("block");
   PairSearch one(usual.kinematics, usual.geometry, hand, block),
       other(tiny.kinematics, tiny.geometry, hand, block);
