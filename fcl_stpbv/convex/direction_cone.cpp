@@ -1,8 +1,8 @@
 // A convex cone of directions as a polygon on the unit sphere.
-// 1. Start: the hemisphere around a pole, all of it; the first cut leaves a lune.
+// 1. Start with the hemisphere around a pole. The first cut leaves a lune.
 // 2. A further cut clips the polygon by a plane through the origin (Sutherland and Hodgman 1974).
 //    No side becomes longer than a third of a circle.
-// 3. The middle is the centroid of the triangles between the corners, or of the corners of a sliver.
+// 3. The middle is the centroid of the triangles between the corners, or, for a sliver, that of the corners.
 #include "fcl_stpbv/convex/direction_cone.h"
 
 #include <Eigen/Geometry>
@@ -19,7 +19,7 @@ constexpr double kLongestSide = -0.5;  // cosine of the longest side
 
 DirectionCone::DirectionCone(const Vector3d& pole) : pole_(pole.normalized()) {}
 
-// Two hemispheres have a lune in common: both of its ends, and the middle of each side.
+// Two hemispheres intersect in a lune. Its corners are both ends and the middle of each side.
 bool DirectionCone::cutHemisphere(const Vector3d& g) {
   constexpr double kParallel = 1e-15;
   Vector3d end = g.cross(pole_);
@@ -69,9 +69,9 @@ bool DirectionCone::cut(const Vector3d& g) {
 
 Vector3d DirectionCone::middle() const {
   if (count_ == 0) return pole_;
-  // Centroid of the triangles between the corners, fanned out from the first one, each by the volume that it
-  // spans with the origin: of three corners on one great circle that is nothing, however far apart they are.
-  constexpr double kSliver = 1e-15;  // of the largest that such sides may span
+  // Centroid of a fan of triangles from the first corner. Each is weighted by the volume that it spans with
+  // the origin, which is zero for three corners on one great circle.
+  constexpr double kSliver = 1e-15;  // of the largest volume for sides of these lengths
   Vector3d sum(0, 0, 0);
   double whole = 0, most = 0;
   for (std::size_t i = 1; i + 1 < count_; ++i) {

@@ -20,17 +20,17 @@ class DirectionCone {
   /// Keeps the directions with `m.g >= 0`. False when none is left.
   bool cut(const Eigen::Vector3d& g);
 
-  /// A unit direction well inside.
+  /// A unit direction near the middle of the cone.
   Eigen::Vector3d middle() const;
 
  private:
-  static constexpr std::size_t kMost = kMaxCuts + 8;  // few sides but the first need their middle
+  static constexpr std::size_t kMost = kMaxCuts + 8;  // few sides apart from the first need their middle
 
   bool cutHemisphere(const Eigen::Vector3d& g);
 
   Eigen::Vector3d pole_;
   std::array<Eigen::Vector3d, kMost> corner_;
-  std::size_t count_ = 0;  // none: still the hemisphere
+  std::size_t count_ = 0;  // 0: the whole hemisphere
 };
 
 /// One direction that was tried: the gap of the cores along it, and the second body's support point minus the

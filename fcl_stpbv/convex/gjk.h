@@ -24,9 +24,9 @@ namespace fcl_stpbv::detail {
 template <typename Corner>
 struct GjkResult {
   enum class Verdict {
-    apart,    ///< `v` is the nearest point as far as the bounds say
-    overlap,  ///< the origin is inside, or as near as rounding
-    capped,   ///< no more steps
+    apart,    ///< `v` is the nearest point, within the bounds
+    overlap,  ///< the origin is inside, or within rounding of the set
+    capped,   ///< the limit of steps was reached
   };
   Verdict verdict = Verdict::capped;
   Simplex<Corner>
@@ -34,8 +34,8 @@ struct GjkResult {
   Eigen::Vector3d v{0, 0, 0};                               ///< the difference's point nearest to the origin
   Eigen::Vector3d n{0, 0, 0};                               ///< unit, from A to B, along `v`
   double lower = -std::numeric_limits<double>::infinity();  ///< widest gap seen along any normal (m)
-  Eigen::Vector3d widest{0, 0, 0};                          ///< that normal; that of `start` is not known
-  double upper = std::numeric_limits<double>::infinity();   ///< least distance of two points seen, `|v|` (m)
+  Eigen::Vector3d widest{0, 0, 0};  ///< its normal; zero if the gap is that of a corner of `start`
+  double upper = std::numeric_limits<double>::infinity();  ///< least distance of two points seen, `|v|` (m)
 };
 
 /// Runs GJK from the corners in `start` (none to four) and the unit normal `n`.
@@ -67,7 +67,7 @@ GjkResult<Corner> gjk(Difference& difference, const Simplex<Corner>& start, cons
       return result;
     }
     result.verdict = Verdict::apart;
-    if (!(length < result.upper)) return result;  // rounding: nothing improves
+    if (!(length < result.upper)) return result;  // rounding: no improvement
     result.simplex = reduced;
     result.v = nearest.point;
     result.upper = length;

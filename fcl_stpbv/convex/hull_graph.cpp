@@ -3,8 +3,9 @@
 // 1. Make the facets by quickhull, or, if that fails because of rounding, by rolling a ball of nearly
 //    infinite radius around the points (volume/rolling_ball.h).
 // 2. Name its edges and the faces around each vertex.
-// 3. Support: hill climbing from the last vertex (as FCL's), eight neighbours at
-//    once; a table of directions names a start.
+// 3. Support: hill climbing from the last vertex (as in FCL), eight neighbours at once. A direction table
+// gives
+//    a start.
 #include "fcl_stpbv/convex/hull_graph.h"
 
 #include <Eigen/Geometry>
@@ -19,10 +20,11 @@
 namespace fcl_stpbv::detail {
 namespace {
 
-// Up to this many vertices a scan of all beats a climb: no indirection, and no branch to mispredict.
+// Up to this many vertices, visiting all of them is faster than climbing: no indirection, no mispredicted
+// branch.
 constexpr int kScanLimit = 32;
 
-// Newell's normal: the sum over the ring is exact for planar rings and fair to slightly bent ones.
+// Newell's normal: exact for planar rings, and an average for slightly bent ones.
 Eigen::Vector3d ringNormal(const std::vector<Eigen::Vector3d>& points, const std::vector<int>& ring) {
   const Eigen::Vector3d& origin = points[at(ring[0])];
   Eigen::Vector3d sum(0, 0, 0);
@@ -62,14 +64,16 @@ HullGraph::HullGraph(const std::vector<Eigen::Vector3d>& cloud, RolledHull hull)
   for (Ring& ring : faces_)
     for (int& v : ring) v = vertexOf[at(v)];
   for (const Ring& ring : faces_) normals_.push_back(ringNormal(points_, ring));
-  if (faces_.size() == 2) normals_[1] = -normals_[0];  // flat: two sides of one plane, whatever the rounding
+  if (faces_.size() == 2)
+    normals_[1] = -normals_[0];  // flat hull: the two normals are opposite, without rounding
   makeEdges();
   makeChunks();
   makeTable();
 }
 
 void HullGraph::makeEdges() {
-  std::vector<std::array<int, 3>> sides;  // of every face: the side's ends, ascending, and the face
+  std::vector<std::array<int, 3>>
+      sides;  // for each side of each face: the ends in ascending order, and the face
   for (int f = 0; f < faceCount(); ++f) {
     const Ring& ring = faces_[at(f)];
     for (std::size_t i = 0; i < ring.size(); ++i) {
@@ -148,8 +152,7 @@ void HullGraph::addChunks(const std::int32_t* begin, const std::int32_t* end) {
   }
 }
 
-// Replaces `vertex` by the highest one in the chunks if that is higher. The
-// only branch is taken once a chunk.
+// Replaces `vertex` by the highest one in the chunks, if that one is higher. One branch per chunk.
 bool HullGraph::higherIn(std::int32_t firstChunk, std::int32_t lastChunk, const Eigen::Vector3d& direction,
                          double& height, int& vertex) const {
   const double nx = direction[0], ny = direction[1], nz = direction[2];
@@ -194,7 +197,7 @@ HullFeature HullGraph::featureOf(const int* vertices, int count) const {
     if (found != neighboursEnd(first))
       return {PatchKind::edge, neighbourEdges_[at(start_[at(first)]) + at(static_cast<int>(found - begin))]};
   }
-  // Two vertices across a face, or three: the face they share.
+  // Two vertices without a common edge, or three vertices: the face that they share.
   const auto hasFace = [&](int v, std::int32_t face) {
     const auto begin = vertexFaces_.begin();
     return std::binary_search(begin + faceStart_[at(v)], begin + faceStart_[at(v) + 1], face);

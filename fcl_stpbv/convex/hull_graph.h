@@ -12,7 +12,7 @@
 
 namespace fcl_stpbv::detail {
 
-/// A feature of the convex hull: vertex, edge or face, by its number there.
+/// A feature of the convex hull: a vertex, edge or face, by its index in the hull.
 struct HullFeature {
   PatchKind kind = PatchKind::vertex;
   int index = -1;  ///< -1: none
@@ -30,7 +30,7 @@ class HullGraph {
   /// @throws Error for a cloud that is empty or not finite.
   explicit HullGraph(const std::vector<Eigen::Vector3d>& cloud);
 
-  /// The same where the cloud's convex hull, as convexHull() gives it, is known.
+  /// The same from the cloud and the result of convexHull() for it.
   HullGraph(const std::vector<Eigen::Vector3d>& cloud, RolledHull hull);
 
   int vertexCount() const { return static_cast<int>(points_.size()); }
@@ -39,10 +39,10 @@ class HullGraph {
 
   /// Vertex `v` relative to `centre()` (m).
   const Eigen::Vector3d& point(int v) const { return points_[static_cast<std::size_t>(v)]; }
-  /// Middle of the points' bounding box, and how far the farthest vertex is from it (m).
+  /// Centre of the points' bounding box, and the distance of the farthest vertex from it (m).
   const Eigen::Vector3d& centre() const { return centre_; }
   double radius() const { return radius_; }
-  /// The cloud's point that vertex `v` is.
+  /// Index of vertex `v` in the cloud.
   int cloudIndex(int v) const { return cloudIndex_[static_cast<std::size_t>(v)]; }
 
   const std::vector<std::array<int, 2>>& edges() const { return edges_; }
@@ -68,8 +68,8 @@ class HullGraph {
   HullFeature featureOf(const int* vertices, int count) const;
 
  private:
-  /// Eight vertices side by side, so that their heights along a direction are computed at
-  /// once; a short chunk repeats its first.
+  /// Eight vertices, whose heights along a direction are computed at once. A short chunk repeats its first
+  /// vertex.
   struct Chunk {
     using Eight = Eigen::Array<double, 8, 1, Eigen::DontAlign>;
     Eight x, y, z;

@@ -28,33 +28,33 @@ class LocalMaximum {
  public:
   static constexpr double kEndless = std::numeric_limits<double>::infinity();
 
-  /// None: nothing is known around it.
+  /// No maximum.
   LocalMaximum() = default;
   /// `n`: unit, along which the cores overlap by `depth` (m).
   LocalMaximum(const Eigen::Vector3d& n, double depth) : n_(n), depth_(depth) {}
 
   double depth() const { return depth_; }
 
-  /// An arc through the point along the unit vector `d`, which is across the normal, else it is left out: its
-  /// radius, and the radius times the sine of the angle to its nearer end (m).
+  /// Adds an arc through the point along the unit vector `d`. It is ignored if `d` is not perpendicular to
+  /// the normal. `reach`: the radius times the sine of the angle to the nearer end of the arc (m).
   void addArc(const Eigen::Vector3d& d, double radius, double reach) {
     if (!(std::abs(d.dot(n_)) < kAcross)) return;
     if (isFirstArc_) e_ = d, f_ = n_.cross(d), isFirstArc_ = false;
     const double x = d.dot(e_), y = d.dot(f_);
     add({x * x, x * y, y * y, radius, reach});
   }
-  /// A segment, `length` from the point to its nearer end (m).
+  /// Adds a segment along `d`. `length`: from the point to its nearer end (m).
   void addSegment(const Eigen::Vector3d& d, double length) {
     if (std::abs(d.dot(n_)) < kExactlyAcross) addArc(d, kEndless, 2.0 * length);
   }
-  /// A cap of a ball, which is an arc all around; one without a radius is a disc.
+  /// Adds a cap of a ball, that is, an arc along every direction; a disc is one of infinite radius.
   void addCap(double radius, double reach) { add({1.0, 0.0, 1.0, radius, reach}); }
   void addDisc(double length) { addCap(kEndless, 2.0 * length); }
 
   /// Whether the cores overlap by at least the depth along every normal within an angle from `n`.
   bool holdsWithin(double sine, double cosine) const {
     if (!(cosine > kLeast)) return false;
-    double a = 0.0, b = 0.0, c = 0.0;  // [a b; b c]: the sum of radii, times the sine, as a form across n
+    double a = 0.0, b = 0.0, c = 0.0;  // [a b; b c]: quadratic form of the radii's sum, times the sine
     for (int i = 0; i < count_; ++i) {
       const Part& p = part_[static_cast<std::size_t>(i)];
       const double radius = std::min(p.radius * sine, p.reach);
@@ -79,11 +79,11 @@ class LocalMaximum {
     double xx, xy, yy;     // products of its direction's coordinates
     double radius, reach;  // m
   };
-  static constexpr int kMost = 6;          // of two bodies; what is more is left out
-  static constexpr double kLeast = 0.7;    // of a cosine: normals further off are left to other proofs
-  static constexpr double kSafe = 1.001;   // covers that the point is D n to rounding only
-  static constexpr double kAcross = 1e-9;  // of a cosine: else rounding has made the direction
-  static constexpr double kExactlyAcross = 4e-15;  // a segment that leans is further out on one side only
+  static constexpr int kMost = 6;                  // parts of both bodies; further ones are ignored
+  static constexpr double kLeast = 0.7;            // cosine: normals at a larger angle need another proof
+  static constexpr double kSafe = 1.001;           // allows for the point being D n only up to rounding
+  static constexpr double kAcross = 1e-9;          // cosine: a larger one means that the direction is wrong
+  static constexpr double kExactlyAcross = 4e-15;  // cosine: an inclined segment is higher on one side only
 
   void add(const Part& p) {
     if (p.reach > 0.0 && count_ < kMost) part_[static_cast<std::size_t>(count_++)] = p;

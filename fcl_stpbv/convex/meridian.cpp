@@ -9,7 +9,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// The axis of a core of revolution in its own frame, through its origin; of a point, any.
+/// The axis of a core of revolution through its frame's origin. A point may have any axis.
 std::optional<Vector3d> axisOf(const Shape& s) {
   switch (s.kind) {
     case ShapeKind::point:
@@ -36,12 +36,13 @@ bool commonMeridian(const Shape& a, const Shape& b, const RelativePose& pose, Me
   const Vector3d translation = unpack(pose.translation);
   const Vector3d aside = translation - translation.dot(plane.along) * plane.along;
   plane.across =
-      aside.cross(plane.along).cross(plane.along).normalized();  // nothing along the axis, not even rounding
+      aside.cross(plane.along).cross(plane.along).normalized();  // twice, to remove rounding along the axis
   if (!(plane.across.norm() > 0.5)) plane.across = plane.along.unitOrthogonal();
   plane.outB = plane.along.cross(plane.across);
   plane.outA = a.kind == ShapeKind::point ? plane.outB : axisA->cross(plane.across).normalized();
-  // Two bodies of revolution with parallel axes have a difference of revolution, and out of it the shortest
-  // way lies in the plane through its axis and the origin. A is turned to make them parallel.
+  // The difference of two bodies of revolution with parallel axes is a body of revolution. The shortest way
+  // out of it lies in the plane through its axis and the origin. A is turned by `turn` to make the axes
+  // parallel.
   const double turn = a.kind == ShapeKind::point ? 0.0 : axisA->cross(plane.along).norm();
   plane.slack = 1.001 * turn * (a.centre.norm() + a.reach);
   return turn < 0.01;

@@ -17,7 +17,7 @@ namespace fcl_stpbv::detail {
 struct Meridian {
   Eigen::Vector3d along, across;  ///< unit and orthogonal, in A's frame
   Eigen::Vector3d outA, outB;     ///< unit normals of the planes through each body's own axis
-  /// The cores differ by at most this from two cores with exactly parallel axes (m).
+  /// Distance of the cores from two cores with exactly parallel axes (m).
   double slack;
 };
 
@@ -25,10 +25,10 @@ struct Meridian {
 /// core of revolution. False for any other pair, and if the axes are not nearly parallel.
 bool commonMeridian(const Shape& a, const Shape& b, const RelativePose& pose, Meridian& plane);
 
-/// Where a polygon inside the difference comes nearest to the origin.
+/// The point of a polygon's boundary nearest to the origin. The polygon lies inside the difference.
 struct MeridianDepth {
-  bool found = false;            ///< the difference has a polygon there, not only a line
-  double depth = 0;              ///< at least this deep is the origin inside the difference (m)
+  bool found = false;            ///< the polygon has an area
+  double depth = 0;              ///< lower bound on the depth of the origin inside the difference (m)
   Eigen::Vector3d onA{0, 0, 0};  ///< A's part of that point
   Eigen::Vector3d toB{0, 0, 0};  ///< from there to B's part (m)
 };
@@ -38,7 +38,7 @@ struct MeridianDepth {
 /// A's part of it, `.onA`.
 template <typename Furthest>
 MeridianDepth meridianDepth(const Meridian& plane, double rounding, Furthest&& furthest) {
-  constexpr std::size_t kPoints = 200;  // each halves the arc it comes to lie on: enough for rounding
+  constexpr std::size_t kPoints = 200;  // each one halves an arc: enough to reach rounding
   struct Point {
     Eigen::Vector2d w;
     Eigen::Vector3d onA, toB;
@@ -46,8 +46,8 @@ MeridianDepth meridianDepth(const Meridian& plane, double rounding, Furthest&& f
   std::array<Point, kPoints> point;  // counter-clockwise
   const auto along = [&](const Eigen::Vector2d& m) {
     const auto p = furthest(m.x() * plane.along + m.y() * plane.across);
-    // A body of revolution holds the projection of each of its points into a plane through its axis. Of a
-    // disc any point of the rim may have come.
+    // The projection of a point of a body of revolution onto a plane through its axis is in the body. For a
+    // disc, furthest() may return any point of the rim.
     const Eigen::Vector3d onB = p.onA + p.w, onA = p.onA - plane.outA.dot(p.onA) * plane.outA;
     return Point{
         {plane.along.dot(p.w), plane.across.dot(p.w)}, onA, onB - plane.outB.dot(onB) * plane.outB - onA};

@@ -30,8 +30,8 @@ Vector3d nearestOfCorners(const Shape& polytope, const Vector3d& y) {
   return y + reduceToNearest(found.simplex, nearest).point;
 }
 
-/// The cone's point nearest to `y`. Beyond the side it is on the generator, on a flat cone far from the one
-/// at y's height.
+/// The cone's point nearest to `y`. If `y` is outside the side, it is on a generator. On a flat cone it may
+/// be far from the point at y's height.
 Vector3d ontoCone(double radius, double half, const Vector3d& y) {
   const double across = std::hypot(y.x(), y.y()), height = 2.0 * half, down = half - y.z(),
                squared = radius * radius + height * height;
@@ -93,7 +93,7 @@ Vector3d ontoTriangle(const std::array<Vector3d, 3>& corner, const Vector3d& y) 
   const Vector3d e = corner[1] - corner[0], f = corner[2] - corner[0], m = e.cross(f);
   const double area = std::max(m.squaredNorm(), 1e-300);
   double v = 0.0, w = 0.0;
-  for (int round = 0; round < 2; ++round) {  // the second mends the first one's rounding
+  for (int round = 0; round < 2; ++round) {  // the second round corrects the rounding of the first
     const Vector3d beside = y - (corner[0] + v * e + w * f);
     v += beside.cross(f).dot(m) / area;
     w += e.cross(beside).dot(m) / area;

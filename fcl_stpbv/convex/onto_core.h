@@ -9,10 +9,10 @@
 
 namespace fcl_stpbv::detail {
 
-/// A point of the core next to `y`, the nearest one to first order. Frame and units of the shape.
+/// A point of the core near `y`; the nearest one to first order. Frame and units of the shape.
 Eigen::Vector3d ontoCore(const Shape& core, const Eigen::Vector3d& y);
 
-/// The segment's point nearest to `y`; its ends may be one.
+/// The segment's point nearest to `y`. Its ends may coincide.
 inline Eigen::Vector3d ontoSegment(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                                    const Eigen::Vector3d& y) {
   const Eigen::Vector3d along = b - a;

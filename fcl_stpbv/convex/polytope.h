@@ -19,7 +19,7 @@ class Polytope {
   using Index = std::uint16_t;
   static constexpr Index kNone = 0xffff;
   static constexpr int kMaxPoints =
-      400;  ///< some 20 are usual, hundreds where all directions are nearly as good
+      400;  ///< about 20 are usual, hundreds if the depth is almost the same along all directions
 
   struct Face {
     Eigen::Vector3d normal;       ///< unit, outward
@@ -62,7 +62,7 @@ class Polytope {
   /// are put aside.
   Face nearest() {
     Packed least = rank_[0];
-    PackedBits four{};  // which four each is of
+    PackedBits four{};  // the group of four that each number of `least` is from
     for (int i = 1; 4 * i < faces_; ++i) {
       const PackedBits less = rank_[i] < least;
       least = less ? rank_[i] : least;
@@ -76,7 +76,7 @@ class Polytope {
     return {unpack(f.normal), f.distance, std::min(low, high), f.corner};
   }
 
-  /// Takes the face that nearest() gave out of the search.
+  /// Removes the face that nearest() returned from the search.
   void putAside() { setRank(nearest_, kNowhere); }
 
   /// Lower bound on the height of the face's points along its normal (m). It allows for the tilt of a
@@ -86,10 +86,10 @@ class Polytope {
     return std::min({dot(n, point(f.corner[0])), dot(n, point(f.corner[1])), dot(n, point(f.corner[2]))});
   }
 
-  /// The point taken in last.
+  /// The point added last.
   Index lastPoint() const { return static_cast<Index>(points_ - 1); }
 
-  /// Adds a point to the hull, with its part for the roundness. False if it is inside already, if it is in a
+  /// Adds a point to the hull, and its part of the round set. False if it is inside already, if it is in a
   /// face's plane up to rounding, or if the arrays are full.
   bool expand(const Eigen::Vector3d& outside, const Eigen::Vector3d& part) {
     if (points_ < kMaxPoints) part_[at(points_)] = pack(part);
@@ -106,8 +106,8 @@ class Polytope {
       for (first = 0; first < faces_ && (face(first).corner[0] == kNone || !sees(first));) ++first;
     if (first == faces_) return false;
 
-    // From face to face that sees `p`, each side in turn: what does not see it
-    // comes in the order of the horizon.
+    // Visits the faces that see `p`, depth first, each side in turn. The sides of faces that do not see `p`
+    // are found in the order of the horizon.
     std::array<Index, 3 * kMaxFaces> open;
     std::array<Index, kMaxFaces> horizon;
     int opened = 0, sides = 0;
@@ -134,26 +134,27 @@ class Polytope {
  private:
   struct Triangle {
     Packed normal;                // unit, outward
-    double distance;              // of its plane from the origin
-    double flat;                  // height over it, as a part of a point's size, that is rounding
+    double distance;              // of its plane from the origin (m)
+    double flat;                  // a height below this fraction of a point's size is rounding
     std::array<Index, 3> corner;  // counter-clockwise from outside; corner[0] is kNone once the face is gone
-    std::array<Index, 3> across;  // what lies across the side from corner k to the next: face * 4 + its side
+    std::array<Index, 3>
+        across;  // the neighbour over the side from corner k to the next: 4 * face + its side
   };
 
   static constexpr int kMaxFaces = 2 * kMaxPoints;
   static constexpr double kNarrow =
-      300.0;                              // more would leave out points that a flat face of the bodies needs
-  static constexpr double kFlat = 1e-15;  // of a point: this near to a face's plane is in it, to rounding
+      300.0;  // limits `flat`: a larger one would reject points of the bodies' flat faces
+  static constexpr double kFlat =
+      1e-15;  // of a point's size: nearer points are in the face's plane, up to rounding
 
-  static constexpr double kFlatter =
-      4.0;  // times its distance is the radius of balls that a face looks flat on
+  static constexpr double kFlatter = 4.0;  // faces nearer than rho / kFlatter are treated as flat
 
   static constexpr std::array<int, 6> kTurn{0, 1, 2, 0, 1, 2};  // sides modulo 3
 
   static constexpr double kNowhere = std::numeric_limits<double>::infinity();
   static_assert(kMaxFaces % 4 == 0);
   void setRank(int i, double distance) { rank_[at(i) / 4][at(i) % 4] = distance; }
-  /// A place for one more face, those beside it in its four without one.
+  /// Index of a new face. Fills the ranks of a new group of four.
   int newFace() {
     if (faces_ % 4 == 0) rank_[faces_ / 4] = Packed{} + kNowhere;
     return faces_++;
@@ -168,7 +169,7 @@ class Polytope {
     face(j).across[at(other)] = static_cast<Index>(4 * i + side);
   }
 
-  /// Faces from the sides of a horizon to `p`. False where rounding has torn the horizon.
+  /// Adds faces from the sides of a horizon to `p`. False if rounding has torn the horizon.
   bool close(const Packed& p, const Index* horizon, int sides) {
     if (sides < 3) return false;
     const Index index = static_cast<Index>(points_);
@@ -202,21 +203,22 @@ class Polytope {
     t.corner = {a, b, c};
     t.normal = normal * inverse;
     t.distance = dot(t.normal, point(a));
-    // Rounding may tilt a sliver's normal far: along whatever unit vector, the triangle is no nearer than the
-    // least of its corners.
+    // Rounding may tilt a sliver's normal by much. But the height of the lowest corner along any unit vector
+    // is a lower bound on the triangle's distance.
     const double least = std::min({t.distance, dot(t.normal, point(b)), dot(t.normal, point(c))});
     setRank(i, least > flatter_ ? roundDepth(t.corner, least) : least);
-    // A sliver's normal is as much less certain as it is narrow.
+    // The narrower a sliver, the less accurate its normal.
     t.flat = kFlat * std::min(sides2 * inverse, kNarrow);
-    // Else the origin is on the surface, to rounding.
+    // A negative distance means that the origin is on the surface, up to rounding.
     return origin_ == Origin::anywhere || t.distance >= 0.0;
   }
 
-  /// A lower bound of |x| + q(x) over a face (docs/theory.md, 5), of corners that are `least` or further
+  /// A lower bound on |x| + q(x) over a face (docs/theory.md, 5) whose corners are at least `least` high
   /// along one unit vector. It takes |x| from the chord of the square root between `least` and the furthest
   /// corner, which leaves a quadratic function of the weights.
   [[gnu::noinline]] double roundDepth(const std::array<Index, 3>& corner, double least) const {
-    std::array<double, 3> far2, sag;  // of the corners; of the sides from the first, and across from it
+    std::array<double, 3> far2,
+        sag;  // per corner; per side: both from the first corner, then the opposite one
     for (std::size_t i = 0; i < 3; ++i) far2[i] = squared(point(corner[i]));
     const double scale = 1.0 / (std::sqrt(std::max({far2[0], far2[1], far2[2]})) + least);
     for (std::size_t i = 0; i < 3; ++i) {
@@ -230,7 +232,8 @@ class Polytope {
     const double det = 4.0 * sag[0] * sag[1] - h * h;
     double u = (h * g2 - 2.0 * sag[1] * g1) / det, v = (h * g1 - 2.0 * sag[0] * g2) / det;
     if (sag[0] > 0.0 && det > 0.0 && u >= 0.0 && v >= 0.0 && u + v <= 1.0) {
-      // Over a narrow face rounding moves them along the valley, which is level, and off it: back into it.
+      // For a narrow face rounding moves (u, v) along the valley, which is level, and away from it. Correct
+      // the latter.
       if (sag[0] > sag[1])
         u = -(g1 + h * v) / (2.0 * sag[0]);
       else

@@ -1,4 +1,4 @@
-// The nearest rotation to a matrix next to one: Newton's iteration for the polar factor (Higham 1986).
+// The nearest rotation to a matrix that is almost one: Newton's iteration for the polar factor (Higham 1986).
 //
 // q (3 - q^T q) / 2 has the same polar factor as q and squares its error: from 3e-6 two steps reach rounding.
 #include "fcl_stpbv/convex/relative_pose.h"
@@ -12,7 +12,7 @@ bool makeRotation(Rotation& rotation) {
   constexpr double kNear = 3e-6;  // Frobenius norm of nine entries of 1e-6
   Eigen::Matrix3d q = rotation.matrix();
   const Eigen::Matrix3d first = q.transpose() * q - Eigen::Matrix3d::Identity();  // twice the error
-  if (!(first.norm() <= 2.0 * kNear) || !(q.determinant() > 0.0)) return false;   // also what is not a number
+  if (!(first.norm() <= 2.0 * kNear) || !(q.determinant() > 0.0)) return false;   // false for NaN
   q -= 0.5 * q * first;
   q -= 0.5 * q * (q.transpose() * q - Eigen::Matrix3d::Identity());
   rotation = Rotation(q);

@@ -24,7 +24,7 @@ class Rotation {
     rows_[2] = __builtin_shufflevector(even, z, 2, 3, 6, 7);
   }
 
-  /// A pose's.
+  /// The rotation of a pose.
   explicit Rotation(const Eigen::Isometry3d& pose)
       : Rotation(column(pose, 0), column(pose, 1), column(pose, 2)) {}
 
@@ -82,15 +82,15 @@ bool makeRigid(Eigen::Isometry3d& pose);
 /// to the sum of the bodies' coordinates and of the second body's origin in that frame (docs/theory.md, 5).
 constexpr double kGapRounding = 40.0 * std::numeric_limits<double>::epsilon();
 
-/// A pair of bodies in the first one's frame: however far the pair is from the world's origin, only the
-/// bodies' own coordinates and their mutual distance enter.
+/// A pair of bodies in the first one's frame. So accuracy depends only on the bodies' own coordinates and
+/// their mutual distance, not on the distance from the world's origin.
 struct RelativePose {
   Rotation toWorld;      ///< first body's frame to the world's
   Packed origin{};       ///< of the first body's frame, in the world (m)
   Rotation rotation;     ///< second body's frame to the first one's
   Packed translation{};  ///< the second body's origin in the first one's frame (m)
-  bool valid = false;    ///< both poses are rotations, or next to one, at less than 1e150 m from the origin
-                         ///< and from each other
+  bool valid = false;  ///< both rotations are rigid (see makeRotation), and the origins are less than 1e150 m
+                       ///< from the world's and from each other
 
   RelativePose(const Eigen::Isometry3d& poseA, const Eigen::Isometry3d& poseB) : toWorld(poseA) {
     constexpr double kHuge = 1e300;  // squares must not overflow
@@ -113,7 +113,7 @@ struct RelativePose {
   Eigen::Vector3d inSecond(const Eigen::Vector3d& p) const {
     return rotation.inverse(Eigen::Vector3d(p - unpack(translation)));
   }
-  /// The second body's direction where the first's is `n`.
+  /// The direction opposite `n`, in the second body's frame.
   Packed opposite(const Packed& n) const { return rotation.inverse(-n); }
   Eigen::Vector3d opposite(const Eigen::Vector3d& n) const { return rotation.inverse(Eigen::Vector3d(-n)); }
 

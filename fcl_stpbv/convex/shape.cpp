@@ -18,7 +18,7 @@ namespace {
 /// invalid.
 bool isUnitNormal(const Vector3d& normal) { return std::abs(normal.squaredNorm() - 1.0) < 1e-6; }
 
-/// How far `d` goes across the z axis: in a fraction of the time of std::hypot(), unless squares would vanish
+/// Length of `d` across the z axis. Faster than std::hypot(), which is used only if squares would underflow
 /// or overflow.
 double acrossAxis(const Vector3d& d) {
   constexpr double kLeast = 1e-280, kMost = 1e280;
@@ -60,7 +60,7 @@ Shape Shape::triangleOf(const Vector3d& a, const Vector3d& b, const Vector3d& c)
 }
 
 Shape Shape::polytopeOf(const Vector3d* vertices, int count, const Vector3d& middle) {
-  constexpr double kSame = 1e-12;  // of the reach: both are means, summed in different orders
+  constexpr double kSame = 1e-12;  // of the reach: two means that were summed in different orders
   Shape s;
   s.kind = ShapeKind::polytope;
   s.vertices = vertices;
@@ -69,7 +69,7 @@ Shape Shape::polytopeOf(const Vector3d* vertices, int count, const Vector3d& mid
   const detail::Spread all = detail::spreadAbout(middle, vertices, count);
   const double off = (all.middle - middle).norm();
   s.centre = all.middle;
-  const bool same = off < kSame * all.reach;  // never of infinite ones
+  const bool same = off < kSame * all.reach;  // false for infinite ones
   s.reach = same ? all.reach + off : detail::spreadAbout(all.middle, vertices, count).reach;
   return s;
 }

@@ -1,10 +1,10 @@
 // The segments, arcs and discs that a simple shape contains around one of its points, by kind:
 //
-// 1. A box: a segment along each axis that is across the normal.
-// 2. A cylinder and a cone: of a flat end its disc, of a rim its circle, of a side the generator and the
-//    circle there. A cone holds both of these, but not their sum: half of each.
-// 3. An ellipsoid: it is further out than its point by as much as circles along each of its axes
-//    (docs/theory.md, 5).
+// 1. A box: a segment along each axis that is perpendicular to the normal.
+// 2. A cylinder and a cone: the disc of a flat end, the circle of a rim, the generator and the circle at a
+// point
+//    of the side. A cone contains both, but not their Minkowski sum; so half of each is taken.
+// 3. An ellipsoid: circles around each of its axes, which lie inside it near the point (docs/theory.md, 5).
 #include "fcl_stpbv/convex/shape_around.h"
 
 #include <Eigen/Geometry>
@@ -18,8 +18,8 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// Of a body of revolution: the circle through `y`, `part` of it, and on a flat end its disc, as large as it
-/// is around `y`. Both together are the disc of all of the end.
+/// For a body of revolution: the fraction `part` of the circle through `y`, and, on a flat end, the largest
+/// disc around `y` in it. Their sum is the whole disc of the end.
 void addAround(double radius, double part, bool isFlat, const Vector3d& y, const Matrix3d& rotation,
                LocalMaximum& around) {
   const double across = std::hypot(y.x(), y.y());
@@ -33,8 +33,8 @@ void addAround(double radius, double part, bool isFlat, const Vector3d& y, const
 
 void addShape(const Shape& shape, const Vector3d& y, const Vector3d& m, const Matrix3d& rotation,
               LocalMaximum& around) {
-  constexpr double kEdge = 1e-9;      // of the generator: nearer to its end is on the rim
-  constexpr double kUpright = 1e-15;  // a sine; flat ends have their normal to rounding
+  constexpr double kEdge = 1e-9;      // of the generator: nearer to its end counts as on the rim
+  constexpr double kUpright = 1e-15;  // sine: the normal of a flat end, up to rounding
   const bool isUpright = std::hypot(m.x(), m.y()) < kUpright;
   const double half = shape.half, radius = shape.radius;
   switch (shape.kind) {

@@ -9,13 +9,13 @@
 
 namespace fcl_stpbv::detail {
 
-/// Whether this is known for the shape: not for a triangle or a polytope, since their features have no names.
+/// Whether addShape() supports the shape. It does not support triangles and polytopes.
 inline bool hasAround(const Shape& shape) {
   return shape.kind != ShapeKind::triangle && shape.kind != ShapeKind::polytope;
 }
 
-/// Adds the segments, arcs and discs through the point `y` of the shape's core that are across its outward
-/// normal `m` (unit; both in the shape's own frame), turned by `rotation`.
+/// Adds the segments, arcs and discs through the point `y` of the shape's core that are perpendicular to its
+/// outward normal `m` (unit; both in the shape's own frame), turned by `rotation`.
 void addShape(const Shape& shape, const Eigen::Vector3d& y, const Eigen::Vector3d& m,
               const Eigen::Matrix3d& rotation, LocalMaximum& around);
 

@@ -1,6 +1,6 @@
-// The normals that the supporting feature of a shape has, and its curvature there. By what lies furthest
-// along the normal: a face, an edge or a corner of a polytope; the rim, the generator or the disc of a
-// cylinder or cone; a ball; an ellipsoid's point, all in closed form.
+// The normals of a shape's supporting feature, and its curvature, in closed form. The supporting feature is
+// what lies furthest along the normal: a face, an edge or a corner of a polytope; the rim, a generator or the
+// disc of a cylinder or cone; a ball; a point of an ellipsoid.
 #include "fcl_stpbv/convex/shape_curvature.h"
 
 #include <Eigen/Geometry>
@@ -28,7 +28,7 @@ NormalCone noWay(const Vector3d& m, const Vector3d& face) {
   return {0, m.dot(face) < 0.0 ? Vector3d(-face) : face, {kNone, kNone}, {0.0, 0.0}, 0.0};
 }
 
-/// All normals next to `m`, of a point.
+/// The cone of a point: all normals near `m`.
 NormalCone allAround(const Vector3d& m) {
   const Vector3d e = m.unitOrthogonal();
   return {2, m, {e, m.cross(e)}, {0.0, 0.0}, 0.0};
@@ -39,7 +39,7 @@ NormalCone ofSegment(const Vector3d& m, double half, double rounding) {
                                                             : aroundLine(m, Vector3d::UnitZ(), 0.0);
 }
 
-/// A face, an edge or a corner: whatever vertices lie furthest along `m`, as `a` does.
+/// The cone of a face, an edge or a corner: all vertices that are as high along `m` as `a`.
 template <typename Vertex>
 NormalCone ofVertices(int count, const Vertex& vertex, const Vector3d& a, const Vector3d& m,
                       double rounding) {
@@ -62,7 +62,7 @@ NormalCone ofVertices(int count, const Vertex& vertex, const Vector3d& a, const 
   return noWay(m, t.cross(c - a).normalized());
 }
 
-/// A box's: along those of its sides whose ends lie as far along `m` as each other.
+/// The cone of a box's corner, edge or face. An edge counts if both of its ends are equally high along `m`.
 NormalCone ofBox(const Vector3d& half, const Vector3d& m, double rounding) {
   const auto isLevel = [&](int i) {
     const double side = 2.0 * half[i];
@@ -102,7 +102,7 @@ NormalCone ofCone(const Shape& s, const Vector3d& m, const Vector3d& x, double r
   if (!(height > 0.0) || towardsApex < -rounding) return ofRim(m, x, s.radius, across);
   const Vector3d out = Vector3d(m.x(), m.y(), 0.0) / across, around = Vector3d::UnitZ().cross(out),
                  normal = (height * out + s.radius * Vector3d::UnitZ()).normalized();
-  // The generator curves by more the further down.
+  // The radius of curvature grows with the distance from the apex.
   const double down = (x - Vector3d(0, 0, s.half)).dot(around.cross(normal));
   return {1, normal, {around, kNone}, {down * s.radius / height, 0.0}, 0.0};
 }
@@ -112,7 +112,7 @@ bool ofEllipsoid(const Shape& s, const Vector3d& m, NormalCone& result) {
   const double h = e.norm();
   if (!(h > 1e-9 * s.reach)) return false;
   result = allAround(m);
-  // Across the point of the unit ball that the ellipsoid's is the image of: no digits cancel.
+  // Perpendicular to the unit ball's point whose image is the ellipsoid's point: without cancellation.
   const auto across = [&](const Vector3d& t) {
     const Vector3d image = s.size.cwiseProduct(t);
     return Vector3d(image - image.dot(e) / h * (e / h));
@@ -123,7 +123,7 @@ bool ofEllipsoid(const Shape& s, const Vector3d& m, NormalCone& result) {
   return true;
 }
 
-/// The same of the core, around which the margin is the same along every way.
+/// normalCone() of the core, without the margin.
 bool coneOfCore(const Shape& s, const Vector3d& m, const Vector3d& x, double rounding, NormalCone& result) {
   switch (s.kind) {
     case ShapeKind::point:
@@ -156,7 +156,7 @@ bool coneOfCore(const Shape& s, const Vector3d& m, const Vector3d& x, double rou
       result = noWay(m, s.normal);
       break;
   }
-  return result.normal.squaredNorm() > 0.5;  // not a line along `m`
+  return result.normal.squaredNorm() > 0.5;  // false for a line along `m`
 }
 
 }  // namespace

@@ -14,23 +14,23 @@ namespace fcl_stpbv::detail {
 /// A feature of a shape's core, and its point nearest to the given point. Frame of the shape.
 struct ShapeFeature {
   enum class Kind {
-    none,    ///< not known: of a shape with many features, or one that is flat or a point
-    inside,  ///< none, as the point is in the core
+    none,    ///< not known: a shape with many features, or a degenerate one
+    inside,  ///< the point is in the core
     corner,  ///< one point
     line,    ///< an edge; with a radius, a cylinder's side
     face,    ///< flat
     rim,     ///< of a disc
-    side,    ///< a cone's, one of its generators
+    side,    ///< a generator of a cone
     whole    ///< an ellipsoid
   };
   Kind kind = Kind::none;
-  int which = 0;      ///< of all features of the shape
-  Packed point{};     ///< the nearest; of a line with a radius the axis' point, of a rim and an ellipsoid the
-                      ///< middle (m)
-  Packed axis{};      ///< unit: along a line, outward from a face, of a rim, to a cone's apex
-  Packed apex{};      ///< through which a cone's generators run (m)
+  int which = 0;      ///< number of the feature among those of the shape
+  Packed point{};     ///< the nearest point; for a line with a radius, that of the axis; for a rim and an
+                      ///< ellipsoid, the centre (m)
+  Packed axis{};      ///< unit: along a line, a face's outward normal, a rim's axis, towards a cone's apex
+  Packed apex{};      ///< of a cone (m)
   double radius = 0;  ///< of a rim, or around a line (m)
-  double cosine = 0, sine = 0;  ///< of a cone's outward normals across its axis and along it
+  double cosine = 0, sine = 0;  ///< components of a cone's outward normals across and along its axis
 };
 
 inline ShapeFeature featureOfBox(const Shape& box, const Packed& x) {
@@ -45,7 +45,8 @@ inline ShapeFeature featureOfBox(const Shape& box, const Packed& x) {
   using Kind = ShapeFeature::Kind;
   f.kind = Kind::inside;
   if (sides == 0) return f;
-  // Across a face the one axis along which the point is outside, along an edge the one along which it is not.
+  // A face's normal is the only axis along which the point is outside. An edge is along the only axis along
+  // which it is not.
   for (int i = 0; i < 3; ++i)
     if ((outside[i] != 0) == (sides == 1)) axis = i;
   f.kind = sides == 1 ? Kind::face : sides == 2 ? Kind::line : Kind::corner;
@@ -54,7 +55,7 @@ inline ShapeFeature featureOfBox(const Shape& box, const Packed& x) {
   return f;
 }
 
-/// Of a segment and a cylinder.
+/// For a segment and a cylinder.
 inline ShapeFeature featureOfCylinder(const Shape& shape, const Packed& x) {
   using Kind = ShapeFeature::Kind;
   const bool beyond = std::abs(x[2]) > shape.half, segment = shape.kind == ShapeKind::segment,
@@ -96,13 +97,13 @@ inline ShapeFeature featureOfCone(const Shape& cone, const Packed& x) {
   f.cosine = height / slant;
   f.sine = cone.radius / slant;
   const double along = f.sine * away + f.cosine * below;
-  const bool out = f.cosine * away - f.sine * below > 0.0;  // of the side
+  const bool out = f.cosine * away - f.sine * below > 0.0;  // outside the side
   if (!out && below >= 0.0 && below <= height && away <= cone.radius) {
     f.kind = Kind::inside;
     return f;
   }
   if (!out && below > height)
-    f.kind = Kind::rim;  // below the base, beside it
+    f.kind = Kind::rim;  // below the base and outside its disc
   else
     f.kind = along <= 0.0 ? Kind::corner : along < slant ? Kind::side : Kind::rim;
   f.which = static_cast<int>(f.kind);
@@ -119,7 +120,7 @@ inline ShapeFeature featureOfTriangle(const Shape& triangle, const Packed& x) {
   using Kind = ShapeFeature::Kind;
   ShapeFeature f;
   Packed p[3], side[3];
-  bool before[3], behind[3];  // the side's beginning, its end
+  bool before[3], behind[3];  // whether `x` is before the side's start, and past its end
   for (std::size_t i = 0; i < 3; ++i) p[i] = pack(triangle.corner[i]);
   for (int i = 0; i < 3; ++i) {
     const Packed& end = p[(i + 1) % 3];
@@ -154,7 +155,7 @@ inline ShapeFeature featureOfTriangle(const Shape& triangle, const Packed& x) {
   return f;
 }
 
-/// None of one without thickness, which is a disc or a segment.
+/// The kind is `none` for an ellipsoid without thickness.
 inline ShapeFeature featureOfEllipsoid(const Shape& ellipsoid, const Packed& x) {
   const Packed size = pack(ellipsoid.size), scaled = x / size;
   ShapeFeature f;
@@ -163,7 +164,7 @@ inline ShapeFeature featureOfEllipsoid(const Shape& ellipsoid, const Packed& x) 
   return f;
 }
 
-/// The feature nearest to `x`, of the kinds of shapes that have a few.
+/// The feature nearest to `x`, for shapes that have few features.
 inline ShapeFeature nearestFeature(const Shape& shape, const Packed& x) {
   switch (shape.kind) {
     case ShapeKind::point: {

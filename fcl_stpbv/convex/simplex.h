@@ -34,7 +34,7 @@ struct Simplex {
       if (corner[i].w == w) return true;
     return false;
   }
-  /// The corners' `member`s in the same proportion as the nearest point's.
+  /// Sum of the corners' `member`s with the weights of the nearest point.
   Eigen::Vector3d weighted(Eigen::Vector3d Corner::*member) const {
     Eigen::Vector3d sum(0, 0, 0);
     for (std::size_t i = 0; i < static_cast<std::size_t>(size); ++i) sum += weight[i] * (corner[i].*member);
@@ -44,20 +44,20 @@ struct Simplex {
 
 /// The point of a simplex nearest to the origin.
 struct NearestPoint {
-  /// The corners' weighted sum: a point of the simplex to the rounding of
-  /// coordinates, however thin the simplex is.
+  /// The corners' weighted sum: in the simplex up to the rounding of coordinates, however thin the simplex
+  /// is.
   Eigen::Vector3d point;
   /// The direction from the origin to the point, of any length. For a triangle near the origin it is the
   /// triangle's normal, which stays accurate however near the triangle is.
   Eigen::Vector3d direction;
-  bool inside;  ///< the origin is inside a tetrahedron, or on the simplex to rounding
+  bool inside;  ///< the origin is inside a tetrahedron, or on the simplex up to rounding
 };
 
 namespace simplex_face {
 
 using SimplexPoints = std::array<Eigen::Vector3d, 4>;
 
-/// A face of the simplex that may hold the nearest point: its corners' numbers and their weights.
+/// A face of the simplex that may contain the nearest point: its corners' indices and their weights.
 struct SimplexFace {
   std::array<int, 3> corner{};
   std::array<double, 3> weight{};
@@ -90,8 +90,7 @@ inline SimplexFace closer(const SimplexFace& a, const SimplexFace& b) {
 inline SimplexFace nearestOnTriangle(const SimplexPoints& s, int i, int j, int k) {
   const Eigen::Vector3d &a = at(s, i), &b = at(s, j), &c = at(s, k);
   const Eigen::Vector3d ab = b - a, ac = c - a, normal = ab.cross(ac);
-  const double squared =
-      normal.squaredNorm();  // of the height over the longest side, times that side's square
+  const double squared = normal.squaredNorm();  // (height over the longest side times that side)^2
   const double wa = normal.dot(b.cross(c)), wb = normal.dot(c.cross(a)), wc = normal.dot(a.cross(b));
   SimplexFace best{};
   if (squared > 0 && wa > 0 && wb > 0 && wc > 0) {
@@ -119,10 +118,10 @@ inline double volume(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const E
   return a.dot(b.cross(c));
 }
 
-/// The face of a tetrahedron nearest to the origin. False with the origin
-/// inside; `weight` are then the corners'.
+/// The face of a tetrahedron nearest to the origin. False if the origin is inside; `weight` are then the
+/// weights of the corners.
 inline bool nearestOnTetrahedron(const SimplexPoints& s, SimplexFace& best, std::array<double, 4>& weight) {
-  constexpr double kFlat = 1e-10;  // volumes below this part of the larger ones say nothing about a side
+  constexpr double kFlat = 1e-10;  // volumes below this fraction of the larger ones have an unknown sign
   const Eigen::Vector3d &a = s[0], &b = s[1], &c = s[2], &d = s[3];
   // Weights of the origin: volumes opposite each corner, all of one sign inside.
   const double va = -volume(b, c, d), vb = volume(a, c, d), vc = -volume(a, b, d), vd = volume(a, b, c);
@@ -131,7 +130,7 @@ inline bool nearestOnTetrahedron(const SimplexPoints& s, SimplexFace& best, std:
     weight = {va / sum, vb / sum, vc / sum, vd / sum};
     return false;
   }
-  // Only faces that the origin lies beyond can hold the point; all of them where the volume is rounding.
+  // Only faces that the origin lies beyond can contain the point. If the volume is only rounding, all can.
   const double slack = kFlat * std::abs(sum), side = sum < 0 ? -1 : 1;
   const bool flat = !(std::abs(sum) > kFlat * (std::abs(va) + std::abs(vb) + std::abs(vc) + std::abs(vd)));
   if (flat || side * va <= slack) best = closer(best, nearestOnTriangle(s, 1, 2, 3));
@@ -143,7 +142,7 @@ inline bool nearestOnTetrahedron(const SimplexPoints& s, SimplexFace& best, std:
 
 }  // namespace simplex_face
 
-/// Finds the point of `simplex` nearest to the origin, and puts the corners that hold it into `reduced`;
+/// Finds the point of `simplex` nearest to the origin. `reduced` gets the corners whose hull contains it;
 /// their weights are positive and sum to 1.
 template <typename Corner>
 NearestPoint reduceToNearest(const Simplex<Corner>& simplex, Simplex<Corner>& reduced) {

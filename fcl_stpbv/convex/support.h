@@ -21,9 +21,9 @@ struct SupportPoint {
   double gap(const Eigen::Vector3d& y) const { return n.dot(y - anchor) - rise; }
 };
 
-/// The support concept: any type with such a function `supportPoint(body, n)` (as Jolt's
-/// `ConvexSupport::GetSupport`). Here a bounded simple shape; an STP-BV's core (distance/shape_ascent.h)
-/// remembers where it looked last.
+/// The support concept: any type with a function `supportPoint(body, n)` (as Jolt's
+/// `ConvexSupport::GetSupport`). This one is for a bounded simple shape. An STP-BV's core
+/// (distance/shape_ascent.h) also remembers the last patch.
 inline SupportPoint supportPoint(const Shape& shape, const Eigen::Vector3d& n) {
   const Eigen::Vector3d p = shape.support(n);
   return {n, -1, p, 0.0, p};
@@ -37,7 +37,7 @@ class ConvexDifference {
   struct Corner {
     Eigen::Vector3d w{0, 0, 0};    ///< the point (m)
     Eigen::Vector3d onA{0, 0, 0};  ///< A's part of it
-    double gap = 0;                ///< between the supporting planes that it was found with (m)
+    double gap = 0;                ///< gap between the supporting planes of its normal (m)
   };
 
   ConvexDifference(A& a, B& b, const RelativePose& pose) : a_(a), b_(b), pose_(pose) {}

@@ -11,8 +11,8 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr double kChord = 0.15;  // between the axis and directions that a cap serves
-constexpr double kWider = 0.16;  // that it is made for: rounding leaves no vertex out
+constexpr double kChord = 0.15;  // between the axis and the directions that a cap is used for
+constexpr double kWider = 0.16;  // that it is made for: so rounding cannot exclude a vertex
 
 }  // namespace
 

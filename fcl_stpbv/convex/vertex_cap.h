@@ -14,7 +14,7 @@ namespace fcl_stpbv::detail {
 /// The cache of one query for one polytope. Each call changes it, so threads must not share one.
 class VertexCap {
  public:
-  /// The vertex furthest along `d` (any length), but for rounding. Always the same polytope's.
+  /// The vertex furthest along `d` (any length), up to rounding. All calls must be for the same polytope.
   Eigen::Vector3d furthest(const Eigen::Vector3d& d, const Eigen::Vector3d* vertices, int count);
 
  private:
@@ -42,7 +42,7 @@ class QueriedShape {
   const Shape& shape() const { return capped_ ? *capped_ : shape_; }
 
  private:
-  static constexpr int kMany = 128;  // for fewer vertices a search of all is as fast
+  static constexpr int kMany = 128;  // for fewer vertices visiting all of them is as fast
   const Shape& shape_;
   std::optional<Shape> capped_;
   VertexCap cap_;

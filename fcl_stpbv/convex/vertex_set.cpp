@@ -20,7 +20,8 @@ struct Four {
   Packed x, y, z;
 
   explicit Four(const Vector3d* vertices) {
-    // Loaded by twos, each number in the half of the register where it stays: no shuffle goes across.
+    // Loads two numbers at a time into the half of the register where they stay, so no shuffle crosses
+    // halves.
     const double* numbers = vertices[0].data();
     const auto twos = [&](int i, int k) {
       Two low, high;
@@ -70,7 +71,7 @@ int furthestAlong(const Vector3d& d, const Vector3d* vertices, int count) {
       height = higher ? next : height;
     };
     PackedBits at = where + 4;
-    // Twice four are compared among themselves first: that need not wait for those before them.
+    // Two groups of four are compared with each other first, which need not wait for the earlier groups.
     for (i = 4; i + 8 <= count; i += 8, at += 8) {
       const Packed one = Four(vertices + i).along(d), other = Four(vertices + i + 4).along(d);
       const PackedBits later = other > one;
@@ -106,7 +107,7 @@ int fromHeight(double least, const Vector3d& d, const Vector3d* vertices, int co
   return many;
 }
 
-// Asked for is the sign of w.n + chord |w|, of all w from `v`: that of (w.n) |w.n| + chord^2 w.w.
+// With w from `v` to a vertex, the sign of w.n + chord |w| decides. It is that of (w.n) |w.n| + chord^2 w.w.
 FCL_STPBV_VECTORIZED
 int notBelow(const Vector3d& v, const Vector3d& n, double chord, const Vector3d* vertices, int count,
              Vector3d* found, int room) {

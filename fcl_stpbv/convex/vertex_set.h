@@ -13,7 +13,7 @@ struct Spread {
 };
 Spread spreadAbout(const Eigen::Vector3d& point, const Eigen::Vector3d* vertices, int count);
 
-/// The one furthest along `d` (any length), the first of several. At least one vertex.
+/// The vertex furthest along `d` (any length); the first one if there are several. `count` is at least 1.
 int furthestAlong(const Eigen::Vector3d& d, const Eigen::Vector3d* vertices, int count);
 
 /// The number of vertices with a height of at least `least` along `d`. The first `room` of them are written

@@ -26,12 +26,12 @@ constexpr int kMaxPairs =
 double slopeAlong(const Sample& m, const Vector3d& pole) { return m.across.dot(pole.cross(m.n)); }
 
 /// A normal on the arc from `x` towards `to` where the gap has grown and its slope along the
-/// arc is about zero. The slope is continuous, so a bracket of its sign always shrinks on a
-/// maximum; `x` itself when the gap cannot grow.
+/// arc is about zero. The slope is continuous, so a bracket of its change of sign contains a maximum. Returns
+/// `x` itself if the gap cannot grow.
 Sample ascendArc(const BodyPair& pair, const Sample& x, const Vector3d& to, const Sample* atEnd,
                  SearchWork& work) {
-  constexpr int kTrials = 60;     // bisection alone would go from 1 rad to an ulp
-  constexpr double kFlat = 0.05;  // of the slope at the start; the next patch pair does the rest exactly
+  constexpr int kTrials = 60;     // enough for bisection alone to go from 1 rad to an ulp
+  constexpr double kFlat = 0.05;  // of the slope at the start; the next patch pair solves for the rest
   const Vector3d cross = x.n.cross(to);
   const double sine = cross.norm();
   if (sine < 1e-16) return x;
@@ -43,7 +43,8 @@ Sample ascendArc(const BodyPair& pair, const Sample& x, const Vector3d& to, cons
   double lowAt = 0.0, highAt = 1.0;
   double lowSlope = startSlope, highSlope = slopeAlong(high, pole);
   if (high.core > x.core && highSlope >= 0.0) return high;
-  double lowWeight = lowSlope, highWeight = highSlope;  // Illinois: halved at the end that stays
+  double lowWeight = lowSlope,
+         highWeight = highSlope;  // the Illinois method halves the weight of the end that stays
   int lastSide = 0;
   for (int i = 0; i < kTrials; ++i) {
     double at = 0.5 * (lowAt + highAt);
@@ -80,7 +81,7 @@ bool settle(const BodyPair& pair, Sample& x, Vector3d& next, SearchWork& work) {
   const PosedPatch a = pair.patchA(x.patch[0]), b = pair.patchB(x.patch[1]);
   Packed n = pack(x.n);
   ++work.pairs;
-  for (int attempt = 0; attempt < 2; ++attempt) {  // two tori may need a second go for the last digits
+  for (int attempt = 0; attempt < 2; ++attempt) {  // two tori may need a second solve for the last digits
     n = widestNormal(a, b, n).unit();
     next = unpack(n);
     if (pair.tablesA().patches.crossing(x.patch[0], n).past > kOnBoundary ||
@@ -127,7 +128,7 @@ bool ascend(const BodyPair& pair, Sample& x, SearchWork& work) {
   for (int i = 0; i < kMaxPairs; ++i) {
     Vector3d next;
     if (settle(pair, x, next, work)) return true;
-    if (pair.isStationary(x)) return true;  // on a boundary, to rounding
+    if (pair.isStationary(x)) return true;  // a maximum on a region boundary, up to rounding
 
     Sample y;
     if (next.dot(x.n) > 0.1) {
@@ -137,8 +138,8 @@ bool ascend(const BodyPair& pair, Sample& x, SearchWork& work) {
       y = x;
     }
     if (!(y.core > x.core)) {
-      // Only deep inside each other, or at rounding: the pair's maximum is not
-      // uphill; follow the gradient instead.
+      // The pair's maximum is not uphill. This happens only for deep overlaps and at the rounding level.
+      // Follow the gradient instead.
       y = ascendArc(pair, x, (x.n + x.across.normalized()).normalized(), nullptr, work);
       if (!(y.core > x.core)) return false;
     }

@@ -1,10 +1,10 @@
-// A ball and a simple shape of few features: the way between the ball's centre and the core's surface, in
-// closed form.
+// A ball and a simple shape of few features: the shortest vector between the ball's centre and the core's
+// surface, in closed form.
 //
 // 1. Outside the core: its nearest point, feature by feature (convex/shape_feature.h), tested against the
 //    whole core.
-// 2. Inside: the nearest of the planes that touch the core. A ball about the centre that reaches as far lies
-//    in the core, so no other way out is shorter.
+// 2. Inside: the nearest of the planes that touch the core. The ball around the centre that touches this
+//    plane lies in the core, so no other way out is shorter.
 #include <algorithm>
 #include <cmath>
 
@@ -17,7 +17,7 @@ namespace fcl_stpbv::detail {
 
 namespace {
 
-/// The plane that touches a core nearest to a point in it.
+/// The nearest of the planes that touch a core, for a point inside the core.
 struct TouchingPlane {
   double away;     ///< from the point (m)
   Packed outward;  ///< unit
@@ -27,7 +27,8 @@ bool hasPlanes(const Shape& core) {
   return core.kind == ShapeKind::box || core.kind == ShapeKind::cylinder || core.kind == ShapeKind::cone;
 }
 
-/// From `x` in one of these, or next to its surface; `f` is what nearestFeature() says there.
+/// The nearest touching plane of a core with hasPlanes(). The point `x` is inside the core or next to its
+/// surface; `f` is the result of nearestFeature() at `x`.
 TouchingPlane nearestPlane(const Shape& core, const ShapeFeature& f, const Packed& x) {
   TouchingPlane nearest{kInfinity, {}};
   const auto plane = [&](double away, const Packed& outward) {
@@ -67,7 +68,7 @@ bool oppositeBall(const ShapePair& p, OppositePoints& found) {
   if (f.kind == Kind::none || f.kind == Kind::whole || (isInside && !hasPlanes(p.b))) return false;
   const Packed d = isInside ? Packed{} : p.pose.rotation * -wayFrom(f, x);
   if (dot(d, d) > p.rounding * p.rounding) return p.isNearest(d, found);
-  // Inside, or on the surface up to rounding, where the vector is too short to give a normal.
+  // The centre is inside, or so near the surface that the vector is too short to give a normal.
   if (!hasPlanes(p.b)) return false;
   const TouchingPlane plane = nearestPlane(p.b, f, x);
   const Packed n = p.pose.rotation * -plane.outward;

@@ -52,7 +52,7 @@ class BodyPair {
   const QueryTables& tablesB() const { return tablesB_; }
   const RelativePose& pose() const { return pose_; }
 
-  /// The second body's outward normal, in its own frame, where the first body's is `n`.
+  /// The second body's outward normal, in its own frame, that is opposite the first body's normal `n`.
   Eigen::Vector3d opposite(const Eigen::Vector3d& n) const { return pose_.opposite(n); }
   Packed opposite(const Packed& n) const { return pose_.opposite(n); }
 
@@ -64,7 +64,7 @@ class BodyPair {
     return p;
   }
 
-  /// The gap along `n` when these two patches own it; the second form for patches already posed.
+  /// The gap along `n` if these two patches own it. The second overload takes posed patches.
   Sample sample(const Eigen::Vector3d& n, const std::array<int, 2>& patch) const {
     return sample(pack(n), patch, patchA(patch[0]), patchB(patch[1]));
   }
@@ -74,8 +74,8 @@ class BodyPair {
     return {unpack(n), patch, gap.value, unpack(gap.across), unpack(gap.point)};
   }
 
-  /// Patches near those that own `n`, of any length, and its opposite: of
-  /// vertices about as far along them as any.
+  /// Patches near the owners of `n` and of its opposite: vertices that are about the furthest along them. The
+  /// length of `n` does not matter.
   std::array<int, 2> near(const Eigen::Vector3d& n) const {
     return {tablesA_.vertexNear[n], tablesB_.vertexNear[opposite(n)]};
   }
@@ -89,7 +89,8 @@ class BodyPair {
     return vertexB(vertex[1]) - vertexA(vertex[0]);
   }
 
-  /// One about as far against `n`, of any length, as any: from the tables of directions alone.
+  /// A vertex difference that is about the furthest against `n`, from the direction tables alone. The length
+  /// of `n` does not matter.
   Packed differenceAgainst(const Eigen::Vector3d& n) const { return vertexDifference(near(n)); }
 
   /// Second body's centre less the first one's.
@@ -101,7 +102,8 @@ class BodyPair {
   /// Sum of the radii beyond the cores (m).
   double margins() const { return a_.radii().r + b_.radii().r; }
 
-  /// Rounding of a gap: coordinates up to the bodies' extents and mutual distance, a dozen operations (m).
+  /// Rounding error of a gap: a dozen operations on coordinates up to the bodies' extents and mutual distance
+  /// (m).
   double gapRounding() const { return gapRounding_; }
 
   /// Bound on the rounding error of a gap, including that of the poses; certificates are rounded outward by
@@ -132,8 +134,8 @@ class BodyPair {
   const RelativePose& pose_;
   double gapRounding_;
   double certificateRounding_;
-  double acrossRounding_;  // of `Sample::across`: a normal is good to an ulp, a face's point moves `rho`
-                           // times as far
+  double acrossRounding_;  // error of `Sample::across`: a normal is accurate to an ulp, and a face's point
+                           // moves `rho` times as far
 };
 
 }  // namespace fcl_stpbv::detail

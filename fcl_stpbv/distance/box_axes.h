@@ -16,8 +16,8 @@ namespace fcl_stpbv::detail {
 /// object.
 class BoxAxes {
  public:
-  /// One axis: of the first box's sides, of the second one's, or of an edge of the first one, by its place
-  /// from `firstCross` on, with one of the second.
+  /// One axis: the normal of a side of the first box, that of a side of the second box, or the cross product
+  /// of two edges. Then `kind - firstCross` is the first box's edge, and `which` the second box's.
   struct Axis {
     enum Kind : std::size_t { firstSides, secondSides, firstCross, kinds = 5 };
     std::size_t kind;
@@ -27,16 +27,17 @@ class BoxAxes {
   BoxAxes(const BodyBox& a, const BodyBox& b, const RelativePose& pose);
   explicit BoxAxes(const BodyPair& pair) : BoxAxes(pair.tablesA().box, pair.tablesB().box, pair.pose()) {}
 
-  /// The axis of the least overlap, and the unit vector along one, from the first body to the second.
+  /// The axis of the least overlap.
   Axis least() const;
+  /// The unit vector along an axis, from the first body to the second.
   Eigen::Vector3d normal(const Axis& axis) const;
 
-  /// Overlap along it, negative of boxes that are apart (m).
+  /// Overlap along an axis; negative if the boxes are apart along it (m).
   double overlap(const Axis& axis) const {
     return overlap_[axis.kind][axis.which] / std::sqrt(length2_[axis.kind][axis.which]);
   }
 
-  /// The translation in the opposite direction along it that separates the boxes (m).
+  /// Length of the translation against the axis' normal that separates the boxes (m).
   double opposite(const Axis& axis) const {
     return overlap(axis) + 2.0 * std::abs(dot(pack(normal(axis)), between_));
   }
@@ -49,12 +50,12 @@ class BoxAxes {
   /// by more than `rounding` (m). False where edges are so nearly parallel that this leaves it open.
   bool noneNearer(double depth, double rounding) const;
 
-  /// The direction of the first box's edge that an axis is of, and of the second's.
+  /// The directions of the two edges whose cross product is the axis.
   const Packed& firstEdge(const Axis& axis) const { return first_[axis.kind - Axis::firstCross]; }
   const Packed& secondEdge(const Axis& axis) const { return second_[axis.which]; }
 
-  /// The axis of the side or of the two edges that the patches of a maximum between STP-BVs are of; its kind
-  /// is `kinds` where there is none.
+  /// The axis that belongs to the patches of the maximum `top` between two STP-BVs: that of a box's side, or
+  /// of two edges. Its kind is `kinds` if there is none.
   Axis of(const BodyPair& pair, const Sample& top) const;
 
  private:
@@ -75,7 +76,7 @@ class BoxAxes {
   const Packed (&first_)[3];  // the boxes' axes
   Packed second_[3];
   Packed between_;                                      // from centre to centre
-  Packed overlap_[Axis::kinds], length2_[Axis::kinds];  // an axis each; times the length of what it is along
+  Packed overlap_[Axis::kinds], length2_[Axis::kinds];  // of three axes each; overlaps times the axis' length
 };
 
 inline BoxAxes::BoxAxes(const BodyBox& a, const BodyBox& b, const RelativePose& pose) : first_(a.axis) {
@@ -137,7 +138,7 @@ inline bool BoxAxes::othersBeyond(const Axis& axis, double depth) const {
 }
 
 inline bool BoxAxes::noneNearer(double depth, double rounding) const {
-  constexpr double kSame2 = 4e-30;  // squared sine of two edges that are parallel but for rounding
+  constexpr double kSame2 = 4e-30;  // squared sine of two edges that are parallel up to rounding
   const double least = depth - 2.0 * rounding;
   Packed nearer{};
   for (std::size_t kind = 0; kind < Axis::kinds; ++kind) {
@@ -149,8 +150,10 @@ inline bool BoxAxes::noneNearer(double depth, double rounding) const {
 }
 
 inline BoxAxes::Axis BoxAxes::of(const BodyPair& pair, const Sample& top) const {
-  constexpr double kSide = 0.9;         // cosine: the normal of a bulging side's maximum is near the side's
-  constexpr double kEdge = 1.0 - 1e-9;  // an edge's is the box's, unless it is a side's diagonal
+  constexpr double kSide =
+      0.9;  // cosine: a side bulges, so the normal of a maximum on it is only near its own
+  constexpr double kEdge =
+      1.0 - 1e-9;  // cosine: an edge is parallel to the box's, unless it is a side's diagonal
   constexpr Axis kNone{Axis::kinds, 0};
   const PatchKind kindA = pair.a().kind(top.patch[0]), kindB = pair.b().kind(top.patch[1]);
   const Packed n = pack(top.n);

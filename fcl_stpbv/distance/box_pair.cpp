@@ -25,16 +25,17 @@ BodyBox bodyBox(const Shape& box) {
   return body;
 }
 
-/// Points opposite each other, `found.gap` along `found.n`, from A's corner `found.onA` and B's `onB`. False
-/// where there are none so near.
+/// Finds two points that are `found.gap` apart along `found.n`, starting from A's corner `found.onA` and B's
+/// corner `onB`. False if there are none this near.
 bool placeOpposite(const ShapePair& p, const BoxAxes& axes, const BoxAxes::Axis& axis, Vector3d onB,
                    OppositePoints& found) {
-  constexpr int kTurns = 4;  // a corner over a side needs one, edges and sides that are level mostly two
+  constexpr int kTurns = 4;  // a corner above a side needs one, parallel edges and sides mostly two
   const Vector3d way = found.gap * found.n;
   const auto ontoB = [&](const Vector3d& y) { return p.pose.placed(ontoCore(p.b, p.pose.inSecond(y))); };
   if (axis.kind == BoxAxes::Axis::secondSides) onB = ontoB(found.onA + way);
   for (int i = 0; i < kTurns; ++i) {
-    if (axis.kind >= BoxAxes::Axis::firstCross) {  // along B's edge to the plane of A's edge and the normal
+    if (axis.kind >=
+        BoxAxes::Axis::firstCross) {  // along B's edge to the plane through A's edge and the normal
       const Vector3d a = unpack(axes.firstEdge(axis)), b = unpack(axes.secondEdge(axis)),
                      across = b - a.dot(b) * a;
       onB = ontoB(onB - (onB - way - found.onA).dot(across) / across.squaredNorm() * b);
@@ -60,7 +61,7 @@ bool oppositeBoxes(const ShapePair& p, OppositePoints& found) {
   const ShapePair::Corner corner = ShapePair::Difference(p.a, p.b, p.pose).support(found.n);
   found.gap = corner.gap;
   found.onA = corner.onA;
-  // Apart, points that are opposite each other prove the gap, in each other the other axes have to.
+  // If the boxes are apart, points opposite each other prove the gap. If they overlap, the other axes do.
   const bool isWidest = found.gap > 0.0 || (found.gap + depth >= -0.5 * p.rounding &&
                                             axes.noneNearer(-found.gap, 0.5 * p.rounding));
   return isWidest && placeOpposite(p, axes, axis, corner.onA + corner.w, found);

@@ -33,14 +33,15 @@ struct Triangle {
   }
 };
 
-/// The sides of a feature, from corner to corner, all at once; of three the first comes again as fourth.
+/// The sides of a feature, from corner to corner, one in each lane. If there are three, the first one is also
+/// the fourth.
 struct FeatureSides {
   explicit FeatureSides(const FeatureCorners& c)
       : three(c.count == 3),
         from(four(c.point[0], c.point[1], c.point[2], c.point[three ? 0 : 3])),
         to(next(from)) {}
 
-  /// Of each side's number that of the next side.
+  /// For each side, the number of the next side.
   Packed next(const Packed& v) const {
     return three ? __builtin_shufflevector(v, v, 1, 2, 0, 1) : __builtin_shufflevector(v, v, 1, 2, 3, 0);
   }
@@ -65,7 +66,7 @@ Vertices verticesOf(const StpBv& body, int patch) {
   }
   Vertices v;
   const FaceRecord& face = patches.face(patch);
-  if (face.further() < 0) {  // all in the record, which is at hand
+  if (face.further() < 0) {  // all of them are in the record, which has been loaded
     v.count = face.count();
     for (std::size_t i = 0; i < v.count; ++i) v.index[i] = patches.startOf(face.side[i]);
   } else {
@@ -76,7 +77,7 @@ Vertices verticesOf(const StpBv& body, int patch) {
   return v;
 }
 
-/// Which of some points is nearest to `target`.
+/// The one of `count` points that is nearest to `target`.
 template <typename Point>
 Packed nearestOf(std::size_t count, const Point& point, const Packed& target) {
   Packed nearest = point(0);
@@ -88,13 +89,13 @@ Packed nearestOf(std::size_t count, const Point& point, const Packed& target) {
   return nearest;
 }
 
-/// Of two boxes, whose difference has a side along each of fifteen axes and its opposite, and no others:
-/// whether the feature is one of these sides, and all others are at least `depth` from the origin. The
-/// feature lies in its side's plane to rounding. Were it only a part of that side, another side would be in
-/// the plane too, or next to it: those are asked for more than that.
+/// For two boxes: whether the feature is one side of their difference, and all other sides are at least
+/// `depth` from the origin. The difference has a side along each of fifteen axes and its opposite, and no
+/// others. The feature lies in its side's plane up to rounding. If it were only a part of that side, another
+/// side would be in or next to that plane. So the other sides must be farther away by `kApart`.
 bool closesOverBoxes(const BodyPair& pair, const Sample& top, const FeatureCorners& corners, double depth) {
-  constexpr double kSame = 2e-14;  // of the size: rounding, and how far the corners may be beside a box's
-  constexpr double kApart = 1e-9;  // of the size: what the same tilts a side as thin as a box may be, 1e-3
+  constexpr double kSame = 2e-14;  // of the size: rounding, and the distance of the corners from a box's
+  constexpr double kApart = 1e-9;  // of the size: more than `kSame` can tilt a side of the thinnest box, 1e-3
   if (!pair.tablesA().box.isHull || !pair.tablesB().box.isHull || corners.count != 4) return false;
   const double size = pair.a().extent() + pair.b().extent();
   const BoxAxes axes(pair);
@@ -115,8 +116,8 @@ bool closesOver(const Packed& centre, double radius, const FeatureSides& sides, 
   // Unit outward normals of the planes over the sides that touch the ball.
   const FourVectors wall = 1.0 / in2 * (roots(tangent2 / side2) * cross(in, side) - (Packed{} + radius) * in);
   if (!all((tangent2 > 0.0) & (dot(wall, p) >= depth))) return false;
-  // From wall to wall the cone's normals go along a circle, on which the planes' distance from the origin is
-  // a sine: the least is at an end unless the sine's own least is between them.
+  // From wall to wall the cone's normals follow a circle, on which the distance of their planes from the
+  // origin is a sine. So it is least at an end, unless the sine has its own minimum between the ends.
   const FourVectors next = sides.next(wall), turn = cross(wall, next), across = cross(q, c);
   const PackedBits rises = dot(wall, across) <= 0.0, falls = dot(next, across) >= 0.0,
                    shortTurn = dot(turn, q - c) > 0.0;
@@ -171,8 +172,8 @@ WidestProof proveWidest(const BodyPair& pair, const Sample& top) {
   const Packed height = dot(normal, sides.from), far2 = height * height / dot(normal, normal);
   if (!all(height > 0.0)) return proof;
   constexpr double kLevel = 1.0 - 1e-14;  // rounding of the quotient
-  // A plane through the maximum's point is tilted by the angle whose cosine is its distance over the depth,
-  // and what is beyond it by no more than twice that.
+  // The cosine of the tilt of a plane through the maximum's point is the plane's distance divided by the
+  // depth. The normals of points beyond the plane are tilted by at most twice that angle.
   const double nearest2 = std::min(std::min(far2[0], far2[1]), std::min(far2[2], far2[3])),
                c2 = std::min(nearest2 / (top.core * top.core), kLevel);
   if (!proof.around.holdsWithin(2.0 * std::sqrt(c2 * (1.0 - c2)), 2.0 * c2 - 1.0)) return proof;

@@ -1,13 +1,14 @@
-// An STP-BV and a segment, a triangle or a box whose cores overlap: the depth in closed form, from one cone
-// of normals of the shape after the other. The proof is in docs/theory.md, 5.
+// Depth of an STP-BV and a segment, a triangle or a box whose cores overlap, in closed form. The normal cones
+// of the shape's features are searched one after the other. The proof is in docs/theory.md, 5.
 //
-// 1. A flat face has one normal: look along it.
-// 2. In a corner's cone a shape deep enough leaves only through a face of the volume, and the ways out of
-//    the faces' balls are in closed form (volume/point_depth.h).
-// 3. An edge has an arc of normals: EPA in the plane across it. Between two normals the volume's outline is
-//    no nearer than the chord between the points that they name.
-// 4. On such a piece within one patch the curvature tells that it has one minimum at most: Newton's method
-//    finds it.
+// 1. A flat face has one normal: evaluate the depth along it.
+// 2. A corner has a cone of normals. If the corner is deep enough, its shortest way out leads through a face
+// of
+//    the volume, and the ways out of the faces' balls are in closed form (volume/point_depth.h).
+// 3. An edge has an arc of normals: EPA in the plane perpendicular to the edge. Between two normals, the
+//    volume's outline is outside the chord between their support points.
+// 4. If a piece of an arc is within one patch, the curvature may prove that it has at most one minimum.
+//    Newton's method finds it.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -25,7 +26,7 @@ using Eigen::Vector3d;
 namespace {
 
 /// The volume's support point along a normal, and the depth of one point or edge of the shape along it (m).
-/// Not initialised, because arcs store many.
+/// Left uninitialised, because each arc stores many.
 struct WayOut {
   Vector3d n;
   int patch;
@@ -40,7 +41,7 @@ struct Arc {
   WayOut from, to;
 };
 
-/// The ways out of the volume's core, cone by cone.
+/// Searches the ways out of the volume's core, one normal cone after the other.
 class WaysOut {
  public:
   explicit WaysOut(ShapeQuery& q) : q_(q) {}
@@ -51,7 +52,7 @@ class WaysOut {
     return {n, view.patch, view.point, -view.gap(y)};
   }
 
-  /// Any way at all: the shortest is no longer, beyond rounding.
+  /// Tells the depth along any normal: the shortest way out is not longer, up to rounding.
   void noLonger(double depth) { worth_ = std::min(worth_, depth + 4.0 * q_.rounding.gap); }
 
   /// Along the normal of a face through three points.
@@ -62,7 +63,7 @@ class WaysOut {
     return way;
   }
 
-  /// Between the sides of a corner: unit vectors along its edges.
+  /// The ways out in the normal cone of a corner. `side`: unit vectors along its edges.
   void corner(const Vector3d& p, const Vector3d* side, int count) {
     const auto found = pointDepthBetween(q_.body, p, side, count, worth_);
     ++q_.pairs;
@@ -71,13 +72,14 @@ class WaysOut {
     take(along(found->normal, p, found->patch), {{p, p, p}, 1});
   }
 
-  /// Whether no way of a corner between a face's, `near`, and a quarter's u to v across it is worth looking
-  /// at: up to an angle from `near` its point tells that, further off a ball in the volume.
+  /// Whether no way out of the corner `p` is shorter than the best known one, for normals on the arcs from
+  /// the face's normal, `near.n`, to all vectors between `u` and `v`. Near the face's normal, the support
+  /// point `near.point` proves it; farther away, the volume's inner ball does.
   bool isDeep(const Vector3d& p, const WayOut& near, const Vector3d& u, const Vector3d& v) const {
     const Vector3d centre = q_.body.centre() - p, from = near.point - p;
     const double ball = q_.body.innerRadius();
-    // Along cos(a) n + sin(a) w, with w between u and v, a vector is as long as along n times the cosine
-    // and the lesser of both others times the sine, if that is positive.
+    // Along cos(a) n + sin(a) w, with w between u and v, the component of a vector is at least cos(a) times
+    // that along n plus sin(a) times the smaller one of those along u and v, if that is positive.
     const double across = std::min(from.dot(u), from.dot(v)), aside = std::min(centre.dot(u), centre.dot(v)),
                  t = across / worth_;
     if (!(across > 0.0 && near.depth >= worth_)) return false;
@@ -87,7 +89,7 @@ class WaysOut {
     return aside >= 0.0 && std::min(there, aside) + ball >= worth_;
   }
 
-  /// False where too many pieces are left.
+  /// The ways out along an edge's arc of normals. False if too many pieces are left.
   bool arc(const Arc& whole) {
     constexpr int kPieces = 24, kMost = 1000;
     std::array<std::array<WayOut, 2>, kPieces> left;
@@ -111,8 +113,8 @@ class WaysOut {
     return true;
   }
 
-  /// The answer, if what was looked at proves it. What was left out as longer than a way known before may be
-  /// no shorter than the best that was looked at.
+  /// The answer, if the normals searched so far prove it. Pieces that were left out may have ways out as long
+  /// as the best known one, but no shorter ones.
   std::optional<LeastOverlap> answer() {
     if (!(best_.depth - std::min(bound_, worth_) <= 2.0 * q_.rounding.gap)) return {};
     LeastOverlap found{{}, -std::min(bound_, best_.depth) + q_.rounding.across, true, true};
@@ -135,8 +137,8 @@ class WaysOut {
   /// The derivative of the depth by the angle.
   static double slope(const Arc& arc, const WayOut& way) { return arc.t.cross(way.n).dot(way.point - arc.a); }
 
-  /// The unit normal of the chord between the points of two normals. A sliver's face is across its edges less
-  /// well than rounding.
+  /// The unit normal of the chord between the support points of two normals, made perpendicular to the edge:
+  /// a sliver's face normal is not, up to rounding.
   static Vector3d acrossChord(const Arc& arc, const WayOut& from, const WayOut& to) {
     const Vector3d &e = arc.from.n, &f = arc.to.n, chord = to.point - from.point;
     const double x = std::max(0.0, chord.dot(f)), y = std::max(0.0, -chord.dot(e));
@@ -144,11 +146,12 @@ class WaysOut {
     return acrossLine(n.normalized(), arc.t);
   }
 
-  /// Whether nothing between two normals is worth looking at; `chord` is how deep the chord of their points
-  /// is. What it finds there it takes.
+  /// Whether the piece between two normals needs no more search, because no way out there is shorter than the
+  /// best one, or because its minimum was found. `chord`: the depth of the chord of their support points.
   bool isSettled(const Arc& arc, const WayOut& from, const WayOut& to, double chord) {
     const double ends = std::min(from.depth, to.depth);
-    // The depth of a point alone is least at an end where it is positive: at both, or at one and the chord's.
+    // The depth of one support point, where positive, is least at an end of the piece. This bounds the depth
+    // by that of both ends for either point, and by that of the ends and the chord.
     const double one = std::max(std::min(from.depth, to.n.dot(from.point - arc.a)),
                                 std::min(to.depth, from.n.dot(to.point - arc.a))),
                  least = std::max(one, std::min(ends, chord));
@@ -164,8 +167,8 @@ class WaysOut {
     return true;
   }
 
-  /// The least radius of curvature of the volume's outline between two normals of one patch (m); none where
-  /// the arc may leave the patch between them.
+  /// The least radius of curvature of the volume's outline between two normals of one patch (m); 0 if the arc
+  /// may leave the patch between them.
   double leastCurvature(const Arc& arc, const PosedPatch& patch, const Vector3d& from,
                         const Vector3d& to) const {
     if (patch.kind == PatchKind::face) return patch.radii->rho;
@@ -197,10 +200,10 @@ class WaysOut {
   }
 
   ShapeQuery& q_;
-  double worth_ = kInfinity;  // a longer way is not the shortest
-  double bound_ = kInfinity;  // no way in the cones done with is shorter
+  double worth_ = kInfinity;  // the depth along the best known normal, less rounding
+  double bound_ = kInfinity;  // lower bound on the depth in the cones searched so far
   WayOut best_{{0, 0, 0}, -1, {0, 0, 0}, kInfinity};
-  ShapeCorners met_;  // what leaves last along it
+  ShapeCorners met_;  // the shape's corners that leave last along it
 };
 
 bool leaveSegment(const ShapeQuery& q, WaysOut& ways) {
@@ -288,7 +291,7 @@ bool leaveBox(const ShapeQuery& q, WaysOut& ways) {
 std::optional<LeastOverlap> overlapOfCones(ShapeQuery& q) {
   const ShapeKind kind = q.shape.kind;
   if (kind != ShapeKind::segment && kind != ShapeKind::triangle && kind != ShapeKind::box) return {};
-  // A point deep enough, so that no corner leaves through an edge or a vertex of the volume.
+  // This point must be deep enough that no corner leaves through an edge or a vertex of the volume.
   const Vector3d y = q.posed(ontoCore(q.shape, q.pose.inSecond(q.body.centre())));
   const std::optional<PointDepth> inside = pointDepth(q.body, y);
   if (!inside) return {};

@@ -25,7 +25,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// Newton's method along one feature, from next to the least overlap. Nothing if it does not converge.
+/// Newton's method on one feature, from a start near the least overlap. No value if it does not converge.
 template <typename Feature>
 std::optional<Nearest> deepestOn(ShapeQuery& q, const Feature& feature, const StartNormal& start) {
   constexpr int kSteps = 20, kHalvings = 12;  // the start is good to some digits
@@ -35,7 +35,7 @@ std::optional<Nearest> deepestOn(ShapeQuery& q, const Feature& feature, const St
   const auto rounded = [&] { return q.rounding.across + feature.wobble(x.view.n); };
   for (int i = 0; i < kSteps && x.across.norm() > 0.25 * rounded(); ++i) {
     Vector3d to = newtonTarget(q.body, x, feature.direction());
-    bool flatter = false;  // a step over a region boundary may be too long
+    bool flatter = false;  // a step across a region boundary may be too long
     for (int k = 0; k < kHalvings && !flatter; ++k, to = (to + x.view.n).normalized()) {
       ++q.pairs;
       const AscentPoint y = ascentPoint(q.body, feature, to, x.view.patch, q.steps);
@@ -48,7 +48,7 @@ std::optional<Nearest> deepestOn(ShapeQuery& q, const Feature& feature, const St
   return nearestFrom(x, feature);
 }
 
-/// Whether `found` is the whole shape's answer. `met` are corners of the shape that it may be between.
+/// Whether `found` is the answer for the whole shape. Its point may lie between the shape's corners `met`.
 bool isDeepest(const ShapeQuery& q, const Nearest& found, double leastOverlap, const ShapeCorners& met) {
   if (!(found.gap >= leastOverlap - q.rounding.gap)) return false;
   if (found.n.dot(found.y - q.facing(found.n)) > q.rounding.gap) return false;
@@ -62,11 +62,11 @@ bool isDeepest(const ShapeQuery& q, const Nearest& found, double leastOverlap, c
 /// The features that the least overlap may be on.
 class DeepFeatures {
  public:
-  /// `met` are corners of the shape that EPA's answer is of.
+  /// `met`: the shape's corners that EPA's answer is a combination of.
   DeepFeatures(ShapeQuery& q, const StartNormal& start, double leastOverlap, const ShapeCorners& met)
       : q_(q), start_(start), least_(leastOverlap), met_(met) {}
 
-  /// The first that holds the answer.
+  /// The first feature that has the answer.
   std::optional<DeepFeature> search() {
     const Vector3d axis = q_.rotation.col(2), top = q_.translation + q_.shape.half * axis,
                    bottom = q_.translation - q_.shape.half * axis;
@@ -105,9 +105,9 @@ class DeepFeatures {
     return found_;
   }
 
-  /// The same of a polytope whose cores only touch: its face, edge or corner along the start's normal.
+  /// For a polytope whose core only touches the volume's: its face, edge or corner along the start's normal.
   std::optional<DeepFeature> searchAlongNormal() {
-    for (const double angle : {1e-6, 1e-9}) {  // rad, by which the gap's rounding may turn the normal
+    for (const double angle : {1e-6, 1e-9}) {  // rad: rounding of the gap may turn the normal by this
       NormalCone cone;
       const Vector3d p = q_.facing(start_.n);
       if (!normalCone(q_.shape, q_.pose.opposite(start_.n), p, 2.0 * angle * q_.shape.reach, cone)) continue;
@@ -120,7 +120,8 @@ class DeepFeatures {
   }
 
  private:
-  /// `around` adds what the corners met hold around the point, of a shape without names for its features.
+  /// Takes the result of `search` if it is the answer. For a shape whose features have no names, `around`
+  /// adds the part of the face or edge between the met corners around the point.
   template <typename Search, typename Around>
   void take(const Search& search, const Around& around) {
     if (found_) return;
@@ -144,7 +145,7 @@ class DeepFeatures {
   void point(const Vector3d& p) {
     take([&] { return deepestOn(q_, PointFeature{p}, start_); });
   }
-  /// A line of the shape's, between two of its corners if it has no names.
+  /// A line on the shape. `length` (m): of the edge between two met corners, 0 for a named feature.
   void line(const Vector3d& p, const Vector3d& t, double length = 0.0) {
     take(
         [&] {
@@ -158,8 +159,8 @@ class DeepFeatures {
   void rim(const Vector3d& middle, const Vector3d& axis) {
     take([&] { return deepestOn(q_, RimFeature{middle, axis, q_.shape.radius}, start_); });
   }
-  /// A flat face: its normal is given, either way. `inside` tells how far a point is from the boundary of
-  /// what is known of it.
+  /// A flat face with the normal `n` or `-n`. `inside` returns the distance of a point from the boundary of
+  /// the known part of the face.
   template <typename Inside>
   void plane(const Vector3d& p, const Vector3d& n, const Inside& inside) {
     const Vector3d along = n.dot(start_.n) < 0.0 ? Vector3d(-n) : n;
@@ -169,7 +170,7 @@ class DeepFeatures {
   void plane(const Vector3d& p, const Vector3d& n) {
     plane(p, n, [](const Vector3d&) { return 0.0; });
   }
-  /// A cylinder's: its axis with the radius around it.
+  /// A cylinder's side: its axis, with the radius around it.
   void side(const Vector3d& axis) {
     take([&] {
       std::optional<Nearest> found = deepestOn(q_, LineFeature{q_.translation, axis}, start_);
@@ -201,7 +202,7 @@ class DeepFeatures {
       return found;
     });
   }
-  /// Of up to three corners: the face, the edges, the corners alone.
+  /// The face, the edges and the corners of up to three met corners.
   void corners() {
     const std::array<Vector3d, 3>& p = met_.p;
     if (met_.count == 3) {

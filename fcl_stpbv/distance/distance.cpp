@@ -33,7 +33,7 @@ namespace {
 
 using namespace detail;
 
-/// `n` of unit length, without the root where it is already close.
+/// `n` scaled to unit length, without a square root if it is almost of unit length.
 Packed renormalized(const Packed& n) {
   const double length2 = dot(n, n);
   return n * (std::abs(length2 - 1.0) < 1e-8 ? 1.5 - 0.5 * length2 : 1.0 / std::sqrt(length2));
@@ -72,7 +72,7 @@ SearchStart fromCentres(const BodyPair& pair) {
 /// violates most. -1 after a large turn.
 int nearby(const StpBv& body, int patch, const Packed& now, const Eigen::Vector3f& then) {
   constexpr double kLarge = 0.1;  // rad
-  constexpr double kWide = 3.0;   // squares of as wide a turn, over all patches: a quarter of the sphere
+  constexpr double kWide = 3.0;   // squares of such a turn, over all patches: a quarter of the sphere
   if (patch < 0 || patch >= body.patchCount()) return -1;
   if (then.isZero()) return patch;
   const Packed turn = now - pack(then.cast<double>());
@@ -95,12 +95,12 @@ SearchStart startOf(const BodyPair& pair, const Rotation& toWorld, const PairCac
   return fromCentres(pair);
 }
 
-/// Two patches along a normal, as a search goes from one to the next.
+/// The state of the feature walk: a patch of each body, and a normal.
 struct SearchState {
   std::array<int, 2> patch;
   PosedPatch a, b;
   Packed n;
-  bool far;  ///< from the last query's: nothing here was fetched ahead
+  bool far;  ///< far from the last query's patches, so nothing here was prefetched
 
   void cross(const BodyPair& pair, const Crossing& overA, const Crossing& overB) {
     if (overA.past >= overB.past) {
@@ -112,9 +112,9 @@ struct SearchState {
     }
   }
 
-  /// Over the first boundary uphill, for patches whose gap has its maximum far off or none on this side of
-  /// the sphere, as two vertices that overlap. Along an edge the gap bends so much that only the way across
-  /// it leads anywhere. False where no boundary is ahead.
+  /// Crosses the first boundary uphill. For patches whose gap has its maximum far away, or has none on this
+  /// side of the sphere, as with two vertices that overlap. Along an edge the gap is curved so strongly that
+  /// only the direction across the edge is used. False if no boundary is ahead.
   bool crossUphill(const BodyPair& pair) {
     Packed up = coreGap(a, b, n).across;
     for (const PosedPatch* p : {&a, &b})
@@ -135,7 +135,7 @@ struct SearchState {
 /// maximum that it finds is the only one. If it finds none, nothing is proven.
 bool walkFeatures(const BodyPair& pair, const SearchStart& start, WidestGap& found, SearchWork& work) {
   constexpr int kTries = 12;    // one to three are usual
-  constexpr double kFar = 0.3;  // cosine of the turn after which the boundary passed furthest says little
+  constexpr double kFar = 0.3;  // cosine of the turn above which the boundary passed furthest means little
   SearchState at{start.patch, pair.patchA(start.patch[0]), pair.patchB(start.patch[1]), pack(start.n),
                  !start.near};
   if (at.far) {
@@ -153,7 +153,7 @@ bool walkFeatures(const BodyPair& pair, const SearchStart& start, WidestGap& fou
       at.n = to.unit();
       found.at = BodyPair::sample(at.n, at.patch, at.a, at.b);
       if (pair.isStationary(found.at)) return true;
-      continue;  // two tori may need a second go for the last digits
+      continue;  // two tori may need a second solve for the last digits
     }
     ++work.steps;
     if (!straysFar) {
@@ -191,7 +191,7 @@ Distance distance(const StpBv& a, const Isometry3d& poseA, const StpBv& b, const
   WidestGap found;
   SearchWork work;
   const bool settled = walkFeatures(pair, start, found, work);
-  if (settled && start.near) {  // what is around a patch that stays has been fetched
+  if (settled && start.near) {  // the data around an unchanged patch has been prefetched
     if (found.at.patch[0] != cache->patch[0]) a.tables().patches.prefetchAround(found.at.patch[0]);
     if (found.at.patch[1] != cache->patch[1]) b.tables().patches.prefetchAround(found.at.patch[1]);
   }

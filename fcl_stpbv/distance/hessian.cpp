@@ -20,7 +20,8 @@ namespace {
 
 using namespace detail;
 
-/// `t` with `w^T t w = a.(w x (w x n))`: the bend of a rotating body's normal.
+/// The matrix `t` with `w^T t w = a.(w x (w x n))`: second-order change of a rotating body's normal, times
+/// `a`.
 Matrix3d bend(const Vector3d& a, const Vector3d& n) {
   return 0.5 * (a * n.transpose() + n * a.transpose()) - a.dot(n) * Matrix3d::Identity();
 }
@@ -31,7 +32,7 @@ void secondOrder(const Touch& touch, const Isometry3d& poseA, const Isometry3d& 
   const Vector3d &n = d.normal, &armA = touch.armA, &fromB = touch.fromB;
   const Matrix3d spin = -crossMatrix(n);  // w x n = spin w
 
-  // What the twists do to both points and to the normal in body 1, across the normal.
+  // How the twists move both points relative to each other, and turn the normal in body 1; across the normal.
   const Eigen::Matrix<double, 2, 3> across = meeting.frame.transpose();
   const Eigen::Matrix<double, 2, 3> rotated = across * spin;
   Eigen::Matrix<double, 2, 12> apart, carried;
@@ -40,8 +41,9 @@ void secondOrder(const Touch& touch, const Isometry3d& poseA, const Isometry3d& 
   const Eigen::Matrix<double, 2, 12> turn = meeting.turning * apart - meeting.sliding.transpose() * carried,
                                      slide = meeting.sliding * apart + meeting.rolling * carried;
 
-  // s_qq: of n.(o_B - o_A), whose normal turns with body 2, and of -h_A, whose normal turns against body 1.
-  // Term by term: Eigen would call its product of large matrices, for sums of two.
+  // s_qq has terms of n.(o_B - o_A), whose normal turns with body 2, and of -h_A, whose normal turns against
+  // body 1.
+  // lazyProduct(), because Eigen would call its product of large matrices for sums of two terms.
   Eigen::Matrix<double, 12, 12> h =
       apart.transpose().lazyProduct(turn) - carried.transpose().lazyProduct(slide);
   const auto add = [&](int row, int column, const Matrix3d& m) {
@@ -58,7 +60,7 @@ void secondOrder(const Touch& touch, const Isometry3d& poseA, const Isometry3d& 
   result.normal = meeting.frame * turn;
   result.normal.block<3, 3>(0, 9) += spin;
 
-  // Body 1's point moves with it and slides; body 2's is the distance away along the normal.
+  // Body 1's point moves with body 1 and slides on it. Body 2's point is the distance away along the normal.
   result.point[0] = meeting.frame * slide;
   result.point[0].block<3, 3>(0, 0) += Matrix3d::Identity();
   result.point[0].block<3, 3>(0, 3) -= crossMatrix(armA);
@@ -67,7 +69,7 @@ void secondOrder(const Touch& touch, const Isometry3d& poseA, const Isometry3d& 
   result.point[1] = result.point[0] + n * gradient + d.distance * result.normal;
 }
 
-/// The same along one motion of both bodies.
+/// The first-order changes along one motion of both bodies.
 void firstOrder(const Touch& touch, const Distance& d, const BodyTwists& twists, DistanceRate& result) {
   const Turning& meeting = touch.meeting;
   const Vector3d wA = twists.segment<3>(3), wB = twists.segment<3>(9);

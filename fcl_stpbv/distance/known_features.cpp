@@ -12,7 +12,7 @@ using Eigen::Vector3d;
 namespace {
 
 struct KnownCorner {
-  Vector3d w{0, 0, 0};  // from the point that the nearest is sought of (m)
+  Vector3d w{0, 0, 0};  // from the query point (m)
   Vector3d place{0, 0, 0};
 };
 
@@ -21,7 +21,7 @@ struct KnownCorner {
 KnownFeatures::KnownFeatures(const ShapeQuery& q, const Vector3d& n)
     : q_(q), isPolytope_(q.shape.kind == ShapeKind::polytope) {
   if (!isPolytope_) return;
-  constexpr int kFew = 24;       // corners: a look at them costs less than a step of the walk
+  constexpr int kFew = 24;       // corners: visiting all of them costs less than a step of the walk
   constexpr double kTilt = 0.1;  // rad
   if (q.shape.vertexCount > kFew) {
     add(q.facing(n));
@@ -51,7 +51,7 @@ ShapeFeature KnownFeatures::nearestOfCorners(const Packed& x) {
   isNew_ = false;
 
   ShapeFeature f;
-  if (inside) return f;  // of a tetrahedron that may be flat to rounding, and so no proof
+  if (inside) return f;  // no proof of overlap: the tetrahedron may be flat up to rounding
   f.kind = ShapeFeature::Kind::corner;
   f.which = changes_;
   f.point = pack(nearest.weighted(&KnownCorner::place));

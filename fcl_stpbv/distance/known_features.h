@@ -13,12 +13,12 @@ namespace fcl_stpbv::detail {
 /// not depend on them.
 class KnownFeatures {
  public:
-  /// A polytope's first corner is the one that faces the volume along the unit vector `n`; of one with few
-  /// corners those along three normals around it.
+  /// Starts a polytope with the corner that faces the volume along the unit vector `n`, or, if it has few
+  /// corners, with those along three normals around `n`.
   KnownFeatures(const ShapeQuery& q, const Eigen::Vector3d& n);
 
-  /// The feature nearest to `x`. Of a polytope's corners only those of this feature stay known; `none` where
-  /// `x` is in their hull.
+  /// The feature nearest to `x`. Of a polytope's corners only those of this feature are kept. The kind is
+  /// `none` if `x` is in the hull of the corners.
   ShapeFeature near(const Packed& x) {
     if (isPolytope_) return nearestOfCorners(x);
     const Rotation& rotation = q_.pose.rotation;
@@ -29,14 +29,14 @@ class KnownFeatures {
     return f;
   }
 
-  /// One more corner of a polytope, for the next near(). False where it is known, and for other shapes.
+  /// Adds a corner of a polytope for the next near(). False if it is known already, and for other shapes.
   bool add(const Eigen::Vector3d& corner);
 
  private:
   ShapeFeature nearestOfCorners(const Packed& x);
 
   const ShapeQuery& q_;
-  bool isPolytope_, isNew_ = true;  // whether corners came or went since the last feature was told
+  bool isPolytope_, isNew_ = true;  // isNew_: corners were added or dropped since the last feature
   std::array<Eigen::Vector3d, 4> corner_;
   int count_ = 0, changes_ = 0;
 };

@@ -21,22 +21,22 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// A difference of two corners as it is seen along the normal.
+/// A difference of two corners, in coordinates along and across the normal.
 struct LevelDifference {
   Vector3d onA{0, 0, 0}, onB{0, 0, 0};  ///< the corners (m)
-  double height = 0;                    ///< above the lowest (m)
-  Vector2d across{0, 0};                ///< m
+  double height = 0;                    ///< above the lowest difference (m)
+  Vector2d across{0, 0};                ///< offset perpendicular to the normal (m)
 
   double heightAt(const Vector2d& turn) const { return height + across.dot(turn); }
 };
 
-/// Up to four differences, and the turn that the gap between them is widest at.
+/// Up to four differences, and the turn at which the gap between them is widest.
 struct WidestTurn {
   std::array<LevelDifference, 4> difference;
   std::array<double, 4> weight{};
   int count = 0;
   Vector2d turn{0, 0};      ///< tangent of the angle
-  double gap = -kInfinity;  ///< more than D there (m)
+  double gap = -kInfinity;  ///< the gap at that turn, less D (m)
 
   void add(const LevelDifference& one) { difference[static_cast<std::size_t>(count++)] = one; }
   Vector3d weighted(Vector3d LevelDifference::*point) const {
@@ -52,11 +52,11 @@ struct WidestTurn {
     return least;
   }
 
-  /// The same of all of them, at the distance `d` (m). What has no weight is left out.
+  /// The widest turn for all of these differences, at the distance `d` (m). Keeps only those with a weight.
   WidestTurn best(double d) const {
     WidestTurn widest;
-    // The weighted sum of the places across is `d` times the turn, but only to rounding of the bodies' size:
-    // where differences are level at the turn, their heights tell it.
+    // The weighted sum of the offsets across is `d` times the turn, but only up to rounding of the bodies'
+    // size. If several differences have the same height at the turn, their heights determine the turn.
     const auto offer = [&](std::initializer_list<int> which, std::initializer_list<double> weights,
                            const Vector2d& at) {
       WidestTurn x;
@@ -76,7 +76,7 @@ struct WidestTurn {
       for (int j = 0; j < i; ++j) {
         const LevelDifference& q = difference[static_cast<std::size_t>(j)];
         const Vector2d e = q.across - p.across;
-        const double e2 = e.squaredNorm(), he = p.height - q.height;  // level: e.t is what they differ by
+        const double e2 = e.squaredNorm(), he = p.height - q.height;  // equal heights: e.t = he
         const double w = (d * he - p.across.dot(e)) / e2;
         offer({i, j}, {1.0 - w, w}, he / e2 * e + cross(e, p.across) / (d * e2) * Vector2d(-e.y(), e.x()));
         for (int k = 0; k < j; ++k) {

@@ -27,16 +27,16 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// Where the polytope is this much of the depth from the surface, a maximum is likely to be next to it.
+/// If a face is within this fraction of the depth from the surface, a maximum is likely to be next to it.
 constexpr double kNear = 0.03;
 
-/// Normals of one maximum found twice differ by less (rad).
+/// If the same maximum is found twice, its two normals differ by less than this (rad).
 constexpr double kSame = 1e-7;
 
-/// The difference's point furthest against the sample's normal.
+/// The point of the difference that is furthest against the sample's normal.
 Vector3d furthest(const Sample& s) { return s.core * s.n + s.across; }
 
-/// EPA on the difference of two STP-BVs, from around a maximum of the gap.
+/// EPA on the difference of two STP-BVs, started around a maximum of the gap.
 class CoreEpa {
  public:
   CoreEpa(const BodyPair& pair, const std::array<Vector3d, 4>& corner, Polytope::Origin origin, Sample& x,
@@ -47,7 +47,7 @@ class CoreEpa {
         x_(x),
         work_(work) {}
 
-  /// Takes in the point of the maximum in `x`.
+  /// Adds the point of the maximum in `x`.
   bool addTop(const LocalMaximum& around) {
     if (!add(furthest(x_))) return false;
     top_ = polytope_.lastPoint();
@@ -57,11 +57,12 @@ class CoreEpa {
 
   bool add(const Vector3d& p) { return polytope_.sound() && polytope_.expand(p); }
 
-  /// Expands where the surface is nearest; true once nothing is nearer than the maximum in `x`.
+  /// Expands the nearest face repeatedly. True once no face is nearer than the maximum in `x`.
   bool run(double& bound) {
     bool proven = false;
     expandAtNearest(polytope_, [&](const Polytope::Face& nearest) {
-      // The polytope lies inside the difference, so with the origin inside it no direction leads out sooner.
+      // The polytope lies inside the difference. So if the origin is inside the polytope, the depth along
+      // every direction is at least the distance of the nearest face.
       bound = std::min(bound, -std::min({least_, nearest.depth, -x_.core - pair_.gapRounding()}));
       proven = -x_.core - nearest.depth <= rounding_;
       if (proven) return false;
@@ -75,8 +76,9 @@ class CoreEpa {
   }
 
  private:
-  /// Far from the surface vertices will do, even such as the tables name; they are the cheapest points of the
-  /// difference. Near it too where the vertex is beyond the depth: no wider gap is along that normal.
+  /// Expands with a vertex difference from the direction tables, which is the cheapest point of the
+  /// difference. It suffices far from the surface. Near the surface it suffices if it is farther than the
+  /// depth: then no wider gap exists along that normal.
   bool expandToVertex(const Polytope::Face& nearest) {
     if (!(nearest.depth > 0.0)) return false;
     const Vector3d vertex = unpack(pair_.differenceAgainst(-nearest.normal));
@@ -84,7 +86,7 @@ class CoreEpa {
     return (far > (1.0 + kNear) * nearest.depth || far > -x_.core) && polytope_.expand(vertex);
   }
 
-  /// False where the cores turn out to be apart.
+  /// Expands with a point of the smooth surface, or with a new maximum near it. False if the cores are apart.
   bool expandToSurface(const Polytope::Face& nearest) {
     Sample trial = pair_.sampleFrom(-nearest.normal, {-1, -1}, work_.steps);
     if (trial.core > 0.0) {
@@ -94,7 +96,7 @@ class CoreEpa {
     const Vector3d point = furthest(trial);
     const double open = -trial.core - nearest.depth;
     Vector3d ignored;
-    // From next to the maximum that is known the same is found again.
+    // Next to the known maximum, settle() would find the same one again.
     const bool another = !nearest.has(top_) && open <= kNear * nearest.depth &&
                          settle(pair_, trial, ignored, work_) &&
                          (trial.n - x_.n).squaredNorm() > kSame * kSame;
@@ -112,16 +114,16 @@ class CoreEpa {
   }
 
   const BodyPair& pair_;
-  double rounding_;  // of a gap, and of a face's depth, which is of several (m)
+  double rounding_;  // of a gap, and of the depth of a face, a sum of several gaps (m)
   Polytope polytope_;
   Sample& x_;
   SearchWork& work_;
-  Polytope::Index top_ = Polytope::kNone;  // point of a maximum
-  LocalMaximum around_;                    // what is known around it
-  double least_ = kInfinity;               // distance of the faces done with
+  Polytope::Index top_ = Polytope::kNone;  // the point of the maximum
+  LocalMaximum around_;                    // the region around it without a wider gap
+  double least_ = kInfinity;               // least depth of the faces put aside (m)
 };
 
-/// The few best of many starts, apart from each other so that they do not all lead to the same maximum.
+/// Keeps the few best starts. Their normals are far apart, so that they do not all lead to the same maximum.
 class Starts {
  public:
   void offer(const Sample& s) {
@@ -151,7 +153,7 @@ class Starts {
 };
 
 constexpr int kFaces =
-    64;  // face normals tried per body; more faces than that are small ones of a round body
+    64;  // face normals tried per body; a body with more faces is round, and its faces are small
 
 }  // namespace
 
@@ -180,7 +182,8 @@ bool expandPolytope(const BodyPair& pair, Sample& x, double& bound, SearchWork& 
   else if (known.count == 0)
     search.add(vertexDifference(pair, x.n));
   if (search.run(bound)) return true;
-  // Those were in one plane, or their polytope ended early. The smooth surfaces have a volume in common.
+  // The points were in one plane, or rounding stopped their polytope. Start from points of the smooth
+  // surfaces, whose difference has a volume.
   const auto along = [&](const Vector3d& n) { return furthest(pair.sampleFrom(-n, {-1, -1}, work.steps)); };
   const auto place = [](const Vector3d& p) -> const Vector3d& { return p; };
   return spanVolume(Matrix3d::Identity(), pair.gapRounding(), along, place, corner.data()) &&

@@ -17,7 +17,8 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// `1 / sqrt(1 - x)`: for small `x` its series to rounding, which is there sooner than a root and a division.
+/// `1 / sqrt(1 - x)`. For small `x` its series, exact to rounding and faster than a square root and a
+/// division.
 double inverseRoot(double x) {
   constexpr double kSmall = 1e-3;  // the next term is 2e-19
   if (x > kSmall) return 1.0 / std::sqrt(1.0 - x);
@@ -25,19 +26,20 @@ double inverseRoot(double x) {
   return (1.0 + 1.0 / 2 * x) + x2 * ((3.0 / 8 + 5.0 / 16 * x) + x2 * (35.0 / 128 + 63.0 / 256 * x));
 }
 
-/// Two circles whose axes cross: regions of edges are narrow bands around the planes across them, crossing
-/// bands meet at the axes' common normal `m`, and the widest normal leans from it by little.
+/// Two circles whose axes cross. The region of an edge is a narrow band around the plane perpendicular to the
+/// edge. Two crossing bands meet at the common normal `m` of the axes, and the widest normal is near `m`.
 ///
 /// The gap is `n.d - rise` with `rise = sag + kappa (1 - c)` for each circle, so at the widest normal
-/// `d - t_A u_A - t_B u_B = core n` with `t = kappa v / c`. Times `u_A` and `u_B` these are two equations for
-/// the leans `v`, solved by Newton's method from upright on (docs/theory.md, 5). False where the leans are
-/// not small, or where `n` is the answer already: axes that cross at a small angle magnify its rounding, and
-/// Newton's method on the sphere has less. `n` is then a better start than it was.
+/// `d - t_A u_A - t_B u_B = core n` with `t = kappa v / c`. Multiplied by `u_A` and `u_B`
+/// these are two equations for the leans `v`, solved by Newton's method from v = 0 (docs/theory.md, 5). False
+/// if the leans are not small. Also false if `n` is this function's own answer already: axes that cross at a
+/// small angle magnify its rounding error, and Newton's method on the sphere has a smaller one. `n` is then
+/// an improved start.
 bool leanFromCommonNormal(const PosedPatch& a, const PosedPatch& b, const Packed& d, Packed& n) {
   constexpr double kCrossing2 = 0.01;   // squared sine between the axes
   constexpr int kPasses = 5;            // two are usual
   constexpr double kConverged = 2e-16;  // predicted next change of a lean: the rounding of a unit vector
-  // Rad. A smaller turn means that `n` was already this function's own answer, with too much rounding.
+  // Rad. A smaller turn means that `n` is already this function's own answer, and not accurate enough.
   constexpr double kAgain = 1e-8;
   const Packed &p = a.axis, &q = b.axis;
   Packed m = cross(p, q);
@@ -75,7 +77,7 @@ bool leanFromCommonNormal(const PosedPatch& a, const PosedPatch& b, const Packed
 }  // namespace
 
 /// Two circles (torus against torus): Newton on the sphere. In the tangent basis e1 = v_A, e2 = n x v_A the
-/// matrix is W_A + W_B + core (docs/theory.md, 6), every entry a sum without cancellation.
+/// matrix is W_A + W_B + core (docs/theory.md, 6), with every entry a sum without cancellation.
 ///
 /// A Newton step that does not raise the gap is replaced by `n = g / |g|`, which cannot lower it: it is the
 /// best normal for the two circle points at hand, and those are the best points for the old normal.
@@ -91,12 +93,12 @@ void turnToWidestOfEdges(const PosedPatch& a, const PosedPatch& b, Packed& n) {
 
   Packed best = n, bestPull = n;
   double bestGap = -kInfinity;
-  constexpr double kUnknown = 1e-9;  // nothing to predict from: a first step of 1e-8 rad would do
+  constexpr double kUnknown = 1e-9;  // no step to predict from: a first step of 1e-8 rad ends the iteration
   double lastStep2 = kUnknown;
   for (int i = 0; i < kIterations; ++i) {
     const EdgeView va = viewEdge(a, n), vb = viewEdge(b, -n);
     const double core = dot(n, middles) - va.rise - vb.rise;
-    if (core < bestGap && lastStep2 > 1e-14) {  // shorter steps differ by rounding only
+    if (core < bestGap && lastStep2 > 1e-14) {  // the gaps of shorter steps differ only by rounding
       n = unnormalizedOr(bestPull, best).unit();
       bestGap = -kInfinity;
       lastStep2 = kUnknown;
@@ -127,8 +129,8 @@ void turnToWidestOfEdges(const PosedPatch& a, const PosedPatch& b, Packed& n) {
     const double x1 = (m22 * g1 - m12 * g2) / det, x2 = (m11 * g2 - m12 * g1) / det;
     n += x1 * e1 + x2 * e2;
     n /= std::sqrt(dot(n, n));
-    // Quadratic convergence: after steps p, q the next is about q^3 / p^2, or
-    // q^2 should p have been a lucky one.
+    // Quadratic convergence: after steps p and q the next one is about q^3 / p^2, or q^2 if p was short by
+    // chance.
     const double step2 = x1 * x1 + x2 * x2;
     if (step2 < kSmall && step2 * step2 * step2 <= kConverged * kConverged * lastStep2 * lastStep2) return;
     lastStep2 = step2;

@@ -28,12 +28,12 @@ void addPatch(const PosedPatch& patch, const Eigen::Vector3d& n, const Inside& i
   if (patch.kind != PatchKind::edge) return;
   const Eigen::Vector3d u = unpack(patch.axis);
   const double lean = u.dot(n);
-  // The sine from lean to end is more than the difference of their own.
+  // The sine of the angle from `n` to the arc's end is more than the difference of the two sines.
   around.addArc((u - lean * n) / std::sqrt(1.0 - lean * lean), rho, rho * (patch.sine - std::abs(lean)));
 }
 
-/// A direction that is not normalised yet. The first tests on it, on which side of boundaries it lies, need
-/// not wait for the division.
+/// A direction that is not normalised yet. Tests on which side of a boundary it lies need not wait for the
+/// division.
 struct UnnormalizedNormal {
   Packed d;
   double length;  ///< of `d`, positive
@@ -41,7 +41,7 @@ struct UnnormalizedNormal {
   Packed unit() const { return d / length; }
 };
 
-/// The heading of `d`, or the unit vector `otherwise` where it has none.
+/// The direction of `d`, or the unit vector `otherwise` if `d` is zero.
 inline UnnormalizedNormal unnormalizedOr(const Packed& d, const Packed& otherwise) {
   using Limits = std::numeric_limits<double>;
   const double length2 = dot(d, d);
@@ -61,12 +61,12 @@ inline UnnormalizedNormal circlePoint(const PosedPatch& circle, const Packed& d,
   double distance2 = dot(across, across);
   const double length2 = along * along + distance2;
   if (distance2 < 0.5 * length2) {
-    // A point near the axis' line leaves rounding along it in `across`, which
-    // the large `kappa` would magnify.
+    // If the point is near the axis, `across` has a rounding error along the axis, which the large `kappa`
+    // would magnify.
     across -= dot(across, circle.axis) * circle.axis;
     distance2 = dot(across, across);
   }
-  if (!(distance2 > 1e-30 * length2)) {  // on the axis: any direction across is as good, so the last one
+  if (!(distance2 > 1e-30 * length2)) {  // on the axis all directions across it are equal; keep the last one
     const Packed e = unnormalizedOr(n - dot(n, circle.axis) * circle.axis, n).unit();
     return unnormalizedOr(along * circle.axis + circle.kappa * e, n);
   }

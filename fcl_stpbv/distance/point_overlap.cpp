@@ -17,8 +17,8 @@ using Eigen::Vector3d;
 
 std::optional<LeastOverlap> overlapOfPoint(ShapeQuery& q, const StartNormal& start) {
   constexpr int kRounds = 8;  // one or two for corners, a few for round shapes
-  constexpr int kFree = 2;    // from then on
-  // Of the last round's step; a larger step means that the search alternates between points.
+  constexpr int kFree = 2;    // rounds before steps must shrink
+  // Of the last round's step. A larger step means that the search alternates between points.
   constexpr double kSlow = 0.25;
   Vector3d y = q.facing(start.n);
   double step = kInfinity;

@@ -34,8 +34,8 @@ inline SupportPoint viewVolume(const StpBv& body, const Eigen::Vector3d& n, int 
   return viewPatch(body, n, index);
 }
 
-/// An STP-BV's core as a body of the support concept (convex/support.h). Looks
-/// for each normal's patch from the last.
+/// An STP-BV's core as a body of the support concept (convex/support.h). The search for the patch of a normal
+/// starts at the last patch.
 struct StpBvCore {
   const StpBv& body;
   int patch;   ///< the last one; -1: none
@@ -48,16 +48,16 @@ inline SupportPoint supportPoint(StpBvCore& core, const Eigen::Vector3d& n) {
   return view;
 }
 
-/// Radii of curvature of the core there: the derivative of its point with the normal (m).
+/// Radii of curvature of the core at the support point: the derivative of the point by the normal (m).
 inline Eigen::Matrix3d curvatureRadii(const StpBv& body, const SupportPoint& view) {
   return coreCurvature(posedPatch(body, view.patch), view.n);
 }
 
-/// Scale below which numbers about one pair are rounding.
+/// Rounding errors of the numbers of one pair.
 struct Rounding {
   double gap;          ///< of a gap (m)
-  double certificate;  ///< bound on it, of the poses that lead to it too (m)
-  double across;  ///< of a difference of core points across the normal: a face's moves rho per ulp of it (m)
+  double certificate;  ///< bound on that error, with the poses' own rounding (m)
+  double across;  ///< of a difference of core points across the normal: an ulp moves a face's by rho ulp (m)
 };
 
 /// Support point of a feature of the other body along the opposite normal. Each feature also has `wobble`
@@ -76,7 +76,7 @@ struct PointFeature {
   double wobble(const Eigen::Vector3d&) const { return 0.0; }
 };
 
-/// A whole line: only normals across it have a gap, so the climb is one on a great circle.
+/// An infinite line. Only normals perpendicular to it have a gap, so the ascent is along a great circle.
 struct LineFeature {
   Eigen::Vector3d p;
   Eigen::Vector3d t;  ///< unit
@@ -85,14 +85,13 @@ struct LineFeature {
   double wobble(const Eigen::Vector3d&) const { return 0.0; }
 };
 
-/// A circle's convex side: the rim of a disc, which is the torus formula with the
-/// other sign of kappa (docs/theory.md, 2).
+/// The rim of a disc: the torus formula with the other sign of kappa (docs/theory.md, 2).
 struct RimFeature {
   Eigen::Vector3d centre;
   Eigen::Vector3d axis;  ///< unit
   double radius;
   FeatureView along(const Eigen::Vector3d& n) const {
-    // Rounding along the axis is magnified by radius / c below: hence the second projection.
+    // Projected twice, because rounding along the axis is magnified by radius / c below.
     Eigen::Vector3d side = n - n.dot(axis) * axis;
     side -= side.dot(axis) * axis;
     const double c = side.norm();
@@ -101,38 +100,40 @@ struct RimFeature {
     return {centre - (radius / c) * side, (radius / std::max(c, kFloor)) * around * around.transpose()};
   }
   const Eigen::Vector3d* direction() const { return nullptr; }
-  /// Near the axis an ulp of the normal moves the point a long way along the rim.
+  /// If the normal is near the axis, an ulp moves the point far along the rim.
   double wobble(const Eigen::Vector3d& n) const {
     return radius * std::min(1e-6, 1e-15 / (n - n.dot(axis) * axis).norm());
   }
 
  private:
-  // With a too small radius the climb still moves, with an infinite one it does not.
+  // Limits the radius of curvature: with one that is too small the ascent still moves, with an infinite one
+  // it does not.
   static constexpr double kFloor = 1e-6;
 };
 
-/// A whole ellipsoid in the frame of the climb: the image of the unit ball. Sums of squares alone, so that
-/// one as thin as a disc keeps its digits.
+/// A whole ellipsoid: the image of the unit ball. Uses only sums of squares, which are accurate even for an
+/// ellipsoid as thin as a disc.
 struct EllipsoidFeature {
   Eigen::Vector3d centre;
   Eigen::Matrix3d axes;  ///< columns: the semi-axes (m)
   FeatureView along(const Eigen::Vector3d& n) const {
     const Eigen::Vector3d e = axes.transpose() * n;
     const double h = e.norm();
-    if (!(h > 0.0)) return {centre, Eigen::Matrix3d::Zero()};  // above a disc
+    if (!(h > 0.0)) return {centre, Eigen::Matrix3d::Zero()};  // a flat ellipsoid, and `n` is its normal
     const Eigen::Vector3d ball = e / h, point = axes * ball;
     const Eigen::Matrix3d across = axes - point * ball.transpose();
     return {centre - point, across * across.transpose() / h};
   }
   const Eigen::Vector3d* direction() const { return nullptr; }
-  /// On a flat side an ulp of the normal moves the point by the radius of curvature there.
+  /// An ulp of the normal moves the point by an ulp of the radius of curvature, which is large on a flat
+  /// side.
   double wobble(const Eigen::Vector3d& n) const {
     const double size = axes.norm(), h = (axes.transpose() * n).norm();
     return size * std::min(1.0, 1e-15 * size / std::max(h, 1e-300));
   }
 };
 
-/// One trial normal of a climb.
+/// One trial normal of an ascent.
 struct AscentPoint {
   SupportPoint view;
   FeatureView feature;
@@ -218,14 +219,14 @@ inline Eigen::Vector3d newtonTarget(const StpBv& body, const AscentPoint& x, con
   return (n + ((m22 * g1 - m12 * g2) / det) * e1 + ((m11 * g2 - m12 * g1) / det) * e2).normalized();
 }
 
-/// Climbs from `x` to the widest gap; true when the gradient there is rounding. Each step raises the gap: a
-/// Newton step that does not is cut back to where the slope along it is about zero, found by a bracketed
-/// secant (the gap is C1).
+/// Ascends from `x` to the widest gap. True if the gradient there is only rounding. Each step raises the gap:
+/// if Newton's step does not, it is shortened to where the slope along it is about zero, by a bracketed
+/// secant method (the gap is C1).
 template <typename Feature>
 bool ascendFeature(const StpBv& body, const Feature& feature, AscentPoint& x, const Rounding& rounding,
                    int& pairs, int& steps) {
   constexpr int kSteps = 60, kTrials = 40;
-  constexpr double kFlat = 0.05;  // of the slope at the start; the next Newton step does the rest
+  constexpr double kFlat = 0.05;  // of the slope at the start; the next Newton step solves for the rest
   if (!findGap(body, feature, x, rounding.gap, steps)) return false;
   for (int i = 0; i < kSteps; ++i) {
     const double flat = x.across.norm();
@@ -240,13 +241,13 @@ bool ascendFeature(const StpBv& body, const Feature& feature, AscentPoint& x, co
     const auto slope = [&](const AscentPoint& p) { return p.across.dot(pole.cross(p.view.n)); };
     const double start = slope(x);
     const bool flatter = y.across.norm() < 0.5 * flat;
-    // Near the top gaps differ by rounding only, and the gradient is the judge.
+    // Near the maximum gaps differ only by rounding, so the gradient decides.
     const bool accepted = flatter ? y.gap >= x.gap - rounding.gap : y.gap > x.gap && slope(y) > -0.5 * start;
     if (!accepted) {
       if (flat <= rounded) return true;
       if (y.view.patch != x.view.patch) {
-        // The step crossed a boundary, beyond which the gap has another curvature. So take the step from here
-        // again, with the formula of the patch there.
+        // The step crossed a boundary, beyond which the gap has another curvature. So repeat the step from
+        // `x` with the formula of the patch beyond the boundary.
         const AscentPoint there = ascentPoint(viewPatch(body, x.view.n, y.view.patch), feature);
         const AscentPoint z =
             ascentPoint(body, feature, newtonTarget(body, there, feature.direction()), y.view.patch, steps);
@@ -257,8 +258,8 @@ bool ascendFeature(const StpBv& body, const Feature& feature, AscentPoint& x, co
       }
       if (!(sine > 1e-15) || !(start > 0.0)) return false;
       double low = 0.0, high = 1.0, lowSlope = start, highSlope = slope(y);
-      // Over a boundary of the volume Newton may overshoot down to where gaps are
-      // equal to rounding: the flatter is it.
+      // Beyond a region boundary, Newton's step may overshoot to a normal whose gap is equal up to rounding.
+      // Then the normal with the smaller gradient is better.
       const auto better = [&](const AscentPoint& p, const AscentPoint& than) {
         return p.gap > than.gap + rounding.gap ||
                (p.gap >= than.gap - rounding.gap && p.across.norm() < than.across.norm());

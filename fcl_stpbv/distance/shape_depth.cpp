@@ -38,14 +38,14 @@ class CornersAround {
   CornersAround(DepthSearch& epa) : answer_(epa.gap * epa.n) {
     const Vector3d n = epa.n, e = n.unitOrthogonal(), f = n.cross(e);
     add(epa.look(n));
-    // Narrower ones for curved sides, and for faces that are parallel but for such an angle (rad).
+    // The small tilts are for curved sides, and for faces whose angle to each other is as small (rad).
     for (const double tilt : {1e-3, 1e-5, 1e-7, 1e-9, 1e-11})
       for (int k = 0; k < 8; ++k) {
         const double angle = kPi / 4 * k;
         add(epa.look((n + tilt * (std::cos(angle) * e + std::sin(angle) * f)).normalized()));
       }
   }
-  /// Of the difference less the answer.
+  /// The support point of the corners' difference, minus the answer.
   Corner support(const Vector3d& m) const {
     const auto lower = [&](const Vector3d& x, const Vector3d& y) { return m.dot(x) < m.dot(y); };
     Corner corner;
@@ -66,7 +66,7 @@ class CornersAround {
   std::size_t count_ = 0;
 };
 
-/// Points of both bodies that are opposite each other, out of those corners.
+/// Offers points of both bodies that are opposite each other, from the hulls of those corners.
 void offerAround(const Pair& p, DepthSearch& epa) {
   CornersAround around(epa);
   const Vector3d answer = epa.gap * epa.n;
@@ -77,7 +77,8 @@ void offerAround(const Pair& p, DepthSearch& epa) {
   epa.offer(nearest.weighted(&Corner::onA), nearest.weighted(&Corner::w) + answer);
 }
 
-/// The same of faces or generators side by side, where a point may be opposite one past the other's end.
+/// Offers points by alternating projections. For parallel faces or generators, where the point opposite may
+/// be past the other one's end.
 void offerToAndFro(const Pair& p, DepthSearch& epa) {
   const Vector3d answer = epa.gap * epa.n;
   Vector3d onA = epa.onA;
@@ -88,10 +89,11 @@ void offerToAndFro(const Pair& p, DepthSearch& epa) {
   }
 }
 
-/// Whether what the cores hold around a maximum is worth the search for it: round ones take EPA many steps.
+/// Whether a local maximum is worth searching: EPA takes many steps for round shapes, and the region around
+/// the maximum must be known.
 bool isCoveredAround(const Pair& p) { return p.curved() && hasAround(p.a) && hasAround(p.b); }
 
-/// What both cores hold around two points opposite each other.
+/// The segments, arcs and discs of both cores around two points opposite each other.
 LocalMaximum around(const Pair& p, const OppositePoints& at) {
   LocalMaximum local(at.n, -at.gap);
   addShape(p.a, at.onA, at.n, Eigen::Matrix3d::Identity(), local);
@@ -120,8 +122,8 @@ Distance overlapping(const Pair& p, const Pair::Gjk& found) {
   const auto opposite = [&](double angle) {
     return nearestOnFeatures(p.a, p.b, p.pose, epa.n, epa.gap, epa.onA, angle, p.rounding);
   };
-  // As far as the normal may be off where the difference curves by much more than the depth, or by any
-  // angle.
+  // Likely error of the normal (rad), if the difference's radii of curvature are much larger than the depth.
+  // Otherwise the error may be any angle.
   const auto likelyOff = [&] {
     const double open = std::max(epa.bound - epa.gap, p.rounding);
     return 4.0 * std::sqrt(open / std::max(-epa.gap, p.rounding));
@@ -137,7 +139,7 @@ Distance overlapping(const Pair& p, const Pair::Gjk& found) {
     epa.run(maximum);
   else
     epa.run();
-  epa.offer(onA, toB);  // the answer's where cores cross without a volume in common, as two segments do
+  epa.offer(onA, toB);  // the answer if the cores cross without a common volume, as two segments do
   if (epa.off() > p.rounding) offerAround(p, epa);
   if (epa.off() > p.rounding) offerToAndFro(p, epa);
   const bool done = top && top->gap == epa.gap;

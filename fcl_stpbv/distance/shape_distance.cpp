@@ -87,8 +87,8 @@ Trial trialAlong(ShapeQuery& q, const Vector3d& n, int hint) {
   return trial;
 }
 
-/// Halves the convex cone of remaining normals until it is one normal to rounding, with support points of the
-/// two whole bodies alone (docs/theory.md, 5). Slow, sure.
+/// Bisects the convex cone of remaining normals until only one normal is left, up to rounding. It needs only
+/// support points of the two whole bodies (docs/theory.md, 5). Slow, but it cannot fail.
 LeastOverlap widestGapByCuts(ShapeQuery& q, const StartNormal& start) {
   Trial trial = trialAlong(q, start.n, start.patch);
   LeastOverlap best{trial.at, trial.difference.norm(), false, false};
@@ -112,19 +112,19 @@ LeastOverlap widestGapByCuts(ShapeQuery& q, const StartNormal& start) {
 struct Solution {
   Nearest at;
   DistanceStatus status;
-  double upper;  ///< of the cores' gap (m), besides that which two points tell
+  double upper;  ///< bound on the cores' gap (m), in addition to the distance of the two points
 };
 
-/// A point of the shape in a ball that the volume's core holds.
+/// Whether a point of the shape is inside a ball that lies in the volume's core.
 bool surelyOverlap(const ShapeQuery& q) {
   const double within = q.body.innerRadius() - q.rounding.across;
   return awayFromCentre(q, within).most < within;
 }
 
-/// Of cores that overlap.
+/// The solution for cores that overlap.
 Solution deepSolution(const LeastOverlap& deep) { return {deep.at, DistanceStatus::local, deep.bound}; }
 
-/// Whether GJK finds the cores to overlap, be it by rounding alone.
+/// Whether GJK finds that the cores overlap. Rounding alone may be the reason.
 bool seemToOverlap(ShapeQuery& q, const StartNormal& start) {
   using Difference = ConvexDifference<StpBvCore, const Shape>;
   constexpr int kSteps = 20;
@@ -138,7 +138,7 @@ bool seemToOverlap(ShapeQuery& q, const StartNormal& start) {
 Solution solve(ShapeQuery& q, const StartNormal& start) {
   constexpr double kNone = kInfinity;
   constexpr int kTries = 16;       // one to five are usual
-  constexpr double kBeyond = 1e3;  // of rounding: less may be a touch
+  constexpr double kBeyond = 1e3;  // of rounding; a smaller overlap may be a touch
   Nearest found;
   if (q.shape.unbounded()) {
     found = nearestOnShape(q, start);
@@ -157,13 +157,13 @@ Solution solve(ShapeQuery& q, const StartNormal& start) {
   if (certified(q, found)) return {found, DistanceStatus::exact, kNone};
   const LeastOverlap cuts = widestGapByCuts(q, found.apart ? StartNormal{found.n, found.patch} : start);
   if (cuts.overlap) return deepSolution(leastOverlap(q, {cuts.at.n, cuts.at.patch}));
-  // Near the answer now; a feature search from here proves it to the last digit.
+  // This is near the answer. A feature search from here gives the last digits.
   found = nearestOnShape(q, {cuts.at.n, cuts.at.patch});
   if (certified(q, found)) return {found, DistanceStatus::exact, kNone};
-  // The bounds of both sides agree, or no normal is left that could do better.
+  // Either both bounds agree, or no remaining normal can have a wider gap.
   const double upper = cuts.solved ? std::min(cuts.bound, cuts.at.gap + q.rounding.gap) : cuts.bound;
   const bool proven = upper - cuts.at.gap <= q.rounding.gap;
-  // Where the cores touch, the gap says less about the normal than its gradient does.
+  // If the cores touch, the gradient of the gap determines the normal better than the gap itself.
   const std::optional<DeepFeature> touching = touchingFeature(q, cuts.at);
   found = touching ? touching->at : cuts.at;
   return {found, proven ? DistanceStatus::exact : DistanceStatus::bounded, upper + q.rounding.across};
@@ -196,7 +196,7 @@ Distance distance(const StpBv& volume, const Isometry3d& poseVolume, const Shape
   Nearest& x = found.at;
   const double margins = volume.radii().r + shape.margin;
   const SupportPoint view = viewVolume(volume, x.n, x.patch, q.steps);
-  // Two points of the cores; a normal is good to an ulp, so they may lie beside their bodies.
+  // Two points of the cores. A normal is accurate to an ulp, so they may lie slightly beside their bodies.
   const Vector3d known = x.y;
   const double beside = placeOpposite(q, view.point, x);
   if (found.status != DistanceStatus::local)

@@ -6,7 +6,7 @@
 //    normal itself.
 // 2. Flat faces and edges fix the normal, or let it turn one way. Two edges fix it between them. Else
 //    Newton's step with both radii of curvature (turning.h).
-// 3. The point is that of the more strongly curved feature, the other one's is opposite it.
+// 3. The witness point is taken on the more strongly curved feature. The other point is opposite it.
 // 4. Both points are projected onto their bodies. They are accepted if they are still opposite each other and
 //    their distance equals that of the supporting planes.
 // For a polytope only the few vertices that can be support points for normals near `n` are used, and all of
@@ -61,7 +61,7 @@ class ShapeNear {
 struct Facing {
   const Shape &a, &b;
   const RelativePose& pose;
-  double levelA, levelB;  ///< heights of either that differ by less are the same (m)
+  double levelA, levelB;  ///< heights on either shape that differ by less count as equal (m)
   Vector3d n;
   NormalCone coneA, coneB;  // both in the first frame; B's normal runs from A to B
   Vector3d pointA, pointB;  // support points
@@ -83,7 +83,7 @@ struct Facing {
     pointB = pose.placed(b.support(pose.opposite(n)));
     gap = n.dot(pointB - pointA);
   }
-  /// Whether the point may be on a cone's generator: what is known is that before the last step.
+  /// Whether the point may be on a cone's generator, as of the last look().
   bool isOnGenerator() const {
     return (a.kind == ShapeKind::cone || b.kind == ShapeKind::cone) && coneA.count < 2 && coneB.count < 2;
   }
@@ -94,43 +94,42 @@ struct Facing {
     return coneA.count == 1 && coneB.count == 1 && line(coneA).cross(line(coneB)).norm() > kParallel;
   }
 
-  /// Two parallel lines: the normal turns around them, to that between the middles of the circles that they
-  /// curve by. Where neither curves it is as good as it comes.
+  /// For two parallel lines: turns the normal around them, to the direction between the centres of their
+  /// circles of curvature. If neither is curved, the normal stays.
   void turnAroundLines() {
     const double bentA = coneA.along[0] - a.margin, bentB = coneB.along[0] - b.margin;
     if (!(bentA + bentB > 0.0)) return;
     const Vector3d t = line(coneB), middles = pointB - pointA + (bentA + bentB) * n,
                    across = middles - middles.dot(t) * t;
-    constexpr double kKnown = 0.1;  // of the radii: middles nearer to each other say less about the normal
+    constexpr double kKnown = 0.1;  // of the radii: nearer centres do not determine the normal well
     if (!(across.dot(n) > kKnown * (bentA + bentB))) return;
     n = across.normalized();
-    n = (n - n.dot(t) * t).normalized();  // rounding of a long way along the lines would lean
+    n = (n - n.dot(t) * t).normalized();  // again, as `across` may be long along the lines
   }
 
-  /// One step. False where there is none.
-  bool turn() {
+  /// One step of the normal.
+  void turn() {
     const NormalCone &flat = aIsFlatter() ? coneA : coneB, &curved = aIsFlatter() ? coneB : coneA;
     n = flat.normal;
     support();
-    if (flat.count == 0) return true;
+    if (flat.count == 0) return;
     if (curved.count == 1) {
       if (!cross()) {
         turnAroundLines();
-        return true;
+        return;
       }
       const Vector3d across = line(curved);
       n = (n + across.dot(curved.normal - n) / across.dot(flat.way[0]) * flat.way[0]).normalized();
-      return true;
+      return;
     }
     Turning meeting;  // the radii of curvature are those of the surfaces, around the margins
     if (!meeting.set(coneA, coneB, gap - a.margin - b.margin, 0.0))
-      return true;  // as on a common axis, where each normal is as good: the points tell
+      return;  // for example on a common axis: all normals are equally good, and the points decide
     n = (n + meeting.frame * (meeting.turning * (meeting.frame.transpose() * (pointB - pointA))))
             .normalized();
-    return true;
   }
 
-  /// The first core's point.
+  /// The witness point on the first core.
   Vector3d point(const Vector3d& onA) const {
     const auto bend = [](const NormalCone& cone) {
       return cone.count == 2 ? cone.along[0] + cone.along[1] : 1e300;
@@ -138,7 +137,7 @@ struct Facing {
     if (coneA.count == 2 && !(bend(coneB) < bend(coneA))) return pointA;
     if (coneB.count == 2) return pointB - gap * n;
     const Vector3d u = line(coneA), v = line(coneB), normal = u.cross(v);
-    if (!cross()) {  // of a round side the point may be off its line, and only that is opposite
+    if (!cross()) {  // the support point of a round side may be off the line that is opposite
       if (coneA.count == 1) return pointA + (onA - pointA).dot(u) * u;
       if (coneB.count == 1) return pointB + (onA - pointB).dot(v) * v - gap * n;
       return onA + (pointA - onA).dot(n) * n;
@@ -149,13 +148,15 @@ struct Facing {
 
 std::optional<OppositePoints> onFeaturesOf(Facing facing, Vector3d onA, double rounding) {
   constexpr int kSteps = 8;
-  // After a step as small as this (rad) the next is rounding; the point is as far off as a generator's step.
+  // After a step of this size (rad) the next one is rounding. On a generator the point is off by the last
+  // step.
   constexpr double kLast = 1e-9, kLastOnGenerator = 1e-14, kAtRest = 1e-7;
   double step = 0.0;
   facing.support();
   for (int i = 0; i < kSteps; ++i) {
     const Vector3d before = facing.n;
-    if (!facing.look(onA, onA + facing.gap * before) || !facing.turn()) return {};
+    if (!facing.look(onA, onA + facing.gap * before)) return {};
+    facing.turn();
     facing.support();
     onA = facing.point(onA);
     step = (facing.n - before).norm();
@@ -182,7 +183,7 @@ std::optional<OppositePoints> nearestOnFeatures(const Shape& a, const Shape& b, 
   const double most = 2.0 * std::max(a.reach, b.reach);
   for (double within = angle;; within *= kFiner) {
     if (!(most * within > rounding)) within = 0.0;
-    // The features that a turn by `within` can bring to face each other.
+    // These tolerances include all features that can face each other after a turn by `within`.
     const double levelA = 2.0 * a.reach * within + rounding, levelB = 2.0 * b.reach * within + rounding;
     std::optional<OppositePoints> found = onFeaturesOf(
         {nearA.shape(), nearB.shape(), pose, levelA, levelB, n, {}, {}, {}, {}, 0.0}, onA, rounding);

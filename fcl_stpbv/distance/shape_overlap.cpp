@@ -20,7 +20,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// The difference of the volume's core and the shape's; its corners remember the shape's own.
+/// The difference of the volume's core and the shape's core. Its corners also store the shape's point.
 class ShapeDifference {
  public:
   struct Corner {
@@ -45,8 +45,8 @@ class ShapeDifference {
   ShapeQuery& q_;
 };
 
-/// To the top of the hill that the search ended on, where rounding or the size of the polytope stopped it:
-/// tries normals around the best one, nearer and nearer.
+/// Improves the best normal if rounding or the size of the polytope stopped EPA: tries normals around it, at
+/// smaller and smaller angles.
 template <typename Search>
 void climbToLeastOverlap(Search& epa) {
   constexpr int kTrials = 4000;
@@ -55,14 +55,14 @@ void climbToLeastOverlap(Search& epa) {
     const Vector3d n = epa.n, e = n.unitOrthogonal(), f = n.cross(e);
     const double gap = epa.gap;
     for (int k = 0; k < 8 && epa.gap <= gap; ++k, ++trials) {
-      const double angle = kPi / 4 * k + 40.0 * step;  // turned a little each round
+      const double angle = kPi / 4 * k + 40.0 * step;  // another direction in each round
       epa.look((n + step * (std::cos(angle) * e + std::sin(angle) * f)).normalized());
     }
     if (epa.gap <= gap) step *= 0.5;
   }
 }
 
-/// The shape's corners among those that EPA met around its answer.
+/// The shape's corners of EPA's answer, without duplicates.
 template <typename Search>
 ShapeCorners cornersMet(const Search& epa) {
   ShapeCorners met;
@@ -89,7 +89,7 @@ LeastOverlap leastOverlap(ShapeQuery& q, const StartNormal& start) {
   };
   if (!epa.run(maximum)) climbToLeastOverlap(epa);
   if (!top || epa.gap > top->at.gap + q.rounding.gap) maximum(epa);
-  // The polytope's points are the volume's to the rounding of its own.
+  // The polytope's points are off by the rounding of the volume's core points.
   LeastOverlap best{{}, std::max(epa.bound, epa.gap) + q.rounding.across, true, epa.solved()};
   if (top) {
     best.at = top->at;

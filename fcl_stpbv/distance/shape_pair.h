@@ -18,13 +18,13 @@ struct ShapePair {
   using Difference = ConvexDifference<const Shape, const Shape>;
   using Corner = Difference::Corner;
   using Gjk = GjkResult<Corner>;
-  /// Most that a normal may be off by before Newton's method (rad).
+  /// Largest error of a normal for which Newton's method is tried (rad).
   static constexpr double kWidest = 0.1;
 
   const Shape &a, &b;
   RelativePose pose;
   double rounding = 0.0;     ///< of a gap (m)
-  double certificate = 0.0;  ///< bound on it, of the poses that lead to it too (m)
+  double certificate = 0.0;  ///< bound on that error, with the poses' own rounding (m)
   bool valid = false;
 
   ShapePair(const Shape& first, const Eigen::Isometry3d& poseA, const Shape& second,
@@ -40,13 +40,13 @@ struct ShapePair {
 
   double margins() const { return a.margin + b.margin; }
 
-  /// Whether GJK only comes near the answer, by chords of a round surface.
+  /// Whether a shape is curved, so that GJK only approximates the answer, by chords.
   bool curved() const { return curved(a) || curved(b); }
   static bool curved(const Shape& s) {
     return s.kind == ShapeKind::cylinder || s.kind == ShapeKind::cone || s.kind == ShapeKind::ellipsoid;
   }
 
-  /// Whether GJK steps from corner to corner.
+  /// Whether a shape is given by its corners.
   static bool isHull(const Shape& s) {
     return s.kind == ShapeKind::triangle || s.kind == ShapeKind::polytope;
   }
@@ -63,9 +63,9 @@ struct ShapePair {
     return length - found.gap <= rounding;
   }
 
-  /// Points of both cores that are near to each other, as a corner of the difference: by projections onto one
-  /// core and the other in turn (von Neumann 1950), `rounds` at most. Of corners' hulls the centres are
-  /// taken.
+  /// A corner of the difference from two points of the cores that are near each other. They come from at most
+  /// `rounds` alternating projections onto the two cores (von Neumann 1950). A shape given by its corners
+  /// contributes its centre.
   Corner nearCorner(int rounds) const;
 
   /// GJK from two points of the cores, until both bounds agree or `told(lower, upper)` returns true. It
@@ -90,21 +90,22 @@ struct ShapePair {
   Distance inWorld(const Eigen::Vector3d& n, const Eigen::Vector3d& onA, const Eigen::Vector3d& toB) const;
 };
 
-/// A ball `a` beside or in the core of `b`: its centre and the core's point nearest to it. False for other
-/// pairs, and for what has no closed form. `found` may hold a gap along a normal then too.
+/// Closed form for a ball `a` and the core of `b`: the ball's centre and the point of the core's surface
+/// nearest to it. False for other pairs, and if there is no closed form; `found` may then still have a gap
+/// along a normal.
 bool oppositeBall(const ShapePair& p, OppositePoints& found);
 
-/// The same of two capsules whose cores are apart.
+/// Closed form for two capsules whose cores are apart.
 bool oppositeSegments(const ShapePair& p, OppositePoints& found);
 
-/// The same of two boxes, but for a corner that is nearest to a corner or an edge.
+/// Closed form for two boxes, unless a corner is nearest to a corner or to an edge.
 bool oppositeBoxes(const ShapePair& p, OppositePoints& found);
 
-/// Two cores apart, from a normal `n` that is good to the root of rounding: the widest gap and points
-/// opposite each other. Nothing where rounding leaves none.
+/// For two cores apart and a normal `n` that is accurate to the square root of rounding: the widest gap and
+/// two points opposite each other. No value if rounding prevents it.
 std::optional<OppositePoints> oppositeLevel(const ShapePair& p, Eigen::Vector3d n);
 
-/// Cores with a common point according to GJK: the shortest translation that separates them.
+/// For cores that have a common point according to GJK: the shortest translation that separates them.
 Distance overlapping(const ShapePair& p, const ShapePair::Gjk& found);
 
 }  // namespace fcl_stpbv::detail

@@ -17,7 +17,7 @@ using Eigen::Vector3d;
 ShapeQuery::ShapeQuery(const StpBv& a, const Shape& s, const RelativePose& p)
     : body(a), shape(s), pose(p), rotation(p.rotation.matrix()), translation(unpack(p.translation)) {
   constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
-  // Coordinates up to the bodies' extents and mutual distance, a dozen operations.
+  // A dozen operations on coordinates up to the bodies' extents and mutual distance.
   const double size =
       a.centre().lpNorm<1>() + a.enclosingRadius() + translation.lpNorm<1>() + s.centre.lpNorm<1>() + s.reach;
   rounding.gap = 8.0 * kEpsilon * size;
@@ -77,7 +77,7 @@ Nearest nearestOnSegment(ShapeQuery& q, const Vector3d& a, const Vector3d& b, co
     found.corner = {0, 1, 0};
     return found;
   }
-  // The line runs through the core: the segment may still end before it.
+  // The line intersects the core, but the segment may end before the core.
   const Nearest first = end(0), second = end(1);
   if (!first.apart || !second.apart) return first.apart ? second : first;  // an end inside: overlap
   return first.gap < second.gap ? first : second;
@@ -86,7 +86,7 @@ Nearest nearestOnSegment(ShapeQuery& q, const Vector3d& a, const Vector3d& b, co
 Nearest nearestOnTriangle(ShapeQuery& q, const Vector3d& a, const Vector3d& b, const Vector3d& c,
                           const StartNormal& start) {
   const std::array<Vector3d, 3> p{a, b, c};
-  // The normal from the two shorter sides, which keeps its digits on slivers.
+  // The normal from the two shorter sides is accurate even for slivers.
   const double ab = (b - a).squaredNorm(), bc = (c - b).squaredNorm(), ca = (a - c).squaredNorm();
   const std::size_t o = bc >= ab && bc >= ca ? 0 : ca >= ab ? 1 : 2;
   const Vector3d u = p[(o + 1) % 3] - p[o], v = p[(o + 2) % 3] - p[o];
@@ -132,7 +132,7 @@ bool certified(ShapeQuery& q, const Nearest& found) {
   if (found.n.dot(found.y - q.facing(found.n)) > q.rounding.gap) return false;
   const Vector3d difference = found.y - view.point;
   const double across = (difference - difference.dot(found.n) * found.n).norm();
-  // Or the points' distance is the gap: where rounding moves a point along a rim, or a generator.
+  // Rounding may move a point along a rim or a generator. Then the distance of the points must be the gap.
   return across <= 2.0 * q.rounding.across || std::hypot(found.gap, across) - found.gap <= q.rounding.gap;
 }
 
@@ -163,7 +163,7 @@ class CornerSet {
     }
     if (count_ == 2) return nearestOnSegment(q, corner_[0], corner_[1], start);
     if (count_ == 3) return nearestOnTriangle(q, corner_[0], corner_[1], corner_[2], start);
-    // The fourth is the new one, and the nearest point lies on a face that has it.
+    // The fourth corner is the new one, and the nearest point lies on a face that contains it.
     constexpr std::array<std::array<int, 3>, 3> kWithNew{{{0, 1, 3}, {1, 2, 3}, {2, 0, 3}}};
     Nearest best;
     for (const auto& face : kWithNew) {
@@ -192,7 +192,7 @@ Nearest nearestOnPolytope(ShapeQuery& q, const StartNormal& start) {
   if (q.shape.kind == ShapeKind::triangle)
     return nearestOnTriangle(q, q.posed(q.shape.corner[0]), q.posed(q.shape.corner[1]),
                              q.posed(q.shape.corner[2]), start);
-  constexpr int kRounds = 60;  // a handful is usual; each lowers the distance, so none can come again
+  constexpr int kRounds = 60;  // a handful is usual; each lowers the distance, so the search cannot cycle
   CornerSet set;
   set.add(q.facing(start.n));
   Nearest found = set.nearest(q, start);

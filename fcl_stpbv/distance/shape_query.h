@@ -41,7 +41,7 @@ struct Nearest {
   Eigen::Vector3d y{0, 0, 0};  ///< the shape's core point
   double gap = 0;              ///< between the body's supporting plane and `y` (m)
   bool apart = false;          ///< the gap is positive and the widest for the points searched
-  int corners = 0;             ///< how many of the searched points hold `y`, and which
+  int corners = 0;  ///< number of the searched points whose hull contains `y`; `corner` has their indices
   std::array<int, 3> corner{0, 1, 2};
 };
 
@@ -51,25 +51,25 @@ struct StartNormal {
   int patch;
 };
 
-/// From the pair's last answer, else from the volume's centre to the shape's.
+/// The start from the pair's last answer; else the direction from the volume's centre to the shape's.
 StartNormal startOf(const ShapeQuery& q, const PairCache& last);
 
 /// Whether `x` is nearer than `than`. Near a boundary, gaps differ only by the square of the difference of
-/// their normals, which may be below rounding. Then the better one is that whose point `y` the shape's other
-/// points exceed by less: the largest length by which one of them is nearer to the body, along the normal.
+/// their normals, which may be below rounding. Then each is judged by the largest length by which one of
+/// the shape's points is nearer to the body than its point `y`, along its normal; the smaller one is better.
 bool isNearer(const ShapeQuery& q, const Nearest& x, const Nearest& than, const Eigen::Vector3d* points,
               int count);
 
 /// The widest gap that a search of the two whole cores found.
 struct LeastOverlap {
   Nearest at;    ///< the best normal seen; `gap` is the true gap along it
-  double bound;  ///< no normal has a wider one (m)
+  double bound;  ///< upper bound on the gap along every normal (m)
   bool overlap;  ///< the cores have a common point, beyond rounding
-  bool solved;   ///< the remaining normals are one to rounding
+  bool solved;   ///< the remaining normals are equal up to rounding
 };
 
-/// The unit vector across the unit vector `t` on the side that `n` is on; any where `n` runs along it, where
-/// rounding would lean along `t`.
+/// The unit vector perpendicular to the unit vector `t` and nearest to `n`. Any perpendicular one if `n` is
+/// parallel to `t` up to rounding.
 inline Eigen::Vector3d acrossLine(const Eigen::Vector3d& n, const Eigen::Vector3d& t) {
   const Eigen::Vector3d side = n - n.dot(t) * t;
   const double across = side.norm();
@@ -77,7 +77,7 @@ inline Eigen::Vector3d acrossLine(const Eigen::Vector3d& n, const Eigen::Vector3
   return (unit - unit.dot(t) * t).normalized();
 }
 
-/// What a climb ended on.
+/// The result of an ascent.
 template <typename Feature>
 Nearest nearestFrom(const AscentPoint& x, const Feature& feature) {
   Nearest found;
@@ -93,16 +93,16 @@ Nearest nearestFrom(const AscentPoint& x, const Feature& feature) {
 
 /// Where a walk over features ended.
 enum class WalkEnd {
-  nearest,  ///< where the cores are nearest, tested against the whole shape
-  meeting,  ///< at a point of the volume's core that is in the shape's, to rounding
-  unknown   ///< not in a few steps, or of a kind of shape that it does not know
+  nearest,  ///< the nearest points of the cores, tested against the whole shape
+  meeting,  ///< a point of the volume's core that is in the shape's core, up to rounding
+  unknown   ///< not found in a few steps, or a kind of shape that the walk does not support
 };
 
-/// Walks the volume's patches and the shape's features to where the cores are nearest. `found` says nothing
-/// unless it got there.
+/// The feature walk over the volume's patches and the shape's features to the nearest points of the cores.
+/// `found` is valid only if the result is `nearest`.
 WalkEnd walkShapeFeatures(ShapeQuery& q, const StartNormal& start, int tries, Nearest& found);
 
-/// Between which lengths something is (m).
+/// Lower and upper bound on a length (m).
 struct Span {
   double least, most;
 };
@@ -112,7 +112,7 @@ struct Span {
 /// less than `enough` (m).
 Span awayFromCentre(const ShapeQuery& q, double enough);
 
-/// Any feature that has a gradient, from a start.
+/// The nearest point on a feature of any kind, by an ascent from a start.
 template <typename Feature>
 Nearest nearestOn(ShapeQuery& q, const Feature& feature, const StartNormal& start) {
   AscentPoint x = ascentPoint(q.body, feature, start.n, start.patch, q.steps);
@@ -124,37 +124,38 @@ Nearest nearestOn(ShapeQuery& q, const Feature& feature, const StartNormal& star
 
 /// The nearest point of a segment, of a triangle and of a vertex set's hull to the body's core.
 ///
-/// Over the points of a convex set the distance to the core is a convex function, C1 outside the core, with
-/// the normal as its gradient: so a minimum over the whole line that falls outside the segment makes an end
-/// the nearest point, and one over the plane outside the triangle makes it an edge.
+/// The distance of a point to the core is a convex function of the point, and C1 outside the core, with the
+/// normal as its gradient. So if the minimum over the whole line is outside the segment, an end of the
+/// segment is nearest. If the minimum over the plane is outside the triangle, the nearest point is on an
+/// edge.
 Nearest nearestOnSegment(ShapeQuery& q, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                          const StartNormal& start);
 Nearest nearestOnTriangle(ShapeQuery& q, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                           const Eigen::Vector3d& c, const StartNormal& start);
 
-/// Box, triangle, polytope: grows a set of up to three corners by the one that faces the body most, until
-/// none faces it more than the nearest point of the set does (Wolfe 1976; GJK with a smooth body).
+/// For a box, a triangle or a polytope: adds the corner that is furthest towards the body to a set of up to
+/// three corners, until no corner is further than the set's nearest point (Wolfe 1976; GJK with a smooth
+/// body).
 Nearest nearestOnPolytope(ShapeQuery& q, const StartNormal& start);
 
 /// Cylinder and cone: ends, rims, sides and apex in turn.
 Nearest nearestOnCylinder(ShapeQuery& q, const StartNormal& start);
 Nearest nearestOnCone(ShapeQuery& q, const StartNormal& start);
 
-/// A cone's generator whose own normal has the widest gap, whether one is there or not.
+/// The generator of a cone whose own normal has the widest gap, even if no gap is positive.
 Nearest nearestOnGenerator(ShapeQuery& q, const StartNormal& start);
 
-/// An ellipsoid in the body's frame; one without thickness to rounding is a segment, or a disc that has a
-/// face.
+/// An ellipsoid in the body's frame. If it has no thickness, up to rounding, it is a segment or a disc.
 struct PosedEllipsoid {
   EllipsoidFeature whole;
-  int shortest = 0, longest = 0;  ///< of its axes
+  int shortest = 0, longest = 0;  ///< indices of its axes
   bool isSegment, isDisc;
 
   explicit PosedEllipsoid(const ShapeQuery& q);
 };
 Nearest nearestOnEllipsoid(ShapeQuery& q, const StartNormal& start);
 
-/// How far `y`, on a supporting plane of the ellipsoid, is from it to first order (m).
+/// Distance of `y`, a point of a supporting plane of the ellipsoid, from the ellipsoid, to first order (m).
 double besideEllipsoid(const ShapeQuery& q, const Eigen::Vector3d& y);
 
 /// On the flat side of a thin ellipsoid, a change of the normal by one ulp moves its point a long way. So
@@ -171,37 +172,38 @@ struct ShapeCorners {
   std::array<Eigen::Vector3d, 3> p;
   int count = 0;
 
-  /// All of them as a triangle's, some twice.
+  /// The corners of a triangle; corners are repeated if there are fewer than three.
   std::array<Eigen::Vector3d, 3> three() const {
     return {p[0], p[count > 1 ? 1 : 0], p[static_cast<std::size_t>(std::max(count, 1) - 1)]};
   }
 };
 
-/// A maximum of the gap that one feature of the shape holds.
+/// A maximum of the gap on one feature of the shape.
 struct DeepFeature {
   Nearest at;
-  std::optional<LocalMaximum> around;  ///< nothing where rounding has the points beside each other
+  std::optional<LocalMaximum> around;  ///< no value if rounding puts the points beside each other
 };
 
-/// Next to the answer of overlapping cores: its normal and points to rounding, from the shape's feature
-/// there, which for a polytope is one of `met`. Nothing where none holds a gap of `leastOverlap` or wider.
+/// For overlapping cores and a start near the answer: normal and points up to rounding, from the shape's
+/// feature there. For a polytope it is a feature of the corners `met`. No value if no feature has a gap of at
+/// least `leastOverlap`.
 std::optional<DeepFeature> deepestFeature(ShapeQuery& q, const StartNormal& start, double leastOverlap,
                                           const ShapeCorners& met);
 
-/// The answer of overlapping cores of the volume and a segment, a triangle or a box, in closed form. Nothing
-/// for other kinds, and where no point of the shape is deep enough (volume/point_depth.h).
+/// For overlapping cores of the volume and a segment, a triangle or a box: the answer in closed form. No
+/// value for other kinds, and if no point of the shape is deep enough (volume/point_depth.h).
 std::optional<LeastOverlap> overlapOfCones(ShapeQuery& q);
 
-/// How deep overlapping cores are in each other, next to `start` first. `at.gap` is minus the depth along the
-/// best normal seen, `bound` holds for every normal.
+/// The depth of overlapping cores; the search begins near `start`. `at.gap` is minus the depth along the best
+/// normal seen, and `bound` holds for every normal.
 LeastOverlap leastOverlap(ShapeQuery& q, const StartNormal& start);
 
 /// For cores that touch or almost touch: starting near the answer, finds the answer on a feature of the
 /// shape, with the same depth as `near` up to rounding. No value if no feature has one.
 std::optional<DeepFeature> touchingFeature(ShapeQuery& q, const Nearest& near);
 
-/// The plane of a flat end: its normal is fixed, only the position is to be
-/// checked. `apart` where the core is above.
+/// The point of a plane opposite the core's point along the plane's normal. `apart` if the core is above the
+/// plane.
 Nearest nearestOnPlane(ShapeQuery& q, const Eigen::Vector3d& onPlane, const Eigen::Vector3d& n, int hint);
 
 /// Whether no point of the whole shape is nearer to the body along the normal than `found.y`, and the two

@@ -16,8 +16,8 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// The straight generators of a cone's side: on a small circle of normals all of them pass through the apex,
-/// so the gap is that of the apex, and its slope says on which generator the body's point lies.
+/// The side of a cone. Its normals form a small circle, and the supporting planes of all of them contain the
+/// apex. So the gap is that of the apex, and its slope tells on which generator the nearest point lies.
 class ConeSide {
  public:
   ConeSide(const Vector3d& apex, const Vector3d& axis, double radius, double height)
@@ -27,7 +27,7 @@ class ConeSide {
     sin_ = radius / slant_;
   }
 
-  /// Newton on the angle around the axis, from the side that faces `n`.
+  /// Newton's method on the angle around the axis, from the side that faces `n`.
   Nearest nearest(ShapeQuery& q, const StartNormal& start) const {
     constexpr int kSteps = 40;
     State x = at(q, acrossLine(-start.n, axis_), start.patch);
@@ -38,7 +38,8 @@ class ConeSide {
       double turn = x.bend < 0.0 ? -x.slope / x.bend : std::copysign(0.5, x.slope);
       turn = std::clamp(turn, -1.0, 1.0);
       State y = at(q, turned(x.e, turn), x.view.patch);
-      // Past a boundary of the volume Newton may overshoot: the slope is continuous, so it is zero between.
+      // Past a region boundary Newton's step may overshoot. The slope is continuous, so it has a zero in
+      // between.
       if (!better(q, y, x) && x.slope * y.slope < 0.0) y = between(q, x, y, turn);
       for (int k = 0; k < 50 && !better(q, y, x); ++k) {
         turn *= 0.4;
@@ -77,8 +78,7 @@ class ConeSide {
     x.bend = cos_ * e.dot(difference) - turning.dot(curvatureRadii(q.body, x.view) * turning);
     return x;
   }
-  /// Where the slope is zero between `x` and `y`, which is `turn` away, by
-  /// halving that mends its steps (Illinois).
+  /// The zero of the slope between `x` and `y`, which is `turn` away, by the Illinois method.
   State between(ShapeQuery& q, const State& x, const State& y, double turn) const {
     double low = 0.0, high = turn, lowWeight = x.slope, highWeight = y.slope;
     State best = std::abs(x.slope) < std::abs(y.slope) ? x : y;
@@ -107,9 +107,9 @@ class ConeSide {
   double slant_, cos_ = 1, sin_ = 0;
 };
 
-/// The rim's nearest point by its angle around the axis, from the side the body's point is on: Newton on the
-/// distance to one of its points. Where the normal is nearly the axis it says nothing about the place on the
-/// rim, but each point has its own normal to the last digit.
+/// The rim's nearest point, by Newton's method on the angle around the axis. If the normal is almost along
+/// the axis, it does not determine the point of the rim. But the distance to a given point of the rim, and
+/// its normal, are accurate.
 Nearest nearestByAngle(ShapeQuery& q, const Vector3d& middle, const Vector3d& axis,
                        const StartNormal& start) {
   constexpr int kSteps = 20;
@@ -129,7 +129,7 @@ Nearest nearestByAngle(ShapeQuery& q, const Vector3d& middle, const Vector3d& ax
     if (best.apart && !(std::abs(slope) < flattest)) break;  // rounding
     best = found;
     flattest = std::abs(slope);
-    // The normal turns by the inverse of the radii of curvature and the gap.
+    // The normal turns by the inverse of the sum of the radii of curvature and the gap.
     Matrix3d w = curvatureRadii(q.body, viewVolume(q.body, n, found.patch, q.steps));
     w += found.gap * Matrix3d::Identity();
     const Vector3d e1 = (t - t.dot(n) * n).normalized(), e2 = n.cross(e1);
@@ -142,9 +142,9 @@ Nearest nearestByAngle(ShapeQuery& q, const Vector3d& middle, const Vector3d& ax
   return best;
 }
 
-/// The rim of a disc, nearest point and normal.
+/// The nearest point of a disc's rim, and the normal there.
 Nearest nearestOnRim(ShapeQuery& q, const Vector3d& middle, const Vector3d& axis, const StartNormal& start) {
-  // On the axis every point of the rim is as far, so no gradient leads away: start towards the body's side.
+  // Along the axis the gradient is zero by symmetry, so start a little towards the body's side.
   StartNormal from = start;
   constexpr double kOnAxis = 1e-6, kTilt = 1e-3;
   if ((start.n - start.n.dot(axis) * axis).norm() < kOnAxis) {
@@ -154,19 +154,19 @@ Nearest nearestOnRim(ShapeQuery& q, const Vector3d& middle, const Vector3d& axis
   }
   const Nearest found = nearestOn(q, RimFeature{middle, axis, q.shape.radius}, from);
   constexpr double kNearAxis =
-      0.1;  // sine; rounding of the normal is then ten times that of the point on the rim
+      0.1;  // sine: from here on the normal's rounding moves the point by ten times as much
   if ((found.n - found.n.dot(axis) * axis).norm() > kNearAxis) return found;
   const Nearest refined = nearestByAngle(q, middle, axis, {found.n, found.patch});
   return refined.apart ? refined : found;
 }
 
-/// A disc from outside its plane, on the side `n` points from: its inside, or its rim. Above the plane of a
-/// flat end nothing but that end can be nearest.
+/// The nearest point of a flat end, on its inside or its rim, for a body above the end's plane. Only that end
+/// can be nearest then.
 Nearest nearestOnDisc(ShapeQuery& q, const Nearest& plane, const Vector3d& middle) {
   const Vector3d out = plane.y - middle;
   const double beyond = out.norm();
   if (beyond <= q.shape.radius) return plane;
-  // From the body's point to the rim's nearest one: a good first guess, and often already a gap.
+  // The direction from the body's point to the nearest point of the rim is a good start, and often has a gap.
   const Vector3d point = plane.y - plane.gap * plane.n;
   const Vector3d rim = middle + (q.shape.radius / beyond) * out;
   const Vector3d n = (rim - point).normalized();
@@ -182,15 +182,15 @@ Nearest nearestOnCylinder(ShapeQuery& q, const StartNormal& start) {
     const Nearest plane = nearestOnPlane(q, up ? top : bottom, up ? Vector3d(-axis) : axis, -1);
     if (plane.apart) return nearestOnDisc(q, plane, up ? top : bottom);
   }
-  // The side: the axis with a ball of the rim's radius around it. Along the axis the distance is convex, so a
-  // nearest height beyond an end means that end.
+  // The side: the axis with the radius around it. The distance is convex along the axis. So if the nearest
+  // height is beyond an end, the end is nearest.
   Nearest found = nearestOnSegment(q, bottom, top, start);
   if (found.corners == 2 && found.gap > q.shape.radius) {
     found.gap -= q.shape.radius;
     found.y -= q.shape.radius * found.n;
     return found;
   }
-  // No plane of an end or of the side lies between the bodies; at a rim one still may.
+  // No supporting plane of an end or of the side separates the bodies. One at a rim may.
   Nearest best;
   for (const bool up : {found.n.dot(axis) < 0.0, !(found.n.dot(axis) < 0.0)}) {
     const Nearest rim = nearestOnRim(q, up ? top : bottom, axis, {found.n, found.patch});

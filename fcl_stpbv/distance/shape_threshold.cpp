@@ -55,7 +55,7 @@ bool isFartherThan(double x, const StpBv& volume, const Isometry3d& poseVolume, 
   if (shape.unbounded()) return isDistanceFarther();
 
   const StartNormal from = startOf(q, start);
-  constexpr int kTries = 5;  // of pairs that are apart most need no more
+  constexpr int kTries = 5;  // enough for most pairs that are apart
   Nearest nearest;
   const bool maybeApart = away.most > 0.5 * (volume.innerRadius() + volume.enclosingRadius());
   const WalkEnd end = maybeApart ? walkShapeFeatures(q, from, kTries, nearest) : WalkEnd::unknown;

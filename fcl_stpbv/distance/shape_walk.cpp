@@ -26,21 +26,23 @@ using FeatureKind = ShapeFeature::Kind;
 
 constexpr int kPasses = 8;             // of Newton's method; two or three are usual
 constexpr double kConverged2 = 1e-17;  // of a step, squared: the next one is rounding
-constexpr double kWide = 0.3;          // sine past a boundary: a table gets there sooner
+constexpr double kWide =
+    0.3;  // sine past a boundary: beyond this, the direction table is faster than the walk
 
-/// Unit, across the unit vector `t`, on the side of `v`.
+/// The unit vector perpendicular to the unit vector `t` and nearest to `v`; `otherwise` if `v` is along `t`.
 Packed unitAcross(const Packed& v, const Packed& t, const Packed& otherwise) {
   Packed side = v - dot(v, t) * t;
-  side -= dot(side, t) * t;  // once more, as rounding may lean along `t`
+  side -= dot(side, t) * t;  // again, to remove the rounding error along `t`
   return unnormalizedOr(side, otherwise).unit();
 }
 
-/// An edge's torus and a line: on the great circle across the line.
+/// The widest normal of an edge's torus and a line, by Newton's method on the great circle across the line.
 Packed widestOfLine(const PosedPatch& edge, const ShapeFeature& line, Packed n) {
   constexpr double kCrossing2 = 0.01;  // squared sine between the edge and the line
   const Packed &t = line.axis, common = cross(edge.axis, t), anchors = line.point - edge.anchor;
   const double sine2 = dot(common, common), along = dot(common, n);
-  if (sine2 > kCrossing2 && along * along > 0.25 * sine2)  // an edge's normals are next to those across it
+  if (sine2 > kCrossing2 &&
+      along * along > 0.25 * sine2)  // an edge's normals are almost perpendicular to the edge
     n = std::copysign(1.0, along) * common;
   n = unitAcross(n, t, n);
   for (int i = 0; i < kPasses; ++i) {
@@ -59,15 +61,15 @@ Packed widestOfLine(const PosedPatch& edge, const ShapeFeature& line, Packed n) 
   return n;
 }
 
-/// A round feature along a normal: its point that faces there, and its radii of curvature in the tangent
-/// plane's axes (m).
+/// A round feature along a normal: its support point, and its radii of curvature in the axes of the tangent
+/// plane (m).
 struct RoundView {
   Packed point;
   double m11, m12, m22;
 };
 
-/// A patch and a round feature: on the sphere, from the unit vector `n`. `look(n, e1, e2)` gives the
-/// feature's RoundView, with e1 and e2 across n.
+/// The widest normal of a patch and a round feature, by Newton's method on the sphere, from the unit vector
+/// `n`. `look(n, e1, e2)` returns the feature's RoundView; e1 and e2 are perpendicular to n.
 template <typename Look>
 Packed widestOfRound(const PosedPatch& a, Packed n, const Look& look) {
   for (int i = 0; i < kPasses; ++i) {
@@ -101,9 +103,9 @@ Packed widestOfRound(const PosedPatch& a, Packed n, const Look& look) {
   return n;
 }
 
-/// An edge's torus and a rim, from the rim's point nearest to the edge's middle.
+/// The widest normal of an edge's torus and a rim, from the rim's point nearest to the edge's middle.
 Packed widestOfRim(const PosedPatch& edge, const ShapeFeature& rim, const Packed& n) {
-  constexpr double kUpright = 1e-6;  // sine, next to the rim's axis, where it bends without bound
+  constexpr double kUpright = 1e-6;  // sine to the rim's axis, where the radius of curvature is unbounded
   const Packed towards = rim.point - edge.anchor,
                nearest = towards - rim.radius * unitAcross(towards, rim.axis, n);
   return widestOfRound(
@@ -115,8 +117,8 @@ Packed widestOfRim(const PosedPatch& edge, const ShapeFeature& rim, const Packed
       });
 }
 
-/// A patch and a cone's side: on the circle of its normals, by the angle around the axis. Of a vertex and a
-/// face, which are balls, the generator is the one towards the centre.
+/// The widest normal of a patch and a cone's side, by Newton's method on the angle around the cone's axis.
+/// For a vertex and a face, which are balls, it is the normal of the generator nearest to the centre.
 Packed widestOfSide(const PosedPatch& a, const ShapeFeature& side, const Packed& n) {
   const auto normalOf = [&](const Packed& e) { return -(side.cosine * e + side.sine * side.axis); };
   Packed e = unitAcross(a.centre() - side.apex, side.axis, n);
@@ -137,7 +139,7 @@ Packed widestOfSide(const PosedPatch& a, const ShapeFeature& side, const Packed&
   return normalOf(e);
 }
 
-/// A patch and an ellipsoid.
+/// The widest normal of a patch and an ellipsoid.
 Packed widestOfEllipsoid(const ShapeQuery& q, const PosedPatch& a, const ShapeFeature& f, const Packed& n) {
   const Packed size = pack(q.shape.size);
   const Rotation& axes = q.pose.rotation;
@@ -151,7 +153,7 @@ Packed widestOfEllipsoid(const ShapeQuery& q, const PosedPatch& a, const ShapeFe
   });
 }
 
-/// The normal from the patch to the feature at which the gap is widest, seen from the unit vector `n`.
+/// The normal from the patch to the feature with the widest gap. Iterations start from the unit vector `n`.
 UnnormalizedNormal widestNormal(const ShapeQuery& q, const PosedPatch& a, const ShapeFeature& f,
                                 const Packed& n) {
   const bool edge = a.kind == PatchKind::edge;
@@ -167,7 +169,7 @@ UnnormalizedNormal widestNormal(const ShapeQuery& q, const PosedPatch& a, const 
   return unnormalizedOr(d, n);
 }
 
-/// The feature's point that faces a body along `n`, of a side and a face the one asked about.
+/// The feature's point furthest against `n`. For a side and a face it is the stored point.
 Packed facing(const ShapeQuery& q, const ShapeFeature& f, const Packed& n) {
   if (f.kind == FeatureKind::whole) {
     const Packed size = pack(q.shape.size), local = size * q.pose.rotation.inverse(n);
@@ -177,8 +179,8 @@ Packed facing(const ShapeQuery& q, const ShapeFeature& f, const Packed& n) {
   return f.kind == FeatureKind::line ? Packed(f.point - f.radius * n) : f.point;
 }
 
-/// Over the first boundary uphill from the unit vector `from`, where the pair's widest normal is far off
-/// (distance.cpp does the same). False where no boundary is ahead.
+/// Crosses the first boundary uphill from the unit vector `from`, if the pair's widest normal is far away
+/// (distance.cpp does the same). False if no boundary is ahead.
 bool crossUphill(const ShapeQuery& q, const PosedPatch& a, const ShapeFeature& f, const Packed& from,
                  int& patch, Packed& n) {
   const Packed difference = facing(q, f, from) - a.anchor - viewCore(a, from).offset;
@@ -192,8 +194,8 @@ bool crossUphill(const ShapeQuery& q, const PosedPatch& a, const ShapeFeature& f
   return true;
 }
 
-/// Where the walk starts: in the direction of the shape's point nearest to the volume's centre, or next to
-/// the last answer.
+/// The start of the walk: near the last answer, or else in the direction of the shape's point nearest to the
+/// volume's centre.
 int startingPatch(const ShapeQuery& q, const StartNormal& start, KnownFeatures& features, Packed& n) {
   const QueryTables& tables = q.body.tables();
   n = pack(start.n);
@@ -217,7 +219,7 @@ Span awayFromCentre(const ShapeQuery& q, double enough) {
                  away = q.shape.kind == ShapeKind::plane ? std::abs(height) : height;
     return {away, away};
   }
-  // A narrow triangle's normal is less certain than this has to be.
+  // The normal of a narrow triangle is not accurate enough for this.
   const ShapeFeature f = q.shape.kind == ShapeKind::triangle ? ShapeFeature{} : nearestFeature(q.shape, x);
   if (f.kind == FeatureKind::inside) return {-q.shape.reach, 0.0};
   const bool few = f.kind != FeatureKind::none && f.kind != FeatureKind::whole;
@@ -225,7 +227,7 @@ Span awayFromCentre(const ShapeQuery& q, double enough) {
   const double length = std::sqrt(dot(d, d));
   if (few) return {length, length};
   if (q.shape.kind == ShapeKind::polytope && length - q.shape.reach < enough) {
-    // From its centre to the corner that faces `x`.
+    // The segment from the polytope's centre to its corner furthest towards `x`.
     const Packed corner = pack(q.shape.support(unpack(d))), along = corner - pack(q.shape.centre);
     const double t = std::min(dot(d, along) / std::max(dot(along, along), 1e-300), 1.0);
     const Packed rest = d - t * along;
@@ -236,14 +238,14 @@ Span awayFromCentre(const ShapeQuery& q, double enough) {
 
 FCL_STPBV_VECTORIZED
 WalkEnd walkShapeFeatures(ShapeQuery& q, const StartNormal& start, int tries, Nearest& found) {
-  constexpr double kFar = 0.3;  // cosine of the turn after which the boundary passed furthest says little
+  constexpr double kFar = 0.3;  // cosine of the turn above which the boundary passed furthest means little
   const PatchTable& patches = q.body.tables().patches;
   KnownFeatures features(q, start.n);
   Packed n;
   int patch = startingPatch(q, start, features, n);
   PosedPatch a = posedPatch(q.body, patch);
   ShapeFeature f = features.near(a.anchor);
-  bool again = false;  // the pair stayed, and its last digits are missing
+  bool again = false;  // the pair is the same, but its last digits are missing
   for (int i = 0; i < tries && f.kind > FeatureKind::inside; ++i) {
     ++q.pairs;
     const UnnormalizedNormal to = widestNormal(q, a, f, n);

@@ -21,9 +21,10 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// Whether the pair's last normal is still about where both bodies saw it.
+/// Whether the pair's last normal has hardly turned in the frames of both bodies.
 bool isRecent(const PairCache& cache, const BodyPair& pair, const RelativePose& pose) {
-  constexpr double kTurn = 0.1;  // rad; after more a search from the centres takes fewer steps
+  constexpr double kTurn =
+      0.1;  // rad; after a larger turn, a search from the line of centres takes fewer steps
   const Vector3d n = pose.toWorld.inverse(cache.normal);
   const auto turned = [](const Vector3d& now, const Eigen::Vector3f& then) {
     return (now - then.cast<double>()).squaredNorm();
@@ -44,12 +45,13 @@ bool isFartherByBounds(double x, const StpBv& a, const Isometry3d& poseA, const 
   const Packed between = pair.centreDifference();
   const double length = std::sqrt(dot(between, between));
   if (length - a.enclosingRadius() - b.enclosingRadius() - rounding > x) return true;
-  if (length - a.innerRadius() - b.innerRadius() - pair.margins() <= x) return false;  // no plane is
+  if (length - a.innerRadius() - b.innerRadius() - pair.margins() <= x)
+    return false;  // no plane can separate by more
   const Packed last = pose.toWorld.inverse(pack(cache.normal));
   const double length2 = dot(last, last);
   if (!PairCache::isDirection(length2)) return false;
   int ignored = 0;
-  // From the tables: the cache's patches may be far off by now.
+  // The owners are looked up in the tables, because the cache's patches may be far away by now.
   const Sample plane = pair.sampleFrom(unpack(last / std::sqrt(length2)), {-1, -1}, ignored);
   return plane.core - pair.margins() - rounding > x;
 }
@@ -84,12 +86,12 @@ bool isFartherThan(double x, const StpBv& a, const Isometry3d& poseA, const StpB
     const auto known = [](const StpBv& body, int patch) { return patch < body.patchCount() ? patch : -1; };
     const Sample last = pair.sampleFrom(pose.toWorld.inverse(cache->normal).normalized(),
                                         {known(a, cache->patch[0]), known(b, cache->patch[1])}, ignored);
-    if (last.core > 0) return isDistanceFarther(cache);  // and the best plane for the next time
+    if (last.core > 0) return isDistanceFarther(cache);  // also stores the best plane for the next query
   }
   const Vector3d n = length > 0 ? Vector3d(between / length) : Vector3d::UnitX();
   Sample plane = pair.sampleFrom(n, {-1, -1}, ignored);
   if (isPlaneBetween(plane)) return true;
-  constexpr double kShared = 1e-11;  // m, over what vertexGjk() takes for a common point
+  constexpr double kShared = 1e-11;  // m; more than the rounding at which vertexGjk() reports a common point
   const double level = x + margins;
   const VertexGjk hulls = vertexGjk(pair, n, level);
   if (hulls.nearest <= level - kShared) return false;

@@ -13,12 +13,12 @@ namespace fcl_stpbv::detail {
 bool isFartherThan(double x, const StpBv& a, const Eigen::Isometry3d& poseA, const StpBv& b,
                    const Eigen::Isometry3d& poseB, PairCache* cache = nullptr);
 
-/// The same of a volume and a simple shape: balls in and around the volume, a walk of a few steps to the
-/// distance, GJK on the cores, and only then the whole distance.
+/// The same test for a volume and a simple shape. It tries balls in and around the volume, a feature walk of
+/// a few steps, GJK on the cores, and only then the distance.
 bool isFartherThan(double x, const StpBv& volume, const Eigen::Isometry3d& poseVolume, const Shape& shape,
                    const Eigen::Isometry3d& poseShape, PairCache* cache = nullptr);
 
-/// By the cheap part: the balls around the volumes, and the plane of the cache's normal if it has one.
+/// The cheap part of the test: the balls around the volumes, and the plane of the cached normal, if any.
 bool isFartherByBounds(double x, const StpBv& a, const Eigen::Isometry3d& poseA, const StpBv& b,
                        const Eigen::Isometry3d& poseB, const PairCache& cache);
 bool isFartherByBounds(double x, const StpBv& volume, const Eigen::Isometry3d& poseVolume, const Shape& shape,

@@ -18,7 +18,7 @@ namespace {
 
 double placeRounding(double size) { return 32.0 * std::numeric_limits<double>::epsilon() * size; }
 
-// The functions that both kinds of bodies need.
+// Overloads for both kinds of bodies.
 double sizeOf(const StpBv& body) { return body.centre().norm() + body.enclosingRadius(); }
 double sizeOf(const Shape& shape) { return shape.centre.norm() + shape.reach; }
 double marginOf(const StpBv&) { return 0.0; }
@@ -46,8 +46,8 @@ bool rotationOf(const Isometry3d& pose, Matrix3d& rotation) {
   return true;
 }
 
-/// The feature that faces the other body, world axes; `placed` is the rounding of coordinates beside the
-/// other body (m), `angle` that of the normal (rad).
+/// The feature at the witness point, in world axes. `placed` is the rounding error of coordinates relative to
+/// the other body (m), `angle` that of the normal (rad).
 bool featureOf(const StpBv& body, const Isometry3d& pose, const Side& at, double, double,
                NormalCone& feature) {
   if (at.patch < 0 || at.patch >= body.patchCount()) return false;
@@ -108,7 +108,7 @@ bool touchOf(const A& a, const Isometry3d& poseA, const B& b, const Isometry3d& 
     return false;
   touch.armA = d.point[0] - poseA.translation();
   touch.fromB = d.point[0] - poseB.translation();
-  constexpr double kTold = 4.0;  // radii of curvature that sum up to less of the rounding are none
+  constexpr double kTold = 4.0;  // times rounding: a smaller sum of radii of curvature counts as zero
   return touch.meeting.set(first, second, d.distance, kTold * (placed + placeRounding(margins)));
 }
 

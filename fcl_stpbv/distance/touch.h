@@ -14,11 +14,11 @@ namespace fcl_stpbv::detail {
 ///     n = exp(w_B) (n0 + tau),   s = n.(o_B - o_A) - h_B(body 2's normal) - h_A(n seen from body 1)
 struct Touch {
   Turning meeting;
-  Eigen::Vector3d armA, fromB;  // body 1's witness point from both origins
+  Eigen::Vector3d armA, fromB;  // body 1's witness point relative to both origins
 };
 
-/// The touch of two bodies, each an STP-BV or a shape, at the answer `d`; rotations are mended as they were
-/// for it. False where second derivatives do not exist.
+/// The touch of two bodies, each an STP-BV or a shape, at the answer `d`. Rotations are corrected as in the
+/// query. False if second derivatives do not exist.
 template <typename A, typename B>
 bool touchOf(const A& a, const Eigen::Isometry3d& poseA, const B& b, const Eigen::Isometry3d& poseB,
              const Distance& d, Touch& touch);

@@ -37,7 +37,7 @@ Matrix2d adjugate(const Matrix2d& symmetric) {
   return adj;
 }
 
-/// The curvature of a feature whose ways have these parts in the frame, offset by a distance (m).
+/// The curvature of a feature, offset by a distance (m). `x` and `y` are its ways' coordinates in the frame.
 Curvature curvatureOf(const NormalCone& cone, double offset, const Vector2d& x, const Vector2d& y) {
   if (cone.count == 0) return {Matrix2d::Zero(), 1.0, 0.0};
   const Vector2d edge(-x.y(), x.x());
@@ -65,7 +65,8 @@ bool Turning::set(const NormalCone& first, const NormalCone& second, double dist
                                      frame.transpose() * other.way[1]);
   const Curvature &a = ofFirst ? inOwn : seen, &d = ofFirst ? seen : inOwn;
 
-  // Less of these terms is their rounding; of two edges, it is the squared sine of the angle between them.
+  // A determinant below this fraction of its terms is rounding. For two edges, the determinant is the squared
+  // sine of the angle between them.
   constexpr double kTold = 1e-14;
   const auto isTold = [rounding](double det, double terms, double trace) {
     return det > kTold * terms && trace >= 0.0 && det > rounding * trace;

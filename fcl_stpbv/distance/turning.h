@@ -12,8 +12,8 @@ namespace fcl_stpbv::detail {
 /// feature's point relative to the first one's (m), and `carried`, the rotation of the normal that body 2
 /// causes relative to body 1 (rad). The results are
 ///
-///     turning * apart - sliding^T * carried    is what the normal turns in body 2 besides (rad),
-///     sliding * apart + rolling * carried      what body 1's point slides on it (m).
+///     turning * apart - sliding^T * carried    the turn of the normal in body 2 (rad),
+///     sliding * apart + rolling * carried      how far body 1's point slides on body 1 (m).
 struct Turning {
   Eigen::Matrix<double, 3, 2> frame;  ///< two unit vectors across the normal
   Eigen::Matrix2d turning, sliding, rolling;

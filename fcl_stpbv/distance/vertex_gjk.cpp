@@ -12,7 +12,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// The difference of the two vertex sets by its support points. Remembers the vertices it came to last.
+/// The difference of the two vertex sets, given by its support points. Remembers the last support vertices.
 class VertexDifference {
  public:
   struct Corner {
@@ -37,8 +37,8 @@ class VertexDifference {
   const std::array<int, 2>& vertex() const { return vertex_; }
 
  private:
-  /// To the vertices furthest along `d` and, in the second body's frame, `e`:
-  /// neither body waits for the other.
+  /// Climbs to the vertices furthest along `d` and, in the second body's frame, along `e`. The two climbs are
+  /// interleaved, so that neither waits for the other's loads.
   void climb(const Vector3d& d, const Vector3d& e) {
     const VertexGraph &a = pair_.tablesA().graph, &b = pair_.tablesB().graph;
     const Eigen::Vector3f up = d.cast<float>(), down = e.cast<float>();
@@ -62,10 +62,9 @@ FCL_STPBV_VECTORIZED
 VertexGjk vertexGjk(const BodyPair& pair, const Vector3d& n, double level) {
   using Corner = VertexDifference::Corner;
   constexpr int kSteps = 20;
-  constexpr double kGap =
-      1e-5;  // relative; which features face each other is settled long before their distance
+  constexpr double kGap = 1e-5;  // relative; the facing features are known long before their distance is
   constexpr double kRounding = 1e-12;  // m
-  // The support vertices along `n`, and of either body the one beside it that is next.
+  // The support vertices along `n`, and for each body the neighbour that is second furthest.
   VertexDifference difference(pair, n);
   const auto [i, j] = difference.vertex();
   const auto corner = [&](int u, int v) { return Corner{difference.difference({u, v}), -kInfinity}; };

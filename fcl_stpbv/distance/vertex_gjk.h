@@ -27,8 +27,8 @@ struct VertexGjk {
 VertexGjk vertexGjk(const BodyPair& pair, const Eigen::Vector3d& n,
                     double level = std::numeric_limits<double>::quiet_NaN());
 
-/// A point of the second core less one of the first, about as far against the unit vector `n` as any: the
-/// difference of two vertices.
+/// The difference of two vertices, second body's minus first body's, that is about the furthest against the
+/// unit vector `n`.
 Eigen::Vector3d vertexDifference(const BodyPair& pair, const Eigen::Vector3d& n);
 
 }  // namespace fcl_stpbv::detail

@@ -19,13 +19,13 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// From any start along which the cores are apart: the widest gap.
+/// The widest gap, from any start along which the cores are apart.
 WidestGap ascendToWidest(const BodyPair& pair, Sample x, SearchWork& work) {
   if (!ascend(pair, x, work) && !settleBeside(pair, x, work)) bisectToWidest(pair, x, work);
   return {x, pair.isStationary(x) ? DistanceStatus::exact : DistanceStatus::bounded, 0.0};
 }
 
-/// From the polyhedra's closest features to the smooth ones (paper IV.B), and on from there.
+/// Searches from the patches of the polyhedra's closest features (paper IV.B). False if they have no gap.
 bool polyhedralStart(const BodyPair& pair, const VertexGjk& search, WidestGap& found, SearchWork& work) {
   if (!search.apart) return false;
   const Vector3d& n = search.n;
@@ -43,8 +43,8 @@ bool polyhedralStart(const BodyPair& pair, const VertexGjk& search, WidestGap& f
   return true;
 }
 
-/// Cores that overlap, from a maximum in `found`: their widest gap as far as
-/// the polytope around that proves it.
+/// For cores that overlap, from a maximum in `found`: the widest gap. False if the polytope does not prove
+/// it.
 bool overlapAround(const BodyPair& pair, WidestGap& found, SearchWork& work) {
   found.status = DistanceStatus::local;
   const bool proven = expandPolytope(pair, found.at, found.bound, work);
@@ -54,18 +54,18 @@ bool overlapAround(const BodyPair& pair, WidestGap& found, SearchWork& work) {
   }
   if (!proven) return false;
   if (!pair.isStationary(found.at))
-    ascend(pair, found.at, work);  // the polytope met one next to the top only
+    ascend(pair, found.at, work);  // the polytope found only a normal near the maximum
   return found.at.core <= 0.0;
 }
 
-/// Cores that overlap: the least separating translation, from any normal. A search that was not surrounded
-/// has no corners to start from.
+/// For cores that overlap: the shortest separating translation, from any normal. The corners of `search` are
+/// a start if they surround the origin.
 WidestGap solveOverlap(const BodyPair& pair, const Vector3d& n, const std::array<int, 2>& patch,
                        const VertexGjk& search, SearchWork& work) {
   Sample x = pair.sampleFrom(n, patch, work.steps);
   Vector3d ignored;
   settle(pair, x, ignored, work);
-  if (x.core > 0.0) return ascendToWidest(pair, x, work);  // apart, by less than the search's rounding
+  if (x.core > 0.0) return ascendToWidest(pair, x, work);  // apart by less than the rounding of GJK
   double bound = 0.0;
   const auto fromCorners = [&] {
     return search.surrounded && expandPolytope(pair, search.corner, x, bound, work);

@@ -10,13 +10,13 @@ namespace fcl_stpbv::detail {
 struct WidestGap {
   Sample at;
   DistanceStatus status = DistanceStatus::exact;
-  double bound = 0.0;  ///< for cores that overlap: along no normal is their gap wider (m)
+  double bound = 0.0;  ///< for cores that overlap: upper bound on the gap along every normal (m)
 };
 
 /// Where a search starts.
 struct SearchStart {
   Eigen::Vector3d n;         ///< unit
-  std::array<int, 2> patch;  ///< patches near those that own it
+  std::array<int, 2> patch;  ///< patches near the owners of `n`
   bool near;                 ///< whether the answer is likely to be near
 };
 
