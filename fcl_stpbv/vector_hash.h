@@ -6,7 +6,7 @@
 
 namespace fcl_stpbv::detail {
 
-/// Of the three coordinates. 0 and -0 are equal and have different hashes: add zero before.
+/// Combines the hashes of the three coordinates.
 struct VectorHash {
   std::size_t operator()(const Eigen::Vector3d& v) const {
     std::size_t seed = 0;

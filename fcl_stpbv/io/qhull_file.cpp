@@ -65,9 +65,8 @@ std::vector<Eigen::Vector3d> parseQhullPoints(std::string_view text, const std::
   const std::size_t counts = countsOnSecondLine(text);
   if (counts == 0) {
     in.fail(
-        "not a file of qhull's, expected the dimension and then a line with the number of points, or with "
-        "the "
-        "numbers of points, facets and ridges");
+        "not a file of qhull's, expected the dimension and then a line with the number of points, "
+        "or with the numbers of points, facets and ridges");
   }
   in.restOfLine();
 

@@ -87,14 +87,13 @@ class Checker {
   void findCorners() {
     std::unordered_map<Vector3d, int, VectorHash> index;
     for (int v = 0; v < vertexCount(); ++v) {
-      // Adding zero makes -0 a 0, so that both have one hash.
-      const bool isNew = index.emplace(vertex(v) + Vector3d::Zero(), v).second;
+      const bool isNew = index.emplace(vertex(v), v).second;
       require(isNew, file_.vertices[static_cast<Size>(v)].line, "the vertex is in the file twice");
     }
     for (const Face& face : file_.faces) {
       Triangle triangle{};
       for (Size k = 0; k < 3; ++k) {
-        const auto found = index.find(face.corner[k] + Vector3d::Zero());
+        const auto found = index.find(face.corner[k]);
         require(found != index.end(), face.line,
                 "vertex " + std::to_string(k + 1) + " of the face is none of the file's vertices");
         triangle[k] = found->second;
@@ -105,12 +104,12 @@ class Checker {
     }
   }
 
-  // How far a vertex may seem to be off a face's sphere.
+  // Largest rounding error of a vertex's distance from a face's sphere (m).
   double sphereError(const Vector3d& p, const Vector3d& centre) const {
     return eps_ * (p.norm() + centre.norm() + file_.R);
   }
 
-  // How far a direction computed from points that far from the origin and `length` apart may seem turned.
+  // Largest rounding error of a direction between two points that are `length` apart (rad).
   double turnError(double fromOrigin, double length) const { return eps_ * (1 + fromOrigin / length); }
 
   void checkFace(Size f) const {
@@ -140,7 +139,7 @@ class Checker {
     const Vector3d& b = face.corner[(k + 1) % 3];
     checkUnit(face.line, face.side[k].axis);
     const Vector3d normal = (a - face.centre).cross(b - face.centre);
-    // Near the smallest R a side may pass the centre, and then hardly tells the plane through both.
+    // Near the smallest R a side may pass near the centre. Then it hardly determines the plane through both.
     const double length = (b - a).norm(), beside = normal.norm() / length;
     require((face.side[k].axis - normal.normalized()).norm() <=
                 turnError((a.norm() + b.norm() + face.centre.norm()) * std::max(1.0, rho_ / beside), length),

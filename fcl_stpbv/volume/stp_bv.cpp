@@ -31,7 +31,7 @@ using Eigen::Vector3d;
 
 std::string number(double value) { return formatted("%.9g", value); }
 
-// A number for which `holds`, in no more digits than it still holds with as it is read again; at least nine.
+// The shortest decimal of nine to 17 digits for which `holds` is true after it is read back.
 template <typename Holds>
 std::string number(double value, const Holds& holds) {
   std::string text;
@@ -42,7 +42,8 @@ std::string number(double value, const Holds& holds) {
   return text;
 }
 
-// An R for a margin r and a smallest ball of this radius that works as it is printed.
+// The smallest usable R for a margin r and a smallest ball of this radius. Rounded up, so that the printed
+// decimal works too.
 std::string usableR(double r, double radius) {
   double least = r + radius * (1 + 1e-9);
   while (least - r <= radius) least = std::nextafter(least, kInfinity);

@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "fcl_stpbv/formatted.h"
 #include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/volume/ball_faces.h"
 #include "fcl_stpbv/volume/ball_side.h"
@@ -100,7 +101,7 @@ void StpBv::makeEdges() {
     const std::array<int, 3> t = wideTriangle(vertices_, ring);
     const TouchingBall ball(at(t[0]), at(t[1]), at(t[2]), radii_.rho);
     if (!ball.valid())
-      throw Error("a face's vertices lie on a line or too far apart for R = " + std::to_string(radii_.R));
+      throw Error(formatted("a face's vertices lie on a line or too far apart for R = %.9g", radii_.R));
     faceNormals_.push_back(ball.normalAt(at(ring[0])));
   }
   faceNormals_.shrink_to_fit();
