@@ -5,7 +5,7 @@
 
 namespace fcl_stpbv::detail {
 
-/// The matrix whose product with a vector is the cross product of `w` with it.
+/// The matrix whose product with a vector v is the cross product of `w` and v.
 inline Eigen::Matrix3d crossMatrix(const Eigen::Vector3d& w) {
   Eigen::Matrix3d m;
   m << 0, -w.z(), w.y(), w.z(), 0, -w.x(), -w.y(), w.x(), 0;

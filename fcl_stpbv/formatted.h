@@ -17,13 +17,13 @@ std::string formatted(const char* pattern, Values... values) {
   return text;
 }
 
-/// A number with so many decimals; without a sign where they show no more of it than 0.
+/// The number with `decimals` decimals. A negative number that rounds to zero has no minus sign.
 inline std::string fixed(double value, int decimals) {
   const std::string text = formatted("%.*f", decimals, value);
   return text.front() == '-' && text.find_first_not_of("-0.") == std::string::npos ? text.substr(1) : text;
 }
 
-/// The same with a '+' before what is not negative.
+/// The number as in fixed(), with a '+' before it unless it is negative.
 inline std::string signedFixed(double value, int decimals) {
   const std::string text = fixed(value, decimals);
   return text.front() == '-' ? text : "+" + text;

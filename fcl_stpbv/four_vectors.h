@@ -45,10 +45,10 @@ inline Packed roots(const Packed& v) {
   return Packed{std::sqrt(v[0]), std::sqrt(v[1]), std::sqrt(v[2]), std::sqrt(v[3])};
 }
 
-/// Whether a comparison holds for all four.
+/// Whether a comparison holds for all four vectors.
 inline bool all(const PackedBits& holds) { return (holds[0] & holds[1] & holds[2] & holds[3]) != 0; }
 
-/// Whether it holds for one of them or more.
+/// Whether a comparison holds for at least one of the four vectors.
 inline bool any(const PackedBits& holds) { return (holds[0] | holds[1] | holds[2] | holds[3]) != 0; }
 
 }  // namespace fcl_stpbv::detail

@@ -26,7 +26,7 @@ inline void requireSize(const char* owner, const char* what, long size, long exp
                 std::to_string(expected));
 }
 
-/// @throws Error naming `owner` and both numbers unless it has a row of this number.
+/// @throws Error naming `owner` and both numbers unless 0 <= row < rows.
 inline void requireRow(const char* owner, int row, int rows) {
   if (row < 0 || row >= rows)
     throw Error(std::string(owner) + ": there is no row " + std::to_string(row) + " of " +

@@ -11,14 +11,15 @@
 
 namespace fcl_stpbv::detail {
 
-/// One character of a text: its bytes, 1 where they are no UTF-8, and its cells: 2 for a wide one, as of
-/// Chinese, 0 for a mark on the one before, below 0 where it cannot be shown.
+/// One character of a text. `bytes` is its length, or 1 if it is not valid UTF-8. `cells` is its width on a
+/// terminal: 2 for a wide character such as a Chinese one, 0 for a mark on the character before, below 0 if
+/// it cannot be shown.
 struct Glyph {
   std::size_t bytes;
   int cells;
 
   bool shown() const { return cells >= 0; }
-  /// What cannot be shown counts as one cell.
+  /// A character that cannot be shown counts as one cell.
   std::size_t width() const { return shown() ? static_cast<std::size_t>(cells) : 1; }
 };
 
@@ -51,7 +52,7 @@ class Utf8Reader {
   locale_t old_;
 };
 
-/// Cells that the text takes.
+/// Number of cells that the text takes.
 inline std::size_t cellsOf(const std::string& text) {
   const Utf8Reader reader;
   std::size_t cells = 0;
@@ -63,7 +64,7 @@ inline std::size_t cellsOf(const std::string& text) {
   return cells;
 }
 
-/// As much of the text as fits into so many cells, with '?' for what cannot be shown.
+/// As much of the text as fits into `most` cells. Each character that cannot be shown becomes '?'.
 inline std::string fittedInto(std::size_t most, const std::string& text) {
   const Utf8Reader reader;
   std::string fitted;
@@ -78,10 +79,12 @@ inline std::string fittedInto(std::size_t most, const std::string& text) {
   return fitted;
 }
 
-/// A name on one line, with '?' for what cannot be shown: it moves no cursor and fakes no line.
+/// A name on one line. Each character that cannot be shown becomes '?', so the name can neither move the
+/// cursor nor start a line.
 inline std::string printable(const std::string& name) { return fittedInto(std::string::npos, name); }
 
-/// A message of several lines: those after the first are indented, so that they fake no line either.
+/// A message of several lines. All lines but the first are indented, so none of them looks like a message of
+/// its own.
 inline std::string printableLines(const std::string& message) {
   std::string text;
   for (std::size_t begin = 0, end; begin <= message.size(); begin = end + 1) {

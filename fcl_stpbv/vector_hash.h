@@ -1,4 +1,4 @@
-// A hash of points, for tables of those with equal coordinates.
+// A hash of points, for hash tables that find points with equal coordinates.
 #pragma once
 
 #include <Eigen/Core>
@@ -6,7 +6,8 @@
 
 namespace fcl_stpbv::detail {
 
-/// Combines the hashes of the three coordinates.
+/// Hash of the three coordinates. 0 and -0 are equal but have different hashes; add 0 to each coordinate
+/// first.
 struct VectorHash {
   std::size_t operator()(const Eigen::Vector3d& v) const {
     std::size_t seed = 0;

@@ -9,7 +9,7 @@
 
 namespace fcl_stpbv::detail {
 
-/// Some words, `constexpr` where they stand outside of functions.
+/// A list of words. Outside of functions it is declared `constexpr`.
 class Words {
  public:
   constexpr Words(std::initializer_list<std::string_view> words) {
@@ -19,7 +19,7 @@ class Words {
   constexpr const std::string_view* end() const { return word_.data() + count_; }
 
  private:
-  static constexpr std::size_t kMost = 24;  // more do not compile
+  static constexpr std::size_t kMost = 24;  // a longer list does not compile
   std::array<std::string_view, kMost> word_{};
   std::size_t count_ = 0;
 };
